@@ -72,7 +72,8 @@ RC_API const struct rc_method_info *rc_method_info(size_t k);
  * Hertz's theory means by a sphere. */
 RC_API void rc_synth_sphere(const struct rc_shape *shape, double radius, double *h);
 
-/* Where the apex of an indenter stands, or a profile ends, m from the middle of the map, y down the picture. */
+/* Where the apex of an indenter stands, or a profile ends, m from the middle of the map, y down the
+ * picture. */
 struct rc_place {
     double x, y;
 };
@@ -288,9 +289,9 @@ RC_API void rc_measure(const struct rc_shape *shape, const double *v, struct rc_
 /* Sum of n doubles with the compensation of Neumaier 1974: its error does not grow with n. */
 RC_API double rc_sum(const double *v, size_t n);
 
-/* RMS of the gradient's magnitude of the heights h (m) over the nodes where p > 0 (p NULL: over all), by differences to
- * the next node along each side of the map; NAN when there is none. Where ranks share the map h and p
- * are the rows held here; ranks NULL: none. */
+/* RMS of the gradient's magnitude of the heights h (m) over the nodes where p > 0 (p NULL: over all), by
+ * differences to the next node along each side of the map; NAN when there is none. Where ranks share the
+ * map h and p are the rows held here; ranks NULL: none. */
 RC_API double rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *shape,
                                        const double *h, const double *p);
 
@@ -380,8 +381,9 @@ RC_API enum rc_status rc_areal(const struct rc_shape *shape, const double *h,
 RC_API size_t rc_areal_memory(const struct rc_shape *shape, size_t missing,
                               const struct rc_surface_options *options);
 
-/* Feature parameters of ISO 25178-2: by watershed over eight neighbours, pruned by Wolf's rule at 5 % of Sz, about the mean of
- * what is there. NAN: not defined, as of a flat and of a map of less than 3 nodes a side; s5p, s5v of less than five. */
+/* Feature parameters of ISO 25178-2: by watershed over eight neighbours, pruned by Wolf's rule at 5 % of
+ * Sz, about the mean of what is there. NAN: not defined, as of a flat and of a map of less than 3 nodes a
+ * side; s5p, s5v of less than five. */
 struct rc_features {
     double spd,
         svd; /* 1/m^2: peaks and pits, but for those at an edge or beside what was not measured */
@@ -411,12 +413,12 @@ struct rc_profile {
     double rdq;          /* RMS slope by the formula over seven points; NAN: of less             */
     size_t elements;
 };
-/* Of n heights z (m), a step (m) apart, in so many sections (5 are usual). RC_FAIL when one was not measured or there are fewer
- * heights than sections. */
+/* Of n heights z (m), a step (m) apart, in so many sections (5 are usual). RC_FAIL when one was not
+ * measured or there are fewer heights than sections. */
 RC_API enum rc_status rc_profile_measure(size_t n, double step, const double *z, size_t sections,
                                          struct rc_profile *profile, struct rc_err *err);
-/* n heights along the line between two places of a map, both included, by cubics through the nodes; NAN where one that is needed
- * was not measured. Beyond the map heights are those at its edge. */
+/* n heights along the line between two places of a map, both included, by cubics through the nodes; NAN
+ * where one that is needed was not measured. Beyond the map heights are those at its edge. */
 RC_API void rc_profile_along(const struct rc_shape *shape, const double *h, struct rc_place from,
                              struct rc_place to, size_t n, double *z);
 
@@ -548,8 +550,8 @@ struct rc_problem {
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
     /* Where this is not 0, as a signal handler may set it, time is short: a step ends before it moves the
      * pressure, and rc_solver_result takes gap and displacement as the steps have left them, of single
-     * precision where their convolutions were. NULL: it never is; nor does it count with ranks, and in problems that a
-     * contact is a part of. */
+     * precision where their convolutions were. NULL: it never is; nor does it count with ranks, and in
+     * problems that a contact is a part of. */
     const volatile sig_atomic_t *hurry;
 };
 

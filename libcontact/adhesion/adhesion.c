@@ -1,13 +1,14 @@
 /*
  * Bodies that attract each other, along a path: each state begins with the gap of the last, goes down to a
- * stationary point (gap.c), and is asked whether it is stable under the control in use (stability.c). A saddle is
- * left along its eigenvector. A small residual is not enough: at a saddle it is as small as elsewhere.
+ * stationary point (gap.c), and is asked whether it is stable under the control in use (stability.c). A
+ * saddle is left along its eigenvector. A small residual is not enough: at a saddle it is as small as
+ * elsewhere.
  *
- * The error of the pressure is some e/sqrt(mu), e what the next correction would change of it, mu the smallest
- * eigenvalue: soft modes answer more than the preconditioner takes for granted.
+ * The error of the pressure is some e/sqrt(mu), e what the next correction would change of it, mu the
+ * smallest eigenvalue: soft modes answer more than the preconditioner takes for granted.
  *
- * A retraction for the lowest load goes from state to state until the bodies have parted, and then again, in
- * smaller steps, from the state before the lowest to the one after it.
+ * A retraction for the lowest load goes from state to state until the bodies have parted, and then again,
+ * in smaller steps, from the state before the lowest to the one after it.
  */
 #include "adhesion.h"
 

@@ -1,10 +1,11 @@
 /*
- * The smallest eigenvalue of the stiffness, A less what the traction takes from it, on the nodes that are not in
- * contact: x with (A - D) x = mu W x, W the inverse of K on these nodes. All eigenvalues are at most 1 or so
- * and only as many are far below as the traction has soft modes.
+ * The smallest eigenvalue of the stiffness, A less what the traction takes from it, on the nodes that are
+ * not in contact: x with (A - D) x = mu W x, W the inverse of K on these nodes. All eigenvalues are at
+ * most 1 or so and only as many are far below as the traction has soft modes.
  *
- * In each step the best x is taken in the space of x itself, of its residual under K and of the way by which x
- * came: of each of these W x and (A - D) x come along, in single precision. Every mu on the way is above the smallest.
+ * In each step the best x is taken in the space of x itself, of its residual under K and of the way by
+ * which x came: of each of these W x and (A - D) x come along, in single precision. Every mu on the way is
+ * above the smallest.
  */
 #include "gap.h"
 

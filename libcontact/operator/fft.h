@@ -25,10 +25,11 @@ struct rc_spectrum; /* of one kernel: a quarter of it, real */
 struct rc_fft *rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender,
                           const struct rc_shape *shape, enum rc_boundary boundary,
                           enum rc_precision precision, size_t threads, struct rc_err *err);
-/* The same transforms, with the spectra of rc_fft_new, of a free map in a frame: x columns and y rows of the
- * padding on either side of it, at most half of its nodes. Row and column 0 are the first of the frame, whose
- * rows belong to the ranks with the first and the last row of the map. From the map on the map a kernel acts as
- * before; over distances that the padding does not hold it acts the other way round. Chains only. */
+/* The same transforms, with the spectra of rc_fft_new, of a free map in a frame: x columns and y rows of
+ * the padding on either side of it, at most half of its nodes. Row and column 0 are the first of the
+ * frame, whose rows belong to the ranks with the first and the last row of the map. From the map on the
+ * map a kernel acts as before; over distances that the padding does not hold it acts the other way round.
+ * Chains only. */
 struct rc_frame {
     size_t x, y;
 };

@@ -126,10 +126,10 @@ extension(const struct own *s, double length)
         4);
 }
 
-/* The frame's part of the sides of a free map. The preconditioner's extension ends with the frame, and edges of contact
- * there become too stiff: on 1024 x 1024 nodes with 32 % contact the largest eigenvalue is 3.9 without a frame,
- * 1.6, 1.4, 1.26 with a 32nd, a 16th and an eighth, at 512 x 512 the same, and 1.15 with all of the padding. An
- * eighth costs a quarter of the transforms of rows, a twelfth of the whole. */
+/* The frame's part of the sides of a free map. The preconditioner's extension ends with the frame, and edges
+ * of contact there become too stiff: on 1024 x 1024 nodes with 32 % contact the largest eigenvalue is 3.9
+ * without a frame, 1.6, 1.4, 1.26 with a 32nd, a 16th and an eighth, at 512 x 512 the same, and 1.15 with
+ * all of the padding. An eighth costs a quarter of the transforms of rows, a twelfth of the whole. */
 static const size_t frame_part = 8;
 
 struct rc_frame

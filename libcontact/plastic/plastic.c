@@ -10,9 +10,9 @@
  * converges without relaxation: it is a proximal gradient step of a convex problem, whose smooth part has
  * no curvature above 2 mu. An application of F costs one sweep up, one contact, and one sweep down.
  *
- * The increments are not converged one by one. Each begins with the last one, is applied twice, and takes the
- * mixture of both that Anderson's method with one step kept would take: what it lags behind is caught up
- * by the next, which sees the true stress. The last is applied until it lags no more, for a load is
+ * The increments are not converged one by one. Each begins with the last one, is applied twice, and takes
+ * the mixture of both that Anderson's method with one step kept would take: what it lags behind is caught
+ * up by the next, which sees the true stress. The last is applied until it lags no more, for a load is
  * believed where |F(x) - x| as a stress is small against the yield stress, not where it is small against
  * x. In time the return is of second order (two steps back, BDF2): its base is
  *
@@ -22,9 +22,9 @@
  * it flows where it would not from e_b: else what unloads would flow on. The first increment of a load has
  * beta 0 throughout (backward Euler), for the load has turned.
  *
- * Where the map does not repeat the contact is that of the half-space, exactly; the stresses, and what strain does to
- * the surface, are those of a map that repeats after twice its sides, some thousandths of the yield stress beside
- * those of the half-space.
+ * Where the map does not repeat the contact is that of the half-space, exactly; the stresses, and what
+ * strain does to the surface, are those of a map that repeats after twice its sides, some thousandths of
+ * the yield stress beside those of the half-space.
  *
  * Two estimates come with each load. Of the increments: what BDF2 adds to Euler's return in each of them is
  * summed, and the contact is found once more with that added to e. Of the iteration: by how much its last

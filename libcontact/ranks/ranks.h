@@ -74,10 +74,10 @@ struct rc_turn {
     size_t count, own, unit;
     size_t *row, *column; /* count + 1 each */
 };
-/* Rows and columns are dealt out in units of row_unit and 1; `frame` rows before the first and after the last
- * one, counted with the others in `row`, go to the ranks that have these. RC_FAIL on this rank alone when its memory is
- * short, on all ranks when one of them would hold more than an exchange can count. rc_turn_free in either
- * case. */
+/* Rows and columns are dealt out in units of row_unit and 1; `frame` rows before the first and after the
+ * last one, counted with the others in `row`, go to the ranks that have these. RC_FAIL on this rank alone
+ * when its memory is short, on all ranks when one of them would hold more than an exchange can count.
+ * rc_turn_free in either case. */
 enum rc_status rc_turn_new(struct rc_turn *turn, const struct rc_ranks *ranks, size_t rows,
                            size_t row_unit, size_t frame, size_t columns, size_t unit,
                            struct rc_err *err);

@@ -404,7 +404,8 @@ dot(const struct rc_discs *d, float *const a[2], float *const b[2])
     return out;
 }
 
-/* |z|_1/|q|_1. In 50 problems |z|_1 alone was 1.02 to 1.46 of the error below 1e-2, next to sliding down to 0.9 of it. */
+/* |z|_1/|q|_1. In 50 problems |z|_1 alone was 1.02 to 1.46 of the error below 1e-2, next to sliding down
+ * to 0.9 of it. */
 static double
 relative(const struct rc_discs *d)
 {

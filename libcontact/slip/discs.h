@@ -3,10 +3,10 @@
  *
  *     min  q'Tq/2 - w'q   over   |q_i| <= g_i,   sum q = S   (or less delta'(sum q), delta given)
  *
- * T the tangential operator, g what friction can carry at a node, w the displacement that nodes which stick keep, S
- * the load over the area of a cell, delta its multiplier: how far the bodies have moved. s = Tq - w - delta is how far
- * a node slips: 0 where |q| < g, else along -q. Units are such that floats lose no decade: displacements over what E* and
- * the cell make of a traction, in Pa. Internal: never installed.
+ * T the tangential operator, g what friction can carry at a node, w the displacement that nodes which
+ * stick keep, S the load over the area of a cell, delta its multiplier: how far the bodies have moved. s =
+ * Tq - w - delta is how far a node slips: 0 where |q| < g, else along -q. Units are such that floats lose
+ * no decade: displacements over what E* and the cell make of a traction, in Pa. Internal: never installed.
  */
 #ifndef RC_DISCS_H
 #define RC_DISCS_H

@@ -1,24 +1,28 @@
 /*
- * An approximate inverse of T + D on the free directions of the nodes that carry friction. Internal: never installed.
+ * An approximate inverse of T + D on the free directions of the nodes that carry friction. Internal: never
+ * installed.
  *
- * Free are both components where a node sticks, the tangent t alone where it slips; P_i is the projection on to what is
- * free at node i, 0 where nothing is carried. With A = T^-1 on the whole map the exact inverse is, as a quadratic form,
+ * Free are both components where a node sticks, the tangent t alone where it slips; P_i is the projection
+ * on to what is free at node i, 0 where nothing is carried. With A = T^-1 on the whole map the exact
+ * inverse is, as a quadratic form,
  *
  *     r'(T + D)^-1 r = least of  v'Av + sum over slipping nodes of (t'(r - v))^2/D     over all fields v with
  *                      v = r where nodes stick:
  *
- * a displacement v of everything, most of which nobody asks for: off the contact, along the normals of the circles, and,
- * the less the larger D is, along their tangents. Here v = E r is an explicit guess of that field,
+ * a displacement v of everything, most of which nobody asks for: off the contact, along the normals of the
+ * circles, and, the less the larger D is, along their tangents. Here v = E r is an explicit guess of that
+ * field,
  *
  *     v_i = e_i + c_i P_i (r_i - e_i),   e_i = N_i^-1 sum_j G_ij c_j P_j r_j,   N_i = sum_j G_ij c_j P_j + f_i,
  *     G_ij = |x_i - x_j|^(-5/2),         c = T0/(T0 + D): what is known of v from the residual of a node
  *
- * with the fade f of the preconditioner of the normal problem, and 2 x 2 matrices N: missing components are told by
- * neighbours that have them. Then
+ * with the fade f of the preconditioner of the normal problem, and 2 x 2 matrices N: missing components
+ * are told by neighbours that have them. Then
  *
  *     z = E' A E r + (1 - c)^2/D P (r - e) and its transpose:
  *
- * symmetric, and r'z >= r'(T + D)^-1 r whatever the guess: z bounds the error in the energy norm from above.
+ * symmetric, and r'z >= r'(T + D)^-1 r whatever the guess: z bounds the error in the energy norm from
+ * above.
  */
 #ifndef RC_EXTENSION_H
 #define RC_EXTENSION_H

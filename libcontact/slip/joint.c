@@ -165,7 +165,8 @@ ratio(const struct rc_total *change, const struct rc_total *all)
     return sum > 0 ? rc_total_value(change) / sum : 0;
 }
 
-/* How far the passes are from their end: c/(1 - c) of the last change where each is c times the one before. */
+/* How far the passes are from their end: c/(1 - c) of the last change where each is c times the one
+ * before. */
 static double
 left_over(size_t passes, double change, double before)
 {
@@ -293,7 +294,8 @@ rc_joint_pressure(const struct rc_joint *j)
 
 /* ---- plan ---- */
 
-/* Both problems, each with what it shares with the other. Whether pressure and tractions are found in turn. */
+/* Both problems, each with what it shares with the other. Whether pressure and tractions are found in
+ * turn. */
 static bool
 problems(const struct rc_joint_problem *p, struct rc_problem *contact, struct rc_slip_problem *slip,
          bool *alternates, struct rc_err *err)

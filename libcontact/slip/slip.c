@@ -1,10 +1,10 @@
 /*
  * Friction in steps: what has stuck is kept, what slips is counted.
  *
- * A node that carries something keeps (T q + C p - delta) as long as it sticks: `origin`, of the whole map, for a node that
- * touches later keeps what it has then. An increment asks for the tractions of least energy under w = origin - C p.
- * With the force growing by dF/dP of the load a node that touches at the gap g0 has moved by dF/dP (1 + kap/2) g0
- * before: exactly for kap = 0, where T is K in both directions.
+ * A node that carries something keeps (T q + C p - delta) as long as it sticks: `origin`, of the whole
+ * map, for a node that touches later keeps what it has then. An increment asks for the tractions of least
+ * energy under w = origin - C p. With the force growing by dF/dP of the load a node that touches at the
+ * gap g0 has moved by dF/dP (1 + kap/2) g0 before: exactly for kap = 0, where T is K in both directions.
  *
  * Inside displacements are in units of sqrt(dx dy)/E*, lengths of sqrt(dx dy), and so in Pa and 1.
  */
@@ -122,7 +122,8 @@ rc_slip_set_displacement(struct rc_slip *s, double dx, double dy, struct rc_err 
 
 static const double grows = 1e-6; /* of the load: less is rounding */
 
-/* w: where the nodes stick; and a start: the last tractions, the change of the force spread as friction is. */
+/* w: where the nodes stick; and a start: the last tractions, the change of the force spread as friction
+ * is. */
 static void
 pose(struct rc_slip *s)
 {

@@ -3,8 +3,9 @@
  *
  *     u_t = T q + C p,   u_z = C' q          (body/shear.c; C is 0 where beta is)
  *
- * All are sums of two maps at once, along x and along y: both are transformed, multiplied wave by wave, and come
- * back. Maps of floats are summed in single precision: the caller's units are such that no decade is lost.
+ * All are sums of two maps at once, along x and along y: both are transformed, multiplied wave by wave,
+ * and come back. Maps of floats are summed in single precision: the caller's units are such that no decade
+ * is lost.
  */
 #ifndef RC_TANGENTIAL_H
 #define RC_TANGENTIAL_H

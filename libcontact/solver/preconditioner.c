@@ -84,13 +84,26 @@ is_on_map(const struct rc_preconditioner *e, size_t j)
     return j >= e->above && j - e->above < e->unit.ny;
 }
 
+/* Of a framed row the part on the map, of which it becomes row *j; NULL where it is off the map. */
+static float *
+on_map(const struct rc_preconditioner *e, size_t *j, void *row)
+{
+    if (!is_on_map(e, *j))
+        return NULL;
+    *j -= e->above;
+    return (float *)row + e->op->frame.x;
+}
+
 /* What a row of the frame, or its nodes left and right of the map, are multiplied by. */
 static void
 weigh_frame(const struct rc_preconditioner *e, size_t j, float *row)
 {
-    const float *weight = e->frame + frame_before(e, j);
+    const float *weight;
     size_t x = e->op->frame.x, nx = e->unit.nx;
 
+    if (e->frame == NULL)
+        return;
+    weight = e->frame + frame_before(e, j);
     if (!is_on_map(e, j)) {
         for (size_t i = 0; i < nx + 2 * x; i++)
             row[i] *= weight[i];
@@ -100,6 +113,23 @@ weigh_frame(const struct rc_preconditioner *e, size_t j, float *row)
         row[i] *= weight[i];
         row[nx + x + i] *= weight[x + i];
     }
+}
+
+static void
+keep_frame(struct rc_preconditioner *e, size_t j, const float *row)
+{
+    float *to;
+    size_t x = e->op->frame.x, nx = e->unit.nx;
+
+    if (e->frame == NULL)
+        return;
+    to = e->frame + frame_before(e, j);
+    if (!is_on_map(e, j)) {
+        memcpy(to, row, (nx + 2 * x) * sizeof *to);
+        return;
+    }
+    memcpy(to, row, x * sizeof *to);
+    memcpy(to + x, row + x + nx, x * sizeof *to);
 }
 
 static void
@@ -224,13 +254,14 @@ mask_in(void *at, size_t j, void *row)
 {
     struct rc_preconditioner *e = at;
     size_t n = e->unit.nx;
-    const unsigned char *w = e->w + (j - e->above) * n;
-    float *out = (float *)row + e->op->frame.x;
+    float *out = on_map(e, &j, row);
+    const unsigned char *w;
     unsigned any = 0;
 
-    if (!is_on_map(e, j))
+    if (out == NULL)
         return false;
     clear_sides(e, row);
+    w = e->w + j * n;
     for (size_t i = 0; i < n; i++) {
         out[i] = w[i];
         any |= w[i];
@@ -269,20 +300,6 @@ weigh(size_t n, float fade, float surrounded_by, float whole, const unsigned cha
     }
 }
 
-static void
-keep_frame(struct rc_preconditioner *e, size_t j, const float *row)
-{
-    float *to = e->frame + frame_before(e, j);
-    size_t x = e->op->frame.x, nx = e->unit.nx;
-
-    if (!is_on_map(e, j)) {
-        memcpy(to, row, (nx + 2 * x) * sizeof *to);
-        return;
-    }
-    memcpy(to, row, x * sizeof *to);
-    memcpy(to + x, row + x + nx, x * sizeof *to);
-}
-
 /* Weights without a fade. */
 RC_CLONES static void
 weigh_coat(size_t n, float whole, const unsigned char *w, const float *sums, float *restrict node)
@@ -301,24 +318,21 @@ weights_out(void *at, size_t j, void *row)
     struct rc_preconditioner *e = at;
     size_t n = e->unit.nx;
     float *scratch = e->scratch + (size_t)omp_get_thread_num() * e->own;
-    float *d2 = scratch + rc_distance_scratch(&e->unit), *node;
+    float *d2 = scratch + rc_distance_scratch(&e->unit), *node, *sums;
 
-    if (e->frame != NULL)
-        keep_frame(e, j, row);
-    if (!is_on_map(e, j))
+    keep_frame(e, j, row);
+    if ((sums = on_map(e, &j, row)) == NULL)
         return true;
-    j -= e->above;
     node = e->node + j * n;
     if (e->measure) {
         rc_distance_row(&e->unit, e->op->boundary, scratch, node, d2);
         closeness_of(n, d2, e->closeness + j * n);
     }
     if (!e->fades) {
-        weigh_coat(n, e->whole, e->w + j * n, (float *)row + e->op->frame.x, node);
+        weigh_coat(n, e->whole, e->w + j * n, sums, node);
         return true;
     }
-    weigh(n, e->fade, e->surrounded, e->whole, e->w + j * n, (float *)row + e->op->frame.x,
-          e->closeness + j * n, node);
+    weigh(n, e->fade, e->surrounded, e->whole, e->w + j * n, sums, e->closeness + j * n, node);
     return true;
 }
 
@@ -337,8 +351,8 @@ beside(size_t k, size_t before, size_t n, size_t *nearest)
     return k < before ? before - k : k - before - *nearest;
 }
 
-/* From the sum of a node of the frame to its weight. Its distance from W is taken for that of the nearest node
- * of the map and the way there. */
+/* From the sum of a node of the frame to its weight. Its distance from W is taken for that of the nearest
+ * node of the map and the way there. */
 static float
 frame_weight(const struct rc_preconditioner *e, size_t i, size_t j, float sum)
 {
@@ -438,12 +452,12 @@ residual_in(void *at, size_t j, void *row)
     struct correction *c = at;
     const struct rc_preconditioner *e = c->e;
     size_t n = e->unit.nx;
+    float *to = on_map(e, &j, row);
 
-    if (!is_on_map(e, j))
+    if (to == NULL)
         return false;
     clear_sides(e, row);
-    j -= e->above;
-    return take(n, e->w + j * n, c->r + j * n, c->offset, (float *)row + e->op->frame.x);
+    return take(n, e->w + j * n, c->r + j * n, c->offset, to);
 }
 
 RC_CLONES static void
@@ -460,14 +474,11 @@ extended(void *at, size_t j, void *row)
     struct correction *c = at;
     const struct rc_preconditioner *e = c->e;
     size_t n = e->unit.nx;
+    float *field;
 
-    if (e->frame != NULL)
-        weigh_frame(e, j, row);
-    if (!is_on_map(e, j))
-        return true;
-    j -= e->above;
-    extend(n, e->w + j * n, c->r + j * n, c->offset, e->node + j * n,
-           (float *)row + e->op->frame.x);
+    weigh_frame(e, j, row);
+    if ((field = on_map(e, &j, row)) != NULL)
+        extend(n, e->w + j * n, c->r + j * n, c->offset, e->node + j * n, field);
     return true;
 }
 
@@ -486,13 +497,11 @@ parted(void *at, size_t j, void *row)
     struct correction *c = at;
     const struct rc_preconditioner *e = c->e;
     size_t n = e->unit.nx;
+    float *field;
 
-    if (e->frame != NULL)
-        weigh_frame(e, j, row);
-    if (!is_on_map(e, j))
-        return true;
-    j -= e->above;
-    part(n, e->w + j * n, e->node + j * n, (float *)row + e->op->frame.x, c->z + j * n);
+    weigh_frame(e, j, row);
+    if ((field = on_map(e, &j, row)) != NULL)
+        part(n, e->w + j * n, e->node + j * n, field, c->z + j * n);
     return true;
 }
 
@@ -509,13 +518,12 @@ correction_out(void *at, size_t j, void *row)
     struct correction *c = at;
     const struct rc_preconditioner *e = c->e;
     size_t n = e->unit.nx;
+    float *field = on_map(e, &j, row);
 
-    if (!is_on_map(e, j))
+    if (field == NULL)
         return true;
-    j -= e->above;
-    row = (float *)row + e->op->frame.x;
-    add(n, e->w + j * n, row, c->z + j * n);
-    return c->done == NULL || c->done(c->ctx, j, row);
+    add(n, e->w + j * n, field, c->z + j * n);
+    return c->done == NULL || c->done(c->ctx, j, field);
 }
 
 void

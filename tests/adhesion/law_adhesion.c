@@ -266,7 +266,8 @@ eigenvalues_are_right(void **state)
         for (size_t i = 0; i < NODES; i++)
             for (size_t j = 0; j < NODES; j++)
                 A[i][j] -= 1.0 / NODES / NODES;
-        /* the smallest eigenvalue of P K P (A - D) P, P taking off the mean, by powers of 1 less part of it */
+        /* the smallest eigenvalue of P K P (A - D) P, P taking off the mean, by powers of 1 less part of
+         * it */
         static double x[NODES], y[NODES], z[NODES];
         double norm = 0, is = 0;
         for (size_t i = 0; i < n; i++)

@@ -91,9 +91,9 @@ sphere_of_maugis(void **state)
     }
 }
 
-/* On a grid that hardly holds the law the load is a saw, with teeth where the apex puts them: what the search finds
- * is off the lowest tooth that small steps find by no more than the spread that it tells, and the spread is of
- * the size of the teeth. */
+/* On a grid that hardly holds the law the load is a saw, with teeth where the apex puts them: what the
+ * search finds is off the lowest tooth that small steps find by no more than the spread that it tells, and
+ * the spread is of the size of the teeth. */
 static void
 spread_holds_the_saw(void **state)
 {

@@ -1,6 +1,6 @@
-/* Where the caller cannot wait a solver stops at once, whatever it has done so far: no convolution more but
- * where there is no gap yet, the load is carried, the displacement is that of the pressure to single precision,
- * and no state is called converged that is not. Where nobody is in a hurry nothing changes. */
+/* Where the caller cannot wait a solver stops at once, whatever it has done so far: no convolution more
+ * but where there is no gap yet, the load is carried, the displacement is that of the pressure to single
+ * precision, and no state is called converged that is not. Where nobody is in a hurry nothing changes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,7 +33,8 @@ rough(enum rc_boundary boundary, double *h)
                                .method = contact_method};
 }
 
-/* Whether u is K p, summed directly or transformed in double precision, but for this part of the largest u. */
+/* Whether u is K p, summed directly or transformed in double precision, but for this part of the largest
+ * u. */
 static bool
 displaced(double within, enum rc_boundary boundary, const double *p, const double *u)
 {

@@ -194,7 +194,8 @@ struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
 typedef bool tool_take(void *ctx, struct tool *tool, const struct rc_grid *kept, struct rc_grid *g);
 struct rc_grid *tool_channel_with(struct tool *tool, const char *channel, tool_take *take,
                                   void *ctx);
-/* The same, and beside it the frame of one other channel, which lies on its grid; *other is NULL where there is none. */
+/* The same, and beside it the frame of one other channel, which lies on its grid; *other is NULL where
+ * there is none. */
 struct rc_grid *tool_channel_beside(struct tool *tool, const char *channel, const char *beside,
                                     struct rc_grid **other);
 /* For `take`: the frame as *kept; ends the tool where the case has two of them. */

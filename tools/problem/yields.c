@@ -1,5 +1,6 @@
 /*
- * --yield: the law by which body 1 yields inside, what it does not go with, and the slabs that it is looked at in.
+ * --yield: the law by which body 1 yields inside, what it does not go with, and the slabs that it is
+ * looked at in.
  */
 #include "yields.h"
 
