@@ -1,17 +1,19 @@
 /*
  * A start from coarser grids. The same contact is solved roughly on a grid of half the nodes a side (a
  * profile stays one node wide), which has a start from a coarser grid itself, and each coarse pressure
- * is repeated on the nodes of this grid. A call of rc_nested_step does one iteration on one of the
+ * is shared by the nodes of this grid over it. A call of rc_nested_step does one iteration on one of the
  * coarser grids, or plans one of them, so that the caller sees every iteration.
  */
 #include "solver.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "libcontact/memory.h"
 
 enum {
+    ROUNDS = 8,       /* of Newton's method over a coarse node */
     COARSEST = 24,    /* nodes a side from which a coarser grid is worth solving first */
     FEW_NODES = 16384 /* a rank; with fewer, each rank solves the whole grid for itself */
 };
@@ -168,10 +170,10 @@ coarse_map(const struct rc_solver *s, const double *map, const struct rc_shape *
     return own;
 }
 
-/* The coarse pressure under the rows held here. Where several ranks share the coarse grid, it is moved
- * to `room`. NULL when memory is short on any rank. */
+/* A map of the coarse grid under the rows held here. Where several ranks share the coarse grid, it is
+ * moved to `room`. NULL when memory is short on any rank. */
 static const double *
-pressure_under(const struct rc_solver *s, const struct rc_solver *c, double **room)
+map_under(const struct rc_solver *s, const struct rc_solver *c, const double *map, double **room)
 {
     const struct rc_ranks *ranks = s->posed.rows.ranks;
     size_t nx = c->posed.whole.nx;
@@ -180,11 +182,11 @@ pressure_under(const struct rc_solver *s, const struct rc_solver *c, double **ro
 
     *room = NULL;
     if (c->posed.rows.ranks == NULL) /* all rows are here */
-        return c->it.p + (s->posed.rows.first + 1) / 2 * nx;
+        return map + (s->posed.rows.first + 1) / 2 * nx;
     *room = rc_alloc(rows_under(&s->posed.rows) * nx, sizeof **room);
     fine = deal(&s->posed, &c->posed.rows, &d) && *room != NULL;
     if (rc_ranks_agree(ranks, fine ? RC_OK : RC_FAIL, NULL) == RC_OK)
-        rc_ranks_move(ranks, nx * sizeof **room, d.own, d.under, c->it.p, *room);
+        rc_ranks_move(ranks, nx * sizeof **room, d.own, d.under, map, *room);
     else
         fine = false;
     dealt_free(&d);
@@ -253,26 +255,149 @@ coarse_new(const struct rc_solver *s, bool *sought)
 
 /* ---- up ---- */
 
-static void
-repeat(struct rc_solver *s, const struct rc_solver *c)
-{
-    size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny, wide = c->posed.shape.nx;
-    const struct rc_box box = rc_box(s, 0);
-    double *room;
-    const double *from = pressure_under(s, c, &room);
+/* What the coarse grid knows under the rows held here. */
+struct known {
+    size_t nx, rows; /* of the coarse grid, and how many of its rows are under those held here */
+    const double *p, *u; /* pressure, and displacement but for a constant                  */
+    const double *before, *after; /* rows of u beside them; NULL: none                         */
+    double
+        *rooms[3]; /* of p, of u, and of the rows beside them, where ranks share the coarse grid  */
+    bool round;    /* the map repeats */
+};
 
-    if (from == NULL)
+static void
+known_free(struct known *k)
+{
+    for (size_t i = 0; i < 3; i++)
+        free(k->rooms[i]);
+}
+
+/* Fetches it, with u in the place of c->it.v. False when memory is short on any rank. */
+static bool
+known_under(const struct rc_solver *s, struct rc_solver *c, struct known *k)
+{
+    size_t nx = c->posed.whole.nx, ny = c->posed.whole.ny, rows = rows_under(&s->posed.rows);
+    size_t first = (s->posed.rows.first + 1) / 2, last = first + rows;
+    bool shared = c->posed.rows.ranks != NULL, beside[2];
+    double *u = c->it.v, *ends;
+
+    *k = (struct known){.nx = nx, .rows = rows, .round = s->posed.boundary == RC_PERIODIC};
+    for (size_t i = 0; i < c->posed.n; i++)
+        u[i] += c->posed.h[i];
+    if ((k->p = map_under(s, c, c->it.p, &k->rooms[0])) == NULL ||
+        (k->u = map_under(s, c, u, &k->rooms[1])) == NULL)
+        return false;
+    if (!shared) {
+        k->before = first > 0 ? u + (first - 1) * nx : k->round ? u + (ny - 1) * nx : NULL;
+        k->after = last < ny ? u + last * nx : k->round ? u : NULL;
+        return true;
+    }
+    ends = k->rooms[2] = rc_alloc(2 * nx, sizeof *ends);
+    if (rc_ranks_agree(s->posed.rows.ranks, ends != NULL ? RC_OK : RC_FAIL, NULL) != RC_OK)
+        return false;
+    rc_ranks_beside(&s->posed.rows, k->round, nx * sizeof *ends, k->u,
+                    k->u + (rows > 0 ? rows - 1 : 0) * nx, ends, ends + nx, beside);
+    k->before = beside[0] ? ends : NULL;
+    k->after = beside[1] ? ends + nx : NULL;
+    return true;
+}
+
+/* The nodes over one coarse node: what they would carry but for a constant, and what they carry. */
+struct over {
+    size_t n, k[4];
+    double y[4], load;
+};
+
+/* One shift for all of them, by Newton's method; what it leaves is corrected with the load of the map.
+ * Where one of them would yield, the displacement of the coarse grid does not say which of the others do, and
+ * all carry the same. */
+static void
+share(const struct over *o, struct rc_box box, double *p)
+{
+    double mean = o->load / (double)o->n, mu = mean;
+    bool yields = false;
+
+    for (size_t i = 0; i < o->n; i++)
+        mu -= o->y[i] / (double)o->n;
+    for (int round = 0; round < ROUNDS; round++) {
+        double excess = -o->load;
+        size_t between = 0;
+        for (size_t i = 0; i < o->n; i++) {
+            excess += rc_clip(box, o->k[i], o->y[i] + mu);
+            between += rc_between(box, o->k[i], o->y[i] + mu);
+        }
+        if (between == 0 || fabs(excess) <= DBL_EPSILON * o->load)
+            break;
+        mu -= excess / (double)between;
+    }
+    for (size_t i = 0; i < o->n; i++)
+        yields = yields || rc_at_high(box, o->k[i], o->y[i] + mu);
+    for (size_t i = 0; i < o->n; i++)
+        p[o->k[i]] = rc_clip(box, o->k[i], yields ? mean : o->y[i] + mu);
+}
+
+/* The node after i, or before it, of n of a coarse line; i where there is none. */
+static size_t
+beside(size_t i, bool after, size_t n, bool round)
+{
+    if (after)
+        return i + 1 < n ? i + 1 : round ? 0 : i;
+    return i > 0 ? i - 1 : round ? n - 1 : i;
+}
+
+/* Over the coarse node i of row j. The fine nodes are a quarter of the coarse spacing beside it, where the
+ * displacement is found by linear interpolation. */
+static void
+share_at(struct rc_solver *s, const struct known *c, double stiffness, size_t i, size_t j)
+{
+    size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny;
+    const double *u = c->u + j * c->nx;
+    struct over o = {.n = 0};
+
+    for (size_t y = 2 * j; y < 2 * j + 2 && y < ny; y++) {
+        const double *v = y % 2 == 1 ? j + 1 < c->rows ? u + c->nx : c->after
+                          : j > 0    ? u - c->nx
+                                     : c->before;
+        v = v == NULL || s->posed.whole.ny == 1 ? u : v;
+        for (size_t x = 2 * i; x < 2 * i + 2 && x < nx; x++) {
+            size_t k = y * nx + x, l = nx == 1 ? i : beside(i, x % 2 == 1, c->nx, c->round);
+            o.k[o.n] = k;
+            double at = (9 * u[i] + 3 * (u[l] + v[i]) + v[l]) / 16;
+            o.y[o.n++] = stiffness > 0 ? stiffness * (s->posed.h[k] - at) : 0;
+        }
+    }
+    o.load = (double)o.n * c->p[j * c->nx + i];
+    share(&o, rc_box(s, 0), s->it.p);
+}
+
+/* The pressure of each coarse node on the nodes over it: each of them presses the more, the higher it
+ * stands above the displacement of the coarse grid, with the stiffness of a node whose neighbours keep
+ * still. To repeat the coarse pressure instead begins with four to five times the error. Where
+ * the displacement is not known it is repeated. */
+static void
+refine(struct rc_solver *s, struct rc_solver *c)
+{
+    const struct rc_box box = rc_box(s, 0);
+    bool known = c->it.known;
+    double stiffness = s->op->inverse_near[1][1] / (s->load.length * s->load.per_pressure);
+    struct known k;
+
+    if (!known_under(s, c, &k)) {
+        known_free(&k);
         return;
+    }
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
-    for (size_t j = 0; j < ny; j++)
-        for (size_t i = 0; i < nx; i++)
-            s->it.p[j * nx + i] = rc_clip(box, j * nx + i, from[j / 2 * wide + i / 2]);
-    free(room);
+    for (size_t j = 0; j < k.rows; j++)
+        for (size_t i = 0; i < k.nx; i++) {
+            bool presses = k.p[j * k.nx + i] > rc_low(box, 0);
+            share_at(s, &k, known && presses ? stiffness : 0, i, j);
+        }
+    known_free(&k);
     if (fabs(rc_iterate_carried(s) - s->load.sum) <= 1e-14 * s->load.sum)
         return;
     /* an odd line is counted twice; should nodes have to join, the highest join first */
-    for (size_t k = 0; k < s->posed.n; k++)
-        s->it.v[k] = -s->posed.h[k];
+    for (size_t i = 0; i < s->posed.n; i++)
+        s->it.v[i] = -s->posed.h[i];
     rc_projection_balance(s, s->it.v);
 }
 
@@ -298,11 +423,11 @@ rc_nested_end(struct rc_solver *s)
 
     if (c != NULL) {
         rc_nested_end(c);
-        if (!s->nested.sought || rc_load_set(s, c->load.load, NULL) == RC_OK)
-            repeat(s, c);
         if (s->posed.discretization && c->it.iterations > 0)
             compare(s, c);
         rc_tilt_from_coarse(s, c);
+        if (!s->nested.sought || rc_load_set(s, c->load.load, NULL) == RC_OK)
+            refine(s, c);
         rc_iterate_count(s, c->it.convolutions * (double)c->posed.nodes / (double)s->posed.nodes);
     }
     rc_nested_free(s);
