@@ -136,11 +136,16 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
 
 /* ---- v, the working set, the residual ---- */
 
-/* The first v, in single precision, which is accurate enough at first. */
+/* The first v. In single precision, which a rough solution bears, its error is relative to the whole
+ * displacement, and on large maps it would have to be computed anew on the way. */
 static void
 begin(struct rc_solver *solver, struct pcg *s)
 {
-    s->drift = solver->op->row_error * rc_iterate_displace_rows(solver);
+    s->drift = 0;
+    if (solver->posed.rough)
+        s->drift = solver->op->row_error * rc_iterate_displace_rows(solver);
+    else
+        rc_iterate_displace(solver);
     rc_iterate_shift(solver);
     rc_working_set_find(solver, true);
 }

@@ -18,16 +18,16 @@ struct row {
 };
 
 static const struct row rows[] = {
-    {RC_PERIODIC, 4e-4, 0, 25, 8},
-    {RC_PERIODIC, 0.018, 0, 25, 8},
-    {RC_PERIODIC, 0.028, 0, 25, 8},
-    {RC_PERIODIC, 0.05, 0, 25, 8},
-    {RC_PERIODIC, 0.12, 0, 25, 8},
-    {RC_PERIODIC, 0.01, 3, 25, 8},
+    {RC_PERIODIC, 4e-4, 0, 17, 8},
+    {RC_PERIODIC, 0.018, 0, 14, 8},
+    {RC_PERIODIC, 0.028, 0, 14, 8},
+    {RC_PERIODIC, 0.05, 0, 14, 8},
+    {RC_PERIODIC, 0.12, 0, 14, 8},
+    {RC_PERIODIC, 0.01, 3, 21, 8},
     /* flat maps, which carry load up to their edges */
-    {RC_FREE, 8e-4, 0, 25, 2},
-    {RC_FREE, 0.0176, 0, 21, 2},
-    {RC_FREE, 0.054, 0, 21, 2},
+    {RC_FREE, 8e-4, 0, 19, 2},
+    {RC_FREE, 0.0176, 0, 15, 2},
+    {RC_FREE, 0.054, 0, 15, 2},
 };
 
 static double
