@@ -208,6 +208,68 @@ rc_iterate_shift(struct rc_solver *s)
     s->it.shift = s->it.elastic > 0 ? total[0] / total[1] : middle(s);
 }
 
+double
+rc_iterate_stiffness(const struct rc_solver *s)
+{
+    return s->op->inverse_near[1][1] / (s->load.length * s->load.per_pressure);
+}
+
+/* The part of the load by which that shift may be off: it only chooses a working set. */
+static const double unbalanced = 1e-6;
+
+/* Context of the shift that balances nodes: each moves by its gap and the stiffness of a node among still
+ * neighbours, as far as its bounds let it. */
+struct balance {
+    struct rc_solver *s;
+    double stiffness, shift;
+};
+
+static void
+balance_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct balance *c = at;
+    const struct rc_solver *s = c->s;
+    const struct rc_box box = rc_box(s, 0);
+
+    for (size_t k = first; k < first + n; k++) {
+        double y = s->it.p[k] - c->stiffness * (s->it.v[k] - c->shift);
+        sums[0] += rc_clip(box, k, y) - s->it.p[k];
+        sums[1] += rc_between(box, k, y);
+    }
+}
+
+static struct rc_excess
+excess_of_balance(void *ctx, double shift)
+{
+    struct balance *c = ctx;
+    double total[RC_SUMS];
+
+    c->shift = shift;
+    rc_reduce_blocks(c->s, balance_block, c, total);
+    return (struct rc_excess){.load = total[0], .slope = total[1] * c->stiffness};
+}
+
+static void
+farthest_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct rc_solver *s = at;
+
+    for (size_t k = first; k < first + n; k++)
+        sums[RC_MOST] = fmax(sums[RC_MOST], fabs(s->it.v[k] - s->it.shift));
+}
+
+void
+rc_iterate_balance(struct rc_solver *s)
+{
+    struct balance c = {.s = s, .stiffness = rc_iterate_stiffness(s)};
+    double total[RC_SUMS], shift = s->it.shift, far;
+
+    rc_reduce_blocks(s, farthest_block, s, total);
+    far = total[RC_MOST];
+    s->it.shift =
+        rc_newton(excess_of_balance, &c, shift - far, shift + far, shift, unbalanced * s->load.sum);
+}
+
 /* ---- the load ---- */
 
 static void

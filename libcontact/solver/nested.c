@@ -379,7 +379,7 @@ refine(struct rc_solver *s, struct rc_solver *c)
 {
     const struct rc_box box = rc_box(s, 0);
     bool known = c->it.known;
-    double stiffness = s->op->inverse_near[1][1] / (s->load.length * s->load.per_pressure);
+    double stiffness = rc_iterate_stiffness(s);
     struct known k;
 
     if (!known_under(s, c, &k)) {

@@ -35,7 +35,8 @@ enum {
     SPACER = 30,   /* steps after which one is a projected-gradient step                    */
     PATIENCE = 40, /* steps without a better estimate, after which only rounding is left;
                       at least one of them is a spacer                                      */
-    TRIES = 4      /* to shorten a step                                                     */
+    TRIES = 4,     /* to shorten a step                                                     */
+    FEW = 2        /* times the elastic nodes: a larger set is not to follow their mean gap */
 };
 /* The longest step, relative to the load: beyond it the pressure of the nodes that stay would be lost
  * in rounding. Only heights that are far larger than the displacement ask for longer ones. */
@@ -136,25 +137,39 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
 
 /* ---- v, the working set, the residual ---- */
 
+/* The working set that belongs to v. Where nearly all that is loaded yields, only a few nodes are elastic: their
+ * mean gap says little of the shift, and nodes that want to leave their bounds by it would all go the same
+ * way. There the shift is the one with which as much load comes as goes. */
+static void
+settle(struct rc_solver *solver)
+{
+    if (solver->set.saturated == 0 || solver->set.size <= FEW * solver->it.elastic)
+        return;
+    rc_iterate_balance(solver);
+    rc_working_set_find(solver, true);
+}
+
 /* The first v. In single precision, which a rough solution bears, its error is relative to the whole
  * displacement, and on large maps it would have to be computed anew on the way. */
 static void
 begin(struct rc_solver *solver, struct pcg *s)
 {
     s->drift = 0;
-    if (solver->posed.rough)
+    if (solver->posed.rough || rc_solver_hurried(solver))
         s->drift = solver->op->row_error * rc_iterate_displace_rows(solver);
     else
         rc_iterate_displace(solver);
     rc_iterate_shift(solver);
     rc_working_set_find(solver, true);
+    settle(solver);
 }
 
 /* v in double precision and the whole working set: an estimate from these may end the iteration. */
 static void
 renew(struct rc_solver *solver, struct pcg *s)
 {
-    rc_iterate_displace(solver);
+    if (!solver->it.fresh)
+        rc_iterate_displace(solver);
     s->drift = 0;
     rc_iterate_shift(solver);
     rc_working_set_find(solver, false);
@@ -292,7 +307,7 @@ start_from_springs(struct rc_solver *solver)
 static void
 find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
 {
-    bool sure = solver->posed.rough || solver->it.fresh;
+    bool sure = solver->posed.rough || (solver->it.fresh && solver->set.whole);
 
     s->before = s->estimate;
     if (!sure && s->before * s->rate <= solver->load.tol) {
@@ -585,6 +600,7 @@ follow_step(struct rc_solver *solver, struct pcg *s, const struct trial *t, doub
     if (kept && part == 1 && t->total[ELASTIC] > 0) {
         rc_iterate_moved(solver, gap, t->total[ELASTIC]);
         rc_working_set_follow(solver, s->q, solver->load.length);
+        settle(solver);
         return;
     }
     rc_iterate_moved(solver, 0, 0);
@@ -594,6 +610,7 @@ follow_step(struct rc_solver *solver, struct pcg *s, const struct trial *t, doub
     restore(solver);
     rc_iterate_shift(solver);
     rc_working_set_find(solver, true);
+    settle(solver);
 }
 
 /* One step of p along the direction in z, whose mean is given, and back into the box, such that the

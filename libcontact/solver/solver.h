@@ -101,6 +101,7 @@ struct rc_working_set {
     unsigned char *beside_w;
     float *beside_r;
     size_t size;
+    bool whole;       /* no node that wants to join is left out                              */
     double saturated; /* sum of rc_room over the nodes off the set at their upper bounds       */
     double left_out;  /* pressure that the nodes sifted out would carry, times per_pressure     */
     /* Nodes that joined or left since the preconditioner was told w, and since it measured
@@ -212,6 +213,10 @@ void rc_iterate_count(struct rc_solver *solver, double convolutions);
 /* The shift: mean of v over the elastic nodes, or, when there are none, the middle between the
  * largest v at an upper bound and the smallest at a lower one. Sets `elastic` and `shift`. */
 void rc_iterate_shift(struct rc_solver *solver);
+/* Another shift: the one at which steps of all nodes by their gaps, within their bounds, keep the load. */
+void rc_iterate_balance(struct rc_solver *solver);
+/* Pressure per displacement of a node whose neighbours keep still, Pa/m. */
+double rc_iterate_stiffness(const struct rc_solver *solver);
 /* Puts nodes whose pressure is within ten tolerances of their upper bound there; the other elastic nodes
  * give the load for it. False when there are none. */
 bool rc_iterate_rest(struct rc_solver *solver);

@@ -123,7 +123,7 @@ few_are_elastic(void **state)
     double *h = malloc(n * sizeof *h), least = INFINITY, high = 0;
 
     (void)state;
-    for (uint64_t seed = 1; seed <= 120; seed++) {
+    for (uint64_t seed = 1; seed <= 1000; seed++) {
         struct rc_problem problem = {.boundary = seed % 2 ? RC_PERIODIC : RC_FREE,
                                      .pair.estar = estar,
                                      .hardness = 0.011,

@@ -17,21 +17,29 @@ struct row {
     double mean;       /* mean pressure over E*                                                */
     double hardness;   /* over the mean pressure; 0: none                                      */
     size_t large;      /* nodes a side; 0: 128                                                  */
+    bool scattered;    /* hardly any node is elastic                                            */
 };
+
+/* There a gap that is far from that of the solution leaves many nodes that want to change their
+ * bound, and the estimate counts each of them: 33 times the error before the first step, 2.6 at
+ * 1e-3. */
+static const double scattered_early = 40, scattered_small = 3;
 
 /* clang-format off */
 static const struct row rows[] = {
-    {RC_PERIODIC, 0, 0.1, 0.8, 8, 4e-4, 0, 0},  {RC_PERIODIC, 0, 0.1, 0.8, 8, 4e-3, 0, 0},
-    {RC_PERIODIC, 0, 0.1, 0.8, 8, 0.018, 0, 0}, {RC_PERIODIC, 0, 0.1, 0.3, 4, 0.03, 0, 0},
-    {RC_PERIODIC, 0, 0.1, 0.8, 8, 0.05, 0, 0},  {RC_PERIODIC, 0, 0.1, 0.8, 8, 0.12, 0, 0},
-    {RC_PERIODIC, 0, 0.1, 0.8, 8, 0.01, 3, 0},  {RC_PERIODIC, 0, 0.1, 0.8, 8, 0.01, 1.2, 0},
-    {RC_FREE, 0.02, 0, 0, 0, 1e-3, 0, 0},       {RC_FREE, 0.02, 0.01, 0.8, 8, 1e-4, 0, 0},
-    {RC_FREE, 0.02, 0.01, 0.8, 8, 1e-3, 0, 0},  {RC_FREE, 0.02, 0.01, 0.8, 8, 5e-3, 0, 0},
-    {RC_FREE, 0, 0.1, 0.8, 8, 0.01, 0, 0},      {RC_FREE, 0, 0.1, 0.8, 8, 0.1, 0, 0},
-    {RC_FREE, 0, 0.1, 0.3, 4, 0.01, 0, 0},      {RC_FREE, 0.02, 0.01, 0.8, 8, 1e-3, 10, 0},
-    {RC_FREE, 0, 0.1, 0.8, 8, 0.01, 2, 0},
-    {RC_FREE, 0.00625, 0.005, 0.8, 8, 8.3e-4, 8, 512}, /* what is not in the working set counts too */
-    {RC_PERIODIC, 0, 0.1, 0.8, 2, 0.055, 0, 256}, /* many nodes that would only be pushed back */
+    {RC_PERIODIC, 0, 0.1, 0.8, 8, 4e-4, 0, 0, false},  {RC_PERIODIC, 0, 0.1, 0.8, 8, 4e-3, 0, 0, false},
+    {RC_PERIODIC, 0, 0.1, 0.8, 8, 0.018, 0, 0, false}, {RC_PERIODIC, 0, 0.1, 0.3, 4, 0.03, 0, 0, false},
+    {RC_PERIODIC, 0, 0.1, 0.8, 8, 0.05, 0, 0, false},  {RC_PERIODIC, 0, 0.1, 0.8, 8, 0.12, 0, 0, false},
+    {RC_PERIODIC, 0, 0.1, 0.8, 8, 0.01, 3, 0, false},  {RC_PERIODIC, 0, 0.1, 0.8, 8, 0.01, 1.2, 0, false},
+    {RC_FREE, 0.02, 0, 0, 0, 1e-3, 0, 0, false},       {RC_FREE, 0.02, 0.01, 0.8, 8, 1e-4, 0, 0, false},
+    {RC_FREE, 0.02, 0.01, 0.8, 8, 1e-3, 0, 0, false},  {RC_FREE, 0.02, 0.01, 0.8, 8, 5e-3, 0, 0, false},
+    {RC_FREE, 0, 0.1, 0.8, 8, 0.01, 0, 0, false},      {RC_FREE, 0, 0.1, 0.8, 8, 0.1, 0, 0, false},
+    {RC_FREE, 0, 0.1, 0.3, 4, 0.01, 0, 0, false},      {RC_FREE, 0.02, 0.01, 0.8, 8, 1e-3, 10, 0, false},
+    {RC_FREE, 0, 0.1, 0.8, 8, 0.01, 2, 0, false},
+    {RC_PERIODIC, 0, 0.1, 0.8, 2, 9e-4, 1 / 0.9, 0, true},
+    {RC_FREE, 0, 0.1, 0.8, 2, 1.5e-3, 1 / 0.3, 0, true},
+    {RC_FREE, 0.00625, 0.005, 0.8, 8, 8.3e-4, 8, 512, false}, /* what is not in the working set counts too */
+    {RC_PERIODIC, 0, 0.1, 0.8, 2, 0.055, 0, 256, false}, /* many nodes that would only be pushed back */
 };
 /* clang-format on */
 
@@ -144,7 +152,7 @@ never_below_never_far_above(void **state)
         const struct row *row = &rows[k];
         size_t m = row->large > 0 ? row->large : 128, n = m * m;
         struct rc_shape s = {m, m, 1e-6, 1e-6};
-        double *h = heights(row, s), mean = 1e9 * row->mean, bound;
+        double *h = heights(row, s), mean = 1e9 * row->mean, bound, early;
         struct rc_problem problem = {.boundary = row->boundary,
                                      .pair.estar = 1e9,
                                      .method = "pcg",
@@ -168,9 +176,10 @@ never_below_never_far_above(void **state)
                       row->boundary == RC_FREE ? "free    " : "periodic", exact.c.contact_fraction,
                       (double)exact.c.plastic_nodes / (double)n, r.judged, r.least, r.most,
                       r.early);
-        bound = yields ? estimate_plastic : estimate_elastic;
+        bound = row->scattered ? scattered_small : yields ? estimate_plastic : estimate_elastic;
+        early = row->scattered ? scattered_early : 1.1 * estimate_early;
         if (status != RC_OK || r.judged < 2 || r.most == 0 || r.least < 1 || r.most > bound ||
-            r.early > 1.1 * estimate_early) { /* 4.2 where nearly every node yields */
+            r.early > early) { /* 4.2 where nearly every node yields */
             print_error("out of bounds\n");
             wrong++;
         }

@@ -88,7 +88,6 @@ stopped_after(size_t steps, enum rc_boundary boundary, const double *h, struct r
     assert_true(fabs(sum * shape.dx * shape.dy - problem.load) <= 1e-9 * problem.load);
     assert_true(c.converged == (status == RC_OK));
     /* the first gap of a grid, in single precision, where there is none yet */
-    /* the first gap of a grid, in single precision, where there is none yet */
     if (status == RC_MORE)
         assert_true(rc_solver_convolutions(solver) - convolutions <= 0.5 + 1e-9);
     assert_true(displaced(status == RC_OK ? 1e-12 : 3e-6, boundary, rc_solver_pressure(solver), u));

@@ -24,6 +24,10 @@ static const struct row rows[] = {
     {RC_PERIODIC, 0.05, 0, 14, 8},
     {RC_PERIODIC, 0.12, 0, 14, 8},
     {RC_PERIODIC, 0.01, 3, 21, 8},
+    /* nearly all that is loaded yields */
+    {RC_PERIODIC, 6e-4, 1 / 0.6, 27, 2},
+    {RC_PERIODIC, 9e-4, 1 / 0.9, 27, 2},
+    {RC_FREE, 1.5e-3, 1 / 0.3, 27, 2},
     /* flat maps, which carry load up to their edges */
     {RC_FREE, 8e-4, 0, 19, 2},
     {RC_FREE, 0.0176, 0, 15, 2},
