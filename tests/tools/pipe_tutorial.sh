@@ -200,8 +200,8 @@ while read -r name film_4 steel_4 film_10 steel_10; do
     near "$(of_steel 1e-10)" "$steel_10" 0.25 "  of steel"
 done <<END
 contact-theory(7) $(tr '\n' ' ' <"$pages/contact-theory.7" |
-    sed -nE 's/.* takes ([0-9.]+) convolutions to 1e.-4, ([0-9.]+) without the film, and ([0-9.]+) to 1e.-10 with it and without\..*/\1 \2 \3 \3/p')
-rc-cost(1) $(sed -nE 's/^For 1e-4 it takes ([0-9.]+) convolutions, ([0-9.]+) without the film; .* 1e-10 ([0-9.]+) either way\.$/\1 \2 \3 \3/p' "$pages/rc-cost.1")
+    sed -nE 's/.* takes ([0-9.]+) convolutions to 1e.-4, ([0-9.]+) without the film, and ([0-9.]+) and ([0-9.]+) to 1e.-10\..*/\1 \2 \3 \4/p')
+rc-cost(1) $(sed -nE 's/^For 1e-4 it takes ([0-9.]+) convolutions, ([0-9.]+) without the film; .* 1e-10 ([0-9.]+) and ([0-9.]+)\.$/\1 \2 \3 \4/p' "$pages/rc-cost.1")
 END
 
 # ---- real files ----
