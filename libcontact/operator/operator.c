@@ -145,15 +145,26 @@ rc_operator_frame(const struct rc_shape *s, enum rc_boundary boundary)
  * boundary no extension makes up for an inverse that is not that of the kernel. */
 static const double bending = 1. / 15;
 
-static bool
+/* Length from which a coat gives way as a plate: the wave that feels half the stiffness of the shortest has
+ * wave number 1.8 over the thickness; twice the thickness, found by trial. */
+static double
 bends(const struct own *s, double length)
 {
     const struct rc_shape *shape = &s->op.whole;
     double side = fmin(shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
+    double low = 2 * RC_PI / side, high = RC_PI / length;
+    double shortest = rc_solids_modulus(s->bodies, high);
 
-    return s->op.boundary == RC_PERIODIC &&
-           rc_solids_modulus(s->bodies, 2 * RC_PI / side) <
-               bending * rc_solids_modulus(s->bodies, RC_PI / length);
+    if (s->op.boundary != RC_PERIODIC || !(rc_solids_modulus(s->bodies, low) < bending * shortest))
+        return 0;
+    for (int round = 0; round < 20; round++) {
+        double q = sqrt(low * high);
+        if (rc_solids_modulus(s->bodies, q) < shortest / 2)
+            low = q;
+        else
+            high = q;
+    }
+    return 2 * 1.8 / (high * length);
 }
 
 static struct rc_shape

@@ -32,11 +32,11 @@ struct rc_operator {
     double neighbour[3][3];
     struct rc_frame frame; /* nodes of the padding that rc_operator_chain_framed takes along */
     double extension;      /* the constant c of the preconditioner's extension                    */
-    bool bends;       /* a coat that long waves bend as a stiff plate: periodic maps           */
-    bool edges;       /* how a shift loads the edges of a set follows from no rule: layers, free */
-    double error;     /* of K p, relative to the sum of |K| |p|                              */
-    double row_error; /* the same, row by row                                                */
-    double row_cost;  /* of K p row by row, in equivalents of K p in double precision        */
+    double bends; /* over sqrt(dx dy), length from which a coat bends as a plate; 0: it does not */
+    bool edges;   /* how a shift loads the edges of a set follows from no rule: layers, free */
+    double error; /* of K p, relative to the sum of |K| |p|                              */
+    double row_error;   /* the same, row by row                                                */
+    double row_cost;    /* of K p row by row, in equivalents of K p in double precision        */
     double factor_cost; /* of each factor of a chain                                           */
     bool exact;         /* K p can be had in double precision                                  */
     bool mean_free;     /* the mean of u is 0 whatever the pressure: it has no stiffness       */

@@ -266,7 +266,7 @@ precondition(struct rc_solver *solver, struct pcg *s, double *mean)
     c.b = s->curvature > 0 && above < 0 ? -above / s->curvature : 0;
     estimate = rc_working_set_error(solver, share);
     ratio = estimate / s->before;
-    most = (solver->op->bends ? part_of_coat : 1) * ratio * ratio;
+    most = (solver->op->bends > 0 ? part_of_coat : 1) * ratio * ratio;
     if (c.b > most)
         c.b = most;
     if (c.b > 0) {

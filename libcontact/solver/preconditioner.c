@@ -30,24 +30,32 @@ struct rc_preconditioner {
 };
 
 /* |x|^(-5/2), on a line |x|^(-3/2): half a power more than the exact extension off a half-plane or a
- * half-line, which has weights of the sources instead. Off a coat that bends |x|^(-7/2): the inverse then
- * grows as q^a with a of up to 4 between the waves as long as the coat bends and those as short as it is
- * thick, and the exact extension off a half-plane has sources weighted by d_j^(-a/2). A node has no
- * weight in itself, because no node is both on W and off it. */
-enum spread {
+ * half-line, which has weights of the sources instead. Off a coat that bends it is that only as near as the
+ * coat is thick, and |x|^(-4) beyond: the inverse then grows as q^a with a of up to 4 between the waves as
+ * long as the coat bends and those as short as it is thick, and the exact extension off a half-plane
+ * has sources weighted by d_j^(-a/2). A node has no weight in itself, because no node is both on W and
+ * off it. */
+enum kind {
     ON_MAP,
     ON_LINE,
     ON_COAT
 };
 
+struct spread {
+    enum kind kind;
+    double bends; /* length from which the coat bends */
+};
+
 static double
-spread_of(double r2, enum spread kind)
+spread_of(double r2, const struct spread *s)
 {
-    double root = sqrt(sqrt(r2)), cube = root * root * root;
+    double root = sqrt(sqrt(r2)), near = 1 / (r2 * root), far = 1 + sqrt(r2) / s->bends;
 
     if (r2 == 0)
         return 0;
-    return 1 / (kind == ON_MAP ? r2 * root : kind == ON_LINE ? cube : r2 * cube);
+    return s->kind == ON_MAP    ? near
+           : s->kind == ON_LINE ? 1 / (root * root * root)
+                                : near / (far * sqrt(far));
 }
 
 static void
@@ -56,12 +64,11 @@ spread_rows(const void *of, const struct rc_lattice *at, size_t n, size_t first,
 {
     double dx = (double)at->sx * at->dx, dy = (double)at->sy * at->dy;
     double unit = 1 / (at->dx * at->dy); /* of squared lengths */
-    enum spread kind = *(const enum spread *)of;
 
     for (size_t j = first; j < last; j++, out += n)
         for (size_t i = 0; i < n; i++) {
             double x = (double)i * dx, y = (double)j * dy;
-            out[i] = spread_of((x * x + y * y) * unit, kind);
+            out[i] = spread_of((x * x + y * y) * unit, of);
         }
 }
 
@@ -139,8 +146,6 @@ clear_sides(const struct rc_preconditioner *e, float *row)
     memset(row + e->op->frame.x + e->unit.nx, 0, e->op->frame.x * sizeof *row);
 }
 
-static const enum spread kinds[] = {ON_MAP, ON_LINE, ON_COAT};
-
 /* The fade f of the extension is for nodes that W does not surround. S, the sum over W of
  * |x_ij|^(-5/2) d_i^(1/2), tells how far W does: it is 4.8 beside a straight edge. Near small patches
  * the extension has to fall off to the mean, 0. Where W is all around it must not: on a periodic map a
@@ -165,10 +170,10 @@ is_line(const struct rc_operator *op)
     return op->boundary == RC_PERIODIC && (op->whole.nx == 1 || op->whole.ny == 1);
 }
 
-static enum spread
-spread_on(const struct rc_operator *op)
+static enum kind
+kind_on(const struct rc_operator *op)
 {
-    return is_line(op) ? ON_LINE : op->bends ? ON_COAT : ON_MAP;
+    return is_line(op) ? ON_LINE : op->bends > 0 ? ON_COAT : ON_MAP;
 }
 
 struct rc_preconditioner *
@@ -177,9 +182,9 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
     struct rc_preconditioner *e = calloc(1, sizeof *e);
     size_t n = op->shape.nx * op->shape.ny, frame;
     double unit = sqrt(op->shape.dx) * sqrt(op->shape.dy);
-    enum spread kind = spread_on(op);
-    bool line = kind == ON_LINE;
-    const struct rc_kernel spread = {.rows = spread_rows, .of = &kinds[kind]};
+    const struct spread of = {kind_on(op), op->bends};
+    bool line = of.kind == ON_LINE;
+    const struct rc_kernel spread = {.rows = spread_rows, .of = &of};
 
     if (e == NULL)
         goto short_of_memory;
@@ -189,7 +194,7 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
     e->unit.dx /= unit;
     e->unit.dy /= unit;
     e->fade = (float)(op->extension * (line ? fade_on_line : 1));
-    e->fades = kind != ON_COAT;
+    e->fades = of.kind != ON_COAT;
     e->surrounded = line ? surrounded_on_line : surrounded;
     e->own = rc_distance_scratch(&e->unit) + op->shape.nx;
     e->node = rc_alloc(n, sizeof *e->node);

@@ -439,7 +439,7 @@ static const double little = 1e-3, much = 1.0;
 static double
 ignored(const struct rc_solver *s)
 {
-    return s->op->bends ? 0 : little * (double)s->set.size;
+    return s->op->bends > 0 ? 0 : little * (double)s->set.size;
 }
 
 static void
