@@ -159,40 +159,87 @@ createc_scans(void **state)
     drop(&m);
 }
 
+/* Reads a made scan of Createc whose header ends in these lines; every height has to be so many nanometres
+ * a count, to `most` of it. */
+static void
+createc_counts_are(const char *lines, double count, double most)
+{
+    struct bytes m = {0};
+    struct rc_err err = {""};
+    struct rc_grid *g;
+    char *place;
+
+    make_createc(&m, 1);
+    place = strstr((char *)m.data, "Delta X");
+    assert_non_null(place);
+    memset(place, 0, strlen(place));
+    strcpy(place, lines);
+    if ((g = read_made("createc", &m, 0, &err)) == NULL)
+        fail_msg("%s", err.text);
+    for (size_t n = 0; n < NX * NY; n++)
+        assert_true(fabs(g->v[n] - value_of(n, true) * count * 1e-9) <= most * fabs(g->v[n]));
+    rc_grid_free(g);
+    drop(&m);
+}
+
 /* What is a count of z, in a header that gives it as 0.00038: 20 V over 2^20 counts, amplified 10 times, on a
- * piezo of 20 Angstrom per volt, are 4000 / 2^20 Angstrom. Where the piezo does not fit the file's figure
- * stays. */
+ * piezo of 20 Angstrom per volt, are 4000 / 2^20 Angstrom. Where the piezo does not fit, the file's figure
+ * stays, times the gain. */
 static void
 createc_counts(void **state)
 {
     static const struct {
-        const char *piezo;
+        const char *piezo, *gain;
         double count; /* nm */
-    } rows[] = {{"20.00", 400 / 1048576.0}, {"30.00", 0.00038}, {"0", 0.00038}, {"x", 0.00038}};
+    } rows[] = {{"20.00", "10", 400 / 1048576.0}, {"20.00", "3", 120 / 1048576.0},
+                {"20.00", "1", 40 / 1048576.0},   {"30.00", "10", 0.00038},
+                {"30.00", "3", 0.00038 * 0.3},    {"0", "10", 0.00038},
+                {"x", "30", 0.00038 * 3}};
+    char lines[256];
 
     (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
-        struct bytes m = {0};
-        struct rc_err err = {""};
-        struct rc_grid *g;
-        char *place;
-
-        make_createc(&m, 1);
-        place = strstr((char *)m.data, "Delta X");
-        assert_non_null(place);
-        memset(place, 0, strlen(place));
-        sprintf(place,
-                "Delta X / Delta X [Dac]=576755\r\nGainZ / GainZ=10\r\nZPiezoconst=%s\r\n"
-                "Dacto[A]xy=0.00191\r\nDacto[A]z=0.00038\r\n",
-                rows[k].piezo);
-        if ((g = read_made("createc", &m, 0, &err)) == NULL)
-            fail_msg("%s", err.text);
-        for (size_t n = 0; n < NX * NY; n++)
-            assert_true(fabs(g->v[n] - value_of(n, true) * rows[k].count * 1e-9) <=
-                        last_digit * fabs(g->v[n]));
-        rc_grid_free(g);
-        drop(&m);
+        snprintf(lines, sizeof lines,
+                 "Delta X / Delta X [Dac]=576755\r\nGainZ / GainZ=%s\r\nZPiezoconst=%s\r\n"
+                 "Dacto[A]xy=0.00191\r\nDacto[A]z=0.00038\r\n",
+                 rows[k].gain, rows[k].piezo);
+        createc_counts_are(lines, rows[k].count, last_digit);
     }
+    /* the factor holds the gain already, in Angstrom; there is none */
+    createc_counts_are("Delta X / Delta X [Dac]=576755\r\nGainX / GainX=3\r\nGainZ / GainZ=10\r\n"
+                       "ZPiezoconst=20\r\nDacto[A]xy=0.01907\r\nDacto[A]z=0.00381\r\n",
+                       400 / 1048576.0, last_digit);
+    createc_counts_are("GainZ / GainZ=3\r\nZPiezoconst=20\r\n", 120 / 1048576.0, last_digit);
+}
+
+/* The figures of three headers of real files. Z-Res. is what the instrument's own program made of 128 steps
+ * of grey, each of Imagegrayfactor counts. Both are given to three or four digits. */
+static void
+createc_headers(void **state)
+{
+    static const struct {
+        const char *lines;
+        double resolution, grey; /* Angstrom; counts */
+    } rows[] = {
+        {"Length x[A]=29.29777\r\nDelta X / Delta X [Dac]=512\r\nGainX / GainX=10\r\n"
+         "GainZ / GainZ=3\r\nDacto[A]xy=0.00191\r\nDacto[A]z=0.00038\r\nZPiezoconst= 20.00\r\n",
+         4.749, 32.416},
+        {"Length x[A]=4.529435\r\nDelta X / Delta X [Dac]=256\r\nGainX / GainX=10\r\n"
+         "GainZ / GainZ=10\r\nDacto[A]xy=0.00059\r\nDacto[A]z=0.00014\r\nZPiezoconst=  7.33\r\n",
+         3.039, 16.979},
+        {"DAC-Type=16bit\r\nLength x[A]=14.64888\r\nDelta X / Delta X [Dac]=16\r\n"
+         "GainX / GainX=10\r\nGainZ / GainZ=10\r\nDacto[A]xy=0.03052\r\nDacto[A]z=0.00610\r\n"
+         "ZPiezoconst= 20.00\r\n",
+         7.809, 0.999},
+        {"Length x[A]=14.64888\r\nDelta X / Delta X [Dac]=16\r\n"
+         "GainX / GainX=10\r\nGainZ / GainZ=10\r\nDacto[A]xy=0.03052\r\nDacto[A]z=0.00610\r\n",
+         7.809, 0.999},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+        createc_counts_are(rows[k].lines, 0.1 * rows[k].resolution / 128 / rows[k].grey,
+                           k < 3 ? 6e-4 : 2e-3);
 }
 
 /* The wave has one unit for all its channels; labels show which have another. */
@@ -695,6 +742,7 @@ main(void)
         cmocka_unit_test(other_channels),
         cmocka_unit_test(createc_scans),
         cmocka_unit_test(createc_counts),
+        cmocka_unit_test(createc_headers),
         cmocka_unit_test(keys),
         cmocka_unit_test(text_profiles),
         cmocka_unit_test(one_column),

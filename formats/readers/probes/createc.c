@@ -6,11 +6,13 @@
  *     [Paramet32]   float, behind 4
  *     [Paramco32]   the same in a zlib stream
  *
- * The spacing is Length x[A] over Num.X. A height is number * Dactonmz in nanometres or, as newer
- * files have it, number * Dacto[A]z, which says Angstrom and often means nanometres: that of x tells,
- * because Delta X times Dacto[A]xy must be the spacing. Where it is neither, the unit of the heights
- * is not known. These factors are given to five decimals, 0.00038 where 0.000381470 is meant: the latter is
- * taken, GainZ * ZPiezoconst times 20 V over the counts of the converter, where it rounds to what is given.
+ * The spacing is Length x[A] over Num.X. A count of z is GainZ * ZPiezoconst * 20 V over the counts of the
+ * converter, in Angstrom; so are Z-Res. [A] in headers of real files, which is 128 * Imagegrayfactor counts.
+ * That is taken where it fits the factor that the file gives to five decimals: Dacto[A]z, which is that of gain
+ * 1 (0.00038 at 20 Angstrom per volt, whatever GainZ), or the count itself, or Dactonmz, that in
+ * nanometres. Where it does not, x tells: Delta X times Dacto[A]xy times GainX is the spacing, and Dacto[A]z
+ * is to be multiplied by GainZ, or it is without GainX, and nothing is. Where it is neither, the unit of
+ * the heights is not known.
  *
  * Written from how Gwyddion, createc 0.0.3 and others read such files.
  */
@@ -40,7 +42,7 @@ struct createc {
     double width, height;        /* Angstrom */
     double step, xy, z;          /* counts from node to node; a count in x, in z */
     double z_nm;                 /* the same, in nm for certain */
-    double gain, piezo;          /* of z; Angstrom per volt */
+    double gain_x, gain, piezo;  /* gain: of z; Angstrom per volt */
     double bits;                 /* of the converter, whose range is 20 V */
 };
 
@@ -51,8 +53,8 @@ static const struct rc_field fields[] = {
     {"Length x[A]", RC_FIELD_NUMBER, TO(width)}, {"Length y[A]", RC_FIELD_NUMBER, TO(height)},
     {"Delta X", RC_FIELD_NUMBER, TO(step)},      {"Delta X [Dac]", RC_FIELD_NUMBER, TO(step)},
     {"Dacto[A]xy", RC_FIELD_NUMBER, TO(xy)},     {"Dacto[A]z", RC_FIELD_NUMBER, TO(z)},
-    {"Dactonmz", RC_FIELD_NUMBER, TO(z_nm)},     {"GainZ", RC_FIELD_NUMBER, TO(gain)},
-    {"ZPiezoconst", RC_FIELD_NUMBER, TO(piezo)},
+    {"Dactonmz", RC_FIELD_NUMBER, TO(z_nm)},     {"GainX", RC_FIELD_NUMBER, TO(gain_x)},
+    {"GainZ", RC_FIELD_NUMBER, TO(gain)},        {"ZPiezoconst", RC_FIELD_NUMBER, TO(piezo)},
 };
 #undef TO
 
@@ -96,7 +98,7 @@ read_header(const struct rc_file *file, struct createc *c, struct rc_maps *maps,
                              .end = (const char *)file->data + HEADER};
     struct rc_piece line;
 
-    *c = (struct createc){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    *c = (struct createc){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     if (kind_of(file) == NULL)
         return rc_err_set(err, "no DAT file of Createc: it begins with none of [Parameter], "
                                "[Paramet32], [Paramco32]");
@@ -163,35 +165,52 @@ fill_plane(const struct rc_file *file, const struct rc_wish *wish, const struct 
     return RC_OK;
 }
 
-/* The unit in which a count is given, as x shows: NAN where it is neither nanometres nor Angstrom. */
-static double
-unit_of_count(const struct createc *c)
+/* Whether the file, which has five decimals, gives this one. */
+static bool
+is_given(double exact, double given)
+{
+    return exact > 0 && fabs(exact - given) <= 5.001e-6;
+}
+
+/* Whether Delta X times Dacto[A]xy is the spacing but for this gain. */
+static bool
+fits_x(const struct createc *c, double gain)
 {
     double ratio = c->width / c->nx / (c->step * c->xy);
 
-    return fabs(ratio - 10) <= 0.1 ? 1e-9 : fabs(ratio - 1) <= 0.01 ? 1e-10 : NAN;
+    return fabs(ratio / gain - 1) <= 0.01 + 5e-6 / fabs(c->xy);
 }
 
-/* A count of z in that unit, of which `given` has five decimals. */
-static double
-exact_count(const struct createc *c, double given, double metres)
+static void
+set_scale(struct rc_map *map, double scale, double metres)
 {
-    double exact = c->gain * c->piezo * 20 / exp2(c->bits) * (1e-10 / metres);
-
-    return exact > 0 && fabs(exact - given) <= 5.001e-6 ? exact : given;
+    map->scale = scale;
+    map->si = metres;
+    strcpy(map->unit, "m");
 }
 
 static void
 set_unit(const struct createc *c, struct rc_map *map)
 {
-    double metres = !isnan(c->z_nm) ? 1e-9 : unit_of_count(c);
+    double count = c->gain * c->piezo * 20 / exp2(c->bits), bare = count / c->gain; /* Angstrom */
+    double gain_x = isnan(c->gain_x) ? 10 : c->gain_x, gain_z = c->gain > 0 ? c->gain : gain_x;
+    bool is_nm = !isnan(c->z_nm), fits;
 
-    map->scale = !isnan(c->z_nm) ? c->z_nm : !isnan(c->z) ? c->z : 1;
-    if (isnan(metres) || (isnan(c->z_nm) && isnan(c->z)))
-        return;
-    map->scale = exact_count(c, map->scale, metres);
-    strcpy(map->unit, "m");
-    map->si = metres;
+    fits = is_nm         ? is_given(count / 10, c->z_nm)
+           : isnan(c->z) ? count > 0
+                         : is_given(count / 10, c->z) || is_given(bare, c->z);
+    if (fits)
+        set_scale(map, count * (1e-10 / 1e-9), 1e-9);
+    else if (is_nm)
+        set_scale(map, c->z_nm, 1e-9);
+    else if (is_given(count, c->z))
+        set_scale(map, count, 1e-10);
+    else if (!isnan(c->z) && fits_x(c, gain_x))
+        set_scale(map, c->z * (gain_z / 10), 1e-9);
+    else if (!isnan(c->z) && fits_x(c, 1))
+        set_scale(map, c->z, 1e-10);
+    else
+        map->scale = isnan(c->z) ? 1 : c->z; /* of what, the user has to say */
 }
 
 static enum rc_status
