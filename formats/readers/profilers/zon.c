@@ -6,7 +6,7 @@
  * is int32 * metres per count; where one of the lowest two bits of the byte is set nothing was
  * measured, or was not to be.
  *
- * In files that begin with KPK1 each member is packed by zstd too.
+ * In files that begin with KPK1 each member is packed by zstd too, which its first bytes say as well.
  *
  * Written from how SurfaceTopography reads such files.
  */
@@ -96,7 +96,7 @@ member_bytes(const struct zon *z, const struct rc_file *file, size_t member, con
         return NULL;
     }
     packed = rc_zip_read_bytes(z->archive, member, size, &packed_n, NULL, err);
-    if (packed == NULL || !is_packed(file)) {
+    if (packed == NULL || packed_n < 4 || memcmp(packed, "\x28\xb5\x2f\xfd", 4) != 0) {
         *n = packed_n;
         return packed;
     }
