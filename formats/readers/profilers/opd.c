@@ -17,6 +17,7 @@ enum {
 
 struct block {
     struct rc_piece name;
+    int type; /* 6: int16, 7: float, 8: double, 12: int32; other ones are no numbers */
     size_t at, n;
 };
 
@@ -40,6 +41,17 @@ has_directory(const struct rc_file *file)
     return rc_file_holds(file, 0, "\1", 2) && rc_file_holds(file, START, "Directory", 10);
 }
 
+/* How a block holds its number: by its type, or as files have it that are known. */
+static enum rc_raw
+number_of(const struct block *b, enum rc_raw usual)
+{
+    return b->type == 6    ? RC_RAW_I16
+           : b->type == 7  ? RC_RAW_F32
+           : b->type == 8  ? RC_RAW_F64
+           : b->type == 12 ? RC_RAW_I32
+                           : usual;
+}
+
 static void
 take_block(const struct rc_file *file, struct block b, struct opd *o, struct rc_maps *maps)
 {
@@ -58,11 +70,14 @@ take_block(const struct rc_file *file, struct block b, struct opd *o, struct rc_
     for (size_t k = 0; k < sizeof height_names / sizeof *height_names; k++)
         if (rc_piece_is(b.name, height_names[k]) && b.n >= MATRIX && o->heights.n == 0)
             o->heights = b;
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-        if (rc_piece_is(b.name, numbers[k].name) && b.n >= rc_raw_width(numbers[k].raw)) {
-            double value = rc_bytes_at(&bytes, b.at, numbers[k].raw);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+        enum rc_raw raw = number_of(&b, numbers[k].raw);
+
+        if (rc_piece_is(b.name, numbers[k].name) && b.n >= rc_raw_width(raw)) {
+            double value = rc_bytes_at(&bytes, b.at, raw);
             memcpy((char *)o + numbers[k].at, &value, sizeof value);
         }
+    }
     rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, b.name, rc_file_text(file, b.at, b.n));
 }
 
@@ -82,7 +97,8 @@ read_directory(const struct rc_file *file, struct opd *o, struct rc_maps *maps, 
     for (size_t k = 1; k < entries; k++) {
         size_t entry = START + ENTRY * k;
         const char *name = (const char *)file->data + entry;
-        struct block b = {{name, strnlen(name, NAME)}, at, 0};
+        struct block b = {
+            {name, strnlen(name, NAME)}, (int)rc_bytes_at(&bytes, entry + NAME, RC_RAW_I16), at, 0};
 
         length = rc_bytes_at(&bytes, entry + NAME + 2, RC_RAW_I32);
         if (length < 0 || length > (double)(file->size - at))

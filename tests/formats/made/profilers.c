@@ -106,7 +106,7 @@ opd_entry(struct bytes *m, const char *name, int type, double length)
     set_raw(m, at + 22, RC_RAW_U16, 0xffff);
 }
 
-/* 0: floats in RAW_DATA, 1: 16 bits in "RAW DATA", 2: floats in Raw */
+/* 0: floats in RAW_DATA, 1: 16 bits in "RAW DATA", 2: floats in Raw, and numbers of other types than usual */
 void
 make_opd(struct bytes *m, int variant)
 {
@@ -116,10 +116,10 @@ make_opd(struct bytes *m, int variant)
     opd_entry(m, "Directory", 1, 8 * 24);
     opd_entry(m, "odd \xff\xfe block", 15, 3);
     opd_entry(m, names[variant], 3, 6 + 6 * (variant == 1 ? 2 : 4));
-    opd_entry(m, "Wavelength", 7, 4);
+    opd_entry(m, "Wavelength", variant == 2 ? 12 : 7, 4);
     opd_entry(m, "Pixel_size", 7, 4);
-    opd_entry(m, "Aspect", 7, 4);
-    opd_entry(m, "Mult", 6, 2);
+    opd_entry(m, "Aspect", variant == 2 ? 8 : 7, variant == 2 ? 8 : 4);
+    opd_entry(m, "Mult", variant == 2 ? 7 : 6, variant == 2 ? 4 : 2);
     opd_entry(m, "Title", 5, 8);
     add_text(m, "abc");
     add_raw(m, RC_RAW_U16, NX);
@@ -127,10 +127,10 @@ make_opd(struct bytes *m, int variant)
     add_raw(m, RC_RAW_U16, variant == 1 ? 2 : 4);
     add_map(m, variant == 1 ? RC_RAW_I16 : RC_RAW_F32, COLUMNS | BOTTOM,
             variant == 1 ? 32767 : 1e38, 0);
-    add_raw(m, RC_RAW_F32, 640);
+    add_raw(m, variant == 2 ? RC_RAW_I32 : RC_RAW_F32, 640);
     add_raw(m, RC_RAW_F32, 1.1e-3);
-    add_raw(m, RC_RAW_F32, 1.25);
-    add_raw(m, RC_RAW_I16, 8);
+    add_raw(m, variant == 2 ? RC_RAW_F64 : RC_RAW_F32, 1.25);
+    add_raw(m, variant == 2 ? RC_RAW_F32 : RC_RAW_I16, 8);
     add_text(m, "a title");
     add_zeros(m, 1);
 }
