@@ -13,7 +13,8 @@
  *     "12.345","","12.347",...
  *
  * So nothing is known by its key: the size must stand in two rows that follow each other. Nothing
- * between quotes is a missing point. The micro sign comes in UTF-8, Latin-1, Shift-JIS and GBK.
+ * between quotes is a missing point. The micro sign comes in UTF-8, Latin-1, Shift-JIS, GBK
+ * and CP949.
  *
  * Written from how programs of others read and write such files (kcsv2bcr and others).
  */
@@ -60,13 +61,16 @@ cells_of(struct rc_piece line, struct rc_piece *cell, size_t most)
     return n;
 }
 
-/* As rc_piece_metres, with the micro signs of Shift-JIS and GBK. */
+/* As rc_piece_metres, with the micrometres of Shift-JIS, GBK and CP949, and those of one letter. */
 static double
 metres_of(struct rc_piece unit)
 {
-    if (unit.n == 3 &&
-        (memcmp(unit.text, "\x83\xcam", 3) == 0 || memcmp(unit.text, "\xa6\xccm", 3) == 0))
-        return 1e-6;
+    static const char *const micrometres[] = {"\x83\xcam", "\xa6\xccm", "\xa5\xecm", "\xa7\xad",
+                                              "\xe3\x8e\x9b" /* U+339B */};
+
+    for (size_t k = 0; k < sizeof micrometres / sizeof *micrometres; k++)
+        if (rc_piece_is(unit, micrometres[k]))
+            return 1e-6;
     return rc_piece_metres(unit);
 }
 

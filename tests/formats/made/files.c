@@ -82,6 +82,8 @@ const struct made_file made_files[] = {
     {"Keyence, Shift-JIS", "keyence", "a.csv", make_keyence, 2, HAS_MISSING | SQUARE | IS_TEXT,
      1e-6, 0},
     {"Keyence, GBK", "keyence", "a.csv", make_keyence, 3, HAS_MISSING | SQUARE | IS_TEXT, 1e-6, 0},
+    {"Keyence, CP949", "keyence", "a.csv", make_keyence, 4, HAS_MISSING | SQUARE | IS_TEXT, 1e-6,
+     0},
     {"Wyko text", "wykotext", "a.asc", make_wykotext, 0, HAS_MISSING | IS_TEXT, 80e-9, 0},
     {"Wyko text, nm", "wykotext", "a.asc", make_wykotext, 1, HAS_MISSING | IS_TEXT, 1e-9, 0},
     {"Zygo XYZ", "zygo", "a.xyz", make_zygo, 0, HAS_MISSING | SQUARE, 1e-9, 0},

@@ -14,7 +14,8 @@ add_word(struct bytes *m, size_t k, const char *form, const char *missing)
 }
 
 /* 0: with commas, in English; 1: with semicolons and decimal commas, in German, with a break in the header
- * and the micro sign of Latin-1; 2: in Japanese, Shift-JIS; 3: in Chinese, GBK */
+ * and the micro sign of Latin-1; 2: in Japanese, Shift-JIS; 3: in Chinese, GBK; 4: in Korean,
+ * CP949 */
 void
 make_keyence(struct bytes *m, int variant)
 {
@@ -38,6 +39,9 @@ make_keyence(struct bytes *m, int variant)
         "\"\xce\xc4\xbc\xfe\",\"ImageDataCsv\"\r\n\"XY\",\"1.1\",\"\xa6\xccm\"\r\n\"\xcb\xae\","
         "\"3\"\r\n"
         "\"\xb4\xb9\",\"2\"\r\n\"\xb5\xa5\",\"\xa6\xccm\"\r\n\r\n\"\xb8\xdf\"\r\n",
+        "\"\xb1\xe2\xc1\xbe\",\"ImageDataCsv\"\r\n\"XY\",\"1.1\",\"\xa5\xecm\"\r\n"
+        "\"\xb0\xa1\xb7\xce\",\"3\"\r\n\"\xbc\xbc\xb7\xce\",\"2\"\r\n"
+        "\"\xb4\xdc\xc0\xa7\",\"\xa7\xad\"\r\n\r\n\"\xb3\xf4\xc0\xcc\"\r\n",
     };
 
     add_text(m, heads[variant]);
