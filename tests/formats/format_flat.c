@@ -361,6 +361,7 @@ doubts(void **state)
         {"tmd", make_tmd, 1, NULL},
         {"wykotext", make_wykotext, 0, "Mult is not 1"},
         {"wykotext", make_wykotext, 1, "Mult is not 1"},
+        {"wykotext", make_wykotext, 3, "files of points that are known have nanometres"},
         {"opd", make_opd, 0, NULL},
     };
 

@@ -12,7 +12,8 @@
  *     RAW_DATA <tab> 3 <tab> 1228800 <tab>
  *
  * Numbers are in units of the wavelength over Mult, or, where the first flag is 1, nanometres. `Bad` is
- * missing. Written from how Gwyddion and SurfaceTopography read such files: the former multiplies by Mult
+ * missing. Other files have a point a line instead, x and y in millimetres and z in nanometres, column by
+ * column. Written from how Gwyddion and SurfaceTopography read such files: the former multiplies by Mult
  * since a version between 2.50 and 2.71, in nanometres too, and divided by it before, as the latter does.
  */
 #include <math.h>
@@ -25,7 +26,7 @@ static const char magic[] = "Wyko ASCII Data File Format";
 struct wyko {
     double nx, ny, wavelength, pixel, aspect, factor;
     bool nanometres;
-    size_t at; /* of the heights; 0: none */
+    struct rc_lines heights; /* the lines behind that of their block */
 };
 
 static const struct rc_field fields[] = {
@@ -51,7 +52,7 @@ is_heights(struct rc_piece name)
            rc_piece_is(name, "OPD") || rc_piece_is(name, "SAMPLE_DATA");
 }
 
-/* Reads up to the line of the heights. */
+/* Reads up to the line of the heights; texts are kept where `maps` is not NULL. */
 static enum rc_status
 read_header(const struct rc_file *file, struct wyko *w, struct rc_maps *maps, struct rc_err *err)
 {
@@ -67,12 +68,13 @@ read_header(const struct rc_file *file, struct wyko *w, struct rc_maps *maps, st
         if (!rc_piece_part(line, "\t", &key, &value))
             continue;
         if (is_heights(key)) {
-            w->at = (size_t)(lines.at - (const char *)file->data);
+            w->heights = lines;
             return RC_OK;
         }
         /* a block: its type and length before its value */
         if (rc_piece_part(value, "\t", &line, &rest) && rc_piece_part(rest, "\t", &line, &value)) {
-            rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, key, value);
+            if (maps != NULL)
+                rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, key, value);
         } else if (!rc_piece_is(key, "X Size") && !rc_piece_is(key, "Y Size"))
             continue;
         if (rc_field_take(fields, sizeof fields / sizeof *fields, key, value, w, err) != RC_OK)
@@ -81,13 +83,102 @@ read_header(const struct rc_file *file, struct wyko *w, struct rc_maps *maps, st
     return rc_err_set(err, "the file holds no block RAW_DATA, OPD or SAMPLE_DATA");
 }
 
+/* ---- points ---- */
+
+/* The next line that holds something. */
+static bool
+next_line(struct rc_lines *lines, struct rc_piece *line)
+{
+    while (rc_lines_next(lines, &line->text, &line->n))
+        if ((*line = rc_piece_trim(*line)).n > 0)
+            return true;
+    return false;
+}
+
+static size_t
+words_of(struct rc_piece line)
+{
+    size_t n = 0;
+
+    for (size_t k = 0; k < line.n; k++)
+        n += line.text[k] > ' ' && (k == 0 || line.text[k - 1] <= ' ');
+    return n;
+}
+
+/* x and y in millimetres, and the number that is the height, NAN where it is Bad. */
+static enum rc_status
+next_point(struct rc_lines *lines, double point[3], struct rc_err *err)
+{
+    struct rc_piece line, rest;
+    char quote[RC_SHOWN];
+
+    if (!next_line(lines, &line))
+        return rc_err_set(err, "the file ends before its last point");
+    point[2] = NAN;
+    if (rc_piece_number(line, &point[0], &rest) && rc_piece_number(rest, &point[1], &rest) &&
+        (rc_piece_is(rest, "Bad") || (rc_piece_number(rest, &point[2], &rest) && rest.n == 0)))
+        return RC_OK;
+    return rc_err_set(err, "line %zu is '%s': x, y and a height or 'Bad' are expected",
+                      lines->number, rc_piece_shown(quote, line));
+}
+
+static enum rc_status
+fill_points(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+            double *v, struct rc_err *err)
+{
+    double point[3], x = NAN;
+    struct wyko w;
+
+    (void)wish;
+    if (read_header(file, &w, NULL, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < map->nx * map->ny; k++) {
+        if (next_point(&w.heights, point, err) != RC_OK)
+            return RC_FAIL;
+        if ((point[0] == x) == (k % map->ny == 0))
+            return rc_err_set(err, "line %zu is at x = %g: the %zu points of a column are at one x",
+                              w.heights.number, point[0], map->ny);
+        x = point[0];
+        v[k] = point[2];
+    }
+    return RC_OK;
+}
+
+/* Where the first column and the one behind it begin, and whether it rises. */
+static enum rc_status
+set_points(struct wyko *w, struct rc_map *map, struct rc_err *err)
+{
+    struct rc_lines lines = w->heights;
+    double first[3], point[3];
+
+    if (next_point(&lines, first, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 1; k <= map->ny && map->nx * map->ny > k; k++) {
+        if (next_point(&lines, point, err) != RC_OK)
+            return RC_FAIL;
+        if (k == 1 && map->ny > 1)
+            map->bottom_first = point[1] > first[1];
+        if (k == map->ny)
+            map->right_first = point[0] < first[0];
+    }
+    map->fill = fill_points;
+    if (!w->nanometres)
+        map->doubt = "the first line says wavelengths, files of points that are known have "
+                     "nanometres, which are taken: --z-unit is the mend";
+    w->nanometres = true;
+    return RC_OK;
+}
+
 static enum rc_status
 wykotext_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
               struct rc_err *err)
 {
     struct wyko w = {
         .nx = NAN, .ny = NAN, .wavelength = NAN, .pixel = NAN, .aspect = 1, .factor = 1};
+    struct rc_piece line = {"", 0};
+    struct rc_lines lines;
     struct rc_map *map;
+    size_t words;
 
     (void)wish;
     if (read_header(file, &w, maps, err) != RC_OK)
@@ -95,7 +186,7 @@ wykotext_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     map = rc_maps_add(maps, "", 0);
     if (rc_map_count("columns (X Size)", w.nx, &map->nx, err) != RC_OK ||
         rc_map_count("rows (Y Size)", w.ny, &map->ny, err) != RC_OK ||
-        rc_map_is_text(map, file, w.at, err) != RC_OK)
+        rc_map_is_text(map, file, (size_t)(w.heights.at - (const char *)file->data), err) != RC_OK)
         return RC_FAIL;
     map->by_columns = map->bottom_first = true;
     map->dx = w.pixel * 1e-3;
@@ -104,6 +195,15 @@ wykotext_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_
         map->doubt = "Mult is not 1: heights in wavelengths are divided by it, as in OPD files, "
                      "those in nanometres "
                      "are not; other programs multiply by it: --z-unit is the mend";
+    lines = w.heights;
+    next_line(&lines, &line);
+    words = words_of(line);
+    if (words != map->ny && words != 3)
+        return rc_err_set(err,
+                          "line %zu has %zu numbers: it must have the %zu of Y Size, or be a point",
+                          lines.number, words, map->ny);
+    if (words != map->ny && set_points(&w, map, err) != RC_OK)
+        return RC_FAIL;
     if (w.nanometres)
         w.wavelength = w.factor = 1;
     map->scale = (isnan(w.wavelength) ? 1 : w.wavelength) / w.factor;

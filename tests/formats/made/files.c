@@ -86,6 +86,8 @@ const struct made_file made_files[] = {
      0},
     {"Wyko text", "wykotext", "a.asc", make_wykotext, 0, HAS_MISSING | IS_TEXT, 80e-9, 0},
     {"Wyko text, nm", "wykotext", "a.asc", make_wykotext, 1, HAS_MISSING | IS_TEXT, 1e-9, 0},
+    {"Wyko text, points", "wykotext", "a.asc", make_wykotext, 2, HAS_MISSING | IS_TEXT, 1e-9, 0},
+    {"Wyko text, turned", "wykotext", "a.asc", make_wykotext, 3, HAS_MISSING | IS_TEXT, 1e-9, 0},
     {"Zygo XYZ", "zygo", "a.xyz", make_zygo, 0, HAS_MISSING | SQUARE, 1e-9, 0},
     {"Zygo ASCII 0", "zygo", "a.asc", make_zygo, 1, HAS_MISSING | SQUARE, 6.25e-7 / 4096, 0},
     {"Zygo ASCII 1", "zygo", "a.asc", make_zygo, 2, HAS_MISSING | SQUARE, 6.25e-7 / 32768, 0},

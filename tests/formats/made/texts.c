@@ -54,20 +54,30 @@ make_keyence(struct bytes *m, int variant)
     }
 }
 
-/* 0: in units of a wavelength, 1: in nanometres */
+/* 0: in units of a wavelength, 1: in nanometres, 2: points in nanometres, 3: those from the upper right down,
+ * where the header says wavelengths */
 void
 make_wykotext(struct bytes *m, int variant)
 {
-    add_text(m, variant == 0 ? "Wyko ASCII Data File Format 0\t0\t1\r\n"
-                             : "Wyko ASCII Data File Format 0\t1\t1\r\n");
+    char place[64];
+
+    add_text(m, variant % 3 == 0 ? "Wyko ASCII Data File Format 0\t0\t1\r\n"
+                                 : "Wyko ASCII Data File Format 0\t1\t1\r\n");
     add_text(
         m, "X Size\t3\r\nY Size\t2\r\nBlock Name\tType\tLength\tValue\r\nWavelength\t7\t4\t640\r\n"
            "Aspect\t7\t4\t1.1727272727272728\r\nTitle\t5\t20\ta title\r\nNote\t5\t60\t\r\n"
            "Pixel_size\t7\t4\t0.0011\r\nMult\t6\t2\t8\r\nRAW_DATA\t3\t24\t\r\n");
-    for (size_t i = 0; i < NX; i++) /* a column a line, the lowest first */
-        for (size_t j = NY; j-- > 0;) {
+    for (size_t n = 0; n < NX; n++) /* a column a line, the lowest first */
+        for (size_t k = NY; k-- > 0;) {
+            size_t i = variant == 3 ? NX - 1 - n : n, j = variant == 3 ? NY - 1 - k : k;
+
+            if (variant >= 2) {
+                snprintf(place, sizeof place, "%.6f\t%.6f\t", 0.0011 * (double)i,
+                         0.00129 * (double)(NY - 1 - j));
+                add_text(m, place);
+            }
             add_word(m, j * NX + i, "%.2f", "Bad");
-            add_text(m, j > 0 ? "\t" : "\r\n");
+            add_text(m, k > 0 && variant < 2 ? "\t" : "\r\n");
         }
 }
 
