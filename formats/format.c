@@ -25,6 +25,33 @@ rc_format_named(const char *name)
     return NULL;
 }
 
+/* What users hand over that holds no heights, or holds them packed. */
+static const char *
+other_file(const struct rc_file *file)
+{
+    static const struct {
+        const char *magic, *what;
+    } kinds[] = {
+        {"\x89PNG",
+         "a PNG picture has colours, no heights: the program that it comes from may save "
+         "X3P, SDF or text"},
+        {"\xff\xd8\xff",
+         "a JPEG picture has colours, no heights: the program that it comes from may "
+         "save X3P, SDF or text"},
+        {"%PDF", "a PDF document holds no heights that could be read"},
+        {"BZh", "the file is packed with bzip2: unpack it first (bunzip2)"},
+        {"\xfd"
+         "7zXZ",
+         "the file is packed with xz: unpack it first (unxz)"},
+        {"\x28\xb5\x2f\xfd", "the file is packed with zstd: unpack it first (unzstd)"},
+    };
+
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        if (rc_file_holds(file, 0, kinds[k].magic, strlen(kinds[k].magic)))
+            return kinds[k].what;
+    return NULL;
+}
+
 const struct rc_format *
 rc_format_find(const struct rc_file *file, struct rc_err *err)
 {
@@ -45,6 +72,8 @@ rc_format_find(const struct rc_file *file, struct rc_err *err)
         rc_err_set(err, "the file is empty");
     else if (rc_file_holds(file, 0, "\x1f\x8b", 2))
         rc_err_set(err, "the file is packed with gzip twice: unpack it once (gunzip)");
+    else if (other_file(file) != NULL)
+        rc_err_set(err, "%s", other_file(file));
     else
         rc_err_set(
             err,

@@ -565,6 +565,35 @@ what_is_no_text_is_not_recognised(void **state)
     }
 }
 
+/* What users hand over instead of heights is named. */
+static void
+other_files(void **state)
+{
+    static const struct {
+        const char *begin, *why;
+    } rows[] = {
+        {"\x89PNG\r\n\x1a\n", "a PNG picture has colours, no heights"},
+        {"\xff\xd8\xff\xe0", "a JPEG picture"},
+        {"%PDF-1.7\n1 0 obj\n", "a PDF document"},
+        {"BZh91AY&SY", "packed with bzip2"},
+        {"\xfd"
+         "7zXZ",
+         "packed with xz: unpack it first (unxz)"},
+        {"\x28\xb5\x2f\xfd\x24", "packed with zstd"},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        struct rc_file file = {.name = "a",
+                               .data = (const unsigned char *)rows[k].begin,
+                               .size = strlen(rows[k].begin)};
+        struct rc_err err;
+
+        assert_null(rc_format_find(&file, &err));
+        assert_non_null(strstr(err.text, rows[k].why));
+    }
+}
+
 int
 main(void)
 {
@@ -583,6 +612,7 @@ main(void)
         cmocka_unit_test(every_byte_damaged),
         cmocka_unit_test(many_empty_rows_need_no_memory),
         cmocka_unit_test(what_is_no_text_is_not_recognised),
+        cmocka_unit_test(other_files),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -165,7 +165,7 @@ static const struct {
     {"esri", make_esri, 0, "ncols 3", "ncols 4", "the file has 6", NO_SPACING | NO_UNIT},
     {"npy", make_npy, 0, "(2, 3)", "(2, 9)", "the file has", 0},
     {"npy", make_npy, 0, "(2, 3)", "(1,2,3", "no shape", 0},
-    {"npy", make_npy, 0, "<f8", "<c8", "<c8", 0},
+    {"npy", make_npy, 0, "<f8", "<c8", "is of type '<c8': real", 0},
     {"gwy", make_gwy, 0, "GwyContainer", "GwyContained", "GwyContainer", 0},
     {"gwy", make_gwy, 0, "GwyDataField", "GwyDataFeeld", "is not one", 0},
     {"vk", make_vk6, 0, "Vk4File", "Vk4Fool", "no archive with a member", 0},

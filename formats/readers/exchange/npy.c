@@ -43,6 +43,8 @@ value_of(struct rc_piece header, const char *key)
 static enum rc_status
 read_type(struct rc_piece value, struct rc_map *map, struct rc_err *err)
 {
+    const char *end = value.n > 1 ? memchr(value.text + 1, *value.text, value.n - 1) : NULL;
+    size_t shown = end != NULL ? (size_t)(end + 1 - value.text) : value.n < 12 ? value.n : 12;
     char quote[RC_SHOWN];
 
     for (size_t k = 0; k < sizeof types / sizeof *types && value.n >= 5; k++)
@@ -54,7 +56,7 @@ read_type(struct rc_piece value, struct rc_map *map, struct rc_err *err)
             return RC_OK;
         }
     return rc_err_set(err, "the array is of type %s: real numbers of 1 to 8 bytes are read",
-                      rc_text_shown(quote, value.text, value.n < 12 ? value.n : 12));
+                      rc_text_shown(quote, value.text, shown));
 }
 
 /* "(2, 3)" or "(7,)" */
