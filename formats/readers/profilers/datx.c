@@ -1,10 +1,11 @@
 /*
  * Zygo DATX: an HDF5 file with a table /MetaData of (group, key, value); a value in braces is the
  * name of another group. Root > Measurement > Surface > Path names the dataset of heights, rows by
- * columns; where the table does not lead there, it is the first one of /Data/Surface.
+ * columns; where the table does not lead there, it is the first one of /Data/Surface, or
+ * /Measurement/Surface.
  *
  * Its attributes: Unit of the heights, No Data (a value not below it is missing), X and Y Converter
- * with the metres of a pixel as the second of their numbers. Heights in fringes are turned into
+ * with the metres of a pixel as the second of their numbers, 0 where none was calibrated. Heights in fringes are turned into
  * metres by Wavelength, Interferometric Scale Factor and Obliquity Factor.
  */
 #include <math.h>
@@ -52,20 +53,22 @@ follow(struct rc_hdf *h, struct rc_hdf_set *set)
 static enum rc_status
 find_surface(struct rc_hdf *h, struct rc_hdf_set *set, struct rc_err *err)
 {
+    static const char *const places[] = {"Data/Surface/", "Measurement/Surface"};
     static struct rc_hdf_set all[64];
     size_t n;
 
     if (follow(h, set))
         return RC_OK;
     n = rc_hdf_sets(h, all, sizeof all / sizeof *all);
-    for (size_t k = 0; k < n && k < sizeof all / sizeof *all; k++)
-        if (strncmp(all[k].path, "Data/Surface/", 13) == 0) {
-            *set = all[k];
-            return RC_OK;
-        }
+    for (size_t p = 0; p < sizeof places / sizeof *places; p++)
+        for (size_t k = 0; k < n && k < sizeof all / sizeof *all; k++)
+            if (strncmp(all[k].path, places[p], strlen(places[p])) == 0) {
+                *set = all[k];
+                return RC_OK;
+            }
     return rc_err_set(err,
                       "an HDF5 file, but no DATX: neither its table MetaData nor /Data/Surface "
-                      "leads to heights");
+                      "or /Measurement/Surface leads to heights");
 }
 
 /* ---- what it says of them ---- */
@@ -81,7 +84,7 @@ struct surface {
 static void
 take_converter(void *arg, const struct rc_hdf_record *record)
 {
-    if (strcmp(record->text[0], "LateralCat") == 0 && record->numbers > 1)
+    if (strcmp(record->text[0], "LateralCat") == 0 && record->numbers > 1 && record->number[1] != 0)
         *(double *)arg = record->number[1];
 }
 

@@ -99,6 +99,34 @@ datx_file(bool table, const char *unit, bool fixed, double dx)
     return hdf_end(file);
 }
 
+/* Files that have nothing but /Measurement/Surface. */
+static void
+measurement_alone(void **state)
+{
+    const hsize_t size[] = {2, 3};
+    hid_t file = hdf_start(), group, set;
+    struct rc_grid *g;
+    struct bytes b;
+    double v[6];
+
+    (void)state;
+    group = H5Gcreate2(file, "Measurement", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    set = hdf_set(group, "Surface", H5T_IEEE_F64LE, 2, size, NULL);
+    hdf_text(set, "Unit", "NanoMeters", true);
+    hdf_number(set, "No Data", 100);
+    datx_converter(set, "X Converter", "LateralCat", 1.5e-6, false);
+    datx_converter(set, "Y Converter", "LateralCat", 0.75e-6, false);
+    H5Dclose(set);
+    H5Gclose(group);
+    b = hdf_end(file);
+    for (size_t i = 0; i < 6; i++)
+        v[i] = hdf_counts[i] == 100 ? NAN : hdf_counts[i] * 1e-9;
+    g = read_well(&rc_format_datx, &b, 0);
+    check_map(g, 3, 2, 1.5e-6, 0.75e-6, v);
+    rc_grid_free(g);
+    drop(&b);
+}
+
 static void
 datx_is_read(void **state)
 {
@@ -133,7 +161,10 @@ datx_is_refused(void **state)
     (void)state;
     refuse(&rc_format_datx, &b, "'Waves', which is no length");
     drop(&b);
-    b = datx_file(true, "NanoMeters", false, 0);
+    b = datx_file(true, "NanoMeters", false, 0); /* not calibrated */
+    refuse(&rc_format_datx, &b, "does not give the spacing in x: --dx");
+    drop(&b);
+    b = datx_file(true, "NanoMeters", false, -1e-6);
     refuse(&rc_format_datx, &b, "must be positive");
     drop(&b);
     b = hdf_plain();
@@ -150,6 +181,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(datx_is_read),
+        cmocka_unit_test(measurement_alone),
         cmocka_unit_test(datx_is_refused),
     };
 
