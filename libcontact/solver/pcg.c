@@ -716,7 +716,7 @@ static double
 convolutions(double nodes, double digits)
 {
     (void)nodes;
-    return 16 + 2.3 * fmax(digits - 4, -2);
+    return 14 + 2.3 * fmax(digits - 4, -2);
 }
 
 const struct rc_method rc_method_pcg = {
