@@ -215,7 +215,7 @@ rc_iterate_stiffness(const struct rc_solver *s)
 }
 
 /* The part of the load by which that shift may be off: it only chooses a working set. */
-static const double unbalanced = 1e-6;
+static const double unbalanced = 1e-4;
 
 /* Context of the shift that balances nodes: each moves by its gap and the stiffness of a node among still
  * neighbours, as far as its bounds let it. */

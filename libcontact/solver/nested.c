@@ -257,12 +257,12 @@ coarse_new(const struct rc_solver *s, bool *sought)
 
 /* What the coarse grid knows under the rows held here. */
 struct known {
-    size_t nx, rows; /* of the coarse grid, and how many of its rows are under those held here */
-    const double *p, *u; /* pressure, and displacement but for a constant                  */
-    const double *before, *after; /* rows of u beside them; NULL: none                         */
-    double
-        *rooms[3]; /* of p, of u, and of the rows beside them, where ranks share the coarse grid  */
-    bool round;    /* the map repeats */
+    size_t nx, rows;     /* of the coarse grid; its rows under those held here                */
+    const double *p, *u; /* pressure, and displacement but for a constant                     */
+    const double *before, *after; /* rows of u beside them; NULL: none                        */
+    double *rooms[3]; /* where ranks share the coarse grid: p, u, and the rows beside them */
+    double stiffness; /* of a fine node among still neighbours, Pa/m                       */
+    bool round;       /* the map repeats                                                   */
 };
 
 static void
@@ -281,7 +281,10 @@ known_under(const struct rc_solver *s, struct rc_solver *c, struct known *k)
     bool shared = c->posed.rows.ranks != NULL, beside[2];
     double *u = c->it.v, *ends;
 
-    *k = (struct known){.nx = nx, .rows = rows, .round = s->posed.boundary == RC_PERIODIC};
+    *k = (struct known){.nx = nx,
+                        .rows = rows,
+                        .stiffness = rc_iterate_stiffness(s),
+                        .round = s->posed.boundary == RC_PERIODIC};
     for (size_t i = 0; i < c->posed.n; i++)
         u[i] += c->posed.h[i];
     if ((k->p = map_under(s, c, c->it.p, &k->rooms[0])) == NULL ||
@@ -314,11 +317,12 @@ struct over {
 static void
 share(const struct over *o, struct rc_box box, double *p)
 {
-    double mean = o->load / (double)o->n, mu = mean;
+    double mean = o->load / (double)o->n, sum = 0, mu;
     bool yields = false;
 
     for (size_t i = 0; i < o->n; i++)
-        mu -= o->y[i] / (double)o->n;
+        sum += o->y[i];
+    mu = (o->load - sum) / (double)o->n;
     for (int round = 0; round < ROUNDS; round++) {
         double excess = -o->load;
         size_t between = 0;
@@ -326,7 +330,7 @@ share(const struct over *o, struct rc_box box, double *p)
             excess += rc_clip(box, o->k[i], o->y[i] + mu);
             between += rc_between(box, o->k[i], o->y[i] + mu);
         }
-        if (between == 0 || fabs(excess) <= DBL_EPSILON * o->load)
+        if (between == 0 || fabs(excess) <= 4 * DBL_EPSILON * o->load)
             break;
         mu -= excess / (double)between;
     }
@@ -348,7 +352,7 @@ beside(size_t i, bool after, size_t n, bool round)
 /* Over the coarse node i of row j. The fine nodes are a quarter of the coarse spacing beside it, where the
  * displacement is found by linear interpolation. */
 static void
-share_at(struct rc_solver *s, const struct known *c, double stiffness, size_t i, size_t j)
+share_at(struct rc_solver *s, const struct known *c, size_t i, size_t j)
 {
     size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny;
     const double *u = c->u + j * c->nx;
@@ -361,13 +365,24 @@ share_at(struct rc_solver *s, const struct known *c, double stiffness, size_t i,
         v = v == NULL || s->posed.whole.ny == 1 ? u : v;
         for (size_t x = 2 * i; x < 2 * i + 2 && x < nx; x++) {
             size_t k = y * nx + x, l = nx == 1 ? i : beside(i, x % 2 == 1, c->nx, c->round);
-            o.k[o.n] = k;
             double at = (9 * u[i] + 3 * (u[l] + v[i]) + v[l]) / 16;
-            o.y[o.n++] = stiffness > 0 ? stiffness * (s->posed.h[k] - at) : 0;
+            o.k[o.n] = k;
+            o.y[o.n++] = c->stiffness * (s->posed.h[k] - at);
         }
     }
     o.load = (double)o.n * c->p[j * c->nx + i];
     share(&o, rc_box(s, 0), s->it.p);
+}
+
+static void
+repeat_at(struct rc_solver *s, const struct known *c, size_t i, size_t j)
+{
+    size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny;
+    const struct rc_box box = rc_box(s, 0);
+
+    for (size_t y = 2 * j; y < 2 * j + 2 && y < ny; y++)
+        for (size_t x = 2 * i; x < 2 * i + 2 && x < nx; x++)
+            s->it.p[y * nx + x] = rc_clip(box, y * nx + x, c->p[j * c->nx + i]);
 }
 
 /* The pressure of each coarse node on the nodes over it: each of them presses the more, the higher it
@@ -379,7 +394,6 @@ refine(struct rc_solver *s, struct rc_solver *c)
 {
     const struct rc_box box = rc_box(s, 0);
     bool known = c->it.known;
-    double stiffness = rc_iterate_stiffness(s);
     struct known k;
 
     if (!known_under(s, c, &k)) {
@@ -389,8 +403,10 @@ refine(struct rc_solver *s, struct rc_solver *c)
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t j = 0; j < k.rows; j++)
         for (size_t i = 0; i < k.nx; i++) {
-            bool presses = k.p[j * k.nx + i] > rc_low(box, 0);
-            share_at(s, &k, known && presses ? stiffness : 0, i, j);
+            if (known && k.p[j * k.nx + i] > rc_low(box, 0))
+                share_at(s, &k, i, j);
+            else
+                repeat_at(s, &k, i, j);
         }
     known_free(&k);
     if (fabs(rc_iterate_carried(s) - s->load.sum) <= 1e-14 * s->load.sum)

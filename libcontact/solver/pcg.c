@@ -36,7 +36,7 @@ enum {
     PATIENCE = 40, /* steps without a better estimate, after which only rounding is left;
                       at least one of them is a spacer                                      */
     TRIES = 4,     /* to shorten a step                                                     */
-    FEW = 2        /* times the elastic nodes: a larger set is not to follow their mean gap */
+    LARGE = 2      /* times the elastic nodes: a set so large is not to follow their mean gap */
 };
 /* The longest step, relative to the load: beyond it the pressure of the nodes that stay would be lost
  * in rounding. Only heights that are far larger than the displacement ask for longer ones. */
@@ -55,12 +55,12 @@ static const double apart = 100;
  * eigenvalues, gets worse: 0.99 to 1.9 times the error. On a coat a hundred times as stiff as its
  * substrate, no conjugacy after clipped steps costs twice the steps. */
 static const double conjugate = 5e-3;
-/* What a step has left of its own direction, b, is (z'r) / (z'r before) in conjugate gradients on a fixed set,
- * about the square of the ratio of two estimates. Where nodes have come or gone z'q contains their
- * residuals as well, and the next step would repeat what the last one has done already: on one material four
- * steps in place of six at 33 % contact. So b is at most that, as Gilbert and Nocedal have it
- * (SIAM J. Optim. 2, 1992). On a coat that bends the set changes until the end, and the
- * estimate says less of the energy: there it may be this many times as large. */
+/* What a step keeps of the last direction, b, is (z'r) / (z'r before) in conjugate gradients on a fixed
+ * set, about the square of the ratio of two estimates. Where nodes have come or gone z'q contains their
+ * residuals as well, and the next step would repeat what the last one has done already: on one material
+ * four steps in place of six at 33 % contact. So b is at most that, as Gilbert and Nocedal have it
+ * (SIAM J. Optim. 2, 1992). On a coat that bends the set changes until the end, and the estimate says
+ * less of the energy: there it may be this many times as large. */
 static const double part_of_coat = 3;
 
 struct pcg {
@@ -137,13 +137,13 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
 
 /* ---- v, the working set, the residual ---- */
 
-/* The working set that belongs to v. Where nearly all that is loaded yields, only a few nodes are elastic: their
- * mean gap says little of the shift, and nodes that want to leave their bounds by it would all go the same
- * way. There the shift is the one with which as much load comes as goes. */
+/* The working set that belongs to v. Where nearly all that is loaded yields, only a few nodes are
+ * elastic: their mean gap says little of the shift, and nodes that want to leave their bounds by it would
+ * all go the same way. There the shift is the one with which as much load comes as goes. */
 static void
 settle(struct rc_solver *solver)
 {
-    if (solver->set.saturated == 0 || solver->set.size <= FEW * solver->it.elastic)
+    if (solver->set.saturated == 0 || solver->set.size <= LARGE * solver->it.elastic)
         return;
     rc_iterate_balance(solver);
     rc_working_set_find(solver, true);

@@ -49,13 +49,17 @@ struct spread {
 static double
 spread_of(double r2, const struct spread *s)
 {
-    double root = sqrt(sqrt(r2)), near = 1 / (r2 * root), far = 1 + sqrt(r2) / s->bends;
+    double root = sqrt(sqrt(r2)), near, far;
 
     if (r2 == 0)
         return 0;
-    return s->kind == ON_MAP    ? near
-           : s->kind == ON_LINE ? 1 / (root * root * root)
-                                : near / (far * sqrt(far));
+    if (s->kind == ON_LINE)
+        return 1 / (root * root * root);
+    near = 1 / (r2 * root);
+    if (s->kind == ON_MAP)
+        return near;
+    far = 1 + sqrt(r2) / s->bends;
+    return near / (far * sqrt(far));
 }
 
 static void

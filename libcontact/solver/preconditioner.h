@@ -11,9 +11,9 @@
  * factor in wave numbers, and the constant c are the operator's. On a period of one line the power is
  * -3/2, c is smaller, and 3 is 5/4, which S_i is to a half-line as 3 is to a half-plane. A free map lies
  * in the operator's frame, in which E r goes on and falls off linearly to its end. Where the operator
- * bends, the power is -7/2, and f_i is next to nothing. The map r -> z is symmetric, and as E r has no
- * less energy than the least, r'z >= r' (K_WW)^-1 r: z bounds the error of the pressure on W in the energy
- * norm from above.
+ * bends, G_ij is divided by (1 + |x_i - x_j| / bends)^(3/2), and f_i is next to nothing. The map r -> z
+ * is symmetric, and as E r has no less energy than the least, r'z >= r' (K_WW)^-1 r: z bounds the error
+ * of the pressure on W in the energy norm from above.
  */
 #ifndef RC_PRECONDITIONER_H
 #define RC_PRECONDITIONER_H

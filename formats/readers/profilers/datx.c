@@ -5,8 +5,8 @@
  * /Measurement/Surface.
  *
  * Its attributes: Unit of the heights, No Data (a value not below it is missing), X and Y Converter
- * with the metres of a pixel as the second of their numbers, 0 where none was calibrated. Heights in fringes are turned into
- * metres by Wavelength, Interferometric Scale Factor and Obliquity Factor.
+ * with the metres of a pixel as the second of their numbers, 0 where none was calibrated. Heights in
+ * fringes are turned into metres by Wavelength, Interferometric Scale Factor and Obliquity Factor.
  */
 #include <math.h>
 #include <string.h>

@@ -78,7 +78,7 @@ open_archive(const struct rc_file *file, struct rc_err *err)
     return NULL;
 }
 
-/* The n bytes of a member, without what zstd did, with a NUL behind them, which the caller frees; NULL with the
+/* The n bytes of a member, unpacked, with a NUL behind them, which the caller frees; NULL with the
  * reason. */
 static unsigned char *
 member_bytes(const struct zon *z, const struct rc_file *file, size_t member, const char *what,
