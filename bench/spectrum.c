@@ -200,7 +200,7 @@ spectrum(const struct row *row, size_t m)
     extremes(&o, &least[0], &most[0]);
     op = must(rc_operator_new(&s, &options, &err));
     o.extension = must(rc_preconditioner_new(op, &err));
-    rc_preconditioner_set(o.extension, w, true);
+    rc_preconditioner_set(o.extension, w);
     extremes(&o, &least[1], &most[1]);
     printf("%-8s %-8s %5zu %8.4f | %8.4f %8.3f | %8.4f %8.3f\n", row->name,
            row->boundary == RC_FREE ? "free" : "periodic", m, (double)o.count / (double)n, least[1],

@@ -108,24 +108,6 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
         }
 }
 
-/* How fast the preconditioner's extension fades on one material; on layers the slower, the softer the
- * bodies are to the longest waves against the shortest. Found by trial on coats from 0.01 to 100
- * times as stiff as what they lie on. */
-static const double one_material = 0.5;
-
-static double
-extension(const struct own *s, double length)
-{
-    const struct rc_shape *shape = &s->op.whole;
-    double side = fmin(shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
-
-    double shortest = rc_solids_modulus(s->bodies, RC_PI / length);
-
-    return fmin(
-        fmax(one_material * sqrt(rc_solids_modulus(s->bodies, 2 * RC_PI / side) / shortest), 0.02),
-        4);
-}
-
 /* The frame's part of the sides of a free map. The preconditioner's extension ends with the frame, and edges
  * of contact there become too stiff: on 1024 x 1024 nodes with 32 % contact the largest eigenvalue is 3.9
  * without a frame, 1.6, 1.4, 1.26 with a 32nd, a 16th and an eighth, at 512 x 512 the same, and 1.15 with
@@ -137,34 +119,7 @@ rc_operator_frame(const struct rc_shape *s, enum rc_boundary boundary)
 {
     if (boundary == RC_PERIODIC)
         return (struct rc_frame){0, 0};
-    return (struct rc_frame){s->nx / frame_part, s->ny / frame_part};
-}
-
-/* A coat that its longest waves bend on a base so soft that they feel at most this part of the stiffness
- * of the shortest ones: up to a ratio of 10 the extension of one material takes fewer steps. On the free
- * boundary no extension makes up for an inverse that is not that of the kernel. */
-static const double bending = 1. / 15;
-
-/* Length from which a coat gives way as a plate: the wave that feels half the stiffness of the shortest has
- * wave number 1.8 over the thickness; twice the thickness, found by trial. */
-static double
-bends(const struct own *s, double length)
-{
-    const struct rc_shape *shape = &s->op.whole;
-    double side = fmin(shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
-    double low = 2 * RC_PI / side, high = RC_PI / length;
-    double shortest = rc_solids_modulus(s->bodies, high);
-
-    if (s->op.boundary != RC_PERIODIC || !(rc_solids_modulus(s->bodies, low) < bending * shortest))
-        return 0;
-    for (int round = 0; round < 20; round++) {
-        double q = sqrt(low * high);
-        if (rc_solids_modulus(s->bodies, q) < shortest / 2)
-            low = q;
-        else
-            high = q;
-    }
-    return 2 * 1.8 / (high * length);
+    return (struct rc_frame){s->nx / frame_part, s->ny / frame_part / 2 * 2};
 }
 
 static struct rc_shape
@@ -229,6 +184,17 @@ wave(const struct bounded *b, size_t i, size_t j)
     return hypot(rc_fft_qx(b->s->fft, i), rc_fft_qy(b->s->fft, j));
 }
 
+/* The longest waves feel the bodies at least as stiff as the shortest ones do. */
+static bool
+is_soft_coat(const struct own *s, double length)
+{
+    const struct rc_shape *shape = &s->op.whole;
+    double side = fmin(shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
+
+    return rc_solids_modulus(s->bodies, 2 * RC_PI / side) >=
+           rc_solids_modulus(s->bodies, RC_PI / length);
+}
+
 static bool
 all_positive(const struct bounded *b, size_t columns)
 {
@@ -278,7 +244,7 @@ set_bounded(struct own *s, const struct rc_shape *unit, const struct rc_kernel *
     }
     status = rc_spectrum_set_by(s->kernel, s->fft, kernel, keep_column, &b, err);
     if (status == RC_OK)
-        b.positive = all_positive(&b, columns) && s->op.extension >= one_material;
+        b.positive = all_positive(&b, columns) && is_soft_coat(s, length);
     if (status == RC_OK && (s->inverse = rc_spectrum_new(s->fft, err)) != NULL)
         status = rc_spectrum_set_by(s->inverse, s->fft, &rc_kernel_of_one, invert_column, &b, err);
     else
@@ -339,8 +305,6 @@ plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_optio
     s->op.shape = rc_rows_shape(&s->op.rows, shape);
     s->op.norm = norm(s);
     s->op.diagonal = diagonal(s);
-    s->op.extension = extension(s, length);
-    s->op.bends = bends(s, length);
     set_inverse_near(s, &unit, length);
     set_neighbours(&s->op, &unit);
     s->op.frame = rc_operator_frame(shape, o->boundary);
@@ -537,15 +501,13 @@ rc_operator_chain_framed(struct rc_operator *op, size_t n, const struct rc_spect
     rc_fft_chain(s->framed == NULL ? s->fft : s->framed, n, factors, rows, ctx);
 }
 
-struct rc_spectrum *
-rc_operator_spectrum(struct rc_operator *op, const struct rc_kernel *values, struct rc_err *err)
+double
+rc_operator_power(const struct rc_operator *op, double q)
 {
     const struct own *s = (const struct own *)op;
-    struct rc_spectrum *k = rc_spectrum_new(s->fft, err);
+    double length = sqrt(op->whole.dx) * sqrt(op->whole.dy), step = 1.05;
+    double below = rc_solids_modulus(s->bodies, q / (step * length));
+    double above = rc_solids_modulus(s->bodies, q * step / length);
 
-    if (k != NULL && rc_spectrum_set_values(k, s->fft, values, err) != RC_OK) {
-        rc_spectrum_free(k);
-        return NULL;
-    }
-    return k;
+    return 1 + log(above / below) / (2 * log(step));
 }

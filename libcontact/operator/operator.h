@@ -31,12 +31,10 @@ struct rc_operator {
     double inverse_near[3][3];
     double neighbour[3][3];
     struct rc_frame frame; /* nodes of the padding that rc_operator_chain_framed takes along */
-    double extension;      /* the constant c of the preconditioner's extension                    */
-    double bends; /* over sqrt(dx dy), length from which a coat bends as a plate; 0: it does not */
-    bool edges;   /* how a shift loads the edges of a set follows from no rule: layers, free */
-    double error; /* of K p, relative to the sum of |K| |p|                              */
-    double row_error;   /* the same, row by row                                                */
-    double row_cost;    /* of K p row by row, in equivalents of K p in double precision        */
+    bool edges;       /* how a shift loads the edges of a set follows from no rule: layers, free */
+    double error;     /* of K p, relative to the sum of |K| |p|                              */
+    double row_error; /* the same, row by row                                                */
+    double row_cost;  /* of K p row by row, in equivalents of K p in double precision        */
     double factor_cost; /* of each factor of a chain                                           */
     bool exact;         /* K p can be had in double precision                                  */
     bool mean_free;     /* the mean of u is 0 whatever the pressure: it has no stiffness       */
@@ -76,10 +74,9 @@ void rc_operator_apply(struct rc_operator *op, const double *p, double *u);
 /* u = K' p row by row: `in` writes the rows of p (floats), `out` takes those of u. Costs
  * op->row_cost. */
 void rc_operator_apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx);
-/* The factor of an even function of the offset, given by its values at the nodes. NULL when
- * memory is short; the caller frees it with rc_spectrum_free. */
-struct rc_spectrum *rc_operator_spectrum(struct rc_operator *op, const struct rc_kernel *values,
-                                         struct rc_err *err);
+/* The power a with which the inverse grows, A(q) ~ q^a, at wave number q, over the unit of lengths: 1 on one
+ * material, up to 4 where a coat bends. */
+double rc_operator_power(const struct rc_operator *op, double q);
 /* Several convolutions, one after the other, with rows[k] between factor k - 1 and k: as
  * rc_fft_chain. Each factor costs op->factor_cost. */
 void rc_operator_chain(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,

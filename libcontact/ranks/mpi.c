@@ -11,7 +11,7 @@
 #include "ranks.h"
 
 struct rc_ranks {
-    MPI_Comm comm, back; /* back: in reverse order */
+    MPI_Comm comm;
     size_t count, own;
     int *number;                /* scratch: 4 * count          */
     struct rc_traffic *traffic; /* counted where all is const  */
@@ -46,7 +46,6 @@ rc_ranks_new(MPI_Comm comm, struct rc_err *err)
         return NULL;
     }
     MPI_Comm_dup(comm, &r->comm);
-    MPI_Comm_split(comm, 0, count - own, &r->back);
     return r;
 }
 
@@ -56,7 +55,6 @@ rc_ranks_free(struct rc_ranks *r)
     if (r == NULL)
         return;
     MPI_Comm_free(&r->comm);
-    MPI_Comm_free(&r->back);
     free(r->number);
     free(r->traffic);
     free(r->room);
@@ -152,33 +150,6 @@ rc_ranks_agree(const struct rc_ranks *r, enum rc_status status, struct rc_err *e
     if (err != NULL)
         *err = text;
     return RC_FAIL;
-}
-
-void
-rc_ranks_before(const struct rc_ranks *r, bool back, size_t n, double none, double *v)
-{
-    enum {
-        PIECE = 4096
-    };
-    double got[PIECE];
-    bool first = r->own == (back ? r->count - 1 : 0);
-
-    for (size_t k = 0; k < n; k += PIECE) {
-        size_t m = n - k < PIECE ? n - k : PIECE;
-        MPI_Exscan(v + k, got, (int)m, MPI_DOUBLE, MPI_MAX, back ? r->back : r->comm);
-        for (size_t i = 0; i < m; i++)
-            v[k + i] = first ? none : got[i];
-    }
-    r->traffic->other += (double)(n * sizeof *v);
-}
-
-void
-rc_ranks_largest(const struct rc_ranks *r, size_t n, double *v)
-{
-    if (alone(r))
-        return;
-    MPI_Allreduce(MPI_IN_PLACE, v, (int)n, MPI_DOUBLE, MPI_MAX, r->comm);
-    r->traffic->other += (double)(n * sizeof *v);
 }
 
 /* ---- maps ---- */

@@ -24,8 +24,8 @@
  *   tiles                 never straddle; the roomiest one of all is found by comparing (tiles.c)
  *   the sift of nodes     looks at eight neighbours: rows beside those owned are fetched (working_set.c)
  *   edge of the contact   the same (result.c)
- *   distances             along columns: the last row of the set above and the first below, by a scan over
- *                         the ranks (distance.c); along rows: local
+ *   the extension         rows of the first coarser grid are made where they lie, with the rows beside them,
+ *                         and all ranks get all of them; from there on each does the same (pyramid.c)
  *   nested start          rows of the coarser grid are moved to the ranks that own them there; small grids
  *                         are solved by every rank for itself, after one message on whether all
  *                         have the memory (nested.c)
@@ -112,11 +112,6 @@ void rc_ranks_share(const struct rc_ranks *ranks, size_t root, size_t bytes, voi
  * failed. */
 enum rc_status rc_ranks_agree(const struct rc_ranks *ranks, enum rc_status status,
                               struct rc_err *err);
-/* v[k] becomes the largest of those of the ranks before, or, `back`, after this one; `none` where there is
- * none. */
-void rc_ranks_before(const struct rc_ranks *ranks, bool back, size_t n, double none, double *v);
-/* v[k] becomes the largest of those of all ranks. */
-void rc_ranks_largest(const struct rc_ranks *ranks, size_t n, double *v);
 /* Pieces to columns, or, `back`, columns to pieces. */
 void rc_ranks_turn(const struct rc_turn *turn, bool back, const void *from, void *to);
 /* Rows of `bytes`, from[r] .. from[r + 1] - 1 held by rank r, go to the ranks that hold them by `to`;
@@ -177,18 +172,6 @@ rc_ranks_room(const struct rc_ranks *ranks)
 {
     (void)ranks;
     return NULL;
-}
-
-static inline void
-rc_ranks_before(const struct rc_ranks *ranks, bool back, size_t n, double none, double *v)
-{
-    (void)ranks, (void)back, (void)n, (void)none, (void)v;
-}
-
-static inline void
-rc_ranks_largest(const struct rc_ranks *ranks, size_t n, double *v)
-{
-    (void)ranks, (void)n, (void)v;
 }
 
 static inline void

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "distance.h"
 #include "libcontact/memory.h"
 #include "libcontact/solver/solver.h"
 
@@ -82,13 +83,12 @@ enum rc_status
 rc_extension_measure(struct rc_extension *e, const unsigned char *face, struct rc_err *err)
 {
     const struct rc_shape *s = &e->t->shape;
-    const struct rc_rows whole = {NULL, s->ny, 0, s->ny};
     size_t nx = s->nx, own = rc_distance_scratch(s) + nx;
     float *scratch = rc_alloc((size_t)e->t->threads * own, sizeof *scratch);
 
     if (scratch == NULL)
         return rc_err_set(err, "out of memory for the distances of %zu x %zu nodes", nx, s->ny);
-    rc_distance_columns(s, &whole, e->t->boundary, face, e->t->threads, NULL, e->close);
+    rc_distance_columns(s, e->t->boundary, face, e->t->threads, e->close);
 #pragma omp parallel for num_threads(e->t->threads) schedule(static)
     for (size_t j = 0; j < s->ny; j++) {
         float *room = scratch + (size_t)omp_get_thread_num() * own;

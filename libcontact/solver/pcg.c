@@ -41,6 +41,8 @@ enum {
 /* The longest step, relative to the load: beyond it the pressure of the nodes that stay would be lost
  * in rounding. Only heights that are far larger than the displacement ask for longer ones. */
 static const double longest = 1e6;
+/* The least length that is foretold for a step: under a coat that bends the first ones are as short. */
+static const double shortest = 0.15;
 /* A clipped step is taken whole, so that its nodes come to rest at their bounds, where the lowest
  * energy lies at least this part of the way along it. With that part s, the whole step still gains
  * (2 s - 1)/s^2 of the largest possible gain. */
@@ -49,19 +51,15 @@ static const double enough = 0.75;
  * each node touches, or yields, nearly independently of the others. A better start is then a bed of
  * springs, each with the stiffness of its own cell. */
 static const double apart = 100;
-/* The largest clipped step, relative to the load and over the constant of the extension, that the
- * next direction is conjugate to. On one material, where the eigenvalues are near 1, a larger limit
- * saves no step, and the estimate, which is most accurate for errors along the smallest
- * eigenvalues, gets worse: 0.99 to 1.9 times the error. On a coat a hundred times as stiff as its
- * substrate, no conjugacy after clipped steps costs twice the steps. */
-static const double conjugate = 5e-3;
+/* The largest clipped step, relative to the load, that the next direction is conjugate to. On one
+ * material, where the eigenvalues are near 1, a larger limit saves no step, and the estimate, which is most
+ * accurate for errors along the smallest eigenvalues, gets worse. */
+static const double conjugate = 1e-2;
 /* What a step keeps of the last direction, b, is (z'r) / (z'r before) in conjugate gradients on a fixed
  * set, about the square of the ratio of two estimates. Where nodes have come or gone z'q contains their
  * residuals as well, and the next step would repeat what the last one has done already: on one material
  * four steps in place of six at 33 % contact. So b is at most that, as Gilbert and Nocedal have it
- * (SIAM J. Optim. 2, 1992). On a coat that bends the set changes until the end, and the estimate says
- * less of the energy: there it may be this many times as large. */
-static const double part_of_coat = 3;
+ * (SIAM J. Optim. 2, 1992). */
 
 struct pcg {
     float *delta, *q;      /* the last step and K times it, in the units of the operator's rows */
@@ -253,7 +251,7 @@ static double
 precondition(struct rc_solver *solver, struct pcg *s, double *mean)
 {
     struct pass c = {.solver = solver, .s = s};
-    double total[RC_SUMS], above, share, estimate, ratio, most;
+    double total[RC_SUMS], above, share, estimate, ratio;
 
     *mean = 0;
     if (solver->set.size < 2)
@@ -266,9 +264,8 @@ precondition(struct rc_solver *solver, struct pcg *s, double *mean)
     c.b = s->curvature > 0 && above < 0 ? -above / s->curvature : 0;
     estimate = rc_working_set_error(solver, share);
     ratio = estimate / s->before;
-    most = (solver->op->bends > 0 ? part_of_coat : 1) * ratio * ratio;
-    if (c.b > most)
-        c.b = most;
+    if (c.b > ratio * ratio)
+        c.b = ratio * ratio;
     if (c.b > 0) {
         rc_reduce_blocks(solver, turn_block, &c, total);
         *mean = total[0] / (double)solver->set.size;
@@ -632,9 +629,9 @@ advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool
         return 0;
     }
     part = !t.clipped ? fmin(t.best, t.fits) : t.best >= enough ? 1 : t.best;
-    s->curvature = t.clipped && t.size > conjugate / solver->op->extension ? 0 : t.total[CURVATURE];
+    s->curvature = t.clipped && t.size > conjugate ? 0 : t.total[CURVATURE];
     follow_step(solver, s, &t, part);
-    s->alpha = fmin(fmax(length * sqrt(t.best), 0.3), 1.2);
+    s->alpha = fmin(fmax(length * sqrt(t.best), shortest), 1.2);
     return t.size * part;
 }
 

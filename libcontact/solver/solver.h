@@ -104,9 +104,9 @@ struct rc_working_set {
     bool whole;       /* no node that wants to join is left out                              */
     double saturated; /* sum of rc_room over the nodes off the set at their upper bounds       */
     double left_out;  /* pressure that the nodes sifted out would carry, times per_pressure     */
-    /* Nodes that joined or left since the preconditioner was told w, and since it measured
-     * distances; INFINITY: w is a new set altogether. */
-    double changed, moved;
+    /* Nodes that joined or left since the preconditioner was told w; INFINITY: w is a new set
+     * altogether. */
+    double changed;
 };
 
 /* The load that is set, and the search for the one that an approach needs. */

@@ -116,7 +116,7 @@ symmetric_and_positive(void **state)
         assert_non_null(e);
         count = choose(s, boundary, (enum set_name)(q / 2 % SETS), w);
         assert_true(count > 1);
-        rc_preconditioner_set(e, w, true);
+        rc_preconditioner_set(e, w);
         for (int round = 0; round < 5; round++) {
             double aa, bb, ab, ba;
             random_vector(n, w, count, &seed, a);
@@ -192,7 +192,7 @@ corrections(struct rc_shape s, enum rc_boundary boundary, const unsigned char *w
     gsl_matrix *b = gsl_matrix_alloc(count, count);
 
     assert_non_null(e);
-    rc_preconditioner_set(e, w, true);
+    rc_preconditioner_set(e, w);
     for (size_t j = 0; j < count; j++) {
         r[at[j]] = 1;
         rc_preconditioner_apply(e, r, 0, z, NULL, NULL);

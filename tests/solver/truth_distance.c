@@ -9,22 +9,21 @@
 #include <float.h>
 
 #include "tests/contact_case.h"
-#include "libcontact/solver/preconditioner.h"
+#include "libcontact/slip/distance.h"
 
 /* Eight roundings in single precision, half a unit of the last place each. */
 #define ROUNDING (4 * (double)FLT_EPSILON)
 
-/* The squares of the distances, as the preconditioner finds them. */
+/* The squares of the distances, as the extension under slip finds them. */
 static void
 find(struct rc_shape shape, enum rc_boundary boundary, const unsigned char *w, int threads,
      float *d2)
 {
     size_t n = shape.nx * shape.ny;
-    const struct rc_rows rows = rc_rows_of(NULL, &shape);
     float *scratch = malloc(rc_distance_scratch(&shape) * sizeof *scratch);
     float *steps = malloc(n * sizeof *steps);
 
-    rc_distance_columns(&shape, &rows, boundary, w, threads, NULL, steps);
+    rc_distance_columns(&shape, boundary, w, threads, steps);
     for (size_t k = 0; k < n; k += shape.nx)
         rc_distance_row(&shape, boundary, scratch, steps + k, d2 + k);
     free(scratch);

@@ -28,7 +28,7 @@
  * up to 5792 x 5792 nodes and on free ones up to 2896 x 2896. Longer distances, which maps of 8192
  * nodes may hold, and those with dx and dy unequal have squares right to four parts in 2^23.
  */
-#include "preconditioner.h"
+#include "distance.h"
 
 #include <math.h>
 
@@ -43,30 +43,18 @@ struct columns {
     const unsigned char *w;
     size_t first, last;
     float *steps;
-    const double *above,
-        *below; /* the last row of the set before those held here, and, counted from 0 down,
-                                    the first after them, of each column; NULL: all rows are here */
 };
-
-/* Steps from row `here` to the nearest row of the set that another rank holds. */
-static float
-from_outside(const double *row, size_t i, double here)
-{
-    double d = row == NULL ? INFINITY : here - row[i];
-
-    return d < far_away ? (float)d : far_away;
-}
 
 /* Counts for each node the steps from the last node of the set above it; on a periodic map the column
  * above continues at its other end. */
 static void
-count_down(const struct columns *c, bool wrap, double before, float *run)
+count_down(const struct columns *c, bool wrap, float *run)
 {
     const struct rc_shape *s = c->s;
     size_t first = c->first, last = c->last;
 
     for (size_t i = first; i < last; i++)
-        run[i - first] = from_outside(c->above, i, before);
+        run[i - first] = far_away;
     for (size_t j = 0; wrap && j < s->ny; j++)
         for (size_t i = first; i < last; i++)
             run[i - first] = c->w[j * s->nx + i] ? 0 : run[i - first] + 1;
@@ -78,13 +66,13 @@ count_down(const struct columns *c, bool wrap, double before, float *run)
 }
 
 static void
-count_up(const struct columns *c, bool wrap, double after, float *run)
+count_up(const struct columns *c, bool wrap, float *run)
 {
     const struct rc_shape *s = c->s;
     size_t first = c->first, last = c->last;
 
     for (size_t i = first; i < last; i++)
-        run[i - first] = from_outside(c->below, i, after);
+        run[i - first] = far_away;
     for (size_t j = s->ny; wrap && j-- > 0;)
         for (size_t i = first; i < last; i++)
             run[i - first] = c->w[j * s->nx + i] ? 0 : run[i - first] + 1;
@@ -96,65 +84,23 @@ count_up(const struct columns *c, bool wrap, double after, float *run)
         }
 }
 
-/* For each column, the last row of the set before the rows held here, from the ranks that hold those
- * rows. `back`: the first row after them, by counting rows from the end of the map. On a periodic map
- * the row may lie in the image before, and is then less by ny. -INFINITY: there is none. */
-static void
-find_outside(const struct rc_shape *s, const struct rc_rows *rows, bool wrap, bool back,
-             const unsigned char *w, double *row, double *all)
-{
-    size_t nx = s->nx;
-
-    for (size_t i = 0; i < nx; i++)
-        row[i] = -INFINITY;
-    for (size_t k = 0; k < s->ny; k++) {
-        size_t j = back ? s->ny - 1 - k : k;
-        size_t counted = back ? rows->ny - 1 - (rows->first + j) : rows->first + j;
-        for (size_t i = 0; i < nx; i++)
-            if (w[j * nx + i])
-                row[i] = (double)counted;
-    }
-    for (size_t i = 0; wrap && i < nx; i++)
-        all[i] = row[i];
-    rc_ranks_before(rows->ranks, back, nx, -INFINITY, row);
-    if (!wrap)
-        return;
-    rc_ranks_largest(rows->ranks, nx, all);
-    for (size_t i = 0; i < nx; i++)
-        row[i] = fmax(row[i], all[i] - (double)rows->ny);
-}
-
 void
-rc_distance_columns(const struct rc_shape *s, const struct rc_rows *rows, enum rc_boundary boundary,
-                    const unsigned char *w, int threads, double *lines, float *steps)
+rc_distance_columns(const struct rc_shape *s, enum rc_boundary boundary, const unsigned char *w,
+                    int threads, float *steps)
 {
     bool wrap = boundary == RC_PERIODIC;
-    double *above = NULL, *below = NULL, before = 0, after = 0;
 
-    if (rows->ranks != NULL) {
-        double *all = lines + 2 * s->nx;
-        above = lines;
-        below = lines + s->nx;
-        find_outside(s, rows, wrap, false, w, above, all);
-        find_outside(s, rows, wrap, true, w, below, all);
-        /* of the row beside: one step less than to the first row here */
-        before = (double)rows->first - 1;
-        after = (double)(rows->ny - rows->first - rows->n) - 1;
-        wrap = false;
-    }
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (size_t first = 0; first < s->nx; first += STRIP) {
         struct columns c = {.s = s,
                             .w = w,
                             .first = first,
                             .last = s->nx - first < STRIP ? s->nx : first + STRIP,
-                            .steps = steps,
-                            .above = above,
-                            .below = below};
+                            .steps = steps};
         float run[STRIP];
 
-        count_down(&c, wrap, before, run);
-        count_up(&c, wrap, after, run);
+        count_down(&c, wrap, run);
+        count_up(&c, wrap, run);
     }
 }
 

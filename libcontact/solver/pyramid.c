@@ -1,0 +1,557 @@
+#include "pyramid.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+
+enum {
+    MOST_LEVELS = 64,
+    FEW = 16384 /* nodes of a level, for which no team of threads is called */
+};
+
+/* ---- one direction ---- */
+
+/* Along one direction n nodes become `coarse` ones, node j that over 2 j and 2 j + 1, or, where it is kept,
+ * that over j. */
+struct axis {
+    size_t n, coarse;
+    bool halved, round;
+};
+
+/* Where a node takes its value from: 3/4 from the coarse node over it, 1/4 from the one on its other side. */
+static void
+parents(const struct axis *a, size_t j, size_t *near, size_t *far)
+{
+    size_t k = j / 2, last = a->coarse - 1;
+
+    *near = k;
+    if (j % 2 == 0)
+        *far = k > 0 ? k - 1 : a->round ? last : k;
+    else
+        *far = k < last ? k + 1 : a->round ? 0 : k;
+}
+
+/* The nodes that take their values from coarse node k, at most 4, and how much of it. */
+static size_t
+children(const struct axis *a, size_t k, size_t *at, float *weight)
+{
+    size_t last = a->coarse - 1, count = 0, near, far;
+    size_t candidates[] = {k > 0 ? 2 * k - 1 : 2 * last + 1, 2 * k, 2 * k + 1,
+                           k < last ? 2 * k + 2 : 0};
+
+    if (!a->halved) {
+        at[0] = k;
+        weight[0] = 1;
+        return 1;
+    }
+    for (size_t i = 0; i < 4; i++) {
+        size_t j = candidates[i];
+        bool again = false;
+        for (size_t b = 0; b < i; b++)
+            again = again || candidates[b] == j;
+        if (j >= a->n || again)
+            continue;
+        parents(a, j, &near, &far);
+        if (near != k && far != k)
+            continue;
+        at[count] = j;
+        weight[count++] = (near == k ? 0.75F : 0) + (far == k ? 0.25F : 0);
+    }
+    return count;
+}
+
+/* out = factor P' of a row. */
+RC_CLONES static void
+fold_inner(size_t coarse, float factor, const float *restrict row, float *restrict out)
+{
+    float near = 0.75F * factor, far = 0.25F * factor;
+
+    for (size_t k = 1; k + 1 < coarse; k++)
+        out[k] = near * (row[2 * k] + row[2 * k + 1]) + far * (row[2 * k - 1] + row[2 * k + 2]);
+}
+
+static void
+fold(const struct axis *a, float factor, const float *row, float *out)
+{
+    if (!a->halved) {
+        for (size_t k = 0; k < a->n; k++)
+            out[k] = factor * row[k];
+        return;
+    }
+    fold_inner(a->coarse, factor, row, out);
+    for (size_t end = 0; end < 2; end++) {
+        size_t k = end == 0 ? 0 : a->coarse - 1, at[4], count;
+        float weight[4], sum = 0;
+        count = children(a, k, at, weight);
+        for (size_t i = 0; i < count; i++)
+            sum += weight[i] * row[at[i]];
+        out[k] = factor * sum;
+    }
+}
+
+/* out = P of a row. */
+RC_CLONES static void
+spread_inner(size_t coarse, const float *restrict row, float *restrict out)
+{
+    for (size_t k = 1; k + 1 < coarse; k++) {
+        float near = 0.75F * row[k];
+        out[2 * k] = near + 0.25F * row[k - 1];
+        out[2 * k + 1] = near + 0.25F * row[k + 1];
+    }
+}
+
+static void
+spread(const struct axis *a, const float *row, float *out)
+{
+    size_t last = a->coarse - 1, near, far;
+
+    if (!a->halved) {
+        memcpy(out, row, a->n * sizeof *out);
+        return;
+    }
+    spread_inner(a->coarse, row, out);
+    for (size_t j = 0; j < a->n; j = j == 1 && last > 1 ? 2 * last : j + 1) {
+        parents(a, j, &near, &far);
+        out[j] = 0.75F * row[near] + 0.25F * row[far];
+    }
+}
+
+/* ---- levels ---- */
+
+struct level {
+    struct axis x, y; /* from the finer level to this one        */
+    float k, t;       /* of this level                           */
+    float whole;      /* P' of 1: 4, or 2 where one side is kept */
+    float *weight;    /* w                                       */
+    float *value;     /* X, then y; and the same of the transpose */
+    int threads;
+};
+
+struct rc_pyramid {
+    struct rc_pyramid_base base;
+    size_t levels; /* 1 .. levels; level 0 is the base */
+    struct level level[MOST_LEVELS];
+    float *scratch; /* two rows of the base for each thread                            */
+    float *room;    /* where ranks share the base: rows of level 1 of those held here  */
+    float *beside;  /* and four rows: the first, the last, and those beside them       */
+    size_t *dealt;  /* and the first row of level 1 of each rank                       */
+    bool has[2];    /* rows beside                                                     */
+};
+
+/* The next level; false when there is none. `spacing` becomes its own. */
+static bool
+coarser(const struct rc_pyramid_base *base, size_t *nx, size_t *ny, double spacing[2],
+        struct level *l)
+{
+    bool x = *nx > 1 && (*ny == 1 || spacing[0] < 1.5 * spacing[1]);
+    bool y = *ny > 1 && (*nx == 1 || spacing[1] < 1.5 * spacing[0]);
+
+    if (!x && !y)
+        return false;
+    *l = (struct level){.x = {*nx, x ? (*nx + 1) / 2 : *nx, x, base->round},
+                        .y = {*ny, y ? (*ny + 1) / 2 : *ny, y, base->round},
+                        .whole = x && y ? 4 : 2};
+    *nx = l->x.coarse;
+    *ny = l->y.coarse;
+    spacing[0] *= x ? 2 : 1;
+    spacing[1] *= y ? 2 : 1;
+    return true;
+}
+
+/* How far the sums of a level reach into the next one, and the weight of what is coarser. */
+static void
+set_factors(struct level *l, const double spacing[2], rc_power_at *power, const void *of)
+{
+    double h = !l->x.halved   ? spacing[1]
+               : !l->y.halved ? spacing[0]
+                              : sqrt(spacing[0] * spacing[1]);
+    double a = fmin(fmax(power(of, 1.5 / h), 0), 4), d = l->x.halved && l->y.halved ? 2 : 1;
+
+    l->k = (float)exp2(fmin(a, d) - d);
+    l->t = (float)exp2(a < 2 ? 3 - 2 * a : 1 - a);
+}
+
+static size_t
+nodes(const struct level *l)
+{
+    return l->x.coarse * l->y.coarse;
+}
+
+/* Rows of level 1 over those held here. */
+static size_t
+own_rows(const struct rc_pyramid *p)
+{
+    return p->level[1].y.halved ? (p->base.n + 1) / 2 : p->base.n;
+}
+
+static bool
+make_room_of_ranks(struct rc_pyramid *p)
+{
+    const struct rc_pyramid_base *b = &p->base;
+    size_t count = rc_ranks_count(b->ranks);
+
+    p->room = rc_alloc(own_rows(p) * p->level[1].x.coarse, sizeof *p->room);
+    p->beside = rc_alloc(4 * b->shape.nx, sizeof *p->beside);
+    p->dealt = malloc((count + 1) * sizeof *p->dealt);
+    return p->room != NULL && p->beside != NULL && p->dealt != NULL;
+}
+
+static void
+deal(struct rc_pyramid *p)
+{
+    size_t count = rc_ranks_count(p->base.ranks), own = own_rows(p);
+
+    rc_ranks_gather(p->base.ranks, sizeof own, &own, p->dealt + 1);
+    p->dealt[0] = 0;
+    for (size_t r = 0; r < count; r++)
+        p->dealt[r + 1] += p->dealt[r];
+}
+
+struct rc_pyramid *
+rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power, const void *of,
+               struct rc_err *err)
+{
+    struct rc_pyramid *p = calloc(1, sizeof *p);
+    size_t nx = base->shape.nx, ny = base->shape.ny;
+    double spacing[] = {base->shape.dx, base->shape.dy};
+    bool fine = p != NULL;
+
+    if (fine) {
+        p->base = *base;
+        p->scratch = rc_alloc(2 * (size_t)base->threads * nx, sizeof *p->scratch);
+        fine = p->scratch != NULL;
+    }
+    for (struct level *l; fine && coarser(base, &nx, &ny, spacing, l = &p->level[p->levels + 1]);
+         p->levels++) {
+        set_factors(l, spacing, power, of);
+        l->threads = nx * ny < FEW ? 1 : base->threads;
+        l->weight = rc_alloc(nodes(l), sizeof *l->weight);
+        l->value = rc_alloc(nodes(l), sizeof *l->value);
+        fine = l->weight != NULL && l->value != NULL;
+    }
+    if (fine && base->ranks != NULL && p->levels > 0)
+        fine = make_room_of_ranks(p);
+    if (!fine)
+        rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes", base->shape.nx,
+                   base->shape.ny);
+    if (rc_ranks_agree(base->ranks, fine ? RC_OK : RC_FAIL, err) != RC_OK) {
+        rc_pyramid_free(p);
+        return NULL;
+    }
+    if (base->ranks != NULL && p->levels > 0)
+        deal(p);
+    return p;
+}
+
+void
+rc_pyramid_free(struct rc_pyramid *p)
+{
+    if (p == NULL)
+        return;
+    for (size_t l = 1; l <= p->levels + 1 && l < MOST_LEVELS; l++) {
+        free(p->level[l].weight);
+        free(p->level[l].value);
+    }
+    free(p->scratch);
+    free(p->room);
+    free(p->beside);
+    free(p->dealt);
+    free(p);
+}
+
+size_t
+rc_pyramid_memory(const struct rc_shape *shape)
+{
+    const struct rc_pyramid_base base = {.shape = *shape};
+    size_t nx = shape->nx, ny = shape->ny, sum = 0;
+    double spacing[] = {shape->dx, shape->dy};
+    struct level l;
+
+    while (coarser(&base, &nx, &ny, spacing, &l))
+        sum += 2 * nodes(&l) * sizeof(float);
+    return sum;
+}
+
+static float *
+scratch(const struct rc_pyramid *p)
+{
+    return p->scratch + (size_t)omp_get_thread_num() * 2 * p->base.shape.nx;
+}
+
+/* ---- from the base to level 1 ---- */
+
+/* Rows held here and those beside them. */
+struct source {
+    const struct rc_pyramid *p;
+    rc_pyramid_add *add;
+    const void *of;
+};
+
+static void
+add_row(const struct source *s, size_t j, float weight, float *to)
+{
+    const struct rc_pyramid_base *b = &s->p->base;
+    size_t nx = b->shape.nx;
+    const float *row;
+
+    if (j >= b->first && j < b->first + b->n) {
+        s->add(s->of, j - b->first, weight, to);
+        return;
+    }
+    row = s->p->beside + (j == (b->first + b->n) % b->shape.ny ? 3 : 2) * nx;
+    for (size_t i = 0; i < nx; i++)
+        to[i] += weight * row[i];
+}
+
+static void
+fetch_beside(struct rc_pyramid *p, const struct source *s)
+{
+    const struct rc_pyramid_base *b = &p->base;
+    const struct rc_rows rows = {b->ranks, b->shape.ny, b->first, b->n};
+    size_t nx = b->shape.nx;
+    float *v = p->beside;
+
+    memset(v, 0, 4 * nx * sizeof *v);
+    if (b->n > 0) {
+        s->add(s->of, 0, 1, v);
+        s->add(s->of, b->n - 1, 1, v + nx);
+    }
+    rc_ranks_beside(&rows, b->round, nx * sizeof *v, v, v + nx, v + 2 * nx, v + 3 * nx, p->has);
+}
+
+/* The values of level 1 become `factor` P' of the rows. */
+static void
+pull_base(struct rc_pyramid *p, rc_pyramid_add *add, const void *of, float factor)
+{
+    const struct source s = {p, add, of};
+    const struct level *l = &p->level[1];
+    size_t nx = p->base.shape.nx, rows = own_rows(p);
+    size_t first = l->y.halved ? p->base.first / 2 : p->base.first;
+    float *to = p->base.ranks == NULL ? l->value : p->room;
+
+    if (p->base.ranks != NULL && l->y.halved)
+        fetch_beside(p, &s);
+#pragma omp parallel for num_threads(p->base.threads) schedule(static)
+    for (size_t k = 0; k < rows; k++) {
+        float weight[4], *sum = scratch(p);
+        size_t at[4], count = children(&l->y, first + k, at, weight);
+        memset(sum, 0, nx * sizeof *sum);
+        for (size_t i = 0; i < count; i++)
+            add_row(&s, at[i], weight[i], sum);
+        fold(&l->x, factor, sum, to + k * l->x.coarse);
+    }
+    if (p->base.ranks != NULL)
+        rc_ranks_move(p->base.ranks, l->x.coarse * sizeof *to, p->dealt, NULL, to, l->value);
+}
+
+/* ---- between levels ---- */
+
+/* What the numbers of a level are multiplied by on their way up. */
+enum up {
+    AS_THEY_ARE,
+    AT_MOST_ONE, /* of weights: min(w, 1) */
+    AT_MOST,     /* c                     */
+    COARSER      /* t / (w + t)           */
+};
+
+RC_CLONES static void
+add_as_they_are(size_t n, float weight, const float *restrict v, float *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] += weight * v[i];
+}
+
+RC_CLONES static void
+add_at_most_one(size_t n, float weight, const float *restrict w, float *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] += weight * (w[i] < 1 ? w[i] : 1);
+}
+
+RC_CLONES static void
+add_at_most(size_t n, float weight, const float *restrict v, const float *restrict w,
+            float *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] += weight * v[i] / (w[i] > 1 ? w[i] : 1);
+}
+
+RC_CLONES static void
+add_coarser(size_t n, float weight, float t, const float *restrict v, const float *restrict w,
+            float *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] += weight * t * v[i] / (w[i] + t);
+}
+
+static void
+add_of_level(const struct level *l, enum up up, size_t j, float weight, float *to)
+{
+    size_t n = l->x.coarse;
+    const float *v = l->value + j * n, *w = l->weight + j * n;
+
+    switch (up) {
+    case AS_THEY_ARE:
+        add_as_they_are(n, weight, v, to);
+        break;
+    case AT_MOST_ONE:
+        add_at_most_one(n, weight, w, to);
+        break;
+    case AT_MOST:
+        add_at_most(n, weight, v, w, to);
+        break;
+    case COARSER:
+        add_coarser(n, weight, l->t, v, w, to);
+        break;
+    }
+}
+
+/* `to`, of the level after `from`, becomes `factor` P' of those numbers. */
+static void
+up(struct rc_pyramid *p, size_t from, enum up what, float factor, float *to)
+{
+    const struct level *l = &p->level[from], *next = l + 1;
+
+#pragma omp parallel for num_threads(next->threads) schedule(static)
+    for (size_t k = 0; k < next->y.coarse; k++) {
+        float weight[4], *sum = scratch(p);
+        size_t at[4], count = children(&next->y, k, at, weight);
+        memset(sum, 0, l->x.coarse * sizeof *sum);
+        for (size_t i = 0; i < count; i++)
+            add_of_level(l, what, at[i], weight[i], sum);
+        fold(&next->x, factor, sum, to + k * next->x.coarse);
+    }
+}
+
+/* Row j of P of the values of a level. */
+static void
+row_of(const struct level *l, size_t j, float *sum, float *out)
+{
+    size_t n = l->x.coarse, near, far;
+    const float *a, *b;
+
+    if (!l->y.halved) {
+        spread(&l->x, l->value + j * n, out);
+        return;
+    }
+    parents(&l->y, j, &near, &far);
+    a = l->value + near * n;
+    b = l->value + far * n;
+    for (size_t i = 0; i < n; i++)
+        sum[i] = 0.75F * a[i] + 0.25F * b[i];
+    spread(&l->x, sum, out);
+}
+
+enum down {
+    SURROUNDINGS, /* v + P v / sqrt(2)         */
+    MEANS,        /* y = (X + t P y) / (w + t) */
+    SUMS          /* v / (w + t) + c k P v     */
+};
+
+RC_CLONES static void
+surround_row(size_t n, const float *restrict coarse, float *restrict v)
+{
+    for (size_t i = 0; i < n; i++)
+        v[i] += (float)M_SQRT1_2 * coarse[i];
+}
+
+RC_CLONES static void
+means_row(size_t n, float t, const float *restrict coarse, const float *restrict w,
+          float *restrict v)
+{
+    for (size_t i = 0; i < n; i++)
+        v[i] = (v[i] + t * coarse[i]) / (w[i] + t);
+}
+
+RC_CLONES static void
+sums_row(size_t n, float t, float k, const float *restrict coarse, const float *restrict w,
+         float *restrict v)
+{
+    for (size_t i = 0; i < n; i++)
+        v[i] = v[i] / (w[i] + t) + k * coarse[i] / (w[i] > 1 ? w[i] : 1);
+}
+
+/* The values of all levels, from the coarsest on, take what the next coarser one says. */
+static void
+down(struct rc_pyramid *p, enum down what)
+{
+    for (size_t m = p->levels; m > 0; m--) {
+        struct level *l = &p->level[m], *next = l + 1;
+        size_t n = l->x.coarse;
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+        for (size_t j = 0; j < l->y.coarse; j++) {
+            float *sum = scratch(p), *coarse = sum + p->base.shape.nx;
+            float *v = l->value + j * n;
+            const float *w = l->weight + j * n;
+            if (m == p->levels)
+                memset(coarse, 0, n * sizeof *coarse);
+            else
+                row_of(next, j, sum, coarse);
+            if (what == SURROUNDINGS)
+                surround_row(n, coarse, v);
+            else if (what == MEANS)
+                means_row(n, l->t, coarse, w, v);
+            else
+                sums_row(n, l->t, m == p->levels ? 0 : next->k, coarse, w, v);
+        }
+    }
+}
+
+/* ---- the whole ---- */
+
+void
+rc_pyramid_row(const struct rc_pyramid *p, size_t j, float *row)
+{
+    if (p->levels == 0)
+        memset(row, 0, p->base.shape.nx * sizeof *row);
+    else
+        row_of(&p->level[1], p->base.first + j, scratch(p), row);
+}
+
+void
+rc_pyramid_set(struct rc_pyramid *p, rc_pyramid_add *w, const void *of)
+{
+    struct level *l = &p->level[1];
+    float sum = 0, part = 1, weight;
+
+    if (p->levels == 0)
+        return;
+    for (size_t m = 1; m <= p->levels; m++, part *= (float)M_SQRT1_2)
+        sum += part;
+    pull_base(p, w, of, 1 / (l->whole * sum));
+    weight = l->k * l->whole * sum;
+#pragma omp parallel for simd num_threads(l->threads) schedule(static)
+    for (size_t i = 0; i < nodes(l); i++)
+        l->weight[i] = weight * l->value[i];
+    for (size_t m = 1; m < p->levels; m++) {
+        const struct level *next = &p->level[m + 1];
+        up(p, m, AT_MOST_ONE, next->k, next->weight);
+        up(p, m, AS_THEY_ARE, 1 / next->whole, next->value);
+    }
+    down(p, SURROUNDINGS);
+}
+
+void
+rc_pyramid_extend(struct rc_pyramid *p, rc_pyramid_add *r, const void *of)
+{
+    if (p->levels == 0)
+        return;
+    pull_base(p, r, of, p->level[1].k);
+    for (size_t m = 1; m < p->levels; m++)
+        up(p, m, AT_MOST, p->level[m + 1].k, p->level[m + 1].value);
+    down(p, MEANS);
+}
+
+void
+rc_pyramid_gather(struct rc_pyramid *p, rc_pyramid_add *f, const void *of)
+{
+    if (p->levels == 0)
+        return;
+    pull_base(p, f, of, p->level[1].k); /* of the way back to the base, where c = 1 on W */
+    for (size_t m = 1; m < p->levels; m++)
+        up(p, m, COARSER, 1, p->level[m + 1].value);
+    down(p, SUMS);
+}

@@ -1,0 +1,60 @@
+/*
+ * The extension E of numbers on a set W of nodes to all nodes, over coarser and coarser grids.
+ *
+ * Each coarser grid has half the nodes a side (along the wider spaced direction only once the other has
+ * caught up). P interpolates linearly from level l + 1 to level l, P' sums back; X are sums of numbers, w of
+ * their weights, and y = E r:
+ *
+ *     X_0 = r on W, w_0 = 1 on W;   X_l+1 = k P' (c X_l),   w_l+1 = k P' min(w_l, 1),   c = min(1, 1/w_l)
+ *     y_l = (X_l + t P y_l+1) / (w_l + t);   y_0 = r on W, P y_1 elsewhere
+ *
+ * So a node off W takes the mean over W of a region about as wide as it is far away, as the energy wants it.
+ * How much is said of that by the power a with which the inverse of the influence operator, A(q) ~ q^a, grows
+ * at waves as long as the grid of a level is wide, k and t. Far from a patch alone the field of least energy
+ * falls off as |x|^(a-d) in d directions, to which belongs k = 2^(a-d), at most 1. A weight t is given to
+ * what the coarser grids say: 2 for a = 1, 1/2 for a = 2, and half for each further one, since a body that
+ * bends wants what is smooth.
+ * Tried beside it: one mean over W with weights |x|^(-5/2), by a convolution, had eigenvalues of E' A E K up to
+ * 2.6 at 2 % contact, where these are up to 1.15; under coats 400 times as stiff as their base 9, now 4.
+ */
+#ifndef RC_PYRAMID_H
+#define RC_PYRAMID_H
+
+#include <stdbool.h>
+
+#include "libcontact/operator/operator.h"
+
+struct rc_pyramid;
+
+/* The finest grid: `shape` all of its nodes, of which rows first .. first + n - 1 are held here; the first
+ * row held by each rank is even. */
+struct rc_pyramid_base {
+    struct rc_shape shape;
+    size_t first, n;
+    bool round; /* the map repeats                                         */
+    int threads;
+    const struct rc_ranks *ranks; /* that share it, NULL: none                               */
+};
+/* The power a at wave number q, over the unit of the spacings. */
+typedef double rc_power_at(const void *of, double q);
+/* NULL when memory is short on any rank. */
+struct rc_pyramid *rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power,
+                                  const void *of, struct rc_err *err);
+void rc_pyramid_free(struct rc_pyramid *pyramid);
+/* Bytes of a pyramid over so many nodes. */
+size_t rc_pyramid_memory(const struct rc_shape *shape);
+
+/* Adds `weight` times row j of those held here to `to`; called by several threads. */
+typedef void rc_pyramid_add(const void *of, size_t j, float weight, float *to);
+/* Takes W: its rows hold 1 on W, else 0. Afterwards rc_pyramid_row gives the part of the
+ * surroundings of each node that is on W, those at a distance r weighted as r^(-5/2). */
+void rc_pyramid_set(struct rc_pyramid *pyramid, rc_pyramid_add *w, const void *of);
+/* From the rows of r on W, zero elsewhere: afterwards rc_pyramid_row gives E r off W. */
+void rc_pyramid_extend(struct rc_pyramid *pyramid, rc_pyramid_add *r, const void *of);
+/* The transpose: from the rows of f off W, zero on W; afterwards rc_pyramid_row gives what E' f has on
+ * W beside f. */
+void rc_pyramid_gather(struct rc_pyramid *pyramid, rc_pyramid_add *f, const void *of);
+/* Row j of those held here; called by several threads. */
+void rc_pyramid_row(const struct rc_pyramid *pyramid, size_t j, float *row);
+
+#endif
