@@ -713,7 +713,7 @@ static double
 convolutions(double nodes, double digits)
 {
     (void)nodes;
-    return 14 + 2.3 * fmax(digits - 4, -2);
+    return 6.5 + 1.1 * fmax(digits - 4, -2);
 }
 
 const struct rc_method rc_method_pcg = {
