@@ -119,7 +119,7 @@ rc_operator_frame(const struct rc_shape *s, enum rc_boundary boundary)
 {
     if (boundary == RC_PERIODIC)
         return (struct rc_frame){0, 0};
-    return (struct rc_frame){s->nx / frame_part, s->ny / frame_part / 2 * 2};
+    return (struct rc_frame){s->nx / frame_part / 2 * 2, s->ny / frame_part / 2 * 2};
 }
 
 static struct rc_shape
