@@ -1,14 +1,20 @@
 /*
- * The median of a map, found by counting: numbers are ordered as their bits are, so a histogram of
- * the highest bits tells in which bin the median lies; the second step is a histogram of the next
- * bits over the numbers in that bin. When only a small part of all numbers is left in the bin, they
- * are sorted.
+ * The median of a map. Of a large map a sample tells between which two numbers the median lies almost
+ * surely; one pass counts those below and keeps the few between them (Floyd and Rivest 1975, Commun.
+ * ACM 18, 165). Where the sample was wrong, all numbers are kept.
+ *
+ * Among those it is found by counting: numbers are ordered as their bits are, so a histogram of the
+ * highest bits tells in which bin the median lies; the second step is a histogram of the next bits
+ * over the numbers in that bin. When only a small part of all numbers is left in the bin, they are
+ * sorted.
  */
 #include "robust.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "libcontact/common.h"
 
 /* Bits that are still unknown after each step. */
 static const int shifts[] = {53, 42, 31, 20, 9, 0};
@@ -19,6 +25,10 @@ enum {
     STEPS = sizeof shifts / sizeof *shifts,
     BINS = 1 << 11, /* at most, of a step */
     PART = 64,      /* that is small enough to be sorted */
+    SAMPLE = 1 << 15,
+    LARGE = 32 * SAMPLE, /* from so many numbers on a sample is taken */
+    NEAR = 32,           /* the part of the numbers that may lie near the median */
+    PIECE = 1024         /* numbers that are taken at a time */
 };
 
 struct values {
@@ -29,15 +39,21 @@ struct values {
     int threads;
 };
 
+static inline double
+number_at(const struct values *of, size_t k)
+{
+    double d = of->v[k] - of->about;
+
+    return of->magnitude ? fabs(d) : d + 0.0; /* -0 is 0 */
+}
+
 /* Bits that stand in the order of the numbers. */
 static inline uint64_t
-key_of(const struct values *of, double v)
+key_of(double d)
 {
     const uint64_t sign = UINT64_C(1) << 63;
-    double d = v - of->about;
     uint64_t bits;
 
-    d = of->magnitude ? fabs(d) : d + 0.0; /* -0 is 0 */
     memcpy(&bits, &d, sizeof bits);
     return bits & sign ? ~bits : bits | sign;
 }
@@ -68,7 +84,7 @@ count_bins(const struct values *of, uint64_t prefix, size_t k, size_t *bins)
         uint64_t key;
         if (isnan(of->v[i]))
             continue;
-        key = key_of(of, of->v[i]);
+        key = key_of(number_at(of, i));
         if (k == 0 || key >> above == prefix)
             bins[key >> shift & mask]++;
     }
@@ -93,7 +109,7 @@ sort_bin(const struct values *of, uint64_t prefix, int shift, size_t count)
         return NULL;
 #pragma omp parallel for num_threads(of->threads)
     for (size_t i = 0; i < of->n; i++) {
-        uint64_t key = key_of(of, of->v[i]);
+        uint64_t key = key_of(number_at(of, i));
         size_t at;
         if (isnan(of->v[i]) || key >> shift != prefix)
             continue;
@@ -105,27 +121,21 @@ sort_bin(const struct values *of, uint64_t prefix, int shift, size_t count)
     return keys;
 }
 
-/* The key in the middle of *count, of an even number of them the lower one; *upper then becomes the
- * other one where that is found on the way, else `unknown`. */
+/* The key with so many below it; *upper becomes the next one where that is found on the way, else
+ * `unknown`. */
 static uint64_t
-middle_key(const struct values *of, size_t *count, uint64_t *upper)
+key_at(const struct values *of, size_t rank, uint64_t *upper)
 {
-    size_t bins[BINS], below = 0, rank = 0, bin = 0;
+    size_t bins[BINS], below = 0, bin = 0;
     uint64_t prefix = 0, *sorted;
 
-    *count = 0;
     *upper = unknown;
     for (size_t k = 0; k < STEPS; k++) {
         count_bins(of, prefix, k, bins);
-        for (size_t b = 0; k == 0 && b < BINS; b++)
-            *count += bins[b];
-        if (*count == 0)
-            return 0;
-        rank = (*count - 1) / 2;
         for (bin = 0; below + bins[bin] <= rank; bin++)
             below += bins[bin];
         prefix = (k == 0 ? 0 : prefix << (shifts[k - 1] - shifts[k])) | bin;
-        if (bins[bin] > *count / PART || k + 1 == STEPS)
+        if (bins[bin] > of->n / PART || k + 1 == STEPS)
             continue;
         if ((sorted = sort_bin(of, prefix, shifts[k], bins[bin])) == NULL)
             continue;
@@ -149,24 +159,153 @@ next_key(const struct values *of, uint64_t key)
 #pragma omp parallel for num_threads(of->threads) reduction(min : next)
     for (size_t k = 0; k < of->n; k++)
         if (!isnan(of->v[k])) {
-            uint64_t other = key_of(of, of->v[k]);
+            uint64_t other = key_of(number_at(of, k));
             next = other > key && other < next ? other : next;
         }
     return next;
+}
+
+/* ---- those near the median ---- */
+
+static size_t
+count_there(const struct values *of)
+{
+    size_t count = 0;
+
+#pragma omp parallel for num_threads(of->threads) reduction(+ : count)
+    for (size_t k = 0; k < of->n; k++)
+        count += isnan(of->v[k]) ? 0 : 1;
+    return count;
+}
+
+static int
+by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+
+    return x < y ? -1 : x > y;
+}
+
+/* Numbers below and above the median by four standard deviations of a sample's median; false when
+ * there are too few of them. */
+static bool
+guess(const struct values *of, double *sample, double bounds[2])
+{
+    const uint64_t golden =
+        UINT64_C(0x9E3779B97F4A7C15); /* of 2^64: places that fill the map evenly */
+    size_t n = 0, off;
+
+    for (uint64_t k = 0; k < SAMPLE; k++) {
+        double part = (double)(k * golden >> 11) * 0x1p-53;
+        sample[n] = number_at(of, (size_t)(part * (double)of->n));
+        n += isnan(sample[n]) ? 0 : 1;
+    }
+    if (n < SAMPLE / 2)
+        return false;
+    qsort(sample, n, sizeof *sample, by_value);
+    off = (size_t)(2 * sqrt((double)n));
+    bounds[0] = sample[n / 2 - off];
+    bounds[1] = sample[n / 2 + off];
+    return true;
+}
+
+/* Numbers of a piece. */
+struct counts {
+    size_t there, below, inside;
+};
+
+RC_CLONES static struct counts
+take_piece(const struct values *of, size_t first, size_t n, const double bounds[2],
+           double *restrict inside)
+{
+    const double low = bounds[0], high = bounds[1], about = of->about;
+    const bool magnitude = of->magnitude;
+    double there = 0, below = 0, d[PIECE];
+    size_t kept = 0;
+
+    for (size_t i = 0; i < n; i++)
+        d[i] = of->v[first + i] - about;
+    for (size_t i = 0; i < n && magnitude; i++)
+        d[i] = fabs(d[i]);
+#pragma omp simd reduction(+ : there, below)
+    for (size_t i = 0; i < n; i++) {
+        there += d[i] == d[i] ? 1 : 0;
+        below += d[i] < low ? 1 : 0;
+    }
+    for (size_t i = 0; i < n; i++) {
+        inside[kept] = d[i];
+        kept += (d[i] >= low) & (d[i] <= high);
+    }
+    return (struct counts){(size_t)there, (size_t)below, kept};
+}
+
+/* Counts the numbers that are there and those below the bounds, and keeps those within, `room` of them
+ * at most. */
+static struct counts
+keep_inside(const struct values *of, const double bounds[2], size_t room, double *kept)
+{
+    size_t there = 0, below = 0, used = 0;
+
+#pragma omp parallel for num_threads(of->threads) reduction(+ : there, below)
+    for (size_t k = 0; k < of->n; k += PIECE) {
+        double inside[PIECE];
+        struct counts c = take_piece(of, k, of->n - k < PIECE ? of->n - k : PIECE, bounds, inside);
+        size_t at;
+#pragma omp atomic capture
+        {
+            at = used;
+            used += c.inside;
+        }
+        if (at + c.inside <= room)
+            memcpy(kept + at, inside, c.inside * sizeof *kept);
+        there += c.there;
+        below += c.below;
+    }
+    return (struct counts){there, below, used};
+}
+
+/* Makes *near the numbers near the median, which lie in what it returns; or, where it returns NULL, all.
+ * *count becomes the number of all, *rank that of those of *near below the median. */
+static double *
+narrow(const struct values *of, struct values *near, size_t *count, size_t *rank)
+{
+    size_t room = of->n / NEAR;
+    double bounds[2], *kept = of->n < LARGE ? NULL : malloc(room * sizeof *kept);
+
+    if (kept != NULL && guess(of, kept, bounds)) {
+        struct counts c = keep_inside(of, bounds, room, kept);
+        size_t middle = (c.there - 1) / 2;
+        if (c.inside <= room && c.below <= middle && middle + 1 < c.below + c.inside) {
+            *near = (struct values){kept, c.inside, 0, false, 1};
+            *count = c.there;
+            *rank = middle - c.below;
+            return kept;
+        }
+    }
+    free(kept);
+    *near = *of;
+    *count = count_there(of);
+    *rank = *count > 0 ? (*count - 1) / 2 : 0;
+    return NULL;
 }
 
 double
 rc_median(const double *v, size_t n, double about, bool magnitude, int threads)
 {
     const struct values of = {v, n, about, magnitude, threads};
-    size_t count;
-    uint64_t upper, lower = middle_key(&of, &count, &upper);
-    double median = count == 0 ? NAN : number_of(lower);
+    struct values near;
+    size_t count, rank;
+    double *kept = narrow(&of, &near, &count, &rank), median = NAN;
+    uint64_t upper, lower;
 
-    if (count == 0 || count % 2 == 1)
-        return median;
-    if (upper == unknown)
-        upper = next_key(&of, lower);
-    median += 0.5 * (number_of(upper) - median);
+    if (count > 0) {
+        lower = key_at(&near, rank, &upper);
+        median = number_of(lower);
+        if (count % 2 == 0) {
+            upper = upper == unknown ? next_key(&near, lower) : upper;
+            median += 0.5 * (number_of(upper) - median);
+        }
+    }
+    free(kept);
     return median;
 }
