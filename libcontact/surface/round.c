@@ -27,9 +27,11 @@
 
 enum {
     UNKNOWNS = 6, /* at most; those of a quadratic polynomial */
-    PAIRS = UNKNOWNS * (UNKNOWNS + 1) / 2,
-    GROUPS = 256,  /* of rows that are summed by one thread */
-    SEGMENT = 256, /* nodes of a row that are taken at a time */
+    PAIRS =
+        (UNKNOWNS + 1) * (UNKNOWNS + 2) / 2, /* of the columns of the unknowns and one of heights */
+    TOGETHER = 4,                            /* sums of products that are made in one loop */
+    GROUPS = 256,                            /* of rows that are summed by one thread */
+    SEGMENT = 256,                           /* nodes of a row that are taken at a time */
     STEPS = 100,
     START_WEIGHTS = 6 /* rounds of them */
 };
@@ -81,8 +83,7 @@ struct normal {
 };
 
 enum {
-    SQUARES = PAIRS + UNKNOWNS, /* places of the sums of a row */
-    OUTSIDE,
+    OUTSIDE = PAIRS, /* its place behind the sums of the pairs */
     SUMS
 };
 
@@ -92,15 +93,16 @@ enum {
 static inline double
 height(double a, double q, double *slope, bool *there)
 {
-    double square = 1 - 4 * a * q, root;
+    double square = 1 - 4 * a * q, root, per; /* per: one division for both */
 
     *there = square > 0;
     root = sqrt(*there ? square : 1);
-    *slope = *there ? -1 / root : 0;
-    return *there ? -2 * q / (1 + root) : 0;
+    per = *there ? 1 / (root + root * root) : 0;
+    *slope = -(1 + root) * per;
+    return -2 * q * root * per;
 }
 
-RC_CLONES static void
+RC_WIDE_CLONES static void
 sphere_row(const double *p, size_t n, const double *restrict x, double y, double *restrict e,
            double *restrict d)
 {
@@ -134,12 +136,13 @@ across_of(const double *p)
     return c;
 }
 
-RC_CLONES static void
+RC_WIDE_CLONES static void
 cylinder_row(const double *p, size_t n, const double *restrict x, double y, double *restrict e,
              double *restrict d)
 {
     const struct across c = across_of(p);
     /* how b changes with the rise alone, and with the parameters */
+    const double rise = c.rise / c.root;
     const double by_rise = c.slope * c.rise / (c.root * c.root * c.root);
     const double b_B = -c.cos / c.root - by_rise * c.sin;
     const double b_C = -c.sin / c.root + by_rise * c.cos;
@@ -149,7 +152,7 @@ cylinder_row(const double *p, size_t n, const double *restrict x, double y, doub
         double u = x[i] * c.cos + y * c.sin, v = y * c.cos - x[i] * c.sin, slope;
         bool there;
         double m = height(p[A], p[A] * u * u + c.b * u + p[E], &slope, &there);
-        double z_b = c.root * slope * u, z_rise = v + c.rise * m / c.root;
+        double z_b = c.root * slope * u, z_rise = v + rise * m;
         double z_T = -c.rise * u + c.root * slope * (2 * p[A] * u + c.b) * v;
         e[i] = there ? e[i] - (c.rise * v + c.root * m) : NAN;
         d[i] = c.root * slope * (u * u + m * m);
@@ -190,21 +193,6 @@ cylinder_equation(const double *p, size_t n, const double *x, double y, double *
     }
 }
 
-static void
-quadratic(const double *p, size_t n, const double *x, double y, double *e, double *d)
-{
-    (void)p;
-    (void)e;
-    for (size_t i = 0; i < n; i++) {
-        d[i] = 1;
-        d[n + i] = x[i];
-        d[2 * n + i] = y;
-        d[3 * n + i] = x[i] * x[i];
-        d[4 * n + i] = x[i] * y;
-        d[5 * n + i] = y * y;
-    }
-}
-
 /* ---- sums over the points ---- */
 
 static double
@@ -213,20 +201,33 @@ place_y(const struct round *f, size_t j)
     return ((double)j - f->middle_y) * f->shape->dy / f->scale;
 }
 
-static inline double
-product_sum(size_t n, const double *restrict a, const double *restrict b)
+/* Adds the sums of the products with each of so many columns of n numbers. Several sums grow side by
+ * side: alone, each addition would wait for the one before. */
+static inline void
+product_sums(size_t n, const double *restrict t, const double *const *column, size_t columns,
+             double *sums)
 {
-    double sum = 0;
-
-#pragma omp simd reduction(+ : sum)
-    for (size_t i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
+    for (size_t b = 0; b < columns; b += TOGETHER) {
+        const double *c[TOGETHER];
+        double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+        size_t some = columns - b < TOGETHER ? columns - b : TOGETHER;
+        for (size_t k = 0; k < TOGETHER; k++)
+            c[k] = column[b + (k < some ? k : 0)];
+#pragma omp simd reduction(+ : s0, s1, s2, s3)
+        for (size_t i = 0; i < n; i++) {
+            s0 += t[i] * c[0][i];
+            s1 += t[i] * c[1][i];
+            s2 += t[i] * c[2][i];
+            s3 += t[i] * c[3][i];
+        }
+        for (size_t k = 0; k < some; k++)
+            sums[b + k] += (const double[]){s0, s1, s2, s3}[k];
+    }
 }
 
 /* Heights of n nodes in units of the scale, and their weights, both 0 where nothing is there; r:
  * the residuals that weights are made of, or NULL. */
-RC_CLONES static void
+RC_WIDE_CLONES static void
 weigh(size_t n, const double *restrict h, const double *restrict r, double reach, double mean,
       double per, double *restrict e, double *restrict w)
 {
@@ -239,32 +240,37 @@ weigh(size_t n, const double *restrict h, const double *restrict r, double reach
         w[i] *= rc_biweight(r[i], reach);
 }
 
-/* Adds the sums of n nodes; points with weight but no surface are counted. */
-RC_CLONES static void
+/* Adds the sums of n nodes: of the products of each column with those before it and itself, the heights
+ * being the last column. Points with weight but no surface are counted. */
+RC_WIDE_CLONES static void
 add_sums(size_t n, size_t unknowns, const size_t *column, double *restrict e, double *restrict w,
          const double *restrict d, double *restrict sums)
 {
+    const double *of[UNKNOWNS + 1];
     double t[SEGMENT], outside = 0;
 
+#pragma omp simd reduction(+ : outside)
     for (size_t i = 0; i < n; i++) {
         bool there = e[i] == e[i];
-        outside += !there && w[i] > 0 ? 1 : 0;
+        outside += !there & (w[i] > 0) ? 1 : 0;
         w[i] = there ? w[i] : 0;
         e[i] = there ? e[i] : 0;
     }
-    for (size_t a = 0, pair = 0; a < unknowns; a++) {
-        const double *da = d + column[a] * n;
-        for (size_t i = 0; i < n; i++)
-            t[i] = w[i] * da[i];
-        for (size_t b = 0; b <= a; b++)
-            sums[pair++] += product_sum(n, t, d + column[b] * n);
-        sums[PAIRS + a] += product_sum(n, t, e);
-    }
-    for (size_t i = 0; i < n; i++)
-        t[i] = w[i] * e[i];
-    sums[SQUARES] += product_sum(n, t, e);
+    for (size_t a = 0; a < unknowns; a++)
+        of[a] = d + column[a] * n;
+    of[unknowns] = e;
     sums[OUTSIDE] += outside;
+    for (size_t a = 0; a <= unknowns; a++) {
+        for (size_t i = 0; i < n; i++)
+            t[i] = w[i] * of[a][i];
+        product_sums(n, t, of, a + 1, sums);
+        sums += a + 1;
+    }
 }
+
+/* Sums of a row. */
+typedef void row_sums(const struct round *f, size_t j, surface_row *row, const double *p,
+                      size_t unknowns, const size_t *column, double *sums);
 
 static void
 sum_row(const struct round *f, size_t j, surface_row *row, const double *p, size_t unknowns,
@@ -282,12 +288,68 @@ sum_row(const struct round *f, size_t j, surface_row *row, const double *p, size
     }
 }
 
+/* What the normal equations of a quadratic polynomial are made of. */
+struct powers {
+    double w[5], we[3]; /* sums of w x^k, and of w e x^k */
+};
+
+RC_WIDE_CLONES static void
+add_powers(size_t n, const double *restrict of_x, const double *restrict w,
+           const double *restrict e, struct powers *to)
+{
+    double w0 = 0, w1 = 0, w2 = 0, w3 = 0, w4 = 0, e0 = 0, e1 = 0, e2 = 0;
+
+#pragma omp simd reduction(+ : w0, w1, w2, w3, w4, e0, e1, e2)
+    for (size_t i = 0; i < n; i++) {
+        double x = of_x[i], wx = w[i] * x, wxx = wx * x;
+        w0 += w[i];
+        w1 += wx;
+        w2 += wxx;
+        w3 += wxx * x;
+        w4 += wxx * x * x;
+        e0 += w[i] * e[i];
+        e1 += wx * e[i];
+        e2 += wxx * e[i];
+    }
+    *to =
+        (struct powers){{to->w[0] + w0, to->w[1] + w1, to->w[2] + w2, to->w[3] + w3, to->w[4] + w4},
+                        {to->we[0] + e0, to->we[1] + e1, to->we[2] + e2}};
+}
+
+/* Of a quadratic polynomial, whose terms are products of a power of x and one of y. */
+static void
+sum_quadratic(const struct round *f, size_t j, surface_row *row, const double *p, size_t unknowns,
+              const size_t *column, double *sums)
+{
+    static const size_t of_x[UNKNOWNS] = {0, 1, 0, 2, 1, 0}, of_y[UNKNOWNS] = {0, 0, 1, 0, 1, 2};
+    size_t nx = f->shape->nx;
+    double e[SEGMENT], w[SEGMENT], y[5] = {1};
+    struct powers sum = {{0}, {0}};
+
+    (void)row;
+    (void)p;
+    for (size_t i = 0; i < nx; i += SEGMENT) {
+        size_t n = nx - i < SEGMENT ? nx - i : SEGMENT, k = j * nx + i;
+        weigh(n, f->h + k, f->reach > 0 ? f->residual + k : NULL, f->reach, f->mean, 1 / f->scale,
+              e, w);
+        add_powers(n, f->x + i, w, e, &sum);
+    }
+    for (size_t k = 1; k < 5; k++)
+        y[k] = y[k - 1] * place_y(f, j);
+    for (size_t a = 0; a < unknowns; a++)
+        for (size_t b = 0; b <= a; b++)
+            *sums++ +=
+                sum.w[of_x[column[a]] + of_x[column[b]]] * y[of_y[column[a]] + of_y[column[b]]];
+    for (size_t a = 0; a < unknowns; a++)
+        *sums++ += sum.we[of_x[column[a]]] * y[of_y[column[a]]];
+}
+
 /* Group by group of rows, and the groups in their order: the sums do not depend on the threads. */
 static void
-sum_all(const struct round *f, surface_row *row, const double *p, size_t unknowns,
+sum_all(const struct round *f, row_sums *sum, surface_row *row, const double *p, size_t unknowns,
         const size_t *column, struct normal *normal)
 {
-    double total[SUMS] = {0};
+    double total[SUMS] = {0}, *of = total;
     size_t ny = f->shape->ny;
 
 #pragma omp parallel for schedule(static) num_threads(f->threads)
@@ -295,24 +357,31 @@ sum_all(const struct round *f, surface_row *row, const double *p, size_t unknown
         double *sums = f->sums + g * SUMS;
         memset(sums, 0, SUMS * sizeof *sums);
         for (size_t j = g * ny / GROUPS; j < (g + 1) * ny / GROUPS; j++)
-            sum_row(f, j, row, p, unknowns, column, sums);
+            sum(f, j, row, p, unknowns, column, sums);
     }
     for (size_t g = 0; g < GROUPS; g++)
         for (size_t k = 0; k < SUMS; k++)
             total[k] += f->sums[g * SUMS + k];
-    for (size_t a = 0, pair = 0; a < unknowns; a++) {
-        for (size_t b = 0; b <= a; b++, pair++)
-            normal->matrix[a][b] = normal->matrix[b][a] = total[pair];
-        normal->right[a] = total[PAIRS + a];
-    }
-    normal->squares = total[SQUARES];
+    for (size_t a = 0; a < unknowns; a++)
+        for (size_t b = 0; b <= a; b++)
+            normal->matrix[a][b] = normal->matrix[b][a] = *of++;
+    for (size_t a = 0; a < unknowns; a++)
+        normal->right[a] = *of++;
+    normal->squares = *of;
     normal->outside = total[OUTSIDE];
+}
+
+/* What does not need the derivatives: squares and points outside. */
+static void
+sum_squares(const struct round *f, const double *p, struct normal *normal)
+{
+    sum_all(f, sum_row, f->surface, p, 0, NULL, normal);
 }
 
 static void
 sum_surface(const struct round *f, const double *p, struct normal *normal)
 {
-    sum_all(f, f->surface, p, f->unknowns, f->unknown, normal);
+    sum_all(f, sum_row, f->surface, p, f->unknowns, f->unknown, normal);
 }
 
 /* What is left of each height in row j, in units of the scale; `beside` where the surface has no
@@ -424,7 +493,12 @@ descend(const struct round *f, double *p, size_t steps, struct rc_err *err)
         memcpy(to, p, sizeof to);
         for (size_t a = 0; a < f->unknowns; a++)
             to[f->unknown[a]] += step[a];
-        sum_surface(f, to, &next);
+        if (taken + 1 < steps) {
+            sum_surface(f, to, &next);
+        } else { /* the last one: no other starts from there */
+            next = now;
+            sum_squares(f, to, &next);
+        }
         if (next.outside == 0 && next.squares <= now.squares) {
             bool last = moved(f->unknowns, &now, step) <= enough && damping <= 1e-3;
             memcpy(p, to, sizeof to);
@@ -454,7 +528,7 @@ flatten(const struct round *f, double *p, struct rc_err *err)
     struct normal normal;
 
     for (size_t k = 0; k < STEPS; k++) {
-        sum_surface(f, p, &normal);
+        sum_squares(f, p, &normal);
         if (normal.outside == 0)
             return RC_OK;
         p[A] *= 0.8;
@@ -468,7 +542,7 @@ start_sphere(const struct round *f, double *p, struct rc_err *err)
     struct normal normal;
     double x[UNKNOWNS];
 
-    sum_all(f, sphere_equation, p, f->unknowns, f->unknown, &normal);
+    sum_all(f, sum_row, sphere_equation, p, f->unknowns, f->unknown, &normal);
     if (!solve_damped(f->unknowns, &normal, 0, x))
         return undetermined(f, err);
     for (size_t a = 0; a < f->unknowns; a++)
@@ -488,7 +562,7 @@ start_cylinder(const struct round *f, double *p, struct rc_err *err)
     p[T] = f->shape->nx == 1 ? acos(0) : 0;
     if (!profile) {
         double mean, half;
-        sum_all(f, quadratic, p, UNKNOWNS, column, &normal);
+        sum_all(f, sum_quadratic, NULL, p, UNKNOWNS, column, &normal);
         if (!solve_damped(UNKNOWNS, &normal, 0, x))
             return undetermined(f, err);
         mean = 0.5 * (x[3] + x[5]);
@@ -499,7 +573,7 @@ start_cylinder(const struct round *f, double *p, struct rc_err *err)
         p[B] = x[1];
         p[C] = x[2];
     }
-    sum_all(f, cylinder_equation, p, 3, column, &normal);
+    sum_all(f, sum_row, cylinder_equation, p, 3, column, &normal);
     if (!solve_damped(3, &normal, 0, x))
         return undetermined(f, err);
     p[A] = x[0];
@@ -514,21 +588,26 @@ start_cylinder(const struct round *f, double *p, struct rc_err *err)
     return RC_OK;
 }
 
-/* What is left of the heights without the quadratic polynomial of the coefficients c. */
+/* What is left of n heights of a row without the quadratic polynomial of the coefficients c. */
+RC_WIDE_CLONES static void
+without_quadratic(size_t n, const double *restrict h, const double *restrict of_x, double y,
+                  double mean, double per, const double c[UNKNOWNS], double *restrict to)
+{
+    const double c0 = c[0] + (c[2] + c[5] * y) * y, c1 = c[1] + c[4] * y, c2 = c[3];
+
+    for (size_t i = 0; i < n; i++)
+        to[i] = (h[i] - mean) * per - (c0 + (c1 + c2 * of_x[i]) * of_x[i]);
+}
+
 static void
 find_quadratic_residuals(const struct round *f, const double c[UNKNOWNS])
 {
     size_t nx = f->shape->nx;
 
 #pragma omp parallel for schedule(static) num_threads(f->threads)
-    for (size_t j = 0; j < f->shape->ny; j++) {
-        const double y = place_y(f, j), *h = f->h + j * nx;
-        for (size_t i = 0; i < nx; i++) {
-            double x = f->x[i];
-            f->residual[j * nx + i] = (h[i] - f->mean) / f->scale - c[0] - c[1] * x - c[2] * y -
-                                      (c[3] * x + c[4] * y) * x - c[5] * y * y;
-        }
-    }
+    for (size_t j = 0; j < f->shape->ny; j++)
+        without_quadratic(nx, f->h + j * nx, f->x, place_y(f, j), f->mean, 1 / f->scale, c,
+                          f->residual + j * nx);
 }
 
 /* Weights that leave out points far from a quadratic polynomial, which is itself found with such
@@ -544,7 +623,7 @@ start_weights(struct round *f, struct rc_err *err)
 
     for (size_t k = 0; k < START_WEIGHTS; k++) {
         double x[UNKNOWNS], c[UNKNOWNS] = {0}, reach;
-        sum_all(f, quadratic, none, terms, column, &normal);
+        sum_all(f, sum_quadratic, NULL, none, terms, column, &normal);
         if (!solve_damped(terms, &normal, 0, x))
             return undetermined(f, err);
         for (size_t a = 0; a < terms; a++)
@@ -676,7 +755,7 @@ subtract(struct round *f, const double *p, double radius, double *h, struct rc_e
     struct normal normal;
 
     f->reach = 0; /* all points count */
-    sum_surface(f, p, &normal);
+    sum_squares(f, p, &normal);
     if (normal.outside > 0)
         return rc_err_set(err,
                           "%.0f points lie beside the %s of radius %g m that fits the others: "
