@@ -5,8 +5,8 @@
  *
  *     s * (w h) / s * w,      s(x, y) = exp(-pi (x^2 + y^2) / a^2),    a = sqrt(ln 2 / pi) L
  *
- * s is a product of a factor of x and one of y, so both sums are done line by line, first along x,
- * then along y. Where a is many nodes long they go by coarser nodes: the product of two Gaussians
+ * s is a product of a factor of x and one of y, so both sums are done one after the other, first along
+ * x, line by line, then along y, where whole rows are added. Where a is many nodes long they go by coarser nodes: the product of two Gaussians
  * of the width a / sqrt(2), one about a fine node x and one about another, X, is the Gaussian of
  * width a of x - X times one of width a / 2 about the middle between them. Summed over coarse nodes
  * s apart that is a constant times the Gaussian of x - X but for a part 2 exp(-pi (a / 2s)^2),
@@ -25,8 +25,11 @@
 #include "robust.h"
 
 enum {
-    LANES = 8, /* lines that are summed at a time, numerators and denominators */
-    BLOCK = 64 /* nodes of them that are turned at a time */
+    WIDE = 8,     /* columns of which sums are kept in registers: a cache line */
+    BLOCK = 32,   /* sums along a line likewise */
+    TOGETHER = 4, /* rows of sums that are made of the same rows */
+    BAND = 128,   /* rows that a thread takes at a time */
+    STRIP = 256   /* columns of them whose rows stay in the cache */
 };
 
 /* A Gaussian is cut where it is exp(-pi reach^2) = 2e-18 of its largest value. */
@@ -36,7 +39,7 @@ static const double coarse_per_width = 7;
 /* Relative: a length that rounding has left just below two nodes counts as two. */
 static const double slack = 1e-9;
 
-/* Sums along a line: out[k] = sum over t < taps of w[(k % phases) taps + t] in[k step / phases +
+/* Sums along a line, or of rows: out[k] = sum over t < taps of w[(k % phases) taps + t] in[k step / phases +
  * start + t]. */
 struct sums {
     size_t out, taps, step, phases;
@@ -50,7 +53,7 @@ struct way {
     size_t n, m; /* nodes of the line, and after the first sums */
     bool two;
     struct sums down, up;
-    size_t pad; /* nodes that are read on either side of a periodic line */
+    size_t pad; /* nodes that are read on either side of the line */
 };
 
 struct gauss {
@@ -58,11 +61,25 @@ struct gauss {
     bool periodic;
     int threads;
     struct way x, y;
-    double *mid;       /* for each row of the map x.m numerators, then as many denominators */
-    size_t stride;     /* from numerators to denominators, and on to the next row */
-    double *lines;     /* for each thread: in and out of the sums */
-    size_t per_thread; /* doubles of it */
+    double *mid;        /* for each row of the map x.m numerators, then as many denominators */
+    double *low;        /* where y goes by coarse nodes, the same for each of these rows     */
+    size_t stride;      /* from numerators to denominators, and on to the next row           */
+    double *room;       /* for each thread: lines, rows of sums and their weights            */
+    const double **row; /* for each thread: the rows that are added                          */
+    size_t per_thread, rows_per_thread;
 };
+
+static size_t
+smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+static size_t
+larger(size_t a, size_t b)
+{
+    return a > b ? a : b;
+}
 
 /* ---- sums along a line ---- */
 
@@ -142,37 +159,118 @@ way_new(struct way *way, size_t n, double width)
     return step < 2 ? way_direct(way, width) : way_coarse(way, width, step);
 }
 
-/* Lines lie side by side, `wide` numbers at each place. `in` is place 0; places from low to high
- * may be read, and what would lie beyond is 0. */
-static inline void
-sum_wide(const struct sums *s, ptrdiff_t low, ptrdiff_t high, size_t wide,
-         const double *restrict in, double *restrict out)
+/* Where the numbers of sum k begin. */
+static inline ptrdiff_t
+first_of(const struct sums *s, size_t k)
 {
-    for (size_t k = 0; k < s->out; k++) {
-        ptrdiff_t first = (ptrdiff_t)(k * s->step / s->phases) + s->start;
-        ptrdiff_t begin = first < low ? low - first : 0;
-        ptrdiff_t end = first + (ptrdiff_t)s->taps > high ? high - first : (ptrdiff_t)s->taps;
-        const double *w = s->w + k % s->phases * s->taps;
-        double sum[2 * LANES] = {0};
-        for (ptrdiff_t t = begin; t < end; t++) {
-            const double *at = in + (first + t) * (ptrdiff_t)wide;
+    return (ptrdiff_t)(k * s->step / s->phases) + s->start;
+}
+
+/* Adds `block` sums whose numbers begin one place after each other. Weights are `apart` numbers apart. */
+static inline void
+sum_block(const double *restrict in, const double *restrict w, size_t taps, size_t apart,
+          size_t block, double *restrict sum)
+{
+    for (size_t t = 0; t < taps; t++) {
 #pragma omp simd
-            for (size_t l = 0; l < wide; l++)
-                sum[l] += w[t] * at[l];
-        }
-        for (size_t l = 0; l < wide; l++)
-            out[k * wide + l] = sum[l];
+        for (size_t l = 0; l < block; l++)
+            sum[l] += w[t * apart] * in[t + l];
     }
 }
 
-RC_CLONES static void
-sum_lanes(const struct sums *s, ptrdiff_t low, ptrdiff_t high, size_t lanes, const double *in,
-          double *out)
+static inline void
+add_block(const double *in, const double *w, size_t taps, size_t apart, size_t block, double *sum)
 {
-    if (lanes == LANES)
-        sum_wide(s, low, high, 2 * LANES, in, out);
+    if (block == BLOCK)
+        sum_block(in, w, taps, apart, BLOCK, sum);
     else
-        sum_wide(s, low, high, 2 * lanes, in, out);
+        sum_block(in, w, taps, apart, block, sum);
+}
+
+/* All sums along a line whose place 0 is `in`, those of each phase together; step is 1. */
+RC_WIDE_CLONES static void
+sum_phases(const struct sums *s, const double *restrict in, double *restrict out)
+{
+    for (size_t p = 0; p < s->phases && p < s->out; p++) {
+        size_t n = (s->out - p - 1) / s->phases + 1;
+        for (size_t k = 0; k < n; k += BLOCK) {
+            size_t block = smaller(n - k, BLOCK);
+            double sum[BLOCK] = {0};
+            add_block(in + (ptrdiff_t)k + s->start, s->w + p * s->taps, s->taps, 1, block, sum);
+            for (size_t l = 0; l < block; l++)
+                out[(k + l) * s->phases + p] = sum[l];
+        }
+    }
+}
+
+/* The same for a step over 1, without phases: numbers that are a step apart are brought together in
+ * `part`, out + taps/step + 1 numbers. */
+RC_WIDE_CLONES static void
+sum_steps(const struct sums *s, const double *restrict in, double *restrict part,
+          double *restrict out)
+{
+    memset(out, 0, s->out * sizeof *out);
+    for (size_t p = 0; p < s->step; p++) {
+        size_t taps = (s->taps - p - 1) / s->step + 1;
+        for (size_t k = 0; k < s->out + taps - 1; k++)
+            part[k] = in[(ptrdiff_t)(k * s->step + p) + s->start];
+        for (size_t k = 0; k < s->out; k += BLOCK)
+            add_block(part + k, s->w + p, taps, s->step, smaller(s->out - k, BLOCK), out + k);
+    }
+}
+
+/* ---- sums of rows ---- */
+
+/* Rows of a map, 2 stride numbers from each to the next. */
+struct rows {
+    const double *v;
+    size_t n, stride;
+    bool wraps;
+};
+
+/* The rows that TOGETHER sums from k on are made of, and TOGETHER weights for each. */
+static size_t
+gather(const struct sums *s, const struct rows *of, size_t k, const double **row, double *w)
+{
+    size_t last = k + TOGETHER < s->out ? k + TOGETHER - 1 : s->out - 1, count = 0;
+    ptrdiff_t n = (ptrdiff_t)of->n;
+
+    for (ptrdiff_t j = first_of(s, k); j < first_of(s, last) + (ptrdiff_t)s->taps; j++) {
+        if (!of->wraps && (j < 0 || j >= n))
+            continue;
+        for (size_t r = 0; r < TOGETHER; r++) {
+            ptrdiff_t t = j - first_of(s, k + r);
+            bool counts = k + r <= last && t >= 0 && t < (ptrdiff_t)s->taps;
+            w[count * TOGETHER + r] = counts ? s->w[(k + r) % s->phases * s->taps + (size_t)t] : 0;
+        }
+        row[count++] = of->v + (size_t)((j % n + n) % n) * 2 * of->stride;
+    }
+    return count;
+}
+
+/* Sums of the columns first ... first+n-1 of so many rows, TOGETHER of them, `apart` numbers from each to
+ * the next. n is a multiple of WIDE. */
+RC_WIDE_CLONES static void
+add_rows(size_t rows, const double *const *row, const double *w, size_t first, size_t n,
+         size_t apart, double *restrict out)
+{
+    for (size_t i = 0; i < n; i += WIDE) {
+        double s0[WIDE] = {0}, s1[WIDE] = {0}, s2[WIDE] = {0}, s3[WIDE] = {0};
+        for (size_t t = 0; t < rows; t++) {
+            const double *at = row[t] + first + i, *by = w + t * TOGETHER;
+#pragma omp simd
+            for (size_t l = 0; l < WIDE; l++) {
+                s0[l] += by[0] * at[l];
+                s1[l] += by[1] * at[l];
+                s2[l] += by[2] * at[l];
+                s3[l] += by[3] * at[l];
+            }
+        }
+        memcpy(out + i, s0, sizeof s0);
+        memcpy(out + apart + i, s1, sizeof s1);
+        memcpy(out + 2 * apart + i, s2, sizeof s2);
+        memcpy(out + 3 * apart + i, s3, sizeof s3);
+    }
 }
 
 /* ---- the plan ---- */
@@ -185,34 +283,23 @@ gauss_free(struct gauss *g)
     free(g->y.down.w);
     free(g->y.up.w);
     free(g->mid);
-    free(g->lines);
+    free(g->low);
+    free(g->room);
+    free(g->row);
 }
 
-/* Places that a line and its sums take, those beyond the ends of a periodic line included. */
+/* Rows that TOGETHER sums are made of. */
 static size_t
-places_in(const struct gauss *g, const struct way *way)
+rows_of(const struct sums *s)
 {
-    size_t n = way->n + (g->periodic && way->n > 1 ? 2 * way->pad : 0);
-
-    return n > way->m ? n : way->m;
+    return s->taps + TOGETHER * s->step;
 }
 
+/* A line with what lies beyond its ends, a multiple of WIDE. */
 static size_t
-places_out(const struct way *way)
+line_room(const struct way *way)
 {
-    return way->m > way->n ? way->m : way->n;
-}
-
-static size_t
-smaller(size_t a, size_t b)
-{
-    return a < b ? a : b;
-}
-
-static size_t
-larger(size_t a, size_t b)
-{
-    return a > b ? a : b;
+    return (way->n + 2 * way->pad + WIDE - 1) / WIDE * WIDE;
 }
 
 /* The sums, and how much room they take. */
@@ -220,18 +307,22 @@ static bool
 plan(struct gauss *g, double cutoff)
 {
     double width = sqrt(log(2) / RC_PI) * cutoff;
-    size_t lanes_x = smaller(g->shape->ny, LANES), lanes_y, in, out;
 
     if (!way_new(&g->x, g->shape->nx, width / g->shape->dx) ||
         !way_new(&g->y, g->shape->ny, width / g->shape->dy))
         return false;
-    lanes_y = smaller(g->x.m, LANES);
-    in = larger(places_in(g, &g->x) * lanes_x, places_in(g, &g->y) * lanes_y);
-    out = larger(places_out(&g->x) * lanes_x, places_out(&g->y) * lanes_y);
-    g->per_thread = 2 * (in + out);
     /* whole cache lines, and not all in the same places of the cache */
-    g->stride = (g->x.m + LANES - 1) / LANES * LANES + LANES;
+    g->stride = (g->x.m + WIDE - 1) / WIDE * WIDE + WIDE;
+    g->rows_per_thread = larger(rows_of(&g->y.down), g->y.two ? rows_of(&g->y.up) : 0);
+    g->per_thread = 2 * line_room(&g->x) + 2 * TOGETHER * g->stride +
+                    (TOGETHER * g->rows_per_thread + WIDE - 1) / WIDE * WIDE;
     return true;
+}
+
+static size_t
+low_numbers(const struct gauss *g)
+{
+    return g->y.two ? g->y.m * 2 * g->stride : 0;
 }
 
 static enum rc_status
@@ -242,9 +333,11 @@ gauss_new(struct gauss *g, const struct rc_shape *shape, const struct rc_filter 
     g->threads = rc_useful_threads(shape, what->threads);
     if (plan(g, what->cutoff)) {
         g->mid = rc_alloc(shape->ny, 2 * g->stride * sizeof *g->mid);
-        g->lines = rc_alloc((size_t)g->threads, g->per_thread * sizeof *g->lines);
+        g->low = rc_alloc(low_numbers(g), sizeof *g->low);
+        g->room = rc_alloc((size_t)g->threads, g->per_thread * sizeof *g->room);
+        g->row = rc_alloc((size_t)g->threads, g->rows_per_thread * sizeof *g->row);
     }
-    if (g->mid == NULL || g->lines == NULL)
+    if (g->mid == NULL || g->low == NULL || g->room == NULL || g->row == NULL)
         return rc_err_set(err, "out of memory for a filter of %zu x %zu nodes", shape->nx,
                           shape->ny);
     return RC_OK;
@@ -258,167 +351,136 @@ struct weighted {
     double mean, reach;
 };
 
-/* Puts the ends of a periodic line before its start and behind its end. */
+/* What lies beyond the ends of a line: of a periodic one the other end, else nothing. */
 static void
-wrap(const struct way *way, size_t wide, double *line)
+fill_ends(const struct way *way, bool periodic, double *line)
 {
     ptrdiff_t n = (ptrdiff_t)way->n, pad = (ptrdiff_t)way->pad;
 
     for (ptrdiff_t i = 0; i < pad; i++) {
-        ptrdiff_t back = i % n;
-        memcpy(line + (n + i) * (ptrdiff_t)wide, line + back * (ptrdiff_t)wide,
-               wide * sizeof *line);
-        memcpy(line - (1 + i) * (ptrdiff_t)wide, line + (n - 1 - back) * (ptrdiff_t)wide,
-               wide * sizeof *line);
+        line[n + i] = periodic ? line[i % n] : 0;
+        line[-1 - i] = periodic ? line[n - 1 - i % n] : 0;
     }
 }
 
-/* Numerators of the nodes begin ... end-1 of a row of the map, every `wide`-th number of `line`;
- * each denominator stands wide/2 numbers behind its numerator. */
-static void
-take_row(const struct weighted *of, size_t row, size_t begin, size_t end, size_t wide, double *line)
+/* Numerators and denominators of n nodes. */
+RC_WIDE_CLONES static void
+take_row(const struct weighted *of, size_t first, size_t n, double *restrict above,
+         double *restrict below)
 {
-    const double *h = of->h + row, *r = of->r == NULL ? NULL : of->r + row;
+    const double *h = of->h + first, *r = of->r == NULL ? NULL : of->r + first;
+    const double mean = of->mean, far = of->reach;
 
-    for (size_t i = begin; i < end; i++) {
-        bool there = !isnan(h[i]);
-        double w = r == NULL ? 1 : rc_biweight(r[i], of->reach);
-        line[i * wide] = there ? w * (h[i] - of->mean) : 0;
-        line[i * wide + wide / 2] = there ? w : 0;
-    }
+    for (size_t i = 0; i < n; i++)
+        below[i] = h[i] == h[i] ? 1 : 0;
+    for (size_t i = 0; i < n && r != NULL; i++)
+        below[i] *= rc_biweight(r[i], far);
+    for (size_t i = 0; i < n; i++)
+        above[i] = h[i] == h[i] ? below[i] * (h[i] - mean) : 0;
 }
 
-/* `lanes` rows side by side. */
-static void
-take_rows(const struct gauss *g, const struct weighted *of, size_t j, size_t lanes, double *line)
+/* The room of this thread: place 0 of two lines, rows of sums, and weights. */
+struct room {
+    double *above, *below, *sums, *w;
+    const double **row;
+};
+
+static struct room
+room_of(const struct gauss *g)
 {
-    size_t nx = g->shape->nx;
+    size_t thread = (size_t)omp_get_thread_num(), line = line_room(&g->x);
+    double *at = g->room + thread * g->per_thread, *sums = at + 2 * line;
 
-    for (size_t i = 0; i < nx; i += BLOCK)
-        for (size_t l = 0; l < lanes; l++)
-            take_row(of, (j + l) * nx, i, smaller(i + BLOCK, nx), 2 * lanes, line + l);
-}
-
-static double *
-mid_row(const struct gauss *g, size_t j, size_t lane, size_t lanes)
-{
-    return g->mid + ((j + lane % lanes) * 2 + lane / lanes) * g->stride;
-}
-
-static void
-put_mid(const struct gauss *g, size_t j, size_t lanes, const double *line)
-{
-    size_t m = g->x.m;
-
-    for (size_t i = 0; i < m; i += BLOCK)
-        for (size_t l = 0; l < 2 * lanes; l++) {
-            double *row = mid_row(g, j, l, lanes);
-            for (size_t k = i; k < smaller(i + BLOCK, m); k++)
-                row[k] = line[k * 2 * lanes + l];
-        }
+    return (struct room){at + g->x.pad, at + line + g->x.pad, sums, sums + 2 * TOGETHER * g->stride,
+                         g->row + thread * g->rows_per_thread};
 }
 
 static void
-take_mid(const struct gauss *g, size_t j, size_t lanes, double *line)
+sum_down_x(const struct gauss *g, const struct room *room, const double *line, double *to)
 {
-    size_t m = g->x.m;
-
-    for (size_t i = 0; i < m; i += BLOCK)
-        for (size_t l = 0; l < 2 * lanes; l++) {
-            const double *row = mid_row(g, j, l, lanes);
-            for (size_t k = i; k < smaller(i + BLOCK, m); k++)
-                line[k * 2 * lanes + l] = row[k];
-        }
+    if (g->x.two)
+        sum_steps(&g->x.down, line, room->sums, to);
+    else
+        sum_phases(&g->x.down, line, to);
 }
 
-/* The buffers of this thread; `in` is place 0 of a line, with room for what wraps before it. */
+/* Sums along x of all rows, into `mid`; what pads them there is added, too, and must be numbers. */
 static void
-buffers(const struct gauss *g, const struct way *way, size_t wide, double **in, double **out)
+sum_along_x(const struct gauss *g, const struct weighted *of)
 {
-    double *at = g->lines + (size_t)omp_get_thread_num() * g->per_thread;
-    size_t pad = g->periodic && way->n > 1 ? way->pad : 0;
-
-    *in = at + pad * wide;
-    *out = at + places_in(g, way) * wide;
-}
-
-static void
-sum_down(const struct gauss *g, const struct way *way, size_t lanes, double *in, double *out)
-{
-    ptrdiff_t pad = g->periodic && way->n > 1 ? (ptrdiff_t)way->pad : 0;
-
-    if (pad > 0)
-        wrap(way, 2 * lanes, in);
-    sum_lanes(&way->down, -pad, (ptrdiff_t)way->n + pad, lanes, in, out);
-}
-
-static void
-sum_rows(const struct gauss *g, const struct weighted *of)
-{
-    size_t ny = g->shape->ny;
+    size_t nx = g->shape->nx, pad = g->stride - g->x.m;
 
 #pragma omp parallel for schedule(static) num_threads(g->threads)
-    for (size_t j = 0; j < ny; j += LANES) {
-        size_t lanes = smaller(ny - j, LANES);
-        double *in, *out;
-        buffers(g, &g->x, 2 * lanes, &in, &out);
-        take_rows(g, of, j, lanes, in);
-        sum_down(g, &g->x, lanes, in, out);
-        put_mid(g, j, lanes, out);
+    for (size_t j = 0; j < g->shape->ny; j++) {
+        struct room room = room_of(g);
+        double *above = g->mid + 2 * j * g->stride, *below = above + g->stride;
+        take_row(of, j * nx, nx, room.above, room.below);
+        fill_ends(&g->x, g->periodic, room.above);
+        fill_ends(&g->x, g->periodic, room.below);
+        sum_down_x(g, &room, room.above, above);
+        sum_down_x(g, &room, room.below, below);
+        memset(above + g->x.m, 0, pad * sizeof *above);
+        memset(below + g->x.m, 0, pad * sizeof *below);
     }
 }
 
-/* All sums along y, within `mid`. */
+/* Sums along y at the coarse nodes, into `low`. */
 static void
-sum_columns(const struct gauss *g)
+sum_down_y(const struct gauss *g)
 {
-    size_t ny = g->shape->ny, m = g->x.m;
+    const struct rows mid = {g->mid, g->shape->ny, g->stride, g->periodic};
 
-    if (ny == 1)
-        return;
 #pragma omp parallel for schedule(static) num_threads(g->threads)
-    for (size_t i = 0; i < m; i += LANES) {
-        size_t lanes = smaller(m - i, LANES);
-        double *in, *out;
-        buffers(g, &g->y, 2 * lanes, &in, &out);
-        for (size_t j = 0; j < 2 * ny; j++)
-            memcpy(in + j * lanes, g->mid + j * g->stride + i, lanes * sizeof *in);
-        sum_down(g, &g->y, lanes, in, out);
-        if (g->y.two) {
-            in = g->lines + (size_t)omp_get_thread_num() * g->per_thread;
-            sum_lanes(&g->y.up, 0, (ptrdiff_t)g->y.m, lanes, out, in);
-            out = in;
+    for (size_t k = 0; k < g->y.m; k += TOGETHER) {
+        struct room room = room_of(g);
+        size_t rows = gather(&g->y.down, &mid, k, room.row, room.w);
+        add_rows(rows, room.row, room.w, 0, 2 * g->stride, 2 * g->stride, room.sums);
+        memcpy(g->low + k * 2 * g->stride, room.sums,
+               smaller(g->y.m - k, TOGETHER) * 2 * g->stride * sizeof *g->low);
+    }
+}
+
+/* Writes n nodes: the quotient plus the mean or, of the high-pass, the input less both. A node with no
+ * weight within reach stays as it is. */
+RC_WIDE_CLONES static void
+put_row(const struct weighted *of, bool low, size_t first, size_t n, const double *above,
+        const double *below, double *to)
+{
+    const double mean = of->mean, *from = of->h + first;
+
+    to += first;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double h = from[i], quotient = above[i] / below[i], was = to[i];
+        double is = low ? quotient + mean : (h - mean) - quotient;
+        to[i] = h != h ? h : below[i] > 0 ? is : was;
+    }
+}
+
+/* TOGETHER rows of results from j on, in the columns first ... first+n-1 of the sums along x. */
+static void
+finish_rows(const struct gauss *g, const struct weighted *of, bool low, size_t j, size_t first,
+            size_t n, double *to)
+{
+    const struct rows mid = {g->mid, g->shape->ny, g->stride, g->periodic};
+    const struct rows coarse = {g->low, g->y.m, g->stride, false};
+    struct room room = room_of(g);
+    size_t nx = g->shape->nx, wide = (n + WIDE - 1) / WIDE * WIDE;
+    double *above = room.sums, *below = room.sums + TOGETHER * wide;
+    size_t rows =
+        gather(g->y.two ? &g->y.up : &g->y.down, g->y.two ? &coarse : &mid, j, room.row, room.w);
+
+    add_rows(rows, room.row, room.w, first, wide, wide, above);
+    add_rows(rows, room.row, room.w, g->stride + first, wide, wide, below);
+    for (size_t r = 0; r < TOGETHER && j + r < g->shape->ny; r++, above += wide, below += wide) {
+        if (!g->x.two) {
+            put_row(of, low, (j + r) * nx + first, n, above, below, to);
+            continue;
         }
-        for (size_t j = 0; j < 2 * ny; j++)
-            memcpy(g->mid + j * g->stride + i, out + j * lanes, lanes * sizeof *in);
+        sum_phases(&g->x.up, above, room.above);
+        sum_phases(&g->x.up, below, room.below);
+        put_row(of, low, (j + r) * nx, nx, room.above, room.below, to);
     }
-}
-
-/* Writes the nodes begin ... end-1 of a row: the quotient plus the mean or, of the high-pass, the
- * input less both. A node with no weight within reach stays as it is. */
-static void
-put_row(const struct weighted *of, bool low, size_t row, size_t begin, size_t end, size_t wide,
-        const double *line, double *to)
-{
-    for (size_t i = begin; i < end; i++) {
-        double h = of->h[row + i], below = line[i * wide + wide / 2];
-        double quotient = line[i * wide] / below;
-        if (isnan(h))
-            to[row + i] = h;
-        else if (below > 0)
-            to[row + i] = low ? quotient + of->mean : (h - of->mean) - quotient;
-    }
-}
-
-static void
-put_rows(const struct gauss *g, const struct weighted *of, bool low, size_t j, size_t lanes,
-         const double *line, double *to)
-{
-    size_t nx = g->shape->nx;
-
-    for (size_t i = 0; i < nx; i += BLOCK)
-        for (size_t l = 0; l < lanes; l++)
-            put_row(of, low, (j + l) * nx, i, smaller(i + BLOCK, nx), 2 * lanes, line + l, to);
 }
 
 /* The low-pass of h or, less its mean, the high-pass; `to` may be the residuals that the weights
@@ -426,20 +488,16 @@ put_rows(const struct gauss *g, const struct weighted *of, bool low, size_t j, s
 static void
 pass(const struct gauss *g, const struct weighted *of, bool low, double *to)
 {
-    size_t ny = g->shape->ny;
+    size_t ny = g->shape->ny, m = g->x.m, strip = g->x.two ? m : STRIP;
 
-    sum_rows(g, of);
-    sum_columns(g);
-#pragma omp parallel for schedule(static) num_threads(g->threads)
-    for (size_t j = 0; j < ny; j += LANES) {
-        size_t lanes = smaller(ny - j, LANES);
-        double *in = g->lines + (size_t)omp_get_thread_num() * g->per_thread;
-        double *out = in + places_in(g, &g->x) * 2 * lanes;
-        take_mid(g, j, lanes, in);
-        if (g->x.two)
-            sum_lanes(&g->x.up, 0, (ptrdiff_t)g->x.m, lanes, in, out);
-        put_rows(g, of, low, j, lanes, g->x.two ? out : in, to);
-    }
+    sum_along_x(g, of);
+    if (g->y.two)
+        sum_down_y(g);
+#pragma omp parallel for schedule(dynamic) num_threads(g->threads)
+    for (size_t band = 0; band < ny; band += BAND)
+        for (size_t i = 0; i < m; i += strip)
+            for (size_t j = band; j < smaller(band + BAND, ny); j += TOGETHER)
+                finish_rows(g, of, low, j, i, smaller(strip, m - i), to);
 }
 
 /* ---- what is asked for ---- */
@@ -520,7 +578,8 @@ rc_filter_memory(const struct rc_shape *shape, const struct rc_filter *what)
 
     g.threads = rc_useful_threads(shape, what->threads);
     if (plan(&g, what->cutoff))
-        bytes = (shape->ny * 2 * g.stride + (size_t)g.threads * g.per_thread +
+        bytes = (shape->ny * 2 * g.stride + low_numbers(&g) +
+                 (size_t)g.threads * (g.per_thread + g.rows_per_thread) +
                  (what->robust ? shape->nx * shape->ny : 0)) *
                 sizeof(double);
     gauss_free(&g);
