@@ -105,6 +105,27 @@ measure(struct rc_field *f, double sign, double mean, struct figures *to)
     return status;
 }
 
+/* Sets f->n, the range of what is there, and the mean. */
+static void
+survey(struct rc_field *f, double *mean)
+{
+    struct rc_total sum = {0};
+    double least = INFINITY, most = -INFINITY;
+
+    f->n = 0;
+    for (size_t k = 0; k < f->shape.nx * f->shape.ny; k++) {
+        if (!rc_field_there(f->h[k]))
+            continue;
+        f->n++;
+        rc_total_add(&sum, f->h[k]);
+        least = f->h[k] < least ? f->h[k] : least;
+        most = f->h[k] > most ? f->h[k] : most;
+    }
+    *mean = rc_total_value(&sum) / (double)f->n;
+    f->highest = most;
+    f->range = f->n > 0 ? most - least : 0;
+}
+
 enum rc_status
 rc_features(const struct rc_shape *shape, const double *h, const struct rc_surface_options *options,
             struct rc_features *a, struct rc_err *err)
@@ -112,24 +133,21 @@ rc_features(const struct rc_shape *shape, const double *h, const struct rc_surfa
     struct rc_field f = {.h = h, .wraps = options->boundary == RC_PERIODIC};
     struct figures hills = {0, NAN, NAN, NAN}, dales = {0, NAN, NAN, NAN};
     enum rc_status status = RC_FAIL;
-    struct rc_statistics st;
+    double mean;
 
     *a = (struct rc_features){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
     f.shape = *shape;
-    rc_measure(shape, h, &st);
-    if (shape->nx < 3 || shape->ny < 3 || !(st.maximum > st.minimum))
+    survey(&f, &mean);
+    if (shape->nx < 3 || shape->ny < 3 || !(f.range > 0))
         return RC_OK;
-    f.n = shape->nx * shape->ny - st.missing - st.infinite;
-    f.highest = st.maximum;
-    f.range = st.maximum - st.minimum;
     f.least = prune * f.range;
     f.threads = rc_useful_threads(shape, options->threads);
     f.mark = rc_alloc(shape->nx * shape->ny, sizeof *f.mark);
     f.hill = rc_alloc(shape->nx * shape->ny, sizeof *f.hill);
-    if (f.mark != NULL && f.hill != NULL && measure(&f, 1, st.mean, &hills) == RC_OK)
-        status = measure(&f, -1, st.mean, &dales);
+    if (f.mark != NULL && f.hill != NULL && measure(&f, 1, mean, &hills) == RC_OK)
+        status = measure(&f, -1, mean, &dales);
     if (status == RC_OK)
         *a = (struct rc_features){.spd = hills.density,
                                   .svd = dales.density,
