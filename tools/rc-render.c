@@ -144,14 +144,16 @@ static const struct tool_info info = {
 /* ---- pictures ---- */
 
 static void
-raw_row(const struct rc_grid *g, const struct figure *f, size_t j, unsigned char *rgb)
+raw_row(const struct rc_grid *g, const struct figure *f, const struct colormap_table *table,
+        size_t j, unsigned char *rgb)
 {
     const double *v = g->v + j * g->nx;
 
     for (size_t i = 0; i < g->nx; i++) {
-        struct rgb c = isnan(v[i])                    ? f->map->missing
-                       : f->zero_is_none && v[i] == 0 ? f->map->none
-                                                      : figure_colour(f, v[i]);
+        struct rgb c = isnan(v[i]) ? f->map->missing
+                       : f->zero_is_none && v[i] == 0
+                           ? f->map->none
+                           : colormap_look_up(table, figure_place(f, v[i]));
 
         rgb[3 * i] = c.r;
         rgb[3 * i + 1] = c.g;
@@ -164,6 +166,7 @@ struct drawing {
     struct tool *tool;
     const struct rc_grid *grid;
     const struct figure *figure;
+    struct colormap_table colours;
 };
 
 static enum rc_status
@@ -173,7 +176,7 @@ next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
 
     (void)err;
     tool_progress(d->tool, "row %zu of %zu", y, d->grid->ny);
-    raw_row(d->grid, d->figure, y, rgb);
+    raw_row(d->grid, d->figure, &d->colours, y, rgb);
     return RC_OK;
 }
 
@@ -182,7 +185,7 @@ next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
 static void
 write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, struct canvas *c)
 {
-    struct drawing d = {t, g, f};
+    struct drawing d = {t, g, f, .colours = {.map = NULL}};
     const char *history = g == NULL ? NULL : rc_grid_get(g, "history"), *own = tool_history(t);
     size_t size = strlen(own) + (history == NULL ? 0 : strlen(history)) + 4;
     char *made = malloc(size), software[64];
@@ -196,6 +199,8 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, s
     struct rc_err err;
 
     assert(c != NULL || g != NULL);
+    if (c == NULL)
+        colormap_tabulate(&d.colours, f->map);
     if (made == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     snprintf(made, size, "%s%s%s", history == NULL ? "" : history, history == NULL ? "" : " | ",

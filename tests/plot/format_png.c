@@ -388,6 +388,29 @@ lightness(struct rgb c)
     return y > 216.0 / 24389 ? 116 * cbrt(y) - 16 : y * 24389 / 27;
 }
 
+/* Values in the middle and at both ends of cells, and at the steps of the list of colours. */
+static void
+a_table_has_the_colours_of_the_map(void **state)
+{
+    static struct colormap_table table;
+
+    (void)state;
+    for (size_t m = 0; colormap_name(m) != NULL; m++) {
+        const struct colormap *map = colormap_find(colormap_name(m));
+        size_t n = 4 * (size_t)COLORMAP_CELLS * (map->points - 1);
+        colormap_tabulate(&table, map);
+        for (size_t k = 0; k <= n + 1; k++) {
+            double t = ((double)k - 0.5) / (double)(n / 2) - 0.5; /* from before 0 to beyond 1 */
+            struct rgb a = colormap_at(map, t), b = colormap_look_up(&table, t);
+            assert_true(a.r == b.r && a.g == b.g && a.b == b.b);
+            t = nextafter((double)k / (double)n, k % 2 == 0 ? -1 : 1);
+            a = colormap_at(map, t);
+            b = colormap_look_up(&table, t);
+            assert_true(a.r == b.r && a.g == b.g && a.b == b.b);
+        }
+    }
+}
+
 static void
 lightness_rises_and_evenly(void **state)
 {
@@ -820,6 +843,7 @@ main(void)
         cmocka_unit_test(one_signed_stresses_end_at_zero),
         cmocka_unit_test(channels_get_their_colours),
         cmocka_unit_test(missing_and_no_contact_are_no_values),
+        cmocka_unit_test(a_table_has_the_colours_of_the_map),
         cmocka_unit_test(lightness_rises_and_evenly),
         cmocka_unit_test(bluered_is_as_light_on_both_sides),
         cmocka_unit_test(other_eyes_tell_values_apart),

@@ -89,11 +89,35 @@ colormap_at(const struct colormap *map, double t)
     return (struct rgb){blend(a, b, 16, place), blend(a, b, 8, place), blend(a, b, 0, place)};
 }
 
+/* From one colour of the list to the next none of the three goes up and down: what both ends of a cell
+ * have is that of all its inside. */
+void
+colormap_tabulate(struct colormap_table *table, const struct colormap *map)
+{
+    const size_t steps = map->points - 1;
+
+    table->map = map;
+    for (size_t k = 0; k < COLORMAP_CELLS; k++) {
+        struct rgb a = colormap_at(map, (double)k / COLORMAP_CELLS);
+        struct rgb b = colormap_at(map, (double)(k + 1) / COLORMAP_CELLS);
+        bool between = k * steps / COLORMAP_CELLS == ((k + 1) * steps - 1) / COLORMAP_CELLS;
+
+        table->cell[k].colour = a;
+        table->cell[k].one = between && a.r == b.r && a.g == b.g && a.b == b.b;
+    }
+}
+
+double
+colormap_place(double lo, double hi, double value)
+{
+    /* halves, because hi - lo of the largest numbers would overflow */
+    return (0.5 * value - 0.5 * lo) / (0.5 * hi - 0.5 * lo);
+}
+
 struct rgb
 colormap_value(const struct colormap *map, double lo, double hi, double value)
 {
-    /* halves, because hi - lo of the largest numbers would overflow */
-    return colormap_at(map, (0.5 * value - 0.5 * lo) / (0.5 * hi - 0.5 * lo));
+    return colormap_at(map, colormap_place(lo, hi, value));
 }
 
 bool

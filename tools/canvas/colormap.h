@@ -24,7 +24,30 @@ const char *colormap_name(size_t k);
 const struct colormap *colormap_find(const char *name);
 /* The colour at t from 0 to 1; what is outside gets the colour of the nearer end. */
 struct rgb colormap_at(const struct colormap *map, double t);
-/* The colour of a value (no NaN) when the map spans lo to hi, lo < hi. */
+/* The same, faster, from a table: of all t of a cell there is one colour, or it is found as above. */
+enum {
+    COLORMAP_CELLS = 1 << 14
+};
+struct colormap_table {
+    const struct colormap *map;
+    struct {
+        struct rgb colour;
+        bool one;
+    } cell[COLORMAP_CELLS];
+};
+void colormap_tabulate(struct colormap_table *table, const struct colormap *map);
+static inline struct rgb
+colormap_look_up(const struct colormap_table *table, double t)
+{
+    if (t >= 0 && t < 1) {
+        size_t k = (size_t)(t * COLORMAP_CELLS);
+        if (table->cell[k].one)
+            return table->cell[k].colour;
+    }
+    return colormap_at(table->map, t);
+}
+/* Where a value (no NaN) is when the map spans lo to hi, lo < hi; and its colour. */
+double colormap_place(double lo, double hi, double value);
 struct rgb colormap_value(const struct colormap *map, double lo, double hi, double value);
 /* Whether a light line stands out better from it than a dark one. */
 bool colormap_is_dark(struct rgb c);

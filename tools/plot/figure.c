@@ -66,12 +66,18 @@ mix(struct rgb a, double x, struct rgb b, double y)
                         (unsigned char)(x * a.b + y * b.b + 0.5)};
 }
 
+double
+figure_place(const struct figure *f, double value)
+{
+    if (!f->log)
+        return colormap_place(f->lo, f->hi, value);
+    return value > f->lo ? log(value / f->lo) / log(f->hi / f->lo) : 0;
+}
+
 struct rgb
 figure_colour(const struct figure *f, double value)
 {
-    if (!f->log)
-        return colormap_value(f->map, f->lo, f->hi, value);
-    return colormap_at(f->map, value > f->lo ? log(value / f->lo) / log(f->hi / f->lo) : 0);
+    return colormap_at(f->map, figure_place(f, value));
 }
 
 /* Missing nodes are chequered, so that no colour of any map can be taken for them. */

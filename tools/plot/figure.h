@@ -72,7 +72,8 @@ struct figure {
     const char *family;     /* of the text; NULL: sans                               */
 };
 
-/* The colour of a value. */
+/* Where a value is in the colours, from 0 to 1 or beyond, and its colour. */
+double figure_place(const struct figure *figure, double value);
 struct rgb figure_colour(const struct figure *figure, double value);
 
 /* Bytes that drawing takes beside the map, and writing, for which its values have to be gone,
