@@ -411,12 +411,6 @@ rc_fft_quarter_row(const struct rc_fft *f, unsigned parity, double *row)
     half_run(&f->along_x, parity & RC_ODD_X, row);
 }
 
-void
-rc_fft_quarter_both(const struct rc_fft *f, double *even, double *odd)
-{
-    rc_dct_run_both(f->along_x.dct, even, odd); /* padded lengths are even */
-}
-
 /* From all rows of the columns held here, `wide` numbers from row to row. */
 static void
 set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, const double *rows,

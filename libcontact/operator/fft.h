@@ -91,8 +91,6 @@ enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct
 void rc_fft_quarter(const struct rc_fft *fft, size_t *nx, size_t *ny);
 void rc_fft_quarter_rows(const struct rc_fft *fft, size_t *first, size_t *n);
 void rc_fft_quarter_row(const struct rc_fft *fft, unsigned parity, double *row);
-/* Of two kernels, one even and one odd along x, in the time of one. */
-void rc_fft_quarter_both(const struct rc_fft *fft, double *even, double *odd);
 enum rc_status rc_spectrum_set_quarter(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                        unsigned parity, const double *rows, struct rc_err *err);
 /* On the periodic boundary: from the kernel's transform, over (-i)^(number of odd directions), at

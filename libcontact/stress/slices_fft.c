@@ -156,26 +156,6 @@ grid_memory(const struct rc_stress_task *task, const struct rc_shape *shape)
 
 /* ---- kernels ---- */
 
-/* An even and an odd row are transformed together, as long as there are both. */
-static void
-transform_rows(const struct grid *g, double *const row[RC_STRESS_KERNELS])
-{
-    double *of[2][RC_STRESS_KERNELS]; /* even, odd */
-    size_t n[2] = {0, 0}, k = 0;
-
-    for (int i = 0; i < RC_STRESS_KERNELS; i++)
-        if (row[i] != NULL) {
-            int odd = (rc_stress_parity[i] & RC_ODD_X) != 0;
-            of[odd][n[odd]++] = row[i];
-        }
-    for (; k < n[0] && k < n[1]; k++)
-        rc_fft_quarter_both(g->fft, of[0][k], of[1][k]);
-    for (size_t i = k; i < n[0]; i++)
-        rc_fft_quarter_row(g->fft, 0, of[0][i]);
-    for (size_t i = k; i < n[1]; i++)
-        rc_fft_quarter_row(g->fft, RC_ODD_X, of[1][i]);
-}
-
 /* All kernels on a quarter of the padded map. */
 static void
 tabulate(struct grid *g)
@@ -189,7 +169,9 @@ tabulate(struct grid *g)
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             row[k] = g->quarter[k] == NULL ? NULL : g->quarter[k] + j * g->cx;
         t->type->line(g->inside, &cell, t->kernels, g->shape.dx, g->cx, y, row);
-        transform_rows(g, row);
+        for (int k = 0; k < RC_STRESS_KERNELS; k++)
+            if (row[k] != NULL)
+                rc_fft_quarter_row(g->fft, rc_stress_parity[k], row[k]);
     }
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (g->quarter[k] != NULL)

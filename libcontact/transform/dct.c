@@ -115,35 +115,3 @@ rc_dct_run(const struct rc_dct *d, bool odd, double *line)
     fftw_execute_dft_r2c(d->plan, period, transform);
     take_parts(d->n, sign, (const double *)transform + odd, line);
 }
-
-RC_CLONES static void
-lay_out_both(size_t n, const double *restrict even, const double *restrict odd,
-             double *restrict period)
-{
-    double *end = period + 2 * n - 2;
-
-    period[0] = even[0];
-    period[n - 1] = even[n - 1];
-    for (size_t j = 1; j + 1 < n; j++) {
-        period[j] = even[j] + odd[j];
-        *(end - j) = even[j] - odd[j];
-    }
-}
-
-void
-rc_dct_run_both(const struct rc_dct *d, double *even, double *odd)
-{
-    double *period;
-    double complex *transform;
-
-    if (d->plan == NULL) {
-        odd[0] = 0;
-        return;
-    }
-    period = period_of(d);
-    transform = transform_of(d, period);
-    lay_out_both(d->n, even, odd, period);
-    fftw_execute_dft_r2c(d->plan, period, transform);
-    take_parts(d->n, 1, (const double *)transform, even);
-    take_parts(d->n, -1, (const double *)transform + 1, odd);
-}

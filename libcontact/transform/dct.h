@@ -18,9 +18,6 @@ struct rc_dct *rc_dct_new(size_t n, size_t threads, struct rc_err *err);
  * one, whose ends count as zero, that of v_j sin(pi j k / (n-1)). Called by threads of one OpenMP
  * team, on lines of their own. */
 void rc_dct_run(const struct rc_dct *dct, bool odd, double *line);
-/* The same of an even line and an odd one in the time of one: their sum has the transform of the one as its real
- * part and that of the other as its imaginary part. What is smaller gets the rounding of what is larger. */
-void rc_dct_run_both(const struct rc_dct *dct, double *even, double *odd);
 void rc_dct_free(struct rc_dct *dct); /* NULL is allowed */
 
 #endif
