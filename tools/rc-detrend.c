@@ -35,12 +35,14 @@ static enum rc_status
 remove_form(struct tool *t, struct rc_grid *g, struct rc_form form, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(g);
+    size_t n = g->nx * g->ny;
     char where[256], text[SHOWN_NUMBER];
     double radius;
 
     form.robust = args.robust;
     form.threads = t->threads;
-    tool_demand_memory(t, g, args.robust ? g->nx * g->ny * sizeof *g->v : 0);
+    /* the residuals, and those near their median */
+    tool_demand_memory(t, g, args.robust ? (n + n / 32) * sizeof *g->v : 0);
     if (rc_detrend_form(&shape, &form, g->v, &radius, err) != RC_OK)
         return RC_FAIL;
     tool_where(t, g, where, sizeof where);

@@ -114,12 +114,22 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
  * all of the padding. An eighth costs a quarter of the transforms of rows, a twelfth of the whole. */
 static const size_t frame_part = 8;
 
+/* An even number, so that coarser grids begin with the map; of a long side a multiple of the rows that stay
+ * together on a rank. */
+static size_t
+frame_of(size_t side)
+{
+    size_t n = side / frame_part, unit = n >= 4 * RC_TILE_ROWS ? RC_TILE_ROWS : 2;
+
+    return n / unit * unit;
+}
+
 struct rc_frame
 rc_operator_frame(const struct rc_shape *s, enum rc_boundary boundary)
 {
     if (boundary == RC_PERIODIC)
         return (struct rc_frame){0, 0};
-    return (struct rc_frame){s->nx / frame_part / 2 * 2, s->ny / frame_part / 2 * 2};
+    return (struct rc_frame){frame_of(s->nx), frame_of(s->ny)};
 }
 
 static struct rc_shape

@@ -24,8 +24,9 @@
  *   tiles                 never straddle; the roomiest one of all is found by comparing (tiles.c)
  *   the sift of nodes     looks at eight neighbours: rows beside those owned are fetched (working_set.c)
  *   edge of the contact   the same (result.c)
- *   the extension         rows of the first coarser grid are made where they lie, with the rows beside them,
- *                         and all ranks get all of them; from there on each does the same (pyramid.c)
+ *   the extension         rows of coarser grids are made where they lie, with the rows beside them; of the first
+ *                         one that is small, or would begin with an odd row somewhere, all ranks get all
+ *                         rows, and from there on each does the same (pyramid.c)
  *   nested start          rows of the coarser grid are moved to the ranks that own them there; small grids
  *                         are solved by every rank for itself, after one message on whether all
  *                         have the memory (nested.c)

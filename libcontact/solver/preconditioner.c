@@ -163,20 +163,37 @@ make_room(struct rc_preconditioner *e, struct rc_err *err)
                       op->shape.ny);
 }
 
+/* Of a map of which `count` ranks hold rows; this one those of `rows`, with what it has of the frame. */
+static struct rc_pyramid_base
+base_of(const struct rc_shape *whole, enum rc_boundary boundary, size_t count,
+        const struct rc_rows *rows)
+{
+    struct rc_frame frame = rc_operator_frame(whole, boundary);
+    double unit = sqrt(whole->dx) * sqrt(whole->dy);
+    size_t before = rows->first > 0 ? frame.y : 0; /* a rank without rows comes last */
+    size_t above = rows->n > 0 && rows->first == 0 ? frame.y : 0;
+    size_t below = rows->n > 0 && rows->first + rows->n == rows->ny ? frame.y : 0;
+    size_t both = rc_rows_unit(whole->nx) | frame.y;
+
+    return (struct rc_pyramid_base){.shape = {whole->nx + 2 * frame.x, whole->ny + 2 * frame.y,
+                                              whole->dx / unit, whole->dy / unit},
+                                    .first = rows->first + before,
+                                    .n = above + rows->n + below,
+                                    .unit = both & (~both + 1), /* the largest power of 2 in both */
+                                    .count = count,
+                                    .round = boundary == RC_PERIODIC};
+}
+
 struct rc_preconditioner *
 rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
 {
     struct rc_preconditioner *e = calloc(1, sizeof *e);
-    double unit = sqrt(op->shape.dx) * sqrt(op->shape.dy);
-    struct rc_pyramid_base base = {.shape = {op->whole.nx + 2 * op->frame.x,
-                                             op->whole.ny + 2 * op->frame.y, op->shape.dx / unit,
-                                             op->shape.dy / unit},
-                                   .first = op->rows.first == 0 ? 0 : op->rows.first + op->frame.y,
-                                   .round = op->boundary == RC_PERIODIC,
-                                   .threads = rc_useful_threads(&op->shape, op->threads),
-                                   .ranks = op->rows.ranks};
+    struct rc_pyramid_base base =
+        base_of(&op->whole, op->boundary, rc_ranks_count(op->rows.ranks), &op->rows);
     enum rc_status status;
 
+    base.ranks = op->rows.ranks;
+    base.threads = rc_useful_threads(&op->shape, op->threads);
     if (e == NULL) {
         status = rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes",
                             op->shape.nx, op->shape.ny);
@@ -185,7 +202,6 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
         e->threads = base.threads;
         e->above = op->shape.ny > 0 && op->rows.first == 0 ? op->frame.y : 0;
         e->below = op->shape.ny > 0 && op->rows.first + op->rows.n == op->rows.ny ? op->frame.y : 0;
-        base.n = e->above + op->shape.ny + e->below;
         status = make_room(e, err);
     }
     if (rc_ranks_agree(op->rows.ranks, status, err) != RC_OK ||
@@ -211,13 +227,12 @@ rc_preconditioner_free(struct rc_preconditioner *e)
 size_t
 rc_preconditioner_memory(const struct rc_shape *shape, enum rc_boundary boundary, size_t ranks)
 {
-    size_t rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
-    struct rc_frame frame = rc_operator_frame(shape, boundary);
-    struct rc_shape framed = {shape->nx + 2 * frame.x, shape->ny + 2 * frame.y, shape->dx,
-                              shape->dy};
+    struct rc_rows most = {.ny = shape->ny,
+                           .n = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny};
+    struct rc_pyramid_base base = base_of(shape, boundary, ranks, &most);
 
-    return rc_pyramid_memory(&framed) + shape->nx * rows * sizeof(float) +
-           (rows * 2 * frame.x + 2 * frame.y * framed.nx) * sizeof(float);
+    /* the numbers of the nodes, and the field on the frame */
+    return rc_pyramid_memory(&base) + base.n * base.shape.nx * sizeof(float);
 }
 
 /* ---- the working set ---- */

@@ -9,7 +9,8 @@
 
 enum {
     MOST_LEVELS = 64,
-    FEW = 16384 /* nodes of a level, for which no team of threads is called */
+    FEW = 16384,       /* nodes of a level, for which no team of threads is called             */
+    FEW_OF_RANK = 1024 /* nodes of a level that a rank would hold, if it were shared any more */
 };
 
 /* ---- one direction ---- */
@@ -122,42 +123,75 @@ spread(const struct axis *a, const float *row, float *out)
 /* ---- levels ---- */
 
 struct level {
-    struct axis x, y; /* from the finer level to this one        */
-    float k, t;       /* of this level                           */
-    float whole;      /* P' of 1: 4, or 2 where one side is kept */
-    float *weight;    /* w                                       */
+    struct axis x, y; /* from the finer level to this one         */
+    float k, t;       /* of this level                            */
+    float whole;      /* P' of 1: 4, or 2 where one side is kept  */
+    float *weight;    /* w                                        */
     float *value;     /* X, then y; and the same of the transpose */
     int threads;
+    /* Ranks that share the finer level make rows of this one over those that they hold. They keep these
+     * where they share this level too, else all get all rows. */
+    bool parts, shared;
+    size_t own_first, own; /* made here                                                  */
+    size_t first, n;       /* held here                                                  */
+    float *beside;         /* of a shared level the values of the rows beside those held */
 };
 
 struct rc_pyramid {
     struct rc_pyramid_base base;
     size_t levels; /* 1 .. levels; level 0 is the base */
     struct level level[MOST_LEVELS];
-    float *scratch; /* two rows of the base for each thread                            */
-    float *room;    /* where ranks share the base: rows of level 1 of those held here  */
-    float *beside;  /* and four rows: the first, the last, and those beside them       */
-    size_t *dealt;  /* and the first row of level 1 of each rank                       */
-    bool has[2];    /* rows beside                                                     */
+    float *scratch; /* two rows of the base for each thread                                  */
+    /* where ranks share the base: */
+    float *room;   /* rows made here of the first level that all hold                         */
+    size_t *dealt; /* the first of them, of each rank                                         */
+    float *edge;   /* rows of a shared level: the first and the last one held, those beside them */
 };
 
-/* The next level; false when there is none. `spacing` becomes its own. */
-static bool
-coarser(const struct rc_pyramid_base *base, size_t *nx, size_t *ny, double spacing[2],
-        struct level *l)
+/* A level on the way from the base to the coarsest one. */
+struct grid {
+    size_t nx, ny, first, n, unit;
+    double spacing[2];
+    bool shared;
+};
+
+static struct grid
+finest(const struct rc_pyramid_base *b)
 {
-    bool x = *nx > 1 && (*ny == 1 || spacing[0] < 1.5 * spacing[1]);
-    bool y = *ny > 1 && (*nx == 1 || spacing[1] < 1.5 * spacing[0]);
+    return (struct grid){.nx = b->shape.nx,
+                         .ny = b->shape.ny,
+                         .first = b->first,
+                         .n = b->n,
+                         .unit = b->unit,
+                         .spacing = {b->shape.dx, b->shape.dy},
+                         .shared = b->count > 1};
+}
+
+/* The next level, which *g becomes; false when there is none. A level whose ranks would begin with an odd
+ * row, or of few nodes, is no longer shared. */
+static bool
+coarser(const struct rc_pyramid_base *b, struct grid *g, struct level *l)
+{
+    bool x = g->nx > 1 && (g->ny == 1 || g->spacing[0] < 1.5 * g->spacing[1]);
+    bool y = g->ny > 1 && (g->nx == 1 || g->spacing[1] < 1.5 * g->spacing[0]);
 
     if (!x && !y)
         return false;
-    *l = (struct level){.x = {*nx, x ? (*nx + 1) / 2 : *nx, x, base->round},
-                        .y = {*ny, y ? (*ny + 1) / 2 : *ny, y, base->round},
-                        .whole = x && y ? 4 : 2};
-    *nx = l->x.coarse;
-    *ny = l->y.coarse;
-    spacing[0] *= x ? 2 : 1;
-    spacing[1] *= y ? 2 : 1;
+    *l = (struct level){.x = {g->nx, x ? (g->nx + 1) / 2 : g->nx, x, b->round},
+                        .y = {g->ny, y ? (g->ny + 1) / 2 : g->ny, y, b->round},
+                        .whole = x && y ? 4 : 2,
+                        .parts = g->shared};
+    g->nx = l->x.coarse;
+    g->ny = l->y.coarse;
+    g->spacing[0] *= x ? 2 : 1;
+    g->spacing[1] *= y ? 2 : 1;
+    l->own_first = !l->parts ? 0 : y ? g->first / 2 : g->first;
+    l->own = !l->parts ? g->ny : y ? (g->n + 1) / 2 : g->n;
+    g->unit = y ? g->unit / 2 : g->unit;
+    g->shared = l->parts && g->unit % 2 == 0 && g->nx * g->ny >= FEW_OF_RANK * b->count;
+    l->shared = g->shared;
+    l->first = g->first = g->shared ? l->own_first : 0;
+    l->n = g->n = g->shared ? l->own : g->ny;
     return true;
 }
 
@@ -174,39 +208,50 @@ set_factors(struct level *l, const double spacing[2], rc_power_at *power, const 
     l->t = (float)exp2(a < 2 ? 3 - 2 * a : 1 - a);
 }
 
+/* That are held here. */
 static size_t
 nodes(const struct level *l)
 {
-    return l->x.coarse * l->y.coarse;
+    return l->x.coarse * l->n;
 }
 
-/* Rows of level 1 over those held here. */
 static size_t
-own_rows(const struct rc_pyramid *p)
+some(size_t n)
 {
-    return p->level[1].y.halved ? (p->base.n + 1) / 2 : p->base.n;
+    return n > 0 ? n : 1; /* of a rank without rows */
 }
 
 static bool
-make_room_of_ranks(struct rc_pyramid *p)
+level_new(const struct rc_pyramid *p, struct level *l)
 {
-    const struct rc_pyramid_base *b = &p->base;
-    size_t count = rc_ranks_count(b->ranks);
-
-    p->room = rc_alloc(own_rows(p) * p->level[1].x.coarse, sizeof *p->room);
-    p->beside = rc_alloc(4 * b->shape.nx, sizeof *p->beside);
-    p->dealt = malloc((count + 1) * sizeof *p->dealt);
-    return p->room != NULL && p->beside != NULL && p->dealt != NULL;
+    l->threads = nodes(l) < FEW ? 1 : p->base.threads;
+    l->weight = rc_alloc(some(nodes(l)), sizeof *l->weight);
+    l->value = rc_alloc(some(nodes(l)), sizeof *l->value);
+    if (l->shared)
+        l->beside = rc_alloc(2 * l->x.coarse, sizeof *l->beside);
+    return l->weight != NULL && l->value != NULL && (!l->shared || l->beside != NULL);
 }
 
+static bool
+room_of_ranks(struct rc_pyramid *p, const struct level *l)
+{
+    p->room = rc_alloc(some(l->own * l->x.coarse), sizeof *p->room);
+    p->dealt = malloc((p->base.count + 1) * sizeof *p->dealt);
+    p->edge = rc_alloc(4 * p->base.shape.nx, sizeof *p->edge);
+    return p->room != NULL && p->dealt != NULL && p->edge != NULL;
+}
+
+/* Which rows of the first level that all ranks hold each of them makes. */
 static void
 deal(struct rc_pyramid *p)
 {
-    size_t count = rc_ranks_count(p->base.ranks), own = own_rows(p);
+    const struct level *l = &p->level[1];
 
-    rc_ranks_gather(p->base.ranks, sizeof own, &own, p->dealt + 1);
+    while (l->shared)
+        l++;
+    rc_ranks_gather(p->base.ranks, sizeof l->own, &l->own, p->dealt + 1);
     p->dealt[0] = 0;
-    for (size_t r = 0; r < count; r++)
+    for (size_t r = 0; r < p->base.count; r++)
         p->dealt[r + 1] += p->dealt[r];
 }
 
@@ -215,25 +260,18 @@ rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power, const voi
                struct rc_err *err)
 {
     struct rc_pyramid *p = calloc(1, sizeof *p);
-    size_t nx = base->shape.nx, ny = base->shape.ny;
-    double spacing[] = {base->shape.dx, base->shape.dy};
+    struct grid g = finest(base);
     bool fine = p != NULL;
 
     if (fine) {
         p->base = *base;
-        p->scratch = rc_alloc(2 * (size_t)base->threads * nx, sizeof *p->scratch);
+        p->scratch = rc_alloc(2 * (size_t)base->threads * g.nx, sizeof *p->scratch);
         fine = p->scratch != NULL;
     }
-    for (struct level *l; fine && coarser(base, &nx, &ny, spacing, l = &p->level[p->levels + 1]);
-         p->levels++) {
-        set_factors(l, spacing, power, of);
-        l->threads = nx * ny < FEW ? 1 : base->threads;
-        l->weight = rc_alloc(nodes(l), sizeof *l->weight);
-        l->value = rc_alloc(nodes(l), sizeof *l->value);
-        fine = l->weight != NULL && l->value != NULL;
+    for (struct level *l; fine && coarser(base, &g, l = &p->level[p->levels + 1]); p->levels++) {
+        set_factors(l, g.spacing, power, of);
+        fine = level_new(p, l) && (!l->parts || l->shared || room_of_ranks(p, l));
     }
-    if (fine && base->ranks != NULL && p->levels > 0)
-        fine = make_room_of_ranks(p);
     if (!fine)
         rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes", base->shape.nx,
                    base->shape.ny);
@@ -241,7 +279,7 @@ rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power, const voi
         rc_pyramid_free(p);
         return NULL;
     }
-    if (base->ranks != NULL && p->levels > 0)
+    if (p->dealt != NULL)
         deal(p);
     return p;
 }
@@ -251,28 +289,28 @@ rc_pyramid_free(struct rc_pyramid *p)
 {
     if (p == NULL)
         return;
-    for (size_t l = 1; l <= p->levels + 1 && l < MOST_LEVELS; l++) {
-        free(p->level[l].weight);
-        free(p->level[l].value);
+    for (size_t m = 1; m <= p->levels + 1 && m < MOST_LEVELS; m++) {
+        free(p->level[m].weight);
+        free(p->level[m].value);
+        free(p->level[m].beside);
     }
     free(p->scratch);
     free(p->room);
-    free(p->beside);
     free(p->dealt);
+    free(p->edge);
     free(p);
 }
 
 size_t
-rc_pyramid_memory(const struct rc_shape *shape)
+rc_pyramid_memory(const struct rc_pyramid_base *base)
 {
-    const struct rc_pyramid_base base = {.shape = *shape};
-    size_t nx = shape->nx, ny = shape->ny, sum = 0;
-    double spacing[] = {shape->dx, shape->dy};
+    struct grid g = finest(base);
+    size_t sum = 0;
     struct level l;
 
-    while (coarser(&base, &nx, &ny, spacing, &l))
-        sum += 2 * nodes(&l) * sizeof(float);
-    return sum;
+    while (coarser(base, &g, &l))
+        sum += 2 * nodes(&l) + (l.parts && !l.shared ? l.own * l.x.coarse : 0);
+    return sum * sizeof(float);
 }
 
 static float *
@@ -281,11 +319,12 @@ scratch(const struct rc_pyramid *p)
     return p->scratch + (size_t)omp_get_thread_num() * 2 * p->base.shape.nx;
 }
 
-/* ---- from the base to level 1 ---- */
+/* ---- from a level to the next ---- */
 
-/* Rows held here and those beside them. */
+/* The rows of a level that are held here, and those beside them. */
 struct source {
     const struct rc_pyramid *p;
+    size_t nx, ny, first, n;
     rc_pyramid_add *add;
     const void *of;
 };
@@ -293,61 +332,63 @@ struct source {
 static void
 add_row(const struct source *s, size_t j, float weight, float *to)
 {
-    const struct rc_pyramid_base *b = &s->p->base;
-    size_t nx = b->shape.nx;
     const float *row;
 
-    if (j >= b->first && j < b->first + b->n) {
-        s->add(s->of, j - b->first, weight, to);
+    if (j >= s->first && j < s->first + s->n) {
+        s->add(s->of, j - s->first, weight, to);
         return;
     }
-    row = s->p->beside + (j == (b->first + b->n) % b->shape.ny ? 3 : 2) * nx;
-    for (size_t i = 0; i < nx; i++)
+    row = s->p->edge + (j == (s->first + s->n) % s->ny ? 3 : 2) * s->nx;
+    for (size_t i = 0; i < s->nx; i++)
         to[i] += weight * row[i];
 }
 
 static void
-fetch_beside(struct rc_pyramid *p, const struct source *s)
+fetch_beside(const struct source *s)
 {
-    const struct rc_pyramid_base *b = &p->base;
-    const struct rc_rows rows = {b->ranks, b->shape.ny, b->first, b->n};
-    size_t nx = b->shape.nx;
-    float *v = p->beside;
+    const struct rc_pyramid_base *b = &s->p->base;
+    const struct rc_rows rows = {b->ranks, s->ny, s->first, s->n};
+    size_t nx = s->nx;
+    float *v = s->p->edge;
+    bool has[2];
 
     memset(v, 0, 4 * nx * sizeof *v);
-    if (b->n > 0) {
+    if (s->n > 0) {
         s->add(s->of, 0, 1, v);
-        s->add(s->of, b->n - 1, 1, v + nx);
+        s->add(s->of, s->n - 1, 1, v + nx);
     }
-    rc_ranks_beside(&rows, b->round, nx * sizeof *v, v, v + nx, v + 2 * nx, v + 3 * nx, p->has);
+    rc_ranks_beside(&rows, b->round, nx * sizeof *v, v, v + nx, v + 2 * nx, v + 3 * nx, has);
 }
 
-/* The values of level 1 become `factor` P' of the rows. */
+/* `to`, of level m, becomes `factor` P' of the rows of the level before it. */
 static void
-pull_base(struct rc_pyramid *p, rc_pyramid_add *add, const void *of, float factor)
+pull(struct rc_pyramid *p, size_t m, rc_pyramid_add *add, const void *of, float factor, float *to)
 {
-    const struct source s = {p, add, of};
-    const struct level *l = &p->level[1];
-    size_t nx = p->base.shape.nx, rows = own_rows(p);
-    size_t first = l->y.halved ? p->base.first / 2 : p->base.first;
-    float *to = p->base.ranks == NULL ? l->value : p->room;
+    const struct level *l = &p->level[m], *before = l - 1;
+    const struct source s = {.p = p,
+                             .nx = l->x.n,
+                             .ny = l->y.n,
+                             .first = m == 1 ? p->base.first : before->first,
+                             .n = m == 1 ? p->base.n : before->n,
+                             .add = add,
+                             .of = of};
+    bool gathered = l->parts && !l->shared;
+    float *made = gathered ? p->room : to;
 
-    if (p->base.ranks != NULL && l->y.halved)
-        fetch_beside(p, &s);
-#pragma omp parallel for num_threads(p->base.threads) schedule(static)
-    for (size_t k = 0; k < rows; k++) {
+    if (l->parts && l->y.halved)
+        fetch_beside(&s);
+#pragma omp parallel for num_threads(m == 1 ? p->base.threads : l->threads) schedule(static)
+    for (size_t k = 0; k < l->own; k++) {
         float weight[4], *sum = scratch(p);
-        size_t at[4], count = children(&l->y, first + k, at, weight);
-        memset(sum, 0, nx * sizeof *sum);
+        size_t at[4], count = children(&l->y, l->own_first + k, at, weight);
+        memset(sum, 0, s.nx * sizeof *sum);
         for (size_t i = 0; i < count; i++)
             add_row(&s, at[i], weight[i], sum);
-        fold(&l->x, factor, sum, to + k * l->x.coarse);
+        fold(&l->x, factor, sum, made + k * l->x.coarse);
     }
-    if (p->base.ranks != NULL)
-        rc_ranks_move(p->base.ranks, l->x.coarse * sizeof *to, p->dealt, NULL, to, l->value);
+    if (gathered)
+        rc_ranks_move(p->base.ranks, l->x.coarse * sizeof *to, p->dealt, NULL, made, to);
 }
-
-/* ---- between levels ---- */
 
 /* What the numbers of a level are multiplied by on their way up. */
 enum up {
@@ -387,13 +428,20 @@ add_coarser(size_t n, float weight, float t, const float *restrict v, const floa
         to[i] += weight * t * v[i] / (w[i] + t);
 }
 
+struct rows {
+    const struct level *l;
+    enum up up;
+};
+
 static void
-add_of_level(const struct level *l, enum up up, size_t j, float weight, float *to)
+add_of_level(const void *of, size_t j, float weight, float *to)
 {
+    const struct rows *r = of;
+    const struct level *l = r->l;
     size_t n = l->x.coarse;
     const float *v = l->value + j * n, *w = l->weight + j * n;
 
-    switch (up) {
+    switch (r->up) {
     case AS_THEY_ARE:
         add_as_they_are(n, weight, v, to);
         break;
@@ -413,20 +461,22 @@ add_of_level(const struct level *l, enum up up, size_t j, float weight, float *t
 static void
 up(struct rc_pyramid *p, size_t from, enum up what, float factor, float *to)
 {
-    const struct level *l = &p->level[from], *next = l + 1;
+    const struct rows rows = {&p->level[from], what};
 
-#pragma omp parallel for num_threads(next->threads) schedule(static)
-    for (size_t k = 0; k < next->y.coarse; k++) {
-        float weight[4], *sum = scratch(p);
-        size_t at[4], count = children(&next->y, k, at, weight);
-        memset(sum, 0, l->x.coarse * sizeof *sum);
-        for (size_t i = 0; i < count; i++)
-            add_of_level(l, what, at[i], weight[i], sum);
-        fold(&next->x, factor, sum, to + k * next->x.coarse);
-    }
+    pull(p, from + 1, add_of_level, &rows, factor, to);
 }
 
-/* Row j of P of the values of a level. */
+static const float *
+values(const struct level *l, size_t k)
+{
+    size_t n = l->x.coarse;
+
+    if (k >= l->first && k < l->first + l->n)
+        return l->value + (k - l->first) * n;
+    return l->beside + (k == (l->first + l->n) % l->y.coarse ? n : 0);
+}
+
+/* Row j, of all of the level before, of P of the values of a level. */
 static void
 row_of(const struct level *l, size_t j, float *sum, float *out)
 {
@@ -434,12 +484,12 @@ row_of(const struct level *l, size_t j, float *sum, float *out)
     const float *a, *b;
 
     if (!l->y.halved) {
-        spread(&l->x, l->value + j * n, out);
+        spread(&l->x, values(l, j), out);
         return;
     }
     parents(&l->y, j, &near, &far);
-    a = l->value + near * n;
-    b = l->value + far * n;
+    a = values(l, near);
+    b = values(l, far);
     for (size_t i = 0; i < n; i++)
         sum[i] = 0.75F * a[i] + 0.25F * b[i];
     spread(&l->x, sum, out);
@@ -474,6 +524,17 @@ sums_row(size_t n, float t, float k, const float *restrict coarse, const float *
         v[i] = v[i] / (w[i] + t) + k * coarse[i] / (w[i] > 1 ? w[i] : 1);
 }
 
+static void
+share_beside(const struct rc_pyramid *p, const struct level *l)
+{
+    const struct rc_rows rows = {p->base.ranks, l->y.coarse, l->first, l->n};
+    size_t n = l->x.coarse;
+    bool has[2];
+
+    rc_ranks_beside(&rows, p->base.round, n * sizeof *l->value, l->value,
+                    l->value + (some(l->n) - 1) * n, l->beside, l->beside + n, has);
+}
+
 /* The values of all levels, from the coarsest on, take what the next coarser one says. */
 static void
 down(struct rc_pyramid *p, enum down what)
@@ -482,14 +543,14 @@ down(struct rc_pyramid *p, enum down what)
         struct level *l = &p->level[m], *next = l + 1;
         size_t n = l->x.coarse;
 #pragma omp parallel for num_threads(l->threads) schedule(static)
-        for (size_t j = 0; j < l->y.coarse; j++) {
+        for (size_t j = 0; j < l->n; j++) {
             float *sum = scratch(p), *coarse = sum + p->base.shape.nx;
             float *v = l->value + j * n;
             const float *w = l->weight + j * n;
             if (m == p->levels)
                 memset(coarse, 0, n * sizeof *coarse);
             else
-                row_of(next, j, sum, coarse);
+                row_of(next, l->first + j, sum, coarse);
             if (what == SURROUNDINGS)
                 surround_row(n, coarse, v);
             else if (what == MEANS)
@@ -497,6 +558,8 @@ down(struct rc_pyramid *p, enum down what)
             else
                 sums_row(n, l->t, m == p->levels ? 0 : next->k, coarse, w, v);
         }
+        if (l->shared)
+            share_beside(p, l);
     }
 }
 
@@ -521,7 +584,7 @@ rc_pyramid_set(struct rc_pyramid *p, rc_pyramid_add *w, const void *of)
         return;
     for (size_t m = 1; m <= p->levels; m++, part *= (float)M_SQRT1_2)
         sum += part;
-    pull_base(p, w, of, 1 / (l->whole * sum));
+    pull(p, 1, w, of, 1 / (l->whole * sum), l->value);
     weight = l->k * l->whole * sum;
 #pragma omp parallel for simd num_threads(l->threads) schedule(static)
     for (size_t i = 0; i < nodes(l); i++)
@@ -539,7 +602,7 @@ rc_pyramid_extend(struct rc_pyramid *p, rc_pyramid_add *r, const void *of)
 {
     if (p->levels == 0)
         return;
-    pull_base(p, r, of, p->level[1].k);
+    pull(p, 1, r, of, p->level[1].k, p->level[1].value);
     for (size_t m = 1; m < p->levels; m++)
         up(p, m, AT_MOST, p->level[m + 1].k, p->level[m + 1].value);
     down(p, MEANS);
@@ -550,7 +613,8 @@ rc_pyramid_gather(struct rc_pyramid *p, rc_pyramid_add *f, const void *of)
 {
     if (p->levels == 0)
         return;
-    pull_base(p, f, of, p->level[1].k); /* of the way back to the base, where c = 1 on W */
+    pull(p, 1, f, of, p->level[1].k,
+         p->level[1].value); /* of the way back to the base, where c = 1 on W */
     for (size_t m = 1; m < p->levels; m++)
         up(p, m, COARSER, 1, p->level[m + 1].value);
     down(p, SUMS);

@@ -26,14 +26,15 @@
 
 struct rc_pyramid;
 
-/* The finest grid: `shape` all of its nodes, of which rows first .. first + n - 1 are held here; the first
- * row held by each rank is even. */
+/* The finest grid: `shape` all of its nodes, of which rows first .. first + n - 1 are held here. */
 struct rc_pyramid_base {
     struct rc_shape shape;
     size_t first, n;
-    bool round; /* the map repeats                                         */
+    size_t unit;  /* the first row held by any rank is a multiple of it, which is even */
+    size_t count; /* of ranks that share it                                            */
+    bool round;   /* the map repeats                                         */
     int threads;
-    const struct rc_ranks *ranks; /* that share it, NULL: none                               */
+    const struct rc_ranks *ranks; /* NULL: none                                              */
 };
 /* The power a at wave number q, over the unit of the spacings. */
 typedef double rc_power_at(const void *of, double q);
@@ -41,8 +42,8 @@ typedef double rc_power_at(const void *of, double q);
 struct rc_pyramid *rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power,
                                   const void *of, struct rc_err *err);
 void rc_pyramid_free(struct rc_pyramid *pyramid);
-/* Bytes of a pyramid over so many nodes. */
-size_t rc_pyramid_memory(const struct rc_shape *shape);
+/* Bytes of it on a rank that holds base->n rows; `ranks` does not count. */
+size_t rc_pyramid_memory(const struct rc_pyramid_base *base);
 
 /* Adds `weight` times row j of those held here to `to`; called by several threads. */
 typedef void rc_pyramid_add(const void *of, size_t j, float weight, float *to);

@@ -574,14 +574,15 @@ size_t
 rc_filter_memory(const struct rc_shape *shape, const struct rc_filter *what)
 {
     struct gauss g = {.shape = shape, .periodic = what->periodic};
-    size_t bytes = 0;
+    size_t bytes = 0, nodes = shape->nx * shape->ny;
 
     g.threads = rc_useful_threads(shape, what->threads);
     if (plan(&g, what->cutoff))
-        bytes = (shape->ny * 2 * g.stride + low_numbers(&g) +
-                 (size_t)g.threads * (g.per_thread + g.rows_per_thread) +
-                 (what->robust ? shape->nx * shape->ny : 0)) *
-                sizeof(double);
+        bytes =
+            (shape->ny * 2 * g.stride + low_numbers(&g) +
+             (size_t)g.threads * (g.per_thread + g.rows_per_thread) +
+             (what->robust ? nodes + nodes / 32 : 0)) * /* residuals, and those near their median */
+            sizeof(double);
     gauss_free(&g);
     return bytes;
 }

@@ -86,9 +86,9 @@ work_grows_little(void **state)
                 print_message("%s, %zu nodes, contact %.3f: %zu steps, %.1f equivalents\n",
                               walk ? "walk" : "self-affine", n, c.contact_fraction, c.iterations,
                               work);
-                assert_true(c.converged && work <= 40);
+                assert_true(c.converged && work <= 11);
                 first = n == least ? work : first;
-                assert_true(work <= 1.8 * first);
+                assert_true(work <= 1.3 * first);
             }
         }
     free(h);

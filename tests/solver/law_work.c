@@ -18,20 +18,20 @@ struct row {
 };
 
 static const struct row rows[] = {
-    {RC_PERIODIC, 4e-4, 0, 17, 8},
-    {RC_PERIODIC, 0.018, 0, 14, 8},
-    {RC_PERIODIC, 0.028, 0, 14, 8},
-    {RC_PERIODIC, 0.05, 0, 14, 8},
-    {RC_PERIODIC, 0.12, 0, 14, 8},
-    {RC_PERIODIC, 0.01, 3, 21, 8},
+    {RC_PERIODIC, 4e-4, 0, 8, 8},
+    {RC_PERIODIC, 0.018, 0, 8, 8},
+    {RC_PERIODIC, 0.028, 0, 8, 8},
+    {RC_PERIODIC, 0.05, 0, 8, 8},
+    {RC_PERIODIC, 0.12, 0, 8, 8},
+    {RC_PERIODIC, 0.01, 3, 11, 8},
     /* nearly all that is loaded yields */
-    {RC_PERIODIC, 6e-4, 1 / 0.6, 27, 2},
-    {RC_PERIODIC, 9e-4, 1 / 0.9, 27, 2},
-    {RC_FREE, 1.5e-3, 1 / 0.3, 27, 2},
+    {RC_PERIODIC, 6e-4, 1 / 0.6, 12, 2},
+    {RC_PERIODIC, 9e-4, 1 / 0.9, 12, 2},
+    {RC_FREE, 1.5e-3, 1 / 0.3, 12, 2},
     /* flat maps, which carry load up to their edges */
-    {RC_FREE, 8e-4, 0, 19, 2},
-    {RC_FREE, 0.0176, 0, 15, 2},
-    {RC_FREE, 0.054, 0, 15, 2},
+    {RC_FREE, 8e-4, 0, 9, 2},
+    {RC_FREE, 0.0176, 0, 8, 2},
+    {RC_FREE, 0.054, 0, 8, 2},
 };
 
 static double
