@@ -59,7 +59,11 @@ static const double conjugate = 1e-2;
  * set, about the square of the ratio of two estimates. Where nodes have come or gone z'q contains their
  * residuals as well, and the next step would repeat what the last one has done already: on one material
  * four steps in place of six at 33 % contact. So b is at most that, as Gilbert and Nocedal have it
- * (SIAM J. Optim. 2, 1992). */
+ * (SIAM J. Optim. 2, 1992). But under coats a few eigenvalues may lie far from the others, and the two ratios
+ * differ: seven elastic nodes under one 10^4 times as stiff as its base took 100 steps. There b is left as it
+ * is where at most this part of the set has come or gone. On one material that would save nothing, and cost
+ * the estimate its honesty: it was down to 0.96 of the error at 99 % contact. */
+static const double few = 3e-4;
 
 struct pcg {
     float *delta, *q;      /* the last step and K times it, in the units of the operator's rows */
@@ -264,7 +268,7 @@ precondition(struct rc_solver *solver, struct pcg *s, double *mean)
     c.b = s->curvature > 0 && above < 0 ? -above / s->curvature : 0;
     estimate = rc_working_set_error(solver, share);
     ratio = estimate / s->before;
-    if (c.b > ratio * ratio)
+    if (c.b > ratio * ratio && (!isnan(solver->op->estar) || solver->set.turnover > few))
         c.b = ratio * ratio;
     if (c.b > 0) {
         rc_reduce_blocks(solver, turn_block, &c, total);

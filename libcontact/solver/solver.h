@@ -107,6 +107,7 @@ struct rc_working_set {
     /* Nodes that joined or left since the preconditioner was told w; INFINITY: w is a new set
      * altogether. */
     double changed;
+    double turnover; /* the part of it that joined or left when it was last found */
 };
 
 /* The load that is set, and the search for the one that an approach needs. */

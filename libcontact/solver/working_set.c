@@ -371,6 +371,7 @@ find(struct residual *c)
     s->set.size = (size_t)total[OUT];
     s->set.offset = s->set.size > 0 ? (float)(total[RESIDUAL] / total[OUT]) : 0;
     s->set.changed += total[CHANGED];
+    s->set.turnover = total[CHANGED] / fmax(total[OUT], 1);
 }
 
 void
