@@ -133,5 +133,25 @@ interrupted() {
 set -m
 claim "an interrupted one: said" interrupted
 claim "  and in the stream" bash -c 'rc-info cut.rcg 2>/dev/null >cut.txt; grep converged=no cut.txt'
+# While it plans there is nothing to write; whenever it comes there is a whole file or none.
+early() {
+    local none=0 k
+    for k in 1 3 5; do
+        rm -f early.rcg*
+        rc-solve --quiet --load 1N --estar 100GPa --output pressure large.rcg -o early.rcg 2>err &
+        sleep 0.$k
+        kill -INT $! && wait $!
+        [ $? = 130 ] || return 1
+        if [ -e early.rcg ]; then
+            rc-info --quiet early.rcg >/dev/null 2>&1
+            [ $? = 3 ] || return 1 # it says converged=no
+        else
+            none=$((none + 1))
+        fi
+        [ "$(find . -name 'early.rcg?*')" = "" ] || return 1
+    done
+    [ $none -gt 0 ]
+}
+claim "one that plans: ends at once, and leaves nothing" early
 
 finish

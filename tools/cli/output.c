@@ -71,6 +71,16 @@ tool_catch_signals(void)
     handle(note_signal);
 }
 
+void
+tool_release_signals(void)
+{
+    if (together != NULL)
+        return;
+    if (interrupted != 0)
+        end_by(interrupted);
+    handle(end_by);
+}
+
 int
 tool_interrupted(void)
 {

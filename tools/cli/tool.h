@@ -237,6 +237,9 @@ void tool_progress_end(struct tool *tool);
  * sets what tool_interrupted gives (the signal's number), and tool_finish ends by it. Processes that
  * share maps ask together. */
 void tool_catch_signals(void);
+/* The first one ends the tool again, one that has come already at once, until that is called once more: for
+ * long work before there is anything to write. Not where processes share maps. */
+void tool_release_signals(void);
 int tool_interrupted(void);
 /* The same of this process alone, where the handler sets it. */
 const volatile sig_atomic_t *tool_signal(void);

@@ -413,7 +413,10 @@ new_solver(struct run *run, const struct rc_grid *g)
     struct rc_err err;
 
     demand_memory(run, g, &problem);
+    if (!run->t.began)
+        tool_release_signals(); /* planning takes long, and no pressure is worth writing before it ends */
     solver = rc_solver_new(&shape, g->v, &problem, &err);
+    tool_catch_signals();
     if (solver == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     tool_code_there(&run->t, SOLVE_CODE);
