@@ -393,10 +393,12 @@ rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
         return NULL;
     s->bodies = fine->bodies;
     s->positive = fine->positive;
-    if (plan(s, shape, &o, err) == RC_OK)
-        return &s->op;
-    rc_operator_free(&s->op);
-    return NULL;
+    if (plan(s, shape, &o, err) != RC_OK) {
+        rc_operator_free(&s->op);
+        return NULL;
+    }
+    s->op.estar = op->estar;
+    return &s->op;
 }
 
 size_t
