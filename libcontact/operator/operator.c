@@ -393,12 +393,12 @@ rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
         return NULL;
     s->bodies = fine->bodies;
     s->positive = fine->positive;
-    if (plan(s, shape, &o, err) != RC_OK) {
-        rc_operator_free(&s->op);
-        return NULL;
+    if (plan(s, shape, &o, err) == RC_OK) {
+        s->op.estar = op->estar;
+        return &s->op;
     }
-    s->op.estar = op->estar;
-    return &s->op;
+    rc_operator_free(&s->op);
+    return NULL;
 }
 
 size_t

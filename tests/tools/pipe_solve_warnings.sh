@@ -138,7 +138,7 @@ early() {
     local none=0 k
     for k in 1 3 5; do
         rm -f early.rcg*
-        rc-solve --quiet --load 1N --estar 100GPa --output pressure large.rcg -o early.rcg 2>err &
+        rc-solve --quiet --load 1N --estar 100GPa --tol 1e-12 --method pk99 --output pressure large.rcg -o early.rcg 2>err &
         sleep 0.$k
         kill -INT $! && wait $!
         [ $? = 130 ] || return 1

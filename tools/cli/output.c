@@ -66,6 +66,8 @@ handle(void (*handler)(int))
 void
 tool_catch_signals(void)
 {
+    if (interrupted != 0)
+        return; /* the next one is final */
     if (together != NULL)
         signal(SIGALRM, end_in_time);
     handle(note_signal);

@@ -413,7 +413,7 @@ new_solver(struct run *run, const struct rc_grid *g)
     struct rc_err err;
 
     demand_memory(run, g, &problem);
-    if (!run->t.began)
+    if (run->done == 0)         /* no load has been solved */
         tool_release_signals(); /* planning takes long, and no pressure is worth writing before it ends */
     solver = rc_solver_new(&shape, g->v, &problem, &err);
     tool_catch_signals();
