@@ -140,6 +140,16 @@ unit_of(const struct rc_shape *s)
     return (struct rc_shape){s->nx, s->ny, s->dx / unit, s->dy / unit};
 }
 
+/* How much stiffer the bodies are for the shortest waves of a grid than for the longest ones. */
+static double
+stiffening(const struct rc_solids *bodies, const struct rc_shape *s)
+{
+    double side = fmin(s->dx * (double)s->nx, s->dy * (double)s->ny);
+    double node = sqrt(s->dx) * sqrt(s->dy);
+
+    return rc_solids_modulus(bodies, RC_PI / node) / rc_solids_modulus(bodies, 2 * RC_PI / side);
+}
+
 /* ---- plan ---- */
 
 void
@@ -194,17 +204,6 @@ wave(const struct bounded *b, size_t i, size_t j)
     return hypot(rc_fft_qx(b->s->fft, i), rc_fft_qy(b->s->fft, j));
 }
 
-/* The longest waves feel the bodies at least as stiff as the shortest ones do. */
-static bool
-is_soft_coat(const struct own *s, double length)
-{
-    const struct rc_shape *shape = &s->op.whole;
-    double side = fmin(shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
-
-    return rc_solids_modulus(s->bodies, 2 * RC_PI / side) >=
-           rc_solids_modulus(s->bodies, RC_PI / length);
-}
-
 static bool
 all_positive(const struct bounded *b, size_t columns)
 {
@@ -254,7 +253,7 @@ set_bounded(struct own *s, const struct rc_shape *unit, const struct rc_kernel *
     }
     status = rc_spectrum_set_by(s->kernel, s->fft, kernel, keep_column, &b, err);
     if (status == RC_OK)
-        b.positive = all_positive(&b, columns) && is_soft_coat(s, length);
+        b.positive = all_positive(&b, columns) && stiffening(s->bodies, &s->op.whole) <= 1;
     if (status == RC_OK && (s->inverse = rc_spectrum_new(s->fft, err)) != NULL)
         status = rc_spectrum_set_by(s->inverse, s->fft, &rc_kernel_of_one, invert_column, &b, err);
     else
@@ -310,6 +309,7 @@ plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_optio
                                  .row_error = 2e-7, /* 1e-5 for |u| of 50, at 1024 x 1024 */
                                  .row_cost = 0.5,
                                  .factor_cost = 0.5,
+                                 .bends = stiffening(s->bodies, shape) > 1.1,
                                  .edges = !s->positive && o->boundary == RC_FREE,
                                  .mean_free = o->boundary == RC_PERIODIC};
     s->op.shape = rc_rows_shape(&s->op.rows, shape);

@@ -37,6 +37,7 @@ struct rc_operator {
     double row_cost;  /* of K p row by row, in equivalents of K p in double precision        */
     double factor_cost; /* of each factor of a chain                                           */
     bool exact;         /* K p can be had in double precision                                  */
+    bool bends;         /* a coat stiffer than what is under it: the inverse alternates in sign */
     bool mean_free;     /* the mean of u is 0 whatever the pressure: it has no stiffness       */
     const char *engine, *reason; /* which does the sums of K p, and why; NULL: none            */
     const struct rc_spectrum *kernel, *inverse; /* factors for rc_operator_chain: K and K^-1   */

@@ -303,6 +303,49 @@ rc_preconditioner_nodes(const struct rc_preconditioner *e)
     return e->node;
 }
 
+/* ---- E ---- */
+
+struct ahead {
+    const struct rc_preconditioner *e;
+    const unsigned char *w;
+    const float *r; /* NULL: 1 in its place */
+};
+
+RC_CLONES static void
+add_ones(size_t n, float weight, const unsigned char *w, const float *r, float *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] += w[i] == 1 ? weight * (r == NULL ? 1 : r[i]) : 0;
+}
+
+static void
+ahead_row(const void *of, size_t j, float weight, float *row)
+{
+    const struct ahead *a = of;
+    size_t n = a->e->op->shape.nx;
+    float *to = on_map(a->e, &j, row);
+
+    if (to != NULL)
+        add_ones(n, weight, a->w + j * n, a->r == NULL ? NULL : a->r + j * n, to);
+}
+
+void
+rc_preconditioner_extend(struct rc_preconditioner *e, const unsigned char *w, const float *r,
+                         float *out)
+{
+    const struct ahead mask = {e, w, NULL}, field = {e, w, r};
+    size_t nx = e->op->shape.nx;
+
+    rc_pyramid_set(e->pyramid, ahead_row, &mask);
+    rc_pyramid_extend(e->pyramid, ahead_row, &field);
+#pragma omp parallel for num_threads(e->threads) schedule(static)
+    for (size_t j = 0; j < e->op->shape.ny; j++) {
+        float *row = e->row + (size_t)omp_get_thread_num() * framed_nx(e);
+        rc_pyramid_row(e->pyramid, e->above + j, row);
+        memcpy(out + j * nx, row + e->op->frame.x, nx * sizeof *out);
+    }
+}
+
 /* ---- E' A E ---- */
 
 struct correction {

@@ -28,6 +28,10 @@ void rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w);
  * Costs one factor of a chain. */
 void rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offset, float *z,
                              rc_row *done, void *ctx);
+/* E r, with W the nodes where w is 1, in `out` at all others. The working set has to be set anew afterwards.
+ * Costs no factor of a chain. */
+void rc_preconditioner_extend(struct rc_preconditioner *e, const unsigned char *w, const float *r,
+                              float *out);
 
 /* For each node on W minus its share of the load of a shift of all of W. */
 #define RC_LEAST_SHARE 1e-3F

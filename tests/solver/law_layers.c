@@ -86,7 +86,7 @@ stiff(void **state)
     static const struct {
         double ratio, thickness, mean; /* E_1/E_s; nodes; pressure over E_s */
         double most;                   /* convolutions                      */
-    } rows[] = {{100, 2, 0.199, 16}, {100, 2, 1.12, 15}, {400, 1, 0.3205, 27}};
+    } rows[] = {{100, 2, 0.199, 13}, {100, 2, 1.12, 12.5}, {400, 1, 0.3205, 24.5}};
     const struct rc_shape s = {M, M, 1e-6, 1e-6};
     struct rc_selfaffine what = {
         .hurst = 0.8, .rms_slope = 0.1, .rolloff = 64e-6, .short_cut = 2e-6, .seed = 1};
