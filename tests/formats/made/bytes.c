@@ -3,13 +3,24 @@
 
 #include <stdlib.h>
 #include <string.h>
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/asan_interface.h>
+#else
+#define ASAN_POISON_MEMORY_REGION(at, n)
+#define ASAN_UNPOISON_MEMORY_REGION(at, n)
+#endif
 
 void
 add(struct bytes *b, const void *from, size_t n)
 {
-    b->data = realloc(b->data, b->n + n + 1);
-    if (b->data == NULL)
-        abort();
+    if (b->n + n + 1 > b->room) {
+        b->room = 2 * (b->n + n + 1);
+        b->data = realloc(b->data, b->room);
+        if (b->data == NULL)
+            abort();
+        ASAN_POISON_MEMORY_REGION(b->data + b->n, b->room - b->n);
+    }
+    ASAN_UNPOISON_MEMORY_REGION(b->data + b->n, n + 1);
     if (n > 0)
         memcpy(b->data + b->n, from, n);
     b->n += n;

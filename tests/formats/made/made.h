@@ -20,7 +20,9 @@
 struct bytes {
     unsigned char *data;
     size_t n;
-    bool big; /* most significant byte first */
+    bool big; /* most significant byte first            */
+    size_t
+        room; /* bytes there: for the address sanitizer those after n + 1 are not to be touched */
 };
 
 void add(struct bytes *b, const void *from, size_t n);

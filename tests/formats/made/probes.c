@@ -403,11 +403,12 @@ make_createc(struct bytes *m, int variant)
     if (variant < 2)
         add(m, planes.data, planes.n);
     else {
+        size_t header = m->n;
         n = compressBound(planes.n);
-        m->data = realloc(m->data, m->n + n);
-        if (m->data == NULL || compress(m->data + m->n, &n, planes.data, planes.n) != Z_OK)
+        add_zeros(m, n);
+        if (compress(m->data + header, &n, planes.data, planes.n) != Z_OK)
             abort();
-        m->n += n;
+        m->n = header + n;
     }
     drop(&planes);
 }
