@@ -12,6 +12,7 @@
 static struct args {
     struct wanted wanted;
     struct steps steps;
+    char *made[TOOL_STEPS]; /* the texts of --set, kept to the end */
 } args;
 
 #define STEP(word, argument, what)                                                                 \
@@ -83,8 +84,7 @@ settle_set(struct tool *t, struct step *step)
 {
     size_t n = strcspn(step->text, "="), size = strlen(step->text) + RC_NUMBER_SIZE;
     const char *value = step->text + n + (step->text[n] == '=');
-    static char *made[sizeof args.steps.step / sizeof *args.steps.step]; /* kept to the end */
-    char *text = made[step - args.steps.step] = malloc(size);
+    char *text = args.made[step - args.steps.step] = malloc(size);
     struct rc_err err;
 
     if (text == NULL)

@@ -76,7 +76,8 @@ struct opt {
 };
 
 enum {
-    TOOL_OPTIONS = 64 /* rows that a tool may have of its own */
+    TOOL_OPTIONS = 64, /* rows that a tool may have of its own */
+    TOOL_STEPS = 64    /* options whose order matters, on one line */
 };
 
 struct steps {
@@ -84,7 +85,7 @@ struct steps {
         const struct opt *opt;
         double value;
         const char *text; /* of OPT_TEXTS; goes into history as it is when it is asked for */
-    } step[64];
+    } step[TOOL_STEPS];
     size_t n;
 };
 
