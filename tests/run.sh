@@ -30,12 +30,12 @@ else
     echo "Real instrument files: ../shared/corpus is not here, so the tests on them do not run."
 fi
 
-# build PRESET [TARGETS]
+# build PRESET [OPTIONS]
 build() {
     local preset=$1
     shift
     cmake --preset "$preset" >/dev/null
-    cmake --build --preset "$preset" --parallel "$(cores)" ${1:+--target "$@"}
+    cmake --build --preset "$preset" --parallel "$(cores)" "$@"
     phase "$preset, build"
 }
 
@@ -55,7 +55,7 @@ build ci
 
 # The difference that MPI makes: the tools and the tests that use it, on two processes, and the installed files.
 # They mostly wait for launchers, so the tests without MPI run meanwhile.
-build mpi libcontact/all formats/all tools/all same_ranks same_volume_ranks law_counts_ranks law_memory_ranks failing_malloc
+build mpi --target mpi_tested
 try mpi -R '_ranks|law_folders|pipe_(installed|library(_page)?|solve)$' >build-mpi/tests.log 2>&1 &
 shared=$!
 failed=0
