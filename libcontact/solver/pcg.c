@@ -68,14 +68,15 @@ static const double few = 3e-4;
 struct pcg {
     float *delta, *q;      /* the last step and K times it, in the units of the operator's rows */
     struct rc_tile *tiles; /* scratch of a move                                            */
-    double curvature;      /* delta'q; 0: the next direction is not conjugate to anything       */
-    double alpha;          /* length foretold for the next step                                 */
-    double drift;          /* relative error of p from single precision, an upper estimate      */
-    double estimate;       /* the last one; NAN: none yet                                       */
-    double before;         /* that of the iteration before this one                             */
-    double rate;           /* the last estimate over the one before, at most 1                  */
-    double best;           /* the least estimate                                                */
-    size_t best_at;        /* and its iteration                                                 */
+    struct rc_tile_line line; /* the same                                                     */
+    double curvature; /* delta'q; 0: the next direction is not conjugate to anything       */
+    double alpha;     /* length foretold for the next step                                 */
+    double drift;     /* relative error of p from single precision, an upper estimate      */
+    double estimate;  /* the last one; NAN: none yet                                       */
+    double before;    /* that of the iteration before this one                             */
+    double rate;      /* the last estimate over the one before, at most 1                  */
+    double best;      /* the least estimate                                                */
+    size_t best_at;   /* and its iteration                                                 */
 };
 
 /* What the passes over all nodes share. */
@@ -95,6 +96,7 @@ state_free(void *at)
     free(s->delta);
     free(s->q);
     free(s->tiles);
+    rc_tile_line_free(&s->line);
     free(s);
 }
 
@@ -127,7 +129,8 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
         s->q = rc_alloc(n, sizeof *s->q);
         s->tiles = rc_alloc(rc_tiles(&solver->posed.shape), sizeof *s->tiles);
     }
-    if (s == NULL || s->delta == NULL || s->q == NULL || s->tiles == NULL) {
+    if (s == NULL || rc_tile_line_new(&s->line, &solver->posed) != RC_OK || s->delta == NULL ||
+        s->q == NULL || s->tiles == NULL) {
         rc_err_set(err, "out of memory for the iteration of %zu nodes", n);
         state_free(s);
         return NULL;
@@ -547,6 +550,7 @@ attempt(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool
                            .mean = mean,
                            .delta = s->delta,
                            .tiles = s->tiles,
+                           .line = &s->line,
                            .alpha = alpha / solver->load.per_pressure};
     struct pass c = {.solver = solver, .s = s};
     double best;

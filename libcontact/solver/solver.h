@@ -380,8 +380,10 @@ struct rc_move {
     double mean;    /* of d                                                                    */
     float *delta;
     struct rc_tile *tiles; /* rc_tiles of them: scratch                                        */
-    double size;           /* found: sum of |delta|, as a pressure, or a little more           */
-    bool clipped;          /* found: some node would have left the box                         */
+    const struct rc_tile_line
+        *line;    /* scratch too                                                 */
+    double size;  /* found: sum of |delta|, as a pressure, or a little more           */
+    bool clipped; /* found: some node would have left the box                         */
 };
 /* By one shift of all nodes of the set, the Euclidean projection. Where the set cannot carry its
  * share all nodes become the set. */
@@ -396,6 +398,14 @@ struct rc_tile {
     double left;  /* the load that it could not keep                 */
 };
 size_t rc_tiles(const struct rc_shape *shape);
+/* Room for the tiles of a map of one row or one column that ranks share; else empty. */
+struct rc_tile_line {
+    struct rc_tile *tiles; /* of all ranks                     */
+    size_t *from;          /* the first one of each rank, and their number */
+};
+/* RC_FAIL when memory is short; rc_tile_line_free in either case. */
+enum rc_status rc_tile_line_new(struct rc_tile_line *line, const struct rc_posed *posed);
+void rc_tile_line_free(struct rc_tile_line *line);
 /* By a shift for each tile of the map. A node at its bound that would leave the box stays there, and
  * does not count as clipped. False when the load cannot be kept that way; delta then tells what has
  * been moved. */

@@ -21,7 +21,10 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "libcontact/memory.h"
 
 enum {
     TILE = RC_TILE_ROWS, /* nodes a side */
@@ -455,6 +458,42 @@ share(struct tiles *a, double rest)
 
 /* ---- on a line ---- */
 
+/* Tiles of a row or a column follow each other, whichever rank has them: all ranks go through all. */
+enum rc_status
+rc_tile_line_new(struct rc_tile_line *line, const struct rc_posed *posed)
+{
+    const struct rc_shape *whole = &posed->whole;
+    size_t count = rc_ranks_count(posed->rows.ranks), unit = rc_rows_unit(whole->nx);
+
+    *line = (struct rc_tile_line){0};
+    if (count == 1 || (whole->nx > 1 && whole->ny > 1))
+        return RC_OK;
+    line->tiles = rc_alloc(rc_tiles(whole), sizeof *line->tiles);
+    line->from = malloc((count + 1) * sizeof *line->from);
+    if (line->tiles == NULL || line->from == NULL)
+        return RC_FAIL;
+    for (size_t r = 0; r <= count; r++) {
+        struct rc_shape before = *whole;
+        before.ny = rc_rows_dealt(whole->ny, unit, count, r);
+        line->from[r] = rc_tiles(&before);
+    }
+    return RC_OK;
+}
+
+void
+rc_tile_line_free(struct rc_tile_line *line)
+{
+    free(line->tiles);
+    free(line->from);
+}
+
+/* A line, and which tiles of it are held here. */
+struct along {
+    const struct tiles *own;
+    struct rc_tile *tiles;
+    size_t first, end;
+};
+
 struct group {
     double left, room, count; /* as of a tile */
 };
@@ -464,9 +503,9 @@ struct group {
  * line does not forget them: the displacement's error would grow as the square root of its length, on a map
  * only as the logarithm. A random walk of 262144 nodes with 30 % contact takes 8 steps, and 62 without. */
 static struct group
-keep_within(const struct tiles *a, size_t first, size_t n, double *sums)
+keep_within(const struct along *a, size_t first, size_t n, double *sums)
 {
-    const struct rc_tile *tile = a->tiles + first;
+    struct rc_tile *tile = a->tiles + first;
     struct group one, other, g = {tile->left, tile->room, (double)tile->count};
     double shift;
 
@@ -478,12 +517,34 @@ keep_within(const struct tiles *a, size_t first, size_t n, double *sums)
     shift = g.left / g.count;
     if (g.left == 0 || !(fabs(shift) < g.room / 2))
         return g;
-    for (size_t q = first; q < first + n; q++)
-        if (a->tiles[q].count > 0)
-            shift_tile(a, q, shift);
+    for (size_t q = first; q < first + n; q++) {
+        a->tiles[q].room -= fabs(shift);
+        if (q >= a->first && q < a->end && a->tiles[q].count > 0)
+            shift_tile(a->own, q - a->first, shift);
+    }
     sums[CARRIED] += g.left;
     sums[SIZE] += fabs(g.left);
     return (struct group){0, g.room - fabs(shift), g.count};
+}
+
+/* Sums are counted once, where the first row is held. */
+static void
+keep_on_line(const struct tiles *own, const struct rc_tile_line *line)
+{
+    const struct rc_solver *s = own->m->solver;
+    const struct rc_rows *rows = &s->posed.rows;
+    size_t n = own->nx * own->ny, all = rc_tiles(&s->posed.whole);
+    struct along a = {own, own->tiles, 0, n};
+    double nowhere[RC_SUMS] = {0};
+
+    if (line->tiles != NULL) {
+        size_t r = rc_ranks_own(rows->ranks);
+        a = (struct along){own, line->tiles, line->from[r], line->from[r + 1]};
+        rc_ranks_move(rows->ranks, sizeof *a.tiles, line->from, NULL, own->tiles, a.tiles);
+    }
+    (void)keep_within(&a, 0, all, rows->first == 0 && n > 0 ? rc_reduce_row(s, 0) : nowhere);
+    if (line->tiles != NULL)
+        memcpy(own->tiles, a.tiles + a.first, n * sizeof *a.tiles);
 }
 
 size_t
@@ -507,8 +568,8 @@ rc_move_tiles(struct rc_move *m)
 #pragma omp parallel for num_threads(s->posed.threads) schedule(dynamic)
     for (size_t by = 0; by < a.ny; by++)
         move_band(&a, by);
-    if (s->posed.whole.ny == 1 && a.ny == 1) /* where ranks share it, on the one that has the row */
-        (void)keep_within(&a, 0, a.nx, rc_reduce_row(s, 0));
+    if (s->posed.whole.nx == 1 || s->posed.whole.ny == 1)
+        keep_on_line(&a, m->line);
     rc_reduce_rows_end(s, total);
     m->size = total[SIZE];
     m->clipped = total[OUT] > 0;

@@ -74,7 +74,7 @@ rough(struct rc_shape s, uint64_t seed)
 static const struct rc_shape shapes[] = {
     {1000, 37, 1e-6, 1.1e-6}, {37, 1000, 1.3e-6, 1e-6}, {513, 511, 1e-6, 1e-6},
     {256, 256, 1e-6, 1e-6},   {5, 16, 1e-6, 1e-6},      {300, 1, 1e-6, 1e-6},
-    {5000, 40, 1e-6, 2e-6},
+    {5000, 40, 1e-6, 2e-6},   {1, 20000, 1e-6, 1e-6},
 };
 enum {
     SHAPES = sizeof shapes / sizeof *shapes
