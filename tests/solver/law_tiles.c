@@ -119,12 +119,15 @@ lawful(const struct set_up *s, const struct rc_move *m)
 static struct rc_move
 move_of(const struct set_up *s)
 {
+    static const struct rc_tile_line alone = {0};
+
     return (struct rc_move){.solver = s->solver,
                             .d = s->d,
                             .alpha = s->alpha,
                             .mean = s->mean,
                             .delta = s->delta,
-                            .tiles = s->tiles};
+                            .tiles = s->tiles,
+                            .line = &alone};
 }
 
 /* Without clipping nothing but the step is made; with it tiles keep their sums. */
