@@ -2,8 +2,8 @@
  * Layout of the transforms and spectra of kernels. A kernel that is even or odd in x and in y has a
  * spectrum that is real up to a power of -i and given by a quarter of it.
  *
- * Free boundary: zero padding to px >= 2 nx, py >= 2 ny is exact, and the spectrum is the real even
- * or odd transform of a quarter of the kernel's values. At the offset of half a period the kernel's
+ * Free boundary: zero padding to px >= 2 nx, py >= 2 ny is exact, and so is none across a profile; the
+ * spectrum is the real even or odd transform of a quarter of the kernel's values. At the offset of half a period the kernel's
  * own value stands: with a zero there the spectrum of thin grids turns negative and has no useful
  * inverse. Periodic boundary: nothing is padded, the spectrum is the kernel's symbol.
  */
@@ -20,7 +20,7 @@
 #include "libcontact/transform/transform.h"
 
 /* Transforms of half a period of even or odd values; of a period of odd length, which has no node in its
- * middle, of even values only, by way of all of it. */
+ * middle, of even values only, by way of all of it. Odd values on a period of one node are zero. */
 struct half {
     struct rc_dct *dct;   /* of even length     */
     struct rc_line *line; /* of odd length      */
@@ -68,20 +68,26 @@ real_size(enum rc_precision precision)
     return precision == RC_SINGLE ? sizeof(float) : sizeof(double);
 }
 
+void
+rc_fft_period(const struct rc_shape *s, enum rc_boundary boundary, size_t *px, size_t *py)
+{
+    bool padded = boundary == RC_FREE;
+
+    *px = padded && s->nx > 1 ? rc_fourier_length(s->nx, 2) : s->nx;
+    *py = padded && s->ny > 1 ? rc_fourier_length(s->ny, 4) : s->ny;
+}
+
 static struct rc_layout
 layout_of(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision precision)
 {
     const size_t line = line_of(precision);
-    struct rc_layout l = {.nx = s->nx, .ny = s->ny, .px = s->nx, .py = s->ny};
+    struct rc_layout l = {.nx = s->nx, .ny = s->ny};
 
-    if (boundary == RC_FREE) {
-        l.px = rc_fourier_length(s->nx, 2);
-        l.py = rc_fourier_length(s->ny, 4);
-    }
+    rc_fft_period(s, boundary, &l.px, &l.py);
     l.cx = l.px / 2 + 1;
     l.stride = (l.cx + line - 1) / line * line;
     l.radix = l.py % 4 == 0 && l.py >= 64 ? 4 : 1;
-    if (boundary == RC_FREE)
+    if (boundary == RC_FREE && l.py > 1)
         l.radix = 4;
     l.m = l.py / l.radix;
     l.cy = l.py / 2 + 1;
@@ -186,6 +192,10 @@ half_run(const struct half *h, bool odd, double *v)
 
     if (h->dct != NULL) {
         rc_dct_run(h->dct, odd, v);
+        return;
+    }
+    if (odd && h->length == 1) {
+        v[0] = 0;
         return;
     }
     assert(!odd);

@@ -37,6 +37,8 @@ struct rc_fft *rc_fft_new_framed(const struct rc_ranks *ranks, struct rc_fft *le
                                  const struct rc_shape *shape, const struct rc_frame *frame,
                                  enum rc_precision precision, size_t threads, struct rc_err *err);
 void rc_fft_free(struct rc_fft *fft);
+/* Sides of the grid that is transformed: with the padding of a free map; a profile has none across. */
+void rc_fft_period(const struct rc_shape *shape, enum rc_boundary boundary, size_t *px, size_t *py);
 /* Bytes of a plan with one spectrum, and of each further spectrum; where ranks share the map, on
  * the rank that takes most. */
 size_t rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary,

@@ -69,9 +69,9 @@ set_spectra(struct rc_tangential *t, struct rc_err *err)
 static void
 set_self(struct rc_tangential *t)
 {
-    size_t nx = t->boundary == RC_FREE ? 2 * (t->columns - 1) : t->shape.nx;
-    size_t ny = t->boundary == RC_FREE ? 2 * (t->cy - 1) : t->shape.ny;
+    size_t nx, ny;
 
+    rc_fft_period(&t->shape, t->boundary, &nx, &ny);
     for (int k = 0; k < 2; k++) {
         double sum = 0;
         for (size_t i = 0; i < t->columns; i++) {
@@ -192,9 +192,10 @@ rc_tangential_memory(const struct rc_shape *shape, enum rc_boundary boundary, bo
                      size_t threads)
 {
     size_t quarter = rc_spectrum_memory(shape, boundary, RC_DOUBLE, 1);
-    size_t py = boundary == RC_FREE ? rc_fourier_length(shape->ny, 4) : shape->ny;
-    size_t columns = quarter / sizeof(double) / (py / 2 + 1);
+    size_t px, py, columns;
 
+    rc_fft_period(shape, boundary, &px, &py);
+    columns = px / 2 + 1;
     return rc_fft_memory(shape, boundary, RC_DOUBLE, 1) - quarter +
            rc_fft_scratch(shape, boundary, RC_DOUBLE, threads) +
            rc_fft_scratch(shape, boundary, RC_SINGLE, threads) + (coupled ? 5 : 3) * quarter +

@@ -95,11 +95,7 @@ map_size(const struct rc_shape *shape, size_t length, size_t columns, size_t row
 static void
 set_waves(struct rc_slabs *v)
 {
-    size_t cx, cy;
-
-    rc_fft_waves(v->fft, &cx, &cy);
-    v->px = v->padded ? 2 * (cx - 1) : v->shape.nx; /* padded sides are even */
-    v->py = v->padded ? 2 * (cy - 1) : v->shape.ny;
+    rc_fft_period(&v->shape, v->padded ? RC_FREE : RC_PERIODIC, &v->px, &v->py);
     v->length = rc_fft_length(v->fft);
     rc_fft_columns(v->fft, &v->first, &v->columns);
     v->map = map_size(&v->shape, v->length, v->columns, v->here.ny);
@@ -208,14 +204,15 @@ rc_slabs_memory(const struct rc_shape *shape, const struct rc_slabs_options *o)
 {
     size_t ranks = rc_ranks_count(o->ranks), size = real_size(o->precision);
     size_t spectrum = rc_spectrum_memory(shape, boundary(o), o->precision, ranks);
-    size_t py = o->padded ? rc_fourier_length(shape->ny, 4) : shape->ny;
-    size_t columns = spectrum / size / (py / 2 + 1), threads;
+    size_t px, py, columns, threads;
     size_t rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
     size_t maps = RC_SWEEP_STRAINS * o->slabs + RC_SWEEP_WAVES * groups_of(o->slabs) +
                   (o->whole ? RC_SWEEP_SLABS : 0) +
                   (o->slices ? RC_SWEEP_WAVES * groups_of(o->slabs) + RC_SWEEP_STRAINS + 1 : 0);
     struct rc_shape here = {shape->nx, rows, shape->dx, shape->dy};
 
+    rc_fft_period(shape, boundary(o), &px, &py);
+    columns = spectrum / size / (py / 2 + 1); /* of the rank that has most */
     threads = (size_t)rc_useful_threads(&here, o->threads);
     return sizeof(struct rc_slabs) + maps * map_size(shape, py, columns, rows) * size +
            rc_fft_memory(shape, boundary(o), o->precision, ranks) - spectrum +
