@@ -144,7 +144,7 @@ unit_of(const struct rc_shape *s)
 static double
 stiffening(const struct rc_solids *bodies, const struct rc_shape *s)
 {
-    double side = fmin(s->dx * (double)s->nx, s->dy * (double)s->ny);
+    double side = fmax(s->dx * (double)s->nx, s->dy * (double)s->ny);
     double node = sqrt(s->dx) * sqrt(s->dy);
 
     return rc_solids_modulus(bodies, RC_PI / node) / rc_solids_modulus(bodies, 2 * RC_PI / side);
