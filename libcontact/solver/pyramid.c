@@ -205,7 +205,7 @@ set_factors(struct level *l, const double spacing[2], rc_power_at *power, const 
     double a = fmin(fmax(power(of, 1.5 / h), 0), 4), d = l->x.halved && l->y.halved ? 2 : 1;
 
     l->k = (float)exp2(fmin(a, d) - d);
-    l->t = (float)exp2(a < 2 ? 3 - 2 * a : 1 - a);
+    l->t = (float)exp2(a < 1 && d == 1 ? 5 - 4 * a : a < 2 ? 3 - 2 * a : 1 - a);
 }
 
 /* That are held here. */
