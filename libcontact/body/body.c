@@ -98,6 +98,20 @@ rc_pair_modulus(const struct rc_pair *p)
     return 1 / compliance;
 }
 
+double
+rc_pair_bends(const struct rc_pair *p, double side)
+{
+    const struct rc_body *bodies[] = {&p->one, &p->two};
+    double most = 0;
+
+    for (int k = 0; k < 2; k++) {
+        const struct rc_body_type *type = rc_body_type(bodies[k]);
+        if (gives_way(bodies[k]) && type->bends != NULL)
+            most = fmax(most, type->bends(bodies[k], side));
+    }
+    return most;
+}
+
 /* ---- made ready ---- */
 
 /* The uniform ones as one, of `compliance`; the others by themselves. */

@@ -142,6 +142,9 @@ struct rc_body_type {
     double (*modulus_of)(const struct rc_solid *solid, double q2);
     /* The least E*(q) of all waves, near enough. */
     double (*softest)(const struct rc_solid *solid);
+    /* The length (m) over which layers that are thin beside `side` bend; 0: over no more than they are thick.
+     * NULL: there are none. */
+    double (*bends)(const struct rc_body *body, double side);
     /* Adds the displacement under a cell, as rc_kernel's rows have it, in units of 1/modulus (Pa) and of
      * length (m), in which the lattice is. */
     void (*add_rows)(const struct rc_solid *solid, double length, double modulus,
@@ -187,6 +190,9 @@ bool rc_pair_positive(const struct rc_pair *pair);
 /* E* of both, Pa, where it is the same for all waves; NAN: it is not. Of a pair that has been
  * checked. */
 double rc_pair_modulus(const struct rc_pair *pair);
+/* The larger of the lengths (m) over which the layers of either bend, of those that are thin beside `side`; 0:
+ * none does. */
+double rc_pair_bends(const struct rc_pair *pair, double side);
 
 /* Both bodies made ready: a single solid where both are uniform, else one for each body that is not
  * rigid. */

@@ -236,6 +236,44 @@ softest(const struct rc_solid *solid)
     return 1 / most;
 }
 
+static double
+plane_strain(double e, double nu)
+{
+    return e / (1 - nu * nu);
+}
+
+/* The softest material below layer k. */
+static double
+softest_below(const struct rc_body *b, size_t k)
+{
+    double soft = plane_strain(b->e, b->nu);
+
+    while (++k < b->layers)
+        soft = fmin(soft, plane_strain(b->layer[k].e, b->layer[k].nu));
+    return soft;
+}
+
+/* Layers from the top on, bonded, are a plate of stiffness D about its neutral plane; on a half-space a plate
+ * bends over (2 D / E')^(1/3), E' = E/(1 - nu^2). */
+static double
+bends(const struct rc_body *b, double side)
+{
+    double depth = 0, sums[3] = {0}, most = 0; /* of E' z^n dz */
+
+    for (size_t k = 0; k < b->layers; k++) {
+        double below = depth + b->layer[k].thickness, length;
+        double e = plane_strain(b->layer[k].e, b->layer[k].nu);
+        sums[0] += e * (below - depth);
+        sums[1] += e * (below * below - depth * depth) / 2;
+        sums[2] += e * (below * below * below - depth * depth * depth) / 3;
+        depth = below;
+        length = cbrt(2 * (sums[2] - sums[1] * sums[1] / sums[0]) / softest_below(b, k));
+        if (length > depth && 2 * RC_PI * depth < side)
+            most = fmax(most, length);
+    }
+    return most;
+}
+
 static void
 add_rows(const struct rc_solid *solid, double length, double modulus, const struct rc_lattice *at,
          size_t n, size_t first, size_t last, double *out)
@@ -262,6 +300,7 @@ const struct rc_body_type rc_body_layered = {
     .modulus = modulus,
     .modulus_of = modulus_of,
     .softest = softest,
+    .bends = bends,
     .add_rows = add_rows,
     .inside = &rc_layered_inside,
 };

@@ -26,6 +26,7 @@ struct own {
     const struct rc_solids *bodies; /* these, or those of the finer grid                   */
     bool positive;                  /* their kernel's spectrum is, on any map              */
     double estar;                   /* of both, as the roughness feels it                  */
+    double bends;                   /* m: the length over which coats do                   */
     struct rc_conv *conv;           /* K p in double precision, or NULL                    */
     struct rc_fft *fft;             /* in single precision, on the grid in units of sqrt(dx dy) */
     struct rc_fft *framed;          /* the same in the frame; NULL: there is none          */
@@ -128,24 +129,9 @@ static const size_t strip_part = 2;
 /* A strip is so many times as long as it is wide. */
 static const size_t strip = 8;
 
-/* An even number, so that coarser grids begin with the map; of a long side a multiple of the rows that stay
- * together on a rank. */
-static size_t
-frame_of(size_t side, size_t other)
-{
-    size_t n = side / (side * strip <= other ? strip_part : frame_part);
-    size_t unit = n >= 4 * RC_TILE_ROWS ? RC_TILE_ROWS : 2;
-
-    return n / unit * unit;
-}
-
-struct rc_frame
-rc_operator_frame(const struct rc_shape *s, enum rc_boundary boundary)
-{
-    if (boundary == RC_PERIODIC)
-        return (struct rc_frame){0, 0};
-    return (struct rc_frame){frame_of(s->nx, s->ny), frame_of(s->ny, s->nx)};
-}
+/* Of a coat that bends: so many times the length over which it does, at most all of the padding. E1/Es 400, 16
+ * nodes thick, 1024 x 200 nodes, three loads: 38 to 68 equivalents with an eighth, 14 to 16 with this. */
+static const double frame_bends = 3;
 
 static struct rc_shape
 unit_of(const struct rc_shape *s)
@@ -155,14 +141,55 @@ unit_of(const struct rc_shape *s)
     return (struct rc_shape){s->nx, s->ny, s->dx / unit, s->dy / unit};
 }
 
+static double
+longest_side(const struct rc_shape *s)
+{
+    return fmax(s->dx * (double)s->nx, s->dy * (double)s->ny);
+}
+
 /* How much stiffer the bodies are for the shortest waves of a grid than for the longest ones. */
 static double
 stiffening(const struct rc_solids *bodies, const struct rc_shape *s)
 {
-    double side = fmax(s->dx * (double)s->nx, s->dy * (double)s->ny);
     double node = sqrt(s->dx) * sqrt(s->dy);
 
-    return rc_solids_modulus(bodies, RC_PI / node) / rc_solids_modulus(bodies, 2 * RC_PI / side);
+    return rc_solids_modulus(bodies, RC_PI / node) /
+           rc_solids_modulus(bodies, 2 * RC_PI / longest_side(s));
+}
+
+/* An even number, so that coarser grids begin with the map; of a long side a multiple of the rows that stay
+ * together on a rank. `bends`: nodes. */
+static size_t
+frame_of(size_t side, size_t other, double bends)
+{
+    size_t most = side / strip_part, n = side * strip <= other ? most : side / frame_part, unit;
+
+    if (frame_bends * bends > (double)n)
+        n = frame_bends * bends < (double)most ? (size_t)(frame_bends * bends) : most;
+    unit = n >= 4 * RC_TILE_ROWS ? RC_TILE_ROWS : 2;
+    return n / unit * unit;
+}
+
+/* `bends`: m. */
+static struct rc_frame
+frame_around(const struct rc_shape *s, enum rc_boundary boundary, double bends)
+{
+    if (boundary == RC_PERIODIC)
+        return (struct rc_frame){0, 0};
+    return (struct rc_frame){frame_of(s->nx, s->ny, bends / s->dx),
+                             frame_of(s->ny, s->nx, bends / s->dy)};
+}
+
+static double
+bending_length(const struct rc_shape *s, const struct rc_pair *pair)
+{
+    return rc_pair_bends(pair, longest_side(s));
+}
+
+struct rc_frame
+rc_operator_frame(const struct rc_shape *s, const struct rc_operator_options *o)
+{
+    return frame_around(s, o->boundary, bending_length(s, o->pair));
 }
 
 /* ---- strips ---- */
@@ -381,7 +408,7 @@ plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_optio
     set_strip(s);
     set_inverse_near(s, &unit, length);
     set_neighbours(&s->op, &unit);
-    s->op.frame = rc_operator_frame(shape, o->boundary);
+    s->op.frame = frame_around(shape, o->boundary, s->bends);
     if (s->op.frame.x + s->op.frame.y > 0) {
         s->framed =
             rc_fft_new_framed(o->ranks, lender, &unit, &s->op.frame, RC_SINGLE, o->threads, err);
@@ -424,6 +451,7 @@ rc_operator_new(const struct rc_shape *shape, const struct rc_operator_options *
         return NULL;
     s->bodies = &s->own;
     s->positive = rc_pair_positive(o->pair);
+    s->bends = bending_length(shape, o->pair);
     if (rc_solids_new(&s->own, o->pair, o->ranks, err) != RC_OK ||
         (s->conv = rc_conv_new_of(s->bodies, shape, &options, err)) == NULL ||
         plan(s, shape, o, err) != RC_OK)
@@ -457,6 +485,7 @@ rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
         return NULL;
     s->bodies = fine->bodies;
     s->positive = fine->positive;
+    s->bends = fine->bends;
     if (plan(s, shape, &o, err) == RC_OK) {
         s->op.estar = op->estar;
         return &s->op;
@@ -474,7 +503,7 @@ rc_operator_memory(const struct rc_shape *shape, const struct rc_operator_option
     size_t conv = rc_conv_memory(shape, &options), own;
     bool precise, bounded = !rc_pair_positive(o->pair) && o->boundary == RC_FREE;
     size_t ranks = rc_ranks_count(o->ranks), rows;
-    struct rc_frame frame = rc_operator_frame(shape, o->boundary);
+    struct rc_frame frame = rc_operator_frame(shape, o);
 
     if (conv == 0)
         return 0;

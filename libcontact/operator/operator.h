@@ -62,6 +62,9 @@ void rc_operator_free(struct rc_operator *op); /* NULL is allowed */
 /* RC_FAIL, and *err says why, when there is no such engine, or none for the boundary or the ranks. */
 enum rc_status rc_operator_check(const struct rc_shape *shape,
                                  const struct rc_operator_options *options, struct rc_err *err);
+/* The frame that it would take. */
+struct rc_frame rc_operator_frame(const struct rc_shape *shape,
+                                  const struct rc_operator_options *options);
 /* Bytes that it takes; 0 when there is no such engine. */
 size_t rc_operator_memory(const struct rc_shape *shape, const struct rc_operator_options *options);
 /* The engine that it would take, and why; "" when there is none of that name. */
@@ -82,7 +85,6 @@ double rc_operator_power(const struct rc_operator *op, double q);
  * rc_fft_chain. Each factor costs op->factor_cost. */
 void rc_operator_chain(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
                        rc_row *const *rows, void *ctx);
-struct rc_frame rc_operator_frame(const struct rc_shape *shape, enum rc_boundary boundary);
 /* The same with the frame: rows are those of rc_fft_new_framed. */
 void rc_operator_chain_framed(struct rc_operator *op, size_t n,
                               const struct rc_spectrum *const *factors, rc_row *const *rows,

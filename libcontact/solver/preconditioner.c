@@ -165,10 +165,9 @@ make_room(struct rc_preconditioner *e, struct rc_err *err)
 
 /* Of a map of which `count` ranks hold rows; this one those of `rows`, with what it has of the frame. */
 static struct rc_pyramid_base
-base_of(const struct rc_shape *whole, enum rc_boundary boundary, size_t count,
-        const struct rc_rows *rows)
+base_of(const struct rc_shape *whole, enum rc_boundary boundary, struct rc_frame frame,
+        size_t count, const struct rc_rows *rows)
 {
-    struct rc_frame frame = rc_operator_frame(whole, boundary);
     double unit = sqrt(whole->dx) * sqrt(whole->dy);
     size_t before = rows->first > 0 ? frame.y : 0; /* a rank without rows comes last */
     size_t above = rows->n > 0 && rows->first == 0 ? frame.y : 0;
@@ -189,7 +188,7 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
 {
     struct rc_preconditioner *e = calloc(1, sizeof *e);
     struct rc_pyramid_base base =
-        base_of(&op->whole, op->boundary, rc_ranks_count(op->rows.ranks), &op->rows);
+        base_of(&op->whole, op->boundary, op->frame, rc_ranks_count(op->rows.ranks), &op->rows);
     enum rc_status status;
 
     base.ranks = op->rows.ranks;
@@ -225,11 +224,13 @@ rc_preconditioner_free(struct rc_preconditioner *e)
 }
 
 size_t
-rc_preconditioner_memory(const struct rc_shape *shape, enum rc_boundary boundary, size_t ranks)
+rc_preconditioner_memory(const struct rc_shape *shape, const struct rc_operator_options *options)
 {
+    size_t ranks = rc_ranks_count(options->ranks);
     struct rc_rows most = {.ny = shape->ny,
                            .n = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny};
-    struct rc_pyramid_base base = base_of(shape, boundary, ranks, &most);
+    struct rc_pyramid_base base =
+        base_of(shape, options->boundary, rc_operator_frame(shape, options), ranks, &most);
 
     /* the numbers of the nodes, and the field on the frame */
     return rc_pyramid_memory(&base) + base.n * base.shape.nx * sizeof(float);

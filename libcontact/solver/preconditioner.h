@@ -17,8 +17,8 @@ struct rc_preconditioner;
 /* `op` stays the caller's and outlives it. NULL when memory is short. */
 struct rc_preconditioner *rc_preconditioner_new(struct rc_operator *op, struct rc_err *err);
 void rc_preconditioner_free(struct rc_preconditioner *e);
-size_t rc_preconditioner_memory(const struct rc_shape *shape, enum rc_boundary boundary,
-                                size_t ranks);
+size_t rc_preconditioner_memory(const struct rc_shape *shape,
+                                const struct rc_operator_options *options);
 /* The working set: entries 1 of w (0 elsewhere), at least one; w is referred to until the next
  * set. Costs no factor of a chain. Entries of w may change afterwards: the map r -> z stays symmetric, but E
  * gets less accurate. */

@@ -280,8 +280,7 @@ rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
            (problem->hardness_map != NULL ? n * sizeof(double) : 0) +
            (problem->tilt_free ? rc_solver_stiffness_memory(shape, problem) : 0) +
            (method != NULL && method->memory != NULL ? method->memory(&held) : 0) +
-           rc_operator_memory(shape, &options) +
-           rc_preconditioner_memory(shape, problem->boundary, ranks);
+           rc_operator_memory(shape, &options) + rc_preconditioner_memory(shape, &options);
 }
 
 enum rc_status
