@@ -238,21 +238,42 @@ rc_preconditioner_memory(const struct rc_shape *shape, const struct rc_operator_
 
 /* ---- the working set ---- */
 
+/* Numbers on the nodes where w is 1. */
+struct field {
+    const struct rc_preconditioner *e;
+    const unsigned char *w;
+    const float *r; /* less the offset; NULL: 1 */
+    float offset;
+};
+
 RC_CLONES static void
-add_mask(size_t n, float weight, const unsigned char *w, float *restrict to)
+add_ones(size_t n, float weight, const unsigned char *w, float *restrict to)
 {
     for (size_t i = 0; i < n; i++)
-        to[i] += w[i] ? weight : 0;
+        to[i] += w[i] == 1 ? weight : 0;
+}
+
+RC_CLONES static void
+add_numbers(size_t n, float weight, const unsigned char *w, const float *r, float offset,
+            float *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] += w[i] == 1 ? weight * (r[i] - offset) : 0;
 }
 
 static void
-mask_row(const void *of, size_t j, float weight, float *row)
+field_row(const void *of, size_t j, float weight, float *row)
 {
-    const struct rc_preconditioner *e = of;
-    float *to = on_map(e, &j, row);
+    const struct field *f = of;
+    size_t n = f->e->op->shape.nx;
+    float *to = on_map(f->e, &j, row);
 
-    if (to != NULL)
-        add_mask(e->op->shape.nx, weight, e->w + j * e->op->shape.nx, to);
+    if (to == NULL)
+        return;
+    if (f->r == NULL)
+        add_ones(n, weight, f->w + j * n, to);
+    else
+        add_numbers(n, weight, f->w + j * n, f->r + j * n, f->offset, to);
 }
 
 /* The pressure M 1 of a shift of all of W is large at nodes whose surroundings are not W: it is nearly
@@ -269,10 +290,11 @@ share(size_t n, const unsigned char *w, const float *part, float *restrict node)
 void
 rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w)
 {
+    const struct field ones = {e, w, NULL, 0};
     size_t nx = e->op->shape.nx, x = e->op->frame.x;
 
     e->w = w;
-    rc_pyramid_set(e->pyramid, mask_row, e);
+    rc_pyramid_set(e->pyramid, field_row, &ones);
 #pragma omp parallel for num_threads(e->threads) schedule(static)
     for (size_t j = 0; j < e->op->shape.ny; j++) {
         float *row = e->row + (size_t)omp_get_thread_num() * framed_nx(e);
@@ -306,39 +328,15 @@ rc_preconditioner_nodes(const struct rc_preconditioner *e)
 
 /* ---- E ---- */
 
-struct ahead {
-    const struct rc_preconditioner *e;
-    const unsigned char *w;
-    const float *r; /* NULL: 1 in its place */
-};
-
-RC_CLONES static void
-add_ones(size_t n, float weight, const unsigned char *w, const float *r, float *restrict to)
-{
-    for (size_t i = 0; i < n; i++)
-        to[i] += w[i] == 1 ? weight * (r == NULL ? 1 : r[i]) : 0;
-}
-
-static void
-ahead_row(const void *of, size_t j, float weight, float *row)
-{
-    const struct ahead *a = of;
-    size_t n = a->e->op->shape.nx;
-    float *to = on_map(a->e, &j, row);
-
-    if (to != NULL)
-        add_ones(n, weight, a->w + j * n, a->r == NULL ? NULL : a->r + j * n, to);
-}
-
 void
 rc_preconditioner_extend(struct rc_preconditioner *e, const unsigned char *w, const float *r,
                          float *out)
 {
-    const struct ahead mask = {e, w, NULL}, field = {e, w, r};
+    const struct field ones = {e, w, NULL, 0}, field = {e, w, r, 0};
     size_t nx = e->op->shape.nx;
 
-    rc_pyramid_set(e->pyramid, ahead_row, &mask);
-    rc_pyramid_extend(e->pyramid, ahead_row, &field);
+    rc_pyramid_set(e->pyramid, field_row, &ones);
+    rc_pyramid_extend(e->pyramid, field_row, &field);
 #pragma omp parallel for num_threads(e->threads) schedule(static)
     for (size_t j = 0; j < e->op->shape.ny; j++) {
         float *row = e->row + (size_t)omp_get_thread_num() * framed_nx(e);
@@ -354,25 +352,6 @@ struct correction {
     const float *r;
     float offset, *z;
 };
-
-RC_CLONES static void
-add_residual(size_t n, float weight, const unsigned char *w, const float *r, float offset,
-             float *restrict to)
-{
-    for (size_t i = 0; i < n; i++)
-        to[i] += w[i] ? weight * (r[i] - offset) : 0;
-}
-
-static void
-residual_row(const void *of, size_t j, float weight, float *row)
-{
-    const struct correction *c = of;
-    size_t n = c->e->op->shape.nx;
-    float *to = on_map(c->e, &j, row);
-
-    if (to != NULL)
-        add_residual(n, weight, c->e->w + j * n, c->r + j * n, c->offset, to);
-}
 
 RC_CLONES static void
 extend(size_t n, const unsigned char *w, const float *r, float offset, float *restrict row)
@@ -441,11 +420,12 @@ rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offse
                         rc_row *done, void *ctx)
 {
     struct correction c = {.e = e, .r = r, .offset = offset, .z = z};
+    const struct field residual = {e, e->w, r, offset};
     const struct rc_spectrum *factors[] = {e->op->inverse};
     rc_row *rows[] = {extended, field_out};
     size_t n = e->op->shape.nx;
 
-    rc_pyramid_extend(e->pyramid, residual_row, &c);
+    rc_pyramid_extend(e->pyramid, field_row, &residual);
     rc_operator_chain_framed(e->op, 1, factors, rows, &c);
     rc_pyramid_gather(e->pyramid, off_row, &c);
 #pragma omp parallel for num_threads(e->threads) schedule(static)
