@@ -232,21 +232,27 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
                 g->nx > 1 && g->ny > 1 ? "4 times" : "twice");
 }
 
-/* A force on a profile acts on the one row that there is, which is as wide as its nodes are apart. */
+/* Of the one row or column of a profile, on which a force acts. */
+static double
+width_of(const struct rc_grid *g)
+{
+    return g->ny == 1 ? g->dy : g->dx;
+}
+
 static void
 check_profile(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
     char where[256], width[SHOWN_NUMBER];
 
-    if (a->load.per_metre && g->ny != 1)
+    if (a->load.per_metre && g->nx > 1 && g->ny > 1)
         tool_die_at(
             t, g, EXIT_IMPOSSIBLE,
             "--load in N/m is for profiles, this map has %zu rows: give the whole force, in N",
             g->ny);
-    if (g->ny != 1 || g->nx == 1)
+    if ((g->nx > 1) == (g->ny > 1))
         return;
     tool_where(t, g, where, sizeof where);
-    shown_in_unit(width, g->dy, "m");
+    shown_in_unit(width, width_of(g), "m");
     if (!a->periodic)
         tool_warn(t, "%s: a profile is solved as a strip %s wide%s, not as a ridge without end",
                   where, width, a->load.n > 0 ? ", which carries the force" : "");
@@ -307,7 +313,7 @@ physics_hardness(struct tool *t, const struct rc_grid *hardness)
 struct rc_problem
 physics_problem(const struct physics *a, const struct rc_grid *g, size_t step)
 {
-    double number = physics_steps(a)->v[step] * (a->load.per_metre ? g->dy : 1);
+    double number = physics_steps(a)->v[step] * (a->load.per_metre ? width_of(g) : 1);
     double area = g->dx * g->dy * (double)(g->nx * g->ny);
 
     return (struct rc_problem){
