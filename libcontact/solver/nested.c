@@ -1,8 +1,8 @@
 /*
  * A start from coarser grids. The same contact is solved roughly on a grid of half the nodes a side (a
- * profile stays one node wide), which has a start from a coarser grid itself, and each coarse pressure
- * is shared by the nodes of this grid over it. A call of rc_nested_step does one iteration on one of the
- * coarser grids, or plans one of them, so that the caller sees every iteration.
+ * profile stays one node wide, and a strip becomes so), which has a start from a coarser grid itself, and
+ * each coarse pressure is shared by the nodes of this grid over it. A call of rc_nested_step does one
+ * iteration on one of the coarser grids, or plans one of them, so that the caller sees every iteration.
  */
 #include "solver.h"
 
@@ -14,7 +14,7 @@
 
 enum {
     ROUNDS = 8,       /* of Newton's method over a coarse node */
-    COARSEST = 24,    /* nodes a side from which a coarser grid is worth solving first */
+    COARSEST = 24,    /* nodes along the map from which a coarser grid is worth solving first */
     FEW_NODES = 16384 /* a rank; with fewer, each rank solves the whole grid for itself */
 };
 /* A more accurate start saves no step, unless nodes are at their upper bounds. */
@@ -24,9 +24,9 @@ void
 rc_nested_new(struct rc_solver *s)
 {
     size_t nx = s->posed.whole.nx, ny = s->posed.whole.ny;
-    bool along = nx >= COARSEST || nx == 1, across = ny >= COARSEST || ny == 1;
+    bool long_enough = nx >= COARSEST || ny >= COARSEST;
 
-    s->nested = (struct rc_nested){.ahead = s->method->nested && along && across && nx * ny > 1};
+    s->nested = (struct rc_nested){.ahead = s->method->nested && long_enough};
 }
 
 void

@@ -1,4 +1,4 @@
-/* The work on a profile hardly grows, whether it lies as a row or as a column, repeats or ends, bare or under
+/* The work on a profile, or on a strip of a few rows, hardly grows, whether it lies as a row or as a column, repeats or ends, bare or under
  * coats: the extension off a line is one of its own, and load that tiles of a step cannot keep stays near. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +17,7 @@ roughen(struct rc_shape s, bool walk, uint64_t seed, double *h)
     const size_t n = s.nx * s.ny;
     const struct rc_selfaffine what = {.hurst = 0.8,
                                        .rms_slope = 0.1,
-                                       .rolloff = (double)n * s.dx / 4,
+                                       .rolloff = fmax((double)s.nx, (double)s.ny) * s.dx / 4,
                                        .short_cut = 8 * s.dx,
                                        .seed = seed};
     double at = 0;
@@ -40,6 +40,7 @@ roughen(struct rc_shape s, bool walk, uint64_t seed, double *h)
 /* What is pressed: a coat has E over that of its base, and a thickness in nodes; 0: none. */
 struct kind {
     bool column;
+    size_t across; /* nodes */
     enum rc_boundary boundary;
     double coat, thick;
 };
@@ -96,25 +97,26 @@ works(const struct kind *kind, size_t most, double most_work, double growth)
 {
     const size_t least = 1024, some = 16384;
     const double parts[] = {0.05, 0.3, 0.8};
-    double *h = malloc(most * sizeof *h);
+    double *h = malloc(kind->across * most * sizeof *h);
 
     assert_non_null(h);
-    for (int walk = 0; walk < 2; walk++)
+    for (int walk = 0; walk < (kind->across == 1 ? 2 : 1); walk++)
         for (size_t q = 0; q < 3; q++) {
             double first = 0;
             for (size_t n = least; n <= (walk && q == 1 ? most : some); n *= n < some ? 16 : 4) {
-                const struct rc_shape s = {kind->column ? 1 : n, kind->column ? n : 1, 1e-6, 1e-6};
+                const struct rc_shape s = {kind->column ? kind->across : n,
+                                           kind->column ? n : kind->across, 1e-6, 1e-6};
                 struct rc_contact c = {0};
                 double work;
 
                 roughen(s, walk, 7, h);
                 work = work_of(kind, s, h, pressure_for(kind, s, h, parts[q]), 1e-4, &c);
-                print_message("%s%s, coat %g/%g, %s, %zu nodes, contact %.3f: %zu steps, %.1f "
-                              "equivalents\n",
-                              kind->boundary == RC_FREE ? "free " : "",
-                              kind->column ? "column" : "row", kind->coat, kind->thick,
-                              walk ? "walk" : "self-affine", n, c.contact_fraction, c.iterations,
-                              work);
+                print_message(
+                    "%s%s of %zu, coat %g/%g, %s, %zu nodes, contact %.3f: %zu steps, %.1f "
+                    "equivalents\n",
+                    kind->boundary == RC_FREE ? "free " : "", kind->column ? "column" : "row",
+                    kind->across, kind->coat, kind->thick, walk ? "walk" : "self-affine", n,
+                    c.contact_fraction, c.iterations, work);
                 assert_true(c.converged && work <= most_work);
                 first = n == least ? work : first;
                 assert_true(work <= growth * first);
@@ -127,16 +129,16 @@ static void
 rows(void **state)
 {
     (void)state;
-    works(&(struct kind){false, RC_PERIODIC, 0, 0}, 65536, 11, 1.3);
-    works(&(struct kind){false, RC_FREE, 0, 0}, 65536, 11, 1.3);
+    works(&(struct kind){false, 1, RC_PERIODIC, 0, 0}, 65536, 11, 1.3);
+    works(&(struct kind){false, 1, RC_FREE, 0, 0}, 65536, 11, 1.3);
 }
 
 static void
 columns(void **state)
 {
     (void)state;
-    works(&(struct kind){true, RC_PERIODIC, 0, 0}, 65536, 11, 1.3);
-    works(&(struct kind){true, RC_FREE, 0, 0}, 65536, 11, 1.3);
+    works(&(struct kind){true, 1, RC_PERIODIC, 0, 0}, 65536, 11, 1.3);
+    works(&(struct kind){true, 1, RC_FREE, 0, 0}, 65536, 11, 1.3);
 }
 
 static void
@@ -144,17 +146,26 @@ coats(void **state)
 {
     (void)state;
     for (enum rc_boundary b = RC_FREE; b <= RC_PERIODIC; b++) {
-        works(&(struct kind){false, b, 0.1, 4}, 16384, 14, 1.5);
-        works(&(struct kind){false, b, 10, 2}, 16384, 17, 1.5);
-        works(&(struct kind){false, b, 100, 2}, 16384, 40, 3);
+        works(&(struct kind){false, 1, b, 0.1, 4}, 16384, 14, 1.5);
+        works(&(struct kind){false, 1, b, 10, 2}, 16384, 17, 1.5);
+        works(&(struct kind){false, 1, b, 100, 2}, 16384, 40, 3);
     }
+}
+
+static void
+strips(void **state)
+{
+    (void)state;
+    for (enum rc_boundary b = RC_FREE; b <= RC_PERIODIC; b++)
+        for (size_t across = 2; across <= 16; across *= 8)
+            works(&(struct kind){b == RC_FREE, across, b, 0, 0}, 16384, 15, 1.6);
 }
 
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(rows), cmocka_unit_test(columns),
-                                       cmocka_unit_test(coats)};
+                                       cmocka_unit_test(coats), cmocka_unit_test(strips)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
