@@ -25,11 +25,11 @@
 #include "robust.h"
 
 enum {
-    WIDE = 8,     /* columns of which sums are kept in registers: a cache line */
-    BLOCK = 32,   /* sums along a line likewise */
-    TOGETHER = 4, /* rows of sums that are made of the same rows */
-    BAND = 128,   /* rows that a thread takes at a time */
-    STRIP = 256   /* columns of them whose rows stay in the cache */
+    WIDE = 8,         /* columns of which sums are kept in registers: a cache line */
+    BLOCK = 4 * WIDE, /* sums along a line likewise */
+    TOGETHER = 4,     /* rows of sums that are made of the same rows */
+    BAND = 128,       /* rows that a thread takes at a time */
+    STRIP = 256       /* columns of them whose rows stay in the cache */
 };
 
 /* A Gaussian is cut where it is exp(-pi reach^2) = 2e-18 of its largest value. */
@@ -168,23 +168,48 @@ first_of(const struct sums *s, size_t k)
 
 /* Adds `block` sums whose numbers begin one place after each other. Weights are `apart` numbers apart. */
 static inline void
-sum_block(const double *restrict in, const double *restrict w, size_t taps, size_t apart,
-          size_t block, double *restrict sum)
+sum_some(const double *restrict in, const double *restrict w, size_t taps, size_t apart,
+         size_t block, double *restrict sum)
 {
-    for (size_t t = 0; t < taps; t++) {
-#pragma omp simd
+    for (size_t t = 0; t < taps; t++)
         for (size_t l = 0; l < block; l++)
             sum[l] += w[t * apart] * in[t + l];
+}
+
+/* BLOCK of them, which stay in registers. */
+static inline void
+sum_block(const double *restrict in, const double *restrict w, size_t taps, size_t apart,
+          double *restrict sum)
+{
+    double s0[WIDE], s1[WIDE], s2[WIDE], s3[WIDE];
+
+    memcpy(s0, sum, sizeof s0);
+    memcpy(s1, sum + WIDE, sizeof s1);
+    memcpy(s2, sum + 2 * WIDE, sizeof s2);
+    memcpy(s3, sum + 3 * WIDE, sizeof s3);
+    for (size_t t = 0; t < taps; t++) {
+        const double *at = in + t, by = w[t * apart];
+#pragma omp simd
+        for (size_t l = 0; l < WIDE; l++) {
+            s0[l] += by * at[l];
+            s1[l] += by * at[WIDE + l];
+            s2[l] += by * at[2 * WIDE + l];
+            s3[l] += by * at[3 * WIDE + l];
+        }
     }
+    memcpy(sum, s0, sizeof s0);
+    memcpy(sum + WIDE, s1, sizeof s1);
+    memcpy(sum + 2 * WIDE, s2, sizeof s2);
+    memcpy(sum + 3 * WIDE, s3, sizeof s3);
 }
 
 static inline void
 add_block(const double *in, const double *w, size_t taps, size_t apart, size_t block, double *sum)
 {
     if (block == BLOCK)
-        sum_block(in, w, taps, apart, BLOCK, sum);
+        sum_block(in, w, taps, apart, sum);
     else
-        sum_block(in, w, taps, apart, block, sum);
+        sum_some(in, w, taps, apart, block, sum);
 }
 
 /* All sums along a line whose place 0 is `in`, those of each phase together; step is 1. */
