@@ -3,9 +3,9 @@
  * spectrum that is real up to a power of -i and given by a quarter of it.
  *
  * Free boundary: zero padding to px >= 2 nx, py >= 2 ny is exact, and so is none across a profile; the
- * spectrum is the real even or odd transform of a quarter of the kernel's values. At the offset of half a period the kernel's
- * own value stands: with a zero there the spectrum of thin grids turns negative and has no useful
- * inverse. Periodic boundary: nothing is padded, the spectrum is the kernel's symbol.
+ * spectrum is the real even or odd transform of a quarter of the kernel's values. At the offset of half a
+ * period the kernel's own value stands: with a zero there the spectrum of thin grids turns negative and has
+ * no useful inverse. Periodic boundary: nothing is padded, the spectrum is the kernel's symbol.
  */
 #include "fft.h"
 

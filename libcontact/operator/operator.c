@@ -123,14 +123,14 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
  * without a frame, 1.6, 1.4, 1.26 with a 32nd, a 16th and an eighth, at 512 x 512 the same, and 1.15 with
  * all of the padding. An eighth costs a quarter of the transforms of rows, a twelfth of the whole. */
 static const size_t frame_part = 8;
-/* Of a strip, where the rows are few: all of the padding. 65536 x 16 nodes, 6 and 41 % contact: 14 and 17 steps
- * with an eighth, 9 and 11 with this. */
+/* Of a strip, where the rows are few: all of the padding. 65536 x 16 nodes, 6 and 41 % contact: 14 and 17
+ * steps with an eighth, 9 and 11 with this. */
 static const size_t strip_part = 2;
 /* A strip is so many times as long as it is wide. */
 static const size_t strip = 8;
 
-/* Of a coat that bends: so many times the length over which it does, at most all of the padding. E1/Es 400, 16
- * nodes thick, 1024 x 200 nodes, three loads: 38 to 68 equivalents with an eighth, 14 to 16 with this. */
+/* Of a coat that bends: so many times the length over which it does, at most all of the padding. E1/Es 400,
+ * 16 nodes thick, 1024 x 200 nodes, three loads: 38 to 68 equivalents with an eighth, 14 to 16 with this. */
 static const double frame_bends = 3;
 
 static struct rc_shape
@@ -237,7 +237,7 @@ modulus_at(const struct own *s, double q)
 {
     if (is_along_strip(s, q))
         return log(s->strip.end / q) / strip_sum(s, q);
-    return rc_solids_modulus(s->bodies, q);
+    return rc_solids_modulus_of(s->bodies, q * q);
 }
 
 /* ---- plan ---- */

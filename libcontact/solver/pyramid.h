@@ -13,8 +13,8 @@
  * at waves as long as the grid of a level is wide, k and t. Far from a patch alone the field of least energy
  * falls off as |x|^(a-d) in d directions, to which belongs k = 2^(a-d), at most 1. A weight t is given to
  * what the coarser grids say: 2 for a = 1, 1/2 for a = 2, and half for each further one, since a body that
- * bends wants what is smooth; on a line 32 for a = 0, where E r is near 0 off W, as on a long strip that ends at
- * its sides (operator.c). With a = 1 there a strip of 65536 x 16 nodes with 6 % contact took 528 steps, and takes 14.
+ * bends wants what is smooth; on a line 32 for a = 0, where E r is near 0 off W, as on a long strip that ends
+ * at its sides (operator.c): with a = 1 there 65536 x 16 nodes with 6 % contact took 528 steps in place of 9.
  * Tried beside it: one mean over W with weights |x|^(-5/2), by a convolution, had eigenvalues of E' A E K up to
  * 2.6 at 2 % contact, where these are up to 1.15; under coats 400 times as stiff as their base 9, now 4.
  */

@@ -379,11 +379,10 @@ struct rc_move {
     double alpha;   /* over per_pressure                                                       */
     double mean;    /* of d                                                                    */
     float *delta;
-    struct rc_tile *tiles; /* rc_tiles of them: scratch                                        */
-    const struct rc_tile_line
-        *line;    /* scratch too                                                 */
-    double size;  /* found: sum of |delta|, as a pressure, or a little more           */
-    bool clipped; /* found: some node would have left the box                         */
+    struct rc_tile *tiles;           /* rc_tiles of them: scratch                            */
+    const struct rc_tile_line *line; /* scratch                                              */
+    double size;  /* found: sum of |delta|, as a pressure, or a little more                    */
+    bool clipped; /* found: some node would have left the box                                  */
 };
 /* By one shift of all nodes of the set, the Euclidean projection. Where the set cannot carry its
  * share all nodes become the set. */

@@ -516,10 +516,10 @@ size_block(void *at, size_t first, size_t n, double *sums)
 
 /* z has no less energy than the error, but its size may be smaller: where few waves carry the error some of
  * them can cancel. On a map they are many. On a profile they are few: of 2212 that repeat the size of z was
- * 0.982 to 2.2 of the error, of 512 that end 0.96 to 1.11; under coats, with
- * five elastic nodes, 0.74. Where nearly all that is loaded yields, they are as few as the nodes that are
- * not at a bound, and one of those may be the wrong one: of 955 with 1 to 13 elastic nodes the size of z was
- * 0.63 (one elastic node), 0.89 (three) to 33 of the error. */
+ * 0.982 to 2.2 of the error, of 512 that end 0.96 to 1.11; under coats, with five elastic
+ * nodes, 0.74. Where nearly all that is loaded yields, they are as few as the nodes that are not at a bound,
+ * and one of those may be the wrong one: of 955 with 1 to 13 elastic nodes the size of z was 0.63 (one
+ * elastic node), 0.89 (three) to 33 of the error. */
 static double
 caution(const struct rc_solver *s)
 {

@@ -1,5 +1,6 @@
-/* The work on a profile, or on a strip of a few rows, hardly grows, whether it lies as a row or as a column, repeats or ends, bare or under
- * coats: the extension off a line is one of its own, and load that tiles of a step cannot keep stays near. */
+/* The work on a profile, or on a strip of a few rows, hardly grows, whether it lies as a row or as a column,
+ * repeats or ends, bare or under coats: the extension off a line is one of its own, and load that tiles of a
+ * step cannot keep stays near. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -90,8 +91,8 @@ pressure_for(const struct kind *kind, struct rc_shape s, const double *h, double
     return mean;
 }
 
-/* At most so many equivalents from 1024 nodes on, and, from there to 16384 or, of a random walk, `most`, at most
- * `growth` times as many. */
+/* At most so many equivalents from 1024 nodes on, and, from there to 16384 or, of a random walk, `most`, at
+ * most `growth` times as many. */
 static void
 works(const struct kind *kind, size_t most, double most_work, double growth)
 {
