@@ -579,14 +579,50 @@ carries(const struct rc_discs *d)
     return d->given || hypot(out[0] - d->sum[0], out[1] - d->sum[1]) <= 1e-9 * out[2];
 }
 
+/* Of the residual, where a displacement is given; false: rounding. */
+static bool
+has_mean(const struct rc_discs *d, double mean[2])
+{
+    sum_of(d, d->r, mean);
+    mean[0] /= (double)d->n;
+    mean[1] /= (double)d->n;
+    return hypot(mean[0], mean[1]) > 1e-6 * d->slip;
+}
+
+/* Complete contact that sticks: no traction of a periodic map resists the motion of its mean plane, and
+ * tractions grow along it up to the first circle. */
+static void
+to_first_circle(struct rc_discs *d, const double mean[2])
+{
+    double size = hypot(mean[0], mean[1]), x = mean[0] / size, y = mean[1] / size, far = INFINITY;
+
+    for (size_t k = 0; k < d->n; k++) {
+        double along = d->q[0][k] * x + d->q[1][k] * y, across = d->q[1][k] * x - d->q[0][k] * y;
+        far = fmin(far, sqrt(fmax(d->g[k] * d->g[k] - across * across, 0)) - along);
+    }
+    for (size_t k = 0; k < d->n; k++) {
+        d->q[0][k] += far * x;
+        d->q[1][k] += far * y;
+    }
+}
+
 enum rc_status
 rc_discs_step(struct rc_discs *d)
 {
-    double part;
+    double part, mean[2];
 
     find_delta(d);
     find_faces(d);
-    rc_extension_set(d->m, d->face, d->q, d->curve);
+    if (!rc_extension_set(d->m, d->face, d->q, d->curve, d->given) && has_mean(d, mean)) {
+        d->estimate = 1;
+        if (d->steps++ >= d->most)
+            return RC_SHORT;
+        if (d->slipping == 0)
+            to_first_circle(d, mean);
+        else if (fall_back(d) > 0.5)
+            take(d);
+        return RC_MORE;
+    }
     precondition(d);
     d->estimate = relative(d);
     if (!(d->estimate > d->tol))

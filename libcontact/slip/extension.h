@@ -23,6 +23,12 @@
  *
  * symmetric, and r'z >= r'(T + D)^-1 r whatever the guess: z bounds the error in the energy norm from
  * above.
+ *
+ * A periodic T has no mean, T(0) = 0, and its inverse allows none: the least of v'Av is over fields v without
+ * a mean. A force given, the residual has none either. A displacement given, what the guess has of it goes to
+ * where nothing is known, by a change of rank 2:
+ *
+ *     e -> e - Phi m,   Phi = N^-1 f,   m = B^-1 mean(e + c P (r - e)),   B = mean((1 - c P) Phi).
  */
 #ifndef RC_EXTENSION_H
 #define RC_EXTENSION_H
@@ -46,6 +52,10 @@ struct rc_extension {
     float *tie;   /* (1 - c)^2/D                               */
     float *n[3];  /* of N^-1, xx yy xy                         */
     float *v[2];
+    float *far;      /* f; NULL: T has a mean                             */
+    double *partial; /* sums of rows; NULL as f                           */
+    bool level;      /* v is to have no mean                              */
+    double b[4];     /* B^-1, by rows                                     */
 };
 
 /* NULL when memory is short. */
@@ -55,9 +65,11 @@ size_t rc_extension_memory(const struct rc_shape *shape, enum rc_boundary bounda
 /* The nodes that may carry something: they stay until the next call. RC_FAIL when memory is short. */
 enum rc_status rc_extension_measure(struct rc_extension *e, const unsigned char *face,
                                     struct rc_err *err);
-/* Faces, tractions, whose directions are the normals of the circles, and D where nodes slip. */
-void rc_extension_set(struct rc_extension *e, const unsigned char *face, double *const q[2],
-                      const float *curve);
+/* Faces, tractions, whose directions are the normals of the circles, and D where nodes slip; whether the
+ * displacement is given. False: B is singular, as where all nodes of a periodic map stick, and what is
+ * applied is the inverse for residuals without a mean. */
+bool rc_extension_set(struct rc_extension *e, const unsigned char *face, double *const q[2],
+                      const float *curve, bool given);
 /* z = M r; r is 0 along what is not free, and z too. */
 void rc_extension_apply(struct rc_extension *e, float *const r[2], float *const z[2]);
 

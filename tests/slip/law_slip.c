@@ -382,6 +382,67 @@ test_nonsense_is_refused(void **state)
     rc_slip_free(slip);
 }
 
+/* On a periodic map: the displacement that a force was found to make, given, makes that force; contact that is
+ * complete carries what it can, wherever it is moved, and no more. */
+static void
+test_periodic_displacement_gives_the_force(void **state)
+{
+    const struct rc_shape shape = {48, 40, 1, 1.3};
+    static const double means[] = {0.006, 0.03, 0.055}, parts[] = {0.1, 0.5, 0.95};
+    size_t n = shape.nx * shape.ny;
+    double worst = 0, far = 0, *even = malloc(n * sizeof *even);
+    struct problem w = {.shape = shape, .boundary = RC_PERIODIC, .nu = 0.3, .mu = 0.3};
+    struct rc_slip_problem what = {
+        .boundary = RC_PERIODIC, .pair.estar = 1, .nu = w.nu, .mu = w.mu, .tol = 1e-9};
+    struct rc_slip_figures f, back;
+    enum rc_status status;
+
+    (void)state;
+    for (size_t k = 0; k < 9; k++) {
+        struct rc_slip *slip, *moved = rc_slip_new(&shape, &what, NULL);
+        const double *q[2], *exact[2];
+        w.p = pressure_of(&shape, RC_PERIODIC, slip_rough(&shape, 0.1, 4, 11 + k), means[k % 3]);
+        w.part = parts[k / 3];
+        w.angle = (double)k;
+        slip = slide(&w, 1e-9, &f, &status);
+        assert_int_equal(status, RC_OK);
+        rc_slip_set_pressure(moved, w.p, NULL, NULL);
+        rc_slip_set_displacement(moved, f.displacement[0], f.displacement[1], NULL);
+        assert_int_equal(slip_solve(moved, &back), RC_OK);
+        worst = larger(worst, hypot(back.force[0] - f.force[0], back.force[1] - f.force[1]) /
+                                  hypot(f.force[0], f.force[1]));
+        for (int c = 0; c < 2; c++) {
+            q[c] = rc_slip_traction(moved, c);
+            exact[c] = rc_slip_traction(slip, c);
+        }
+        far = larger(far, slip_distance(n, q, exact));
+        rc_slip_free(slip);
+        rc_slip_free(moved);
+        free(w.p);
+    }
+    for (int k = 0; k < 8; k++) {
+        double size = pow(10, 3 - k),
+               angle = k; /* over E*, of cells of 1: complete contact slides */
+        struct rc_slip *slip = rc_slip_new(&shape, &what, NULL);
+        uint64_t seed = 9;
+        for (size_t i = 0; i < n; i++)
+            even[i] = 0.02 * (k % 2 == 0 ? 1 : 1 + 0.3 * slip_noise(&seed));
+        rc_slip_set_pressure(slip, even, NULL, NULL);
+        rc_slip_set_displacement(slip, size * cos(angle), size * sin(angle), NULL);
+        assert_int_equal(slip_solve(slip, &f), RC_OK);
+        print_message("moved by %g: %.9f of mu P, %zu steps, %zu stick\n", size,
+                      hypot(f.force[0], f.force[1]) / f.limit, f.steps, f.stick_nodes);
+        if (k % 2 == 0 || size >= 1) { /* else some of it sticks for now */
+            assert_true(fabs(hypot(f.force[0], f.force[1]) / f.limit - 1) < 1e-3);
+            assert_int_equal(f.stick_nodes, 0);
+        }
+        rc_slip_free(slip);
+    }
+    print_message("forces %.1e, tractions %.1e\n", worst, far);
+    assert_true(worst < 1e-7 && far < 1e-7);
+    free(even);
+}
+
 /* Units change and numbers follow; so do axes, and the direction of the force; and threads change nothing. */
 static void
 test_units_axes_and_threads(void **state)
@@ -448,6 +509,7 @@ main(void)
         cmocka_unit_test(test_estimate_bounds_the_error),
         cmocka_unit_test(test_work_does_not_grow),
         cmocka_unit_test(test_nonsense_is_refused),
+        cmocka_unit_test(test_periodic_displacement_gives_the_force),
         cmocka_unit_test(test_units_axes_and_threads),
     };
 

@@ -1,6 +1,6 @@
 /* Tractions of least energy are those that another method finds: node after node on its disc, exactly,
  * until nothing changes, and the displacement by Newton's method on the load; dense matrices, up to 24
- * nodes, with a history. */
+ * nodes, with a history; displacements under periodic maps too, on which contact may be complete. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,8 @@
 
 enum {
     MOST = 24,
-    PROBLEMS = 20
+    PROBLEMS = 20,
+    PERIODIC = 80
 };
 static const double bound = 1e-9;
 
@@ -54,6 +55,35 @@ dense_matrix(struct dense *d, const struct rc_shape *s, double kap)
             d->t[d->n + i][d->n + j] = xx + (1 + kap) * yy;
             d->t[i][d->n + j] = d->t[d->n + i][j] = kap * xy;
         }
+}
+
+/* Of a periodic map, from the response to a wave: 2/k along it and 2(1 + kap)/k across it; none to the mean,
+ * and none across at waves of two nodes. */
+static void
+periodic_matrix(struct dense *d, const struct rc_shape *s, double kap)
+{
+    d->n = s->nx * s->ny;
+    memset(d->t, 0, sizeof d->t);
+    for (size_t wave = 1; wave < d->n; wave++) {
+        size_t a = wave % s->nx, b = wave / s->nx;
+        double kx = 2 * exact_pi * ((double)a - (2 * a > s->nx ? (double)s->nx : 0)) /
+                    ((double)s->nx * s->dx);
+        double ky = 2 * exact_pi * ((double)b - (2 * b > s->ny ? (double)s->ny : 0)) /
+                    ((double)s->ny * s->dy);
+        double k2 = kx * kx + ky * ky, unit = 2 / (sqrt(k2) * (double)d->n);
+        bool nyquist = 2 * a == s->nx || 2 * b == s->ny;
+        for (size_t i = 0; i < d->n; i++)
+            for (size_t j = 0; j < d->n; j++) {
+                double x = ((double)(i % s->nx) - (double)(j % s->nx)) * s->dx;
+                double y = ((double)(i / s->nx) - (double)(j / s->nx)) * s->dy;
+                double wavy = unit * cos(kx * x + ky * y);
+                double cross = nyquist ? 0 : -kap * kx * ky / k2 * wavy;
+                d->t[i][j] += (1 + kap * ky * ky / k2) * wavy;
+                d->t[d->n + i][d->n + j] += (1 + kap * kx * kx / k2) * wavy;
+                d->t[i][d->n + j] += cross;
+                d->t[d->n + i][j] += cross;
+            }
+    }
 }
 
 /* min q'A q/2 - b'q over |q| <= g, A 2 x 2: (A + m)q = b, with the m >= 0 that puts it on the circle, by
@@ -248,11 +278,81 @@ test_another_method_finds_the_same(void **state)
     assert_true(stuck > 100 && slid > 100);
 }
 
+/* A periodic map moved by a displacement, small or large, thrice: pressures of partial and of complete
+ * contact. Where all nodes stick nothing resists the mean, and a motion that goes on finds them sliding. */
+static void
+test_displacements_of_periodic_maps(void **state)
+{
+    static const struct rc_shape shapes[] = {{6, 4, 1, 1},   {4, 5, 1, 1.7}, {3, 3, 1, 1},
+                                             {8, 3, 0.6, 1}, {4, 4, 1, 3},   {1, 7, 1, 1}};
+    double worst = 0;
+    size_t most = 0, slid = 0, stuck = 0, wrong = 0;
+
+    (void)state;
+    for (int problem = 0; problem < PERIODIC; problem++) {
+        uint64_t seed = 4321 + (uint64_t)problem;
+        const struct rc_shape shape = shapes[problem % 6];
+        size_t n = shape.nx * shape.ny;
+        double nu = problem % 3 == 0 ? 0 : 0.5 * slip_noise(&seed);
+        struct rc_slip_problem what = {
+            .boundary = RC_PERIODIC, .pair.estar = 1, .nu = nu, .mu = 0.3, .tol = 1e-12};
+        struct rc_slip *slip = rc_slip_new(&shape, &what, NULL);
+        struct dense d;
+        double q[2 * MOST] = {0}, delta[2] = {0, 0}, origin[2 * MOST] = {0}, p[MOST];
+        double missing = problem % 4 < 2 ? 0 : 0.4, far = pow(10, 2 - 4 * slip_noise(&seed));
+
+        assert_non_null(slip);
+        periodic_matrix(&d, &shape, nu / (1 - nu));
+        for (size_t k = 0; k < n; k++) {
+            p[k] = fmax(0, slip_noise(&seed) - missing) + (k == 0 ? 0.5 : 0);
+            d.g[k] = what.mu * p[k];
+        }
+        for (int increment = 0; increment < 3; increment++) {
+            struct rc_slip_figures figures;
+            double off = 0, size = 0;
+            enum rc_status status;
+            memcpy(d.w, origin, sizeof origin);
+            for (int c = 0; c < 2; c++)
+                delta[c] += far * (slip_noise(&seed) - 0.5);
+            relax(&d, delta, q);
+            assert_int_equal(rc_slip_set_pressure(slip, p, NULL, NULL), RC_OK);
+            assert_int_equal(rc_slip_set_displacement(slip, delta[0], delta[1], NULL), RC_OK);
+            status = slip_solve(slip, &figures);
+            for (size_t k = 0; k < 2 * n; k++) {
+                off = fmax(off, fabs(rc_slip_traction(slip, k >= n)[k % n] - q[k]));
+                size = fmax(size, fabs(q[k]));
+            }
+            if (status != RC_OK || off > bound * size)
+                print_message("problem %d, increment %d: %d after %zu steps, off by %.1e, estimate "
+                              "%.1e\n",
+                              problem, increment, status, figures.steps, off / size,
+                              figures.traction_error),
+                    wrong++;
+            most = figures.steps > most ? figures.steps : most;
+            worst = larger(worst, off / size);
+            stuck += figures.stick_nodes;
+            slid += figures.slip_nodes;
+            for (size_t k = 0; k < 2 * n; k++) {
+                origin[k] = -delta[k >= n];
+                for (size_t j = 0; j < 2 * n; j++)
+                    origin[k] += d.t[k][j] * q[j];
+            }
+            rc_slip_keep(slip);
+        }
+        rc_slip_free(slip);
+    }
+    print_message("tractions %.1e, up to %zu steps; %zu stick, %zu slip\n", worst, most, stuck,
+                  slid);
+    assert_int_equal(wrong, 0);
+    assert_true(stuck > 300 && slid > 300);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_another_method_finds_the_same),
+        cmocka_unit_test(test_displacements_of_periodic_maps),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

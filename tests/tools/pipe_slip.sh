@@ -91,6 +91,14 @@ claim "at nu = 0 a force in proportion to the load is carried as the load is, in
     { for (k = 0; k < 2; k++) { d = $(2 + k) - $1 * (k == 0 ? 20 : 10) / 240; s += d < 0 ? -d : d } t += $1 } END { exit !(NR == 4096 && s < 1e-3 * t) }' \
     <(paste -d ' ' <(values oblique.rcg pressure 2 | tr ',' '\n') <(values oblique.rcg traction-x 2 | tr ',' '\n') <(values oblique.rcg traction-y 2 | tr ',' '\n'))
 
+# ---- a periodic map, moved ----
+
+rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-slope 0.001 --rolloff 16um --short-cut 8um --seed 3 |
+    rc-solve --quiet --periodic --mean-pressure 500MPa $steel -o whole.rcg
+rc-slip --mu 0.3 --displacement 1mm --report far.tsv -o far.rcg whole.rcg
+near "$(column tangential_x 1 far.tsv)" "$(awk -v p="$(column load 1 far.tsv)" 'BEGIN { print 0.3 * p }')" 1e-6 "complete contact that is moved far slides under mu P"
+claim "  at every node" test "$(column stick_nodes 1 far.tsv) $(column slip_nodes 1 far.tsv)" = "0 1024"
+
 # ---- dissimilar bodies ----
 
 rc-solve --quiet --load 240N --E1 210GPa --nu1 0.3 --E2 rigid -o rigid.rcg sphere.rcg
