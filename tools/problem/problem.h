@@ -1,11 +1,12 @@
 /*
- * The face of this folder: a contact as the tools that solve it are told, load, bodies and boundary, and what
- * goes with --yield and --adhesion.
+ * The face of this folder: a contact as the tools that solve it are told, load, bodies and boundary, what goes
+ * with --yield and --adhesion, and the parts of an estimated error.
  */
 #ifndef RC_TOOL_PROBLEM_H
 #define RC_TOOL_PROBLEM_H
 
 #include "attracts.h"
+#include "errors.h"
 #include "physics.h"
 #include "yields.h"
 

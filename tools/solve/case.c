@@ -321,7 +321,7 @@ end_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
     find_result(run, &r, solver, &s->contact);
     find_stiffness(run, g, solver, s);
     s->contact.convolutions = rc_solver_convolutions(solver);
-    yield_look(run, &s->contact);
+    yield_look(run, s);
     run->done = solve_now();
     run->result = run->done - start;
     solve_judge(run, g, s);
@@ -355,7 +355,7 @@ take_apart(struct run *run, const struct rc_grid *g)
         run->top = highest_left(run, g);
     }
     rc_contact_apart(ranks_of(&run->t), &shape, form, NULL, &s.contact);
-    yield_look(run, &s.contact);
+    yield_look(run, &s);
     if (run->conductance)
         s.conductance = (struct rc_conductance){NAN, 0, 0};
     run->done = solve_now();

@@ -333,6 +333,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "tilt_x", run->tilt ? atan(s->contact.tilt[0]) : NAN, "rad");
     report_number(r, "tilt_y", run->tilt ? atan(s->contact.tilt[1]) : NAN, "rad");
     yield_report(r, run);
+    errors_report(r, &s->errors);
     adhesion_report(r, run);
     report_number(r, "rms_slope", run->rms_slope, NULL);
     report_finish_row(r);

@@ -132,6 +132,7 @@ solve_now(void)
 /* What is known of a solution. */
 struct solution {
     struct rc_contact contact;
+    struct error_parts errors;         /* of contact.pressure_error, where it has several         */
     struct rc_patches patches;         /* of the contact; the list of them only for a report */
     double slope;                      /* RMS, where the bodies touch; NAN: not looked at         */
     double stiffness;                  /* N/m; NAN: unknown                                       */
@@ -218,8 +219,8 @@ enum {
 const char *yield_mark(const struct run *run, int k, char *value, size_t size);
 /* The next load, N, of a body that yields; 0: none. */
 void yield_press(struct run *run, const struct rc_grid *g, double load);
-/* Adds what is known of the error to the figures of the contact. */
-void yield_look(struct run *run, struct rc_contact *contact);
+/* Puts the estimated error of the plastic body, and its parts, in place of the contact's. */
+void yield_look(struct run *run, struct solution *solution);
 /* v += factor times the residual displacement. */
 void yield_displace(const struct run *run, size_t n, double factor, double *v);
 /* The plastic strain slab by slab; `like`: the frames' shape and keys; buffer: room for a map. */

@@ -148,7 +148,7 @@ problem_of(const struct run *run, struct rc_problem contact)
 static double
 goal(const struct run *run)
 {
-    return fmax(deserved, run->args->tol);
+    return run->args->tol > 0 ? run->args->tol : deserved;
 }
 
 static void
@@ -410,18 +410,25 @@ yield_resumes(struct run *run, const struct rc_grid *g, struct rc_problem contac
 /* ---- what is found ---- */
 
 void
-yield_look(struct run *run, struct rc_contact *c)
+yield_look(struct run *run, struct solution *s)
 {
     const struct yielding *y = &run->yielding;
     const struct rc_plastic_figures *f;
+    struct rc_contact *c = &s->contact;
 
     if (y->plastic == NULL)
         return;
     f = rc_plastic_result(y->plastic);
-    c->convolutions = NAN;         /* nearly all of the work is in the volume */
-    c->pressure_error += f->error; /* not known of few increments */
+    c->convolutions = NAN; /* nearly all of the work is in the volume */
+    s->errors = (struct error_parts){.told = true,
+                                     .increment = f->increment_error,
+                                     .iteration = f->iteration_error,
+                                     .contact = c->pressure_error,
+                                     .image = f->image_error};
+    c->pressure_error = errors_sum(&s->errors);
     c->converged = y->status == RC_OK && c->converged &&
-                   (y->asked > 0 || c->pressure_error <= goal(run) * (1 + contact_share));
+                   (errors_within(c->pressure_error, goal(run)) ||
+                    (y->asked > 0 && isnan(c->pressure_error))); /* so few were asked for */
 }
 
 double
@@ -591,7 +598,6 @@ yield_report(struct report *r, const struct run *run)
     report_number(r, "max_plastic_strain", on ? f->max_strain : NAN, NULL);
     report_number(r, "plastic_work", on ? f->work : NAN, "J");
     report_number(r, "max_pressure_mean4", on ? f->max_pressure_mean4 : NAN, "Pa");
-    report_number(r, "increment_error_estimate", on ? f->increment_error : NAN, NULL);
     report_number(r, "max_mises_over_yield", y->wanted && !on ? y->most : NAN, NULL);
     report_number(r, "max_mises_depth", y->wanted && !on ? y->deepest : NAN, "m");
 }
