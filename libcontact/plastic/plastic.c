@@ -613,8 +613,8 @@ rc_plastic_step(struct rc_plastic *p, struct rc_err *err)
     p->from = p->to;
     find_figures(p);
     p->figures.image_error = image_error(p);
-    p->figures.error = hypot(hypot(p->figures.increment_error, p->figures.iteration_error),
-                             p->figures.image_error);
+    p->figures.error =
+        p->figures.increment_error + p->figures.iteration_error + p->figures.image_error;
     return p->stopped ? RC_SHORT : RC_OK;
 }
 

@@ -45,7 +45,7 @@ errors_limited_by(const struct error_parts *parts)
     for (size_t k = 1; k < KINDS; k++)
         if (part(parts, k) > part(parts, most))
             most = k;
-    return kinds[most].lowered_by;
+    return part(parts, most) > 0 ? kinds[most].lowered_by : NULL;
 }
 
 void

@@ -25,7 +25,7 @@ errors_within(double estimate, double goal)
     return estimate <= goal;
 }
 /* What lowers the largest part: "increments", "history", "tolerance", "map"; "unknown" where a part is
- * unknown. */
+ * unknown, NULL where all are 0. */
 const char *errors_limited_by(const struct error_parts *parts);
 /* Keys from increment_error_estimate to error_limited_by. */
 void errors_report(struct report *report, const struct error_parts *parts);

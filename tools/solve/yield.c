@@ -356,16 +356,17 @@ static void
 go_on(struct run *run, const struct rc_grid *g, struct rc_problem contact, bool kept)
 {
     struct yielding *y = &run->yielding;
+    const double enough = goal(run) * (1 - contact_share); /* the contact has the rest */
 
     for (;;) {
         const struct rc_plastic_figures *f = rc_plastic_result(y->plastic);
         double more;
 
         go(run, g, contact.load, kept);
-        if (y->asked > 0 || tool_interrupted() != 0 || !(f->error > goal(run)) ||
+        if (y->asked > 0 || tool_interrupted() != 0 || !(f->error > enough) ||
             y->increments >= MOST || y->try + 1 == TRIES)
             return;
-        more = ceil((double)y->increments * pow(f->error / goal(run), order));
+        more = ceil((double)y->increments * pow(f->error / enough, order));
         y->increments = more < MOST ? (size_t)more : MOST;
         y->try++;
         kept = false;
