@@ -168,7 +168,7 @@ struct rc_filter {
  * infinite, or memory is short; h is then as it was. */
 RC_API enum rc_status rc_filter(const struct rc_shape *shape, const struct rc_filter *what,
                                 double *h, struct rc_err *err);
-/* Bytes that it takes beside h; 0 when not even its plan has room. */
+/* Bytes that it takes beside h; 0 for a cut-off that it refuses, and when not even its plan has room. */
 RC_API size_t rc_filter_memory(const struct rc_shape *shape, const struct rc_filter *what);
 
 /* Makes points missing that lie further than `times` times the spread from the median of the others

@@ -57,7 +57,7 @@ static const struct opt opts[] = {
     {.name = "plot", .type = OPT_TEXT, AT(plot), .arg = "FILE",
      .help = "draw error against time: a .png, .svg or .pdf"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
-     .help = "write one JSON object a way of solving, or a row of FILE.tsv"},
+     .help = "write one JSON object a way of solving, or a row of FILE.tsv or .csv"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run),
      .help = "say what would be run, and about how long it would take; do no more"},
     {.name = NULL},

@@ -269,19 +269,33 @@ fill(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
     return add_to_key(g, "filled", filled, err);
 }
 
+/* Ends the tool for a step that failed: a length beyond the map may lack its unit. */
+static _Noreturn void
+failed(struct tool *t, const struct rc_grid *g, const struct step *step, const struct rc_err *err)
+{
+    double side = fmax((double)g->nx * g->dx, (double)g->ny * g->dy);
+
+    if (step->opt->unit == UNIT_M && step->value > side &&
+        step->text[strspn(step->text, "+.0123456789")] == '\0')
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "%s: a number without a unit is in metres, write %sum for micrometres",
+                    err->text, step->text);
+    tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err->text);
+}
+
 static void
 detrend(struct tool *t, struct rc_grid *g)
 {
     struct rc_err err;
-    enum rc_status status = RC_OK;
+    enum rc_status status;
 
-    for (size_t k = 0; k < args.steps.n && status == RC_OK; k++) {
+    for (size_t k = 0; k < args.steps.n; k++) {
         const struct step *step = &args.steps.step[k];
         const struct work *work = step->opt->of;
-        status = work->run(t, g, step->value, &err);
+        if (work->run(t, g, step->value, &err) != RC_OK)
+            failed(t, g, step, &err);
     }
-    if (status == RC_OK)
-        status = rc_grid_history(g, tool_history(t), &err);
+    status = rc_grid_history(g, tool_history(t), &err);
     if (status != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }

@@ -26,7 +26,7 @@ static const struct opt opts[] = {
     {.name = "sections", .type = OPT_COUNT, .at = offsetof(struct args, wanted.sections), .min = 1,
      .max = 1000, .arg = "N", .help = "section lengths of a profile (default 5)"},
     {.name = "report", .type = OPT_REPORT, .at = offsetof(struct args, wanted.report), .arg = "FILE",
-     .help = "a row a frame: JSON, or as .tsv a table; instead of text"},
+     .help = "a row a frame: JSON, or as .tsv or .csv a table; instead of text"},
     {.name = "psd", .type = OPT_FLAG, .at = offsetof(struct args, wanted.psd),
      .help = "of heights: power spectral density over rings, Hurst exponent"},
     {.name = "fit", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, wanted.fit),

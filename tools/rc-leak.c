@@ -50,7 +50,7 @@ static const struct opt opts[] = {
     {.name = "output", .type = OPT_WORDS, AT(output), .words = frame_word, .arg = "LIST",
      .help = "frames to write, of %s (default: all)"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
-     .help = "write one JSON object a case, or a row of FILE.tsv: flow, its bounds, what is narrow"},
+     .help = "write one JSON object a case, or a row of FILE.tsv or .csv: flow, its bounds, what is narrow"},
     {.name = NULL},
 };
 /* clang-format on */

@@ -69,7 +69,7 @@ static const struct opt opts[] = {
     {.name = "output", .type = OPT_WORDS, AT(output), .words = slip_frame_word, .arg = "LIST",
      .help = "frames to write, of %s (default: all but state)"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
-     .help = "write one JSON object a case, or a row of FILE.tsv: figures, accuracy, cost"},
+     .help = "write one JSON object a case, or a row of FILE.tsv or .csv: figures, accuracy, cost"},
     {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
      .help = "keep the tractions of each increment in FILE, to go on from if the run is cut off"},
     {.name = "resume", .type = OPT_FLAG, AT(resume),

@@ -62,7 +62,7 @@ static const struct opt opts[] = {
     {.name = "discretization", .type = OPT_FLAG, AT(discretization),
      .help = "estimate what the grid leaves out, from a coarser one solved as well"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
-     .help = "write one JSON object a case, or a row of FILE.tsv: figures, accuracy, cost"},
+     .help = "write one JSON object a case, or a row of FILE.tsv or .csv: figures, accuracy, cost"},
     {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
      .help = "keep the pressures reached in FILE, to go on from if the run is cut off"},
     {.name = "resume", .type = OPT_FLAG, AT(resume),

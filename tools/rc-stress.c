@@ -40,7 +40,7 @@ static const struct opt opts[] = {
      .result = true, .arg = "ERROR",
      .help = "error allowed in a component, over the largest pressure (default: rounding)"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
-     .help = "write one JSON object a case, or a row of FILE.tsv: extreme values, counts, cost"},
+     .help = "write one JSON object a case, or a row of FILE.tsv or .csv: extreme values, counts, cost"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
      .help = "say what would be computed and what not, memory and time, and do no more"},
     {.name = NULL},

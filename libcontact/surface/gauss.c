@@ -528,8 +528,7 @@ pass(const struct gauss *g, const struct weighted *of, bool low, double *to)
 /* ---- what is asked for ---- */
 
 static enum rc_status
-check(const struct rc_shape *shape, const struct rc_filter *what, const struct rc_statistics *s,
-      struct rc_err *err)
+check_cutoff(const struct rc_shape *shape, const struct rc_filter *what, struct rc_err *err)
 {
     double dx = shape->nx > 1 || shape->ny == 1 ? shape->dx : 0, dy = shape->ny > 1 ? shape->dy : 0;
     double nodes = 2 * fmax(dx, dy), side = fmax((double)shape->nx * dx, (double)shape->ny * dy);
@@ -542,6 +541,15 @@ check(const struct rc_shape *shape, const struct rc_filter *what, const struct r
                           "a cut-off of %g m is longer than the map, %g m: take a shorter one, or "
                           "subtract a form",
                           what->cutoff, side);
+    return RC_OK;
+}
+
+static enum rc_status
+check(const struct rc_shape *shape, const struct rc_filter *what, const struct rc_statistics *s,
+      struct rc_err *err)
+{
+    if (check_cutoff(shape, what, err) != RC_OK)
+        return RC_FAIL;
     if (s->infinite > 0)
         return rc_err_set(err, "%zu infinite heights: no filter takes them", s->infinite);
     if (s->missing == shape->nx * shape->ny)
@@ -602,7 +610,7 @@ rc_filter_memory(const struct rc_shape *shape, const struct rc_filter *what)
     size_t bytes = 0, nodes = shape->nx * shape->ny;
 
     g.threads = rc_useful_threads(shape, what->threads);
-    if (plan(&g, what->cutoff))
+    if (check_cutoff(shape, what, NULL) == RC_OK && plan(&g, what->cutoff))
         bytes =
             (shape->ny * 2 * g.stride + low_numbers(&g) +
              (size_t)g.threads * (g.per_thread + g.rows_per_thread) +

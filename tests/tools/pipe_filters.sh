@@ -145,7 +145,10 @@ claim "  and has it again with a taper" says '"periodic": "yes"' bash -c 'rc-det
 # ---- refusals ----
 
 refuses 1 'a cut-off of 1e-06 m is below two nodes, 2.2e-06 m' "a cut-off below two nodes" "rc-detrend --lowpass 1um ball.rcg"
-refuses 1 'a cut-off of 0.001 m is longer than the map, 4.7e-05 m' "one longer than the map" "rc-detrend --highpass 1mm ball.rcg"
+refuses 1 'a cut-off of 0.001 m is longer than the map, 4.7e-05 m: take a shorter one, or subtract a form$' "one longer than the map" \
+    "rc-detrend --highpass 1mm ball.rcg"
+refuses 1 'longer than the map, 4.7e-05 m: .*: a number without a unit is in metres, write 20um for micrometres$' \
+    "  without its unit, before its filter takes memory" "rc-detrend --memory 32M --lowpass 20 ball.rcg"
 refuses 2 '--lowpass 0 m: it must be above 0' "none at all" "rc-detrend --lowpass 0 ball.rcg"
 refuses 1 'a taper of 3e-05 m is wider than half the map, 1.815e-05 m' "a taper over half the map" "rc-detrend --taper 30um ball.rcg"
 refuses 2 '--outliers -1: it must be above 0' "no deviations" "rc-detrend --outliers -1 ball.rcg"

@@ -39,6 +39,20 @@ rc-synth wave --nx 64 --dx 1um --amplitude 1um --wavelength 16um -o ridges.rcg
 claim "Str of ridges says why it has no value" says '^  Str +not defined: ridges run across the map: ' rc-info --areal ridges.rcg
 printf '2 2 2\n2 2 2\n2 2 2\n' >flat.txt && rc-import --dx 1um --z-unit um flat.txt -o flat.rcg
 claim "so does that of a flat" says '^  Str +not defined: the map is flat$' rc-info --areal flat.rcg
+
+# ---- a name that was misspelt ----
+
+rc-solve --quiet --periodic --estar 1GPa --load 1mN,2mN --report r.tsv -o p.rcg rough.rcg
+meant() { refuses "$1" "did you mean $2\?$" "$3" "$4"; }
+meant 1 contact_area "a column: a part of its name" "rc-render --curve load:area -o never.png r.tsv"
+meant 1 gap "a channel of rc-render" "rc-render --channel gpa -o never.png p.rcg"
+meant 1 pressure "  of rc-pick" "rc-pick --channel gap,presure -o never.rcg p.rcg"
+meant 1 displacement "  of rc-export" "rc-export --format csv --channel displacment p.rcg"
+meant 2 mises "a component" "rc-stress --nu 0.3 --depths 0 --components szz,misses -o never.rcg p.rcg"
+meant 2 pcg "a word of an option" "rc-solve --method pgc --load 1 --estar 1GPa -o never.rcg rough.rcg"
+refuses 1 'there is no channel wear: there are pressure, gap, displacement, height$' "none where no name is near" \
+    "rc-render --channel wear -o never.png p.rcg"
+
 claim "--list has digits for people" eval 'perl -e "print \"# Width: 3 um\n# Height: 3 um\n# Value units: nm\n\"; print 1/3, \" 2 3\n4 5 6\n7 8 \", 20/3, \"\n\"" >third.txt &&
     says " 3.33333e-10 +8e-09 " rc-import --list third.txt'
 

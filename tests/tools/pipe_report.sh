@@ -60,6 +60,22 @@ claim "rc-solve writes a table of a list of loads" $press --load 0.1:0.5:5 --rep
 claim "rc-solve writes the same run as lines" $press --load 0.1:0.5:5 --report loads.json -o again.rcg rough.rcg
 claim "a row for each load, and the names" test "$(wc -l <loads.tsv)" = 6
 claim "rc-solve: the cells are the scalars of the lines" same_cells loads.tsv loads.json peak_memory memory_estimate
+rc-pick --set 'source=a, "b".x3p' rough.rcg | $press --load 0.1:0.5:5 --report loads.csv -o again.rcg
+claim "FILE.csv is the same with commas" perl -MText::ParseWords -e '
+    open my $t, "<", "loads.tsv" or die; open my $c, "<", "loads.csv" or die;
+    while (my $line = <$t>) {
+        my $other = <$c>; chomp($line, $other);
+        my @tabs = split /\t/, $line, -1; my @commas = parse_line(",", 1, $other);
+        die "@commas" if @tabs != @commas;
+        for my $k (0 .. $#tabs) { $names[$k] = $tabs[$k] if $. == 1;
+            die "$names[$k]: $tabs[$k], $commas[$k]" if $tabs[$k] ne $commas[$k] && $names[$k] !~ /^(source|seconds|.*memory|.*seconds)/ } }'
+claim "  a cell with commas and quotes is in quotes" says '^1,"a, ""b"".x3p",47,33,' cat loads.csv
+for ending in tsv csv; do
+    rc-render --curve load:contact_area --title x --font 9 -o $ending.svg loads.$ending
+done
+claim "  and --curve reads it" diff <(sed 's/loads\.[tc]sv/loads/g' tsv.svg) <(sed 's/loads\.[tc]sv/loads/g' csv.svg)
+printf 'v/m,of\n1,"a ""b"", c"\n2,d\n3,"a ""b"", c"\n' >words.csv
+claim "  quoted words too" bash -c 'rc-render --curve v:v --by of -o words.svg words.csv && says "a &quot;b&quot;, c|a \"b\", c" cat words.svg'
 k=0
 for load in $(cells load/N loads.tsv); do
     k=$((k + 1))

@@ -118,6 +118,22 @@ word_list(char list[LIST], const struct opt *o, const char *between)
     return list;
 }
 
+/* ": did you mean WORD?", or "" where no word of the option is near. */
+static const char *
+word_meant(char text[NAME_MEANT], const struct opt *o, const char *typed, size_t n)
+{
+    char name[NAME_SIZE], near[NAME_SIZE] = "", other[NAME_SIZE];
+    const char *word;
+    size_t length;
+
+    snprintf(name, sizeof name, "%.*s", (int)n, typed);
+    for (size_t k = 0; (word = option_word(o, k, &length)) != NULL; k++) {
+        snprintf(other, sizeof other, "%.*s", (int)length, word);
+        name_nearer(name, other, near);
+    }
+    return name_meant(near, text);
+}
+
 /* ---- help ---- */
 
 static void
@@ -225,29 +241,29 @@ count(struct tool *t, const struct opt *o, const char *text)
 static const char *
 choice(struct tool *t, const struct opt *o, const char *text)
 {
-    char list[LIST];
+    char list[LIST], meant[NAME_MEANT];
     int k = text == NULL ? 0 : word_index(o, text, strlen(text));
 
     if (text == NULL)
         return "";
     if (k < 0)
-        tool_die(t, EXIT_USAGE, "--%s %s: it must be one of %s", o->name, text,
-                 word_list(list, o, "|"));
+        tool_die(t, EXIT_USAGE, "--%s %s: it must be one of %s%s", o->name, text,
+                 word_list(list, o, "|"), word_meant(meant, o, text, strlen(text)));
     return o->words == NULL ? text : o->words((size_t)k);
 }
 
 static size_t
 word_set(struct tool *t, const struct opt *o, const char *text)
 {
-    char list[LIST];
+    char list[LIST], meant[NAME_MEANT];
     size_t set = 0;
 
     for (const char *s = text;; s++) {
         size_t n = strcspn(s, ",");
         int k = word_index(o, s, n);
         if (k < 0)
-            tool_die(t, EXIT_USAGE, "--%s %s: '%.*s' is none of %s", o->name, text, (int)n, s,
-                     word_list(list, o, "|"));
+            tool_die(t, EXIT_USAGE, "--%s %s: '%.*s' is none of %s%s", o->name, text, (int)n, s,
+                     word_list(list, o, "|"), word_meant(meant, o, s, n));
         set |= (size_t)1 << k;
         s += n;
         if (*s == '\0')
@@ -410,34 +426,20 @@ check_ambiguous(struct tool *t, const struct option *table, const char *typed)
         tool_die(t, EXIT_USAGE, "option --%s is ambiguous: %s", typed, list);
 }
 
-/* The name that was meant, or NULL where none is near. */
-static const char *
-nearest(const struct option *table, const char *typed)
-{
-    size_t least = NAME_FAR, distance;
-    const char *name = NULL;
-
-    for (const struct option *o = table; o->name != NULL; o++)
-        if ((distance = name_distance(typed, o->name)) < least) {
-            least = distance;
-            name = o->name;
-        }
-    return name;
-}
-
 /* `word` as it stands on the line, `hyphens` of it before the name. */
 static _Noreturn void
 unknown_option(struct tool *t, const struct option *table, const char *word, size_t hyphens)
 {
-    char typed[NAME_SIZE];
+    char typed[NAME_SIZE], nearest[NAME_SIZE] = "";
     int n = (int)strcspn(word, "=");
-    const char *name;
 
     snprintf(typed, sizeof typed, "%.*s", n - (int)hyphens, word + hyphens);
     if (hyphens == 2)
         check_ambiguous(t, table, typed);
-    if ((name = nearest(table, typed)) != NULL)
-        tool_die(t, EXIT_USAGE, "unknown option %.*s: did you mean --%s?", n, word, name);
+    for (const struct option *o = table; o->name != NULL; o++)
+        name_nearer(typed, o->name, nearest);
+    if (*nearest != '\0')
+        tool_die(t, EXIT_USAGE, "unknown option %.*s: did you mean --%s?", n, word, nearest);
     tool_die(t, EXIT_USAGE, "unknown option %.*s: see %s --help", n, word, t->info->name);
 }
 

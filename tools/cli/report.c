@@ -24,7 +24,10 @@ report_open(struct report *r, struct tool *t, const char *name)
     const char *ending = name == NULL ? NULL : strrchr(name, '.');
 
     *r = (struct report){.tool = t, .name = name};
-    r->table = ending != NULL && strcasecmp(ending, ".tsv") == 0;
+    if (ending != NULL && strcasecmp(ending, ".tsv") == 0)
+        r->separator = '\t';
+    if (ending != NULL && strcasecmp(ending, ".csv") == 0)
+        r->separator = ',';
     if (name != NULL && !is_standard_output(name))
         tool_demand_writable(t, "--report", name);
 }
@@ -88,14 +91,34 @@ put_word(struct report *r, const char *name, const char *unit, const char *word)
     put_cell(r, name, unit, text);
 }
 
+/* Cells with commas or quotes stand in quotes (RFC 4180). */
+static void
+write_cell(struct report *r, size_t k, const char *text)
+{
+    if (k > 0)
+        putc(r->separator, r->file);
+    if (r->separator != ',' || text[strcspn(text, ",\"")] == '\0') {
+        fputs(text, r->file);
+        return;
+    }
+    putc('"', r->file);
+    for (; *text != '\0'; text++)
+        fputs(*text == '"' ? "\"\"" : (char[]){*text, '\0'}, r->file);
+    putc('"', r->file);
+}
+
 /* The names, with the unit after the first slash. */
 static void
 write_head(struct report *r)
 {
-    for (size_t k = 0; k < r->columns; k++)
-        fprintf(r->file, "%s%s%s%s", k == 0 ? "" : "\t", r->column[k].name,
-                r->column[k].unit == NULL ? "" : "/",
-                r->column[k].unit == NULL ? "" : r->column[k].unit);
+    char name[REPORT_NAME];
+
+    for (size_t k = 0; k < r->columns; k++) {
+        snprintf(name, sizeof name, "%s%s%s", r->column[k].name,
+                 r->column[k].unit == NULL ? "" : "/",
+                 r->column[k].unit == NULL ? "" : r->column[k].unit);
+        write_cell(r, k, name);
+    }
     putc('\n', r->file);
     r->headed = true;
 }
@@ -104,7 +127,7 @@ static void
 write_cells(struct report *r)
 {
     for (size_t k = 0; k < r->columns; k++) {
-        fprintf(r->file, "%s%s", k == 0 ? "" : "\t", r->cell[k] == NULL ? "NaN" : r->cell[k]);
+        write_cell(r, k, r->cell[k] == NULL ? "NaN" : r->cell[k]);
         free(r->cell[k]);
         r->cell[k] = NULL;
     }
@@ -125,7 +148,7 @@ report_begin(struct report *r)
                       : fopen(ranks_speak(r->tool) ? r->name : "/dev/null", "w");
     if (r->file == NULL)
         tool_die(r->tool, EXIT_IMPOSSIBLE, "--report %s: %s", r->name, strerror(errno));
-    if (!r->table)
+    if (!r->separator)
         json_open(&r->json, r->file);
 }
 
@@ -136,7 +159,7 @@ report_number(struct report *r, const char *name, double value, const char *unit
 
     if (r->name == NULL)
         return;
-    if (r->table)
+    if (r->separator)
         put_word(r, name, unit, isfinite(value) ? rc_number_text(text, value) : "NaN");
     else
         json_number(&r->json, name, value);
@@ -150,7 +173,7 @@ report_count(struct report *r, const char *name, size_t value, const char *unit)
     if (r->name == NULL)
         return;
     snprintf(text, sizeof text, "%zu", value);
-    if (r->table)
+    if (r->separator)
         put_word(r, name, unit, text);
     else
         json_count(&r->json, name, value);
@@ -161,7 +184,7 @@ report_text(struct report *r, const char *name, const char *value)
 {
     if (r->name == NULL)
         return;
-    if (r->table)
+    if (r->separator)
         put_word(r, name, NULL, value == NULL ? "NaN" : value);
     else
         json_text(&r->json, name, value);
@@ -172,7 +195,7 @@ report_bool(struct report *r, const char *name, bool value)
 {
     if (r->name == NULL)
         return;
-    if (r->table)
+    if (r->separator)
         put_word(r, name, NULL, value ? "true" : "false");
     else
         json_bool(&r->json, name, value);
@@ -181,7 +204,7 @@ report_bool(struct report *r, const char *name, bool value)
 void
 report_column(struct report *r, const char *name, const char *unit)
 {
-    if (r->name != NULL && r->table)
+    if (r->name != NULL && r->separator)
         put_word(r, name, unit, "NaN");
 }
 
@@ -197,7 +220,7 @@ report_object(struct report *r, const char *name)
 {
     if (r->name == NULL)
         return;
-    if (!r->table)
+    if (!r->separator)
         json_object(&r->json, name);
     begin_inside(r, '}');
 }
@@ -207,7 +230,7 @@ report_array(struct report *r, const char *name)
 {
     if (r->name == NULL)
         return;
-    if (!r->table)
+    if (!r->separator)
         json_array(&r->json, name);
     begin_inside(r, ']');
 }
@@ -219,14 +242,14 @@ report_end(struct report *r)
         return;
     assert(r->depth > 0);
     r->depth--;
-    if (!r->table)
+    if (!r->separator)
         json_end(&r->json, r->bracket[r->depth]);
 }
 
 void
 report_no_object(struct report *r, const char *name)
 {
-    if (r->name != NULL && !r->table)
+    if (r->name != NULL && !r->separator)
         json_null(&r->json, name);
 }
 
@@ -236,9 +259,9 @@ report_finish_row(struct report *r)
     if (r->name == NULL)
         return;
     assert(r->depth == 0);
-    if (r->table && !r->headed)
+    if (r->separator && !r->headed)
         write_head(r);
-    if (r->table)
+    if (r->separator)
         write_cells(r);
     else
         json_close(&r->json);

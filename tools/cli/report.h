@@ -1,7 +1,7 @@
 /*
  * What --report writes: a row for each case, as it is done, with figures in SI units. A row is a
- * JSON object on a line of its own; in a file that is called .tsv it is a line of a table, with
- * tabs between the cells and the names of the columns in the first line. A table holds scalars
+ * JSON object on a line of its own; in a file that is called .tsv or .csv it is a line of a table, with
+ * tabs or commas between the cells and the names of the columns in the first line. A table holds scalars
  * only: objects and arrays are left out of it. Unknown values are null, in a table NaN, so that
  * readers which split lines at blanks find all columns.
  */
@@ -17,6 +17,7 @@
 
 enum {
     REPORT_COLUMNS = 96, /* of a table                               */
+    REPORT_NAME = 96,    /* bytes of a column's name, slash and unit */
     REPORT_DEPTH = 4     /* of objects and arrays inside one another */
 };
 
@@ -27,7 +28,7 @@ struct report {
     struct json json;
     char bracket[REPORT_DEPTH]; /* that end the objects and arrays begun */
     size_t depth;
-    bool table;
+    char separator; /* of the cells of a table; 0: rows are JSON */
     struct {
         const char *name, *unit;
     } column[REPORT_COLUMNS]; /* set by the first row */

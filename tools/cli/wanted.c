@@ -304,8 +304,10 @@ read_by_depth(struct wanted *w, struct tool *t)
 static _Noreturn void
 no_channel(const struct wanted *w, struct tool *t, const char *name, size_t n)
 {
-    struct name_list l = {.n = 0};
+    char asked[NAME_SIZE];
+    struct name_list l = {.asked = asked};
 
+    snprintf(asked, sizeof asked, "%.*s", (int)n, name);
     for (size_t k = 0, i; k < w->n; k++) {
         for (i = 0; strcmp(w->seen[i].channel, w->seen[k].channel) != 0;)
             i++;

@@ -180,7 +180,7 @@ choice_offer(struct choice *c, struct tool *t, struct rc_grid *g)
 static _Noreturn void
 no_channel(struct choice *c, struct tool *t)
 {
-    struct name_list l = {.n = 0};
+    struct name_list l = {.asked = c->wish->channel};
 
     for (size_t k = 0, i; k < c->n; k++) {
         for (i = 0; i < k && strcmp(c->seen[i].channel, c->seen[k].channel) != 0;)

@@ -184,13 +184,14 @@ const char *words_hertz(struct tool *tool, struct words *words, const struct rc_
 /* ---- table.c: columns of reports: tables with tabs, lines of JSON ---- */
 
 struct column {
-    const char *name;  /* as asked for: of JSON also what is inside objects, "psd.q" or "q" */
-    bool optional;     /* may be absent: then all its values are NaN                        */
-    bool label;        /* its cells are kept as words, and v holds the numbers of these     */
-    bool found, words; /* words: some of its cells are text                                 */
-    char unit[24];     /* from the heading; empty: not said                                 */
-    double *v;         /* true is 1, false 0; NaN: unknown                                  */
-    char **word;       /* of labels, in the order in which they came                        */
+    const char *name;        /* as asked for: of JSON also what is inside objects, "psd.q" or "q" */
+    bool optional;           /* may be absent: then all its values are NaN                        */
+    bool label;              /* its cells are kept as words, and v holds the numbers of these     */
+    bool found, words;       /* words: some of its cells are text                                 */
+    char unit[24];           /* from the heading; empty: not said                                 */
+    char nearest[NAME_SIZE]; /* of the names there are, where there is no such one              */
+    double *v;               /* true is 1, false 0; NaN: unknown                                  */
+    char **word;             /* of labels, in the order in which they came                        */
     size_t word_count;
 };
 

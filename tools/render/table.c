@@ -1,5 +1,5 @@
 /*
- * Columns of numbers out of reports: tables with tabs, whose first line names the columns as
+ * Columns of numbers out of reports: tables with tabs or commas, whose first line names the columns as
  * `load/N`, and JSON, an object a row. An array of JSON is a column in itself: each object with
  * arrays is then a curve of its own.
  */
@@ -26,6 +26,7 @@ struct reading {
     const char *at, *end;
     struct name_list there; /* names of what could have been asked for */
     size_t line;
+    char separator; /* of the cells of a table */
     /* of JSON */
     char path[PATH];
     size_t depth;
@@ -39,7 +40,7 @@ struct reading {
 const char *
 table_remedy(const char *head)
 {
-    if (head[0] == '{' || (isalpha((unsigned char)head[0]) && strchr(head, '\t') != NULL))
+    if (head[0] == '{' || (isalpha((unsigned char)head[0]) && strpbrk(head, "\t,") != NULL))
         return "it looks like a table: draw columns of it, as in --curve load:contact_fraction";
     return NULL;
 }
@@ -128,7 +129,16 @@ begin_piece(struct reading *r)
     table->piece[table->pieces++] = table->rows;
 }
 
-/* ---- tables with tabs ---- */
+/* Notes a name that could have been asked for. */
+static void
+add_name(struct reading *r, const char *name)
+{
+    name_list_add(&r->there, name);
+    for (size_t c = 0; c < r->table->columns; c++)
+        name_nearer(r->table->column[c].name, name, r->table->column[c].nearest);
+}
+
+/* ---- tables with tabs or commas ---- */
 
 /* A number, or true and false as 1 and 0; NAN of anything else. */
 static double
@@ -161,6 +171,8 @@ label_value(struct reading *r, struct column *column, const char *text, size_t n
     size_t k = 0;
 
     snprintf(word, sizeof word, "%.*s", (int)(n < sizeof word ? n : sizeof word - 1), text);
+    for (char *two = word; (two = strstr(two, "\"\"")) != NULL && r->separator == ','; two++)
+        memmove(two, two + 1, strlen(two)); /* one quote, inside quotes */
     if (*word == '\0' || strcmp(word, "null") == 0 || strcmp(word, "NaN") == 0)
         return NAN;
     while (k < column->word_count && strcmp(column->word[k], word) != 0)
@@ -183,7 +195,18 @@ line_end(const struct reading *r)
     return end == NULL ? r->end : end;
 }
 
-/* Cells of the line that ends at `end`; gives their number. */
+/* Where the cell that begins at `s` ends: at a separator, but for one between quotes, or at `end`. */
+static const char *
+cell_end(const struct reading *r, const char *s, const char *end)
+{
+    bool inside = false;
+
+    for (; s < end && (inside || *s != r->separator); s++)
+        inside = inside != (*s == '"' && r->separator == ',');
+    return s;
+}
+
+/* Cells of the line that ends at `end`, without their quotes; gives their number. */
 static size_t
 split(struct reading *r, const char *end, const char *start[CELLS], size_t length[CELLS])
 {
@@ -191,16 +214,17 @@ split(struct reading *r, const char *end, const char *start[CELLS], size_t lengt
 
     if (end > r->at && end[-1] == '\r')
         end--;
-    for (const char *s = r->at;; s++) {
-        const char *tab = memchr(s, '\t', (size_t)(end - s));
+    for (const char *s = r->at, *next;; s = next + 1) {
+        bool quoted;
 
+        next = cell_end(r, s, end);
+        quoted = r->separator == ',' && next > s + 1 && *s == '"' && next[-1] == '"';
         if (n == CELLS)
             bad(r, "it has more than 1024 columns");
-        start[n] = s;
-        length[n++] = (size_t)((tab == NULL ? end : tab) - s);
-        if (tab == NULL)
+        start[n] = s + quoted;
+        length[n++] = (size_t)(next - s) - 2 * quoted;
+        if (next == end)
             return n;
-        s = tab;
     }
 }
 
@@ -218,7 +242,7 @@ read_heading(struct reading *r, const char *start[CELLS], const size_t length[CE
         size_t size = slash == NULL ? length[k] : (size_t)(slash - start[k]);
 
         snprintf(name, sizeof name, "%.*s", (int)(size < PATH ? size : PATH - 1), start[k]);
-        name_list_add(&r->there, name);
+        add_name(r, name);
         for (size_t c = 0; c < r->table->columns; c++) {
             struct column *column = &r->table->column[c];
 
@@ -245,7 +269,7 @@ ask_for_rows(struct reading *r)
 }
 
 static void
-read_tabs(struct reading *r)
+read_lines(struct reading *r)
 {
     const char **start = malloc(CELLS * sizeof *start), *end;
     size_t *length = malloc(CELLS * sizeof *length), cells, n;
@@ -255,6 +279,7 @@ read_tabs(struct reading *r)
     if (start == NULL || length == NULL || where == NULL)
         no_memory(r->tool, r->table->source);
     end = line_end(r);
+    r->separator = memchr(r->at, '\t', (size_t)(end - r->at)) != NULL ? '\t' : ',';
     n = split(r, end, start, length);
     read_heading(r, start, length, n, where);
     begin_piece(r);
@@ -335,7 +360,7 @@ take(struct reading *r, const char *text, size_t length, bool words, bool elemen
     double value = words ? NAN : cell_value(text, length, &(bool){false});
 
     if (!element && r->table->rows == 0)
-        name_list_add(&r->there, r->path);
+        add_name(r, r->path);
     for (size_t c = 0; c < r->table->columns; c++) {
         size_t n = r->got[c].n;
 
@@ -366,7 +391,7 @@ read_array(struct reading *r)
 
     expect(r, '[');
     if (r->table->rows == 0)
-        name_list_add(&r->there, r->path);
+        add_name(r, r->path);
     snprintf(path, sizeof path, "%s", r->path);
     if (peek(r) == ']')
         r->at++;
@@ -507,6 +532,7 @@ static void
 check_columns(struct reading *r)
 {
     const struct table *table = r->table;
+    char meant[NAME_MEANT];
 
     for (size_t c = 0; c < table->columns; c++) {
         const struct column *column = &table->column[c];
@@ -515,8 +541,9 @@ check_columns(struct reading *r)
         if (column->optional)
             continue;
         if (!column->found)
-            tool_die(r->tool, EXIT_IMPOSSIBLE, "%s: there is no column %s: there are %s",
-                     table->source, column->name, name_list_end(&r->there));
+            tool_die(r->tool, EXIT_IMPOSSIBLE, "%s: there is no column %s: there are %s%s",
+                     table->source, column->name, name_list_end(&r->there),
+                     name_meant(column->nearest, meant));
         for (size_t k = 0; k < table->rows; k++)
             any = any || isfinite(column->v[k]);
         if (!any)
@@ -558,7 +585,7 @@ table_read(struct table *table, struct tool *t, const char *file)
     if (peek(&r) == '{')
         read_json(&r);
     else
-        read_tabs(&r);
+        read_lines(&r);
     free(text);
     if (table->rows == 0)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: the table has a heading and no row", table->source);

@@ -4,7 +4,8 @@
 #include <string.h>
 
 enum {
-    NAMED = 12 /* things that a message names one by one */
+    NAMED = 12,                  /* things that a message names one by one */
+    NAMED_LEFT = NAME_MEANT + 40 /* room for what follows them */
 };
 
 void
@@ -13,7 +14,9 @@ name_list_add(struct name_list *l, const char *name)
     size_t used = strlen(l->text);
 
     l->n++;
-    if (l->named == NAMED || used + strlen(name) + 8 > sizeof l->text)
+    if (l->asked != NULL)
+        name_nearer(l->asked, name, l->nearest);
+    if (l->named == NAMED || used + strlen(name) + NAMED_LEFT > sizeof l->text)
         return;
     l->named++;
     snprintf(l->text + used, sizeof l->text - used, "%s%s", used > 0 ? ", " : "", name);
@@ -23,8 +26,10 @@ const char *
 name_list_end(struct name_list *l)
 {
     size_t used = strlen(l->text);
+    char meant[NAME_MEANT];
 
     if (l->n > l->named)
-        snprintf(l->text + used, sizeof l->text - used, ", ... (%zu in all)", l->n);
+        used += (size_t)snprintf(l->text + used, sizeof l->text - used, ", ... (%zu in all)", l->n);
+    snprintf(l->text + used, sizeof l->text - used, "%s", name_meant(l->nearest, meant));
     return l->text;
 }

@@ -96,12 +96,18 @@ mistakes(const char *a, size_t n, const char *b, size_t m)
     return last[m];
 }
 
-/* Whether `part` stands in the name between hyphens. */
+static bool
+is_joint(char c)
+{
+    return c == '-' || c == '_' || c == '.';
+}
+
+/* Whether `part` stands in the name between hyphens, underscores or points. */
 static bool
 is_part(const char *part, size_t n, const char *name)
 {
     for (const char *s = name; (s = strstr(s, part)) != NULL; s++)
-        if ((s == name || s[-1] == '-') && (s[n] == '\0' || s[n] == '-'))
+        if ((s == name || is_joint(s[-1])) && (s[n] == '\0' || is_joint(s[n])))
             return true;
     return false;
 }
@@ -117,4 +123,20 @@ name_distance(const char *typed, const char *name)
     if (d <= most && d < n)
         return d;
     return n > 2 && is_part(typed, n, name) ? most + 1 : NAME_FAR;
+}
+
+void
+name_nearer(const char *typed, const char *name, char nearest[NAME_SIZE])
+{
+    if (name_distance(typed, name) < name_distance(typed, nearest))
+        snprintf(nearest, NAME_SIZE, "%s", name);
+}
+
+const char *
+name_meant(const char *nearest, char text[NAME_MEANT])
+{
+    text[0] = '\0';
+    if (*nearest != '\0')
+        snprintf(text, NAME_MEANT, ": did you mean %s?", nearest);
+    return text;
 }

@@ -6,7 +6,8 @@
 #include <stddef.h>
 
 enum {
-    NAME_SIZE = 64 /* bytes that a name has at most here, with its end */
+    NAME_SIZE = 64, /* bytes that a name has at most here, with its end */
+    NAME_MEANT = NAME_SIZE + 24
 };
 
 /* The name in the other spelling, "colourmap" for "colormap" and the reverse; NULL where it has but
@@ -17,9 +18,14 @@ bool name_same(const char *a, size_t n, const char *b, size_t m);
 
 /* How far a typed name is from a name: the number of letters left out, added, changed, or exchanged
  * with their neighbour, without regard to case. If the typed name is a whole part of the name, as
- * "pressure" is of "mean-pressure", this is a little more than for the most mistakes that are
+ * "pressure" is of "mean-pressure" and "area" of "contact_area", this is a little more than for the most mistakes that are
  * allowed. NAME_FAR: it is another name. */
 size_t name_distance(const char *typed, const char *name);
 #define NAME_FAR ((size_t)-1)
+
+/* Puts the name in the place of `nearest`, which starts as "", where it is nearer to what was typed. */
+void name_nearer(const char *typed, const char *name, char nearest[NAME_SIZE]);
+/* ": did you mean NAME?" for the end of a message; "" where no name is near. */
+const char *name_meant(const char *nearest, char text[NAME_MEANT]);
 
 #endif
