@@ -1049,7 +1049,8 @@ RC_API enum rc_status rc_slip_set_pressure(struct rc_slip *slip, const double *p
                                            struct rc_err *err);
 /* Force (N) or displacement (m) at the end of the increment, along x and y, after its pressure. RC_FAIL,
  * with both numbers, when friction cannot carry the force: the bodies slide; the increment is then as
- * before. With a displacement nodes that touch begin as without a gap. */
+ * before. With a displacement nodes that touch begin as without a gap. Bodies that are apart forget: slip and
+ * displacement are 0, whatever is set, and count from the next touch. */
 RC_API enum rc_status rc_slip_set_force(struct rc_slip *slip, double fx, double fy,
                                         struct rc_err *err);
 RC_API enum rc_status rc_slip_set_displacement(struct rc_slip *slip, double dx, double dy,

@@ -156,9 +156,10 @@ rc_slip_step(struct rc_slip *s, struct rc_err *err)
         return rc_err_set(err, "neither a force nor a displacement has been set");
     if (s->done)
         return s->last;
-    if (s->apart) { /* nothing touches: nothing is carried, nothing is displaced */
+    if (s->apart) { /* nothing touches: nothing is carried, and what has been displaced is forgotten */
         pose(s);
         for (int c = 0; c < 2; c++) {
+            s->discs->delta[c] = 0;
             memset(s->discs->q[c], 0, s->n * sizeof(double));
             memset(s->discs->u[c], 0, s->n * sizeof(double));
         }
@@ -210,7 +211,7 @@ rc_slip_keep(struct rc_slip *s)
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (size_t k = 0; k < s->n; k++) {
         for (int c = 0; c < 2; c++) {
-            s->slip[c][k] += slipped(s, c, k);
+            s->slip[c][k] = s->apart ? 0 : s->slip[c][k] + slipped(s, c, k);
             s->origin[c][k] = d->u[c][k] + (s->coupled ? s->pushed[c][k] : 0) - d->delta[c];
             s->old[c][k] = d->q[c][k];
         }
@@ -288,7 +289,9 @@ void
 rc_slip_slip(const struct rc_slip *s, int direction, double *to)
 {
     for (size_t k = 0; k < s->n; k++)
-        to[k] = (s->slip[direction][k] + (s->done ? slipped(s, direction, k) : 0)) * s->unit;
+        to[k] = s->apart
+                    ? 0
+                    : (s->slip[direction][k] + (s->done ? slipped(s, direction, k) : 0)) * s->unit;
 }
 
 void

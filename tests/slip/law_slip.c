@@ -443,6 +443,62 @@ test_periodic_displacement_gives_the_force(void **state)
     free(even);
 }
 
+/* Bodies that came apart begin anew: displacement, slip, stiffness and tractions of what follows are those of
+ * bodies that have never touched. */
+static void
+test_bodies_apart_forget(void **state)
+{
+    const struct rc_shape shape = {32, 32, 1, 1};
+    size_t n = shape.nx * shape.ny;
+    double *p = pressure_of(&shape, RC_FREE, slip_sphere(&shape, 300), 0.01), limit = 0;
+    double *slips[2] = {malloc(n * sizeof(double)), malloc(n * sizeof(double))};
+    struct rc_slip_problem what = {.pair.estar = 1, .nu = 0.3, .mu = 0.3, .tol = 1e-10};
+    struct rc_slip *slip[2] = {rc_slip_new(&shape, &what, NULL), rc_slip_new(&shape, &what, NULL)};
+    struct rc_slip_figures f[2];
+
+    (void)state;
+    for (size_t k = 0; k < n; k++)
+        limit += what.mu * p[k];
+    for (int moved = 0; moved < 2; moved++) {
+        for (int k = 0; k < 2; k++) { /* the first one touches, slips and comes apart before */
+            for (int step = k == 0 ? 0 : 3; step < 5; step++) {
+                double to = step == 1 ? -0.8 * limit : step == 2 ? 0 : step == 4 ? 0.5 * limit : 0;
+                rc_slip_set_pressure(slip[k], step == 2 ? NULL : p, NULL, NULL);
+                if (moved)
+                    rc_slip_set_displacement(slip[k], step == 2 ? 7 : to / 30, 0, NULL);
+                else
+                    rc_slip_set_force(slip[k], to, to / 3, NULL);
+                assert_int_equal(slip_solve(slip[k], &f[k]), RC_OK);
+                rc_slip_keep(slip[k]);
+                rc_slip_slip(slip[k], 0, slips[k]);
+                if (step == 2)
+                    assert_true(f[k].displacement[0] == 0 && f[k].displacement[1] == 0 &&
+                                slips[k][n / 2] == 0);
+            }
+        }
+        assert_true(f[1].slip_nodes > 0 && f[1].stick_nodes > 0);
+        assert_int_equal(f[0].slip_nodes, f[1].slip_nodes);
+        assert_true(fabs(f[0].displacement[0] / f[1].displacement[0] - 1) < 1e-9);
+        assert_true(fabs(f[0].stiffness / f[1].stiffness - 1) < 1e-9);
+        for (size_t k = 0; k < n; k++) {
+            assert_true(fabs(rc_slip_traction(slip[0], 0)[k] - rc_slip_traction(slip[1], 0)[k]) <
+                        1e-8 * what.mu);
+            assert_true(fabs(slips[0][k] - slips[1][k]) <= 1e-8 * f[1].largest_slip);
+        }
+        rc_slip_set_pressure(slip[0], NULL, NULL, NULL);
+        rc_slip_set_force(slip[0], 0, 0, NULL);
+        slip_solve(slip[0], &f[0]);
+        rc_slip_keep(slip[0]);
+        rc_slip_free(slip[1]);
+        slip[1] = rc_slip_new(&shape, &what, NULL);
+    }
+    for (int k = 0; k < 2; k++) {
+        rc_slip_free(slip[k]);
+        free(slips[k]);
+    }
+    free(p);
+}
+
 /* Units change and numbers follow; so do axes, and the direction of the force; and threads change nothing. */
 static void
 test_units_axes_and_threads(void **state)
@@ -510,6 +566,7 @@ main(void)
         cmocka_unit_test(test_work_does_not_grow),
         cmocka_unit_test(test_nonsense_is_refused),
         cmocka_unit_test(test_periodic_displacement_gives_the_force),
+        cmocka_unit_test(test_bodies_apart_forget),
         cmocka_unit_test(test_units_axes_and_threads),
     };
 

@@ -85,6 +85,12 @@ claim "  to the pressure of rc-solve" awk -F ' ' '{ d = $1 - $2; s += d < 0 ? -d
 claim "  in more increments, whose error is told" awk -v n="$(column increments 2 grow.tsv)" -v e="$(column increment_error_estimate 2 grow.tsv)" \
     'BEGIN { exit !(n == 8 && e > 1e-4 && e < 0.05) }'
 claim "  and at last nothing touches" test "$(column stick_nodes 4 grow.tsv)$(column slip_area 4 grow.tsv)" = 00
+rc-slip --quiet --mu 0.3 --path '240N,0,0; 240N,50N,0; 0,0,0; 240N,0,0; 240N,36N,0' --report anew.tsv -o anew.rcg ball.rcg
+for figure in displacement_x tangential_stiffness; do
+    near "$(column $figure 5 anew.tsv)" "$(column $figure 1 one.tsv)" 1e-4 "  after which $figure counts from the next touch"
+done
+claim "  and so does slip" awk '{ d = $1 - $2; s += d < 0 ? -d : d; t += $2 < 0 ? -$2 : $2 } END { exit !(NR == 4096 && s < 1e-3 * t) }' \
+    <(paste -d ' ' <(values anew.rcg slip-x 5 | tr ',' '\n') <(values one.rcg slip-x | tr ',' '\n'))
 rc-slip --quiet --mu 0.3 --path '0,0,0; 240N,20N,10N' --increments 1 --nu 0 --report - -o oblique.rcg \
     <(rc-solve --quiet --load 240N --estar 114GPa sphere.rcg) >oblique.json
 claim "at nu = 0 a force in proportion to the load is carried as the load is, in one increment" awk '
