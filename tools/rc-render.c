@@ -395,6 +395,7 @@ set_panels(struct tool *t, const struct args *a, const struct frames *frames,
         if (frames_pressure(frames, k) != NULL)
             look_contact(of, frames_pressure(frames, k));
         hard = fmax(hard, of->hard);
+        f->pressure = f->pressure == NULL ? of->pressure : f->pressure;
         sheet_check_alike(t, frames->grid[0], &panel[0].figure, g, of);
         sheet_label(&panel[k], frames, k);
     }
@@ -413,7 +414,6 @@ set_panels(struct tool *t, const struct args *a, const struct frames *frames,
         f->medium = panel[0].figure.medium;
         f->media = panel[0].figure.media;
     }
-    f->pressure = panel[0].figure.pressure;
     f->hard = hard;
 }
 
@@ -423,7 +423,7 @@ say_of_sheet(struct subtitle *subtitle, const struct args *a, const struct frame
 {
     subtitle_common(subtitle, frames->grid, frames->n);
     subtitle_part(subtitle, part);
-    subtitle_range(subtitle, all, means, frames->grid[0]->unit);
+    subtitle_range(subtitle, frames->grid[0], all, means);
     if (a->hillshade)
         subtitle_add(subtitle, shaded, "");
 }

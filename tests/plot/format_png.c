@@ -332,6 +332,31 @@ channels_get_their_colours(void **state)
     free(p.rgb);
 }
 
+/* Each has a colour of its own, and a pixel of many nodes that of none other: half no contact (0), half
+ * slip (2) is not stick (1). */
+static void
+categories_are_three_colours(void **state)
+{
+    static const double v[] = {0, 1, 2, 1};
+    static double fine[1600 * 800];
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("state", "1", 4, 1, v));
+    p = render("--raw");
+    is_colour(pixel(&p, 0, 0), 0xeaeaea, 0);
+    is_colour(pixel(&p, 1, 0), 0x440154, 0);
+    is_colour(pixel(&p, 2, 0), 0xfde725, 0);
+    assert_memory_equal(pixel(&p, 1, 0), pixel(&p, 3, 0), 3);
+    free(p.rgb);
+    for (size_t k = 0; k < 1600 * 800; k++)
+        fine[k] = (k + k / 1600) % 2 == 0 ? 0 : 2;
+    put_stream(grid_of("state", "1", 1600, 800, fine));
+    p = render("--width 480");
+    is_colour(pixel(&p, p.head.width / 2, p.head.height / 2), 0xf4e988, 12);
+    free(p.rgb);
+}
+
 static bool
 on_the_scale(const char *map, const unsigned char *rgb)
 {
@@ -842,6 +867,7 @@ main(void)
         cmocka_unit_test(logarithms_give_equal_steps_to_equal_ratios),
         cmocka_unit_test(one_signed_stresses_end_at_zero),
         cmocka_unit_test(channels_get_their_colours),
+        cmocka_unit_test(categories_are_three_colours),
         cmocka_unit_test(missing_and_no_contact_are_no_values),
         cmocka_unit_test(a_table_has_the_colours_of_the_map),
         cmocka_unit_test(lightness_rises_and_evenly),

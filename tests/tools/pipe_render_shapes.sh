@@ -41,6 +41,9 @@ claim "a sheet of gaps has the border of each case" eval 'rc-render --channel ga
 claim "  with --contour too" eval 'rc-render --channel gap --case 1,2 --contour -o sheet.svg two.rcg && says ">edge of contact<" cat sheet.svg'
 claim "  within a window" rc-render --channel gap --case 1,2 --border --window -10um:10um,-10um:10um -o sheet.svg two.rcg
 claim "  none where the pressure is not there" eval 'rc-pick --channel gap two.rcg | rc-render --sheet 2x1 --border -o sheet.svg && ! says ">edge of contact<" cat sheet.svg'
+rc-solve --quiet --history --load 60mN,0 --estar 100GPa --hardness 1GPa -o apart.rcg rough.rcg
+claim "  nor where nothing touches" eval 'rc-render --channel gap --case 2 --border -o none.svg apart.rcg && ! says "edge of contact" cat none.svg'
+claim "  of a sheet, whose first map has no contact, it is named" eval 'rc-pick --case 2 apart.rcg >a.rcg && cat a.rcg two.rcg | rc-render --channel gap --border --sheet auto -o sheet.svg && says ">edge of contact<" cat sheet.svg'
 
 # ---- reliefs ----
 

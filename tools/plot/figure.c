@@ -77,7 +77,11 @@ figure_place(const struct figure *f, double value)
 struct rgb
 figure_colour(const struct figure *f, double value)
 {
-    return colormap_at(f->map, figure_place(f, value));
+    double t = figure_place(f, value);
+
+    if (f->is == NULL)
+        return colormap_at(f->map, t);
+    return mix(colormap_at(f->map, 0), 1 - t, colormap_at(f->map, 1), t); /* of a pixel, both */
 }
 
 /* Missing nodes are chequered, so that no colour of any map can be taken for them. */
@@ -411,6 +415,8 @@ draw_bar(struct page *p)
            h = (double)p->plot_h;
     const struct axis *a = &p->values;
 
+    if (p->f->is != NULL)
+        return;
     if (p->bar_below) {
         y = round(y + h + page_bar_below(p));
         h = thick;
@@ -553,10 +559,12 @@ draw_swatch(struct page *p, enum swatch swatch, double x, double y, size_t n)
     }
     if (swatch == SWATCH_NONE)
         canvas_fill(p->c, x, y, w, h, p->f->map->none);
+    if (swatch == SWATCH_ONE || swatch == SWATCH_TWO)
+        canvas_fill(p->c, x, y, w, h, figure_colour(p->f, swatch == SWATCH_ONE ? 1 : 2));
     for (size_t j = 0; swatch == SWATCH_MISSING && j < n; j++)
         for (size_t i = 0; i < n + n / 3; i++)
             canvas_pixel(p->c, (size_t)x + i, (size_t)y + j, missing_at(p, i, j));
-    if (swatch == SWATCH_NONE || swatch == SWATCH_MISSING)
+    if (swatch >= SWATCH_NONE && swatch <= SWATCH_MISSING)
         canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * u)), page_ink);
 }
 

@@ -58,6 +58,8 @@ struct figure {
     bool zero_is_none;      /* value 0 has no colour of the bar                      */
     size_t zeros;           /* nodes of that value                                   */
     const char *none;       /* what it means: "no contact"                           */
+    const char *const *is;  /* what values 1 and 2 mean (NULL: none has it): categories, which have
+                               a legend in place of the bar; NULL: values           */
     const char *missing_is; /* what missing nodes are; NULL: not measured        */
     bool contour;           /* lines at the marks of the bar, and the contact's edge */
     bool border;            /* of these the contact's edge alone                     */

@@ -81,7 +81,8 @@ fit(struct page *p, const struct canvas_font *font, double width, const char *se
     return n;
 }
 
-/* Breaks text at the separators into lines that fit; what is too much for the last one is cut. */
+/* Breaks text at the separators into lines that fit, a piece too long for a line between its words;
+ * what is too much for the last one is cut. */
 void
 page_wrap(struct page *p, const struct canvas_font *font, double width, const char *separator,
           const char *text, struct text *t)
@@ -90,8 +91,14 @@ page_wrap(struct page *p, const struct canvas_font *font, double width, const ch
         size_t n = t->n + 1 < LINES ? fit(p, font, width, separator, text) : strlen(text);
 
         copy_text(t->line[t->n], text, n);
+        if (t->n + 1 < LINES && canvas_text_width(p->c, font, t->line[t->n]) > width) {
+            n = fit(p, font, width, " ", text);
+            copy_text(t->line[t->n], text, n);
+        }
         page_shorten(p, font, width, t->line[t->n]);
-        text += text[n] == '\0' ? n : n + strlen(separator);
+        text += text[n] == '\0'                                        ? n
+                : strncmp(text + n, separator, strlen(separator)) == 0 ? n + strlen(separator)
+                                                                       : n + 1;
     }
 }
 
@@ -208,6 +215,14 @@ page_bar_right(const struct page *p)
 }
 
 double
+page_right(const struct page *p)
+{
+    if (p->curve || p->f->is != NULL)
+        return 24 * p->u + fmax(0.5 * p->across.widest, p->gutter);
+    return page_bar_right(p) + 42 * p->u + p->values.widest + 1.8 * p->large.size + 24 * p->u;
+}
+
+double
 page_bar_below(const struct page *p)
 {
     return page_marks(p) + 18 * p->u;
@@ -281,7 +296,7 @@ set_plot(struct page *p, double width)
            : width > 0 ? fmax((double)p->f->width / 1200, 0.5)
            : p->curve  ? 1
                        : fmax((double)p->plot_w, (double)p->plot_h) / 900;
-    p->bar_below = (double)p->plot_h < 300 * p->u;
+    p->bar_below = (double)p->plot_h < 300 * p->u && p->f->is == NULL;
     page_fonts(p);
 }
 
@@ -289,25 +304,21 @@ set_plot(struct page *p, double width)
 static void
 measure_sides(struct page *p)
 {
-    double u = p->u, half;
+    double u = p->u;
     struct axis *upright = p->curve ? &p->values : &p->down;
 
     choose_marks(p, &p->across, (double)p->plot_w, false);
     choose_marks(p, upright, (double)p->plot_h, true);
     if (!p->curve)
         even_steps(p);
-    half = 0.5 * p->across.widest;
     p->left_w = 24 * u + 1.3 * p->large.size + 8 * u + upright->widest + 14 * u;
     p->gutter = media_gutter(p);
-    p->right_w = 24 * u + fmax(half, p->gutter);
-    if (p->curve)
-        return;
-    choose_marks(p, &p->values, (double)(p->bar_below ? p->plot_w : p->plot_h), !p->bar_below);
-    if (p->bar_below)
-        p->right_w = fmax(p->right_w, 24 * u + 0.5 * p->values.widest + 14 * u);
-    else
+    if (!p->curve)
+        choose_marks(p, &p->values, (double)(p->bar_below ? p->plot_w : p->plot_h), !p->bar_below);
+    p->right_w = page_right(p);
+    if (p->bar_below && !p->curve)
         p->right_w =
-            page_bar_right(p) + 28 * u + 14 * u + p->values.widest + 1.8 * p->large.size + 24 * u;
+            24 * u + fmax(fmax(0.5 * p->across.widest, p->gutter), 0.5 * p->values.widest + 14 * u);
 }
 
 double
@@ -368,8 +379,10 @@ set_legend(struct page *p, double width)
     char text[LINE];
 
     p->notes = 0;
-    if (p->f->zero_is_none && p->f->zeros > 0 && !p->curve)
+    if (p->f->zero_is_none && (p->f->zeros > 0 || p->f->is != NULL) && !p->curve)
         add_note(p, width, SWATCH_NONE, p->f->none);
+    for (int k = 0; k < 2 && p->f->is != NULL && p->f->is[k] != NULL; k++)
+        add_note(p, width, k == 0 ? SWATCH_ONE : SWATCH_TWO, p->f->is[k]);
     snprintf(text, sizeof text, "%s%s (%zu of %zu nodes)", p->curve ? "gaps: " : "",
              p->f->missing_is == NULL ? "not measured" : p->f->missing_is, p->f->missing,
              p->f->nodes != 0 ? p->f->nodes : p->g->nx * p->g->ny);
@@ -412,7 +425,7 @@ overhang(struct page *p)
     const char *left = p->curve ? p->values.label : p->down.label;
     double longest = canvas_text_width(p->c, &p->large, left);
 
-    if (!p->curve && !p->bar_below)
+    if (!p->curve && !p->bar_below && p->f->is == NULL)
         longest = fmax(longest, canvas_text_width(p->c, &p->large, p->values.label));
     return fmax(0, 0.5 * (longest - (double)p->plot_h));
 }

@@ -34,6 +34,8 @@ struct text {
 enum swatch {
     SWATCH_NOTHING,
     SWATCH_NONE,
+    SWATCH_ONE,
+    SWATCH_TWO,
     SWATCH_MISSING,
     SWATCH_CONTACT,
     SWATCH_HARD,
@@ -74,6 +76,8 @@ void page_lay_out(struct page *page);
 double page_swatch(const struct page *page, size_t k);
 /* From the plot's right edge to a bar beside it, and from its lower edge to a bar below. */
 double page_bar_right(const struct page *page);
+/* From the plot's right edge to that of the page, with a bar beside it or, of categories, none. */
+double page_right(const struct page *page);
 double page_bar_below(const struct page *page);
 /* The height that marks and label take below an axis. */
 double page_marks(const struct page *page);
@@ -87,7 +91,8 @@ struct canvas *page_canvas(const struct page *page, size_t w, size_t h, struct r
 void page_fonts(struct page *page);
 /* Cuts the end of a line that is wider than `width`. */
 void page_shorten(struct page *page, const struct canvas_font *font, double width, char line[LINE]);
-/* Breaks text at the separators into lines that fit; what is too much for the last one is cut. */
+/* Breaks text at the separators into lines that fit, a piece too long for a line between its words;
+ * what is too much for the last one is cut. */
 void page_wrap(struct page *page, const struct canvas_font *font, double width,
                const char *separator, const char *text, struct text *lines);
 /* Breaks title and subtitle into lines; a title with a word too long for one gets smaller. */

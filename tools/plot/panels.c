@@ -53,8 +53,7 @@ lay_out(struct sheet *s, struct rc_err *err)
         p->plot_h = (size_t)fmax(s->w / aspect, 1);
         page_measure(p);
         p->left_w = 24 * u + 1.3 * p->large.size + 8 * u + p->down.widest + 14 * u;
-        p->right_w =
-            page_bar_right(p) + 28 * u + 14 * u + p->values.widest + 1.8 * p->large.size + 24 * u;
+        p->right_w = page_right(p);
         s->across = fmax(22 * u + p->gutter, p->across.widest + 14 * u); /* marks at both edges */
         s->w =
             floor(((double)p->w - p->left_w - p->right_w - s->across * (double)(s->columns - 1)) /

@@ -27,21 +27,6 @@ look_stamp(const struct rc_grid *g)
     return converged != NULL && strcmp(converged, "no") == 0 ? "not converged" : NULL;
 }
 
-/* From which pressure on a node yields; 0: none does. */
-static double
-hardness_of(const struct rc_grid *p)
-{
-    const double rounding = 1e-9;
-    double hardness, largest = 0;
-
-    if (p == NULL || !rc_grid_number(p, "hardness", &hardness) || !(hardness > 0))
-        return 0;
-    for (size_t k = 0; k < p->nx * p->ny; k++)
-        largest = fmax(largest, p->v[k]);
-    hardness *= 1 - rounding;
-    return largest >= hardness ? hardness : 0;
-}
-
 static void
 choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t n,
              const struct survey *s, struct look *look, struct figure *f)
@@ -63,6 +48,21 @@ choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t
     f->note = r->note[0] == '\0' ? NULL : r->note;
 }
 
+/* 1 has the first colour of the map, 2 the last. */
+static void
+set_categories(struct tool *t, const struct args *a, const struct look *look, struct figure *f)
+{
+    if (a->range != NULL || a->clip || a->style.log != NULL)
+        tool_warn(t, "channel %s holds categories, not values: --%s does nothing", look->what.name,
+                  a->range != NULL ? "range"
+                  : a->clip        ? "clip"
+                                   : "log");
+    f->is = look->what.is;
+    f->lo = 1;
+    f->hi = 2;
+    f->border = true;
+}
+
 size_t
 look_code(const struct tool *t)
 {
@@ -78,12 +78,13 @@ look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t 
             const struct survey *s, struct look *look, struct figure *f)
 {
     const struct rc_grid *g = grid[0];
+    bool curve = look_is_profile(g) && !a->raw;
 
     look->what = channel_of(g, s);
     *f = (struct figure){
         .title = a->title == NULL ? look->what.title : a->title,
         .stamp = look_stamp(g),
-        .quantity = look->what.title,
+        .quantity = look->what.axis != NULL && curve ? look->what.axis : look->what.title,
         .unit = g->unit,
         .dunit = rc_grid_dunit(g),
         .map = colormap_find(a->colormap == NULL ? look->what.colormap : a->colormap),
@@ -106,16 +107,27 @@ look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t 
         .vector = canvas_format(ending_of(t->out_name)) != CANVAS_PNG,
         .paper = canvas_format(ending_of(t->out_name)) == CANVAS_PDF,
     };
-    choose_range(t, a, grid, n, s, look, f);
+    if (look->what.is[0] != NULL && !curve)
+        set_categories(t, a, look, f);
+    else
+        choose_range(t, a, grid, n, s, look, f);
     if (a->depths != NULL && rc_grid_get(g, "section") == NULL)
         tool_warn(t, "--depth-range is for sections: this %s has no rows of depths", g->channel);
 }
 
 void
-look_contact(struct figure *f, const struct rc_grid *pressure)
+look_contact(struct figure *f, const struct rc_grid *p)
 {
-    f->pressure = pressure;
-    f->hard = hardness_of(pressure);
+    const double rounding = 1e-9;
+    double hardness, largest = 0;
+
+    for (size_t k = 0; p != NULL && k < p->nx * p->ny; k++)
+        largest = fmax(largest, p->v[k]);
+    f->pressure = largest > 0 ? p : NULL;
+    f->hard = 0;
+    if (largest > 0 && rc_grid_number(p, "hardness", &hardness) && hardness > 0 &&
+        largest >= hardness * (1 - rounding))
+        f->hard = hardness * (1 - rounding);
 }
 
 void

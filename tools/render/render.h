@@ -45,6 +45,8 @@ struct channel {
     bool to_zero;        /* they end there                                    */
     const char *none;    /* what a value of 0 means, where that is no colour; NULL: itself */
     const char *missing; /* what a missing one means; NULL: not measured                   */
+    const char *is[2];   /* what 1 and 2 mean where values are categories; NULL: none      */
+    const char *axis;    /* of a curve of these; NULL: the title                           */
 };
 
 /* A channel that is not known is called by its own name, and what has both signs gets colours for
@@ -152,9 +154,9 @@ struct subtitle {
 void subtitle_add(struct subtitle *subtitle, const char *name, const char *value);
 /* The largest value of means, and of single nodes. */
 void means_say(const struct means *means, struct subtitle *subtitle, const char *unit);
-/* The extremes; of means, of them and of single nodes. */
-void subtitle_range(struct subtitle *subtitle, const struct survey *survey,
-                    const struct means *means, const char *unit);
+/* The extremes, which categories have not; of means, of them and of single nodes. */
+void subtitle_range(struct subtitle *subtitle, const struct rc_grid *grid,
+                    const struct survey *survey, const struct means *means);
 /* What all frames of a picture have in common: source, case, load, depth. */
 void subtitle_common(struct subtitle *subtitle, struct rc_grid *const *grid, size_t n);
 /* Whether a key is the same in all frames. */
@@ -184,14 +186,15 @@ const char *words_hertz(struct tool *tool, struct words *words, const struct rc_
 /* ---- table.c: columns of reports: tables with tabs, lines of JSON ---- */
 
 struct column {
-    const char *name;        /* as asked for: of JSON also what is inside objects, "psd.q" or "q" */
-    bool optional;           /* may be absent: then all its values are NaN                        */
-    bool label;              /* its cells are kept as words, and v holds the numbers of these     */
-    bool found, words;       /* words: some of its cells are text                                 */
-    char unit[24];           /* from the heading; empty: not said                                 */
-    char nearest[NAME_SIZE]; /* of the names there are, where there is no such one              */
-    double *v;               /* true is 1, false 0; NaN: unknown                                  */
-    char **word;             /* of labels, in the order in which they came                        */
+    const char *name; /* as asked for: of JSON also what is inside objects, "psd.q" or "q" */
+    bool optional;    /* may be absent: then all its values are NaN                        */
+    bool label;       /* its cells are kept as words, and v holds the numbers of these     */
+    bool either;      /* the same where none of its cells is a number                      */
+    bool found, words, numbers; /* words: some of its cells are text, numbers: some are none */
+    char unit[24];              /* from the heading; empty: not said                        */
+    char nearest[NAME_SIZE];    /* of the names there are, where there is no such one       */
+    double *v;                  /* true is 1, false 0; NaN: unknown                         */
+    char **word;                /* of labels, in the order in which they came               */
     size_t word_count;
 };
 
@@ -398,12 +401,13 @@ const char *look_stamp(const struct rc_grid *grid);
 /* What a figure of n frames is like, but for its subtitle, what touches, and where they lie. */
 void look_figure(struct tool *tool, struct args *args, struct rc_grid *const *grid, size_t n,
                  const struct survey *survey, struct look *look, struct figure *figure);
-/* What touches, by the pressure on the same grid; NULL: that is not known. */
+/* What touches, if anything does, and from which pressure on it yields, by the pressure on the same
+ * grid; NULL: that is not known. */
 void look_contact(struct figure *figure, const struct rc_grid *pressure);
-/* Where a map lies. */
 /* In which places of a frame are read: lengths, or plain numbers where its key dunit says another
  * unit. */
 enum unit look_unit(const struct rc_grid *grid);
+/* Where a map lies. */
 void look_extent(const struct window *window, struct figure *figure);
 /* Ends the tool where --aspect would make the plot too long. */
 void look_aspect(struct tool *tool, const struct rc_grid *grid, const struct figure *figure);

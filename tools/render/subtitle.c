@@ -52,15 +52,18 @@ extreme(char text[TICKS_TEXT], double value, const struct survey *s, const char 
 }
 
 void
-subtitle_range(struct subtitle *w, const struct survey *s, const struct means *m, const char *unit)
+subtitle_range(struct subtitle *w, const struct rc_grid *g, const struct survey *s,
+               const struct means *m)
 {
     char text[TICKS_TEXT];
 
-    subtitle_add(w, "min ", extreme(text, s->min, s, unit));
+    if (channel_of(g, s).is[0] != NULL)
+        return;
+    subtitle_add(w, "min ", extreme(text, s->min, s, g->unit));
     if (m->taken)
-        means_say(m, w, unit);
+        means_say(m, w, g->unit);
     else
-        subtitle_add(w, "max ", extreme(text, s->max, s, unit));
+        subtitle_add(w, "max ", extreme(text, s->max, s, g->unit));
 }
 
 void
@@ -90,7 +93,7 @@ subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey 
         subtitle_add(w, "load ", scale_value(text, load, "N"));
     say_where(w, g, largest);
     subtitle_part(w, part);
-    subtitle_range(w, s, means, g->unit);
+    subtitle_range(w, g, s, means);
 }
 
 /* ---- several frames ---- */
