@@ -63,6 +63,14 @@ rc-slip --quiet --mu 0.3 --nu 0.3 --displacement 0.2um --output traction-x,slip-
 for channel in traction-x slip-x state; do draw "$channel" --channel "$channel" slip.rcg; done
 rc-synth sphere --nx 129 --dx 10um --radius 7.5mm | rc-solve --quiet --load 60N --estar 114GPa --output pressure -o ball.rcg
 draw hertz --cut y=0 --hertz --radius 7.5mm ball.rcg
+rc-leak --quiet --viscosity 1mPas --pressure-drop 100kPa --output channel contact.rcg -o leak.rcg
+draw channel leak.rcg
+printf 'mean_pressure/Pa\tflow_rate/m3/s\n1e8\t1e-12\n3e8\t2e-13\n6e8\t0\n' >seal.tsv
+draw seal --curve mean_pressure:flow_rate --log y seal.tsv
+rc-solve --quiet --history --radius 7.5mm --load 0,20N,60N,20N,0,60N,90N,0 --estar 114GPa --hardness 6GPa --output pressure --report history.tsv surface.rcg -o history.rcg
+draw history --curve indentation:load history.tsv
+printf 'material\tload/N\nsteel\t1\nbronze\t3\nPTFE, filled with glass\t2\n' >materials.tsv
+draw categories --curve material:load materials.tsv
 draw persson --curve mean_pressure:contact_fraction --law persson --log xy sweep.tsv
 draw histogram --channel pressure --histogram contact.rcg
 rc-solve --quiet --radius 7.5mm --load 60N,240N --estar 113.93GPa --hardness 6GPa --output pressure,gap,height surface.rcg -o loads.rcg

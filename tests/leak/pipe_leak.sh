@@ -110,7 +110,11 @@ claim "    nor its sign" bash -c '! grep -q "narrowest place" part.svg && test -
 claim "fluid pressure" rc-render --case 2 --channel fluid-pressure leak.rcg -o pressure.svg
 claim "  says what has none" says 'contact, or fluid that is shut in \([0-9]+ of' legend pressure.svg
 claim "leakage against load" rc-render --curve mean_pressure:flow_conductance --log y -o curve.svg loads.tsv
-claim "  a load that lets nothing through is told" says '1 point at or below 0 cannot be on a logarithmic axis' legend curve.svg
+claim "  a load that lets nothing through is told" says "1 load sealed \(no flow\)" legend curve.svg
+claim "  in the unit of a volume" says 'Flow conductance \(m 3 *\)' legend curve.svg
+claim "channels are three colours, and no bar" rc-render --case 3 --channel channel leak.rcg -o channel.svg
+claim "  named in the legend" says 'Flow channels .*contact fluid stands fluid flows' legend channel.svg
+claim "  as of a sheet" bash -c 'rc-render --sheet auto --channel channel leak.rcg -o sheet.svg && grep -q ">fluid stands<" sheet.svg && ! grep -q ">[0-2]\.[05]0*<" sheet.svg'
 rc-render --channel pressure --case 2 pressed.rcg -o contact.svg
 claim "of other maps the legend is as it was" says 'no contact' legend contact.svg
 

@@ -93,7 +93,50 @@ claim "  of a map, a cut and a sheet too" bash -c '
     done'
 claim "units and texts of a cut" eval 'rc-render --cut y=0 --x-unit mm --y-unit nm --x-label Place -o c.svg ball.rcg && shows c.svg ">Place \\(mm\\)<" && shows c.svg "\\(nm\\)<"'
 
+# ---- histories: loading and unloading ----
+
+printf 'load/N\tindentation/m\tcontact_area/m2\n0\t0\t0\n1\t1\t1\n2\t2\t2\n1\t1.5\t1.1\n0\t0.5\t0\n1\t1.5\t1.1\n2\t2\t2\n3\t3\t3\n1\t2\t1.2\n2\t2.5\t2.1\n1\t2\t1.2\n' >history.tsv
+claim "a history is drawn without a word of lines that turn back" eval 'rc-render --curve indentation:load -o h.svg history.tsv 2>said.txt && [ ! -s said.txt ]'
+claim "  its loads in one colour" near h.svg solid 0 0 1 1 2 2 0.5 0 1.5 1 2 2 3 3 2 1 2.5 2
+claim "  its unloadings in another" near h.svg solid 2 2 1.5 1 0.5 0 3 3 2 1 2.5 2 2 1
+claim "    which differs" eval '[ "$(points h.svg | grep solid | cut -d " " -f 1 | sort -u | wc -l)" = 2 ]'
+claim "  named in the legend" eval 'shows h.svg ">loading<" && shows h.svg ">unloading<" && shows h.svg ">Indentation \\(m\\)<"'
+claim "  over the load too" eval 'rc-render --curve load:contact_area -o h.svg history.tsv && near h.svg solid 2 2 1 1.1 0 0 3 3 1 1.2 2 2.1 1 1.2'
+claim "of loads that only grow there is one curve" eval 'head -n 4 history.tsv | rc-render --curve indentation:load -o h.svg && near h.svg solid 0 0 1 1 2 2 && ! shows h.svg ">loading<"'
+claim "forty cycles are two curves" eval '{ printf "load\tindentation\n"; perl -e "printf qq(%g\t%g\n0\t%g\n), \$_, \$_, 0.5 * \$_ for 1 .. 40"; } |
+    rc-render --curve indentation:load -o h.svg && [ "$(points h.svg | grep -c solid)" = 2 ]'
+
+# ---- seals, notes, categories ----
+
+printf 'mean_pressure/Pa\tflow_rate/m3/s\n1\t1e-9\n2\t1e-12\n3\t0\n4\t0\n' >seal.tsv
+claim "a closed seal stands at the foot of a leak curve" rc-render --width 85mm --log y --curve mean_pressure:flow_rate -o seal.svg seal.tsv
+claim "  as many as there are, and one in the legend" test "$(grep -o "<path d=\"[^\"]*Z\"" seal.svg | wc -l)" = 3
+claim "  and the axis goes so far" shows seal.svg 'text-anchor="middle" fill="#222222">4(\.0)?<'
+claim "  the legend says that they are sealed" shows seal.svg '>2 loads sealed \(no flow\)<'
+claim "  the unit is raised" shows seal.svg 'm<tspan dy="-[0-9.]*" font-size="[0-9.]*">3</tspan><tspan dy="[0-9.]*">/s|m</tspan><tspan [^>]*>3</tspan>'
+claim "  and has a power of ten where no marks have" eval 'printf "load/N\tflow_rate/m3/s\n1\t1e-12\n2\t2e-13\n" | rc-render --log --curve load:flow_rate -o z.svg && ! shows z.svg ">0\\.000" && shows z.svg ">Flow rate \\(10<"'
+claim "other columns have points there" eval 'sed s/flow_rate/y/ seal.tsv | rc-render --log --curve mean_pressure:y -o z.svg && shows z.svg ">2 points at or below 0<"'
+claim "a note too long for its line goes on in the next" eval 'sed "1s/x/pressure_over_the_whole_map/" few.tsv | rc-render --curve pressure_over_the_whole_map:y --spread --width 85mm -o n.svg && ! grep -q "…</text>" n.svg && shows n.svg " each\\)</text>"'
+printf 'mat\ty/N\nsteel\t1\nrubber\t3\nsteel\t2\nPTFE, filled with bronze\t2\n' >words.tsv
+# Where markers stand across the plot, 0 to 1.
+across() {
+    perl -0777 -ne 'my ($x, $w) = /<clipPath id="\w+"><rect x="([\d.]+)" y="[\d.]+" width="([\d.]+)"/ or die;
+        printf "%.3f ", ($1 - $x) / $w while /<path d="M([\d.]+) ([\d.]+)L\1 \2"/g' "$1"
+}
+claim "words are categories of an axis x, in the order in which they come" eval 'rc-render --curve mat:y -o c.svg words.tsv &&
+    [ "$(across c.svg)" = "0.167 0.500 0.167 0.833 " ] && shows c.svg ">steel<" && shows c.svg ">rubber<"'
+claim "  in JSON too" eval 'printf "{\"mat\": \"a\", \"y\": 1}\n{\"mat\": \"b\", \"y\": 2}\n" | rc-render --curve mat:y -o c.svg && [ "$(across c.svg)" = "0.250 0.750 " ]'
+claim "  with means" eval 'rc-render --curve mat:y --spread -o c.svg words.tsv && [ "$(across c.svg)" = "0.167 0.500 0.833 " ]'
+claim "  the same words of two tables are one" eval 'sed "s/PTFE/PA/" words.tsv | sed 2d >a.tsv && rc-render --curve mat:y -o c.svg words.tsv a.tsv &&
+    [[ "$(across c.svg)" = "0.125 0.375 0.125 0.625 "* ]]'
+claim "  long ones read upwards, whole" eval 'rc-render --width 85mm --curve mat:y -o c.svg words.tsv && shows c.svg "rotate.*>PTFE, filled with bronze<"'
+claim "a column with a number is one of numbers" eval 'printf "x\ty\na\t1\n2\t3\n4\t5\n" | rc-render --curve x:y -o c.svg && near c.svg solid 2 3 4 5'
+
 # ---- what is not ----
+
+refuses 2 '--log: column mat holds words, which have no logarithm: --log y has only the other axis so' "a logarithm of words" "$draw --log --curve mat:y words.tsv"
+refuses 1 'few.tsv: column x holds numbers, that of n.tsv words: draw two pictures' "words and numbers" "printf 'x/N\ty/m2\na\t1\n' >n.tsv && $draw --curve x:y n.tsv few.tsv"
+refuses 1 'column k holds more than 40 different words, too many for an axis' "a word a row" "perl -e 'print \"k\ty\n\"; print \"a\$_\t1\n\" for 1 .. 41' | $draw --curve k:y"
 
 refuses 2 '--x-unit m: the axis is in N: it must be that with a prefix or without' "a unit of something else" "$draw --curve x:y --x-unit m few.tsv"
 refuses 2 '--y-unit N: the axis is in plain numbers: it must be 1 or %' "a unit of a number" "printf 'x\ty\n1\t2\n' | $draw --curve x:y --y-unit N"

@@ -18,7 +18,8 @@ while (/<path d="([^"]*)" fill="none" ([^>]*)>/g) {
     my ($colour) = $how =~ /stroke="(#\w+)"/;
     my $twice = @p > 1 && "@{$p[0]}" eq "@{$p[1]}"; # where the pen comes down
     my $kind = $how =~ /stroke-dasharray/ ? "dashed" : @p == 2 && $twice ? "marker" : $twice ? "solid" : "bars";
-    shift @p if $twice;
+    my $last = ""; # and again behind each gap
+    @p = grep { my $same = "@$_" eq $last; $last = "@$_"; !$same } @p if $twice;
     printf "%s %s", $colour, $kind;
     printf " %.9g %.9g", value($$_[0], \@x, \@xt), value($$_[1], \@y, \@yt) for @p;
     print "\n";

@@ -15,6 +15,8 @@ static const struct rgb palette[GRAPH_COLOURS] = {
     {0xe6, 0x9f, 0x00}, {0x56, 0xb4, 0xe9}, {0x22, 0x22, 0x22}};
 static const struct rgb rule = {0xe2, 0xe2, 0xe2};
 
+#define AIR 0.04 /* of an axis, beyond its points at either end */
+
 static const double nothing = 1e-290; /* as good as 0 on an axis */
 
 enum {
@@ -37,6 +39,7 @@ struct side {
     } mark[MARKS];
     size_t marks;
     double widest;
+    bool upwards; /* words too long to stand side by side */
 };
 
 struct graph_page {
@@ -48,20 +51,20 @@ struct graph_page {
     double left, top, w, h; /* the plot */
     double u;
     size_t lost; /* points that a logarithmic axis cannot hold */
+    size_t sunk; /* of these, the ones that stand at the foot of the plot */
 };
 
 /* ---- axes ---- */
 
-/* Square metres get the prefix of a length; powers of a unit stand raised. A unit without a prefix
- * stays as it is on a logarithmic axis. */
+/* Square metres get the prefix of a length. A unit without a prefix stays as it is where powers of ten
+ * stand at the marks. */
 static void
-choose_scale(struct scale *s, double largest, const char *unit, bool log)
+choose_scale(struct scale *s, double largest, const char *unit, bool powers)
 {
     static const struct {
         double size;
         const char *unit;
     } areas[] = {{1, "m²"}, {1e-6, "mm²"}, {1e-12, "µm²"}, {1e-18, "nm²"}};
-    char *last;
 
     if (largest < nothing) { /* of which no power of ten is left to divide by */
         scale_choose(s, 1, unit);
@@ -85,17 +88,10 @@ choose_scale(struct scale *s, double largest, const char *unit, bool log)
         return;
     }
     scale_choose(s, largest, unit);
-    if (log && strncmp(s->unit, "10", 2) == 0) { /* powers of ten stand at the marks */
+    if (powers && strncmp(s->unit, "10", 2) == 0) {
         s->size = 1;
-        snprintf(s->unit, sizeof s->unit, "%.40s", strcmp(unit, "1") == 0 ? "" : unit);
+        unit_text(s->unit, strcmp(unit, "1") == 0 ? "" : unit);
     }
-    last = s->unit + strlen(s->unit) - (s->unit[0] != '\0');
-    if (strcmp(last, "2") == 0)
-        strcpy(last, "²");
-    else if (strcmp(last, "3") == 0)
-        strcpy(last, "³");
-    else if (strcmp(last, "4") == 0)
-        strcpy(last, "⁴");
 }
 
 static double
@@ -119,6 +115,20 @@ is_point(const struct graph *g, const struct graph_series *s, size_t k)
     return shows(&g->x, s->x[k]) && (s->kind == GRAPH_BARS || shows(&g->y, s->y[k]));
 }
 
+static bool
+has_markers(const struct graph_series *s)
+{
+    return s->kind == GRAPH_POINTS || (s->kind == GRAPH_MARKS && s->n <= CROWDED);
+}
+
+/* Whether point k is at or below 0 on a logarithmic axis y: it stands at the foot of the plot. */
+static bool
+is_sunk(const struct graph *g, const struct graph_series *s, size_t k)
+{
+    return g->y.log && has_markers(s) && shows(&g->x, s->x[k]) && isfinite(s->y[k]) &&
+           !shows(&g->y, s->y[k]);
+}
+
 /* The least and the largest value of an axis; lo > hi: there is none. Bars stand on 0. */
 static void
 extremes(const struct graph *g, bool up, double *lo, double *hi)
@@ -133,7 +143,7 @@ extremes(const struct graph *g, bool up, double *lo, double *hi)
             bool last = q->kind == GRAPH_BARS && k + 1 == q->n;
             double v = up ? last ? NAN : q->y[k] : q->x[k];
 
-            if (!is_point(g, q, k) || !shows(a, v))
+            if (!(is_point(g, q, k) || (!up && is_sunk(g, q, k))) || !shows(a, v))
                 continue;
             *lo = fmin(*lo, up && q->kind == GRAPH_BARS && !a->log ? 0 : v);
             *hi = fmax(*hi, v);
@@ -170,13 +180,19 @@ set_range(struct side *s, const struct graph *g, bool up, struct rc_err *err)
 
     s->axis = a;
     extremes(g, up, &lo, &hi);
+    if (a->words > 0 && lo <= hi) {
+        *s = (struct side){.axis = a, .scale.size = 1, .lo = -0.5, .hi = (double)a->words - 0.5};
+        snprintf(s->label, sizeof s->label, "%s", a->quantity);
+        return RC_OK;
+    }
     if (!(lo <= hi))
         return g->x.log || g->y.log
                    ? rc_err_set(err, "no point lies above 0 on its logarithmic axes: leave out "
                                      "--log, or give it one axis, x or y")
                    : rc_err_set(err, "%s: no point has a number on both axes", a->quantity);
     if (a->shown == NULL || !scale_given(&s->scale, a->shown, a->unit))
-        choose_scale(&s->scale, fmax(fabs(lo), fabs(hi)), a->unit, a->log);
+        choose_scale(&s->scale, fmax(fabs(lo), fabs(hi)), a->unit,
+                     a->log && (1 + 2 * AIR) * log10(hi / lo) >= 1);
     label(s);
     if (!a->log && fmax(fabs(lo), fabs(hi)) < nothing)
         lo = hi = 0;
@@ -191,7 +207,7 @@ set_range(struct side *s, const struct graph *g, bool up, struct rc_err *err)
         lo -= air;
         hi += air;
     }
-    air = 0.04 * (hi - lo);
+    air = AIR * (hi - lo);
     s->lo = !isnan(a->lo) || (!a->log && lo == 0) ? lo : lo - air;
     s->hi = isnan(a->hi) ? hi + air : hi;
     if (!a->log && isnan(a->lo) && lo > 0 && lo < 0.3 * hi)
@@ -277,12 +293,37 @@ thin_marks(struct graph_page *p, struct side *s, double length, bool upright)
     }
 }
 
+/* Words stand side by side where they fit, else they read upwards. */
+static void
+mark_words(struct graph_page *p, struct side *s, double length)
+{
+    const struct canvas_font *font = &p->page.small;
+    double slot = length / (double)s->axis->words - 8 * p->u;
+    char text[LINE];
+
+    s->widest = 0;
+    for (size_t k = 0; k < s->axis->words; k++)
+        s->widest = fmax(s->widest, canvas_text_width(p->c, font, s->axis->word[k]));
+    s->upwards = s->widest > slot;
+    s->widest = fmin(s->widest, s->upwards ? 0.6 * length : slot);
+    for (size_t k = 0; k < s->axis->words; k++) {
+        snprintf(text, sizeof text, "%s", s->axis->word[k]);
+        page_shorten(&p->page, font, s->widest + 1, text);
+        add_mark(s, place(s, (double)k), true, NULL, 0);
+        snprintf(s->mark[k].text, TICKS_TEXT, "%.60s", text);
+    }
+}
+
 static void
 set_marks(struct graph_page *p, struct side *s, double length, bool upright)
 {
     double most = fmin(9, length / (p->page.small.size * (upright ? 2 : 4.5)));
 
     s->marks = 0;
+    if (s->axis->words > 0) {
+        mark_words(p, s, length);
+        return;
+    }
     if (s->axis->log && s->hi - s->lo >= 1)
         mark_decades(s, most);
     else
@@ -397,12 +438,6 @@ colour_of(const struct graph_series *s)
     return s->kind == GRAPH_LAW ? page_ink : palette[s->place % GRAPH_COLOURS];
 }
 
-static bool
-has_markers(const struct graph_series *s)
-{
-    return s->kind == GRAPH_POINTS || (s->kind == GRAPH_MARKS && s->n <= CROWDED);
-}
-
 static double
 marker_size(const struct graph_page *p, const struct graph_series *s)
 {
@@ -451,6 +486,15 @@ draw_series(struct graph_page *p, const struct graph_series *s)
     draw_error_bars(p, s);
 }
 
+/* A triangle whose tip is at (x, y) below it. */
+static void
+draw_sunk(struct graph_page *p, double x, double y, struct rgb colour)
+{
+    double r = 8 * p->u, at[3][2] = {{x - r, y - 1.8 * r}, {x + r, y - 1.8 * r}, {x, y}};
+
+    canvas_triangle(p->c, at, colour);
+}
+
 /* Whole also where they stand on the frame. */
 static void
 draw_markers(struct graph_page *p, const struct graph_series *s)
@@ -458,6 +502,8 @@ draw_markers(struct graph_page *p, const struct graph_series *s)
     for (size_t k = 0; has_markers(s) && k < s->n; k++) {
         double x, y;
 
+        if (is_sunk(p->g, s, k))
+            draw_sunk(p, x_of(p, s->x[k]), p->top + p->h - 2 * p->u, colour_of(s));
         if (!is_point(p->g, s, k))
             continue;
         x = x_of(p, s->x[k]);
@@ -468,22 +514,34 @@ draw_markers(struct graph_page *p, const struct graph_series *s)
     }
 }
 
+/* What words that read upwards take more below the plot than numbers. */
+static double
+word_room(const struct graph_page *p)
+{
+    return p->x.upwards ? p->x.widest - p->page.small.size : 0;
+}
+
 static void
 draw_across(struct graph_page *p)
 {
     const struct side *s = &p->x;
-    double u = p->u, y = p->top + p->h;
+    double u = p->u, y = p->top + p->h, room = word_room(p);
 
     for (size_t k = 0; k < s->marks; k++) {
         double at = p->left + s->mark[k].at * p->w, length = (s->mark[k].major ? 9 : 5) * u;
 
         canvas_fill(p->c, at - 0.8 * u, y, 1.6 * u, length, page_ink);
-        if (s->mark[k].text[0] != '\0')
+        if (s->upwards)
+            canvas_text_upwards(p->c, &p->page.small, at + 0.36 * p->page.small.size,
+                                y + 13 * u +
+                                    0.5 * canvas_text_width(p->c, &p->page.small, s->mark[k].text),
+                                s->mark[k].text);
+        else if (s->mark[k].text[0] != '\0')
             canvas_text(p->c, &p->page.small, at, y + 13 * u + 0.78 * p->page.small.size, 0.5,
                         s->mark[k].text);
     }
     canvas_text(p->c, &p->page.large, p->left + 0.5 * p->w,
-                y + 13 * u + p->page.small.size + 1.1 * p->page.large.size, 0.5, s->label);
+                y + 13 * u + room + p->page.small.size + 1.1 * p->page.large.size, 0.5, s->label);
 }
 
 static void
@@ -556,6 +614,15 @@ draw_swatch(struct graph_page *p, const struct graph_series *s, double x, double
         draw_marker(p, marker_of(s), x + 0.5 * w, y, 12 * p->u, colour);
 }
 
+static void
+say_sunk(const struct graph_page *p, char text[LINE])
+{
+    const char *what = p->g->zero == NULL ? "point" : "load", *s = p->sunk == 1 ? "" : "s";
+
+    snprintf(text, LINE, "%zu %s%s %s", p->sunk, what, s,
+             p->g->zero == NULL ? "at or below 0" : p->g->zero);
+}
+
 /* Draws the entries from y down, side by side as many as fit, the note last; gives the height that
  * they take. */
 static double
@@ -568,24 +635,29 @@ legend(struct graph_page *p, double y, bool draw)
     char text[LINE];
 
     faint.colour = page_faint;
-    for (size_t k = 0; k < p->g->n; k++) {
-        const struct graph_series *s = &p->g->series[k];
+    for (size_t k = 0; k <= p->g->n; k++) {
+        const struct graph_series *s = k < p->g->n ? &p->g->series[k] : NULL;
         double w;
 
-        if (s->name == NULL)
+        if (s == NULL ? p->sunk == 0 : s->name == NULL)
             continue;
-        snprintf(text, sizeof text, "%s", s->name);
+        if (s == NULL)
+            say_sunk(p, text);
+        else
+            snprintf(text, sizeof text, "%s", s->name);
         page_shorten(&p->page, &p->page.small, p->w - swatch, text);
         w = swatch + canvas_text_width(p->c, &p->page.small, text);
         if (x > p->left && x + w > right) {
             x = p->left;
             y += line;
         }
-        if (draw) {
+        if (draw && s == NULL)
+            draw_sunk(p, x + 0.5 * (SWATCH - 14) * p->u, y + 0.5 * line + 7 * p->u, page_ink);
+        else if (draw)
             draw_swatch(p, s, x, y + 0.5 * line);
+        if (draw)
             canvas_text(p->c, &p->page.small, x + swatch, y + 0.5 * line + 0.36 * faint.size, 0,
                         text);
-        }
         x += w + 34 * p->u;
     }
     y += x > p->left ? line : 0;
@@ -612,8 +684,11 @@ count_lost(struct graph_page *p)
 
     for (size_t s = 0; s < g->n; s++)
         for (size_t k = 0; k < g->series[s].n && g->series[s].kind != GRAPH_BARS; k++)
-            p->lost += isfinite(g->series[s].x[k]) && isfinite(g->series[s].y[k]) &&
-                       !is_point(g, &g->series[s], k);
+            if (is_sunk(g, &g->series[s], k))
+                p->sunk++;
+            else
+                p->lost += isfinite(g->series[s].x[k]) && isfinite(g->series[s].y[k]) &&
+                           !is_point(g, &g->series[s], k);
 }
 
 /* Gives the height of the picture. */
@@ -627,12 +702,12 @@ lay_out(struct graph_page *p)
     set_marks(p, &p->y, p->h, true);
     p->left = round(26 * u + 1.1 * page->large.size + p->y.widest + 28 * u);
     for (int k = 0; k < 2; k++) {
-        p->w = round(width - p->left - 30 * u - 0.5 * p->x.widest);
+        p->w = round(width - p->left - 30 * u - (p->x.axis->words > 0 ? 0 : 0.5 * p->x.widest));
         set_marks(p, &p->x, p->w, false);
     }
     page_words(page, width - 48 * u);
     p->top = round(page_words_height(page) + 22 * u);
-    return p->top + p->h + page_marks(page) + 14 * u + legend(p, 0, false) + 18 * u;
+    return p->top + p->h + page_marks(page) + word_room(p) + 14 * u + legend(p, 0, false) + 18 * u;
 }
 
 static void
@@ -650,7 +725,7 @@ draw(struct graph_page *p)
         draw_markers(p, &p->g->series[s]);
     draw_across(p);
     draw_up(p);
-    legend(p, p->top + p->h + page_marks(&p->page) + 14 * p->u, true);
+    legend(p, p->top + p->h + page_marks(&p->page) + word_room(p) + 14 * p->u, true);
 }
 
 /* Laid out, its height in page.h; NULL when memory is short or an axis has no point. */

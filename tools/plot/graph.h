@@ -33,8 +33,10 @@ struct graph_series {
 struct graph_axis {
     const char *quantity, *unit; /* as in a stream                                 */
     bool log;
-    double lo, hi;     /* SI; NAN: what suits the points                               */
-    const char *shown; /* unit as asked for, see scale_given; NULL: what suits      */
+    double lo, hi;           /* SI; NAN: what suits the points                               */
+    const char *shown;       /* unit as asked for, see scale_given; NULL: what suits      */
+    const char *const *word; /* of an axis x of categories: this stands at k, counted from 0 */
+    size_t words;            /* 0: the axis is of numbers                            */
 };
 
 struct graph {
@@ -45,6 +47,8 @@ struct graph {
     size_t n;
     const double *upright; /* SI: a dashed line across the plot at each, where x is that */
     size_t uprights;
+    const char
+        *zero; /* what a load does whose y is 0: "sealed (no flow)"; NULL: no more than that */
     const char *note; /* a line under the legend; NULL: none                        */
     size_t width;     /* pixels; 0: GRAPH_WIDTH                                     */
     double dpi;       /* as of a figure                                             */

@@ -71,7 +71,7 @@ prefix_of(int power)
 
 /* A unit as it is printed: powers raised, a real mu and a real point. A digit is a power where a
  * letter is before it and none behind it: m2, not H2O. */
-static const char *
+const char *
 unit_text(char text[TICKS_TEXT], const char *unit)
 {
     size_t n = 0;

@@ -16,6 +16,8 @@ struct scale {
 
 /* "10⁻³" */
 const char *power_text(char text[TICKS_TEXT], int power);
+/* A unit as it is printed: powers raised, a real mu: "m³/s". */
+const char *unit_text(char text[TICKS_TEXT], const char *unit);
 /* A unit in which `largest` (SI, its size counts) is written with one to three digits before the
  * point: a prefix where the unit takes one, a power of ten where not. `unit` is as in a stream. */
 void scale_choose(struct scale *scale, double largest, const char *unit);

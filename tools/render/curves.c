@@ -12,6 +12,7 @@
 enum {
     COLUMNS = 16, /* that one picture draws over another */
     SERIES = 64,
+    WORDS = 40, /* categories of an axis */
     NAME = 256,
     SAMPLES = 200 /* of a law */
 };
@@ -35,7 +36,7 @@ static const struct quantity {
     {"yielded_area", "Yielded area", "m2"},
     {"edge_load_fraction", "Share of the load at the edge", "1"},
     {"approach", "Approach", "m"},
-    {"indentation", "Approach from the first touch of all", "m"},
+    {"indentation", "Indentation", "m"},
     {"residual_indentation", "Residual indentation", "m"},
     {"mean_gap", "Mean gap", "m"},
     {"stiffness", "Stiffness", "N/m"},
@@ -110,9 +111,11 @@ struct curves {
     struct table *table; /* one a file                   */
     size_t tables;
     struct law_given given;
-    bool short_of; /* a row is not converged */
-    bool zigzag;   /* a line that turns back has been warned of */
-    bool history;  /* approaches are counted from the first touch of the first shape */
+    bool short_of;           /* a row is not converged */
+    bool zigzag;             /* a line that turns back has been warned of */
+    bool history;            /* approaches are counted from the first touch of the first shape */
+    const char *word[WORDS]; /* of x, where it is one of categories: that of 0, 1, ... */
+    size_t words;
     struct graph_series series[SERIES];
     char name[SERIES][NAME], legend[SERIES * NAME], note[NAME];
     double *own[SERIES];    /* points that are means */
@@ -294,6 +297,7 @@ read_tables(struct curves *c)
             tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
         for (size_t k = 0; k < table->columns; k++) {
             table->column[k].optional = k >= c->asked;
+            table->column[k].either = k == 0;
             table->column[k].label = is_label(c, k);
             table->column[k].name = k < c->asked ? asked_name(c, k) : helper_name[k - c->asked];
         }
@@ -317,11 +321,10 @@ count_from_one_shape(struct curves *c, struct table *table)
 
     for (size_t k = 0; k < table->rows; k++)
         history = history || isfinite(from_first[k]);
+    c->history = c->history || history;
     for (size_t k = 0; k < c->columns && history; k++)
-        if (strcmp(c->column[k], helper_name[APPROACH]) == 0) {
+        if (strcmp(c->column[k], helper_name[APPROACH]) == 0)
             memcpy(table->column[k].v, from_first, table->rows * sizeof *from_first);
-            c->history = true;
-        }
 }
 
 /* All files and all columns over one axis have one unit. */
@@ -477,6 +480,41 @@ word_number(const struct curves *c, size_t column, const char *word)
     return n;
 }
 
+/* Words of the tables' x are numbered through all tables. */
+static void
+take_words(struct curves *c)
+{
+    for (size_t f = 0; f < c->tables; f++) {
+        struct column *x = &c->table[f].column[0];
+
+        if (x->numbers != c->table[0].column[0].numbers)
+            tool_die(c->tool, EXIT_IMPOSSIBLE,
+                     "%s: column %s holds %s, that of %s %s: draw two pictures", c->table[f].source,
+                     x->name, x->numbers ? "numbers" : "words", c->table[0].source,
+                     x->numbers ? "words" : "numbers");
+        if (x->numbers)
+            continue;
+        if (curve_log(c->style, 'x'))
+            tool_die(c->tool, EXIT_USAGE,
+                     "--log: column %s holds words, which have no logarithm: --log y has only the "
+                     "other axis so",
+                     x->name);
+        for (size_t w = 0; w < x->word_count; w++) {
+            size_t number = word_number(c, 0, x->word[w]);
+
+            if (number >= WORDS)
+                tool_die(c->tool, EXIT_IMPOSSIBLE,
+                         "column %s holds more than %d different words, too many for an axis",
+                         x->name, WORDS);
+            c->word[number] = x->word[w];
+            c->words = number + 1 > c->words ? number + 1 : c->words;
+        }
+        for (size_t row = 0; row < c->table[f].rows; row++)
+            if (!isnan(x->v[row]))
+                x->v[row] = (double)word_number(c, 0, x->word[(size_t)x->v[row]]);
+    }
+}
+
 /* ---- curves ---- */
 
 static struct graph_series *
@@ -493,57 +531,118 @@ new_series(struct curves *c)
 
 enum stretch {
     LOADING,
-    RETRACTION,
+    UNLOADING,
     JUMP,
     STRETCHES
 };
 
-/* A stretch of a path; `place` is that of the first of its kind, which alone has a name. */
-static void
-add_stretch(struct curves *c, const double *x, const double *y, size_t n, enum stretch what,
-            const char *whose, size_t place[STRETCHES])
+/* Which way bodies move along a path: by the indentation where the report counts one. */
+static const double *
+way_of(const struct curves *c, const struct table *table, size_t from)
 {
-    static const char *const word[STRETCHES] = {"loading", "retraction", "jump"};
-    struct graph_series *s = new_series(c);
-    char *name = c->name[c->n - 1];
+    return helper(c, table, isfinite(helper(c, table, INDENTATION)[from]) ? INDENTATION : APPROACH);
+}
 
-    if (place[what] == SERIES) {
-        place[what] = s->place;
-        if (*whose != '\0')
-            add_word(name, whose);
-        add_word(name, word[what]);
-        s->name = name;
+/* How each row of a path is reached from the row before it. */
+static enum stretch *
+find_steps(struct curves *c, const struct table *table, size_t from, size_t to)
+{
+    const double *at = way_of(c, table, from), *jumps = helper(c, table, JUMPS);
+    enum stretch *step = calloc(to - from + 1, sizeof *step);
+    const double rounding = 1e-9;
+
+    if (step == NULL)
+        tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
+    for (size_t k = 1; k < to - from; k++) {
+        double here = at[from + k], last = at[from + k - 1];
+
+        if (jumps[from + k] > 0)
+            step[k] = JUMP;
+        else if (fabs(here - last) > rounding * fmax(fabs(here), fabs(last)))
+            step[k] = here < last ? UNLOADING : LOADING;
+        else
+            step[k] = step[k - 1] == JUMP ? LOADING : step[k - 1];
     }
-    s->place = place[what];
+    return step;
+}
+
+/* Steps of one kind, with gaps between stretches; a row alone between jumps goes with the way to it. */
+static void
+add_stretches(struct curves *c, const double *x, const double *y, const double *at,
+              const enum stretch *step, size_t rows, enum stretch what, const char *name)
+{
+    double *v = malloc(4 * rows * sizeof *v);
+    struct graph_series *s;
+    size_t n = 0;
+
+    if (v == NULL)
+        tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
+    for (size_t k = 0; k < rows; k++) {
+        bool to = k > 0 && step[k] == what, on = k + 1 < rows && step[k + 1] == what;
+        bool alone = k > 0 && step[k] == JUMP && (k + 1 == rows || step[k + 1] == JUMP);
+
+        if (!to && !on && !(alone && what == (at[k] < at[k - 1] ? UNLOADING : LOADING)))
+            continue;
+        if (n > 0 && !to) {
+            v[n] = NAN;
+            v[2 * rows + n++] = NAN;
+        }
+        v[n] = x[k];
+        v[2 * rows + n++] = y[k];
+    }
+    if (n == 0) {
+        free(v);
+        return;
+    }
+    s = new_series(c);
+    c->own[c->n - 1] = v;
+    snprintf(c->name[c->n - 1], NAME, "%s", name);
+    s->name = c->name[c->n - 1];
     s->kind = what == JUMP ? GRAPH_LAW : GRAPH_MARKS;
-    s->x = x;
-    s->y = y;
+    s->x = v;
+    s->y = v + 2 * rows;
     s->n = n;
 }
 
-/* The path of bodies that attract each other: together, apart, and between the two where they jump. */
+/* Whether a piece is a path: bodies that attract each other, or loads that follow each other with an
+ * unloading among them. */
+static bool
+is_path(struct curves *c, const struct table *table, size_t from, size_t to)
+{
+    bool unloads = false;
+    enum stretch *step;
+
+    if (c->style->spread || c->style->points || c->errors > 0 || c->words > 0 || to - from < 2)
+        return false;
+    if (isfinite(helper(c, table, JUMPS)[from]))
+        return true;
+    if (!isfinite(helper(c, table, INDENTATION)[from]) || c->bys == GROUP_COLUMNS)
+        return false;
+    step = find_steps(c, table, from, to);
+    for (size_t k = 1; k < to - from; k++)
+        unloads = unloads || step[k] == UNLOADING;
+    free(step);
+    return unloads;
+}
+
 static void
 add_path(struct curves *c, const struct table *table, size_t k, size_t from, size_t to,
          const char *whose)
 {
-    const double *at = helper(c, table, APPROACH), *jumps = helper(c, table, JUMPS);
-    const double *x = table->column[0].v, *y = table->column[k].v;
-    size_t place[STRETCHES] = {SERIES, SERIES, SERIES}, last;
+    const double *at = way_of(c, table, from), *x = table->column[0].v, *y = table->column[k].v;
+    const char *back = at == helper(c, table, APPROACH) ? "retraction" : "unloading";
+    const char *const word[STRETCHES] = {"loading", back, "jump"};
+    enum stretch *step = find_steps(c, table, from, to);
 
-    for (size_t row = from;; row = last) {
-        for (last = row; last + 1 < to && !(jumps[last + 1] > 0); last++)
-            if (last > row && (at[last + 1] - at[last]) * (at[last] - at[last - 1]) < 0)
-                break; /* it turns: the point belongs to both ways */
-        add_stretch(c, x + row, y + row, last - row + 1,
-                    last > row ? at[last] < at[row] : row > from && at[row] < at[row - 1], whose,
-                    place);
-        if (last + 1 >= to)
-            return;
-        if (jumps[last + 1] > 0) {
-            add_stretch(c, x + last, y + last, 2, JUMP, whose, place);
-            last++;
-        }
+    for (enum stretch what = LOADING; what < STRETCHES; what++) {
+        char name[NAME] = "";
+
+        if (*whose != '\0')
+            add_word(name, whose);
+        add_word(name, word[what]);
+        add_stretches(c, x + from, y + from, at + from, step, to - from, what, name);
     }
+    free(step);
 }
 
 /* Points as they are, or as means of those that share an x; and their bars. */
@@ -591,7 +690,7 @@ warn_of_zigzag(struct curves *c, const struct table *table, size_t from, size_t 
     double way = 0, last = NAN;
     size_t turns = 0;
 
-    if (c->history || c->style->spread || c->style->points || c->zigzag)
+    if (c->history || c->style->spread || c->style->points || c->words > 0 || c->zigzag)
         return;
     for (size_t k = from; k < to; k++) {
         if (!isfinite(x[k]))
@@ -626,7 +725,7 @@ add_curve(struct curves *c, const struct table *table, size_t k, size_t p)
     }
     if (*name == '\0' && c->style->law != NULL)
         add_word(name, base_name(table->source));
-    if (isfinite(helper(c, table, JUMPS)[from]) && !c->style->spread && !c->style->points) {
+    if (is_path(c, table, from, to)) {
         add_path(c, table, k, from, to, name);
         return;
     }
@@ -634,7 +733,7 @@ add_curve(struct curves *c, const struct table *table, size_t k, size_t p)
     s = new_series(c);
     memcpy(c->name[c->n - 1], name, NAME);
     s->name = *name == '\0' ? NULL : c->name[c->n - 1];
-    s->kind = c->style->points ? GRAPH_POINTS : GRAPH_MARKS;
+    s->kind = c->style->points || c->words > 0 ? GRAPH_POINTS : GRAPH_MARKS;
     if (c->bys == GROUP_COLUMNS) {
         s->place = word_number(c, c->columns, word_of(table, c->columns, from));
         s->mark = 1 + word_number(c, c->columns + 1, word_of(table, c->columns + 1, from));
@@ -796,12 +895,16 @@ describe(struct curves *c)
 static struct canvas *
 draw(struct curves *c, struct drawn *drawn)
 {
+    const char *y = last_part(c->column[1]);
+    bool flow = strncmp(y, "flow_", 5) == 0 || strncmp(y, "critical_", 9) == 0;
     struct graph graph = {
         .title = drawn->title,
         .subtitle = wording_subtitle(c->style->title, c->style->subtitle, drawn->source),
         .stamp = drawn->stamp,
-        .x = {title_of(c, 0), unit_of(c->table, 0), curve_log(c->style, 'x'), NAN, NAN, NULL},
-        .y = {c->axis, unit_of(c->table, 1), curve_log(c->style, 'y'), NAN, NAN, NULL},
+        .x = {title_of(c, 0), unit_of(c->table, 0), curve_log(c->style, 'x'), NAN, NAN, NULL,
+              c->word, c->words},
+        .y = {c->axis, unit_of(c->table, 1), curve_log(c->style, 'y'), NAN, NAN},
+        .zero = flow ? "sealed (no flow)" : NULL,
         .series = c->series,
         .n = c->n,
         .note = *c->note == '\0' ? NULL : c->note,
@@ -859,6 +962,7 @@ curves_draw(struct tool *t, const char *columns, const struct curve_style *style
         count_from_one_shape(c, &c->table[f]);
     check_units(c);
     check_convergence(c);
+    take_words(c);
     for (size_t f = 0; f < c->tables; f++)
         group_rows(c, &c->table[f]);
     for (size_t f = 0; f < c->tables; f++)

@@ -187,6 +187,25 @@ label_value(struct reading *r, struct column *column, const char *text, size_t n
     return (double)column->word_count++;
 }
 
+/* A number, or that of a word as long as no cell of the column is a number. */
+static double
+either_value(struct reading *r, size_t c, const char *text, size_t n, bool quoted)
+{
+    struct column *column = &r->table->column[c];
+    bool word = quoted;
+    double value = quoted ? NAN : cell_value(text, n, &word);
+
+    if (isfinite(value) && !column->numbers) {
+        for (size_t k = 0; column->words && k < r->table->rows; k++)
+            column->v[k] = NAN;
+        for (size_t k = 0; column->words && r->got != NULL && k < r->got[c].n; k++)
+            r->got[c].v[k] = NAN;
+        column->numbers = true;
+    }
+    column->words = column->words || word;
+    return word && !column->numbers ? label_value(r, column, text, n) : value;
+}
+
 static const char *
 line_end(const struct reading *r)
 {
@@ -297,6 +316,7 @@ read_lines(struct reading *r)
 
             column->v[r->table->rows] =
                 where[c] == CELLS ? NAN
+                : column->either  ? either_value(r, c, start[where[c]], length[where[c]], false)
                 : column->label   ? label_value(r, column, start[where[c]], length[where[c]])
                                   : cell_value(start[where[c]], length[where[c]], &column->words);
         }
@@ -376,7 +396,9 @@ take(struct reading *r, const char *text, size_t length, bool words, bool elemen
             r->got[c].capacity = capacity;
         }
         r->got[c].v[r->got[c].n++] =
-            r->table->column[c].label ? label_value(r, &r->table->column[c], text, length) : value;
+            r->table->column[c].either  ? either_value(r, c, text, length, words)
+            : r->table->column[c].label ? label_value(r, &r->table->column[c], text, length)
+                                        : value;
         r->got[c].array = element;
         r->got[c].taken = !element;
         r->table->column[c].found = true;
