@@ -571,8 +571,8 @@ struct rc_contact {
     double contact_area, contact_fraction; /* m^2, -                                             */
     double plastic_area, yielded_area;     /* m^2                                                */
     double edge_load_fraction;             /* load on the outer 2 % of the map                   */
-    /* m, from first touch; NAN when no node is elastic. Where the counter body is free to tilt, of the
-     * point where the load acts, from where a rigid body would stand. */
+    /* m, from first touch; NAN when no node is elastic, unless it was sought and suits the contact. Where the
+     * counter body is free to tilt, of the point where the load acts, from where a rigid body would stand. */
     double approach;
     double tilt[2];  /* slope of the counter body's face along x and y     */
     double mean_gap; /* m, of max(gap, 0) over the whole map               */
@@ -588,8 +588,9 @@ struct rc_contact {
     size_t iterations;
     double convolutions;                     /* equivalents on the finest grid                   */
     struct rc_discretization discretization; /* estimated relative errors that the grid makes    */
-    bool converged;                          /* pressure_error <= tol                            */
-    bool hardness_active;                    /* some node is at the hardness                     */
+    bool
+        converged; /* pressure_error <= tol; the load, or the approach, is the one that was given */
+    bool hardness_active; /* some node is at the hardness                     */
 };
 
 /* `h` (not NaN, not infinite) is copied. RC_FAIL-like NULL when load > hardness * area, or more

@@ -181,12 +181,13 @@ elastic_block(void *at, size_t first, size_t n, double *sums)
     elastic_sums(rc_box(s, first), n, s->it.p + first, s->it.v + first, sums);
 }
 
-/* No node is elastic. */
+/* No node is elastic: of the shifts that suit this pressure the one that is sought, or the middle one. */
 static double
 middle(const struct rc_solver *s)
 {
     const struct rc_box box = rc_box(s, 0);
     double low = -INFINITY, high = INFINITY;
+    double sought = s->load.target - (rc_tilt_approach(s) - s->it.shift);
 
     for (size_t k = 0; k < s->posed.n; k++)
         if (rc_at_low(box, k, s->it.p[k]))
@@ -195,6 +196,8 @@ middle(const struct rc_solver *s)
             low = fmax(low, s->it.v[k]);
     low = rc_ranks_most(s->posed.rows.ranks, low);
     high = -rc_ranks_most(s->posed.rows.ranks, -high);
+    if (s->load.target > 0 && low <= high)
+        return fmin(fmax(sought, low), high);
     return isinf(low) ? high : isinf(high) ? low : (low + high) / 2;
 }
 
@@ -348,7 +351,9 @@ rc_iterate_operator_error(const struct rc_solver *s)
 double
 rc_iterate_judge(struct rc_solver *s)
 {
-    if (!s->it.fresh)
+    if (s->posed.rough) /* a coarser grid has no convolution in double precision */
+        (void)rc_iterate_displace_rows(s);
+    else if (!s->it.fresh)
         rc_iterate_displace(s);
     rc_iterate_shift(s);
     rc_working_set_find(s, false);

@@ -8,6 +8,9 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
+
+#include "libcontact/memory.h"
 
 static const double loose = 1e-2; /* tolerance of the first loads */
 
@@ -59,22 +62,66 @@ begin_search(struct rc_solver *s, double target)
 }
 
 static void
-height_block(void *at, size_t first, size_t n, double *sums)
+depth_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct rc_solver *s = at;
 
     sums[0] = rc_sum(s->posed.h + first, n);
+    for (size_t k = first; k < first + n; k++)
+        sums[RC_MOST] = fmax(sums[RC_MOST], -s->posed.h[k]);
+}
+
+/* RC_FAIL where every node carries its hardness before this approach: under that load the bodies come as near
+ * as one likes. The last node that yields is the one for which K H - h is largest, which no node is below
+ * `depth`, of the lowest, to reach. */
+static enum rc_status
+check_yield(struct rc_solver *s, double approach, double depth, struct rc_err *err)
+{
+    const struct rc_box box = rc_box(s, 0);
+    size_t n = s->posed.n;
+    double *p, *u, last = -INFINITY;
+    enum rc_status status = RC_OK;
+
+    if (approach < depth || isinf(s->posed.bounds.full) || s->posed.rough)
+        return RC_OK;
+    p = rc_alloc(n, sizeof *p);
+    u = rc_alloc(n, sizeof *u);
+    if (p == NULL || u == NULL)
+        status = rc_err_set(err, "out of memory for an approach of %zu x %zu nodes",
+                            s->posed.whole.nx, s->posed.whole.ny);
+    status = rc_ranks_agree(s->posed.rows.ranks, status, err);
+    if (status == RC_OK) {
+        for (size_t k = 0; k < n; k++)
+            p[k] = rc_high(box, k);
+        rc_operator_apply(s->op, p, u);
+        rc_iterate_count(s, 1);
+        for (size_t k = 0; k < n; k++)
+            last = fmax(last, u[k] - s->posed.h[k]);
+        last = rc_ranks_most(s->posed.rows.ranks, last);
+        if (approach >= last)
+            status = rc_err_set(err,
+                                "approach %.9g m: at %.9g m every node carries its hardness, and "
+                                "under that load, %.9g N, the bodies come as near as one likes; "
+                                "give a smaller approach or the load",
+                                approach, last, s->posed.bounds.full * s->posed.cell);
+    }
+    free(p);
+    free(u);
+    return status;
 }
 
 /* RC_FAIL where complete contact is reached before this approach: the bodies come no nearer. */
 static enum rc_status
 check_approach(struct rc_solver *s, double approach, struct rc_err *err)
 {
+    bool bounded = rc_bounded(&s->posed.bounds);
     double total[RC_SUMS], full;
 
-    if (!s->op->mean_free || rc_bounded(&s->posed.bounds))
+    if (s->tilt != NULL || (!s->op->mean_free && !bounded))
         return RC_OK;
-    rc_reduce_blocks(s, height_block, s, total);
+    rc_reduce_blocks(s, depth_block, s, total);
+    if (bounded)
+        return check_yield(s, approach, total[RC_MOST], err);
     full = -total[0] / (double)s->posed.nodes;
     if (approach >= full)
         return rc_err_set(err,
@@ -103,7 +150,7 @@ rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_e
     if (!(guess > 0))
         guess = s->posed.cell / s->op->unit * problem->approach * sqrt((double)cut);
     begin_search(s, problem->approach);
-    if (check_approach(s, problem->approach, err) != RC_OK)
+    if (!problem->tilt_free && check_approach(s, problem->approach, err) != RC_OK)
         return RC_FAIL;
     return rc_load_set(s, guess < most ? guess : most, err);
 }
@@ -150,37 +197,79 @@ tighten(struct rc_load *q, double tol)
     q->high = INFINITY;
 }
 
+bool
+rc_load_reached(const struct rc_solver *s)
+{
+    return s->load.target == 0 ||
+           fabs(rc_tilt_approach(s) / s->load.target - 1) <= 10 * s->posed.tol;
+}
+
+static void
+bound_block(void *at, size_t first, size_t n, double *sums)
+{
+    struct rc_solver *s = at;
+    const struct rc_box box = rc_box(s, 0);
+
+    for (size_t k = first; k < first + n; k++) {
+        double low = rc_low(box, k), high = rc_high(box, k);
+        s->it.p[k] = s->it.p[k] > (low + high) / 2 ? high : low;
+        sums[0] += s->it.p[k];
+    }
+}
+
+/* While no node is elastic the bodies come nearer under one load: the loads on either side of it tell approaches
+ * that are too small and too large. All nodes are put at a bound; false where that is not the contact of this
+ * approach either. */
+static bool
+settle(struct rc_solver *s)
+{
+    double total[RC_SUMS];
+
+    rc_reduce_blocks(s, bound_block, s, total);
+    rc_solver_restart(s);
+    if (rc_load_set(s, total[0] * s->posed.cell, NULL) != RC_OK)
+        return false;
+    rc_iterate_checked(s, rc_iterate_judge(s), 1);
+    return s->it.error <= s->posed.tol && rc_load_reached(s);
+}
+
 enum rc_status
 rc_load_search(struct rc_solver *s)
 {
     struct rc_load *q = &s->load;
     double most = s->posed.bounds.full * s->posed.cell, shift, next, off;
+    bool closed, done;
 
     rc_iterate_shift(s);
-    shift = s->it.elastic > 0 ? rc_tilt_approach(s) : INFINITY; /* saturated: too much */
-    if (q->last_load > 0 && q->last_shift > 0 && shift > 0 && !isinf(shift) &&
-        shift != q->last_shift) {
+    shift = rc_tilt_approach(s);
+    if (q->last_load > 0 && q->last_shift > 0 && shift > 0 && shift != q->last_shift) {
         double power = log(q->load / q->last_load) / log(shift / q->last_shift);
         if (power > 0.2 && power < 20)
             q->power = power;
     }
     q->last_load = q->load;
-    q->last_shift = isinf(shift) ? 0 : shift;
+    q->last_shift = shift;
     if (shift < q->target)
         q->low = fmax(q->low, q->load);
     else
         q->high = fmin(q->high, q->load);
-    next = next_load(q, q->load, isinf(shift) ? 1e3 * q->target : shift);
+    next = next_load(q, q->load, shift);
     if (next > most)
         next = most;
     off = fabs(next / q->load - 1);
-    if (off <= 0.1 * s->posed.tol || next == q->load || q->high <= q->low * (1 + 1e-15)) {
-        if (q->tol <= s->posed.tol)
-            return RC_OK;
+    closed = next == q->load || q->high <= q->low * (1 + 1e-15);
+    done = closed || off <= 0.1 * s->posed.tol;
+    if (done && q->tol > s->posed.tol) {
         tighten(q, s->posed.tol); /* the right load, but not yet well solved */
         return RC_MORE;
     }
-    tighten(q, fmax(s->posed.tol, 0.1 * off));
+    if (done && (rc_load_reached(s) || !rc_bounded(&s->posed.bounds) || settle(s)))
+        return RC_OK;
+    if (closed)
+        return RC_SHORT;
+    /* where nodes yield the approach jumps, and to be near the load is not to be near the end */
+    tighten(q, rc_bounded(&s->posed.bounds) && off < loose ? s->posed.tol
+                                                           : fmax(s->posed.tol, 0.1 * off));
     if (rc_load_set(s, next, NULL) != RC_OK)
         return RC_SHORT;
     rc_projection_balance(s, s->it.v);

@@ -194,7 +194,8 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     c->plastic_area = s->posed.cell * (double)c->plastic_nodes;
     c->hardness_active = c->plastic_nodes > 0;
     c->edge_load_fraction = edge_load(s);
-    c->approach = s->it.elastic > 0 ? rc_tilt_approach(s) : NAN; /* the highest of h is 0 */
+    c->approach = /* the highest of h is 0 */
+        s->it.elastic > 0 || s->load.target > 0 ? rc_tilt_approach(s) : NAN;
     for (size_t a = 0; a < 2; a++)
         c->tilt[a] = rc_tilt_slope(s, a);
     f.mean_h = total[HEIGHT] / n;
@@ -219,7 +220,8 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
         rc_iterate_checked(s, rc_working_set_estimate(s), 1);
     }
     c->pressure_error = rc_tilt_error(s, s->it.error);
-    c->converged = c->pressure_error <= s->posed.tol && rc_iterate_keeps_load(s);
+    c->converged =
+        c->pressure_error <= s->posed.tol && rc_iterate_keeps_load(s) && rc_load_reached(s);
     c->convolutions = s->it.convolutions;
     c->discretization = left_out(s, c);
     s->stage = RC_STAGE_JUDGED;

@@ -290,6 +290,8 @@ enum rc_status rc_load_next(struct rc_solver *solver, double load, double approa
                             struct rc_err *err);
 /* After a solution: RC_OK when its shift is the wanted one, else it sets the next load. */
 enum rc_status rc_load_search(struct rc_solver *solver);
+/* Whether the approach is the one that is sought, if one is. */
+bool rc_load_reached(const struct rc_solver *solver);
 
 /* ---- stiffness.c ---- */
 

@@ -48,6 +48,29 @@ one_node_carries_all(void **state)
     solved_free(&s);
 }
 
+/* The four highest nodes of a ball carry loads that move nothing else, each a quarter. */
+static void
+hardly_any_load(void **state)
+{
+    const struct rc_shape shape = {64, 64, 5e-6, 5e-6};
+    double *h = malloc(64 * 64 * sizeof *h);
+
+    (void)state;
+    rc_synth_sphere(&shape, 7.5e-3, h);
+    for (double load = 1e-6; load > 1e-41; load *= 1e-5) {
+        struct rc_problem problem = {.pair.estar = estar, .load = load, .tol = 1e-6};
+        struct solved s = solve(shape, h, problem);
+
+        assert_int_equal(s.status, RC_OK);
+        assert_int_equal(s.c.contact_nodes, 4);
+        for (size_t k = 0; k < 4; k++)
+            assert_true(fabs(s.p[(31 + k / 2) * 64 + 31 + k % 2] * 4 * shape.dx * shape.dy / load -
+                             1) < 2e-6);
+        solved_free(&s);
+    }
+    free(h);
+}
+
 static void
 every_node_yields(void **state)
 {
@@ -324,6 +347,7 @@ main(void)
     int failed = 0;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_node_carries_all),
+        cmocka_unit_test(hardly_any_load),
         cmocka_unit_test(every_node_yields),
         cmocka_unit_test(ugly_surfaces),
         cmocka_unit_test(scales),

@@ -178,6 +178,78 @@ impossible_is_refused(void **state)
     free(h);
 }
 
+/* The approach from which every node of these heights carries its hardness: the last one is that for which K H - h
+ * is largest. */
+static double
+every_node_yields(struct rc_shape own, const double *h, const struct rc_problem *problem)
+{
+    const struct rc_conv_options options = {.boundary = problem->boundary};
+    size_t n = own.nx * own.ny;
+    double *p = malloc(n * sizeof *p), *u = malloc(n * sizeof *u), top = -INFINITY, last = 0;
+    struct rc_err err;
+    struct rc_conv *conv = rc_conv_new(&own, &problem->pair, &options, &err);
+
+    assert_non_null(conv);
+    for (size_t k = 0; k < n; k++) {
+        p[k] = problem->hardness;
+        top = fmax(top, h[k]);
+    }
+    rc_conv_apply(conv, p, u);
+    for (size_t k = 0; k < n; k++)
+        last = fmax(last, top + u[k] - h[k]);
+    rc_conv_free(conv);
+    free(p);
+    free(u);
+    return last;
+}
+
+/* Maps that are soft beside their heights have few elastic nodes, or none, and then one load for a range of
+ * approaches. The approach is met, with a gap that suits it, up to where every node yields; from there it
+ * is refused. */
+static void
+approach_is_met_where_nodes_yield(void **state)
+{
+    static const double parts[] = {0.03, 0.2, 0.6, 0.97, 1.03};
+
+    (void)state;
+    for (uint64_t seed = 1; seed <= 24; seed++) {
+        struct rc_shape own = {12 + seed % 9, seed % 4 == 0 ? 1 : 10 + seed % 7, 1e-6, 1.2e-6};
+        struct rc_selfaffine rough = {
+            .rms_slope = 0.1, .hurst = 0.8, .short_cut = 4e-6, .seed = seed};
+        struct rc_problem problem = problem_on(seed % 2 == 0 ? RC_FREE : RC_PERIODIC);
+        size_t n = own.nx * own.ny;
+        double *h = malloc(n * sizeof *h), last;
+        struct rc_err err;
+
+        assert_int_equal(rc_synth_selfaffine(&own, &rough, h, &err), RC_OK);
+        problem.load = 0;
+        problem.tol = 1e-5;
+        problem.hardness = estar * pow(10, -1 - 0.5 * (double)(seed % 6));
+        last = every_node_yields(own, h, &problem);
+        for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+            struct solved s;
+            problem.approach = parts[k] * last;
+            s = solve(own, h, problem);
+            if (parts[k] > 1) {
+                assert_int_equal(s.status, RC_FAIL);
+                assert_non_null(strstr(s.err.text, "every node carries its hardness"));
+            } else {
+                if (s.status != RC_OK || !s.c.converged)
+                    print_error("seed %d, %g of %g m, hardness %g Pa: status %d, approach %g m, "
+                                "error %g, %zu nodes of which %zu\n",
+                                (int)seed, parts[k], last, problem.hardness, (int)s.status,
+                                s.c.approach, s.c.pressure_error, s.c.contact_nodes,
+                                s.c.plastic_nodes);
+                assert_true(s.status == RC_OK && s.c.converged);
+                assert_true(fabs(s.c.approach / problem.approach - 1) < 10 * problem.tol);
+                assert_true(s.c.gap_error < 1e-3 * problem.approach);
+            }
+            solved_free(&s);
+        }
+        free(h);
+    }
+}
+
 /* Hertz: d load / d approach = 2 E* a. Rough: the difference quotient over a small step. */
 static void
 stiffness_is_the_slope(void **state)
@@ -354,10 +426,15 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(loads_are_independent),     cmocka_unit_test(approach_is_inverted),
-        cmocka_unit_test(any_approach_is_met),       cmocka_unit_test(impossible_is_refused),
-        cmocka_unit_test(stiffness_is_the_slope),    cmocka_unit_test(yielded_shape_holds),
-        cmocka_unit_test(discretization_is_bounded), cmocka_unit_test(only_what_is_called_for),
+        cmocka_unit_test(loads_are_independent),
+        cmocka_unit_test(approach_is_inverted),
+        cmocka_unit_test(any_approach_is_met),
+        cmocka_unit_test(impossible_is_refused),
+        cmocka_unit_test(stiffness_is_the_slope),
+        cmocka_unit_test(yielded_shape_holds),
+        cmocka_unit_test(discretization_is_bounded),
+        cmocka_unit_test(only_what_is_called_for),
+        cmocka_unit_test(approach_is_met_where_nodes_yield),
     };
     int failed = 0;
 
