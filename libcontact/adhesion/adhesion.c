@@ -323,13 +323,34 @@ set(struct rc_adhesion *a, enum rc_gap_control control, double given)
     a->held = true;
 }
 
+/* The largest load that there is a state for: at its hardness a node carries that less the traction at gap 0, or,
+ * where it is the smaller of the two, is drawn in, and carries nothing as long as it is apart. */
+static double
+most_load(const struct rc_adhesion *a)
+{
+    size_t n = a->shape.nx * a->shape.ny;
+    double sum = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        double hard = a->gap.hards != NULL ? a->gap.hards[k] : a->gap.hard;
+        sum += fmax(hard - a->gap.law.strength, 0);
+    }
+    return sum * a->whole->modulus * a->shape.dx * a->shape.dy;
+}
+
 enum rc_status
 rc_adhesion_set_load(struct rc_adhesion *a, double load, struct rc_err *err)
 {
-    double cell = a->shape.dx * a->shape.dy;
+    double cell = a->shape.dx * a->shape.dy, most = a->gap.yields ? most_load(a) : INFINITY;
 
     if (!isfinite(load))
         return rc_err_set(err, "load %g N: it must be finite", load);
+    if (load > 0 && load >= most)
+        return rc_err_set(err,
+                          "load %.9g N: with every node at its hardness, less the traction at gap "
+                          "0, %.9g Pa, the map carries %.9g N: no solution exists; lower the load "
+                          "or raise the hardness",
+                          load, a->scales.strength, most);
     a->pull.on = false;
     set(a, RC_GAP_LOAD, load / cell / a->whole->modulus / (double)a->gap.n);
     return RC_OK;

@@ -647,15 +647,19 @@ largest_row(struct rc_gap *g, size_t j, double *sums)
         sums[0] = fmax(sums[0], fabs(g->d[j * g->px + i]));
 }
 
+/* The longest step before a node that is apart comes to 0. */
 static void
-mean_gap_row(struct rc_gap *g, size_t j, double *sums)
+reach_row(struct rc_gap *g, size_t j, double *sums)
 {
-    for (size_t i = 0; i < rc_gap_on_map(g, j); i++)
-        sums[0] += g->x[j * g->px + i];
+    const double *x = g->x + j * g->px, *d = g->d + j * g->px;
+
+    for (size_t i = 0; i < on_map(g, j); i++)
+        if (x[i] > 0 && d[i] < 0)
+            sums[0] = fmax(sums[0], -x[i] / d[i]);
 }
 
 /* Under a load nothing else bounds a step that is alike everywhere: drawn apart it is not to leap over what
- * holds, and pressed together it ends where the bodies meet. */
+ * holds, and pressed together it ends where the last of them meet. */
 static double
 longest(struct rc_gap *g)
 {
@@ -664,8 +668,8 @@ longest(struct rc_gap *g)
     if (g->control != RC_GAP_LOAD || g->mean_d == 0)
         return INFINITY;
     if (g->mean_d < 0) {
-        rc_gap_rows(g, mean_gap_row, sums);
-        return sums[0] > 0 ? sums[0] / ((double)(g->nx * g->ny) * -g->mean_d) : INFINITY;
+        rc_gap_rows(g, reach_row, sums);
+        return most_of(g, 0) > 0 ? most_of(g, 0) : INFINITY;
     }
     if (g->given >= 0)
         return INFINITY;
@@ -820,6 +824,11 @@ shift(struct rc_gap *g, double by)
 
     g->trial = by;
     rc_gap_rows(g, shift_row, sums);
+    if (g->control == RC_GAP_MEAN && sums[2] == 0) { /* no node is apart, which would move */
+        for (size_t k = 0; k < g->n; k++)
+            g->x[k] = g->given;
+        return;
+    }
     for (int k = 0; k < NEWTON && g->control == RC_GAP_MEAN && sums[2] > 0; k++) {
         g->trial = (g->given * (double)g->n - sums[1]) / sums[2];
         if (fabs(g->trial) <= 1e-15 * g->given)

@@ -94,6 +94,18 @@ requests(void **state)
     assert_int_equal(rc_adhesion_set_approach(a, 1e-7, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "mean gap"));
     rc_adhesion_free(a);
+    bad = good;
+    bad.contact.hardness = 1e6; /* of which the traction leaves 1e6 - 0.05/3e-7 Pa */
+    a = adhesion_new(shape, h, bad);
+    assert_int_equal(rc_adhesion_set_load(a, 0.9 * 1e6 * 1024e-12, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "no solution exists"));
+    assert_int_equal(rc_adhesion_set_load(a, 0.8 * 1e6 * 1024e-12, &err), RC_OK);
+    rc_adhesion_free(a);
+    bad.contact.hardness = 1; /* a node that yields is drawn in */
+    a = adhesion_new(shape, h, bad);
+    assert_int_equal(rc_adhesion_set_load(a, 1e-20, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_set_load(a, -1e-6, &err), RC_OK);
+    rc_adhesion_free(a);
     rc_adhesion_free(NULL);
     for (size_t k = 0; rc_adhesion_law_info(k) != NULL; k++)
         assert_true(strlen(rc_adhesion_law_info(k)->summary) > 0);
@@ -418,6 +430,72 @@ hardness(void **state)
     rc_adhesion_free(a);
 }
 
+/* ---- no node apart ---- */
+
+/* Rough free maps under a load that closes all of them: the pressures are A h but for the mean, the load is met,
+ * in no more steps than it takes elsewhere. */
+static void
+closed_by_a_load(void **state)
+{
+    const double load[] = {3e6, 20e6};
+    const struct rc_shape shape = {N, N, 1e-6, 1e-6};
+
+    (void)state;
+    for (uint64_t seed = 1; seed <= 3; seed++)
+        for (size_t k = 0; k < 2; k++) {
+            struct rc_selfaffine rough = {.hurst = 0.8,
+                                          .short_cut = 8e-6,
+                                          .rms_height = 5e-8,
+                                          .rolloff = 32e-6,
+                                          .seed = seed};
+            struct rc_adhesion_problem problem = {
+                .contact = {.pair.estar = 10e6, .tol = 1e-6}, .work = 0.05, .range = 5e-8};
+            const struct rc_adhesion_figures *f;
+            struct rc_adhesion *a, *again;
+            double area = N * N * 1e-12, c;
+
+            assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, &adhesion_err), RC_OK);
+            a = adhesion_new(shape, h, problem);
+            f = adhesion_to_load(a, load[k] * area);
+            assert_true(f->converged && f->contact_nodes == N * N && f->iterations < 30);
+            assert_true(fabs(f->load / (load[k] * area) - 1) < 1e-5);
+            c = f->approach;
+            again = adhesion_new(shape, h, problem);
+            f = adhesion_to_approach(again, c); /* which it asks for */
+            assert_true(f->converged && fabs(f->load / (load[k] * area) - 1) < 1e-5);
+            rc_adhesion_free(a);
+            rc_adhesion_free(again);
+        }
+}
+
+/* Two planes on a periodic map, close enough to have no node apart to begin with: the gap is the one asked for, and
+ * the pressure the traction of the law. */
+static void
+planes(void **state)
+{
+    const double away[] = {20e-9, 1e-9, 0.1e-9};
+    const struct rc_shape shape = {8, 6, 1e-6, 1e-6};
+
+    (void)state;
+    for (size_t k = 0; k < 3; k++) {
+        const struct rc_adhesion_problem problem = {
+            .contact = {.pair.estar = 1e9, .boundary = RC_PERIODIC, .tol = 1e-6},
+            .work = 0.05,
+            .range = 20e-9};
+        const struct rc_adhesion_figures *f;
+        struct rc_adhesion *a;
+
+        for (size_t i = 0; i < 48; i++)
+            h[i] = 3.7e-6;
+        a = adhesion_new(shape, h, problem);
+        f = adhesion_to_approach(a, -away[k]);
+        assert_true(f->converged && f->stable && f->contact_nodes == 0);
+        assert_true(fabs(f->mean_gap / away[k] - 1) < 1e-9);
+        assert_true(fabs(-f->mean_pressure / (0.05 / 20e-9 * exp(-away[k] / 20e-9)) - 1) < 1e-9);
+        rc_adhesion_free(a);
+    }
+}
+
 /* ---- coatings ---- */
 
 /* A layer of the same material is none; one that is stiffer or softer has a state that obeys the same laws,
@@ -485,6 +563,8 @@ main(void)
         cmocka_unit_test(pull_off_at_start),
         cmocka_unit_test(maps),
         cmocka_unit_test(hardness),
+        cmocka_unit_test(closed_by_a_load),
+        cmocka_unit_test(planes),
         cmocka_unit_test(coatings),
     };
 
