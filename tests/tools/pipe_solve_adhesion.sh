@@ -31,6 +31,9 @@ near "$(rc-pick --channel pressure --case 2 p.rcg | rc-info --json | grep -o '"m
 claim "gaps are never negative" awk -v m="$(rc-pick --channel gap --case 3 p.rcg | rc-info --json | grep -o '"min[a-z]*": [^,]*' | head -n 1 | sed 's/.* //')" 'BEGIN { exit !(m >= 0) }'
 claim "the frames say what attracts" says "adhesion" rc-info p.rcg
 
+$soft --adhesion 50mJ/m2,jkr --approach 2um --pull-off --output pressure ball.rcg -o two.rcg
+claim "one state and its pull-off are two cases" test "$(rc-info --json two.rcg | grep -o '"case": [0-9]' | tr -d '\n')" = '"case": 1"case": 2'
+
 # ---- the same in other words ----
 
 $soft --adhesion 50mN/m,jkr --radius 1mm --approach 2um --report a.json flat.rcg -o a.rcg
@@ -79,11 +82,11 @@ claim "the path as a curve" bash -c "rc-render --curve approach:load -o path.svg
 # ---- said before, warned of, refused ----
 
 claim "--dry-run names the law and the cohesive length" says 'adhesion  *on: exponential, 0.05 J/m2 over 300 nm.*cohesive length' rc-solve --dry-run --estar 2MPa --adhesion 50mJ/m2,exponential,300nm --approach 1um ball.rcg
-claim "a grid that does not hold the range is warned of" warns "the grid itself will hold the bodies together" rc-solve --estar 2MPa --adhesion 50mJ/m2,exponential,100nm --approach 1um ball.rcg -o w.rcg
+claim "a grid that does not hold the range is warned of" warns "the grid is too coarse for this law.*lattice pinning" rc-solve --estar 2MPa --adhesion 50mJ/m2,exponential,100nm --approach 1um ball.rcg -o w.rcg
 refused() { # STATUS WORDS ARGS
     refuses "$1" "$2" "refused: $3" "rc-solve --quiet --estar 2MPa $3 ball.rcg -o x.rcg"
 }
-refused 2 "it must be at least 0: bodies that do not attract each other cannot be pulled" "--load=-1mN"
+refused 2 "it must be at least 0: a negative load needs --adhesion" "--load=-1mN"
 refused 2 "pull-off needs --adhesion" "--load 1mN --pull-off"
 refused 2 "output adhesion needs --adhesion" "--load 1mN --output adhesion"
 refused 2 "must be above 0" "--adhesion 0 --approach 1um"
@@ -91,6 +94,8 @@ refused 2 "must be above 0" "--adhesion=-50mJ/m2 --approach 1um"
 refused 2 "there is no law 'velcro': it must be one of exponential, dugdale, compact, jkr" "--adhesion 50mJ/m2,velcro --approach 1um"
 refused 2 "J/m2 is expected, .* or N/m" "--adhesion 50mJ,jkr --approach 1um"
 refused 2 "adhesion: not with --tilt free" "--adhesion 50mJ/m2 --approach 1um --tilt free"
+refused 1 "the map carries .* lower the load or raise the hardness" "--adhesion 50mJ/m2,jkr --hardness 1MPa --load 1N"
+refused 2 "use a list of --approach values" "--adhesion 50mJ/m2 --approach 1um --stiffness"
 refused 1 "" "--adhesion 50mJ/m2 --approach 1um --method pk99"
 refused 1 "" "--adhesion 50mJ/m2 --approach 1um --kernel mlms"
 refused 1 "" "--adhesion 50mJ/m2 --approach 1um --kernel direct"

@@ -60,13 +60,15 @@ check_steps(struct tool *t, const struct physics *a)
     for (size_t k = 0; k < steps->n && !a->attracts; k++) {
         if (steps->v[k] < 0)
             tool_die(t, EXIT_USAGE,
-                     "--%s %s %s: it must be at least 0: bodies that do not attract each other "
-                     "cannot be pulled",
-                     name, rc_number_text(number, steps->v[k]),
+                     "--%s %s %s: it must be at least 0: a negative %s needs --adhesion", name,
+                     rc_number_text(number, steps->v[k]),
                      steps->per_metre    ? "N/m"
                      : a->load.n > 0     ? "N"
                      : a->approach.n > 0 ? "m"
-                                         : "Pa");
+                                         : "Pa",
+                     a->load.n > 0       ? "load"
+                     : a->approach.n > 0 ? "approach"
+                                         : "mean pressure");
         if (steps->v[k] == 0 && !a->history)
             tool_die(t, EXIT_USAGE, "--%s 0: it must be above 0%s", name,
                      steps->n > 1 ? ": 0 takes the bodies apart, in a --history" : "");

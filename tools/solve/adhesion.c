@@ -45,7 +45,7 @@ adhesion_read(struct run *run)
     refuse(run, run->tilt, "--tilt free", "bodies that attract each other follow one direction");
     refuse(run, args->discretization, "--discretization",
            "a grid half as fine holds another traction: solve it by itself");
-    refuse(run, args->stiffness, "--stiffness", "a list of approaches tells it");
+    refuse(run, args->stiffness, "--stiffness", "use a list of --approach values instead");
     refuse(run, args->conductivity != NULL, "--conductivity",
            "what is not pressed together does not conduct by the analogy");
     refuse(run,
@@ -274,13 +274,14 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where)
     if (s->cohesive_nodes >= resolved)
         return;
     /* at equal work the cohesive length grows with the square of the range */
-    tool_warn(&run->t,
-              "%s: the cohesive length, %s, is %.2g of the spacing: the grid itself will hold the "
-              "bodies together, with a pull-off that is too large and a hysteresis that is not "
-              "theirs: take a spacing of %s, or, where only the work matters, a range of %s",
-              where, shown_in_unit(length, s->cohesive_length, "m"), s->cohesive_nodes,
-              shown_in_unit(finer, spacing * s->cohesive_nodes / enough, "m"),
-              shown_in_unit(range, s->range * sqrt(enough / s->cohesive_nodes), "m"));
+    tool_warn(
+        &run->t,
+        "%s: the cohesive length, %s, is %.2g of the spacing: the grid is too coarse for this "
+        "law, and pull-off and hysteresis will be too large (lattice pinning): take a spacing "
+        "of %s, or, where only the work matters, a range of %s",
+        where, shown_in_unit(length, s->cohesive_length, "m"), s->cohesive_nodes,
+        shown_in_unit(finer, spacing * s->cohesive_nodes / enough, "m"),
+        shown_in_unit(range, s->range * sqrt(enough / s->cohesive_nodes), "m"));
 }
 
 static void

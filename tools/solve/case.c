@@ -75,7 +75,7 @@ solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
         bodies_set(g, &run->args->physics.pair, &err) != RC_OK ||
         rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (run->steps->n > 1)
+    if (run->steps->n > 1 || run->args->pull_off)
         set_number(run, g, "case", (double)run->number);
     /* the load asked for and the one reached are the same but for rounding */
     set_number(run, g, "load",
