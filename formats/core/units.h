@@ -22,8 +22,9 @@ const char *rc_prefix_of(int power);
 /* Ten to the power of a prefix, rounded correctly: the double 1e-06 for -6. */
 double rc_prefix_factor(int power);
 
-/* Metres per unit of "nm", "um", "µm" (UTF-8 or Latin-1, either code point), "Å", ...; false when
- * it is no unit of length. */
+/* Metres per unit of "nm", "um", "µm" (UTF-8 or Latin-1, either code point), "Å", "in", ..., and of
+ * words in either case, one or several: "Micrometers", "mil", "inches"; false when it is no unit of
+ * length. */
 bool rc_length_unit(const char *text, size_t n, double *metres);
 /* The same of a word up to its NUL; NAN when it is no unit of length. */
 double rc_word_metres(const char *word);

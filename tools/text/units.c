@@ -32,6 +32,12 @@ static const struct word_unit { /* units that do not go by prefixes */
     {"min", 60},
     {"h", 3600},
     {NULL, 0},
+}, force_units[] = {
+    {"gf", 9.80665e-3},
+    {"kgf", 9.80665},
+    {NULL, 0},
+}, no_units[] = {
+    {NULL, 0},
 };
 /* clang-format on */
 
@@ -110,6 +116,51 @@ unit_vickers(const char *text)
     return unit != NULL && is_vickers(unit, strlen(unit));
 }
 
+/* "N/mm2", "kN/m^2": the power of ten of a force over an area. */
+static bool
+stress_power(const char *text, size_t n, int *power)
+{
+    const char *slash = memchr(text, '/', n);
+    size_t tail = slash == NULL ? 0 : (size_t)(text + n - slash - 1), side;
+    int above, below;
+
+    if (tail < 2 || slash[tail] != '2')
+        return false;
+    side = tail - (slash[tail - 1] == '^' ? 2 : 1);
+    if (!power_of(text, (size_t)(slash - text), "N", &above) ||
+        !power_of(slash + 1, side, "m", &below))
+        return false;
+    *power = above - 2 * below;
+    return true;
+}
+
+/* Units that are a power of ten of the SI unit and do not carry its name: bar, N/mm2, cP. */
+static bool
+decimal_power(const char *text, size_t n, enum unit unit, int *power)
+{
+    if ((unit == UNIT_PA || unit == UNIT_HARD) && stress_power(text, n, power))
+        return true;
+    if ((unit == UNIT_PA || unit == UNIT_HARD) && power_of(text, n, "bar", power)) {
+        *power += 5;
+        return true;
+    }
+    if (unit == UNIT_PAS && power_of(text, n, "P", power)) { /* poise */
+        *power -= 1;
+        return true;
+    }
+    return unit == UNIT_PAS &&
+           (power_of(text, n, "Pa.s", power) || power_of(text, n, "Pa s", power));
+}
+
+static const struct word_unit *
+word_units(enum unit unit)
+{
+    return unit == UNIT_S       ? time_units
+           : unit == UNIT_BYTES ? size_units
+           : unit == UNIT_N     ? force_units
+                                : no_units;
+}
+
 /* Applies the unit written as suffix[0..n) after the number digits[0..length); false when there is
  * no such unit. */
 static bool
@@ -118,13 +169,13 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
 {
     int power;
 
-    if (unit == UNIT_BYTES || unit == UNIT_S)
-        for (const struct word_unit *w = unit == UNIT_S ? time_units : size_units; w->text != NULL;
-             w++)
-            if (same(w->text, suffix, n)) {
-                *value *= w->size;
-                return true;
-            }
+    double metres;
+
+    for (const struct word_unit *w = word_units(unit); w->text != NULL; w++)
+        if (same(w->text, suffix, n)) {
+            *value *= w->size;
+            return true;
+        }
     if (unit == UNIT_BYTES)
         return false;
     if (n == 0)
@@ -138,7 +189,15 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
     if (unit == UNIT_WORK &&
         (power_of(suffix, n, "J/m^2", &power) || power_of(suffix, n, "N/m", &power)))
         return shift(digits, length, power, value);
-    return unit_power(suffix, n, unit, &power) && shift(digits, length, power, value);
+    if (unit_power(suffix, n, unit, &power) || decimal_power(suffix, n, unit, &power))
+        return shift(digits, length, power, value);
+    for (size_t k = 0; k < n; k++)
+        if ((suffix[k] | 0x20) < 'a' || (suffix[k] | 0x20) > 'z')
+            return false;
+    if (unit != UNIT_M || !rc_length_unit(suffix, n, &metres))
+        return false;
+    *value *= metres; /* inches and other words */
+    return true;
 }
 
 /* The same of a force over a length, "mN/m" or "N/mm". */
@@ -195,6 +254,30 @@ other_scale(const char *suffix, size_t n)
     return NULL;
 }
 
+/* Further units of a quantity, as messages name them. */
+static const char *
+also_units(enum unit unit)
+{
+    switch (unit) {
+    case UNIT_M:
+        return ", or inch, mil or microinch";
+    case UNIT_N:
+        return ", or kgf";
+    case UNIT_PA:
+        return ", or N/mm2 or bar";
+    case UNIT_HARD:
+        return ", or N/mm2, bar or HV";
+    case UNIT_S:
+        return ", or min or h";
+    case UNIT_WORK:
+        return ", or N/m";
+    case UNIT_PAS:
+        return ", or cP";
+    default:
+        return "";
+    }
+}
+
 /* What to expect instead of the unit suffix[0..n). */
 static enum rc_status
 unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struct rc_err *err)
@@ -213,11 +296,7 @@ unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struc
                       "unknown unit '%.*s': %s%s is expected, with or without one of the prefixes "
                       "%s%s",
                       (int)n, suffix, unit_name(unit), per_metre ? " or N/m" : "",
-                      prefix_list(list, sizeof list),
-                      unit == UNIT_S      ? ", or min or h"
-                      : unit == UNIT_HARD ? ", or HV"
-                      : unit == UNIT_WORK ? ", or N/m"
-                                          : "");
+                      prefix_list(list, sizeof list), also_units(unit));
 }
 
 /* The number in text[0..n). */

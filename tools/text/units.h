@@ -10,14 +10,14 @@
 
 enum unit {
     UNIT_NONE,  /* a plain number           */
-    UNIT_M,     /* metres                   */
-    UNIT_N,     /* newtons                  */
-    UNIT_PA,    /* pascals                  */
+    UNIT_M,     /* metres; also inch, mil, microinch */
+    UNIT_N,     /* newtons; also kgf                 */
+    UNIT_PA,    /* pascals; also N/mm2, bar          */
     UNIT_S,     /* seconds; also min and h  */
     UNIT_BYTES, /* bytes: 512M, 4G, 2GiB    */
-    UNIT_HARD,  /* pascals; also 600HV      */
+    UNIT_HARD,  /* the same; also 600HV              */
     UNIT_WORK,  /* joules per square metre; also N/m */
-    UNIT_PAS,   /* pascal seconds           */
+    UNIT_PAS,   /* pascal seconds; also cP           */
 };
 
 struct numbers {
