@@ -14,7 +14,7 @@ const struct rc_format *const rc_formats[] = {
     NULL,
 };
 
-const struct rc_wish rc_no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+const struct rc_wish rc_no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN, .xy_unit = NAN};
 
 const struct rc_format *
 rc_format_named(const char *name)

@@ -80,5 +80,7 @@ rc_height_unit(const struct rc_wish *wish, double by_file, const char *unit, dou
     if (!isnan(wish->z_unit) && !isnan(by_file) && wish->z_unit != by_file)
         rc_note(notes, "one unit of height is %s m as given; the file says %s m",
                 rc_number_text(a, wish->z_unit), rc_number_text(b, by_file));
+    if (notes != NULL)
+        notes->metres = *metres;
     return RC_OK;
 }

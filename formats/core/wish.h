@@ -8,6 +8,15 @@
 
 #include "libcontact/grid.h"
 
+/* Which of the first row and column of a matrix as text are labels or positions, and no heights. */
+enum rc_label {
+    RC_LABELS_FOUND, /* those that look like it */
+    RC_LABELS_KEEP,  /* none                    */
+    RC_LABELS_ROW,
+    RC_LABELS_COLUMN,
+    RC_LABELS_BOTH
+};
+
 /* What the user says beside the file. */
 struct rc_wish {
     double dx, dy; /* spacing in metres; NAN: as the file says                             */
@@ -17,6 +26,9 @@ struct rc_wish {
     const char *missing; /* a word that marks missing values in text, beside NaN, BAD, ...       */
     bool even;           /* profiles whose points are not evenly apart are resampled             */
     double even_step;    /* m, to this step; 0: to one of their own                              */
+    enum rc_label labels;
+    double xy_unit;   /* metres per unit of positions that have none in the file; NAN: not said   */
+    bool ignore_mask; /* points that the file's mask excludes are kept                            */
 };
 extern const struct rc_wish rc_no_wish; /* of a user who says nothing: all is as the file says */
 
@@ -33,7 +45,8 @@ struct rc_channel {
 struct rc_notes {
     char text[8][200];
     size_t n;
-    size_t held; /* private memory of the process that read the file; 0: this process read it */
+    double metres; /* in one unit of height of the file; 0: heights are in no length */
+    size_t held;   /* private memory of the process that read the file; 0: this process read it */
     double above, below; /* of a profile that was resampled: how far its highest point is above the
                             highest node, and its lowest below the lowest, in spans of its heights */
 };

@@ -153,8 +153,10 @@ rc_sandbox_read(rc_sandboxed_read *read, const struct rc_file *file, const struc
         leave(&pipes, rc_result_send_grid(&pipes, g, &noted, &said));
     }
     whole = rc_result_receive_grid(&pipes, file, &g, &noted, &said);
-    if (notes != NULL)
+    if (notes != NULL) {
         notes->held = pipes.held;
+        notes->metres = whole ? noted.metres : 0;
+    }
     for (size_t k = 0; whole && k < noted.n; k++)
         rc_note(notes, "%s", noted.text[k]);
     if (whole && g == NULL)

@@ -124,7 +124,7 @@ if [ -d "$corpus" ]; then
         if [ -n "$said" ]; then
             claim "$file: which is said" grep -q "$said: .$name" real.err
         else
-            claim "$file: there is nothing to say" test ! -s real.err
+            claim "$file: there is nothing to say" bash -c '! grep -v "mask of the file covers" real.err'
         fi
     done <<'END'
 nanosurf-nid/NSFopen__circles.nid|2 channels are heights|Topography, Scan forward

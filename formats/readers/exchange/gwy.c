@@ -2,7 +2,8 @@
  * Gwyddion's own format: GWYP and a tree of objects, little-endian. An object is its name, a NUL,
  * its size in 32 bits and its items; an item is its name, a NUL, a letter for the type and the
  * value. At the top, items /N/data are fields of doubles, /N/data/title their titles, and a field
- * /N/mask is 1 where a point is masked, which is taken for missing here.
+ * /N/mask is 1 where a point is masked, which is taken for missing here unless the user wishes
+ * otherwise.
  */
 #include <math.h>
 #include <stdio.h>
@@ -187,15 +188,20 @@ fill_masked(const struct rc_file *file, const struct rc_wish *wish, const struct
             double *v, struct rc_err *err)
 {
     struct rc_bytes data = rc_file_bytes(file, false), mask = data;
-    size_t n = map->nx * map->ny;
+    size_t n = map->nx * map->ny, masked = 0;
 
-    (void)wish;
     (void)err;
     data.at = map->at;
     rc_bytes_values(&data, RC_RAW_F64, v, n);
     for (size_t k = 0; k < n; k++)
-        if (rc_bytes_at(&mask, map->more + 8 * k, RC_RAW_F64) >= 0.5)
-            v[k] = NAN;
+        if (rc_bytes_at(&mask, map->more + 8 * k, RC_RAW_F64) >= 0.5) {
+            masked++;
+            if (!wish->ignore_mask)
+                v[k] = NAN;
+        }
+    if (masked > 0)
+        rc_note(map->notes, "the mask of the file covers %zu of %zu points, which are %s", masked,
+                n, wish->ignore_mask ? "kept" : "missing: --mask ignore keeps them");
     return RC_OK;
 }
 

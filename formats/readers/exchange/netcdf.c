@@ -178,7 +178,8 @@ step_of(const struct rc_cdf *f, size_t dimension, double metres, double *step, b
 
 struct map {
     const struct rc_cdf_variable *v;
-    bool turned; /* the dimensions are (x, y), not (y, x) */
+    bool turned;           /* the dimensions are (x, y), not (y, x)          */
+    bool falls_x, falls_y; /* positions fall, so that the map is to be turned */
     bool periodic;
     struct rc_heights heights;
     double factor, offset; /* of the numbers */
@@ -206,12 +207,15 @@ judge_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct map *m
     if (step_of(f, x, gxsm ? angstrom : NAN, &m->heights.dx, &along_x, err) != RC_OK ||
         step_of(f, y, gxsm ? angstrom : NAN, &m->heights.dy, &along_y, err) != RC_OK)
         return RC_FAIL;
+    m->falls_x = m->heights.dx < 0;
+    m->falls_y = m->heights.dy < 0 && !gxsm; /* there y falls from the top row on */
+    m->heights.dx = fabs(m->heights.dx);
+    m->heights.dy = fabs(m->heights.dy);
     m->factor = v->factor * dz;
     m->offset = v->offset * dz;
     if (gxsm) {
         struct rc_map shown = {0};
 
-        m->heights.dy = fabs(m->heights.dy); /* y falls from the top row on */
         rc_map_unit(&shown, v->unit.text, v->unit.n);
         if (!isnan(m->heights.metres))
             m->heights.metres = angstrom;
@@ -269,7 +273,8 @@ read_values(const struct rc_cdf *f, const struct map *m, double metres, struct r
 
     for (size_t j = 0; j < g->ny; j++)
         for (size_t i = 0; i < g->nx; i++) {
-            double raw = rc_cdf_value(place(f, v, m->turned ? i : j, m->turned ? j : i), v->type);
+            size_t y = m->falls_y ? g->ny - 1 - j : j, x = m->falls_x ? g->nx - 1 - i : i;
+            double raw = rc_cdf_value(place(f, v, m->turned ? x : y, m->turned ? y : x), v->type);
             g->v[j * g->nx + i] = raw == v->fill ? NAN : (raw * m->factor + m->offset) * metres;
         }
 }
@@ -307,6 +312,11 @@ netcdf_read(const struct rc_file *file, const struct rc_wish *wish, size_t index
         (m.periodic && rc_grid_set(g, "periodic", "yes", err) != RC_OK))
         goto done;
     read_values(&f, &m, metres, g);
+    if (m.falls_x || m.falls_y)
+        rc_note(notes, "the positions in %s fall: the map is turned so that they rise",
+                m.falls_x && m.falls_y ? "x and y"
+                : m.falls_x            ? "x"
+                                       : "y");
     good = rc_heights_finite(g, notes, err) == RC_OK;
 done:
     rc_cdf_close(&f);

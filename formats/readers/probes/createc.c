@@ -4,7 +4,7 @@
  *
  *     [Parameter]   int16, behind 2 bytes of nothing
  *     [Paramet32]   float, behind 4
- *     [Paramco32]   the same in a zlib stream
+ *     [Paramco32]   the same in a zlib stream, behind the word DATA, which may end a shorter header
  *
  * The spacing is Length x[A] over Num.X. A count of z is GainZ * ZPiezoconst * 20 V over the counts of the
  * converter, in Angstrom; headers of real files agree, whose Z-Res. [A] is 128 * Imagegrayfactor counts. It
@@ -72,6 +72,26 @@ kind_of(const struct rc_file *file)
     return NULL;
 }
 
+/* Where the zlib stream begins: at the end of the header, or behind the first DATA that one follows. */
+static size_t
+stream_at(const struct rc_file *file)
+{
+    static const char mark[] = "DATA";
+    const size_t n = sizeof mark - 1, most = file->size < HEADER ? file->size : HEADER;
+    struct rc_piece rest = {(const char *)file->data, most};
+    const char *found;
+
+    while ((found = rc_piece_find(rest, mark)) != NULL) {
+        size_t at = (size_t)(found - (const char *)file->data) + n;
+
+        if (at + 2 <= file->size && file->data[at] == 0x78 &&
+            (file->data[at] * 256U + file->data[at + 1]) % 31 == 0)
+            return at;
+        rest = (struct rc_piece){found + n, most - at};
+    }
+    return HEADER;
+}
+
 /* Takes a line by either of its keys; values that are no numbers, of keys that should have one, count as
  * not given. */
 static void
@@ -94,16 +114,18 @@ take_line(struct rc_piece line, struct createc *c, struct rc_maps *maps)
 static enum rc_status
 read_header(const struct rc_file *file, struct createc *c, struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_lines lines = {.at = (const char *)file->data,
-                             .end = (const char *)file->data + HEADER};
+    bool packed = kind_of(file) != NULL && kind_of(file)->packed;
+    size_t size = packed ? stream_at(file) : HEADER;
+    struct rc_lines lines = {.at = (const char *)file->data};
     struct rc_piece line;
 
     *c = (struct createc){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     if (kind_of(file) == NULL)
         return rc_err_set(err, "no DAT file of Createc: it begins with none of [Parameter], "
                                "[Paramet32], [Paramco32]");
-    if (file->size < HEADER)
-        return rc_err_set(err, "the header takes %d bytes, the file has %zu", HEADER, file->size);
+    if (file->size < size)
+        return rc_err_set(err, "the header takes %zu bytes, the file has %zu", size, file->size);
+    lines.end = lines.at + size;
     while (rc_lines_next(&lines, &line.text, &line.n))
         take_line(line, c, maps);
     return RC_OK;
@@ -129,7 +151,7 @@ unpack_plane(const struct rc_file *file, const struct kind *kind, const struct r
     if (all == NULL)
         return rc_err_set(err, "out of memory for %zu bytes of planes", n);
     b.data = all;
-    if (rc_inflate_start(file->data + HEADER, file->size - HEADER, all, n) != n) {
+    if (rc_inflate_start(file->data + stream_at(file), file->size - stream_at(file), all, n) != n) {
         free(all);
         return rc_err_set(err,
                           "the compressed planes are damaged or fewer than the header promises");

@@ -417,6 +417,30 @@ other_scans_of_gxsm(void **state)
     drop(&b);
 }
 
+/* A coordinate that falls turns the map. */
+static void
+falling_axes(void **state)
+{
+    struct cdf c = cdf;
+    struct bytes b, plain = cdf_file(&cdf);
+    struct rc_grid *g, *of = read_well(&rc_format_netcdf, &plain, 0);
+
+    (void)state;
+    c.step_y = -cdf.step_y;
+    b = cdf_file(&c);
+    g = read_well(&rc_format_netcdf, &b, 0);
+    assert_true(g->dx == of->dx && fabs(g->dy - of->dy) <= rounding * of->dy);
+    for (size_t k = 0; k < g->nx * g->ny; k++) {
+        double turned = of->v[(g->ny - 1 - k / g->nx) * g->nx + k % g->nx];
+
+        assert_true(isnan(turned) ? isnan(g->v[k]) : g->v[k] == turned);
+    }
+    rc_grid_free(g);
+    rc_grid_free(of);
+    drop(&b);
+    drop(&plain);
+}
+
 static void
 netcdf_is_refused(void **state)
 {
@@ -427,8 +451,6 @@ netcdf_is_refused(void **state)
     c.coordinates = false;
     refuse_cdf(&c, "does not give the spacing");
     c = cdf, c.step_y = 0;
-    refuse_cdf(&c, "must be positive");
-    c = cdf, c.step_y = -1;
     refuse_cdf(&c, "must be positive");
     c = cdf, c.step_y = NAN;
     refuse_cdf(&c, "uneven steps");
@@ -453,9 +475,9 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(netcdf_is_read),    cmocka_unit_test(other_units_stay),
-        cmocka_unit_test(scans_of_gxsm),     cmocka_unit_test(other_scans_of_gxsm),
-        cmocka_unit_test(netcdf_is_refused),
+        cmocka_unit_test(netcdf_is_read), cmocka_unit_test(other_units_stay),
+        cmocka_unit_test(scans_of_gxsm),  cmocka_unit_test(other_scans_of_gxsm),
+        cmocka_unit_test(falling_axes),   cmocka_unit_test(netcdf_is_refused),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
