@@ -9,15 +9,25 @@
 #include "tools/import/import.h"
 
 static struct args {
-    const char *format, *channel, *z_unit, *decimal, *separator, *missing;
+    const char *format, *channel, *z_unit, *xy_unit, *decimal, *separator, *missing, *labels, *mask;
     double dx, dy, even;
-    bool list, formats;
+    size_t skip;
+    bool list, formats, keep_going;
 } args = {.dx = NAN, .dy = NAN, .even = NAN};
 
 static const char *
 format_word(size_t k)
 {
     return rc_formats[k] == NULL ? NULL : rc_formats[k]->name;
+}
+
+/* In the order of enum rc_label. */
+static const char *const label_words[] = {"auto", "keep", "row", "column", "both", NULL};
+
+static const char *
+label_word(size_t k)
+{
+    return label_words[k];
 }
 
 /* clang-format off */
@@ -41,13 +51,25 @@ static const struct opt opts[] = {
      .help = "resample uneven profiles (default: median spacing)"},
     {.name = "z-unit", .type = OPT_TEXT, .at = offsetof(struct args, z_unit), .result = true,
      .arg = "UNIT", .help = "unit of the file's heights: um, nm or a number of metres"},
+    {.name = "xy-unit", .type = OPT_TEXT, .at = offsetof(struct args, xy_unit), .result = true,
+     .arg = "UNIT", .help = "unit of positions in the first row and column of a matrix"},
+    {.name = "labels", .type = OPT_CHOICE, .at = offsetof(struct args, labels), .result = true,
+     .words = label_word, .arg = "WHICH",
+     .help = "no heights in a matrix as text: keep (none), row, column, both (default auto)"},
+    {.name = "skip", .type = OPT_COUNT, .at = offsetof(struct args, skip), .max = 1e9,
+     .result = true, .arg = "N", .help = "pass over the first N lines of a file of text"},
+    {.name = "mask", .type = OPT_CHOICE, .at = offsetof(struct args, mask), .result = true,
+     .arg = "apply|ignore",
+     .help = "points under the mask of the file are missing, or are kept (default apply)"},
+    {.name = "keep-going", .type = OPT_FLAG, .at = offsetof(struct args, keep_going),
+     .help = "after a file that cannot be read go on with the next; exit 1 at the end"},
     {.name = "decimal", .type = OPT_TEXT, .at = offsetof(struct args, decimal), .result = true,
      .arg = "MARK", .help = "decimal mark in text: . or , (default: found out)"},
     {.name = "separator", .type = OPT_TEXT, .at = offsetof(struct args, separator),
      .result = true, .arg = "MARK",
      .help = "between columns of text: space, tab, comma, semicolon or a character"},
     {.name = "missing", .type = OPT_TEXT, .at = offsetof(struct args, missing), .result = true,
-     .arg = "WORD", .help = "marks missing values in text, beside NaN, BAD, --- and the like"},
+     .arg = "WORD", .help = "marks missing values: a number, or in text a word beside NaN, BAD, ---"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -66,23 +88,24 @@ static const struct tool_info info = {
 
 /* ---- what the user says beside the file ---- */
 
-static void
-wish_unit(struct tool *t, struct rc_wish *wish)
+/* The metres of --NAME, whose text becomes a number of them: history is in SI. */
+static double
+wish_unit(struct tool *t, const char *name, const char **text, char si[RC_NUMBER_SIZE])
 {
-    static char si[RC_NUMBER_SIZE];
     struct rc_err err;
+    double metres;
 
-    if (args.z_unit == NULL)
-        return;
-    if (!rc_length_unit(args.z_unit, strlen(args.z_unit), &wish->z_unit) &&
-        unit_number(args.z_unit, UNIT_M, &wish->z_unit, &err) != RC_OK)
+    if (*text == NULL)
+        return NAN;
+    if (!rc_length_unit(*text, strlen(*text), &metres) &&
+        unit_number(*text, UNIT_M, &metres, &err) != RC_OK)
         tool_die(t, EXIT_USAGE,
-                 "--z-unit %s: a unit of length (um, nm, ...) or a number of metres "
-                 "is expected",
-                 args.z_unit);
-    if (!(wish->z_unit > 0))
-        tool_die(t, EXIT_USAGE, "--z-unit %s: it must be above 0", args.z_unit);
-    args.z_unit = rc_number_text(si, wish->z_unit); /* history is in SI */
+                 "--%s %s: a unit of length (um, nm, ...) or a number of metres is expected", name,
+                 *text);
+    if (!(metres > 0))
+        tool_die(t, EXIT_USAGE, "--%s %s: it must be above 0", name, *text);
+    *text = rc_number_text(si, metres);
+    return metres;
 }
 
 static const char *
@@ -110,13 +133,19 @@ wish_separator(struct tool *t)
 static struct rc_wish
 make_wish(struct tool *t)
 {
-    struct rc_wish wish = {.dx = args.dx, .dy = args.dy, .z_unit = NAN, .missing = args.missing};
+    static char z_unit[RC_NUMBER_SIZE], xy_unit[RC_NUMBER_SIZE];
+    struct rc_wish wish = {.dx = args.dx, .dy = args.dy, .missing = args.missing};
 
     wish.even = tool_given(t, "even");
     wish.even_step = isnan(args.even) ? 0 : args.even;
     if (wish.even_step > 0 && !isnan(args.dx))
         tool_die(t, EXIT_USAGE, "--even STEP and --dx both say how wide a step is: give one");
-    wish_unit(t, &wish);
+    wish.z_unit = wish_unit(t, "z-unit", &args.z_unit, z_unit);
+    wish.xy_unit = wish_unit(t, "xy-unit", &args.xy_unit, xy_unit);
+    for (size_t k = 0; args.labels != NULL && label_words[k] != NULL; k++)
+        if (strcmp(args.labels, label_words[k]) == 0)
+            wish.labels = (enum rc_label)k;
+    wish.ignore_mask = args.mask != NULL && strcmp(args.mask, "ignore") == 0;
     wish.separator = wish_separator(t);
     if (args.decimal != NULL) {
         if (strcmp(args.decimal, ".") != 0 && strcmp(args.decimal, ",") != 0)
@@ -177,6 +206,39 @@ unpack(const struct tool *t, struct source *s, struct rc_err *err)
     return RC_OK;
 }
 
+/* Puts the only file of a ZIP archive, or array of an NPZ, in its place; archives of several stay what they
+ * are. */
+static enum rc_status
+unzip(const struct tool *t, struct source *s, struct rc_err *err)
+{
+    struct rc_zip_read *archive =
+        rc_file_holds(&s->file, 0, "PK", 2) ? rc_zip_read_new(&s->file, NULL) : NULL;
+    size_t most = t->memory == 0 ? rc_memory_limit(s->file.size) : t->memory, first, size = 0;
+    const char *name, *slash;
+    unsigned char *data = NULL;
+    enum rc_status status = RC_OK;
+
+    if (archive == NULL)
+        return RC_OK;
+    if (rc_zip_read_files(archive, &first) == 1) {
+        name = rc_zip_read_name(archive, first);
+        slash = strrchr(name, '/');
+        name = slash == NULL ? name : slash + 1;
+        if (strcmp(name, "main.xml") != 0) { /* of an X3P */
+            data = rc_zip_read_bytes(archive, first, most, &size, NULL, err);
+            status = data == NULL ? RC_FAIL : RC_OK;
+            snprintf(s->inner, sizeof s->inner, "%s", name);
+        }
+    }
+    rc_zip_read_free(archive);
+    if (s->inner[0] != '\0' && status == RC_OK) {
+        free(s->data);
+        s->data = data;
+        s->file = (struct rc_file){s->inner, data, size};
+    }
+    return status;
+}
+
 /* Reads a file and finds out what is in it; source_close frees it in either case. */
 static enum rc_status
 source_open(struct tool *t, const char *name, const struct rc_wish *wish, struct source *s,
@@ -188,6 +250,10 @@ source_open(struct tool *t, const char *name, const struct rc_wish *wish, struct
         return RC_FAIL;
     s->name = s->file.name;
     if (rc_file_packed(&s->file) && unpack(t, s, err) != RC_OK)
+        return RC_FAIL;
+    if (s->inner[0] == '\0' && unzip(t, s, err) != RC_OK)
+        return RC_FAIL;
+    if (args.skip > 0 && import_skip(&s->file, s->data, args.skip, err) != RC_OK)
         return RC_FAIL;
     if (rc_file_holds(&s->file, 0, "RCG1\n", 5))
         return refuse_stream(name, err);
@@ -377,6 +443,19 @@ add_keys(struct tool *t, const struct source *s, size_t number, struct rc_grid *
     return rc_grid_history(g, tool_history(t), err);
 }
 
+/* Makes values missing that are the number of --missing in the file, which is text no more: `unit` is what one
+ * is in the grid's. */
+static void
+take_missing(const char *missing, struct rc_grid *g, double unit)
+{
+    double mark;
+    const char *end = rc_number_read(missing, false, &mark);
+
+    for (size_t k = 0; end != NULL && *end == '\0' && k < g->nx * g->ny; k++)
+        if (fabs(g->v[k] / unit - mark) <= 1e-9 * fabs(mark))
+            g->v[k] = NAN;
+}
+
 static enum rc_status
 write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish, size_t number,
               struct rc_err *err)
@@ -395,7 +474,11 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
         tool_warn(t, "%s: %s", t->source, pick.said);
     for (size_t k = 0; k < notes.n; k++)
         tool_warn(t, "%s: %s", t->source, notes.text[k]);
+    if (wish->missing != NULL)
+        take_missing(wish->missing, g,
+                     notes.metres > 0 && strcmp(g->unit, "m") == 0 ? notes.metres : 1);
     import_judge(t, g, wish);
+    import_judge_marks(t, g, strcmp(g->unit, "m") == 0 && notes.metres > 0 ? notes.metres : 1);
     if ((wish->even && even_out(t, s, wish, g, &notes, err) != RC_OK) ||
         add_keys(t, s, number, g, err) != RC_OK) {
         rc_grid_free(g);
@@ -408,22 +491,28 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
     return RC_OK;
 }
 
-static void
+/* With --keep-going a file that cannot be read leaves its number of a case unused. */
+static bool
 import_file(struct tool *t, const char *name, const struct rc_wish *wish, size_t number)
 {
     struct source s;
     struct rc_err err;
+    bool good = source_open(t, name, wish, &s, &err) == RC_OK &&
+                write_heights(t, &s, wish, number, &err) == RC_OK;
 
-    if (source_open(t, name, wish, &s, &err) != RC_OK ||
-        write_heights(t, &s, wish, number, &err) != RC_OK)
+    if (!good && !args.keep_going)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", t->source, err.text);
+    if (!good)
+        tool_fail(t, "%s: %s", t->source, err.text);
     source_close(&s);
+    return good;
 }
 
 int
 main(int argc, char **argv)
 {
     struct rc_wish wish;
+    size_t good = 0;
     struct tool t;
 
     tool_start(&t, &info, argc, argv, &args);
@@ -439,6 +528,8 @@ main(int argc, char **argv)
         if (args.list)
             list_file(&t, t.operand[k], &wish);
         else
-            import_file(&t, t.operand[k], &wish, k + 1);
+            good += import_file(&t, t.operand[k], &wish, k + 1);
+    if (!args.list && good == 0)
+        tool_die(&t, EXIT_IMPOSSIBLE, "none of the %zu files can be read", t.operands);
     return tool_finish(&t);
 }

@@ -221,22 +221,36 @@ rc_tiff_number(struct rc_tiff *t, uint32_t tag, double *value)
     }
 }
 
+bool
+rc_tiff_resolution(struct rc_tiff *t, double *x, double *y)
+{
+    float across = 0, down = 0;
+
+    if (TIFFGetField(t->tiff, TIFFTAG_XRESOLUTION, &across) != 1 ||
+        TIFFGetField(t->tiff, TIFFTAG_YRESOLUTION, &down) != 1)
+        return false;
+    *x = (double)across;
+    *y = (double)down;
+    return true;
+}
+
 /* ---- pixels ---- */
 
 enum rc_status
 rc_tiff_shape(struct rc_tiff *t, struct rc_tiff_shape *shape, struct rc_err *err)
 {
     uint32_t nx = 0, ny = 0;
-    uint16_t samples = 1, bits = 1;
+    uint16_t samples = 1, bits = 1, kind = SAMPLEFORMAT_UINT;
 
     TIFFGetFieldDefaulted(t->tiff, TIFFTAG_IMAGEWIDTH, &nx);
     TIFFGetFieldDefaulted(t->tiff, TIFFTAG_IMAGELENGTH, &ny);
     TIFFGetFieldDefaulted(t->tiff, TIFFTAG_SAMPLESPERPIXEL, &samples);
     TIFFGetFieldDefaulted(t->tiff, TIFFTAG_BITSPERSAMPLE, &bits);
-    *shape = (struct rc_tiff_shape){nx, ny, samples, bits};
+    TIFFGetFieldDefaulted(t->tiff, TIFFTAG_SAMPLEFORMAT, &kind);
+    *shape = (struct rc_tiff_shape){nx, ny, samples, bits, kind == SAMPLEFORMAT_IEEEFP};
     if (nx == 0 || ny == 0)
         return rc_err_set(err, "a page of %zu x %zu pixels is empty", shape->nx, shape->ny);
-    if (bits != 1 && bits != 8 && bits != 16 && bits != 32)
+    if (bits != 1 && bits != 8 && bits != 16 && bits != 32 && !(bits == 64 && shape->floats))
         return rc_err_set(err, "a page with %u bits a sample: only 1, 8, 16 and 32 are read",
                           (unsigned)bits);
     return RC_OK;
@@ -251,6 +265,7 @@ sample(const unsigned char *row, size_t k, unsigned bits, unsigned kind)
     int16_t short_;
     int32_t long_;
     float real;
+    double wide;
 
     switch (bits) {
     case 1:
@@ -261,6 +276,9 @@ sample(const unsigned char *row, size_t k, unsigned bits, unsigned kind)
         memcpy(&half, row + 2 * k, 2);
         memcpy(&short_, row + 2 * k, 2);
         return kind == SAMPLEFORMAT_INT ? (double)short_ : half;
+    case 64:
+        memcpy(&wide, row + 8 * k, 8);
+        return wide;
     default:
         memcpy(&word, row + 4 * k, 4);
         memcpy(&long_, row + 4 * k, 4);
@@ -284,8 +302,8 @@ rc_tiff_values(struct rc_tiff *t, const struct rc_tiff_shape *shape, double *v, 
     TIFFGetFieldDefaulted(t->tiff, TIFFTAG_SAMPLEFORMAT, &kind);
     if (TIFFIsTiled(t->tiff))
         return rc_err_set(err, "the page is laid out in tiles: only strips are read");
-    if (kind == SAMPLEFORMAT_IEEEFP && shape->bits != 32)
-        return rc_err_set(err, "floats of %u bits: only those of 32 are read", shape->bits);
+    if (kind == SAMPLEFORMAT_IEEEFP && shape->bits != 32 && shape->bits != 64)
+        return rc_err_set(err, "floats of %u bits: only those of 32 and 64 are read", shape->bits);
     stride = planar == PLANARCONFIG_CONTIG ? shape->samples : 1;
     least = (shape->nx * stride * shape->bits + 7) / 8;
     if (size <= 0 || (size_t)size < least)

@@ -37,13 +37,17 @@ char *rc_tiff_text(struct rc_tiff *tiff, uint32_t tag, char *to, size_t size);
 /* A tag's first number, whatever its type. */
 bool rc_tiff_number(struct rc_tiff *tiff, uint32_t tag, double *value);
 
+/* Pixels along x and y in the page's unit of resolution; false when it has none. */
+bool rc_tiff_resolution(struct rc_tiff *tiff, double *x, double *y);
+
 struct rc_tiff_shape {
     size_t nx, ny;
     unsigned samples, bits; /* of a pixel; of a sample */
+    bool floats;
 };
 enum rc_status rc_tiff_shape(struct rc_tiff *tiff, struct rc_tiff_shape *shape, struct rc_err *err);
 /* The first sample of every pixel, row 0 first: whole numbers of 1, 8, 16 or 32 bits, with or
- * without sign, or floats, as the page says. */
+ * without sign, or floats of 32 or 64, as the page says. */
 enum rc_status rc_tiff_values(struct rc_tiff *tiff, const struct rc_tiff_shape *shape, double *v,
                               struct rc_err *err);
 

@@ -279,3 +279,21 @@ rc_zip_read_xml(struct rc_zip_read *a, size_t member, uint64_t most, const char 
     rc_xml_free(xml);
     return status;
 }
+
+size_t
+rc_zip_read_files(const struct rc_zip_read *archive, size_t *first)
+{
+    size_t files = 0, members = rc_zip_read_members(archive);
+
+    *first = 0;
+    for (size_t k = 0; k < members; k++) {
+        const char *name = rc_zip_read_name(archive, k);
+        size_t n = strlen(name);
+
+        if (n == 0 || name[n - 1] == '/' || strncmp(name, "__MACOSX/", 9) == 0)
+            continue;
+        if (files++ == 0)
+            *first = k;
+    }
+    return files;
+}

@@ -28,6 +28,8 @@ const char *rc_zip_read_name(const struct rc_zip_read *archive, size_t member); 
 /* The member of that name; RC_FAIL when there is none. */
 enum rc_status rc_zip_read_find(const struct rc_zip_read *archive, const char *name, size_t *member,
                                 struct rc_err *err);
+/* The number of members that are files and no folders, notes of macOS apart, and the first of them. */
+size_t rc_zip_read_files(const struct rc_zip_read *archive, size_t *first);
 /* Its size unpacked. RC_FAIL when it is not to be trusted. */
 enum rc_status rc_zip_read_size(struct rc_zip_read *archive, size_t member, uint64_t *size,
                                 struct rc_err *err);

@@ -87,6 +87,19 @@ rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *before,
     return false;
 }
 
+/* Puts e for the D of Fortran's exponents: 1.5D+03. */
+static void
+plain_power(char *s)
+{
+    for (; *s != '\0'; s++)
+        if ((*s | 0x20) == 'd') {
+            if (strchr("+-0123456789", s[1]) != NULL && s[1] != '\0')
+                *s = 'e';
+            return;
+        } else if (strchr("+-.0123456789", *s) == NULL)
+            return;
+}
+
 bool
 rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest)
 {
@@ -101,6 +114,7 @@ rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest)
     for (char *s = copy; *s != '\0'; s++)
         if (*s == ',')
             *s = '.';
+    plain_power(copy);
     start += *copy == '+';
     if ((end = rc_number_read(start, true, value)) == NULL)
         return false;

@@ -88,7 +88,8 @@ gather_power(const struct rc_number_table *t, const char *s, struct number *n)
 
 /* The slow way: any number of digits, correctly rounded. */
 static bool
-read_slowly(const char *start, const char *end, const char *mark_at, double *value)
+read_slowly(const char *start, const char *end, const char *mark_at, const char *power_at,
+            double *value)
 {
     char copy[NUMBER_MOST + 1];
     size_t n = (size_t)(end - start);
@@ -100,6 +101,8 @@ read_slowly(const char *start, const char *end, const char *mark_at, double *val
     copy[n] = '\0';
     if (mark_at != NULL)
         copy[mark_at - start] = '.';
+    if (power_at != NULL)
+        copy[power_at - start] = 'e';
     stop = rc_number_read(copy, false, value);
     return stop != NULL && *stop == '\0' && isfinite(*value);
 }
@@ -113,7 +116,7 @@ read_number(const struct rc_number_table *t, const char *s, char decimal, struct
     static const double tens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-    const char *start = s, *digits, *whole;
+    const char *start = s, *digits, *whole, *power_at = NULL;
     bool minus = s < t->end && *s == '-';
 
     *n = (struct number){.exact = true};
@@ -130,10 +133,14 @@ read_number(const struct rc_number_table *t, const char *s, char decimal, struct
     }
     if (whole == digits)
         return NULL;
-    if (s < t->end && (*s == 'e' || *s == 'E'))
+    if (s < t->end &&
+        ((*s | 0x20) == 'e' || (*s | 0x20) == 'd')) { /* D: as Fortran writes doubles */
+        power_at = s;
         s = gather_power(t, s, n);
+        power_at = s > power_at ? power_at : NULL;
+    }
     if (!n->exact || n->power < -22 || n->power > 22)
-        return read_slowly(start, s, n->mark_at, value) ? s : NULL;
+        return read_slowly(start, s, n->mark_at, power_at, value) ? s : NULL;
     *value =
         n->power < 0 ? (double)n->digits / tens[-n->power] : (double)n->digits * tens[n->power];
     if (minus)
@@ -412,10 +419,12 @@ rc_number_table_open(struct rc_number_table *t, const struct rc_lines *lines,
     t->first_line = line;
     if (t->separator == '\0' && find_separator(t, s, line, err) != RC_OK)
         return RC_FAIL;
+    while (t->separator == '\t' && t->start > lines->at && t->start[-1] == '\t')
+        s = --t->start; /* before it stands a value that is missing */
     if (t->separator == ',' && t->decimal == ',' && !has_quotes(t))
         return rc_err_set(err, "the comma cannot be separator and decimal mark at once");
-    if (t->separator == ',' && t->decimal == 0)
-        t->decimal = '.';
+    if (t->separator == ',' && t->decimal == 0 && !has_quotes(t))
+        t->decimal = '.'; /* in quotes a comma may be the mark */
     decimal = t->decimal;
     if ((s = read_row(t, s, 0, NULL, &t->columns, &decimal, &bad)) == NULL)
         return bad_field(t, line, bad, decimal, err);
@@ -450,6 +459,30 @@ rc_number_table_read(struct rc_number_table *t, double *v, struct rc_err *err)
             return rc_err_set(err, "line %zu: %zu values, where the first row (line %zu) has %zu",
                               line, count, t->first_line, t->columns);
         s = next_row(t, s, &line);
+    }
+    return RC_OK;
+}
+
+enum rc_status
+rc_number_table_edges(const struct rc_number_table *t, double *row, double *column,
+                      struct rc_err *err)
+{
+    const char *s = t->start, *bad, *here;
+    size_t line = t->first_line, count;
+    char decimal = t->decimal;
+
+    if ((here = read_row(t, s, t->columns, row, &count, &decimal, &bad)) == NULL)
+        return bad_field(t, line, bad, decimal, err);
+    for (size_t j = 0; j < t->rows; j++) {
+        double *first = &column[j];
+
+        here = skip_blanks(t, s);
+        *first = NAN;
+        if (*here != t->separator || t->separator == ' ')
+            if ((*here == '"' ? read_quoted(t, here, &decimal, first)
+                              : read_field(t, here, &decimal, first)) == NULL)
+                return bad_field(t, line, here, decimal, err);
+        s = next_row(t, line_end(t, s), &line);
     }
     return RC_OK;
 }

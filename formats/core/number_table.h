@@ -4,7 +4,7 @@
  *
  * Columns stand apart by one separator. When it is white space, runs of it count once; otherwise
  * nothing between two separators is a missing value, and a separator at the end of a row ends it.
- * A value may stand in quotes. Empty lines and lines that begin with '#' or '%' are skipped. Missing values are NaN, NA, N/A,
+ * A value may stand in quotes, and its exponent may begin with D. Empty lines and lines that begin with '#' or '%' are skipped. Missing values are NaN, NA, N/A,
  * BAD, -- or --- in either case, and the word that the user gives.
  */
 #ifndef RC_NUMBER_TABLE_H
@@ -33,5 +33,9 @@ enum rc_status rc_number_table_size(const struct rc_number_table *table, size_t 
                                     struct rc_err *err);
 /* All values, row by row, NaN where missing. RC_FAIL names the line that does not fit. */
 enum rc_status rc_number_table_read(struct rc_number_table *table, double *v, struct rc_err *err);
+/* The first row (columns values) and the first value of each row, without the rest. RC_FAIL where one
+ * of them is no number. */
+enum rc_status rc_number_table_edges(const struct rc_number_table *table, double *row,
+                                     double *column, struct rc_err *err);
 
 #endif

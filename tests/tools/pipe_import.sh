@@ -33,6 +33,17 @@ claim "several files are several cases" \
     test "$(grep -a '^case=' three.rcg | tr '\n' ' ')" = "case=1 case=2 case=3 "
 claim "and one stream" test "$(tail -n 1 three.rcg)" = "RCGEND 3"
 
+cp map.txt good.txt
+printf 'words and no more\n' >bad.txt
+refuses 1 'bad.txt: ' "a bad file among several ends the import" 'rc-import good.txt bad.txt map.txt'
+claim "--keep-going goes on and exits with 1 at the end" bash -c '
+    rc-import --keep-going good.txt bad.txt map.txt >going.rcg 2>going.err
+    [ $? -eq 1 ] && grep -q "^rc-import: bad.txt: " going.err'
+claim "with a whole stream of the others, whose cases keep their numbers" \
+    test "$(grep -a '^case=\|^RCGEND\|^RCGFAIL' going.rcg | tr '\n' ' ')" = "case=1 case=3 RCGEND 2 "
+refuses 1 'none of the 2 files can be read' "where none is good there is no stream" \
+    'rc-import --keep-going bad.txt bad.txt'
+
 # ---- what the user adds ----
 
 rc-import --dx 1.1um --z-unit nm bare.txt >bare.rcg

@@ -77,3 +77,29 @@ import_read(struct tool *t, const char *name, struct rc_file *file, struct rc_er
         fclose(in);
     return data;
 }
+
+enum rc_status
+import_skip(struct rc_file *file, unsigned char *data, size_t lines, struct rc_err *err)
+{
+    size_t wide = rc_file_is_utf16(file) ? 2 : 1, at = wide == 2 ? 2 : 0, done = 0;
+    size_t low = wide == 2 && data[0] == 0xfe ? 1 : 0; /* place of the byte that counts */
+
+    while (done < lines && at + wide <= file->size) {
+        unsigned c = data[at + low] | (wide == 2 ? data[at + 1 - low] << 8 : 0);
+
+        at += wide;
+        if (c == '\r' && at + wide <= file->size && data[at + low] == '\n' &&
+            (wide == 1 || data[at + 1 - low] == 0))
+            at += wide;
+        done += c == '\n' || c == '\r';
+    }
+    if (done < lines || at >= file->size)
+        return rc_err_set(err, "--skip %zu leaves nothing of the file", lines);
+    if (wide == 2) { /* its mark stays in front */
+        at -= 2;
+        memmove(data + at, data, 2);
+    }
+    file->data = data + at;
+    file->size -= at;
+    return RC_OK;
+}

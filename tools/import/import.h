@@ -17,6 +17,9 @@ enum {
  * NULL when it cannot be read or needs more than --memory allows. */
 unsigned char *import_read(struct tool *tool, const char *name, struct rc_file *file,
                            struct rc_err *err);
+/* Passes over its first lines, in UTF-16 too. RC_FAIL where there are no more. */
+enum rc_status import_skip(struct rc_file *file, unsigned char *data, size_t lines,
+                           struct rc_err *err);
 /* How messages name it. */
 const char *import_source(const char *name);
 
@@ -31,6 +34,9 @@ enum rc_status import_even(const struct rc_file *file, const struct rc_wish *wis
 /* Warns of a map with a side above 1 m or below 10 nm, and of heights that span more than its longer
  * side, unless the user has said the spacing, or the unit. */
 void import_judge(struct tool *tool, const struct rc_grid *grid, const struct rc_wish *wish);
+/* Warns where the least or the greatest value stands often, and far from all others, or is a number that
+ * programs write for missing points: `unit` is what one number of the file is in the grid's unit. */
+void import_judge_marks(struct tool *tool, const struct rc_grid *grid, double unit);
 
 /* ---- channel.c ---- */
 

@@ -42,3 +42,80 @@ import_judge(struct tool *t, const struct rc_grid *g, const struct rc_wish *wish
             "--dx the spacing",
             t->source, span, fmax(x, y));
 }
+
+/* ---- marks of missing points ---- */
+
+/* A value at one end of the range, how many nodes have it, and what the others are. */
+struct end {
+    double value, next; /* next: the nearest other value */
+    size_t n;
+};
+
+static void
+find_end(const struct rc_grid *g, bool least, struct end *end)
+{
+    double way = least ? 1 : -1;
+
+    *end = (struct end){.value = way * INFINITY, .next = way * INFINITY};
+    for (size_t k = 0; k < g->nx * g->ny; k++) {
+        double v = g->v[k];
+
+        if (!isfinite(v))
+            continue;
+        if (v == end->value)
+            end->n++;
+        else if (way * v < way * end->value) {
+            end->next = end->value;
+            end->value = v;
+            end->n = 1;
+        } else if (way * v < way * end->next)
+            end->next = v;
+    }
+}
+
+/* Whether programs write the number for a missing point: nines, or a power of two less one, or huge. */
+static bool
+is_usual_mark(double value)
+{
+    static const double marks[] = {999,   9999,  99999, 999999,     9999999,
+                                   32767, 32768, 65535, 2147483647, 2147483648.0};
+
+    for (size_t k = 0; k < sizeof marks / sizeof *marks; k++)
+        if (fabs(fabs(value) / marks[k] - 1) < 1e-12)
+            return true;
+    return fabs(value) >= 1e30;
+}
+
+static void
+judge_end(struct tool *t, const struct rc_grid *g, double unit, const struct end *end,
+          double other_end, size_t finite)
+{
+    double rest = fabs(other_end - end->next), gap = fabs(end->value - end->next);
+    double mark = end->value / unit;
+    char number[32], in_unit[SHOWN_NUMBER];
+
+    if (!isfinite(gap) || rest == 0 || finite - end->n < 3)
+        return;
+    if (is_usual_mark(mark) ? gap < rest : gap < 3 * rest || end->n * 100 < finite || end->n < 2)
+        return;
+    snprintf(number, sizeof number, "%.10g", mark);
+    snprintf(in_unit, sizeof in_unit, "%.4g", end->value);
+    tool_warn(t,
+              "%s: %zu of %zu values are %s in the file (%s %s), far from all others: if it marks "
+              "missing points, --missing=%s says so",
+              t->source, end->n, g->nx * g->ny, number, in_unit, g->unit, number);
+}
+
+void
+import_judge_marks(struct tool *t, const struct rc_grid *g, double unit)
+{
+    struct end least, most;
+    size_t finite = 0;
+
+    for (size_t k = 0; k < g->nx * g->ny; k++)
+        finite += isfinite(g->v[k]) != 0;
+    find_end(g, true, &least);
+    find_end(g, false, &most);
+    judge_end(t, g, unit, &least, most.value, finite);
+    judge_end(t, g, unit, &most, least.value, finite);
+}

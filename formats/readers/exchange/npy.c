@@ -1,11 +1,13 @@
 /*
  * NumPy array: 93 4e 55 4d 50 59, a version, the length of the header, and the header, a dictionary
  * as text: {'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }. The array is [row, column];
- * it has neither spacing nor unit. One dimension is a profile.
+ * it has neither spacing nor unit. One dimension is a profile. NPZ is a ZIP archive of such files.
  */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "formats/containers/containers.h"
 #include "formats/format.h"
 
 enum {
@@ -92,17 +94,15 @@ read_shape(struct rc_piece value, struct rc_map *map, struct rc_err *err)
     return rc_map_count("columns", size[1], &map->nx, err);
 }
 
+/* Describes the array in a file as a map. */
 static enum rc_status
-npy_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+read_header(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
-    struct rc_map *map = rc_maps_add(maps, "", 0);
     struct rc_piece header;
     size_t n;
     int version;
 
-    (void)wish;
     if (!has_magic(file))
         return rc_err_set(err, "no NumPy array: it does not begin with 93 'NUMPY'");
     version = (int)rc_bytes_at(&b, MAGIC, RC_RAW_U8);
@@ -119,18 +119,127 @@ npy_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return read_shape(value_of(header, "'shape'"), map, err);
 }
 
+/* ---- archives of arrays ---- */
+
+/* The array of a member, unpacked, which the caller frees; NULL with the reason. */
+static unsigned char *
+unpack_array(struct rc_zip_read *archive, const struct rc_file *file, size_t member,
+             struct rc_file *array, struct rc_err *err)
+{
+    unsigned char *data =
+        rc_zip_read_bytes(archive, member, rc_memory_limit(file->size), &array->size, NULL, err);
+
+    array->name = "array.npy";
+    array->data = data;
+    return data;
+}
+
+static enum rc_status
+fill_member(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+            double *v, struct rc_err *err)
+{
+    struct rc_zip_read *archive = rc_zip_read_new(file, err);
+    enum rc_status status = RC_FAIL;
+    struct rc_file array;
+    struct rc_map inner = *map;
+    unsigned char *data =
+        archive == NULL ? NULL : unpack_array(archive, file, map->more, &array, err);
+
+    (void)wish;
+    if (data != NULL && read_header(&array, &inner, err) == RC_OK) {
+        struct rc_bytes b = rc_file_bytes(&array, inner.big);
+        size_t n = map->nx * map->ny, width = rc_raw_width(inner.raw);
+
+        b.at = inner.at;
+        if (n > (array.size - inner.at) / width)
+            rc_err_set(err, "the array '%s' has %zu bytes, %zu x %zu values take more", map->name,
+                       array.size, map->nx, map->ny);
+        else {
+            rc_bytes_values(&b, inner.raw, v, n);
+            status = RC_OK;
+        }
+    }
+    free(data);
+    rc_zip_read_free(archive);
+    return status;
+}
+
+static bool
+is_array(const char *name)
+{
+    size_t n = strlen(name);
+
+    return n > 4 && strcmp(name + n - 4, ".npy") == 0;
+}
+
+/* Arrays of one or two dimensions; others are passed over. */
+static enum rc_status
+npz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+         struct rc_err *err)
+{
+    struct rc_zip_read *archive = rc_zip_read_new(file, err);
+    size_t members = archive == NULL ? 0 : rc_zip_read_members(archive);
+    struct rc_err why = {"the archive holds no array (NAME.npy)"};
+
+    (void)wish;
+    for (size_t k = 0; k < members; k++) {
+        const char *name = rc_zip_read_name(archive, k);
+        struct rc_map *map, one = {.si = 1, .scale = 1};
+        struct rc_file array;
+        unsigned char *data;
+
+        if (!is_array(name) || (data = unpack_array(archive, file, k, &array, &why)) == NULL)
+            continue;
+        if (read_header(&array, &one, &why) == RC_OK &&
+            rc_map_bound(&one, file, (double)array.size, &why) == RC_OK) {
+            map = rc_maps_add(maps, name, strlen(name) - 4);
+            map->nx = one.nx;
+            map->ny = one.ny;
+            map->by_columns = one.by_columns;
+            map->beside = one.beside;
+            map->fill = fill_member;
+            map->more = k;
+        }
+        free(data);
+    }
+    rc_zip_read_free(archive);
+    if (archive == NULL)
+        return RC_FAIL;
+    return maps->n > 0 ? RC_OK : rc_err_set(err, "%s", why.text);
+}
+
+/* ---- the entry in formats.list ---- */
+
+static enum rc_status
+npy_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+         struct rc_err *err)
+{
+    return rc_file_holds(file, 0, "PK", 2) ? npz_find(file, wish, maps, err)
+                                           : read_header(file, rc_maps_add(maps, "", 0), err);
+}
+
 static int
 npy_score(const struct rc_file *file)
 {
-    return has_magic(file) ? 95 : 0;
+    struct rc_zip_read *archive;
+    size_t first;
+    bool array;
+
+    if (has_magic(file))
+        return 95;
+    if (!rc_file_holds(file, 0, "PK", 2) || (archive = rc_zip_read_new(file, NULL)) == NULL)
+        return 0;
+    array = rc_zip_read_files(archive, &first) > 0 && is_array(rc_zip_read_name(archive, first));
+    rc_zip_read_free(archive);
+    return array ? 85 : 0;
 }
 
 RC_FORMAT_OF_MAPS(npy)
 
 const struct rc_format rc_format_npy = {
     .name = "npy",
-    .suffixes = ".npy",
-    .summary = "NumPy arrays of one or two dimensions",
+    .suffixes = ".npy .npz",
+    .summary = "NumPy arrays of one or two dimensions, in archives too",
     .score = npy_score,
     .list = npy_list,
     .read = npy_read,

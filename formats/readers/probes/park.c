@@ -248,7 +248,7 @@ park_score(const struct rc_file *file)
         return 0;
     return rc_tiff_hints(file, MAGIC_TAG, TYPE_LONG) && rc_tiff_hints(file, VERSION_TAG, TYPE_LONG)
                ? 90
-               : 3; /* any other TIFF: to say why it is refused */
+               : 0;
 }
 
 RC_FORMAT_SANDBOXED(park)

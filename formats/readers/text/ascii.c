@@ -29,6 +29,9 @@
  *     \Scan Size: 10 10 um            NanoScope export of one image
  *     \Exported image units: nm
  *
+ * Without a header that is understood, lines of other text above the numbers are passed over, and the first
+ * row and column may be labels or positions (labels.h).
+ *
  * Two columns whose first rises, and three columns of which two run through a raster, are taken
  * for profiles and lists of points and refused, unless a header says that they are a matrix.
  */
@@ -36,6 +39,7 @@
 #include <string.h>
 
 #include "ascii_head.h"
+#include "labels.h"
 #include "formats/format.h"
 
 /* One of the images of a file. */
@@ -96,48 +100,135 @@ find_image(const struct rc_file *file, size_t index, struct image *image, size_t
     return rc_err_set(err, "there is no channel %zu: the file has %zu", index + 1, *n);
 }
 
-/* Image `index` of the *n in the file. */
-static enum rc_status
-ascii_open(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-           struct rc_ascii_head *h, struct rc_number_table *table, size_t *n, struct rc_err *err)
+/* A table of heights with its header, and what of it holds no heights. */
+struct matrix {
+    struct rc_ascii_head head;
+    struct rc_number_table table;
+    struct rc_titled_table titled; /* has the table where is_titled */
+    bool is_titled;
+    struct rc_labels labels;
+    size_t nx, ny; /* of heights */
+    size_t images;
+};
+
+static void
+matrix_close(struct matrix *m)
 {
+    rc_titled_table_close(&m->titled);
+}
+
+/* Image `index` of the file: a table behind its header. */
+static enum rc_status
+open_behind_head(struct matrix *m, const struct rc_file *file, const struct rc_wish *wish,
+                 size_t index, struct rc_err *err)
+{
+    const struct rc_ascii_head *h = &m->head;
     struct rc_wish said = *wish;
     struct image image;
 
-    *h = (struct rc_ascii_head){0};
-    if (find_image(file, index, &image, n, err) != RC_OK)
+    if (find_image(file, index, &image, &m->images, err) != RC_OK)
         return RC_FAIL;
-    *h = image.head;
+    m->head = image.head;
     if (said.separator == NULL && h->separator[0] != '\0')
         said.separator = h->separator;
-    if (rc_number_table_open(table, &image.lines, &said, err) != RC_OK)
+    if (rc_number_table_open(&m->table, &image.lines, &said, err) != RC_OK)
         return RC_FAIL;
-    if ((h->nx != 0 && h->nx != table->columns) || (h->ny != 0 && h->ny != table->rows))
+    if ((h->nx != 0 && h->nx != m->table.columns) || (h->ny != 0 && h->ny != m->table.rows))
         return rc_err_set(err,
                           "the header promises %zu columns and %zu rows, the file has %zu and "
                           "%zu",
-                          h->nx == 0 ? table->columns : h->nx, h->ny == 0 ? table->rows : h->ny,
-                          table->columns, table->rows);
-    if (table->columns == 1)
+                          h->nx == 0 ? m->table.columns : h->nx, h->ny == 0 ? m->table.rows : h->ny,
+                          m->table.columns, m->table.rows);
+    if (m->table.columns == 1)
         return rc_err_set(err,
                           "%zu numbers in one column: that is a profile or a list, no matrix "
                           "(--format profile takes them for heights)",
-                          table->rows);
+                          m->table.rows);
     return RC_OK;
 }
 
-/* Spacing as the header has it, NAN where it does not say. */
-static void
-spacing(const struct rc_ascii_head *h, const struct rc_number_table *table, double *dx, double *dy)
+/* Whether a line above the numbers looks like a row of them that is damaged. */
+static bool
+is_damaged_row(const struct rc_titled_table *t)
 {
-    *dx = !isnan(h->step_x)  ? h->step_x
-          : !isnan(h->pixel) ? h->pixel
-                             : h->width / (double)table->columns;
-    *dy = !isnan(h->step_y)  ? h->step_y
-          : !isnan(h->pixel) ? h->pixel
-                             : h->height / (double)table->rows;
+    struct rc_piece line = t->title_line, title, rest;
+    size_t numbers = 0, others = 0;
+    double value;
+
+    while (rc_title_next(&line, t->title_separator, &title))
+        if (rc_piece_number(rc_piece_bare(title), &value, &rest) && rest.n == 0)
+            numbers++;
+        else
+            others += title.n > 0;
+    return numbers > others && numbers + others >= t->numbers.columns && others > 0 &&
+           !rc_titled_table_is_matrix(t);
+}
+
+/* A matrix below titles or other text, in UTF-16 too. The reason why no header is understood stays where it
+ * is none. */
+static enum rc_status
+open_below_titles(struct matrix *m, const struct rc_file *file, const struct rc_wish *wish)
+{
+    enum rc_status status = rc_titled_table_open(&m->titled, file, 2, wish, NULL);
+
+    m->is_titled = true;
+    m->images = 1;
+    m->head = (struct rc_ascii_head){.width = NAN,
+                                     .height = NAN,
+                                     .pixel = NAN,
+                                     .step_x = NAN,
+                                     .step_y = NAN,
+                                     .z = rc_piece_metres(m->titled.axis_unit[2])};
+    m->table = m->titled.numbers;
+    if (status == RC_OK && (!rc_titled_table_is_matrix(&m->titled) || is_damaged_row(&m->titled) ||
+                            (rc_file_is_utf16(file) && m->titled.skipped > 0)))
+        status = RC_FAIL;
+    return status;
+}
+
+static enum rc_status
+ascii_open(struct matrix *m, const struct rc_file *file, const struct rc_wish *wish, size_t index,
+           struct rc_err *err)
+{
+    *m = (struct matrix){.labels = {.height_unit = {"", 0}}};
+    if (open_behind_head(m, file, wish, index, err) != RC_OK &&
+        (m->head.known || index > 0 || open_below_titles(m, file, wish) != RC_OK))
+        return RC_FAIL;
+    m->nx = m->table.columns;
+    m->ny = m->table.rows;
+    return RC_OK;
+}
+
+/* The same, and what of the table are labels or positions. */
+static enum rc_status
+ascii_open_all(struct matrix *m, const struct rc_file *file, const struct rc_wish *wish,
+               size_t index, struct rc_err *err)
+{
+    if (ascii_open(m, file, wish, index, err) != RC_OK)
+        return RC_FAIL;
+    if (m->head.known)
+        return RC_OK;
+    if (rc_labels_find(&m->table, m->is_titled ? &m->titled : NULL, wish, &m->labels, err) != RC_OK)
+        return RC_FAIL;
+    m->nx -= m->labels.columns;
+    m->ny -= m->labels.rows;
+    return RC_OK;
+}
+
+/* Spacing as the header or the positions have it, NAN where they do not say. */
+static enum rc_status
+spacing(const struct matrix *m, const struct rc_wish *wish, double *dx, double *dy,
+        struct rc_err *err)
+{
+    const struct rc_ascii_head *h = &m->head;
+
+    if (!h->known)
+        return rc_labels_spacing(&m->labels, wish, dx, dy, err);
+    *dx = !isnan(h->step_x) ? h->step_x : !isnan(h->pixel) ? h->pixel : h->width / (double)m->nx;
+    *dy = !isnan(h->step_y) ? h->step_y : !isnan(h->pixel) ? h->pixel : h->height / (double)m->ny;
     if (isnan(*dy))
         *dy = *dx;
+    return RC_OK;
 }
 
 /* Whether two columns run through a raster: column `slow` stays the same while `fast` goes on in
@@ -172,33 +263,48 @@ is_rising(const double *v, size_t rows)
 }
 
 static enum rc_status
-refuse_coordinates(const struct rc_ascii_head *h, const struct rc_number_table *table,
-                   const double *v, struct rc_err *err)
+refuse_coordinates(const struct matrix *m, const double *v, struct rc_err *err)
 {
+    const struct rc_ascii_head *h = &m->head;
+
     if (h->nx != 0 || !isnan(h->width) || !isnan(h->pixel) || !isnan(h->step_x))
         return RC_OK;
-    if (table->columns == 2 && is_rising(v, table->rows))
+    if (m->nx == 2 && is_rising(v, m->ny))
         return rc_err_set(err, "two columns, of which the first rises: that is a profile (x, z), "
                                "no matrix; a header with a width would say otherwise");
-    if (table->columns == 3 && (is_raster(v, table->rows, 0, 1) || is_raster(v, table->rows, 1, 0)))
+    if (m->nx == 3 && (is_raster(v, m->ny, 0, 1) || is_raster(v, m->ny, 1, 0)))
         return rc_err_set(err, "three columns, of which two run through a raster: that is a list "
                                "of points (x, y, z), no matrix; a header with a width would say "
                                "otherwise");
     return RC_OK;
 }
 
+/* Metres in one number, as the header or the corner says; NAN for neither. */
+static double
+height_metres(const struct matrix *m)
+{
+    return isnan(m->head.z) ? rc_piece_metres(m->labels.height_unit) : m->head.z;
+}
+
 /* The factor from the numbers to SI units; `other` is what they are when they are no heights. */
 static enum rc_status
-get_scales(const struct rc_ascii_head *h, double dx, double dy, const struct rc_map *other,
-           const struct rc_wish *wish, struct rc_shape *shape, double *si, struct rc_notes *notes,
-           struct rc_err *err)
+get_scales(const struct matrix *m, const struct rc_map *other, const struct rc_wish *wish,
+           struct rc_shape *shape, double *si, struct rc_notes *notes, struct rc_err *err)
 {
-    if (rc_spacing(wish, dx, dy, shape, notes, err) == RC_OK) {
+    const struct rc_ascii_head *h = &m->head;
+    double dx, dy, z = height_metres(m);
+    struct rc_wish said = *wish;
+
+    if (spacing(m, wish, &dx, &dy, err) != RC_OK)
+        return RC_FAIL;
+    if (m->labels.positions && isnan(m->labels.metres[0]) && isnan(wish->dy) && !isnan(wish->dx))
+        said.dy = dy; /* --dx gives the unit of the positions, of y too */
+    if (rc_spacing(&said, dx, dy, shape, notes, err) == RC_OK) {
         *si = other == NULL ? NAN : other->si;
-        return other != NULL ? RC_OK : rc_height_unit(wish, h->z, h->unit, si, notes, err);
+        return other != NULL ? RC_OK : rc_height_unit(wish, z, h->unit, si, notes, err);
     }
     if (isnan(dx) && h->unit[0] == '\0')
-        rc_lacks_unit(wish, h->z, err);
+        rc_lacks_unit(wish, z, err);
     return RC_FAIL;
 }
 
@@ -217,34 +323,77 @@ is_other(const struct rc_ascii_head *h, size_t images, const struct rc_wish *wis
     return true;
 }
 
-static struct rc_grid *
-read_matrix(const struct rc_ascii_head *h, size_t images, struct rc_number_table *table,
-            const struct rc_wish *wish, struct rc_notes *notes, struct rc_err *err)
+/* Moves the heights together that stand beside labels or positions. */
+static void
+leave_out(const struct matrix *m, double *v)
 {
-    struct rc_shape shape = {.nx = table->columns, .ny = table->rows, .dx = 1, .dy = 1};
-    struct rc_map map, *other = is_other(h, images, wish, &map) ? &map : NULL;
+    const struct rc_labels *l = &m->labels;
+
+    for (size_t j = 0; j < m->ny && l->rows + l->columns > 0; j++)
+        memmove(v + j * m->nx, v + (j + l->rows) * m->table.columns + l->columns,
+                m->nx * sizeof *v);
+}
+
+static void
+turn_columns(double *v, size_t nx, size_t ny)
+{
+    for (size_t j = 0; j < ny; j++)
+        for (size_t i = 0; i < nx / 2; i++) {
+            double *a = &v[j * nx + i], *b = &v[j * nx + nx - 1 - i], kept = *a;
+
+            *a = *b;
+            *b = kept;
+        }
+}
+
+static void
+note_skipped(const struct matrix *m, struct rc_notes *notes)
+{
+    char quote[RC_SHOWN];
+
+    if (m->is_titled && m->titled.skipped > 0)
+        rc_note(notes, "%zu line%s above the numbers %s passed over, the first is '%s'",
+                m->titled.skipped, m->titled.skipped == 1 ? "" : "s",
+                m->titled.skipped == 1 ? "is" : "are",
+                rc_piece_shown(quote, m->titled.first_skipped));
+    rc_labels_note(&m->labels, notes);
+}
+
+static struct rc_grid *
+read_matrix(struct matrix *m, const struct rc_wish *wish, struct rc_notes *notes,
+            struct rc_err *err)
+{
+    struct rc_shape shape = {.nx = m->table.columns, .ny = m->table.rows, .dx = 1, .dy = 1};
+    struct rc_map map, *other = is_other(&m->head, m->images, wish, &map) ? &map : NULL;
     struct rc_grid *g = NULL;
-    double dx, dy, si;
+    double si;
     size_t n;
 
-    if (rc_number_table_size(table, &n, err) != RC_OK ||
+    if (rc_number_table_size(&m->table, &n, err) != RC_OK ||
         (g = rc_grid_new(&shape, other == NULL ? "height" : map.name,
                          other == NULL ? "m" : map.unit, err)) == NULL)
         return NULL;
-    spacing(h, table, &dx, &dy);
-    if (rc_number_table_read(table, g->v, err) != RC_OK ||
-        refuse_coordinates(h, table, g->v, err) != RC_OK ||
-        get_scales(h, dx, dy, other, wish, &shape, &si, notes, err) != RC_OK ||
-        rc_piece_keep(g, "file.channel", h->channel, err) != RC_OK) {
-        rc_grid_free(g);
-        return NULL;
-    }
+    if (rc_number_table_read(&m->table, g->v, err) != RC_OK)
+        goto failed;
+    leave_out(m, g->v);
+    g->nx = m->nx;
+    g->ny = m->ny;
+    if (refuse_coordinates(m, g->v, err) != RC_OK ||
+        get_scales(m, other, wish, &shape, &si, notes, err) != RC_OK ||
+        rc_piece_keep(g, "file.channel", m->head.channel, err) != RC_OK)
+        goto failed;
     g->dx = shape.dx;
     g->dy = shape.dy;
-    for (size_t k = 0; k < n; k++)
+    for (size_t k = 0; k < m->nx * m->ny; k++)
         g->v[k] *= si;
+    note_skipped(m, notes);
+    if (m->labels.falls[0])
+        turn_columns(g->v, g->nx, g->ny);
+    if (m->labels.falls[1])
+        rc_heights_flip(g);
     if (rc_heights_finite(g, notes, err) == RC_OK)
         return g;
+failed:
     rc_grid_free(g);
     return NULL;
 }
@@ -254,20 +403,21 @@ read_matrix(const struct rc_ascii_head *h, size_t images, struct rc_number_table
 static int
 ascii_score(const struct rc_file *file)
 {
-    struct rc_number_table table;
-    struct rc_ascii_head h;
+    enum rc_status status;
+    struct matrix m;
     unsigned char c;
-    size_t images;
 
+    if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
+        return 0;
+    status = ascii_open(&m, file, &rc_no_wish, 0, NULL);
+    matrix_close(&m);
+    if (status == RC_OK)
+        return m.head.known ? 90 : 40;
     if (rc_file_is_utf16(file))
         return 2;
-    if (!rc_file_is_text(file))
-        return 0;
-    if (ascii_open(file, &rc_no_wish, 0, &h, &table, &images, NULL) == RC_OK)
-        return h.known ? 90 : 40;
     /* A low score for what begins like numbers, so that the refusal says what is wrong with them. */
     c = file->data[0];
-    return h.known ? 30 : (c >= '0' && c <= '9') || c == '-' || c == ' ' ? 5 : 0;
+    return m.head.known ? 30 : (c >= '0' && c <= '9') || strchr("- \"", c) != NULL ? 5 : 0;
 }
 
 static size_t
@@ -278,20 +428,23 @@ ascii_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_cha
 
     for (size_t k = 0; k < images && k < (most == 0 ? 1 : most); k++) {
         struct rc_channel c = {.name = "height"};
-        struct rc_number_table table;
-        struct rc_ascii_head h;
+        struct matrix m;
         struct rc_map other;
+        enum rc_status status = ascii_open_all(&m, file, wish, k, err);
 
-        if (ascii_open(file, wish, k, &h, &table, &images, err) != RC_OK)
-            return 0;
-        if (h.channel.n > 0)
-            rc_text_clean(c.name, sizeof c.name, h.channel.text, h.channel.n);
-        strcpy(c.unit, isnan(h.z) ? h.unit : "m");
-        if (is_other(&h, images, &rc_no_wish, &other))
+        if (status == RC_OK && m.head.channel.n > 0)
+            rc_text_clean(c.name, sizeof c.name, m.head.channel.text, m.head.channel.n);
+        strcpy(c.unit, isnan(height_metres(&m)) ? m.head.unit : "m");
+        if (status == RC_OK && is_other(&m.head, m.images, &rc_no_wish, &other))
             strcpy(c.unit, other.unit);
-        c.nx = table.columns;
-        c.ny = table.rows;
-        spacing(&h, &table, &c.dx, &c.dy);
+        c.nx = m.nx;
+        c.ny = m.ny;
+        if (status == RC_OK)
+            status = spacing(&m, wish, &c.dx, &c.dy, err);
+        images = m.images;
+        matrix_close(&m);
+        if (status != RC_OK)
+            return 0;
         if (most > 0)
             channel[k] = c;
     }
@@ -302,13 +455,13 @@ static struct rc_grid *
 ascii_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
            struct rc_notes *notes, struct rc_err *err)
 {
-    struct rc_number_table table;
-    struct rc_ascii_head h;
-    size_t images;
+    struct rc_grid *g = NULL;
+    struct matrix m;
 
-    if (ascii_open(file, wish, index, &h, &table, &images, err) != RC_OK)
-        return NULL;
-    return read_matrix(&h, images, &table, wish, notes, err);
+    if (ascii_open_all(&m, file, wish, index, err) == RC_OK)
+        g = read_matrix(&m, wish, notes, err);
+    matrix_close(&m);
+    return g;
 }
 
 const struct rc_format rc_format_ascii = {

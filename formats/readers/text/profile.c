@@ -1,7 +1,8 @@
 /*
  * Profiles as text: a column of positions, evenly apart, and one of heights, behind a header of whatever
- * kind, whose units are found as titled_table.h says; a column that counts the points is passed over, one
- * titled "valid" marks missing points by 0. A single column is of heights.
+ * kind, whose units and roles are found as titled_table.h says; a column that counts the points is passed
+ * over, one titled "valid" marks missing points by 0, further ones are channels. A single column is of
+ * heights.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -12,20 +13,15 @@
 
 struct profile {
     struct rc_titled_table table;
-    size_t x, z, valid; /* columns; valid = columns: none */
-    bool falls;         /* the positions do */
+    size_t x, z, valid;                   /* columns; valid = columns: none */
+    bool falls;                           /* the positions do */
+    size_t height[RC_MAPS_MOST], heights; /* columns of heights, of which z is the first */
 };
 
 static const double *
 column(const struct profile *p, size_t c)
 {
     return p->table.v + c;
-}
-
-static struct rc_piece
-title_of(const struct profile *p, size_t c)
-{
-    return c < p->table.titles ? p->table.title[c] : (struct rc_piece){"", 0};
 }
 
 /* ---- columns ---- */
@@ -36,7 +32,7 @@ counts(const struct profile *p, size_t c)
     const double *v = column(p, c);
     size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns;
 
-    if (rc_piece_begins(title_of(p, c), "index"))
+    if (rc_titled_table_role(&p->table, c) == RC_ROLE_INDEX)
         return true;
     for (size_t k = 0; k < rows; k++)
         if (v[k * columns] != v[0] + (double)k)
@@ -44,34 +40,70 @@ counts(const struct profile *p, size_t c)
     return rows > 1 && (v[0] == 0 || v[0] == 1) && rc_titled_table_unit(&p->table, c, 'x').n == 0;
 }
 
+/* The column of positions: by its title, else the first that does not count the points. */
+static size_t
+positions_of(const struct profile *p)
+{
+    const struct rc_titled_table *t = &p->table;
+    size_t columns = t->numbers.columns, x = rc_titled_table_column(t, RC_ROLE_X);
+
+    if (x == columns && rc_titled_table_column(t, RC_ROLE_Z) < columns)
+        x = rc_titled_table_column(t, RC_ROLE_Y);
+    if (x < columns)
+        return x;
+    return columns > 2 && t->titles > 2 && counts(p, 0);
+}
+
+/* The others, but for those that are known to be no heights. */
+static void
+find_heights(struct profile *p)
+{
+    const struct rc_titled_table *t = &p->table;
+    size_t columns = t->numbers.columns;
+
+    for (size_t c = 0; c < columns; c++)
+        if (c != p->x && c != p->valid &&
+            (c > 0 || columns < 3 || t->titles < 3 || !counts(p, c)) &&
+            rc_titled_table_role(t, c) != RC_ROLE_INDEX && p->heights < RC_MAPS_MOST)
+            p->height[p->heights++] = c;
+}
+
 static enum rc_status
 pick_columns(struct profile *p, struct rc_err *err)
 {
-    size_t columns = p->table.numbers.columns, c = 0;
+    const struct rc_titled_table *t = &p->table;
+    size_t columns = t->numbers.columns;
 
+    p->heights = 0;
     if (columns == 1) {
         p->z = 0;
         p->valid = 1;
+        p->height[0] = 0;
+        p->heights = 1;
         return rc_titled_table_read(&p->table, err);
     }
-    if (columns > 2 && p->table.titles < 2)
+    if (columns > 2 && t->titles < 2)
         return rc_err_set(err,
                           "a table of %zu columns without titles: which are positions and "
                           "heights?",
                           columns);
+    if (rc_titled_table_is_matrix(t))
+        return rc_err_set(err,
+                          "the titles of %zu columns name no axis: that is a matrix, no profile; "
+                          "--format ascii reads it",
+                          columns);
+    if (columns > 2 && rc_titled_table_column(t, RC_ROLE_X) < columns &&
+        rc_titled_table_column(t, RC_ROLE_Y) < columns &&
+        rc_titled_table_column(t, RC_ROLE_Z) < columns)
+        return rc_err_set(err, "the titles name x, y and z: that is a list of points, no profile; "
+                               "--format xyz reads it");
     if (rc_titled_table_read(&p->table, err) != RC_OK)
         return RC_FAIL;
-    p->valid = columns;
-    for (size_t k = 0; k < columns; k++)
-        if (rc_piece_begins(title_of(p, k), "valid"))
-            p->valid = k;
-    if (columns > 2 && p->table.titles > 2 && counts(p, 0))
-        c++;
-    p->x = c++;
-    while (c == p->valid)
-        c++;
-    p->z = c;
-    if (p->x == p->valid || p->z >= columns)
+    p->valid = rc_titled_table_column(t, RC_ROLE_VALID);
+    p->x = positions_of(p);
+    find_heights(p);
+    p->z = p->height[0];
+    if (p->x == p->valid || p->heights == 0)
         return rc_err_set(err, "there are no columns of positions and heights in the table");
     return RC_OK;
 }
@@ -90,8 +122,10 @@ judge_direction(struct profile *p, struct rc_err *err)
     for (size_t k = 0; k < rows; k++) {
         double d = k == 0 ? 1 : (x[k * columns] - x[(k - 1) * columns]) * (p->falls ? -1 : 1);
         if (!isfinite(x[k * columns]) || !(d > 0))
-            return rc_err_set(
-                err, "the positions do not go on in one direction at row %zu of the table", k + 1);
+            return rc_err_set(err,
+                              "the positions do not go on in one direction at row %zu of the "
+                              "table, which is read as a profile; --format ascii reads a matrix",
+                              k + 1);
     }
     return RC_OK;
 }
@@ -166,21 +200,39 @@ fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struc
     struct profile p;
 
     status = profile_open(&p, file, wish, err);
+    p.z = map->more;
     if (status == RC_OK && p.table.numbers.columns > 1)
         status = lay_nodes(&p, file, wish, &even, v, map->notes, err);
     else
         for (size_t k = 0; k < map->nx && status == RC_OK; k++)
             v[k] = height_of(&p, k);
+    if (status == RC_OK)
+        rc_titled_table_left_out(&p.table, map->notes);
     rc_titled_table_close(&p.table);
     return status;
+}
+
+static void
+add_heights(const struct profile *p, size_t c, const struct rc_even *even, struct rc_maps *maps)
+{
+    struct rc_piece unit = rc_titled_table_unit(&p->table, c, 'z');
+    struct rc_piece name =
+        p->heights > 1 ? rc_titled_table_name(&p->table, c) : (struct rc_piece){"", 0};
+    struct rc_map *map = rc_maps_add(maps, name.text, name.n);
+
+    map->nx = even->n;
+    map->ny = 1;
+    map->more = c;
+    if (p->table.numbers.columns > 1)
+        rc_map_steps(map, even->step, even->step, rc_titled_table_unit(&p->table, p->x, 'x'));
+    map->fill = fill_heights;
+    rc_map_unit(map, unit.text, unit.n);
 }
 
 static enum rc_status
 profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
              struct rc_err *err)
 {
-    struct rc_map *map = rc_maps_add(maps, "", 0);
-    struct rc_piece unit;
     enum rc_status status;
     struct rc_even even = {0};
     struct profile p;
@@ -189,15 +241,8 @@ profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_m
     even.n = p.table.numbers.rows;
     if (status == RC_OK && p.table.numbers.columns > 1)
         status = lay_nodes(&p, file, wish, &even, NULL, NULL, err);
-    if (status == RC_OK) {
-        map->nx = even.n;
-        map->ny = 1;
-        if (p.table.numbers.columns > 1)
-            rc_map_steps(map, even.step, even.step, rc_titled_table_unit(&p.table, p.x, 'x'));
-        map->fill = fill_heights;
-        unit = rc_titled_table_unit(&p.table, p.z, 'z');
-        rc_map_unit(map, unit.text, unit.n);
-    }
+    for (size_t k = 0; status == RC_OK && k < p.heights; k++)
+        add_heights(&p, p.height[k], &even, maps);
     rc_titled_table_close(&p.table);
     return status;
 }

@@ -1,6 +1,8 @@
 #include "titled_table.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -91,7 +93,7 @@ unit_of(struct rc_piece title)
             word = rest;
             rest.n = 0;
         }
-        if (!isnan(rc_piece_metres(word)))
+        if (!isnan(rc_piece_metres(word)) && !rc_piece_is(word, "in")) /* "x in um" */
             return word;
     }
     return (struct rc_piece){title.text, 0};
@@ -106,24 +108,44 @@ without_mark(struct rc_piece line)
     return line;
 }
 
+bool
+rc_title_next(struct rc_piece *line, char separator, struct rc_piece *title)
+{
+    const char *end = line->text;
+    bool quoted;
+
+    while (separator == ' ' && line->n > 0 && (*line->text == ' ' || *line->text == '\t'))
+        line->text++, line->n--;
+    if (line->n == 0)
+        return false;
+    quoted = *line->text == '"' && memchr(line->text + 1, '"', line->n - 1) != NULL;
+    for (end = line->text + quoted; end < line->text + line->n; end++)
+        if (quoted)
+            quoted = *end != '"';
+        else if (*end == separator || (separator == ' ' && *end == '\t'))
+            break;
+    *title = rc_piece_trim((struct rc_piece){line->text, (size_t)(end - line->text)});
+    end += end < line->text + line->n;
+    line->n -= (size_t)(end - line->text);
+    line->text = end;
+    return true;
+}
+
 static size_t
 part_at(struct rc_titled_table *t, struct rc_piece line, char separator)
 {
-    char marks[2] = {separator, '\0'};
     struct rc_piece one;
 
     t->titles = 0;
-    while (t->titles < RC_TITLES_MOST && line.n > 0) {
-        if (!rc_piece_part(line, marks, &one, &line)) {
-            one = line;
-            line.n = 0;
-        }
+    t->title_line = line;
+    t->title_separator = separator;
+    while (rc_title_next(&line, separator, &one)) {
         /* between white space a unit in brackets belongs to the word before */
-        if (separator == ' ' && t->titles > 0 && one.n > 0 &&
+        if (separator == ' ' && t->titles > 0 && t->titles <= RC_TITLES_MOST && one.n > 0 &&
             (*one.text == '[' || *one.text == '('))
             t->title[t->titles - 1].n = (size_t)(one.text + one.n - t->title[t->titles - 1].text);
-        else if (one.n > 0 || separator != ' ')
-            t->title[t->titles++] = one;
+        else if (t->titles++ < RC_TITLES_MOST)
+            t->title[t->titles - 1] = one;
     }
     return t->titles;
 }
@@ -134,7 +156,11 @@ part_titles(struct rc_titled_table *t, struct rc_piece line)
 {
     static const char others[] = ";\t,";
 
-    line = without_mark(line);
+    while (line.n > 0 && strchr(" \r\n", line.text[line.n - 1]) != NULL &&
+           line.text[line.n - 1] != '\0')
+        line.n--;
+    if (without_mark(line).n < rc_piece_trim(line).n)
+        line = without_mark(line);
     if (part_at(t, line, t->numbers.separator) == t->numbers.columns)
         return;
     for (const char *c = others; *c != '\0'; c++)
@@ -168,27 +194,233 @@ rc_titled_table_unit(const struct rc_titled_table *t, size_t column, char axis)
 {
     struct rc_piece unit = {"", 0};
 
-    if (column < t->titles)
+    if (column < t->titles && column < RC_TITLES_MOST)
         unit = unit_of(rc_piece_bare(t->title[column]));
     return unit.n > 0 ? unit : t->axis_unit[axis - 'x'];
+}
+
+/* ---- roles ---- */
+
+/* The words of a title that say what its column holds; a single letter comes before others. */
+static const struct {
+    const char *word;
+    enum rc_role role;
+} roles[] = {
+    {"x", RC_ROLE_X},         {"y", RC_ROLE_Y},           {"z", RC_ROLE_Z},
+    {"index", RC_ROLE_INDEX}, {"counter", RC_ROLE_INDEX}, {"count", RC_ROLE_INDEX},
+    {"row", RC_ROLE_INDEX},   {"point", RC_ROLE_INDEX},   {"no", RC_ROLE_INDEX},
+    {"nr", RC_ROLE_INDEX},    {"number", RC_ROLE_INDEX},  {"num", RC_ROLE_INDEX},
+    {"idx", RC_ROLE_INDEX},   {"id", RC_ROLE_INDEX},      {"unnamed", RC_ROLE_INDEX},
+    {"valid", RC_ROLE_VALID}, {"height", RC_ROLE_Z},      {"heights", RC_ROLE_Z},
+    {"altitude", RC_ROLE_Z},  {"elevation", RC_ROLE_Z},   {"topography", RC_ROLE_Z},
+    {"depth", RC_ROLE_Z},     {"hoehe", RC_ROLE_Z},       {"h\xc3\xb6he", RC_ROLE_Z},
+    {"h\xf6he", RC_ROLE_Z},   {"hauteur", RC_ROLE_Z},     {"distance", RC_ROLE_X},
+    {"position", RC_ROLE_X},  {"pos", RC_ROLE_X},         {"lateral", RC_ROLE_X},
+    {"length", RC_ROLE_X},    {"abscissa", RC_ROLE_X},    {"abstand", RC_ROLE_X},
+    {"weg", RC_ROLE_X},       {"strecke", RC_ROLE_X},     {"encoder1", RC_ROLE_X},
+    {"encoder2", RC_ROLE_Y},
+};
+
+static bool
+in_word(char c)
+{
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+           (unsigned char)c >= 0x80;
+}
+
+static struct rc_piece
+title_of(const struct rc_titled_table *t, size_t column)
+{
+    bool known = column < t->titles && column < RC_TITLES_MOST;
+
+    return known ? rc_piece_bare(t->title[column]) : (struct rc_piece){"", 0};
+}
+
+struct rc_piece
+rc_titled_table_name(const struct rc_titled_table *t, size_t column)
+{
+    struct rc_piece title = title_of(t, column), before, after;
+
+    return rc_piece_part(title, "([<", &before, &after) && before.n > 0 ? before : title;
+}
+
+/* "z" of z1, but "encoder1" whole. */
+static enum rc_role
+role_of_word(struct rc_piece word)
+{
+    size_t letters = word.n;
+
+    while (letters > 1 && word.text[letters - 1] >= '0' && word.text[letters - 1] <= '9')
+        letters--;
+    if (letters == 1)
+        word.n = 1;
+    for (size_t k = 0; k < sizeof roles / sizeof *roles; k++)
+        if (rc_piece_is(word, roles[k].word))
+            return roles[k].role;
+    return RC_ROLE_NONE;
+}
+
+enum rc_role
+rc_titled_table_role(const struct rc_titled_table *t, size_t column)
+{
+    struct rc_piece name = rc_titled_table_name(t, column);
+    enum rc_role role = RC_ROLE_NONE, other;
+
+    for (size_t k = 0, n; k < name.n; k += n + 1) {
+        for (n = 0; k + n < name.n && in_word(name.text[k + n]);)
+            n++;
+        if (n == 0)
+            continue;
+        other = role_of_word((struct rc_piece){name.text + k, n});
+        if (n == 1 && other != RC_ROLE_NONE)
+            return other;
+        role = role == RC_ROLE_NONE ? other : role;
+    }
+    return role;
+}
+
+size_t
+rc_titled_table_column(const struct rc_titled_table *t, enum rc_role role)
+{
+    size_t columns = t->numbers.columns;
+
+    for (size_t c = 0; c < columns && c < t->titles && c < RC_TITLES_MOST; c++)
+        if (rc_titled_table_role(t, c) == role)
+            return c;
+    return columns;
+}
+
+/* Letters before the number that the title ends in; SIZE_MAX where it ends in none. */
+static size_t
+letters_before_number(struct rc_piece title)
+{
+    size_t n = title.n;
+
+    while (n > 0 && title.text[n - 1] >= '0' && title.text[n - 1] <= '9')
+        n--;
+    return n < title.n ? n : SIZE_MAX;
+}
+
+/* Whether the titles, but for that of a first column of row names, are all numbers, or all one word
+ * with a number. */
+static bool
+only_numbered(const struct rc_titled_table *t)
+{
+    struct rc_piece line = t->title_line, title, first = {"", 0};
+    size_t n = 0, letters = SIZE_MAX, missing = t->titles + 1 == t->numbers.columns;
+    bool numbers = true, alike = true;
+    double value;
+
+    for (; rc_title_next(&line, t->title_separator, &title); n++) {
+        struct rc_piece rest;
+
+        title = rc_piece_bare(title);
+        if (n == 0 && !missing && t->numbers.columns > 3 &&
+            letters_before_number(title) == SIZE_MAX)
+            continue; /* the corner */
+        if (n == 0 && !missing && title.n == 0)
+            continue;
+        numbers = numbers && rc_piece_number(title, &value, &rest) && rest.n == 0;
+        if (first.n == 0) {
+            first = title;
+            letters = letters_before_number(title);
+        }
+        alike = alike && letters != SIZE_MAX && letters_before_number(title) == letters &&
+                memcmp(title.text, first.text, letters) == 0;
+    }
+    return n > 1 && (numbers || alike);
+}
+
+bool
+rc_titled_table_is_matrix(const struct rc_titled_table *t)
+{
+    size_t columns = t->numbers.columns;
+
+    if (columns < 3)
+        return false;
+    if (t->titles + 1 != columns && t->titles != columns)
+        return columns > 3;
+    if (only_numbered(t))
+        return true;
+    for (size_t c = 0; c < columns && c < RC_TITLES_MOST; c++) {
+        enum rc_role role = rc_titled_table_role(t, c);
+
+        if (role == RC_ROLE_X || role == RC_ROLE_Y)
+            return false;
+    }
+    return rc_titled_table_unit(t, rc_titled_table_role(t, 0) == RC_ROLE_INDEX, 'x').n == 0;
+}
+
+void
+rc_titled_table_left_out(const struct rc_titled_table *t, struct rc_notes *notes)
+{
+    char names[120] = "", quote[RC_SHOWN];
+    size_t used = 0, n = 0;
+
+    for (size_t c = 0; c < t->numbers.columns && c < RC_TITLES_MOST; c++) {
+        if (rc_titled_table_role(t, c) != RC_ROLE_INDEX)
+            continue;
+        rc_piece_shown(quote, title_of(t, c));
+        if (used + strlen(quote) + 8 < sizeof names)
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s'%s'",
+                                     n == 0 ? "" : ", ", quote);
+        n++;
+    }
+    if (n > 0)
+        rc_note(notes, "the column%s %s %s no heights and %s left out", n == 1 ? "" : "s", names,
+                n == 1 ? "holds" : "hold", n == 1 ? "is" : "are");
+}
+
+/* ---- the table ---- */
+
+/* Whether the only comma of a row, as in 1,5, parts columns because one parts their titles: both name a column
+ * or have a unit in brackets. */
+static bool
+comma_parts_titles(struct rc_piece before, struct rc_piece row)
+{
+    struct rc_titled_table two = {.numbers = {.columns = 2}};
+    struct rc_piece a, b;
+
+    row = rc_piece_trim(row);
+    if (rc_piece_part(row, " \t;", &a, &b) || !rc_piece_part(row, ",", &a, &b) ||
+        rc_piece_part(b, ",", &a, &b))
+        return false;
+    if (part_at(&two, without_mark(before), ',') != 2)
+        return false;
+    for (size_t c = 0; c < 2; c++)
+        if (rc_titled_table_role(&two, c) == RC_ROLE_NONE &&
+            rc_titled_table_name(&two, c).n == rc_piece_bare(two.title[c]).n)
+            return false;
+    return true;
+}
+
+/* The text of the file, as UTF-8 or Latin-1, without its mark. */
+static enum rc_status
+text_of(struct rc_titled_table *t, const struct rc_file *file, struct rc_piece *text,
+        struct rc_err *err)
+{
+    *text = rc_file_piece(file);
+    if (rc_file_is_utf16(file)) {
+        if ((t->own = narrow(file, &text->n)) == NULL)
+            return rc_err_set(err, "out of memory for %zu characters", file->size / 2);
+        text->text = t->own;
+    } else if (rc_file_holds(file, 0, "\xef\xbb\xbf", 3)) /* the byte order mark of UTF-8 */
+        *text = (struct rc_piece){text->text + 3, text->n - 3};
+    return RC_OK;
 }
 
 enum rc_status
 rc_titled_table_open(struct rc_titled_table *t, const struct rc_file *file, size_t columns,
                      const struct rc_wish *wish, struct rc_err *err)
 {
-    struct rc_piece text = rc_file_piece(file), line, before = {"", 0};
+    struct rc_piece text, line, before = {"", 0};
     struct rc_wish said = *wish;
     struct rc_lines lines, ahead;
     char separator[2] = "";
 
     *t = (struct rc_titled_table){.axis_unit = {{"", 0}, {"", 0}, {"", 0}}};
-    if (rc_file_is_utf16(file)) {
-        if ((t->own = narrow(file, &text.n)) == NULL)
-            return rc_err_set(err, "out of memory for %zu characters", file->size / 2);
-        text.text = t->own;
-    } else if (rc_file_holds(file, 0, "\xef\xbb\xbf", 3)) /* the byte order mark of UTF-8 */
-        text = (struct rc_piece){text.text + 3, text.n - 3};
+    if (text_of(t, file, &text, err) != RC_OK)
+        return RC_FAIL;
     lines = ahead = rc_piece_lines(text);
     for (;;) {
         if (lines.number == HEADER_MOST || !rc_lines_next(&ahead, &line.text, &line.n))
@@ -196,15 +428,23 @@ rc_titled_table_open(struct rc_titled_table *t, const struct rc_file *file, size
                               HEADER_MOST);
         if (is_row(line, columns))
             break;
-        if (rc_piece_trim(line).n > 0)
+        if (rc_piece_trim(line).n > 0) {
+            if (before.n > 0 && t->skipped++ == 0)
+                t->first_skipped = before;
             before = take_line(t, line, separator) ? (struct rc_piece){"", 0} : line;
+        }
         lines = ahead;
     }
     if (said.separator == NULL && separator[0] != '\0')
         said.separator = separator;
+    if (said.separator == NULL && said.decimal == 0 && comma_parts_titles(before, line))
+        said.separator = ",";
     if (rc_number_table_open(&t->numbers, &lines, &said, err) != RC_OK)
         return RC_FAIL;
     part_titles(t, before);
+    if (before.n > 0 && t->titles != t->numbers.columns && t->titles + 1 != t->numbers.columns &&
+        t->skipped++ == 0)
+        t->first_skipped = before;
     return RC_OK;
 }
 

@@ -6,16 +6,30 @@
 #include "formats/core/core.h"
 
 enum {
-    RC_TITLES_MOST = 16
+    RC_TITLES_MOST = 64
 };
 
 struct rc_titled_table {
     char *own; /* the text, where it was converted */
     struct rc_number_table numbers;
     struct rc_piece title[RC_TITLES_MOST]; /* of the columns, from the line before the first row */
-    size_t titles;
+    size_t titles;                         /* there, also those that are not kept                */
+    struct rc_piece title_line;
+    char title_separator;
+    size_t skipped; /* lines above that are neither empty nor titles nor understood */
+    struct rc_piece first_skipped;
     struct rc_piece axis_unit[3]; /* as lines `x-unit = um` and so on above it have them */
     double *v;                    /* numbers.rows * numbers.columns values; NULL: not yet read */
+};
+
+/* What a column holds, as its title says. */
+enum rc_role {
+    RC_ROLE_NONE, /* the title does not say */
+    RC_ROLE_X,
+    RC_ROLE_Y,
+    RC_ROLE_Z,
+    RC_ROLE_INDEX, /* numbers of the points or rows */
+    RC_ROLE_VALID  /* 0 where the point is missing  */
 };
 
 /* Finds the first table of at least so many columns: rows and titles. RC_FAIL when there is none.
@@ -28,6 +42,18 @@ enum rc_status rc_titled_table_read(struct rc_titled_table *table, struct rc_err
 /* The unit of a column: what stands in brackets in its title, else a word there that is a length,
  * else that of the axis 'x', 'y' or 'z' by a line of its own. Of no length where there is none. */
 struct rc_piece rc_titled_table_unit(const struct rc_titled_table *table, size_t column, char axis);
+enum rc_role rc_titled_table_role(const struct rc_titled_table *table, size_t column);
+/* The first column of that role; the number of columns where there is none. */
+size_t rc_titled_table_column(const struct rc_titled_table *table, enum rc_role role);
+/* The title without its unit; of no length where there is none. */
+struct rc_piece rc_titled_table_name(const struct rc_titled_table *table, size_t column);
+/* Whether it is a matrix and no profile or list of points: at least three columns, whose titles are
+ * numbers, one word with a number each (z1, z2, ...), or name no axis; or four without titles. */
+bool rc_titled_table_is_matrix(const struct rc_titled_table *table);
+/* The next title of a row of them, at its separators; false at its end. */
+bool rc_title_next(struct rc_piece *line, char separator, struct rc_piece *title);
+/* Notes the columns that nothing is made of: counters and marks. */
+void rc_titled_table_left_out(const struct rc_titled_table *table, struct rc_notes *notes);
 void rc_titled_table_close(struct rc_titled_table *table);
 
 #endif

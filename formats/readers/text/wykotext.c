@@ -164,7 +164,7 @@ set_points(struct wyko *w, struct rc_map *map, struct rc_err *err)
     map->fill = fill_points;
     if (!w->nanometres)
         map->doubt = "the first line says wavelengths, files of points that are known have "
-                     "nanometres, which are taken: --z-unit is the mend";
+                     "nanometres, which are taken: override with --z-unit";
     w->nanometres = true;
     return RC_OK;
 }
@@ -194,7 +194,7 @@ wykotext_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     if (w.factor != 1)
         map->doubt = "Mult is not 1: heights in wavelengths are divided by it, as in OPD files, "
                      "those in nanometres "
-                     "are not; other programs multiply by it: --z-unit is the mend";
+                     "are not; other programs multiply by it: override with --z-unit";
     lines = w.heights;
     next_line(&lines, &line);
     words = words_of(line);

@@ -1,8 +1,9 @@
 /*
- * Lists of points: three columns x, y, z in any order of the points, which must lie on a raster,
+ * Lists of points: columns x, y, z in any order of the points, which must lie on a raster,
  * or in one line. The least x and y come first; a point of the raster that the list leaves out is
  * missing. A line of any direction is a profile, from its end that is nearer to the first point.
- * Units are found as titled_table.h says.
+ * Units are found as titled_table.h says, and which column is which: of three without titles the order is x,
+ * y, z; titled ones may be more, of which further heights are channels.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +18,10 @@ struct axis {
 };
 
 struct cloud {
-    struct rc_titled_table table;
+    struct rc_titled_table table; /* its values are those of x, y and z, once they are picked */
+    size_t column[2 + RC_MAPS_MOST],
+        heights;   /* those of x, y and the heights, and how many these are */
+    size_t height; /* the one of them that is z                             */
     struct axis x, y;
     struct rc_piece unit[3]; /* of the columns */
     double *along, *z;       /* of a line, by their places along it; NULL: a raster */
@@ -127,15 +131,12 @@ find_line(struct cloud *c)
 
 /* ---- units ---- */
 
-/* Those of the three columns. Words above them are titles when there is one for each. */
 static void
 find_units(struct cloud *c)
 {
-    if (c->table.titles != 3)
-        c->table.titles = 0;
-    c->unit[0] = rc_titled_table_unit(&c->table, 0, 'x');
-    c->unit[1] = rc_titled_table_unit(&c->table, 1, 'y');
-    c->unit[2] = rc_titled_table_unit(&c->table, 2, 'z');
+    c->unit[0] = rc_titled_table_unit(&c->table, c->column[0], 'x');
+    c->unit[1] = rc_titled_table_unit(&c->table, c->column[1], 'y');
+    c->unit[2] = rc_titled_table_unit(&c->table, c->column[2 + c->height], 'z');
     if (c->unit[1].n == 0)
         c->unit[1] = c->unit[0];
 }
@@ -177,19 +178,72 @@ cloud_close(struct cloud *c)
     rc_titled_table_close(&c->table);
 }
 
+/* Which columns are x, y and heights: by their titles, else in this order. Words above them are titles when
+ * there is one for each. */
 static enum rc_status
-cloud_open(struct cloud *c, const struct rc_file *file, const struct rc_wish *wish,
+pick_columns(struct cloud *c, struct rc_err *err)
+{
+    struct rc_titled_table *t = &c->table;
+    size_t columns = t->numbers.columns, of[3], next = 0;
+
+    if (t->titles != columns)
+        t->titles = 0;
+    for (size_t k = 0; k < 3; k++)
+        of[k] = rc_titled_table_column(t, (enum rc_role)(RC_ROLE_X + k));
+    if (columns != 3 && (columns < 3 || of[0] == columns || of[1] == columns))
+        return rc_err_set(err,
+                          "a list of points has 3 columns, this table has %zu and no titles that "
+                          "name x and y",
+                          columns);
+    for (size_t k = 0; columns == 3 && k < 3; k++) { /* what no title says is in its usual order */
+        while (next == of[0] || next == of[1] || next == of[2])
+            next++;
+        if (of[k] == columns)
+            of[k] = next;
+    }
+    c->column[0] = of[0];
+    c->column[1] = of[1];
+    c->heights = 0;
+    for (size_t k = 0; k < columns; k++) {
+        enum rc_role role = rc_titled_table_role(t, k);
+
+        if (k != of[0] && k != of[1] && c->heights < RC_MAPS_MOST &&
+            (columns == 3 ? role != RC_ROLE_INDEX && role != RC_ROLE_VALID
+                          : role == RC_ROLE_Z || role == RC_ROLE_NONE))
+            c->column[2 + c->heights++] = k;
+    }
+    return c->heights > 0 ? RC_OK : rc_err_set(err, "no column beside x and y is of heights");
+}
+
+/* Puts x, y and z of every point together, in place. */
+static void
+pack_columns(struct cloud *c)
+{
+    const size_t from[3] = {c->column[0], c->column[1], c->column[2 + c->height]};
+    double *v = c->table.v;
+
+    for (size_t k = 0; k < c->table.numbers.rows; k++) {
+        const double *row = c->table.v + k * c->table.numbers.columns;
+        const double point[3] = {row[from[0]], row[from[1]], row[from[2]]};
+
+        memcpy(v + 3 * k, point, sizeof point);
+    }
+}
+
+/* Opens the list with one of its heights as z. */
+static enum rc_status
+cloud_open(struct cloud *c, const struct rc_file *file, const struct rc_wish *wish, size_t height,
            struct rc_err *err)
 {
     c->along = NULL;
-    if (rc_titled_table_open(&c->table, file, 2, wish, err) != RC_OK)
+    c->height = height;
+    if (rc_titled_table_open(&c->table, file, 2, wish, err) != RC_OK ||
+        pick_columns(c, err) != RC_OK)
         return RC_FAIL;
-    if (c->table.numbers.columns != 3)
-        return rc_err_set(err, "a list of points has 3 columns, this table has %zu",
-                          c->table.numbers.columns);
     find_units(c);
     if (rc_titled_table_read(&c->table, err) != RC_OK)
         return RC_FAIL;
+    pack_columns(c);
     if (find_axis(c->table.v, c->table.numbers.rows, 'x', &c->x, err) != RC_OK ||
         find_axis(c->table.v + 1, c->table.numbers.rows, 'y', &c->y, err) != RC_OK)
         return find_line(c) ? RC_OK : RC_FAIL;
@@ -213,8 +267,9 @@ fill_points(const struct rc_file *file, const struct rc_wish *wish, const struct
     unsigned char *taken = NULL;
     struct cloud c;
 
-    if (cloud_open(&c, file, wish, err) != RC_OK)
+    if (cloud_open(&c, file, wish, map->more, err) != RC_OK)
         goto done;
+    rc_titled_table_left_out(&c.table, map->notes);
     if (c.along != NULL) {
         struct rc_even even;
 
@@ -251,25 +306,30 @@ static enum rc_status
 xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
          struct rc_err *err)
 {
-    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_even even = {0};
     enum rc_status status;
-    struct rc_even even;
     struct cloud c;
 
-    status = cloud_open(&c, file, wish, err);
-    if (status == RC_OK && c.along != NULL) {
+    status = cloud_open(&c, file, wish, 0, err);
+    if (status == RC_OK && c.along != NULL)
         status =
             rc_even_new(c.along, c.table.numbers.rows, metres_along(&c), file, wish, &even, err);
-        map->nx = even.n;
-        map->ny = 1;
+    for (c.height = 0; status == RC_OK && c.height < c.heights; c.height++) {
+        struct rc_piece name = {"", 0};
+        struct rc_map *map;
+
+        if (c.heights > 1)
+            name = rc_titled_table_name(&c.table, c.column[2 + c.height]);
+        map = rc_maps_add(maps, name.text, name.n);
+        map->nx = c.along != NULL ? even.n : c.x.n;
+        map->ny = c.along != NULL ? 1 : c.y.n;
         map->fill = fill_points;
-        if (status == RC_OK)
+        map->more = c.height;
+        find_units(&c);
+        if (c.along != NULL)
             take_units(&c, even.step, even.step, map);
-    } else if (status == RC_OK) {
-        map->nx = c.x.n;
-        map->ny = c.y.n;
-        map->fill = fill_points;
-        take_units(&c, c.x.step, c.y.n > 1 ? c.y.step : c.x.step, map);
+        else
+            take_units(&c, c.x.step, c.y.n > 1 ? c.y.step : c.x.step, map);
     }
     cloud_close(&c);
     return status;
@@ -293,7 +353,7 @@ xyz_score(const struct rc_file *file)
 
     if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
         return 0;
-    if (cloud_open(&c, file, &rc_no_wish, NULL) == RC_OK)
+    if (cloud_open(&c, file, &rc_no_wish, 0, NULL) == RC_OK)
         score = named ? 80 : c.table.numbers.rows > 3 && runs_straight(&c) ? 60 : 0;
     else if (c.table.numbers.columns == 3 && named)
         score = 50;

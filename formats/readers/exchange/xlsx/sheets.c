@@ -360,9 +360,8 @@ rc_workbook_is(const struct rc_file *file)
     return is;
 }
 
-const char *
-rc_workbook_text(const struct rc_workbook *book, const struct rc_sheet *sheet, uint32_t row,
-                 uint32_t column)
+const struct rc_cell *
+rc_workbook_cell(const struct rc_sheet *sheet, uint32_t row, uint32_t column)
 {
     size_t low = 0, high = sheet->n;
 
@@ -375,8 +374,16 @@ rc_workbook_text(const struct rc_workbook *book, const struct rc_sheet *sheet, u
         else
             high = middle;
     }
-    if (low == sheet->n || sheet->cell[low].row != row || sheet->cell[low].column != column ||
-        sheet->cell[low].text == 0)
-        return NULL;
-    return book->text + sheet->cell[low].text - 1;
+    return low < sheet->n && sheet->cell[low].row == row && sheet->cell[low].column == column
+               ? &sheet->cell[low]
+               : NULL;
+}
+
+const char *
+rc_workbook_text(const struct rc_workbook *book, const struct rc_sheet *sheet, uint32_t row,
+                 uint32_t column)
+{
+    const struct rc_cell *c = rc_workbook_cell(sheet, row, column);
+
+    return c == NULL || c->text == 0 ? NULL : book->text + c->text - 1;
 }

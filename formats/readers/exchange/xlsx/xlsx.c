@@ -2,7 +2,8 @@
  * Workbooks (XLSX): a ZIP archive of XML. In each sheet, blocks of numbers are looked for:
  * neighbouring columns that are filled over the same rows. A block is read as the text would be that
  * it is when it is copied out of the sheet, with the titles above it: two columns as a profile, three
- * as points or a matrix, more as a matrix. The largest is the first channel.
+ * as points or a matrix, more as a matrix, whose first row and column may be positions. The largest is the
+ * first channel.
  *
  * SurfTest of Mitutoyo gives a profile without titles: its positions are then in the unit of the cut-off, its
  * heights in that of the first roughness in column A.
@@ -234,6 +235,32 @@ put(struct text *t, const char *word, char end)
     return true;
 }
 
+/* Puts a row of numbers behind a text in its first column, the corner of positions; false where the row above
+ * the block is no such row, or memory is out. */
+static bool
+put_positions(const struct rc_workbook *w, const struct block *b, struct text *t)
+{
+    uint32_t row = b->first - 1;
+    const char *corner = row > 0 ? rc_workbook_text(w, b->sheet, row, b->left) : NULL;
+    char title[TITLE], number[RC_NUMBER_SIZE];
+    bool good;
+
+    if (corner == NULL || b->right < b->left + 2)
+        return false;
+    for (uint32_t c = b->left + 1; c <= b->right; c++) {
+        const struct rc_cell *cell = rc_workbook_cell(b->sheet, row, c);
+
+        if (cell == NULL || cell->text != 0 || !isfinite(cell->number))
+            return false;
+    }
+    title_of(w, b, b->left, title);
+    good = put(t, title, '\t');
+    for (uint32_t c = b->left + 1; good && c <= b->right; c++)
+        good = put(t, rc_number_text(number, rc_workbook_cell(b->sheet, row, c)->number),
+                   c == b->right ? '\n' : '\t');
+    return good;
+}
+
 static bool
 put_titles(const struct rc_workbook *w, const struct block *b, struct text *t)
 {
@@ -268,7 +295,7 @@ make_text(const struct rc_workbook *w, const struct block *b, struct text *t, st
 {
     const struct rc_sheet *s = b->sheet;
     char number[RC_NUMBER_SIZE];
-    bool good = put_titles(w, b, t);
+    bool good = put_positions(w, b, t) || put_titles(w, b, t);
     size_t k = 0;
 
     if ((size_t)(b->last - b->first + 1) * (b->right - b->left + 1) > 2 * b->numbers + 64)
