@@ -37,8 +37,7 @@ void rc_workbook_free(struct rc_workbook *book);
 /* Whether it is an archive with a workbook in it. */
 bool rc_workbook_is(const struct rc_file *file);
 /* A cell; NULL where it is empty. */
-const struct rc_cell *rc_workbook_cell(const struct rc_sheet *sheet, uint32_t row,
-                                       uint32_t column);
+const struct rc_cell *rc_workbook_cell(const struct rc_sheet *sheet, uint32_t row, uint32_t column);
 /* The text of a cell; NULL where it is empty or a number. */
 const char *rc_workbook_text(const struct rc_workbook *book, const struct rc_sheet *sheet,
                              uint32_t row, uint32_t column);
