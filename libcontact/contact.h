@@ -153,6 +153,14 @@ struct rc_form {
 RC_API enum rc_status rc_detrend_form(const struct rc_shape *shape, const struct rc_form *form,
                                       double *h, double *radius, struct rc_err *err);
 
+/* Levels each row by itself, as scan lines want it: subtracts the median of a row (degree 0), or the
+ * straight line or parabola that fits it best (1 or 2: by least squares, or with weights as in struct
+ * rc_form where `robust`). A row of less than twice as many points as the polynomial has coefficients
+ * is levelled by its median, one without a point stays. RC_FAIL when the degree is above 2, a height is
+ * infinite, or memory is short: rows may have been levelled by then. */
+RC_API enum rc_status rc_detrend_rows(const struct rc_shape *shape, size_t degree, bool robust,
+                                      double *h, struct rc_err *err);
+
 /* The Gaussian regression filter of order 0 over the points that are there: ISO 16610-61, of
  * profiles 16610-21. A missing point stays missing and has no weight; beyond a map that is not
  * periodic nothing has any. */

@@ -32,6 +32,18 @@ is_periodic(const struct rc_grid *g)
 
 /* A form that is taken off a periodic surface opens a step where the periods meet. */
 static enum rc_status
+end_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
+{
+    char where[256];
+
+    if (!is_periodic(g))
+        return RC_OK;
+    tool_warn(t, "%s: a periodic surface is not periodic without its form: periodic=no from here",
+              tool_where(t, g, where, sizeof where));
+    return rc_grid_set(g, "periodic", "no", err);
+}
+
+static enum rc_status
 remove_form(struct tool *t, struct rc_grid *g, struct rc_form form, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(g);
@@ -53,11 +65,7 @@ remove_form(struct tool *t, struct rc_grid *g, struct rc_form form, struct rc_er
                               : rc_grid_set(g, "form.radius", NULL, err)) != RC_OK) /* flat */
             return RC_FAIL;
     }
-    if ((form.kind == RC_POLYNOMIAL && form.degree == 0) || !is_periodic(g))
-        return RC_OK;
-    tool_warn(t, "%s: a periodic surface is not periodic without its form: periodic=no from here",
-              where);
-    return rc_grid_set(g, "periodic", "no", err);
+    return form.kind == RC_POLYNOMIAL && form.degree == 0 ? RC_OK : end_period(t, g, err);
 }
 
 static enum rc_status
@@ -71,6 +79,18 @@ static enum rc_status
 poly(struct tool *t, struct rc_grid *g, double degree, struct rc_err *err)
 {
     return remove_form(t, g, (struct rc_form){.degree = (size_t)degree}, err);
+}
+
+/* Rows have levels of their own, and so meet as before; with slopes of their own their ends do not. */
+static enum rc_status
+rows(struct tool *t, struct rc_grid *g, double degree, struct rc_err *err)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+
+    tool_demand_memory(t, g, degree > 0 ? 16 * g->nx * sizeof *g->v : 0);
+    if (rc_detrend_rows(&shape, (size_t)degree, args.robust, g->v, err) != RC_OK)
+        return RC_FAIL;
+    return degree > 0 ? end_period(t, g, err) : RC_OK;
 }
 
 static enum rc_status
@@ -359,6 +379,9 @@ static const struct opt opts[] = {
     {.name = "poly", .type = OPT_STEP, .at = offsetof(struct args, steps), .max = RC_DEGREE_MAX,
      .result = true, .arg = "N", .of = &(const struct work){.run = poly, .fits = true},
      .help = "subtract the polynomial of degree N (0: the mean)"},
+    {.name = "rows", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
+     .arg = "offset|tilt|bow", .of = &(const struct work){.run = rows, .fits = true},
+     .help = "subtract of each row its median, its straight line or its parabola"},
     {.name = "sphere", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
      .of = &(const struct work){.run = sphere, .fits = true},
      .help = "subtract the sphere that fits, and tell its radius"},

@@ -583,3 +583,31 @@ rc_detrend_form(const struct rc_shape *shape, const struct rc_form *form, double
         return detrend_polynomial(shape, form, h, err);
     return rc_detrend_round(shape, form, h, radius, err);
 }
+
+enum rc_status
+rc_detrend_rows(const struct rc_shape *shape, size_t degree, bool robust, double *h,
+                struct rc_err *err)
+{
+    const struct rc_form form = {.degree = degree, .robust = robust, .threads = 1};
+    const struct rc_shape line = {shape->nx, 1, shape->dx, shape->dy};
+
+    if (degree > 2)
+        return rc_err_set(err, "rows levelled with degree %zu: at most 2", degree);
+    for (size_t j = 0; j < shape->ny; j++, h += shape->nx) {
+        struct rc_box box = rc_box_of(&line, h);
+        double median;
+
+        if (box.infinite > 0)
+            return rc_err_set(err, "%zu infinite heights in row %zu: it has no level", box.infinite,
+                              j);
+        if (degree > 0 && box.count >= 2 * (degree + 1)) {
+            if (rc_detrend_form(&line, &form, h, NULL, err) != RC_OK)
+                return RC_FAIL;
+            continue;
+        }
+        median = rc_median(h, shape->nx, 0, false, 1);
+        for (size_t i = 0; i < shape->nx; i++)
+            h[i] -= median;
+    }
+    return RC_OK;
+}

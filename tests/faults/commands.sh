@@ -40,7 +40,7 @@ commands=$(
 1 rc-import h.sur -o out
 1 rc-import h.mat -o out
 1 rc-import --list h.gwy
-2 rc-detrend --plane --poly 3 --lowpass 6um --outliers 5 --taper 3um h.rcg -o out
+2 rc-detrend --plane --rows bow --poly 3 --lowpass 6um --outliers 5 --taper 3um h.rcg -o out
 1 rc-detrend --sphere --robust h.rcg -o out
 1 rc-detrend --cylinder h.rcg -o out
 1 rc-detrend --fill hole.rcg -o out

@@ -120,6 +120,13 @@ cylinder(double *out, struct rc_err *err)
 }
 
 static enum rc_status
+levelled_rows(double *out, struct rc_err *err)
+{
+    memcpy(out, holed, sizeof holed);
+    return rc_detrend_rows(&shape, 2, true, out, err);
+}
+
+static enum rc_status
 filtered(double *out, struct rc_err *err)
 {
     static const struct rc_filter what = {
@@ -738,6 +745,7 @@ static const struct {
     {.name = "grids and their keys", .use = grids},
     {.name = "self-affine roughness", .use = selfaffine},
     {.name = "a polynomial", .use = polynomial},
+    {.name = "rows", .use = levelled_rows},
     {.name = "a robust sphere", .use = robust_sphere},
     {.name = "a cylinder", .use = cylinder},
     {.name = "a robust filter", .use = filtered},

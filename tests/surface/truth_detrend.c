@@ -258,6 +258,104 @@ test_refusals(void **state)
     free(h);
 }
 
+/* Of a row of n nodes: orthogonal to all parabolas over them (Gram 1883), at most 1. */
+static double
+gram_three(size_t i, size_t n)
+{
+    double s = (double)i - 0.5 * (double)(n - 1), m = 0.5 * (double)(n - 1);
+    double square = (3 * (double)(n * n) - 7) / 20;
+
+    return s * (s * s - square) / (m * (m * m - square));
+}
+
+/* What a level of row j of this degree leaves as it is: of degree 0 what has the median 0. Rows with missing
+ * points have nothing of it. */
+static double
+kept_of(size_t degree, size_t i, size_t j)
+{
+    if (j % 3 == 1)
+        return 0;
+    return 1e-8 * (double)(j + 1) *
+           (degree > 0 ? gram_three(i, NX) : ((double)i - 16) * (1 + (double)(i % 2)));
+}
+
+static void
+make_rows(size_t degree, double *h)
+{
+    for (size_t j = 0; j < NY; j++) {
+        double c[3] = {1e-6 * chance(), 1e-6 * chance(), 1e-6 * chance()};
+
+        for (size_t i = 0; i < NX; i++) {
+            double x = along(i, NX);
+
+            h[j * NX + i] = kept_of(degree, i, j) + c[0] + (degree > 0 ? c[1] * x : 0) +
+                            (degree > 1 ? c[2] * x * x : 0);
+        }
+        if (j % 3 == 1)
+            cut_holes(h + j * NX, NX);
+    }
+    for (size_t i = 0; i < NX; i++)
+        h[NX + i] = NAN; /* a row without a point */
+}
+
+/* A surface of which each row has been shifted, tilted or bent is found again; missing points stay so. */
+static void
+test_rows_are_levelled(void **state)
+{
+    double h[N], levelled[N];
+    struct rc_err err;
+
+    (void)state;
+    srand(23);
+    for (size_t degree = 0; degree <= 2; degree++) {
+        make_rows(degree, h);
+        memcpy(levelled, h, sizeof h);
+        assert_int_equal(rc_detrend_rows(&shape, degree, false, levelled, &err), RC_OK);
+        for (size_t k = 0; k < N; k++)
+            if (isnan(h[k])
+                    ? !isnan(levelled[k])
+                    : !(fabs(levelled[k] - kept_of(degree, k % NX, k / NX)) < 1e-6 * summed))
+                fail_msg("degree %zu, node %zu: %g, not %g", degree, k, levelled[k],
+                         kept_of(degree, k % NX, k / NX));
+    }
+    assert_int_equal(rc_detrend_rows(&shape, 3, false, levelled, &err), RC_FAIL);
+    levelled[NX + 2] = INFINITY;
+    assert_int_equal(rc_detrend_rows(&shape, 1, false, levelled, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "1 infinite heights in row 1"));
+}
+
+/* Spikes in every row: medians and robust fits leave them where they stand; and a row of fewer points than a fit
+ * wants is levelled by its median. */
+static void
+test_rows_resist(void **state)
+{
+    double h[N], levelled[N];
+    struct rc_err err;
+
+    (void)state;
+    srand(29);
+    for (size_t degree = 0; degree <= 2; degree++) {
+        make_rows(degree, h);
+        for (size_t j = 0; j < NY; j++)
+            for (size_t i = 0; i < NX; i++)
+                h[j * NX + i] -= kept_of(degree, i, j);
+        for (size_t j = 0; j < NY; j++)
+            h[j * NX + 7] += 1e-6;
+        for (size_t i = 3; i < NX; i++)
+            h[4 * NX + i] = NAN;
+        h[4 * NX] = h[4 * NX + 1] = 2e-6;
+        h[4 * NX + 2] = 5e-6;
+        memcpy(levelled, h, sizeof h);
+        assert_int_equal(rc_detrend_rows(&shape, degree, true, levelled, &err), RC_OK);
+        for (size_t k = 0; k < N; k++) {
+            double wanted = k / NX == 4 ? (k % NX == 2 ? 3e-6 : 0) : k % NX == 7 ? 1e-6 : 0;
+
+            if (!isnan(h[k]) && !(fabs(levelled[k] - wanted) < 1e-13))
+                fail_msg("degree %zu, node %zu: %g, not %g", degree, k, levelled[k], wanted);
+        }
+    }
+}
+
 static void
 unwanted(const char *reason, const char *file, int line, int number)
 {
@@ -291,6 +389,8 @@ main(void)
         cmocka_unit_test(test_profiles),
         cmocka_unit_test(test_just_enough_points),
         cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_rows_are_levelled),
+        cmocka_unit_test(test_rows_resist),
         cmocka_unit_test(test_handler_is_given_back),
     };
 

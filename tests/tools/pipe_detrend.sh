@@ -45,6 +45,26 @@ claim "a profile" bash -c "printf '1 2 4 8 NaN 32\n' | rc-import --dx 1um --z-un
     rc-detrend --poly 4 --fill -o profile.rcg"
 nothing "$(figure rms profile.rcg)" 1e-5 "  with as many points as coefficients leaves nothing"
 
+# ---- rows ----
+
+# rows 0 1 -1 2 -2 (nm), each 100 j higher, one with a point missing and one that a spike bends
+awk 'BEGIN { for (j = 0; j < 6; j++) print 0 + 100 * j, 1 + 100 * j, (j == 2 ? "NaN" : -1 + 100 * j), (j == 2 ? "NaN" : 2 + 100 * j), -2 + 100 * j }' >lines.txt
+rc-import --dx 1um --z-unit nm lines.txt -o lines.rcg
+rows() { rc-export --format csv "$1" | grep -v '^#' | awk -F '[,;	 ]+' '/^[-0-9n]/ { s = ""; for (i = 1; i <= NF; i++) s = s sprintf("%.3g ", 1e9 * $i); print s }' | head -n "${2:-3}" | tail -n 1; }
+claim "--rows offset takes the median of each row" rc-detrend --rows offset lines.rcg -o offset.rcg
+claim "  which leaves the rows as they were" test "$(rows offset.rcg 6)" = "0 1 -1 2 -2 "
+rc-info --json offset.rcg >offset.json
+near "$(field missing offset.json)" 2 "$same" "  and what is missing, missing"
+claim "  and history has its word" says 'rc-detrend [0-9.]* --rows offset"' rc-info --json offset.rcg
+claim "a slope of each row" bash -c 'rc-detrend --rows tilt plane.rcg -o tilted.rcg && rc-detrend --robust --rows tilt plane.rcg -o robust.rcg'
+nothing "$(figure rms tilted.rcg)" 1e-7 "  leaves nothing of a plane"
+nothing "$(figure rms robust.rcg)" 1e-7 "  --robust neither"
+claim "a bow" bash -c 'rc-synth sphere --radius 2.385mm --nx 33 --ny 47 --dx 1.1um --dy 1um | rc-detrend --rows bow -o bow.rcg'
+nothing "$(figure rms bow.rcg)" 1e-7 "  leaves nothing of a paraboloid"
+claim "levels alone keep a period" bash -c 'rc-synth wave --nx 16 --dx 1um --wavelength 8um --amplitude 1nm | rc-detrend --rows offset | rc-info | grep -q "periodic.*yes"'
+claim "  slopes do not" warns 'a periodic surface is not periodic without its form' bash -c 'rc-synth wave --nx 16 --dx 1um --wavelength 8um --amplitude 1nm | rc-detrend --rows tilt -o w.rcg'
+refuses 2 '--rows offst: it must be one of offset|tilt|bow' "no such level" "rc-detrend --rows offst lines.rcg -o x.rcg"
+
 # ---- their order ----
 
 # one column far off: levelled by the points that are there, or by those that were filled in

@@ -279,7 +279,9 @@ add_step(struct tool *t, const struct opt *o, struct steps *steps, const char *t
 
     if (steps->n == most)
         tool_die(t, EXIT_USAGE, "more than %zu steps: use two commands", most);
-    if (o->type == OPT_STEP && o->arg != NULL)
+    if (o->type == OPT_STEP && o->arg != NULL && strchr(o->arg, '|') != NULL)
+        value = word_index(o, choice(t, o, text), strlen(text));
+    else if (o->type == OPT_STEP && o->arg != NULL)
         value = o->unit == UNIT_NONE && !o->real ? whole(t, o, text) : number(t, o, text);
     steps->step[steps->n++] = (struct step){.opt = o, .value = value, .text = text};
 }

@@ -46,7 +46,8 @@ enum opt_type {
     OPT_WORDS,   /* size_t: bit k is set when the list holds word k of .words               */
     OPT_NUMBERS, /* struct numbers; none (n = 0) for .word, if there is one                 */
     OPT_STEP,    /* appended to a struct steps: options whose order on the line matters; with
-                    .arg it takes a whole number or, with a unit or .real, a number                */
+                    .arg it takes a whole number or, with a unit or .real, a number, or one of the
+                    words that '|' separates in it, whose place is the value                       */
     OPT_TEXTS,   /* appended too, in the same order; the argument stays a text              */
 };
 
