@@ -69,7 +69,10 @@ try_file(const uint8_t *data, size_t size)
                            .dy = NAN,
                            .z_unit = wishes ? 1e-9 : NAN,
                            .even = size > 0 && (data[size - 1] & 2) != 0,
-                           .even_step = size > 0 && (data[size - 1] & 4) != 0 ? 1e-7 : 0};
+                           .even_step = size > 0 && (data[size - 1] & 4) != 0 ? 1e-7 : 0,
+                           .labels = size > 1 ? (enum rc_label)(data[size - 2] % 5) : 0,
+                           .xy_unit = size > 0 && (data[size - 1] & 8) != 0 ? 1e-6 : NAN,
+                           .ignore_mask = size > 0 && (data[size - 1] & 16) != 0};
     const char *name = getenv("RC_FORMAT");
     struct rc_file file = {"fuzz.dat", data, size};
     const struct rc_format *format = rc_format_find(&file, NULL);

@@ -37,7 +37,8 @@ fi
 harnesses_of() {
     case $1 in
     x3p | plux | vk | zon | xlsx) echo zip ;;
-    jpk | park | lext) echo bypass sandbox whole ;;
+    npy) echo format zip ;;
+    jpk | park | lext | tiff) echo bypass sandbox whole ;;
     mat73) echo sandbox whole ;;
     hdf5 | datx) echo hdf sandbox whole ;; # libhdf5 1.10 itself reads past its memory: never bypass
     *) echo format ;;

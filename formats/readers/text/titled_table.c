@@ -169,6 +169,20 @@ part_titles(struct rc_titled_table *t, struct rc_piece line)
     part_at(t, line, t->numbers.separator);
 }
 
+/* Where every title is a unit, their names stand in the line above. */
+static void
+part_names(struct rc_titled_table *t, struct rc_piece line)
+{
+    struct rc_titled_table above = {.titles = 0};
+
+    for (size_t c = 0; c < t->titles; c++)
+        if (c >= RC_TITLES_MOST || isnan(rc_piece_metres(rc_piece_bare(t->title[c]))))
+            return;
+    t->has_over =
+        t->titles > 1 && part_at(&above, without_mark(line), t->title_separator) == t->titles;
+    memcpy(t->over, above.title, sizeof t->over);
+}
+
 /* A line above the table: `x-unit = um`, or `sep=;` as spreadsheets write it. */
 static bool
 take_line(struct rc_titled_table *t, struct rc_piece line, char separator[2])
@@ -233,7 +247,8 @@ title_of(const struct rc_titled_table *t, size_t column)
 {
     bool known = column < t->titles && column < RC_TITLES_MOST;
 
-    return known ? rc_piece_bare(t->title[column]) : (struct rc_piece){"", 0};
+    return known ? rc_piece_bare((t->has_over ? t->over : t->title)[column])
+                 : (struct rc_piece){"", 0};
 }
 
 struct rc_piece
@@ -413,7 +428,7 @@ enum rc_status
 rc_titled_table_open(struct rc_titled_table *t, const struct rc_file *file, size_t columns,
                      const struct rc_wish *wish, struct rc_err *err)
 {
-    struct rc_piece text, line, before = {"", 0};
+    struct rc_piece text, line, before = {"", 0}, above = {"", 0};
     struct rc_wish said = *wish;
     struct rc_lines lines, ahead;
     char separator[2] = "";
@@ -431,6 +446,7 @@ rc_titled_table_open(struct rc_titled_table *t, const struct rc_file *file, size
         if (rc_piece_trim(line).n > 0) {
             if (before.n > 0 && t->skipped++ == 0)
                 t->first_skipped = before;
+            above = before;
             before = take_line(t, line, separator) ? (struct rc_piece){"", 0} : line;
         }
         lines = ahead;
@@ -442,6 +458,7 @@ rc_titled_table_open(struct rc_titled_table *t, const struct rc_file *file, size
     if (rc_number_table_open(&t->numbers, &lines, &said, err) != RC_OK)
         return RC_FAIL;
     part_titles(t, before);
+    part_names(t, above);
     if (before.n > 0 && t->titles != t->numbers.columns && t->titles + 1 != t->numbers.columns &&
         t->skipped++ == 0)
         t->first_skipped = before;

@@ -14,6 +14,8 @@ struct rc_titled_table {
     struct rc_number_table numbers;
     struct rc_piece title[RC_TITLES_MOST]; /* of the columns, from the line before the first row */
     size_t titles;                         /* there, also those that are not kept                */
+    struct rc_piece over[RC_TITLES_MOST];  /* names above titles that are units alone */
+    bool has_over;
     struct rc_piece title_line;
     char title_separator;
     size_t skipped; /* lines above that are neither empty nor titles nor understood */
