@@ -85,7 +85,7 @@ import_skip(struct rc_file *file, unsigned char *data, size_t lines, struct rc_e
     size_t low = wide == 2 && data[0] == 0xfe ? 1 : 0; /* place of the byte that counts */
 
     while (done < lines && at + wide <= file->size) {
-        unsigned c = data[at + low] | (wide == 2 ? data[at + 1 - low] << 8 : 0);
+        unsigned c = data[at + low] + (wide == 2 ? 256U * data[at + 1 - low] : 0U);
 
         at += wide;
         if (c == '\r' && at + wide <= file->size && data[at + low] == '\n' &&
