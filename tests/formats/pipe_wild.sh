@@ -3,9 +3,14 @@
 
 wild=$(cd "$(dirname "$0")" && pwd)
 
-# A value of the header of out.rcg.
-header() {
-    head -c 4000 out.rcg | sed -n "s/^$1=//p" | head -n 1
+# What is in out.rcg: nx ny dx dy, first and last value, in $is.
+look() {
+    local at
+    at=$(grep -abm 1 '^$' out.rcg)
+    # shellcheck disable=SC2207 # words that hold no patterns
+    is=($(head -c "${at%%:*}" out.rcg | sed -n 's/^\(nx\|ny\|dx\|dy\)=//p')
+        $(tail -c "+$((${at%%:*} + 2))" out.rcg | od -An -tf8 -v -w8 -N8)
+        $(tail -c 32 out.rcg | head -c 8 | od -An -tf8))
 }
 
 # alike GOT WANTED: both are missing, or equal but for rounding to decimals; "@" is not compared.
@@ -21,15 +26,14 @@ as_wanted() {
     [ "$status" = "$1" ] || { echo "exit status $status"; cat err; return 1; } >&2
     if [ "$8" = none ]; then
         [ ! -s err ] || { cat err; return 1; } >&2
-    else
-        grep -qE -- "$8" err || [ -z "$8" ] || { cat err; return 1; } >&2
+    elif [ -n "$8" ]; then
+        grep -qE -- "$8" err || { cat err; return 1; } >&2
     fi
     [ "$1" = 0 ] || { [ ! -e out.rcg ]; return; }
-    rc-export --format csv out.rcg | grep -v '^#' >values
-    set -- "$@" "$(head -n 1 values | cut -d , -f 1)" "$(tail -n 1 values | sed 's/.*,//')"
-    echo "is $(header nx) x $(header ny), $(header dx), $(header dy), from $9 to ${10}" >&2
-    [ "$(header nx) $(header ny)" = "$2 $3" ] && alike "$(header dx)" "$4" && alike "$(header dy)" "$5" &&
-        alike "$9" "$6" && alike "${10}" "$7"
+    look
+    echo "is ${is[*]}" >&2
+    [ "${is[0]} ${is[1]}" = "$2 $3" ] && alike "${is[2]}" "$4" && alike "${is[3]}" "$5" &&
+        alike "${is[4]}" "$6" && alike "${is[5]}" "$7"
 }
 
 rows=0
