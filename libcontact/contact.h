@@ -48,7 +48,7 @@ RC_API const char *rc_version(void);
 /* Processors this process may use, at least 1. */
 RC_API size_t rc_threads_available(void);
 
-/* ---- what can be named ---- */
+/* ---- tables: engines and methods ---- */
 
 /* Rows of the tables, k = 0, 1, ...; NULL past the last. The words of an option are made from
  * them. */
@@ -257,10 +257,10 @@ RC_API enum rc_status rc_crop(const struct rc_shape *from, const double *v, size
                               const struct rc_shape *to, double *out, struct rc_err *err);
 /* Left to right (axis 'x') or top to bottom ('y'), in place. */
 RC_API void rc_mirror(const struct rc_shape *shape, char axis, double *v);
-/* Quarter turns counterclockwise, row 0 at the top: the shape that comes out (an odd number of them
- * makes rows of columns), and the values. v and out do not overlap. */
-/* The map in the upper left quarter and its images about the right and the lower edge: a period
- * without a step, on which no slope is added. A side of one node stays as it is. */
+/* Reflection: the map in the upper left quarter and its images about the right and the lower edge, a
+ * period without a step, on which no slope is added; a side of one node stays as it is. Rotation: quarter
+ * turns counterclockwise, row 0 at the top: the shape that comes out (an odd number of them makes rows of
+ * columns), and the values. v and out do not overlap. */
 RC_API struct rc_shape rc_reflect_shape(const struct rc_shape *from);
 RC_API void rc_reflect(const struct rc_shape *from, const double *v, double *out);
 RC_API struct rc_shape rc_rotate_shape(const struct rc_shape *from, size_t quarters);
@@ -601,8 +601,8 @@ struct rc_contact {
     bool hardness_active; /* some node is at the hardness                     */
 };
 
-/* `h` (not NaN, not infinite) is copied. RC_FAIL-like NULL when load > hardness * area, or more
- * than the sum of the hardness map times the cell: the message holds both numbers. */
+/* `h` (not NaN, not infinite) is copied. NULL when load > hardness * area, or more
+ * than the sum of the hardness map times the cell: the message has both numbers. */
 RC_API struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem, struct rc_err *err);
 /* One iteration, on coarser grids at first: RC_MORE, RC_OK when the estimated error is below
@@ -657,7 +657,7 @@ RC_API enum rc_status rc_solver_plastic(const struct rc_solver *solver, double *
 RC_API enum rc_status rc_solver_keep_shape(struct rc_solver *solver,
                                            const struct rc_contact *contact, double *h,
                                            struct rc_err *err);
-/* No load: bodies of these heights (nx ny m) where they would first touch. The gap (nx ny m, or
+/* The unloaded state of bodies of these heights (nx ny m): gap at first touch. The gap (nx ny m, or
  * NULL; not h itself) and its mean; no pressure, no displacement. `ranks`: processes that share the
  * map; NULL: none. */
 RC_API void rc_contact_apart(const struct rc_ranks *ranks, const struct rc_shape *shape,
@@ -701,7 +701,7 @@ RC_API size_t rc_solver_stiffness_memory(const struct rc_shape *shape,
 RC_API size_t rc_solver_conductance_memory(const struct rc_shape *shape,
                                            const struct rc_problem *problem);
 
-/* What such a solver will take, by what others took: convolutions (in equivalents, as they are
+/* Expected cost of such a solver, from benchmark fits: convolutions (in equivalents, as they are
  * counted) and seconds, both NAN where nobody knows, and bytes. RC_FAIL when there would be none,
  * though memory were there: no such engine or method, none for the boundary or the ranks, no solution
  * under the load. */
@@ -772,7 +772,7 @@ RC_API void rc_plastic_set_heights(struct rc_plastic *plastic, const double *h);
 /* One application: a contact and two sweeps through the volume. RC_MORE until the load is reached, then
  * RC_OK, or RC_SHORT where a contact or the iteration stopped short; RC_FAIL when memory is short. */
 RC_API enum rc_status rc_plastic_step(struct rc_plastic *plastic, struct rc_err *err);
-/* How far it is: the load of this increment, N, which increment, which application of it. */
+/* Progress: current load (N), increment, and iteration within it. */
 RC_API void rc_plastic_progress(const struct rc_plastic *plastic, double *load, size_t *increment,
                                 size_t *application);
 RC_API const struct rc_plastic_figures *rc_plastic_result(const struct rc_plastic *plastic);
@@ -854,7 +854,7 @@ RC_API enum rc_status rc_adhesion_check(const struct rc_shape *shape,
                                         const struct rc_adhesion_problem *problem,
                                         struct rc_adhesion_scales *scales, struct rc_err *err);
 
-/* A state, that is the last one of a path. Loads are positive when the bodies are pressed together; all
+/* The current state of the path. Loads are positive when the bodies are pressed together; all
  * pressures but `repulsive_load` are net, p of the contact less sigma. NAN: not known. */
 struct rc_adhesion_figures {
     double load, mean_pressure; /* N, Pa                                                        */
@@ -976,7 +976,7 @@ struct rc_leak_figures {
     bool percolates_diagonal; /* through their corners too                                        */
     double critical_gap; /* m: the narrowest place of the widest way; 0: there is no way      */
     double critical_x, critical_y; /* m: where that is; NAN: nowhere                             */
-    size_t throat_nodes; /* fluid nodes side by side there: below 3 the grid does not know it     */
+    size_t throat_nodes; /* fluid nodes side by side there: below 3 the grid does not resolve it  */
     size_t fluid_nodes, dead_nodes; /* dead: fluid that stands                                    */
     size_t unknowns;                /* nodes where fluid flows                                    */
 };
@@ -1190,16 +1190,16 @@ struct rc_stress_options {
                            map where that is larger; 0: rounding                                 */
     size_t threads;     /* 0: all                                                                 */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
-    /* NULL, or strain whose stress is added, at five transforms a slab and one a depth and component;
-     * with the e of a bare body; a face between slabs belongs to the one below; in a section it is linear
-     * between the nodes. The caller keeps all of it. */
+    /* NULL, or strain whose stress is added. It costs five transforms per slab and one per depth and
+     * component, and needs body.e, of a bare body. Interfaces belong to the lower slab. Sections
+     * interpolate linearly. The caller keeps all of it. */
     const struct rc_eigenstrain *strain;
     /* Tractions that the surface also carries, along +x and +y on this body, Pa, as large as p, and as p
      * between the nodes; NULL: none. The caller keeps them as p. */
     const double *traction[2];
 };
 
-/* What has been computed, to see that nothing was that nobody asked for. */
+/* Work counters; tests use them to check that only requested fields are computed. */
 struct rc_stress_counts {
     size_t depths;
     size_t source_transforms; /* of the pressure, and of maps of traction                        */
@@ -1229,8 +1229,8 @@ RC_API enum rc_status rc_stress_check(const struct rc_shape *shape,
 /* Values of a component at one depth: nx ny, or of the section y = at nx, of x = at ny. */
 RC_API size_t rc_stress_values(const struct rc_stress *stress);
 /* What is wanted at the depth z >= 0 (m), Pa, tension positive: s[c] for each c of `wanted`; the
- * others are not touched. At an interface sxx, syy and sxy jump: it belongs to the material above it,
- * and one that is deeper by a part in 1e12 to the one below. RC_FAIL also inside a rigid half-space. */
+ * others are not touched. At an interface sxx, syy and sxy jump: it belongs to the material above it;
+ * depth*(1 + 1e-12) selects the material below. RC_FAIL also inside a rigid half-space. */
 RC_API enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
                                       double *const s[RC_STRESSES], struct rc_err *err);
 RC_API const char *rc_stress_engine(const struct rc_stress *stress);

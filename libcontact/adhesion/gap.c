@@ -66,7 +66,6 @@ rc_gap_clear(struct rc_gap *g)
     memset(g->sums, 0, g->py * RC_GAP_SUMS * sizeof *g->sums);
 }
 
-/* Every row by itself, then the sums in order: the same for any number of threads. */
 void
 rc_gap_rows(struct rc_gap *g, rc_gap_work *work, double *sums)
 {
@@ -428,7 +427,7 @@ line_row(struct rc_gap *g, size_t j, double *sums)
     }
 }
 
-/* Of a d within the bounds, to `step`: its part that was clipped is counted. */
+/* step = a d clipped to the bounds; sums[0] counts clipped nodes. */
 static void
 clip_row(struct rc_gap *g, size_t j, double *sums)
 {

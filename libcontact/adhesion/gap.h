@@ -78,7 +78,7 @@ enum rc_status rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct
 void rc_gap_free(struct rc_gap *g);
 size_t rc_gap_memory(const struct rc_shape *grid);
 
-/* Undeformed bodies whose gap would be c0 where they are highest. */
+/* Undeformed bodies, `clearance` apart at the highest node. */
 void rc_gap_apart(struct rc_gap *g, double clearance);
 /* A control, and the state it begins with: the gap there is, shifted. */
 void rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given);

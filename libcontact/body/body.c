@@ -1,5 +1,5 @@
 /*
- * Which row of bodies.list a body is, and what two bodies do together.
+ * Selects the body type and combines the two bodies of a pair.
  */
 #include "body.h"
 

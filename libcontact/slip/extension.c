@@ -11,7 +11,7 @@
 enum {
     SUMS = 4
 };
-static const double fade = 0.5, surrounded = 3; /* as in solver/preconditioner.c */
+static const double fade = 0.5, surrounded = 3;
 
 /* ---- G ---- */
 

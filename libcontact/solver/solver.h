@@ -43,7 +43,7 @@ struct rc_method {
     void (*free)(void *state);
 };
 
-/* A build may name a list of its own, which includes this one and adds methods. */
+/* -DRC_METHODS_LIST=... replaces the list (tests/toys does). */
 #ifndef RC_METHODS_LIST
 #define RC_METHODS_LIST "libcontact/solver/methods.list"
 #endif
@@ -244,7 +244,7 @@ void rc_working_set_find(struct rc_solver *solver, bool sift);
 void rc_working_set_follow(struct rc_solver *solver, const float *q, double factor);
 /* The set becomes all nodes; r stays. */
 void rc_working_set_all(struct rc_solver *solver);
-/* Where the operator asks for it, how a shift of the set is spread on it is found exactly. Uses z. */
+/* Computes M 1 exactly where the operator requires it (see preconditioner.h). Uses z. */
 void rc_working_set_spread(struct rc_solver *solver);
 /* The set becomes the elastic nodes, `touching` all that carry pressure, with r = 1 on them;
  * returns their number. */

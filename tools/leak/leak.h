@@ -18,7 +18,7 @@ struct leak_case {
     const struct rc_leak_figures *figures;
 };
 
-/* Says what is to be known of a flow before it is believed. */
+/* Warnings about the accuracy of a flow. */
 void leak_judge(struct tool *tool, const struct leak_case *c);
 void leak_report(struct report *report, const struct leak_case *c);
 

@@ -116,7 +116,7 @@ size_t slip_checkpoint_memory(const struct slip_run *run);
 
 /* ---- report.c ---- */
 
-/* What is to be known before it is believed. */
+/* Warnings printed before the run. */
 void slip_judge_plan(struct slip_run *run);
 void slip_judge(struct slip_run *run, const struct slip_state *s);
 void slip_report(struct slip_run *run, const struct slip_state *s);

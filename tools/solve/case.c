@@ -104,8 +104,7 @@ results_new(struct run *run, const struct rc_grid *g, struct results *r)
     *r = (struct results){.as = rc_grid_like(g, g->channel, g->unit, &err)};
     if (r->as == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    /* heights that nobody needs any more give their memory; pages of the new map that nobody touches
-     * take none */
+    /* reuse the input map when it is not written; untouched pages of the new map take no memory */
     r->buffer =
         solve_wanted(run->args, SOLVE_HEIGHT) || run->args->physics.history ? r->as->v : g->v;
 }
