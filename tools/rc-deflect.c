@@ -67,8 +67,7 @@ pair_of(struct tool *t, const struct rc_grid *p, struct layers *layers)
     if (layers_read(p, layers, &err) != RC_OK)
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     if (layers->text != NULL && !isnan(args.estar))
-        tool_die_at(t, p, EXIT_IMPOSSIBLE,
-                    "it was solved on layers, which say how stiff they are: leave out --estar");
+        tool_die_at(t, p, EXIT_IMPOSSIBLE, "the stream already defines the layers; remove --estar");
     if (isnan(args.estar) && bodies_read(p, layers, &pair, &err) != RC_OK)
         tool_die_at(t, p, layers->text == NULL ? EXIT_USAGE : EXIT_IMPOSSIBLE, "%s", err.text);
     return pair;
@@ -146,7 +145,7 @@ do_case(struct tool *t, const struct rc_grid *p)
     struct rc_grid *u;
     struct rc_err err;
 
-    tool_demand_finite(t, p, "a pressure map has none; make it again");
+    tool_demand_finite(t, p, "recompute the map");
     demand_memory(t, p, &options);
     conv = rc_conv_new(&shape, &pair, &options, &err);
     if (conv == NULL)

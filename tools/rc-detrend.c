@@ -406,7 +406,7 @@ static const struct opt opts[] = {
     {.name = "taper", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
      .max = INFINITY, .above = true, .result = true, .arg = "W",
      .of = &(const struct work){.run = taper},
-     .help = "lead the outer W to the mean, so that the map repeats"},
+     .help = "blend a frame of width W into the mean height, so that the map repeats"},
     {.name = "mirror", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
      .of = &(const struct work){.run = mirror},
      .help = "add the mirror images about two edges, so that the map repeats"},

@@ -89,8 +89,7 @@ sides_meet(struct run *run, const struct rc_grid *g)
         return false;
     if (boundary != NULL && !meet)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
-                    "its boundary is %s, so that its sides do not meet: leave out --sides periodic",
-                    boundary);
+                    "boundary=%s contradicts --sides periodic: remove that option", boundary);
     return true;
 }
 
@@ -179,9 +178,9 @@ do_case(struct run *run, const struct rc_grid *gap, struct rc_grid *p)
     struct rc_leak *leak;
     struct rc_err err;
 
-    tool_demand_finite(&run->t, gap, "a gap has none: make it again");
+    tool_demand_finite(&run->t, gap, "recompute the map");
     if (p != NULL) {
-        tool_demand_finite(&run->t, p, "a pressure map has none: make it again");
+        tool_demand_finite(&run->t, p, "recompute the map");
         look_at_contact(&c, p);
     }
     tool_demand_memory(&run->t, gap, rc_leak_memory(&shape));

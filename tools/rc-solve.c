@@ -33,13 +33,13 @@ static const struct opt opts[] = {
     {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N|auto",
      .help = "of each load of a body that yields (default auto: to an error of 1 %)"},
     {.name = "slabs", .type = OPT_TEXT, AT(slabs), .result = true, .arg = "N|LIST|auto",
-     .help = "in which it may yield, or their thicknesses, from the surface (default auto)"},
+     .help = "layers that may yield: number or thicknesses, from the surface down (default auto)"},
     {.name = "adhesion", .type = OPT_TEXT, AT(adhesion), .result = true, .arg = "WORK[,LAW[,RANGE]]",
      .help = "the bodies attract each other: 50mJ/m2, 50mJ/m2,exponential,2nm; a list is a path"},
     {.name = "pull-off", .type = OPT_FLAG, AT(pull_off), .result = true,
      .help = "after the last state draw the bodies apart, and find the lowest load"},
     {.name = "history", .type = OPT_FLAG, AT(physics.history), .result = true,
-     .help = "the loads follow each other, each on the shape left by yield; 0 takes the bodies apart"},
+     .help = "apply the loads in sequence, keeping plastic shape; 0 separates the bodies"},
     {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
      .words = words_engine_or_auto, .help = "how displacements are summed (default auto)"},
     {.name = "method", .type = OPT_CHOICE, AT(method), .words = words_method_or_auto,
@@ -51,7 +51,7 @@ static const struct opt opts[] = {
      .words = solve_frame_word, .arg = "LIST",
      .help = "frames to write, of %s (default: the first four, and residual with --yield)"},
     {.name = "tilt", .type = OPT_CHOICE, AT(tilt), .words = tilt_word, .result = true,
-     .help = "whether the counter body turns until no moment acts (default fixed)"},
+     .help = "free: the counter body tilts until the moment is zero (default fixed)"},
     {.name = "at", .type = OPT_NUMBERS, .unit = UNIT_M, AT(at), .min = -INFINITY, .max = INFINITY,
      .result = true, .arg = "X,Y",
      .help = "where the load acts on a body that is free to tilt (default: the middle)"},
@@ -115,8 +115,7 @@ check_tilt(struct run *run)
 
     run->tilt = args.tilt != NULL && strcmp(args.tilt, "free") == 0;
     if (args.at.n > 0 && !run->tilt)
-        tool_die(&run->t, EXIT_USAGE,
-                 "--at needs --tilt free: else it is all the same where the load acts");
+        tool_die(&run->t, EXIT_USAGE, "--at has no effect without --tilt free");
     if (args.at.n > 0 && args.at.n != 2)
         tool_die(&run->t, EXIT_USAGE,
                  "--at: it must be X,Y, from the middle of the map, as in 0.1mm,0");
@@ -125,8 +124,7 @@ check_tilt(struct run *run)
                  "--tilt free: a periodic surface has no point that it could tilt about: leave out "
                  "--periodic");
     if (run->tilt && tool_given(&run->t, "history"))
-        tool_die(&run->t, EXIT_USAGE,
-                 "--tilt free: not with --history: the shapes that loads leave would tilt too");
+        tool_die(&run->t, EXIT_USAGE, "--tilt free does not work with --history yet");
 }
 
 static void

@@ -206,7 +206,7 @@ set_traction(struct run *run, const struct rc_grid *p)
                         "or take the pressure alone, rc-pick --channel pressure",
                         args.mu);
         tool_demand_grid_of(&run->t, g, p);
-        tool_demand_finite(&run->t, g, "a map of traction has none; make it again");
+        tool_demand_finite(&run->t, g, "recompute the map");
         run->options.traction[k] = g->v;
     }
 }
@@ -553,7 +553,7 @@ main(int argc, char **argv)
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
     while ((p = tool_channel_with(&run.t, "pressure", take, &run)) != NULL) {
-        tool_demand_finite(&run.t, p, "a pressure map has none; make it again");
+        tool_demand_finite(&run.t, p, "recompute the map");
         set_options(&run, p);
         set_depths(&run, p);
         if (args.residual)

@@ -96,7 +96,7 @@ claim "a dry run says so" says 'friction *on$' rc-stress --depths 30um --dry-run
 
 refuses 1 'its own traction, and --mu 0.1 contradicts it' "--mu beside it" "rc-stress --quiet --mu 0.1 --depths 1um y.rcg"
 frames ball.rcg ty.part ty.part >two.rcg
-refuses 1 'a second traction-y frame in one case' "two of a kind" \
+refuses 1 'two .traction-y. frames in case 1; give unrelated maps different numbers' "two of a kind" \
     "rc-stress --quiet --depths 1um two.rcg"
 rc-pick --crop 1,0,47,48 -o small.rcg ball.rcg
 traction small.rcg traction-x 0.3 >small.part

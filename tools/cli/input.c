@@ -20,7 +20,7 @@
 static enum rc_status
 allow(void *t, const struct rc_shape *shape, size_t bytes, struct rc_err *err)
 {
-    return tool_ask_memory(t, shape, bytes, "make it smaller where it comes from", err);
+    return tool_ask_memory(t, shape, bytes, "use a coarser or smaller map, or raise --memory", err);
 }
 
 /* As of `--load 60 N`, whose last word would be a file. */
@@ -247,9 +247,9 @@ tool_keep_frame(struct tool *t, struct rc_grid *g, struct rc_grid **kept)
 {
     if (*kept != NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "a second %s frame in one case: maps that do not belong together need case "
-                    "numbers of their own",
-                    g->channel);
+                    "two '%s' frames in case %zu; give unrelated maps different numbers "
+                    "(rc-pick --set case=2)",
+                    g->channel, rc_grid_case(g));
     *kept = g;
 }
 
@@ -347,9 +347,9 @@ tool_channel(struct tool *t, const char *channel, bool pass)
         if (strcmp(g->channel, channel) == 0) {
             if (t->current.found++ > 0)
                 tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                            "a second %s frame in one case: maps that do not belong together need "
-                            "case numbers of their own",
-                            channel);
+                            "two '%s' frames in case %zu; give unrelated maps different numbers "
+                            "(rc-pick --set case=2)",
+                            channel, number);
             tool_demand_lengths(t, g);
             return g;
         }

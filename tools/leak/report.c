@@ -86,16 +86,16 @@ leak_judge(struct tool *t, const struct leak_case *c)
 
     tool_where(t, c->gap, where, sizeof where);
     if (!c->pressed)
-        tool_warn(t,
-                  "%s: no pressure frame beside it: fluid goes wherever the gap is above 0, and in "
-                  "contact "
-                  "that is not to be trusted: rc-solve --output pressure,gap writes both",
-                  where);
+        tool_warn(
+            t,
+            "%s: without a pressure frame fluid flows wherever the gap is above 0, also in the "
+            "contact, where gaps are only rounding: write both with rc-solve --output "
+            "pressure,gap",
+            where);
     if (f->percolates != f->percolates_diagonal)
         tool_warn(t,
-                  "%s: fluid would get through if it could pass corners of cells, and through "
-                  "their edges "
-                  "it does not: whether it leaks is beyond this grid, take a finer one",
+                  "%s: the only remaining path runs through cell corners; this grid cannot decide "
+                  "whether it leaks: take a finer one",
                   where);
     if (!f->percolates)
         return;

@@ -198,11 +198,8 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
     struct rc_err err;
 
     if (form != NULL)
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
-            "these heights hold a shape that was added to them already (form=%s): leave out "
-            "--radius",
-            form);
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "a sphere was already added to these heights (form=%s): remove --radius", form);
     add_sphere(t, a, g);
     snprintf(name, sizeof name, "sphere %s", rc_number_text(radius, a->radius));
     if (rc_grid_set(g, "form", name, &err) != RC_OK)

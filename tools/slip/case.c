@@ -35,7 +35,7 @@ check_pressure(struct slip_run *run)
 {
     size_t n = rc_grid_nodes(run->p), pulled = 0;
 
-    tool_demand_finite(&run->t, run->p, "a pressure map has none; make it again");
+    tool_demand_finite(&run->t, run->p, "recompute the map");
     for (size_t k = 0; k < n; k++)
         pulled += run->p->v[k] < 0;
     if (pulled > 0)

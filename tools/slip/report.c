@@ -133,10 +133,11 @@ slip_judge(struct slip_run *run, const struct slip_state *s)
                   "5 %%, with 8 increments by 1 %%",
                   where);
     if (s->increment_error > coarse && s->corner->increments > 1)
-        tool_warn(&run->t,
-                  "%s: with half the increments its tractions are others by %.0f %%: ask for more "
-                  "--increments than %zu, twice as many halve that",
-                  where, 100 * s->increment_error, s->corner->increments);
+        tool_warn(
+            &run->t,
+            "%s: with half the increments the tractions differ by %.0f %%: raise --increments "
+            "above %zu, twice as many halve the difference",
+            where, 100 * s->increment_error, s->corner->increments);
 }
 
 /* ---- what would be done ---- */

@@ -119,7 +119,7 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where, const 
 void
 solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *c)
 {
-    char error[64] = "its error is not known";
+    char error[64] = "its error is unknown";
 
     if (c->converged)
         return;
@@ -133,11 +133,12 @@ solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *c
     else if (run->tilt && c->hardness_active)
         solve_warn(
             run, "stopped short",
-            "%s: stopped short after %zu iterations: %s: where the load acts, what yields may not "
-            "be able to balance it: move --at nearer to the middle, or raise --hardness",
+            "%s: not converged after %zu iterations: %s: yielding nodes may not be able to balance "
+            "the load at this point: move --at nearer to the middle, or raise --hardness",
             where, c->iterations, error);
     else
-        solve_warn(run, "stopped short", "%s: stopped short after %zu iterations: %s: raise --tol",
+        solve_warn(run, "stopped short",
+                   "%s: not converged after %zu iterations: %s: accept it with a larger --tol",
                    where, c->iterations, error);
 }
 

@@ -27,7 +27,7 @@ keep(struct tool *t, struct stress_strain *s, struct rc_grid *g, size_t part)
             s->slabs);
     if (!rc_grid_number(g, "thickness", &thickness) || !(thickness > 0) || isinf(thickness))
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key thickness is not a length above 0");
-    tool_demand_finite(t, g, "a map of plastic strain has none; make it again");
+    tool_demand_finite(t, g, "recompute the map");
     s->thickness[k / PARTS] = thickness;
     s->frame[k] = g;
     s->map[k] = g->v;
