@@ -39,7 +39,8 @@ struct rc_format {
     /* `list` and `read` run in a process of their own, which holds the values too until they have been
      * handed over. */
     bool sandboxed;
-    bool copies; /* the library of that process holds a copy of the file */
+    bool copies;  /* the library of that process holds a copy of the file */
+    bool columns; /* its channels are columns of one table: those that are not read are told of */
 };
 
 /* Those of formats.list in its order, ended by NULL. */

@@ -52,7 +52,7 @@ static const struct opt opts[] = {
     {.name = "z-unit", .type = OPT_TEXT, .at = offsetof(struct args, z_unit), .result = true,
      .arg = "UNIT", .help = "unit of the file's heights: um, nm or a number of metres"},
     {.name = "xy-unit", .type = OPT_TEXT, .at = offsetof(struct args, xy_unit), .result = true,
-     .arg = "UNIT", .help = "unit of positions in the first row and column of a matrix"},
+     .arg = "UNIT", .help = "unit of positions or steps where the file does not say it"},
     {.name = "labels", .type = OPT_CHOICE, .at = offsetof(struct args, labels), .result = true,
      .words = label_word, .arg = "WHICH",
      .help = "no heights in a matrix as text: keep (none), row, column, both (default auto)"},
@@ -461,6 +461,7 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
               struct rc_err *err)
 {
     struct rc_notes notes = {0};
+    char names[IMPORT_NAMES];
     struct rc_grid *g;
     struct pick pick;
 
@@ -472,6 +473,10 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
         tool_memory_beside(t, notes.held);
     if (pick.said[0] != '\0')
         tool_warn(t, "%s: %s", t->source, pick.said);
+    else if (s->format->columns && s->n > 1 && args.channel == NULL)
+        tool_warn(t, "%s: '%s' is read; other columns are channels: %s; --channel takes one",
+                  t->source, s->channel[pick.index].name,
+                  import_names(s->channel, s->n, pick.index, names));
     for (size_t k = 0; k < notes.n; k++)
         tool_warn(t, "%s: %s", t->source, notes.text[k]);
     if (wish->missing != NULL)

@@ -75,7 +75,10 @@ rc_map_hint(struct rc_map *map, double dx, double dy)
 {
     char x[RC_NUMBER_SIZE], y[RC_NUMBER_SIZE];
 
-    snprintf(map->hint, sizeof map->hint, " (its steps are %s and %s of a unit not given)",
+    map->step[0] = dx;
+    map->step[1] = dy;
+    snprintf(map->hint, sizeof map->hint,
+             " (its steps are %s and %s of a unit not given; or --xy-unit says it)",
              rc_number_text(x, dx), rc_number_text(y, dy));
 }
 

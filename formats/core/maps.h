@@ -42,7 +42,9 @@ struct rc_map {
     double beside; /* bytes that fill takes beside v: set by rc_map_bound                         */
     struct rc_notes *notes; /* for fill too                                              */
     const char *doubt;      /* of what the heights mean: noted, unless --z-unit says it  */
-    char hint[96]; /* the spacing where the file gives it without a unit; for the refusal */
+    double step
+        [2]; /* the spacing where the file gives it without a unit, and words on it for the refusal: */
+    char hint[128];
 };
 
 struct rc_maps {

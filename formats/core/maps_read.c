@@ -52,6 +52,10 @@ describe(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *w
         if (map->name[0] == '\0')
             strcpy(map->name,
                    map->unit[0] == '\0' || strcmp(map->unit, "m") == 0 ? "height" : "values");
+        if (isnan(map->dx) && map->step[0] != 0 && wish->xy_unit > 0) {
+            map->dx = map->step[0] * wish->xy_unit;
+            map->dy = map->step[1] * wish->xy_unit;
+        }
         if (map->ny == 1)
             map->dy = map->dx; /* a profile: what its file says of y has no meaning */
         if (check_map(map, file, err) != RC_OK)

@@ -27,7 +27,8 @@ struct rc_wish {
     bool even;           /* profiles whose points are not evenly apart are resampled             */
     double even_step;    /* m, to this step; 0: to one of their own                              */
     enum rc_label labels;
-    double xy_unit;   /* metres per unit of positions that have none in the file; NAN: not said   */
+    double
+        xy_unit; /* metres per unit of positions or steps that have none in the file; NAN: not said */
     bool ignore_mask; /* points that the file's mask excludes are kept                            */
 };
 extern const struct rc_wish rc_no_wish; /* of a user who says nothing: all is as the file says */

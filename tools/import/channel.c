@@ -4,10 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    NAMES = 300 /* bytes of a list of names, so that a message holds it and what to do */
-};
-
 /* Whether the name begins with these letters, in either case. */
 static bool
 begins(const char *name, const char *start)
@@ -15,9 +11,10 @@ begins(const char *name, const char *start)
     return rc_piece_begins((struct rc_piece){name, strlen(name)}, start);
 }
 
-/* "1 'Phase' in deg, 2 'Current' in A" of those that begin so; "..." stands for the rest. */
+/* "1 'Phase' in deg, 2 'Current' in A" of those that begin so, but for one; "..." stands for the rest. */
 static const char *
-names_of(const struct rc_channel *channel, size_t n, const char *start, char names[NAMES])
+list_names(const struct rc_channel *channel, size_t n, size_t except, const char *start,
+           char names[IMPORT_NAMES])
 {
     size_t used = 0;
 
@@ -26,11 +23,11 @@ names_of(const struct rc_channel *channel, size_t n, const char *start, char nam
         const char *in = channel[k].unit[0] == '\0' ? "" : " in ";
         char one[sizeof *channel + 32];
 
-        if (!begins(channel[k].name, start))
+        if (k == except || !begins(channel[k].name, start))
             continue;
         snprintf(one, sizeof one, "%s%zu '%s'%s%s", used == 0 ? "" : ", ", k + 1, channel[k].name,
                  in, channel[k].unit);
-        if (used + strlen(one) + sizeof ", ..." > NAMES) {
+        if (used + strlen(one) + sizeof ", ..." > IMPORT_NAMES) {
             strcpy(names + used, ", ...");
             break;
         }
@@ -40,6 +37,18 @@ names_of(const struct rc_channel *channel, size_t n, const char *start, char nam
     return names;
 }
 
+const char *
+import_names(const struct rc_channel *channel, size_t n, size_t except, char names[IMPORT_NAMES])
+{
+    return list_names(channel, n, except, "", names);
+}
+
+static const char *
+names_of(const struct rc_channel *channel, size_t n, const char *start, char names[IMPORT_NAMES])
+{
+    return list_names(channel, n, n, start, names);
+}
+
 static enum rc_status
 pick_topography(const struct rc_channel *channel, size_t n, bool any_unit, struct pick *pick,
                 struct rc_err *err)
@@ -47,7 +56,7 @@ pick_topography(const struct rc_channel *channel, size_t n, bool any_unit, struc
     static const char *const what[] = {"channels are heights", "channels could be the topography",
                                        "channels are in metres, none is named as a topography"};
     struct rc_topography t = rc_format_topography(channel, n, "m");
-    char names[NAMES];
+    char names[IMPORT_NAMES];
 
     if (t.index == n) /* its reader says what it lacks */
         t = rc_format_topography(channel, n, any_unit ? NULL : "");
@@ -90,7 +99,7 @@ import_pick(const struct rc_channel *channel, size_t n, const char *wanted, bool
             struct pick *pick, struct rc_err *err)
 {
     size_t found = 0;
-    char names[NAMES], quote[RC_SHOWN];
+    char names[IMPORT_NAMES], quote[RC_SHOWN];
     const char *end;
     double number;
 

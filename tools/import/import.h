@@ -8,7 +8,8 @@
 #include "tools/cli/cli.h"
 
 enum {
-    CHANNELS_MOST = 64 /* that are looked at in one file */
+    CHANNELS_MOST = 64, /* that are looked at in one file */
+    IMPORT_NAMES = 300  /* bytes of a list of names, so that a message holds it and what to do */
 };
 
 /* ---- file.c ---- */
@@ -50,5 +51,9 @@ struct pick {
  * where there is none or it could be several, which are named. */
 enum rc_status import_pick(const struct rc_channel *channel, size_t n, const char *wanted,
                            bool any_unit, struct pick *pick, struct rc_err *err);
+
+/* "1 'Phase' in deg, 2 'Current' in A" of the channels but `except`, cut to the room there is. */
+const char *import_names(const struct rc_channel *channel, size_t n, size_t except,
+                         char names[IMPORT_NAMES]);
 
 #endif

@@ -356,6 +356,12 @@ note_skipped(const struct matrix *m, struct rc_notes *notes)
                 m->titled.skipped, m->titled.skipped == 1 ? "" : "s",
                 m->titled.skipped == 1 ? "is" : "are",
                 rc_piece_shown(quote, m->titled.first_skipped));
+    if (m->is_titled && m->titled.titles == m->table.columns &&
+        !rc_titled_table_numbered(&m->titled))
+        rc_note(notes,
+                "the titles, of which the first is '%s', name no axis: the table is read as a "
+                "matrix",
+                rc_piece_shown(quote, rc_titled_table_name(&m->titled, 0)));
     rc_labels_note(&m->labels, notes);
 }
 

@@ -176,6 +176,9 @@ lay_nodes(const struct profile *p, const struct rc_file *file, const struct rc_w
     double metres = rc_piece_metres(rc_titled_table_unit(&p->table, p->x, 'x'));
     enum rc_status status;
 
+    if (isnan(metres) && wish->xy_unit > 0)
+        metres = wish->xy_unit;
+
     if (x == NULL)
         return rc_err_set(err, "out of memory for %zu points", rows);
     z = x + rows;
@@ -272,4 +275,5 @@ const struct rc_format rc_format_profile = {
     .score = profile_score,
     .list = profile_list,
     .read = profile_read,
+    .columns = true,
 };

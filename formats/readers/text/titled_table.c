@@ -316,10 +316,8 @@ letters_before_number(struct rc_piece title)
     return n < title.n ? n : SIZE_MAX;
 }
 
-/* Whether the titles, but for that of a first column of row names, are all numbers, or all one word
- * with a number. */
-static bool
-only_numbered(const struct rc_titled_table *t)
+bool
+rc_titled_table_numbered(const struct rc_titled_table *t)
 {
     struct rc_piece line = t->title_line, title, first = {"", 0};
     size_t n = 0, letters = SIZE_MAX, missing = t->titles + 1 == t->numbers.columns;
@@ -355,7 +353,7 @@ rc_titled_table_is_matrix(const struct rc_titled_table *t)
         return false;
     if (t->titles + 1 != columns && t->titles != columns)
         return columns > 3;
-    if (only_numbered(t))
+    if (rc_titled_table_numbered(t))
         return true;
     for (size_t c = 0; c < columns && c < RC_TITLES_MOST; c++) {
         enum rc_role role = rc_titled_table_role(t, c);

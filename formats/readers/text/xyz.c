@@ -370,4 +370,5 @@ const struct rc_format rc_format_xyz = {
     .score = xyz_score,
     .list = xyz_list,
     .read = xyz_read,
+    .columns = true,
 };
