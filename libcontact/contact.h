@@ -297,7 +297,8 @@ RC_API void rc_measure(const struct rc_shape *shape, const double *v, struct rc_
 /* Sum of n doubles with the compensation of Neumaier 1974: its error does not grow with n. */
 RC_API double rc_sum(const double *v, size_t n);
 
-/* RMS of the gradient's magnitude of the heights h (m) over the nodes where p > 0 (p NULL: over all), by
+/* RMS of the gradient's magnitude of the heights h (m) over the nodes in contact (rc_in_contact of p, a
+ * pressure or a map of 1 and 0; p NULL: over all), by
  * differences to the next node along each side of the map; NAN when there is none. Where ranks share the
  * map h and p are the rows held here; ranks NULL: none. */
 RC_API double rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *shape,
@@ -332,7 +333,7 @@ struct rc_patch {
     double area, perimeter; /* m^2, m */
 };
 
-/* Nodes that carry pressure, joined by their four neighbours. The perimeter is made of the edges
+/* Nodes in contact (rc_in_contact of p, a pressure or a map of 1 and 0), joined by their four neighbours. The perimeter is made of the edges
  * between a node in contact and one that is not; the border of a free map is none. The corrected area
  * takes off (pi - 1 + ln 2)/24 dx dy for each such edge (Yastrebov, Anciaux and Molinari 2017): a grid
  * counts every node that the edge of the contact passes through. */
@@ -982,8 +983,8 @@ struct rc_leak_figures {
 };
 
 struct rc_leak;
-/* Fluid is where the pressure p of the contact (Pa; NULL: no contact) is 0 and the gap g (m) is
- * positive; gaps below 1e-30 of the largest let nothing through. Finds what percolates. NULL where a
+/* Fluid is where the bodies are not in contact (rc_in_contact of p, a pressure or a map of 1 and 0; NULL: no
+ * contact) and the gap g (m) is positive; gaps below 1e-30 of the largest let nothing through. Finds what percolates. NULL where a
  * value is not finite, the map has 2^31 nodes, memory is short, or the library was built without AMD of
  * SuiteSparse. */
 RC_API struct rc_leak *rc_leak_new(const struct rc_shape *shape, const double *p, const double *g,

@@ -132,6 +132,14 @@ RC_API const char *rc_number_read(const char *text, bool special, double *value)
 /* a*b, or RC_FAIL when it does not fit. */
 RC_API enum rc_status rc_size_mul(size_t a, size_t b, size_t *product, struct rc_err *err);
 
+/* Contact has one meaning: the value of a node in the frame `contact` of its case (1 or 0), or, where the case
+ * has none, its pressure, is above 0. Tools learn from contact_frame which of the two tells. */
+static inline bool
+rc_in_contact(double value)
+{
+    return value > 0;
+}
+
 #ifdef __cplusplus
 }
 #endif

@@ -11,6 +11,7 @@ declared() {
         $curly = qr/\{(?:[^{}]++|(??{ $curly }))*\}/;
         s/__attribute__\s*$round//g;
         s/extern\s+"C"\s*\{//g;
+        s/\bstatic\s+inline\b[^(;]*$round\s*$curly//g;
         s/$curly//g;
         for (split /;/) {
             next if /\btypedef\b/;

@@ -82,9 +82,11 @@ is_pressure(const struct rc_grid *g)
     return strcmp(g->channel, "pressure") == 0 && strcmp(g->unit, "Pa") == 0 && in_metres(g);
 }
 
-/* Load and contact are computed from the values, so they hold whichever program wrote these. */
+/* Load and contact are computed from the values, so they hold whichever program wrote these. `touch` tells the
+ * contact; NULL: nothing does. */
 static void
-result_of(const struct rc_grid *g, const struct rc_statistics *s, struct result *r)
+result_of(const struct rc_grid *g, const struct rc_grid *touch, const struct rc_statistics *s,
+          struct result *r)
 {
     const char *converged = rc_grid_get(g, "converged");
     bool whole = s->missing == 0 && s->infinite == 0;
@@ -96,7 +98,7 @@ result_of(const struct rc_grid *g, const struct rc_statistics *s, struct result 
     /* values in single precision cannot reach it any nearer */
     most = g->type == RC_F32 ? (double)(float)r->hardness : r->hardness;
     for (size_t k = 0; whole && k < g->nx * g->ny; k++) {
-        r->contact_nodes += g->v[k] > 0 ? 1 : 0;
+        r->contact_nodes += touch != NULL && rc_in_contact(touch->v[k]) ? 1 : 0;
         r->plastic_nodes += g->v[k] >= most ? 1 : 0;
     }
     if (converged != NULL && (strcmp(converged, "yes") == 0 || strcmp(converged, "no") == 0))
@@ -105,8 +107,10 @@ result_of(const struct rc_grid *g, const struct rc_statistics *s, struct result 
         return;
     r->load = s->sum * cell;
     r->max_pressure = s->maximum;
-    r->contact_area = cell * (double)r->contact_nodes;
-    r->contact_fraction = (double)r->contact_nodes / ((double)g->nx * (double)g->ny);
+    if (touch != NULL) {
+        r->contact_area = cell * (double)r->contact_nodes;
+        r->contact_fraction = (double)r->contact_nodes / ((double)g->nx * (double)g->ny);
+    }
     if (!isnan(r->hardness))
         r->plastic_area = cell * (double)r->plastic_nodes;
 }
@@ -162,7 +166,7 @@ show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     json_count(&j, "missing", s->missing);
     json_count(&j, "infinite", s->infinite);
     if (is_pressure(g)) {
-        result_of(g, s, &result);
+        result_of(g, f->touch, s, &result);
         add_result(&j, &result);
     }
     json_object(&j, "keys");
@@ -208,6 +212,8 @@ put_result(FILE *out, const struct rc_grid *g, const struct result *r)
         fprintf(out, "  %-10s %s, %.3g %% of the map (%zu of %zu nodes)\n", "contact",
                 shown_area(text, r->contact_area), 100 * r->contact_fraction, r->contact_nodes,
                 g->nx * g->ny);
+    } else if (!isnan(r->load)) {
+        fprintf(out, "  %-10s unknown\n", "contact");
     }
     if (!isnan(r->max_pressure))
         fprintf(out, "  %-10s at most %sPa\n", "pressure",
@@ -312,7 +318,7 @@ show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     fprintf(t->out, "%s", first ? "" : "\n");
     put_text(t->out, tool_where(t, g, where, sizeof where), sizeof where);
     if (is_pressure(g)) {
-        result_of(g, s, &result);
+        result_of(g, f->touch, s, &result);
         put_result(t->out, g, &result);
     }
     put_grid(t->out, g);
@@ -321,11 +327,69 @@ show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     put_keys(t->out, g);
 }
 
+/* The frame `contact` that has come, and the last case whose pressure was shown without one, 0: none, with so many
+ * nodes in contact. */
+struct beside {
+    struct rc_grid *contact;
+    size_t without, nodes;
+};
+
+static size_t
+count_contact(const struct rc_grid *touch)
+{
+    size_t nodes = 0;
+
+    for (size_t k = 0; touch != NULL && k < touch->nx * touch->ny; k++)
+        nodes += rc_in_contact(touch->v[k]);
+    return nodes;
+}
+
+/* What tells the contact of this frame: `contact` that stands before it in its case, or a pressure itself. NULL:
+ * nothing does, or it is no pressure. */
+static const struct rc_grid *
+touching(struct tool *t, const struct rc_grid *g, struct beside *b)
+{
+    const struct rc_grid *touch;
+
+    if (b->contact != NULL && rc_grid_case(b->contact) != rc_grid_case(g)) {
+        rc_grid_free(b->contact);
+        b->contact = NULL;
+    }
+    if (strcmp(g->channel, CONTACT_CHANNEL) == 0 && b->without == rc_grid_case(g) &&
+        b->nodes != count_contact(g))
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "%zu nodes are in contact by this frame, %zu by the pressure before it: it must "
+            "stand before the pressure whose contact it tells",
+            count_contact(g), b->nodes);
+    if (strcmp(g->channel, "pressure") != 0)
+        return NULL;
+    touch = (args.wanted.patches ? contact_demand : contact_frame)(t, g, b->contact);
+    if (b->contact == NULL) {
+        b->without = rc_grid_case(g);
+        b->nodes = count_contact(touch);
+    }
+    return touch;
+}
+
+/* Frees a frame that has been shown, but for one that a pressure behind it may need. */
+static void
+let_go(struct rc_grid *g, struct beside *beside)
+{
+    if (strcmp(g->channel, CONTACT_CHANNEL) != 0) {
+        rc_grid_free(g);
+        return;
+    }
+    rc_grid_free(beside->contact);
+    beside->contact = g;
+}
+
 int
 main(int argc, char **argv)
 {
     struct rc_statistics statistics;
     struct info_figures figures;
+    struct beside beside = {NULL, 0, 0};
     struct rc_grid *g;
     struct tool t;
     bool first = true;
@@ -334,8 +398,10 @@ main(int argc, char **argv)
     info_check(&args.wanted, &t);
     while ((g = tool_read(&t)) != NULL) {
         struct rc_shape shape = rc_grid_shape(g);
+        const struct rc_grid *touch = touching(&t, g, &beside);
+
         rc_measure(&shape, g->v, &statistics);
-        info_compute(&args.wanted, &t, g, &figures);
+        info_compute(&args.wanted, &t, g, touch, &figures);
         info_report(&args.wanted.out, &args.wanted, &figures, &statistics);
         if (args.json && !t.report_alone)
             show_json(&t, g, &statistics, &figures);
@@ -343,8 +409,9 @@ main(int argc, char **argv)
             show_text(&t, g, &statistics, &figures, first);
         first = false;
         info_free(&figures);
-        rc_grid_free(g);
+        let_go(g, &beside);
     }
+    rc_grid_free(beside.contact);
     info_end(&args.wanted, &t);
     return tool_finish(&t);
 }

@@ -71,6 +71,7 @@ static const struct tool_info info = {
 struct run {
     struct tool t;
     struct report report;
+    struct rc_grid *p, *contact; /* of the case; NULL: none */
 };
 
 /* ---- a case ---- */
@@ -93,17 +94,26 @@ sides_meet(struct run *run, const struct rc_grid *g)
     return true;
 }
 
-/* What the pressure tells; it is not needed any more. */
-static void
-look_at_contact(struct leak_case *c, const struct rc_grid *p)
+/* What touches, and the mean of the pressure. NULL: the stream does not tell. */
+static const struct rc_grid *
+look_at_contact(struct run *run, struct leak_case *c)
 {
-    size_t n = rc_grid_nodes(p), touching = 0;
+    const struct rc_grid *p = run->p, *touch;
+    size_t n = rc_grid_nodes(c->gap), touching = 0;
 
+    if (p != NULL) {
+        tool_demand_grid_of(&run->t, p, c->gap);
+        tool_demand_finite(&run->t, p, "recompute the map");
+        c->mean = rc_sum(p->v, n) / (double)n;
+    }
+    if ((touch = contact_demand(&run->t, p, run->contact)) == NULL)
+        return NULL;
+    tool_demand_grid_of(&run->t, touch, c->gap);
     for (size_t k = 0; k < n; k++)
-        touching += p->v[k] != 0;
+        touching += rc_in_contact(touch->v[k]);
     c->pressed = true;
     c->contact = (double)touching / (double)n;
-    c->mean = rc_sum(p->v, n) / (double)n;
+    return touch;
 }
 
 static enum rc_status
@@ -161,7 +171,7 @@ solve(struct run *run, const struct leak_case *c, struct rc_leak *leak)
 }
 
 static void
-do_case(struct run *run, const struct rc_grid *gap, struct rc_grid *p)
+do_case(struct run *run, const struct rc_grid *gap)
 {
     struct leak_case c = {.gap = gap,
                           .direction = args.direction[0],
@@ -174,17 +184,15 @@ do_case(struct run *run, const struct rc_grid *gap, struct rc_grid *p)
     const struct rc_leak_options options = {
         .direction = c.direction, .around = c.around, .threads = run->t.threads};
     struct rc_shape shape = rc_grid_shape(gap);
+    const struct rc_grid *touch;
     double began = tool_now();
     struct rc_leak *leak;
     struct rc_err err;
 
     tool_demand_finite(&run->t, gap, "recompute the map");
-    if (p != NULL) {
-        tool_demand_finite(&run->t, p, "recompute the map");
-        look_at_contact(&c, p);
-    }
+    touch = look_at_contact(run, &c);
     tool_demand_memory(&run->t, gap, rc_leak_memory(&shape));
-    leak = rc_leak_new(&shape, p == NULL ? NULL : p->v, gap->v, &options, &err);
+    leak = rc_leak_new(&shape, touch == NULL ? NULL : touch->v, gap->v, &options, &err);
     if (leak == NULL)
         tool_die_at(&run->t, gap, EXIT_IMPOSSIBLE, "%s", err.text);
     c.figures = rc_leak_result(leak);
@@ -201,11 +209,27 @@ do_case(struct run *run, const struct rc_grid *gap, struct rc_grid *p)
 
 /* ---- start ---- */
 
+/* Keeps what tells the contact. */
+static bool
+take(void *ctx, struct tool *t, const struct rc_grid *gap, struct rc_grid *g)
+{
+    struct run *run = ctx;
+    struct rc_grid **to = strcmp(g->channel, "pressure") == 0        ? &run->p
+                          : strcmp(g->channel, CONTACT_CHANNEL) == 0 ? &run->contact
+                                                                     : NULL;
+
+    (void)gap;
+    if (to == NULL)
+        return false;
+    tool_keep_frame(t, g, to);
+    return true;
+}
+
 int
 main(int argc, char **argv)
 {
     static struct run run;
-    struct rc_grid *gap, *p;
+    struct rc_grid *gap;
 
     tool_start(&run.t, &info, argc, argv, &args);
     if (tool_given(&run.t, "viscosity") != tool_given(&run.t, "pressure-drop"))
@@ -213,10 +237,12 @@ main(int argc, char **argv)
             &run.t, EXIT_USAGE,
             "--viscosity and --pressure-drop are given together, for a flow rate, or not at all");
     report_open(&run.report, &run.t, args.report);
-    while ((gap = tool_channel_beside(&run.t, "gap", "pressure", &p)) != NULL) {
-        do_case(&run, gap, p);
+    while ((gap = tool_channel_with(&run.t, "gap", take, &run)) != NULL) {
+        do_case(&run, gap);
         rc_grid_free(gap);
-        rc_grid_free(p);
+        rc_grid_free(run.p);
+        rc_grid_free(run.contact);
+        run.p = run.contact = NULL;
     }
     report_close(&run.report);
     return tool_finish(&run.t);

@@ -267,7 +267,7 @@ drop_values(struct rc_grid *g)
 }
 
 static void
-draw_figure(struct tool *t, const struct args *a, struct rc_grid *g, struct rc_grid *beside,
+draw_figure(struct tool *t, const struct args *a, struct rc_grid *g, const struct beside *beside,
             const struct survey *s, struct figure *f)
 {
     struct rc_grid *even = NULL;
@@ -291,7 +291,8 @@ draw_figure(struct tool *t, const struct args *a, struct rc_grid *g, struct rc_g
     warn_of_text(t, a, c);
     rc_grid_free(even);
     drop_values(g);
-    drop_values(beside);
+    drop_values(beside->pressure);
+    drop_values(beside->contact);
     write_picture(t, g, f, c);
     canvas_free(c);
     free(f->medium);
@@ -326,10 +327,17 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
     canvas_free(c);
 }
 
+/* Whether the window is that of the contact. */
+static bool
+about_contact(const struct args *a)
+{
+    return a->window != NULL && strcmp(a->window, "contact") == 0;
+}
+
 static const char shaded[] = "shaded, light from the upper left";
 
 static void
-render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside, bool largest)
+render(struct tool *t, struct args *a, struct rc_grid *g, const struct beside *beside, bool largest)
 {
     char title[256];
     struct window w;
@@ -338,10 +346,11 @@ render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside
     struct look look;
     struct figure f;
     struct means means = {false, 0, 0};
+    const struct rc_grid *touch = look_touch(t, g, beside, about_contact(a));
 
     if (!a->raw)
         means_take(t, g, &means);
-    window_cut(t, a->window, a->raw, g, beside, &w);
+    window_cut(t, a->window, a->raw, g, beside, touch, &w);
     survey_map(g, &s);
     if (isnan(s.min))
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
@@ -349,10 +358,10 @@ render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside
                     "nothing to draw",
                     g->nx * g->ny);
     subtitle_write(&subtitle, g, &s, &means, w.part, largest);
-    look_figure(t, a, &g, 1, &s, &look, &f);
+    look_figure(t, a, &g, &touch, 1, &s, &look, &f);
     look_extent(&w, &f);
     look_aspect(t, g, &f);
-    look_contact(&f, strcmp(g->channel, "pressure") == 0 ? g : beside);
+    look_contact(&f, g, beside, touch);
     snprintf(title, sizeof title, "%.80s about the contact", look.what.title);
     if (a->title == NULL && w.contact)
         f.title = title;
@@ -386,16 +395,17 @@ set_panels(struct tool *t, const struct args *a, const struct frames *frames,
 
     for (size_t k = 0; k < frames->n; k++) {
         struct rc_grid *g = frames->grid[k];
+        struct beside beside;
         struct figure *of = &panel[k].figure;
 
         *of = *f;
         look_extent(&window[k], of);
         even[k] = rc_grid_get(g, "section") == NULL ? NULL : look_section(t, a, g, of);
         panel[k].grid = even[k] == NULL ? g : even[k];
-        if (frames_pressure(frames, k) != NULL)
-            look_contact(of, frames_pressure(frames, k));
+        beside = frames_beside(frames, k);
+        look_contact(of, g, &beside, frames->touch[k]);
         hard = fmax(hard, of->hard);
-        f->pressure = f->pressure == NULL ? of->pressure : f->pressure;
+        f->contact = f->contact == NULL ? of->contact : f->contact;
         sheet_check_alike(t, frames->grid[0], &panel[0].figure, g, of);
         sheet_label(&panel[k], frames, k);
     }
@@ -428,15 +438,6 @@ say_of_sheet(struct subtitle *subtitle, const struct args *a, const struct frame
         subtitle_add(subtitle, shaded, "");
 }
 
-/* A pressure that is cut with the frame that it lies under. */
-static struct rc_grid *
-beside_of(const struct frames *frames, size_t k)
-{
-    struct rc_grid *p = frames_pressure(frames, k);
-
-    return p == frames->grid[k] ? NULL : p;
-}
-
 static void
 render_sheet(struct tool *t, struct args *a, const struct frames *frames)
 {
@@ -460,11 +461,13 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
                  frames->n, a->sheet, columns * rows);
     for (size_t k = 0; k < frames->n; k++)
         means_take(t, frames->grid[k], &means);
-    for (size_t k = 0; k < frames->n; k++)
-        window_cut(t, a->window == NULL ? "all" : a->window, false, frames->grid[k],
-                   beside_of(frames, k), &window[k]);
+    for (size_t k = 0; k < frames->n; k++) {
+        struct beside beside = frames_beside(frames, k);
+        window_cut(t, a->window == NULL ? "all" : a->window, false, frames->grid[k], &beside,
+                   frames->touch[k], &window[k]);
+    }
     sheet_survey(t, frames, &all);
-    look_figure(t, a, frames->grid, frames->n, &all, &look, &f);
+    look_figure(t, a, frames->grid, frames->touch, frames->n, &all, &look, &f);
     say_of_sheet(&subtitle, a, frames, &all, &means, window[0].part);
     f.subtitle = wording_subtitle(a->title, a->style.subtitle, subtitle.text);
     set_panels(t, a, frames, window, &f, panel, even);
@@ -523,9 +526,10 @@ draw_lines(struct tool *t, struct args *a, const struct frames *f, struct drawn 
 {
     struct range range = {.lo = NAN, .hi = NAN};
 
-    if (a->cut == NULL)
-        return (a->histogram ? histogram_draw : material_ratio_draw)(t, f->grid, f->n, &a->style,
-                                                                     drawn);
+    if (a->histogram)
+        return histogram_draw(t, f->grid, f->touch, f->n, &a->style, drawn);
+    if (a->material_ratio)
+        return material_ratio_draw(t, f->grid, f->n, &a->style, drawn);
     if (a->range != NULL) {
         range_read(t, a->range, f->grid[0], &range);
         if (range.kind != RANGE_VALUES)
@@ -559,15 +563,18 @@ read_one(struct tool *t, struct args *a)
     struct choice choice = {.wish = &a->wish};
     struct rc_grid *g;
 
-    a->wish.contact =
-        a->contour || a->border || (a->window != NULL && strcmp(a->window, "contact") == 0);
+    a->wish.contact = a->contour || a->border || about_contact(a);
     while ((g = tool_read(t)) != NULL)
         choice_offer(&choice, t, g);
     choice_settle(&choice, t);
     if (args_lines(a))
-        render_lines(t, a, &(struct frames){.grid = {choice.grid}, .n = 1});
+        render_lines(
+            t, a,
+            &(struct frames){.grid = {choice.grid},
+                             .n = 1,
+                             .touch = {look_touch(t, choice.grid, &choice.beside, a->histogram)}});
     else
-        render(t, a, choice.grid, choice.pressure, choice.by_size);
+        render(t, a, choice.grid, &choice.beside, choice.by_size);
     choice_free(&choice);
 }
 
@@ -578,6 +585,7 @@ read_several(struct tool *t, struct args *a)
 
     frames.wish = a->wish;
     frames.border = a->contour || a->border;
+    frames.demands = a->histogram;
     frames.wanted = (struct wanted){.depth = a->depth, .number = a->number};
     frames_read(&frames, t); /* frees the lists */
     a->depth = a->number = (struct numbers){0};

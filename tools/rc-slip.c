@@ -138,9 +138,10 @@ static bool
 take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
 {
     struct slip_run *run = ctx;
-    struct rc_grid **to = strcmp(g->channel, "gap") == 0      ? &run->gap
-                          : strcmp(g->channel, "height") == 0 ? &run->height
-                                                              : NULL;
+    struct rc_grid **to = strcmp(g->channel, "gap") == 0             ? &run->gap
+                          : strcmp(g->channel, "height") == 0        ? &run->height
+                          : strcmp(g->channel, CONTACT_CHANNEL) == 0 ? &run->contact
+                                                                     : NULL;
 
     (void)p;
     if (to == NULL)
@@ -166,7 +167,8 @@ main(int argc, char **argv)
         rc_grid_free(run.p);
         rc_grid_free(run.gap);
         rc_grid_free(run.height);
-        run.p = run.gap = run.height = NULL;
+        rc_grid_free(run.contact);
+        run.p = run.gap = run.height = run.contact = NULL;
     }
     free(run.given);
     slip_checkpoint_close(run.checkpoint);

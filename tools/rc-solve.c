@@ -49,7 +49,8 @@ static const struct opt opts[] = {
      .help = "relative L1 error of the pressure (default N^(-3/4), N nodes, at most 1e-3)"},
     {.name = "output", .type = OPT_WORDS, AT(output),
      .words = solve_frame_word, .arg = "LIST",
-     .help = "frames to write, of %s (default: the first four, and residual with --yield)"},
+     .help = "frames to write, of %s (default: pressure, gap, displacement, height; with --yield residual, "
+             "with --adhesion contact too)"},
     {.name = "tilt", .type = OPT_CHOICE, AT(tilt), .words = tilt_word, .result = true,
      .help = "free: the counter body tilts until the moment is zero (default fixed)"},
     {.name = "at", .type = OPT_NUMBERS, .unit = UNIT_M, AT(at), .min = -INFINITY, .max = INFINITY,
@@ -144,6 +145,8 @@ check_arguments(struct run *run)
     adhesion_read(run);
     if (run->yielding.wanted && !tool_given(&run->t, "output"))
         args.output |= 1 << SOLVE_RESIDUAL;
+    if (run->adhering.wanted && (args.output & (1 << SOLVE_PRESSURE | 1 << SOLVE_GAP)))
+        args.output |= 1 << SOLVE_CONTACT; /* the pressure does not tell */
 }
 
 /* ---- main ---- */

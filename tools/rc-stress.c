@@ -191,10 +191,47 @@ set_material(struct run *run, const struct rc_grid *p)
         run->options.body.nu = poisson(run, p);
 }
 
+/* mu times a tension would be friction against the motion of the rest. */
+static void
+refuse_adhesion(struct run *run, const struct rc_grid *p)
+{
+    size_t pulled = 0;
+
+    for (size_t k = 0; k < rc_grid_nodes(p); k++)
+        pulled += p->v[k] < 0;
+    pulled = (size_t)ranks_sum(&run->t, (double)pulled);
+    if (pulled > 0 && rc_grid_get(p, "adhesion") != NULL)
+        tool_die_at(
+            &run->t, p, EXIT_IMPOSSIBLE,
+            "it is the net pressure of bodies that attract each other, negative at %zu of %zu "
+            "nodes, where --mu %g would turn friction round: leave out --mu",
+            pulled, p->nx * p->ny, args.mu);
+}
+
+/* The solution with plastic strain took no traction: what is added to it may exceed the yield stress. */
+static void
+warn_of_yield(struct run *run, const struct rc_grid *p)
+{
+    char where[256], stress[SHOWN_NUMBER];
+    double yield;
+
+    if (!rc_grid_number(p, "yield", &yield))
+        return;
+    tool_warn(&run->t,
+              "%s: the body has yielded under the pressure alone, and friction was not part of "
+              "that solution: it is added elastically, and Mises stresses may exceed the yield "
+              "stress, %s: leave out %s, or take the stresses as those of a body that yields no "
+              "further",
+              tool_where(&run->t, p, where, sizeof where), shown_in_unit(stress, yield, "Pa"),
+              args.mu != 0 ? "--mu" : "the frames of traction");
+}
+
 /* Tractions take the place of a number for friction. */
 static void
 set_traction(struct run *run, const struct rc_grid *p)
 {
+    if (args.mu != 0)
+        refuse_adhesion(run, p);
     for (size_t k = 0; k < 2; k++) {
         const struct rc_grid *g = run->traction[k];
         run->options.traction[k] = NULL;
@@ -209,6 +246,9 @@ set_traction(struct run *run, const struct rc_grid *p)
         tool_demand_finite(&run->t, g, "recompute the map");
         run->options.traction[k] = g->v;
     }
+    if (!args.residual &&
+        (args.mu != 0 || run->options.traction[0] != NULL || run->options.traction[1] != NULL))
+        warn_of_yield(run, p);
 }
 
 static void

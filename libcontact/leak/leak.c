@@ -74,7 +74,7 @@ set_gap(struct rc_leak *l, const double *p, const double *g)
 
     for (int32_t k = 0; k < a->nodes; k++) {
         size_t at = place_in_map(l, (size_t)k);
-        a->g[k] = (p == NULL || p[at] == 0) && g[at] > 0 ? g[at] : 0;
+        a->g[k] = (p == NULL || !rc_in_contact(p[at])) && g[at] > 0 ? g[at] : 0;
         l->largest = fmax(l->largest, a->g[k]);
         rc_total_add(&sum, a->g[k]);
     }

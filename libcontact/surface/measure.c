@@ -243,7 +243,7 @@ take_contact(struct rc_total sums[2], const double *row, const double *below, co
     for (size_t i = 0; i < n; i++) {
         double gx = (row[i + right] - row[i]) * per[0];
         double gy = (below[i] - row[i]) * per[1];
-        double touches = load[i] > 0 ? 1 : 0;
+        double touches = rc_in_contact(load[i]) ? 1 : 0;
         sum += touches * (gx * gx + gy * gy);
         count += touches;
     }

@@ -48,10 +48,10 @@ struct runs {
 static size_t
 count_row(const double *p, size_t nx)
 {
-    size_t n = nx > 0 && p[0] > 0 ? 1 : 0;
+    size_t n = nx > 0 && rc_in_contact(p[0]) ? 1 : 0;
 
     for (size_t i = 1; i < nx; i++)
-        n += (p[i] > 0) & !(p[i - 1] > 0);
+        n += rc_in_contact(p[i]) & !rc_in_contact(p[i - 1]);
     return n;
 }
 
@@ -62,14 +62,14 @@ find_row(const double *p, size_t nx, bool wraps, struct run *run, size_t index)
 
     for (size_t i = 0; i < nx; i++) {
         struct run *r = &run[n];
-        if (!(p[i] > 0))
+        if (!rc_in_contact(p[i]))
             continue;
         *r = (struct run){.from = i, .parent = index + n};
-        while (i < nx && p[i] > 0)
+        while (i < nx && rc_in_contact(p[i]))
             i++;
         r->to = i;
-        r->ends = r->from > 0 || (wraps && !(p[nx - 1] > 0)) ? 1 : 0;
-        r->ends += r->to < nx || (wraps && !(p[0] > 0)) ? 1 : 0;
+        r->ends = r->from > 0 || (wraps && !rc_in_contact(p[nx - 1])) ? 1 : 0;
+        r->ends += r->to < nx || (wraps && !rc_in_contact(p[0])) ? 1 : 0;
         n++;
     }
 }

@@ -6,6 +6,7 @@
 #define RC_CLI_H
 
 #include "bodies.h"
+#include "contact.h"
 #include "ending.h"
 #include "tools/text/text.h"
 #include "tools/machine/machine.h"

@@ -12,7 +12,8 @@ results_channel(const char *channel)
 {
     static const char *const solved[] = {"pressure",   "gap",        "displacement",   "plastic",
                                          "traction-x", "traction-y", "fluid-pressure", "flux",
-                                         "channel",    "slip-x",     "slip-y",         "state"};
+                                         "channel",    "slip-x",     "slip-y",         "state",
+                                         "contact",    "adhesion"};
 
     for (size_t k = 0; k < sizeof solved / sizeof *solved; k++)
         if (strcmp(channel, solved[k]) == 0)

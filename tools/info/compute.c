@@ -185,30 +185,35 @@ find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct 
     rc_grid_free(map);
 }
 
-/* Nodes in contact by their pressures, in bins of equal width from 0 to the largest. */
+/* Nodes in contact by their pressures, in bins of equal width from 0, or the least of them where that is
+ * negative, to the largest. */
 static void
-count_pressures(struct tool *t, const struct rc_grid *g, struct info_figures *f)
+count_pressures(struct tool *t, const struct rc_grid *g, const double *touch,
+                struct info_figures *f)
 {
-    double largest = 0;
+    double largest = 0, least = 0;
 
     for (size_t k = 0; k < g->nx * g->ny; k++)
-        largest = g->v[k] > largest ? g->v[k] : largest;
-    if (largest == 0)
+        if (rc_in_contact(touch[k])) {
+            largest = fmax(largest, g->v[k]);
+            least = fmin(least, g->v[k]);
+        }
+    if (largest == least)
         return;
     f->edges = room(t, INFO_BINS + 1, sizeof *f->edges);
     f->counts = room(t, INFO_BINS, sizeof *f->counts);
     for (size_t b = 0; b <= INFO_BINS; b++)
-        f->edges[b] = largest * ((double)b / INFO_BINS);
+        f->edges[b] = least + (largest - least) * ((double)b / INFO_BINS);
     for (size_t k = 0; k < g->nx * g->ny; k++)
-        if (g->v[k] > 0) {
-            size_t b = (size_t)(g->v[k] / largest * INFO_BINS);
+        if (rc_in_contact(touch[k])) {
+            size_t b = (size_t)((g->v[k] - least) / (largest - least) * INFO_BINS);
             b = b < INFO_BINS ? b : INFO_BINS - 1; /* the largest itself */
             f->counts[b]++;
         }
 }
 
 static void
-find_patches(struct tool *t, const struct rc_grid *g, struct info_figures *f)
+find_patches(struct tool *t, const struct rc_grid *g, const double *touch, struct info_figures *f)
 {
     const struct rc_patch_options options = {
         .boundary = boundary_of(g), .each = true, .threads = t->threads};
@@ -216,19 +221,20 @@ find_patches(struct tool *t, const struct rc_grid *g, struct info_figures *f)
     struct rc_err err;
 
     tool_demand_finite(t, g, "solve the contact again");
-    tool_demand_memory(t, g, rc_patches_memory(&shape, g->v, &options));
+    tool_demand_memory(t, g, rc_patches_memory(&shape, touch, &options));
     f->patches = room(t, 1, sizeof *f->patches);
-    if (rc_patches_find(&shape, g->v, &options, f->patches, &err) != RC_OK)
+    if (rc_patches_find(&shape, touch, &options, f->patches, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    count_pressures(t, g, f);
+    count_pressures(t, g, touch, f);
 }
 
 void
-info_compute(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct info_figures *f)
+info_compute(struct info_wanted *w, struct tool *t, const struct rc_grid *g,
+             const struct rc_grid *touch, struct info_figures *f)
 {
     bool height = is(g, "height"), pressure = is(g, "pressure");
 
-    *f = (struct info_figures){.grid = g};
+    *f = (struct info_figures){.grid = g, .touch = touch};
     name_list_add(&w->present, g->channel);
     w->height = w->height || height;
     w->pressure = w->pressure || pressure;
@@ -243,7 +249,7 @@ info_compute(struct info_wanted *w, struct tool *t, const struct rc_grid *g, str
     if (w->psd && height)
         find_psd(w, t, g, f);
     if (w->patches && pressure)
-        find_patches(t, g, f);
+        find_patches(t, g, touch != NULL ? touch->v : g->v, f);
 }
 
 void

@@ -69,6 +69,7 @@ struct info_wanted {
 /* Of one frame; what was not asked for, or does not go with its channel, is NULL. */
 struct info_figures {
     const struct rc_grid *grid;
+    const struct rc_grid *touch; /* what tells the contact of a pressure; NULL: nothing does */
     struct rc_areal *areal;
     struct rc_features *features; /* with areal, of a map */
     double smr[INFO_HEIGHTS];     /* fractions            */
@@ -82,9 +83,10 @@ struct info_figures {
 /* Before the first frame: ends the tool for a range that is none, and a file that cannot be
  * written. */
 void info_check(struct info_wanted *wanted, struct tool *tool);
-/* Figures of a frame, which stays the caller's; ends the tool where they cannot be had. */
+/* Figures of a frame, which stays the caller's, as does `touch`, which tells its contact; ends the tool where
+ * they cannot be had. */
 void info_compute(struct info_wanted *wanted, struct tool *tool, const struct rc_grid *grid,
-                  struct info_figures *figures);
+                  const struct rc_grid *touch, struct info_figures *figures);
 void info_free(struct info_figures *figures);
 /* After the last frame: ends the tool where the channel of what is wanted never came. */
 void info_end(struct info_wanted *wanted, struct tool *tool);

@@ -284,6 +284,8 @@ resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_e
         rc_grid_free(map);
         return RC_FAIL;
     }
+    for (size_t k = 0; strcmp(g->channel, CONTACT_CHANNEL) == 0 && k < to.nx * to.ny; k++)
+        map->v[k] = map->v[k] < 0.5 ? 0 : 1; /* most of the cell touches, or does not */
     replace(g, map);
     if ((!covers && forget_period(t, g, err) != RC_OK) || (!same && forget_counts(g, err) != RC_OK))
         return RC_FAIL;

@@ -245,13 +245,13 @@ border_width(const struct page *p)
 static struct rgb
 edge_ink(const struct page *p)
 {
-    const struct rc_grid *of = p->f->pressure;
+    const struct rc_grid *of = p->f->contact;
     double sum = 0, n = 0;
 
     if (of == NULL || of == p->g || of->nx != p->g->nx || of->ny != p->g->ny)
         return page_ink;
     for (size_t k = 0; k < of->nx * of->ny; k++)
-        if (of->v[k] > 0 && isfinite(p->g->v[k])) {
+        if (rc_in_contact(of->v[k]) && isfinite(p->g->v[k])) {
             sum += p->g->v[k];
             n++;
         }
@@ -322,8 +322,8 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
         stroke_lines(p, &lines, r, p->f->zero_is_none ? border_width(p) : 1.5 * p->u,
                      line_colour(p->f, level));
     }
-    if (status == RC_OK && p->f->pressure != NULL) {
-        status = raster_border(p->f->pressure, 0, r->w, r->h, &lines, err);
+    if (status == RC_OK && p->f->contact != NULL) {
+        status = raster_border(p->f->contact, 0, r->w, r->h, &lines, err);
         stroke_lines(p, &lines, r, border_width(p), edge_ink(p));
     }
     if (status == RC_OK && p->f->hard > 0) {
@@ -639,7 +639,8 @@ count_lines(const struct page *p, size_t *most)
 {
     const struct figure *f = p->f;
     const struct axis *a = &p->values;
-    double border[2] = {0, f->hard};
+    const struct rc_grid *of[2] = {f->contact, f->hard > 0 ? f->pressure : NULL};
+    const double border[2] = {0, f->hard};
     size_t all = 0, n;
 
     *most = 0;
@@ -650,8 +651,8 @@ count_lines(const struct page *p, size_t *most)
         all += n;
         *most = n > *most ? n : *most;
     }
-    for (size_t k = 0; f->pressure != NULL && k < (f->hard > 0 ? 2 : 1); k++) {
-        n = raster_border_lines(f->pressure, border[k]);
+    for (size_t k = 0; k < 2; k++) {
+        n = of[k] == NULL ? 0 : raster_border_lines(of[k], border[k]);
         all += n;
         *most = n > *most ? n : *most;
     }

@@ -44,7 +44,8 @@ struct figure {
     size_t media;
     const char *circle;             /* dashes about the origin, and this in the legend; NULL */
     double radius;                  /* metres                                                */
-    const struct rc_grid *pressure; /* on the same grid: `contour` has its contact; NULL   */
+    const struct rc_grid *contact;  /* on the same grid: `contour` has its edge; NULL: unknown */
+    const struct rc_grid *pressure; /* on the same grid; NULL: unknown                       */
     double hard;   /* some of these reach it, and have a line about them; 0: none */
     bool keep_max; /* a reduced map keeps the largest value of each pixel   */
     const struct colormap *map;

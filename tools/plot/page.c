@@ -388,7 +388,7 @@ set_legend(struct page *p, double width)
              p->f->nodes != 0 ? p->f->nodes : p->g->nx * p->g->ny);
     if (p->f->missing > 0)
         add_note(p, width, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
-    if (p->f->contour && p->f->pressure != NULL && !p->curve)
+    if (p->f->contour && p->f->contact != NULL && !p->curve)
         add_note(p, width, SWATCH_CONTACT, "edge of contact");
     if (p->f->contour && p->f->hard > 0 && !p->curve)
         add_note(p, width, SWATCH_HARD, "pressure at the hardness");

@@ -70,6 +70,7 @@ channel_of(const struct rc_grid *g, const struct survey *s)
             c.title = "Net pressure, tension negative"; /* bodies that attract each other */
             c.colormap = "bluered";
             c.from_zero = false;
+            c.none = "no net pressure";
         }
         return c;
     }

@@ -112,21 +112,30 @@ is_better(const struct choice *c, const struct rc_grid *g, const struct seen *s,
     return size > c->size;
 }
 
+/* Where a frame is kept beside the one that is drawn; NULL: nowhere. */
+static struct rc_grid **
+place_beside(struct choice *c, const struct rc_grid *g)
+{
+    if (strcmp(g->channel, CONTACT_CHANNEL) == 0)
+        return &c->beside.contact;
+    return c->wish->contact && strcmp(g->channel, "pressure") == 0 ? &c->beside.pressure : NULL;
+}
+
 /* A frame that is not drawn, or not any more. */
 static void
 let_go(struct choice *c, struct rc_grid *g)
 {
+    struct rc_grid **to;
     bool same = c->grid != NULL && g != NULL && rc_grid_case(c->grid) == rc_grid_case(g);
 
     if (g != NULL && c->wish->number != 0) /* the case is known before its frame has come */
         same = rc_grid_case(g) == c->wish->number;
-    if (g == NULL || !c->wish->contact || strcmp(g->channel, "pressure") != 0 ||
-        !(c->pressure == NULL || same)) {
+    if (g == NULL || (to = place_beside(c, g)) == NULL || !(*to == NULL || same)) {
         rc_grid_free(g);
         return;
     }
-    rc_grid_free(c->pressure);
-    c->pressure = g;
+    rc_grid_free(*to);
+    *to = g;
 }
 
 /* The case of the frame that is kept has ended: whether its depth is near enough is known now. */
@@ -261,13 +270,18 @@ fail(struct choice *c, struct tool *t)
     no_depth(c, t);
 }
 
-/* Whether node k of one is node k of the other. */
-static bool
-is_beside(const struct rc_grid *p, const struct rc_grid *g)
+/* Frees *p unless its node k is node k of the other. */
+static void
+keep_beside(struct rc_grid **p, const struct rc_grid *g)
 {
-    return rc_grid_case(p) == rc_grid_case(g) && rc_grid_get(g, "section") == NULL &&
-           strcmp(g->channel, "pressure") != 0 && p->nx == g->nx && p->ny == g->ny &&
-           p->dx == g->dx && p->dy == g->dy;
+    const struct rc_grid *is = *p;
+
+    if (is != NULL && rc_grid_case(is) == rc_grid_case(g) && rc_grid_get(g, "section") == NULL &&
+        strcmp(g->channel, is->channel) != 0 && is->nx == g->nx && is->ny == g->ny &&
+        is->dx == g->dx && is->dy == g->dy)
+        return;
+    rc_grid_free(*p);
+    *p = NULL;
 }
 
 void
@@ -283,10 +297,8 @@ choice_settle(struct choice *c, struct tool *t)
         fail(c, t);
     if (!isnan(c->wish->depth) && rc_grid_number(c->grid, "depth", &drawn))
         wanted_tell(t, c->wish->depth, drawn);
-    if (c->pressure != NULL && !is_beside(c->pressure, c->grid)) {
-        rc_grid_free(c->pressure);
-        c->pressure = NULL;
-    }
+    keep_beside(&c->beside.pressure, c->grid);
+    keep_beside(&c->beside.contact, c->grid);
     number = rc_grid_case(c->grid);
     for (size_t k = 0; k < c->n; k++) {
         const struct seen *s = &c->seen[k];
@@ -318,7 +330,8 @@ void
 choice_free(struct choice *c)
 {
     rc_grid_free(c->grid);
-    rc_grid_free(c->pressure);
+    rc_grid_free(c->beside.pressure);
+    rc_grid_free(c->beside.contact);
     for (size_t k = 0; k < c->n; k++)
         free(c->seen[k].channel);
     free(c->seen);

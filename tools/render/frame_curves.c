@@ -18,6 +18,7 @@ enum {
 struct set {
     struct tool *tool;
     struct rc_grid *const *grid;
+    const struct rc_grid *const *touch; /* of histograms: what touches in each */
     size_t n;
     const struct curve_style *style;
     struct graph_series *series; /* n + 1 */
@@ -311,11 +312,12 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
 
 /* ---- how values spread ---- */
 
-/* Whether the value belongs to the histogram. */
+/* Whether value i of frame k belongs to the histogram: of a pressure, where the bodies touch. */
 static bool
-counts(const struct rc_grid *g, double v)
+counts(const struct set *s, size_t k, size_t i)
 {
-    return isfinite(v) && (v > 0 || strcmp(g->channel, "pressure") != 0);
+    return isfinite(s->grid[k]->v[i]) &&
+           (strcmp(s->grid[k]->channel, "pressure") != 0 || rc_in_contact(s->touch[k]->v[i]));
 }
 
 static void
@@ -325,7 +327,7 @@ find_range(const struct set *s, double *lo, double *hi)
     *hi = -INFINITY;
     for (size_t k = 0; k < s->n; k++)
         for (size_t i = 0; i < s->grid[k]->nx * s->grid[k]->ny; i++)
-            if (counts(s->grid[k], s->grid[k]->v[i])) {
+            if (counts(s, k, i)) {
                 *lo = fmin(*lo, s->grid[k]->v[i]);
                 *hi = fmax(*hi, s->grid[k]->v[i]);
             }
@@ -333,7 +335,7 @@ find_range(const struct set *s, double *lo, double *hi)
         tool_die_at(s->tool, s->grid[0], EXIT_IMPOSSIBLE,
                     "no node is in contact: there is no pressure to count");
     if (strcmp(s->grid[0]->channel, "pressure") == 0)
-        *lo = 0;
+        *lo = fmin(*lo, 0);
     if (!(*hi - *lo > 1e-12 * fmax(fabs(*lo), fabs(*hi)))) {
         double size = *hi == 0 ? 1e-9 : 0.1 * fabs(*hi);
 
@@ -344,9 +346,10 @@ find_range(const struct set *s, double *lo, double *hi)
 
 /* Counts one frame into bins; says in *out which share of its measured nodes is left out. */
 static double
-fill_bins(const struct rc_grid *g, double first, double step, size_t bins, double *density,
+fill_bins(const struct set *s, size_t k, double first, double step, size_t bins, double *density,
           double *mean)
 {
+    const struct rc_grid *g = s->grid[k];
     size_t measured = 0, out = 0;
 
     *mean = 0;
@@ -359,7 +362,7 @@ fill_bins(const struct rc_grid *g, double first, double step, size_t bins, doubl
             continue;
         measured++;
         *mean += v;
-        if (!counts(g, v)) {
+        if (!counts(s, k, i)) {
             out++;
             continue;
         }
@@ -401,10 +404,10 @@ add_distribution(struct set *s, double mean, double lo, double hi)
 }
 
 struct canvas *
-histogram_draw(struct tool *t, struct rc_grid *const *grid, size_t n,
-               const struct curve_style *style, struct drawn *drawn)
+histogram_draw(struct tool *t, struct rc_grid *const *grid, const struct rc_grid *const *touch,
+               size_t n, const struct curve_style *style, struct drawn *drawn)
 {
-    struct set s = {.tool = t, .grid = grid, .n = n, .style = style};
+    struct set s = {.tool = t, .grid = grid, .touch = touch, .n = n, .style = style};
     bool pressure = strcmp(grid[0]->channel, "pressure") == 0;
     double lo, hi, step, first, mean = 0;
     char note[1024] = "", unit[64], title[LABEL];
@@ -422,7 +425,7 @@ histogram_draw(struct tool *t, struct rc_grid *const *grid, size_t n,
         double out;
 
         set_series(&s, k, n == 1 ? GRAPH_BARS : GRAPH_LINE, n == 1 ? bins + 1 : bins);
-        out = fill_bins(grid[k], first, step, bins, s.y[k], &mean);
+        out = fill_bins(&s, k, first, step, bins, s.y[k], &mean);
         for (size_t b = 0; b <= bins; b++)
             s.x[k][b] = first + ((double)b + (n == 1 ? 0 : 0.5)) * step;
         if (pressure && used < sizeof note)

@@ -15,6 +15,27 @@ right_section(const struct frames *f, const struct rc_grid *g)
     return f->wish.section == NULL || (section != NULL && section[0] == f->wish.section[0]);
 }
 
+static bool
+keep_beside(void *ctx, struct rc_grid *g)
+{
+    struct frames *f = ctx;
+
+    if (strcmp(g->channel, CONTACT_CHANNEL) == 0 && f->contacts < FRAMES)
+        f->contact[f->contacts++] = g;
+    else if (f->border && strcmp(g->channel, "pressure") == 0 && f->pressures < FRAMES)
+        f->pressure[f->pressures++] = g;
+    else
+        return false;
+    return true;
+}
+
+static void
+let_go(struct frames *f, struct rc_grid *g)
+{
+    if (!keep_beside(f, g))
+        rc_grid_free(g);
+}
+
 /* Drops what was kept of a channel that comes after this one in the order of preference. */
 static bool
 prefer(struct frames *f, const struct rc_grid *g)
@@ -24,34 +45,26 @@ prefer(struct frames *f, const struct rc_grid *g)
     if (f->wish.channel != NULL || choice_rank(g->channel) >= choice_rank(f->grid[0]->channel))
         return false;
     for (size_t k = 0; k < f->n; k++)
-        rc_grid_free(f->grid[k]);
+        let_go(f, f->grid[k]);
     f->n = f->left = 0;
     return true;
 }
 
-static bool
-keep_pressure(void *ctx, struct rc_grid *g)
+static struct rc_grid *
+find(struct rc_grid *const *of, size_t n, const struct rc_grid *g)
 {
-    struct frames *f = ctx;
-
-    if (strcmp(g->channel, "pressure") != 0 || f->pressures == FRAMES)
-        return false;
-    f->pressure[f->pressures++] = g;
-    return true;
+    for (size_t k = 0; k < n && rc_grid_get(g, "section") == NULL; k++)
+        if (rc_grid_case(of[k]) == rc_grid_case(g) && of[k]->nx == g->nx && of[k]->ny == g->ny &&
+            strcmp(of[k]->channel, g->channel) != 0)
+            return of[k];
+    return NULL;
 }
 
-struct rc_grid *
-frames_pressure(const struct frames *f, size_t k)
+struct beside
+frames_beside(const struct frames *f, size_t k)
 {
-    const struct rc_grid *g = f->grid[k];
-
-    if (strcmp(g->channel, "pressure") == 0)
-        return f->grid[k];
-    for (size_t p = 0; p < f->pressures; p++)
-        if (rc_grid_case(f->pressure[p]) == rc_grid_case(g) && f->pressure[p]->nx == g->nx &&
-            f->pressure[p]->ny == g->ny && rc_grid_get(g, "section") == NULL)
-            return f->pressure[p];
-    return NULL;
+    return (struct beside){.pressure = find(f->pressure, f->pressures, f->grid[k]),
+                           .contact = find(f->contact, f->contacts, f->grid[k])};
 }
 
 void
@@ -59,15 +72,13 @@ frames_read(struct frames *f, struct tool *t)
 {
     struct rc_grid *g;
 
-    if (f->border) {
-        f->wanted.other = keep_pressure;
-        f->wanted.ctx = f;
-    }
+    f->wanted.other = keep_beside;
+    f->wanted.ctx = f;
     f->wanted.channel = f->wish.channel;
     wanted_check(&f->wanted, t);
     while ((g = wanted_read(&f->wanted, t)) != NULL) {
         if (!right_section(f, g) || !prefer(f, g)) {
-            rc_grid_free(g);
+            let_go(f, g);
         } else if (f->n == FRAMES) {
             f->left++;
             rc_grid_free(g);
@@ -85,6 +96,10 @@ frames_read(struct frames *f, struct tool *t)
                  f->n + f->left, FRAMES);
     if (f->wish.channel == NULL)
         tool_note(t, "drawing %s: choose another channel with --channel", f->grid[0]->channel);
+    for (size_t k = 0; k < f->n; k++) {
+        struct beside beside = frames_beside(f, k);
+        f->touch[k] = look_touch(t, f->grid[k], &beside, f->demands);
+    }
 }
 
 void
@@ -94,5 +109,7 @@ frames_free(struct frames *f)
         rc_grid_free(f->grid[k]);
     for (size_t k = 0; k < f->pressures; k++)
         rc_grid_free(f->pressure[k]);
-    f->n = f->pressures = 0;
+    for (size_t k = 0; k < f->contacts; k++)
+        rc_grid_free(f->contact[k]);
+    f->n = f->pressures = f->contacts = 0;
 }

@@ -28,22 +28,23 @@ look_stamp(const struct rc_grid *g)
 }
 
 static void
-choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t n,
-             const struct survey *s, struct look *look, struct figure *f)
+choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid,
+             const struct rc_grid *const *touch, size_t n, const struct survey *s,
+             struct look *look, struct figure *f)
 {
     struct range *r = &look->range;
 
     *r = (struct range){.kind = a->clip ? RANGE_CLIP : RANGE_AUTO};
     if (a->range != NULL)
         range_read(t, a->range, grid[0], r);
-    range_choose(grid, n, s, f->map, &look->what, look_is_profile(grid[0]) && !a->raw, r);
+    range_choose(grid, touch, n, s, f->map, &look->what, look_is_profile(grid[0]) && !a->raw, r);
     if (r->kind == RANGE_VALUES)
         a->range = range_text(r);
     if (a->style.log != NULL)
         range_take_logarithm(t, grid, n, r);
     f->lo = r->lo;
     f->hi = r->hi;
-    f->min = range_least(grid, n, s, r);
+    f->min = range_least(grid, touch, n, s, r);
     f->log = a->style.log != NULL;
     f->note = r->note[0] == '\0' ? NULL : r->note;
 }
@@ -74,8 +75,9 @@ look_code(const struct tool *t)
 }
 
 void
-look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t n,
-            const struct survey *s, struct look *look, struct figure *f)
+look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid,
+            const struct rc_grid *const *touch, size_t n, const struct survey *s, struct look *look,
+            struct figure *f)
 {
     const struct rc_grid *g = grid[0];
     bool curve = look_is_profile(g) && !a->raw;
@@ -110,20 +112,43 @@ look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t 
     if (look->what.is[0] != NULL && !curve)
         set_categories(t, a, look, f);
     else
-        choose_range(t, a, grid, n, s, look, f);
+        choose_range(t, a, grid, touch, n, s, look, f);
     if (a->depths != NULL && rc_grid_get(g, "section") == NULL)
         tool_warn(t, "--depth-range is for sections: this %s has no rows of depths", g->channel);
 }
 
+static const struct rc_grid *
+channel_or(const struct rc_grid *g, const char *channel, const struct rc_grid *beside)
+{
+    return strcmp(g->channel, channel) == 0 ? g : beside;
+}
+
+const struct rc_grid *
+look_touch(struct tool *t, const struct rc_grid *g, const struct beside *beside, bool demanded)
+{
+    const struct rc_grid *p, *contact = channel_or(g, CONTACT_CHANNEL, beside->contact);
+
+    if (rc_grid_get(g, "section") != NULL)
+        return NULL;
+    p = channel_or(g, "pressure", beside->pressure);
+    return (demanded ? contact_demand : contact_frame)(t, p, contact);
+}
+
 void
-look_contact(struct figure *f, const struct rc_grid *p)
+look_contact(struct figure *f, const struct rc_grid *g, const struct beside *beside,
+             const struct rc_grid *touch)
 {
     const double rounding = 1e-9;
+    const struct rc_grid *p = channel_or(g, "pressure", beside->pressure);
     double hardness, largest = 0;
+    bool any = false;
 
+    for (size_t k = 0; touch != NULL && k < touch->nx * touch->ny && !any; k++)
+        any = rc_in_contact(touch->v[k]);
     for (size_t k = 0; p != NULL && k < p->nx * p->ny; k++)
         largest = fmax(largest, p->v[k]);
-    f->pressure = largest > 0 ? p : NULL;
+    f->contact = any ? touch : NULL;
+    f->pressure = p;
     f->hard = 0;
     if (largest > 0 && rc_grid_number(p, "hardness", &hardness) && hardness > 0 &&
         largest >= hardness * (1 - rounding))

@@ -64,7 +64,7 @@ means_take(struct tool *t, struct rc_grid *g, struct means *m)
 
             m->four = fmax(m->four, next);
             m->one = fmax(m->one, p[k]);
-            if (p[k] > 0)
+            if (rc_in_contact(p[k]))
                 g->v[k] = (next + mean_of_four(p, nx, left, i, j, below) +
                            mean_of_four(p, nx, i, right, above, j) +
                            mean_of_four(p, nx, left, i, above, j)) /

@@ -25,14 +25,23 @@ unit_of(const struct rc_grid *g)
 /* All frames of a picture count as one. */
 struct frames_of {
     struct rc_grid *const *grid;
+    const struct rc_grid *const *touch; /* of each; NULL: nothing tells what touches */
     size_t n;
 };
 
-/* Of a pressure, what touches. */
-static bool
-counts(const struct rc_grid *g, double v)
+/* What tells which values of frame m count: of a pressure those in contact. NULL: all do. */
+static const double *
+touch_of(const struct frames_of *f, size_t m)
 {
-    return isfinite(v) && (v != 0 || strcmp(g->channel, "pressure") != 0);
+    bool pressure = strcmp(f->grid[m]->channel, "pressure") == 0;
+
+    return pressure && f->touch[m] != NULL ? f->touch[m]->v : NULL;
+}
+
+static bool
+counts(const double *touch, const struct rc_grid *g, size_t k)
+{
+    return isfinite(g->v[k]) && (touch == NULL || rc_in_contact(touch[k]));
 }
 
 static int
@@ -57,9 +66,10 @@ pick(const struct frames_of *f, double lo, double hi, size_t k)
 
     for (size_t m = 0; m < f->n; m++) {
         const struct rc_grid *g = f->grid[m];
+        const double *touch = touch_of(f, m);
 
         for (size_t i = 0; i < g->nx * g->ny && n < FEW; i++)
-            if (counts(g, g->v[i]) && g->v[i] >= lo && g->v[i] <= hi)
+            if (counts(touch, g, i) && g->v[i] >= lo && g->v[i] <= hi)
                 few[n++] = g->v[i];
     }
     qsort(few, n, sizeof *few, by_size);
@@ -79,9 +89,10 @@ count_bins(const struct frames_of *f, double lo, double hi, double step, size_t 
     memset(count, 0, BINS * sizeof *count);
     for (size_t m = 0; m < f->n; m++) {
         const struct rc_grid *g = f->grid[m];
+        const double *touch = touch_of(f, m);
 
         for (size_t i = 0; i < g->nx * g->ny; i++)
-            if (counts(g, g->v[i]) && g->v[i] >= lo && g->v[i] <= hi)
+            if (counts(touch, g, i) && g->v[i] >= lo && g->v[i] <= hi)
                 count[bin_of(g->v[i], lo, step)]++;
     }
 }
@@ -94,9 +105,10 @@ enter_bin(const struct frames_of *f, double *lo, double *hi, double step, size_t
 
     for (size_t m = 0; m < f->n; m++) {
         const struct rc_grid *g = f->grid[m];
+        const double *touch = touch_of(f, m);
 
         for (size_t i = 0; i < g->nx * g->ny; i++)
-            if (counts(g, g->v[i]) && g->v[i] >= *lo && g->v[i] <= *hi &&
+            if (counts(touch, g, i) && g->v[i] >= *lo && g->v[i] <= *hi &&
                 bin_of(g->v[i], *lo, step) == bin) {
                 low = fmin(low, g->v[i]);
                 high = fmax(high, g->v[i]);
@@ -136,9 +148,10 @@ percentile(const struct frames_of *f, double percent)
 
     for (size_t m = 0; m < f->n; m++) {
         const struct rc_grid *g = f->grid[m];
+        const double *touch = touch_of(f, m);
 
         for (size_t i = 0; i < g->nx * g->ny; i++)
-            if (counts(g, g->v[i])) {
+            if (counts(touch, g, i)) {
                 lo = fmin(lo, g->v[i]);
                 hi = fmax(hi, g->v[i]);
                 n++;
@@ -158,14 +171,14 @@ percentile(const struct frames_of *f, double percent)
 
 /* The median of the values about a node. */
 static double
-around(const struct rc_grid *g, size_t node)
+around(const double *touch, const struct rc_grid *g, size_t node)
 {
     size_t i = node % g->nx, j = node / g->nx, n = 0;
     double near[25];
 
     for (size_t y = j < 2 ? 0 : j - 2; y < g->ny && y <= j + 2; y++)
         for (size_t x = i < 2 ? 0 : i - 2; x < g->nx && x <= i + 2; x++)
-            if (counts(g, g->v[y * g->nx + x]))
+            if (counts(touch, g, y * g->nx + x))
                 near[n++] = g->v[y * g->nx + x];
     qsort(near, n, sizeof *near, by_size);
     return near[n / 2];
@@ -174,15 +187,17 @@ around(const struct rc_grid *g, size_t node)
 /* Whether one value of a map takes more than half of the range, and stands alone, far from the
  * values about it: in a solution that its grid resolves none does. */
 static bool
-has_outlier(const struct rc_grid *g, const struct survey *s)
+has_outlier(const struct frames_of *f, const struct survey *s)
 {
+    const struct rc_grid *g = f->grid[0];
+    const double *touch = touch_of(f, 0);
     const size_t fewest = 400; /* nodes: of less, half a per cent is none */
     double half = 0.5 * s->max - 0.5 * s->min;
 
     if (g->nx * g->ny < fewest || g->nx < 3 || g->ny < 3 || !(half > 0) || !isfinite(2 * half))
         return false;
-    return (counts(g, s->max) && s->max - around(g, s->max_at) > half) ||
-           (counts(g, s->min) && around(g, s->min_at) - s->min > half);
+    return (counts(touch, g, s->max_at) && s->max - around(touch, g, s->max_at) > half) ||
+           (counts(touch, g, s->min_at) && around(touch, g, s->min_at) - s->min > half);
 }
 
 /* ---- what was asked for ---- */
@@ -309,7 +324,7 @@ take_percentiles(const struct frames_of *f, struct range *r, double low, double 
     r->hi = percentile(f, high);
     snprintf(r->note, sizeof r->note, "colours from %s %% to %s %% of the %s",
              rc_number_text(lo, low), rc_number_text(hi, high),
-             strcmp(f->grid[0]->channel, "pressure") == 0 ? "contact" : "nodes");
+             touch_of(f, 0) != NULL ? "contact" : "nodes");
 }
 
 /* The axis of a curve has room beyond its ends. */
@@ -325,10 +340,11 @@ take_axis(const struct rc_grid *g, const struct survey *s, const struct channel 
 }
 
 void
-range_choose(struct rc_grid *const *grid, size_t n, const struct survey *s,
-             const struct colormap *map, const struct channel *what, bool curve, struct range *r)
+range_choose(struct rc_grid *const *grid, const struct rc_grid *const *touch, size_t n,
+             const struct survey *s, const struct colormap *map, const struct channel *what,
+             bool curve, struct range *r)
 {
-    const struct frames_of all = {grid, n};
+    const struct frames_of all = {grid, touch, n};
     const struct rc_grid *g = grid[0];
 
     if (r->kind == RANGE_VALUES)
@@ -339,7 +355,7 @@ range_choose(struct rc_grid *const *grid, size_t n, const struct survey *s,
         take_percentiles(&all, r, r->low_percent, r->high_percent);
     else if (curve && r->kind != RANGE_SYMMETRIC)
         take_axis(g, s, what, r);
-    else if (r->kind == RANGE_CLIP || (r->kind == RANGE_AUTO && n == 1 && has_outlier(g, s)))
+    else if (r->kind == RANGE_CLIP || (r->kind == RANGE_AUTO && n == 1 && has_outlier(&all, s)))
         take_percentiles(&all, r, BEYOND, 100 - BEYOND);
     if (r->kind == RANGE_AUTO && r->note[0] != '\0' && r->hi - r->lo > 0.5 * (s->max - s->min)) {
         r->lo = s->min; /* there are too many of them to be left out */
@@ -374,12 +390,13 @@ range_take_logarithm(struct tool *t, struct rc_grid *const *grid, size_t n, stru
 }
 
 double
-range_least(struct rc_grid *const *grid, size_t n, const struct survey *s, const struct range *r)
+range_least(struct rc_grid *const *grid, const struct rc_grid *const *touch, size_t n,
+            const struct survey *s, const struct range *r)
 {
     double slack = rounding(grid[0], fmax(fabs(s->min), fabs(s->max)));
 
     if (strcmp(grid[0]->channel, "pressure") == 0 && s->min == 0)
-        return percentile(&(struct frames_of){grid, n},
+        return percentile(&(struct frames_of){grid, touch, n},
                           0); /* what does not touch is not below the range */
     return s->min < r->lo && s->min >= r->lo - slack ? r->lo : s->min;
 }

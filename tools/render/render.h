@@ -17,13 +17,18 @@ struct wish {
     bool contact;        /* the pressure of its case is kept too                      */
 };
 
+/* What stands beside a frame that is drawn, of its case and on its grid; NULL: nothing, or it is that frame. */
+struct beside {
+    struct rc_grid *pressure, *contact;
+};
+
 struct choice {
     const struct wish *wish;
-    struct rc_grid *grid;     /* the best so far; NULL: none matched                      */
-    struct rc_grid *pressure; /* of its case, on its grid; NULL: none, or it is `grid`  */
-    double size;              /* its largest |value|                                      */
-    bool by_size;             /* settled: preferred to other depths for that              */
-    struct seen *seen;        /* every frame that came by, without its values             */
+    struct rc_grid *grid; /* the best so far; NULL: none matched                      */
+    struct beside beside;
+    double size;       /* its largest |value|                                      */
+    bool by_size;      /* settled: preferred to other depths for that              */
+    struct seen *seen; /* every frame that came by, without its values             */
     size_t n, capacity;
 };
 
@@ -61,12 +66,11 @@ struct window {
     bool contact;                    /* it is about what touches                                 */
 };
 
-/* Cuts the map, and the pressure beside it unless that is NULL, to the window of `text`:
- * X0:X1,Y0:Y1, contact, all, or NULL: about the contact where that is a speck of the map of a
- * pressure, unless each node is to be a pixel (`raw`). The values move to the front of the
- * grids. */
+/* Cuts the map, and what stands beside it, to the window of `text`: X0:X1,Y0:Y1, contact, all, or NULL: about
+ * the contact where that is a speck of the map of a pressure, unless each node is to be a pixel (`raw`). `touch`
+ * tells what touches (NULL: nothing does). The values move to the front of the grids. */
 void window_cut(struct tool *tool, const char *text, bool raw, struct rc_grid *grid,
-                struct rc_grid *pressure, struct window *window);
+                const struct beside *beside, const struct rc_grid *touch, struct window *window);
 
 /* ---- means.c: pressures on a body that yields inside ---- */
 
@@ -132,16 +136,17 @@ void range_read(struct tool *tool, const char *text, const struct rc_grid *grid,
 const char *range_text(const struct range *range);
 /* The ends of the colours of n frames, whose values are taken together, or of the upright axis of a
  * curve; an end that was given stays. A percentile is the value that so many per cent of the finite
- * values are below, linear between two values; of a pressure only values in contact count. */
-void range_choose(struct rc_grid *const *grid, size_t n, const struct survey *survey,
-                  const struct colormap *map, const struct channel *what, bool curve,
-                  struct range *range);
+ * values are below, linear between two values; of a pressure only values in contact count, which touch[k] tells
+ * (NULL: all count). */
+void range_choose(struct rc_grid *const *grid, const struct rc_grid *const *touch, size_t n,
+                  const struct survey *survey, const struct colormap *map,
+                  const struct channel *what, bool curve, struct range *range);
 /* Moves the lower end above 0, to the least value above it, six decades down at most. */
 void range_take_logarithm(struct tool *tool, struct rc_grid *const *grid, size_t n,
                           struct range *range);
 /* The least value; the end of the range where it is below that by rounding only. */
-double range_least(struct rc_grid *const *grid, size_t n, const struct survey *survey,
-                   const struct range *range);
+double range_least(struct rc_grid *const *grid, const struct rc_grid *const *touch, size_t n,
+                   const struct survey *survey, const struct range *range);
 
 /* ---- subtitle.c ---- */
 
@@ -310,14 +315,16 @@ struct frames {
     struct wanted wanted; /* depths and cases asked for; none: all                    */
     struct rc_grid *grid[FRAMES];
     size_t n;
-    size_t left; /* frames that were too many */
-    bool border; /* pressures of the cases are kept beside frames of another channel */
-    struct rc_grid *pressure[FRAMES];
-    size_t pressures;
+    size_t left;  /* frames that were too many */
+    bool border;  /* pressures of the cases are kept beside frames of another channel */
+    bool demands; /* it must be known what touches                                    */
+    struct rc_grid *pressure[FRAMES], *contact[FRAMES]; /* of cases */
+    size_t pressures, contacts;
+    const struct rc_grid *touch[FRAMES]; /* what touches in each frame; NULL: nothing tells */
 };
 
-/* The pressure on the grid of frame k, of its case; NULL: it is not there. */
-struct rc_grid *frames_pressure(const struct frames *frames, size_t k);
+/* What stands beside frame k. */
+struct beside frames_beside(const struct frames *frames, size_t k);
 
 /* Reads all inputs and keeps the frames that are asked for, of the channel that stands first in the
  * order of struct wish where none is. Ends the tool when there is none. Frees the lists. */
@@ -354,8 +361,9 @@ void view_say(const struct figure *figure, struct subtitle *subtitle);
 /* The values along the line `cut`, as in "y=0"; lo and hi: of the upright axis, NAN: what suits. */
 struct canvas *cut_draw(struct tool *tool, struct rc_grid *const *grid, size_t n, const char *cut,
                         double lo, double hi, const struct curve_style *style, struct drawn *drawn);
-/* How values spread over the map; of pressures those above 0, the rest as a note. */
-struct canvas *histogram_draw(struct tool *tool, struct rc_grid *const *grid, size_t n,
+/* How values spread over the map; of pressures those in contact, which touch[k] tells, the rest as a note. */
+struct canvas *histogram_draw(struct tool *tool, struct rc_grid *const *grid,
+                              const struct rc_grid *const *touch, size_t n,
                               const struct curve_style *style, struct drawn *drawn);
 /* The share of the map at or above each value. */
 struct canvas *material_ratio_draw(struct tool *tool, struct rc_grid *const *grid, size_t n,
@@ -398,12 +406,16 @@ struct look {
 bool look_is_profile(const struct rc_grid *grid);
 /* A warning that must not be overlooked; NULL: none. */
 const char *look_stamp(const struct rc_grid *grid);
-/* What a figure of n frames is like, but for its subtitle, what touches, and where they lie. */
-void look_figure(struct tool *tool, struct args *args, struct rc_grid *const *grid, size_t n,
-                 const struct survey *survey, struct look *look, struct figure *figure);
-/* What touches, if anything does, and from which pressure on it yields, by the pressure on the same
- * grid; NULL: that is not known. */
-void look_contact(struct figure *figure, const struct rc_grid *pressure);
+/* What a figure of n frames is like, but for its subtitle, the edge of contact, and where they lie. */
+void look_figure(struct tool *tool, struct args *args, struct rc_grid *const *grid,
+                 const struct rc_grid *const *touch, size_t n, const struct survey *survey,
+                 struct look *look, struct figure *figure);
+/* What tells the contact of a frame, of itself or beside it; NULL: nothing does. */
+const struct rc_grid *look_touch(struct tool *tool, const struct rc_grid *grid,
+                                 const struct beside *beside, bool demanded);
+/* What touches, if anything does, and from which pressure on it yields. */
+void look_contact(struct figure *figure, const struct rc_grid *grid, const struct beside *beside,
+                  const struct rc_grid *touch);
 /* In which places of a frame are read: lengths, or plain numbers where its key dunit says another
  * unit. */
 enum unit look_unit(const struct rc_grid *grid);

@@ -36,7 +36,7 @@ cut_values(struct rc_grid *g, size_t x0, size_t nx, size_t y0, size_t ny)
 }
 
 static void
-cut(struct rc_grid *g, struct rc_grid *pressure, struct window *w, const struct box *b)
+cut(struct rc_grid *g, const struct beside *beside, struct window *w, const struct box *b)
 {
     size_t x0 = b->x0, x1 = b->x1, y0 = b->y0, y1 = b->y1, nx = x1 - x0, ny = y1 - y0;
 
@@ -44,8 +44,10 @@ cut(struct rc_grid *g, struct rc_grid *pressure, struct window *w, const struct 
         return;
     w->part = (double)nx * (double)ny / ((double)g->nx * (double)g->ny);
     cut_values(g, x0, nx, y0, ny);
-    if (pressure != NULL)
-        cut_values(pressure, x0, nx, y0, ny);
+    if (beside->pressure != NULL)
+        cut_values(beside->pressure, x0, nx, y0, ny);
+    if (beside->contact != NULL)
+        cut_values(beside->contact, x0, nx, y0, ny);
     w->right = w->left + (double)x1 * g->dx;
     w->left += (double)x0 * g->dx;
     w->bottom = w->top + (double)y1 * g->dy;
@@ -77,7 +79,7 @@ find_contact(const struct rc_grid *g, struct box *b)
     *b = (struct box){g->nx, 0, g->ny, 0};
     for (size_t j = 0; j < g->ny; j++)
         for (size_t i = 0; i < g->nx; i++)
-            if (g->v[j * g->nx + i] > 0) {
+            if (rc_in_contact(g->v[j * g->nx + i])) {
                 b->x0 = i < b->x0 ? i : b->x0;
                 b->x1 = i + 1 > b->x1 ? i + 1 : b->x1;
                 b->y0 = j < b->y0 ? j : b->y0;
@@ -147,7 +149,7 @@ read_pair(struct tool *t, const struct rc_grid *g, const char *window, const cha
 }
 
 static void
-cut_lengths(struct tool *t, const char *window, struct rc_grid *g, struct rc_grid *pressure,
+cut_lengths(struct tool *t, const char *window, struct rc_grid *g, const struct beside *beside,
             struct window *w)
 {
     bool section = rc_grid_get(g, "section") != NULL;
@@ -174,34 +176,33 @@ cut_lengths(struct tool *t, const char *window, struct rc_grid *g, struct rc_gri
                     "no node lies in the window %s: the map ends %s to the right of its middle and "
                     "%s below it",
                     window, scale_value(at, w->right, unit), scale_value(end, w->bottom, unit));
-    cut(g, pressure, w, &b);
+    cut(g, beside, w, &b);
 }
 
 void
-window_cut(struct tool *t, const char *text, bool raw, struct rc_grid *g, struct rc_grid *pressure,
-           struct window *w)
+window_cut(struct tool *t, const char *text, bool raw, struct rc_grid *g,
+           const struct beside *beside, const struct rc_grid *touch, struct window *w)
 {
     const double speck = 0.25; /* of the sides of the map */
-    const struct rc_grid *p = strcmp(g->channel, "pressure") == 0 ? g : pressure;
     bool asked;
     struct box b;
 
     *w = (struct window){.part = 1};
     place(g, w);
     asked = text != NULL && strcmp(text, "contact") == 0;
-    if (asked && p == NULL)
+    if (asked && touch == NULL)
         tool_die_at(
             t, g, EXIT_IMPOSSIBLE,
             "--window contact goes by the pressure, and there is none on this grid: give the "
             "window as X0:X1,Y0:Y1");
     if (text != NULL && !asked) {
         if (strcmp(text, "all") != 0)
-            cut_lengths(t, text, g, pressure, w);
+            cut_lengths(t, text, g, beside, w);
         return;
     }
-    if (p == NULL || (!asked && (raw || p != g)))
+    if (touch == NULL || (!asked && (raw || strcmp(g->channel, "pressure") != 0)))
         return;
-    if (!contact_box(p, &b)) {
+    if (!contact_box(touch, &b)) {
         if (asked)
             tool_warn(t, "nothing touches: the whole map is drawn");
         return;
@@ -209,6 +210,6 @@ window_cut(struct tool *t, const char *text, bool raw, struct rc_grid *g, struct
     if (!asked && (g->nx == 1 || g->ny == 1 || (double)(b.x1 - b.x0) > speck * (double)g->nx ||
                    (double)(b.y1 - b.y0) > speck * (double)g->ny))
         return;
-    cut(g, pressure, w, &b);
+    cut(g, beside, w, &b);
     w->contact = w->part < 1;
 }

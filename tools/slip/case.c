@@ -33,17 +33,28 @@ check_beside(struct slip_run *run, struct rc_grid *g)
 static void
 check_pressure(struct slip_run *run)
 {
-    size_t n = rc_grid_nodes(run->p), pulled = 0;
+    size_t n = rc_grid_nodes(run->p), pulled = 0, without = 0;
+    const struct rc_grid *touch;
 
     tool_demand_finite(&run->t, run->p, "recompute the map");
     for (size_t k = 0; k < n; k++)
         pulled += run->p->v[k] < 0;
-    if (pulled > 0)
+    if (pulled > 0 || rc_grid_get(run->p, "adhesion") != NULL)
         tool_die_at(
             &run->t, run->p, EXIT_IMPOSSIBLE,
-            "it is negative at %zu of %zu nodes, where the bodies attract each other: friction "
-            "of such contacts is not known here, take pressures of rc-solve without --adhesion",
+            "it is the net pressure of bodies that attract each other, negative at %zu of %zu "
+            "nodes: the normal force that friction follows in such a contact is not in the stream: "
+            "take pressures of rc-solve without --adhesion",
             pulled, n);
+    touch = contact_frame(&run->t, run->p, run->contact);
+    for (size_t k = 0; k < n; k++)
+        without += rc_in_contact(run->p->v[k]) && !rc_in_contact(touch->v[k]);
+    if (without > 0)
+        tool_die_at(
+            &run->t, run->contact, EXIT_IMPOSSIBLE,
+            "%zu nodes that carry pressure are not in contact by this frame: friction needs "
+            "both to agree, solve the contact again",
+            without);
     run->load = rc_sum(run->p->v, n) * run->p->dx * run->p->dy;
 }
 

@@ -67,7 +67,7 @@ struct slip_run {
     size_t number;                      /* of the case that is written */
     struct slip_checkpoint *checkpoint; /* NULL: none is kept */
     /* of the case that is read; gap and height may be NULL */
-    struct rc_grid *p, *gap, *height;
+    struct rc_grid *p, *gap, *height, *contact;
     struct slip_pair bodies;
     enum rc_boundary boundary;
     double load; /* N, of the stream's pressure */

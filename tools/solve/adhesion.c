@@ -204,23 +204,13 @@ contact_of(const struct rc_adhesion_figures *f)
                                .converged = f->converged};
 }
 
-/* Spots, and the slope where the bodies touch: where the gap is closed, whatever the net pressure. */
+/* Where the gap is closed, whatever the net pressure: 1, elsewhere 0. */
 static void
-look_at_contact(struct run *run, const struct rc_grid *g, double *buffer, struct solution *s)
+find_contact(const struct run *run, size_t nodes, double *touch)
 {
-    const struct rc_shape shape = rc_grid_shape(g);
-    struct rc_patch_options options = {.boundary =
-                                           run->args->physics.periodic ? RC_PERIODIC : RC_FREE,
-                                       .each = report_wanted(&run->report),
-                                       .threads = run->t.threads};
-    struct rc_err err;
-
-    rc_adhesion_gap(run->adhering.path, buffer);
-    for (size_t k = 0; k < rc_grid_nodes(g); k++)
-        buffer[k] = buffer[k] > 0 ? 0 : 1;
-    if (rc_patches_find(&shape, buffer, &options, &s->patches, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    s->slope = rc_measure_contact_slope(NULL, &shape, g->v, buffer);
+    rc_adhesion_gap(run->adhering.path, touch);
+    for (size_t k = 0; k < nodes; k++)
+        touch[k] = touch[k] > 0 ? 0 : 1;
 }
 
 static void
@@ -240,6 +230,10 @@ put_out(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
     if (rc_grid_set(as, "adhesion", law, &err) != RC_OK ||
         rc_grid_set_number(as, "load", c->load, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (solve_wanted(run->args, SOLVE_CONTACT)) {
+        find_contact(run, rc_grid_nodes(g), as->v);
+        solve_put(run, as, SOLVE_CONTACT, as->v);
+    }
     if (solve_wanted(run->args, SOLVE_PRESSURE)) {
         rc_adhesion_pressure(path, as->v);
         solve_put(run, as, SOLVE_PRESSURE, as->v);
@@ -378,7 +372,8 @@ end(struct run *run, struct rc_grid *g)
 
     if (buffer == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for a map");
-    look_at_contact(run, g, buffer, s);
+    find_contact(run, rc_grid_nodes(g), buffer);
+    solve_look_at_contact(run, g, buffer, s);
     s->contact = contact_of(f);
     run->done = solve_now();
     run->result = run->done - start;

@@ -143,6 +143,7 @@ solve_put(struct run *run, const struct rc_grid *as, enum solve_frame f, const d
         return;
     frame.channel = (char *)solve_frames[f].name; /* these and the values are only read */
     frame.unit = (char *)solve_frames[f].unit;
+    frame.type = f == SOLVE_CONTACT ? RC_F32 : as->type; /* of 0 and 1 */
     frame.v = (double *)v;
     tool_write(&run->t, &frame);
 }
@@ -184,6 +185,23 @@ put_rest(struct run *run, const struct rc_grid *g, struct results *r, struct rc_
         yield_put_strain(run, r->as, r->buffer);
 }
 
+/* The buffer may hold the gap by now. */
+static void
+put_contact(struct run *run, const struct results *r, const double *p)
+{
+    size_t nodes = rc_grid_nodes(r->as);
+    double *touch;
+
+    if (!solve_wanted(run->args, SOLVE_CONTACT))
+        return;
+    if ((touch = malloc((nodes + 1) * sizeof *touch)) == NULL)
+        tool_die_at(&run->t, r->as, EXIT_IMPOSSIBLE, "out of memory for a map of the contact");
+    for (size_t k = 0; k < nodes; k++)
+        touch[k] = rc_in_contact(p[k]) ? 1 : 0;
+    solve_put(run, r->as, SOLVE_CONTACT, touch);
+    free(touch);
+}
+
 static void
 put_out(struct run *run, const struct rc_grid *g, struct results *r, struct rc_solver *solver,
         const struct rc_contact *c)
@@ -191,6 +209,7 @@ put_out(struct run *run, const struct rc_grid *g, struct results *r, struct rc_s
     struct rc_contact again;
 
     solve_set_keys(run, r->as, c);
+    put_contact(run, r, rc_solver_pressure(solver));
     solve_put(run, r->as, SOLVE_PRESSURE, rc_solver_pressure(solver));
     solve_put(run, r->as, SOLVE_GAP, r->buffer);
     if (r->displacement == NULL && solve_wanted(run->args, SOLVE_DISPLACEMENT)) {
@@ -248,9 +267,9 @@ keep_shape(struct run *run, struct rc_grid *g, struct rc_solver *solver, struct 
     s->residual_indentation = run->first_top - run->top;
 }
 
-/* Of a tapered map (key `taper`), the contact inside; p is NULL for bodies that are apart. */
+/* Of a tapered map (key `taper`), the contact inside; touch is NULL for bodies that are apart. */
 static void
-look_inside(struct run *run, const struct rc_grid *g, const double *p, struct solution *s)
+look_inside(struct run *run, const struct rc_grid *g, const double *touch, struct solution *s)
 {
     const struct rc_shape shape = rc_grid_shape(g);
     size_t columns, rows, first = tool_first_row(&run->t, g);
@@ -260,9 +279,10 @@ look_inside(struct run *run, const struct rc_grid *g, const double *p, struct so
     if (!rc_grid_number(g, "taper", &width))
         return;
     rc_taper_frame(&shape, width, &columns, &rows);
-    for (size_t k = 0; p != NULL && k < rc_grid_nodes(g); k++) {
+    for (size_t k = 0; touch != NULL && k < rc_grid_nodes(g); k++) {
         size_t i = k % g->nx, j = first + k / g->nx;
-        if (i >= columns && i + columns < g->nx && j >= rows && j + rows < g->ny && p[k] > 0)
+        if (i >= columns && i + columns < g->nx && j >= rows && j + rows < g->ny &&
+            rc_in_contact(touch[k]))
             touching++;
     }
     touching = ranks_sum(&run->t, touching);
@@ -271,8 +291,9 @@ look_inside(struct run *run, const struct rc_grid *g, const double *p, struct so
     s->inside_fraction = inside > 0 ? touching / inside : NAN;
 }
 
-static void
-look_at_contact(struct run *run, const struct rc_grid *g, const double *p, struct solution *s)
+void
+solve_look_at_contact(struct run *run, const struct rc_grid *g, const double *touch,
+                      struct solution *s)
 {
     struct rc_shape shape = rc_grid_shape(g);
     struct rc_patch_options options = {.boundary =
@@ -282,10 +303,10 @@ look_at_contact(struct run *run, const struct rc_grid *g, const double *p, struc
                                        .ranks = ranks_of(&run->t)};
     struct rc_err err;
 
-    if (rc_patches_find(&shape, p, &options, &s->patches, &err) != RC_OK)
+    if (rc_patches_find(&shape, touch, &options, &s->patches, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    s->slope = rc_measure_contact_slope(ranks_of(&run->t), &shape, g->v, p);
-    look_inside(run, g, p, s);
+    s->slope = rc_measure_contact_slope(ranks_of(&run->t), &shape, g->v, touch);
+    look_inside(run, g, touch, s);
 }
 
 /* Where no node is at the hardness the conductance has found the stiffness too. */
@@ -315,7 +336,7 @@ end_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
     double start = solve_now();
 
     if (tool_interrupted() == 0) /* else there may be nothing on this grid yet */
-        look_at_contact(run, g, rc_solver_pressure(solver), s);
+        solve_look_at_contact(run, g, rc_solver_pressure(solver), s);
     results_new(run, g, &r);
     find_result(run, &r, solver, &s->contact);
     find_stiffness(run, g, solver, s);
@@ -365,6 +386,7 @@ take_apart(struct run *run, const struct rc_grid *g)
     results_new(run, g, &r);
     solve_set_keys(run, r.as, &s.contact);
     memset(r.buffer, 0, nodes * sizeof *r.buffer);
+    solve_put(run, r.as, SOLVE_CONTACT, r.buffer);
     solve_put(run, r.as, SOLVE_PRESSURE, r.buffer);
     rc_contact_apart(ranks_of(&run->t), &shape, form, r.buffer, &s.contact);
     solve_put(run, r.as, SOLVE_GAP, r.buffer);

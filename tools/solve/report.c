@@ -7,6 +7,7 @@
 
 /* clang-format off */
 const struct solve_frame_kind solve_frames[SOLVE_FRAMES] = {
+    [SOLVE_CONTACT] = {CONTACT_CHANNEL, "1"},
     [SOLVE_PRESSURE] = {"pressure", "Pa"},
     [SOLVE_GAP] = {"gap", "m"},
     [SOLVE_DISPLACEMENT] = {"displacement", "m"},
@@ -374,6 +375,7 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
     if (nodes * sizeof(float) < MEMORY_APART) /* what the stiffness takes lies in the holes */
         stiffness -= stiffness < left ? stiffness : left;
     bytes += left + stiffness + rc_patches_memory(&shape, NULL, &patches);
+    bytes += solve_wanted(run->args, SOLVE_CONTACT) ? nodes * sizeof *g->v : 0;
     return bytes + (keeps_heights && results ? nodes * sizeof *g->v : 0) +
            tool_code(&run->t, SOLVE_CODE);
 }

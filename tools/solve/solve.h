@@ -15,6 +15,7 @@ enum {
 };
 
 enum solve_frame { /* in the order of --output's words, and of writing */
+    SOLVE_CONTACT, /* before the pressure: who reads frame by frame knows by then what touches */
     SOLVE_PRESSURE,
     SOLVE_GAP,
     SOLVE_DISPLACEMENT,
@@ -178,6 +179,9 @@ void solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardne
 void solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c);
 /* Writes a frame, with the keys of `as`, where it is wanted. */
 void solve_put(struct run *run, const struct rc_grid *as, enum solve_frame f, const double *v);
+/* Finds patches and slopes of the contact, whose nodes are those that rc_in_contact finds in `touch`. */
+void solve_look_at_contact(struct run *run, const struct rc_grid *g, const double *touch,
+                           struct solution *solution);
 /* Parts of solve_judge. */
 void solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
                           const struct solution *solution);

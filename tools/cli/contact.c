@@ -1,0 +1,99 @@
+/*
+ * What touches. A pressure tells it, but for the net pressure of bodies that attract each other: that is not 0
+ * nearly everywhere, and may be negative where the gap is closed. rc-solve writes the frame `contact` beside it.
+ */
+#include "contact.h"
+
+#include <math.h>
+
+#include "libcontact/contact.h"
+#include "ranks.h"
+
+static const double rounding = 1e-6; /* of the largest pressure: a negative one below is none */
+
+static const char remedy[] =
+    "keep both frames, as in rc-pick --channel pressure,contact, or, if the stream has none, solve "
+    "it again with this rc-solve";
+
+/* Of bodies that attract each other, and negative somewhere. */
+static bool
+is_net(const struct rc_grid *p, double negative)
+{
+    return negative > 0 && rc_grid_get(p, "adhesion") != NULL;
+}
+
+/* Nodes whose pressure is negative by more than rounding. */
+static double
+count_negative(const struct tool *t, const struct rc_grid *p)
+{
+    double most = 0;
+    size_t negative = 0;
+
+    for (size_t k = 0; k < rc_grid_nodes(p); k++)
+        most = fmax(most, p->v[k]);
+    most = ranks_most(t, most);
+    for (size_t k = 0; k < rc_grid_nodes(p); k++)
+        negative += p->v[k] < -rounding * most;
+    return ranks_sum(t, (double)negative);
+}
+
+static void
+demand_states(struct tool *t, const struct rc_grid *contact)
+{
+    size_t wrong = 0;
+
+    for (size_t k = 0; k < rc_grid_nodes(contact); k++)
+        wrong += contact->v[k] != 0 && contact->v[k] != 1;
+    wrong = (size_t)ranks_sum(t, (double)wrong);
+    if (wrong > 0)
+        tool_die_at(t, contact, EXIT_IMPOSSIBLE,
+                    "%zu of %zu values are neither 0 nor 1: a frame contact is 1 where the bodies "
+                    "touch and 0 elsewhere",
+                    wrong, contact->nx * contact->ny);
+}
+
+static const struct rc_grid *
+find(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact, bool demanded)
+{
+    char where[256];
+    double negative;
+
+    if (contact != NULL) {
+        if (p != NULL)
+            tool_demand_grid_of(t, contact, p);
+        demand_states(t, contact);
+        return contact;
+    }
+    if (p == NULL || (negative = count_negative(t, p)) == 0)
+        return p;
+    if (is_net(p, negative) && demanded)
+        tool_die_at(t, p, EXIT_IMPOSSIBLE,
+                    "the net pressure of bodies that attract each other does not tell where they "
+                    "touch, and no frame contact stands beside it: %s",
+                    remedy);
+    tool_where(t, p, where, sizeof where);
+    if (is_net(p, negative)) {
+        tool_warn(t,
+                  "%s: contact is unknown: the net pressure of bodies that attract each other does "
+                  "not tell where they touch, and no frame contact stands beside it: %s",
+                  where, remedy);
+        return NULL;
+    }
+    tool_warn(t,
+              "%s: negative at %.0f of %zu nodes: contact is taken where it is above 0: where "
+              "bodies attract each other only a frame contact tells it",
+              where, negative, p->nx * p->ny);
+    return p;
+}
+
+const struct rc_grid *
+contact_frame(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact)
+{
+    return find(t, p, contact, false);
+}
+
+const struct rc_grid *
+contact_demand(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact)
+{
+    return find(t, p, contact, true);
+}
