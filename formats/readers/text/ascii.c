@@ -169,8 +169,10 @@ is_damaged_row(const struct rc_titled_table *t)
 static enum rc_status
 open_below_titles(struct matrix *m, const struct rc_file *file, const struct rc_wish *wish)
 {
-    enum rc_status status = rc_titled_table_open(&m->titled, file, 2, wish, NULL);
+    enum rc_status status = RC_FAIL;
 
+    if (rc_file_is_text(file) || rc_file_is_utf16(file))
+        status = rc_titled_table_open(&m->titled, file, 2, wish, NULL);
     m->is_titled = true;
     m->images = 1;
     m->head = (struct rc_ascii_head){.width = NAN,
