@@ -76,7 +76,7 @@ refuses 2 '--dx -1e-06 m: it must be above 0' "a negative spacing on the command
 refuses 1 'load 1 N is above hardness times area, 1000000 Pa x 2.56e-10 m2' "a load above hardness times area" \
     "rc-solve --load 1N --estar 100GPa --hardness 1MPa good.rcg -o out.rcg"
 claim "  and nothing is left behind" untouched
-refuses 2 "unknown unit 'kgf'" "an unknown unit" "rc-solve --load 24kgf --estar 1GPa good.rcg"
+refuses 2 "unknown unit 'kip'" "an unknown unit" "rc-solve --load 24kip --estar 1GPa good.rcg"
 refuses 2 "unknown unit 'Pa'" "a unit of the wrong kind" "rc-solve --load 24Pa --estar 1GPa good.rcg"
 refuses 2 '--depths 0,1um,2: numbers with and without a unit' "a list with and without units" \
     "rc-stress --nu 0.3 --depths 0,1um,2 good.rcg"
@@ -133,7 +133,8 @@ claim "missing heights with --fill" bash -c \
 
 # a zip that is no X3P
 echo hello >hello.txt
-zip -q hello.zip hello.txt
+echo again >again.txt
+zip -q hello.zip hello.txt again.txt
 cp hello.zip hello.x3p
 refuses 1 "hello.x3p: a ZIP archive, but no X3P: it holds no main.xml .* is 'hello.txt'" "a zip that is no X3P" \
     "rc-import hello.x3p -o out.rcg"
