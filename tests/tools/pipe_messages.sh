@@ -48,6 +48,7 @@ meant 1 contact_area "a column: a part of its name" "rc-render --curve load:area
 meant 1 gap "a channel of rc-render" "rc-render --channel gpa -o never.png p.rcg"
 meant 1 pressure "  of rc-pick" "rc-pick --channel gap,presure -o never.rcg p.rcg"
 meant 1 displacement "  of rc-export" "rc-export --format csv --channel displacment p.rcg"
+meant 1 height "  of rc-import" "rc-import --channel hieght $RC_SOURCE/sample_surfaces/rough-steel.x3p -o never.rcg"
 meant 2 mises "a component" "rc-stress --nu 0.3 --depths 0 --components szz,misses -o never.rcg p.rcg"
 meant 2 pcg "a word of an option" "rc-solve --method pgc --load 1 --estar 1GPa -o never.rcg rough.rcg"
 refuses 1 'there is no channel wear: there are pressure, gap, displacement, height$' "none where no name is near" \
