@@ -551,8 +551,10 @@ struct rc_problem {
     double force_at[2]; /* m: that point, x and y from the middle of the map                      */
     double tol;         /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4), but never
                            above 1e-3                                                            */
-    const char *engine; /* NULL: auto                                                            */
-    const char *method; /* NULL: auto                                                            */
+    double history_part; /* of tol: to this a load of a history is solved in which nodes yield, for
+                            what it is off stays in the shape that it leaves; 0: 1 */
+    const char *engine;  /* NULL: auto                                                            */
+    const char *method;  /* NULL: auto                                                            */
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
     size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
@@ -592,8 +594,9 @@ struct rc_contact {
     /* the same over max(std h, std u); for one height everywhere over what the mean pressure could
      * displace */
     double kkt_residual;
-    /* estimated relative L1 error of the pressure; NAN when stopped on a coarser grid */
-    double pressure_error;
+    /* estimated relative L1 error of the pressure; NAN when stopped on a coarser grid; the part of it that
+     * earlier loads of a history have left in the shape */
+    double pressure_error, inherited_error;
     size_t iterations;
     double convolutions;                     /* equivalents on the finest grid                   */
     struct rc_discretization discretization; /* estimated relative errors that the grid makes    */
@@ -889,7 +892,9 @@ struct rc_adhesion_figures {
     double gap_error;    /* m: the largest correction K r of the gap that is still to come        */
     double
         kkt_residual; /* the worst |p + sigma| off contact, or p + sigma < 0 in it, over sigma(0) */
-    double pressure_error; /* estimated relative L1 error of p                                    */
+    double pressure_error; /* estimated relative L1 error of p; the part of it from dents of earlier
+                              states, where nodes yield */
+    double inherited_error;
     bool converged; /* pressure_error <= tol, and stable                                    */
 };
 

@@ -5,7 +5,8 @@
  * elsewhere.
  *
  * The error of the pressure is some e/sqrt(mu), e what the next correction would change of it, mu the
- * smallest eigenvalue: soft modes answer more than the preconditioner takes for granted.
+ * smallest eigenvalue: soft modes answer more than the preconditioner takes for granted. Where nodes yield
+ * it stays in their dents, and the states that follow add theirs.
  *
  * A retraction for the lowest load goes from state to state until the bodies have parted, and then again,
  * in smaller steps, from the state before the lowest to the one after it.
@@ -56,8 +57,12 @@ static const double nodes_default =
 static const double eigen_exact =
     0.2;                            /* of the eigenvalue, its bound of error                      */
 static const double loosest = 1e-3; /* tol: farther off, an eigenvalue says nothing of a state */
-static const double safe = 1.25;    /* e/sqrt(mu) itself is 1 to 2 times the error, at its end   */
-static const double single = 4e-6;  /* what an eigenvalue in single precision may be off          */
+/* The error is at most 2 e/sqrt(mu), or, where soft modes have most of it, 1.25 e/mu, which, as all of it is never
+ * theirs, is not followed below `soft`. */
+static const double safe = 2, safe_soft = 1.25, soft = 0.05;
+/* Of tol: dents are not mended by the states that follow, whose errors add up. */
+static const double yielding_part = 0.05;
+static const double single = 4e-6; /* what an eigenvalue in single precision may be off          */
 
 enum stage {
     STAGE_NEW,
@@ -95,7 +100,9 @@ struct rc_adhesion {
     size_t leaves, jumps;
     bool unstable; /* the last step began where there was no stiffness */
     double mu[3];  /* of the last state of each control, 0: none */
-    double judged; /* the error when the eigenvalue was found; 0: it has not been */
+    double dents,
+        dents_load; /* errors of earlier states in which nodes have yielded; times their |p| */
+    double judged;  /* the error when the eigenvalue was found; 0: it has not been */
     bool converged;
     bool separated;
     bool fresh; /* figures are those of the state */
@@ -384,17 +391,31 @@ rc_adhesion_set_approach(struct rc_adhesion *a, double approach, struct rc_err *
 }
 
 static double
-softness(const struct rc_adhesion *a)
+own_error(const struct rc_adhesion *a)
 {
     double mu = a->judged > 0 ? a->gap.mu : a->mu[a->control];
 
-    return mu == 0 ? 1 : sqrt(fmin(fmax(mu, single), 1));
+    mu = mu == 0 ? 1 : fmin(fmax(mu, single), 1);
+    return fmax(safe / sqrt(mu), safe_soft / fmax(mu, soft)) * a->gap.error;
+}
+
+/* What dents of earlier states may be off, over the pressures of this one. */
+static double
+inherited_error(const struct rc_adhesion *a)
+{
+    return a->gap.size > 0 ? fmax(a->dents, a->dents_load / a->gap.size) : a->dents;
 }
 
 static double
 estimate(const struct rc_adhesion *a)
 {
-    return safe * a->gap.error / softness(a);
+    return own_error(a) + inherited_error(a);
+}
+
+static bool
+ends(const struct rc_adhesion *a)
+{
+    return own_error(a) <= (a->gap.yields ? yielding_part : 1) * a->tol;
 }
 
 static enum rc_status
@@ -434,7 +455,7 @@ down(struct rc_adhesion *a)
     struct rc_gap *g = &a->gap;
 
     rc_gap_look(g);
-    a->below = estimate(a) <= a->tol ? a->below + 1 : 0;
+    a->below = ends(a) ? a->below + 1 : 0;
     if (a->judged > 0 && g->error > 10 * a->judged)
         a->judged = 0; /* on the way to another place */
     if (a->below >= BELOW || g->stuck) {
@@ -478,7 +499,7 @@ eigen(struct rc_adhesion *a)
     }
     if (negative)
         return finish(a, false);
-    if (estimate(a) <= a->tol || g->stuck)
+    if (ends(a) || g->stuck)
         return finish(a, estimate(a) <= a->tol);
     move(a);
     a->below = 0;
@@ -737,6 +758,7 @@ find_figures(struct rc_adhesion *a)
     f->eigen_steps = g->eigen_steps;
     f->convolutions = g->convolutions;
     f->pressure_error = isinf(g->error) ? NAN : estimate(a);
+    f->inherited_error = inherited_error(a);
     f->converged = a->converged;
     a->fresh = true;
 }
@@ -860,18 +882,24 @@ void
 rc_adhesion_keep_shape(struct rc_adhesion *a, double *h)
 {
     struct rc_gap *g = &a->gap;
+    bool dented = false;
 
     for (size_t j = 0; j < g->ny; j++)
         for (size_t i = 0; i < g->nx; i++) {
             double *x = g->x + j * g->px + i;
             if (!(*x < 0))
                 continue;
+            dented = true;
             a->h[j * g->nx + i] += *x;
             a->mean_h += *x / (double)(g->nx * g->ny);
             if (h != NULL)
                 h[j * g->nx + i] += *x * a->whole->length;
             *x = 0;
         }
+    if (dented && !isinf(g->error)) {
+        a->dents += own_error(a);
+        a->dents_load += own_error(a) * g->size;
+    }
 }
 
 /* ---- what it takes ---- */

@@ -17,6 +17,9 @@ static const double clipped_anew =
 static const double curvature = 0.05; /* of d'Ad, that a step assumes at least    */
 static const double shorter = 0.4;
 static const double single = 1e-6; /* of A d in single precision                         */
+static const double float_rounding = 1.2e-7; /* of the pressures of a step, L1 */
+static const double vanishing = 1e-12;       /* of the largest traction */
+static const double rounding = 4e-15;        /* of A u in double precision, L1 */
 static const double fresh =
     1e-4; /* when the error has come down to so much of what it was, A u is found anew */
 static const double exact = 1e-3; /* of the slope, that a line search leaves */
@@ -142,6 +145,7 @@ find_au(struct rc_gap *g)
     rc_gap_total(g, sums);
     take_mean(g, g->au, sums[0] / (double)g->n);
     g->convolutions++;
+    g->drift = 0;
 }
 
 /* ---- residual ---- */
@@ -374,6 +378,7 @@ ad_out(void *ctx, size_t j, void *from)
         if (i < m) {
             sums[0] += fabs(is - g->beta * ad[i]);
             sums[1] += fabs(au[i] + plus);
+            sums[6] += fabs(is);
         }
         sums[2] += is * d[i];
         sums[3] += is;
@@ -382,6 +387,18 @@ ad_out(void *ctx, size_t j, void *from)
         ad[i] = is;
     }
     return true;
+}
+
+/* Changes that are nothing beside the traction are rounding. */
+static void
+find_error(struct rc_gap *g)
+{
+    double off = g->change + g->drift;
+
+    if (off <= vanishing * g->law.strength * (double)(g->nx * g->ny))
+        g->error = rounding;
+    else
+        g->error = g->size > 0 ? off / g->size + rounding : INFINITY;
 }
 
 /* d'A d; the error by the way. */
@@ -396,7 +413,10 @@ find_ad(struct rc_gap *g, double *mean_d)
     g->convolutions += 0.5;
     mean = g->control == RC_GAP_LOAD ? sums[3] / (double)g->n : 0;
     take_mean(g, g->ad, mean);
-    g->error = sums[1] > 0 ? sums[0] / sums[1] : INFINITY;
+    g->size = sums[1];
+    g->moves = sums[6];
+    g->change = sums[0];
+    find_error(g);
     *mean_d = sums[4] / (double)g->n;
     return fmax(sums[2] - mean * sums[4], single * sums[5]);
 }
@@ -499,6 +519,7 @@ step_out(void *ctx, size_t j, void *from)
         sums[1] += step[i] * au[i];
         sums[2] += to[i];
         sums[3] += step[i];
+        sums[4] += i < on_map(g, j) ? fabs(to[i]) : 0;
     }
     return true;
 }
@@ -526,7 +547,7 @@ step_law_row(struct rc_gap *g, size_t j, double *sums)
 
 /* By how much Phi rises with the step that stands there, whose A comes to where r was. */
 static double
-rise(struct rc_gap *g, double *rounding)
+rise(struct rc_gap *g, double *least)
 {
     double sums[RC_GAP_SUMS], law[RC_GAP_SUMS], load = g->control == RC_GAP_LOAD ? g->given : 0,
                                                 mean;
@@ -538,7 +559,8 @@ rise(struct rc_gap *g, double *rounding)
     mean = g->control == RC_GAP_LOAD ? sums[2] / (double)g->n : 0;
     take_mean(g, g->r, mean);
     rc_gap_rows(g, step_law_row, law);
-    *rounding = 1e-14 * (law[1] + fabs(sums[1])) + single * fabs(sums[0]);
+    *least = 1e-14 * (law[1] + fabs(sums[1])) + single * fabs(sums[0]);
+    g->moves = sums[4];
     return sums[0] - mean * sums[3] / 2 + sums[1] + load * sums[3] + law[0];
 }
 
@@ -616,21 +638,23 @@ go(struct rc_gap *g, struct line *l)
     double sums[RC_GAP_SUMS];
 
     for (int k = 0; k < SHORTEN; k++, g->trial *= shorter) {
-        double rounding, up;
+        double least, up;
         rc_gap_rows(g, clip_row, sums);
         if (sums[0] == 0) {
             if (k > 0)
                 look(g, l, g->trial);
             g->fall -= l->phi;
+            g->drift += float_rounding * g->trial * g->moves;
             rc_gap_rows(g, take_whole_row, sums);
             return;
         }
         g->restart = sums[0] > clipped_anew * (double)g->free;
         if (g->control == RC_GAP_MEAN)
             keep_mean(g, sums[1], sums[2]);
-        up = rise(g, &rounding);
-        if (up <= rounding) {
+        up = rise(g, &least);
+        if (up <= least) {
             g->fall -= up;
+            g->drift += float_rounding * g->moves;
             rc_gap_rows(g, take_step_row, sums);
             return;
         }
@@ -723,12 +747,19 @@ refresh(struct rc_gap *g)
     g->fresh_error = g->error;
 }
 
+/* Whether most of the error is that of A u in single precision. */
+static bool
+drifted(const struct rc_gap *g)
+{
+    return g->drift > 10 * g->change;
+}
+
 void
 rc_gap_look(struct rc_gap *g)
 {
     double rz, old, sum_z;
 
-    if (g->error <= fresh * g->fresh_error)
+    if (g->error <= fresh * g->fresh_error || drifted(g))
         refresh(g);
     find_residual(g);
     rz = find_z(g, &old, &sum_z);
@@ -745,8 +776,16 @@ rc_gap_look(struct rc_gap *g)
         g->dad = find_ad(g, &g->mean_d);
         return;
     }
+    if (g->drift > 0) { /* the residual is rounding: is it that of A u? */
+        refresh(g);
+        g->restart = true;
+        return;
+    }
     g->stuck = true;
-    g->error = rz > 0 ? g->error : 0;
+    if (rz > 0 && g->size > 0)
+        find_error(g);
+    else
+        g->error = rounding;
 }
 
 void
@@ -754,10 +793,15 @@ rc_gap_move(struct rc_gap *g)
 {
     struct line line = {.rd = g->rd, .q = g->dad};
 
-    if (g->stuck)
+    if (g->stuck || !(g->rd > 0))
         return;
     g->trial = line_minimum(g, &line, longest(g));
     go(g, &line);
+    if (g->stuck && drifted(g)) { /* not before A u is as it is */
+        refresh(g);
+        g->restart = true;
+        g->stuck = false;
+    }
     g->parting = g->control == RC_GAP_LOAD && g->given < 0 && g->mean_d > 0 &&
                  nearest(g) > 20 * g->law.range;
 }

@@ -53,13 +53,15 @@ struct rc_gap {
     size_t free;        /* nodes not held                                        */
     double unit;        /* of a direction in single precision */
     double fresh_error; /* that error when A u came from double precision */
-    double error;       /* |A z| over |p|, L1; INFINITY before the first step    */
-    bool negative;      /* stiffness there was negative, of its direction or of the softest mode */
-    bool watched;       /* e[0] is the softest mode of the state before, of this control */
-    double stiffness;   /* of that mode, if nothing pulled                              */
-    bool stuck;         /* no step goes down any more                            */
-    bool parting;       /* drawn apart, with nothing left to hold                */
-    double trial;       /* of a row's work: the length of the step               */
+    double error;       /* |A z| over |p|, L1, with drift; INFINITY before the first step */
+    double drift; /* of A u since it came from double precision, L1: steps add to it in single */
+    double size, change, moves; /* |p|, |A z|, and |A d| of a step, L1           */
+    bool negative;    /* stiffness there was negative, of its direction or of the softest mode */
+    bool watched;     /* e[0] is the softest mode of the state before, of this control */
+    double stiffness; /* of that mode, if nothing pulled                              */
+    bool stuck;       /* no step goes down any more                            */
+    bool parting;     /* drawn apart, with nothing left to hold                */
+    double trial;     /* of a row's work: the length of the step               */
     float *start, *slope; /* where the state began: x, and the slope of Phi                  */
     double fall;          /* of Phi since                                                    */
     double convolutions;

@@ -1,21 +1,48 @@
 /*
  * A loading history: each load acts on the shape that the earlier loads have left, and between two
  * loads the bodies may be taken apart.
+ *
+ * What the pressure of a load that yields is off stays in the dents. The map from a shape to the next does not
+ * enlarge it, so that errors of loads, in newtons, add up, and are over the present load a part of its error.
  */
 #include "solver.h"
 
 #include <math.h>
 
+static const double finest = 1e-9; /* of the pressure, that a load that yields is solved to */
+
+double
+rc_history_error(const struct rc_solver *s)
+{
+    return s->posed.dents > 0 ? s->posed.dents / s->load.load : 0;
+}
+
+double
+rc_history_goal(const struct rc_solver *s)
+{
+    const struct rc_posed *posed = &s->posed;
+    double yielding = fmax(posed->history_part * posed->tol, fmin(posed->tol, finest));
+
+    if (s->load.tol > posed->tol || posed->history_part == 0)
+        return s->load.tol;
+    if (s->set.saturated > 0)
+        return fmin(s->load.tol, yielding);
+    return fmin(s->load.tol, fmax(posed->tol - rc_history_error(s), yielding));
+}
+
 enum rc_status
 rc_solver_keep_shape(struct rc_solver *s, const struct rc_contact *c, double *h, struct rc_err *err)
 {
-    double height_error = c->shape_error;
+    double height_error = c->shape_error, off = c->pressure_error - c->inherited_error, dents;
 
     if (c->yielded_nodes == 0)
         return RC_OK;
+    off += s->load.target > 0 ? RC_LOAD_TOL * s->posed.tol : 0;
+    dents = s->posed.dents + off * c->load;
     if (rc_solver_plastic(s, h, err) != RC_OK || rc_solver_set_heights(s, h, err) != RC_OK)
         return RC_FAIL;
     s->posed.height_error = height_error;
+    s->posed.dents = dents;
     return RC_OK;
 }
 

@@ -258,7 +258,7 @@ rc_load_search(struct rc_solver *s)
         next = most;
     off = fabs(next / q->load - 1);
     closed = next == q->load || q->high <= q->low * (1 + 1e-15);
-    done = closed || off <= 0.1 * s->posed.tol;
+    done = closed || off <= RC_LOAD_TOL * s->posed.tol;
     if (done && q->tol > s->posed.tol) {
         tighten(q, s->posed.tol); /* the right load, but not yet well solved */
         return RC_MORE;

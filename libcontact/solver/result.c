@@ -219,7 +219,8 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
         rc_working_set_find(s, false);
         rc_iterate_checked(s, rc_working_set_estimate(s), 1);
     }
-    c->pressure_error = rc_tilt_error(s, s->it.error);
+    c->inherited_error = rc_history_error(s);
+    c->pressure_error = rc_tilt_error(s, s->it.error) + c->inherited_error;
     c->converged =
         c->pressure_error <= s->posed.tol && rc_iterate_keeps_load(s) && rc_load_reached(s);
     c->convolutions = s->it.convolutions;

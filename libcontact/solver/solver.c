@@ -142,6 +142,7 @@ pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
                                .cell = shape->dx * shape->dy,
                                .h = rc_alloc(n, sizeof *posed->h),
                                .tol = tolerance(shape, problem),
+                               .history_part = problem->history_part,
                                .max_iterations = problem->max_iterations > 0
                                                      ? problem->max_iterations
                                                      : 100 + (size_t)(10 * sqrt((double)nodes)),
@@ -326,6 +327,12 @@ rc_solver_hurried(const struct rc_solver *s)
 static enum rc_status
 finished(struct rc_solver *s)
 {
+    double goal = rc_history_goal(s);
+
+    if (s->it.error > goal) {
+        s->load.tol = goal;
+        return RC_MORE;
+    }
     if (s->posed.height_error == 0 || s->it.rested || s->load.tol > s->posed.tol ||
         !rc_iterate_rest(s))
         return RC_OK;
@@ -428,6 +435,7 @@ rc_solver_set_heights(struct rc_solver *s, const double *h, struct rc_err *err)
 
     if (take_heights(&s->posed, h, RC_OK, err) != RC_OK)
         return RC_FAIL;
+    s->posed.dents = 0;
     rc_tilt_heights(s);
     if (!untouched)
         rc_nested_end(s);

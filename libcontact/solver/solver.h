@@ -67,8 +67,10 @@ struct rc_posed {
     double *h;       /* heights less their maximum: a distant datum would cost digits */
     double top;      /* that maximum                                             */
     struct rc_bounds bounds;
-    double height_error;   /* m: error of the heights                                  */
-    double tol;            /* asked relative L1 error of the pressure                  */
+    double height_error; /* m: error of the heights                                  */
+    double tol;          /* asked relative L1 error of the pressure                  */
+    double history_part; /* of it: the tolerance of a load that yields in a history; 0: 1 */
+    double dents; /* N: what the pressures of earlier loads were off that left this shape     */
     size_t max_iterations; /* of one load                                              */
     int threads;
     bool rough;          /* this grid is part of a nested start: its operator is not exact, and its
@@ -189,6 +191,13 @@ rc_reduce_row(const struct rc_solver *s, size_t j)
     return s->partial + j * RC_SUMS;
 }
 
+/* ---- history.c ---- */
+
+/* The error of the pressure that what earlier loads were off makes under this load. */
+double rc_history_error(const struct rc_solver *solver);
+/* The tolerance of this contact: that of the load, or less for the sake of others. */
+double rc_history_goal(const struct rc_solver *solver);
+
 /* ---- iterate.c ---- */
 
 enum rc_status rc_iterate_new(struct rc_solver *solver);
@@ -276,6 +285,9 @@ struct rc_solver *rc_solver_coarse(const struct rc_solver *fine, const struct rc
                                    struct rc_err *err);
 
 /* ---- load_search.c ---- */
+
+/* Of the tolerance: what a load that is sought may be off. */
+#define RC_LOAD_TOL 0.1
 
 /* RC_FAIL when there is no solution under this load: more than the bounds carry on the map. */
 enum rc_status rc_load_check(double load, const struct rc_bounds *bounds, double cell, size_t nodes,

@@ -99,9 +99,71 @@ errors_are_known(void **state)
     qsort(part, n, sizeof *part, by_size);
     print_message("estimate over error, %zu problems: %.2f, 5 %% %.2f, %.2f, 95 %% %.2f, %.2f\n", n,
                   part[0], part[n / 20], part[n / 2], part[n - 1 - n / 20], part[n - 1]);
-    assert_true(part[0] >= 0.8);
-    assert_true(part[n / 20] >= 1);
-    assert_true(part[n - 1 - n / 20] <= 5);
+    assert_true(part[0] >= 1);
+    assert_true(part[n - 1 - n / 20] <= 10);
+}
+
+/* With a hardness a state adds what those before it were off, for that stays in their dents; and where every node of
+ * a periodic map is in contact the estimate is that of rounding, not 0. */
+static void
+errors_of_dents_are_known(void **state)
+{
+    enum {
+        SIDE = 40,
+        STATES = 4
+    };
+    static double path[2][STATES][SIDE * SIDE];
+    double told[STATES], worst = INFINITY;
+    const double away[STATES] = {0.9, 0.3, 0.7, 0.5};
+
+    (void)state;
+    for (uint64_t seed = 1; seed <= 8; seed++) {
+        struct rc_shape shape = rough(SIDE, 40 + seed, false);
+        double down = depth(SIDE);
+        for (int tight = 0; tight < 2; tight++) {
+            struct rc_adhesion_problem problem = law_of(RC_PERIODIC, 0.05, 3, tight ? 1e-7 : 1e-3);
+            struct rc_adhesion *a;
+            problem.contact.hardness = 0.12;
+            a = adhesion_new(shape, h, problem);
+            for (size_t k = 0; k < STATES; k++) {
+                const struct rc_adhesion_figures *f = adhesion_to_approach(a, away[k] * down);
+                assert_true(f->converged);
+                if (!tight)
+                    told[k] = f->pressure_error;
+                assert_true(tight || (f->inherited_error > 0) == (k > 0));
+                rc_adhesion_pressure(a, path[tight][k]);
+                assert_true(f->plastic_nodes > 0 || k > 0);
+                rc_adhesion_keep_shape(a, NULL);
+            }
+            rc_adhesion_free(a);
+        }
+        for (size_t k = 0; k < STATES; k++)
+            worst = fmin(worst, told[k] / adhesion_distance(SIDE * SIDE, path[0][k], path[1][k]));
+    }
+    print_message("with dents at least %.2f\n", worst);
+    assert_true(worst >= 0.99);
+}
+
+static void
+complete_contact_has_rounding(void **state)
+{
+    struct rc_shape shape = rough(32, 7, false);
+    struct rc_adhesion *a = adhesion_new(shape, h, law_of(RC_PERIODIC, 0.05, 3, 1e-4));
+    const struct rc_adhesion_figures *f = adhesion_to_load(a, 0.5 * 1024);
+    struct rc_problem problem = {
+        .boundary = RC_PERIODIC, .pair.estar = 1, .load = 0.5 * 1024, .tol = 1e-10};
+    struct rc_solver *s = rc_solver_new(&shape, h, &problem, &adhesion_err);
+
+    (void)state;
+    assert_true(f->converged && f->contact_nodes == 1024);
+    rc_adhesion_pressure(a, p);
+    assert_non_null(s);
+    while (rc_solver_step(s) == RC_MORE) /* where nothing pulls off, as without adhesion */
+        ;
+    assert_true(f->pressure_error > 0 && f->pressure_error < 1e-6);
+    assert_true(adhesion_distance(1024, p, rc_solver_pressure(s)) <= 1e-10 + f->pressure_error);
+    rc_solver_free(s);
+    rc_adhesion_free(a);
 }
 
 /* ---- laws ---- */
@@ -554,11 +616,17 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(laws_are_whole),   cmocka_unit_test(errors_are_known),
-        cmocka_unit_test(paths_are_stable), cmocka_unit_test(eigenvalues_are_right),
-        cmocka_unit_test(costs_are_known),  cmocka_unit_test(costs_of_spheres),
-        cmocka_unit_test(sums_agree),       cmocka_unit_test(units_and_mirrors),
+        cmocka_unit_test(laws_are_whole),
+        cmocka_unit_test(errors_are_known),
+        cmocka_unit_test(paths_are_stable),
+        cmocka_unit_test(eigenvalues_are_right),
+        cmocka_unit_test(costs_are_known),
+        cmocka_unit_test(costs_of_spheres),
+        cmocka_unit_test(sums_agree),
+        cmocka_unit_test(units_and_mirrors),
         cmocka_unit_test(paths_resume),
+        cmocka_unit_test(errors_of_dents_are_known),
+        cmocka_unit_test(complete_contact_has_rounding),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -250,6 +250,84 @@ approach_is_met_where_nodes_yield(void **state)
     }
 }
 
+/* ---- histories ---- */
+
+enum {
+    LATER = 4
+};
+
+/* Pressures of loads one after another, each on the shape that is left, and what is told of their errors. */
+static void
+history_of(struct rc_shape own, const double *form, struct rc_problem problem, const double *load,
+           double *pressures, double *told)
+{
+    size_t n = own.nx * own.ny;
+    double *h = malloc(n * sizeof *h);
+    struct rc_solver *s;
+    struct rc_err err;
+
+    memcpy(h, form, n * sizeof *h);
+    problem.load = load[0];
+    if ((s = rc_solver_new(&own, h, &problem, &err)) == NULL)
+        print_error("%s\n", err.text);
+    assert_non_null(s);
+    for (size_t k = 0; k < LATER; k++) {
+        struct rc_contact c;
+        if (k > 0)
+            assert_int_equal(rc_solver_set_load(s, load[k], 0, &err), RC_OK);
+        c = finish(s);
+        told[k] = c.pressure_error;
+        assert_true(c.inherited_error <= c.pressure_error && (k > 0 || c.inherited_error == 0));
+        memcpy(pressures + k * n, rc_solver_pressure(s), n * sizeof *pressures);
+        assert_int_equal(rc_solver_keep_shape(s, &c, h, &err), RC_OK);
+    }
+    rc_solver_free(s);
+    free(h);
+}
+
+/* Dents keep what the loads that made them were off: the estimates of later loads are not below that, against the
+ * same list solved to 1e-9, and no load is less accurate than was asked. */
+static void
+errors_of_histories_are_known(void **state)
+{
+    size_t states = 0;
+    uint64_t random = 5;
+
+    (void)state;
+    for (uint64_t seed = 1; seed <= 24; seed++) {
+        struct rc_shape own = {14 + seed % 11, seed % 4 == 0 ? 1 : 12 + seed % 9, 1e-6, 1.1e-6};
+        struct rc_selfaffine rough = {
+            .rms_slope = 0.1, .hurst = 0.8, .short_cut = 4e-6, .seed = seed};
+        struct rc_problem problem = problem_on(seed % 2 == 0 ? RC_FREE : RC_PERIODIC);
+        size_t n = own.nx * own.ny;
+        double *h = malloc(n * sizeof *h), load[LATER], told[LATER], exact[LATER];
+        double *p = malloc(2 * LATER * n * sizeof *p), *q = p + LATER * n;
+        struct rc_err err;
+
+        assert_int_equal(rc_synth_selfaffine(&own, &rough, h, &err), RC_OK);
+        problem.hardness = 0.1 * estar * pow(10, -0.6 - random_number(&random));
+        for (size_t k = 0; k < LATER; k++)
+            load[k] = problem.hardness * (double)n * own.dx * own.dy *
+                      (0.3 + 0.5 * random_number(&random));
+        problem.history_part = 0.01;
+        problem.tol = 1e-7;
+        history_of(own, h, problem, load, q, exact);
+        problem.history_part = 0.03;
+        problem.tol = 1e-3;
+        history_of(own, h, problem, load, p, told);
+        for (size_t k = 0; k < LATER; k++) {
+            double off = distance(n, p + k * n, q + k * n);
+            states += off > 1e-6;
+            if (off > 1e-6 && told[k] < 0.99 * off)
+                print_error("seed %d, load %d: %g told, %g off\n", (int)seed, (int)k, told[k], off);
+            assert_true(told[k] <= problem.tol && (off <= 1e-6 || told[k] >= 0.99 * off));
+        }
+        free(h);
+        free(p);
+    }
+    assert_true(states > 40);
+}
+
 /* Hertz: d load / d approach = 2 E* a. Rough: the difference quotient over a small step. */
 static void
 stiffness_is_the_slope(void **state)
@@ -435,6 +513,7 @@ main(void)
         cmocka_unit_test(discretization_is_bounded),
         cmocka_unit_test(only_what_is_called_for),
         cmocka_unit_test(approach_is_met_where_nodes_yield),
+        cmocka_unit_test(errors_of_histories_are_known),
     };
     int failed = 0;
 

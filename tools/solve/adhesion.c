@@ -198,6 +198,7 @@ contact_of(const struct rc_adhesion_figures *f)
                                .shape_error = f->gap_error,
                                .kkt_residual = f->kkt_residual,
                                .pressure_error = f->pressure_error,
+                               .inherited_error = f->inherited_error,
                                .iterations = f->iterations,
                                .convolutions = f->convolutions,
                                .discretization = {NAN, NAN, NAN},
@@ -375,6 +376,10 @@ end(struct run *run, struct rc_grid *g)
     find_contact(run, rc_grid_nodes(g), buffer);
     solve_look_at_contact(run, g, buffer, s);
     s->contact = contact_of(f);
+    if (f->inherited_error > 0)
+        s->errors = (struct error_parts){.told = true,
+                                         .inherited = f->inherited_error,
+                                         .contact = f->pressure_error - f->inherited_error};
     run->done = solve_now();
     run->result = run->done - start;
     judge(run, g, s);

@@ -11,12 +11,33 @@
 
 /* ---- one case ---- */
 
+/* Of the tolerance: what a load in which nodes yield may be off, so that with those after it, which may be smaller,
+ * it is not more than the tolerance. 0: no load leaves a trace. */
+static double
+history_part(const struct run *run)
+{
+    const struct numbers *steps = run->steps;
+    const double power = run->args->physics.approach.n > 0 ? 2 : 1; /* a load grows no faster */
+    double most = 0, smallest = 1;
+
+    if (!run->args->physics.history || run->yielding.wanted || isinf(run->hardness_min) ||
+        steps->n < 2)
+        return 0;
+    for (size_t k = 0; k < steps->n; k++) {
+        most = fmax(most, steps->v[k]);
+        if (steps->v[k] > 0)
+            smallest = fmin(smallest, steps->v[k] / most);
+    }
+    return pow(smallest, power) / fmax(10, (double)steps->n);
+}
+
 static struct rc_problem
 problem_of(struct run *run, const struct rc_grid *g, size_t step)
 {
     struct rc_problem problem = physics_problem(&run->args->physics, g, step);
 
     problem.tol = run->args->tol;
+    problem.history_part = history_part(run);
     problem.engine = run->args->kernel;
     problem.method = run->args->method;
     problem.threads = run->t.threads;
@@ -341,6 +362,11 @@ end_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
     find_result(run, &r, solver, &s->contact);
     find_stiffness(run, g, solver, s);
     s->contact.convolutions = rc_solver_convolutions(solver);
+    if (s->contact.inherited_error > 0)
+        s->errors =
+            (struct error_parts){.told = true,
+                                 .inherited = s->contact.inherited_error,
+                                 .contact = s->contact.pressure_error - s->contact.inherited_error};
     yield_look(run, s);
     run->done = solve_now();
     run->result = run->done - start;

@@ -136,6 +136,12 @@ solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *c
             "%s: not converged after %zu iterations: %s: yielding nodes may not be able to balance "
             "the load at this point: move --at nearer to the middle, or raise --hardness",
             where, c->iterations, error);
+    else if (c->inherited_error > c->pressure_error / 2)
+        solve_warn(
+            run, "stopped short",
+            "%s: %s, of which %.2g come from the loads before, whose dents carry it: a smaller "
+            "--tol solves these better",
+            where, error, c->inherited_error);
     else
         solve_warn(run, "stopped short",
                    "%s: not converged after %zu iterations: %s: accept it with a larger --tol",
