@@ -1203,6 +1203,10 @@ struct rc_stress_options {
     /* Tractions that the surface also carries, along +x and +y on this body, Pa, as large as p, and as p
      * between the nodes; NULL: none. The caller keeps them as p. */
     const double *traction[2];
+    /* Stress that each layer has without any load, Pa, tension positive, uniform and equal in all
+     * directions along it: added to sxx and syy there, before stresses are derived; NULL: none. The caller
+     * keeps it, and the layers with it. The half-space below, thick without end, balances its force without a stress. */
+    const double *residual;
 };
 
 /* Work counters; tests use them to check that only requested fields are computed. */

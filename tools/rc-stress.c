@@ -31,7 +31,7 @@ static const struct opt opts[] = {
     {.name = "section", .type = OPT_TEXT, AT(section), .result = true, .arg = "AXIS=PLACE",
      .help = "only the vertical plane y=PLACE or x=PLACE: one frame, its rows are the depths"},
     {.name = "residual", .type = OPT_FLAG, AT(residual), .result = true,
-     .help = "leave the pressure out: the stresses of plastic strain alone (rc-solve --yield)"},
+     .help = "leave the pressure out: the stresses of plastic strain and of layers alone (rc-solve)"},
     {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
      .help = "the map repeats for ever (default: what the stream says, else free)"},
     {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
@@ -187,6 +187,7 @@ set_material(struct run *run, const struct rc_grid *p)
                     "its body is coated and each material has its own Poisson's ratio: --nu "
                     "contradicts its layers, leave it out");
     run->options.body = run->layers.body;
+    run->options.residual = run->layers.residual;
     if (run->layers.text == NULL)
         run->options.body.nu = poisson(run, p);
 }
@@ -274,10 +275,10 @@ set_options(struct run *run, const struct rc_grid *p)
             tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                         "its key e1, the modulus of the body that has yielded, is not there");
     }
-    if (args.residual && run->options.strain == NULL)
-        tool_die_at(
-            &run->t, p, EXIT_IMPOSSIBLE,
-            "--residual: the case has no plastic strain: see rc-solve --yield and --output strain");
+    if (args.residual && run->options.strain == NULL && run->options.residual == NULL)
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
+                    "--residual: the case has no plastic strain: see rc-solve --yield and --output "
+                    "strain, or --layer for a residual stress of layers");
     if (run->options.boundary == RC_PERIODIC && on_free_maps_only())
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                     "its boundary is periodic, where only %s sums: leave out --kernel %s",

@@ -17,6 +17,7 @@ struct rc_stress {
     struct rc_strained *strained; /* NULL: no plastic strain */
     size_t values;
     double *own[RC_COMPONENTS]; /* components that are needed but not wanted */
+    struct rc_body body; /* the caller's, whose layers are kept where they have residual stress */
     struct rc_stress_counts counts;
 };
 
@@ -209,6 +210,7 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
     }
     stress->task = task_of(shape, p, stress->solid, options, &stress->counts);
     stress->evaluator = evaluator_of(&stress->task);
+    stress->body = options->body;
     stress->values = values_of(shape, options);
     for (int c = 0; c < RC_COMPONENTS; c++)
         if ((stress->task.components & ~options->wanted) >> c & 1 &&
@@ -281,6 +283,20 @@ derive(const struct rc_stress *stress, const double *const six_of[RC_COMPONENTS]
     }
 }
 
+static void
+add_residual(const struct rc_stress *stress, double depth, double *const six_of[RC_COMPONENTS])
+{
+    const double *residual = stress->task.options.residual;
+    size_t layer = residual == NULL ? 0 : rc_body_material(&stress->body, depth);
+
+    if (residual == NULL || layer == stress->body.layers)
+        return;
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        for (size_t k = 0; (c == RC_SXX || c == RC_SYY) && six_of[c] != NULL && k < stress->values;
+             k++)
+            six_of[c][k] += residual[layer];
+}
+
 enum rc_status
 rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRESSES],
                 struct rc_err *err)
@@ -298,6 +314,7 @@ rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRES
         rc_strained_add(stress->strained, depth, six_of);
         rc_strained_count(stress->strained, &stress->counts);
     }
+    add_residual(stress, depth, six_of);
     stress->counts.depths++;
     if (stress->task.options.wanted >> RC_COMPONENTS != 0)
         derive(stress, (const double *const *)six_of, s);

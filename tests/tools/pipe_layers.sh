@@ -21,6 +21,35 @@ solve --tol 1e-9 --report bare.json --output pressure ball.rcg -o bare.rcg
 near "$(field max_pressure same.json)" "$(field max_pressure bare.json)" 1e-8 "two layers of the substrate's material are none: pressure"
 near "$(field approach same.json)" "$(field approach bare.json)" 1e-9 "  approach"
 
+# ---- residual stress ----
+
+solve --layer 1mm,1000GPa,0.3,-3GPa --layer 0.5mm,300GPa,0.25 --report pressed.json --output pressure ball.rcg -o pressed.rcg
+solve --layer 1mm,1000GPa,0.3 --layer 0.5mm,300GPa,0.25 --output pressure ball.rcg -o free.rcg
+pressures() { rc-export --format csv "$1" | grep -v '^#' | sha256sum; }
+claim "a residual stress stands in the stream" says 'layers.residual=-3000000000;0$' rc-info pressed.rcg
+claim "  beside the layers, as they are" says 'layers=0.001,1000000000000,0.3;0.0005,300000000000,0.25;inf,100000000000,0.3$' rc-info pressed.rcg
+claim "  in the history and the report" eval 'says "rc-solve .*--layer 0.001,1000000000000,0.3,-3000000000" rc-info pressed.rcg && says "0.001,1000000000000,0.3,-3000000000; 0.0005" cat pressed.json'
+claim "  and changes no pressure" test "$(pressures pressed.rcg)" = "$(pressures free.rcg)"
+extreme() { rc-info --json "$2" | grep "\"channel\": \"$3\"" | sed "s/.*\"$1\": \([^,]*\),.*/\1/"; }
+# in the layer, in the one below, in the substrate
+for depth in 0.5mm 1.2mm 2mm; do
+    for file in pressed free; do rc-stress --depths $depth --components sxx,syy,szz,sxz $file.rcg -o $file-stress.rcg; done
+    for c in sxx syy szz sxz; do
+        case $depth$c in 0.5mmsxx | 0.5mmsyy) more=-3e9 ;; *) more=0 ;; esac
+        near "$(extreme maximum pressed-stress.rcg $c)" "$(awk -v v="$(extreme maximum free-stress.rcg $c)" -v m=$more 'BEGIN { printf "%.17g", v + m }')" "$summed" "  $c $depth below: $more Pa more"
+    done
+done
+rc-stress --depths 0.5mm,1.2mm,2mm --residual --components mises,tresca,s1,s3 --report residual.json pressed.rcg -o residual.rcg
+claim "without a pressure it is what there is" test "$(for c in mises tresca s1 s3; do extreme maximum residual.rcg $c | paste -s -d ' '; done | paste -s -d ';')" = "3000000000 0 0;3000000000 0 0;0 0 0;-3000000000 0 0"
+claim "  and the report says so" says '"coating": "on, with residual stress in the layers"' cat residual.json
+claim "a section and its legend too" eval 'rc-stress --section y=0 --depths auto --components sxx pressed.rcg | rc-render -o section.svg && says "ν 0.3, residual −3 GPa<" cat section.svg'
+claim "other bodies take the key away" eval 'solve --output pressure pressed.rcg -o bare.rcg 2>err || rc-solve --estar 1GPa --load 1N ball.rcg | rc-info >bare.txt && lacks layers.residual bare.txt'
+for bad in 'x' '1' '1;2;3' '1;' '1;inf'; do
+    rc-pick --set "layers.residual=$bad" pressed.rcg -o bad.rcg
+    refuses 1 "its layers.residual is '$bad': it must be a stress in Pa for each layer" "layers.residual=$bad" "rc-stress --depths 0 bad.rcg"
+done
+refuses 2 'a layer is THICKNESS,E,NU or THICKNESS,E,NU,RESIDUAL' "a fifth number" "rc-solve --E1 1GPa --nu1 0.3 --E2 rigid --load 1N --layer 1mm,1GPa,0.3,1GPa,2 ball.rcg"
+
 largest() { rc-info --json "$@" 2>/dev/null | grep "\"channel\": \"displacement\"" | sed 's/.*"maximum": \([^,]*\),.*/\1/'; }
 near "$(rc-deflect hard.rcg | largest)" "$(largest hard.rcg)" "$rounding" "rc-deflect finds the displacement again"
 for kernel in direct mlms; do
@@ -42,7 +71,7 @@ refuses 1 'does not say what body 2 is; solve it again' "an E* that bodies 1 and
 claim "rc-stress knows the layers" says 'material' bash -c 'rc-stress --depths 0.5mm,2mm --components mises hard.rcg | rc-info'
 
 refuses 2 'layers lie on a substrate: give its --E1' "with --estar" "rc-solve --load 1N --estar 1GPa --layer 1um,1GPa,0.3 ball.rcg"
-for layer in 1um 1um,1GPa 1um,1GPa,0.3,4 0,1GPa,0.3 1um,-1GPa,0.3 1um,1GPa,0.6 1um,1GPa,-1 inf,1GPa,0.3 1N,1GPa,0.3 ,, ''; do
+for layer in 1um 1um,1GPa 1um,1GPa,0.3,4,5 0,1GPa,0.3 1um,-1GPa,0.3 1um,1GPa,0.6 1um,1GPa,-1 inf,1GPa,0.3 1N,1GPa,0.3 ,, ''; do
     refuses 2 "^rc-solve: --layer $layer" "--layer '$layer'" "solve --layer '$layer' ball.rcg"
 done
 claim "--dry-run names them" says 'layers +on: 2 on a substrate' solve --layer 1um,1GPa,0.3 --layer 2um,1GPa,0.3 --dry-run ball.rcg

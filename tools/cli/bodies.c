@@ -36,6 +36,29 @@ sensible(const struct rc_layer *m, bool last)
            (rigid || !isinf(m->e)) && m->nu > -1 && m->nu <= 0.5;
 }
 
+static enum rc_status
+read_residual(const struct rc_grid *p, struct layers *l, struct rc_err *err)
+{
+    const char *text = rc_grid_get(p, "layers.residual"), *s = text;
+
+    if (text == NULL)
+        return RC_OK;
+    if ((l->residual = calloc(l->body.layers, sizeof *l->residual)) == NULL)
+        return rc_err_set(err, "out of memory for %zu layers", l->body.layers);
+    for (size_t k = 0; k < l->body.layers && s != NULL; k++) {
+        s = k > 0 && *s++ != ';' ? NULL : rc_number_read(s, false, &l->residual[k]);
+        s = s != NULL && isfinite(l->residual[k]) ? s : NULL;
+    }
+    if (s != NULL && *s == '\0')
+        return RC_OK;
+    layers_free(l);
+    return rc_err_set(
+        err,
+        "its layers.residual is '%.200s': it must be a stress in Pa for each layer, the "
+        "top first, joined by ;",
+        text);
+}
+
 enum rc_status
 layers_read(const struct rc_grid *p, struct layers *l, struct rc_err *err)
 {
@@ -73,7 +96,7 @@ layers_read(const struct rc_grid *p, struct layers *l, struct rc_err *err)
                                .nu = l->layer[most - 1].nu,
                                .layers = most - 1,
                                .layer = l->layer};
-    return RC_OK;
+    return read_residual(p, l, err);
 wrong:
     layers_free(l);
     return rc_err_set(
@@ -87,22 +110,27 @@ void
 layers_free(struct layers *l)
 {
     free(l->layer);
+    free(l->residual);
     *l = (struct layers){0};
 }
 
 /* ---- on a command line ---- */
 
 enum rc_status
-layer_read(const char *text, struct rc_layer *m, struct rc_err *err)
+layer_read(const char *text, struct rc_layer *m, double *residual, struct rc_err *err)
 {
-    static const enum unit units[] = {UNIT_M, UNIT_PA, UNIT_NONE};
-    double *to[] = {&m->thickness, &m->e, &m->nu};
+    static const enum unit units[] = {UNIT_M, UNIT_PA, UNIT_NONE, UNIT_PA};
+    double *to[] = {&m->thickness, &m->e, &m->nu, residual};
+    bool last = false;
     char word[64];
 
-    for (int k = 0; k < 3; k++) {
+    *residual = 0;
+    for (int k = 0; k < 4 && !last; k++) {
         size_t n = strcspn(text, ",");
-        if (n == 0 || n >= sizeof word || (text[n] == ',') == (k == 2))
-            return rc_err_set(err, "a layer is THICKNESS,E,NU, as in 2um,300GPa,0.25");
+        last = text[n] == '\0';
+        if (n == 0 || n >= sizeof word || (k < 2 && last) || (k == 3 && !last))
+            return rc_err_set(err, "a layer is THICKNESS,E,NU or THICKNESS,E,NU,RESIDUAL, as in "
+                                   "2um,300GPa,0.25 or 2um,300GPa,0.25,-3GPa");
         memcpy(word, text, n);
         word[n] = '\0';
         if (unit_number(word, units[k], to[k], err) != RC_OK)
@@ -188,8 +216,27 @@ set_layers(struct rc_grid *g, const struct rc_body *b, struct rc_err *err)
     return status;
 }
 
+static enum rc_status
+set_residual(struct rc_grid *g, const struct rc_body *b, const double *residual, struct rc_err *err)
+{
+    size_t most = (b->layers + 1) * (RC_NUMBER_SIZE + 1), n = 0;
+    enum rc_status status;
+    char *text, r[RC_NUMBER_SIZE];
+
+    if (b->layers == 0 || residual == NULL)
+        return rc_grid_set(g, "layers.residual", NULL, err);
+    if ((text = malloc(most)) == NULL)
+        return rc_err_set(err, "out of memory for %zu layers", b->layers);
+    for (size_t k = 0; k < b->layers; k++)
+        n += (size_t)snprintf(text + n, most - n, "%s%s", k == 0 ? "" : ";",
+                              rc_number_text(r, residual[k]));
+    status = rc_grid_set(g, "layers.residual", text, err);
+    free(text);
+    return status;
+}
+
 enum rc_status
-bodies_set(struct rc_grid *g, const struct rc_pair *p, struct rc_err *err)
+bodies_set(struct rc_grid *g, const struct rc_pair *p, const double *residual, struct rc_err *err)
 {
     bool known = p->estar == 0, elastic = known && p->two.e > 0 && !isinf(p->two.e);
 
@@ -199,5 +246,5 @@ bodies_set(struct rc_grid *g, const struct rc_pair *p, struct rc_err *err)
         set_number(g, "e2", elastic ? p->two.e : NAN, err) != RC_OK ||
         set_number(g, "nu2", elastic ? p->two.nu : NAN, err) != RC_OK)
         return RC_FAIL;
-    return set_layers(g, &p->one, err);
+    return set_layers(g, &p->one, err) == RC_OK ? set_residual(g, &p->one, residual, err) : RC_FAIL;
 }

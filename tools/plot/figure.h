@@ -23,8 +23,8 @@ enum {
 
 /* What lies between two depths of a section. */
 struct medium {
-    double bottom; /* m; INFINITY: the last */
-    char text[96]; /* of the legend         */
+    double bottom;  /* m; INFINITY: the last */
+    char text[128]; /* of the legend        */
 };
 
 struct figure {

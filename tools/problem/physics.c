@@ -29,8 +29,8 @@ const struct opt physics_options[] = {
      .word = "rigid", .arg = "MODULUS", .help = "Young's modulus of body 2, or rigid"},
     {.name = "nu2", .type = OPT_NUMBER, AT(nu2), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 2"},
-    {.name = "layer", .type = OPT_TEXTS, AT(layer), .result = true, .arg = "T,E,NU",
-     .help = "a layer on body 1: thickness, Young's modulus, Poisson's ratio; again for more, top first"},
+    {.name = "layer", .type = OPT_TEXTS, AT(layer), .result = true, .arg = "T,E,NU[,S]",
+     .help = "a layer on body 1: thickness, E, nu, residual stress (for rc-stress); again for more, top first"},
     {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_HARD, AT(hardness), ABOVE_0,
      .result = true, .arg = "PRESSURE",
      .help = "upper bound of the pressure: above it, yield; Vickers' number too, as 600HV"},
@@ -114,7 +114,8 @@ check_layers(struct tool *t, struct physics *a)
 {
     size_t n = a->layer.n;
     struct rc_err err;
-    char h[RC_NUMBER_SIZE], e[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE], *si;
+    char h[RC_NUMBER_SIZE], e[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE], r[RC_NUMBER_SIZE], *si;
+    bool stressed = false;
 
     if (n == 0)
         return;
@@ -122,17 +123,24 @@ check_layers(struct tool *t, struct physics *a)
         tool_die(t, EXIT_USAGE,
                  "layers lie on a substrate: give its --E1 and --nu1, and the other "
                  "body's --E2 and --nu2 (or --E2 rigid), not --estar");
-    if ((a->layers = calloc(n, sizeof *a->layers)) == NULL)
+    if ((a->layers = calloc(n, sizeof *a->layers)) == NULL ||
+        (a->residual = calloc(n, sizeof *a->residual)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     for (size_t k = 0; k < n; k++) {
         struct rc_layer *m = &a->layers[k];
-        if (layer_read(a->layer.step[k].text, m, &err) != RC_OK)
+        if (layer_read(a->layer.step[k].text, m, &a->residual[k], &err) != RC_OK)
             tool_die(t, EXIT_USAGE, "--layer %s: %s", a->layer.step[k].text, err.text);
-        if ((si = malloc(3 * RC_NUMBER_SIZE)) == NULL)
+        if ((si = malloc(4 * RC_NUMBER_SIZE)) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
-        snprintf(si, 3 * RC_NUMBER_SIZE, "%s,%s,%s", rc_number_text(h, m->thickness),
-                 rc_number_text(e, m->e), rc_number_text(nu, m->nu));
+        snprintf(si, 4 * RC_NUMBER_SIZE, "%s,%s,%s%s%s", rc_number_text(h, m->thickness),
+                 rc_number_text(e, m->e), rc_number_text(nu, m->nu), a->residual[k] == 0 ? "" : ",",
+                 a->residual[k] == 0 ? "" : rc_number_text(r, a->residual[k]));
         a->layer.step[k].text = si;
+        stressed = stressed || a->residual[k] != 0;
+    }
+    if (!stressed) {
+        free(a->residual);
+        a->residual = NULL;
     }
     a->pair.one.layers = n;
     a->pair.one.layer = a->layers;

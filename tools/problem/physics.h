@@ -15,6 +15,7 @@ struct physics {
     bool periodic;
     struct steps layer;      /* as they stand on the line, top first                              */
     struct rc_layer *layers; /* as numbers                                                        */
+    double *residual;        /* their residual stresses, Pa; NULL: none                           */
     struct rc_pair pair;     /* what all these say                                                */
     double surface_estar;    /* of the topmost material and body 2                               */
     bool attracts;           /* loads and approaches may be of either sign, and 0                */

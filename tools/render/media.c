@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 void
 media_read(struct tool *t, const struct rc_grid *g, struct layers *c)
@@ -16,7 +17,7 @@ media_read(struct tool *t, const struct rc_grid *g, struct layers *c)
 }
 
 static void
-write_text(struct medium *m, const struct rc_layer *of)
+write_text(struct medium *m, const struct rc_layer *of, double residual)
 {
     char thick[TICKS_TEXT], modulus[TICKS_TEXT], what[TICKS_TEXT + 16] = "substrate";
 
@@ -27,6 +28,9 @@ write_text(struct medium *m, const struct rc_layer *of)
     else
         snprintf(m->text, sizeof m->text, "%.40s, E %.24s, \xce\xbd %.4g", what,
                  scale_value(modulus, of->e, "Pa"), of->nu);
+    if (residual != 0)
+        snprintf(m->text + strlen(m->text), sizeof m->text - strlen(m->text), ", residual %.24s",
+                 scale_value(modulus, residual, "Pa"));
 }
 
 void
@@ -40,7 +44,8 @@ media_set(struct tool *t, const struct layers *c, struct figure *f)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu layers", f->media);
     for (size_t k = 0; k < f->media; k++) {
         f->medium[k].bottom = bottom += c->layer[k].thickness;
-        write_text(&f->medium[k], &c->layer[k]);
+        write_text(&f->medium[k], &c->layer[k],
+                   c->residual != NULL && k < c->body.layers ? c->residual[k] : 0);
     }
 }
 

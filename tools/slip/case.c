@@ -127,7 +127,7 @@ set_keys(struct slip_run *run, struct rc_grid *g, const struct slip_state *s)
     if (rc_grid_set(g, "converged", converged ? "yes" : "no", &err) != RC_OK ||
         rc_grid_set(g, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free", &err) !=
             RC_OK ||
-        (tool_given(&run->t, "E1") && bodies_set(g, &run->bodies.pair, &err) != RC_OK) ||
+        (tool_given(&run->t, "E1") && bodies_set(g, &run->bodies.pair, NULL, &err) != RC_OK) ||
         rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (run->bodies.pair.estar > 0)

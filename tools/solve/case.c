@@ -93,7 +93,7 @@ solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
     if (rc_grid_set(g, "boundary", run->args->physics.periodic ? "periodic" : "free", &err) !=
             RC_OK ||
         rc_grid_set(g, "converged", c->converged ? "yes" : "no", &err) != RC_OK ||
-        bodies_set(g, &run->args->physics.pair, &err) != RC_OK ||
+        bodies_set(g, &run->args->physics.pair, run->args->physics.residual, &err) != RC_OK ||
         rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (run->steps->n > 1 || run->args->pull_off)

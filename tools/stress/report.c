@@ -136,7 +136,9 @@ friction_effect(const struct rc_stress_options *o)
 static const char *
 coating_effect(const struct rc_stress_options *o)
 {
-    return o->body.layers > 0 ? "on" : "left out: the stream has no layers, one material";
+    return o->residual != NULL  ? "on, with residual stress in the layers"
+           : o->body.layers > 0 ? "on"
+                                : "left out: the stream has no layers, one material";
 }
 
 static const char *
