@@ -379,6 +379,9 @@ struct rc_areal {
     double vmp, vmc;     /* m, that is m^3/m^2: material volume of peaks and core    */
     double vvc, vvv;     /* and void volume of core and pits; core: 10 % to 80 %     */
     double sxp;          /* m: height between 2.5 % and 50 % material ratio          */
+    /* 1/m: RMS of the mean curvature, half the sum of both second differences (of a profile the second
+     * difference itself), over nodes whose neighbours are there */
+    double rms_curvature;
 };
 /* h in m; what is not finite was not measured and is left out. The line of the material ratio curve
  * is that of least squares over the 40 % of smallest secant slope (ISO 25178-2, ISO 13565-2), the
@@ -587,6 +590,9 @@ struct rc_contact {
     double approach;
     double tilt[2];  /* slope of the counter body's face along x and y     */
     double mean_gap; /* m, of max(gap, 0) over the whole map               */
+    /* J, of both bodies under the pressure p, which displaces them by u: the integral of p u / 2. On a
+     * periodic map above that of the mean pressure, which depends on how thick the bodies are */
+    double elastic_energy;
     /* m: the worst violation of gap >= 0 where p = 0, gap = 0 where elastic, gap <= 0 at the
      * hardness, from a fresh convolution */
     double gap_error;

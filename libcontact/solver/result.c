@@ -42,6 +42,7 @@ enum { /* sums of the first pass, */
     SPREAD_H = 0,
     SPREAD_U,
     OPEN,
+    ENERGY,
 };
 
 static void
@@ -76,6 +77,7 @@ spread_block(void *at, size_t first, size_t n, double *sums)
         sums[SPREAD_H] += h * h;
         sums[SPREAD_U] += around * around;
         sums[OPEN] += g > 0 ? g : 0;
+        sums[ENERGY] += p * u;
         worst = rc_at_low(box, k, p) ? fmax(-g, 0) : rc_at_high(box, k, p) ? fmax(g, 0) : fabs(g);
         sums[RC_MOST] = worst > sums[RC_MOST] ? worst : sums[RC_MOST];
         if (f->displacement != NULL)
@@ -206,6 +208,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
         scale = s->op->norm * c->mean_pressure;
     c->kkt_residual = total[RC_MOST] == 0 ? 0 : total[RC_MOST] / scale;
     c->mean_gap = total[OPEN] / n;
+    c->elastic_energy = 0.5 * s->posed.cell * total[ENERGY];
     c->gap_error = total[RC_MOST];
     c->shape_error = s->posed.height_error;
     f.worst = 4 * (c->gap_error + s->posed.height_error) + 1e-12 * scale;

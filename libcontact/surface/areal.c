@@ -121,7 +121,7 @@ measure_heights(const struct rc_relief *r, union piece *piece, size_t pieces, st
 
 /* Sums and counts over pairs along x and y, and over triangles. */
 struct slopes {
-    double x2, x_pairs, y2, y_pairs, excess, triangles;
+    double x2, x_pairs, y2, y_pairs, excess, triangles, curved2, curved;
 };
 
 /* What a slope adds to an area or a length, over its projection; g2 is its square. */
@@ -204,6 +204,30 @@ add_segment(double from, double to_next, double per, struct slopes *to)
     to->triangles++;
 }
 
+/* Mean curvatures of row j: a neighbour beyond the edge is there where the map is periodic. */
+static void
+add_curvatures(const struct rc_relief *r, size_t j, struct slopes *to)
+{
+    size_t nx = r->shape.nx, ny = r->shape.ny, edge = r->boundary == RC_PERIODIC ? 0 : 1;
+    double part = nx > 1 && ny > 1 ? 0.5 : 1;
+    double xx = part / (r->shape.dx * r->shape.dx), yy = part / (r->shape.dy * r->shape.dy);
+    const double *v = r->h + j * nx, *above = r->h + (j > 0 ? j - 1 : ny - 1) * nx,
+                 *below = r->h + (j + 1 < ny ? j + 1 : 0) * nx;
+
+    if (ny > 1 && (j < edge || j + edge >= ny))
+        return;
+    for (size_t i = nx > 1 ? edge : 0; i + (nx > 1 ? edge : 0) < nx; i++) {
+        double c =
+            nx > 1 ? xx * (v[i > 0 ? i - 1 : nx - 1] - 2 * v[i] + v[i + 1 < nx ? i + 1 : 0]) : 0;
+
+        c += ny > 1 ? yy * (above[i] - 2 * v[i] + below[i]) : 0;
+        if (!isfinite(c))
+            continue;
+        to->curved2 += c * c;
+        to->curved++;
+    }
+}
+
 static struct slopes
 slopes_of_row(const struct rc_relief *r, size_t j)
 {
@@ -212,6 +236,7 @@ slopes_of_row(const struct rc_relief *r, size_t j)
     const double *v = r->h + j * nx, *below = v + nx;
     struct slopes s = {0};
 
+    add_curvatures(r, j, &s);
     add_steps(v, nx - 1, per_dx, &s);
     for (size_t i = 0; ny == 1 && i + 1 < nx; i++)
         add_segment(v[i], v[i + 1], per_dx, &s);
@@ -228,7 +253,7 @@ slopes_of_row(const struct rc_relief *r, size_t j)
 static void
 measure_slopes(const struct rc_relief *r, struct slopes *row, struct rc_areal *a)
 {
-    struct rc_total sum[6] = {{0}};
+    struct rc_total sum[8] = {{0}};
     double x, y;
 
 #pragma omp parallel for num_threads(r->threads) schedule(static)
@@ -241,12 +266,16 @@ measure_slopes(const struct rc_relief *r, struct slopes *row, struct rc_areal *a
         rc_total_add(&sum[3], row[j].y_pairs);
         rc_total_add(&sum[4], row[j].excess);
         rc_total_add(&sum[5], row[j].triangles);
+        rc_total_add(&sum[6], row[j].curved2);
+        rc_total_add(&sum[7], row[j].curved);
     }
     /* 0/0, which is NAN, along a side of several nodes without a pair */
     x = r->shape.nx > 1 ? rc_total_value(&sum[0]) / rc_total_value(&sum[1]) : 0;
     y = r->shape.ny > 1 ? rc_total_value(&sum[2]) / rc_total_value(&sum[3]) : 0;
     if (r->shape.nx * r->shape.ny > 1)
         a->sdq = sqrt(x + y);
+    if (r->shape.nx * r->shape.ny > 1)
+        a->rms_curvature = sqrt(rc_total_value(&sum[6]) / rc_total_value(&sum[7]));
     a->sdr = rc_total_value(&sum[4]) / rc_total_value(&sum[5]);
 }
 
@@ -262,7 +291,7 @@ rc_areal(const struct rc_shape *shape, const double *h, const struct rc_surface_
     struct slopes *row = NULL;
     size_t pieces;
 
-    *a = (struct rc_areal){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN,
+    *a = (struct rc_areal){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN,
                            NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;

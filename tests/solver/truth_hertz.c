@@ -34,7 +34,7 @@ sphere(size_t m)
 }
 
 struct errors {
-    double radius, peak, approach, pressure, displacement;
+    double radius, peak, approach, pressure, displacement, energy;
 };
 
 static struct errors
@@ -48,6 +48,7 @@ errors_at(size_t m)
 
     e.radius = fabs(sqrt(s.c.contact_area / exact_pi) / exact.a - 1);
     e.peak = fabs(s.c.max_pressure / exact.p0 - 1);
+    e.energy = fabs(s.c.elastic_energy / (0.4 * load * exact.approach) - 1);
     e.approach = fabs((s.c.approach + below_apex(shape, radius)) / exact.approach - 1);
     for (size_t k = 0; k < m * m; k++) {
         double r = node_r(shape, k), p = hertz_pressure(exact, r);
@@ -76,6 +77,7 @@ radius_pressure_and_approach(void **state)
         assert_true(e[k].radius < 1 / m);
         assert_true(e[k].peak < grid_peak / (nodes * nodes));
         assert_true(e[k].approach < grid_approach / (nodes * nodes));
+        assert_true(e[k].energy < grid_approach / (nodes * nodes)); /* 2/5 of load times approach */
     }
     assert_true(e[2].radius < e[1].radius);
     /* second order in peak and approach */

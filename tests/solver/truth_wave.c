@@ -75,6 +75,9 @@ full_contact(void **state)
         assert_true(fabs(s.p[k] - p) < 10 * tol * full); /* one node, not the mean over all */
     }
     assert_true(s.c.pressure_error < tol);
+    /* p u / 2 with u = amplitude cos: full amplitude / 4 over the area; the mean pressure adds none */
+    assert_true(fabs(s.c.elastic_energy / (full * amplitude / 4 * lx * 48 * 1.3e-6) - 1) <
+                10 * tol);
     solved_free(&s);
 }
 

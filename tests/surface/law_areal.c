@@ -20,14 +20,14 @@ enum {
 };
 static const struct rc_shape shape = {NX, NY, 1.1e-6, 1e-6};
 
-static const char *const names[FIGURES] = {"sq",   "sa",  "ssk", "sku", "sp",  "sv",  "sz",  "sdq",
-                                           "sdr",  "sal", "str", "std", "sk",  "spk", "svk", "smr1",
-                                           "smr2", "vmp", "vmc", "vvc", "vvv", "sxp"};
+static const char *const names[FIGURES] = {
+    "sq", "sa",  "ssk", "sku",  "sp",   "sv",  "sz",  "sdq", "sdr", "sal", "str",          "std",
+    "sk", "spk", "svk", "smr1", "smr2", "vmp", "vmc", "vvc", "vvv", "sxp", "rms_curvature"};
 
 /* Power of the unit of height that a figure carries, and of lengths. */
-static const int of_height[FIGURES] = {1, 1, 0, 0, 1, 1, 1, 1, 2, 0, 0,
-                                       0, 1, 1, 1, 0, 0, 1, 1, 1, 1, 1};
-static const int of_length[FIGURES] = {[7] = -1, [8] = -2, [9] = 1};
+static const int of_height[FIGURES] = {1, 1, 0, 0, 1, 1, 1, 1, 2, 0, 0, 0,
+                                       1, 1, 1, 0, 0, 1, 1, 1, 1, 1, 1};
+static const int of_length[FIGURES] = {[7] = -1, [8] = -2, [9] = 1, [22] = -2};
 
 /* Heights of a seed, some of them missing; slopes of 1e-4, so that Sdr is half their square. */
 static void

@@ -79,6 +79,11 @@ test_wave(void **state)
     /* less than a period of pairs is left out at the edges, of 4 or 5 */
     assert_near(a, sdq, q * A / sqrt(2), coarse_grid);
     assert_near(a, sdr, q * q * A * A / 4, 2 * coarse_grid); /* slopes of 1e-4: half their square */
+    /* second differences of a cosine: -q^2 becomes -2 (1 - cos q dx) / dx^2, exactly */
+    assert_near(a, rms_curvature,
+                A / 2 * ((1 - cos(q * s.dx)) / (s.dx * s.dx) + (1 - cos(q * s.dy)) / (s.dy * s.dy)),
+                summed);
+    assert_near(a, rms_curvature, q * q * A / 2, coarse_grid);
     assert_near(a, sal, acos(0.2) / q, grid);
     assert_near(a, str, acos(0.2) / (sqrt(2) * acos(sqrt(0.2))), 2 * grid);
     free(h);

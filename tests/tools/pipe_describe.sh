@@ -17,7 +17,7 @@ near_to() { # FILE EXPRESSION EXPECTED TOLERANCE SENTENCE
 rc-synth wave --amplitude 0.6um --wavelength 32um,40um --nx 160 --dx 1um -o wave.rcg
 claim "areal parameters as JSON" bash -c 'rc-info --json --areal wave.rcg >wave.json'
 claim "the object has these keys and no others" test "$(ask wave.json 'join " ", sort keys %{$_->{areal}}')" = \
-    "sa sal sdq sdr sk sku smr1 smr2 sp spk sq ssk std str sv svk sxp sz vmc vmp vvc vvv"
+    "rms_curvature sa sal sdq sdr sk sku smr1 smr2 sp spk sq ssk std str sv svk sxp sz vmc vmp vvc vvv"
 near_to wave.json '$_->{areal}{sq}' 3e-7 "$summed" "Sq of a wave in both directions, half the amplitude"
 near_to wave.json '$_->{areal}{sku}' 2.25 "$summed" "its Sku"
 near_to wave.json '$_->{areal}{sa}' 2.4317084e-7 "$coarse_grid" "its Sa, 4/pi^2 of the amplitude"
@@ -31,7 +31,7 @@ claim "the correlation of ridges never falls along them" test "$(ask ridges.json
 near_to ridges.json '$_->{areal}{std} + 1' 1 "$summed" "waves along x: 0 degrees"
 printf '5 5\n5 5\n' | rc-import --dx 1um --z-unit nm - | rc-info --json --areal >flat.json
 claim "a flat has no skewness, kurtosis, correlation, direction" test \
-    "$(ask flat.json 'join " ", grep { !defined $main::j->{areal}{$_} } sort keys %{($main::j = $_)->{areal}}')" = "sal sku ssk std str"
+    "$(ask flat.json 'join " ", grep { !defined $main::j->{areal}{$_} } sort keys %{($main::j = $_)->{areal}}')" = "rms_curvature sal sku ssk std str"
 
 claim "text of a map" bash -c 'rc-info --areal wave.rcg >wave.out'
 for line in '^  Sq +300 nm$' '^  Sku +2\.25$' '^  Sdq +0\.075[0-9]+$' '^  Sdr +0\.2[0-9]+ %$' '^  Std +[0-9.]+ deg$' \
@@ -55,8 +55,8 @@ near_to holes.json '$_->{areal}{sq}' 2.4166091947189146e-9 "$rounding" "Sq over 
 near_to holes.json '$_->{areal}{sdq}' 2.9931050e-3 "$six_digits" "Sdq: the mean square of each direction by itself"
 refuses 1 'holes|txt|standard input.*missing.*rc-detrend --fill' "a spectrum of holes, naming what fills them" "rc-info --psd holes.rcg"
 
-claim "where nothing was measured none of the 22 parameters and 8 of features is defined" test "$(printf 'NaN NaN\nNaN NaN\n' |
-    rc-import --dx 1um --z-unit nm - | rc-info --areal | grep -c 'not defined')" = 30
+claim "where nothing was measured none of the 23 parameters and 8 of features is defined" test "$(printf 'NaN NaN\nNaN NaN\n' |
+    rc-import --dx 1um --z-unit nm - | rc-info --areal | grep -c 'not defined')" = 31
 
 # ---- spectra ----
 

@@ -72,6 +72,7 @@ static const struct quantity {
     {"repulsive_load", "Load of repulsion", "N"},
     {"attractive_area", "Area of attraction", "m2"},
     {"stability", "Stability", "1"},
+    {"elastic_energy", "Elastic energy", "J"},
     {"q", "Wavenumber", "rad/m"},
     {"c", "Power spectral density", "m4"},
 };

@@ -192,6 +192,7 @@ contact_of(const struct rc_adhesion_figures *f)
                                .yielded_area = f->plastic_area,
                                .hardness_active = f->plastic_nodes > 0,
                                .edge_load_fraction = NAN,
+                               .elastic_energy = NAN,
                                .approach = f->approach,
                                .mean_gap = f->mean_gap,
                                .gap_error = f->gap_error,

@@ -337,6 +337,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     errors_report(r, &s->errors);
     adhesion_report(r, run);
     report_number(r, "rms_slope", run->rms_slope, NULL);
+    report_number(r, "elastic_energy", s->contact.elastic_energy, "J");
     report_finish_row(r);
 }
 
