@@ -21,7 +21,24 @@ claim "which is said, with its share of E*" \
     warns 'case 1, load 1 N: the largest pressure, [0-9.]+ [MG]Pa, is 0\.[0-9]+ of E\*' solve 3GPa 1
 claim "E* without its unit: is named" warns 'above E\*, which is 3 Pa: was its unit forgotten' solve 3 1mN
 claim "the load without its unit: its mean over the map" \
-    warns 'above E\* = 3 GPa; on a map of 96 um by 80 um the mean is 65[0-9.]+ GPa: was the unit of the load' solve 3GPa 500
+    warns 'above E\* = 3 GPa; on a map of 96 um by 80 um the mean is 65[0-9.]+ GPa: are the load, 500 N, and E\* in their right units' solve 3GPa 500
+claim "  or that of E*: both are named" \
+    warns 'above E\* = 3 MPa; .*are the load, 500 mN, and E\* in their right units' solve 3MPa 500mN
+rc-synth sphere --nx 64 --dx 10um --radius 10mm -o ball.rcg
+claim "a layer of metres on a map of micrometres" warns 'thickness of 2 m on a map 640 um wide: .* write 2um' \
+    rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --layer 2,400GPa,0.2 ball.rcg -o p.rcg
+claim "  with its unit it is none" bash -c 'rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --layer 2um,400GPa,0.2 ball.rcg -o p.rcg 2>err; ! grep -q "without a unit" err'
+rc-synth wave --nx 64 --dx 10um --amplitude 1nm --wavelength 640um -o flat.rcg
+claim "a radius of metres" warns 'radius of 3.75 m on a map 640 um wide: .* write 3.75mm' rc-solve --load 1mN --estar 114GPa --radius 3.75 flat.rcg -o p.rcg
+claim "  with its unit it is none" bash -c 'rc-solve --load 1mN --estar 114GPa --radius 3.75mm flat.rcg -o p.rcg 2>err; ! grep -q "without a unit" err'
+claim "a ratio of a rigid body" warns 'nu2 has no effect beside --E2 rigid' rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --nu2 0.3 ball.rcg -o p.rcg
+claim "an option that is given twice" warns 'load is given twice: only the last one counts' rc-solve --load 1N --load 1mN --estar 114GPa ball.rcg -o p.rcg
+claim "  layers may be" bash -c 'rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --layer 2um,400GPa,0.2 --layer 1um,300GPa,0.2 ball.rcg -o p.rcg 2>err; ! grep -q twice err'
+claim "  and steps" bash -c 'rc-pick --mirror x --mirror y ball.rcg -o p.rcg 2>err && [ ! -s err ]'
+for tool in "rc-solve --load 1mN --estar 114GPa" "rc-pick --mirror x" "rc-detrend --plane"; do
+    refuses 2 "writes a grid stream, not a picture: pipe it into rc-render -o x.png" "a picture of ${tool%% *}" "$tool ball.rcg -o x.png"
+done
+claim "  nothing is left of it" [ ! -e x.png ]
 rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-slope 40 --rolloff 40um --short-cut 6um --seed 5 -o s.rcg
 claim "heights in a wrong unit: their slope" \
     warns 'above E\* = 3 GPa, and the RMS slope in contact is [0-9.]+: are heights and spacings' solve 3GPa 20mN

@@ -502,6 +502,16 @@ warn_of_commas(struct tool *t)
     }
 }
 
+/* Flags, steps and layers may come again; of all others only the last counts. */
+static void
+warn_of_repetition(struct tool *t, const bool *twice)
+{
+    for (size_t k = 0; k < t->opts; k++)
+        if (twice[k] && t->opt[k].type != OPT_FLAG && t->opt[k].type != OPT_STEP &&
+            t->opt[k].type != OPT_TEXTS)
+            tool_warn(t, "--%s is given twice: only the last one counts", t->opt[k].name);
+}
+
 /* Whether standard output is text once this option is given. */
 static bool
 asks_for_text(const struct tool *t, int what, const char *text)
@@ -543,6 +553,7 @@ look_for_output(struct tool *t, int argc, char **argv, const struct option *tabl
 void
 options_read(struct tool *t, int argc, char **argv)
 {
+    bool twice[TOOL_OPTIONS] = {false};
     const struct option *table;
     const char *text;
     int what;
@@ -563,6 +574,7 @@ options_read(struct tool *t, int argc, char **argv)
         } else if (what >= COMMON) {
             set_common(t, &common[what - COMMON], optarg);
         } else if (what >= OWN) {
+            twice[what - OWN] = t->given[what - OWN];
             t->given[what - OWN] = true;
             if (t->opt[what - OWN].text)
                 t->writes = WRITES_TEXT;
@@ -578,6 +590,7 @@ options_read(struct tool *t, int argc, char **argv)
     t->operands = (size_t)(argc - optind);
     t->verbose = t->verbose || t->debug;
     warn_of_commas(t);
+    warn_of_repetition(t, twice);
 }
 
 bool

@@ -13,6 +13,7 @@
 
 #include "libcontact/contact.h"
 #include "tools/machine/machine.h"
+#include "ending.h"
 #include "parts.h"
 #include "ranks.h"
 
@@ -66,6 +67,8 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
         t->writes = WRITES_TEXT;
         t->report_alone = true;
     }
+    if (t->writes == WRITES_STREAM)
+        ending_refuse_picture(t, t->out_name);
     output_open(t);
 }
 

@@ -98,6 +98,8 @@ check_elasticity(struct tool *t, struct physics *a)
         tool_die(t, EXIT_USAGE,
                  "give the elasticity, either as --estar or as --E1 --nu1 --E2 "
                  "--nu2, all four (--E2 rigid needs no --nu2)");
+    if (rigid && tool_given(t, "nu2"))
+        tool_warn(t, "--nu2 has no effect beside --E2 rigid: leave it out");
     if (bodies == 0) {
         a->pair.estar = a->surface_estar = a->estar;
         return;
@@ -268,6 +270,29 @@ check_profile(struct tool *t, const struct physics *a, const struct rc_grid *g)
                   where, width);
 }
 
+/* A plain number is in metres: one that was meant in micrometres or millimetres dwarfs the map. */
+static void
+warn_of_metres(struct tool *t, const struct physics *a, const struct rc_grid *g, const char *where)
+{
+    const double width = fmax((double)g->nx * g->dx, (double)g->ny * g->dy);
+    const double thick = 0.1, wide = 0.5; /* m: of a layer, of a radius */
+    char is[SHOWN_NUMBER], map[SHOWN_NUMBER], number[RC_NUMBER_SIZE];
+
+    shown_in_unit(map, width, "m");
+    for (size_t k = 0; k < a->layer.n; k++)
+        if (a->layers[k].thickness >= thick && a->layers[k].thickness > 100 * width)
+            tool_warn(t,
+                      "%s: --layer: a thickness of %s on a map %s wide: a number without a unit is "
+                      "in metres, write %sum for micrometres",
+                      where, shown_in_unit(is, a->layers[k].thickness, "m"), map,
+                      rc_number_text(number, a->layers[k].thickness));
+    if (a->radius >= wide && a->radius > 1000 * width)
+        tool_warn(t,
+                  "%s: --radius: a radius of %s on a map %s wide: a number without a unit is in "
+                  "metres, write %smm for millimetres",
+                  where, shown_in_unit(is, a->radius, "m"), map, rc_number_text(number, a->radius));
+}
+
 static void
 warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
@@ -275,6 +300,7 @@ warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
     char where[256];
 
     tool_where(t, g, where, sizeof where);
+    warn_of_metres(t, a, g, where);
     if (!a->periodic && periodic != NULL && strcmp(periodic, "yes") == 0 && isnan(a->radius))
         tool_warn(t,
                   "%s: the surface is periodic, the solution is not: beyond the map there "

@@ -43,7 +43,7 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
     double width = g->dx * (double)g->nx, length = g->dy * (double)g->ny;
     double estar = run->args->physics.surface_estar;
     char peak[SHOWN_NUMBER], modulus[SHOWN_NUMBER], mean[SHOWN_NUMBER], x[SHOWN_NUMBER],
-        y[SHOWN_NUMBER];
+        y[SHOWN_NUMBER], load[SHOWN_NUMBER];
 
     shown_in_unit(peak, yield_peak(run, s->contact.max_pressure), "Pa");
     shown_in_unit(modulus, estar, "Pa");
@@ -57,9 +57,9 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
         solve_warn(
             run, "the largest pressure is above E*",
             "%s: the largest pressure, %s, is above E* = %s; on a map of %s by %s the mean is %s: "
-            "was the unit of the load forgotten, as in 5mN?",
-            where, peak, modulus, shown_in_unit(x, width, "m"), shown_in_unit(y, length, "m"),
-            mean);
+            "are the load, %s, and E* in their right units?",
+            where, peak, modulus, shown_in_unit(x, width, "m"), shown_in_unit(y, length, "m"), mean,
+            shown_in_unit(load, s->contact.load, "N"));
     else
         solve_warn(
             run, "the largest pressure is above E*",
