@@ -1122,10 +1122,12 @@ struct rc_joint_figures {
     struct rc_slip_figures slip;
     size_t passes; /* of this increment: pressures that friction was given                      */
     double pressure_change, traction_change; /* relative L1, of the last pass; 0: one will do   */
-    double traction_error; /* estimated relative L1 error, with what more passes would change   */
-    double approach;       /* m, as in rc_contact; NAN: unknown                                 */
-    double convolutions;   /* of friction and contacts                                          */
-    bool converged;        /* both, and the passes                                              */
+    double traction_error;  /* estimated relative L1 error, with what more passes would change   */
+    double inherited_error; /* of the increments before: sum of traction_error |q|_1, over |q|_1 */
+    double contact_error;   /* of the contacts solved on the way, and before: mu error P         */
+    double approach;        /* m, as in rc_contact; NAN: unknown                                 */
+    double convolutions;    /* of friction and contacts                                          */
+    bool converged;         /* both, and the passes                                              */
 };
 
 struct rc_joint;

@@ -47,6 +47,9 @@ struct rc_joint {
     bool warm;  /* its first contact starts from `own` */
     size_t passes;
     double pressure_change, traction_change, factor, approach;
+    double pressure_error; /* relative, of the contact that was solved last; 0: none was */
+    double inherited
+        [2]; /* Pa, sums over the map: errors of the increments before, of iteration and contact */
     double lowered;      /* m: by which the highest node of `less` is below that of `h` */
     double convolutions; /* of all contacts */
 };
@@ -114,6 +117,7 @@ set(struct rc_joint *j, double load, double x, double y, bool moved, struct rc_e
     j->to[1] = y;
     j->moved = moved;
     j->passes = 0;
+    j->pressure_error = 0;
     j->pressure_change = j->traction_change = j->factor = 0;
     if (load > 0 && (j->alternates || !(fabs(load - j->pressed) <= same * load))) {
         if (j->alternates || !(fabs(load - j->known.load) <= same * load))
@@ -229,6 +233,7 @@ step_contact(struct rc_joint *j, struct rc_err *err)
     j->convolutions += rc_solver_convolutions(j->solver);
     take(j->n, rc_solver_pressure(j->solver), j->own, &change, &all);
     j->pressure_change = ratio(&change, &all);
+    j->pressure_error = contact.pressure_error;
     j->approach = contact.approach + j->lowered; /* from where the bodies touch unmoved */
     j->p = j->own;
     j->p_gap = j->gap;
@@ -253,11 +258,38 @@ rc_joint_step(struct rc_joint *j, struct rc_err *err)
     }
 }
 
+/* Sums over the map, Pa: of |q|, and of the errors that this increment adds to them, of its iteration and of
+ * the discs' radii. */
+static double
+added(const struct rc_joint *j, double error, double limit, double add[2])
+{
+    const double *q[2] = {rc_slip_traction(j->slip, 0), rc_slip_traction(j->slip, 1)};
+    struct rc_total sum = {0};
+    double size;
+
+    for (size_t k = 0; k < j->n; k++)
+        rc_total_add(&sum, hypot(q[0][k], q[1][k]));
+    size = rc_total_value(&sum);
+    add[0] = size > 0 ? error * size : 0;
+    add[1] = j->pressure_error * limit / (j->shape.dx * j->shape.dy);
+    return size;
+}
+
+/* An increment is the nearest tractions to the last, in energy: what was off stays off, and is no more. Where
+ * nothing touches nothing is kept. */
 void
 rc_joint_keep(struct rc_joint *j)
 {
+    struct rc_joint_figures f;
+    double add[2];
+
     if (j->state != DONE)
         return;
+    rc_joint_result(j, &f);
+    added(j, f.traction_error, f.slip.limit, add);
+    for (int k = 0; k < 2; k++)
+        j->inherited[k] = j->load > 0 ? j->inherited[k] + add[k] : 0;
+    j->pressure_error = 0;
     rc_slip_keep(j->slip);
     j->fresh = j->warm = false;
     j->state = IDLE;
@@ -268,6 +300,8 @@ rc_joint_keep(struct rc_joint *j)
 void
 rc_joint_result(struct rc_joint *j, struct rc_joint_figures *f)
 {
+    double size, add[2];
+
     *f = (struct rc_joint_figures){.passes = j->passes,
                                    .pressure_change = j->pressure_change,
                                    .traction_change = j->traction_change,
@@ -276,6 +310,9 @@ rc_joint_result(struct rc_joint *j, struct rc_joint_figures *f)
     if (!j->fresh) /* these are of the increment before */
         f->slip.dissipated = f->slip.largest_slip = 0;
     f->traction_error = f->slip.traction_error + j->factor * j->traction_change;
+    size = added(j, f->traction_error, f->slip.limit, add);
+    f->inherited_error = size > 0 && j->load > 0 ? j->inherited[0] / size : 0;
+    f->contact_error = size > 0 && j->load > 0 ? (j->inherited[1] + add[1]) / size : 0;
     f->convolutions = f->slip.convolutions + j->convolutions;
     f->converged = j->state == DONE && j->last == RC_OK;
 }

@@ -443,6 +443,82 @@ test_periodic_displacement_gives_the_force(void **state)
     free(even);
 }
 
+/* What the iterations of a path leave adds up: with a coarse tolerance the sum is not below the error, on paths
+ * that turn, at any increment; the last increment alone is. Bodies that come apart drop it. */
+static void
+test_errors_of_a_path_add_up(void **state)
+{
+    const struct rc_shape shape = {32, 32, 1, 1};
+    size_t n = shape.nx * shape.ny, below = 0, alone = 0;
+    double least = INFINITY, most = 0;
+
+    (void)state;
+    for (int k = 0; k < 12; k++) {
+        enum rc_boundary boundary = k % 3 == 0 ? RC_FREE : RC_PERIODIC;
+        double *h = slip_rough(&shape, 0.1, 4, 60 + (uint64_t)k), *p, load = 0;
+        struct rc_joint *joint[2];
+        uint64_t seed = 40 + (uint64_t)k;
+        double force[2] = {0, 0};
+        for (size_t i = 0; i < n && boundary == RC_FREE; i++)
+            h[i] -= (pow((double)(i % 32) - 16, 2) + pow((double)(i / 32) - 16, 2)) / 90;
+        p = pressure_of(&shape, boundary, h, 0.004 * (1 + k % 4));
+        for (size_t i = 0; i < n; i++)
+            load += p[i];
+        for (int c = 0; c < 2; c++) {
+            struct rc_joint_problem what = {
+                .contact = {.boundary = boundary, .pair.estar = 1, .load = load},
+                .slip = {.nu = 0.1 * (k % 6), .mu = 0.3, .tol = c == 0 ? 3e-2 : 1e-10}};
+            joint[c] = rc_joint_new(&shape, NULL, &what, NULL);
+            assert_non_null(joint[c]);
+            rc_joint_know(joint[c], load, p, NULL);
+        }
+        for (int step = 0; step < 16; step++) {
+            struct rc_joint_figures f[2];
+            const double *q[2][2];
+            double error;
+            for (int c = 0; c < 2; c++) /* on a square of 0.06 to 0.26 of what is carried */
+                force[c] += (slip_noise(&seed) - 0.5) * 0.15 * load;
+            for (int c = 0; c < 2; c++)
+                force[c] = fmax(-0.18 * load, fmin(0.18 * load, force[c]));
+            for (int c = 0; c < 2; c++) {
+                enum rc_status status = RC_MORE;
+                assert_int_equal(rc_joint_set_force(joint[c], load, force[0], force[1], NULL),
+                                 RC_OK);
+                while (status == RC_MORE)
+                    status = rc_joint_step(joint[c], NULL);
+                assert_int_equal(status, RC_OK);
+                rc_joint_result(joint[c], &f[c]);
+                rc_joint_keep(joint[c]);
+                for (int d = 0; d < 2; d++)
+                    q[c][d] = rc_slip_traction(rc_joint_slip(joint[c]), d);
+            }
+            error = slip_distance(n, q[0], q[1]);
+            below += f[0].traction_error + f[0].inherited_error < error;
+            alone += f[0].traction_error < error;
+            least = fmin(least, (f[0].traction_error + f[0].inherited_error) / error);
+            most = fmax(most, (f[0].traction_error + f[0].inherited_error) / error);
+            assert_true(f[0].contact_error == 0 && (step > 0 || f[0].inherited_error == 0));
+        }
+        for (int c = 0; c < 2; c++) {
+            struct rc_joint_figures f;
+            rc_joint_set_force(joint[c], 0, 0, 0, NULL);
+            assert_int_equal(rc_joint_step(joint[c], NULL), RC_OK);
+            rc_joint_keep(joint[c]);
+            rc_joint_set_force(joint[c], load, force[0], force[1], NULL);
+            while (rc_joint_step(joint[c], NULL) == RC_MORE)
+                ;
+            rc_joint_result(joint[c], &f);
+            assert_true(f.inherited_error == 0);
+            rc_joint_free(joint[c]);
+        }
+        free(p);
+    }
+    print_message("192 states: sum %.2f to %.1f of the error, %zu below; the last alone %zu\n",
+                  least, most, below, alone);
+    assert_int_equal(below, 0);
+    assert_true(alone > 30);
+}
+
 /* Bodies that came apart begin anew: displacement, slip, stiffness and tractions of what follows are those of
  * bodies that have never touched. */
 static void
@@ -566,6 +642,7 @@ main(void)
         cmocka_unit_test(test_work_does_not_grow),
         cmocka_unit_test(test_nonsense_is_refused),
         cmocka_unit_test(test_periodic_displacement_gives_the_force),
+        cmocka_unit_test(test_errors_of_a_path_add_up),
         cmocka_unit_test(test_bodies_apart_forget),
         cmocka_unit_test(test_units_axes_and_threads),
     };

@@ -180,48 +180,80 @@ write_frames(struct slip_run *run, struct rc_joint *joint, const struct slip_sta
 
 /* ---- increments ---- */
 
-/* To a corner; stops where the tool is interrupted. */
+/* Increment k of n to a corner; `near` has gone there, NULL: nobody has. */
 static void
-go_to(struct slip_run *run, struct rc_joint *joint, size_t corner, size_t n, struct slip_state *s)
+increment(struct slip_run *run, struct rc_joint *joint, struct rc_joint *near, size_t corner,
+          size_t k, size_t n, struct slip_state *s)
 {
-    double before;
+    struct slip_corner c = slip_on_the_way(run, corner, k, n);
+    enum rc_status status;
     struct rc_err err;
+    bool there;
 
+    if (near != NULL)
+        rc_joint_start(joint,
+                       (const double *[2]){rc_slip_traction(rc_joint_slip(near), 0),
+                                           rc_slip_traction(rc_joint_slip(near), 1)},
+                       rc_joint_pressure(near));
+    there = slip_checkpoint_next(run->checkpoint, joint);
+    status = c.moved ? rc_joint_set_displacement(joint, c.load, c.to[0], c.to[1], &err)
+                     : rc_joint_set_force(joint, c.load, c.to[0], c.to[1], &err);
+    if (status == RC_OK)
+        status = RC_MORE;
+    while (status == RC_MORE && tool_interrupted() == 0) {
+        tool_progress(&run->t, "case %zu, %zu x %zu, increment %zu of %zu", run->number, run->p->nx,
+                      run->p->ny, k, n);
+        status = rc_joint_step(joint, &err);
+    }
+    tool_progress_end(&run->t);
+    if (status == RC_FAIL &&
+        k < n) /* what is asked for at the corner fails too, and is the user's number */
+        increment(run, joint, near, corner, n, n, s);
+    if (status == RC_FAIL)
+        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
     rc_joint_result(joint, &s->figures);
-    before = s->figures.convolutions;
-    s->dissipated = s->traction_error = 0;
+    if (!there || s->figures.passes > 1 || s->figures.slip.steps > 0)
+        slip_checkpoint_save(run->checkpoint, joint);
+    s->passes += s->figures.passes;
+    s->dissipated += s->figures.slip.dissipated;
+    s->converged = s->converged && s->figures.converged;
+    rc_joint_keep(joint);
+}
+
+/* To a corner, in all increments and in fewer ones, each of which starts from what all have found there; stops
+ * where the tool is interrupted. */
+static void
+go_to(struct slip_run *run, struct rc_joint *const joint[SLIP_JOINTS], size_t corner,
+      struct slip_state *s)
+{
+    size_t n = run->corner[corner].increments;
+    double before = 0, after = 0;
+    struct slip_state fewer = {.converged = true};
+
+    for (size_t j = 0; j < run->joints; j++) {
+        rc_joint_result(joint[j], &fewer.figures);
+        before += fewer.figures.convolutions;
+    }
+    s->dissipated = 0;
     s->passes = 0;
     s->converged = true;
     for (size_t k = 1; k <= n && tool_interrupted() == 0; k++) {
-        struct slip_corner c = slip_on_the_way(run, corner, k, n);
-        enum rc_status status;
-        bool there = slip_checkpoint_next(run->checkpoint, joint);
-
-        status = c.moved ? rc_joint_set_displacement(joint, c.load, c.to[0], c.to[1], &err)
-                         : rc_joint_set_force(joint, c.load, c.to[0], c.to[1], &err);
-
-        if (status == RC_OK)
-            status = RC_MORE;
-        while (status == RC_MORE && tool_interrupted() == 0) {
-            tool_progress(&run->t, "case %zu, %zu x %zu, increment %zu of %zu", run->number,
-                          run->p->nx, run->p->ny, k, n);
-            status = rc_joint_step(joint, &err);
+        increment(run, joint[0], NULL, corner, k, n, s);
+        for (size_t j = 1; j < run->joints && tool_interrupted() == 0; j++) {
+            size_t all = slip_fewer(n, j), done = k * all / n;
+            if (done > (k - 1) * all / n)
+                increment(run, joint[j], joint[0], corner, done, all, &fewer);
+            if (j == 1)
+                s->doubt = fewer.figures.traction_error + fewer.figures.inherited_error;
         }
-        tool_progress_end(&run->t);
-        if (status == RC_FAIL)
-            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
-        rc_joint_result(joint, &s->figures);
-        if (!there || s->figures.passes > 1 || s->figures.slip.steps > 0)
-            slip_checkpoint_save(run->checkpoint, joint);
-        s->passes += s->figures.passes;
-        s->dissipated += s->figures.slip.dissipated;
-        s->traction_error = fmax(s->traction_error, s->figures.traction_error);
-        s->converged = s->converged && s->figures.converged;
-        rc_joint_keep(joint);
     }
-    s->converged = s->converged && tool_interrupted() == 0;
+    s->converged = s->converged && fewer.converged && tool_interrupted() == 0;
     s->dissipated_total += s->dissipated;
-    s->convolutions += s->figures.convolutions - before;
+    for (size_t j = 0; j < run->joints; j++) {
+        rc_joint_result(joint[j], &fewer.figures);
+        after += fewer.figures.convolutions;
+    }
+    s->convolutions += after - before;
 }
 
 /* Under the load of the stream it is that of the stream, unless it has been found anew. */
@@ -236,28 +268,83 @@ approach_of(const struct slip_run *run, const struct slip_state *s)
     return own;
 }
 
-/* Relative L1 distance of two solutions' tractions; NAN: there are none. */
+/* Sum over the map of |q_a - q_b|, Pa, b NULL: of |q_a|; less `lag`, which may be NULL. */
 static double
-distance(const struct slip_run *run, struct rc_joint *a, struct rc_joint *b)
+distance(const struct slip_run *run, struct rc_joint *a, struct rc_joint *b, double *const lag[2])
 {
-    size_t n = rc_grid_nodes(run->p);
-    double sum = 0, all = 0;
-    const double *p[2], *q[2];
+    double sum = 0;
 
-    for (int c = 0; c < 2; c++) {
-        p[c] = rc_slip_traction(rc_joint_slip(a), c);
-        q[c] = rc_slip_traction(rc_joint_slip(b), c);
+    for (size_t k = 0; k < rc_grid_nodes(run->p); k++) {
+        double d[2];
+        for (int c = 0; c < 2; c++)
+            d[c] = rc_slip_traction(rc_joint_slip(a), c)[k] -
+                   (b == NULL ? 0 : rc_slip_traction(rc_joint_slip(b), c)[k]) -
+                   (lag == NULL ? 0 : lag[c][k]);
+        sum += hypot(d[0], d[1]);
     }
-    for (size_t k = 0; k < n; k++) {
-        sum += hypot(p[0][k] - q[0][k], p[1][k] - q[1][k]);
-        all += hypot(p[0][k], p[1][k]);
-    }
-    return all > 0 ? sum / all : NAN;
+    return sum;
+}
+
+/* What the increments leave, Pa, summed over the map; `before` at the corner before, which stays, also where D and
+ * D2 fall because they cancel. Half of the increments are off by D more and a quarter by D2 more again, which tells
+ * how fast that falls. On a way of two increments D grows by what the way adds. `doubt`: D's own, of the
+ * iteration. The factors are those of random paths. */
+static double
+increment_error(const struct slip_run *run, struct rc_joint *const joint[SLIP_JOINTS],
+                const struct slip_corner *to, double before, double doubt)
+{
+    static const double factor[] = {[SLIP_MANY] = 1.5, [SLIP_SOME] = 3, [SLIP_FEW] = 6};
+    static const double slowest = 0.85;
+    double d, d2, rho, error;
+
+    if (to->told == SLIP_EXACT)
+        return 0;
+    if (to->told == SLIP_UNKNOWN)
+        return NAN;
+    d = distance(run, joint[0], joint[1], NULL) + doubt;
+    if (to->late)
+        return fmin(fmax(factor[to->told] * d, before),
+                    before +
+                        factor[SLIP_SOME] * (distance(run, joint[0], joint[1], run->lag) + doubt));
+    d2 = distance(run, joint[1], joint[2], NULL);
+    rho = d < slowest * d2 ? d / d2 : slowest;
+    error = fmax(factor[to->told] * d, d * rho / (1 - rho));
+    return fmax(error, before);
+}
+
+/* Keeps how far half of the increments are off, for the way to the next corner. */
+static void
+keep_lag(struct slip_run *run, struct rc_joint *const joint[SLIP_JOINTS])
+{
+    for (size_t k = 0; k < rc_grid_nodes(run->p) && run->joints > 1; k++)
+        for (int c = 0; c < 2; c++)
+            run->lag[c][k] = rc_slip_traction(rc_joint_slip(joint[0]), c)[k] -
+                             rc_slip_traction(rc_joint_slip(joint[1]), c)[k];
+}
+
+/* The parts of the error at a corner, and whether their sum is what was asked for. */
+static void
+find_errors(struct slip_run *run, struct rc_joint *const joint[SLIP_JOINTS], struct slip_state *s)
+{
+    const struct rc_joint_figures *f = &s->figures;
+    double size = distance(run, joint[0], NULL, NULL);
+
+    s->lagging = increment_error(run, joint, s->corner, s->lagging, s->doubt * size);
+    keep_lag(run, joint);
+    s->errors = (struct error_parts){.told = true,
+                                     .increment = size > 0 ? s->lagging / size : 0,
+                                     .inherited = f->inherited_error,
+                                     .iteration = f->traction_error,
+                                     .contact = f->contact_error};
+    s->traction_error = errors_sum(&s->errors);
+    s->converged = s->converged && (errors_within(s->traction_error, slip_goal(run)) ||
+                                    (run->increments > 0 && isnan(s->traction_error)));
 }
 
 static struct rc_joint_problem
 problem_of(const struct slip_run *run)
 {
+    static const double usual = 1e-4; /* of the iteration: errors of all increments add up */
     const struct slip_args *a = run->args;
     struct rc_joint_problem problem = {
         .contact = {.boundary = run->boundary,
@@ -267,7 +354,7 @@ problem_of(const struct slip_run *run)
         .slip = {.nu = run->bodies.nu,
                  .mu = a->mu,
                  .tau_max = isnan(a->tau_max) ? 0 : a->tau_max,
-                 .tol = isnan(a->tol) ? 0 : a->tol},
+                 .tol = (isnan(a->tol) ? usual : a->tol) / (double)slip_all_increments(run)},
         .coupling = run->coupling,
     };
 
@@ -294,27 +381,28 @@ new_joint(struct slip_run *run, const struct rc_joint_problem *problem)
 static void
 follow(struct slip_run *run, const struct rc_joint_problem *problem)
 {
-    struct rc_joint *joint = new_joint(run, problem);
-    struct rc_joint *coarse = run->twice ? new_joint(run, problem) : NULL;
-    struct slip_state s = {.dissipated_total = 0}, half = {.dissipated_total = 0};
-    bool several = false;
+    struct rc_joint *joint[SLIP_JOINTS] = {NULL};
+    struct slip_state s = {.dissipated_total = 0};
 
+    for (size_t j = 0; j < run->joints; j++) {
+        struct rc_joint_problem its = *problem;
+        if (j >
+            0) /* it starts from the answer that it is compared with: what it leaves counts thrice */
+            its.slip.tol /= 10;
+        joint[j] = new_joint(run, &its);
+    }
+    for (int c = 0; c < 2 && run->joints > 1; c++)
+        if ((run->lag[c] = calloc(rc_grid_nodes(run->p), sizeof(double))) == NULL)
+            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "out of memory for its tractions");
     tool_code_there(&run->t, SLIP_CODE);
     for (size_t k = 0; k < run->corners && tool_interrupted() == 0; k++) {
-        size_t n = run->corner[k].increments;
         double began = tool_now();
 
         run->number += !run->corner[k].silent;
         s.corner = &run->corner[k];
-        s.convolutions = half.convolutions = 0;
-        s.increment_error = NAN;
-        go_to(run, joint, k, n, &s);
-        several = several || n > 1;
-        if (coarse != NULL && tool_interrupted() == 0) {
-            go_to(run, coarse, k, n > 1 ? n / 2 : 1, &half);
-            s.increment_error = several ? distance(run, joint, coarse) : NAN;
-            s.convolutions += half.convolutions;
-        }
+        s.convolutions = 0;
+        go_to(run, joint, k, &s);
+        find_errors(run, joint, &s);
         s.approach = approach_of(run, &s);
         s.seconds = tool_now() - began;
         if (!s.converged)
@@ -322,11 +410,15 @@ follow(struct slip_run *run, const struct rc_joint_problem *problem)
         if (run->corner[k].silent && tool_interrupted() == 0)
             continue;
         slip_judge(run, &s);
-        write_frames(run, joint, &s);
+        write_frames(run, joint[0], &s);
         slip_report(run, &s);
     }
-    rc_joint_free(joint);
-    rc_joint_free(coarse);
+    for (size_t j = 0; j < run->joints; j++)
+        rc_joint_free(joint[j]);
+    for (int c = 0; c < 2; c++) {
+        free(run->lag[c]);
+        run->lag[c] = NULL;
+    }
 }
 
 /* ---- a case ---- */
@@ -336,9 +428,9 @@ memory_for(const struct slip_run *run, const struct rc_joint_problem *problem)
 {
     struct rc_shape shape = rc_grid_shape(run->p);
 
-    return (run->twice ? 2 : 1) * rc_joint_memory(&shape, problem, run->solves) +
-           rc_grid_nodes(run->p) * sizeof(double) + slip_checkpoint_memory(run) +
-           tool_code(&run->t, SLIP_CODE);
+    return run->joints * rc_joint_memory(&shape, problem, run->solves) +
+           (run->joints > 1 ? 3 : 1) * rc_grid_nodes(run->p) * sizeof(double) +
+           slip_checkpoint_memory(run) + tool_code(&run->t, SLIP_CODE);
 }
 
 void

@@ -10,9 +10,14 @@ static const double same_load = 1e-6; /* relative: what is nearer to the stream'
 static const double straight = 1e-9;
 
 enum {
-    TURNS = 8,   /* increments of a force that turns by a right angle, or grows with the load */
-    PRESSES = 16 /* of a contact that grows on dissimilar bodies                              */
+    LATE = 2,    /* increments of a straight way                                              */
+    HALVED = 4,  /* so many, and half of them, tell the error                                 */
+    TURNS = 8,   /* of a force that turns by a right angle, or of a load that falls           */
+    PRESSES = 16 /* of a contact that grows                                                   */
 };
+/* Of a straight way: a node that slips carries against its whole slip of an increment, and not against how it
+ * slips in the end. Most nodes have begun to slip by then, and what is left of the way sets them right. */
+static const double late = 0.9;
 
 /* ---- the command line ---- */
 
@@ -183,25 +188,83 @@ force_changes(const struct slip_corner *from, const struct slip_corner *to)
            hypot(to->to[0] - from->to[0], to->to[1] - from->to[1]) > straight * most;
 }
 
-/* To about 1 %: one where the force keeps its line and the load does not grow, more where it turns, or both
- * grow. A contact that grows on dissimilar bodies slips as it does: to some 5 %. */
-static size_t
-increments(const struct slip_run *run, const struct slip_corner *from, const struct slip_corner *to)
+/* Whether one increment is exact: bodies alike with nu = 0, on which all slips along one line, along which
+ * all forces have been. */
+static bool
+exact(const struct slip_run *run, const struct slip_corner *from, const struct slip_corner *to)
+{
+    bool grows = to->load > from->load * (1 + straight), capped = !isnan(run->args->tau_max);
+    bool aside = fabs(from->to[0] * to->to[1] - from->to[1] * to->to[0]) >
+                 straight * hypot(from->to[0], from->to[1]) * hypot(to->to[0], to->to[1]);
+
+    return !run->coupled && run->bodies.kap == 0 && !aside &&
+           (from->moved == to->moved || !(hypot(from->to[0], from->to[1]) > 0)) &&
+           (!grows || !(to->moved || capped)) && (from->told == SLIP_EXACT || from->load == 0);
+}
+
+/* Increments, and what will be known of them: one where that is exact, two where load and line of the force stay,
+ * more where the force turns or the load changes. */
+static void
+set_increments(const struct slip_run *run, const struct slip_corner *from, struct slip_corner *to)
 {
     bool grows = to->load > from->load * (1 + straight), moves = force_changes(from, to);
+    bool falls = to->load < from->load * (1 - straight);
+    enum slip_told before = from->load > 0 ? from->told : SLIP_EXACT;
     double angle = turn(from, to);
     size_t n = 1;
 
-    if (!run->coupled && !moves && !(hypot(to->to[0], to->to[1]) > 0))
-        return 1; /* nothing is carried */
+    to->carries =
+        run->coupled || hypot(to->to[0], to->to[1]) > 0 || (from->load > 0 && from->carries);
+    to->told = before;
+    to->increments = 1;
+    if (!to->carries || to->load == 0 || (!grows && !falls && !moves)) {
+        to->increments = run->coupled && run->increments > 0 ? run->increments : 1;
+        to->late = to->increments == 1;
+        return;
+    }
+    if (exact(run, from, to)) {
+        to->increments = run->increments > 0 ? run->increments : 1;
+        return;
+    }
     if (run->increments > 0)
-        return run->increments;
-    if (run->coupled && grows)
-        return PRESSES;
-    if (grows && moves && (run->bodies.kap != 0 || to->moved || angle > straight))
-        return TURNS;
-    while (moves && n < TURNS && (double)n < TURNS * angle * (1 - straight))
-        n *= 2;
+        n = run->increments;
+    else if (grows)
+        n = PRESSES;
+    else if (falls)
+        n = TURNS;
+    else if (angle > straight)
+        while (n < TURNS && ((double)n < TURNS * angle * (1 - straight) || n < HALVED))
+            n *= 2;
+    else
+        n = LATE;
+    to->increments = n;
+    to->late = n == LATE && run->increments == 0;
+    if (n < (grows || falls ? TURNS : HALVED) && !to->late)
+        to->told = SLIP_UNKNOWN;
+    else if (grows && !run->coupled)
+        to->told = n >= PRESSES ? SLIP_SOME : SLIP_FEW;
+    else if (grows || falls)
+        to->told = n >= PRESSES && run->coupled ? SLIP_MANY : n >= TURNS ? SLIP_SOME : SLIP_FEW;
+    else
+        to->told = to->late ? SLIP_SOME : n >= TURNS ? SLIP_MANY : SLIP_FEW;
+    if (before > to->told)
+        to->told = before;
+}
+
+size_t
+slip_fewer(size_t n, size_t joint)
+{
+    n >>= joint;
+    return n > 0 ? n : 1;
+}
+
+size_t
+slip_all_increments(const struct slip_run *run)
+{
+    size_t n = 0;
+
+    for (size_t k = 0; k < run->corners; k++)
+        n += run->corner[k].increments;
     return n;
 }
 
@@ -236,7 +299,7 @@ slip_plan_path(struct slip_run *run)
     run->coupled = run->bodies.beta != 0 && run->coupling != RC_COUPLING_NONE;
     run->alternates = run->bodies.beta != 0 && run->coupling == RC_COUPLING_FULL;
     run->solves = run->alternates;
-    run->twice = false;
+    run->joints = 1;
     run->corners = 0;
     run->corner = malloc((run->givens + 2) * sizeof *run->corner);
     if (run->corner == NULL)
@@ -252,8 +315,9 @@ slip_plan_path(struct slip_run *run)
     for (size_t k = 0; k < run->corners; k++) {
         const struct slip_corner *from = before(run, k);
         struct slip_corner *to = &run->corner[k];
-        to->increments = increments(run, from, to);
-        run->twice = run->twice || to->increments > 1;
+        set_increments(run, from, to);
+        if (to->told != SLIP_EXACT && to->told != SLIP_UNKNOWN)
+            run->joints = to->late && run->joints < SLIP_JOINTS ? 2 : SLIP_JOINTS;
         /* other loads than the stream's; or from no load to a force, where the first gap counts */
         for (size_t i = 1; i <= to->increments; i++) {
             double load = slip_on_the_way(run, k, i, to->increments).load;
@@ -270,7 +334,7 @@ slip_on_the_way(const struct slip_run *run, size_t corner, size_t k, size_t n)
 {
     const struct slip_corner *from = before(run, corner), *to = &run->corner[corner];
     struct slip_corner c = *to;
-    double part = (double)k / (double)n;
+    double part = to->late ? late : (double)k / (double)n;
 
     if (k == n)
         return c;

@@ -56,7 +56,7 @@ slip_report(struct slip_run *run, const struct slip_state *s)
     report_count(r, "passes", s->passes, NULL);
     report_number(r, "convolutions", s->convolutions, NULL);
     report_number(r, "traction_error_estimate", s->traction_error, NULL);
-    report_number(r, "increment_error_estimate", s->increment_error, NULL);
+    errors_report(r, &s->errors);
     report_bool(r, "converged", s->converged);
     report_object(r, "seconds");
     report_number(r, "total", s->seconds, "s");
@@ -69,16 +69,69 @@ slip_report(struct slip_run *run, const struct slip_state *s)
 /* ---- what is wrong with it ---- */
 
 static const double near_sliding = 0.99;
-static const double coarse = 0.05; /* error of increments that is told */
+static const double coarse = 0.05; /* an error that is told */
+
+double
+slip_goal(const struct slip_run *run)
+{
+    static const double usual = 0.1; /* without --tol, which then is that of the iteration */
+
+    return isnan(run->args->tol) ? usual : run->args->tol;
+}
+
+/* The largest part of the error, and what lowers it, where that is more than `most`. */
+static void
+say_what_is_left(struct slip_run *run, const struct slip_state *s, double most, const char *where)
+{
+    double n = 0, increments = s->errors.increment;
+
+    for (const struct slip_corner *c = run->corner; c <= s->corner; c++)
+        n = fmax(n, (double)c->increments);
+
+    if (isnan(s->traction_error))
+        tool_warn(&run->t,
+                  "%s: --increments %zu is too few to tell the error that is left: take 8, or auto",
+                  where, run->increments);
+    else if (s->traction_error > most && increments > s->traction_error / 2)
+        tool_warn(
+            &run->t,
+            "%s: the increments leave an error of %.2g %% of the tractions: take --increments "
+            "%.0f for %.2g %%",
+            where, 100 * increments, fmax(ceil(n * pow(increments / most, 1.1)), 8), 100 * most);
+    else if (s->traction_error > most || !s->converged)
+        tool_warn(
+            &run->t,
+            "%s: the iteration leaves an error of %.1e of the tractions, where %.1e was asked "
+            "for: take --tol %.0e; near sliding a displacement is easier to find than its "
+            "force",
+            where, s->traction_error - increments, slip_goal(run), slip_goal(run) / 10);
+}
+
+/* Bodies that have flowed under the pressure of the stream are elastic here. */
+static void
+say_what_yielded(struct slip_run *run, const char *where)
+{
+    double limit, most = 0;
+
+    for (size_t k = 0; k < rc_grid_nodes(run->p); k++)
+        most = fmax(most, run->p->v[k]);
+    if (rc_grid_number(run->p, "yield", &limit) ||
+        (rc_grid_number(run->p, "hardness", &limit) && most >= limit * (1 - 1e-9)))
+        tool_warn(
+            &run->t,
+            "%s: the body has yielded (%s %.4g Pa): rc-slip takes its pressure, moves elastic "
+            "bodies, and considers neither residual strains nor yield under tractions",
+            where, rc_grid_get(run->p, "yield") != NULL ? "yield stress" : "hardness", limit);
+}
 
 void
 slip_judge_plan(struct slip_run *run)
 {
     char where[256];
 
+    say_what_yielded(run, tool_where(&run->t, run->p, where, sizeof where));
     if (run->bodies.beta == 0 || run->coupling == RC_COUPLING_FULL)
         return;
-    tool_where(&run->t, run->p, where, sizeof where);
     if (run->coupling == RC_COUPLING_NONE)
         tool_warn(&run->t,
                   "%s: the bodies are dissimilar (beta %.3g), and --coupling none leaves out what "
@@ -93,18 +146,6 @@ slip_judge_plan(struct slip_run *run)
                   where, run->bodies.beta);
 }
 
-/* Whether load and force have grown together in one increment, which is exact for kap = 0 alone. */
-static bool
-grew_at_once(const struct slip_run *run, const struct slip_corner *to)
-{
-    static const struct slip_corner start = {0};
-    const struct slip_corner *from = to == run->corner ? &start : to - 1;
-
-    return to->increments == 1 && !to->moved && run->bodies.kap != 0 &&
-           to->load > from->load * (1 + 1e-9) &&
-           (to->to[0] != from->to[0] || to->to[1] != from->to[1]);
-}
-
 void
 slip_judge(struct slip_run *run, const struct slip_state *s)
 {
@@ -117,27 +158,13 @@ slip_judge(struct slip_run *run, const struct slip_state *s)
              force);
     if (tool_interrupted() != 0)
         tool_warn(&run->t, "%s: interrupted on its way: what is written stopped short", where);
-    else if (!s->converged)
-        tool_warn(&run->t,
-                  "%s: it stopped short of the accuracy asked for: tractions are off by about "
-                  "%.1e; near sliding a displacement is easier to find than its force",
-                  where, s->traction_error);
+    else
+        say_what_is_left(run, s, fmin(coarse, slip_goal(run)), where);
     if (!s->corner->moved && force > near_sliding * f->limit && f->limit > 0)
         tool_warn(&run->t,
                   "%s: that is %.6g of what friction can carry: the displacement grows without "
                   "bound there, and small errors of the pressure with it",
                   where, force / f->limit);
-    if (grew_at_once(run, s->corner))
-        tool_warn(&run->t,
-                  "%s: load and force grow together in one increment: tractions may be off by "
-                  "5 %%, with 8 increments by 1 %%",
-                  where);
-    if (s->increment_error > coarse && s->corner->increments > 1)
-        tool_warn(
-            &run->t,
-            "%s: with half the increments the tractions differ by %.0f %%: raise --increments "
-            "above %zu, twice as many halve the difference",
-            where, 100 * s->increment_error, s->corner->increments);
 }
 
 /* ---- what would be done ---- */
@@ -191,7 +218,8 @@ slip_say_plan(struct slip_run *run, size_t memory)
                 c->moved ? "m" : "N", c->to[1], c->moved ? "m" : "N", c->increments,
                 c->increments == 1 ? "" : "s");
     }
-    if (run->twice)
-        fprintf(out, "  %-16swith half of them too, for the error\n", "increments");
+    if (run->joints > 1)
+        fprintf(out, "  %-16swith half of them%s too, for the error\n", "increments",
+                run->joints < SLIP_JOINTS ? "" : " and a quarter");
     fprintf(out, "  %-16sabout %zu MiB\n", "memory", (memory >> 20) + 1);
 }

@@ -4,8 +4,10 @@
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
+#include "tools/problem/errors.h"
 
 enum {
+    SLIP_JOINTS = 3,                /* most: of all increments, of half of them, of a quarter */
     SLIP_CODE = 2 * TOOL_TRANSFORMS /* bytes, of both precisions */
 };
 
@@ -27,6 +29,15 @@ struct slip_args {
     bool periodic, resume, dry_run;
 };
 
+/* What is known of the error that the increments to a corner, and to those before, leave. */
+enum slip_told {
+    SLIP_EXACT,  /* there is none                                                 */
+    SLIP_MANY,   /* half of them and a quarter tell it, with a factor; with more  */
+    SLIP_SOME,   /* where the load changes                                        */
+    SLIP_FEW,    /* where there are few                                           */
+    SLIP_UNKNOWN /* nothing is: there are fewer than four, or eight of a changing load */
+};
+
 /* A place on a path, straight from the one before. */
 struct slip_corner {
     double load;  /* N */
@@ -34,6 +45,9 @@ struct slip_corner {
     bool moved;
     bool silent; /* on the way only: no case of its own */
     size_t increments;
+    bool carries; /* tractions, also those that a force has left */
+    bool late;    /* one increment, or two, the first of which goes nearly all of the way */
+    enum slip_told told;
 };
 
 /* What a pair of bodies is beside E*. */
@@ -48,8 +62,10 @@ struct slip_state {
     const struct slip_corner *corner;
     struct rc_joint_figures figures;
     double dissipated, dissipated_total; /* J: since the corner before, since the start */
-    double traction_error;               /* the largest of its increments               */
-    double increment_error;              /* NAN: unknown                                */
+    double lagging;                      /* Pa: sum of the increments' error over the map */
+    double doubt;                        /* relative: of the iteration of half of the increments */
+    struct error_parts errors;           /* of the tractions */
+    double traction_error;               /* their sum; NAN: unknown */
     double approach;                     /* m; NAN: unknown */
     size_t passes;
     double convolutions, seconds;
@@ -76,7 +92,9 @@ struct slip_run {
     bool coupled;    /* the pressure moves the bodies along each other */
     bool alternates; /* and feels tractions                            */
     bool solves;     /* contacts are solved                            */
-    bool twice;      /* with half the increments too                   */
+    double *lag
+        [2]; /* Pa: tractions of all increments to the corner before less those of half of them */
+    size_t joints; /* 1: nothing is told of increments; 2: half of them, 3: a quarter, too */
 };
 
 /* ---- path.c ---- */
@@ -85,6 +103,10 @@ struct slip_run {
 void slip_read_path(struct slip_run *run, struct slip_args *args);
 /* The corners of this case and the increments to each; which contacts are to be solved. */
 void slip_plan_path(struct slip_run *run);
+/* So many increments to a corner when it has n: of all, of half, of a quarter. */
+size_t slip_fewer(size_t n, size_t joint);
+/* Of all corners. */
+size_t slip_all_increments(const struct slip_run *run);
 /* Where increment k of n to a corner ends, 0 < k <= n. */
 struct slip_corner slip_on_the_way(const struct slip_run *run, size_t corner, size_t k, size_t n);
 
@@ -116,6 +138,8 @@ size_t slip_checkpoint_memory(const struct slip_run *run);
 
 /* ---- report.c ---- */
 
+/* Relative L1 error of the tractions that is asked for: of increments and all. */
+double slip_goal(const struct slip_run *run);
 /* Warnings printed before the run. */
 void slip_judge_plan(struct slip_run *run);
 void slip_judge(struct slip_run *run, const struct slip_state *s);
