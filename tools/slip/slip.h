@@ -4,7 +4,7 @@
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
-#include "tools/problem/errors.h"
+#include "tools/problem/problem.h"
 
 enum {
     SLIP_JOINTS = 3,                /* most: of all increments, of half of them, of a quarter */
