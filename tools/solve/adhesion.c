@@ -280,6 +280,34 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where)
         shown_in_unit(range, s->range * sqrt(enough / s->cohesive_nodes), "m"));
 }
 
+/* Tabor's number, of a sphere of this radius on these bodies. */
+static double
+tabor(const struct run *run)
+{
+    const struct physics *p = &run->args->physics;
+    double w = run->adhering.law.problem.work / p->surface_estar;
+
+    return cbrt(p->radius * w * w) / run->adhering.scales.range;
+}
+
+/* The law named jkr has the shortest range that the grid resolves: JKR's limit is that of Tabor's number 3 and more. */
+static void
+warn_of_jkr(struct run *run, const struct rc_grid *g, const char *where)
+{
+    const double enough_tabor = 3, is = tabor(run);
+    char range[SHOWN_NUMBER], finer[SHOWN_NUMBER];
+
+    if (strcmp(run->adhering.scales.law, "jkr") != 0 || !(is < enough_tabor))
+        return;
+    /* the range grows with the root of the spacing */
+    tool_warn(
+        &run->t,
+        "%s: Tabor's number is %.2g, below 3: the range, %s, is too long for JKR theory, whose "
+        "loads and areas may differ by percents: take a spacing of %s",
+        where, is, shown_in_unit(range, run->adhering.scales.range, "m"),
+        shown_in_unit(finer, fmax(g->dx, g->dy) * pow(is / enough_tabor, 2), "m"));
+}
+
 static void
 warn_of_state(struct run *run, const char *where, const struct rc_adhesion_figures *f)
 {
@@ -354,8 +382,10 @@ judge(struct run *run, const struct rc_grid *g, struct solution *s)
 
     solve_where(run, g, where, sizeof where);
     tell(run, where, f, run->adhering.pulling);
-    if (run->step == 0)
+    if (run->step == 0 && !run->adhering.pulling) {
         warn_of_grid(run, g, where);
+        warn_of_jkr(run, g, where);
+    }
     warn_of_state(run, where, f);
     if (f->separated)
         return;
@@ -471,21 +501,12 @@ adhesion_state(const struct run *run)
 
     if (!a->wanted)
         return "left out: no --adhesion";
-    snprintf(text, sizeof text, "on: %s, %s over %s: at most %s, cohesive length %.2g nodes",
+    snprintf(text, sizeof text, "on: %s, %s over %s: at most %s, cohesive length %.2g nodes%s",
              a->scales.law, shown_in_unit(work, a->law.problem.work, "J/m2"),
              shown_in_unit(range, a->scales.range, "m"),
-             shown_in_unit(strength, a->scales.strength, "Pa"), a->scales.cohesive_nodes);
+             shown_in_unit(strength, a->scales.strength, "Pa"), a->scales.cohesive_nodes,
+             isnan(run->args->physics.radius) ? "; Tabor's number needs --radius" : "");
     return text;
-}
-
-/* Tabor's number, of a sphere of this radius on these bodies. */
-static double
-tabor(const struct run *run)
-{
-    const struct physics *p = &run->args->physics;
-    double w = run->adhering.law.problem.work / p->surface_estar;
-
-    return cbrt(p->radius * w * w) / run->adhering.scales.range;
 }
 
 void
