@@ -1,7 +1,7 @@
 # Files of the kinds that laboratories send, by the table wild.tsv: size, spacing, two heights, the words of standard error, the exit status.
 . "$(dirname "$0")/../pipe.sh"
 
-wild=$(cd "$(dirname "$0")" && pwd)
+wild=$RC_SOURCE/tests/formats
 
 # What is in out.rcg: nx ny dx dy, first and last value, in $is.
 look() {
