@@ -623,6 +623,9 @@ RC_API enum rc_status rc_solver_step(struct rc_solver *solver);
  * rc_solver_new; the solver is then of no further use. */
 RC_API enum rc_status rc_solver_set_load(struct rc_solver *solver, double load, double approach,
                                          struct rc_err *err);
+/* Another asked relative L1 error of the pressure, above 0, from the next load that is set. The engine stays
+ * that of the tolerance of rc_solver_new, which should not be far above this one. */
+RC_API void rc_solver_set_tol(struct rc_solver *solver, double tol);
 /* Other heights (nx ny m, copied), of any range, under the load or the approach that is set: the same plan
  * and the same memory, nothing is evaluated anew; the last pressure is where it starts. Counts begin anew.
  * RC_FAIL when one is not a finite number, which leaves all as it was, and as in rc_solver_set_load. */
@@ -753,20 +756,20 @@ struct rc_plastic_problem {
 
 /* What a load has done; lengths in m. */
 struct rc_plastic_figures {
-    size_t increments, applications; /* of the volume's operator                                  */
-    size_t voxels;                   /* of a node and a slab, that have yielded                   */
-    double depth, volume;            /* bottom of the deepest of them; m^3                        */
-    double max_strain;               /* largest equivalent plastic strain                         */
-    double work;                     /* J, that all loads so far have put into plastic strain     */
+    size_t increments; /* of this load: 1 where nothing, or only a trace, flows on the way to it  */
+    size_t applications; /* of the volume's operator                                              */
+    size_t voxels;       /* of a node and a slab, that have yielded                   */
+    double depth, volume;      /* bottom of the deepest of them; m^3                        */
+    double max_strain;         /* largest equivalent plastic strain                         */
+    double work;               /* J, that all loads so far have put into plastic strain     */
     double max_pressure_mean4; /* Pa: of means of 2 x 2 nodes, for without hardening the pressure
                                         alternates from node to node                             */
     double lag;                /* that was reached                                          */
-    /* estimated relative L1 errors of the pressure: of the increments, NAN for fewer than 4 of them, and of
-     * the iteration; and of both */
-    double increment_error, iteration_error, error;
-    /* the part of it that comes from the images of a map that does not repeat; the integral of the equivalent
-     * strain over the volume, m^3 */
-    double image_error, strained;
+    /* Estimated relative L1 error of the pressure, the sum of its parts: of the increments of this load, NAN
+     * for fewer than 8 of them; of those of the loads before, NAN where one of these had fewer; of the
+     * iteration; of the tolerance of the contacts; and of the images of a map that does not repeat. */
+    double error, increment_error, inherited_error, iteration_error, contact_error, image_error;
+    double strained; /* m^3: the integral of the equivalent strain over the volume                */
 };
 
 struct rc_plastic;
@@ -777,12 +780,15 @@ RC_API struct rc_plastic *rc_plastic_new(const struct rc_shape *shape, const dou
 /* The next load of a history, N; 0 takes the bodies apart. */
 RC_API enum rc_status rc_plastic_set_load(struct rc_plastic *plastic, double load,
                                           struct rc_err *err);
+/* Increments of each load from the next that is set; 0: 16. */
+RC_API void rc_plastic_set_increments(struct rc_plastic *plastic, size_t increments);
 /* The next load acts on these heights, nx ny m, of bodies without strain: one of them has been moved. */
 RC_API void rc_plastic_set_heights(struct rc_plastic *plastic, const double *h);
 /* One application: a contact and two sweeps through the volume. RC_MORE until the load is reached, then
  * RC_OK, or RC_SHORT where a contact or the iteration stopped short; RC_FAIL when memory is short. */
 RC_API enum rc_status rc_plastic_step(struct rc_plastic *plastic, struct rc_err *err);
-/* Progress: current load (N), increment, and iteration within it. */
+/* How far it is: the load of this increment, N, which increment (0: an elastic trial of the load), which
+ * application of it. */
 RC_API void rc_plastic_progress(const struct rc_plastic *plastic, double *load, size_t *increment,
                                 size_t *application);
 RC_API const struct rc_plastic_figures *rc_plastic_result(const struct rc_plastic *plastic);

@@ -103,7 +103,7 @@ read_yield(struct run *run)
         return;
     if (yield_law_read(&run->yield, args.yield, &err) != RC_OK)
         tool_die(t, EXIT_USAGE, "--yield %s: %s", args.yield, err.text);
-    yield_law_check(t, &args.physics);
+    yield_law_check(t, &run->yield, &args.physics);
     yield_law_refuse(t, tool_given(t, "kernel") || tool_given(t, "method"), "--kernel and --method",
                      "increments and slabs are what is tried, by the first of them");
     yield_law_refuse(t, tool_given(t, "depths"), "--depths",

@@ -13,6 +13,7 @@
 
 enum rc_plastic_stage {
     RC_PLASTIC_NEW,   /* no load is asked for */
+    RC_PLASTIC_PROBE, /* elastic trials of the load, which change no strain */
     RC_PLASTIC_TRIAL, /* increments */
     RC_PLASTIC_ORDER, /* the contact with what the order of the integration adds */
     RC_PLASTIC_STATE, /* the contact of the strain that has been accepted */
@@ -36,18 +37,29 @@ struct rc_plastic {
     double bearable; /* N: beyond it all depths yield under the mean pressure                */
     double *other;   /* a pressure to compare with                                               */
     bool alone;      /* no load: p is 0                                                          */
+    bool flows;      /* some voxel did in the last application                                   */
+    bool elastic;    /* nothing flows on the way to this load                                    */
+    bool few;        /* some load so far was reached in too few increments to tell their error   */
     bool failed;     /* memory was short in a row                                                */
     bool pressed;    /* a load has been: the solver's pressure is one to start from */
     bool stopped;    /* a contact stopped short                                                  */
     bool moved;      /* the heights are new                                                      */
     double from, to, set; /* loads: of the last result, asked for, of this increment           */
-    size_t increments, increment, trial; /* of this load, which, and which application of it   */
+    double low, high; /* shares of the way from one to the next: nothing flows up to, flows at  */
+    double start;     /* load from which the increments go                                      */
+    size_t increments, count; /* of a load that flows, and of this one                         */
+    size_t increment, trial;  /* which of them, and which application of it                    */
+    size_t taken;             /* increments of all loads so far                                */
+    double tol, asked_tol;    /* of the contacts of this load, and as asked for                */
+    double kept;              /* error that plastic flow has kept of the contacts' tolerances  */
     double order, resistance;
     double mix; /* Anderson's share of the trial before                                        */
     enum rc_plastic_stage stage;
     struct rc_plastic_figures figures;
 };
 
+/* The contacts are found to this tolerance from the next load that is set. */
+void rc_plastic_solve_to(struct rc_plastic *plastic, double tol);
 /* The pressure becomes the one that the next is compared with. */
 void rc_plastic_keep_pressure(struct rc_plastic *plastic);
 

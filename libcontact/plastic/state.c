@@ -2,7 +2,7 @@
  * The state of a body that yields as a list of numbers, from which another like it goes on: figures, the
  * pressure of the contact, and the voxels one after another, of which less is told where less is needed:
  *
- *     a load is reached          place, e, equivalent strain
+ *     a load is reached          place, e, equivalent strain, what the order of the integration adds to e
  *     between two increments     and the last increment, which is where the next begins
  *     within one                 and what is tried, with what the trial before it did
  *
@@ -24,6 +24,15 @@ enum { /* figures, in order */
     COLUMNS,
     VOXELS,
     STAGE,
+    COUNT, /* increments of this load */
+    START,
+    LOW,
+    HIGH,
+    TAKEN,
+    TOL,
+    KEPT,
+    ELASTIC,
+    FEW,
     INCREMENT,
     TRIAL,
     FROM,
@@ -37,13 +46,15 @@ enum { /* figures, in order */
     APPLICATIONS,
     LAG,
     INCREMENT_ERROR, /* -1: unknown */
+    INHERITED_ERROR, /* the same */
     ITERATION_ERROR,
     FIGURES
 };
-static const double form = 2; /* of this list */
+static const double form = 3; /* of this list */
 
-enum { /* numbers of a voxel behind its place */
-    REACHED = RC_DEVIATOR + 1,
+enum {                        /* numbers of a voxel behind its place */
+    STRAIN = RC_DEVIATOR + 1, /* the place of the equivalent strain */
+    REACHED = 2 * RC_DEVIATOR + 1,
     BETWEEN = REACHED + 2 * RC_DEVIATOR + 1,
     WITHIN = BETWEEN + 3 * RC_DEVIATOR
 };
@@ -51,7 +62,7 @@ enum { /* numbers of a voxel behind its place */
 static size_t
 columns_of(const struct rc_plastic *p)
 {
-    if (p->stage == RC_PLASTIC_NEW || p->stage >= RC_PLASTIC_AGAIN)
+    if (p->stage <= RC_PLASTIC_PROBE || p->stage >= RC_PLASTIC_AGAIN)
         return REACHED;
     return p->trial == 0 ? BETWEEN : WITHIN;
 }
@@ -66,16 +77,16 @@ struct part {
 };
 
 enum {
-    PARTS = 8
+    PARTS = 9
 };
 
 static void
 parts_of(struct rc_voxel *v, struct part part[PARTS])
 {
-    const struct part all[PARTS] = {{v->e, NULL, RC_DEVIATOR},      {&v->strain, NULL, 1},
-                                    {v->last, NULL, RC_DEVIATOR},   {&v->grown, NULL, 1},
-                                    {NULL, v->missed, RC_DEVIATOR}, {v->x, NULL, RC_DEVIATOR},
-                                    {NULL, v->moved, RC_DEVIATOR},  {NULL, v->left, RC_DEVIATOR}};
+    const struct part all[PARTS] = {
+        {v->e, NULL, RC_DEVIATOR},    {&v->strain, NULL, 1},         {NULL, v->before, RC_DEVIATOR},
+        {v->last, NULL, RC_DEVIATOR}, {&v->grown, NULL, 1},          {NULL, v->missed, RC_DEVIATOR},
+        {v->x, NULL, RC_DEVIATOR},    {NULL, v->moved, RC_DEVIATOR}, {NULL, v->left, RC_DEVIATOR}};
 
     memcpy(part, all, sizeof all);
 }
@@ -86,6 +97,8 @@ give(const struct rc_voxel *voxel, size_t columns, double *to)
     struct rc_voxel v = *voxel;
     struct part part[PARTS];
 
+    for (size_t a = 0; a < RC_DEVIATOR && columns == REACHED; a++)
+        v.before[a] += v.missed[a];
     parts_of(&v, part);
     for (size_t k = 0, done = 0; done < columns; done += part[k++].n)
         for (size_t a = 0; a < part[k].n; a++)
@@ -119,29 +132,39 @@ rc_plastic_state(const struct rc_plastic *p, double *state)
 {
     const struct rc_plastic_figures *f = &p->figures;
     size_t columns = columns_of(p);
-    const double figures[FIGURES] = {[FORM] = form,
-                                     [NX] = (double)p->shape.nx,
-                                     [NY] = (double)p->shape.ny,
-                                     [SLABS] = (double)p->voxels.slabs,
-                                     [INCREMENTS] = (double)p->increments,
-                                     [COLUMNS] = (double)columns,
-                                     [VOXELS] = (double)rc_voxels_count(&p->voxels),
-                                     [STAGE] = p->stage,
-                                     [INCREMENT] = (double)p->increment,
-                                     [TRIAL] = (double)p->trial,
-                                     [FROM] = p->from,
-                                     [TO] = p->to,
-                                     [SET] = p->set,
-                                     [RESISTANCE] = isinf(p->resistance) ? 0 : p->resistance,
-                                     [ALONE] = p->alone,
-                                     [STOPPED] = p->stopped,
-                                     [PRESSED] = p->pressed,
-                                     [LOAD] = rc_solver_load(p->solver),
-                                     [APPLICATIONS] = (double)f->applications,
-                                     [LAG] = f->lag,
-                                     [INCREMENT_ERROR] =
-                                         isnan(f->increment_error) ? -1 : f->increment_error,
-                                     [ITERATION_ERROR] = f->iteration_error};
+    const double figures[FIGURES] = {
+        [FORM] = form,
+        [NX] = (double)p->shape.nx,
+        [NY] = (double)p->shape.ny,
+        [SLABS] = (double)p->voxels.slabs,
+        [INCREMENTS] = (double)p->increments,
+        [COLUMNS] = (double)columns,
+        [VOXELS] = (double)rc_voxels_count(&p->voxels),
+        [STAGE] = p->stage,
+        [COUNT] = (double)p->count,
+        [START] = p->start,
+        [LOW] = p->low,
+        [HIGH] = p->high,
+        [TAKEN] = (double)p->taken,
+        [TOL] = p->tol,
+        [KEPT] = p->kept,
+        [ELASTIC] = p->elastic,
+        [FEW] = p->few,
+        [INCREMENT] = (double)p->increment,
+        [TRIAL] = (double)p->trial,
+        [FROM] = p->from,
+        [TO] = p->to,
+        [SET] = p->set,
+        [RESISTANCE] = isinf(p->resistance) ? 0 : p->resistance,
+        [ALONE] = p->alone,
+        [STOPPED] = p->stopped,
+        [PRESSED] = p->pressed,
+        [LOAD] = rc_solver_load(p->solver),
+        [APPLICATIONS] = (double)f->applications,
+        [LAG] = f->lag,
+        [INCREMENT_ERROR] = isnan(f->increment_error) ? -1 : f->increment_error,
+        [INHERITED_ERROR] = isnan(f->inherited_error) ? -1 : f->inherited_error,
+        [ITERATION_ERROR] = f->iteration_error};
 
     memcpy(state, figures, sizeof figures);
     state += FIGURES;
@@ -171,19 +194,21 @@ check_figures(const struct rc_plastic *p, const double *s, size_t n, struct rc_e
     if (n < FIGURES + p->n || s[FORM] != form)
         return rc_err_set(err, "no state of a body that yields, or one of another version");
     if (s[NX] != (double)p->shape.nx || s[NY] != (double)p->shape.ny ||
-        s[SLABS] != (double)p->voxels.slabs || s[INCREMENTS] != (double)p->increments)
+        s[SLABS] != (double)p->voxels.slabs)
         return rc_err_set(err,
-                          "the state is that of %g x %g nodes with %g slabs and %g increments, not "
-                          "of %zu x %zu with %zu and %zu",
-                          s[NX], s[NY], s[SLABS], s[INCREMENTS], p->shape.nx, p->shape.ny,
-                          p->voxels.slabs, p->increments);
+                          "the state is that of %g x %g nodes with %g slabs, not of %zu x %zu with "
+                          "%zu",
+                          s[NX], s[NY], s[SLABS], p->shape.nx, p->shape.ny, p->voxels.slabs);
     if ((s[COLUMNS] != REACHED && s[COLUMNS] != BETWEEN && s[COLUMNS] != WITHIN) ||
         !whole_below(s[VOXELS], (double)n) ||
         s[VOXELS] * (1 + s[COLUMNS]) != (double)(n - FIGURES - p->n) ||
-        !whole_below(s[STAGE], RC_PLASTIC_DONE + 1) ||
-        !whole_below(s[INCREMENT], s[INCREMENTS] + 2) || !whole_below(s[TRIAL], 1e9) ||
-        !whole_below(s[APPLICATIONS], 1e15) || !(s[FROM] >= 0) || !(s[TO] >= 0) || !(s[SET] >= 0) ||
-        !(s[RESISTANCE] >= 0) || !(s[LOAD] > 0) || !(s[LAG] >= 0) || !(s[ITERATION_ERROR] >= 0))
+        !whole_below(s[STAGE], RC_PLASTIC_DONE + 1) || !whole_below(s[INCREMENTS] - 1, 1e9) ||
+        !whole_below(s[COUNT], s[INCREMENTS] + 1) ||
+        !whole_below(s[INCREMENT], s[INCREMENTS] + 2) || !whole_below(s[TAKEN], 1e15) ||
+        !(s[START] >= 0) || !(s[LOW] >= 0) || !(s[HIGH] >= s[LOW]) || !(s[TOL] > 0) ||
+        !(s[KEPT] >= 0) || !whole_below(s[TRIAL], 1e9) || !whole_below(s[APPLICATIONS], 1e15) ||
+        !(s[FROM] >= 0) || !(s[TO] >= 0) || !(s[SET] >= 0) || !(s[RESISTANCE] >= 0) ||
+        !(s[LOAD] > 0) || !(s[LAG] >= 0) || !(s[ITERATION_ERROR] >= 0))
         return rc_err_set(err, "the state is damaged: its figures do not go together");
     return RC_OK;
 }
@@ -201,7 +226,7 @@ check(const struct rc_plastic *p, const double *s, size_t n, struct rc_err *err)
         return RC_FAIL;
     step = 1 + (size_t)s[COLUMNS];
     for (size_t k = FIGURES + p->n; k < n; k += step) {
-        if (!whole_below(s[k], places) || !(s[k] > last) || !(s[k + REACHED] >= 0))
+        if (!whole_below(s[k], places) || !(s[k] > last) || !(s[k + STRAIN] >= 0))
             return rc_err_set(err, "the state is damaged at voxel %zu",
                               (k - FIGURES - p->n) / step);
         last = s[k];
@@ -243,22 +268,32 @@ take_figures(struct rc_plastic *p, const double *s)
     enum rc_plastic_stage stage = (enum rc_plastic_stage)s[STAGE];
 
     p->stage = stage == RC_PLASTIC_DONE ? RC_PLASTIC_AGAIN : stage;
+    p->increments = (size_t)s[INCREMENTS];
+    p->count = (size_t)s[COUNT];
+    p->start = s[START];
+    p->taken = (size_t)s[TAKEN];
+    p->kept = s[KEPT];
+    p->elastic = s[ELASTIC] != 0;
+    p->few = s[FEW] != 0;
+    p->low = s[LOW];
+    p->high = s[HIGH];
     p->increment = (size_t)s[INCREMENT];
     p->trial = (size_t)s[TRIAL];
     p->from = s[FROM];
     p->to = s[TO];
     p->set = s[SET];
-    p->order = p->increment > 1 ? RC_PLASTIC_BETA : 0;
+    p->order = stage != RC_PLASTIC_PROBE && p->increment > 1 ? RC_PLASTIC_BETA : 0;
     p->resistance = s[RESISTANCE] > 0 ? s[RESISTANCE] : INFINITY;
     p->alone = s[ALONE] != 0;
     p->stopped = s[STOPPED] != 0;
     p->pressed = s[PRESSED] != 0;
-    p->figures = (struct rc_plastic_figures){.increments = p->increments,
-                                             .applications = (size_t)s[APPLICATIONS],
-                                             .lag = s[LAG],
-                                             .increment_error =
-                                                 s[INCREMENT_ERROR] < 0 ? NAN : s[INCREMENT_ERROR],
-                                             .iteration_error = s[ITERATION_ERROR]};
+    p->figures = (struct rc_plastic_figures){
+        .increments = p->count,
+        .applications = (size_t)s[APPLICATIONS],
+        .lag = s[LAG],
+        .increment_error = s[INCREMENT_ERROR] < 0 ? NAN : s[INCREMENT_ERROR],
+        .inherited_error = s[INHERITED_ERROR] < 0 ? NAN : s[INHERITED_ERROR],
+        .iteration_error = s[ITERATION_ERROR]};
 }
 
 enum rc_status
@@ -271,6 +306,7 @@ rc_plastic_restore(struct rc_plastic *p, const double *state, size_t n, struct r
         return rc_err_set(err, "out of memory for the strain of %g voxels", state[VOXELS]);
     take_figures(p, state);
     p->moved = true; /* what strain does to the surface is found anew */
+    rc_plastic_solve_to(p, state[TOL]);
     if (rc_solver_set_load(p->solver, state[LOAD], 0, err) != RC_OK ||
         (p->pressed && rc_solver_warm_start(p->solver, state[LOAD], state + FIGURES, err) != RC_OK))
         return RC_FAIL;

@@ -428,6 +428,12 @@ rc_solver_set_load(struct rc_solver *s, double load, double approach, struct rc_
     return RC_OK;
 }
 
+void
+rc_solver_set_tol(struct rc_solver *s, double tol)
+{
+    s->posed.tol = tol;
+}
+
 enum rc_status
 rc_solver_set_heights(struct rc_solver *s, const double *h, struct rc_err *err)
 {

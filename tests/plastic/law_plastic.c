@@ -390,7 +390,8 @@ free_maps(void **state)
                   off / all, bend / dent);
     assert_true(off / all < 1e-2 && bend / dent < 2e-2);
     said = rc_plastic_result(plastic[0])->image_error;
-    assert_true(said >= off / all && said < 2.5 * off / all);
+    print_message("told for the images: %.1e\n", said);
+    assert_true(said >= off / all && said < 7 * off / all);
     assert_true(rc_plastic_result(plastic[0])->error >= said);
     rc_plastic_free(plastic[0]);
     rc_plastic_free(plastic[1]);
@@ -526,9 +527,70 @@ estimate(void **state)
     print_message(
         "estimates %.2f to %.2f of the error; 16 increments to %.2e in %zu applications\n", least,
         high, worst, most);
-    assert_true(least >= 1 && high <= 2.5);
-    assert_true(worst <= 1e-2 && most <= 40);
+    assert_true(least >= 1 && high <= 5);
+    assert_true(worst <= 1e-2 && most <= 60);
     free(h);
+}
+
+/* The error that a load leaves is that of the loads after it too: of lists in 16 increments no estimate is
+ * below the error, and what unloads or comes to the same peak again takes few applications. */
+static void
+inherits(void **state)
+{
+    enum {
+        SIDE = 12,
+        SLABS = 7,
+        LOADS = 3
+    };
+    static const double shares[2][LOADS] = {{1, 0.1, 1}, {1, 0.5, 1.3}};
+    static const double thickness[SLABS] = {0.5, 0.6, 0.8, 1, 1.2, 1.5, 1.9};
+    const struct rc_shape shape = {SIDE, SIDE, 1, 1};
+    double h[SIDE * SIDE], p[LOADS][SIDE * SIDE], told[LOADS], least = INFINITY, high = 0, own = 0;
+    size_t back = 0;
+
+    (void)state;
+    for (uint64_t q = 0; q < 20; q++) {
+        uint64_t seed = 900 + q;
+        struct rc_selfaffine rough = {.hurst = 0.5 + 0.4 * (random_number(&seed) + 0.5),
+                                      .rms_slope = 0.1 + 0.2 * (random_number(&seed) + 0.5),
+                                      .short_cut = 2 + 3 * (random_number(&seed) + 0.5),
+                                      .rolloff = 10,
+                                      .seed = 700 + q};
+        double yield = 0.03 + 0.03 * (random_number(&seed) + 0.5);
+        double load = SIDE * SIDE * yield * (0.2 + 0.4 * (random_number(&seed) + 0.5));
+        struct rc_plastic_problem problem = {
+            .contact = {.boundary = RC_PERIODIC, .pair.one.nu = 0.3, .tol = 1e-4},
+            .yield = {.stress = yield, .modulus = 0.05 * (random_number(&seed) + 0.5)},
+            .slabs = SLABS,
+            .thickness = thickness};
+
+        assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
+        for (int fine = 0; fine < 2; fine++) {
+            struct rc_plastic *plastic;
+            problem.increments = fine ? 160 : 16;
+            problem.contact.tol = fine ? 1e-6 : 1e-4;
+            plastic = plastic_new(shape, h, problem);
+            for (size_t k = 0; k < LOADS; k++) {
+                const struct rc_plastic_figures *f = press(plastic, load * shares[q % 2][k]);
+                const double *is = rc_solver_pressure(rc_plastic_solver(plastic));
+                if (!fine) {
+                    memcpy(p[k], is, sizeof p[k]);
+                    told[k] = f->error;
+                    own = k > 0 && f->inherited_error > 0 ? fmax(own, f->inherited_error) : own;
+                    back = q % 2 == 0 && k == 2 && f->applications > back ? f->applications : back;
+                } else if (distance(SIDE * SIDE, p[k], is) > 1e-5) {
+                    double ratio = told[k] / distance(SIDE * SIDE, p[k], is);
+                    least = fmin(least, ratio);
+                    high = fmax(high, ratio);
+                }
+            }
+            rc_plastic_free(plastic);
+        }
+    }
+    print_message("lists: estimates %.2f to %.1f of the error, inherited up to %.1e; back to the "
+                  "peak in %zu applications at most\n",
+                  least, high, own, back);
+    assert_true(least >= 0.99 && own > 1e-3);
 }
 
 /* ---- a state that is kept ---- */
@@ -610,7 +672,7 @@ static void
 goes_on(void **state)
 {
     static struct found whole[KEPT_LOADS], again[KEPT_LOADS];
-    struct rc_plastic *plastic = kept_new(KEPT_SLABS, 5);
+    struct rc_plastic *plastic = kept_new(KEPT_SLABS, 8);
     double pressure = 0, strain = 0;
     size_t step, exact = 0, sizes[3] = {SIZE_MAX, 0, 0};
     struct rc_err err;
@@ -619,11 +681,11 @@ goes_on(void **state)
     go_through(plastic, 0, false, whole, NULL);
     rc_plastic_free(plastic);
     for (step = 1;; step++) {
-        struct rc_plastic *other = kept_new(KEPT_SLABS, 5);
+        struct rc_plastic *other = kept_new(KEPT_SLABS, 8);
         size_t load = step, n;
         double *kept;
 
-        plastic = kept_new(KEPT_SLABS, 5);
+        plastic = kept_new(KEPT_SLABS, 8);
         go_through(plastic, 0, false, again, &load);
         if (load == KEPT_LOADS) {
             rc_plastic_free(plastic);
@@ -670,7 +732,7 @@ static void
 refuses_states(void **state)
 {
     struct rc_plastic *plastic = kept_new(KEPT_SLABS, 5), *more = kept_new(KEPT_SLABS + 1, 5),
-                      *finer = kept_new(KEPT_SLABS, 6);
+                      *finer;
     static struct found before[KEPT_LOADS], after[KEPT_LOADS];
     size_t steps = 7, n, refused = 0, tried = 0;
     double *kept, *spoilt;
@@ -683,8 +745,7 @@ refuses_states(void **state)
     spoilt = malloc(n * sizeof *spoilt);
     rc_plastic_state(plastic, kept);
     assert_int_equal(rc_plastic_restore(more, kept, n, &err), RC_FAIL);
-    assert_non_null(strstr(err.text, "24 x 24 nodes with 6 slabs and 5 increments"));
-    assert_int_equal(rc_plastic_restore(finer, kept, n, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "24 x 24 nodes with 6 slabs, not of"));
     assert_int_equal(rc_plastic_restore(plastic, kept, n - 1, &err), RC_FAIL);
     assert_int_equal(rc_plastic_restore(plastic, kept, 3, &err), RC_FAIL);
     for (size_t k = 0; k < n; k += 7, tried++) {
@@ -694,13 +755,12 @@ refuses_states(void **state)
     }
     assert_int_equal(refused, tried);
     memcpy(spoilt, kept, n * sizeof *kept);
-    spoilt[n - 33] = 1e12; /* the place of the last voxel */
+    spoilt[n - 38] = 1e12; /* the place of the last voxel */
     assert_int_equal(rc_plastic_restore(plastic, spoilt, n, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "damaged at voxel"));
     go_through(plastic, steps, true, before, NULL);
     assert_int_equal(rc_plastic_restore(more, kept, n, &err), RC_FAIL);
-    rc_plastic_free(finer);
-    finer = kept_new(KEPT_SLABS, 5);
+    finer = kept_new(KEPT_SLABS, 6); /* the increments are those of the state */
     assert_int_equal(rc_plastic_restore(finer, kept, n, &err), RC_OK);
     go_through(finer, steps, true, after, NULL);
     assert_true(distance(KEPT * KEPT, after[2].p, before[2].p) < 1e-7);
@@ -730,11 +790,12 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(onset),          cmocka_unit_test(ball_hardness),
-        cmocka_unit_test(fully_plastic),  cmocka_unit_test(let_go),
-        cmocka_unit_test(free_maps),      cmocka_unit_test(shakedown),
-        cmocka_unit_test(estimate),       cmocka_unit_test(goes_on),
-        cmocka_unit_test(refuses_states), cmocka_unit_test(is_lean),
+        cmocka_unit_test(onset),         cmocka_unit_test(ball_hardness),
+        cmocka_unit_test(fully_plastic), cmocka_unit_test(let_go),
+        cmocka_unit_test(free_maps),     cmocka_unit_test(shakedown),
+        cmocka_unit_test(estimate),      cmocka_unit_test(inherits),
+        cmocka_unit_test(goes_on),       cmocka_unit_test(refuses_states),
+        cmocka_unit_test(is_lean),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -98,7 +98,7 @@ other() { # WHAT PATTERN OPTIONS: refused
 loads="--mean-pressure 150MPa,0,200MPa"
 other "another yield stress" 'checkpoint.yield was 2000000000,10000000000, is 3000000000,10000000000$' "$solve $loads --yield 3GPa,10GPa"
 other "another hardening" 'checkpoint.yield was .*, is table [0-9a-f]{8}$' "printf '0 2GPa\n1 12GPa\n' >t.tsv; $solve $loads --yield t.tsv"
-other "no yield" 'checkpoint.yield was .*, is not given$' "$solve $loads --history"
+other "no yield" 'checkpoint.yield was .*, is not given$' "${solve/,residual,strain/} $loads --history"
 other "other slabs" 'checkpoint.slabs was auto, is 6$' "$solve $history --slabs 6"
 other "a list of slabs" 'checkpoint.slabs was auto, is list [0-9a-f]{8}$' "$solve $history --slabs 1um,2um"
 other "other increments" 'checkpoint.increments was auto, is 9$' "$solve $history --increments 9"
@@ -106,7 +106,7 @@ other "another tolerance" 'checkpoint.tol was 0.01, is 0.05$' "$solve $history -
 other "another body of the same E*" 'checkpoint.nu1 was 0.3, is -0.3$' \
     "rc-solve --quiet --periodic --E1 210GPa --nu1 -0.3 --E2 rigid $loads --yield 2GPa,10GPa"
 other "other loads before" 'checkpoint.mean-pressure was 200000000, is 180000000$' "$solve --mean-pressure 150MPa,0,180MPa --yield 2GPa,10GPa"
-$solve --mean-pressure 150MPa --checkpoint elastic.rcg -o x.rcg rough.rcg && rm x.rcg
+${solve/,residual,strain/} --mean-pressure 150MPa --checkpoint elastic.rcg -o x.rcg rough.rcg && rm x.rcg
 refuses 1 'checkpoint.yield was not given, is 2000000000,10000000000' "that of elastic bodies" \
     "$solve --mean-pressure 150MPa --yield 2GPa,10GPa --checkpoint elastic.rcg --resume -o x.rcg rough.rcg"
 
@@ -125,12 +125,12 @@ lie() {
         print @s;' -- "$1" "$2" "$3" >lies.rcg
 }
 lie 2 2 kept.rcg
-refuses 1 'case 3 cannot be gone on with \(it has other increments or slabs' "a state of other slabs" \
+refuses 1 'case 3 cannot be gone on with \(it has other slabs' "a state of other slabs" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 lie -1 nan kept.rcg # strain of the last voxel
 refuses 1 'case 3 cannot be gone on with \(the state is damaged: number [0-9]* of it is not finite' "one that is not finite" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
-lie -7 1e9 kept.rcg # its place
+lie -12 1e9 kept.rcg # its place
 refuses 1 'case 3 cannot be gone on with \(the state is damaged at voxel' "one whose strain is nowhere" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 head -c "$(ends kept.rcg | head -n 10 | tail -n 1)" kept.rcg >begun.rcg # in the first load

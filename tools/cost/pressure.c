@@ -104,7 +104,7 @@ yield_inside(struct job *j, const double *h, struct rc_solver *elastic)
     of_it = rc_plastic_solver(plastic);
     j->convolutions = NAN; /* nearly all of the work is in the volume */
     rc_solver_result(of_it, NULL, NULL, &j->contact);
-    j->contact.pressure_error += j->figures.error;
+    j->contact.pressure_error = j->figures.error;
     j->contact.converged = j->contact.converged && status == RC_OK;
     return of_it;
 }

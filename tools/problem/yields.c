@@ -10,6 +10,34 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Whether the word begins as no number does, nan among them. */
+static bool
+is_word(const char *text)
+{
+    char *end;
+
+    (void)strtod(text, &end);
+    return end == text;
+}
+
+/* A point of the table after those that there are. */
+static enum rc_status
+check_point(const struct yield_law *y, size_t n, double strain, double stress, struct rc_err *err)
+{
+    if (n == 0 && strain != 0)
+        return rc_err_set(err, "plastic strain %g: the table must begin at 0", strain);
+    if (n > 0 && !(strain > y->table[0][n - 1]))
+        return rc_err_set(err, "plastic strain %g: it must be above %g, that of the point before",
+                          strain, y->table[0][n - 1]);
+    if (!(stress > 0))
+        return rc_err_set(err, "stress %g Pa: it must be above 0", stress);
+    if (n > 0 && stress < y->table[1][n - 1])
+        return rc_err_set(err,
+                          "stress %g Pa: it must not fall below %g Pa, that of the point before",
+                          stress, y->table[1][n - 1]);
+    return RC_OK;
+}
+
 /* "strain stress" in lines; '#' begins a comment, and a line of words at the top is a heading. */
 static enum rc_status
 read_table(struct yield_law *y, const char *name, struct rc_err *err)
@@ -18,6 +46,7 @@ read_table(struct yield_law *y, const char *name, struct rc_err *err)
     char line[512];
     size_t n = 0, room = 0, number = 0;
     enum rc_status status = RC_OK;
+    struct rc_err point;
 
     if (file == NULL)
         return rc_err_set(err, "%s", strerror(errno));
@@ -38,11 +67,15 @@ read_table(struct yield_law *y, const char *name, struct rc_err *err)
         }
         if (unit_number(strain, UNIT_NONE, &at[0], err) != RC_OK ||
             unit_number(stress, UNIT_PA, &at[1], err) != RC_OK) {
-            if (n == 0 && number == 1)
+            if (n == 0 && number == 1 && is_word(strain) && is_word(stress))
                 continue;
             status =
                 rc_err_set(err, "line %zu: '%s %s': it must be a plastic strain and a stress in Pa",
                            number, strain, stress);
+            break;
+        }
+        if (check_point(y, n, at[0], at[1], &point) != RC_OK) {
+            status = rc_err_set(err, "line %zu: %s", number, point.text);
             break;
         }
         if (n == room) {
@@ -95,9 +128,26 @@ yield_law_refuse(struct tool *t, bool given, const char *what, const char *why)
         tool_die(t, EXIT_USAGE, "--yield: not with %s: %s", what, why);
 }
 
-void
-yield_law_check(struct tool *t, const struct physics *a)
+/* No solid yields at less than a millionth of its modulus, nor at more than all of it. */
+static void
+check_unit(struct tool *t, double stress, double estar)
 {
+    const double least = 1e-6;
+    char is[SHOWN_NUMBER], modulus[SHOWN_NUMBER];
+
+    if (stress >= least * estar && stress <= estar)
+        return;
+    tool_die(
+        t, EXIT_USAGE, "--yield: the yield stress, %s, is %s, %s: is its unit right, as in 1GPa?",
+        shown_in_unit(is, stress, "Pa"), stress > estar ? "above E*" : "below a millionth of E*",
+        shown_in_unit(modulus, estar, "Pa"));
+}
+
+void
+yield_law_check(struct tool *t, const struct yield_law *read, const struct physics *a)
+{
+    const struct rc_yield *law = &read->law;
+
     yield_law_refuse(t, !isinf(a->hardness), "--hardness",
                      "a bound of the pressure is what it takes the place of");
     yield_law_refuse(t, a->layer.n > 0, "--layer", "the material is one");
@@ -108,6 +158,7 @@ yield_law_check(struct tool *t, const struct physics *a)
                      "a body that yields inside must be compressible");
     yield_law_refuse(t, a->approach.n > 0, "--approach",
                      "a body that yields follows loads: give --load or --mean-pressure");
+    check_unit(t, yield_law_first(law), a->surface_estar);
 }
 
 double

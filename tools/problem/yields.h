@@ -17,8 +17,8 @@ struct yield_law {
 enum rc_status yield_law_read(struct yield_law *law, const char *text, struct rc_err *err);
 /* Where it is given, ends the tool: it does not go with --yield. */
 void yield_law_refuse(struct tool *tool, bool given, const char *what, const char *why);
-/* The same for all of the physics that does not. */
-void yield_law_check(struct tool *tool, const struct physics *physics);
+/* The same for all of the physics that does not, and for a yield stress whose unit was forgotten. */
+void yield_law_check(struct tool *tool, const struct yield_law *law, const struct physics *physics);
 /* Pa: the yield stress of what has not yielded. */
 double yield_law_first(const struct rc_yield *law);
 /* Pa: by which that grows at first, per equivalent plastic strain. */

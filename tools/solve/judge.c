@@ -44,28 +44,28 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
     double estar = run->args->physics.surface_estar;
     char peak[SHOWN_NUMBER], modulus[SHOWN_NUMBER], mean[SHOWN_NUMBER], x[SHOWN_NUMBER],
         y[SHOWN_NUMBER], load[SHOWN_NUMBER];
+    const char *name;
 
-    shown_in_unit(peak, yield_peak(run, s->contact.max_pressure), "Pa");
+    shown_in_unit(peak, yield_peak(run, s->contact.max_pressure, &name), "Pa");
     shown_in_unit(modulus, estar, "Pa");
     shown_in_unit(mean, s->contact.mean_pressure, "Pa");
     if (estar < no_modulus)
         solve_warn(run, "the largest pressure is above E*",
-                   "%s: the largest pressure, %s, is above E*, which is %s: was its unit "
-                   "forgotten, as in 114GPa?",
-                   where, peak, modulus);
+                   "%s: the %s, %s, is above E*, which is %s: was its unit forgotten, as in "
+                   "114GPa?",
+                   where, name, peak, modulus);
     else if (s->contact.mean_pressure > linear * estar)
-        solve_warn(
-            run, "the largest pressure is above E*",
-            "%s: the largest pressure, %s, is above E* = %s; on a map of %s by %s the mean is %s: "
-            "are the load, %s, and E* in their right units?",
-            where, peak, modulus, shown_in_unit(x, width, "m"), shown_in_unit(y, length, "m"), mean,
-            shown_in_unit(load, s->contact.load, "N"));
+        solve_warn(run, "the largest pressure is above E*",
+                   "%s: the %s, %s, is above E* = %s; on a map of %s by %s the mean is %s: "
+                   "are the load, %s, and E* in their right units?",
+                   where, name, peak, modulus, shown_in_unit(x, width, "m"),
+                   shown_in_unit(y, length, "m"), mean, shown_in_unit(load, s->contact.load, "N"));
     else
         solve_warn(
             run, "the largest pressure is above E*",
-            "%s: the largest pressure, %s, is above E* = %s, and the RMS slope in contact is "
-            "%.3g: are heights and spacings in their right units (rc-import --z-unit, --dx)?",
-            where, peak, modulus, s->slope);
+            "%s: the %s, %s, is above E* = %s, and the RMS slope in contact is %.3g: are heights "
+            "and spacings in their right units (rc-import --z-unit, --dx)?",
+            where, name, peak, modulus, s->slope);
 }
 
 void
@@ -73,22 +73,23 @@ solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where
                      const struct solution *s)
 {
     double estar = run->args->physics.surface_estar;
-    double peak = yield_peak(run, s->contact.max_pressure);
+    const char *name;
+    double peak = yield_peak(run, s->contact.max_pressure, &name);
     char most[SHOWN_NUMBER], hardness[SHOWN_NUMBER];
 
     if (peak > estar)
         suspect_unit(run, g, where, s);
     else if (peak > linear * estar && isfinite(run->hardness_max) && run->hardness_max >= peak)
         solve_warn(run, "a pressure at which a solid is not linear elastic",
-                   "%s: the largest pressure, %s, is %.2g of E*: beyond %g a solid is not linear "
-                   "elastic, and the hardness given, %s, is above that: is its unit right?",
-                   where, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
+                   "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic, and "
+                   "the hardness given, %s, is above that: is its unit right?",
+                   where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
                    shown_in_unit(hardness, run->hardness_max, "Pa"));
     else if (peak > linear * estar)
         solve_warn(run, "a pressure at which a solid is not linear elastic",
-                   "%s: the largest pressure, %s, is %.2g of E*: beyond %g a solid is not linear "
-                   "elastic: give %sa smaller load",
-                   where, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
+                   "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic: give "
+                   "%sa smaller load",
+                   where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
                    run->yielding.wanted ? "" : "its --hardness, or ");
     if (s->slope > small_slope)
         solve_warn(run, "slopes beyond the theory of small slopes",
@@ -156,6 +157,8 @@ tell(struct run *run, const char *where, const struct solution *s)
     const struct rc_contact *c = &s->contact;
     char load[SHOWN_NUMBER], area[SHOWN_NUMBER], peak[SHOWN_NUMBER], approach[SHOWN_NUMBER];
     char gap[SHOWN_NUMBER], yielded[SHOWN_NUMBER + 32] = "", took[96], error[32] = "";
+    char value[SHOWN_NUMBER], over_nodes[SHOWN_NUMBER + 32] = "";
+    double mean;
 
     if (c->yielded_nodes > 0) {
         shown_area(area, c->yielded_area);
@@ -163,15 +166,19 @@ tell(struct run *run, const char *where, const struct solution *s)
     }
     if (!isnan(c->pressure_error))
         snprintf(error, sizeof error, " to %.2g", c->pressure_error);
+    mean = yield_peak(run, c->max_pressure, NULL);
+    if (mean != c->max_pressure)
+        snprintf(over_nodes, sizeof over_nodes, " (%s over 2 x 2 nodes)",
+                 shown_in_unit(value, mean, "Pa"));
     yield_tell(run, c, took, sizeof took);
     tool_note(&run->t,
               "%s: force %s, contact area %s (%.3g %% of the map, %zu nodes in %zu %s), %slargest "
-              "pressure %s, approach %s, mean gap %s; %s%s in %s, "
+              "pressure %s%s, approach %s, mean gap %s; %s%s in %s, "
               "%.2g s",
               where, shown_in_unit(load, c->load, "N"), shown_area(area, c->contact_area),
               100 * c->contact_fraction, c->contact_nodes, s->patches.count,
               s->patches.count == 1 ? "patch" : "patches", yielded,
-              shown_in_unit(peak, yield_peak(run, c->max_pressure), "Pa"),
+              shown_in_unit(peak, c->max_pressure, "Pa"), over_nodes,
               isnan(c->approach) ? "unknown" : shown_in_unit(approach, c->approach, "m"),
               shown_in_unit(gap, c->mean_gap, "m"), c->converged ? "converged" : "not converged",
               error, took, solve_now() - run->began);
@@ -196,5 +203,6 @@ solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
         solve_warn_of_theory(run, g, where, s);
         warn_of_grid(run, g, where, s);
     }
-    solve_warn_of_end(run, where, &s->contact);
+    if (!yield_warn_of_end(run, where, s))
+        solve_warn_of_end(run, where, &s->contact);
 }

@@ -67,6 +67,11 @@ struct yielding {
     struct rc_plastic *plastic; /* NULL: nothing has yielded                                   */
     double most, deepest; /* largest elastic Mises stress over the yield stress; m; 0: unknown */
     size_t try; /* where their number is left open: which one, from 0                          */
+    double *before;     /* the state before the load, or NULL                            */
+    size_t before_size; /* numbers */
+    size_t worst;       /* the case with the largest error of increments, its increments */
+    size_t worst_increments;
+    double worst_error;
     enum rc_status status; /* of the load                                                 */
 };
 
@@ -229,9 +234,12 @@ void yield_look(struct run *run, struct solution *solution);
 void yield_displace(const struct run *run, size_t n, double factor, double *v);
 /* The plastic strain slab by slab; `like`: the frames' shape and keys; buffer: room for a map. */
 void yield_put_strain(struct run *run, const struct rc_grid *like, double *buffer);
-/* The largest pressure: of means of 2 x 2 nodes where single nodes alternate. */
-double yield_peak(const struct run *run, double max_pressure);
+/* The largest pressure, and its name (NULL: not wanted): of means of 2 x 2 nodes where single nodes
+ * alternate. */
+double yield_peak(const struct run *run, double max_pressure, const char **name);
 void yield_judge(struct run *run, const char *where, const struct solution *solution);
+/* Warns of a load whose error is larger than asked for, or unknown. False: there is nothing to say of that. */
+bool yield_warn_of_end(struct run *run, const char *where, const struct solution *solution);
 /* What the solution took, in words. */
 void yield_tell(const struct run *run, const struct rc_contact *contact, char *text, size_t size);
 const char *yield_state(const struct run *run);

@@ -15,14 +15,20 @@
 #include "formats/core/core.h"
 
 enum {
-    FIRST = 8,  /* increments of the first try, where their number is left open */
-    MOST = 512, /* and of the last */
+    FIRST = 8,       /* increments of the first try of a load, where their number is left open */
+    MOST_AUTO = 128, /* and of the last, */
+    MOST = 512,      /* with a --tol below the usual goal, and on the command line */
     TRIES = 3
 };
-static const double deserved = 1e-2;      /* error that the increments are chosen for            */
-static const double contact_share = 1e-2; /* of it, the tolerance of each contact                */
-static const double expected_part = 0.3;  /* of the voxels that yield, for the memory            */
-static const double order = 0.8;          /* power of the error that the increments go by */
+static const double deserved = 1e-2;       /* error that the increments are chosen for            */
+static const double contact_most = 1e-4;   /* tolerance of each contact, at most,                 */
+static const double contact_least = 1e-6;  /* and, for the sake of a smaller --tol, at least      */
+static const double contact_share = 0.1;   /* of --tol                                            */
+static const double lag_least = 1e-3;      /* what single precision allows                        */
+static const double for_later = 0.7;       /* share of the goal where loads follow                */
+static const double expected_part = 0.3;   /* of the voxels that yield, for the memory            */
+static const double order = 1.1;           /* power of the error that the increments go by        */
+static const double image_order = 1 / 2.7; /* and the side of a free map                         */
 static const double large_strain = 0.1;
 
 /* ---- the command line ---- */
@@ -66,6 +72,10 @@ yield_read(struct run *run)
     y->wanted = args->yield != NULL;
     if (!y->wanted && (args->increments != NULL || args->slabs != NULL))
         tool_die(&run->t, EXIT_USAGE, "--increments and --slabs belong to --yield");
+    for (int f = SOLVE_RESIDUAL; !y->wanted && f <= SOLVE_STRAIN; f++)
+        if (solve_wanted(args, f))
+            tool_die(&run->t, EXIT_USAGE, "--output %s has no effect without --yield",
+                     solve_frames[f].name);
     if (!y->wanted)
         return;
     if (yield_law_read(&y->read, args->yield, &err) != RC_OK)
@@ -73,7 +83,7 @@ yield_read(struct run *run)
     y->law = y->read.law;
     read_count(run, "increments", args->increments, &y->asked, NULL);
     read_count(run, "slabs", args->slabs, &y->slab_count, &y->list);
-    yield_law_check(&run->t, a);
+    yield_law_check(&run->t, &y->read, a);
     yield_law_refuse(&run->t, args->discretization, "--discretization",
                      "a grid half as fine yields elsewhere: solve it by itself");
     yield_law_refuse(&run->t, run->tilt, "--tilt free", "a body that yields follows one direction");
@@ -86,8 +96,9 @@ yield_free(struct run *run)
 
     rc_plastic_free(y->plastic);
     free(y->thickness);
+    free(y->before);
     y->plastic = NULL;
-    y->thickness = NULL;
+    y->thickness = y->before = NULL;
     y->slabs = 0;
 }
 
@@ -131,24 +142,25 @@ find_slabs(struct run *run, const struct rc_grid *g, const double *p)
 
 /* ---- loads ---- */
 
-static struct rc_plastic_problem
-problem_of(const struct run *run, struct rc_problem contact)
-{
-    const struct yielding *y = &run->yielding;
-    double most = contact_share * deserved;
-
-    contact.tol = contact.tol > 0 ? fmin(contact.tol, most) : most;
-    return (struct rc_plastic_problem){.contact = contact,
-                                       .yield = y->law,
-                                       .slabs = y->slabs,
-                                       .thickness = y->thickness,
-                                       .increments = y->increments};
-}
-
 static double
 goal(const struct run *run)
 {
     return run->args->tol > 0 ? run->args->tol : deserved;
+}
+
+static struct rc_plastic_problem
+problem_of(const struct run *run, struct rc_problem contact)
+{
+    const struct yielding *y = &run->yielding;
+    double asked = contact.tol > 0 ? contact.tol : 1;
+
+    contact.tol = fmin(fmin(asked, fmax(contact_share * asked, contact_least)), contact_most);
+    return (struct rc_plastic_problem){.contact = contact,
+                                       .yield = y->law,
+                                       .slabs = y->slabs,
+                                       .thickness = y->thickness,
+                                       .increments = y->increments,
+                                       .lag = fmax(2 * fmin(goal(run), deserved), lag_least)};
 }
 
 static void
@@ -162,7 +174,8 @@ make(struct run *run, const struct rc_grid *g, struct rc_problem contact)
 
     rc_plastic_free(y->plastic);
     y->plastic = NULL;
-    if (run->checkpoint != NULL) /* a state takes no more than the voxels, and a pressure */
+    /* a state takes no more than the voxels, and a pressure */
+    if (run->checkpoint != NULL || (y->asked == 0 && run->steps->n > 1))
         bytes += bytes - rc_plastic_memory(&shape, &problem, 0) + rc_grid_nodes(g) * sizeof *g->v;
     tool_demand_memory(&run->t, g, bytes);
     y->plastic = rc_plastic_new(&shape, g->v, &problem, &err);
@@ -235,9 +248,11 @@ restore(struct run *run, const struct rc_grid *g, struct rc_grid *state)
     const double *v = state->v;
     struct rc_err err;
 
-    if (state->nx <= head || v[0] != (double)y->increments || v[2] != (double)y->slabs ||
-        memcmp(v + STATE_HEAD, y->thickness, y->slabs * sizeof *v) != 0)
-        damaged(run, g, "it has other increments or slabs than the load before it");
+    if (state->nx <= head || !(v[0] >= 1 && v[0] <= MOST) || !(v[1] >= 0 && v[1] < TRIES) ||
+        v[2] != (double)y->slabs || memcmp(v + STATE_HEAD, y->thickness, y->slabs * sizeof *v) != 0)
+        damaged(run, g, "it has other slabs than the load before it");
+    y->increments = (size_t)v[0];
+    y->try = (size_t)v[1];
     if (rc_plastic_restore(y->plastic, v + head, state->nx - head, &err) != RC_OK)
         damaged(run, g, err.text);
     rc_grid_free(state);
@@ -276,11 +291,13 @@ yield_mark(const struct run *run, int k, char *value, size_t size)
 
 /* ---- the loads themselves ---- */
 
+/* A load with as many increments as are to be tried next. */
 static void
 set_load(struct run *run, const struct rc_grid *g, double load)
 {
     struct rc_err err;
 
+    rc_plastic_set_increments(run->yielding.plastic, run->yielding.increments);
     if (rc_plastic_set_load(run->yielding.plastic, load, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
@@ -315,17 +332,75 @@ go(struct run *run, const struct rc_grid *g, double load, bool kept)
     run->iterate += solve_now() - start;
 }
 
+/* Before a load: where it begins, so that it can be tried again. */
+static void
+begin(struct run *run, const struct rc_grid *g)
+{
+    struct yielding *y = &run->yielding;
+
+    y->increments = y->asked > 0 ? y->asked : FIRST;
+    y->try = 0;
+    if (y->asked > 0)
+        return;
+    free(y->before);
+    y->before_size = rc_plastic_state_size(y->plastic);
+    y->before = malloc(y->before_size * sizeof *y->before);
+    if (y->before == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for the state before a load");
+    rc_plastic_state(y->plastic, y->before);
+}
+
+/* Whether more increments lower the error of the load to what is asked for, and how many. What images and
+ * earlier loads do is not their matter. */
+static bool
+deserves_more(struct run *run)
+{
+    struct yielding *y = &run->yielding;
+    const struct rc_plastic_figures *f = rc_plastic_result(y->plastic);
+    const size_t most = goal(run) < deserved ? MOST : MOST_AUTO;
+    const double aim = goal(run) * (run->step + 1 < run->steps->n ? for_later : 1);
+    const double own = f->increment_error, here = f->error - f->image_error;
+    double more = ceil((double)y->increments * pow(2 * own / goal(run), order));
+
+    if (y->asked > 0 || y->try + 1 == TRIES || y->increments >= most ||
+        own <= goal(run) / (f->image_error > goal(run) ? 2 : 4) ||
+        (here <= aim && !(f->error > goal(run) && own > goal(run) / 2)))
+        return false;
+    y->increments = more < (double)y->increments + 1 ? y->increments + 1
+                    : more < (double)most            ? (size_t)more
+                                                     : most;
+    y->try++;
+    return true;
+}
+
+/* The load that is set, again from where it began where its increments are found to be too few. */
+static void
+go_on(struct run *run, const struct rc_grid *g, double load, bool kept)
+{
+    struct yielding *y = &run->yielding;
+    struct rc_err err;
+
+    go(run, g, load, kept);
+    while (tool_interrupted() == 0 && deserves_more(run)) {
+        if (rc_plastic_restore(y->plastic, y->before, y->before_size, &err) != RC_OK)
+            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        set_load(run, g, load);
+        go(run, g, load, false);
+    }
+}
+
 void
 yield_press(struct run *run, const struct rc_grid *g, double load)
 {
     struct rc_grid *state = checkpoint_state(run->checkpoint, g);
 
+    begin(run, g);
     run->resumed = state != NULL;
     if (run->resumed)
         restore(run, g, state);
     else
         set_load(run, g, load);
-    go(run, g, load, run->resumed);
+    go_on(run, g, load, run->resumed);
 }
 
 /* Solves the elastic contact at the largest load of the list, which goes deepest. False: a signal has come,
@@ -351,45 +426,22 @@ go_to_largest(struct run *run, const struct rc_grid *g, struct rc_solver *solver
     return false;
 }
 
-/* The first load, with more increments where those that were taken are found to be too few. */
-static void
-go_on(struct run *run, const struct rc_grid *g, struct rc_problem contact, bool kept)
-{
-    struct yielding *y = &run->yielding;
-    const double enough = goal(run) * (1 - contact_share); /* the contact has the rest */
-
-    for (;;) {
-        const struct rc_plastic_figures *f = rc_plastic_result(y->plastic);
-        double more;
-
-        go(run, g, contact.load, kept);
-        if (y->asked > 0 || tool_interrupted() != 0 || !(f->error > enough) ||
-            y->increments >= MOST || y->try + 1 == TRIES)
-            return;
-        more = ceil((double)y->increments * pow(f->error / enough, order));
-        y->increments = more < MOST ? (size_t)more : MOST;
-        y->try++;
-        kept = false;
-        make(run, g, contact);
-        set_load(run, g, contact.load);
-    }
-}
-
 bool
 yield_begins(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
              struct rc_problem contact)
 {
     struct yielding *y = &run->yielding;
 
+    y->most = 0;
     if (!y->wanted || tool_interrupted() != 0 || !find_slabs(run, g, rc_solver_pressure(solver)) ||
         !go_to_largest(run, g, solver, contact.load))
         return false;
     (void)find_slabs(run, g, rc_solver_pressure(solver));
     y->increments = y->asked > 0 ? y->asked : FIRST;
-    y->try = 0;
     make(run, g, contact);
+    begin(run, g);
     set_load(run, g, contact.load);
-    go_on(run, g, contact, false);
+    go_on(run, g, contact.load, false);
     return true;
 }
 
@@ -403,45 +455,67 @@ yield_resumes(struct run *run, const struct rc_grid *g, struct rc_problem contac
     run->resumed = true;
     read_head(run, g, state);
     make(run, g, contact);
+    begin(run, g);
     restore(run, g, state);
-    go_on(run, g, contact, true);
+    go_on(run, g, contact.load, true);
     return true;
 }
 
 /* ---- what is found ---- */
 
+/* Broken off before it was known whether body 1 yields under the load. */
+static bool
+is_unknown(const struct run *run)
+{
+    const struct yielding *y = &run->yielding;
+
+    return y->wanted && y->plastic == NULL && tool_interrupted() != 0 &&
+           !(y->most > 0 && y->most <= 1);
+}
+
 void
 yield_look(struct run *run, struct solution *s)
 {
-    const struct yielding *y = &run->yielding;
+    struct yielding *y = &run->yielding;
     const struct rc_plastic_figures *f;
     struct rc_contact *c = &s->contact;
 
+    if (is_unknown(run)) { /* the error of the elastic contact says nothing */
+        c->pressure_error = NAN;
+        c->converged = false;
+    }
     if (y->plastic == NULL)
         return;
     f = rc_plastic_result(y->plastic);
     c->convolutions = NAN; /* nearly all of the work is in the volume */
-    s->errors = (struct error_parts){.told = true,
-                                     .increment = f->increment_error,
-                                     .iteration = f->iteration_error,
-                                     .contact = c->pressure_error,
-                                     .image = f->image_error};
+    s->errors = (struct error_parts){
+        true,          f->increment_error, f->inherited_error, f->iteration_error, f->contact_error,
+        f->image_error};
+    if (y->status == RC_MORE) /* broken off */
+        s->errors.increment = NAN;
     c->pressure_error = errors_sum(&s->errors);
     c->converged = y->status == RC_OK && c->converged &&
                    (errors_within(c->pressure_error, goal(run)) ||
                     (y->asked > 0 && isnan(c->pressure_error))); /* so few were asked for */
+    if (f->increment_error > y->worst_error) {
+        y->worst_error = f->increment_error;
+        y->worst = run->number;
+        y->worst_increments = f->increments;
+    }
 }
 
 double
-yield_peak(const struct run *run, double max_pressure)
+yield_peak(const struct run *run, double max_pressure, const char **name)
 {
     const double soft =
         10; /* hardening below so many times the yield stress lets nodes alternate */
     const struct yielding *y = &run->yielding;
+    const bool alternates =
+        y->plastic != NULL && yield_law_hardening(&y->law) < soft * yield_law_first(&y->law);
 
-    if (y->plastic == NULL || yield_law_hardening(&y->law) >= soft * yield_law_first(&y->law))
-        return max_pressure;
-    return rc_plastic_result(y->plastic)->max_pressure_mean4;
+    if (name != NULL)
+        *name = alternates ? "largest pressure over 2 x 2 nodes" : "largest pressure";
+    return alternates ? rc_plastic_result(y->plastic)->max_pressure_mean4 : max_pressure;
 }
 
 void
@@ -523,6 +597,75 @@ warn_of_slabs(struct run *run, const char *where, const struct rc_plastic_figure
             "%s: %zu %s in the depth that yields: its stresses are coarse: take a finer grid, or "
             "thinner --slabs",
             where, within, within == 1 ? "slab lies" : "slabs lie");
+}
+
+/* The part of the error that is largest, and what lowers it, by how much that was missed. */
+static void
+warn_of_part(struct run *run, const char *where, const struct solution *s)
+{
+    const struct yielding *y = &run->yielding;
+    const struct rc_plastic_figures *f = rc_plastic_result(y->plastic);
+    const struct error_parts *e = &s->errors;
+    const double asked = goal(run), off = s->contact.pressure_error / asked;
+    const char limit = errors_limited_by(e)[0]; /* of increments, history, tolerance, map */
+    const size_t made = limit == 'h' ? y->worst_increments : f->increments;
+    const double more = ceil((double)made * pow(off, order));
+    char what[256], first[96];
+
+    snprintf(first, sizeof first, "its estimated error is %.2g %%, above %.2g %%",
+             100 * s->contact.pressure_error, 100 * asked);
+    if (limit == 'i')
+        snprintf(what, sizeof what, "its increments leave %.2g %%: give --increments %.0f",
+                 100 * e->increment, more);
+    else if (limit == 'h')
+        snprintf(what, sizeof what,
+                 "%.2g %% come from case %zu, which was reached in %zu increments: give "
+                 "--increments %.0f",
+                 100 * e->inherited, y->worst, made, more);
+    else if (limit == 'm')
+        snprintf(what, sizeof what,
+                 "%.2g %% come from the edge of the map: more increments do not help: give a map "
+                 "%.1f times as large with the same contact, or --periodic where it is a period",
+                 100 * e->image, ceil(10 * pow(off, image_order)) / 10);
+    else
+        snprintf(what, sizeof what,
+                 "%.2g %% come from the tolerance of contacts and iteration: give --tol %.0e",
+                 100 * (e->iteration + e->contact), asked / 10);
+    solve_warn(run, "errors above what was asked for", "%s: %s: %s", where, first, what);
+}
+
+bool
+yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
+{
+    const struct yielding *y = &run->yielding;
+    size_t increment, application;
+    double load;
+
+    if (is_unknown(run)) {
+        tool_warn(&run->t,
+                  "%s: interrupted before it is known whether body 1 yields: what is written is an "
+                  "elastic solution: its error is not known",
+                  where);
+        return true;
+    }
+    if (y->plastic == NULL)
+        return false;
+    rc_plastic_progress(y->plastic, &load, &increment, &application);
+    if (y->status == RC_MORE)
+        tool_warn(&run->t,
+                  "%s: interrupted in increment %zu of %zu: what is written is on the way there, "
+                  "not a solution: its error is not known",
+                  where, increment, y->increments);
+    else if (isnan(s->contact.pressure_error))
+        solve_warn(run, "an error that is not known",
+                   "%s: nothing is known of its error: a load was reached in fewer than 8 "
+                   "increments: give more --increments",
+                   where);
+    else if (!s->contact.converged && y->status == RC_OK && s->contact.pressure_error > goal(run))
+        warn_of_part(run, where, s);
+    else
+        return false;
+    return true;
 }
 
 void
