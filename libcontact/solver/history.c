@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-static const double finest = 1e-9; /* of the pressure, that a load that yields is solved to */
+static const double finest = 1e-11; /* of the pressure, that a load that yields is solved to */
 
 double
 rc_history_error(const struct rc_solver *s)

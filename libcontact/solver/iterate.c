@@ -306,7 +306,7 @@ rest_block(void *at, size_t first, size_t n, double *sums)
     struct rc_solver *s = at;
     const struct rc_box box = rc_box(s, 0);
     /* the tolerance is that of the whole map: these nodes may have most of the error */
-    const double near = fmin(10 * s->posed.tol, 1e-2);
+    const double near = fmin(10 * s->load.tol, 1e-2);
 
     for (size_t k = first; k < first + n; k++) {
         double most = rc_high(box, k), p = s->it.p[k];

@@ -331,6 +331,7 @@ finished(struct rc_solver *s)
 
     if (s->it.error > goal) {
         s->load.tol = goal;
+        s->it.rested = false;
         return RC_MORE;
     }
     if (s->posed.height_error == 0 || s->it.rested || s->load.tol > s->posed.tol ||
