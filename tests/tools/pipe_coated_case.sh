@@ -14,7 +14,7 @@ figure() {
 }
 
 block rc-solve 'rc-synth selfaffine --nx 400' >case.sh
-claim "the case of rc-solve(1)" test "$(wc -l <case.sh)" = 9
+claim "the case of rc-solve(1)" test "$(wc -l <case.sh)" = 12
 claim "  runs" bash -c 'bash -e case.sh >said.txt 2>told.txt'
 read -r steel coated <<<"$(sed -n 's/.*largest pressure \([0-9.]*\) GPa.*/\1/p' told.txt | xargs)"
 near "$steel" 4.13 "$three_digits" "  largest pressure on steel, GPa"
