@@ -34,9 +34,10 @@ claim "  and four times the increments" test "$increments" = 128
 # The truth by rc-solve: the contacts to 1e-6 as well, but strains in single precision.
 rc-solve $contact --increments "$increments" --slabs "$slabs" --tol 1e-6 --quiet --output pressure --report truth.json -o truth.rcg rough.rcg
 every_error() {
-    while read -r method kernel _ tol _ _ _ _ _ _ error area _ _ k n applications _; do
-        rc-solve $contact --method "$method" --kernel "$kernel" --tol "$tol" --increments "$k" --slabs "$n" --quiet --output pressure \
-            --report one.json -o one.rcg rough.rcg || return 1
+    while read -r method kernel _ _ _ _ _ _ _ _ error area _ _ k n applications _; do
+        rc-solve $contact --method "$method" --kernel "$kernel" --increments "$k" --slabs "$n" --quiet --output pressure \
+            --report one.json -o one.rcg rough.rcg
+        [ -s one.rcg ] || return 1 # status 3: its estimate is above 1 %
         echo "$k $n $error $(off one.rcg truth.rcg $nodes) $area $(awk -v a="$(field contact_area one.json)" \
             -v b="$(field contact_area truth.json)" 'BEGIN { print a / b - 1 }') $applications $(field applications one.json)"
     done <rows.txt >both.txt
@@ -71,7 +72,7 @@ claim "a picture" says PNG head -c 4 cost.png
 rc-cost $contact --quiet --error 0.02 -o command rough.rcg
 proposed() {
     [ "$(wc -l <command)" = 1 ] && cat command >&2 &&
-        sh -c "$(cat command) --output pressure --quiet" >ran.rcg && off ran.rcg truth.rcg $nodes >distance && awk '{ exit !($1 <= 0.02) }' distance
+        { sh -c "$(cat command) --output pressure --quiet" >ran.rcg || [ $? = 3 ]; } && off ran.rcg truth.rcg $nodes >distance && awk '{ exit !($1 <= 0.02) }' distance
 }
 claim "the command for 2 %, run, is within 2 %" proposed
 claim "  it names increments and slabs" grep -Eq ' --yield 1.5GPa,5GPa .*--increments [0-9]+ --slabs [0-9]+( --threads 1)? rough.rcg$' command

@@ -59,8 +59,9 @@ put_command(struct tool *t, const struct cost_trial *m, FILE *out)
     fprintf(out, "rc-solve%s", physics);
     if (!m->settings.attracts) /* there is one method, with one kernel */
         fprintf(out, " --method %s --kernel %s", m->settings.method, m->settings.kernel);
-    fprintf(out, " --tol %s", rc_number_text(tol, m->settings.tol));
-    if (m->settings.increments > 0)
+    if (m->settings.increments == 0)
+        fprintf(out, " --tol %s", rc_number_text(tol, m->settings.tol));
+    else /* its contacts have the tolerance that rc-solve takes by itself */
         fprintf(out, " --increments %zu --slabs %zu", m->settings.increments, m->slabs);
     if (t->threads != rc_threads_available())
         fprintf(out, " --threads %zu", t->threads);
