@@ -185,7 +185,7 @@ refuses 1 '^\[[^]]*,0\]<stderr>: ?rc-solve: small.rcg, frame 1: .* --memory allo
     "$MPIRUN --tag-output -n 1 rc-solve --estar 1GPa --load 1mN -o no.rcg small.rcg : \
         -n 1 rc-solve --memory 1M --estar 1GPa --load 1mN -o no.rcg small.rcg"
 claim "  which is said once" test "$(grep -c 'memory allows' refuses.err)" = 1
-refuses 3 'stopped short' "short of the accuracy: written, with its exit status" \
+refuses 3 'not converged' "short of the accuracy: written, with its exit status" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --tol 1e-30 -o stopped.rcg rough.rcg"
 claim "  and whole" bash -c 'rc-info stopped.rcg >/dev/null; test $? = 3'
 claim "nothing of what failed is left" bash -c '! ls no.rcg* 2>/dev/null'
