@@ -856,10 +856,10 @@ check(const struct rc_plastic_problem *problem, struct rc_err *err)
     if (problem->contact.pair.estar > 0 || !(one->e > 0) || isinf(one->e))
         return rc_err_set(err, "plasticity needs E and nu of the body that yields");
     if (one->layers > 0)
-        return rc_err_set(err, "plasticity in the volume is not known under layers");
+        return rc_err_set(err, "plasticity in the volume is not implemented for layered bodies");
     if ((problem->contact.hardness > 0 && !isinf(problem->contact.hardness)) ||
         problem->contact.hardness_map != NULL)
-        return rc_err_set(err, "a bound of the pressure and plasticity in the volume: one of them");
+        return rc_err_set(err, "hardness and volume plasticity exclude each other");
     if (!(one->nu < 0.5))
         return rc_err_set(err, "Poisson's ratio %g: a body that yields inside must be compressible",
                           one->nu);
@@ -928,7 +928,7 @@ rc_plastic_new(const struct rc_shape *shape, const double *h,
     p->round = contact.boundary == RC_PERIODIC;
     contact.approach = 0;
     if (contact.load == 0)
-        contact.load = 1; /* none is solved before one is set */
+        contact.load = 1; /* placeholder; rc_plastic_set_load replaces it */
     if (make_room(p, h, problem, err) != RC_OK ||
         (p->slabs = rc_slabs_new(shape, &options, err)) == NULL ||
         (p->solver = rc_solver_new(shape, h, &contact, err)) == NULL) {
