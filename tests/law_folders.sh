@@ -203,16 +203,25 @@ claim "  and every header of the table is there" bash -c '
     cut -d "|" -f 2 arrows.txt | tr " " "\n" | grep / | sort -u | while read -r header; do
         [ -f "$RC_SOURCE/$header" ] || { echo "$header" >&2; exit 1; }
     done'
-# The picture of the folders in CONTRIBUTING.md: each folder by its name, with the header that it offers.
-drawn() {
-    awk '/^## The house/ { on = 1; next } /^## / { on = 0 } on' "$RC_SOURCE/CONTRIBUTING.md" >picture.txt
+# The map in CONTRIBUTING.md: each folder has a row in the table of its tree; a folder below it is named there. Every
+# folder with a row in the map exists.
+mapped() {
+    awk '/^## The map/ { on = 1; next } /^## / { on = 0 } on && /^\| [a-z]*\/ / { tree = $2 } on && /^\| `/ { print tree $0 }' \
+        "$RC_SOURCE/CONTRIBUTING.md" >map.txt
     (cd "$RC_SOURCE" && find libcontact formats tools -mindepth 1 -type d) | while read -r folder; do
-        grep -qE "(^|[^a-z])$(basename "$folder")([^a-z]|$)" picture.txt &&
-            { [ ! -e "$RC_SOURCE/$folder/$(basename "$folder").h" ] || grep -qE "[( ]$(basename "$folder")\\.h[,)]" picture.txt; } ||
-            { echo "not in the picture: $folder" >&2; exit 1; }
+        below=${folder#*/}
+        case $below in
+        */*/*) below=$(basename "$(dirname "$folder")") ;; # of one format
+        esac
+        grep -qE "^${folder%%/*}/.*\`$(basename "$below")/?\`" map.txt || { echo "not in the map: $folder" >&2; exit 1; }
+    done || return
+    cut -d '|' -f 1,2 map.txt | tr -d '`|,' | while read -r tree names; do
+        for name in $names; do
+            [ "$name" = 'rc-*.c' ] || [ -d "$RC_SOURCE/$tree$name" ] || { echo "no folder: $tree$name" >&2; exit 1; }
+        done
     done
 }
-claim "the picture in CONTRIBUTING.md has every folder and its header" drawn
+claim "the map in CONTRIBUTING.md has every folder, and no other" mapped
 names "$RC_SOURCE" >name.txt
 claim "no engine is named outside the folder of the operators, and no body outside its own" none name.txt
 
