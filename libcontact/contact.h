@@ -25,6 +25,7 @@
 #include <stdint.h>
 
 #include "grid.h"
+#include "model.h"
 
 #ifdef __cplusplus
 extern "C" {

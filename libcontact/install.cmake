@@ -9,7 +9,7 @@ if(RC_LEAK)
 endif()
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/libcontact)
 
-set(headers grid.h contact.h)
+set(headers grid.h model.h contact.h)
 if(RC_MPI)
     list(APPEND headers contact_mpi.h)
     set(libraries_of_mpi ${MPI_C_LIB_NAMES})

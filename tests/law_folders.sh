@@ -13,6 +13,7 @@
 # %physics: the folders that define those; %reader, %formats: the same for what reads files.
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
+libcontact/model    | %base libcontact/model.h                 | libcontact libcontact/solver=rc_figures_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
 libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
@@ -98,9 +99,9 @@ tools               | formats/format.h formats/export.h        | formats
 tools               | formats/containers/containers.h          | formats/containers formats/containers/packing
 END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
-public='libcontact/contact.h libcontact/grid.h'
+public='libcontact/contact.h libcontact/grid.h libcontact/model.h'
 physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/plastic'
-physics="$physics libcontact/adhesion libcontact/leak libcontact/slip libcontact/surface libcontact/features"
+physics="$physics libcontact/model libcontact/adhesion libcontact/leak libcontact/slip libcontact/surface libcontact/features"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
 reader='libcontact/grid.h formats/core/core.h formats/format.h formats/containers/containers.h formats/sandbox/sandbox.h'

@@ -5,6 +5,43 @@
 
 #include <math.h>
 
+#define FIGURE(member) RC_FIGURE(struct rc_contact, member)
+#define AS(column, member) RC_FIGURE_AS(column, struct rc_contact, member)
+const struct rc_figure rc_figures_contact[] = {
+    {FIGURE(load), "N", "Load", .says = "sum of the pressure"},
+    {FIGURE(mean_pressure), "Pa", "Mean pressure", .says = "load over the area of the map"},
+    {FIGURE(max_pressure), "Pa", "Largest pressure"},
+    {FIGURE(contact_nodes), NULL, "Nodes in contact"},
+    {FIGURE(contact_area), "m2", "Contact area"},
+    {FIGURE(contact_fraction), NULL, "Contact fraction",
+     .says = "contact area over the area of the map"},
+    {FIGURE(plastic_area), "m2", "Area at the hardness"},
+    {FIGURE(yielded_area), "m2", "Yielded area",
+     .says = "area at the hardness that this load deforms"},
+    {FIGURE(edge_load_fraction), NULL, "Share of the load at the edge",
+     .says = "load on the outer 2 % of the map over the load", .limit = 0.01,
+     .warning = "the contact reaches the edge of the map"},
+    {FIGURE(approach), "m", "Approach", .says = "of the bodies, from first touch"},
+    {FIGURE(mean_gap), "m", "Mean gap", .says = "over the whole map"},
+    {FIGURE(iterations), NULL, "Iterations", .role = RC_FIGURE_COST},
+    {FIGURE(convolutions), NULL, "Convolutions", .role = RC_FIGURE_COST,
+     .says = "in equivalents of one in double precision on this grid"},
+    {FIGURE(kkt_residual), NULL, "Residual",
+     .says =
+         "largest violation of the contact conditions over the spread of heights or displacements"},
+    {AS("pressure_error_estimate", pressure_error), NULL, "Error of the pressure",
+     .says = "estimated relative L1 error", .role = RC_FIGURE_ERROR, .by = "tol"},
+    {AS("discretization_error_estimate.contact_area", discretization.contact_area), NULL,
+     "Error of the contact area by the grid", .says = "estimated, relative"},
+    {AS("discretization_error_estimate.max_pressure", discretization.max_pressure), NULL,
+     "Error of the largest pressure by the grid", .says = "estimated, relative"},
+    {AS("discretization_error_estimate.approach", discretization.approach), NULL,
+     "Error of the approach by the grid", .says = "estimated, relative"},
+    {FIGURE(converged), NULL, "Converged", .says = "the error estimate is within the tolerance"},
+    {AS("elastic_energy", elastic_energy), "J", "Elastic energy", .says = "of both bodies"},
+    {0},
+};
+
 /* Load on the outer 2 % of the map, at least one line of nodes on each side. */
 static double
 edge_load(const struct rc_solver *s)

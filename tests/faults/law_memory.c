@@ -730,6 +730,9 @@ without(double *out, struct rc_err *err)
     rc_extremes(N, rough, &least, &largest);
     out[2 * N + 1] = (double)(least + largest + rc_body_material(&layered.one, 3e-6));
     out[2 * N + 2] = rc_number_read(rc_number_text(text, 1.5), false, &out[0]) != NULL;
+    out[2 * N + 3] = rc_figure_number(rc_figures("contact"), &(struct rc_contact){.load = 1});
+    if (rc_figure_word(rc_figure_find("converged"), &(struct rc_contact){0}) != NULL)
+        return RC_FAIL;
     return rc_key_valid("note") && rc_err_set(NULL, "%s", "x") == RC_FAIL ? RC_OK : RC_FAIL;
 }
 
@@ -937,8 +940,9 @@ every_function_is_tried(void **state)
 {
     char *here = text_of("tests/faults/law_memory.c"), *shared = text_of("tests/faults/uses.h");
     const char *const source[2] = {here, shared};
-    size_t n =
-        functions_of("libcontact/contact.h", source) + functions_of("libcontact/grid.h", source);
+    size_t n = functions_of("libcontact/contact.h", source) +
+               functions_of("libcontact/model.h", source) +
+               functions_of("libcontact/grid.h", source);
 
     (void)state;
     printf("%zu public functions\n", n);

@@ -45,7 +45,7 @@ claim "  a higher one does" grep -Eq '^300 N: [1-9][0-9]* nodes in contact, [1-9
 
 # Names that begin with a line are the compiler's: marks of sanitizers.
 offered() {
-    local headers=("$RC_SOURCE"/libcontact/{contact,grid}.h) CC=${CC-}
+    local headers=("$RC_SOURCE"/libcontact/{contact,model,grid}.h) CC=${CC-}
     with_mpi && headers+=("$RC_SOURCE/libcontact/contact_mpi.h") CC=mpicc
     declared "${headers[@]}" >declared.txt &&
         nm -D --defined-only "$library/libcontact.so" | awk '$3 !~ /^_/ { print $3 }' | sort >offered.txt &&

@@ -269,6 +269,112 @@ report_finish_row(struct report *r)
         failed(r);
 }
 
+/* ---- figures from their tables ---- */
+
+static void
+put_figure(struct report *r, const char *name, const struct figures *f)
+{
+    const double number = rc_figure_number(f->table, f->data);
+
+    if (f->table->kind == RC_WORD)
+        report_text(r, name, rc_figure_word(f->table, f->data));
+    else if (f->data == NULL || f->table->kind == RC_NUMBER)
+        report_number(r, name, number, f->table->unit);
+    else if (f->table->kind == RC_COUNT)
+        report_count(r, name, (size_t)number, f->table->unit);
+    else
+        report_bool(r, name, number != 0);
+}
+
+/* Whether both names are of one object: equal up to a dot. */
+static bool
+same_object(const char *a, const char *b)
+{
+    size_t n = strcspn(a, ".");
+
+    return strncmp(a, b, n + 1) == 0 && a[n] == '.';
+}
+
+static bool
+is_known(const struct figures *f)
+{
+    return f->table->kind == RC_WORD ? rc_figure_word(f->table, f->data) != NULL
+                                     : !isnan(rc_figure_number(f->table, f->data));
+}
+
+static void
+put_object(struct report *r, const struct figures *f, size_t n)
+{
+    char object[REPORT_NAME];
+    size_t length = strcspn(f->table->name, "."), known = 0;
+
+    snprintf(object, sizeof object, "%.*s", (int)length, f->table->name);
+    for (size_t k = 0; k < n; k++)
+        known += is_known(&f[k]);
+    if (known == 0) {
+        report_no_object(r, object);
+        return;
+    }
+    report_object(r, object);
+    for (size_t k = 0; k < n; k++)
+        put_figure(r, f[k].table->name + length + 1, &f[k]);
+    report_end(r);
+}
+
+static void
+put_figures(struct report *r, const struct figures *f, size_t n)
+{
+    for (size_t k = 0, end; k < n; k = end) {
+        for (end = k + 1; end < n && same_object(f[k].table->name, f[end].table->name); end++)
+            ;
+        if (strchr(f[k].table->name, '.') != NULL)
+            put_object(r, f + k, end - k);
+        else
+            put_figure(r, f[k].table->name, &f[k]);
+    }
+}
+
+void
+report_table(struct report *r, const struct rc_figure *table, const void *data)
+{
+    struct figures f[REPORT_COLUMNS];
+    size_t n = 0;
+
+    for (; table->name != NULL; table++) {
+        assert(n < REPORT_COLUMNS);
+        f[n++] = (struct figures){table, data};
+    }
+    if (report_wanted(r))
+        put_figures(r, f, n);
+}
+
+/* The figure whose name is the first n characters; the tables end with one that is NULL. */
+static struct figures
+named(const struct figures *from, const char *name, size_t n)
+{
+    for (; from->table != NULL; from++)
+        for (const struct rc_figure *f = from->table; f->name != NULL; f++)
+            if (strncmp(f->name, name, n) == 0 && f->name[n] == '\0')
+                return (struct figures){f, from->data};
+    assert(!"a column without a row in the tables");
+    abort();
+}
+
+void
+report_named(struct report *r, const struct figures *from, const char *names)
+{
+    struct figures f[REPORT_COLUMNS];
+    size_t n = 0;
+
+    for (size_t length; *names != '\0'; names += length + strspn(names + length, " ")) {
+        length = strcspn(names, " ");
+        assert(n < REPORT_COLUMNS);
+        f[n++] = named(from, names, length);
+    }
+    if (report_wanted(r))
+        put_figures(r, f, n);
+}
+
 void
 report_ranks(struct report *r, const struct tool *t)
 {

@@ -12,6 +12,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "libcontact/model.h"
 #include "tools/text/text.h"
 #include "tool.h"
 
@@ -57,6 +58,16 @@ void report_array(struct report *report, const char *name);
 void report_end(struct report *report);
 /* Instead of an object that is unknown. */
 void report_no_object(struct report *report, const char *name);
+/* A column for each figure of the table, in its order; `data`: the struct that holds them, or NULL where they are
+ * unknown. Figures "object.name" that follow each other stand in one object, which is unknown when all are. */
+void report_table(struct report *report, const struct rc_figure *table, const void *data);
+/* The figures of these names, with a blank between two, in their order, from several tables, the last of which is
+ * NULL. Every name must be in one of them. */
+struct figures {
+    const struct rc_figure *table;
+    const void *data;
+};
+void report_named(struct report *report, const struct figures *from, const char *names);
 /* What several processes that share the maps have sent to each other so far; nothing where there is one. */
 void report_ranks(struct report *report, const struct tool *tool);
 /* Writes the row; ends the tool when that fails. */

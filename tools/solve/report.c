@@ -173,19 +173,18 @@ effect_at(const struct scene *scene, size_t k, const char **name, const char **s
 
 /* ---- report ---- */
 
-static void
-report_discretization(struct report *r, const struct rc_contact *c)
-{
-    if (isnan(c->discretization.max_pressure)) {
-        report_no_object(r, "discretization_error_estimate");
-        return;
-    }
-    report_object(r, "discretization_error_estimate");
-    report_number(r, "contact_area", c->discretization.contact_area, "m2");
-    report_number(r, "max_pressure", c->discretization.max_pressure, "Pa");
-    report_number(r, "approach", c->discretization.approach, "m");
-    report_end(r);
-}
+#define FIGURE(column, member) RC_FIGURE_AS(column, struct solution, member)
+static const struct rc_figure solution_figures[] = {
+    {FIGURE("nodes_per_patch", nodes_per_patch), NULL, "Nodes per patch"},
+    {FIGURE("contact_area_corrected", patches.contact_area_corrected), "m2",
+     "Contact area, corrected"},
+    {FIGURE("stiffness", stiffness), "N/m", "Stiffness"},
+    {FIGURE("indentation", indentation), "m", "Indentation"},
+    {FIGURE("residual_indentation", residual_indentation), "m", "Residual indentation"},
+    {FIGURE("contact_area_inside", inside_area), "m2", "Contact area inside the taper"},
+    {FIGURE("contact_fraction_inside", inside_fraction), NULL, "Contact fraction inside the taper"},
+    {0},
+};
 
 /* The largest; all of them are in `rc-info --patches`. */
 static void
@@ -205,33 +204,27 @@ report_patches(struct report *r, const struct rc_patches *patches)
     report_end(r);
 }
 
+/* The figures of these names. */
 static void
-report_figures(struct report *r, const struct solution *s)
+report_of(struct report *r, const struct solution *s, const char *names)
 {
-    const struct rc_contact *c = &s->contact;
+    struct solution row = *s;
+    const struct figures from[] = {
+        {rc_figures("contact"), &row.contact}, {solution_figures, &row}, {NULL, NULL}};
 
-    report_number(r, "load", c->load, "N");
-    report_number(r, "mean_pressure", c->mean_pressure, "Pa");
-    report_number(r, "max_pressure", c->max_pressure, "Pa");
-    report_count(r, "contact_nodes", c->contact_nodes, NULL);
-    report_number(r, "nodes_per_patch", (double)c->contact_nodes / (double)s->patches.count, NULL);
-    report_number(r, "contact_area", c->contact_area, "m2");
-    report_number(r, "contact_area_corrected", s->patches.contact_area_corrected, "m2");
-    report_number(r, "contact_fraction", c->contact_fraction, NULL);
-    report_number(r, "plastic_area", c->plastic_area, "m2");
-    report_number(r, "yielded_area", c->yielded_area, "m2");
-    report_number(r, "edge_load_fraction", c->edge_load_fraction, NULL);
-    report_number(r, "approach", c->approach, "m");
-    report_number(r, "mean_gap", c->mean_gap, "m");
-    report_number(r, "stiffness", s->stiffness, "N/m");
-    report_count(r, "iterations", c->iterations, NULL);
-    report_number(r, "convolutions", c->convolutions, NULL);
-    report_number(r, "kkt_residual", c->kkt_residual, NULL);
-    report_number(r, "pressure_error_estimate", c->pressure_error, NULL);
-    report_discretization(r, c);
-    report_bool(r, "converged", c->converged);
-    report_patches(r, &s->patches);
+    row.nodes_per_patch = (double)s->contact.contact_nodes / (double)s->patches.count;
+    report_named(r, from, names);
 }
+
+static const char of_contact[] =
+    "load mean_pressure max_pressure contact_nodes nodes_per_patch contact_area "
+    "contact_area_corrected "
+    "contact_fraction plastic_area yielded_area edge_load_fraction approach mean_gap stiffness "
+    "iterations "
+    "convolutions kkt_residual pressure_error_estimate discretization_error_estimate.contact_area "
+    "discretization_error_estimate.max_pressure discretization_error_estimate.approach converged";
+static const char of_history[] =
+    "indentation residual_indentation contact_area_inside contact_fraction_inside";
 
 /* "1e-06,1e+11,0.3; ...": the layers in SI, top first; NULL: none. */
 static char *
@@ -307,7 +300,8 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
                 : run->adhering.path != NULL ? "gap"
                                              : NULL);
     report_count(r, "threads", run->t.threads, NULL);
-    report_figures(r, s);
+    report_of(r, s, of_contact);
+    report_patches(r, &s->patches);
     report_object(r, "effects");
     for (size_t k = 0; effect_at(&scene, k, &name, &state); k++)
         report_text(r, name, state);
@@ -327,10 +321,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "conductance", s->conductance.value, run->conductance_unit);
     report_number(r, "conductance_lower", s->conductance.lower, run->conductance_unit);
     report_asked(r, run, solver);
-    report_number(r, "indentation", s->indentation, "m");
-    report_number(r, "residual_indentation", s->residual_indentation, "m");
-    report_number(r, "contact_area_inside", s->inside_area, "m2");
-    report_number(r, "contact_fraction_inside", s->inside_fraction, NULL);
+    report_of(r, s, of_history);
     report_number(r, "tilt_x", run->tilt ? atan(s->contact.tilt[0]) : NAN, "rad");
     report_number(r, "tilt_y", run->tilt ? atan(s->contact.tilt[1]) : NAN, "rad");
     yield_report(r, run);

@@ -142,6 +142,7 @@ struct solution {
     struct rc_patches patches;         /* of the contact; the list of them only for a report */
     double slope;                      /* RMS, where the bodies touch; NAN: not looked at         */
     double stiffness;                  /* N/m; NAN: unknown                                       */
+    double nodes_per_patch;            /* of the row that is reported                            */
     struct rc_conductance conductance; /* NAN: unknown */
     /* m, in a history, from the first touch of the first shape; NAN: unknown. Of this solution, and
      * of the first touch of the shape that it leaves. */

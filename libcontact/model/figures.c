@@ -1,0 +1,62 @@
+/* Tables of figures: their values, and where they are. */
+#include <math.h>
+#include <string.h>
+
+#include "libcontact/model.h"
+
+#define RC_FIGURES(name) extern const struct rc_figure rc_figures_##name[];
+#include "figures.list"
+#undef RC_FIGURES
+
+static const struct {
+    const char *name;
+    const struct rc_figure *figure;
+} tables[] = {
+#define RC_FIGURES(name) {#name, rc_figures_##name},
+#include "figures.list"
+#undef RC_FIGURES
+};
+
+enum {
+    TABLES = sizeof tables / sizeof *tables
+};
+
+double
+rc_figure_number(const struct rc_figure *f, const void *data)
+{
+    const void *at;
+
+    if (data == NULL || f->kind == RC_WORD)
+        return NAN;
+    at = (const char *)data + f->at;
+    return f->kind == RC_NUMBER  ? *(const double *)at
+           : f->kind == RC_COUNT ? (double)*(const size_t *)at
+                                 : *(const bool *)at;
+}
+
+const char *
+rc_figure_word(const struct rc_figure *f, const void *data)
+{
+    return data == NULL || f->kind != RC_WORD
+               ? NULL
+               : *(const char *const *)(const void *)((const char *)data + f->at);
+}
+
+const struct rc_figure *
+rc_figures(const char *name)
+{
+    for (size_t k = 0; k < TABLES; k++)
+        if (strcmp(tables[k].name, name) == 0)
+            return tables[k].figure;
+    return NULL;
+}
+
+const struct rc_figure *
+rc_figure_find(const char *name)
+{
+    for (size_t k = 0; k < TABLES; k++)
+        for (const struct rc_figure *f = tables[k].figure; f->name != NULL; f++)
+            if (strcmp(f->name, name) == 0)
+                return f;
+    return NULL;
+}

@@ -1,0 +1,97 @@
+/* Tables of figures: names, units and titles are fit for columns and axes, a name means one thing in all tables, and
+ * values are those of the members. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "libcontact/contact.h"
+
+static const char *const tables[] = {
+#define RC_FIGURES(name) #name,
+#include "libcontact/model/figures.list"
+#undef RC_FIGURES
+};
+
+static void
+check_row(const struct rc_figure *f)
+{
+    const struct rc_figure *found = rc_figure_find(f->name);
+
+    assert_true(islower(f->name[0]));
+    assert_int_equal(strspn(f->name, "abcdefghijklmnopqrstuvwxyz0123456789_."), strlen(f->name));
+    assert_non_null(f->title);
+    assert_true(isupper(f->title[0]) && f->title[strlen(f->title) - 1] != '.');
+    assert_true(f->unit == NULL || strcmp(f->unit, "1") != 0);
+    assert_true(f->role != RC_FIGURE_ERROR || f->by != NULL);
+    assert_int_equal(f->limit != 0, f->warning != NULL);
+    assert_true(f->kind == RC_NUMBER || f->unit == NULL);
+    /* the first of that name, which means the same */
+    assert_string_equal(found->title, f->title);
+    assert_true(found->unit == f->unit || strcmp(found->unit, f->unit) == 0);
+}
+
+static void
+rows(void **state)
+{
+    (void)state;
+    for (size_t t = 0; t < sizeof tables / sizeof *tables; t++) {
+        const struct rc_figure *table = rc_figures(tables[t]), *f;
+        assert_non_null(table);
+        for (f = table; f->name != NULL; f++) {
+            check_row(f);
+            for (const struct rc_figure *g = table; g < f; g++)
+                if (strcmp(f->name, g->name) == 0 || f->at == g->at)
+                    fail_msg("%s: %s and %s are one", tables[t], g->name, f->name);
+        }
+        assert_true(f > table + 2);
+    }
+    assert_null(rc_figures("no such table"));
+    assert_null(rc_figure_find("no such figure"));
+}
+
+struct sample {
+    bool yes;
+    size_t count;
+    double number;
+    const char *word;
+};
+
+static void
+values(void **state)
+{
+    static const struct rc_figure table[] = {
+        {RC_FIGURE(struct sample, yes), NULL, "Yes"},
+        {RC_FIGURE(struct sample, count), NULL, "Count"},
+        {RC_FIGURE(struct sample, number), "m", "Number"},
+        {RC_FIGURE_AS("name", struct sample, word), NULL, "Word"}};
+    const struct sample v = {true, 7, -2.5, "fft"}, w = {.number = NAN};
+
+    (void)state;
+    assert_true(rc_figure_number(&table[0], &v) == 1 && rc_figure_number(&table[0], &w) == 0);
+    assert_true(rc_figure_number(&table[1], &v) == 7);
+    assert_true(rc_figure_number(&table[2], &v) == -2.5 && isnan(rc_figure_number(&table[2], &w)));
+    assert_true(isnan(rc_figure_number(&table[3], &v)));
+    assert_string_equal(rc_figure_word(&table[3], &v), "fft");
+    assert_null(rc_figure_word(&table[3], &w));
+    assert_null(rc_figure_word(&table[2], &v));
+    assert_string_equal(table[3].name, "name");
+    for (int k = 0; k < 4; k++)
+        assert_true(isnan(rc_figure_number(&table[k], NULL)) &&
+                    rc_figure_word(&table[k], NULL) == NULL);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows),
+        cmocka_unit_test(values),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

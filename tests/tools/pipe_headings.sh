@@ -1,0 +1,51 @@
+# Scripts read reports by their headings and keys. headings.txt holds them: of each command below the first line of
+# its table, and all keys of its JSON lines in alphabetical order, each after those around it. A new column is added
+# there, at the end of its list; none changes its name, its unit or its place.
+. "$(dirname "$0")/../pipe.sh"
+
+# keys FILE.json: "a", "a.b", ... of all objects of the lines, each once.
+keys() {
+    perl -MJSON::PP -ne '
+        sub walk { my ($at, $v) = @_;
+            if (ref $v eq "HASH") { for (sort keys %$v) { my $k = $at eq "" ? $_ : "$at.$_"; $seen{$k}++ or push @all, $k; walk($k, $v->{$_}) } }
+            elsif (ref $v eq "ARRAY") { walk("$at\[]", $_) for @$v } }
+        walk("", decode_json($_));
+        END { print "$_\n" for sort @all }' "$1"
+}
+
+# lines: words in lines of some length.
+lines() { tr '\t\n' '  ' | sed 's/ $//' | fold -s -w 110 | sed 's/ $//'; echo; }
+# recorded NAME: its part of headings.txt.
+recorded() {
+    awk -v head="== $1" '/^== / { on = $0 == head; next } on' "$RC_SOURCE/tests/tools/headings.txt"
+}
+# report NAME 'command with --report $r': its table and its keys are those recorded.
+report() {
+    claim "$1 writes a table and lines" bash -c "r=table.tsv; $2 && r=lines.json && $2"
+    head -n 1 table.tsv | lines >table.txt
+    keys lines.json | lines >keys.txt
+    claim "  its columns" diff <(recorded "$1: table") table.txt
+    claim "  its keys" diff <(recorded "$1: keys") keys.txt
+    if [ -n "${RC_RECORD-}" ]; then # a file that becomes headings.txt
+        { echo "== $1: table"; cat table.txt; echo "== $1: keys"; cat keys.txt; } >>"$RC_RECORD"
+    fi
+    rm -f table.tsv lines.json
+}
+
+rc-synth selfaffine --nx 24 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 2 -o rough.rcg
+rc-synth sphere --nx 32 --dx 20nm --radius 10um -o ball.rcg
+body='--E1 91GPa --nu1 0.3 --E2 rigid --threads 1 --quiet'
+report rc-solve "rc-solve $body --load 1mN,2mN --hardness 8GPa --history --conductivity 45W/mK,16W/mK --report \$r -o p.rcg rough.rcg"
+report "rc-solve, one load" "rc-solve $body --load 1mN --discretization --report \$r -o one.rcg rough.rcg"
+report "rc-solve --yield" "rc-solve $body --yield 1GPa --slabs 6 --increments 8 --load 200uN --report \$r -o y.rcg ball.rcg"
+report "rc-solve --adhesion" "rc-solve $body --adhesion 50mJ/m2 --approach 0 --report \$r -o a.rcg ball.rcg"
+report rc-slip "rc-slip --mu 0.3 --threads 1 --quiet --tangential 0.1mN --report \$r -o q.rcg one.rcg"
+report rc-stress "rc-stress --depths 0,1um --threads 1 --quiet --report \$r -o s.rcg one.rcg"
+if with_leak; then
+    report rc-leak "rc-leak --viscosity 1mPas --pressure-drop 1kPa --threads 1 --quiet --report \$r -o f.rcg one.rcg"
+fi
+report rc-info "rc-info --areal --psd --profile rows --report \$r rough.rcg"
+report "rc-info --patches" "rc-info --areal --patches --report \$r one.rcg"
+report rc-cost "rc-cost --load 1mN --estar 100GPa --kernel fft --limit 2s --threads 1 --quiet --report \$r rough.rcg"
+
+finish
