@@ -40,8 +40,9 @@ enum {
      * there: then the moment about some axis keeps its sign however far the face turns */
     FAR = 12
 };
-static const double loose = 1e-2;  /* tolerance of the first contacts */
-static const double finest = 1e-3; /* of the tolerance: where the moment hangs on few nodes */
+static const double loose = 1e-2;   /* tolerance of the first contacts */
+static const double finest = 1e-3;  /* of the tolerance: where the moment hangs on few nodes */
+static const double far_softer = 3; /* of the error by another H, that calls for H anew */
 static const double thin =
     1e-7; /* of S: less of H is none, but for the rounding of single precision */
 
@@ -439,20 +440,13 @@ moment_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* Eigenvalues of H over S, the smaller first, with the eigenvector of the smaller, and that of the other a
- * quarter turn on. Without H it stands for itself that the contact is as wide as the map. */
+/* Eigenvalues of the symmetric matrix a b, b d, the smaller first, with the eigenvector of the smaller, and that
+ * of the other a quarter turn on. */
 static void
-stiffnesses(const struct rc_tilt *t, double value[2], double vector[2][2])
+eigenvalues(double a, double b, double d, double value[2], double vector[2][2])
 {
-    double a = 1, b = 0, d = 1, mean, half, size;
+    double mean = (a + d) / 2, half = hypot((a - d) / 2, b), size;
 
-    if (t->known) {
-        a = t->turns[0] ? t->h[0][0] / t->s : 1;
-        d = t->turns[1] ? t->h[1][1] / t->s : 1;
-        b = t->turns[0] && t->turns[1] ? t->h[0][1] / t->s : 0;
-    }
-    mean = (a + d) / 2;
-    half = hypot((a - d) / 2, b);
     value[1] = mean + half;
     value[0] = value[1] > 0 ? (a * d - b * b) / value[1] : 0;
     if (a >= d) { /* the larger entry's row is the better one */
@@ -469,21 +463,40 @@ stiffnesses(const struct rc_tilt *t, double value[2], double vector[2][2])
     vector[0][1] = vector[1][0];
 }
 
+/* Of H over S. Without H it stands for itself that the contact is as wide as the map. */
+static void
+stiffnesses(const struct rc_tilt *t, double value[2], double vector[2][2])
+{
+    bool both = t->known && t->turns[0] && t->turns[1];
+
+    eigenvalues(t->known && t->turns[0] ? t->h[0][0] / t->s : 1, both ? t->h[0][1] / t->s : 0,
+                t->known && t->turns[1] ? t->h[1][1] / t->s : 1, value, vector);
+}
+
+/* By how much the moment lets the pressure be off. */
+static double
+error_of(const struct rc_tilt *t, const double value[2], double vector[2][2])
+{
+    double square = 0;
+
+    for (size_t e = 0; e < 2; e++) {
+        double m = t->moment[0] * vector[e][0] + t->moment[1] * vector[e][1];
+        square += m * m / fmax(value[e], thin);
+    }
+    return sqrt(square);
+}
+
 static void
 measure(struct rc_solver *s)
 {
     struct rc_tilt *t = s->tilt;
-    double total[RC_SUMS], value[2], vector[2][2], square = 0;
+    double total[RC_SUMS], value[2], vector[2][2];
 
     rc_reduce_blocks(s, moment_block, s, total);
     for (size_t a = 0; a < 2; a++)
         t->moment[a] = t->turns[a] ? total[1 + a] / total[0] : 0;
     stiffnesses(t, value, vector);
-    for (size_t e = 0; e < 2; e++) {
-        double m = t->moment[0] * vector[e][0] + t->moment[1] * vector[e][1];
-        square += m * m / fmax(value[e], thin);
-    }
-    t->error = sqrt(square);
+    t->error = error_of(t, value, vector);
 }
 
 double
@@ -508,6 +521,41 @@ rc_tilt_goal(const struct rc_solver *s)
 }
 
 /* ---- the search ---- */
+
+/* Moments of the arms of the elastic nodes. */
+static void
+arms_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct rc_solver *s = at;
+
+    for (size_t k = first; k < first + n; k++) {
+        double x, y;
+        if (!rc_elastic(s, k))
+            continue;
+        x = rc_arm(s, 0, k);
+        y = rc_arm(s, 1, k);
+        sums[0]++;
+        sums[1] += x;
+        sums[2] += y;
+        sums[3] += x * x;
+        sums[4] += x * y;
+        sums[5] += y * y;
+    }
+}
+
+/* Second moments of these arms about their means; returns the number of nodes. */
+static double
+spread(struct rc_solver *s, double *xx, double *xy, double *yy)
+{
+    const struct rc_tilt *t = s->tilt;
+    double sum[RC_SUMS];
+
+    rc_reduce_blocks(s, arms_block, s, sum);
+    *xx = t->turns[0] ? sum[3] - sum[1] * sum[1] / sum[0] : 1;
+    *yy = t->turns[1] ? sum[5] - sum[2] * sum[2] / sum[0] : 1;
+    *xy = t->turns[0] && t->turns[1] ? sum[4] - sum[1] * sum[2] / sum[0] : 0;
+    return sum[0];
+}
 
 /* A node that changes sides first when nothing resists the turn. */
 struct first_touch {
@@ -699,6 +747,22 @@ rc_tilt_end(struct rc_solver *s, enum rc_status status)
     return status;
 }
 
+/* Whether H is to be found anew before the search ends: there is none, or it is of another contact and much stiffer
+ * than springs under the elastic nodes, by which the error would not be small. Nodes at edges are the stiffer ones,
+ * so that a true H is above that of springs, but not by much. */
+static bool
+doubtful(struct rc_solver *s, double least)
+{
+    struct rc_tilt *t = s->tilt;
+    double xx, xy, yy, value[2], vector[2][2], n = spread(s, &xx, &xy, &yy), error;
+
+    if (!(n > 0))
+        return false;
+    eigenvalues(t->turns[0] ? xx / n : 1, xy / n, t->turns[1] ? yy / n : 1, value, vector);
+    error = error_of(t, value, vector);
+    return error > least && (!t->known || error > far_softer * t->error);
+}
+
 enum rc_status
 rc_tilt_search(struct rc_solver *s)
 {
@@ -712,8 +776,15 @@ rc_tilt_search(struct rc_solver *s)
         s->load.tol = fmax(t->error > least ? finest * least : least, fmin(sure, s->load.tol) / 3);
         return RC_MORE;
     }
-    if (t->error <= least && s->load.tol <= least)
-        return RC_OK;
+    if (t->error <= least && s->load.tol <= least) {
+        if (!doubtful(s, least))
+            return RC_OK;
+        find_stiffness(s);
+        measure(s);
+        if (t->error <= least)
+            return RC_OK;
+        t->turning = false;
+    }
     if (t->turned >= TURNS)
         return RC_SHORT;
     if (t->turning) {
@@ -761,27 +832,7 @@ rc_tilt_from_coarse(struct rc_solver *s, const struct rc_solver *coarse)
             t->h[a][b] = c->h[a][b] * coarse->posed.cell / s->posed.cell / (per * per);
 }
 
-/* Arms of the elastic nodes and their gaps, which are 0 on average. */
-static void
-arms_block(void *at, size_t first, size_t n, double *sums)
-{
-    const struct rc_solver *s = at;
-
-    for (size_t k = first; k < first + n; k++) {
-        double x, y;
-        if (!rc_elastic(s, k))
-            continue;
-        x = rc_arm(s, 0, k);
-        y = rc_arm(s, 1, k);
-        sums[0]++;
-        sums[1] += x;
-        sums[2] += y;
-        sums[3] += x * x;
-        sums[4] += x * y;
-        sums[5] += y * y;
-    }
-}
-
+/* Gaps of the elastic nodes, which are 0 on average, times their arms. */
 static void
 gaps_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -800,17 +851,15 @@ void
 rc_tilt_from_pressure(struct rc_solver *s)
 {
     struct rc_tilt *t = s->tilt;
-    double sum[RC_SUMS], gap[RC_SUMS], a[3][3], by[3] = {0, 0, 0};
+    double gap[RC_SUMS], a[3][3], by[3] = {0, 0, 0};
 
     if (t == NULL)
         return;
     rc_iterate_displace(s);
     rc_iterate_shift(s);
-    rc_reduce_blocks(s, arms_block, s, sum);
+    (void)spread(s, &a[0][0], &a[0][1], &a[1][1]);
+    a[1][0] = a[0][1];
     rc_reduce_blocks(s, gaps_block, s, gap);
-    a[0][0] = t->turns[0] ? sum[3] - sum[1] * sum[1] / sum[0] : 1;
-    a[1][1] = t->turns[1] ? sum[5] - sum[2] * sum[2] / sum[0] : 1;
-    a[0][1] = a[1][0] = t->turns[0] && t->turns[1] ? sum[4] - sum[1] * sum[2] / sum[0] : 0;
     by[0] = t->turns[0] ? -gap[0] : 0;
     by[1] = t->turns[1] ? -gap[1] : 0;
     if (!(s->it.elastic > 0) ||

@@ -273,6 +273,60 @@ resumed(void **state)
     free(h);
 }
 
+/* The estimate stands on the stiffness of the contact that the search ends with: not on none, where the face has not
+ * been turned on this grid, and not on that of a contact before it, where few nodes are elastic. Against the same
+ * contact solved tightly. */
+static void
+ends_with_its_stiffness(void **state)
+{
+    static const struct {
+        struct rc_shape s;
+        struct rc_selfaffine rough;
+        double load, at, hardness; /* on E* = 1 GPa */
+    } cases[] = {{{32, 1, 1e-6, 1e-6},
+                  {.hurst = 0.8233381118546687,
+                   .rms_height = 7.601397816248184e-09,
+                   .short_cut = 8e-06,
+                   .seed = 653475},
+                  1.991348492648231e-05,
+                  0,
+                  0},
+                 {{31, 31, 1e-6, 1e-6},
+                  {.hurst = 0.7805096579155517,
+                   .rms_height = 3.161000526202052e-08,
+                   .short_cut = 4e-06,
+                   .seed = 135267},
+                  3.2570921913302186e-06,
+                  -10.0653e-6,
+                  318988.7816037546}};
+    static double h[31 * 31];
+
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        struct rc_shape s = cases[k].s;
+        struct rc_problem problem = {.pair.estar = 1e9,
+                                     .load = cases[k].load,
+                                     .hardness = cases[k].hardness,
+                                     .force_at = {cases[k].at, 0},
+                                     .tol = 1e-3,
+                                     .method = contact_method,
+                                     .tilt_free = true};
+        struct solved loose, tight;
+        double error;
+        assert_int_equal(rc_synth_selfaffine(&s, &cases[k].rough, h, NULL), RC_OK);
+        loose = solve(s, h, problem);
+        problem.tol = 1e-9;
+        tight = solve(s, h, problem);
+        assert_true(loose.c.converged && tight.c.converged);
+        error = distance(s.nx * s.ny, loose.p, tight.p);
+        print_message("%zu x %zu nodes: error %.1e, told %.1e\n", s.nx, s.ny, error,
+                      loose.c.pressure_error);
+        assert_true(loose.c.pressure_error >= error);
+        solved_free(&loose);
+        solved_free(&tight);
+    }
+}
+
 static void
 refused(void **state)
 {
@@ -299,7 +353,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(dense_program),     cmocka_unit_test(a_ball_rolls),
         cmocka_unit_test(load_and_approach), cmocka_unit_test(resumed),
-        cmocka_unit_test(refused),
+        cmocka_unit_test(refused),           cmocka_unit_test(ends_with_its_stiffness),
     };
     int failed = 0;
 
