@@ -100,6 +100,7 @@ struct rc_adhesion {
     size_t leaves, jumps;
     bool unstable; /* the last step began where there was no stiffness */
     double mu[3];  /* of the last state of each control, 0: none */
+    double way;    /* the least stiffness of a way down, near where the state ends */
     double dents,
         dents_load; /* errors of earlier states in which nodes have yielded; times their |p| */
     double judged;  /* the error when the eigenvalue was found; 0: it has not been */
@@ -325,6 +326,7 @@ set(struct rc_adhesion *a, enum rc_gap_control control, double given)
     a->below = a->leaves = a->jumps = 0;
     a->unstable = false;
     a->judged = 0;
+    a->way = INFINITY;
     a->converged = a->separated = a->fresh = false;
     a->stage = STAGE_NEW;
     a->held = true;
@@ -390,10 +392,18 @@ rc_adhesion_set_approach(struct rc_adhesion *a, double approach, struct rc_err *
     return RC_OK;
 }
 
+/* The smallest eigenvalue, as far as is known: the iteration for it may have come to another mode, whose softer
+ * neighbour the way down has most of. */
+static double
+softest(const struct rc_adhesion *a)
+{
+    return fmin(a->gap.mu, a->way);
+}
+
 static double
 own_error(const struct rc_adhesion *a)
 {
-    double mu = a->judged > 0 ? a->gap.mu : a->mu[a->control];
+    double mu = a->judged > 0 ? softest(a) : a->mu[a->control];
 
     mu = mu == 0 ? 1 : fmin(fmax(mu, single), 1);
     return fmax(safe / sqrt(mu), safe_soft / fmax(mu, soft)) * a->gap.error;
@@ -426,7 +436,7 @@ finish(struct rc_adhesion *a, bool converged)
     if (a->begun && a->jumps == 0 && !a->separated)
         a->jumps = rc_gap_jumped(&a->gap);
     a->begun = true;
-    a->mu[a->control] = a->judged > 0 ? fmax(a->gap.mu, single) : 0;
+    a->mu[a->control] = a->judged > 0 ? fmax(softest(a), single) : 0;
     return converged ? RC_OK : RC_SHORT;
 }
 
@@ -445,6 +455,8 @@ move(struct rc_adhesion *a)
     bool before = a->unstable;
 
     rc_gap_move(&a->gap);
+    if (a->gap.error <= loosest)
+        a->way = fmin(a->way, a->gap.way);
     a->unstable = a->gap.negative;
     a->jumps += a->begun && a->unstable && !before;
 }
@@ -455,9 +467,15 @@ down(struct rc_adhesion *a)
     struct rc_gap *g = &a->gap;
 
     rc_gap_look(g);
+    if (ends(a)) {
+        rc_gap_look_along(g);
+        a->way = fmin(a->way, g->way);
+    }
     a->below = ends(a) ? a->below + 1 : 0;
-    if (a->judged > 0 && g->error > 10 * a->judged)
-        a->judged = 0; /* on the way to another place */
+    if (a->judged > 0 && g->error > 10 * a->judged) { /* on the way to another place */
+        a->judged = 0;
+        a->way = INFINITY;
+    }
     if (a->below >= BELOW || g->stuck) {
         if (a->judged > 0)
             return finish(a, estimate(a) <= a->tol);
@@ -493,6 +511,7 @@ eigen(struct rc_adhesion *a)
         a->leaves++;
         a->jumps++;
         a->judged = 0;
+        a->way = INFINITY;
         a->below = 0;
         a->stage = STAGE_DOWN;
         return RC_MORE;
@@ -750,8 +769,8 @@ find_figures(struct rc_adhesion *a)
     f->kkt_residual = most_of(g, 8) / g->law.strength;
     f->gap_error = most_of(g, 9) * a->whole->length;
     f->approach = rc_gap_shift(g) * a->whole->length;
-    f->stability = a->judged > 0 ? g->mu : NAN;
-    f->stable = a->judged > 0 && g->mu > 0;
+    f->stability = a->judged > 0 ? softest(a) : NAN;
+    f->stable = a->judged > 0 && softest(a) > 0;
     f->separated = a->separated;
     f->jumps = a->jumps;
     f->iterations = g->iterations;

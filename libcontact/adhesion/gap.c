@@ -187,7 +187,8 @@ residual_row(struct rc_gap *g, size_t j, double *sums)
     sums[1] += (double)(g->px - m);
 }
 
-/* Which nodes are held; r becomes the negative residual of the others, and 0 on these. */
+/* Which nodes are held, and how many are not as they were; r becomes the negative residual of the others, and 0 on
+ * these. */
 static void
 hold_row(struct rc_gap *g, size_t j, double *sums)
 {
@@ -204,6 +205,7 @@ hold_row(struct rc_gap *g, size_t j, double *sums)
             held = at >= 0 && at <= hard;
             at = at > hard ? at - hard : at;
         }
+        sums[3] += off[i] != held;
         off[i] = held;
         r[i] = held ? 0 : -at;
         sums[0] += r[i];
@@ -233,6 +235,7 @@ find_residual(struct rc_gap *g)
     g->negative = g->watched && sums[2] > g->stiffness;
     rc_gap_rows(g, hold_row, sums);
     g->free = (size_t)sums[1];
+    g->same = sums[3] == 0;
     g->mean_r = g->control != RC_GAP_MEAN ? sums[0] / (double)g->n
                 : g->free > 0             ? sums[0] / sums[1]
                                           : 0;
@@ -347,10 +350,12 @@ set_direction(struct rc_gap *g, double sum_z)
     g->mean_r = g->control == RC_GAP_MEAN ? sum_z / (double)g->free : 0;
     rc_gap_rows(g, direction_row, sums);
     g->unit = most_of(g, 3);
+    g->whole_way = (size_t)sums[2] == g->free;
     for (int k = 0; k < PROJECT && g->control == RC_GAP_MEAN && sums[2] > 0; k++) {
         g->mean_r = sums[1] / sums[2];
         rc_gap_rows(g, level_row, sums);
     }
+    g->whole_way &= (size_t)sums[2] == g->free;
     return sums[0];
 }
 
@@ -603,6 +608,13 @@ look(struct rc_gap *g, struct line *l, double a)
     l->rounding = 1e-14 * (sums[3] + a * a * l->q);
 }
 
+/* bend: that at 0. */
+static double
+way_of(const struct rc_gap *g, const struct line *l)
+{
+    return g->dwd > 0 ? l->bend / g->dwd : INFINITY;
+}
+
 /* The minimum along d, by Newton's method from 0, kept between slopes of either sign once there are such. */
 static double
 line_minimum(struct rc_gap *g, struct line *l, double most)
@@ -611,6 +623,7 @@ line_minimum(struct rc_gap *g, struct line *l, double most)
 
     look(g, l, 0);
     g->negative |= l->bend < 0;
+    g->way = way_of(g, l);
     for (int k = 0; k < NEWTON; k++) {
         double bend = fmax(l->bend, curvature * l->q);
         double next = bend > 0 ? a - l->slope / bend : most;
@@ -721,6 +734,18 @@ nearest(struct rc_gap *g)
     return -most;
 }
 
+void
+rc_gap_look_along(struct rc_gap *g)
+{
+    struct line line = {.rd = g->rd, .q = g->dad};
+
+    g->way = INFINITY;
+    if (g->stuck || !(g->rd > 0))
+        return;
+    look(g, &line, 0);
+    g->way = way_of(g, &line);
+}
+
 static double
 find_z(struct rc_gap *g, double *old, double *sum_z)
 {
@@ -754,6 +779,17 @@ drifted(const struct rc_gap *g)
     return g->drift > 10 * g->change;
 }
 
+/* d'W d, W the inverse of K on the nodes that are not held, from r'z = z'W z and r = W z; NAN where nodes have been
+ * held or let go since the last direction. */
+static void
+measure_way(struct rc_gap *g, double rz)
+{
+    double along = g->rd - rz; /* beta times r'd of the last direction */
+    double last = g->beta > 0 ? (g->same ? g->beta * g->beta * g->dwd : NAN) : 0;
+
+    g->dwd = g->whole_way ? rz + 2 * along + last : NAN;
+}
+
 void
 rc_gap_look(struct rc_gap *g)
 {
@@ -769,6 +805,7 @@ rc_gap_look(struct rc_gap *g)
         g->beta = 0;
         g->rd = set_direction(g, sum_z);
     }
+    measure_way(g, rz);
     g->rz = rz;
     g->restart = false;
     g->iterations++;

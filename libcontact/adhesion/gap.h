@@ -49,6 +49,10 @@ struct rc_gap {
     /* of the last step */
     double rz, scale, mean_r, beta;
     double rd, dad, mean_d; /* of the direction: r'd, d'A d, its mean on the grid */
+    double dwd;             /* d'W d, W as in stability.c; NAN: not known */
+    double
+        way; /* its stiffness, as an eigenvalue of stability.c, none of which is smaller than the smallest; INFINITY: not known */
+    bool same, whole_way; /* the same nodes are held as before; all others move along d */
     bool restart;
     size_t free;        /* nodes not held                                        */
     double unit;        /* of a direction in single precision */
@@ -87,6 +91,8 @@ void rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given);
 /* The way down from here, and with it what the pressure is off; and a step along it. */
 void rc_gap_look(struct rc_gap *g);
 void rc_gap_move(struct rc_gap *g);
+/* Finds `way` without a step. */
+void rc_gap_look_along(struct rc_gap *g);
 /* Whether the straight way from where the state began leads over a place that is not convex: Phi has fallen
  * by more than its slope there allows. */
 bool rc_gap_jumped(struct rc_gap *g);
