@@ -1,77 +1,187 @@
-"""Random histories with a hardness, and adhesive paths: what is told of the pressure's error against the pressures of the same path solved tightly.
-tests/long/estimates.py hist|adhesion SEED COUNT BIN"""
-import array, json, os, random, subprocess, sys, tempfile
-os.environ['RC_THREADS'] = '1'
-table = tempfile.NamedTemporaryFile()
-kind, seed0, count, BIN = sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), sys.argv[4]
+"""estimates.py hist|adhesion|tilt|maps SEED COUNT BIN: told error of the pressure against the true one, of random contacts.
 
-def frames(data):
-    out, at = [], 0
-    while data[at:at + 4] == b'RCG1':
-        end = data.index(b'\n\n', at)
-        keys = dict(l.split('=', 1) for l in data[at:end].decode().split('\n')[1:])
-        n = int(keys['nx']) * int(keys['ny']); size = 8 if keys['type'] == 'f64' else 4
-        a = array.array('d' if size == 8 else 'f'); a.frombytes(data[end + 2:end + 2 + n * size])
-        at = data.index(b'\n', end + 2 + n * size) + 1
-        out.append((keys, a))
-    return out
+hist      lists of loads with a hardness and --history         truth: the same list with --tol 1e-8
+adhesion  paths of approaches or loads with --adhesion         truth: the same path with --tol 1e-8
+tilt      --tilt free, most of them with a hardness            truth: the same contact with --tol 1e-9
+maps      free maps, of them two thirds with --yield and one   truth: the contact on a map that is two or three times
+          third with a hardness                                as wide, in 96 increments, with --tol 1e-6
+BIN holds rc-solve and rc-synth. Case c of SEED draws from the seed SEED * 100003 + c. Prints a line for each state whose
+estimate is below 0.99 of an error above 1e-6, and at the end the shares of such states. Status 1 where an error above 1e-5
+has such an estimate.
+"""
+import json
+import os
+import random
+import subprocess
+import sys
+import tempfile
 
-def run(args, surface):
-    r = subprocess.run([BIN + '/rc-solve', '--quiet', '--output', 'pressure', '--report', table.name, *args], input=surface, capture_output=True)
-    if r.returncode not in (0, 3): return None, r.stderr.decode()
-    return frames(r.stdout), [json.loads(l) for l in open(table.name)]
+import numpy
 
-def distance(a, b):
-    s = sum(abs(x) for x in b)
-    return sum(abs(x - y) for x, y in zip(a, b)) / s if s else 0.0
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), '..', '..', 'python'))
+import rcg
 
-rows, conv, short = [], [0, 0], 0
-for c in range(count):
-    r = random.Random(seed0 * 100003 + c)
-    nx = r.randint(12, 36); ny = r.choice([1, nx, r.randint(8, 36)])
-    dx = 1e-6; hm = 10 ** r.uniform(-8, -6.7)
-    per = r.random() < 0.5
-    surface = subprocess.run([BIN + '/rc-synth', 'selfaffine', '--nx', str(nx), '--ny', str(ny), '--dx', '1um', '--hurst', '0.8', '--rms-height', repr(hm), '--short-cut', '%gum' % r.choice([2, 4, 8]), '--seed', str(r.randrange(10 ** 6))], capture_output=True).stdout
-    if not surface: continue
-    area = nx * ny * 1e-12; E = 1e9
-    slope = hm / (max(nx, ny) * dx / 4)
-    args = ['--estar', repr(E)] + (['--periodic'] if per else [])
+MODULUS = 1e9  # Pa
+STEP = 1e-6    # m
+
+
+class Case:
+    """A surface, the options of rc-solve for it, and those that make the truth of it."""
+
+    def __init__(self, surface, options, tight, wide=None, tol=()):
+        self.surface, self.options, self.tight, self.tol = surface, options, tight, list(tol)
+        self.wide = surface if wide is None else wide
+
+
+def synth(kind, shape, *options):
+    ny, nx = shape
+    return subprocess.run([os.path.join(BIN, 'rc-synth'), kind, '--nx', str(nx), '--ny', str(ny), '--dx', '1um', *options],
+                          capture_output=True).stdout
+
+
+def selfaffine(r, shape, rms):
+    return synth('selfaffine', shape, '--hurst', '0.8', '--rms-height', repr(rms), '--short-cut', '%gum' % r.choice([2, 4, 8]),
+                 '--seed', str(r.randrange(10 ** 6)))
+
+
+def hist_or_path(r, kind):
+    nx = r.randint(12, 36)
+    ny = r.choice([1, nx, r.randint(8, 36)])
+    rms = 10 ** r.uniform(-8, -6.7)
+    options = ['--estar', repr(MODULUS)] + ['--periodic'] * (r.random() < 0.5)
+    surface = selfaffine(r, (ny, nx), rms)
+    area, slope = nx * ny * STEP ** 2, rms / (max(nx, ny) * STEP / 4)
+    if not surface:
+        return None
     if kind == 'hist':
-        H = E * slope * 10 ** r.uniform(-1.3, 0.3)
-        n = r.randint(2, 5); top = H * area * 10 ** r.uniform(-2, -0.1)
+        hardness = MODULUS * slope * 10 ** r.uniform(-1.3, 0.3)
+        n = r.randint(2, 5)
+        top = hardness * area * 10 ** r.uniform(-2, -0.1)
         loads = [top * r.uniform(0.1, 1) for _ in range(n)]
-        args += ['--history', '--hardness', repr(H), '--load', ','.join(map(repr, loads))]
-        tight = ['--tol', '1e-8']
+        return Case(surface, options + ['--history', '--hardness', repr(hardness), '--load', ','.join(map(repr, loads))],
+                    ['--tol', '1e-8'])
+    rho = STEP * 10 ** r.uniform(-2, -0.7)
+    work = MODULUS * rho * rho / (r.choice([1.5, 2, 4, 8]) * STEP)
+    law = r.choice(['exponential', 'dugdale', 'compact', 'jkr', 'exponential'])
+    reach = '' if law == 'jkr' else ',%r' % (rho * (1 if law == 'exponential' else 3))
+    n = r.randint(1, 4)
+    approaches = [rms * r.uniform(-1, 1.2) for _ in range(n)]
+    options += ['--adhesion', '%r,%s%s' % (work, law, reach)]
+    if r.random() < 0.3:
+        options += ['--hardness', repr(work / rho * 10 ** r.uniform(0.3, 1.3))]
+    if r.random() < 0.15:
+        options += ['--layer', '%r,%r,0.3' % (STEP * r.uniform(1, 6), MODULUS * 10 ** r.uniform(-0.7, 0.7))]
+        options[0:2] = ['--E1', repr(MODULUS), '--nu1', '0.3', '--E2', 'rigid']
+    if r.random() < 0.35:
+        options += ['--load=' + ','.join(repr(MODULUS * slope * area * 10 ** r.uniform(-2, 0.5)) for _ in range(n))]
     else:
-        rho = dx * 10 ** r.uniform(-2, -0.7); ell = r.choice([1.5, 2, 4, 8])
-        w = E * rho * rho / (ell * dx)
-        law = r.choice(['exponential', 'dugdale', 'compact', 'jkr', 'exponential'])
-        spec = '%r,%s' % (w, law) + ('' if law == 'jkr' else ',%r' % (rho * (1 if law == 'exponential' else 3)))
-        n = r.randint(1, 4)
-        a = [hm * r.uniform(-1, 1.2) for _ in range(n)]
-        args += ['--adhesion', spec]
-        if r.random() < 0.3: args += ['--hardness', repr((w / rho) * 10 ** r.uniform(0.3, 1.3))]
-        if r.random() < 0.15: args += ['--layer', '%r,%r,0.3' % (dx * r.uniform(1, 6), E * 10 ** r.uniform(-0.7, 0.7))]; args[0:2] = ['--E1', repr(E), '--nu1', '0.3', '--E2', 'rigid']
-        if r.random() < 0.35: args += ['--load=' + ','.join(repr(E * slope * area * 10 ** r.uniform(-2, 0.5)) for _ in range(n))]
-        else: args += ['--approach=' + ','.join(map(repr, a))]
-        args += ['--tol', r.choice(['1e-3', '1e-4', '3e-4'])]
-        tight = ['--tol', '1e-8']
-    got, rep = run(args, surface)
-    if got is None: continue
-    want, wrep = run((args[:-2] if kind != 'hist' else args) + tight, surface)
-    if want is None: continue
-    for k in range(min(len(got), len(want))):
-        if rep[k]['pressure_error_estimate'] is None or not wrep[k]['converged']: continue
-        if kind != 'hist' and (rep[k].get('separated') == 'yes' or wrep[k].get('separated') == 'yes'): break
-        e = distance(got[k][1], want[k][1]); t = rep[k]['pressure_error_estimate']
-        if kind != 'hist' and e > 0.02: break  # another valley, and all after it
-        conv[0] += 1; conv[1] += rep[k]['convolutions'] or 0
-        short += not rep[k]['converged']
-        if not rep[k]['converged']: print('short: case %d state %d told %.2e error %.2e %s mu %s nodes %s iters %s conv %s' % (c, k, t, e, ' '.join(args), rep[k].get('stability'), rep[k]['contact_nodes'], rep[k]['iterations'], rep[k]['convolutions']))
-        rows.append((e, t, rep[k]['converged'], c, k))
-        if e > 1e-6 and t < 0.99 * e: print('below: case %d state %d told %.2e error %.2e %s mu %s nodes %s iters %s' % (c, k, t, e, ' '.join(args), rep[k].get('stability'), rep[k]['contact_nodes'], rep[k]['iterations']))
-for least in (0, 1e-7, 1e-6, 1e-5, 1e-4):
-    s = [(t / e) for e, t, *_ in rows if e > least]
-    s.sort()
-    if s: print('errors above %.0e: %d states, below 0.99: %d, min %.2f, median %.2f, 90 %% %.1f' % (least, len(s), sum(x < 0.99 for x in s), s[0], s[len(s) // 2], s[int(len(s) * 0.9)]))
-print('convolutions a state %.2f, not converged %d of %d' % (conv[1] / max(conv[0], 1), short, len(rows)))
+        options += ['--approach=' + ','.join(map(repr, approaches))]
+    return Case(surface, options, ['--tol', '1e-8'], tol=['--tol', r.choice(['1e-3', '1e-4', '3e-4'])])
+
+
+def tilted(r):
+    nx = r.randint(8, 40)
+    ny = r.choice([1, nx, r.randint(6, 40), r.randint(6, 40)])
+    rms = 10 ** r.uniform(-8.5, -6.5)
+    surface = selfaffine(r, (ny, nx), rms)
+    hard = MODULUS * rms / (max(nx, ny) * STEP / 4) * 10 ** r.uniform(-1.3, 0.5)
+    load = hard * nx * ny * STEP ** 2 * 10 ** r.uniform(-2.5, -0.05)
+    at = [r.uniform(-0.4, 0.4) * n if r.random() < 0.7 and n > 1 else 0 for n in (nx, ny)]
+    options = ['--estar', repr(MODULUS), '--tilt', 'free', '--at=%gum,%gum' % tuple(at), '--load', repr(load)]
+    options += ['--hardness', repr(hard)] * (r.random() < 0.8)
+    return surface and Case(surface, options, ['--tol', '1e-9'], tol=['--tol', r.choice(['1e-3', '1e-4', '1e-4', '1e-5'])])
+
+
+def wide_map(r):
+    """A ball, two of them or a rough one, on the middle of a map that is two or three times as wide."""
+    n, times = r.choice([16, 20, 24, 28, 32]), r.choice([2, 3])
+    side = n * times
+    random_of = numpy.random.default_rng(r.randrange(10 ** 9))
+    y, x = (numpy.mgrid[:side, :side] - (side - 1) / 2 + 0.3) * STEP
+    radius = STEP * n * r.uniform(1, 6)
+    shape = r.choice(['ball', 'balls', 'rough'])
+    apart = n * STEP * r.uniform(0.1, 0.2) if shape == 'balls' else 0
+    heights = -numpy.minimum((x - apart) ** 2, (x + apart) ** 2) / (2 * radius) - y ** 2 / (2 * radius)
+    contact = n * STEP * r.uniform(0.08, 0.24)  # radius, about
+    if shape == 'rough':
+        waves = numpy.fft.rfft2(random_of.standard_normal((side, side)))
+        q = numpy.hypot(*numpy.meshgrid(numpy.fft.fftfreq(side), numpy.fft.rfftfreq(side), indexing='ij'))
+        rough = numpy.fft.irfft2(waves * (q < 0.25) / numpy.maximum(q, 1 / n) ** 1.8, (side, side))
+        heights += rough / rough.std() * contact ** 2 / radius * r.uniform(0.05, 0.3)
+    first = (side - n) // 2
+    small = rcg.dumps([rcg.frame('height', heights[first:first + n, first:first + n].copy(), STEP)])
+    large = rcg.dumps([rcg.frame('height', heights, STEP)])
+    mean = 0.4 * MODULUS * contact / radius  # of Hertz, Pa
+    load = numpy.pi * contact ** 2 * mean
+    options = ['--E1', repr(MODULUS), '--nu1', repr(r.uniform(0, 0.45)), '--E2', 'rigid']
+    if r.random() < 1 / 3:
+        options += ['--hardness', repr(mean * r.uniform(1, 1.4)), '--load', repr(load * r.uniform(0.3, 1))]
+        return Case(small, options, ['--tol', '1e-6'], wide=large)
+    stress = mean * r.uniform(0.3, 0.8)
+    modulus = stress * 10 ** r.uniform(-1, 1.5) if r.random() < 0.7 else 0
+    options += ['--yield', '%r,%r' % (stress, modulus), '--load', repr(load * r.uniform(0.3, 1))]
+    return Case(small, options + ['--increments', '16'], ['--increments', '96', '--tol', '1e-6'], wide=large)
+
+
+def solve(surface, options, table):
+    done = subprocess.run([os.path.join(BIN, 'rc-solve'), '--quiet', '--output', 'pressure', '--report', table, *options],
+                          input=surface, capture_output=True, env={**os.environ, 'RC_THREADS': '1'})
+    if done.returncode not in (0, 3):
+        return None
+    with open(table) as file:
+        lines = [json.loads(line) for line in file]
+    return list(zip(lines, (f.values for f in rcg.loads(done.stdout) if f.channel == 'pressure')))
+
+
+def middle(values, shape):
+    first = [(n - m) // 2 for n, m in zip(values.shape, shape)]
+    return values[first[0]:first[0] + shape[0], first[1]:first[1] + shape[1]]
+
+
+def states(case, kind, table):
+    """(error, report, report of the truth) of each state of a case."""
+    ours = solve(case.surface, case.options + case.tol, table)
+    truth = ours and solve(case.wide, case.options + case.tight, table)
+    for (report, p), (theirs, q) in zip(ours or [], truth or []):
+        if report['pressure_error_estimate'] is None or (kind != 'maps' and not theirs['converged']):
+            continue
+        if kind == 'adhesion' and 'yes' in (report.get('separated'), theirs.get('separated')):
+            return
+        whole = abs(q).sum()
+        # what the wider map carries beside the other one is off as well
+        error = (abs(p - middle(q, p.shape)).sum() + whole - abs(middle(q, p.shape)).sum()) / whole if whole > 0 else 0
+        if kind == 'adhesion' and error > 0.02:
+            return  # another valley, and all after it
+        yield error, report, theirs
+
+
+def main(kind, seed, count):
+    draw = {'hist': lambda r: hist_or_path(r, 'hist'), 'adhesion': lambda r: hist_or_path(r, 'adhesion'),
+            'tilt': tilted, 'maps': wide_map}[kind]
+    rows, convolutions, short, below = [], 0, 0, 0
+    with tempfile.TemporaryDirectory() as where:
+        for c in range(count):
+            case = draw(random.Random(seed * 100003 + c))
+            for k, (error, report, _) in enumerate(states(case, kind, os.path.join(where, 'report')) if case else ()):
+                told = report['pressure_error_estimate']
+                rows.append((error, told))
+                convolutions += report['convolutions'] or 0
+                short += not report['converged']
+                below += error > 1e-5 and told < 0.99 * error
+                if error > 1e-6 and told < 0.99 * error:
+                    print(f'below: case {c} state {k} told {told:.2e} error {error:.2e}', *case.options, *case.tol,
+                          *(f'{key} {report.get(key)}' for key in ('stability', 'contact_nodes', 'iterations')), flush=True)
+    for least in (0, 1e-7, 1e-6, 1e-5, 1e-4):
+        ratio = numpy.array([told / error for error, told in rows if error > least])
+        if len(ratio):
+            print(f'errors above {least:.0e}: {len(ratio)} states, below 0.99: {(ratio < 0.99).sum()}, least {ratio.min():.2f}, '
+                  f'median {numpy.median(ratio):.2f}, 90 % {numpy.quantile(ratio, 0.9):.1f}')
+    print(f'convolutions a state {convolutions / max(len(rows), 1):.2f}, not converged {short} of {len(rows)}')
+    return 1 if below else 0
+
+
+if __name__ == '__main__':
+    if len(sys.argv) != 5:
+        sys.exit(__doc__)
+    BIN = sys.argv[4]
+    sys.exit(main(sys.argv[1], int(sys.argv[2]), int(sys.argv[3])))
