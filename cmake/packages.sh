@@ -4,7 +4,7 @@
 
 build_packages="gcc libc6-dev make cmake pkg-config libfftw3-dev libgsl-dev libsuitesparse-dev libpng-dev libxml2-dev
     libzip-dev zlib1g-dev libzstd-dev libdeflate-dev libhdf5-dev libtiff-dev libmd-dev libpango1.0-dev fonts-dejavu-core"
-test_packages="libcmocka-dev mandoc zip unzip perl clang-format poppler-utils librsvg2-bin
+test_packages="ccache libcmocka-dev mandoc zip unzip perl clang-format poppler-utils librsvg2-bin
     python3-numpy python3-matplotlib zsh fish openmpi-bin libopenmpi-dev"
 
 need_packages() {

@@ -5,6 +5,8 @@
 #include <complex.h>
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
+#include <stdlib.h>
 
 static const double exact_pi = 3.14159265358979323846;
 
@@ -27,6 +29,14 @@ static const double grid_peak = 0.5;
 static const double grid_area = 1;
 /* And of a rigid cone: its apex is blunt by a cell, approach over n. */
 static const double grid_cone = 0.2;
+
+/* The first number in the tests before a release (RC_LONG, tests/CMakeLists.txt), the second in those of every
+ * commit: of cases, or of steps from one to the next. */
+static inline size_t
+thorough(size_t release, size_t commit)
+{
+    return getenv("RC_LONG") != NULL ? release : commit;
+}
 
 /* The larger of two numbers, and NaN where one of them is NaN: fmax would return the other. */
 static inline double

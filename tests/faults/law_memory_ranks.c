@@ -28,7 +28,7 @@ enum {
     N = NX * NY,
     FIELDS = 4,
     PATIENCE = 60, /* seconds for one use */
-    TRIES = 24     /* of a use, on each process and in either way, without RC_STRIDE */
+    TRIES = 4      /* of a use, on each process and in either way, without RC_STRIDE */
 };
 
 static const struct rc_shape shape = {NX, NY, 1.1e-6, 1e-6};
@@ -208,7 +208,7 @@ static const struct {
     {.name = "contact, to an approach", .use = to_an_approach, .tol = 1e-3},
     {.name = "contact, coated", .use = coated_contact, .tol = 1e-3},
     {.name = "contact, free to tilt", .use = free_to_tilt, .tol = 1e-3},
-    {.name = "contact, coarser grids that are shared", .use = large_start, .tries = 6},
+    {.name = "contact, coarser grids that are shared", .use = large_start, .tries = 2},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, single precision", .use = single_stress},

@@ -92,19 +92,20 @@ pressure_for(const struct kind *kind, struct rc_shape s, const double *h, double
 }
 
 /* At most so many equivalents from 1024 nodes on, and, from there to 16384 or, of a random walk, `most`, at
- * most `growth` times as many. */
+ * most `growth` times as many. With every commit a part that touches, to 4096 nodes. */
 static void
 works(const struct kind *kind, size_t most, double most_work, double growth)
 {
-    const size_t least = 1024, some = 16384;
-    const double parts[] = {0.05, 0.3, 0.8};
+    const size_t least = 1024, some = thorough(16384, 4096);
+    const double parts[] = {0.3, 0.05, 0.8};
     double *h = malloc(kind->across * most * sizeof *h);
 
     assert_non_null(h);
     for (int walk = 0; walk < (kind->across == 1 ? 2 : 1); walk++)
-        for (size_t q = 0; q < 3; q++) {
+        for (size_t q = 0; q < thorough(3, 1); q++) {
             double first = 0;
-            for (size_t n = least; n <= (walk && q == 1 ? most : some); n *= n < some ? 16 : 4) {
+            for (size_t n = least; n <= (walk && q == 0 ? thorough(most, some) : some);
+                 n *= n < some ? some / least : 4) {
                 const struct rc_shape s = {kind->column ? kind->across : n,
                                            kind->column ? n : kind->across, 1e-6, 1e-6};
                 struct rc_contact c = {0};

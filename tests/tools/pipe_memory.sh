@@ -95,8 +95,8 @@ estimated "rc-render --curve, of a report" "rc-render --curve load:contact_fract
 for format in png pdf svg; do
     estimated "rc-render --curve, a long table as $format" "rc-render --curve x:y --verbose long.tsv -o curve.$format"
 done
-estimated "rc-cost, with the processes that it starts" "rc-cost --verbose --kernel fft --method pcg --limit 10s $load small.rcg"
-estimated "rc-cost --plot, drawn when those have ended" "rc-cost --verbose --kernel fft --method pcg --limit 10s --plot cost.png $load small.rcg"
+before_release && estimated "rc-cost, with the processes that it starts" "rc-cost --verbose --kernel fft --method pcg --limit 10s $load small.rcg"
+before_release && estimated "rc-cost --plot, drawn when those have ended" "rc-cost --verbose --kernel fft --method pcg --limit 10s --plot cost.png $load small.rcg"
 estimated "rc-cost --depths" "rc-cost --verbose --kernel fft --method pcg --limit 20s --depths 1um,5um --nu 0.3 $load small.rcg"
 
 # ---- what the report and the plan say ----

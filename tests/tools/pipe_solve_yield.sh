@@ -95,9 +95,6 @@ near "$(rc-info --json left.rcg | grep -o '"maximum": [^,}]*' | sed 's/.* //')" 
 refuses 1 'the case has no plastic strain' "--residual of an elastic case" "rc-stress --residual --depths 1um --components sxx elastic.rcg"
 rc-pick --case 1 --channel pressure,exx,eyy y.rcg >part.rcg
 refuses 1 'exx eyy exy exz eyz in that order' "a part of the strain" "rc-stress --depths 1um --components sxx part.rcg"
-sed -n '/^What a dent in steel/,/^\.Ed/p' "$RC_SOURCE/man/rc-stress.1" |
-    sed '1,/^\.Bd/d; /^\.Ed/d; s/\\e/\\/; s/\\-/-/g' >section.sh
-claim "the example of rc-stress(1) runs" bash -c 'test "$(wc -l <section.sh)" = 6 && bash -e section.sh && says PNG head -c 4 residual.png'
 
 # ---- a table of hardening ----
 

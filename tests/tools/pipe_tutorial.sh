@@ -1,5 +1,6 @@
-# The tutorial of contact(7) runs as it is printed: its commands print the text on the page, the figures in its
-# sentences are among that text or are computed here, and its pictures are drawn by its commands.
+# The pipeline of README runs, and commands mean the same in bash and in zsh. Before a release the tutorial of
+# contact(7) runs as it is printed: its commands print the text on the page, the figures in its sentences are among
+# that text or are computed here, and its pictures are drawn by its commands.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 page=$pages/contact.7
@@ -95,11 +96,64 @@ printf '@@ a\nfrom 12.5 um to 3 um, 1251 per cent, but not 12.6, nor 0.25, nor 7
 claim "a sentence quotes what was printed in its section, rounded, or it is seen" \
     test "$(strangers known.txt quoted.txt | tr '\n' ' ')" = "12.6 0.25 77 3 "
 
-# ---- the page runs ----
-
 blocks "$page" '' "$scratch/blocks"
 mkdir run
 cp "$samples"/*.x3p run
+
+# ---- in bash and in zsh ----
+
+# Commands typed as they are printed mean the same in both shells: stand-ins for the tools write down what they are called
+# with. An interactive zsh knows no comments, and makes one word of an unquoted $variable.
+mkdir stand_ins
+printf '#!/bin/sh\nline=$(printf " <%%s>" "$@")\necho "${0##*/}$line" >>"$SAID"\n' >stand_ins/mpirun
+chmod +x stand_ins/mpirun
+for main in "$RC_SOURCE"/tools/rc-*.c; do
+    cp stand_ins/mpirun "stand_ins/$(basename "$main" .c)"
+done
+# called COMMANDS SHELL...: the calls that these commands make, sorted, for a pipe has no order, and comments taken for commands.
+called() {
+    rm -f said
+    (mkdir -p typed && cd typed && PATH="$scratch/stand_ins:$PATH" SAID=$scratch/said timeout 60 "${@:2}" <"$1" >/dev/null 2>called.err)
+    sort said
+    grep -ao 'found: #' typed/called.err || true
+}
+same_calls() { called "$1" bash >bash.said && called "$1" zsh -f -i >zsh.said && test -s bash.said && diff bash.said zsh.said >&2; }
+if command -v zsh >/dev/null; then
+    printf 'two="--load 1N"\nrc-solve $two\n' >typed.1
+    printf 'rc-solve --load 1N | # presses\n    rc-info\n' >typed.2
+    claim "two words of a variable are seen" bash -c "$(declare -f called same_calls); scratch=$scratch; ! same_calls $scratch/typed.1"
+    claim "  and a comment inside a pipe" bash -c "$(declare -f called same_calls); scratch=$scratch; ! same_calls $scratch/typed.2"
+    displays=0
+    for name in "$pages"/*.1 "$pages"/contact*.7 README; do
+        rm -rf shell_blocks
+        blocks "$name" '' shell_blocks 2>/dev/null || mkdir -p shell_blocks
+        [ "$name" = README ] && sed -n '/^## The pipeline/,/^| tool/s/^    //p' "$RC_SOURCE/README.md" >shell_blocks/1
+        for block in $(grep -lE '^ *(mpirun .*)?rc-[a-z]+ ' shell_blocks/* | grep -v prints); do
+            displays=$((displays + 1))
+            same_calls "$scratch/$block" 2>differ || claim "$(basename "$name"): '$(head -n 1 "$block")' in zsh as in bash" bash -c 'cat differ >&2; false'
+        done
+    done
+    between 60 "$displays" 1000 "displays of the manual and of README call the same in zsh and in bash"
+else
+    echo "not run: the commands in zsh, which is not here"
+fi
+claim "README has no comments among its commands" bash -c "! sed -n 's/^    //p' '$RC_SOURCE/README.md' | grep '#'"
+
+# ---- the README's pipeline ----
+
+sed -n '/^## The pipeline/,/^| tool/s/^    //p' "$RC_SOURCE/README.md" | grep -v '^|' >pipeline
+claim "the README's pipeline runs" bash -c 'cd run && rm -f mises.png && bash -e -u -o pipefail ../pipeline && says PNG head -c 4 mises.png'
+claim "  and is that of the tutorial" bash -c \
+    'for words in "$@"; do sed "s/ *#.*//" pipeline | tr -s "\\\\ \n" " " | grep -qF -- "$words" || { echo "$words" >&2; exit 1; }; done' - \
+    "rc-detrend --poly 2 --outliers 5 --fill" "rc-solve --radius 3.75mm --load 60N --estar 114GPa --hardness 6GPa" "rc-stress --nu 0.28"
+# The page itself takes minutes.
+before_release || {
+    finish
+    exit
+}
+
+# ---- the page runs ----
+
 for block in $(cd blocks && ls | grep -v prints | sort -n); do
     # a build without AMD of SuiteSparse has no rc-leak
     ! grep -q 'rc-leak\|leak\.tsv' "blocks/$block" || with_leak || continue
@@ -163,6 +217,8 @@ derived "Hertz: how deep the stress is largest, in radii" 'lies at (N) a' "$(com
 derived "  in micrometres" ', (N) um deep\.' "$(compute "1e6 * $(field depth below.json)")" 0.01
 derived "  where that of the tips has died away" 'the first (N) um' "$(grep -o '"by_depth": [^]]*' run/section.json | tr -d ' ' |
     tr '[,' '\n\n' | awk 'NR > 1 && NR < 50 && (least == 0 || $1 < least) { least = $1; at = 2 * (NR - 2) } END { print at }')" 0
+between 0.51 "$(compute "$(field contact_area steel.json) / (pi * (0.75 * 60 * 3.75e-3 / 114e9) ^ (2 / 3))")" 0.55 \
+    "the contact of README is little more than half of Hertz's"
 first=$(column contact_area/m2 sweep.tsv 1)
 last=$(column contact_area/m2 sweep.tsv 7)
 derived "the power of the load" 'with the power (N) of' "$(compute "log($last / $first) / log(24)")" 0.006
@@ -246,55 +302,6 @@ if [ -d "$RC_CORPUS/corpus" ]; then
 else
     echo "not run: the table of steps and the first section on a measured file, for no corpus of real files is beside the project"
 fi
-
-# ---- in bash and in zsh ----
-
-# Commands typed as they are printed mean the same in both shells: stand-ins for the tools write down what they are called
-# with. An interactive zsh knows no comments, and makes one word of an unquoted $variable.
-mkdir stand_ins
-printf '#!/bin/sh\nline=$(printf " <%%s>" "$@")\necho "${0##*/}$line" >>"$SAID"\n' >stand_ins/mpirun
-chmod +x stand_ins/mpirun
-for main in "$RC_SOURCE"/tools/rc-*.c; do
-    cp stand_ins/mpirun "stand_ins/$(basename "$main" .c)"
-done
-# called COMMANDS SHELL...: the calls that these commands make, sorted, for a pipe has no order, and comments taken for commands.
-called() {
-    rm -f said
-    (mkdir -p typed && cd typed && PATH="$scratch/stand_ins:$PATH" SAID=$scratch/said timeout 60 "${@:2}" <"$1" >/dev/null 2>called.err)
-    sort said
-    grep -ao 'found: #' typed/called.err || true
-}
-same_calls() { called "$1" bash >bash.said && called "$1" zsh -f -i >zsh.said && test -s bash.said && diff bash.said zsh.said >&2; }
-if command -v zsh >/dev/null; then
-    printf 'two="--load 1N"\nrc-solve $two\n' >typed.1
-    printf 'rc-solve --load 1N | # presses\n    rc-info\n' >typed.2
-    claim "two words of a variable are seen" bash -c "$(declare -f called same_calls); scratch=$scratch; ! same_calls $scratch/typed.1"
-    claim "  and a comment inside a pipe" bash -c "$(declare -f called same_calls); scratch=$scratch; ! same_calls $scratch/typed.2"
-    displays=0
-    for name in "$pages"/*.1 "$pages"/contact*.7 README; do
-        rm -rf shell_blocks
-        blocks "$name" '' shell_blocks 2>/dev/null || mkdir -p shell_blocks
-        [ "$name" = README ] && sed -n '/^## The pipeline/,/^| tool/s/^    //p' "$RC_SOURCE/README.md" >shell_blocks/1
-        for block in $(grep -lE '^ *(mpirun .*)?rc-[a-z]+ ' shell_blocks/* | grep -v prints); do
-            displays=$((displays + 1))
-            same_calls "$scratch/$block" 2>differ || claim "$(basename "$name"): '$(head -n 1 "$block")' in zsh as in bash" bash -c 'cat differ >&2; false'
-        done
-    done
-    between 60 "$displays" 1000 "displays of the manual and of README call the same in zsh and in bash"
-else
-    echo "not run: the commands in zsh, which is not here"
-fi
-claim "README has no comments among its commands" bash -c "! sed -n 's/^    //p' '$RC_SOURCE/README.md' | grep '#'"
-
-# ---- the README's pipeline ----
-
-sed -n '/^## The pipeline/,/^| tool/s/^    //p' "$RC_SOURCE/README.md" | grep -v '^|' >pipeline
-claim "the README's pipeline runs" bash -c 'cd run && rm -f mises.png && bash -e -u -o pipefail ../pipeline && says PNG head -c 4 mises.png'
-claim "  and is that of the tutorial" bash -c \
-    'for words in "$@"; do sed "s/ *#.*//" pipeline | tr -s "\\\\ \n" " " | grep -qF -- "$words" || { echo "$words" >&2; exit 1; }; done' - \
-    "rc-detrend --poly 2 --outliers 5 --fill" "rc-solve --radius 3.75mm --load 60N --estar 114GPa --hardness 6GPa" "rc-stress --nu 0.28"
-between 0.51 "$(compute "$(field contact_area steel.json) / (pi * (0.75 * 60 * 3.75e-3 / 114e9) ^ (2 / 3))")" 0.55 \
-    "its contact is little more than half of Hertz's"
 
 # ---- its pictures ----
 

@@ -1,0 +1,15 @@
+# What is told of errors is hardly ever less than they are: random problems beside their tight solutions. Lists of loads
+# on a body that yields, histories with a hardness, adhesive paths, tilted contacts, free maps.
+. "$(dirname "$0")/../pipe.sh"
+. "$RC_SOURCE/tests/python.sh"
+if ! python=$(python_with numpy 2>why.txt); then
+    echo "not run: $(cat why.txt)"
+    exit 77
+fi
+long=$RC_SOURCE/tests/long
+export RC_THREADS=1
+claim "a body that yields" "$python" "$long/plastic_lists.py" 1 60
+for kind in hist:100 adhesion:60 tilt:60 maps:20; do
+    claim "$kind" "$python" "$long/estimates.py" "${kind%:*}" 1 "${kind#*:}" "$RC_BIN"
+done
+finish
