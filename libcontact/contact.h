@@ -834,6 +834,51 @@ RC_API enum rc_status rc_plastic_depths(const struct rc_shape *shape, enum rc_bo
                                         size_t threads, struct rc_plastic_depths *depths,
                                         struct rc_err *err);
 
+/* ---- a body that may yield, its elastic contact first: plastic/press.c ---- */
+
+/* As long as nothing yields the elastic contact is the solution. Of the problem thickness NULL lets the slabs
+ * be chosen, so many of them (0: those of rc_plastic_depths), increments 0 their number for each load, so
+ * that its estimated error is at most contact.tol (0: 1e-2), and lag 0 what suits that. */
+struct rc_press;
+enum {
+    RC_PRESS_INCREMENTS = 512 /* of a load, at most */
+};
+struct rc_press_figures {
+    double goal; /* error that is asked for                                             */
+    double most,
+        deepest; /* elastic Mises stress over the yield stress, at most; its depth, m; 0: unknown */
+    size_t slabs; /* in use, 0: nothing has yielded                                      */
+    const double
+        *thickness;    /* m, of each                                                          */
+    size_t increments; /* of the load, as they are tried                                      */
+};
+/* h: nx ny m, copied. NULL where the problem makes no sense, or memory is short. */
+RC_API struct rc_press *rc_press_new(const struct rc_shape *shape, const double *h,
+                                     const struct rc_plastic_problem *problem, struct rc_err *err);
+/* So many loads come, N the largest: the slabs are chosen for that one, and the increments also for the loads
+ * that inherit their error. May be left out. */
+RC_API void rc_press_plan(struct rc_press *press, size_t loads, double largest);
+/* The next load of a history, N; 0 takes the bodies apart. */
+RC_API enum rc_status rc_press_set_load(struct rc_press *press, double load, struct rc_err *err);
+/* An iteration of the elastic contact, or one of rc_plastic_step. RC_MORE until the load is reached. */
+RC_API enum rc_status rc_press_step(struct rc_press *press, struct rc_err *err);
+/* After the last step; of a load that is given up half-way too. */
+RC_API const struct rc_press_figures *rc_press_result(struct rc_press *press);
+/* The contact, elastic or of rc_plastic_solver; NULL: no load has been set above 0. */
+RC_API struct rc_solver *rc_press_solver(struct rc_press *press);
+/* The body that has yielded, for its figures, residual displacement and strain; NULL: nothing has. */
+RC_API struct rc_plastic *rc_press_plastic(struct rc_press *press);
+/* Where it stands after any step; the count of these numbers, all that is found for NULL. */
+RC_API size_t rc_press_state(const struct rc_press *press, double *state);
+/* As rc_plastic_restore. Where that fails the press is of no further use. */
+RC_API enum rc_status rc_press_restore(struct rc_press *press, const double *state, size_t n,
+                                       struct rc_err *err);
+/* Bytes that the next step needs for the volume, 0.3 of its voxels yielding, and for a state where one is
+ * kept; or that the restoring of n numbers needs. 0: none. */
+RC_API size_t rc_press_memory(const struct rc_press *press, const double *state, size_t n,
+                              bool kept);
+RC_API void rc_press_free(struct rc_press *press); /* NULL is allowed */
+
 /* ---- adhesion: adhesion/adhesion.c ---- */
 
 /* Rows of the table of laws, k = 0, 1, ...; NULL past the last. */

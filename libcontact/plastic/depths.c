@@ -4,6 +4,7 @@
  */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "libcontact/memory.h"
 #include "plastic.h"
@@ -84,4 +85,24 @@ rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary, const
     for (size_t k = 0; k < d->slabs; k++)
         d->thickness[k] = thickness[k];
     return RC_OK;
+}
+
+/* With the growth of the stack that was found, to the power of how many more there are, its slabs are
+ * divided, or put together, all alike. */
+void
+rc_plastic_stack(const struct rc_plastic_depths *found, size_t n, double *thickness)
+{
+    double depth = 0, first, ratio;
+
+    if (n == found->slabs) {
+        memcpy(thickness, found->thickness, n * sizeof *thickness);
+        return;
+    }
+    for (size_t k = 0; k < found->slabs; k++)
+        depth += found->thickness[k];
+    first = found->slabs > 1 ? found->thickness[1] / found->thickness[0] : 1;
+    ratio = pow(first, (double)found->slabs / (double)n);
+    first = ratio > 1 ? depth * (ratio - 1) / (pow(ratio, (double)n) - 1) : depth / (double)n;
+    for (size_t k = 0; k < n; k++, first *= ratio)
+        thickness[k] = first;
 }

@@ -844,8 +844,8 @@ rc_plastic_free(struct rc_plastic *p)
     free(p);
 }
 
-static enum rc_status
-check(const struct rc_plastic_problem *problem, struct rc_err *err)
+enum rc_status
+rc_plastic_check(const struct rc_plastic_problem *problem, struct rc_err *err)
 {
     const struct rc_body *one = &problem->contact.pair.one;
 
@@ -904,7 +904,7 @@ rc_plastic_new(const struct rc_shape *shape, const double *h,
                                        .threads = contact.threads};
 
     contact.hurry = NULL; /* a contact that stands still would be taken into the strain */
-    if (check(problem, err) != RC_OK)
+    if (rc_plastic_check(problem, err) != RC_OK)
         return NULL;
     p = calloc(1, sizeof *p);
     if (p == NULL) {

@@ -58,6 +58,10 @@ struct rc_plastic {
     struct rc_plastic_figures figures;
 };
 
+/* Whether this is a body that can yield. */
+enum rc_status rc_plastic_check(const struct rc_plastic_problem *problem, struct rc_err *err);
+/* n thicknesses to the depth of the stack that rc_plastic_depths has found. */
+void rc_plastic_stack(const struct rc_plastic_depths *found, size_t n, double *thickness);
 /* The contacts are found to this tolerance from the next load that is set. */
 void rc_plastic_solve_to(struct rc_plastic *plastic, double tol);
 /* The pressure becomes the one that the next is compared with. */

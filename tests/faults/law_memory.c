@@ -523,6 +523,52 @@ done:
     return status;
 }
 
+/* Two loads, of which the first does not yield, with increments that are chosen; from the middle of the second on
+ * another goes on. */
+static enum rc_status
+may_yield(double *out, struct rc_err *err)
+{
+    const struct rc_plastic_problem problem = {
+        .contact = {.boundary = RC_PERIODIC, .pair = bare, .tol = 0.1, .threads = 1},
+        .yield = {.stress = bare.one.e / 100}};
+    struct rc_press *press = rc_press_new(&shape, rough, &problem, err), *other = NULL;
+    enum rc_status status = press != NULL ? RC_OK : RC_FAIL;
+    double *state = NULL;
+
+    if (status == RC_OK)
+        rc_press_plan(press, 2, 1e-3);
+    for (int q = 0; q < 2 && status == RC_OK; q++) {
+        if ((status = rc_press_set_load(press, q == 0 ? 1e-7 : 1e-3, err)) != RC_OK)
+            break;
+        for (size_t k = 0; (status = rc_press_step(press, err)) == RC_MORE; k++) {
+            size_t n = rc_press_state(press, NULL);
+            if (rc_press_plastic(press) == NULL || other != NULL)
+                continue;
+            if ((other = rc_press_new(&shape, rough, &problem, err)) == NULL ||
+                (state = malloc(n * sizeof *state)) == NULL) {
+                rc_press_free(other);
+                rc_press_free(press);
+                return rc_err_set(err, "out of memory for another");
+            }
+            (void)rc_press_state(press, state);
+            out[N] = (double)rc_press_memory(other, state, n, true);
+            rc_press_free(press);
+            press = other;
+            if ((status = rc_press_restore(press, state, n, err)) != RC_OK)
+                break;
+        }
+        if (status == RC_SHORT)
+            status = RC_OK;
+    }
+    if (status == RC_OK) {
+        memcpy(out, rc_solver_pressure(rc_press_solver(press)), N * sizeof *out);
+        out[N + 1] = (double)rc_press_result(press)->slabs;
+    }
+    free(state);
+    rc_press_free(press);
+    return status;
+}
+
 static enum rc_status
 stressed(const struct rc_stress_options *o, double *out, struct rc_err *err)
 {
@@ -776,6 +822,7 @@ static const struct {
     {.name = "contact, coated", .use = coated_contact},
     {.name = "contact, free to tilt", .use = free_to_tilt},
     {.name = "plasticity", .use = yields},
+    {.name = "plasticity after elasticity", .use = may_yield},
     {.name = "adhesion", .use = adheres},
 #ifdef RC_LEAK
     {.name = "leakage", .use = leaks},

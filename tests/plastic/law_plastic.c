@@ -29,7 +29,7 @@ plastic_new(struct rc_shape shape, const double *h, struct rc_plastic_problem pr
 }
 
 static const struct rc_plastic_figures *
-press(struct rc_plastic *plastic, double load)
+pressed(struct rc_plastic *plastic, double load)
 {
     enum rc_status status;
     struct rc_err err;
@@ -109,7 +109,7 @@ begins(bool ball, size_t n, double a, double nu, double part, double *depth)
         h[k] = -(x * x + (ball ? y * y : 0)) / (2 * radius);
     }
     plastic = plastic_new(shape, h, problem);
-    (void)press(plastic, load);
+    (void)pressed(plastic, load);
     for (size_t k = 0; k < THIN; k++) {
         rc_plastic_strain(plastic, k, to);
         for (size_t i = 0; i < nodes; i++)
@@ -217,7 +217,7 @@ ball_hardness(void **state)
         double a = 8, yield = estar * a / (radius * size[q]), found, is, one, other;
         struct rc_plastic *plastic =
             ball(n, radius, (struct rc_yield){.stress = yield}, 0, thickness, 24);
-        const struct rc_plastic_figures *f = press(plastic, exact_pi * a * a * kogut[q] * yield);
+        const struct rc_plastic_figures *f = pressed(plastic, exact_pi * a * a * kogut[q] * yield);
         size_t count;
         found = mean_in_contact(plastic, n * n, &count) / yield;
         is = estar * sqrt((double)count / exact_pi) / (yield * radius);
@@ -246,7 +246,7 @@ fully_plastic(void **state)
     size_t count, inside = 0;
 
     (void)state;
-    (void)press(plastic, exact_pi * a * a * 3 * yield);
+    (void)pressed(plastic, exact_pi * a * a * 3 * yield);
     mean = mean_in_contact(plastic, n * n, &count) / yield;
     p = rc_solver_pressure(rc_plastic_solver(plastic));
     for (int pass = 0; pass < 2; pass++) { /* fitted, then what is left */
@@ -299,10 +299,10 @@ let_go(void **state)
     size_t middle = SIDE / 2 * SIDE + SIDE / 2;
 
     (void)state;
-    strain = press(plastic, load)->max_strain;
+    strain = pressed(plastic, load)->max_strain;
     dent = rc_plastic_residual(plastic)[middle];
     assert_true(dent > 0 && rc_plastic_residual(plastic)[0] < dent);
-    (void)press(plastic, 0);
+    (void)pressed(plastic, 0);
     for (size_t k = 0; k < SLABS; k++) {
         double *const to[RC_PLASTIC_STRAINS] = {
             voxels_map(&e, k, RC_SXX), voxels_map(&e, k, RC_SYY), voxels_map(&e, k, RC_SXY),
@@ -326,10 +326,10 @@ let_go(void **state)
     assert_true(worst < 1e-8 * yield);
     assert_true(least < -0.3 * yield && at > 0.5 * 8 && at < 1.2 * 8);
     for (int cycle = 0; cycle < 2; cycle++) {
-        again = press(plastic, load)->max_strain;
+        again = pressed(plastic, load)->max_strain;
         print_message("pressed again: strain %.6g, first %.6g\n", again, strain);
         assert_true(fabs(again / strain - 1) < 1e-4);
-        (void)press(plastic, 0);
+        (void)pressed(plastic, 0);
     }
     rc_slabs_free(v);
     rc_plastic_free(plastic);
@@ -367,7 +367,7 @@ free_maps(void **state)
         for (size_t k = 0; k < n * n; k++)
             h[k] = -pow(node_r(shape, k), 2) / (2 * radius);
         plastic[q] = plastic_new(shape, h, problem);
-        (void)press(plastic[q], load);
+        (void)pressed(plastic[q], load);
         free(h);
     }
     for (size_t j = 0; j < SMALL; j++)
@@ -437,7 +437,7 @@ roll(double p0_over_k, double gained[2])
                 plastic = plastic_new(shape, h, problem);
             else
                 rc_plastic_set_heights(plastic, h);
-            (void)press(plastic, load);
+            (void)pressed(plastic, load);
         }
         for (size_t s = 0; s < SLABS; s++) {
             double mean = 0;
@@ -503,11 +503,11 @@ estimate(void **state)
 
         assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
         plastic = plastic_new(shape, h, problem);
-        f = press(plastic, load);
+        f = pressed(plastic, load);
         problem.increments = 192;
         problem.contact.tol = 1e-5;
         fine = plastic_new(shape, h, problem);
-        (void)press(fine, load);
+        (void)pressed(fine, load);
         off = distance(1600, rc_solver_pressure(rc_plastic_solver(plastic)),
                        rc_solver_pressure(rc_plastic_solver(fine)));
         print_message(
@@ -571,7 +571,7 @@ inherits(void **state)
             problem.contact.tol = fine ? 1e-6 : 1e-4;
             plastic = plastic_new(shape, h, problem);
             for (size_t k = 0; k < LOADS; k++) {
-                const struct rc_plastic_figures *f = press(plastic, load * shares[q % 2][k]);
+                const struct rc_plastic_figures *f = pressed(plastic, load * shares[q % 2][k]);
                 const double *is = rc_solver_pressure(rc_plastic_solver(plastic));
                 if (!fine) {
                     memcpy(p[k], is, sizeof p[k]);
@@ -700,7 +700,7 @@ goes_on(void **state)
         rc_plastic_free(plastic);
         /* into one that has been used for something else */
         if (step % 2 == 0)
-            (void)press(other, 10);
+            (void)pressed(other, 10);
         assert_int_equal(rc_plastic_restore(other, kept, n, &err), RC_OK);
         free(kept);
         memset(again, 0, sizeof again);
@@ -771,6 +771,198 @@ refuses_states(void **state)
     rc_plastic_free(finer);
 }
 
+/* ---- the elastic contact first ---- */
+
+static struct rc_press *
+press_new(struct rc_shape shape, const double *h, struct rc_plastic_problem problem, size_t loads,
+          double largest)
+{
+    struct rc_press *press;
+    struct rc_err err;
+
+    problem.contact.pair.one.e = one_e;
+    problem.contact.pair.two.e = INFINITY;
+    problem.contact.threads = 1;
+    press = rc_press_new(&shape, h, &problem, &err);
+    assert_non_null(press);
+    rc_press_plan(press, loads, largest);
+    return press;
+}
+
+/* Under Hertz's ball the stress reaches the yield stress at P = (pi p0)^3 R^2/(6 E*^2), p0 the stress over the
+ * largest Mises stress of under_circle. Below that load the elastic contact is the solution, bit for bit. */
+static void
+elastic_first(void **state)
+{
+    enum {
+        SIDE = 32
+    };
+    const double nu = 0.3, estar = one_e / (1 - nu * nu), radius = 60, yield = 0.03;
+    const struct rc_shape shape = {SIDE, SIDE, 1, 1};
+    struct rc_plastic_problem problem = {
+        .contact = {.boundary = RC_FREE, .pair.one.nu = nu, .tol = 1e-4},
+        .yield = {.stress = yield, .modulus = 0.1}};
+    double h[SIDE * SIDE], at, p0 = yield / largest(under_circle, nu, &at);
+    const double limit = pow(acos(-1) * p0, 3) * radius * radius / (6 * estar * estar);
+    const double part[] = {0.3, 0.85, 0, 1.25};
+    const struct rc_press_figures *f;
+    struct rc_press *press;
+    struct rc_err err;
+
+    (void)state;
+    for (size_t k = 0; k < SIDE * SIDE; k++) {
+        double x = (double)(k % SIDE) - SIDE / 2, y = (double)(k / SIDE) - SIDE / 2;
+        h[k] = -(x * x + y * y) / (2 * radius);
+    }
+    press = press_new(shape, h, problem, 4, 1.25 * limit);
+    for (size_t k = 0; k < 4; k++) {
+        struct rc_problem contact = problem.contact;
+        struct rc_solver *solver;
+        enum rc_status status;
+
+        assert_int_equal(rc_press_set_load(press, part[k] * limit, &err), RC_OK);
+        while ((status = rc_press_step(press, &err)) == RC_MORE)
+            ;
+        assert_true(status == RC_OK || (k == 3 && status == RC_SHORT));
+        f = rc_press_result(press);
+        print_message(
+            "%.2f of the load at which it yields: Mises stress %.3f of the yield stress\n", part[k],
+            f->most);
+        assert_int_equal(rc_press_plastic(press) != NULL, k == 3);
+        assert_int_equal(f->slabs > 0, k == 3);
+        if (k >= 2)
+            continue;
+        assert_true(fabs(f->most / cbrt(part[k]) - 1) < 0.03);
+        contact.pair.one.e = one_e;
+        contact.pair.two.e = INFINITY;
+        contact.threads = 1;
+        contact.load = part[0] * limit;
+        solver = rc_solver_new(&shape, h, &contact, &err);
+        assert_non_null(solver);
+        for (size_t q = 0; q <= k; q++) {
+            assert_int_equal(rc_solver_set_load(solver, part[q] * limit, 0, &err), RC_OK);
+            while (rc_solver_step(solver) == RC_MORE)
+                ;
+        }
+        assert_memory_equal(rc_solver_pressure(solver), rc_solver_pressure(rc_press_solver(press)),
+                            sizeof h);
+        rc_solver_free(solver);
+    }
+    rc_press_free(press);
+}
+
+enum {
+    TRIED = 3 /* loads */
+};
+
+struct walk {
+    size_t made, increments; /* steps; increments of a load, at most */
+};
+
+/* Steps through the loads from `first` on. After `stop` steps in all returns the load that it is at; else
+ * TRIED. */
+static size_t
+try_loads(struct rc_press *press, const double *loads, size_t first, bool under_way, size_t stop,
+          struct walk *walk, double *p)
+{
+    struct rc_err err;
+
+    for (size_t q = first; q < TRIED; q++) {
+        enum rc_status status;
+
+        if (q > first || !under_way)
+            assert_int_equal(rc_press_set_load(press, loads[q], &err), RC_OK);
+        do {
+            status = rc_press_step(press, &err);
+            if (++walk->made == stop)
+                return q;
+        } while (status == RC_MORE);
+        assert_int_equal(status, RC_OK);
+        if (rc_press_result(press)->increments > walk->increments)
+            walk->increments = rc_press_result(press)->increments;
+        if (p != NULL && loads[q] > 0)
+            memcpy(p + q * KEPT * KEPT, rc_solver_pressure(rc_press_solver(press)),
+                   KEPT * KEPT * sizeof *p);
+    }
+    return TRIED;
+}
+
+/* With increments that are chosen for each load: the estimate is at most what is asked for and no less than the
+ * error against many increments, tries that had too few leave nothing behind, and a state from anywhere on the
+ * way, elastic or not, is gone on with. */
+static void
+chooses(void **state)
+{
+    const struct rc_shape shape = {KEPT, KEPT, 1, 1};
+    const struct rc_selfaffine rough = {
+        .hurst = 0.8, .rms_slope = 0.2, .short_cut = 5, .rolloff = 12, .seed = 9};
+    const double n = KEPT * KEPT, loads[TRIED] = {0.015 * n, 0, 0.02 * n};
+    struct rc_plastic_problem problem = {
+        .contact = {.boundary = RC_PERIODIC, .pair.one.nu = 0.3, .tol = 5e-3},
+        .yield = {.stress = 0.04, .modulus = 0.05}};
+    double h[KEPT * KEPT], whole[TRIED * KEPT * KEPT] = {0}, again[TRIED * KEPT * KEPT], off = 0;
+    const struct rc_plastic_figures *found, *straight;
+    struct rc_press *press, *other;
+    struct rc_plastic *plastic;
+    struct walk walk = {0}, ignored = {0};
+    struct rc_err err;
+
+    (void)state;
+    assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
+    press = press_new(shape, h, problem, TRIED, loads[2]);
+    assert_int_equal(try_loads(press, loads, 0, false, SIZE_MAX, &walk, whole), TRIED);
+    found = rc_plastic_result(rc_press_plastic(press));
+    problem.slabs = rc_press_result(press)->slabs;
+    problem.thickness = rc_press_result(press)->thickness;
+    problem.increments = 192;
+    problem.contact.tol = 1e-6;
+    plastic = plastic_new(shape, h, problem);
+    for (size_t q = 0; q < TRIED; q++)
+        straight = pressed(plastic, loads[q]);
+    off = distance(KEPT * KEPT, rc_solver_pressure(rc_press_solver(press)),
+                   rc_solver_pressure(rc_plastic_solver(plastic)));
+    print_message("%zu steps, %zu increments at most: error %.1e, told %.1e; work %.4g, %.4g\n",
+                  walk.made, walk.increments, off, found->error, found->work, straight->work);
+    assert_true(walk.increments > 8 && off <= found->error && found->error <= 5e-3);
+    assert_true(fabs(found->work / straight->work - 1) < 5e-3);
+    rc_plastic_free(plastic);
+    problem.thickness = NULL;
+    problem.slabs = problem.increments = 0;
+    problem.contact.tol = 5e-3;
+    for (size_t stop = 1; stop < walk.made; stop += 1 + walk.made / 6) {
+        double *kept;
+        size_t count, at;
+
+        rc_press_free(press);
+        press = press_new(shape, h, problem, TRIED, loads[2]);
+        other = press_new(shape, h, problem, TRIED, loads[2]);
+        ignored.made = 0;
+        at = try_loads(press, loads, 0, false, stop, &ignored, NULL);
+        count = rc_press_state(press, NULL);
+        kept = malloc(count * sizeof *kept);
+        assert_int_equal(rc_press_state(press, kept), count);
+        assert_int_equal(rc_press_restore(other, kept, count, &err), RC_OK);
+        memset(again, 0, sizeof again);
+        assert_int_equal(try_loads(other, loads, at, true, SIZE_MAX, &ignored, again), TRIED);
+        off = distance(KEPT * KEPT, again + 2 * KEPT * KEPT, whole + 2 * KEPT * KEPT);
+        assert_true(off < 5e-4);
+        rc_press_free(other);
+        other = press_new(shape, h, problem, TRIED, loads[2]);
+        for (size_t k = 0; k < 7; k++) { /* the head, number by number */
+            const double was = kept[k];
+            kept[k] = -1;
+            assert_int_equal(rc_press_restore(other, kept, count, &err), RC_FAIL);
+            kept[k] = NAN;
+            assert_int_equal(rc_press_restore(other, kept, count, &err), RC_FAIL);
+            kept[k] = was;
+        }
+        assert_int_equal(rc_press_restore(other, kept, 3, &err), RC_FAIL);
+        rc_press_free(other);
+        free(kept);
+    }
+    rc_press_free(press);
+}
+
 /* As law_memory_estimates finds it to be: of a map whose voxels have yielded by three tenths, in 12 slabs. */
 static void
 is_lean(void **state)
@@ -795,7 +987,8 @@ main(void)
         cmocka_unit_test(free_maps),     cmocka_unit_test(shakedown),
         cmocka_unit_test(estimate),      cmocka_unit_test(inherits),
         cmocka_unit_test(goes_on),       cmocka_unit_test(refuses_states),
-        cmocka_unit_test(is_lean),
+        cmocka_unit_test(is_lean),       cmocka_unit_test(elastic_first),
+        cmocka_unit_test(chooses),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

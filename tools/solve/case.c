@@ -88,6 +88,7 @@ void
 solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
 {
     const struct rc_yield *law = &run->yielding.law;
+    const bool yields = run->yielding.plastic != NULL;
     struct rc_err err;
 
     if (rc_grid_set(g, "boundary", run->args->physics.periodic ? "periodic" : "free", &err) !=
@@ -104,9 +105,9 @@ solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
     set_number(run, g, "hardness", run->args->physics.hardness);
     set_number(run, g, "approach", c->approach);
     /* who reads the stream finds the strain behind the pressure, or misses it */
-    set_number(run, g, "slabs", run->yielding.plastic != NULL ? (double)run->yielding.slabs : NAN);
-    set_number(run, g, "yield", run->yielding.plastic != NULL ? yield_law_first(law) : NAN);
-    set_number(run, g, "hardening", run->yielding.plastic != NULL ? yield_law_hardening(law) : NAN);
+    set_number(run, g, "slabs", yields ? (double)run->yielding.found->slabs : NAN);
+    set_number(run, g, "yield", yields ? yield_law_first(law) : NAN);
+    set_number(run, g, "hardening", yields ? yield_law_hardening(law) : NAN);
 }
 
 /* Maps of results are made one after another, as they are written, in one buffer. */
@@ -451,47 +452,40 @@ demand_memory(struct run *run, const struct rc_grid *g, const struct rc_problem 
         tool_leaner_engine(&run->t, problem->boundary == RC_PERIODIC, memory_by, &d));
 }
 
-static struct rc_solver *
-new_solver(struct run *run, const struct rc_grid *g)
+void
+solve_before_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
 {
-    struct rc_shape shape = rc_grid_shape(g);
-    struct rc_problem problem = problem_of(run, g, run->step);
-    struct rc_solver *solver;
-    struct rc_err err;
-
-    demand_memory(run, g, &problem);
+    demand_memory(run, g, problem);
     if (run->done == 0)         /* no load has been solved */
         tool_release_signals(); /* planning takes long, and no pressure is worth writing before it ends */
-    solver = rc_solver_new(&shape, g->v, &problem, &err);
-    tool_catch_signals();
-    if (solver == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    tool_code_there(&run->t, SOLVE_CODE);
-    run->setup = solve_now() - run->began;
-    return solver;
 }
 
-/* Solves this load of elastic bodies with a solver that there is, or NULL, and begins with plasticity where
- * it calls for that. The solver that has the solution. */
+void
+solve_after_plan(struct run *run)
+{
+    tool_catch_signals();
+    tool_code_there(&run->t, SOLVE_CODE);
+    run->setup = solve_now() - run->began;
+}
+
+/* Solves this load of elastic bodies with a solver that there is, or NULL. The solver that has the solution. */
 static struct rc_solver *
 press(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
       const struct rc_problem *problem)
 {
+    const struct rc_shape shape = rc_grid_shape(g);
     struct rc_err err;
 
-    if (yield_resumes(run, g, *problem)) {
-        rc_solver_free(solver);
-        return rc_plastic_solver(run->yielding.plastic);
-    }
-    if (solver == NULL)
-        solver = new_solver(run, g);
-    else if (rc_solver_set_load(solver, problem->load, problem->approach, &err) != RC_OK)
+    if (solver == NULL) {
+        solve_before_plan(run, g, problem);
+        if ((solver = rc_solver_new(&shape, g->v, problem, &err)) == NULL)
+            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        solve_after_plan(run);
+    } else if (rc_solver_set_load(solver, problem->load, problem->approach, &err) != RC_OK) {
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    }
     solve(run, g, solver);
-    if (!yield_begins(run, g, solver, *problem))
-        return solver;
-    rc_solver_free(solver);
-    return rc_plastic_solver(run->yielding.plastic);
+    return solver;
 }
 
 /* The loads of a list, each from the solution of the last; in a history, on the shape that it has
@@ -512,17 +506,17 @@ do_loads(struct run *run, struct rc_grid *g)
         run->began = solve_now();
         run->setup = run->iterate = 0;
         run->number++;
-        if (run->yielding.plastic != NULL)
-            yield_press(run, g, run->steps->v[run->step] > 0 ? problem.load : 0);
-        if (run->steps->v[run->step] == 0) {
-            take_apart(run, g);
-            continue;
-        }
-        if (run->yielding.plastic == NULL)
+        const bool apart = run->steps->v[run->step] == 0;
+        if (run->yielding.wanted)
+            solver = yield_press(run, g, &problem, apart ? 0 : problem.load);
+        else if (!apart)
             solver = press(run, g, solver, &problem);
-        end_load(run, g, solver);
+        if (apart)
+            take_apart(run, g);
+        else
+            end_load(run, g, solver);
     }
-    if (run->yielding.plastic == NULL)
+    if (!run->yielding.wanted)
         rc_solver_free(solver);
     yield_free(run);
 }

@@ -59,20 +59,16 @@ struct yielding {
     bool wanted;
     struct yield_law read;
     struct rc_yield law;
-    size_t asked, increments; /* of a load: on the line, 0 for auto; in use                  */
-    size_t slab_count;        /* on the line, 0 for auto                                     */
-    struct numbers list;      /* or thicknesses                                              */
-    size_t slabs;             /* in use                                                      */
-    double *thickness;
-    struct rc_plastic *plastic; /* NULL: nothing has yielded                                   */
-    double most, deepest; /* largest elastic Mises stress over the yield stress; m; 0: unknown */
-    size_t try; /* where their number is left open: which one, from 0                          */
-    double *before;     /* the state before the load, or NULL                            */
-    size_t before_size; /* numbers */
-    size_t worst;       /* the case with the largest error of increments, its increments */
+    size_t asked;               /* increments of a load on the line, 0: auto                     */
+    size_t slab_count;          /* on the line, 0: auto                                          */
+    struct numbers list;        /* or thicknesses                                                */
+    struct rc_press *press;     /* NULL: no load has been set                                  */
+    struct rc_plastic *plastic; /* of it; NULL: nothing has yielded                            */
+    const struct rc_press_figures *found;
+    size_t worst; /* the case with the largest error of increments, its increments */
     size_t worst_increments;
     double worst_error;
-    enum rc_status status; /* of the load                                                 */
+    enum rc_status status; /* of the load                                                   */
 };
 
 /* --adhesion: the bodies attract each other. */
@@ -214,21 +210,16 @@ void adhesion_report(struct report *report, const struct run *run);
 /* Reads --yield, --increments, --slabs, or ends the tool. */
 void yield_read(struct run *run);
 void yield_free(struct run *run);
-/* After an elastic solution of this contact: false where body 1 does not yield under it; else it does from
- * here on, and carries the load. */
-bool yield_begins(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
-                  struct rc_problem contact);
-/* Instead of an elastic solution: goes on from the state that the checkpoint has of this case.
- * False: it has none. */
-bool yield_resumes(struct run *run, const struct rc_grid *g, struct rc_problem contact);
+/* Presses a body that may yield, from what the checkpoint has of this case on; load 0: N, none. The solver that
+ * has the solution. */
+struct rc_solver *yield_press(struct run *run, const struct rc_grid *g,
+                              const struct rc_problem *problem, double load);
 /* What a checkpoint of such a body must agree in, k from 0 on: its name, and its value, empty
  * without --yield. */
 enum {
     YIELD_MARKS = 6
 };
 const char *yield_mark(const struct run *run, int k, char *value, size_t size);
-/* The next load, N, of a body that yields; 0: none. */
-void yield_press(struct run *run, const struct rc_grid *g, double load);
 /* Puts the estimated error of the plastic body, and its parts, in place of the contact's. */
 void yield_look(struct run *run, struct solution *solution);
 /* v += factor times the residual displacement. */
@@ -246,6 +237,9 @@ void yield_tell(const struct run *run, const struct rc_contact *contact, char *t
 const char *yield_state(const struct run *run);
 void yield_report(struct report *report, const struct run *run);
 
+/* Before a solver of the map is planned, and after: room for it is demanded, and a signal ends the tool. */
+void solve_before_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem);
+void solve_after_plan(struct run *run);
 /* Tells where the solver stands. */
 void solve_progress(struct run *run, const struct rc_solver *solver);
 

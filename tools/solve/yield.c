@@ -14,19 +14,7 @@
 
 #include "formats/core/core.h"
 
-enum {
-    FIRST = 8,       /* increments of the first try of a load, where their number is left open */
-    MOST_AUTO = 128, /* and of the last, */
-    MOST = 512,      /* with a --tol below the usual goal, and on the command line */
-    TRIES = 3
-};
-static const double deserved = 1e-2;       /* error that the increments are chosen for            */
-static const double contact_most = 1e-4;   /* tolerance of each contact, at most,                 */
-static const double contact_least = 1e-6;  /* and, for the sake of a smaller --tol, at least      */
-static const double contact_share = 0.1;   /* of --tol                                            */
-static const double lag_least = 1e-3;      /* what single precision allows                        */
-static const double for_later = 0.7;       /* share of the goal where loads follow                */
-static const double expected_part = 0.3;   /* of the voxels that yield, for the memory            */
+static const double deserved = 1e-2;       /* error that is asked for where nobody says           */
 static const double order = 1.1;           /* power of the error that the increments go by        */
 static const double image_order = 1 / 2.7; /* and the side of a free map                         */
 static const double large_strain = 0.1;
@@ -46,13 +34,13 @@ read_count(struct run *run, const char *name, const char *text, size_t *count,
     if (text == NULL || strcmp(text, "auto") == 0)
         return;
     n = strtoul(text, &end, 10);
-    if (end != text && *end == '\0' && n > 0 && n <= MOST && text[0] != '-') {
+    if (end != text && *end == '\0' && n > 0 && n <= RC_PRESS_INCREMENTS && text[0] != '-') {
         *count = n;
         return;
     }
     if (lengths == NULL || (end != text && *end == '\0'))
         tool_die(&run->t, EXIT_USAGE, "--%s %s: it must be auto%s or a number from 1 to %d", name,
-                 text, lengths == NULL ? "" : ", a list of thicknesses", MOST);
+                 text, lengths == NULL ? "" : ", a list of thicknesses", RC_PRESS_INCREMENTS);
     if (unit_numbers(text, UNIT_M, lengths, &err) != RC_OK)
         tool_die(&run->t, EXIT_USAGE, "--%s %s: %s", name, text, err.text);
     for (size_t k = 0; k < lengths->n; k++)
@@ -94,168 +82,16 @@ yield_free(struct run *run)
 {
     struct yielding *y = &run->yielding;
 
-    rc_plastic_free(y->plastic);
-    free(y->thickness);
-    free(y->before);
+    rc_press_free(y->press);
+    y->press = NULL;
     y->plastic = NULL;
-    y->thickness = y->before = NULL;
-    y->slabs = 0;
+    y->found = NULL;
 }
-
-/* ---- slabs ---- */
-
-/* From the elastic pressure: false when nothing yields under it. */
-static bool
-find_slabs(struct run *run, const struct rc_grid *g, const double *p)
-{
-    struct yielding *y = &run->yielding;
-    const struct rc_shape shape = rc_grid_shape(g);
-    double stress = yield_law_first(&y->law);
-    struct rc_plastic_depths d;
-    struct rc_err err;
-
-    if (rc_plastic_depths(&shape, run->args->physics.periodic ? RC_PERIODIC : RC_FREE, p,
-                          &run->args->physics.pair.one, stress, run->t.threads, &d, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    y->most = d.most / stress;
-    y->deepest = d.deepest;
-    free(y->thickness);
-    y->thickness = d.thickness;
-    y->slabs = d.slabs;
-    if (d.slabs == 0)
-        return false;
-    if (y->list.n > 0) {
-        free(y->thickness);
-        y->slabs = y->list.n;
-        y->thickness = malloc(y->slabs * sizeof *y->thickness);
-        if (y->thickness != NULL)
-            memcpy(y->thickness, y->list.v, y->slabs * sizeof *y->thickness);
-    } else if (y->slab_count > 0) {
-        y->slabs = y->slab_count;
-        y->thickness = yield_stack(&d, y->slabs);
-        free(d.thickness);
-    }
-    if (y->thickness == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for the slabs");
-    return true;
-}
-
-/* ---- loads ---- */
 
 static double
 goal(const struct run *run)
 {
     return run->args->tol > 0 ? run->args->tol : deserved;
-}
-
-static struct rc_plastic_problem
-problem_of(const struct run *run, struct rc_problem contact)
-{
-    const struct yielding *y = &run->yielding;
-    double asked = contact.tol > 0 ? contact.tol : 1;
-
-    contact.tol = fmin(fmin(asked, fmax(contact_share * asked, contact_least)), contact_most);
-    return (struct rc_plastic_problem){.contact = contact,
-                                       .yield = y->law,
-                                       .slabs = y->slabs,
-                                       .thickness = y->thickness,
-                                       .increments = y->increments,
-                                       .lag = fmax(2 * fmin(goal(run), deserved), lag_least)};
-}
-
-static void
-make(struct run *run, const struct rc_grid *g, struct rc_problem contact)
-{
-    struct yielding *y = &run->yielding;
-    const struct rc_shape shape = rc_grid_shape(g);
-    struct rc_plastic_problem problem = problem_of(run, contact);
-    size_t bytes = rc_plastic_memory(&shape, &problem, expected_part);
-    struct rc_err err;
-
-    rc_plastic_free(y->plastic);
-    y->plastic = NULL;
-    /* a state takes no more than the voxels, and a pressure */
-    if (run->checkpoint != NULL || (y->asked == 0 && run->steps->n > 1))
-        bytes += bytes - rc_plastic_memory(&shape, &problem, 0) + rc_grid_nodes(g) * sizeof *g->v;
-    tool_demand_memory(&run->t, g, bytes);
-    y->plastic = rc_plastic_new(&shape, g->v, &problem, &err);
-    if (y->plastic == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-}
-
-/* ---- states in a checkpoint: increments, try, slabs, their thicknesses, then the library's numbers ---- */
-
-enum {
-    STATE_HEAD = 3
-};
-
-static void
-fill_state(const void *ctx, double *to)
-{
-    const struct yielding *y = ctx;
-
-    to[0] = (double)y->increments;
-    to[1] = (double)y->try;
-    to[2] = (double)y->slabs;
-    memcpy(to + STATE_HEAD, y->thickness, y->slabs * sizeof *to);
-    rc_plastic_state(y->plastic, to + STATE_HEAD + y->slabs);
-}
-
-static void
-save(struct run *run, const struct rc_grid *g, double load)
-{
-    const struct yielding *y = &run->yielding;
-
-    checkpoint_save_state(run->checkpoint, g,
-                          STATE_HEAD + y->slabs + rc_plastic_state_size(y->plastic), fill_state, y,
-                          load);
-}
-
-static void
-damaged(struct run *run, const struct rc_grid *g, const char *why)
-{
-    tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
-                "--checkpoint %s: case %zu cannot be gone on with (%s): remove the file to begin "
-                "anew",
-                run->args->checkpoint, run->number, why);
-}
-
-/* What the state says of increments and slabs. */
-static void
-read_head(struct run *run, const struct rc_grid *g, const struct rc_grid *state)
-{
-    struct yielding *y = &run->yielding;
-    const double *v = state->v;
-
-    if (state->nx < STATE_HEAD || !(v[0] >= 1 && v[0] <= MOST) || !(v[1] >= 0 && v[1] < TRIES) ||
-        !(v[2] >= 1 && v[2] < (double)(state->nx - STATE_HEAD)))
-        damaged(run, g, "its first numbers are none of a state");
-    y->increments = (size_t)v[0];
-    y->try = (size_t)v[1];
-    y->slabs = (size_t)v[2];
-    free(y->thickness);
-    y->thickness = malloc(y->slabs * sizeof *y->thickness);
-    if (y->thickness == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for the slabs");
-    memcpy(y->thickness, v + STATE_HEAD, y->slabs * sizeof *y->thickness);
-}
-
-static void
-restore(struct run *run, const struct rc_grid *g, struct rc_grid *state)
-{
-    struct yielding *y = &run->yielding;
-    size_t head = STATE_HEAD + y->slabs;
-    const double *v = state->v;
-    struct rc_err err;
-
-    if (state->nx <= head || !(v[0] >= 1 && v[0] <= MOST) || !(v[1] >= 0 && v[1] < TRIES) ||
-        v[2] != (double)y->slabs || memcmp(v + STATE_HEAD, y->thickness, y->slabs * sizeof *v) != 0)
-        damaged(run, g, "it has other slabs than the load before it");
-    y->increments = (size_t)v[0];
-    y->try = (size_t)v[1];
-    if (rc_plastic_restore(y->plastic, v + head, state->nx - head, &err) != RC_OK)
-        damaged(run, g, err.text);
-    rc_grid_free(state);
 }
 
 const char *
@@ -289,176 +125,169 @@ yield_mark(const struct run *run, int k, char *value, size_t size)
     return names[k];
 }
 
-/* ---- the loads themselves ---- */
+/* ---- the loads ---- */
 
-/* A load with as many increments as are to be tried next. */
 static void
-set_load(struct run *run, const struct rc_grid *g, double load)
+fill_state(const void *ctx, double *to)
 {
-    struct rc_err err;
-
-    rc_plastic_set_increments(run->yielding.plastic, run->yielding.increments);
-    if (rc_plastic_set_load(run->yielding.plastic, load, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    (void)rc_press_state(ctx, to);
 }
 
-/* To the end of the load that is set. `kept`: the checkpoint holds where it stands. */
 static void
-go(struct run *run, const struct rc_grid *g, double load, bool kept)
+save(struct run *run, const struct rc_grid *g, double load)
+{
+    struct rc_press *press = run->yielding.press;
+
+    if (rc_press_plastic(press) != NULL)
+        checkpoint_save_state(run->checkpoint, g, rc_press_state(press, NULL), fill_state, press,
+                              load);
+    else
+        checkpoint_save(run->checkpoint, g, rc_press_solver(press));
+}
+
+/* Shows how far the load is. Whether it is worth to be kept in a checkpoint. */
+static bool
+tell_progress(struct run *run, const struct rc_grid *g)
+{
+    struct rc_press *press = run->yielding.press;
+    size_t increment, application, increments;
+    struct rc_progress contact;
+    double at;
+
+    if (rc_press_plastic(press) == NULL) {
+        solve_progress(run, rc_press_solver(press));
+        rc_solver_progress(rc_press_solver(press), &contact);
+        return !contact.coarser && contact.iterations > 0;
+    }
+    rc_plastic_progress(rc_press_plastic(press), &at, &increment, &application);
+    increments = rc_press_result(press)->increments;
+    tool_progress(&run->t,
+                  "case %zu, %zu x %zu, load %.3g N, increment %zu of %zu, application %zu",
+                  run->number, g->nx, g->ny, at, increment, increments, application);
+    /* between increments less is to be kept; the last may take long */
+    return application == 0 || increment >= increments;
+}
+
+/* To the end of the load that is set, or to a signal. */
+static void
+go(struct run *run, const struct rc_grid *g, double load)
 {
     struct yielding *y = &run->yielding;
-    double start = solve_now(), at;
-    size_t increment, application, steps = 0;
+    double start = solve_now();
+    size_t steps = 0;
     struct rc_err err;
 
     y->status = RC_MORE;
     while (tool_interrupted() == 0 && y->status == RC_MORE) {
-        y->status = rc_plastic_step(y->plastic, &err);
+        size_t bytes = rc_press_memory(y->press, NULL, 0, run->checkpoint != NULL);
+
+        if (bytes > 0) {
+            tool_demand_memory(&run->t, g, bytes);
+            save(run, g, load);
+        }
+        y->status = rc_press_step(y->press, &err);
         steps++;
-        rc_plastic_progress(y->plastic, &at, &increment, &application);
-        tool_progress(&run->t,
-                      "case %zu, %zu x %zu, load %.3g N, increment %zu of %zu, application %zu",
-                      run->number, g->nx, g->ny, at, increment, y->increments, application);
-        /* between increments less is to be kept; the last may take long */
-        if (y->status == RC_MORE && (application == 0 || increment >= y->increments) &&
-            checkpoint_due(run->checkpoint))
+        if (y->status == RC_FAIL)
+            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        if (tell_progress(run, g) && y->status == RC_MORE && checkpoint_due(run->checkpoint))
             save(run, g, load);
     }
     tool_progress_end(&run->t);
-    if (y->status == RC_FAIL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (!kept || steps > 1) /* else it is there already */
+    if (!run->resumed || steps > 2) /* else it is there already */
         save(run, g, load);
-    run->iterate += solve_now() - start;
+    run->iterate = solve_now() - start;
 }
 
-/* Before a load: where it begins, so that it can be tried again. */
-static void
-begin(struct run *run, const struct rc_grid *g)
-{
-    struct yielding *y = &run->yielding;
-
-    y->increments = y->asked > 0 ? y->asked : FIRST;
-    y->try = 0;
-    if (y->asked > 0)
-        return;
-    free(y->before);
-    y->before_size = rc_plastic_state_size(y->plastic);
-    y->before = malloc(y->before_size * sizeof *y->before);
-    if (y->before == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for the state before a load");
-    rc_plastic_state(y->plastic, y->before);
-}
-
-/* Whether more increments lower the error of the load to what is asked for, and how many. What images and
- * earlier loads do is not their matter. */
+/* Goes on from the state that the checkpoint has of this case; false: it has none. */
 static bool
-deserves_more(struct run *run)
+resume(struct run *run, const struct rc_grid *g)
 {
     struct yielding *y = &run->yielding;
-    const struct rc_plastic_figures *f = rc_plastic_result(y->plastic);
-    const size_t most = goal(run) < deserved ? MOST : MOST_AUTO;
-    const double aim = goal(run) * (run->step + 1 < run->steps->n ? for_later : 1);
-    const double own = f->increment_error, here = f->error - f->image_error;
-    double more = ceil((double)y->increments * pow(2 * own / goal(run), order));
-
-    if (y->asked > 0 || y->try + 1 == TRIES || y->increments >= most ||
-        own <= goal(run) / (f->image_error > goal(run) ? 2 : 4) ||
-        (here <= aim && !(f->error > goal(run) && own > goal(run) / 2)))
-        return false;
-    y->increments = more < (double)y->increments + 1 ? y->increments + 1
-                    : more < (double)most            ? (size_t)more
-                                                     : most;
-    y->try++;
-    return true;
-}
-
-/* The load that is set, again from where it began where its increments are found to be too few. */
-static void
-go_on(struct run *run, const struct rc_grid *g, double load, bool kept)
-{
-    struct yielding *y = &run->yielding;
-    struct rc_err err;
-
-    go(run, g, load, kept);
-    while (tool_interrupted() == 0 && deserves_more(run)) {
-        if (rc_plastic_restore(y->plastic, y->before, y->before_size, &err) != RC_OK)
-            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-        set_load(run, g, load);
-        go(run, g, load, false);
-    }
-}
-
-void
-yield_press(struct run *run, const struct rc_grid *g, double load)
-{
     struct rc_grid *state = checkpoint_state(run->checkpoint, g);
-
-    begin(run, g);
-    run->resumed = state != NULL;
-    if (run->resumed)
-        restore(run, g, state);
-    else
-        set_load(run, g, load);
-    go_on(run, g, load, run->resumed);
-}
-
-/* Solves the elastic contact at the largest load of the list, which goes deepest. False: a signal has come,
- * and the contact is that of the load before. */
-static bool
-go_to_largest(struct run *run, const struct rc_grid *g, struct rc_solver *solver, double load)
-{
-    double most = 0, unit = load / run->steps->v[run->step];
     struct rc_err err;
-
-    for (size_t k = run->step; k < run->steps->n; k++)
-        most = fmax(most, run->steps->v[k]);
-    if (most <= run->steps->v[run->step])
-        return true;
-    if (rc_solver_set_load(solver, most * unit, 0, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    while (tool_interrupted() == 0 && rc_solver_step(solver) == RC_MORE)
-        solve_progress(run, solver);
-    if (tool_interrupted() == 0)
-        return true;
-    if (rc_solver_set_load(solver, load, 0, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    return false;
-}
-
-bool
-yield_begins(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
-             struct rc_problem contact)
-{
-    struct yielding *y = &run->yielding;
-
-    y->most = 0;
-    if (!y->wanted || tool_interrupted() != 0 || !find_slabs(run, g, rc_solver_pressure(solver)) ||
-        !go_to_largest(run, g, solver, contact.load))
-        return false;
-    (void)find_slabs(run, g, rc_solver_pressure(solver));
-    y->increments = y->asked > 0 ? y->asked : FIRST;
-    make(run, g, contact);
-    begin(run, g);
-    set_load(run, g, contact.load);
-    go_on(run, g, contact.load, false);
-    return true;
-}
-
-bool
-yield_resumes(struct run *run, const struct rc_grid *g, struct rc_problem contact)
-{
-    struct rc_grid *state = run->yielding.wanted ? checkpoint_state(run->checkpoint, g) : NULL;
+    size_t bytes;
 
     if (state == NULL)
         return false;
-    run->resumed = true;
-    read_head(run, g, state);
-    make(run, g, contact);
-    begin(run, g);
-    restore(run, g, state);
-    go_on(run, g, contact.load, true);
+    bytes = rc_press_memory(y->press, state->v, state->nx, true);
+    if (bytes > 0)
+        tool_demand_memory(&run->t, g, bytes);
+    if (rc_press_restore(y->press, state->v, state->nx, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
+                    "--checkpoint %s: case %zu cannot be gone on with (%s): remove the file to "
+                    "begin anew",
+                    run->args->checkpoint, run->number, err.text);
+    rc_grid_free(state);
     return true;
+}
+
+static void
+begin(struct run *run, const struct rc_grid *g, struct rc_problem contact)
+{
+    struct yielding *y = &run->yielding;
+    const struct rc_shape shape = rc_grid_shape(g);
+    const struct rc_plastic_problem problem = {.contact = contact,
+                                               .yield = y->law,
+                                               .slabs = y->list.n > 0 ? y->list.n : y->slab_count,
+                                               .thickness = y->list.n > 0 ? y->list.v : NULL,
+                                               .increments = y->asked};
+    struct rc_err err;
+
+    if ((y->press = rc_press_new(&shape, g->v, &problem, &err)) == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+/* Tells the loads that are left; those of the list are in a unit of their own. */
+static void
+plan(struct run *run, double load)
+{
+    const double *v = run->steps->v;
+    double most = 0;
+
+    for (size_t k = run->step; k < run->steps->n; k++)
+        most = fmax(most, v[k]);
+    rc_press_plan(run->yielding.press, run->steps->n - run->step, most * load / v[run->step]);
+}
+
+/* Sets the load. The first elastic contact is planned. */
+static void
+set_load(struct run *run, const struct rc_grid *g, const struct rc_problem *problem, double load)
+{
+    struct rc_press *press = run->yielding.press;
+    const bool plans = load > 0 && rc_press_solver(press) == NULL;
+    enum rc_status status;
+    struct rc_err err;
+
+    if (plans)
+        solve_before_plan(run, g, problem);
+    status = rc_press_set_load(press, load, &err);
+    if (plans)
+        solve_after_plan(run);
+    if (status != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+struct rc_solver *
+yield_press(struct run *run, const struct rc_grid *g, const struct rc_problem *problem, double load)
+{
+    struct yielding *y = &run->yielding;
+    const bool apart = load == 0 && y->plastic == NULL;
+
+    if (y->press == NULL)
+        begin(run, g, *problem);
+    if (y->plastic == NULL && load > 0)
+        plan(run, load);
+    run->resumed = !apart && resume(run, g);
+    if (!run->resumed) {
+        set_load(run, g, problem, load);
+        if (y->plastic == NULL && !apart)
+            run->resumed = checkpoint_case(run->checkpoint, g, rc_press_solver(y->press));
+    }
+    if (!apart)
+        go(run, g, load);
+    y->found = rc_press_result(y->press);
+    y->plastic = rc_press_plastic(y->press);
+    return rc_press_solver(y->press);
 }
 
 /* ---- what is found ---- */
@@ -470,7 +299,7 @@ is_unknown(const struct run *run)
     const struct yielding *y = &run->yielding;
 
     return y->wanted && y->plastic == NULL && tool_interrupted() != 0 &&
-           !(y->most > 0 && y->most <= 1);
+           !(y->found->most > 0 && y->found->most <= 1);
 }
 
 void
@@ -541,7 +370,7 @@ put_slab(struct run *run, struct rc_grid *frame, size_t slab, double depth, doub
     struct rc_err err;
 
     if (rc_grid_set_number(frame, "depth", depth, &err) != RC_OK ||
-        rc_grid_set_number(frame, "thickness", y->thickness[slab], &err) != RC_OK)
+        rc_grid_set_number(frame, "thickness", y->found->thickness[slab], &err) != RC_OK)
         tool_die_at(&run->t, frame, EXIT_IMPOSSIBLE, "%s", err.text);
     for (size_t c = 0; c < RC_PLASTIC_STRAINS; c++) {
         double *to[RC_PLASTIC_STRAINS] = {NULL};
@@ -568,9 +397,9 @@ yield_put_strain(struct run *run, const struct rc_grid *like, double *buffer)
     frame = rc_grid_like(like, like->channel, like->unit, &err);
     if (frame == NULL)
         tool_die_at(&run->t, like, EXIT_IMPOSSIBLE, "%s", err.text);
-    for (size_t k = 0; k < y->slabs; k++) {
-        put_slab(run, frame, k, z + y->thickness[k] / 2, buffer);
-        z += y->thickness[k];
+    for (size_t k = 0; k < y->found->slabs; k++) {
+        put_slab(run, frame, k, z + y->found->thickness[k] / 2, buffer);
+        z += y->found->thickness[k];
     }
     rc_grid_free(frame);
 }
@@ -582,9 +411,9 @@ warn_of_slabs(struct run *run, const char *where, const struct rc_plastic_figure
     double bottom = 0, above = 0;
     size_t within = 0;
 
-    for (size_t k = 0; k < y->slabs; k++) {
+    for (size_t k = 0; k < y->found->slabs; k++) {
         above = bottom;
-        bottom += y->thickness[k];
+        bottom += y->found->thickness[k];
         within += above < f->depth;
     }
     if (f->depth > above)
@@ -655,7 +484,7 @@ yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
         tool_warn(&run->t,
                   "%s: interrupted in increment %zu of %zu: what is written is on the way there, "
                   "not a solution: its error is not known",
-                  where, increment, y->increments);
+                  where, increment, y->found->increments);
     else if (isnan(s->contact.pressure_error))
         solve_warn(run, "an error that is not known",
                    "%s: nothing is known of its error: a load was reached in fewer than 8 "
@@ -716,11 +545,11 @@ yield_state(const struct run *run)
         return "left out: no --yield";
     if (y->plastic != NULL)
         return "on";
-    if (y->most == 0)
+    if (y->found == NULL || y->found->most == 0)
         return "on where the elastic stress exceeds it; costs nothing elsewhere";
     snprintf(text, sizeof text,
-             "left out: the largest Mises stress is %.3g of the yield stress, %s deep", y->most,
-             shown_in_unit(depth, y->deepest, "m"));
+             "left out: the largest Mises stress is %.3g of the yield stress, %s deep",
+             y->found->most, shown_in_unit(depth, y->found->deepest, "m"));
     return text;
 }
 
@@ -736,12 +565,12 @@ yield_report(struct report *r, const struct run *run)
     report_number(r, "hardening", y->wanted && y->law.points == 0 ? y->law.modulus : NAN, "Pa");
     report_number(r, "increments", on ? (double)f->increments : NAN, NULL);
     report_number(r, "applications", on ? (double)f->applications : NAN, NULL);
-    report_number(r, "slabs", on ? (double)y->slabs : NAN, NULL);
+    report_number(r, "slabs", on ? (double)y->found->slabs : NAN, NULL);
     report_number(r, "plastic_depth", on ? f->depth : NAN, "m");
     report_number(r, "plastic_volume", on ? f->volume : NAN, "m3");
     report_number(r, "max_plastic_strain", on ? f->max_strain : NAN, NULL);
     report_number(r, "plastic_work", on ? f->work : NAN, "J");
     report_number(r, "max_pressure_mean4", on ? f->max_pressure_mean4 : NAN, "Pa");
-    report_number(r, "max_mises_over_yield", y->wanted && !on ? y->most : NAN, NULL);
-    report_number(r, "max_mises_depth", y->wanted && !on ? y->deepest : NAN, "m");
+    report_number(r, "max_mises_over_yield", y->wanted && !on ? y->found->most : NAN, NULL);
+    report_number(r, "max_mises_depth", y->wanted && !on ? y->found->deepest : NAN, "m");
 }
