@@ -70,7 +70,7 @@ tools/canvas        | libcontact/grid.h formats/core/core.h    | libcontact form
 tools/plot          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/plot          | tools/canvas/canvas.h                    | tools/canvas
 tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
-tools/cost          | tools/problem/problem.h                  | tools/problem
+tools/cost          | formats/rcg/rcg.h                        | formats/rcg
 tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/solve         | formats/core/core.h                      | formats/core formats/rcg
 tools/solve         | tools/journal/journal.h tools/problem/problem.h | tools/journal tools/problem

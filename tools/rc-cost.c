@@ -7,17 +7,17 @@
 
 #include "tools/cli/cli.h"
 #include "tools/cost/cost.h"
+#include "tools/solve/solve.h"
 
 static struct args {
-    struct physics physics;
-    const char *yield, *adhesion; /* as on the line, or NULL */
-    size_t kernels, methods;      /* bits */
+    struct solve_args contact;
+    size_t kernels, methods; /* bits */
     double limit, budget, error;
-    struct numbers depths; /* none: auto, where it was given */
+    const char *depths; /* for rc-stress */
     double nu, mu;
     const char *plot, *report, *leak;
     bool dry_run;
-} args = {.physics = PHYSICS_NONE,
+} args = {.contact = {.physics = PHYSICS_NONE},
           .kernels = SIZE_MAX,
           .methods = SIZE_MAX,
           .limit = 60,
@@ -29,17 +29,12 @@ static struct args {
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 /* clang-format off */
 static const struct opt opts[] = {
-    {.group = physics_options, AT(physics)},
-    {.name = "yield", .type = OPT_TEXT, AT(yield), .result = true, .arg = "Y[,HM]|FILE.tsv",
-     .help = "body 1 yields inside, as for rc-solve: increments and slabs are what is tried"},
-    {.name = "adhesion", .type = OPT_TEXT, AT(adhesion), .result = true, .arg = "WORK[,LAW[,RANGE]]",
-     .help = "the bodies attract each other, as for rc-solve: tolerances and grids are what is tried"},
+    {.group = solve_contact_options, AT(contact)},
     {.name = "kernel", .alias = "engine", .type = OPT_WORDS, AT(kernels), .words = words_engine,
      .arg = "LIST", .help = "try only these, of %s (default: all)"},
     {.name = "method", .type = OPT_WORDS, AT(methods), .words = words_method, .arg = "LIST",
      .help = "try only these, of %s (default: all)"},
-    {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0, .max = INFINITY,
-     .word = "auto", .arg = "LIST",
+    {.name = "depths", .type = OPT_TEXT, AT(depths), .arg = "LIST",
      .help = "stresses too, at these depths: a,b,c, a:b:n, a:b:log:n or auto"},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
      .help = "Poisson's ratio for the stresses (default: --nu1)"},
@@ -77,12 +72,10 @@ static const struct tool_info info = {
     .writes = WRITES_TEXT,
 };
 
-struct run {
+struct costs {
     struct tool t;
     size_t cases;
     struct report report;
-    struct yield_law yield;
-    struct attraction attraction;
 };
 
 /* ---- the command line ---- */
@@ -93,74 +86,46 @@ choosing(void)
     return !isnan(args.budget) || !isnan(args.error);
 }
 
+/* What is tried of bodies that yield or attract each other. */
 static void
-read_yield(struct run *run)
+check_effects(struct tool *t)
 {
-    struct tool *t = &run->t;
-    struct rc_err err;
+    const char *effect = args.contact.yield != NULL ? "--yield" : "--adhesion";
 
-    if (args.yield == NULL)
+    if (args.contact.yield == NULL && args.contact.adhesion == NULL)
         return;
-    if (yield_law_read(&run->yield, args.yield, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--yield %s: %s", args.yield, err.text);
-    yield_law_check(t, &run->yield, &args.physics);
-    yield_law_refuse(t, tool_given(t, "kernel") || tool_given(t, "method"), "--kernel and --method",
-                     "increments and slabs are what is tried, by the first of them");
-    yield_law_refuse(t, tool_given(t, "depths"), "--depths",
-                     "the stresses of what has yielded are rc-stress's to find, from its strain");
+    if (tool_given(t, "kernel") || tool_given(t, "method"))
+        tool_die(t, EXIT_USAGE, "%s: not with --kernel and --method: %s", effect,
+                 args.contact.yield != NULL
+                     ? "increments and slabs are what is tried, by the first of them"
+                     : "there is one way to iterate it");
+    if (args.contact.yield != NULL && tool_given(t, "depths"))
+        tool_die(t, EXIT_USAGE,
+                 "--yield: not with --depths: the stresses of what has yielded are rc-stress's to "
+                 "find, from its strain");
 }
 
 static void
-refuse_beside_adhesion(struct tool *t, bool given, const char *what, const char *why)
-{
-    if (given)
-        tool_die(t, EXIT_USAGE, "--adhesion: not with %s: %s", what, why);
-}
-
-static void
-read_adhesion(struct run *run)
+check_arguments(struct costs *run)
 {
     struct tool *t = &run->t;
-    struct rc_err err;
+    struct physics *physics = &args.contact.physics;
 
-    if (args.adhesion == NULL)
-        return;
-    if (attraction_read(&run->attraction, args.adhesion, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--adhesion %s: %s", args.adhesion, err.text);
-    refuse_beside_adhesion(t, args.yield != NULL, "--yield",
-                           "what yields inside is pressed by pressures alone");
-    refuse_beside_adhesion(t, tool_given(t, "kernel") || tool_given(t, "method"),
-                           "--kernel and --method", "there is one way to iterate it");
-    refuse_beside_adhesion(t, tool_given(t, "depths"), "--depths",
-                           "rc-stress takes the net pressures that rc-solve finds");
-    refuse_beside_adhesion(t, args.leak != NULL, "--leak",
-                           "rc-leak takes the gap that rc-solve finds");
-}
-
-static void
-check_arguments(struct run *run)
-{
-    struct tool *t = &run->t;
-
-    args.physics.attracts = args.adhesion != NULL;
-    physics_check(t, &args.physics);
-    if (physics_steps(&args.physics)->n > 1)
-        tool_die(t, EXIT_USAGE, "one load at a time: %zu were given",
-                 physics_steps(&args.physics)->n);
+    physics->attracts = args.contact.adhesion != NULL;
+    physics_check(t, physics);
+    if (physics_steps(physics)->n > 1 && !physics->history)
+        tool_die(t, EXIT_USAGE, "one load at a time: %zu were given", physics_steps(physics)->n);
     if (tool_given(t, "budget") && tool_given(t, "error"))
         tool_die(t, EXIT_USAGE,
                  "--budget asks for the best in a time, --error for the quickest of an accuracy: "
                  "give one");
-    if (args.physics.pair.one.layers > 0 && tool_given(t, "nu"))
+    if (physics->pair.one.layers > 0 && tool_given(t, "nu"))
         tool_die(t, EXIT_USAGE, "--nu: each layer has its own Poisson's ratio: leave it out");
-    if (isnan(args.nu))
-        args.nu = args.physics.nu1;
-    if (tool_given(t, "depths") && isnan(args.nu))
+    if (tool_given(t, "depths") && isnan(args.nu) && isnan(physics->nu1))
         tool_die(t, EXIT_USAGE, "--depths: stresses need Poisson's ratio: give --nu");
     if (!tool_given(t, "depths") && (tool_given(t, "nu") || tool_given(t, "mu")))
         tool_die(t, EXIT_USAGE, "--nu and --mu are for stresses: give --depths as well");
-    read_yield(run);
-    read_adhesion(run);
+    check_effects(t);
     ending_demand_picture(t, "--plot", args.plot);
     tool_demand_writable(t, "--plot", args.plot);
     report_open(&run->report, t, args.report);
@@ -168,7 +133,7 @@ check_arguments(struct run *run)
 
 /* Said where somebody watches: on a terminal, or where progress is asked for. */
 static void
-tell(struct run *run, const char *text)
+tell(struct costs *run, const char *text)
 {
     if (!run->t.quiet && (run->t.progress || run->t.verbose || isatty(STDERR_FILENO)))
         fprintf(stderr, "%s: %s\n", info.name, text);
@@ -177,17 +142,18 @@ tell(struct run *run, const char *text)
 /* ---- what is to come ---- */
 
 static void
-plan(struct run *run, struct cost_case *c)
+plan(struct costs *run, struct cost_case *c)
 {
     char text[160], name[128];
     double all = 0;
     size_t n = 0, out = 0;
 
-    c->reference.expected = cost_expect(c, &c->reference);
-    for (size_t k = 0; k < c->trials; k++) {
+    cost_plan(c, &c->reference);
+    for (size_t k = 0; k < c->pressures; k++) {
         struct cost_trial *m = &c->trial[k];
 
-        m->expected = cost_expect(c, m);
+        cost_plan(c, m);
+        m->expected = m->planned;
         if (m->state != COST_OPEN)
             continue;
         n++;
@@ -195,9 +161,10 @@ plan(struct run *run, struct cost_case *c)
             out++;
             continue;
         }
-        for (size_t runs = 0; runs == 0 || cost_again(runs, m->expected); runs++)
+        for (size_t runs = 0; runs == 0 || cost_again((double)runs, m->expected); runs++)
             all += m->expected;
     }
+    c->reference.expected = c->reference.planned;
     snprintf(text, sizeof text,
              "%zu ways to solve %zu x %zu nodes, about %.2g s after %.2g s for the reference; "
              "%zu of them are expected beyond --limit",
@@ -207,12 +174,12 @@ plan(struct run *run, struct cost_case *c)
         return;
     }
     fprintf(run->t.out, "%s\n", text);
-    for (size_t k = 0; k < c->trials; k++) {
+    for (size_t k = 0; k < c->pressures; k++) {
         struct cost_trial *m = &c->trial[k];
 
         if (m->state == COST_OPEN)
-            fprintf(run->t.out, "  %-40s about %8.2g s, %zu MiB\n", cost_name(name, m), m->expected,
-                    (cost_memory(c, m) >> 20) + 1);
+            fprintf(run->t.out, "  %-40s about %8.2g s, %.0f MiB\n", cost_name(name, m),
+                    m->expected, m->mebibytes);
         else
             fprintf(run->t.out, "  %-40s %s\n", cost_name(name, m), m->why);
     }
@@ -221,7 +188,7 @@ plan(struct run *run, struct cost_case *c)
 /* ---- results ---- */
 
 static void
-write_plot(struct run *run, const struct cost_case *c)
+write_plot(struct costs *run, const struct cost_case *c)
 {
     size_t bytes;
     struct rc_err err;
@@ -240,17 +207,17 @@ write_plot(struct run *run, const struct cost_case *c)
 }
 
 static void
-tell_results(struct run *run, struct cost_case *c)
+tell_results(struct costs *run, struct cost_case *c)
 {
     cost_mark(c);
     cost_report(c, &run->report);
     write_plot(run, c);
-    for (size_t k = 0; k < c->trials; k++)
+    for (size_t k = 0; k < c->pressures; k++)
         if (c->trial[k].optimistic) {
             char name[128];
             tool_warn(&run->t, "%s: the estimate %.1e is below the true error %.1e",
-                      cost_name(name, &c->trial[k]), c->trial[k].contact.pressure_error,
-                      c->trial[k].error);
+                      cost_name(name, &c->trial[k]), c->trial[k].figure[COST_ESTIMATE],
+                      c->trial[k].figure[COST_ERROR]);
         }
     if (run->t.report_alone)
         return;
@@ -262,110 +229,85 @@ tell_results(struct run *run, struct cost_case *c)
 
 /* ---- the run ---- */
 
-static void
-open_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness, struct cost_case *c)
+/* The case as the programs read it. */
+static int
+write_map(struct costs *run, const struct rc_grid *g, const struct rc_grid *hardness)
 {
-    *c = (struct cost_case){.tool = &run->t,
-                            .heights = g,
-                            .shape = rc_grid_shape(g),
-                            .problem = physics_problem(&args.physics, g, 0),
-                            .limit = args.limit,
-                            .budget = args.budget,
-                            .error = args.error,
-                            .choosing = choosing(),
-                            .shown = args.plot != NULL || args.report != NULL,
-                            .depths = args.depths,
-                            .nu = args.nu,
-                            .mu = args.mu,
-                            .by_approach = args.physics.approach.n > 0,
-                            .leak = args.leak == NULL ? '\0' : args.leak[0]};
-    if (hardness != NULL)
-        c->problem.hardness_map = hardness->v;
-    c->yield = args.yield != NULL ? &run->yield.law : NULL;
-    c->adhesion = args.adhesion != NULL ? &run->attraction.problem : NULL;
-    c->reference.settings =
-        c->adhesion != NULL ? cost_attracting_reference() : cost_reference(c->yield != NULL);
-    c->reference.shape = c->shape;
-    c->trial = c->adhesion != NULL ? cost_attracting_trials(&c->trials)
-               : c->yield != NULL  ? cost_yielding_trials(&c->trials)
-                                   : cost_trials(args.kernels, args.methods, &c->trials);
-    c->stress = tool_given(&run->t, "depths") ? cost_stress_trials(c, &c->stresses) : NULL;
-    if (c->trial == NULL || (tool_given(&run->t, "depths") && c->stress == NULL))
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory");
-    for (size_t k = 0; k < c->trials; k++)
-        c->trial[k].shape = cost_coarse_shape(&c->shape, c->trial[k].settings.coarse);
-    cost_exclude(c);
+    int fd = cost_file(&run->t), again = dup(fd);
+    FILE *file = again < 0 ? NULL : fdopen(again, "wb");
+    struct rc_writer *writer;
+    struct rc_err err;
+
+    rc_err_set(&err, "a temporary file cannot be written");
+    if (file == NULL || (writer = rc_writer_new(file, &err)) == NULL ||
+        rc_writer_put(writer, g, &err) != RC_OK ||
+        (hardness != NULL && rc_writer_put(writer, hardness, &err) != RC_OK) ||
+        rc_writer_end(writer, &err) != RC_OK || fclose(file) != 0)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    rc_writer_free(writer);
+    return fd;
+}
+
+static const char *
+number(double value, char text[RC_NUMBER_SIZE])
+{
+    return isnan(value) ? NULL : rc_number_text(text, value);
 }
 
 static void
-close_case(struct cost_case *c)
+do_case(struct costs *run, struct rc_grid *g, const struct rc_grid *hardness)
 {
-    free(c->pressure);
-    free(c->trial);
-    free(c->stress);
-    if (c->depths.v != args.depths.v)
-        free(c->depths.v);
-}
-
-/* Memory of the largest trial, which runs in a process of its own, and of the maps of this one: the
- * reference, the pressure that comes back, and that of a trial. */
-static size_t
-memory_for(const struct cost_case *c)
-{
-    size_t most = 0, map = c->shape.nx * c->shape.ny * sizeof(double);
-
-    for (size_t k = 0; k <= c->trials; k++) {
-        const struct cost_trial *trial = k < c->trials ? &c->trial[k] : &c->reference;
-        size_t bytes;
-
-        if (trial->state != COST_OPEN)
-            continue;
-        bytes = cost_memory(c, trial) + 2 * (size_t)TOOL_TRANSFORMS;
-        most = bytes > most ? bytes : most;
-    }
-    return most + 3 * map;
-}
-
-static void
-solve_reference(struct run *run, struct cost_case *c)
-{
-    size_t n = c->shape.nx * c->shape.ny;
-    double *p;
-
-    tool_demand_memory(&run->t, c->heights, memory_for(c));
-    if ((p = malloc(n * sizeof *p)) == NULL)
-        tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE, "out of memory");
-    if (!cost_trial_run(c, &c->reference, args.limit, p))
-        tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE,
-                    "interrupted before anything was measured");
-    if (c->reference.state != COST_DONE)
-        tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE, "no reference: %s", c->reference.why);
-    c->pressure = p;
-}
-
-static void
-do_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness)
-{
-    struct cost_case c;
+    const bool stresses = tool_given(&run->t, "depths");
+    char nu[RC_NUMBER_SIZE], mu[RC_NUMBER_SIZE];
+    struct cost_case c = {.tool = &run->t,
+                          .heights = g,
+                          .shape = rc_grid_shape(g),
+                          .about = COST_PRESSURE,
+                          .periodic = args.contact.physics.periodic,
+                          .leak = args.leak,
+                          .depths = stresses ? args.depths : NULL,
+                          .nu = number(args.nu, nu),
+                          .mu = args.mu == 0 ? NULL : number(args.mu, mu),
+                          .limit = args.limit,
+                          .budget = args.budget,
+                          .error = args.error,
+                          .choosing = choosing(),
+                          .shown = args.plot != NULL || args.report != NULL,
+                          .grid = {-1, -1, -1, -1}};
 
     if (++run->cases > 1 && (choosing() || args.plot != NULL))
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s is for one case: give one height map",
                     args.plot != NULL ? "a picture" : "a command");
-    physics_heights(&run->t, &args.physics, g);
-    open_case(run, g, hardness, &c);
+    c.about |= (args.contact.yield != NULL ? COST_YIELD : 0) |
+               (args.contact.adhesion != NULL ? COST_ADHESION : 0) |
+               (args.leak != NULL ? COST_LEAK : 0) | (stresses ? COST_STRESS : 0);
+    c.words = tool_result_words(&run->t, c.word, COST_WORDS / 2);
+    cost_trials(&c, args.kernels, args.methods);
+    c.grid[0] = write_map(run, g, hardness);
+    c.solution = cost_file(&run->t);
+    c.output = cost_file(&run->t);
     plan(run, &c);
-    if (!args.dry_run) {
-        solve_reference(run, &c);
+    if (!args.dry_run && tool_interrupted() == 0) {
+        cost_solve_reference(&c);
         cost_run_trials(&c);
         tell_results(run, &c);
     }
-    close_case(&c);
+    for (size_t k = 0; k < sizeof c.grid / sizeof *c.grid; k++)
+        if (c.grid[k] >= 0)
+            close(c.grid[k]);
+    close(c.solution);
+    close(c.output);
+    free(c.pressure);
+    free(c.solved);
+    free(c.stressed);
+    free(c.said);
+    free(c.trial);
 }
 
 int
 main(int argc, char **argv)
 {
-    static struct run run;
+    static struct costs run;
     struct rc_grid *g, *hardness;
 
     tool_start(&run.t, &info, argc, argv, &args);
@@ -373,12 +315,10 @@ main(int argc, char **argv)
     tool_catch_signals();
     while (tool_interrupted() == 0 &&
            (g = tool_channel_beside(&run.t, "height", "hardness", &hardness)) != NULL) {
-        physics_hardness(&run.t, hardness);
         do_case(&run, g, hardness);
         rc_grid_free(g);
         rc_grid_free(hardness);
     }
     report_close(&run.report);
-    free(args.depths.v);
     return tool_finish(&run.t);
 }

@@ -17,29 +17,15 @@ static struct solve_args args = {
 };
 
 #define AT(field) .at = offsetof(struct solve_args, field)
-static const char *
-tilt_word(size_t k)
-{
-    static const char *const words[] = {"fixed", "free", NULL};
-
-    return words[k];
-}
-
 /* clang-format off */
 static const struct opt opts[] = {
-    {.group = physics_options, AT(physics)},
-    {.name = "yield", .type = OPT_TEXT, AT(yield), .result = true, .arg = "Y[,HM]|FILE.tsv",
-     .help = "body 1 yields inside, from this stress on, which hardens by HM per plastic strain"},
+    {.group = solve_contact_options},
     {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N|auto",
      .help = "of each load of a body that yields (default auto: to an error of 1 %)"},
     {.name = "slabs", .type = OPT_TEXT, AT(slabs), .result = true, .arg = "N|LIST|auto",
      .help = "layers that may yield: number or thicknesses, from the surface down (default auto)"},
-    {.name = "adhesion", .type = OPT_TEXT, AT(adhesion), .result = true, .arg = "WORK[,LAW[,RANGE]]",
-     .help = "the bodies attract each other: 50mJ/m2, 50mJ/m2,exponential,2nm; a list is a path"},
     {.name = "pull-off", .type = OPT_FLAG, AT(pull_off), .result = true,
      .help = "after the last state draw the bodies apart, and find the lowest load"},
-    {.name = "history", .type = OPT_FLAG, AT(physics.history), .result = true,
-     .help = "apply the loads in sequence, keeping plastic shape; 0 separates the bodies"},
     {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
      .words = words_engine_or_auto, .help = "how displacements are summed (default auto)"},
     {.name = "method", .type = OPT_CHOICE, AT(method), .words = words_method_or_auto,
@@ -51,11 +37,6 @@ static const struct opt opts[] = {
      .words = solve_frame_word, .arg = "LIST",
      .help = "frames to write, of %s (default: pressure, gap, displacement, height; with --yield residual, "
              "with --adhesion contact too)"},
-    {.name = "tilt", .type = OPT_CHOICE, AT(tilt), .words = tilt_word, .result = true,
-     .help = "free: the counter body tilts until the moment is zero (default fixed)"},
-    {.name = "at", .type = OPT_NUMBERS, .unit = UNIT_M, AT(at), .min = -INFINITY, .max = INFINITY,
-     .result = true, .arg = "X,Y",
-     .help = "where the load acts on a body that is free to tilt (default: the middle)"},
     {.name = "stiffness", .type = OPT_FLAG, AT(stiffness),
      .help = "find how the load grows with the approach (default: with a list)"},
     {.name = "conductivity", .type = OPT_TEXT, AT(conductivity), .arg = "K1,K2",

@@ -83,8 +83,8 @@ commands=$(
 3 rc-render --raw --channel pressure c.rcg -o out.png
 6 rc-render --figure --channel pressure c.rcg -o out.pdf
 6 rc-render --curve x:y --by k --spread table.tsv -o out.pdf
-1 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --plot plot.png h.rcg -o out
-1 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --nu 0.3 --depths 1um,2um h.rcg -o out
+4 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --plot plot.png h.rcg -o out
+4 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --nu 0.3 --depths 1um,2um h.rcg -o out
 1 rc-cost --quiet --estar 1GPa --load 1mN --kernel direct --dry-run h.rcg
 LIST
 )
@@ -120,12 +120,17 @@ costs_of() {
         $1 ~ /^(fft|mlms|direct)$/ { print $1, $2, $5, $7, $8, $9 }' "$1" 2>/dev/null
 }
 
+# without_result FILE: trials that have none, with the reason.
+without_result() {
+    grep -acE '^# .*: (its process died|it failed|left out|stopped)' "$1"
+}
+
 # same_costs A B: but for what A says could not be run.
 same_costs() {
     local extra missing
     extra=$(comm -23 <(costs_of "$1" | sort) <(costs_of "$2" | sort) | wc -l)
     missing=$(comm -13 <(costs_of "$1" | sort) <(costs_of "$2" | sort) | wc -l)
-    [ -n "$(costs_of "$1")" ] && [ "$extra" = 0 ] && [ "$missing" = "$(grep -ac '^# .*: its process died' "$1")" ]
+    [ -n "$(costs_of "$1")" ] && [ "$extra" = 0 ] && [ "$missing" = $(($(without_result "$1") - $(without_result "$2"))) ]
 }
 
 # same_work A B: equal files, or streams with the same headers and values that are equal to rounding: where

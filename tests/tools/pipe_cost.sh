@@ -160,6 +160,38 @@ interrupted() {
     [ "$status" = 143 ] && grep -q '^pcg' cut-rows.txt && [ -n "${children// /}" ] && ! kill -0 $children
 }
 claim "a signal ends it and what it started, with the table of what was measured" interrupted
+killed() {
+    local tool child="" n=0
+    mkdir -p scratch
+    TMPDIR=$PWD/scratch rc-cost --load 20N --estar 114GPa --quiet --limit 5min --kernel direct large.rcg >/dev/null 2>&1 &
+    tool=$!
+    until child=$(pgrep -P "$tool") || [ $((n += 1)) -gt 100 ]; do sleep 0.05; done
+    kill -KILL "$tool"
+    wait "$tool" 2>/dev/null
+    for n in {1..40}; do kill -0 "$child" 2>/dev/null || break; sleep 0.05; done
+    [ -n "$child" ] && ! kill -0 "$child" 2>/dev/null && [ -z "$(ls scratch)" ]
+}
+claim "where it is killed what it started ends too, and no file is left" killed
+
+# ---- rc-solve ----
+
+of_path() {
+    mkdir -p alone && ln -f "$RC_BIN/rc-cost" alone/ 2>/dev/null || cp "$RC_BIN/rc-cost" alone/
+    alone/rc-cost $contact --dry-run rough.rcg >path.txt && grep -q '^  pcg, fft' path.txt || return 1
+    ! PATH=/nowhere alone/rc-cost $contact --dry-run rough.rcg 2>none.txt && grep -q 'rc-solve: it cannot be run' none.txt
+    printf '#!/bin/sh\necho "rc-solve: no contact today" >&2\nexit 1\n' >alone/rc-solve && chmod +x alone/rc-solve
+    ! alone/rc-cost $contact --dry-run rough.rcg 2>own.txt && grep -q 'no contact today' own.txt
+}
+claim "it runs the rc-solve beside itself, else that of PATH, and says where there is none" of_path
+coated="--load 40N --E1 200GPa --nu1 0.3 --E2 rigid --layer 5um,400GPa,0.2,-1GPa --tilt free --at 20um,0"
+tilted() {
+    rc-cost $coated --method pcg --kernel fft --error 1e-3 --quiet -o tilted ball.rcg && cat tilted >&2 &&
+        grep -q -- ' --layer 5e-06,400000000000,0.2,-1000000000 --tilt free --at 2e-05,0 ' tilted &&
+        sh -c "$(cat tilted) --output pressure --quiet --report tilted.json" >tilted.rcg &&
+        rc-solve $coated --tol 1e-10 --output pressure --quiet -o near.rcg ball.rcg &&
+        off tilted.rcg near.rcg 9216 >distance && awk '{ exit !($1 <= 1e-3) }' distance
+}
+claim "options of rc-solve reach it: a residual stress, a body that tilts" tilted
 
 # ---- Hertz: radius 7.5 mm, E* 114 GPa, 20 N; a^3 = 3 P R / 4 E*, p0 = 3 P / 2 pi a^2, approach a^2 / R ----
 

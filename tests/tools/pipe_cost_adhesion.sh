@@ -54,7 +54,8 @@ refused() {
     refuses 2 "$1" "refused: $2" "rc-cost --periodic --mean-pressure 1MPa --estar 100MPa --adhesion 1J/m2 $2 rough.rcg"
 }
 refused "one way to iterate" "--method pcg"
-refused "rc-stress takes" "--depths auto --nu 0.3"
-refused "rc-leak takes" "--leak x"
+claim "stresses under net pressures, and the flow beside them" bash -c "
+    rc-cost $contact --depths 1um --nu 0.3 --leak x --quiet rough.rcg >more.txt && says '^# stresses under the reference' cat more.txt &&
+    says ' flow_error ' cat more.txt"
 refuses 2 "must be above 0" "no work" "rc-cost --periodic --mean-pressure 1MPa --estar 100MPa --adhesion 0 rough.rcg"
 finish

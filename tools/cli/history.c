@@ -14,6 +14,7 @@
 struct line {
     char text[8192];
     size_t n;
+    char between; /* words: a blank at the beginning of `a` stands for it */
 };
 
 static void
@@ -22,6 +23,8 @@ add(struct line *line, const char *a, const char *b)
     size_t left = sizeof line->text - line->n;
     int n = snprintf(line->text + line->n, left, "%s%s", a, b);
 
+    if (a[0] == ' ')
+        line->text[line->n] = line->between;
     line->n += n < 0 ? 0 : (size_t)n < left ? (size_t)n : left - 1;
 }
 
@@ -91,15 +94,14 @@ add_steps(struct line *line, const struct steps *steps)
     }
 }
 
-const char *
-tool_history(const struct tool *t)
+static void
+fill(const struct tool *t, struct line *line)
 {
-    static struct line line;
     bool steps_done = false;
 
-    line.n = 0;
-    add(&line, t->info->name, " ");
-    add(&line, rc_version(), "");
+    line->n = 0;
+    add(line, t->info->name, "");
+    add(line, " ", rc_version());
     for (size_t k = 0; k < t->opts; k++) {
         const struct opt *o = &t->opt[k];
         const void *at = (const char *)t->args + o->at;
@@ -108,12 +110,33 @@ tool_history(const struct tool *t)
         if (o->type == OPT_STEP ||
             o->type == OPT_TEXTS) { /* all of them in one list, in the order of the line */
             if (!steps_done)
-                add_steps(&line, at);
+                add_steps(line, at);
             steps_done = true;
             continue;
         }
-        add(&line, " --", o->name);
-        add_value(&line, o, at);
+        add(line, " --", o->name);
+        add_value(line, o, at);
     }
+}
+
+const char *
+tool_history(const struct tool *t)
+{
+    static struct line line = {.between = ' '};
+
+    fill(t, &line);
     return line.text;
+}
+
+size_t
+tool_result_words(const struct tool *t, const char *word[], size_t most)
+{
+    static struct line line = {.between = '\0'};
+    size_t n = 0;
+
+    fill(t, &line);
+    for (size_t at = 0, k = 0; at < line.n; at += strlen(line.text + at) + 1, k++)
+        if (k >= 2 && n < most) /* name and version stand before */
+            word[n++] = line.text + at;
+    return n;
 }

@@ -51,72 +51,55 @@ new_point(struct drawing *d, const char *name, size_t place)
     return &d->point[s][d->series[s].n++];
 }
 
+/* Of a stress over the largest pressure, on maps of some million nodes. */
+static const double rounding = 1e-14;
+
 static void
-describe(const struct cost_case *c, struct drawing *d)
+describe(const struct cost_case *c, struct drawing *d, bool stress)
 {
     const char *source = rc_grid_get(c->heights, "source");
+    const double approach = cost_number(c->solved, "asked_approach");
     char text[TICKS_TEXT], body[COST_BODY];
 
     snprintf(d->subtitle, sizeof d->subtitle,
              "%.60s%s%zu × %zu nodes, %s%s · %s %s · %.3g %% contact · %zu threads",
              source == NULL ? "" : source, source == NULL ? "" : " · ", c->shape.nx, c->shape.ny,
-             c->problem.boundary == RC_FREE ? "free" : "periodic", cost_body(c, " · ", body),
-             c->problem.approach > 0 ? "approach" : "load",
-             c->problem.approach > 0 ? scale_value(text, c->problem.approach, "m")
-                                     : scale_value(text, c->problem.load, "N"),
-             100 * c->reference.contact.contact_fraction, c->tool->threads);
+             c->periodic ? "periodic" : "free", cost_body(c, " · ", body),
+             isnan(approach) ? "load" : "approach",
+             isnan(approach) ? scale_value(text, cost_number(c->solved, "load"), "N")
+                             : scale_value(text, approach, "m"),
+             100 * cost_number(c->solved, "contact_fraction"), c->tool->threads);
     d->chart.subtitle = d->subtitle;
-    d->chart.across = c->yield != NULL ? "time (s); at the points: increments" : "time (s)";
+    d->chart.across = (c->about & COST_YIELD) ? "time (s); at the points: increments" : "time (s)";
+    d->chart.title =
+        stress ? "What accuracy costs: the stresses" : "What accuracy costs: the contact pressure";
+    d->chart.up = stress ? "error over the largest pressure" : "relative L1 error of the pressure";
+    d->chart.floor = stress ? rounding : c->reference.figure[COST_ESTIMATE];
+    d->chart.floor_text = stress ? "rounding" : "below the reference's own error";
 }
 
+/* Trials from one place to another; the exact stresses, which are the first of them, last. */
 static void
-draw_pressures(const struct cost_case *c, struct drawing *d)
+draw_trials(const struct cost_case *c, struct drawing *d, size_t from, size_t to)
 {
-    describe(c, d);
-    d->chart.title = "What accuracy costs: the contact pressure";
-    d->chart.up = "relative L1 error of the pressure";
-    d->chart.floor = c->reference.contact.pressure_error;
-    d->chart.floor_text = "below the reference's own error";
-    for (size_t k = 0; k < c->trials; k++) {
-        const struct cost_trial *m = &c->trial[k];
+    const bool stress = from > 0;
+
+    describe(c, d, stress);
+    for (size_t k = 0; k < to - from; k++) {
+        const struct cost_trial *m = &c->trial[from + (k + stress) % (to - from)];
         struct chart_point *p;
         char name[NAME], label[32];
 
         cost_series_name(name, m);
-        if (m->state != COST_DONE || (p = new_point(d, name, cost_series(&m->settings))) == NULL)
+        if (m->state != COST_DONE || (p = new_point(d, name, cost_series(m))) == NULL)
             continue;
-        *p = (struct chart_point){
-            .x = m->seconds, .y = m->error, .hollow = m->settings.coarse > 1, .front = m->front};
-        snprintf(p->label, sizeof p->label, "%s", cost_point_name(label, &m->settings));
-        if (m->settings.coarse > 1)
+        *p = (struct chart_point){.x = m->figure[COST_SECONDS],
+                                  .y = m->reference ? rounding / 10 : m->figure[COST_ERROR],
+                                  .hollow = m->coarse > 1,
+                                  .front = m->front};
+        snprintf(p->label, sizeof p->label, "%s", cost_point_name(label, m));
+        if (m->coarse > 1)
             d->chart.hollow = "on 1/2, 1/4, 1/8 of the nodes a side";
-    }
-}
-
-static const double rounding =
-    1e-14; /* of a stress over the largest pressure, on maps of some million nodes */
-
-static void
-draw_stresses(const struct cost_case *c, struct drawing *d)
-{
-    describe(c, d);
-    d->chart.title = "What accuracy costs: the stresses";
-    d->chart.up = "error over the largest pressure";
-    d->chart.floor = rounding;
-    d->chart.floor_text = "rounding";
-    for (size_t k = 0; k < c->stresses; k++) {
-        const struct cost_stress *s = &c->stress[(k + 1) % c->stresses]; /* the exact one last */
-        const char *remark = s->kernel == c->stress[0].kernel ? ", deep slices coarser" : "";
-        struct chart_point *p;
-        char name[NAME];
-
-        snprintf(name, sizeof name, "%s%s", s->kernel, remark);
-        if (s->state != COST_DONE ||
-            (p = new_point(d, name, words_engine_place(s->kernel))) == NULL)
-            continue;
-        *p = (struct chart_point){
-            .x = s->seconds, .y = s->reference ? rounding / 10 : s->error, .front = s->front};
-        snprintf(p->label, sizeof p->label, s->tol > 0 ? "%.0e" : "exact", s->tol);
     }
 }
 
@@ -156,7 +139,6 @@ unsigned char *
 cost_plot(const struct cost_case *c, const char *ending, size_t *bytes, struct rc_err *err)
 {
     struct drawing *d = calloc(2, sizeof *d);
-    bool stresses = false;
     struct canvas *canvas = NULL;
     char *picture = NULL, text[512];
     FILE *file;
@@ -165,12 +147,10 @@ cost_plot(const struct cost_case *c, const char *ending, size_t *bytes, struct r
     rc_err_set(err, "out of memory");
     if (d == NULL)
         return NULL;
-    draw_pressures(c, &d[0]);
-    for (size_t k = 0; k < c->stresses; k++)
-        stresses = stresses || c->stress[k].state == COST_DONE;
-    if (stresses)
-        draw_stresses(c, &d[1]);
-    canvas = draw(d, stresses ? 2 : 1, err);
+    draw_trials(c, &d[0], 0, c->pressures);
+    if (c->stressed != NULL)
+        draw_trials(c, &d[1], c->pressures, c->trials);
+    canvas = draw(d, c->stressed != NULL ? 2 : 1, err);
     if (canvas != NULL)
         tool_demand_memory(c->tool, c->heights, canvas_memory(canvas, canvas_format(ending)));
     if (canvas != NULL && (file = open_memstream(&picture, bytes)) != NULL) {

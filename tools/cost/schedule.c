@@ -1,47 +1,85 @@
 /*
- * Which trials are run, in what order, and how often.
+ * Which trials are run, in what order, and how often; and how long each will take: what rc-solve expects,
+ * corrected by what trials that have been run on this map took instead. A machine may be several times off,
+ * and a surface may need fewer convolutions or more.
  */
 #include "cost.h"
 
 #include <math.h>
 #include <string.h>
 
-enum {
-    SMALLEST = 8 /* nodes along a side from which a coarser grid is worth a look */
-};
+/* ---- expected times ---- */
 
-/* Why a trial cannot be run, or need not be; NULL: it is to be run. */
-static const char *
-obstacle(const struct cost_case *c, const struct cost_trial *m)
+/* The trial with the nearest tolerance that was run on the map's own grid, with the same engine and, where
+ * there is one, the same method; else the reference. */
+static const struct cost_trial *
+nearest(const struct cost_case *c, const struct cost_trial *t)
 {
-    static char text[200];
-    char list[128];
-    size_t least = m->shape.nx < m->shape.ny ? m->shape.nx : m->shape.ny;
+    const struct cost_trial *near = &c->reference;
+    double least = INFINITY;
 
-    if (c->problem.boundary == RC_PERIODIC && !words_engine_named(m->settings.kernel)->periodic) {
-        snprintf(text, sizeof text, "left out: on a periodic boundary only %s sums",
-                 words_periodic_engines(list, sizeof list));
-        return text;
+    for (size_t k = 0; k < c->pressures; k++) {
+        const struct cost_trial *m = &c->trial[k];
+        double off = fabs(log(m->tol / t->tol)) + (strcmp(m->method, t->method) == 0 ? 0 : 1e3);
+
+        if (m->state == COST_DONE && m->coarse == 1 && strcmp(m->kernel, t->kernel) == 0 &&
+            off <= least) {
+            least = off;
+            near = m;
+        }
     }
-    if (m->settings.coarse > 1 && (least == 1 ? m->shape.nx * m->shape.ny : least) < SMALLEST)
-        return "left out: the grid is too small to be coarsened so far";
-    if (c->tool->memory != 0 && cost_memory(c, m) > c->tool->memory)
-        return "left out: it needs more than --memory";
-    return NULL;
+    return near;
 }
 
-void
-cost_exclude(struct cost_case *c)
+/* Sums that a depth takes, in times of one of displacements: by the transforms of the first engine, whose plan
+ * all components share, and by other engines, component by component. The error takes the exact stresses, and
+ * the trial's once more. */
+static double
+expect_stress(const struct cost_case *c, const struct cost_trial *t)
 {
-    for (size_t k = 0; k < c->trials; k++) {
-        struct cost_trial *m = &c->trial[k];
-        const char *why = obstacle(c, m);
+    const struct cost_trial *exact = &c->trial[c->pressures];
+    const double sums = t->kernel == exact->kernel ? 1 : 7.0 / 3;
+    const struct rc_conv_options by = {.boundary = c->periodic ? RC_PERIODIC : RC_FREE,
+                                       .engine = t->kernel,
+                                       .tol = t->tol,
+                                       .threads = c->tool->threads},
+                                 of = {.boundary = by.boundary,
+                                       .engine = exact->kernel,
+                                       .threads = c->tool->threads};
+    double each;
 
-        if (why == NULL)
-            continue;
-        m->state = COST_LEFT_OUT;
-        snprintf(m->why, sizeof m->why, "%s", why);
-    }
+    if (exact->state != COST_DONE)
+        return c->reference.figure[COST_SECONDS];
+    each = exact->figure[COST_SECONDS] * sums * rc_conv_seconds(&c->shape, &by) /
+           rc_conv_seconds(&c->shape, &of);
+    return 2 * each + exact->figure[COST_SECONDS] + 3 * c->around;
+}
+
+double
+cost_expect(const struct cost_case *c, const struct cost_trial *t)
+{
+    const struct cost_trial *near;
+
+    if (t->about & COST_STRESS)
+        return expect_stress(c, t);
+    near = nearest(c, t);
+    if (near->state != COST_DONE)
+        return t->planned;
+    return t->planned * near->figure[COST_SECONDS] / near->planned + c->around;
+}
+
+/* ---- the order ---- */
+
+bool
+cost_is_near(const struct cost_case *c, const struct cost_trial *m)
+{
+    const double error = m->figure[COST_ERROR];
+
+    if (m->state != COST_DONE || !m->converged)
+        return false;
+    if (m->about & COST_YIELD)
+        return error <= c->error && !isnan(m->figure[COST_ESTIMATE]);
+    return error + c->reference.figure[COST_ESTIMATE] <= c->error;
 }
 
 /* Seconds beyond which a trial need not be run to make the choice: three times those of the
@@ -53,18 +91,18 @@ too_slow(const struct cost_case *c)
     double least = INFINITY;
     bool any = false;
 
-    for (size_t k = 0; k < c->trials; k++) {
+    for (size_t k = 0; k < c->pressures; k++) {
         const struct cost_trial *m = &c->trial[k];
 
         if (m->state != COST_DONE)
             continue;
         any = true;
-        if (m->error <= c->error)
-            least = fmin(least, m->seconds);
+        if (cost_is_near(c, m))
+            least = fmin(least, m->figure[COST_SECONDS]);
     }
     if (!c->choosing || c->shown || !any)
         return INFINITY;
-    return 3 * (isnan(c->budget) ? least : c->budget);
+    return 3 * (isnan(c->budget) ? least : c->budget) + c->around;
 }
 
 static bool
@@ -72,9 +110,9 @@ fits(const struct cost_case *c, struct cost_trial *m, double left)
 {
     if (m->expected > left)
         snprintf(m->why, sizeof m->why,
-                 "left out: it would take about %.2g s, and %.2g s are left of --limit",
-                 m->expected, fmax(left, 0));
-    else if (m->expected > too_slow(c))
+                 "left out: it would take about %.2g s, and %.2g s are left %s", m->expected,
+                 fmax(left, 0), m->about & COST_STRESS ? "for stresses" : "of --limit");
+    else if (!(m->about & COST_STRESS) && m->expected > too_slow(c))
         snprintf(m->why, sizeof m->why, "left out: about %.2g s, it would not be chosen",
                  m->expected);
     else
@@ -98,32 +136,33 @@ static const double slow = 1 / 30.0;
 static bool
 disturbed(const struct cost_case *c, const struct cost_trial *m)
 {
-    for (size_t k = 0; k < c->trials; k++) {
+    for (size_t k = 0; k < c->pressures; k++) {
         const struct cost_trial *o = &c->trial[k];
 
-        if (o->state == COST_DONE && strcmp(o->settings.method, m->settings.method) == 0 &&
-            strcmp(o->settings.kernel, m->settings.kernel) == 0 &&
-            o->settings.coarse <= m->settings.coarse && o->settings.tol <= m->settings.tol &&
-            o->settings.increments >= m->settings.increments &&
-            o->settings.stack >= m->settings.stack && m->seconds > 1.1 * o->seconds)
+        if (o->state == COST_DONE && strcmp(o->method, m->method) == 0 &&
+            strcmp(o->kernel, m->kernel) == 0 && o->coarse <= m->coarse && o->tol <= m->tol &&
+            o->increments >= m->increments && o->stack >= m->stack &&
+            m->figure[COST_SECONDS] > 1.1 * o->figure[COST_SECONDS])
             return true;
     }
     return false;
 }
 
 bool
-cost_again(size_t runs, double seconds)
+cost_again(double runs, double seconds)
 {
-    return runs < 5 && (double)runs * seconds < 0.5;
+    return runs < 5 && runs * seconds < 0.5;
 }
 
 static bool
 again(const struct cost_case *c, const struct cost_trial *m)
 {
-    if (m->state != COST_DONE || m->seconds > left(c))
+    const double runs = m->figure[COST_RUNS], seconds = m->figure[COST_SECONDS];
+
+    if (m->state != COST_DONE || seconds + c->around > left(c))
         return false;
-    return cost_again(m->runs, m->seconds) || (m->runs < 2 && m->seconds < slow * c->limit) ||
-           (m->runs < 5 && disturbed(c, m));
+    return cost_again(runs, seconds) || (runs < 2 && seconds < slow * c->limit) ||
+           (runs < 5 && disturbed(c, m));
 }
 
 /* In turns, so that a disturbance does not fall on one trial alone. */
@@ -134,10 +173,10 @@ repeat(struct cost_case *c)
 
     while (more && tool_interrupted() == 0) {
         more = false;
-        for (size_t k = 0; k < c->trials && tool_interrupted() == 0; k++)
+        for (size_t k = 0; k < c->pressures && tool_interrupted() == 0; k++)
             if (again(c, &c->trial[k])) {
                 more = true;
-                cost_trial_run(c, &c->trial[k], left(c), NULL);
+                cost_trial_run(c, &c->trial[k], left(c));
             }
     }
 }
@@ -148,21 +187,13 @@ run_stresses(struct cost_case *c)
 {
     double end = tool_now() + left(c) / 2;
 
-    if (c->stresses > 0 && c->depths.n == 0 && tool_interrupted() == 0)
-        cost_stress_depths(c);
-    for (size_t k = 0; k < c->stresses && tool_interrupted() == 0; k++) {
-        struct cost_stress *s = &c->stress[k];
+    for (size_t k = c->pressures; k < c->trials && tool_interrupted() == 0; k++) {
+        struct cost_trial *m = &c->trial[k];
         double rest = fmax(end - tool_now(), 0);
 
-        s->expected = cost_expect_stress(c, s);
-        if (s->expected <= rest) {
-            cost_stress_run(c, s, rest);
-            continue;
-        }
-        s->state = COST_LEFT_OUT;
-        snprintf(s->why, sizeof s->why,
-                 "left out: it would take about %.2g s, and %.2g s are left for stresses",
-                 s->expected, rest);
+        m->expected = cost_expect(c, m);
+        if (fits(c, m, rest))
+            cost_trial_run(c, m, rest);
     }
 }
 
@@ -172,7 +203,7 @@ next(struct cost_case *c)
 {
     struct cost_trial *least = NULL;
 
-    for (size_t k = 0; k < c->trials; k++) {
+    for (size_t k = 0; k < c->pressures; k++) {
         struct cost_trial *m = &c->trial[k];
 
         if (m->state != COST_OPEN)
@@ -200,7 +231,7 @@ cost_run_trials(struct cost_case *c)
         } else if (m == NULL) {
             break;
         } else if (fits(c, m, left(c))) {
-            cost_trial_run(c, m, left(c), NULL);
+            cost_trial_run(c, m, left(c));
         }
     }
     repeat(c);

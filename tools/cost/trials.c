@@ -1,9 +1,9 @@
 /*
- * Which trials there are, in the order in which the table shows them: every method with every
- * engine of libcontact's tables. The first of each, which "auto" takes, are tried in small steps of
- * the tolerance and on coarser grids, the others in larger steps, to compare with. Of a body that yields
- * inside the first of both, with every stack of slabs in every number of increments; of bodies that attract
- * each other the one method that there is.
+ * Which trials there are, in the order in which the table shows them: every method with every engine of
+ * libcontact's tables. The first of each, which "auto" takes, are tried in small steps of the tolerance and on
+ * coarser grids, the others in larger steps, to compare with. Of a body that yields inside every stack of
+ * slabs in every number of increments; of bodies that attract each other the one method that there is. Then
+ * the stresses, by every engine.
  */
 #include "cost.h"
 
@@ -11,13 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Tolerances 1e-2, 1e-(2 + step), ..., 1e-to; step 0: there are none. */
+/* Tolerances 1e-from, 1e-(from + step), ..., 1e-to; step 0: there are none. */
 struct range {
-    int to, step;
-};
-
-enum {
-    FROM = 2
+    int from, to, step;
 };
 
 static struct range
@@ -25,254 +21,287 @@ range_of(size_t method, size_t engine)
 {
     const struct rc_method_info *m = rc_method_info(method);
     const struct rc_engine_info *e = rc_engine_info(engine);
+    bool sums = e->order > 1;
 
-    if (e->precise && !m->mixed)
-        return (struct range){0, 0}; /* the row before it is the same */
+    if ((e->precise && !m->mixed) || (method > 0 && sums))
+        return (struct range){0, 0, 0}; /* of the first kind the row before is the same */
     if (method == 0)
-        return (struct range){10, e->order > 1 ? 4 : engine == 0 ? 1 : 2};
-    if (e->order > 1)
-        return (struct range){0, 0};
-    return (struct range){engine == 0 ? 8 : 4, 2};
+        return (struct range){2, 10, sums ? 4 : engine == 0 ? 1 : 2};
+    return (struct range){2, engine == 0 ? 8 : 4, 2};
 }
 
-/* Coarser grids: how many times fewer nodes along a side, and the last tolerance 1e-to. Below that
- * their discretization error hides what a tolerance changes. */
+/* On coarser grids the discretization error soon hides what a tolerance changes. Bodies that attract each
+ * other: farther off than 1e-3 a state may be another, and on a coarser grid the cohesive length has fewer
+ * nodes. */
 static const struct {
     unsigned coarse;
-    int to;
-} coarser[] = {{8, 2}, {4, 2}, {2, 3}};
+    struct range range;
+} coarser[] = {{8, {2, 2, 1}}, {4, {2, 2, 1}}, {2, {2, 3, 1}}},
+  attracting[] = {{4, {3, 3, 1}}, {2, {3, 4, 1}}, {1, {3, 6, 1}}, {1, {8, 8, 1}}};
 
-enum {
-    COARSER = sizeof coarser / sizeof *coarser
-};
+/* Half as many slabs, as many as rc-solve takes, twice as many. */
+static const double stacks[] = {0.5, 1, 2};
+static const size_t increments[] = {4, 8, 16, 32, 64};
+static const double contact_tol = 1e-4; /* of each contact, as rc-solve has it */
 
-struct list {
-    struct cost_trial *trial;
-    size_t n;
-};
+/* Stresses: the first engine is exact, and is quicker with a tolerance, by coarser grids for deep slices. Of
+ * the others those whose time grows with the square of the nodes take no tolerance. */
+static const double first_tols[] = {0, 1e-2, 1e-3, 1e-4, 1e-6}, other_tols[] = {1e-2, 1e-4, 1e-6},
+                    rounding[] = {0};
 
-static enum rc_status
-add(struct list *list, size_t method, size_t engine, unsigned coarse, struct range range)
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static void
+add(struct cost_case *c, struct cost_trial t)
+{
+    struct cost_trial *more = realloc(c->trial, (c->trials + 1) * sizeof *more);
+
+    if (more == NULL)
+        tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "out of memory");
+    for (size_t k = 0; k < COST_FIGURES; k++)
+        t.figure[k] = NAN;
+    t.figure[COST_RUNS] = 0;
+    t.figure[COST_INCREMENTS] = t.increments > 0 ? (double)t.increments : NAN;
+    t.planned = t.mebibytes = NAN;
+    t.goal = !(t.about & COST_YIELD) || t.reference ? t.tol : isnan(c->error) ? 0 : c->error;
+    t.shape = c->shape;
+    for (size_t side = 0; side < 2 && t.coarse > 1; side++) { /* of the same area */
+        size_t *n = side == 0 ? &t.shape.nx : &t.shape.ny, nodes = *n;
+        double *d = side == 0 ? &t.shape.dx : &t.shape.dy;
+        *n = (nodes + t.coarse / 2) / t.coarse > 0 ? (nodes + t.coarse / 2) / t.coarse : 1;
+        *d *= (double)nodes / (double)*n;
+    }
+    c->trial = more;
+    c->trial[c->trials++] = t;
+}
+
+static void
+add_range(struct cost_case *c, struct cost_trial t, unsigned coarse, struct range range)
+{
+    t.about = c->about & ~(unsigned)COST_STRESS;
+    t.coarse = coarse;
+    for (int digits = range.from; range.step > 0 && digits <= range.to; digits += range.step) {
+        t.tol = 1 / pow(10, digits);
+        add(c, t);
+    }
+}
+
+static struct cost_trial
+elastic(size_t method, size_t engine)
 {
     const struct rc_method_info *m = rc_method_info(method);
     const struct rc_engine_info *e = rc_engine_info(engine);
 
-    for (int digits = FROM; digits <= range.to; digits += range.step) {
-        struct cost_trial *more = realloc(list->trial, (list->n + 1) * sizeof *more);
-
-        if (more == NULL)
-            return RC_FAIL;
-        list->trial = more;
-        list->trial[list->n++] = (struct cost_trial){
-            .settings = {.method = m->name,
-                         .kernel = e->name,
-                         .arithmetic = m->mixed && e->mixed ? "mixed" : "double",
-                         .coarse = coarse,
-                         .tol = 1 / pow(10, digits)}};
-    }
-    return RC_OK;
+    return (struct cost_trial){.method = m->name,
+                               .kernel = e->name,
+                               .arithmetic = m->mixed && e->mixed ? "mixed" : "double"};
 }
 
-static enum rc_status
-add_series(struct list *list, size_t method, size_t engine)
+static void
+add_elastic(struct cost_case *c, size_t kernels, size_t methods)
 {
-    struct range range = range_of(method, engine);
-    enum rc_status status = RC_OK;
-
-    for (size_t k = 0; k < COARSER && method == 0 && engine == 0 && status == RC_OK; k++)
-        status = add(list, method, engine, coarser[k].coarse, (struct range){coarser[k].to, 1});
-    if (range.step > 0 && status == RC_OK)
-        status = add(list, method, engine, 1, range);
-    return status;
-}
-
-struct cost_trial *
-cost_trials(size_t kernels, size_t methods, size_t *n)
-{
-    struct list list = {.trial = malloc(sizeof *list.trial)};
-    enum rc_status status = list.trial == NULL ? RC_FAIL : RC_OK;
-
     for (size_t m = 0; rc_method_info(m) != NULL; m++)
-        for (size_t e = 0; rc_engine_info(e) != NULL && status == RC_OK; e++)
-            if ((methods >> m & 1) && (kernels >> e & 1))
-                status = add_series(&list, m, e);
-    if (status != RC_OK) {
-        free(list.trial);
-        list = (struct list){.trial = NULL};
+        for (size_t e = 0; rc_engine_info(e) != NULL; e++) {
+            if (!(methods >> m & 1) || !(kernels >> e & 1))
+                continue;
+            for (size_t k = 0; k < COUNT(coarser) && m == 0 && e == 0; k++)
+                add_range(c, elastic(m, e), coarser[k].coarse, coarser[k].range);
+            add_range(c, elastic(m, e), 1, range_of(m, e));
+        }
+}
+
+static void
+add_yielding(struct cost_case *c)
+{
+    for (size_t k = 0; k < COUNT(stacks) * COUNT(increments); k++) {
+        struct cost_trial t = elastic(0, 0);
+        t.about = c->about;
+        t.coarse = 1;
+        t.tol = contact_tol;
+        t.stack = stacks[k / COUNT(increments)];
+        t.increments = increments[k % COUNT(increments)];
+        add(c, t);
     }
-    *n = list.n;
-    return list.trial;
 }
 
-/* Half as many slabs, as many as rc-solve takes, twice as many. */
-static const double stacks[] = {0.5, 1, 2};
-static const size_t increments[] = {2, 4, 8, 16, 32};
-
-enum {
-    STACKS = sizeof stacks / sizeof *stacks,
-    INCREMENTS = sizeof increments / sizeof *increments,
-    REFERENCE = 128 /* increments */
-};
-static const double contact_tol = 1e-4; /* of each contact, as rc-solve has it */
-
-static struct cost_settings
-yielding(double stack, size_t n, double tol)
+static void
+add_attracting(struct cost_case *c)
 {
-    return (struct cost_settings){.method = rc_method_info(0)->name,
-                                  .kernel = rc_engine_info(0)->name,
-                                  .arithmetic = "mixed",
-                                  .coarse = 1,
-                                  .tol = tol,
-                                  .increments = n,
-                                  .stack = stack};
+    struct cost_trial t = elastic(0, 0);
+
+    t.method = "gap";
+    for (size_t k = 0; k < COUNT(attracting); k++)
+        add_range(c, t, attracting[k].coarse, attracting[k].range);
 }
 
-struct cost_trial *
-cost_yielding_trials(size_t *n)
+static void
+add_stresses(struct cost_case *c)
 {
-    struct cost_trial *trial = calloc(STACKS * INCREMENTS, sizeof *trial);
+    const struct rc_engine_info *e;
 
-    *n = STACKS * INCREMENTS;
-    for (size_t k = 0; k < *n && trial != NULL; k++)
-        trial[k].settings =
-            yielding(stacks[k / INCREMENTS], increments[k % INCREMENTS], contact_tol);
-    return trial;
+    for (size_t k = 0; (e = rc_engine_info(k)) != NULL; k++) {
+        const double *tol = k == 0 ? first_tols : e->order == 1 ? other_tols : rounding;
+        size_t n = k == 0 ? COUNT(first_tols) : e->order == 1 ? COUNT(other_tols) : 1;
+
+        if (e->precise || (c->periodic && !e->periodic))
+            continue; /* stresses are in double precision anyway */
+        for (size_t i = 0; i < n; i++)
+            add(c, (struct cost_trial){.about = COST_STRESS,
+                                       .kernel = e->name,
+                                       .coarse = 1,
+                                       .tol = tol[i],
+                                       .reference = k == 0 && tol[i] == 0});
+    }
 }
 
-/* The loosest tolerance is 1e-3: farther off a state may be another. On a coarser grid the cohesive length
- * has fewer nodes. */
-static const struct {
-    unsigned coarse;
-    int digits;
-} attracting[] = {{4, 3}, {2, 3}, {2, 4}, {1, 3}, {1, 4}, {1, 5}, {1, 6}, {1, 8}};
-
-static struct cost_settings
-attracted(unsigned coarse, int digits)
+/* Double precision throughout, to 1e-12; of a body that yields, more increments than any trial and the finest
+ * slabs. */
+static struct cost_trial
+reference_of(const struct cost_case *c)
 {
-    return (struct cost_settings){.method = "gap",
-                                  .kernel = rc_engine_info(0)->name,
-                                  .arithmetic = "mixed",
-                                  .coarse = coarse,
-                                  .tol = 1 / pow(10, digits),
-                                  .attracts = true};
+    struct cost_trial r = elastic(0, 0);
+    const struct rc_engine_info *e;
+
+    r.tol = c->about & COST_ADHESION ? 1e-11 : c->about & COST_YIELD ? 1e-6 : 1e-12;
+    if (c->about & COST_ADHESION) {
+        r.method = "gap";
+    } else if (c->about & COST_YIELD) {
+        r.increments = 2 * increments[COUNT(increments) - 1];
+        r.stack = stacks[COUNT(stacks) - 1];
+    } else {
+        for (size_t k = 0; (e = rc_engine_info(k)) != NULL && strcmp(r.arithmetic, "double") != 0;
+             k++)
+            if (e->precise)
+                r = (struct cost_trial){
+                    .method = r.method, .kernel = e->name, .arithmetic = "double", .tol = r.tol};
+    }
+    r.reference = true;
+    r.coarse = 1;
+    r.about = c->about & ~(unsigned)COST_STRESS;
+    return r;
 }
 
-struct cost_trial *
-cost_attracting_trials(size_t *n)
+void
+cost_trials(struct cost_case *c, size_t kernels, size_t methods)
 {
-    struct cost_trial *trial = calloc(sizeof attracting / sizeof *attracting, sizeof *trial);
-
-    *n = sizeof attracting / sizeof *attracting;
-    for (size_t k = 0; k < *n && trial != NULL; k++)
-        trial[k].settings = attracted(attracting[k].coarse, attracting[k].digits);
-    return trial;
+    add(c, reference_of(c));
+    c->reference = c->trial[0];
+    c->trials = 0;
+    if (c->about & COST_ADHESION)
+        add_attracting(c);
+    else if (c->about & COST_YIELD)
+        add_yielding(c);
+    else
+        add_elastic(c, kernels, methods);
+    c->pressures = c->trials;
+    if (c->about & COST_STRESS)
+        add_stresses(c);
 }
 
-struct cost_settings
-cost_attracting_reference(void)
-{
-    return attracted(1, 11);
-}
-
-struct rc_shape
-cost_coarse_shape(const struct rc_shape *map, unsigned factor)
-{
-    size_t nx = (map->nx + factor / 2) / factor, ny = (map->ny + factor / 2) / factor;
-
-    nx = nx > 0 ? nx : 1;
-    ny = ny > 0 ? ny : 1;
-    return (struct rc_shape){nx, ny, map->dx * ((double)map->nx / (double)nx),
-                             map->dy * ((double)map->ny / (double)ny)};
-}
+/* ---- names ---- */
 
 size_t
-cost_series(const struct cost_settings *settings)
+cost_series(const struct cost_trial *t)
 {
     size_t place = 0;
 
-    if (settings->attracts)
-        return 0;
-    if (settings->increments > 0) {
-        while (place + 1 < STACKS && stacks[place] != settings->stack)
+    if (t->about & COST_STRESS)
+        return words_engine_place(t->kernel);
+    if (t->about & COST_YIELD) {
+        while (place + 1 < COUNT(stacks) && stacks[place] != t->stack)
             place++;
         return place;
     }
     for (size_t m = 0; rc_method_info(m) != NULL; m++)
         for (size_t e = 0; rc_engine_info(e) != NULL; e++) {
-            if (strcmp(rc_method_info(m)->name, settings->method) == 0 &&
-                strcmp(rc_engine_info(e)->name, settings->kernel) == 0)
+            if (strcmp(rc_method_info(m)->name, t->method) == 0 &&
+                strcmp(rc_engine_info(e)->name, t->kernel) == 0)
                 return place;
             place += range_of(m, e).step > 0;
         }
-    return place;
+    return 0;
 }
 
 /* "12 slabs", before they are known "1 x the slabs". */
 static const char *
-slabs_of(char text[32], const struct cost_trial *c)
+slabs_of(char text[32], const struct cost_trial *t)
 {
-    if (c->slabs > 0)
-        snprintf(text, 32, "%zu slabs", c->slabs);
+    if (t->figure[COST_SLABS] > 0)
+        snprintf(text, 32, "%.0f slabs", t->figure[COST_SLABS]);
     else
-        snprintf(text, 32, "%g x the slabs", c->settings.stack);
+        snprintf(text, 32, "%g x the slabs", t->stack);
     return text;
 }
 
 const char *
-cost_series_name(char text[64], const struct cost_trial *c)
+cost_series_name(char text[64], const struct cost_trial *t)
 {
     char slabs[32];
 
-    if (c->settings.increments > 0)
-        snprintf(text, 64, "%s", slabs_of(slabs, c));
+    if (t->about & COST_STRESS)
+        snprintf(text, 64, "%s%s", t->kernel,
+                 t->kernel == rc_engine_info(0)->name ? ", deep slices coarser" : "");
+    else if (t->increments > 0)
+        snprintf(text, 64, "%s", slabs_of(slabs, t));
     else
-        snprintf(text, 64, "%s, %s", c->settings.method, c->settings.kernel);
+        snprintf(text, 64, "%s, %s", t->method, t->kernel);
     return text;
 }
 
 const char *
-cost_point_name(char text[32], const struct cost_settings *s)
+cost_point_name(char text[32], const struct cost_trial *t)
 {
-    if (s->increments > 0)
-        snprintf(text, 32, "%zu", s->increments);
-    else if (s->coarse > 1)
-        snprintf(text, 32, "1/%u", s->coarse);
+    if (t->increments > 0)
+        snprintf(text, 32, "%zu", t->increments);
+    else if (t->coarse > 1)
+        snprintf(text, 32, "1/%u", t->coarse);
     else
-        snprintf(text, 32, "%.0e", s->tol);
+        snprintf(text, 32, t->tol > 0 ? "%.0e" : "exact", t->tol);
     return text;
 }
 
-struct cost_settings
-cost_reference(bool yields)
+const char *
+cost_name(char text[128], const struct cost_trial *t)
 {
-    const struct rc_engine_info *engine = rc_engine_info(0), *info;
+    char slabs[32];
 
-    if (yields) {
-        struct cost_settings s = yielding(stacks[STACKS - 1], REFERENCE, contact_tol / 100);
-        s.precise = true;
-        s.arithmetic = "double";
-        return s;
+    if (t->about & COST_STRESS)
+        snprintf(text, 128, "stresses by %s, tol %.0e", t->kernel, t->tol);
+    else if (t->increments > 0)
+        snprintf(text, 128, "%zu increments, %s, %zu x %zu", t->increments, slabs_of(slabs, t),
+                 t->shape.nx, t->shape.ny);
+    else
+        snprintf(text, 128, "%s, %s, tol %.0e, %zu x %zu", t->method, t->kernel, t->tol,
+                 t->shape.nx, t->shape.ny);
+    return text;
+}
+
+size_t
+cost_trial_words(const struct cost_trial *t, const char *word[], size_t n)
+{
+    static char tol[RC_NUMBER_SIZE], of[2][32];
+
+    if (t->about == COST_PRESSURE || t->about == (COST_PRESSURE | COST_LEAK)) {
+        word[n++] = "--method";
+        word[n++] = t->method;
     }
-
-    for (size_t e = 0; !engine->precise && (info = rc_engine_info(e)) != NULL; e++)
-        engine = info->precise ? info : engine;
-    return (struct cost_settings){.method = rc_method_info(0)->name,
-                                  .kernel = engine->name,
-                                  .arithmetic = "double",
-                                  .coarse = 1,
-                                  .tol = 1e-12};
-}
-
-const char *
-cost_name(char text[128], const struct cost_trial *c)
-{
-    char slabs[32];
-
-    if (c->settings.increments > 0)
-        snprintf(text, 128, "%zu increments, %s, %zu x %zu", c->settings.increments,
-                 slabs_of(slabs, c), c->shape.nx, c->shape.ny);
-    else
-        snprintf(text, 128, "%s, %s, tol %.0e, %zu x %zu", c->settings.method, c->settings.kernel,
-                 c->settings.tol, c->shape.nx, c->shape.ny);
-    return text;
+    if (!(t->about & (COST_YIELD | COST_ADHESION))) { /* there is one method, with one kernel */
+        word[n++] = "--kernel";
+        word[n++] = t->kernel;
+    }
+    if (t->increments > 0) {
+        snprintf(of[0], sizeof of[0], "%zu", t->increments);
+        snprintf(of[1], sizeof of[1], "%.0f", t->figure[COST_SLABS]);
+        word[n++] = "--increments";
+        word[n++] = of[0];
+        if (t->figure[COST_SLABS] > 0) {
+            word[n++] = "--slabs";
+            word[n++] = of[1];
+        }
+    }
+    if (t->goal > 0) {
+        word[n++] = "--tol";
+        word[n++] = rc_number_text(tol, t->goal);
+    }
+    return n;
 }

@@ -48,6 +48,8 @@ struct solve_args {
     size_t output; /* bits of enum solve_frame */
 };
 
+extern const struct opt solve_contact_options[]; /* for a struct solve_args */
+
 /* Where the error stood when this grid was begun. */
 struct progress {
     size_t nodes, iterations;

@@ -1,0 +1,438 @@
+/* What was measured: as a table, as a report, and as the one command line for a time or an accuracy. */
+#include "cost.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* clang-format off */
+const struct cost_column cost_columns[COST_FIGURES] = {
+    [COST_INCREMENTS] = {"increments", NULL, COST_YIELD, NULL, false, "increments", "%10.0f", 0},
+    [COST_SLABS] = {"slabs", NULL, COST_YIELD, "slabs", false, "slabs", "%5.0f", 0},
+    [COST_APPLICATIONS] = {"applications", NULL, COST_YIELD, "applications", false, "applications", "%12.0f", 0},
+    [COST_COHESIVE] = {"cohesive_nodes", NULL, COST_ADHESION, "cohesive_nodes", false, "cohesive_nodes", "%14.3g", 0},
+    [COST_SECONDS] = {"seconds", "s", COST_PRESSURE | COST_STRESS, NULL, false, "time[s]", "%9.4f", 0},
+    [COST_RUNS] = {"runs", NULL, COST_PRESSURE | COST_STRESS, NULL, false, "runs", "%4.0f", 0},
+    [COST_COARSE_DEPTHS] = {"coarse_depths", NULL, COST_STRESS, "coarse_depths", false, "coarse_depths", "%13.0f", 0},
+    [COST_CONVOLUTIONS] = {"convolutions", NULL, COST_PRESSURE, "convolutions", false, "convolutions", "%12.1f", 0},
+    [COST_MEMORY] = {"memory", "B", COST_PRESSURE | COST_STRESS, "peak_memory", false, "memory[MiB]", "%11.1f", 1048576},
+    [COST_ITERATIONS] = {"iterations", NULL, COST_PRESSURE, "iterations", false, NULL, NULL, 0},
+    [COST_ESTIMATE] = {"pressure_error_estimate", NULL, COST_PRESSURE, "pressure_error_estimate", false,
+                       "estimate", "%9.2e", 0},
+    [COST_ERROR] = {"error", NULL, COST_PRESSURE | COST_STRESS, NULL, false, "error", "%9.2e", 0},
+    [COST_AREA_ERROR] = {"contact_area_error", NULL, COST_PRESSURE, "contact_area", true, "area_error", "%10.2e", 0},
+    [COST_PEAK_ERROR] = {"max_pressure_error", NULL, COST_PRESSURE, "max_pressure", true, "peak_error", "%10.2e", 0},
+    [COST_APPROACH_ERROR] = {"approach_error", NULL, COST_PRESSURE, "approach", true, "approach_error", "%14.2e", 0},
+    [COST_RMS_ERROR] = {"rms_error", NULL, COST_STRESS, NULL, false, "rms_error", "%9.2e", 0},
+    [COST_MISES_ERROR] = {"mises_error", NULL, COST_STRESS, NULL, false, "mises", "%10.2e", 0},
+    [COST_FLOW] = {"flow_conductance", "m3", COST_LEAK, "flow_conductance", false, NULL, NULL, 0},
+    [COST_FLOW_ERROR] = {"flow_error", NULL, COST_LEAK, "flow_conductance", true, "flow_error", "%10.2e", 0},
+    [COST_FLOW_SECONDS] = {"flow_seconds", "s", COST_LEAK, "total", false, "flow_time[s]", "%12.4f", 0},
+};
+/* clang-format on */
+
+/* Figures that are settings, which the table shows last and the report first. */
+static bool
+is_setting(size_t figure)
+{
+    return figure < COST_SECONDS;
+}
+
+/* ---- marks ---- */
+
+/* Errors below that of the reference count as equal; that of the exact stresses is taken as rounding. */
+static double
+error_of(const struct cost_case *c, const struct cost_trial *t)
+{
+    return (t->about & COST_STRESS)
+               ? t->reference ? 0 : t->figure[COST_ERROR]
+               : fmax(t->figure[COST_ERROR], c->reference.figure[COST_ESTIMATE]);
+}
+
+static bool
+beaten(const struct cost_case *c, const struct cost_trial *a, const struct cost_trial *by)
+{
+    double seconds = by->figure[COST_SECONDS] - a->figure[COST_SECONDS],
+           error = error_of(c, by) - error_of(c, a);
+
+    return by->state == COST_DONE && ((a->about ^ by->about) & COST_STRESS) == 0 && seconds <= 0 &&
+           error <= 0 && (seconds < 0 || error < 0);
+}
+
+void
+cost_mark(struct cost_case *c)
+{
+    const struct cost_trial *r = &c->reference;
+
+    for (size_t k = 0; k < c->trials; k++) {
+        struct cost_trial *t = &c->trial[k];
+
+        t->front = t->state == COST_DONE;
+        for (size_t l = 0; l < c->trials; l++)
+            t->front = t->front && !beaten(c, t, &c->trial[l]);
+        t->optimistic =
+            t->state == COST_DONE && !(t->about & COST_STRESS) && t->coarse == 1 &&
+            t->stack == r->stack &&
+            t->figure[COST_ERROR] > 1.01 * t->figure[COST_ESTIMATE] + r->figure[COST_ESTIMATE];
+    }
+}
+
+/* ---- the table ---- */
+
+const char *
+cost_body(const struct cost_case *c, const char *between, char text[COST_BODY])
+{
+    const char *layers = strstr(c->solved, "\"layers\": \"on: ");
+    char number[SHOWN_NUMBER];
+    long n = layers == NULL ? 0 : strtol(layers + 15, NULL, 10);
+
+    text[0] = '\0';
+    if (c->about & COST_YIELD)
+        snprintf(text, COST_BODY, "%syields at %s", between,
+                 shown_in_unit(number, cost_number(c->solved, "yield"), "Pa"));
+    if (c->about & COST_ADHESION)
+        snprintf(text, COST_BODY, "%sattracted by %s", between,
+                 shown_in_unit(number, cost_number(c->solved, "adhesion_work"), "J/m2"));
+    if (n > 0)
+        snprintf(text, COST_BODY, "%s%ld layer%s", between, n, n == 1 ? "" : "s");
+    return text;
+}
+
+static void
+put_head(const struct cost_case *c, FILE *out)
+{
+    const struct cost_trial *r = &c->reference;
+    const double approach = cost_number(c->solved, "asked_approach"),
+                 area = cost_number(c->solved, "contact_area");
+    char where[256], body[COST_BODY];
+
+    fprintf(out, "# %s: %zu x %zu nodes, %s, ",
+            tool_where(c->tool, c->heights, where, sizeof where), c->shape.nx, c->shape.ny,
+            c->periodic ? "periodic" : "free");
+    if (isnan(approach))
+        fprintf(out, "load %.9g N", cost_number(c->solved, "load"));
+    else
+        fprintf(out, "approach %.9g m", approach);
+    fprintf(out, "%s, %zu threads\n", cost_body(c, ", ", body), c->tool->threads);
+    fprintf(out,
+            "# reference: %s, %s in %s precision, estimated error %.1e (asked %.0e), %.0f steps, "
+            "%.3g s: contact area %.9g m2 (%.4g %% of the map, %.3g %% at the hardness), largest "
+            "pressure %.9g Pa, approach %.9g m\n",
+            r->method, r->kernel, r->arithmetic, r->figure[COST_ESTIMATE], r->tol,
+            r->figure[COST_ITERATIONS], r->figure[COST_SECONDS], area,
+            100 * cost_number(c->solved, "contact_fraction"),
+            area > 0 ? 100 * cost_number(c->solved, "plastic_area") / area : 0,
+            cost_number(c->solved, "max_pressure"), cost_number(c->solved, "approach"));
+    if (c->about & COST_YIELD)
+        fprintf(out, "# it yields: the reference has %zu increments and %.0f slabs\n",
+                r->increments, r->figure[COST_SLABS]);
+    if (c->about & COST_ADHESION)
+        fprintf(out,
+                "# pressures are net, tension negative; the cohesive length is %.3g nodes of the "
+                "map, each trial's own is in its column: below 1.5 the grid pins the edge of the "
+                "contact\n",
+                r->figure[COST_COHESIVE]);
+    if (c->leak != NULL)
+        fprintf(out,
+                "# flow along %s: the reference has a conductance of %.9g m3; flow_error: relative "
+                "to it, each on its own grid\n",
+                c->leak, r->figure[COST_FLOW]);
+    fprintf(out, "# error: sum |p - reference| / sum reference, on the map's own grid; area, peak, "
+                 "approach: relative to the reference; estimate: what the solver says of its own "
+                 "grid\n");
+}
+
+/* The depths of the stresses, as the report of the exact ones has them. */
+static size_t
+depths(const struct cost_case *c, double *first, double *last)
+{
+    const char *at = strstr(c->stressed == NULL ? "" : c->stressed, "\"depths\": [");
+    size_t n = 0;
+    char *end;
+
+    *first = *last = NAN;
+    for (at = at == NULL ? "" : at + 11; *at != '\0' && *at != ']';
+         at = *end == ',' ? end + 1 : end) {
+        *last = strtod(at, &end);
+        if (end == at)
+            break;
+        if (n++ == 0)
+            *first = *last;
+    }
+    return n;
+}
+
+static void
+put_stress_head(const struct cost_case *c, FILE *out)
+{
+    double first, last;
+    size_t n = depths(c, &first, &last);
+
+    fprintf(out,
+            "\n# stresses under the reference: six components and Mises at %zu depths, %.3g to "
+            "%.3g m, nu %.3g, mu %.3g; error: of a component, over the largest pressure; mises: of "
+            "its largest value\n",
+            n, first, last, cost_number(c->stressed, "nu"), cost_number(c->stressed, "mu"));
+}
+
+static const char *
+note(const struct cost_trial *m)
+{
+    static char text[64];
+
+    snprintf(text, sizeof text, "%s%s%s%s",
+             (m->about & COST_STRESS) && m->reference ? ",reference" : "", m->front ? ",front" : "",
+             m->converged || (m->about & COST_STRESS) ? "" : ",short",
+             m->optimistic ? ",optimistic" : "");
+    return text[0] == '\0' ? "-" : text + 1;
+}
+
+/* The cells of a trial, NULL: the heads of their columns. */
+static void
+put_cells(unsigned about, const struct cost_trial *m, bool settings, FILE *out)
+{
+    for (size_t k = 0; k < COST_FIGURES; k++) {
+        const struct cost_column *col = &cost_columns[k];
+        /* what leaks stands last */
+        if (col->head == NULL || !(col->of & about) ||
+            (is_setting(k) || col->of == COST_LEAK) != settings)
+            continue;
+        if (m == NULL)
+            fprintf(out, "%*s ", (int)strtol(col->format + 1, NULL, 10), col->head);
+        else
+            fprintf(out, col->format, m->figure[k] / (col->scale > 0 ? col->scale : 1));
+        if (m != NULL)
+            putc(' ', out);
+    }
+}
+
+static void
+put_rows(const struct cost_case *c, size_t from, size_t to, FILE *out)
+{
+    unsigned about = from < to ? c->trial[from].about : 0;
+    const bool stress = (about & COST_STRESS) != 0;
+    char name[128], grid[64];
+
+    if (from == to)
+        return;
+    if (stress)
+        fprintf(out, "%-6s %6s ", "kernel", "tol");
+    else
+        fprintf(out, "%-6s %-6s %-10s %6s %11s ", "method", "kernel", "arithmetic", "tol", "grid");
+    put_cells(about, NULL, false, out);
+    put_cells(about, NULL, true, out);
+    fputs("note\n", out);
+    for (size_t k = from; k < to; k++) {
+        const struct cost_trial *m = &c->trial[k];
+
+        if (m->state != COST_DONE)
+            continue;
+        snprintf(grid, sizeof grid, "%zux%zu", m->shape.nx, m->shape.ny);
+        if (stress)
+            fprintf(out, "%-6s %6.0e ", m->kernel, m->tol);
+        else
+            fprintf(out, "%-6s %-6s %-10s %6.0e %11s ", m->method, m->kernel, m->arithmetic, m->tol,
+                    grid);
+        put_cells(about, m, false, out);
+        put_cells(about, m, true, out);
+        fprintf(out, "%s\n", note(m));
+    }
+    for (size_t k = from; k < to; k++)
+        if (c->trial[k].state != COST_DONE)
+            fprintf(out, "# %s: %s\n", cost_name(name, &c->trial[k]), c->trial[k].why);
+}
+
+void
+cost_table(const struct cost_case *c, FILE *out)
+{
+    put_head(c, out);
+    put_rows(c, 0, c->pressures, out);
+    if (c->stressed != NULL) {
+        put_stress_head(c, out);
+        put_rows(c, c->pressures, c->trials, out);
+    }
+}
+
+/* ---- the report ---- */
+
+static void
+report_figures(const struct cost_case *c, const struct cost_trial *m, bool settings,
+               struct report *out)
+{
+    for (size_t k = 0; k < COST_FIGURES; k++) {
+        const struct cost_column *col = &cost_columns[k];
+        const bool known = m->state == COST_DONE || k == COST_RUNS || k < COST_APPLICATIONS;
+
+        if (is_setting(k) != settings || !(col->of & c->about))
+            continue;
+        if (col->of & m->about)
+            report_number(out, col->key, known ? m->figure[k] : NAN, col->unit);
+        else
+            report_column(out, col->key, col->unit);
+    }
+}
+
+static void
+report_trial(const struct cost_case *c, const struct cost_trial *m, struct report *out)
+{
+    static const char *const states[] = {[COST_OPEN] = "left out",
+                                         [COST_DONE] = "done",
+                                         [COST_LEFT_OUT] = "left out",
+                                         [COST_STOPPED] = "stopped"};
+    const bool stress = (m->about & COST_STRESS) != 0;
+    double first, last;
+
+    report_begin(out);
+    report_count(out, "case", rc_grid_case(c->heights), NULL);
+    report_text(out, "source", rc_grid_get(c->heights, "source"));
+    report_text(out, "what",
+                stress         ? m->reference ? "stress reference" : "stress"
+                : m->reference ? "reference"
+                               : "pressure");
+    if (!stress)
+        report_text(out, "method", m->method);
+    report_text(out, "kernel", m->kernel);
+    if (!stress)
+        report_text(out, "arithmetic", m->arithmetic);
+    report_number(out, "tol", m->tol, NULL);
+    if (stress)
+        report_count(out, "depths", depths(c, &first, &last), NULL);
+    else
+        report_count(out, "coarse", m->coarse, NULL);
+    report_figures(c, m, true, out);
+    if (!stress) {
+        report_count(out, "nx", m->shape.nx, NULL);
+        report_count(out, "ny", m->shape.ny, NULL);
+        report_count(out, "threads", c->tool->threads, NULL);
+    }
+    report_text(out, "state", states[m->state]);
+    report_text(out, "why", m->why[0] == '\0' ? NULL : m->why);
+    report_number(out, "expected_seconds", m->expected, "s");
+    report_figures(c, m, false, out);
+    if (!stress)
+        report_bool(out, "converged", m->converged);
+    report_bool(out, "front", m->front);
+    if (!stress)
+        report_bool(out, "optimistic", m->optimistic);
+    if (!stress && (c->about & COST_STRESS))
+        report_column(out, "depths", NULL);
+    report_finish_row(out);
+}
+
+void
+cost_report(const struct cost_case *c, struct report *out)
+{
+    report_trial(c, &c->reference, out);
+    for (size_t k = 0; k < (c->stressed != NULL ? c->trials : c->pressures); k++)
+        report_trial(c, &c->trial[k], out);
+}
+
+/* ---- the command ---- */
+
+/* A word as a shell reads it. */
+static void
+put_word(FILE *out, const char *word)
+{
+    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:+@%=";
+
+    fputc(' ', out);
+    if (word[0] != '\0' && strspn(word, plain) == strlen(word)) {
+        fputs(word, out);
+        return;
+    }
+    fputc('\'', out);
+    for (; *word != '\0'; word++)
+        if (*word == '\'')
+            fputs("'\\''", out);
+        else
+            fputc(*word, out);
+    fputc('\'', out);
+}
+
+static void
+put_files(const struct tool *t, FILE *out)
+{
+    char name[4096];
+
+    for (size_t k = 0; k < t->operands; k++) {
+        const char *word = t->operand[k];
+        snprintf(name, sizeof name, "./%s", word);
+        put_word(out, word[0] == '-' && word[1] != '\0' ? name : word); /* a name, no option */
+    }
+}
+
+/* On a coarser grid rc-pick makes the means of the cells first; a sphere that rc-solve adds is on any grid
+ * what its means are, but for a constant. */
+static void
+put_command(const struct cost_case *c, const struct cost_trial *m, FILE *out)
+{
+    const struct tool *t = c->tool;
+    const char *word[COST_WORDS];
+    size_t n;
+
+    if (m->coarse > 1) {
+        fprintf(out, "rc-pick --resample %zux%zu", m->shape.nx, m->shape.ny);
+        put_files(t, out);
+        fputs(" | ", out);
+    }
+    fputs("rc-solve", out);
+    for (size_t k = 0; k < c->words; k++)
+        put_word(out, c->word[k]);
+    n = cost_trial_words(m, word, 0);
+    for (size_t k = 0; k < n; k++)
+        put_word(out, word[k]);
+    if (t->threads != rc_threads_available())
+        fprintf(out, " --threads %zu", t->threads);
+    if (m->coarse == 1)
+        put_files(t, out);
+    fputc('\n', out);
+}
+
+static bool
+better(const struct cost_case *c, const struct cost_trial *a, const struct cost_trial *b)
+{
+    double seconds, error;
+
+    if (b == NULL)
+        return true;
+    seconds = a->figure[COST_SECONDS] - b->figure[COST_SECONDS];
+    error = a->figure[COST_ERROR] - b->figure[COST_ERROR];
+    return isnan(c->budget) ? seconds < 0 : error < 0 || (error == 0 && seconds < 0);
+}
+
+void
+cost_command(const struct cost_case *c, FILE *out)
+{
+    const struct cost_trial *best = NULL, *nearest = NULL;
+    const bool timed = !isnan(c->budget);
+    char name[128], own[32] = "none"; /* of few increments */
+
+    for (size_t k = 0; k < c->pressures; k++) {
+        const struct cost_trial *m = &c->trial[k];
+
+        if (m->state != COST_DONE || !m->converged)
+            continue;
+        if ((timed ? m->figure[COST_SECONDS] <= c->budget : cost_is_near(c, m)) &&
+            better(c, m, best))
+            best = m;
+        if (nearest == NULL || (timed ? m->figure[COST_SECONDS] < nearest->figure[COST_SECONDS]
+                                      : m->figure[COST_ERROR] < nearest->figure[COST_ERROR]))
+            nearest = m;
+    }
+    if (best != NULL) {
+        if (!isnan(best->figure[COST_ESTIMATE]))
+            snprintf(own, sizeof own, "%.1e", best->figure[COST_ESTIMATE]);
+        tool_warn(
+            c->tool, "%s: %.3g s, off by %.2g %% of the pressure (estimate on its own grid %s)",
+            cost_name(name, best), best->figure[COST_SECONDS], 100 * best->figure[COST_ERROR], own);
+        put_command(c, best, out);
+    } else if (nearest != NULL) {
+        tool_die(c->tool, EXIT_IMPOSSIBLE,
+                 "nothing measured %s: the best was %s, %.3g s, error %.1e; raise %s",
+                 timed ? "is so quick" : "is so near", cost_name(name, nearest),
+                 nearest->figure[COST_SECONDS], nearest->figure[COST_ERROR],
+                 timed ? "--budget" : "--error or --limit");
+    } else {
+        tool_die(c->tool, EXIT_IMPOSSIBLE, "nothing was measured: raise --limit");
+    }
+}

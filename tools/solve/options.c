@@ -1,0 +1,32 @@
+/* The options that say what the contact is, for all tools that solve it. */
+#include "solve.h"
+
+#include <math.h>
+
+#define AT(field) .at = offsetof(struct solve_args, field)
+
+static const char *
+tilt_word(size_t k)
+{
+    static const char *const words[] = {"fixed", "free", NULL};
+
+    return words[k];
+}
+
+/* clang-format off */
+const struct opt solve_contact_options[] = {
+    {.group = physics_options, AT(physics)},
+    {.name = "yield", .type = OPT_TEXT, AT(yield), .result = true, .arg = "Y[,HM]|FILE.tsv",
+     .help = "body 1 yields inside, from this stress on, which hardens by HM per plastic strain"},
+    {.name = "adhesion", .type = OPT_TEXT, AT(adhesion), .result = true, .arg = "WORK[,LAW[,RANGE]]",
+     .help = "the bodies attract each other: 50mJ/m2, 50mJ/m2,exponential,2nm; a list is a path"},
+    {.name = "history", .type = OPT_FLAG, AT(physics.history), .result = true,
+     .help = "apply the loads in sequence, keeping plastic shape; 0 separates the bodies"},
+    {.name = "tilt", .type = OPT_CHOICE, AT(tilt), .words = tilt_word, .result = true,
+     .help = "free: the counter body tilts until the moment is zero (default fixed)"},
+    {.name = "at", .type = OPT_NUMBERS, .unit = UNIT_M, AT(at), .min = -INFINITY, .max = INFINITY,
+     .result = true, .arg = "X,Y",
+     .help = "where the load acts on a body that is free to tilt (default: the middle)"},
+    {.name = NULL},
+};
+/* clang-format on */
