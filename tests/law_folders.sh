@@ -37,7 +37,7 @@ libcontact/surface  | %base %ranks                             | libcontact libc
 libcontact/surface  | libcontact/transform/transform.h         | libcontact/transform
 formats/core        | libcontact/grid.h                        | libcontact
 formats/rcg         | libcontact/grid.h formats/core/core.h    | libcontact formats/core
-formats/sandbox     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats/sandbox     | libcontact/grid.h formats/core/core.h formats/rcg/rcg.h | libcontact formats/core formats/rcg
 formats/containers/packing | libcontact/grid.h formats/core/core.h | libcontact formats/core
 formats/containers  | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats/containers  | formats/containers/packing/packing.h     | -
@@ -50,7 +50,7 @@ formats/readers/text | %reader                                 | %formats
 formats/writers     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats/writers     | formats/containers/containers.h          | formats/containers
 formats/writers     | formats/export.h                         | formats
-formats             | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats             | libcontact/grid.h formats/core/core.h formats/sandbox/sandbox.h | libcontact formats/core formats/sandbox
 formats             |                                          | formats/readers/probes=rc_format_
 formats             |                                          | formats/readers/profilers=rc_format_
 formats             |                                          | formats/readers/exchange=rc_format_

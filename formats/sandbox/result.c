@@ -1,19 +1,7 @@
 #include "result.h"
 
-#include <stdlib.h>
-#include <string.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include "child_memory.h"
 #include "formats/core/core.h"
-
-enum {
-    TEXT_MOST = 65536, /* bytes of a key's value */
-    KEYS_MOST = 256,
-    COPIED = 1, /* reply: the parent has copied the values, */
-    WANTED      /* or they are to come through the pipe     */
-};
+#include "formats/rcg/rcg.h"
 
 static bool
 put(FILE *to, const void *from, size_t n)
@@ -21,41 +9,37 @@ put(FILE *to, const void *from, size_t n)
     return fwrite(from, 1, n, to) == n;
 }
 
-static bool
-get(FILE *from, void *to, size_t n)
+bool
+rc_result_receive(FILE *from, struct rc_result *r)
 {
-    return fread(to, 1, n, from) == n;
-}
+    struct rc_notes *noted = &r->noted;
+    const size_t most = sizeof noted->text / sizeof *noted->text;
 
-static bool
-get_err(FILE *from, struct rc_err *said)
-{
-    bool good = get(from, said, sizeof *said);
-
-    said->text[sizeof said->text - 1] = '\0';
-    return good;
+    if (fread(r, sizeof *r, 1, from) != 1)
+        return false;
+    r->said.text[sizeof r->said.text - 1] = '\0';
+    noted->n = noted->n < most ? noted->n : most;
+    for (size_t k = 0; k < most; k++)
+        noted->text[k][sizeof noted->text[k] - 1] = '\0';
+    return true;
 }
 
 /* ---- lists ---- */
 
 bool
-rc_result_send_list(struct rc_pipes *p, const struct rc_channel *channel, size_t n, size_t most,
-                    const struct rc_err *said)
+rc_result_send_list(FILE *to, const struct rc_result *r, const struct rc_channel *channel,
+                    size_t most)
 {
-    return put(p->result, &n, sizeof n) && put(p->result, said, sizeof *said) &&
-           put(p->result, channel, (n < most ? n : most) * sizeof *channel);
+    return put(to, r, sizeof *r) && put(to, channel, (r->n < most ? r->n : most) * sizeof *channel);
 }
 
 bool
-rc_result_receive_list(struct rc_pipes *p, struct rc_channel *channel, size_t *n, size_t most,
-                       struct rc_err *said)
+rc_result_receive_list(FILE *from, const struct rc_result *r, struct rc_channel *channel,
+                       size_t most)
 {
-    size_t shown;
+    const size_t shown = r->n < most ? r->n : most;
 
-    if (!get(p->result, n, sizeof *n) || !get_err(p->result, said))
-        return false;
-    shown = *n < most ? *n : most;
-    if (!get(p->result, channel, shown * sizeof *channel))
+    if (fread(channel, sizeof *channel, shown, from) != shown)
         return false;
     for (size_t k = 0; k < shown; k++) {
         channel[k].name[sizeof channel->name - 1] = '\0';
@@ -68,128 +52,38 @@ rc_result_receive_list(struct rc_pipes *p, struct rc_channel *channel, size_t *n
 
 /* ---- grids ---- */
 
-/* A text as its length and its bytes. */
-static bool
-put_text(FILE *to, const char *text)
-{
-    size_t n = strlen(text);
-
-    return put(to, &n, sizeof n) && put(to, text, n);
-}
-
-static char *
-get_text(FILE *from)
-{
-    char *text = NULL;
-    size_t n;
-
-    if (!get(from, &n, sizeof n) || n >= TEXT_MOST || (text = malloc(n + 1)) == NULL)
-        return NULL;
-    text[n] = '\0';
-    if (get(from, text, n))
-        return text;
-    free(text);
-    return NULL;
-}
-
-static bool
-put_values(struct rc_pipes *p, const struct rc_grid *g)
-{
-    uint64_t at = (uintptr_t)g->v;
-    unsigned char reply;
-
-    if (!put(p->result, &at, sizeof at) || fflush(p->result) != 0 || read(p->reply, &reply, 1) != 1)
-        return false;
-    return reply == COPIED || put(p->result, g->v, g->nx * g->ny * sizeof *g->v);
-}
-
-static bool
-get_values(struct rc_pipes *p, struct rc_grid *g)
-{
-    size_t bytes = g->nx * g->ny * sizeof *g->v;
-    uint64_t at;
-    unsigned char reply;
-
-    if (!get(p->result, &at, sizeof at))
-        return false;
-    reply = rc_child_memory_copy(p->child, at, g->v, bytes) ? COPIED : WANTED;
-    p->held = rc_child_memory_held(p->child);
-    if (send(p->reply, &reply, 1, MSG_NOSIGNAL) != 1)
-        return false;
-    return reply == COPIED || get(p->result, g->v, bytes);
-}
-
 bool
-rc_result_send_grid(struct rc_pipes *p, const struct rc_grid *g, const struct rc_notes *noted,
-                    const struct rc_err *said)
+rc_result_send_grid(FILE *to, const struct rc_result *r, struct rc_grid *g)
 {
-    unsigned char good = g != NULL;
-    struct rc_shape shape;
-    bool whole;
+    struct rc_writer *writer;
 
-    if (!put(p->result, &good, 1) || !put(p->result, noted, sizeof *noted) ||
-        !put(p->result, said, sizeof *said) || g == NULL)
-        return g == NULL;
-    shape = rc_grid_shape(g);
-    whole = put(p->result, &shape, sizeof shape) && put_text(p->result, g->channel) &&
-            put_text(p->result, g->unit) && put(p->result, &g->keys, sizeof g->keys);
-    for (size_t k = 0; whole && k < g->keys; k++)
-        whole = put_text(p->result, g->key[k].name) && put_text(p->result, g->key[k].value);
-    return whole && put_values(p, g);
+    if (!put(to, r, sizeof *r) || r->n == 0)
+        return r->n == 0;
+    g->type = RC_F64;
+    writer = rc_writer_new(to, NULL);
+    return writer != NULL && rc_writer_put(writer, g, NULL) == RC_OK;
 }
 
-static bool
-get_key(FILE *from, struct rc_grid *g)
+/* Before memory is taken for it. */
+static enum rc_status
+fits(void *file, const struct rc_shape *shape, size_t bytes, struct rc_err *err)
 {
-    char *name = get_text(from), *value = name == NULL ? NULL : get_text(from);
-    bool good = value != NULL && rc_grid_set(g, name, value, NULL) == RC_OK;
-
-    free(name);
-    free(value);
-    return good;
+    (void)bytes;
+    return rc_map_fits(file, shape->nx, shape->ny, err);
 }
 
-/* The shape and the keys are bounded before memory is taken for them. */
-static struct rc_grid *
-get_grid(struct rc_pipes *p, const struct rc_file *file)
+struct rc_grid *
+rc_result_receive_grid(FILE *from, const struct rc_file *file)
 {
-    char *channel = NULL, *unit = NULL;
+    struct rc_file of = *file;
+    struct rc_reader *reader = rc_reader_new(from, 0, 0, NULL);
     struct rc_grid *g = NULL;
-    struct rc_shape shape;
-    bool good = false;
-    size_t keys;
 
-    if (!get(p->result, &shape, sizeof shape) ||
-        rc_map_fits(file, shape.nx, shape.ny, NULL) != RC_OK ||
-        (channel = get_text(p->result)) == NULL || (unit = get_text(p->result)) == NULL ||
-        !get(p->result, &keys, sizeof keys) || keys > KEYS_MOST ||
-        (g = rc_grid_new(&shape, channel, unit, NULL)) == NULL)
-        goto done;
-    for (good = true; good && keys > 0; keys--)
-        good = get_key(p->result, g);
-    good = good && get_values(p, g);
-done:
-    free(channel);
-    free(unit);
-    if (good)
-        return g;
-    rc_grid_free(g);
-    return NULL;
-}
-
-bool
-rc_result_receive_grid(struct rc_pipes *p, const struct rc_file *file, struct rc_grid **g,
-                       struct rc_notes *noted, struct rc_err *said)
-{
-    const size_t most = sizeof noted->text / sizeof *noted->text;
-    unsigned char good;
-
-    *g = NULL;
-    if (!get(p->result, &good, 1) || !get(p->result, noted, sizeof *noted) ||
-        !get_err(p->result, said))
-        return false;
-    noted->n = noted->n < most ? noted->n : most;
-    for (size_t k = 0; k < most; k++)
-        noted->text[k][sizeof noted->text[k] - 1] = '\0';
-    return good == 0 || (*g = get_grid(p, file)) != NULL;
+    if (reader == NULL)
+        return NULL;
+    rc_reader_ask(reader, fits, &of);
+    if (rc_reader_next(reader, &g, NULL) != RC_MORE)
+        g = NULL;
+    rc_reader_free(reader);
+    return g;
 }

@@ -1,32 +1,26 @@
-/* How the child of a sandbox hands its result to the parent. The parent checks all of it: a file
- * may have got hold of the child. */
+/* How the child of a sandbox hands its result to the parent: what it notes and says, then the channels or the
+ * grid, as a stream RCG1. The parent checks all of it: a file may have got hold of the child. */
 #ifndef RC_RESULT_H
 #define RC_RESULT_H
 
 #include <stdio.h>
-#include <sys/types.h>
 
 #include "formats/core/core.h"
 
-/* The child writes to `result` and reads from `reply`, the parent the other way round. */
-struct rc_pipes {
-    pid_t child;
-    FILE *result;
-    size_t held; /* parent: rc_child_memory_held when the values came */
-    int reply;   /* a socket: writing to a child that has died must not end the parent by SIGPIPE */
+struct rc_result {
+    size_t n; /* channels, or grids: 0 or 1; 0: `said` is the reason */
+    struct rc_notes noted;
+    struct rc_err said;
 };
 
-/* All return whether everything went through. A list is n channels, of which the first `most` are
- * sent; when n is 0, `said` is the reason. */
-bool rc_result_send_list(struct rc_pipes *pipes, const struct rc_channel *channel, size_t n,
-                         size_t most, const struct rc_err *said);
-bool rc_result_receive_list(struct rc_pipes *pipes, struct rc_channel *channel, size_t *n,
-                            size_t most, struct rc_err *said);
-/* A grid, or NULL with the reason in `said`. The parent copies the values out of the child's memory
- * where the system allows that; else they go through the pipe. */
-bool rc_result_send_grid(struct rc_pipes *pipes, const struct rc_grid *grid,
-                         const struct rc_notes *noted, const struct rc_err *said);
-bool rc_result_receive_grid(struct rc_pipes *pipes, const struct rc_file *file,
-                            struct rc_grid **grid, struct rc_notes *noted, struct rc_err *said);
+/* All return whether everything went through. Of n channels the first `most` are sent. */
+bool rc_result_send_list(FILE *to, const struct rc_result *result, const struct rc_channel *channel,
+                         size_t most);
+bool rc_result_send_grid(FILE *to, const struct rc_result *result, struct rc_grid *grid);
+bool rc_result_receive(FILE *from, struct rc_result *result);
+bool rc_result_receive_list(FILE *from, const struct rc_result *result, struct rc_channel *channel,
+                            size_t most);
+/* A grid of as many nodes as the file may have, or NULL. */
+struct rc_grid *rc_result_receive_grid(FILE *from, const struct rc_file *file);
 
 #endif

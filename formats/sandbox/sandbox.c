@@ -1,10 +1,11 @@
 #include "sandbox.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,84 +22,106 @@ rc_sandbox_bypass(bool bypass)
     bypassed = bypass;
 }
 
-static void
-close_pipes(struct rc_pipes *p)
-{
-    if (p->result != NULL)
-        fclose(p->result);
-    close(p->reply);
-}
+/* A child that is confined, and the parent's end of the pipe that it writes its result to. */
+struct child {
+    pid_t pid; /* 0 in the child itself */
+    FILE *result;
+};
 
-/* Makes the child, which is confined, and the pipes between the two. Gives 0 in the child, 1 in the
- * parent, and -1 with the reason when there is no child. */
-static int
-start(struct rc_pipes *p, const struct rc_file *file, struct rc_err *err)
+/* Makes them. False with the reason when there is no child. */
+static bool
+start(struct child *c, const struct rc_file *file, struct rc_err *err)
 {
-    int result[2], reply[2], own;
+    int end[2], own;
 
-    if (pipe(result) != 0) {
+    if (pipe(end) != 0) {
         rc_err_set(err, "no pipe for reading the file: %s", strerror(errno));
-        return -1;
+        return false;
     }
-    if (socketpair(AF_UNIX, SOCK_STREAM, 0, reply) != 0) {
-        rc_err_set(err, "no socket for reading the file: %s", strerror(errno));
-        close(result[0]);
-        close(result[1]);
-        return -1;
-    }
-    p->held = 0;
-    p->child = fork();
-    own = p->child == 0; /* the child writes results at end 1, the parent reads them at end 0 */
-    close(result[!own]);
-    close(reply[!own]);
-    p->reply = reply[own];
-    p->result = p->child < 0 ? NULL : fdopen(result[own], p->child == 0 ? "wb" : "rb");
-    if (p->child == 0) {
-        if (p->result == NULL)
+    c->pid = fork();
+    own = c->pid == 0;
+    close(end[!own]);
+    c->result = c->pid < 0 ? NULL : fdopen(end[own], own ? "wb" : "rb");
+    if (c->pid == 0) {
+        if (c->result == NULL)
             _exit(1);
         rc_confine(file);
-        rc_calls_filter(fileno(p->result), p->reply);
-        return 0;
+        if (!rc_calls_filter(end[1]))
+            _exit(1);
+        return true;
     }
-    if (p->result != NULL)
-        return 1;
-    close(result[0]);
-    close_pipes(p);
-    if (p->child < 0) {
+    if (c->result != NULL)
+        return true;
+    close(end[0]);
+    if (c->pid < 0) {
         rc_err_set(err, "no process for reading the file: %s", strerror(errno));
     } else {
-        kill(p->child, SIGKILL);
-        waitpid(p->child, NULL, 0);
+        kill(c->pid, SIGKILL);
+        waitpid(c->pid, NULL, 0);
         rc_err_set(err, "out of memory for a pipe");
     }
-    return -1;
+    return false;
+}
+
+/* The number of kB after `key` at the beginning of a line of /proc/CHILD/NAME; 0: no such line. Takes no
+ * memory from the heap, because the next child would inherit it. */
+static size_t
+kilobytes(pid_t child, const char *name, const char *key)
+{
+    char text[8192] = "\n", line[64];
+    ssize_t n, got = 1;
+    const char *at;
+    int file;
+
+    snprintf(line, sizeof line, "/proc/%ld/%s", (long)child, name);
+    if ((file = open(line, O_RDONLY | O_CLOEXEC)) < 0)
+        return 0;
+    while (got < (ssize_t)sizeof text - 1 &&
+           (n = read(file, text + got, sizeof text - 1 - (size_t)got)) > 0)
+        got += n;
+    close(file);
+    text[got] = '\0';
+    snprintf(line, sizeof line, "\n%s", key);
+    at = strstr(text, line);
+    return at == NULL ? 0 : strtoul(at + strlen(line), NULL, 10);
+}
+
+/* Private memory of a child at its largest, in bytes: what the child holds and shares with no other
+ * process, and what it has given back since. 0 where the system does not say, or the child has ended. Code is
+ * not counted, because it is memory of a file. */
+static size_t
+memory_of(pid_t child)
+{
+    size_t most = kilobytes(child, "status", "VmHWM:"), now = kilobytes(child, "status", "VmRSS:");
+    size_t own = kilobytes(child, "smaps_rollup", "Private_Dirty:");
+
+    return own == 0 ? 0 : 1024 * (own + (most > now ? most - now : 0));
 }
 
 static _Noreturn void
-leave(struct rc_pipes *p, bool sent)
+leave(const struct child *c, bool sent)
 {
-    _exit(fflush(p->result) == 0 && sent ? 0 : 1);
+    _exit(fflush(c->result) == 0 && sent ? 0 : 1);
 }
 
 /* Waits for the end of the child; where its result is not whole, *err says how the child ended. */
 static void
-finish(struct rc_pipes *p, const struct rc_file *file, bool whole, struct rc_err *err)
+finish(const struct child *c, const struct rc_file *file, bool whole, struct rc_err *err)
 {
     int how = 0;
     pid_t got;
 
-    close_pipes(p);
-    while ((got = waitpid(p->child, &how, 0)) < 0 && errno == EINTR)
+    fclose(c->result);
+    while ((got = waitpid(c->pid, &how, 0)) < 0 && errno == EINTR)
         continue;
     if (whole)
         return;
-    if (got == p->child && WIFSIGNALED(how) &&
-        (WTERMSIG(how) == SIGPROF || WTERMSIG(how) == SIGALRM))
+    if (got == c->pid && WIFSIGNALED(how) && (WTERMSIG(how) == SIGPROF || WTERMSIG(how) == SIGALRM))
         rc_err_set(err,
                    "the file keeps its library busy for more than %.1f s: it is damaged, or "
                    "made to",
                    rc_confine_seconds(file));
-    else if (got == p->child && WIFSIGNALED(how))
+    else if (got == c->pid && WIFSIGNALED(how))
         rc_err_set(err, "the file makes its library fail (%s): it is damaged, or made to",
                    strsignal(WTERMSIG(how)));
     else
@@ -112,55 +135,55 @@ size_t
 rc_sandbox_list(rc_sandboxed_list *list, const struct rc_file *file, const struct rc_wish *wish,
                 struct rc_channel *channel, size_t most, struct rc_err *err)
 {
-    struct rc_err said = {""};
-    struct rc_pipes pipes;
-    size_t n = 0;
+    struct rc_result r = {0};
+    struct child child;
     bool whole;
-    int side;
 
     if (bypassed)
         return list(file, wish, channel, most, err);
-    if ((side = start(&pipes, file, err)) < 0)
+    if (!start(&child, file, err))
         return 0;
-    if (side == 0) {
-        n = list(file, wish, channel, most, &said);
-        leave(&pipes, rc_result_send_list(&pipes, channel, n, most, &said));
+    if (child.pid == 0) {
+        r.n = list(file, wish, channel, most, &r.said);
+        leave(&child, rc_result_send_list(child.result, &r, channel, most));
     }
-    whole = rc_result_receive_list(&pipes, channel, &n, most, &said);
-    if (whole && n == 0)
-        rc_err_set(err, "%s", said.text);
-    finish(&pipes, file, whole, err);
-    return whole ? n : 0;
+    whole = rc_result_receive(child.result, &r) &&
+            rc_result_receive_list(child.result, &r, channel, most);
+    if (whole && r.n == 0)
+        rc_err_set(err, "%s", r.said.text);
+    finish(&child, file, whole, err);
+    return whole ? r.n : 0;
 }
 
 struct rc_grid *
 rc_sandbox_read(rc_sandboxed_read *read, const struct rc_file *file, const struct rc_wish *wish,
                 size_t index, struct rc_notes *notes, struct rc_err *err)
 {
-    struct rc_notes noted = {0};
-    struct rc_err said = {""};
+    struct rc_result r = {0};
     struct rc_grid *g = NULL;
-    struct rc_pipes pipes;
+    struct child child;
     bool whole;
-    int side;
 
     if (bypassed)
         return read(file, wish, index, notes, err);
-    if ((side = start(&pipes, file, err)) < 0)
+    if (!start(&child, file, err))
         return NULL;
-    if (side == 0) {
-        g = read(file, wish, index, &noted, &said);
-        leave(&pipes, rc_result_send_grid(&pipes, g, &noted, &said));
+    if (child.pid == 0) {
+        g = read(file, wish, index, &r.noted, &r.said);
+        r.n = g != NULL;
+        leave(&child, rc_result_send_grid(child.result, &r, g));
     }
-    whole = rc_result_receive_grid(&pipes, file, &g, &noted, &said);
-    if (notes != NULL) {
-        notes->held = pipes.held;
-        notes->metres = whole ? noted.metres : 0;
-    }
-    for (size_t k = 0; whole && k < noted.n; k++)
-        rc_note(notes, "%s", noted.text[k]);
+    whole = rc_result_receive(child.result, &r);
+    if (notes != NULL) /* while the child writes the values */
+        notes->held = memory_of(child.pid);
+    if (whole && r.n > 0)
+        whole = (g = rc_result_receive_grid(child.result, file)) != NULL;
+    if (notes != NULL)
+        notes->metres = whole ? r.noted.metres : 0;
+    for (size_t k = 0; whole && k < r.noted.n; k++)
+        rc_note(notes, "%s", r.noted.text[k]);
     if (whole && g == NULL)
-        rc_err_set(err, "%s", said.text);
-    finish(&pipes, file, whole, err);
+        rc_err_set(err, "%s", r.said.text);
+    finish(&child, file, whole, err);
     return g;
 }

@@ -485,51 +485,41 @@ a_grid_comes_back_whole(void **state)
     rc_grid_free(g);
 }
 
-/* The bytes by which a child sends the grid of good(), values included; the caller frees them. */
+/* The bytes by which a child sends the grid of good(); the caller frees them. */
 static char *
 sent_result(size_t *n)
 {
-    struct rc_notes notes = {0};
-    struct rc_err err = {""};
-    struct rc_grid *g = good(&file, &rc_no_wish, 3, &notes, &err);
-    struct rc_pipes pipes = {.child = -1};
+    struct rc_result r = {.n = 1};
+    struct rc_grid *g = good(&file, &rc_no_wish, 3, &r.noted, &r.said);
     char *bytes = NULL;
-    int end[2];
+    FILE *to = open_memstream(&bytes, n);
 
-    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, end), 0);
-    assert_int_equal(write(end[1], "\2", 1),
-                     1); /* the reply: the values are wanted through the pipe */
-    pipes.reply = end[0];
-    assert_non_null(pipes.result = open_memstream(&bytes, n));
-    assert_true(rc_result_send_grid(&pipes, g, &notes, &err));
-    assert_int_equal(fclose(pipes.result), 0);
-    close(end[0]);
-    close(end[1]);
+    assert_non_null(to);
+    assert_true(rc_result_send_grid(to, &r, g));
+    assert_int_equal(fclose(to), 0);
     rc_grid_free(g);
     return bytes;
 }
 
-/* Receives it from no child, so that there is no memory to copy from: through the pipe. */
 static bool
 receive(char *bytes, size_t n, struct rc_grid **g, struct rc_notes *notes)
 {
-    struct rc_pipes pipes = {.child = -1, .result = fmemopen(bytes, n, "rb")};
-    struct rc_err said;
-    int end[2];
+    FILE *from = fmemopen(bytes, n, "rb");
+    struct rc_result r;
     bool whole;
 
-    assert_non_null(pipes.result);
-    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, end), 0);
-    pipes.reply = end[0];
-    whole = rc_result_receive_grid(&pipes, &file, g, notes, &said);
-    fclose(pipes.result);
-    close(end[0]);
-    close(end[1]);
+    assert_non_null(from);
+    *g = NULL;
+    if ((whole = rc_result_receive(from, &r)) && r.n > 0)
+        whole = (*g = rc_result_receive_grid(from, &file)) != NULL;
+    if (whole)
+        *notes = r.noted;
+    fclose(from);
     return whole;
 }
 
 static void
-values_come_through_the_pipe_too(void **state)
+what_is_cut_off_is_refused(void **state)
 {
     struct rc_notes notes = {0};
     struct rc_grid *g = NULL;
@@ -541,9 +531,9 @@ values_come_through_the_pipe_too(void **state)
     check_good(g);
     assert_string_equal(notes.text[0], "worth saying");
     rc_grid_free(g);
-    for (size_t cut = 1; cut < n; cut += cut < 6000 ? 1 : 9973) {
+    for (size_t cut = 1; cut < n; cut += cut < sizeof(struct rc_result) + 300 ? 1 : 9973) {
         assert_false(receive(bytes, cut, &g, &notes));
-        g = NULL;
+        assert_null(g);
     }
     free(bytes);
 }
@@ -568,7 +558,7 @@ results_are_not_trusted(void **state)
             seed ^= seed << 13;
             seed ^= seed >> 7;
             seed ^= seed << 17;
-            bad[(seed >> 16) % 6000] = (char)nasty[seed % sizeof nasty];
+            bad[(seed >> 16) % (sizeof(struct rc_result) + 300)] = (char)nasty[seed % sizeof nasty];
         }
         if (receive(bad, n, &g, &notes)) {
             assert_true(notes.n <= sizeof notes.text / sizeof *notes.text);
@@ -580,6 +570,24 @@ results_are_not_trusted(void **state)
     printf("3000 results changed at random, %zu of them whole\n", taken);
     free(bad);
     free(bytes);
+}
+
+/* More nodes than the file may have are refused before there is memory for them. */
+static void
+a_grid_of_any_size_is_refused(void **state)
+{
+    static const char head[] = "RCG1\nchannel=height\nnx=1000000\nny=1000000\ndx=1e-06\ndy=1e-06\n"
+                               "unit=m\ntype=f64\n\n";
+    const struct rc_result r = {.n = 1};
+    char bytes[sizeof r + sizeof head];
+    struct rc_notes notes;
+    struct rc_grid *g;
+
+    (void)state;
+    memcpy(bytes, &r, sizeof r);
+    memcpy(bytes + sizeof r, head, sizeof head - 1);
+    assert_false(receive(bytes, sizeof r + sizeof head - 1, &g, &notes));
+    assert_null(g);
 }
 
 static void
@@ -689,8 +697,9 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_grid_comes_back_whole),
-        cmocka_unit_test(values_come_through_the_pipe_too),
+        cmocka_unit_test(what_is_cut_off_is_refused),
         cmocka_unit_test(results_are_not_trusted),
+        cmocka_unit_test(a_grid_of_any_size_is_refused),
         cmocka_unit_test(trouble_stays_in_the_child),
         cmocka_unit_test(memory_is_bounded),
         cmocka_unit_test(lists_come_back),
