@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "formats/sandbox/sandbox.h"
+
 #define RC_FORMAT(name) extern const struct rc_format rc_format_##name;
 #include "formats.list"
 #undef RC_FORMAT
@@ -23,6 +25,38 @@ rc_format_named(const char *name)
         if (strcmp((*f)->name, name) == 0)
             return *f;
     return NULL;
+}
+
+int
+rc_format_score(const struct rc_format *f, const struct rc_file *file)
+{
+    bool is = f->is != NULL && f->is(file);
+
+    if (f->score != NULL)
+        return f->score(file);
+    for (size_t k = 0; k < sizeof f->magic / sizeof *f->magic; k++)
+        is = is || (f->magic[k].n > 0 && rc_file_holds(file, 0, f->magic[k].bytes, f->magic[k].n));
+    return !is ? 0 : f->sure > 0 ? f->sure : 95;
+}
+
+size_t
+rc_format_list(const struct rc_format *f, const struct rc_file *file, const struct rc_wish *wish,
+               struct rc_channel *channel, size_t most, struct rc_err *err)
+{
+    if (f->find != NULL)
+        return rc_maps_list(f->find, file, wish, channel, most, err);
+    return f->sandboxed ? rc_sandbox_list(f->list, file, wish, channel, most, err)
+                        : f->list(file, wish, channel, most, err);
+}
+
+struct rc_grid *
+rc_format_read(const struct rc_format *f, const struct rc_file *file, const struct rc_wish *wish,
+               size_t index, struct rc_notes *notes, struct rc_err *err)
+{
+    if (f->find != NULL)
+        return rc_maps_read(f->find, file, wish, index, notes, err);
+    return f->sandboxed ? rc_sandbox_read(f->read, file, wish, index, notes, err)
+                        : f->read(file, wish, index, notes, err);
 }
 
 /* What users hand over that holds no heights, or holds them packed. */
@@ -60,7 +94,7 @@ rc_format_find(const struct rc_file *file, struct rc_err *err)
     int most = 0;
 
     for (const struct rc_format *const *f = rc_formats; *f != NULL; f++) {
-        int score = (*f)->score(file);
+        int score = rc_format_score(*f, file);
         if (score > most) {
             best = *f;
             most = score;

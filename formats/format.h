@@ -27,8 +27,18 @@ struct rc_format {
     const char *name;     /* "x3p": what --format takes                                          */
     const char *suffixes; /* ".x3p": separated by spaces                                         */
     const char *summary;  /* one line                                                            */
-    /* How sure it is that this is its file, 0 to 100, by content first and name second. */
+    /* A file of this format begins with one of these bytes, or is one by what it holds elsewhere; then `sure`
+     * (0: 95) is its score. */
+    struct {
+        const char *bytes;
+        size_t n;
+    } magic[2];
+    bool (*is)(const struct rc_file *file);
+    int sure;
+    /* Where that does not tell: how sure it is that this is its file, 0 to 100, by content first and name second. */
     int (*score)(const struct rc_file *file);
+    /* Describes the maps of a file (core/maps.h); or, where it is NULL, the two functions below. */
+    rc_maps_find *find;
     /* Fills at most `most` channels, gives their number in the file; 0 and *err on failure. */
     size_t (*list)(const struct rc_file *file, const struct rc_wish *wish,
                    struct rc_channel *channel, size_t most, struct rc_err *err);
@@ -50,6 +60,15 @@ extern const struct rc_format *const rc_formats[];
 const struct rc_format *rc_format_named(const char *name);
 /* The one that is surest of the file, or NULL with the reason. */
 const struct rc_format *rc_format_find(const struct rc_file *file, struct rc_err *err);
+
+/* Those of a format, by what its row has: see above. */
+int rc_format_score(const struct rc_format *format, const struct rc_file *file);
+size_t rc_format_list(const struct rc_format *format, const struct rc_file *file,
+                      const struct rc_wish *wish, struct rc_channel *channel, size_t most,
+                      struct rc_err *err);
+struct rc_grid *rc_format_read(const struct rc_format *format, const struct rc_file *file,
+                               const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+                               struct rc_err *err);
 
 /* What the name of a channel says of it. */
 enum rc_named {

@@ -259,7 +259,7 @@ source_open(struct tool *t, const char *name, const struct rc_wish *wish, struct
         return refuse_stream(name, err);
     s->format = args.format == NULL ? rc_format_find(&s->file, err) : rc_format_named(args.format);
     if (s->format == NULL ||
-        (s->n = s->format->list(&s->file, wish, s->channel, CHANNELS_MOST, err)) == 0)
+        (s->n = rc_format_list(s->format, &s->file, wish, s->channel, CHANNELS_MOST, err)) == 0)
         return RC_FAIL;
     if (s->n > CHANNELS_MOST) {
         tool_warn(t, "%s: only the first %d of its %zu channels are looked at", t->source,
@@ -317,7 +317,7 @@ range_of(struct tool *t, const struct source *s, const struct rc_wish *wish, siz
         lax.z_unit = 1;
     range[0] = INFINITY;
     range[1] = -INFINITY;
-    if ((g = s->format->read(&s->file, &lax, index, NULL, &err)) == NULL) {
+    if ((g = rc_format_read(s->format, &s->file, &lax, index, NULL, &err)) == NULL) {
         tool_fail(t, "%s: channel %zu: %s", t->source, index + 1, err.text);
         return false;
     }
@@ -467,7 +467,7 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
 
     if (pick_channel(s, wish, &pick, err) != RC_OK ||
         check_memory(t, s, &s->channel[pick.index], err) != RC_OK ||
-        (g = s->format->read(&s->file, wish, pick.index, &notes, err)) == NULL)
+        (g = rc_format_read(s->format, &s->file, wish, pick.index, &notes, err)) == NULL)
         return RC_FAIL;
     if (notes.held > 0)
         tool_memory_beside(t, notes.held);

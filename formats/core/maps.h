@@ -98,17 +98,4 @@ struct rc_grid *rc_maps_read(rc_maps_find *find, const struct rc_file *file,
                              const struct rc_wish *wish, size_t index, struct rc_notes *notes,
                              struct rc_err *err);
 
-/* The functions NAME_list and NAME_read of a format, from its NAME_find. */
-#define RC_FORMAT_OF_MAPS(name)                                                                    \
-    static size_t name##_list(const struct rc_file *file, const struct rc_wish *wish,              \
-                              struct rc_channel *channel, size_t most, struct rc_err *err)         \
-    {                                                                                              \
-        return rc_maps_list(name##_find, file, wish, channel, most, err);                          \
-    }                                                                                              \
-    static struct rc_grid *name##_read(const struct rc_file *file, const struct rc_wish *wish,     \
-                                       size_t index, struct rc_notes *notes, struct rc_err *err)   \
-    {                                                                                              \
-        return rc_maps_read(name##_find, file, wish, index, notes, err);                           \
-    }
-
 #endif

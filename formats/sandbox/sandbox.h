@@ -23,20 +23,6 @@ struct rc_grid *rc_sandbox_read(rc_sandboxed_read *read, const struct rc_file *f
                                 const struct rc_wish *wish, size_t index, struct rc_notes *notes,
                                 struct rc_err *err);
 
-/* The functions NAME_list and NAME_read of a format, which run list_channels and read_values in the
- * sandbox. */
-#define RC_FORMAT_SANDBOXED(name)                                                                  \
-    static size_t name##_list(const struct rc_file *file, const struct rc_wish *wish,              \
-                              struct rc_channel *channel, size_t most, struct rc_err *err)         \
-    {                                                                                              \
-        return rc_sandbox_list(list_channels, file, wish, channel, most, err);                     \
-    }                                                                                              \
-    static struct rc_grid *name##_read(const struct rc_file *file, const struct rc_wish *wish,     \
-                                       size_t index, struct rc_notes *notes, struct rc_err *err)   \
-    {                                                                                              \
-        return rc_sandbox_read(read_values, file, wish, index, notes, err);                        \
-    }
-
 /* From now on the calls run in this process, without bounds: for fuzzers, whose sanitizers must see
  * them. false: in the sandbox again. */
 void rc_sandbox_bypass(bool bypass);

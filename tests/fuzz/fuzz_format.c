@@ -84,7 +84,7 @@ try_file(const uint8_t *data, size_t size)
         format = rc_format_named(name);
     if (format == NULL)
         return;
-    n = format->list(&file, &wish, channel, CHANNELS, &err);
+    n = rc_format_list(format, &file, &wish, channel, CHANNELS, &err);
     if (n == 0 && err.text[0] == '\0')
         abort();
     check_words(err.text);
@@ -93,7 +93,7 @@ try_file(const uint8_t *data, size_t size)
         struct rc_grid *g;
 
         err.text[0] = '\0';
-        g = format->read(&file, &wish, k, &notes, &err);
+        g = rc_format_read(format, &file, &wish, k, &notes, &err);
         if (g == NULL && err.text[0] == '\0')
             abort();
         check_words(err.text);

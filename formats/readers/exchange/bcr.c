@@ -123,13 +123,10 @@ bcr_score(const struct rc_file *file)
     return kind_of(file, &mark) < sizeof kinds / sizeof *kinds ? 95 : 0;
 }
 
-RC_FORMAT_OF_MAPS(bcr)
-
 const struct rc_format rc_format_bcr = {
     .name = "bcr",
     .suffixes = ".bcr .bcrf",
     .summary = "BCR and BCRF (ImageMet)",
     .score = bcr_score,
-    .list = bcr_list,
-    .read = bcr_read,
+    .find = bcr_find,
 };

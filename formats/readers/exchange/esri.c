@@ -68,19 +68,11 @@ esri_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     return RC_OK;
 }
 
-static int
-esri_score(const struct rc_file *file)
-{
-    return has_magic(file) ? 90 : 0;
-}
-
-RC_FORMAT_OF_MAPS(esri)
-
 const struct rc_format rc_format_esri = {
     .name = "esri",
     .suffixes = ".asc",
     .summary = "ESRI ASCII grid",
-    .score = esri_score,
-    .list = esri_list,
-    .read = esri_read,
+    .is = has_magic,
+    .sure = 90,
+    .find = esri_find,
 };

@@ -127,13 +127,10 @@ grd_score(const struct rc_file *file)
     return 0;
 }
 
-RC_FORMAT_OF_MAPS(grd)
-
 const struct rc_format rc_format_grd = {
     .name = "grd",
     .suffixes = ".grd",
     .summary = "Surfer grids: text, version 6 and 7",
     .score = grd_score,
-    .list = grd_list,
-    .read = grd_read,
+    .find = grd_find,
 };

@@ -52,19 +52,10 @@ gsf_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return RC_OK;
 }
 
-static int
-gsf_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, magic, strlen(magic)) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(gsf)
-
 const struct rc_format rc_format_gsf = {
     .name = "gsf",
     .suffixes = ".gsf",
     .summary = "Gwyddion Simple Field",
-    .score = gsf_score,
-    .list = gsf_list,
-    .read = gsf_read,
+    .magic = {{magic, sizeof magic - 1}},
+    .find = gsf_find,
 };

@@ -300,19 +300,10 @@ gwy_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return maps->n > 0 ? RC_OK : rc_err_set(err, "the file holds no image (/0/data and so on)");
 }
 
-static int
-gwy_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, "GWYP", 4) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(gwy)
-
 const struct rc_format rc_format_gwy = {
     .name = "gwy",
     .suffixes = ".gwy",
     .summary = "Gwyddion's own format: images, with their masks",
-    .score = gwy_score,
-    .list = gwy_list,
-    .read = gwy_read,
+    .magic = {{"GWYP", 4}},
+    .find = gwy_find,
 };

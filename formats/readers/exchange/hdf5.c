@@ -9,7 +9,6 @@
 
 #include "formats/containers/containers.h"
 #include "formats/format.h"
-#include "formats/sandbox/sandbox.h"
 
 enum {
     SETS_MOST = 256
@@ -122,14 +121,12 @@ hdf5_score(const struct rc_file *file)
     return rc_hdf_is(file) ? 60 : 0; /* instruments have formats of their own in it */
 }
 
-RC_FORMAT_SANDBOXED(hdf5)
-
 const struct rc_format rc_format_hdf5 = {
     .name = "hdf5",
     .suffixes = ".h5 .hdf5",
     .summary = "HDF5: datasets of two dimensions",
     .score = hdf5_score,
-    .list = hdf5_list,
-    .read = hdf5_read,
+    .list = list_channels,
+    .read = read_values,
     .sandboxed = true,
 };

@@ -346,13 +346,10 @@ mat_score(const struct rc_file *file)
     return named; /* to say what it lacks */
 }
 
-RC_FORMAT_OF_MAPS(mat)
-
 const struct rc_format rc_format_mat = {
     .name = "mat",
     .suffixes = ".mat",
     .summary = "MATLAB arrays of two dimensions, MAT version 5 (save -v6, -v7)",
     .score = mat_score,
-    .list = mat_list,
-    .read = mat_read,
+    .find = mat_find,
 };

@@ -10,7 +10,6 @@
 #include "matlab.h"
 #include "formats/containers/containers.h"
 #include "formats/format.h"
-#include "formats/sandbox/sandbox.h"
 
 enum {
     AT_VERSION = 124,
@@ -168,20 +167,12 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
 
 /* ---- the entry in formats.list ---- */
 
-static int
-mat73_score(const struct rc_file *file)
-{
-    return has_magic(file) ? 95 : 0;
-}
-
-RC_FORMAT_SANDBOXED(mat73)
-
 const struct rc_format rc_format_mat73 = {
     .name = "mat73",
     .suffixes = ".mat",
     .summary = "MATLAB arrays of two dimensions, MAT version 7.3 (save -v7.3)",
-    .score = mat73_score,
-    .list = mat73_list,
-    .read = mat73_read,
+    .is = has_magic,
+    .list = list_channels,
+    .read = read_values,
     .sandboxed = true,
 };

@@ -234,13 +234,10 @@ npy_score(const struct rc_file *file)
     return array ? 85 : 0;
 }
 
-RC_FORMAT_OF_MAPS(npy)
-
 const struct rc_format rc_format_npy = {
     .name = "npy",
     .suffixes = ".npy .npz",
     .summary = "NumPy arrays of one or two dimensions, in archives too",
     .score = npy_score,
-    .list = npy_list,
-    .read = npy_read,
+    .find = npy_find,
 };

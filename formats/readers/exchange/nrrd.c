@@ -328,19 +328,10 @@ nrrd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     return RC_OK;
 }
 
-static int
-nrrd_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, magic, strlen(magic)) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(nrrd)
-
 const struct rc_format rc_format_nrrd = {
     .name = "nrrd",
     .suffixes = ".nrrd",
     .summary = "NRRD of two axes: raw, gzip or text",
-    .score = nrrd_score,
-    .list = nrrd_list,
-    .read = nrrd_read,
+    .magic = {{magic, sizeof magic - 1}},
+    .find = nrrd_find,
 };

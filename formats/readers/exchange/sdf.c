@@ -190,13 +190,10 @@ sdf_score(const struct rc_file *file)
     return begins(file, 'a') || begins(file, 'b') ? 95 : 0;
 }
 
-RC_FORMAT_OF_MAPS(sdf)
-
 const struct rc_format rc_format_sdf = {
     .name = "sdf",
     .suffixes = ".sdf",
     .summary = "ISO 25178-71 (EUNA 15178), text and binary",
     .score = sdf_score,
-    .list = sdf_list,
-    .read = sdf_read,
+    .find = sdf_find,
 };

@@ -14,7 +14,6 @@
 
 #include "formats/containers/containers.h"
 #include "formats/format.h"
-#include "formats/sandbox/sandbox.h"
 
 enum {
     DESCRIPTION = 2000
@@ -169,21 +168,14 @@ done:
 }
 
 /* Any TIFF that no other format takes: to say why it is refused. */
-static int
-tiff_score(const struct rc_file *file)
-{
-    return rc_tiff_is(file) ? 4 : 0;
-}
-
-RC_FORMAT_SANDBOXED(tiff)
-
 const struct rc_format rc_format_tiff = {
     .name = "tiff",
     .suffixes = ".tif .tiff",
     .summary = "TIFF of floats, with the spacing of ImageJ",
-    .score = tiff_score,
-    .list = tiff_list,
-    .read = tiff_read,
+    .is = rc_tiff_is,
+    .sure = 4,
+    .list = list_channels,
+    .read = read_values,
     .sandboxed = true,
     .copies = true,
 };

@@ -291,13 +291,10 @@ createc_score(const struct rc_file *file)
     return kind_of(file) != NULL ? 95 : 0;
 }
 
-RC_FORMAT_OF_MAPS(createc)
-
 const struct rc_format rc_format_createc = {
     .name = "createc",
     .suffixes = ".dat",
     .summary = "Createc scans (STMAFM), packed or not",
     .score = createc_score,
-    .list = createc_list,
-    .read = createc_read,
+    .find = createc_find,
 };

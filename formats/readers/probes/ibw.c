@@ -233,13 +233,10 @@ ibw_score(const struct rc_file *file)
     return named ? 60 : 0; /* so that the refusal says what is wrong */
 }
 
-RC_FORMAT_OF_MAPS(ibw)
-
 const struct rc_format rc_format_ibw = {
     .name = "ibw",
     .suffixes = ".ibw",
     .summary = "Igor binary waves of one to three dimensions",
     .score = ibw_score,
-    .list = ibw_list,
-    .read = ibw_read,
+    .find = ibw_find,
 };

@@ -186,19 +186,10 @@ iso28600_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     return RC_OK;
 }
 
-static int
-iso28600_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, magic, strlen(magic)) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(iso28600)
-
 const struct rc_format rc_format_iso28600 = {
     .name = "iso28600",
     .suffixes = ".spm",
     .summary = "ISO 28600: maps of scanning probes as text",
-    .score = iso28600_score,
-    .list = iso28600_list,
-    .read = iso28600_read,
+    .magic = {{magic, sizeof magic - 1}},
+    .find = iso28600_find,
 };

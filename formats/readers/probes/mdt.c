@@ -286,19 +286,10 @@ mdt_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return RC_OK;
 }
 
-static int
-mdt_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, magic, 4) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(mdt)
-
 const struct rc_format rc_format_mdt = {
     .name = "mdt",
     .suffixes = ".mdt",
     .summary = "NT-MDT (Nova): scans and arrays of two axes",
-    .score = mdt_score,
-    .list = mdt_list,
-    .read = mdt_read,
+    .magic = {{magic, 4}},
+    .find = mdt_find,
 };

@@ -131,19 +131,10 @@ mi_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *
     return place_buffers(&m, (size_t)(lines.at - text), maps, err);
 }
 
-static int
-mi_score(const struct rc_file *file)
-{
-    return has_magic(file) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(mi)
-
 const struct rc_format rc_format_mi = {
     .name = "mi",
     .suffixes = ".mi",
     .summary = "PicoView (Molecular Imaging, Agilent) images",
-    .score = mi_score,
-    .list = mi_list,
-    .read = mi_read,
+    .is = has_magic,
+    .find = mi_find,
 };

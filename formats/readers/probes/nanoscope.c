@@ -290,13 +290,10 @@ nanoscope_score(const struct rc_file *file)
                : 35; /* all text: an export, or a header without its images */
 }
 
-RC_FORMAT_OF_MAPS(nanoscope)
-
 const struct rc_format rc_format_nanoscope = {
     .name = "nanoscope",
     .suffixes = ".spm .001 .di",
     .summary = "Bruker (Veeco, Digital Instruments) NanoScope images",
     .score = nanoscope_score,
-    .list = nanoscope_list,
-    .read = nanoscope_read,
+    .find = nanoscope_find,
 };

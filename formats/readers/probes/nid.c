@@ -241,19 +241,10 @@ nid_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return add_all(header, table, header.n, maps, err);
 }
 
-static int
-nid_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, "[DataSet]", 9) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(nid)
-
 const struct rc_format rc_format_nid = {
     .name = "nid",
     .suffixes = ".nid .ezd",
     .summary = "Nanosurf images",
-    .score = nid_score,
-    .list = nid_list,
-    .read = nid_read,
+    .magic = {{"[DataSet]", 9}},
+    .find = nid_find,
 };

@@ -9,7 +9,6 @@
 
 #include "formats/containers/containers.h"
 #include "formats/format.h"
-#include "formats/sandbox/sandbox.h"
 
 enum {
     MAGIC_TAG = 50432,
@@ -251,15 +250,13 @@ park_score(const struct rc_file *file)
                : 0;
 }
 
-RC_FORMAT_SANDBOXED(park)
-
 const struct rc_format rc_format_park = {
     .name = "park",
     .suffixes = ".tif .tiff",
     .summary = "Park Systems TIFF",
     .score = park_score,
-    .list = park_list,
-    .read = park_read,
+    .list = list_channels,
+    .read = read_values,
     .sandboxed = true,
     .copies = true,
 };

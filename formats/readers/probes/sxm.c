@@ -181,19 +181,10 @@ sxm_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return RC_OK;
 }
 
-static int
-sxm_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, magic, strlen(magic)) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(sxm)
-
 const struct rc_format rc_format_sxm = {
     .name = "sxm",
     .suffixes = ".sxm",
     .summary = "Nanonis scans",
-    .score = sxm_score,
-    .list = sxm_list,
-    .read = sxm_read,
+    .magic = {{magic, sizeof magic - 1}},
+    .find = sxm_find,
 };

@@ -111,19 +111,10 @@ wsxm_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     return set_scale(file, &w, map, err);
 }
 
-static int
-wsxm_score(const struct rc_file *file)
-{
-    return has_magic(file) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(wsxm)
-
 const struct rc_format rc_format_wsxm = {
     .name = "wsxm",
     .suffixes = ".stp .top",
     .summary = "WSxM (Nanotec) images",
-    .score = wsxm_score,
-    .list = wsxm_list,
-    .read = wsxm_read,
+    .is = has_magic,
+    .find = wsxm_find,
 };

@@ -86,19 +86,10 @@ al3d_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     return RC_OK;
 }
 
-static int
-al3d_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, magic, MAGIC) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(al3d)
-
 const struct rc_format rc_format_al3d = {
     .name = "al3d",
     .suffixes = ".al3d",
     .summary = "Alicona focus variation",
-    .score = al3d_score,
-    .list = al3d_list,
-    .read = al3d_read,
+    .magic = {{magic, MAGIC}},
+    .find = al3d_find,
 };

@@ -13,7 +13,6 @@
 
 #include "formats/containers/containers.h"
 #include "formats/format.h"
-#include "formats/sandbox/sandbox.h"
 
 enum {
     WORD = 128
@@ -205,14 +204,12 @@ datx_score(const struct rc_file *file)
     return rc_file_named(file, ".datx") ? 70 : 0;
 }
 
-RC_FORMAT_SANDBOXED(datx)
-
 const struct rc_format rc_format_datx = {
     .name = "datx",
     .suffixes = ".datx",
     .summary = "Zygo DATX (Mx)",
     .score = datx_score,
-    .list = datx_list,
-    .read = datx_read,
+    .list = list_channels,
+    .read = read_values,
     .sandboxed = true,
 };

@@ -114,19 +114,10 @@ frt_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return RC_OK;
 }
 
-static int
-frt_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, magic, MAGIC) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(frt)
-
 const struct rc_format rc_format_frt = {
     .name = "frt",
     .suffixes = ".frt",
     .summary = "FRT MicroProf",
-    .score = frt_score,
-    .list = frt_list,
-    .read = frt_read,
+    .magic = {{magic, MAGIC}},
+    .find = frt_find,
 };

@@ -9,7 +9,6 @@
 
 #include "formats/containers/containers.h"
 #include "formats/format.h"
-#include "formats/sandbox/sandbox.h"
 
 enum {
     DEVICE_SETTINGS = 0xa40b,
@@ -266,14 +265,12 @@ lext_score(const struct rc_file *file)
     return rc_tiff_is(file) && rc_piece_find(rc_file_piece(file), magic) != NULL ? 90 : 0;
 }
 
-RC_FORMAT_SANDBOXED(lext)
-
 const struct rc_format rc_format_lext = {
     .name = "lext",
     .suffixes = ".lext",
     .summary = "Olympus LEXT (OLS4000)",
     .score = lext_score,
-    .list = lext_list,
-    .read = lext_read,
+    .list = list_channels,
+    .read = read_values,
     .sandboxed = true,
 };

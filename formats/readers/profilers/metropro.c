@@ -84,19 +84,10 @@ metropro_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     return RC_OK;
 }
 
-static int
-metropro_score(const struct rc_file *file)
-{
-    return has_magic(file) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(metropro)
-
 const struct rc_format rc_format_metropro = {
     .name = "metropro",
     .suffixes = ".dat",
     .summary = "Zygo MetroPro",
-    .score = metropro_score,
-    .list = metropro_list,
-    .read = metropro_read,
+    .is = has_magic,
+    .find = metropro_find,
 };

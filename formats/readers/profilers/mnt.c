@@ -338,13 +338,10 @@ mnt_score(const struct rc_file *file)
     return !rc_ole_is(file) ? 0 : rc_file_named(file, ".mnt") ? 90 : 30;
 }
 
-RC_FORMAT_OF_MAPS(mnt)
-
 const struct rc_format rc_format_mnt = {
     .name = "mnt",
     .suffixes = ".mnt",
     .summary = "Digital Surf Mountains documents: surfaces as measured",
     .score = mnt_score,
-    .list = mnt_list,
-    .read = mnt_read,
+    .find = mnt_find,
 };

@@ -158,19 +158,10 @@ opd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return RC_OK;
 }
 
-static int
-opd_score(const struct rc_file *file)
-{
-    return has_directory(file) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(opd)
-
 const struct rc_format rc_format_opd = {
     .name = "opd",
     .suffixes = ".opd",
     .summary = "Wyko (Veeco, Bruker) interferometers",
-    .score = opd_score,
-    .list = opd_list,
-    .read = opd_read,
+    .is = has_directory,
+    .find = opd_find,
 };

@@ -290,19 +290,10 @@ opdx_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     return RC_OK;
 }
 
-static int
-opdx_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, "VCA DATA", 8) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(opdx)
-
 const struct rc_format rc_format_opdx = {
     .name = "opdx",
     .suffixes = ".opdx",
     .summary = "Dektak OPDx (Bruker Vision64), profiles and maps",
-    .score = opdx_score,
-    .list = opdx_list,
-    .read = opdx_read,
+    .magic = {{"VCA DATA", 8}},
+    .find = opdx_find,
 };

@@ -82,13 +82,10 @@ plu_score(const struct rc_file *file)
     return has_day ? 20 : 0; /* so that the refusal says what it holds */
 }
 
-RC_FORMAT_OF_MAPS(plu)
-
 const struct rc_format rc_format_plu = {
     .name = "plu",
     .suffixes = ".plu",
     .summary = "Sensofar confocal and interferometric maps",
     .score = plu_score,
-    .list = plu_list,
-    .read = plu_read,
+    .find = plu_find,
 };

@@ -197,19 +197,10 @@ sur_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return RC_OK;
 }
 
-static int
-sur_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, plain, MAGIC) || rc_file_holds(file, 0, packed, MAGIC) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(sur)
-
 const struct rc_format rc_format_sur = {
     .name = "sur",
     .suffixes = ".sur .pro",
     .summary = "Digital Surf surfaces and profiles, compressed too",
-    .score = sur_score,
-    .list = sur_list,
-    .read = sur_read,
+    .magic = {{plain, MAGIC}, {packed, MAGIC}},
+    .find = sur_find,
 };

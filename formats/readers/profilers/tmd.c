@@ -51,19 +51,10 @@ tmd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return RC_OK;
 }
 
-static int
-tmd_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, magic, MAGIC) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(tmd)
-
 const struct rc_format rc_format_tmd = {
     .name = "tmd",
     .suffixes = ".tmd",
     .summary = "TrueMap, GelSight",
-    .score = tmd_score,
-    .list = tmd_list,
-    .read = tmd_read,
+    .magic = {{magic, MAGIC}},
+    .find = tmd_find,
 };

@@ -220,13 +220,10 @@ vk_score(const struct rc_file *file)
     return !is_packed(file) ? 0 : rc_file_named(file, ".vk6 .vk7") ? 95 : 60;
 }
 
-RC_FORMAT_OF_MAPS(vk)
-
 const struct rc_format rc_format_vk = {
     .name = "vk",
     .suffixes = ".vk3 .vk4 .vk6 .vk7",
     .summary = "Keyence VK confocal microscopes",
     .score = vk_score,
-    .list = vk_list,
-    .read = vk_read,
+    .find = vk_find,
 };

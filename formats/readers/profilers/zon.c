@@ -292,19 +292,10 @@ zon_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return status;
 }
 
-static int
-zon_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, "KPK0", 4) || rc_file_holds(file, 0, "KPK1", 4) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(zon)
-
 const struct rc_format rc_format_zon = {
     .name = "zon",
     .suffixes = ".zon",
     .summary = "Keyence ZON (VR): heights of a one-shot macroscope",
-    .score = zon_score,
-    .list = zon_list,
-    .read = zon_read,
+    .magic = {{"KPK0", 4}, {"KPK1", 4}},
+    .find = zon_find,
 };

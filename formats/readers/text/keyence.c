@@ -182,13 +182,10 @@ keyence_score(const struct rc_file *file)
     return rc_file_is_text(file) && rc_piece_find(start, magic) != NULL ? 92 : 0;
 }
 
-RC_FORMAT_OF_MAPS(keyence)
-
 const struct rc_format rc_format_keyence = {
     .name = "keyence",
     .suffixes = ".csv",
     .summary = "Keyence image data as text",
     .score = keyence_score,
-    .list = keyence_list,
-    .read = keyence_read,
+    .find = keyence_find,
 };

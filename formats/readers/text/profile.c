@@ -266,14 +266,11 @@ profile_score(const struct rc_file *file)
     return score;
 }
 
-RC_FORMAT_OF_MAPS(profile)
-
 const struct rc_format rc_format_profile = {
     .name = "profile",
     .suffixes = ".txt .csv .asc .hfm",
     .summary = "profiles as text: positions and heights",
     .score = profile_score,
-    .list = profile_list,
-    .read = profile_read,
+    .find = profile_find,
     .columns = true,
 };

@@ -181,19 +181,10 @@ smd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return RC_OK;
 }
 
-static int
-smd_score(const struct rc_file *file)
-{
-    return is_smd(file) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(smd)
-
 const struct rc_format rc_format_smd = {
     .name = "smd",
     .suffixes = ".smd",
     .summary = "profiles of ISO 5436-2:2001",
-    .score = smd_score,
-    .list = smd_list,
-    .read = smd_read,
+    .is = is_smd,
+    .find = smd_find,
 };

@@ -214,19 +214,10 @@ wykotext_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     return RC_OK;
 }
 
-static int
-wykotext_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, magic, strlen(magic)) ? 95 : 0;
-}
-
-RC_FORMAT_OF_MAPS(wykotext)
-
 const struct rc_format rc_format_wykotext = {
     .name = "wykotext",
     .suffixes = ".asc .txt",
     .summary = "Wyko (Veeco, Bruker) as text",
-    .score = wykotext_score,
-    .list = wykotext_list,
-    .read = wykotext_read,
+    .magic = {{magic, sizeof magic - 1}},
+    .find = wykotext_find,
 };

@@ -361,14 +361,11 @@ xyz_score(const struct rc_file *file)
     return score;
 }
 
-RC_FORMAT_OF_MAPS(xyz)
-
 const struct rc_format rc_format_xyz = {
     .name = "xyz",
     .suffixes = ".xyz .txt .csv",
     .summary = "points of a raster as text: x, y, z",
     .score = xyz_score,
-    .list = xyz_list,
-    .read = xyz_read,
+    .find = xyz_find,
     .columns = true,
 };

@@ -180,22 +180,10 @@ zygo_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     return rc_map_is_text(map, file, (size_t)(z.points.at - (const char *)file->data), err);
 }
 
-static int
-zygo_score(const struct rc_file *file)
-{
-    return rc_file_holds(file, 0, xyz_magic, strlen(xyz_magic)) ||
-                   rc_file_holds(file, 0, ascii_magic, strlen(ascii_magic))
-               ? 95
-               : 0;
-}
-
-RC_FORMAT_OF_MAPS(zygo)
-
 const struct rc_format rc_format_zygo = {
     .name = "zygo",
     .suffixes = ".xyz .asc .txt",
     .summary = "Zygo XYZ and ASCII data",
-    .score = zygo_score,
-    .list = zygo_list,
-    .read = zygo_read,
+    .magic = {{xyz_magic, sizeof xyz_magic - 1}, {ascii_magic, sizeof ascii_magic - 1}},
+    .find = zygo_find,
 };

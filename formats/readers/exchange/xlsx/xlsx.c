@@ -384,10 +384,10 @@ try_block(const struct rc_workbook *w, const struct block *b, const struct rc_wi
     tabs.decimal = '.';
     tabs.missing = NULL;
     block_name(b, name);
-    if (format != NULL && format->list(&file, &tabs, channel, 1, err) > 0) {
+    if (format != NULL && rc_format_list(format, &file, &tabs, channel, 1, err) > 0) {
         strcpy(channel->name, name);
         status = RC_OK;
-        if (g != NULL && ((*g = format->read(&file, &tabs, 0, notes, err)) == NULL ||
+        if (g != NULL && ((*g = rc_format_read(format, &file, &tabs, 0, notes, err)) == NULL ||
                           rc_word_keep(*g, "file.channel", name, err) != RC_OK)) {
             rc_grid_free(*g);
             *g = NULL;
@@ -468,17 +468,12 @@ xlsx_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
     return g;
 }
 
-static int
-xlsx_score(const struct rc_file *file)
-{
-    return rc_workbook_is(file) ? 90 : 0;
-}
-
 const struct rc_format rc_format_xlsx = {
     .name = "xlsx",
     .suffixes = ".xlsx .xlsm",
     .summary = "workbooks (XLSX): blocks of numbers as profiles and maps",
-    .score = xlsx_score,
+    .is = rc_workbook_is,
+    .sure = 90,
     .list = xlsx_list,
     .read = xlsx_read,
 };
