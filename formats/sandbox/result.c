@@ -56,12 +56,15 @@ bool
 rc_result_send_grid(FILE *to, const struct rc_result *r, struct rc_grid *g)
 {
     struct rc_writer *writer;
+    bool sent;
 
     if (!put(to, r, sizeof *r) || r->n == 0)
         return r->n == 0;
     g->type = RC_F64;
     writer = rc_writer_new(to, NULL);
-    return writer != NULL && rc_writer_put(writer, g, NULL) == RC_OK;
+    sent = writer != NULL && rc_writer_put(writer, g, NULL) == RC_OK;
+    rc_writer_free(writer);
+    return sent;
 }
 
 /* Before memory is taken for it. */
