@@ -134,11 +134,12 @@ include_faults() {
 
 # symbols BUILD: "D source name" for what is defined, "U source name" for what is used.
 symbols() {
-    objects "$1" libcontact formats tools | while read -r object source; do
-        nm -g "$object" | awk -v source="$source" '
-            NF == 3 && $2 ~ /^[TDBRVWC]$/ { print "D", source, $3 }
-            NF == 2 && $1 == "U" { print "U", source, $2 }'
-    done | sort -u
+    objects "$1" libcontact formats tools >sources.txt
+    cut -d ' ' -f 1 sources.txt | xargs nm -gA | awk '
+        FILENAME == "sources.txt" { source[$1] = $2; next }
+        { object = $1; sub(/\.o:.*/, ".o", object) }
+        $1 !~ /:$/ && $2 ~ /^[TDBRVWC]$/ { print "D", source[object], $3 }
+        $2 == "U" { print "U", source[object], $3 }' sources.txt - | sort -u
 }
 
 # call_faults SYMBOLS: the calls that the table does not allow.

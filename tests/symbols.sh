@@ -24,12 +24,10 @@ declared() {
 objects() {
     local build=$1 object source
     shift
-    find "${@/#/$build/}" -name '*.o' | while read -r object; do
-        source=$(sed 's,CMakeFiles/[^/]*\.dir/,,; s,\.o$,,' <<<"${object#"$build"/}")
-        if [ -f "$RC_SOURCE/$source" ]; then
-            echo "$object $source"
-        fi
-    done
+    find "${@/#/$build/}" -name '*.o' | sed -E "s,^$build/(.*)CMakeFiles/[^/]*\.dir/(.*)\.o\$,& \1\2," |
+        while read -r object source; do
+            [ ! -f "$RC_SOURCE/$source" ] || echo "$object $source"
+        done
 }
 
 # sanitizers LIBRARY: the options of the compiler that the archive was made with, and programs that use
