@@ -525,6 +525,7 @@ static struct canvas *
 draw_lines(struct tool *t, struct args *a, const struct frames *f, struct drawn *drawn)
 {
     struct range range = {.lo = NAN, .hi = NAN};
+    struct survey all;
 
     if (a->histogram)
         return histogram_draw(t, f->grid, f->touch, f->n, &a->style, drawn);
@@ -534,6 +535,8 @@ draw_lines(struct tool *t, struct args *a, const struct frames *f, struct drawn 
         range_read(t, a->range, f->grid[0], &range);
         if (range.kind != RANGE_VALUES)
             tool_die(t, EXIT_USAGE, "--range %s: for --cut it must be LO:HI, two values", a->range);
+        sheet_survey(t, f, &all);
+        range_doubt(t, a->range, f->grid[0]->unit, &all, &range);
         a->range = range_text(&range);
     }
     return cut_draw(t, f->grid, f->n, a->cut, range.lo, range.hi, &a->style, drawn);

@@ -85,6 +85,21 @@ made 30 szz Pa '-$i * 1e7' >pressed.rcg
 claim "a stress of one sign" rc-render --width 1200 -o pressed.svg pressed.rcg
 marks_lie pressed.svg -290 0 0 "ends at 0"
 
+# ---- a unit that was forgotten ----
+
+doubted() { # doubted RANGE: as a map and as a cut
+    warns "range $1 goes from .*, but the values go from 0 Pa to 441 MPa: was a unit forgotten" rc-render --range "$1" -o doubt.png touch.rcg &&
+        warns 'was a unit forgotten' rc-render --range "$1" --cut y=0 -o doubt.png touch.rcg
+}
+for range in 0:6 2GPa:6GPa 0:1000GPa; do
+    claim "--range $range, of which values up to 441 MPa leave next to nothing, is doubted" doubted $range
+done
+quiet() { rc-render "$@" -o doubt.png 2>said.txt && ! grep -q forgotten said.txt; }
+claim "one that holds the values is not" quiet --range 0:6GPa touch.rcg
+claim "  nor one that shows a hundredth of them" quiet --range 1MPa:6MPa touch.rcg
+made 30 height m 1e-6 >flat.rcg
+claim "  nor that of a map with one value in it" quiet --range 0:2um flat.rcg
+
 for range in 1%:2 1%:101% 5%:5% 90%:10% -1%:5% 1% %:5% x%:5%; do
     refuses 2 "--range $range: percentiles are P%:Q%" "--range $range" "rc-render --range $range ramp.rcg >no.png"
 done

@@ -37,6 +37,7 @@ choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid,
     *r = (struct range){.kind = a->clip ? RANGE_CLIP : RANGE_AUTO};
     if (a->range != NULL)
         range_read(t, a->range, grid[0], r);
+    range_doubt(t, a->range, grid[0]->unit, s, r);
     range_choose(grid, touch, n, s, f->map, &look->what, look_is_profile(grid[0]) && !a->raw, r);
     if (r->kind == RANGE_VALUES)
         a->range = range_text(r);

@@ -272,6 +272,25 @@ range_text(const struct range *r)
     return si;
 }
 
+/* Warns where hardly anything is left to be told apart, as where a unit was forgotten: the range lies beside the
+ * values, or one of both fills less than a thousandth of the other. */
+void
+range_doubt(struct tool *t, const char *text, const char *unit, const struct survey *s,
+            const struct range *r)
+{
+    const double common = fmin(r->hi, s->max) - fmax(r->lo, s->min), values = s->max - s->min;
+    char is[4][SHOWN_NUMBER];
+
+    if (r->kind != RANGE_VALUES || (common >= 0 && common >= 1e-3 * values &&
+                                    (values == 0 || common >= 1e-3 * (r->hi - r->lo))))
+        return;
+    tool_warn(t,
+              "--range %s goes from %s to %s, but the values go from %s to %s: was a unit "
+              "forgotten?",
+              text, shown_in_unit(is[0], r->lo, unit), shown_in_unit(is[1], r->hi, unit),
+              shown_in_unit(is[2], s->min, unit), shown_in_unit(is[3], s->max, unit));
+}
+
 /* ---- the ends ---- */
 
 /* Values this close to 0 are rounding: a hundredth of an atom, or a thousand millionth of the

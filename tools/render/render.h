@@ -141,6 +141,9 @@ const char *range_text(const struct range *range);
 void range_choose(struct rc_grid *const *grid, const struct rc_grid *const *touch, size_t n,
                   const struct survey *survey, const struct colormap *map,
                   const struct channel *what, bool curve, struct range *range);
+/* Warns of a range LO:HI, given as `text`, in which hardly any value can be told from another. */
+void range_doubt(struct tool *tool, const char *text, const char *unit, const struct survey *survey,
+                 const struct range *range);
 /* Moves the lower end above 0, to the least value above it, six decades down at most. */
 void range_take_logarithm(struct tool *tool, struct rc_grid *const *grid, size_t n,
                           struct range *range);
