@@ -528,7 +528,7 @@ draw_stamp(struct page *p, double middle, double y)
 void
 page_heading(struct page *p)
 {
-    double y = 24 * p->u, middle = 0.5 * (double)p->w;
+    double y = p->top + 24 * p->u, middle = 0.5 * (double)p->w;
 
     for (size_t k = 0; k < p->title.n; k++) {
         canvas_text(p->c, &p->heading, middle, y + p->heading.size, 0.5, p->title.line[k]);

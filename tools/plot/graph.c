@@ -13,7 +13,8 @@
 static const struct rgb palette[GRAPH_COLOURS] = {
     {0x00, 0x72, 0xb2}, {0xd5, 0x5e, 0x00}, {0x00, 0x9e, 0x73}, {0xcc, 0x79, 0xa7},
     {0xe6, 0x9f, 0x00}, {0x56, 0xb4, 0xe9}, {0x22, 0x22, 0x22}};
-static const struct rgb rule = {0xe2, 0xe2, 0xe2};
+static const struct rgb rule = {0xe2, 0xe2, 0xe2}, sand = {0xf3, 0xf1, 0xec},
+                        gold = {0xf4, 0xd0, 0x6f}, white = {255, 255, 255};
 
 #define AIR 0.04 /* of an axis, beyond its points at either end */
 
@@ -23,7 +24,12 @@ enum {
     MARKS = 256,  /* on an axis                                             */
     CROWDED = 60, /* points of a series that are too many for markers       */
     MARKERS = 4,  /* shapes: circle, square, triangle, diamond              */
-    SWATCH = 56   /* length of a line in the legend, in units of the design */
+    SWATCH = 56,  /* length of a line in the legend, in units of the design */
+    LABELS = 64   /* of points of the front                                 */
+};
+
+struct box {
+    double x, y, w, h;
 };
 
 /* An axis settled: a value v lies at `place` between its ends. */
@@ -50,8 +56,10 @@ struct graph_page {
     struct side x, y;
     double left, top, w, h; /* the plot */
     double u;
-    size_t lost; /* points that a logarithmic axis cannot hold */
-    size_t sunk; /* of these, the ones that stand at the foot of the plot */
+    size_t lost;              /* points that a logarithmic axis cannot hold */
+    size_t sunk;              /* of these, the ones that stand at the foot of the plot */
+    struct box taken[LABELS]; /* by labels */
+    size_t labels;
 };
 
 /* ---- axes ---- */
@@ -373,7 +381,13 @@ draw_marker(struct graph_page *p, size_t which, double x, double y, double size,
     }
 }
 
-/* Laws are dashed. */
+static bool
+is_hollow(const struct graph_series *s, size_t k)
+{
+    return s->point != NULL && s->point[k].hollow;
+}
+
+/* Laws are dashed; points of two kinds are not joined. */
 static void
 draw_line(struct graph_page *p, const struct graph_series *s, struct rgb colour)
 {
@@ -384,7 +398,7 @@ draw_line(struct graph_page *p, const struct graph_series *s, struct rgb colour)
             pen_down = false;
             continue;
         }
-        if (!pen_down)
+        if (!pen_down || is_hollow(s, k) != is_hollow(s, k - 1))
             canvas_move(p->c, x_of(p, s->x[k]), y_of(p, s->y[k]));
         canvas_draw_to(p->c, x_of(p, s->x[k]), y_of(p, s->y[k]));
         pen_down = true;
@@ -511,6 +525,108 @@ draw_markers(struct graph_page *p, const struct graph_series *s)
         if (x >= p->left - 1 && x <= p->left + p->w + 1 && y >= p->top - 1 &&
             y <= p->top + p->h + 1)
             draw_marker(p, marker_of(s), x, y, marker_size(p, s), colour_of(s));
+        if (is_hollow(s, k))
+            draw_marker(p, marker_of(s), x, y, 0.5 * marker_size(p, s), white);
+    }
+}
+
+/* ---- the front ---- */
+
+static void
+draw_floor(struct graph_page *p)
+{
+    double top = y_of(p, p->g->floor), foot = p->top + p->h;
+    struct canvas_font font = p->page.small;
+
+    if (!(p->g->floor > 0) || top >= foot - 1)
+        return;
+    font.colour = page_faint;
+    canvas_fill(p->c, p->left, top, p->w, foot - top, sand);
+    if (foot - top > 1.4 * font.size)
+        canvas_text(p->c, &font, p->left + p->w - 10 * p->u, foot - 8 * p->u, 1, p->g->floor_text);
+}
+
+/* Joins its points from left to right. */
+static void
+draw_front(struct graph_page *p)
+{
+    double last = -INFINITY;
+
+    for (;;) {
+        const struct graph_series *next = NULL;
+        size_t at = 0;
+
+        for (size_t s = 0; s < p->g->n; s++)
+            for (size_t k = 0; p->g->series[s].point != NULL && k < p->g->series[s].n; k++) {
+                const struct graph_series *q = &p->g->series[s];
+                if (q->point[k].front && q->x[k] > last &&
+                    (next == NULL || q->x[k] < next->x[at])) {
+                    next = q;
+                    at = k;
+                }
+            }
+        if (next == NULL)
+            break;
+        if (isinf(last))
+            canvas_move(p->c, x_of(p, next->x[at]), y_of(p, next->y[at]));
+        canvas_draw_to(p->c, x_of(p, next->x[at]), y_of(p, next->y[at]));
+        last = next->x[at];
+    }
+    canvas_stroke(p->c, 13 * p->u, gold);
+}
+
+static bool
+overlap(const struct box *a, const struct box *b)
+{
+    return a->x < b->x + b->w && b->x < a->x + a->w && a->y < b->y + b->h && b->y < a->y + a->h;
+}
+
+static bool
+is_free(const struct graph_page *p, const struct box *b)
+{
+    const double size = 14 * p->u;
+
+    if (b->x < p->left || b->x + b->w > p->left + p->w || b->y < p->top ||
+        b->y + b->h > p->top + p->h)
+        return false;
+    for (size_t k = 0; k < p->labels; k++)
+        if (overlap(b, &p->taken[k]))
+            return false;
+    for (size_t s = 0; s < p->g->n; s++)
+        for (size_t k = 0; k < p->g->series[s].n; k++) {
+            struct box mark = {x_of(p, p->g->series[s].x[k]) - 0.5 * size,
+                               y_of(p, p->g->series[s].y[k]) - 0.5 * size, size, size};
+            if (overlap(b, &mark))
+                return false;
+        }
+    return p->labels < LABELS;
+}
+
+/* A label is put to the lower left of its point, where no other point of the front can lie, or, where that
+ * place is taken, at one of the others in turn; where all are taken it is left out. */
+static void
+draw_labels(struct graph_page *p, const struct graph_series *s)
+{
+    struct canvas_font font = p->page.small;
+    const double u = p->u;
+
+    font.size *= 0.81;
+    for (size_t k = 0; s->point != NULL && k < s->n; k++) {
+        const char *label = s->point[k].label;
+        double w = canvas_text_width(p->c, &font, label), x = x_of(p, s->x[k]),
+               y = y_of(p, s->y[k]);
+        struct box at[] = {{x - 10 * u - w, y + 5 * u, w, font.size},
+                           {x - 12 * u - w, y - 8 * u, w, font.size},
+                           {x + 11 * u, y - 8 * u, w, font.size},
+                           {x + 8 * u, y - 24 * u, w, font.size}};
+        size_t n = sizeof at / sizeof *at, free = 0;
+
+        while (free < n && !is_free(p, &at[free]))
+            free++;
+        if (!s->point[k].front || free == n)
+            continue;
+        canvas_text(p->c, &font, at[free].x, at[free].y + 0.8 * font.size, 0, label);
+        p->taken[p->labels++] = at[free];
     }
 }
 
@@ -623,6 +739,35 @@ say_sunk(const struct graph_page *p, char text[LINE])
              p->g->zero == NULL ? "at or below 0" : p->g->zero);
 }
 
+/* What stands behind the series: sunk points, hollow ones, the front. NULL: there are none. */
+static const char *
+entry(const struct graph_page *p, size_t k, char text[LINE])
+{
+    if (k < p->g->n)
+        return p->g->series[k].name;
+    if (k > p->g->n)
+        return k == p->g->n + 1 ? p->g->hollow : p->g->front;
+    say_sunk(p, text);
+    return p->sunk > 0 ? text : NULL;
+}
+
+static void
+draw_entry(struct graph_page *p, size_t k, double x, double y)
+{
+    const double u = p->u, middle = x + 0.5 * (SWATCH - 14) * u;
+
+    if (k < p->g->n) {
+        draw_swatch(p, &p->g->series[k], x, y);
+    } else if (k == p->g->n) {
+        draw_sunk(p, middle, y + 7 * u, page_ink);
+    } else if (k == p->g->n + 1) {
+        draw_marker(p, 0, middle, y, 12 * u, page_faint);
+        draw_marker(p, 0, middle, y, 6 * u, white);
+    } else {
+        canvas_fill(p->c, x, y - 6 * u, (SWATCH - 14) * u, 13 * u, gold);
+    }
+}
+
 /* Draws the entries from y down, side by side as many as fit, the note last; gives the height that
  * they take. */
 static double
@@ -632,32 +777,27 @@ legend(struct graph_page *p, double y, bool draw)
     double right = p->left + p->w, swatch = SWATCH * p->u;
     struct canvas_font faint = p->page.small;
     struct text note = {.n = 0};
-    char text[LINE];
+    char text[LINE], sunk[LINE];
 
     faint.colour = page_faint;
-    for (size_t k = 0; k <= p->g->n; k++) {
-        const struct graph_series *s = k < p->g->n ? &p->g->series[k] : NULL;
+    for (size_t k = 0; k <= p->g->n + 2; k++) {
+        const char *name = entry(p, k, sunk);
         double w;
 
-        if (s == NULL ? p->sunk == 0 : s->name == NULL)
+        if (name == NULL)
             continue;
-        if (s == NULL)
-            say_sunk(p, text);
-        else
-            snprintf(text, sizeof text, "%s", s->name);
+        snprintf(text, sizeof text, "%s", name);
         page_shorten(&p->page, &p->page.small, p->w - swatch, text);
         w = swatch + canvas_text_width(p->c, &p->page.small, text);
         if (x > p->left && x + w > right) {
             x = p->left;
             y += line;
         }
-        if (draw && s == NULL)
-            draw_sunk(p, x + 0.5 * (SWATCH - 14) * p->u, y + 0.5 * line + 7 * p->u, page_ink);
-        else if (draw)
-            draw_swatch(p, s, x, y + 0.5 * line);
-        if (draw)
+        if (draw) {
+            draw_entry(p, k, x, y + 0.5 * line);
             canvas_text(p->c, &p->page.small, x + swatch, y + 0.5 * line + 0.36 * faint.size, 0,
                         text);
+        }
         x += w + 34 * p->u;
     }
     y += x > p->left ? line : 0;
@@ -714,15 +854,19 @@ static void
 draw(struct graph_page *p)
 {
     page_heading(&p->page);
+    draw_floor(p);
     draw_rules(p);
     canvas_clip(p->c, p->left, p->top, p->w, p->h);
     draw_uprights(p);
+    draw_front(p);
     for (size_t s = 0; s < p->g->n; s++)
         draw_series(p, &p->g->series[s]);
     canvas_clip(p->c, 0, 0, 0, 0);
     canvas_frame(p->c, p->left, p->top, p->w, p->h, fmax(1, round(1.2 * p->u)), page_ink);
     for (size_t s = 0; s < p->g->n; s++)
         draw_markers(p, &p->g->series[s]);
+    for (size_t s = 0; s < p->g->n; s++)
+        draw_labels(p, &p->g->series[s]);
     draw_across(p);
     draw_up(p);
     legend(p, p->top + p->h + page_marks(&p->page) + word_room(p) + 14 * p->u, true);
@@ -780,22 +924,38 @@ graph_memory(const struct graph *g, size_t *bytes, struct rc_err *err)
     return RC_OK;
 }
 
+enum {
+    GRAPHS = 4 /* on a canvas */
+};
+
+struct canvas *
+graphs_draw(const struct graph *g, size_t n, struct rc_err *err)
+{
+    struct graph_page *p[GRAPHS] = {NULL};
+    struct canvas *c = NULL;
+    size_t h = 0, k = 0;
+
+    for (; k < n && k < GRAPHS && (p[k] = graph_page_new(&g[k], err)) != NULL; k++) {
+        p[k]->page.top = (double)h;
+        p[k]->top += (double)h;
+        h += p[k]->page.h;
+    }
+    if (k == n)
+        c = page_canvas(&p[0]->page, p[0]->page.w, h, err);
+    for (k = 0; k < GRAPHS && p[k] != NULL; k++) {
+        p[k]->c = p[k]->page.c = c;
+        if (c != NULL)
+            draw(p[k]);
+        free(p[k]);
+    }
+    if (c == NULL || canvas_check(c, err) == RC_OK)
+        return c;
+    canvas_free(c);
+    return NULL;
+}
+
 struct canvas *
 graph_draw(const struct graph *g, struct rc_err *err)
 {
-    struct graph_page *p = graph_page_new(g, err);
-    struct canvas *drawn = NULL;
-
-    if (p == NULL)
-        return NULL;
-    if ((p->c = p->page.c = page_canvas(&p->page, p->page.w, p->page.h, err)) == NULL)
-        goto done;
-    draw(p);
-    if (canvas_check(p->c, err) == RC_OK)
-        drawn = p->c;
-    else
-        canvas_free(p->c);
-done:
-    free(p);
-    return drawn;
+    return graphs_draw(g, 1, err);
 }

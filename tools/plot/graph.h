@@ -19,6 +19,12 @@ enum graph_kind {
     GRAPH_BARS, /* from x[k] to x[k + 1], y[k] high: n is the number of edges       */
 };
 
+struct graph_point {
+    bool hollow; /* of a second kind                                                   */
+    bool front;  /* joined by a broad line under all series, and labelled where a label fits */
+    char label[16];
+};
+
 struct graph_series {
     const char *name; /* NULL: not in the legend                                  */
     enum graph_kind kind;
@@ -26,7 +32,8 @@ struct graph_series {
     size_t mark;         /* 0: the marker goes with the colour; else counted from 1, and chooses it
                             and the dashes of the line                                */
     const double *x, *y; /* SI; a point that is not finite is a gap                 */
-    const double *low, *high; /* ends of error bars, SI; NULL: none                  */
+    const double *low, *high;        /* ends of error bars, SI; NULL: none                  */
+    const struct graph_point *point; /* of each; NULL: nothing about them             */
     size_t n;
 };
 
@@ -49,9 +56,12 @@ struct graph {
     size_t uprights;
     const char
         *zero; /* what a load does whose y is 0: "sealed (no flow)"; NULL: no more than that */
-    const char *note; /* a line under the legend; NULL: none                        */
-    size_t width;     /* pixels; 0: GRAPH_WIDTH                                     */
-    double dpi;       /* as of a figure                                             */
+    const char *note;           /* a line under the legend; NULL: none                        */
+    const char *hollow, *front; /* what these points are, in the legend; NULL: there are none */
+    double floor;               /* y below this means nothing; 0: all does                    */
+    const char *floor_text;
+    size_t width; /* pixels; 0: GRAPH_WIDTH                                     */
+    double dpi;   /* as of a figure                                             */
     const char *family;
 };
 
@@ -65,5 +75,7 @@ enum {
 enum rc_status graph_memory(const struct graph *graph, size_t *bytes, struct rc_err *err);
 /* NULL when memory is short or an axis has no point: a logarithmic one holds none at or below 0. */
 struct canvas *graph_draw(const struct graph *graph, struct rc_err *err);
+/* Several, as wide as the first, one below the other. */
+struct canvas *graphs_draw(const struct graph *graph, size_t n, struct rc_err *err);
 
 #endif

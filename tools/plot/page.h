@@ -62,6 +62,7 @@ struct page {
     double gutter;                        /* right of a plot, for the numbers of media */
     double stamp_h;                       /* 0 without one */
     double left_w, right_w, above, below; /* around the plot, margins included         */
+    double top;                           /* of the page on its canvas                 */
     size_t plot_x, plot_y, plot_w, plot_h, w, h;
     double dpi; /* pixels of the page in an inch of paper */
 };

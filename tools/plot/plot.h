@@ -5,7 +5,6 @@
 #define RC_PLOT_H
 
 #include "tools/canvas/canvas.h"
-#include "chart.h"
 #include "figure.h"
 #include "graph.h"
 #include "panels.h"
