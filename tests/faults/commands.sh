@@ -160,7 +160,7 @@ same_work() {
 # same_said FILE FILE: standard output, but for the mebibytes of a plan: they count what the process holds, and with it what
 # makes its allocations fail. law_memory holds that they need no memory themselves.
 same_said() {
-    cmp -s "$1" "$2" || cmp -s <(sed 's/, [0-9]* MiB, / MiB, /' "$1") <(sed 's/, [0-9]* MiB, / MiB, /' "$2")
+    cmp -s "$1" "$2" || cmp -s <(sed -E 's/, [0-9]+ MiB(,|$)/, MiB\1/' "$1") <(sed -E 's/, [0-9]+ MiB(,|$)/, MiB\1/' "$2")
 }
 
 # judge STATUS OUT WHERE: a run that was disturbed has either done all of its work or has failed cleanly.

@@ -247,10 +247,9 @@ cost_table(const struct cost_case *c, FILE *out)
 {
     put_head(c, out);
     put_rows(c, 0, c->pressures, out);
-    if (c->stressed != NULL) {
+    if (c->trials > c->pressures)
         put_stress_head(c, out);
-        put_rows(c, c->pressures, c->trials, out);
-    }
+    put_rows(c, c->pressures, c->trials, out);
 }
 
 /* ---- the report ---- */
@@ -323,7 +322,7 @@ void
 cost_report(const struct cost_case *c, struct report *out)
 {
     report_trial(c, &c->reference, out);
-    for (size_t k = 0; k < (c->stressed != NULL ? c->trials : c->pressures); k++)
+    for (size_t k = 0; k < c->trials; k++)
         report_trial(c, &c->trial[k], out);
 }
 
