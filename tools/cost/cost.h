@@ -115,6 +115,7 @@ struct cost_case {
     size_t pressures, trials;
     int grid[4]; /* files: the map, and at 1/2, 1/4, 1/8 of its nodes a side; -1: not made */
     int solution, output; /* files: of the reference, and of the trial that ran last */
+    int nowhere;          /* /dev/null */
     char *said;           /* by the program that ran last, on standard error */
 };
 

@@ -238,7 +238,7 @@ stop(struct cost_trial *m, enum cost_end end, double allowed, const char *messag
 static enum cost_end
 leak(struct cost_case *c, struct cost_trial *m, double allowed, const char *name)
 {
-    int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC), status;
+    int status;
     enum cost_end end;
     struct line l;
 
@@ -246,14 +246,14 @@ leak(struct cost_case *c, struct cost_trial *m, double allowed, const char *name
     put(&l, "--direction", c->leak);
     put(&l, "--quiet", NULL);
     put(&l, "--report", "/dev/fd/2");
-    end = cost_run(c, l.word, c->output, nowhere, allowed, name, &status);
-    close(nowhere);
+    end = cost_run(c, l.word, c->output, c->nowhere, allowed, name, &status);
     if (end == COST_ENDED)
         take(c, m, c->said, true);
     return end;
 }
 
-static void
+/* False where the tool has reported nothing. */
+static bool
 keep(struct cost_case *c, struct cost_trial *m)
 {
     const double before = m->figure[COST_SECONDS];
@@ -261,6 +261,8 @@ keep(struct cost_case *c, struct cost_trial *m)
                          ? cost_number(c->said, "setup") + cost_number(c->said, "slices")
                          : seconds_of(c->said);
 
+    if (isnan(seconds))
+        return false;
     take(c, m, c->said, false);
     m->figure[COST_SECONDS] = seconds < before || isnan(before) ? seconds : before;
     if (m->figure[COST_CONVOLUTIONS] > 0) /* on the map's own grid */
@@ -269,6 +271,7 @@ keep(struct cost_case *c, struct cost_trial *m)
     m->figure[COST_RUNS]++;
     if (m->figure[COST_MEMORY] > 0)
         tool_memory_beside(c->tool, (size_t)m->figure[COST_MEMORY]);
+    return true;
 }
 
 static bool
@@ -286,8 +289,9 @@ run_pressure(struct cost_case *c, struct cost_trial *m, double allowed)
     put(&l, "--output", c->leak != NULL ? "pressure,gap" : "pressure");
     put(&l, "--report", "/dev/fd/2");
     end = cost_run(c, l.word, in, c->output, allowed, name, &status);
+    if (end == COST_ENDED && !keep(c, m))
+        end = COST_DIED;
     if (end == COST_ENDED) {
-        keep(c, m);
         c->around = tool_now() - start - m->figure[COST_SECONDS];
         m->converged = status == 0;
         if ((p = pressure_of(c, m)) == NULL)
@@ -465,7 +469,7 @@ static bool
 run_stress(struct cost_case *c, struct cost_trial *m, double allowed)
 {
     double until = tool_now() + allowed, peak = cost_number(c->solved, "max_pressure");
-    int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC), status;
+    int status;
     struct errors e = {0};
     char name[128], tol[RC_NUMBER_SIZE];
     enum cost_end end;
@@ -474,12 +478,11 @@ run_stress(struct cost_case *c, struct cost_trial *m, double allowed)
     do {
         stress_line(c, m, &l, tol);
         put(&l, "--report", "/dev/fd/2");
-        end = cost_run(c, l.word, c->solution, nowhere, until - tool_now(), cost_name(name, m),
+        end = cost_run(c, l.word, c->solution, c->nowhere, until - tool_now(), cost_name(name, m),
                        &status);
-        if (end == COST_ENDED)
-            keep(c, m);
+        if (end == COST_ENDED && !keep(c, m))
+            end = COST_DIED;
     } while (end == COST_ENDED && cost_again(m->figure[COST_RUNS], m->figure[COST_SECONDS]));
-    close(nowhere);
     if (m->reference && end == COST_ENDED) {
         c->stressed = c->said;
         c->said = NULL;
