@@ -727,6 +727,32 @@ RC_API enum rc_status rc_solver_expect(const struct rc_shape *shape,
                                        const struct rc_problem *problem,
                                        struct rc_expected *expected, struct rc_err *err);
 
+/* ---- the elastic model: solver/elastic.c ---- */
+
+/* Figures that cost convolutions. */
+struct rc_elastic_asks {
+    bool stiffness;
+    double
+        conductivity[2]; /* of the bodies, as for rc_solver_conductance; both 0: no conductance */
+};
+struct rc_elastic_figures {
+    struct rc_contact contact;
+    double stiffness, conductance, conductance_lower; /* NAN: not asked for                       */
+    /* m: the approach from the first touch of the first shape, and the first touch of the shape that is left, once
+     * it is kept */
+    double indentation, residual_indentation;
+    double tilt_x, tilt_y; /* rad; NAN: the counter body cannot tilt                         */
+    const char *kernel, *method; /* NULL: no load so far                                          */
+};
+/* A model (model.h) of elastic bodies, with a hardness; it takes a load or an approach, 0: the bodies are apart. A point
+ * that is kept leaves its dents in the shape. `h` is copied; what `problem` points to has to last. The problem's load and
+ * approach are not used. asks NULL: nothing. */
+RC_API struct rc_model *rc_elastic_new(const struct rc_shape *shape, const double *h,
+                                       const struct rc_problem *problem,
+                                       const struct rc_elastic_asks *asks, struct rc_err *err);
+/* The figures after a look, of a model that is elastic or has an elastic inner model; NULL: it has none. */
+RC_API const struct rc_elastic_figures *rc_elastic_result(const struct rc_model *model);
+
 /* ---- plasticity in the volume: plastic/plastic.c ---- */
 
 /* Von Mises, hardening alike in all directions: a yield stress that grows with the equivalent plastic

@@ -1,10 +1,24 @@
 /*
- * Figures of results: each number is declared once, with its name, unit and title, in a table beside the struct that
- * holds it. Reports, titles of pictures and warnings are made from these tables. This header comes with contact.h.
+ * A model: two bodies, how they deform, and what has happened to them so far. Each kind of model has its own
+ * maker (rc_elastic_new); the verbs of this file drive all of them:
+ *
+ *     struct rc_model *m = rc_elastic_new(&shape, h, &problem, NULL, &err);
+ *     struct rc_point to = {0}, at;
+ *     rc_point_set(&to, RC_LOAD, 10);
+ *     if (rc_model_go(m, &to, &err) == RC_MORE)
+ *         while (rc_model_step(m, &err) == RC_MORE)
+ *             ;                              (show progress, obey signals, write a checkpoint)
+ *     rc_model_look(m, &at, &err);
+ *     printf("%g m, %g Pa\n", at.at[RC_APPROACH], rc_model_number(m, "max_pressure"));
+ *     rc_model_keep(m, &err);                (the point becomes history; without it the next go forgets it)
+ *
+ * The caller owns the loop. A maker checks the problem; the first go allocates the large arrays. Everything is
+ * SI. This header comes with contact.h.
  */
 #ifndef RC_MODEL_H
 #define RC_MODEL_H
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -13,6 +27,45 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+struct rc_model;
+
+/* ---- axes: what a history prescribes ---- */
+
+enum rc_axis {
+    RC_LOAD,     /* N, positive when the bodies are pressed together                       */
+    RC_APPROACH, /* m, from first touch; -INFINITY separates bodies that attract each other */
+    RC_FORCE_X,  /* N, of body 2 on body 1                                                 */
+    RC_FORCE_Y,
+    RC_SHIFT_X, /* m, of body 2 over body 1                                               */
+    RC_SHIFT_Y,
+    RC_CREEP_X, /* creepages                                                              */
+    RC_CREEP_Y,
+    RC_SPIN,     /* rad/m                                                                  */
+    RC_TIME,     /* s                                                                      */
+    RC_DISTANCE, /* m, slid                                                                */
+    RC_POSITION, /* m, of the contact on body 1                                            */
+    RC_SPEED,    /* m/s                                                                    */
+    RC_AXES
+};
+/* Names of options, columns and keys are made from this table. */
+struct rc_axis_info {
+    const char *name, *unit, *title; /* unit NULL: a plain number                             */
+    bool rises;           /* a later point has at least the value of the earlier one          */
+    enum rc_axis partner; /* of load and approach one is given and the other found; an axis
+                             without a partner is its own                                     */
+};
+/* Row k of the table; NULL past the last. */
+RC_API const struct rc_axis_info *rc_axis_info(size_t k);
+
+/* A point of a history. An axis that is not given keeps its last value, unless its partner is given. From the
+ * last point kept, all axes change in proportion; the model chooses how many increments that takes. */
+struct rc_point {
+    unsigned given; /* bit of each axis */
+    double at[RC_AXES];
+};
+/* Gives an axis a value; its partner is then found. */
+RC_API void rc_point_set(struct rc_point *point, enum rc_axis axis, double value);
 
 /* ---- figures: each number of a result, declared once ---- */
 
@@ -60,6 +113,82 @@ RC_API const struct rc_figure *rc_figures(const char *name);
 /* The row of that name in any table of this library, for titles and units of a table read from a file; NULL:
  * none. */
 RC_API const struct rc_figure *rc_figure_find(const char *name);
+
+/* Figure k of the model after its look, those of inner models first; NULL past the last. `data`: its struct. A name
+ * that an outer model has too is the outer one's, and is given once. */
+RC_API const struct rc_figure *rc_model_figure(const struct rc_model *model, size_t k,
+                                               const void **data);
+/* The value of a figure by its name; NAN: unknown, or there is none. */
+RC_API double rc_model_number(const struct rc_model *model, const char *name);
+
+/* ---- frames: the maps of a result ---- */
+
+struct rc_frame_kind {
+    const char *name, *unit, *title;
+};
+/* Row k, those of the outermost model first; NULL past the last. */
+RC_API const struct rc_frame_kind *rc_model_frame_kind(const struct rc_model *model, size_t k);
+/* nx ny values of the frame of that name, after a look. RC_FAIL when there is none. */
+RC_API enum rc_status rc_model_frame(struct rc_model *model, const char *name, double *to,
+                                     struct rc_err *err);
+
+/* ---- verbs ---- */
+
+/* Sets out for a point from the last point kept: RC_MORE, or RC_FAIL when the point is impossible or memory is short.
+ * What was stepped since the last keep is forgotten. */
+RC_API enum rc_status rc_model_go(struct rc_model *model, const struct rc_point *to,
+                                  struct rc_err *err);
+/* RC_MORE until the point is reached; then RC_OK, or RC_SHORT when the accuracy is not. One may stop after any
+ * step: a look then shows the best so far. */
+RC_API enum rc_status rc_model_step(struct rc_model *model, struct rc_err *err);
+/* go and all steps. */
+RC_API enum rc_status rc_model_run(struct rc_model *model, const struct rc_point *to,
+                                   struct rc_err *err);
+/* Brings the figures up to date. `at` (or NULL): the point with the axes that were found, NAN where unknown. */
+RC_API enum rc_status rc_model_look(struct rc_model *model, struct rc_point *at,
+                                    struct rc_err *err);
+/* The point that was reached becomes history. RC_FAIL when none is reached, or memory is short. */
+RC_API enum rc_status rc_model_keep(struct rc_model *model, struct rc_err *err);
+/* Other heights of the undeformed bodies, nx ny m, copied, from the next go on: worn, moved or warped surfaces. */
+RC_API enum rc_status rc_model_set_heights(struct rc_model *model, const double *h,
+                                           struct rc_err *err);
+RC_API struct rc_shape rc_model_shape(const struct rc_model *model);
+RC_API const char *rc_model_name(const struct rc_model *model);
+/* With its inner models; NULL is allowed. */
+RC_API void rc_model_free(struct rc_model *model);
+
+/* ---- cost before, progress during ---- */
+
+struct rc_expected;
+/* Expected cost of this point, by which the largest point of a history is meant. RC_FAIL when it is impossible. */
+RC_API enum rc_status rc_model_plan(const struct rc_model *model, const struct rc_point *most,
+                                    struct rc_expected *expected, struct rc_err *err);
+
+enum {
+    RC_LOOPS = 8
+};
+struct rc_loop {
+    const char *what, *unit; /* unit NULL: a count */
+    double at, of;           /* of NAN: unknown    */
+};
+/* From the outermost loop to the innermost: time 0.3 of 1 s, increment 3 of 16, iteration 5. */
+struct rc_loops {
+    size_t n;
+    struct rc_loop loop[RC_LOOPS];
+    struct rc_shape grid; /* that is iterated, a coarser one at first        */
+    double error, tol;    /* of the innermost; NAN before the first estimate */
+};
+RC_API void rc_model_progress(const struct rc_model *model, struct rc_loops *loops);
+
+/* ---- states: numbers that a file may keep ---- */
+
+/* After any step. Fewest right after a keep; no heights of the undeformed bodies. */
+RC_API size_t rc_model_state_size(struct rc_model *model);
+RC_API void rc_model_state(struct rc_model *model, double *state);
+/* Goes on from there in a model that was made in the same way. *going: a point is set and not reached yet, so that
+ * steps follow, and no go. RC_FAIL when the numbers are no state of such a model, which then can only be freed. */
+RC_API enum rc_status rc_model_restore(struct rc_model *model, const double *state, size_t n,
+                                       bool *going, struct rc_err *err);
 
 #ifdef __cplusplus
 }

@@ -13,7 +13,7 @@
 # %physics: the folders that define those; %reader, %formats: the same for what reads files.
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
-libcontact/model    | %base libcontact/model.h                 | libcontact libcontact/solver=rc_figures_
+libcontact/model    | %base                                    | libcontact libcontact/solver=rc_figures_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
 libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
@@ -22,6 +22,7 @@ libcontact/operator | libcontact/transform/transform.h libcontact/body/body.h | 
 libcontact/operator |                                          | libcontact/operator/real_space=rc_engine_
 libcontact/operator/real_space | %base libcontact/operator/engine.h | libcontact libcontact/ranks libcontact/operator
 libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/body
+libcontact/solver   | libcontact/model/row.h                   | libcontact/model
 libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
 libcontact/stress   |                                          | libcontact/transform libcontact/body
 libcontact/stress   | libcontact/volume/volume.h               | libcontact/volume

@@ -2,11 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "libcontact/model.h"
-
-#define RC_FIGURES(name) extern const struct rc_figure rc_figures_##name[];
-#include "figures.list"
-#undef RC_FIGURES
+#include "row.h"
 
 static const struct {
     const char *name;

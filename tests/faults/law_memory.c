@@ -277,6 +277,54 @@ CONTACT(to_an_approach, bare, .approach = 1e-7, .discretization = true)
 CONTACT(coated_contact, layered, .load = 1e-3)
 CONTACT(free_to_tilt, bare, .load = 1e-3, .tilt_free = true)
 
+/* A model to two points, the second from a state of the first in another model; the figures and a frame. */
+static enum rc_status
+elastic_model(double *out, struct rc_err *err)
+{
+    static const struct rc_problem o = {
+        .pair.estar = 1e9, .tol = 1e-5, .hardness = 2e7, .threads = 1};
+    static const struct rc_elastic_asks asks = {.stiffness = true};
+    struct rc_model *m = rc_elastic_new(&shape, rough, &o, &asks, err), *other = NULL;
+    enum rc_status status = RC_FAIL;
+    struct rc_point to = {0}, at;
+    struct rc_expected expected;
+    struct rc_loops loops;
+    double *state = NULL;
+    const void *data;
+    size_t n = 0;
+    bool going;
+
+    rc_point_set(&to, RC_LOAD, 1e-3);
+    if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK ||
+        rc_model_set_heights(m, rough, err) != RC_OK || rc_model_run(m, &to, err) == RC_FAIL ||
+        rc_model_keep(m, err) != RC_OK || rc_model_go(m, &to, err) != RC_MORE ||
+        rc_model_step(m, err) == RC_FAIL)
+        goto done;
+    n = rc_model_state_size(m);
+    if ((state = malloc(n * sizeof *state)) == NULL) {
+        rc_err_set(err, "out of memory for a state of %zu numbers", n);
+        goto done;
+    }
+    rc_model_state(m, state);
+    if ((other = rc_elastic_new(&shape, rough, &o, &asks, err)) == NULL ||
+        rc_model_restore(other, state, n, &going, err) != RC_OK ||
+        rc_model_set_heights(other, rough, err) != RC_OK ||
+        rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, &at, err) != RC_OK ||
+        rc_model_frame(other, rc_model_frame_kind(other, 1)->name, out, err) != RC_OK)
+        goto done;
+    rc_model_progress(other, &loops);
+    out[N] = rc_model_number(other, rc_model_figure(other, 0, &data)->name);
+    out[N + 1] = rc_elastic_result(other)->stiffness + (double)loops.n + (double)going;
+    out[N + 2] = at.at[RC_LOAD] + (double)rc_model_shape(other).nx + rc_model_name(other)[0];
+    out[N + 3] = rc_axis_info(0)->name[0];
+    status = RC_OK;
+done:
+    free(state);
+    rc_model_free(m);
+    rc_model_free(other);
+    return status;
+}
+
 /* ---- adhesion ---- */
 
 /* A state by approach, one by load from where another path was, and a retraction. */
@@ -821,6 +869,7 @@ static const struct {
     {.name = "contact, to an approach", .use = to_an_approach},
     {.name = "contact, coated", .use = coated_contact},
     {.name = "contact, free to tilt", .use = free_to_tilt},
+    {.name = "the elastic model", .use = elastic_model},
     {.name = "plasticity", .use = yields},
     {.name = "plasticity after elasticity", .use = may_yield},
     {.name = "adhesion", .use = adheres},

@@ -1,0 +1,97 @@
+/*
+ * What a model is made of, for the files that implement one. The struct of a model begins with struct rc_model, and its
+ * file ends in the row. An outer model drives its inner one by the verbs of model.h only.
+ */
+#ifndef RC_MODEL_ROW_H
+#define RC_MODEL_ROW_H
+
+#include "libcontact/common.h"
+
+/* A state as numbers that are counted, written or read: one function of a row does all three. */
+struct rc_state;
+void rc_state_numbers(struct rc_state *s, size_t n, double *v);
+/* A size or a yes/no, at most `most`, as one number. */
+void rc_state_count(struct rc_state *s, size_t *n, size_t most);
+/* Whether numbers are read, and none of them was refused so far. */
+bool rc_state_reads(const struct rc_state *s);
+/* While numbers are read: they are not those of this model. `why`: a part of a sentence. */
+void rc_state_refuse(struct rc_state *s, const char *why);
+
+/* Tables of figures, and where in the struct of the model their struct is; the last is NULL. */
+struct rc_figure_set {
+    const struct rc_figure *table;
+    size_t at;
+};
+
+struct rc_model_row {
+    const char *name, *summary;
+    unsigned needs,
+        takes; /* axes: each of `needs`, or its partner, must have a value; others than `takes`
+                              are refused                                                          */
+    bool
+        forgets; /* `go` starts from the last point kept by itself; else a copy of the state is kept */
+    const struct rc_figure_set *figures;
+    const struct rc_frame_kind *frame; /* the last has no name */
+
+    /* Sets out from m->from to m->to, which are checked. */
+    enum rc_status (*go)(struct rc_model *m, struct rc_err *err);
+    enum rc_status (*step)(struct rc_model *m, struct rc_err *err);
+    /* Fills the figures and the axes of `at` that were found. */
+    enum rc_status (*look)(struct rc_model *m, struct rc_point *at, struct rc_err *err);
+    enum rc_status (*fill)(struct rc_model *m, size_t frame, double *to, struct rc_err *err);
+    /* The members that a next step depends on. The heights of the undeformed bodies are not among them: an outer
+     * model that sets them sets them here while it reads, before its inner model reads. */
+    void (*state)(struct rc_model *m, struct rc_state *s);
+    void (*free)(struct rc_model *m);
+    /* These may be NULL. */
+    enum rc_status (*keep)(struct rc_model *m, struct rc_err *err);
+    enum rc_status (*heights)(struct rc_model *m, const double *h, struct rc_err *err);
+    void (*progress)(const struct rc_model *m, struct rc_loops *loops);
+    enum rc_status (*plan)(const struct rc_model *m, const struct rc_point *most,
+                           struct rc_expected *expected, struct rc_err *err);
+};
+
+struct rc_model {
+    const struct rc_model_row *row;
+    struct rc_shape shape;
+    struct rc_model *inner;   /* owned; NULL: none                      */
+    struct rc_point from, to; /* the last point kept, and the next one  */
+    enum rc_status status;    /* RC_MORE: on the way                    */
+    bool moved;               /* since the last keep                    */
+    struct {                  /* state at the last keep                 */
+        double *v;
+        size_t n;
+    } kept;
+};
+
+/* For makers: zeroed, of `size` bytes. It owns the inner model from here on, also when it fails. NULL when memory is
+ * short, and where the inner model of an outer one could not be made (`outer`: *err then says why). */
+struct rc_model *rc_model_make(const struct rc_model_row *row, size_t size,
+                               const struct rc_shape *shape, struct rc_err *err);
+struct rc_model *rc_model_make_outer(const struct rc_model_row *row, size_t size,
+                                     struct rc_model *inner, struct rc_err *err);
+/* The axes of a point that a model or its inner ones take. */
+struct rc_point rc_point_for(const struct rc_model *m, const struct rc_point *point);
+/* The point a part of the way, 0 to 1, from one to another. */
+struct rc_point rc_point_between(const struct rc_point *from, const struct rc_point *to,
+                                 double part);
+bool rc_point_has(const struct rc_point *point, enum rc_axis axis);
+void rc_loops_add(struct rc_loops *s, const char *what, const char *unit, double at, double of);
+
+/* state.c */
+enum rc_status rc_model_remember(struct rc_model *m, struct rc_err *err);
+enum rc_status rc_model_recall(struct rc_model *m, struct rc_err *err);
+
+#define RC_FIGURES(name) extern const struct rc_figure rc_figures_##name[];
+#include "libcontact/model/figures.list"
+#undef RC_FIGURES
+
+/* -DRC_MODELS_LIST=... replaces the list (tests/toys does). */
+#ifndef RC_MODELS_LIST
+#define RC_MODELS_LIST "libcontact/model/models.list"
+#endif
+#define RC_MODEL(name) extern const struct rc_model_row rc_model_##name;
+#include RC_MODELS_LIST
+#undef RC_MODEL
+
+#endif

@@ -1,0 +1,473 @@
+/*
+ * The elastic model: a contact by rc_solver, under a load or at an approach, with a hardness, a counter body that is free
+ * to tilt, and the stiffness and the conductance as figures. A point that is kept leaves its dents in the shape.
+ */
+#include "solver.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+#include "libcontact/model/row.h"
+
+struct elastic {
+    struct rc_model base;
+    struct rc_problem problem;
+    struct rc_elastic_asks asks;
+    size_t n;                 /* nodes of this rank                            */
+    double *h;                /* undeformed heights, until the solver has them */
+    double *dent;             /* heights less the undeformed ones; NULL: none  */
+    double height_error, off; /* m, N: of the heights, and what earlier loads were off */
+    double first_top, top;    /* m: highest node of the first shape, and of the present one */
+    struct rc_solver *solver; /* NULL: no load so far                          */
+    bool apart;               /* at this point: no load                        */
+    bool looked, deformed;    /* figures are of this point; the dents were kept */
+    struct rc_elastic_figures figures;
+};
+
+const struct rc_figure rc_figures_elastic[] = {
+#define FIGURE(member) RC_FIGURE(struct rc_elastic_figures, member)
+    {FIGURE(stiffness), "N/m", "Stiffness", .says = "increase of the load with the approach"},
+    {FIGURE(conductance), NULL, "Conductance", .says = "W/K or S, as the conductivities"},
+    {FIGURE(conductance_lower), NULL, "Lower bound of the conductance"},
+    {FIGURE(indentation), "m", "Indentation",
+     .says = "approach from the first touch of the first shape"},
+    {FIGURE(residual_indentation), "m", "Residual indentation",
+     .says = "first touch of the shape that is left, from that of the first shape"},
+    {FIGURE(tilt_x), "rad", "Tilt along x", .says = "of the counter body"},
+    {FIGURE(tilt_y), "rad", "Tilt along y", .says = "of the counter body"},
+    {FIGURE(kernel), NULL, "Engine", .says = "by which displacements are summed"},
+    {FIGURE(method), NULL, "Method", .says = "by which the contact is iterated"},
+    {0},
+};
+static const struct rc_figure_set figure_sets[] = {
+    {rc_figures_contact, offsetof(struct elastic, figures.contact)},
+    {rc_figures_elastic, offsetof(struct elastic, figures)},
+    {NULL, 0},
+};
+
+enum {
+    CONTACT_FRAME,
+    PRESSURE,
+    GAP,
+    DISPLACEMENT,
+    SHAPE
+};
+static const struct rc_frame_kind frames[] = {
+    [CONTACT_FRAME] = {"contact", "1", "Contact"},
+    [PRESSURE] = {"pressure", "Pa", "Pressure"},
+    [GAP] = {"gap", "m", "Gap"},
+    [DISPLACEMENT] = {"displacement", "m", "Displacement"},
+    [SHAPE] = {"plastic", "m", "Height after yield"},
+    {NULL, NULL, NULL},
+};
+
+/* ---- the solver ---- */
+
+static double
+highest(const struct elastic *e)
+{
+    double top = -INFINITY;
+
+    if (e->solver != NULL)
+        return e->solver->posed.top;
+    for (size_t k = 0; k < e->n; k++)
+        top = fmax(top, e->h[k]);
+    return rc_ranks_most(e->problem.ranks, top);
+}
+
+/* The solver under this load or approach: made where there is none. */
+static enum rc_status
+press(struct elastic *e, double load, double approach, struct rc_err *err)
+{
+    struct rc_problem problem = e->problem;
+
+    if (e->solver != NULL)
+        return rc_solver_set_load(e->solver, load, approach, err);
+    problem.load = load;
+    problem.approach = approach;
+    problem.height_error = e->height_error;
+    e->solver = rc_solver_new(&e->base.shape, e->h, &problem, err);
+    if (e->solver == NULL)
+        return RC_FAIL;
+    e->solver->posed.dents = e->off;
+    free(e->h); /* it has its own */
+    e->h = NULL;
+    return RC_OK;
+}
+
+/* The present heights. */
+static void
+shape(const struct elastic *e, double *to)
+{
+    for (size_t k = 0; k < e->n; k++)
+        to[k] = e->solver != NULL ? e->solver->posed.h[k] + e->solver->posed.top : e->h[k];
+}
+
+static enum rc_status
+set_shape(struct elastic *e, const double *h, struct rc_err *err)
+{
+    if (e->solver == NULL) {
+        memcpy(e->h, h, e->n * sizeof *h);
+        return RC_OK;
+    }
+    if (rc_solver_set_heights(e->solver, h, err) != RC_OK)
+        return RC_FAIL;
+    e->solver->posed.height_error = e->height_error;
+    e->solver->posed.dents = e->off;
+    return RC_OK;
+}
+
+/* ---- verbs ---- */
+
+static enum rc_status
+go(struct rc_model *m, struct rc_err *err)
+{
+    struct elastic *e = (struct elastic *)m;
+    const bool by_approach = rc_point_has(&m->to, RC_APPROACH);
+    const double v = m->to.at[by_approach ? RC_APPROACH : RC_LOAD];
+
+    if (!(v >= 0) || isinf(v))
+        return rc_err_set(err, "%s %g %s: bodies that do not attract each other carry none below 0",
+                          by_approach ? "approach" : "load", v, by_approach ? "m" : "N");
+    e->looked = e->deformed = false;
+    e->apart = v == 0;
+    if (m->from.given == 0)
+        e->first_top = highest(e);
+    e->top = highest(e);
+    return e->apart ? RC_OK : press(e, by_approach ? 0 : v, by_approach ? v : 0, err);
+}
+
+static enum rc_status
+step(struct rc_model *m, struct rc_err *err)
+{
+    struct elastic *e = (struct elastic *)m;
+
+    (void)err;
+    return e->apart ? RC_OK : rc_solver_step(e->solver);
+}
+
+/* Where no node is at the hardness the conductance has found the stiffness too. */
+static enum rc_status
+look_at_stiffness(struct elastic *e, struct rc_err *err)
+{
+    struct rc_elastic_figures *f = &e->figures;
+    const double *k = e->asks.conductivity;
+    struct rc_conductance c = {NAN, NAN, NAN};
+
+    f->stiffness = NAN;
+    if (k[0] > 0 && rc_solver_conductance(e->solver, k[0], k[1], &c, err) != RC_OK)
+        return RC_FAIL;
+    f->conductance = c.value;
+    f->conductance_lower = c.lower;
+    if (!e->asks.stiffness)
+        return RC_OK;
+    if (k[0] > 0 && f->contact.plastic_nodes == 0)
+        f->stiffness = c.stiffness;
+    else
+        return rc_solver_stiffness(e->solver, &f->stiffness, err);
+    return RC_OK;
+}
+
+static enum rc_status
+look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
+{
+    struct elastic *e = (struct elastic *)m;
+    struct rc_elastic_figures *f = &e->figures;
+
+    if (e->apart && !e->looked) {
+        rc_contact_apart(e->problem.ranks, &m->shape, e->solver != NULL ? e->solver->posed.h : e->h,
+                         NULL, &f->contact);
+        f->stiffness = NAN;
+        f->conductance = f->conductance_lower = e->asks.conductivity[0] > 0 ? 0 : NAN;
+    } else if (!e->looked) {
+        rc_solver_result(e->solver, NULL, NULL, &f->contact);
+        f->kernel = rc_solver_engine(e->solver);
+        f->method = rc_solver_method(e->solver);
+        if (look_at_stiffness(e, err) != RC_OK)
+            return RC_FAIL;
+        f->contact.convolutions = rc_solver_convolutions(e->solver);
+    }
+    f->tilt_x = e->problem.tilt_free ? atan(f->contact.tilt[0]) : NAN;
+    f->tilt_y = e->problem.tilt_free ? atan(f->contact.tilt[1]) : NAN;
+    f->indentation = e->apart ? e->first_top - e->top : f->contact.approach + e->first_top - e->top;
+    f->residual_indentation = e->deformed || e->apart ? e->first_top - highest(e) : NAN;
+    at->at[RC_LOAD] = f->contact.load;
+    at->at[RC_APPROACH] = f->contact.approach;
+    e->looked = true;
+    return RC_OK;
+}
+
+/* The shape that yielding leaves, and the dents as what it lacks. */
+static enum rc_status
+dent(struct elastic *e, struct rc_err *err)
+{
+    double *left = rc_alloc(e->n, sizeof *left);
+    enum rc_status status = RC_FAIL;
+
+    if (left == NULL ||
+        (e->dent == NULL && (e->dent = calloc(e->n + 1, sizeof *e->dent)) == NULL)) {
+        rc_err_set(err, "out of memory for the shape that is left");
+        goto done;
+    }
+    shape(e, left);
+    for (size_t k = 0; k < e->n; k++)
+        e->dent[k] -= left[k];
+    status = rc_solver_keep_shape(e->solver, &e->figures.contact, left, err);
+    for (size_t k = 0; k < e->n; k++)
+        e->dent[k] += left[k];
+    e->height_error = e->solver->posed.height_error;
+    e->off = e->solver->posed.dents;
+done:
+    free(left);
+    return status;
+}
+
+static enum rc_status
+keep(struct rc_model *m, struct rc_err *err)
+{
+    struct elastic *e = (struct elastic *)m;
+
+    if (rc_model_look(m, NULL, err) != RC_OK)
+        return RC_FAIL;
+    if (!e->apart && e->figures.contact.yielded_nodes > 0) {
+        if (e->problem.tilt_free)
+            return rc_err_set(err, "dents under a body that is free to tilt cannot be kept: this "
+                                   "is not implemented");
+        if (dent(e, err) != RC_OK)
+            return RC_FAIL;
+    }
+    e->deformed = true;
+    e->figures.residual_indentation = e->first_top - highest(e);
+    return RC_OK;
+}
+
+static enum rc_status
+fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
+{
+    struct elastic *e = (struct elastic *)m;
+    struct rc_contact again;
+
+    if (!e->looked)
+        return rc_err_set(err, "frames are those of a point that was looked at");
+    if (frame == SHAPE && !e->apart && !e->deformed)
+        return rc_solver_plastic(e->solver, to, err);
+    if (frame == SHAPE)
+        shape(e, to);
+    else if (e->apart && frame == GAP)
+        rc_contact_apart(e->problem.ranks, &m->shape, e->solver != NULL ? e->solver->posed.h : e->h,
+                         to, &again);
+    else if (e->apart)
+        memset(to, 0, e->n * sizeof *to);
+    else if (frame == GAP || frame == DISPLACEMENT)
+        rc_solver_result(e->solver, frame == GAP ? NULL : to, frame == GAP ? to : NULL, &again);
+    else
+        memcpy(to, rc_solver_pressure(e->solver), e->n * sizeof *to);
+    for (size_t k = 0; k < e->n && frame == CONTACT_FRAME; k++)
+        to[k] = rc_in_contact(to[k]) ? 1 : 0;
+    return RC_OK;
+}
+
+/* The dents stay in the new heights. */
+static enum rc_status
+set_heights(struct rc_model *m, const double *h, struct rc_err *err)
+{
+    struct elastic *e = (struct elastic *)m;
+    double *dented = NULL;
+    enum rc_status status;
+
+    if (e->dent == NULL)
+        return set_shape(e, h, err);
+    if ((dented = rc_alloc(e->n, sizeof *dented)) == NULL)
+        return rc_err_set(err, "out of memory for the heights");
+    for (size_t k = 0; k < e->n; k++)
+        dented[k] = h[k] + e->dent[k];
+    status = set_shape(e, dented, err);
+    free(dented);
+    return status;
+}
+
+/* ---- states ---- */
+
+/* Reads other dents than the present ones into the shape. */
+static void
+read_dent(struct elastic *e, struct rc_state *s, bool some)
+{
+    double *now = calloc(e->n + 1, sizeof *now), *h = rc_alloc(e->n, sizeof *h);
+    struct rc_err err;
+
+    if (now == NULL || h == NULL) {
+        rc_state_refuse(s, "memory is short");
+        goto done;
+    }
+    if (some)
+        rc_state_numbers(s, e->n, now);
+    shape(e, h);
+    for (size_t k = 0; k < e->n; k++)
+        h[k] += now[k] - (e->dent != NULL ? e->dent[k] : 0);
+    if (rc_state_reads(s) && set_shape(e, h, &err) != RC_OK)
+        rc_state_refuse(s, err.text[0] != '\0' ? "its shape is impossible" : "memory is short");
+    free(e->dent);
+    e->dent = now;
+    now = NULL;
+done:
+    free(now);
+    free(h);
+}
+
+/* Sets the load or the approach, and starts from the pressure that was reached. */
+static void
+read_pressure(struct elastic *e, struct rc_state *s, double load)
+{
+    const struct rc_point *to = &e->base.to;
+    const bool by_approach = rc_point_has(to, RC_APPROACH);
+    double *p = rc_alloc(e->n, sizeof *p);
+    struct rc_err err;
+
+    if (p == NULL) {
+        rc_state_refuse(s, "memory is short");
+        return;
+    }
+    rc_state_numbers(s, e->n, p);
+    if (rc_state_reads(s) && (press(e, by_approach ? 0 : to->at[RC_LOAD],
+                                    by_approach ? to->at[RC_APPROACH] : 0, &err) != RC_OK ||
+                              rc_solver_warm_start(e->solver, load, p, &err) != RC_OK))
+        rc_state_refuse(s, "its load or its pressure is impossible");
+    free(p);
+}
+
+/* The dents of earlier points; the pressure, where the point is not kept. */
+static void
+state(struct rc_model *m, struct rc_state *s)
+{
+    struct elastic *e = (struct elastic *)m;
+    size_t dented = e->dent != NULL, apart = e->apart;
+    size_t pressed = m->moved && !e->apart && e->solver != NULL;
+    double load = e->solver != NULL ? rc_solver_load(e->solver) : 0;
+
+    rc_state_count(s, &dented, 1);
+    rc_state_count(s, &apart, 1);
+    rc_state_count(s, &pressed, 1);
+    rc_state_numbers(s, 1, &e->first_top);
+    rc_state_numbers(s, 1, &e->top);
+    rc_state_numbers(s, 1, &e->height_error);
+    rc_state_numbers(s, 1, &e->off);
+    rc_state_numbers(s, 1, &load);
+    if (!rc_state_reads(s)) { /* the solver's pressure is not changed */
+        rc_state_numbers(s, dented ? e->n : 0, e->dent);
+        rc_state_numbers(s, pressed ? e->n : 0, pressed ? e->solver->it.p : NULL);
+        return;
+    }
+    e->apart = apart;
+    e->looked = e->deformed = false;
+    if (dented || e->dent != NULL)
+        read_dent(e, s, dented);
+    if (pressed && rc_state_reads(s))
+        read_pressure(e, s, load);
+}
+
+static void
+progress(const struct rc_model *m, struct rc_loops *s)
+{
+    const struct elastic *e = (const struct elastic *)m;
+    struct rc_progress at;
+
+    if (e->solver == NULL)
+        return;
+    rc_solver_progress(e->solver, &at);
+    rc_loops_add(s, "iteration", NULL, (double)at.iterations, NAN);
+    s->grid = at.grid;
+    s->error = at.error;
+    s->tol = at.tol;
+}
+
+static enum rc_status
+plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
+     struct rc_err *err)
+{
+    const struct elastic *e = (const struct elastic *)m;
+    struct rc_problem problem = e->problem;
+    const bool by_approach = rc_point_has(most, RC_APPROACH);
+    const double stiffness = 12; /* convolutions */
+
+    problem.load = by_approach ? 0 : most->at[RC_LOAD];
+    problem.approach = by_approach ? most->at[RC_APPROACH] : 0;
+    if (rc_solver_expect(&m->shape, &problem, expected, err) != RC_OK)
+        return RC_FAIL;
+    if (e->asks.stiffness || e->asks.conductivity[0] > 0) {
+        expected->seconds *= 1 + stiffness / expected->convolutions;
+        expected->convolutions += stiffness;
+        expected->memory += e->asks.conductivity[0] > 0
+                                ? rc_solver_conductance_memory(&m->shape, &problem)
+                                : rc_solver_stiffness_memory(&m->shape, &problem);
+    }
+    return RC_OK;
+}
+
+static void
+release(struct rc_model *m)
+{
+    struct elastic *e = (struct elastic *)m;
+
+    rc_solver_free(e->solver);
+    free(e->h);
+    free(e->dent);
+}
+
+/* ---- the maker ---- */
+
+struct rc_model *
+rc_elastic_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
+               const struct rc_elastic_asks *asks, struct rc_err *err)
+{
+    struct rc_problem any = *problem;
+    struct rc_expected expected;
+    struct rc_model *m;
+    struct elastic *e;
+
+    any.approach = 1; /* loads are checked when they come */
+    if (rc_solver_expect(shape, &any, &expected, err) != RC_OK ||
+        (m = rc_model_make(&rc_model_elastic, sizeof *e, shape, err)) == NULL)
+        return NULL;
+    e = (struct elastic *)m;
+    e->problem = *problem;
+    e->asks = asks != NULL ? *asks : (struct rc_elastic_asks){false, {0, 0}};
+    e->height_error = problem->height_error;
+    e->n = rc_rows_of(problem->ranks, shape).n * shape->nx;
+    if ((e->h = rc_alloc(e->n, sizeof *e->h)) == NULL) {
+        rc_err_set(err, "out of memory for the heights");
+        rc_model_free(m);
+        return NULL;
+    }
+    memcpy(e->h, h, e->n * sizeof *h);
+    return m;
+}
+
+const struct rc_elastic_figures *
+rc_elastic_result(const struct rc_model *m)
+{
+    while (m != NULL && m->row != &rc_model_elastic)
+        m = m->inner;
+    return m != NULL ? &((const struct elastic *)m)->figures : NULL;
+}
+
+const struct rc_model_row rc_model_elastic = {
+    .name = "elastic",
+    .summary = "elastic bodies, with a hardness",
+    .needs = 1u << RC_LOAD,
+    .takes = 1u << RC_LOAD | 1u << RC_APPROACH,
+    .forgets = true,
+    .figures = figure_sets,
+    .frame = frames,
+    .go = go,
+    .step = step,
+    .look = look,
+    .fill = fill,
+    .state = state,
+    .free = release,
+    .keep = keep,
+    .heights = set_heights,
+    .progress = progress,
+    .plan = plan,
+};

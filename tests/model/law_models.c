@@ -1,0 +1,459 @@
+/* Whatever a model is: a run that is stopped after any step and goes on from its state in another model ends where a run
+ * without a stop does; what was not kept is forgotten; a state of anything else is refused; figures and frames have
+ * names. Every row of models.list is tried, in the library with a toy in it too. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/model/row.h"
+#ifdef RC_TOYS
+#include "tests/toys/relaxing.h"
+#endif
+
+enum {
+    NX = 24,
+    NY = 20,
+    N = NX * NY,
+    POINTS = 3,
+    FIGURES = 64,
+    FEW = 1000 /* steps that a history takes at most */
+};
+
+static const struct rc_shape shape = {NX, NY, 1e-6, 1e-6};
+static double heights[N];
+
+/* ---- a maker for each row ---- */
+
+static struct rc_problem problem = {
+    .pair.estar = 1e9, .tol = 1e-9, .history_part = 0.05, .threads = 1};
+
+static struct rc_model *
+elastic(struct rc_err *err)
+{
+    static const struct rc_elastic_asks asks = {.stiffness = true, .conductivity = {45, 16}};
+
+    problem.hardness = 4e7; /* the first load yields */
+    return rc_elastic_new(&shape, heights, &problem, &asks, err);
+}
+
+#ifdef RC_TOYS
+static struct rc_model *
+relaxing(struct rc_err *err)
+{
+    static const struct toy_relaxing law = {.compliance = 2e-15, .tau = 2, .tol = 1e-2};
+
+    return toy_relaxing_new(elastic(err), heights, &law, err);
+}
+#endif
+
+static const struct kind {
+    const char *name;
+    struct rc_model *(*make)(struct rc_err *err);
+    enum rc_axis axis[2];
+    double at[POINTS][2];
+} kinds[] = {
+    {"elastic", elastic, {RC_LOAD, RC_LOAD}, {{2e-3, 2e-3}, {0, 0}, {3e-3, 3e-3}}},
+#ifdef RC_TOYS
+    {"relaxing", relaxing, {RC_LOAD, RC_TIME}, {{2e-3, 0.3}, {1e-3, 0.5}, {2e-3, 0.6}}},
+#endif
+};
+
+static struct rc_point
+point_of(const struct kind *kind, int k)
+{
+    struct rc_point p = {0};
+
+    for (int a = 0; a < 2; a++)
+        rc_point_set(&p, kind->axis[a], kind->at[k][a]);
+    return p;
+}
+
+static struct rc_model *
+make(const struct kind *kind)
+{
+    struct rc_err err = {""};
+    struct rc_model *m = kind->make(&err);
+
+    if (m == NULL)
+        fail_msg("%s: %s", kind->name, err.text);
+    return m;
+}
+
+/* ---- a run, as a tool has it ---- */
+
+struct found {
+    size_t figures;
+    double figure[FIGURES], load, approach, pressure[N];
+};
+
+static void
+look(struct rc_model *m, struct found *found)
+{
+    const struct rc_figure *f;
+    const void *data;
+    struct rc_point at;
+    struct rc_err err = {""};
+
+    if (rc_model_look(m, &at, &err) != RC_OK ||
+        rc_model_frame(m, "pressure", found->pressure, &err) != RC_OK)
+        fail_msg("%s: %s", rc_model_name(m), err.text);
+    found->load = at.at[RC_LOAD];
+    found->approach = at.at[RC_APPROACH];
+    found->figures = 0;
+    for (size_t k = 0; (f = rc_model_figure(m, k, &data)) != NULL; k++)
+        if (f->role != RC_FIGURE_COST && f->role != RC_FIGURE_ERROR &&
+            strcmp(f->name, "kkt_residual") != 0) {
+            assert_true(found->figures < FIGURES);
+            found->figure[found->figures++] = rc_figure_number(f, data);
+        }
+}
+
+/* Steps of a run before it stops; the progress of every step makes sense. */
+static enum rc_status
+steps(struct rc_model *m, size_t *left, struct rc_err *err)
+{
+    enum rc_status s = RC_MORE;
+    struct rc_loops loops;
+
+    while (s == RC_MORE && *left > 0) {
+        s = rc_model_step(m, err);
+        --*left;
+        rc_model_progress(m, &loops);
+        assert_true(loops.n > 0 && loops.n < RC_LOOPS);
+        for (size_t k = 0; k < loops.n; k++)
+            assert_true(!(loops.loop[k].at > loops.loop[k].of));
+    }
+    if (s == RC_FAIL)
+        fail_msg("%s: %s", rc_model_name(m), err->text);
+    return s;
+}
+
+/* The points from k on, `going`: k is set already. With `left` 0 the run stops, and k is the point then on its way. */
+static enum rc_status
+run(const struct kind *kind, struct rc_model *m, int *k, bool going, size_t *left,
+    struct found found[POINTS])
+{
+    struct rc_err err = {""};
+
+    for (; *k < POINTS; ++*k) {
+        const struct rc_point to = point_of(kind, *k);
+        if (!going && rc_model_go(m, &to, &err) != RC_MORE)
+            fail_msg("%s, point %d: %s", kind->name, *k, err.text);
+        going = false;
+        if (steps(m, left, &err) == RC_MORE)
+            return RC_MORE;
+        look(m, &found[*k]);
+        assert_int_equal(rc_model_keep(m, &err), RC_OK);
+    }
+    return RC_OK;
+}
+
+static bool
+near(double a, double b, double scale)
+{
+    return fabs(a - b) <= 1e-6 * scale || (isnan(a) && isnan(b));
+}
+
+static void
+same(const char *what, const struct found *a, const struct found *b)
+{
+    double most = 0;
+
+    assert_int_equal(a->figures, b->figures);
+    for (size_t k = 0; k < a->figures; k++)
+        if (!near(a->figure[k], b->figure[k], fabs(a->figure[k])))
+            fail_msg("%s: figure %zu is %.10g, was %.10g", what, k, b->figure[k], a->figure[k]);
+    assert_true(near(a->load, b->load, fabs(a->load)));
+    assert_true(near(a->approach, b->approach, fabs(a->approach)));
+    for (size_t k = 0; k < N; k++)
+        most = fmax(most, a->pressure[k]);
+    for (size_t k = 0; k < N; k++)
+        if (!near(a->pressure[k], b->pressure[k], 10 * most))
+            fail_msg("%s: pressure %zu is %.10g, was %.10g", what, k, b->pressure[k],
+                     a->pressure[k]);
+}
+
+/* ---- the laws ---- */
+
+static struct found whole[POINTS], again[POINTS];
+
+/* Stops after `stop` steps, and goes on in another model; false when the run ends before. */
+static bool
+resumed(const struct kind *kind, size_t stop)
+{
+    size_t left = stop, rest = FEW, n;
+    struct rc_model *m = make(kind);
+    struct rc_err err = {""};
+    double *v;
+    bool going;
+    int k = 0;
+    char what[64];
+
+    if (run(kind, m, &k, false, &left, again) == RC_OK) {
+        rc_model_free(m);
+        return false;
+    }
+    n = rc_model_state_size(m);
+    v = malloc(n * sizeof *v);
+    assert_non_null(v);
+    rc_model_state(m, v);
+    rc_model_free(m);
+    m = make(kind);
+    if (rc_model_restore(m, v, n, &going, &err) != RC_OK)
+        fail_msg("%s, %zu steps: %s", kind->name, stop, err.text);
+    free(v);
+    assert_true(going);
+    assert_int_equal(run(kind, m, &k, true, &rest, again), RC_OK);
+    rc_model_free(m);
+    for (k = 0; k < POINTS; k++) {
+        snprintf(what, sizeof what, "%s, %zu steps, point %d", kind->name, stop, k);
+        same(what, &whole[k], &again[k]);
+    }
+    return true;
+}
+
+static void
+run_whole(const struct kind *kind)
+{
+    struct rc_model *m = make(kind);
+    size_t left = FEW;
+    int k = 0;
+
+    assert_int_equal(run(kind, m, &k, false, &left, whole), RC_OK);
+    rc_model_free(m);
+}
+
+static void
+stops(void **state)
+{
+    (void)state;
+    for (size_t q = 0; q < sizeof kinds / sizeof *kinds; q++) {
+        size_t count = 0;
+        run_whole(&kinds[q]);
+        for (size_t stop = 1; resumed(&kinds[q], stop); stop += 1 + stop / 4)
+            count++;
+        printf("%s: %zu stops\n", kinds[q].name, count);
+        assert_true(count > 4);
+    }
+}
+
+/* On the way to the last point the model is sent to the second, as if it had gone there at once: by itself, and after
+ * its state on that way went into another model. */
+static void
+forgets(void **state)
+{
+    (void)state;
+    for (size_t q = 0; q < sizeof kinds / sizeof *kinds; q++) {
+        const struct kind *kind = &kinds[q];
+        const struct rc_point first = point_of(kind, 0), second = point_of(kind, 1),
+                              far = point_of(kind, 2);
+        struct rc_model *m = make(kind), *other = make(kind);
+        struct rc_err err = {""};
+        struct found one;
+        size_t few = 3, n;
+        double *v;
+        bool going;
+        run_whole(kind);
+        assert_int_equal(rc_model_run(m, &first, &err), RC_OK);
+        assert_int_equal(rc_model_keep(m, &err), RC_OK);
+        assert_int_equal(rc_model_go(m, &far, &err), RC_MORE);
+        assert_int_equal(rc_model_keep(m, &err), RC_FAIL); /* on the way */
+        (void)steps(m, &few, &err);
+        n = rc_model_state_size(m);
+        v = malloc(n * sizeof *v);
+        assert_non_null(v);
+        rc_model_state(m, v);
+        assert_int_equal(rc_model_run(m, &second, &err), RC_OK);
+        look(m, &one);
+        same(kind->name, &whole[1], &one);
+        rc_model_free(m);
+        if (rc_model_restore(other, v, n, &going, &err) != RC_OK)
+            fail_msg("%s: %s", kind->name, err.text);
+        free(v);
+        assert_int_equal(rc_model_run(other, &second, &err), RC_OK);
+        look(other, &one);
+        same(kind->name, &whole[1], &one);
+        rc_model_free(other);
+    }
+}
+
+/* ---- what is refused ---- */
+
+static void
+refused(const struct kind *kind, const double *v, size_t n, const char *why)
+{
+    struct rc_model *m = make(kind);
+    struct rc_err err = {""};
+    bool going;
+
+    assert_int_equal(rc_model_restore(m, v, n, &going, &err), RC_FAIL);
+    if (strstr(err.text, why) == NULL)
+        fail_msg("%s: \"%s\", not \"%s\"", kind->name, err.text, why);
+    rc_model_free(m);
+}
+
+static void
+states_of_others(void **state)
+{
+    (void)state;
+    for (size_t q = 0; q < sizeof kinds / sizeof *kinds; q++) {
+        const struct kind *kind = &kinds[q];
+        struct rc_model *m = make(kind);
+        struct rc_err err = {""};
+        const struct rc_point first = point_of(kind, 0);
+        size_t few = 5, n;
+        double *v;
+        assert_int_equal(rc_model_go(m, &first, &err), RC_MORE);
+        assert_int_equal(steps(m, &few, &err), RC_MORE);
+        n = rc_model_state_size(m);
+        v = calloc(n + 1, sizeof *v);
+        assert_non_null(v);
+        rc_model_state(m, v);
+        rc_model_free(m);
+        for (size_t cut = 0; cut < n; cut += 1 + cut / 3)
+            refused(kind, v, cut, "numbers are missing");
+        refused(kind, v, n + 1, "more numbers");
+        v[0] += 1;
+        refused(kind, v, n, "another model");
+        v[0] -= 1, v[1] += 1;
+        refused(kind, v, n, "another map");
+        v[1] -= 1, v[3] = 7;
+        refused(kind, v, n, "out of range");
+        v[3] = NAN;
+        refused(kind, v, n, "NaN");
+        free(v);
+    }
+}
+
+static void
+points(void **state)
+{
+    struct rc_model *m = make(&kinds[0]);
+    struct rc_point p = {0};
+    struct rc_expected expected;
+    struct rc_err err = {""};
+    double map[N];
+
+    (void)state;
+    assert_int_equal(rc_model_go(m, &p, &err), RC_FAIL);
+    assert_string_equal(err.text, "a point of the elastic model needs the load");
+    rc_point_set(&p, RC_LOAD, -1);
+    assert_int_equal(rc_model_go(m, &p, &err), RC_FAIL);
+    assert_int_equal(rc_model_step(m, &err), RC_FAIL);
+    rc_point_set(&p, RC_LOAD, NAN);
+    assert_int_equal(rc_model_go(m, &p, &err), RC_FAIL);
+    rc_point_set(&p, RC_APPROACH, 1e-8); /* and the load is none */
+    assert_true(p.given == 1u << RC_APPROACH);
+    assert_int_equal(rc_model_plan(m, &p, &expected, &err), RC_OK);
+    assert_true(expected.memory > N && expected.convolutions > 12);
+    rc_point_set(&p, RC_TIME, 1);
+    assert_int_equal(rc_model_go(m, &p, &err), RC_FAIL);
+    assert_string_equal(err.text, "a point gives the time, which the elastic model does not have");
+    assert_int_equal(rc_model_frame(m, "nothing", map, &err), RC_FAIL);
+    assert_int_equal(rc_model_frame(m, "pressure", map, &err), RC_FAIL); /* no look so far */
+    assert_true(isnan(rc_model_number(m, "nothing")));
+    rc_model_free(m);
+    for (size_t k = 0; k < RC_AXES; k++)
+        assert_true(rc_axis_info(rc_axis_info(k)->partner)->partner == k);
+    assert_null(rc_axis_info(RC_AXES));
+}
+
+static void
+all_rows(void **state)
+{
+    static const char *const names[] = {
+#define RC_MODEL(name) #name,
+#include RC_MODELS_LIST
+#undef RC_MODEL
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        size_t q = 0, frames = 0;
+        struct rc_model *m;
+        const struct rc_frame_kind *f;
+        while (q < sizeof kinds / sizeof *kinds && strcmp(kinds[q].name, names[k]) != 0)
+            q++;
+        if (q == sizeof kinds / sizeof *kinds)
+            fail_msg("models.list has '%s', which is tried nowhere", names[k]);
+        m = make(&kinds[q]);
+        assert_string_equal(rc_model_name(m), names[k]);
+        assert_true(rc_model_shape(m).nx == NX);
+        for (; (f = rc_model_frame_kind(m, frames)) != NULL; frames++)
+            assert_true(f->unit != NULL && f->title != NULL);
+        assert_true(frames >= 1);
+        rc_model_free(m);
+    }
+}
+
+#ifdef RC_TOYS
+/* Flat bodies in full contact: p = F/A, and the bed settles as s = c p (1 - exp(-t/tau)), exactly in any steps. At the
+ * end of all relaxation every node has settled by c times its own pressure, whatever the surface. */
+static void
+relaxation(void **state)
+{
+    static const double flat[N];
+    const double c = 1e-15;
+    const struct toy_relaxing law = {.compliance = c, .tau = 2, .tol = 1e-3};
+    const double p = 1e-3 / (N * shape.dx * shape.dy);
+    struct rc_problem o = {.boundary = RC_PERIODIC, .pair.estar = 1e9, .tol = 1e-9, .threads = 1};
+    struct rc_err err = {""};
+    double s[N], q[N], sum = 0, off = 0;
+    struct rc_point to = {0};
+    struct rc_model *m =
+        toy_relaxing_new(rc_elastic_new(&shape, flat, &o, NULL, &err), flat, &law, &err);
+
+    (void)state;
+    assert_non_null(m);
+    rc_point_set(&to, RC_LOAD, 1e-3);
+    rc_point_set(&to, RC_TIME, 3);
+    assert_int_equal(rc_model_run(m, &to, &err), RC_OK);
+    assert_int_equal(rc_model_look(m, NULL, &err), RC_OK);
+    assert_true(near(rc_model_number(m, "mean_settlement"), c * p * (1 - exp(-1.5)), c * p));
+    rc_model_free(m);
+
+    m = toy_relaxing_new(rc_elastic_new(&shape, heights, &o, NULL, &err), heights, &law, &err);
+    assert_non_null(m);
+    rc_point_set(&to, RC_TIME, 60);
+    assert_int_equal(rc_model_run(m, &to, &err), RC_OK);
+    assert_true(rc_model_look(m, NULL, &err) == RC_OK &&
+                rc_model_frame(m, "settlement", s, &err) == RC_OK &&
+                rc_model_frame(m, "pressure", q, &err) == RC_OK);
+    for (size_t k = 0; k < N; k++) {
+        sum += s[k];
+        off += fabs(s[k] - c * q[k]);
+    }
+    assert_true(off < 3e-3 * sum); /* the last step is within 1e-3 */
+    printf("%g steps, %g rejected\n", rc_model_number(m, "steps"), rc_model_number(m, "rejected"));
+    assert_true(rc_model_number(m, "steps") < 200 && rc_model_number(m, "time") == 60);
+    rc_model_free(m);
+}
+#endif
+
+static int
+make_heights(void **state)
+{
+    const struct rc_selfaffine what = {.hurst = 0.8, .rms_slope = 0.1, .seed = 5};
+
+    (void)state;
+    return rc_synth_selfaffine(&shape, &what, heights, NULL) == RC_OK ? 0 : -1;
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_rows),   cmocka_unit_test(points),           cmocka_unit_test(stops),
+        cmocka_unit_test(forgets),    cmocka_unit_test(states_of_others),
+#ifdef RC_TOYS
+        cmocka_unit_test(relaxation),
+#endif
+    };
+
+    return cmocka_run_group_tests(tests, make_heights, NULL);
+}
