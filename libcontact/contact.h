@@ -1024,6 +1024,10 @@ RC_API void rc_adhesion_pressure(const struct rc_adhesion *a, double *pressure);
 RC_API void rc_adhesion_gap(const struct rc_adhesion *a, double *gap);
 RC_API void rc_adhesion_displacement(const struct rc_adhesion *a, double *displacement);
 RC_API void rc_adhesion_traction(const struct rc_adhesion *a, double *traction);
+/* Other heights (nx ny m, copied): the next state begins with the displacement of the last one, and its load or
+ * approach has to be set. RC_FAIL when one is not a finite number, which leaves all as it was. */
+RC_API enum rc_status rc_adhesion_set_heights(struct rc_adhesion *a, const double *h,
+                                              struct rc_err *err);
 /* Where the hardness was reached: what stood into the other body is gone, from the heights of the path from
  * here on and from h, nx ny m (or NULL), those that the path began with less what has gone before. Without
  * effect where nothing has yielded. rc_adhesion_pull_off begins with it. */
@@ -1078,6 +1082,10 @@ struct rc_leak;
  * SuiteSparse. */
 RC_API struct rc_leak *rc_leak_new(const struct rc_shape *shape, const double *p, const double *g,
                                    const struct rc_leak_options *options, struct rc_err *err);
+/* Another contact and gap of the same map, with the same options and memory: as rc_leak_new, but a value that is not
+ * finite leaves all as it was. After RC_FAIL for want of memory it is of no further use. */
+RC_API enum rc_status rc_leak_set_gap(struct rc_leak *leak, const double *p, const double *g,
+                                      struct rc_err *err);
 /* RC_MORE until the flow is known, then RC_OK: two steps. The first takes what rc_leak_step_memory
  * says; RC_FAIL when that is not there. */
 RC_API enum rc_status rc_leak_step(struct rc_leak *leak, struct rc_err *err);

@@ -225,23 +225,37 @@ operator_options(const struct rc_problem *c)
 }
 
 static enum rc_status
-take_heights(struct rc_adhesion *a, const double *h, struct rc_err *err)
+check_heights(const struct rc_adhesion *a, const double *h, struct rc_err *err)
+{
+    for (size_t k = 0; k < a->shape.nx * a->shape.ny; k++)
+        if (!isfinite(h[k]))
+            return rc_err_set(err, "height %zu is not a finite number", k);
+    return RC_OK;
+}
+
+static void
+take_heights(struct rc_adhesion *a, const double *h)
 {
     size_t n = a->shape.nx * a->shape.ny;
     double top = -INFINITY;
 
-    a->h = rc_alloc(n, sizeof *a->h);
-    if (a->h == NULL)
-        return rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", a->shape.nx,
-                          a->shape.ny);
-    for (size_t k = 0; k < n; k++) {
-        if (!isfinite(h[k]))
-            return rc_err_set(err, "height %zu is not a finite number", k);
+    for (size_t k = 0; k < n; k++)
         top = fmax(top, h[k]);
-    }
     for (size_t k = 0; k < n; k++)
         a->h[k] = (h[k] - top) / a->whole->length;
     a->mean_h = rc_sum(a->h, n) / (double)n;
+}
+
+static enum rc_status
+make_heights(struct rc_adhesion *a, const double *h, struct rc_err *err)
+{
+    a->h = rc_alloc(a->shape.nx * a->shape.ny, sizeof *a->h);
+    if (a->h == NULL)
+        return rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", a->shape.nx,
+                          a->shape.ny);
+    if (check_heights(a, h, err) != RC_OK)
+        return RC_FAIL;
+    take_heights(a, h);
     return RC_OK;
 }
 
@@ -307,7 +321,7 @@ rc_adhesion_new(const struct rc_shape *shape, const double *h,
     a->max_iterations =
         c->max_iterations > 0 ? c->max_iterations : 100 + (size_t)(10 * sqrt(nodes));
     if ((a->whole = rc_whole_new(shape, &options, err)) == NULL ||
-        take_heights(a, h, err) != RC_OK || take_hardness(a, c, &hard, &hards, err) != RC_OK ||
+        make_heights(a, h, err) != RC_OK || take_hardness(a, c, &hard, &hards, err) != RC_OK ||
         rc_gap_new(&a->gap, a->whole, &law, a->h, hard, hards, err) != RC_OK) {
         rc_adhesion_free(a);
         return NULL;
@@ -894,6 +908,36 @@ rc_adhesion_start(struct rc_adhesion *a, const double *pressure, double approach
     g->given = a->given;
     a->held = false;
     a->begun = true;
+    return RC_OK;
+}
+
+/* The displacement stays, and with it the pressure: the gap changes by what the heights do. */
+enum rc_status
+rc_adhesion_set_heights(struct rc_adhesion *a, const double *h, struct rc_err *err)
+{
+    struct rc_gap *g = &a->gap;
+    const double c = a->begun ? rc_gap_shift(g) : 0;
+
+    if (check_heights(a, h, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i++)
+            g->x[j * g->px + i] += a->h[j * g->nx + i];
+    take_heights(a, h);
+    a->dents = a->dents_load = 0;
+    a->pull.on = false;
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i++) {
+            double *x = g->x + j * g->px + i;
+            *x = fmax(*x - a->h[j * g->nx + i], 0);
+        }
+    if (!a->begun)
+        rc_gap_apart(g, 0);
+    set_shift(a, c);
+    g->control = a->control;
+    g->given = a->given;
+    g->known = false;
+    a->held = false;
     return RC_OK;
 }
 

@@ -72,6 +72,8 @@ set_gap(struct rc_leak *l, const double *p, const double *g)
     struct rc_total sum = {0};
     struct rc_passage *a = &l->a;
 
+    l->largest = 0;
+    l->figures = (struct rc_leak_figures){0};
     for (int32_t k = 0; k < a->nodes; k++) {
         size_t at = place_in_map(l, (size_t)k);
         a->g[k] = (p == NULL || !rc_in_contact(p[at])) && g[at] > 0 ? g[at] : 0;
@@ -168,23 +170,43 @@ failed:
     return NULL;
 }
 
+/* Takes the gap, and finds what percolates. */
+static enum rc_status
+begin(struct rc_leak *l, const double *p, const double *g, struct rc_err *err)
+{
+    struct rc_critical critical;
+
+    set_gap(l, p, g);
+    rc_elimination_free(l->elimination);
+    l->elimination = NULL;
+    l->stage = STAGE_LINEAR;
+    if (rc_percolation(&l->a, &critical, l->tree, err) != RC_OK || rc_blocks(&l->a, err) != RC_OK ||
+        (l->elimination = rc_elimination_new(&l->a, err)) == NULL)
+        return RC_FAIL;
+    set_figures(l, &critical);
+    return RC_OK;
+}
+
 struct rc_leak *
 rc_leak_new(const struct rc_shape *shape, const double *p, const double *g,
             const struct rc_leak_options *options, struct rc_err *err)
 {
-    struct rc_critical critical;
     struct rc_leak *l;
 
     if (check(shape, p, g, options, err) != RC_OK || (l = new_passage(shape, options, err)) == NULL)
         return NULL;
-    set_gap(l, p, g);
-    if (rc_percolation(&l->a, &critical, l->tree, err) != RC_OK || rc_blocks(&l->a, err) != RC_OK ||
-        (l->elimination = rc_elimination_new(&l->a, err)) == NULL) {
+    if (begin(l, p, g, err) != RC_OK) {
         rc_leak_free(l);
         return NULL;
     }
-    set_figures(l, &critical);
     return l;
+}
+
+enum rc_status
+rc_leak_set_gap(struct rc_leak *l, const double *p, const double *g, struct rc_err *err)
+{
+    return check(&l->shape, p, g, &(struct rc_leak_options){0}, err) == RC_OK ? begin(l, p, g, err)
+                                                                              : RC_FAIL;
 }
 
 size_t

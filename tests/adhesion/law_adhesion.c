@@ -618,6 +618,44 @@ units_and_mirrors(void **state)
 }
 
 /* A path that goes on from its pressure and approach goes on as it would have. */
+/* Pressed together far enough there is one state: with heights that are set on the way it is that of a new path, before
+ * the first state and after one; heights that make no sense leave all as it was. */
+static void
+heights_change(void **state)
+{
+    const size_t n = 40;
+    static double other[40 * 40];
+
+    (void)state;
+    for (int dome = 0; dome < 2; dome++) {
+        struct rc_shape shape = rough(n, 11, dome);
+        struct rc_adhesion_problem problem = law_of(dome ? RC_FREE : RC_PERIODIC, 0.1, 3, 1e-8);
+        double deep = dome ? 0.8 : 0.7 * depth(n);
+        double top = depth(n) + rc_sum(h, n * n) / (double)(n * n);
+        for (size_t k = 0; k < n * n; k++) /* worn where it is highest */
+            other[k] = fmin(h[k], top - 0.05 * depth(n)) + 0.01 * depth(n) * sin((double)k);
+        for (int begun = 0; begun < 2; begun++) {
+            struct rc_adhesion *a = adhesion_new(shape, h, problem),
+                               *b = adhesion_new(shape, other, problem);
+            double was = other[5];
+            if (begun)
+                (void)adhesion_to_approach(a, deep / 2);
+            other[5] = NAN;
+            assert_int_equal(rc_adhesion_set_heights(a, other, &adhesion_err), RC_FAIL);
+            other[5] = was;
+            assert_int_equal(rc_adhesion_set_heights(a, other, &adhesion_err), RC_OK);
+            assert_int_equal(rc_adhesion_step(a, &adhesion_err), RC_FAIL); /* no load is set */
+            assert_true(adhesion_to_approach(a, deep)->converged);
+            (void)adhesion_to_approach(b, deep);
+            rc_adhesion_pressure(a, p);
+            rc_adhesion_pressure(b, exact);
+            assert_true(adhesion_distance(n * n, p, exact) <= 1e-6);
+            rc_adhesion_free(a);
+            rc_adhesion_free(b);
+        }
+    }
+}
+
 static void
 paths_resume(void **state)
 {
@@ -658,6 +696,7 @@ main(void)
         cmocka_unit_test(sums_agree),
         cmocka_unit_test(units_and_mirrors),
         cmocka_unit_test(paths_resume),
+        cmocka_unit_test(heights_change),
         cmocka_unit_test(errors_of_dents_are_known),
         cmocka_unit_test(complete_contact_has_rounding),
         cmocka_unit_test(soft_modes_are_seen),

@@ -354,7 +354,7 @@ adheres(double *out, struct rc_err *err)
     rc_adhesion_gap(a, out + N);
     status = RC_FAIL;
     if (rc_adhesion_start(b, out, rc_adhesion_result(a)->approach, err) != RC_OK ||
-        rc_adhesion_set_load(b, 0, err) != RC_OK)
+        rc_adhesion_set_heights(b, rough, err) != RC_OK || rc_adhesion_set_load(b, 0, err) != RC_OK)
         goto done;
     while ((status = rc_adhesion_step(b, err)) == RC_MORE)
         ;
@@ -399,6 +399,9 @@ leaks(double *out, struct rc_err *err)
         return RC_FAIL;
     while ((status = rc_leak_step(leak, err)) == RC_MORE)
         continue;
+    if (status == RC_OK && (status = rc_leak_set_gap(leak, p, g, err)) == RC_OK)
+        while ((status = rc_leak_step(leak, err)) == RC_MORE)
+            continue;
     if (status == RC_OK) {
         rc_leak_pressure(leak, out);
         rc_leak_flux(leak, out + N);

@@ -440,6 +440,49 @@ scales_and_grows(void **state)
     }
 }
 
+/* Another gap in a solver that is there, before and after its steps: the very numbers of a new one. */
+static void
+takes_another_gap(void **state)
+{
+    static const struct rc_shape s = {31, 26, 1e-6, 1.3e-6};
+    const struct rc_leak_options options = {.direction = 'y', .around = true, .threads = 1};
+    double g[31 * 26], p[31 * 26] = {0}, flux[31 * 26], bad[31 * 26];
+    const struct rc_leak_figures *is;
+    uint64_t seed = 31;
+    struct rc_err err;
+    struct rc_leak *l;
+
+    (void)state;
+    random_gap(s, 0.9, 0.25, &seed, g);
+    l = rc_leak_new(&s, NULL, g, &options, &err);
+    assert_non_null(l);
+    for (int k = 0; k < 4; k++) {
+        struct rc_leak_figures fresh;
+        random_gap(s, 0.7, k == 2 ? 0.8 : 0.25, &seed, g); /* that of k = 2 is closed */
+        p[40 * k] = 1;
+        memcpy(bad, g, sizeof g);
+        bad[77] = NAN;
+        assert_int_equal(rc_leak_set_gap(l, p, bad, &err), RC_FAIL);
+        assert_non_null(strstr(err.text, "has no finite gap"));
+        assert_int_equal(rc_leak_set_gap(l, p, g, &err), RC_OK);
+        if (k == 0)
+            continue;
+        while (rc_leak_step(l, &err) == RC_MORE)
+            ;
+        fresh = leak_figures(s, p, g, 'y', true);
+        assert_int_equal(fresh.percolates, k != 2);
+        is = rc_leak_result(l);
+        if (is->conductance != fresh.conductance || is->lower != fresh.lower ||
+            is->upper != fresh.upper || is->conductance_linear != fresh.conductance_linear ||
+            is->mean_gap != fresh.mean_gap || is->critical_gap != fresh.critical_gap ||
+            is->unknowns != fresh.unknowns || is->fluid_nodes != fresh.fluid_nodes)
+            fail_msg("gap %d: conductance %.17g, new %.17g", k, is->conductance, fresh.conductance);
+        rc_leak_flux(l, flux);
+        assert_true(p[40 * k] == 1 && isnan(flux[40 * k]));
+    }
+    rc_leak_free(l);
+}
+
 static void
 refuses(void **state)
 {
@@ -468,13 +511,10 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(agrees_with_dense),
-        cmocka_unit_test(tells_what_stands),
-        cmocka_unit_test(finds_the_critical_gap),
-        cmocka_unit_test(bounds_meet),
-        cmocka_unit_test(is_symmetric),
-        cmocka_unit_test(scales_and_grows),
-        cmocka_unit_test(refuses),
+        cmocka_unit_test(agrees_with_dense),      cmocka_unit_test(tells_what_stands),
+        cmocka_unit_test(finds_the_critical_gap), cmocka_unit_test(bounds_meet),
+        cmocka_unit_test(is_symmetric),           cmocka_unit_test(scales_and_grows),
+        cmocka_unit_test(takes_another_gap),      cmocka_unit_test(refuses),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
