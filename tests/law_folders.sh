@@ -14,6 +14,7 @@
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/model    | %base                                    | libcontact libcontact/solver=rc_figures_
+libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/leak=rc_figures_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
 libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
@@ -85,7 +86,7 @@ tools/leak          | %public tools/cli/cli.h                  | %physics %cli
 tools/pick          | %public tools/cli/cli.h                  | %physics %cli
 tools/synth         | %public tools/cli/cli.h                  | %physics %cli
 tools/info          | %public tools/cli/cli.h                  | %physics %cli formats/rcg
-tools/render        | libcontact/grid.h tools/cli/cli.h        | libcontact libcontact/body %cli
+tools/render        | libcontact/grid.h libcontact/model.h tools/cli/cli.h | libcontact libcontact/body libcontact/model %cli
 tools/render        | tools/plot/plot.h                        | %plot
 tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve

@@ -689,6 +689,23 @@ rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err)
 
 /* ---- what has been found ---- */
 
+#define FIGURE(member) RC_FIGURE(struct rc_adhesion_figures, member)
+const struct rc_figure rc_figures_adhesion[] = {
+    {FIGURE(attractive_load), "N", "Load of attraction", .says = "sum of the attraction, positive"},
+    {FIGURE(repulsive_load), "N", "Load of repulsion", .says = "sum of the repulsion"},
+    {FIGURE(attractive_area), "m2", "Area of attraction",
+     .says = "where the attraction is above 1 % of its largest value"},
+    {FIGURE(min_pressure), "Pa", "Lowest net pressure"},
+    {FIGURE(stability), NULL, "Stability",
+     .says = "smallest eigenvalue of the stiffness of the gap", .limit = 0.02, .least = true,
+     .warning = "the state is about to jump"},
+    {FIGURE(jumps), NULL, "Jumps", .says = "places on the way where stable states ended"},
+    {FIGURE(pull_off_load), "N", "Pull-off load", .says = "lowest load of the retraction"},
+    {FIGURE(pull_off_approach), "m", "Approach at pull-off"},
+    {FIGURE(pull_off_spread), "N", "Uncertainty of the pull-off load"},
+    {0},
+};
+
 static double
 at_edge(const struct rc_adhesion *a)
 {

@@ -38,6 +38,33 @@ struct rc_leak {
 /* A gap of less than this part of the largest lets nothing through, and its cube is a number still. */
 static const double closed = 1e-30;
 
+#define FIGURE(member) RC_FIGURE(struct rc_leak_figures, member)
+#define AS(column, member) RC_FIGURE_AS(column, struct rc_leak_figures, member)
+const struct rc_figure rc_figures_leak[] = {
+    {AS("flow_conductance", conductance), "m3", "Flow conductance"},
+    {AS("flow_conductance_linear", conductance_linear), "m3", "Flow conductance, linear faces"},
+    {AS("conductance_lower", lower), "m3", "Lower bound of the conductance"},
+    {AS("conductance_upper", upper), "m3", "Upper bound of the conductance"},
+    {AS("discretization_error_estimate", error), NULL, "Error of the grid",
+     .says = "estimated, relative", .limit = 0.05,
+     .warning = "the grid is too coarse for the flow"},
+    {FIGURE(flow_factor), NULL, "Flow factor", .says = "of Patir and Cheng"},
+    {FIGURE(mean_gap), "m", "Mean gap", .says = "over the whole map"},
+    {AS("gap_slope", slope), NULL, "RMS slope of the gap", .says = "where fluid flows",
+     .limit = 0.3, .warning = "the slope of the gap is beyond the theory of thin films"},
+    {FIGURE(percolates), NULL, "Percolates", .says = "through the edges of cells"},
+    {FIGURE(percolates_diagonal), NULL, "Percolates diagonally",
+     .says = "through the corners of cells too"},
+    {FIGURE(critical_gap), "m", "Critical gap", .says = "narrowest place of the widest way"},
+    {FIGURE(critical_x), "m", "Place of the critical gap along x"},
+    {FIGURE(critical_y), "m", "Place of the critical gap along y"},
+    {FIGURE(throat_nodes), NULL, "Nodes across the critical gap"},
+    {FIGURE(fluid_nodes), NULL, "Nodes with fluid"},
+    {FIGURE(dead_nodes), NULL, "Nodes where fluid stands"},
+    {FIGURE(unknowns), NULL, "Nodes where fluid flows"},
+    {0},
+};
+
 /* ---- the passage ---- */
 
 /* Of node k of the passage, its place in the map. */

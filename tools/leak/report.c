@@ -17,6 +17,7 @@ void
 leak_report(struct report *r, const struct leak_case *c)
 {
     const struct rc_leak_figures *f = c->figures;
+    const struct figures from[] = {{rc_figures("leak"), f}, {NULL, NULL}};
     const struct rc_grid *g = c->gap;
     const char direction[2] = {c->direction, '\0'};
     double load;
@@ -40,24 +41,12 @@ leak_report(struct report *r, const struct leak_case *c)
     report_number(r, "viscosity", c->viscosity, "Pas");
     report_number(r, "pressure_drop", c->drop, "Pa");
     report_number(r, "flow_rate", c->rate * f->conductance, "m3/s");
-    report_number(r, "flow_conductance", f->conductance, "m3");
-    report_number(r, "flow_conductance_linear", f->conductance_linear, "m3");
-    report_number(r, "conductance_lower", f->lower, "m3");
-    report_number(r, "conductance_upper", f->upper, "m3");
-    report_number(r, "discretization_error_estimate", f->error, NULL);
-    report_number(r, "flow_factor", f->flow_factor, NULL);
-    report_number(r, "mean_gap", f->mean_gap, "m");
-    report_number(r, "gap_slope", f->slope, NULL);
-    report_bool(r, "percolates", f->percolates);
-    report_bool(r, "percolates_diagonal", f->percolates_diagonal);
-    report_number(r, "critical_gap", f->critical_gap, "m");
-    report_number(r, "critical_x", f->critical_x, "m");
-    report_number(r, "critical_y", f->critical_y, "m");
+    report_named(r, from,
+                 "flow_conductance flow_conductance_linear conductance_lower conductance_upper "
+                 "discretization_error_estimate flow_factor mean_gap gap_slope percolates "
+                 "percolates_diagonal critical_gap critical_x critical_y");
     report_number(r, "critical_flow", c->rate * critical_conductance(c), "m3/s");
-    report_count(r, "throat_nodes", f->throat_nodes, NULL);
-    report_count(r, "fluid_nodes", f->fluid_nodes, NULL);
-    report_count(r, "dead_nodes", f->dead_nodes, NULL);
-    report_count(r, "unknowns", f->unknowns, NULL);
+    report_named(r, from, "throat_nodes fluid_nodes dead_nodes unknowns");
     report_object(r, "seconds");
     report_number(r, "setup", c->setup, "s");
     report_number(r, "solve", c->solve, "s");

@@ -17,40 +17,15 @@ enum {
     SAMPLES = 200 /* of a law */
 };
 
-/* What the columns of the reports are called in a figure, and their unit where the table is JSON,
- * which names none. */
+/* Titles of columns that are no figures of the library, and their unit where the table is JSON, which names none. */
 static const struct quantity {
     const char *name, *title, *unit;
 } quantities[] = {
-    {"load", "Load", "N"},
-    {"mean_pressure", "Mean pressure", "Pa"},
-    {"max_pressure", "Largest pressure", "Pa"},
-    {"contact_nodes", "Nodes in contact", "1"},
     {"nodes_per_patch", "Nodes per patch", "1"},
-    {"contact_area", "Contact area", "m2"},
     {"contact_area_corrected", "Contact area, corrected", "m2"},
-    {"contact_fraction", "Contact fraction", "1"},
     {"contact_area_inside", "Contact area inside the taper", "m2"},
     {"contact_fraction_inside", "Contact fraction inside the taper", "1"},
-    {"plastic_area", "Area at the hardness", "m2"},
-    {"yielded_area", "Yielded area", "m2"},
-    {"edge_load_fraction", "Share of the load at the edge", "1"},
-    {"approach", "Approach", "m"},
-    {"indentation", "Indentation", "m"},
-    {"residual_indentation", "Residual indentation", "m"},
-    {"mean_gap", "Mean gap", "m"},
-    {"stiffness", "Stiffness", "N/m"},
-    {"conductance", "Conductance", "1"}, /* W/K or S, as the table says */
-    {"iterations", "Iterations", "1"},
-    {"convolutions", "Convolutions", "1"},
-    {"kkt_residual", "Residual", "1"},
-    {"pressure_error_estimate", "Error of the pressure", "1"},
-    {"discretization_error_estimate", "Error of the grid", "1"},
     {"flow_rate", "Flow rate", "m3/s"},
-    {"flow_conductance", "Flow conductance", "m3"},
-    {"flow_conductance_linear", "Flow conductance, linear faces", "m3"},
-    {"flow_factor", "Flow factor", "1"},
-    {"critical_gap", "Critical gap", "m"},
     {"critical_flow", "Flow of the critical constriction", "m3/s"},
     {"tangential_x", "Force along x", "N"},
     {"tangential_y", "Force along y", "N"},
@@ -68,11 +43,6 @@ static const struct quantity {
     {"radius", "Radius", "m"},
     {"rms_slope", "RMS slope", "1"},
     {"depth", "Depth", "m"},
-    {"attractive_load", "Load of attraction", "N"},
-    {"repulsive_load", "Load of repulsion", "N"},
-    {"attractive_area", "Area of attraction", "m2"},
-    {"stability", "Stability", "1"},
-    {"elastic_energy", "Elastic energy", "J"},
     {"q", "Wavenumber", "rad/m"},
     {"c", "Power spectral density", "m4"},
 };
@@ -135,13 +105,18 @@ last_part(const char *name)
     return point == NULL ? name : point + 1;
 }
 
-static const struct quantity *
+/* The title and the unit of a column; NULL: it has none. Figures of the library have their own table. */
+static struct quantity
 quantity_of(const char *name)
 {
+    const struct rc_figure *f = rc_figure_find(last_part(name));
+
+    if (f != NULL)
+        return (struct quantity){f->name, f->title, f->unit};
     for (size_t k = 0; k < sizeof quantities / sizeof *quantities; k++)
         if (strcmp(quantities[k].name, last_part(name)) == 0)
-            return &quantities[k];
-    return NULL;
+            return quantities[k];
+    return (struct quantity){NULL, NULL, NULL};
 }
 
 /* In the middle of a sentence; E* and RMS stay. */
@@ -159,7 +134,7 @@ title_of(const struct curves *c, size_t k)
 
     if (c->history && strcmp(name, helper_name[APPROACH]) == 0)
         name = helper_name[INDENTATION];
-    return quantity_of(name) == NULL ? name : quantity_of(name)->title;
+    return quantity_of(name).title == NULL ? name : quantity_of(name).title;
 }
 
 /* A spectrum of a profile has a unit of its own. */
@@ -167,14 +142,14 @@ static const char *
 unit_of(const struct table *table, size_t c)
 {
     const struct column *column = &table->column[c];
-    const struct quantity *q = quantity_of(column->name);
+    const struct quantity q = quantity_of(column->name);
     const double *ny = table->column[table->columns - HELPERS + NY].v;
 
     if (column->unit[0] != '\0')
         return column->unit;
     if (strcmp(last_part(column->name), "c") == 0 && ny[0] == 1)
         return "m3";
-    return q == NULL ? "1" : q->unit;
+    return q.unit == NULL ? "1" : q.unit;
 }
 
 static const char *
@@ -423,12 +398,12 @@ static void
 say_label(const struct table *table, size_t k, size_t row, char text[NAME])
 {
     const struct column *column = &table->column[k];
-    const struct quantity *q = quantity_of(column->name);
+    const struct quantity q = quantity_of(column->name);
     const char *word = word_of(table, k, row), *unit = unit_of(table, k), *end;
     char title[NAME], value[TICKS_TEXT];
     double number;
 
-    snprintf(title, sizeof title, "%s", q == NULL ? last_part(column->name) : q->title);
+    snprintf(title, sizeof title, "%s", q.title == NULL ? last_part(column->name) : q.title);
     begin_small(title);
     end = word == NULL ? NULL : rc_number_read(word, true, &number);
     if (word != NULL && strcmp(last_part(column->name), helper_name[SOURCE]) == 0)
@@ -883,13 +858,13 @@ describe(struct curves *c)
         size_t n = strlen(c->axis);
 
         add_word(c->axis, title_of(c, k));
-        if (k > 1 && quantity_of(c->column[k]) != NULL)
+        if (k > 1 && quantity_of(c->column[k]).title != NULL)
             begin_small(c->axis + n + 2);
     }
     snprintf(c->title, NAME, "%.150s against ", c->axis);
     x += strlen(x);
     snprintf(x, NAME - (size_t)(x - c->title), "%.90s", title_of(c, 0));
-    if (quantity_of(c->column[0]) != NULL)
+    if (quantity_of(c->column[0]).title != NULL)
         begin_small(x);
 }
 

@@ -514,22 +514,18 @@ adhesion_report(struct report *r, const struct run *run)
 {
     const struct adhering *a = &run->adhering;
     const bool on = a->path != NULL;
-    const struct rc_adhesion_figures none = {0}, *f = on ? rc_adhesion_result(a->path) : &none;
+    const struct rc_adhesion_figures *f = on ? rc_adhesion_result(a->path) : NULL;
+    const struct figures from[] = {{rc_figures("adhesion"), f}, {NULL, NULL}},
+                         pull_off[] = {{from->table, a->pulling ? f : NULL}, {NULL, NULL}};
 
     report_number(r, "adhesion_work", on ? a->law.problem.work : NAN, "J/m2");
     report_text(r, "adhesion_law", on ? a->scales.law : NULL);
     report_number(r, "adhesion_range", on ? a->scales.range : NAN, "m");
     report_number(r, "cohesive_nodes", on ? a->scales.cohesive_nodes : NAN, NULL);
-    report_number(r, "attractive_load", on ? f->attractive_load : NAN, "N");
-    report_number(r, "repulsive_load", on ? f->repulsive_load : NAN, "N");
-    report_number(r, "attractive_area", on ? f->attractive_area : NAN, "m2");
-    report_number(r, "min_pressure", on ? f->min_pressure : NAN, "Pa");
-    report_number(r, "stability", on ? f->stability : NAN, NULL);
+    report_named(r, from, "attractive_load repulsive_load attractive_area min_pressure stability");
     report_text(r, "stable", !on ? NULL : f->stable ? "yes" : "no");
     report_text(r, "separated", !on ? NULL : f->separated ? "yes" : "no");
-    report_number(r, "jumps", on ? (double)f->jumps : NAN, NULL);
-    report_number(r, "pull_off_load", on && a->pulling ? f->pull_off_load : NAN, "N");
-    report_number(r, "pull_off_approach", on && a->pulling ? f->pull_off_approach : NAN, "m");
-    report_number(r, "pull_off_spread", on && a->pulling ? f->pull_off_spread : NAN, "N");
+    report_named(r, from, "jumps");
+    report_named(r, pull_off, "pull_off_load pull_off_approach pull_off_spread");
     report_number(r, "tabor", on ? tabor(run) : NAN, NULL);
 }
