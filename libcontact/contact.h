@@ -738,15 +738,15 @@ struct rc_elastic_asks {
 struct rc_elastic_figures {
     struct rc_contact contact;
     double stiffness, conductance, conductance_lower; /* NAN: not asked for                       */
-    /* m: the approach from the first touch of the first shape, and the first touch of the shape that is left, once
-     * it is kept */
+    /* m: the approach from the first touch of the first shape, and the first touch of the shape that is
+     * left, once it is kept */
     double indentation, residual_indentation;
     double tilt_x, tilt_y; /* rad; NAN: the counter body cannot tilt                         */
     const char *kernel, *method; /* NULL: no load so far                                          */
 };
-/* A model (model.h) of elastic bodies, with a hardness; it takes a load or an approach, 0: the bodies are apart. A point
- * that is kept leaves its dents in the shape. `h` is copied; what `problem` points to has to last. The problem's load and
- * approach are not used. asks NULL: nothing. */
+/* A model (model.h) of elastic bodies, with a hardness; it takes a load or an approach, 0: the bodies are
+ * apart. A point that is kept leaves its dents in the shape. `h` is copied; what `problem` points to has to
+ * last. The problem's load and approach are not used. asks NULL: nothing. */
 RC_API struct rc_model *rc_elastic_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem,
                                        const struct rc_elastic_asks *asks, struct rc_err *err);
@@ -1024,8 +1024,8 @@ RC_API void rc_adhesion_pressure(const struct rc_adhesion *a, double *pressure);
 RC_API void rc_adhesion_gap(const struct rc_adhesion *a, double *gap);
 RC_API void rc_adhesion_displacement(const struct rc_adhesion *a, double *displacement);
 RC_API void rc_adhesion_traction(const struct rc_adhesion *a, double *traction);
-/* Other heights (nx ny m, copied): the next state begins with the displacement of the last one, and its load or
- * approach has to be set. RC_FAIL when one is not a finite number, which leaves all as it was. */
+/* Other heights (nx ny m, copied): the next state begins with the displacement of the last one, and its
+ * load or approach has to be set. RC_FAIL when one is not a finite number, which leaves all as it was. */
 RC_API enum rc_status rc_adhesion_set_heights(struct rc_adhesion *a, const double *h,
                                               struct rc_err *err);
 /* Where the hardness was reached: what stood into the other body is gone, from the heights of the path from
@@ -1082,8 +1082,8 @@ struct rc_leak;
  * SuiteSparse. */
 RC_API struct rc_leak *rc_leak_new(const struct rc_shape *shape, const double *p, const double *g,
                                    const struct rc_leak_options *options, struct rc_err *err);
-/* Another contact and gap of the same map, with the same options and memory: as rc_leak_new, but a value that is not
- * finite leaves all as it was. After RC_FAIL for want of memory it is of no further use. */
+/* Another contact and gap of the same map, with the same options and memory: as rc_leak_new, but a value
+ * that is not finite leaves all as it was. After RC_FAIL for want of memory it is of no further use. */
 RC_API enum rc_status rc_leak_set_gap(struct rc_leak *leak, const double *p, const double *g,
                                       struct rc_err *err);
 /* RC_MORE until the flow is known, then RC_OK: two steps. The first takes what rc_leak_step_memory

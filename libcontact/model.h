@@ -1,6 +1,6 @@
 /*
- * A model: two bodies, how they deform, and what has happened to them so far. Each kind of model has its own
- * maker (rc_elastic_new); the verbs of this file drive all of them:
+ * A model: two bodies, how they deform, and what has happened to them so far. Each kind of model has its
+ * own maker (rc_elastic_new); the verbs of this file drive all of them:
  *
  *     struct rc_model *m = rc_elastic_new(&shape, h, &problem, NULL, &err);
  *     struct rc_point to = {0}, at;
@@ -12,8 +12,8 @@
  *     printf("%g m, %g Pa\n", at.at[RC_APPROACH], rc_model_number(m, "max_pressure"));
  *     rc_model_keep(m, &err);                (the point becomes history; without it the next go forgets it)
  *
- * The caller owns the loop. A maker checks the problem; the first go allocates the large arrays. Everything is
- * SI. This header comes with contact.h.
+ * The caller owns the loop. A maker checks the problem; the first go allocates the large arrays. Everything
+ * is SI. This header comes with contact.h.
  */
 #ifndef RC_MODEL_H
 #define RC_MODEL_H
@@ -107,15 +107,15 @@ struct rc_figure {
 RC_API double rc_figure_number(const struct rc_figure *figure, const void *data);
 /* The word; NULL: unknown, a number, or data NULL. */
 RC_API const char *rc_figure_word(const struct rc_figure *figure, const void *data);
-/* The table of the figures of a struct of this library, by its name in figures.list: "contact", "elastic", "adhesion",
- * "leak". NULL: there is none. */
+/* The table of the figures of a struct of this library, by its name in figures.list: "contact", "elastic",
+ * "adhesion", "leak". NULL: there is none. */
 RC_API const struct rc_figure *rc_figures(const char *name);
 /* The row of that name in any table of this library, for titles and units of a table read from a file; NULL:
  * none. */
 RC_API const struct rc_figure *rc_figure_find(const char *name);
 
-/* Figure k of the model after its look, those of inner models first; NULL past the last. `data`: its struct. A name
- * that an outer model has too is the outer one's, and is given once. */
+/* Figure k of the model after its look, those of inner models first; NULL past the last. `data`: its
+ * struct. A name that an outer model has too is the outer one's, and is given once. */
 RC_API const struct rc_figure *rc_model_figure(const struct rc_model *model, size_t k,
                                                const void **data);
 /* The value of a figure by its name; NAN: unknown, or there is none. */
@@ -134,22 +134,24 @@ RC_API enum rc_status rc_model_frame(struct rc_model *model, const char *name, d
 
 /* ---- verbs ---- */
 
-/* Sets out for a point from the last point kept: RC_MORE, or RC_FAIL when the point is impossible or memory is short.
- * What was stepped since the last keep is forgotten. */
+/* Sets out for a point from the last point kept: RC_MORE, or RC_FAIL when the point is impossible or memory
+ * is short. What was stepped since the last keep is forgotten. */
 RC_API enum rc_status rc_model_go(struct rc_model *model, const struct rc_point *to,
                                   struct rc_err *err);
-/* RC_MORE until the point is reached; then RC_OK, or RC_SHORT when the accuracy is not. One may stop after any
- * step: a look then shows the best so far. */
+/* RC_MORE until the point is reached; then RC_OK, or RC_SHORT when the accuracy is not. One may stop after
+ * any step: a look then shows the best so far. */
 RC_API enum rc_status rc_model_step(struct rc_model *model, struct rc_err *err);
 /* go and all steps. */
 RC_API enum rc_status rc_model_run(struct rc_model *model, const struct rc_point *to,
                                    struct rc_err *err);
-/* Brings the figures up to date. `at` (or NULL): the point with the axes that were found, NAN where unknown. */
+/* Brings the figures up to date. `at` (or NULL): the point with the axes that were found, NAN where
+ * unknown. */
 RC_API enum rc_status rc_model_look(struct rc_model *model, struct rc_point *at,
                                     struct rc_err *err);
 /* The point that was reached becomes history. RC_FAIL when none is reached, or memory is short. */
 RC_API enum rc_status rc_model_keep(struct rc_model *model, struct rc_err *err);
-/* Other heights of the undeformed bodies, nx ny m, copied, from the next go on: worn, moved or warped surfaces. */
+/* Other heights of the undeformed bodies, nx ny m, copied, from the next go on: worn, moved or warped
+ * surfaces. */
 RC_API enum rc_status rc_model_set_heights(struct rc_model *model, const double *h,
                                            struct rc_err *err);
 RC_API struct rc_shape rc_model_shape(const struct rc_model *model);
@@ -160,7 +162,8 @@ RC_API void rc_model_free(struct rc_model *model);
 /* ---- cost before, progress during ---- */
 
 struct rc_expected;
-/* Expected cost of this point, by which the largest point of a history is meant. RC_FAIL when it is impossible. */
+/* Expected cost of this point, by which the largest point of a history is meant. RC_FAIL when it is
+ * impossible. */
 RC_API enum rc_status rc_model_plan(const struct rc_model *model, const struct rc_point *most,
                                     struct rc_expected *expected, struct rc_err *err);
 
@@ -185,8 +188,9 @@ RC_API void rc_model_progress(const struct rc_model *model, struct rc_loops *loo
 /* After any step. Fewest right after a keep; no heights of the undeformed bodies. */
 RC_API size_t rc_model_state_size(struct rc_model *model);
 RC_API void rc_model_state(struct rc_model *model, double *state);
-/* Goes on from there in a model that was made in the same way. *going: a point is set and not reached yet, so that
- * steps follow, and no go. RC_FAIL when the numbers are no state of such a model, which then can only be freed. */
+/* Goes on from there in a model that was made in the same way. *going: a point is set and not reached yet,
+ * so that steps follow, and no go. RC_FAIL when the numbers are no state of such a model, which then can
+ * only be freed. */
 RC_API enum rc_status rc_model_restore(struct rc_model *model, const double *state, size_t n,
                                        bool *going, struct rc_err *err);
 

@@ -1,6 +1,6 @@
 /*
- * What a model is made of, for the files that implement one. The struct of a model begins with struct rc_model, and its
- * file ends in the row. An outer model drives its inner one by the verbs of model.h only.
+ * What a model is made of, for the files that implement one. The struct of a model begins with struct
+ * rc_model, and its file ends in the row. An outer model drives its inner one by the verbs of model.h only.
  */
 #ifndef RC_MODEL_ROW_H
 #define RC_MODEL_ROW_H
@@ -39,8 +39,8 @@ struct rc_model_row {
     /* Fills the figures and the axes of `at` that were found. */
     enum rc_status (*look)(struct rc_model *m, struct rc_point *at, struct rc_err *err);
     enum rc_status (*fill)(struct rc_model *m, size_t frame, double *to, struct rc_err *err);
-    /* The members that a next step depends on. The heights of the undeformed bodies are not among them: an outer
-     * model that sets them sets them here while it reads, before its inner model reads. */
+    /* The members that a next step depends on. The heights of the undeformed bodies are not among them: an
+     * outer model that sets them sets them here while it reads, before its inner model reads. */
     void (*state)(struct rc_model *m, struct rc_state *s);
     void (*free)(struct rc_model *m);
     /* These may be NULL. */
@@ -64,8 +64,8 @@ struct rc_model {
     } kept;
 };
 
-/* For makers: zeroed, of `size` bytes. It owns the inner model from here on, also when it fails. NULL when memory is
- * short, and where the inner model of an outer one could not be made (`outer`: *err then says why). */
+/* For makers: zeroed, of `size` bytes; NULL when memory is short. An outer model owns its inner one from here
+ * on, also when it fails; inner NULL, which could not be made: NULL, and *err stays. */
 struct rc_model *rc_model_make(const struct rc_model_row *row, size_t size,
                                const struct rc_shape *shape, struct rc_err *err);
 struct rc_model *rc_model_make_outer(const struct rc_model_row *row, size_t size,

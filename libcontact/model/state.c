@@ -1,5 +1,6 @@
 /*
- * The state of a model and its inner ones as numbers, for files and for the copy that is taken at each point kept.
+ * The state of a model and its inner ones as numbers, for files and for the copy that is taken at each
+ * point kept.
  */
 #include "row.h"
 

@@ -1,6 +1,7 @@
 /*
- * The elastic model: a contact by rc_solver, under a load or at an approach, with a hardness, a counter body that is free
- * to tilt, and the stiffness and the conductance as figures. A point that is kept leaves its dents in the shape.
+ * The elastic model: a contact by rc_solver, under a load or at an approach, with a hardness, a counter
+ * body that is free to tilt, and the stiffness and the conductance as figures. A point that is kept leaves
+ * its dents in the shape.
  */
 #include "solver.h"
 

@@ -618,8 +618,8 @@ units_and_mirrors(void **state)
 }
 
 /* A path that goes on from its pressure and approach goes on as it would have. */
-/* Pressed together far enough there is one state: with heights that are set on the way it is that of a new path, before
- * the first state and after one; heights that make no sense leave all as it was. */
+/* Pressed together far enough there is one state: with heights that are set on the way it is that of a new
+ * path, before the first state and after one; heights that make no sense leave all as it was. */
 static void
 heights_change(void **state)
 {

@@ -1,5 +1,5 @@
-/* Tables of figures: names, units and titles are fit for columns and axes, a name means one thing in all tables, and
- * values are those of the members. */
+/* Tables of figures: names, units and titles are fit for columns and axes, a name means one thing in all
+ * tables, and values are those of the members. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,7 @@
-/* Whatever a model is: a run that is stopped after any step and goes on from its state in another model ends where a run
- * without a stop does; what was not kept is forgotten; a state of anything else is refused; figures and frames have
- * names. Every row of models.list is tried, in the library with a toy in it too. */
+/* Whatever a model is: a run that is stopped after any step and goes on from its state in another model
+ * ends where a run without a stop does; what was not kept is forgotten; a state of anything else is
+ * refused; figures and frames have names. Every row of models.list is tried, in the library with a toy in
+ * it too. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -133,7 +134,8 @@ steps(struct rc_model *m, size_t *left, struct rc_err *err)
     return s;
 }
 
-/* The points from k on, `going`: k is set already. With `left` 0 the run stops, and k is the point then on its way. */
+/* The points from k on, `going`: k is set already. With `left` 0 the run stops, and k is the point then on
+ * its way. */
 static enum rc_status
 run(const struct kind *kind, struct rc_model *m, int *k, bool going, size_t *left,
     struct found found[POINTS])
@@ -242,8 +244,8 @@ stops(void **state)
     }
 }
 
-/* On the way to the last point the model is sent to the second, as if it had gone there at once: by itself, and after
- * its state on that way went into another model. */
+/* On the way to the last point the model is sent to the second, as if it had gone there at once: by itself,
+ * and after its state on that way went into another model. */
 static void
 forgets(void **state)
 {
@@ -392,8 +394,9 @@ all_rows(void **state)
 }
 
 #ifdef RC_TOYS
-/* Flat bodies in full contact: p = F/A, and the bed settles as s = c p (1 - exp(-t/tau)), exactly in any steps. At the
- * end of all relaxation every node has settled by c times its own pressure, whatever the surface. */
+/* Flat bodies in full contact: p = F/A, and the bed settles as s = c p (1 - exp(-t/tau)), exactly in any
+ * steps. At the end of all relaxation every node has settled by c times its own pressure, whatever the
+ * surface. */
 static void
 relaxation(void **state)
 {

@@ -1,5 +1,6 @@
-/* The elastic model finds what rc_solver finds, to the last bit: for loads and approaches, with a hardness in a history,
- * a counter body that tilts, layers, the stiffness and the conductance; and on an undeformed map that is set later. */
+/* The elastic model finds what rc_solver finds, to the last bit: for loads and approaches, with a hardness
+ * in a history, a counter body that tilts, layers, the stiffness and the conductance; and on an undeformed
+ * map that is set later. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

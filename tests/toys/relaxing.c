@@ -1,11 +1,11 @@
 /*
- * A model that is no part of the library, in a file and a row of a list: under the contact lies a bed of springs, which
- * settles at each node by s towards the compliance c times the pressure,
+ * A model that is no part of the library, in a file and a row of a list: under the contact lies a bed of
+ * springs, which settles at each node by s towards the compliance c times the pressure,
  *
  *     ds/dt = (c p - s) / tau,
  *
- * while the inner model finds the pressure p of the heights h - s. A step takes the mean of the pressures at its both
- * ends; where they differ too much it is tried again with half the time.
+ * while the inner model finds the pressure p of the heights h - s. A step takes the mean of the pressures
+ * at its both ends; where they differ too much it is tried again with half the time.
  */
 #include "relaxing.h"
 

@@ -58,11 +58,12 @@ void report_array(struct report *report, const char *name);
 void report_end(struct report *report);
 /* Instead of an object that is unknown. */
 void report_no_object(struct report *report, const char *name);
-/* A column for each figure of the table, in its order; `data`: the struct that holds them, or NULL where they are
- * unknown. Figures "object.name" that follow each other stand in one object, which is unknown when all are. */
+/* A column for each figure of the table, in its order; `data`: the struct that holds them, or NULL where
+ * they are unknown. Figures "object.name" that follow each other stand in one object, which is unknown when
+ * all are. */
 void report_table(struct report *report, const struct rc_figure *table, const void *data);
-/* The figures of these names, with a blank between two, in their order, from several tables, the last of which is
- * NULL. Every name must be in one of them. */
+/* The figures of these names, with a blank between two, in their order, from several tables, the last of
+ * which is NULL. Every name must be in one of them. */
 struct figures {
     const struct rc_figure *table;
     const void *data;

@@ -17,7 +17,8 @@ enum {
     SAMPLES = 200 /* of a law */
 };
 
-/* Titles of columns that are no figures of the library, and their unit where the table is JSON, which names none. */
+/* Titles of columns that are no figures of the library, and their unit where the table is JSON, which names
+ * none. */
 static const struct quantity {
     const char *name, *title, *unit;
 } quantities[] = {
