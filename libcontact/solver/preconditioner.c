@@ -262,12 +262,13 @@ add_numbers(size_t n, float weight, const unsigned char *w, const float *r, floa
 }
 
 static void
-field_row(const void *of, size_t j, float weight, float *row)
+field_row(const void *of, int c, size_t j, float weight, float *row)
 {
     const struct field *f = of;
     size_t n = f->e->op->shape.nx;
     float *to = on_map(f->e, &j, row);
 
+    (void)c;
     if (to == NULL)
         return;
     if (f->r == NULL)
@@ -298,7 +299,7 @@ rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w)
 #pragma omp parallel for num_threads(e->threads) schedule(static)
     for (size_t j = 0; j < e->op->shape.ny; j++) {
         float *row = e->row + (size_t)omp_get_thread_num() * framed_nx(e);
-        rc_pyramid_row(e->pyramid, e->above + j, row);
+        rc_pyramid_row(e->pyramid, 0, e->above + j, row);
         share(nx, w + j * nx, row + x, e->node + j * nx);
     }
 }
@@ -336,11 +337,11 @@ rc_preconditioner_extend(struct rc_preconditioner *e, const unsigned char *w, co
     size_t nx = e->op->shape.nx;
 
     rc_pyramid_set(e->pyramid, field_row, &ones);
-    rc_pyramid_extend(e->pyramid, field_row, &field);
+    rc_pyramid_extend(e->pyramid, field_row, &field, NULL);
 #pragma omp parallel for num_threads(e->threads) schedule(static)
     for (size_t j = 0; j < e->op->shape.ny; j++) {
         float *row = e->row + (size_t)omp_get_thread_num() * framed_nx(e);
-        rc_pyramid_row(e->pyramid, e->above + j, row);
+        rc_pyramid_row(e->pyramid, 0, e->above + j, row);
         memcpy(out + j * nx, row + e->op->frame.x, nx * sizeof *out);
     }
 }
@@ -368,7 +369,7 @@ extended(void *at, size_t j, void *row)
     size_t n = e->op->shape.nx;
     float *field;
 
-    rc_pyramid_row(e->pyramid, j, row);
+    rc_pyramid_row(e->pyramid, 0, j, row);
     fade_frame(e, j, row);
     if ((field = on_map(e, &j, row)) != NULL)
         extend(n, e->w + j * n, c->r + j * n, c->offset, field);
@@ -397,12 +398,13 @@ add_off(size_t n, float weight, const unsigned char *w, const float *z, float *r
 
 /* The field off W. */
 static void
-off_row(const void *of, size_t j, float weight, float *row)
+off_row(const void *of, int component, size_t j, float weight, float *row)
 {
     const struct correction *c = of;
     size_t n = c->e->op->shape.nx;
     float *to;
 
+    (void)component;
     add_frame(c->e, j, weight, row);
     if ((to = on_map(c->e, &j, row)) != NULL)
         add_off(n, weight, c->e->w + j * n, c->z + j * n, to);
@@ -425,13 +427,13 @@ rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offse
     rc_row *rows[] = {extended, field_out};
     size_t n = e->op->shape.nx;
 
-    rc_pyramid_extend(e->pyramid, field_row, &residual);
+    rc_pyramid_extend(e->pyramid, field_row, &residual, NULL);
     rc_operator_chain_framed(e->op, 1, factors, rows, &c);
-    rc_pyramid_gather(e->pyramid, off_row, &c);
+    rc_pyramid_gather(e->pyramid, off_row, &c, NULL);
 #pragma omp parallel for num_threads(e->threads) schedule(static)
     for (size_t j = 0; j < e->op->shape.ny; j++) {
         float *row = e->row + (size_t)omp_get_thread_num() * framed_nx(e);
-        rc_pyramid_row(e->pyramid, e->above + j, row);
+        rc_pyramid_row(e->pyramid, 0, e->above + j, row);
         add(n, e->w + j * n, row + e->op->frame.x, z + j * n);
         if (done != NULL)
             (void)done(ctx, j, row + e->op->frame.x);

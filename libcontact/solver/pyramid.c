@@ -126,8 +126,9 @@ struct level {
     struct axis x, y; /* from the finer level to this one         */
     float k, t;       /* of this level                            */
     float whole;      /* P' of 1: 4, or 2 where one side is kept  */
-    float *weight;    /* w                                        */
-    float *value;     /* X, then y; and the same of the transpose */
+    float *weight[3]; /* w; of pairs (w + t)^-1, xx yy xy         */
+    float *most[3];   /* of pairs max(w, 1)^-1                    */
+    float *value[3];  /* X, then y; and the same of the transpose */
     int threads;
     /* Ranks that share the finer level make rows of this one over those that they hold. They keep these
      * where they share this level too, else all get all rows. */
@@ -141,7 +142,8 @@ struct rc_pyramid {
     struct rc_pyramid_base base;
     size_t levels; /* 1 .. levels; level 0 is the base */
     struct level level[MOST_LEVELS];
-    float *scratch; /* two rows of the base for each thread                                  */
+    float beyond[2]; /* what the extension takes for y beyond the coarsest level               */
+    float *scratch;  /* three rows of the base for each thread                                */
     /* where ranks share the base: */
     float *room;   /* rows made here of the first level that all hold                         */
     size_t *dealt; /* the first of them, of each rank                                         */
@@ -221,15 +223,35 @@ some(size_t n)
     return n > 0 ? n : 1; /* of a rank without rows */
 }
 
+/* Maps of the weights of a level. */
+static int
+weights(const struct rc_pyramid_base *b)
+{
+    return b->pairs ? 3 : 1;
+}
+
+static int
+components(const struct rc_pyramid_base *b)
+{
+    return b->pairs ? 2 : 1;
+}
+
 static bool
 level_new(const struct rc_pyramid *p, struct level *l)
 {
+    bool room = true;
+
     l->threads = nodes(l) < FEW ? 1 : p->base.threads;
-    l->weight = rc_alloc(some(nodes(l)), sizeof *l->weight);
-    l->value = rc_alloc(some(nodes(l)), sizeof *l->value);
+    for (int c = 0; c < weights(&p->base) && room; c++) {
+        l->weight[c] = rc_alloc(some(nodes(l)), sizeof(float));
+        l->value[c] = rc_alloc(some(nodes(l)), sizeof(float));
+        room = l->weight[c] != NULL && l->value[c] != NULL;
+        if (room && p->base.pairs)
+            room = (l->most[c] = rc_alloc(some(nodes(l)), sizeof(float))) != NULL;
+    }
     if (l->shared)
         l->beside = rc_alloc(2 * l->x.coarse, sizeof *l->beside);
-    return l->weight != NULL && l->value != NULL && (!l->shared || l->beside != NULL);
+    return room && (!l->shared || l->beside != NULL);
 }
 
 static bool
@@ -265,7 +287,7 @@ rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power, const voi
 
     if (fine) {
         p->base = *base;
-        p->scratch = rc_alloc(2 * (size_t)base->threads * g.nx, sizeof *p->scratch);
+        p->scratch = rc_alloc(3 * (size_t)base->threads * g.nx, sizeof *p->scratch);
         fine = p->scratch != NULL;
     }
     for (struct level *l; fine && coarser(base, &g, l = &p->level[p->levels + 1]); p->levels++) {
@@ -290,8 +312,11 @@ rc_pyramid_free(struct rc_pyramid *p)
     if (p == NULL)
         return;
     for (size_t m = 1; m <= p->levels + 1 && m < MOST_LEVELS; m++) {
-        free(p->level[m].weight);
-        free(p->level[m].value);
+        for (int c = 0; c < 3; c++) {
+            free(p->level[m].weight[c]);
+            free(p->level[m].most[c]);
+            free(p->level[m].value[c]);
+        }
         free(p->level[m].beside);
     }
     free(p->scratch);
@@ -309,14 +334,14 @@ rc_pyramid_memory(const struct rc_pyramid_base *base)
     struct level l;
 
     while (coarser(base, &g, &l))
-        sum += 2 * nodes(&l) + (l.parts && !l.shared ? l.own * l.x.coarse : 0);
+        sum += (base->pairs ? 9 : 2) * nodes(&l) + (l.parts && !l.shared ? l.own * l.x.coarse : 0);
     return sum * sizeof(float);
 }
 
 static float *
 scratch(const struct rc_pyramid *p)
 {
-    return p->scratch + (size_t)omp_get_thread_num() * 2 * p->base.shape.nx;
+    return p->scratch + (size_t)omp_get_thread_num() * 3 * p->base.shape.nx;
 }
 
 /* ---- from a level to the next ---- */
@@ -327,6 +352,7 @@ struct source {
     size_t nx, ny, first, n;
     rc_pyramid_add *add;
     const void *of;
+    int c;
 };
 
 static void
@@ -335,7 +361,7 @@ add_row(const struct source *s, size_t j, float weight, float *to)
     const float *row;
 
     if (j >= s->first && j < s->first + s->n) {
-        s->add(s->of, j - s->first, weight, to);
+        s->add(s->of, s->c, j - s->first, weight, to);
         return;
     }
     row = s->p->edge + (j == (s->first + s->n) % s->ny ? 3 : 2) * s->nx;
@@ -354,15 +380,16 @@ fetch_beside(const struct source *s)
 
     memset(v, 0, 4 * nx * sizeof *v);
     if (s->n > 0) {
-        s->add(s->of, 0, 1, v);
-        s->add(s->of, s->n - 1, 1, v + nx);
+        s->add(s->of, s->c, 0, 1, v);
+        s->add(s->of, s->c, s->n - 1, 1, v + nx);
     }
     rc_ranks_beside(&rows, b->round, nx * sizeof *v, v, v + nx, v + 2 * nx, v + 3 * nx, has);
 }
 
-/* `to`, of level m, becomes `factor` P' of the rows of the level before it. */
+/* `to`, of level m, becomes `factor` P' of component c of the rows of the level before it. */
 static void
-pull(struct rc_pyramid *p, size_t m, rc_pyramid_add *add, const void *of, float factor, float *to)
+pull(struct rc_pyramid *p, size_t m, rc_pyramid_add *add, const void *of, int c, float factor,
+     float *to)
 {
     const struct level *l = &p->level[m], *before = l - 1;
     const struct source s = {.p = p,
@@ -371,7 +398,8 @@ pull(struct rc_pyramid *p, size_t m, rc_pyramid_add *add, const void *of, float 
                              .first = m == 1 ? p->base.first : before->first,
                              .n = m == 1 ? p->base.n : before->n,
                              .add = add,
-                             .of = of};
+                             .of = of,
+                             .c = c};
     bool gathered = l->parts && !l->shared;
     float *made = gathered ? p->room : to;
 
@@ -428,19 +456,49 @@ add_coarser(size_t n, float weight, float t, const float *restrict v, const floa
         to[i] += weight * t * v[i] / (w[i] + t);
 }
 
+/* A component of a matrix times a pair. */
+RC_CLONES static void
+add_times(size_t n, float weight, const float *restrict own, const float *restrict cross,
+          const float *restrict v, const float *restrict other, float *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] += weight * (own[i] * v[i] + cross[i] * other[i]);
+}
+
 struct rows {
     const struct level *l;
     enum up up;
+    bool pairs;
 };
 
 static void
-add_of_level(const void *of, size_t j, float weight, float *to)
+add_of_pairs(const struct rows *r, int c, size_t at, float weight, float *to)
+{
+    const struct level *l = r->l;
+    float *const *m = r->up == AT_MOST ? l->most : l->weight;
+    size_t n = l->x.coarse;
+
+    if (r->up == AS_THEY_ARE)
+        add_as_they_are(n, weight, l->value[c] + at, to);
+    else if (r->up == AT_MOST_ONE) /* of make_weights */
+        add_as_they_are(n, weight, l->most[c] + at, to);
+    else
+        add_times(n, r->up == COARSER ? weight * l->t : weight, m[c] + at, m[2] + at,
+                  l->value[c] + at, l->value[1 - c] + at, to);
+}
+
+static void
+add_of_level(const void *of, int c, size_t j, float weight, float *to)
 {
     const struct rows *r = of;
     const struct level *l = r->l;
     size_t n = l->x.coarse;
-    const float *v = l->value + j * n, *w = l->weight + j * n;
+    const float *v = l->value[0] + j * n, *w = l->weight[0] + j * n;
 
+    if (r->pairs) {
+        add_of_pairs(r, c, j * n, weight, to);
+        return;
+    }
     switch (r->up) {
     case AS_THEY_ARE:
         add_as_they_are(n, weight, v, to);
@@ -457,39 +515,40 @@ add_of_level(const void *of, size_t j, float weight, float *to)
     }
 }
 
-/* `to`, of the level after `from`, becomes `factor` P' of those numbers. */
+/* `to`, of the level after `from`, becomes `factor` P' of those numbers, `count` maps of them. */
 static void
-up(struct rc_pyramid *p, size_t from, enum up what, float factor, float *to)
+up(struct rc_pyramid *p, size_t from, enum up what, int count, float factor, float *const *to)
 {
-    const struct rows rows = {&p->level[from], what};
+    const struct rows rows = {&p->level[from], what, p->base.pairs};
 
-    pull(p, from + 1, add_of_level, &rows, factor, to);
+    for (int c = 0; c < count; c++)
+        pull(p, from + 1, add_of_level, &rows, c, factor, to[c]);
 }
 
 static const float *
-values(const struct level *l, size_t k)
+values(const struct level *l, int c, size_t k)
 {
     size_t n = l->x.coarse;
 
     if (k >= l->first && k < l->first + l->n)
-        return l->value + (k - l->first) * n;
+        return l->value[c] + (k - l->first) * n;
     return l->beside + (k == (l->first + l->n) % l->y.coarse ? n : 0);
 }
 
 /* Row j, of all of the level before, of P of the values of a level. */
 static void
-row_of(const struct level *l, size_t j, float *sum, float *out)
+row_of(const struct level *l, int c, size_t j, float *sum, float *out)
 {
     size_t n = l->x.coarse, near, far;
     const float *a, *b;
 
     if (!l->y.halved) {
-        spread(&l->x, values(l, j), out);
+        spread(&l->x, values(l, c, j), out);
         return;
     }
     parents(&l->y, j, &near, &far);
-    a = values(l, near);
-    b = values(l, far);
+    a = values(l, c, near);
+    b = values(l, c, far);
     for (size_t i = 0; i < n; i++)
         sum[i] = 0.75F * a[i] + 0.25F * b[i];
     spread(&l->x, sum, out);
@@ -524,6 +583,32 @@ sums_row(size_t n, float t, float k, const float *restrict coarse, const float *
         v[i] = v[i] / (w[i] + t) + k * coarse[i] / (w[i] > 1 ? w[i] : 1);
 }
 
+/* The same of pairs. */
+RC_CLONES static void
+mean_pairs(size_t n, float t, float *const coarse[2], const float *restrict xx,
+           const float *restrict yy, const float *restrict xy, float *restrict x, float *restrict y)
+{
+    for (size_t i = 0; i < n; i++) {
+        float a = x[i] + t * coarse[0][i], b = y[i] + t * coarse[1][i];
+        x[i] = xx[i] * a + xy[i] * b;
+        y[i] = xy[i] * a + yy[i] * b;
+    }
+}
+
+static void
+pairs_row(const struct level *l, enum down what, float k, float *const coarse[2], size_t at)
+{
+    size_t n = l->x.coarse;
+    float *x = l->value[0] + at, *y = l->value[1] + at;
+
+    mean_pairs(n, what == MEANS ? l->t : 0, coarse, l->weight[0] + at, l->weight[1] + at,
+               l->weight[2] + at, x, y);
+    if (what == MEANS)
+        return;
+    add_times(n, k, l->most[0] + at, l->most[2] + at, coarse[0], coarse[1], x);
+    add_times(n, k, l->most[1] + at, l->most[2] + at, coarse[1], coarse[0], y);
+}
+
 static void
 share_beside(const struct rc_pyramid *p, const struct level *l)
 {
@@ -531,8 +616,39 @@ share_beside(const struct rc_pyramid *p, const struct level *l)
     size_t n = l->x.coarse;
     bool has[2];
 
-    rc_ranks_beside(&rows, p->base.round, n * sizeof *l->value, l->value,
-                    l->value + (some(l->n) - 1) * n, l->beside, l->beside + n, has);
+    rc_ranks_beside(&rows, p->base.round, n * sizeof(float), l->value[0],
+                    l->value[0] + (some(l->n) - 1) * n, l->beside, l->beside + n, has);
+}
+
+/* A row of a level; `coarse` what the next level says of it. */
+static void
+down_row(const struct rc_pyramid *p, const struct level *l, enum down what, size_t j)
+{
+    const struct level *next = l + 1;
+    size_t n = l->x.coarse, at = j * n;
+    float *sum = scratch(p), *coarse[2] = {sum + p->base.shape.nx, sum + 2 * p->base.shape.nx};
+    bool coarsest = l == &p->level[p->levels];
+    float k = coarsest ? 0 : next->k;
+    int count = what == SURROUNDINGS ? weights(&p->base) : components(&p->base);
+
+    for (int c = 0; c < count; c++) {
+        float *row = coarse[what == SURROUNDINGS ? 0 : c];
+        if (coarsest)
+            for (size_t i = 0; i < n; i++)
+                row[i] = what == MEANS ? p->beyond[c] : 0;
+        else
+            row_of(next, c, l->first + j, sum, row);
+        if (what == SURROUNDINGS)
+            surround_row(n, row, l->value[c] + at);
+    }
+    if (what == SURROUNDINGS)
+        return;
+    if (p->base.pairs)
+        pairs_row(l, what, k, coarse, at);
+    else if (what == MEANS)
+        means_row(n, l->t, coarse[0], l->weight[0] + at, l->value[0] + at);
+    else
+        sums_row(n, l->t, k, coarse[0], l->weight[0] + at, l->value[0] + at);
 }
 
 /* The values of all levels, from the coarsest on, take what the next coarser one says. */
@@ -540,24 +656,10 @@ static void
 down(struct rc_pyramid *p, enum down what)
 {
     for (size_t m = p->levels; m > 0; m--) {
-        struct level *l = &p->level[m], *next = l + 1;
-        size_t n = l->x.coarse;
+        struct level *l = &p->level[m];
 #pragma omp parallel for num_threads(l->threads) schedule(static)
-        for (size_t j = 0; j < l->n; j++) {
-            float *sum = scratch(p), *coarse = sum + p->base.shape.nx;
-            float *v = l->value + j * n;
-            const float *w = l->weight + j * n;
-            if (m == p->levels)
-                memset(coarse, 0, n * sizeof *coarse);
-            else
-                row_of(next, l->first + j, sum, coarse);
-            if (what == SURROUNDINGS)
-                surround_row(n, coarse, v);
-            else if (what == MEANS)
-                means_row(n, l->t, coarse, w, v);
-            else
-                sums_row(n, l->t, m == p->levels ? 0 : next->k, coarse, w, v);
-        }
+        for (size_t j = 0; j < l->n; j++)
+            down_row(p, l, what, j);
         if (l->shared)
             share_beside(p, l);
     }
@@ -566,56 +668,148 @@ down(struct rc_pyramid *p, enum down what)
 /* ---- the whole ---- */
 
 void
-rc_pyramid_row(const struct rc_pyramid *p, size_t j, float *row)
+rc_pyramid_row(const struct rc_pyramid *p, int c, size_t j, float *row)
 {
-    if (p->levels == 0)
-        memset(row, 0, p->base.shape.nx * sizeof *row);
+    if (p->levels > 0)
+        row_of(&p->level[1], c, p->base.first + j, scratch(p), row);
     else
-        row_of(&p->level[1], p->base.first + j, scratch(p), row);
+        for (size_t i = 0; i < p->base.shape.nx; i++)
+            row[i] = p->beyond[c];
+}
+
+/* A symmetric matrix, xx yy xy, whose eigenvalues become those of f. */
+struct eigen {
+    float mean, half; /* of both eigenvalues: their mean and half of their difference */
+};
+
+static inline struct eigen
+eigen_of(const float m[3])
+{
+    float d = (m[0] - m[1]) / 2;
+
+    return (struct eigen){(m[0] + m[1]) / 2, sqrtf(d * d + m[2] * m[2])};
+}
+
+static inline void
+of_eigen(const float m[3], struct eigen e, float high, float low, float out[3])
+{
+    float mean = (high + low) / 2, ratio = e.half > 0 ? (high - low) / (2 * e.half) : 0;
+
+    out[0] = mean + ratio * (m[0] - e.mean);
+    out[1] = mean + ratio * (m[1] - e.mean);
+    out[2] = ratio * m[2];
+}
+
+/* Of the matrices w of a level: first min(w, 1), in `most`; then what the level keeps of them. */
+static void
+make_weights(struct level *l, bool keep)
+{
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+    for (size_t i = 0; i < nodes(l); i++) {
+        float m[3] = {l->weight[0][i], l->weight[1][i], l->weight[2][i]}, most[3], inverse[3];
+        struct eigen e = eigen_of(m);
+        float high = e.mean + e.half, low = fmaxf(e.mean - e.half, 0), t = l->t;
+
+        if (keep) {
+            of_eigen(m, e, 1 / fmaxf(high, 1), 1 / fmaxf(low, 1), most);
+            of_eigen(m, e, 1 / (high + t), 1 / (low + t), inverse);
+        } else {
+            of_eigen(m, e, fminf(high, 1), fminf(low, 1), most);
+        }
+        for (int c = 0; c < 3; c++) {
+            l->most[c][i] = most[c];
+            if (keep)
+                l->weight[c][i] = inverse[c];
+        }
+    }
 }
 
 void
 rc_pyramid_set(struct rc_pyramid *p, rc_pyramid_add *w, const void *of)
 {
     struct level *l = &p->level[1];
+    int count = weights(&p->base);
     float sum = 0, part = 1, weight;
 
     if (p->levels == 0)
         return;
     for (size_t m = 1; m <= p->levels; m++, part *= (float)M_SQRT1_2)
         sum += part;
-    pull(p, 1, w, of, 1 / (l->whole * sum), l->value);
     weight = l->k * l->whole * sum;
+    for (int c = 0; c < count; c++) {
+        pull(p, 1, w, of, c, 1 / (l->whole * sum), l->value[c]);
 #pragma omp parallel for simd num_threads(l->threads) schedule(static)
-    for (size_t i = 0; i < nodes(l); i++)
-        l->weight[i] = weight * l->value[i];
-    for (size_t m = 1; m < p->levels; m++) {
+        for (size_t i = 0; i < nodes(l); i++)
+            l->weight[c][i] = weight * l->value[c][i];
+    }
+    for (size_t m = 1; m <= p->levels; m++) {
         const struct level *next = &p->level[m + 1];
-        up(p, m, AT_MOST_ONE, next->k, next->weight);
-        up(p, m, AS_THEY_ARE, 1 / next->whole, next->value);
+        if (p->base.pairs)
+            make_weights(&p->level[m], false);
+        if (m < p->levels) {
+            up(p, m, AT_MOST_ONE, count, next->k, next->weight);
+            up(p, m, AS_THEY_ARE, count, 1 / next->whole, next->value);
+        }
+        if (p->base.pairs)
+            make_weights(&p->level[m], true);
     }
     down(p, SURROUNDINGS);
 }
 
 void
-rc_pyramid_extend(struct rc_pyramid *p, rc_pyramid_add *r, const void *of)
+rc_pyramid_extend(struct rc_pyramid *p, rc_pyramid_add *r, const void *of, const double *beyond)
 {
-    if (p->levels == 0)
-        return;
-    pull(p, 1, r, of, p->level[1].k, p->level[1].value);
+    int count = components(&p->base);
+
+    for (int c = 0; c < count; c++) {
+        p->beyond[c] = beyond == NULL ? 0 : (float)beyond[c];
+        if (p->levels > 0)
+            pull(p, 1, r, of, c, p->level[1].k, p->level[1].value[c]);
+    }
     for (size_t m = 1; m < p->levels; m++)
-        up(p, m, AT_MOST, p->level[m + 1].k, p->level[m + 1].value);
+        up(p, m, AT_MOST, count, p->level[m + 1].k, p->level[m + 1].value);
     down(p, MEANS);
 }
 
-void
-rc_pyramid_gather(struct rc_pyramid *p, rc_pyramid_add *f, const void *of)
+/* What goes beyond the coarsest level. */
+static void
+sum_beyond(struct rc_pyramid *p, double *beyond)
 {
+    const struct level *l = &p->level[p->levels];
+    const struct rows rows = {l, COARSER, p->base.pairs};
+    float *row = scratch(p);
+
+    for (int c = 0; c < components(&p->base); c++) {
+        beyond[c] = 0;
+        for (size_t j = 0; j < l->n; j++) {
+            memset(row, 0, l->x.coarse * sizeof *row);
+            add_of_level(&rows, c, j, 1 / p->level[1].k, row);
+            for (size_t i = 0; i < l->x.coarse; i++)
+                beyond[c] += (double)row[i];
+        }
+    }
+}
+
+void
+rc_pyramid_gather(struct rc_pyramid *p, rc_pyramid_add *f, const void *of, double *beyond)
+{
+    int count = components(&p->base);
+
+    for (int c = 0; c < count && p->levels == 0; c++) { /* a single node: y is what is beyond */
+        p->beyond[c] = 0;
+        f(of, c, 0, 1, &p->beyond[c]);
+        if (beyond != NULL)
+            beyond[c] = (double)p->beyond[c];
+        p->beyond[c] = 0;
+    }
     if (p->levels == 0)
         return;
-    pull(p, 1, f, of, p->level[1].k,
-         p->level[1].value); /* of the way back to the base, where c = 1 on W */
+    for (int c = 0; c < count; c++)
+        pull(p, 1, f, of, c, p->level[1].k,
+             p->level[1].value[c]); /* of the way back to the base, where c = 1 on W */
     for (size_t m = 1; m < p->levels; m++)
-        up(p, m, COARSER, 1, p->level[m + 1].value);
+        up(p, m, COARSER, count, 1, p->level[m + 1].value);
+    if (beyond != NULL)
+        sum_beyond(p, beyond);
     down(p, SUMS);
 }

@@ -18,6 +18,7 @@
 #include "bounds.h"
 #include "libcontact/operator/operator.h"
 #include "preconditioner.h"
+#include "pyramid.h"
 
 /* ---- methods ---- */
 
