@@ -55,7 +55,7 @@ class Case:
         return np.load(self.folder / "v.npy")
 
     def ours(self, tol):
-        tool(self.args, "rc-slip", "--quiet", "--mu", MU, "--nu", self.nu, "--tangential", repr(float(self.force)), "--tol", tol,
+        tool(self.args, "rc-slip", "--quiet", "--mu", MU, "--nu", self.nu, "--tangential", repr(float(self.force)), "--increments", 1, "--tol", tol,
              "--report", self.folder / "r.json", "-o", self.folder / "q.rcg", self.folder / "p.rcg", ok=(0, 3))
         report = json.loads((self.folder / "r.json").read_text())
         q = np.stack([self.values("q", f"traction-{c}") for c in "xy"])

@@ -1,15 +1,19 @@
 /*
- * Semismooth Newton on the faces of the discs.
+ * Semismooth Newton on the faces of the discs, one step of preconditioned conjugate gradients on each set of faces:
+ * sets change too fast for a second one to pay.
  *
- *  1. A node with |q| < g sticks: both components are free. One on its circle slips, its tangent alone is free, but for
- *     one whose slip points inwards: that sticks again. delta is the mean of Tq - w over |q| < g.
- *  2. Two steps of preconditioned conjugate gradients on T + D, D = |s|/g along the tangents: the curvature of the
- *     circle, without which it is not Newton's method.
- *  3. Back: nodes that slip radially on to their circles, the others to the nearest tractions on the discs that carry
- *     the load. The energy is the judge: where that does not lower it, a part of the step goes the same way, and where this
- *     does not either, a step of the projected gradient, which always does.
+ *  1. delta is the mean of Tq - w over |q| < g; where there is no such node, that of a step of the projected gradient.
+ *  2. A node inside its circle sticks: both components are free. One on its circle slips, its tangent alone is free,
+ *     but for one whose slip points inwards: that sticks again, unless the residuals of its neighbours would push it out
+ *     again. A shortened step leaves slipping nodes on chords, inside: they slip on as long as they are pushed outwards.
+ *  3. D = |s|/g along the tangents of what slips, the curvature of the circle, without which it is not Newton's method.
+ *  4. z = M r (extension.h), of no load; d = z + beta times the last step (Hestenes and Stiefel).
+ *  5. Back: nodes that slip radially on to their circles; those of each tile of 16 x 16 nodes that stick to the nearest
+ *     tractions on the discs that carry what the tile carried; what is left by one shift.
+ *  6. The length is that of Newton's energy on the faces, at most 1 and at most 1.9 of what lowers the energy most along
+ *     the way; where the energy does not fall, a step of the projected gradient, which always lowers it.
  *
- * The preconditioner is that of extension.h. Applied to the residual it is also the estimate of the error.
+ * M applied to the residual is also the estimate of the error.
  */
 #include "discs.h"
 
@@ -22,32 +26,46 @@
 enum {
     OFF = RC_FACE_OFF,
     STICK = RC_FACE_STICK,
-    SLIP = RC_FACE_SLIP
+    SLIP = RC_FACE_SLIP,
+    INWARDS, /* on its circle, slips inwards: until it is known whether it sticks */
 };
 enum {
     SUMS = 8,
-    STEPS = 2 /* of conjugate gradients */
+    TILE = 16
 };
-static const double safety = 1.2; /* of the estimate */
-static const double many = 0.05;  /* of the nodes that stick: these are other faces */
-
+static const double safety = 1.2; /* of the estimate                      */
+static const double early = 20;   /* more of it while the faces are others */
 static const double on_circle = 1e-12;
+static const double clipped = 0.1; /* of a step: the next one keeps nothing of it */
+static const double short_step = 0.1;
 
 /* ---- rows and sums ---- */
 
-/* Rows are summed by themselves and added in order: any number of threads gives the same. */
-static void
-total(const struct rc_discs *d, size_t sums, double *out)
-{
-    struct rc_total t[SUMS] = {{0}};
+typedef void of_node(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS]);
 
+/* `count` sums over the nodes that carry something. Rows are summed by themselves and added in order: any number of
+ * threads gives the same. */
+static void
+sum_nodes(const struct rc_discs *d, of_node *of, const void *with, size_t count, double *out)
+{
+    struct rc_total all[SUMS] = {{0}};
+
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t j = 0; j < d->ny; j++) {
+        double *sum = d->partial + j * SUMS;
+        memset(sum, 0, SUMS * sizeof *sum);
+        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++)
+            if (d->face[k] != OFF)
+                of(d, k, with, sum);
+    }
     for (size_t j = 0; j < d->ny; j++)
-        for (size_t k = 0; k < sums; k++)
-            rc_total_add(&t[k], d->partial[j * SUMS + k]);
-    for (size_t k = 0; k < sums; k++)
-        out[k] = rc_total_value(&t[k]);
+        for (size_t k = 0; k < count; k++)
+            rc_total_add(&all[k], d->partial[j * SUMS + k]);
+    for (size_t k = 0; k < count; k++)
+        out[k] = rc_total_value(&all[k]);
 }
 
+/* Of a sum that is the largest number of each row. */
 static double
 most(const struct rc_discs *d, size_t k)
 {
@@ -58,13 +76,17 @@ most(const struct rc_discs *d, size_t k)
     return m;
 }
 
-static double *
-sums_of(const struct rc_discs *d, size_t j)
+/* The part of v at a node along what is free there. */
+static inline void
+free_part(const struct rc_discs *d, size_t k, double v[2])
 {
-    double *s = d->partial + j * SUMS;
+    rc_free_part(d->face[k], d->q[0][k], d->q[1][k], &v[0], &v[1]);
+}
 
-    memset(s, 0, SUMS * sizeof *s);
-    return s;
+static inline double
+slip_of(const struct rc_discs *d, int c, size_t k)
+{
+    return d->u[c][k] - d->w[c][k] - d->delta[c];
 }
 
 /* Of what a symmetric 2 x 2 matrix (xx, yy, xy) maps to v; across its null space where it has one. */
@@ -86,507 +108,583 @@ solve(const double m[3], const double v[2], double x[2])
 
 /* ---- the load ---- */
 
-/* What the nodes that are not skipped carry when y is moved by nu, and how that grows with nu; part 2 to 6:
- * xx yy xy of the growth, and the function whose gradient that is. */
+/* Which nodes a shift moves, and where from. */
+enum who {
+    ALL,
+    STICKING,
+    ON_FACES /* all, and those that slip stay on their circles */
+};
+struct moved {
+    double *const *y;
+    enum who who;
+    const size_t *tile; /* columns and rows, first and beyond the last; NULL: the map */
+    double nu[2];
+};
+
+/* What a node carries when y is moved by nu, and how that grows with nu; part 2 to 4: xx yy xy of the growth, 5
+ * the function whose gradient the first two are. */
 static void
-carried(const struct rc_discs *d, double *const y[2], int skip, const double nu[2], double out[6])
+carried_by(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
 {
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t j = 0; j < d->ny; j++) {
-        double *sum = sums_of(d, j);
-        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++) {
-            double x = y[0][k] + nu[0], v = y[1][k] + nu[1], r, g = d->g[k], e;
-            if (d->face[k] == OFF || d->face[k] == skip)
-                continue;
-            r = sqrt(x * x + v * v);
-            if (r <= g) {
-                sum[0] += x;
-                sum[1] += v;
-                sum[2] += 1;
-                sum[3] += 1;
-                sum[5] += r * r / 2;
-                continue;
-            }
-            e = g / r;
-            sum[0] += e * x;
-            sum[1] += e * v;
-            sum[2] += e * v * v / (r * r);
-            sum[3] += e * x * x / (r * r);
-            sum[4] -= e * x * v / (r * r);
-            sum[5] += g * (r - g / 2);
-        }
+    const struct moved *m = with;
+    double x = m->y[0][k] + m->nu[0], y = m->y[1][k] + m->nu[1], r = sqrt(x * x + y * y);
+    double g = d->g[k], e;
+    bool circle = m->who == ON_FACES && d->face[k] == SLIP && r > 0;
+
+    if (m->who == STICKING && d->face[k] != STICK)
+        return;
+    if (r <= g && !circle) {
+        sum[0] += x;
+        sum[1] += y;
+        sum[2]++;
+        sum[3]++;
+        sum[5] += r * r / 2;
+        return;
     }
-    total(d, 6, out);
+    e = g / r;
+    sum[0] += e * x;
+    sum[1] += e * y;
+    sum[2] += e * y * y / (r * r);
+    sum[3] += e * x * x / (r * r);
+    sum[4] -= e * x * y / (r * r);
+    sum[5] += circle ? g * r : g * (r - g / 2);
 }
 
-/* nu, so that the nearest tractions on the discs to y + nu carry `load` on the nodes that are not skipped:
- * the minimum of a convex function, by Newton's method. False where they cannot. */
-static bool
-find_shift(const struct rc_discs *d, double *const y[2], int skip, const double load[2],
-           double nu[2])
+static void
+carried(const struct rc_discs *d, const struct moved *m, double out[SUMS])
 {
-    double at[6], size = hypot(d->sum[0], d->sum[1]);
+    if (m->tile == NULL) {
+        sum_nodes(d, carried_by, m, 6, out);
+        return;
+    }
+    memset(out, 0, SUMS * sizeof *out);
+    for (size_t j = m->tile[2]; j < m->tile[3]; j++)
+        for (size_t k = j * d->nx + m->tile[0]; k < j * d->nx + m->tile[1]; k++)
+            if (d->face[k] == STICK)
+                carried_by(d, k, m, out);
+}
 
-    nu[0] = nu[1] = 0;
-    carried(d, y, skip, nu, at);
-    for (int step = 0; step < 100; step++) {
-        double f[2] = {load[0] - at[0], load[1] - at[1]}, move[2], next[2], there[6], part = 1;
-        double value = at[5] - load[0] * nu[0] - load[1] * nu[1], slope;
+/* nu, so that the nearest tractions on the discs to y + nu carry `load`, but for `near` of it, on the nodes that are
+ * moved: the minimum of a convex function, by Newton's method after Levenberg and Marquardt, for tractions that all
+ * point one way do not grow that way. `size`: what friction can carry there. False where they cannot. */
+static bool
+find_shift(const struct rc_discs *d, struct moved *m, const double load[2], double size,
+           double near)
+{
+    static const double first = 1e-6, least = 1e-14;
+    double at[SUMS], damping = first * (double)d->n;
 
-        if (hypot(f[0], f[1]) <= 4 * DBL_EPSILON * (size + hypot(load[0], load[1])))
+    m->nu[0] = m->nu[1] = 0;
+    carried(d, m, at);
+    for (int step = 0; step < 200; step++) {
+        double f[2] = {load[0] - at[0], load[1] - at[1]}, off = hypot(f[0], f[1]);
+        double damped[3] = {at[2] + damping, at[3] + damping, at[4]}, move[2], there[SUMS];
+        double value = at[5] - load[0] * m->nu[0] - load[1] * m->nu[1], next;
+
+        if (off <= near)
             return true;
-        solve(&at[2], f, move);
-        slope = move[0] * f[0] + move[1] * f[1];
-        if (!(slope > 0))
-            return step > 0 && hypot(f[0], f[1]) <= 1e-9 * size;
-        for (;; part /= 2) {
-            next[0] = nu[0] + part * move[0];
-            next[1] = nu[1] + part * move[1];
-            carried(d, y, skip, next, there);
-            if (there[5] - load[0] * next[0] - load[1] * next[1] <=
-                value - 1e-4 * part * slope + 1e-13 * fabs(value))
-                break;
-            if (part < 1e-6)
-                return hypot(f[0], f[1]) <= 1e-9 * size;
+        solve(damped, f, move);
+        m->nu[0] += move[0];
+        m->nu[1] += move[1];
+        carried(d, m, there);
+        next = there[5] - load[0] * m->nu[0] - load[1] * m->nu[1];
+        if (!(next <= value - 1e-4 * (move[0] * f[0] + move[1] * f[1]) + 1e-13 * fabs(value))) {
+            m->nu[0] -= move[0];
+            m->nu[1] -= move[1];
+            damping *= 10;
+            continue;
         }
-        /* nothing is left but rounding */
-        if (step > 3 && hypot(load[0] - there[0], load[1] - there[1]) >= hypot(f[0], f[1]) &&
-            hypot(f[0], f[1]) <= 1e-12 * size)
-            return true;
-        nu[0] = next[0];
-        nu[1] = next[1];
+        if (off <= 1e-12 * size && hypot(load[0] - there[0], load[1] - there[1]) >= off)
+            return true; /* nothing is left but rounding */
+        damping = fmax(damping / 10, least * (double)d->n);
         memcpy(at, there, sizeof at);
     }
-    return false;
+    return hypot(load[0] - at[0], load[1] - at[1]) <= 1e-9 * size;
 }
 
 static inline void
-on_disc(double g, double *x, double *y)
+on_disc(double g, bool circle, double *x, double *y)
 {
     double r = sqrt(*x * *x + *y * *y);
 
-    if (r > g) {
+    if (r > g || (circle && r > 0)) {
         *x *= g / r;
         *y *= g / r;
     }
 }
 
-/* y becomes the nearest tractions on the discs, that carry the load where one is asked for; with `faces`
- * what slips goes radially on to its circle, and the others carry the rest if they can. */
-static void
-project(const struct rc_discs *d, double *const y[2], bool faces)
+/* Moves a node, and puts it on its disc. */
+static inline void
+move_node(const struct rc_discs *d, const struct moved *m, size_t k)
 {
-    double rest[2] = {d->sum[0], d->sum[1]}, nu[2] = {0, 0}, slips[3];
-    bool apart = faces;
+    if (d->face[k] == OFF || (m->who == STICKING && d->face[k] != STICK))
+        return;
+    m->y[0][k] += m->nu[0];
+    m->y[1][k] += m->nu[1];
+    on_disc(d->g[k], m->who == ON_FACES && d->face[k] == SLIP, &m->y[0][k], &m->y[1][k]);
+}
+
+static void
+move_all(const struct rc_discs *d, const struct moved *m)
+{
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t k = 0; k < d->n; k++)
+        move_node(d, m, k);
+}
+
+/* nu that carries the load of the map, but for rounding. */
+static bool
+carry(const struct rc_discs *d, struct moved *m, const double load[2])
+{
+    return find_shift(d, m, load, d->limit, 4 * DBL_EPSILON * d->limit);
+}
+
+/* y becomes the nearest tractions on the discs, that carry the load where one is asked for. */
+static void
+project(const struct rc_discs *d, double *const y[2])
+{
+    struct moved m = {.y = y, .who = ALL};
+
+    if (!d->given)
+        carry(d, &m, d->sum);
+    move_all(d, &m);
+}
+
+/* The nodes of a tile that stick: to the nearest tractions on the discs that carry together what they carry in y. */
+static void
+keep_tile(const struct rc_discs *d, double *const y[2], const size_t tile[4])
+{
+    struct moved m = {.y = y, .who = STICKING, .tile = tile};
+    double load[2] = {0, 0}, size = 0;
+    bool outside = false;
+
+    for (size_t j = tile[2]; j < tile[3]; j++)
+        for (size_t k = j * d->nx + tile[0]; k < j * d->nx + tile[1]; k++)
+            if (d->face[k] == STICK) {
+                load[0] += y[0][k];
+                load[1] += y[1][k];
+                size += d->g[k];
+                outside = outside || hypot(y[0][k], y[1][k]) > d->g[k];
+            }
+    if (!outside)
+        return;
+    if (!(hypot(load[0], load[1]) < size && find_shift(d, &m, load, size, 1e-6 * size)))
+        m.nu[0] = m.nu[1] = 0;
+    for (size_t j = tile[2]; j < tile[3]; j++)
+        for (size_t k = j * d->nx + tile[0]; k < j * d->nx + tile[1]; k++)
+            move_node(d, &m, k);
+}
+
+static void
+rest_of(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+{
+    double *const *y = with;
+
+    if (d->face[k] == STICK) {
+        sum[2] += d->g[k];
+        return;
+    }
+    sum[0] += y[0][k];
+    sum[1] += y[1][k];
+}
+
+/* The way back of a step to y. */
+static void
+back(const struct rc_discs *d, double *const y[2])
+{
+    /* tiles of as many nodes, about as long as wide */
+    double part = TILE / sqrt(d->t->shape.dy / d->t->shape.dx), slips[3], rest[2];
+    size_t high = (size_t)fmin(fmax(part, 1), TILE * TILE), wide = TILE * TILE / high;
+    size_t across = (d->nx + wide - 1) / wide, down = (d->ny + high - 1) / high;
+    struct moved m = {.y = y, .who = STICKING};
 
 #pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t j = 0; j < d->ny; j++) {
-        double *sum = sums_of(d, j);
-        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++) {
-            double r = hypot(y[0][k], y[1][k]);
-            if (d->face[k] == STICK)
-                sum[2] += d->g[k];
-            if (d->face[k] != SLIP || r == 0)
-                continue;
-            sum[0] += d->g[k] / r * y[0][k];
-            sum[1] += d->g[k] / r * y[1][k];
-        }
-    }
-    total(d, 3, slips);
-    if (faces && !d->given) {
-        rest[0] -= slips[0];
-        rest[1] -= slips[1];
-        apart = hypot(rest[0], rest[1]) < slips[2] && find_shift(d, y, SLIP, rest, nu);
-    }
-    if (!apart && !d->given)
-        find_shift(d, y, OFF, d->sum, nu);
+    for (size_t k = 0; k < d->n; k++)
+        if (d->face[k] == SLIP)
+            on_disc(d->g[k], true, &y[0][k], &y[1][k]);
 #pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t k = 0; k < d->n; k++) {
-        double r = hypot(y[0][k], y[1][k]);
-        if (d->face[k] == SLIP && apart && r > 0) {
-            y[0][k] *= d->g[k] / r;
-            y[1][k] *= d->g[k] / r;
-        } else if (d->face[k] != OFF) {
-            y[0][k] += nu[0];
-            y[1][k] += nu[1];
-            on_disc(d->g[k], &y[0][k], &y[1][k]);
+    for (size_t t = 0; t < across * down; t++) {
+        size_t i = t % across * wide, j = t / across * high;
+        size_t tile[4] = {i, i + wide < d->nx ? i + wide : d->nx, j,
+                          j + high < d->ny ? j + high : d->ny};
+        keep_tile(d, y, tile);
+    }
+    if (d->given)
+        return;
+    sum_nodes(d, rest_of, y, 3, slips);
+    rest[0] = d->sum[0] - slips[0];
+    rest[1] = d->sum[1] - slips[1];
+    if (!(hypot(rest[0], rest[1]) < slips[2] && carry(d, &m, rest))) {
+        m.who = ON_FACES;
+        if (!carry(d, &m, d->sum)) {
+            m.who = ALL;
+            carry(d, &m, d->sum);
         }
     }
+    move_all(d, &m);
 }
 
 /* ---- faces ---- */
 
-/* The load that is carried when all slip against G - delta, G = Tq - w; part 2 to 4: how that grows with
- * delta; 5: sum g |G - delta|, whose gradient it is. */
-static void
-slides(const struct rc_discs *d, const double delta[2], double out[6])
+/* Whether a node was left on a chord by a shortened step. */
+static inline bool
+on_chord(const struct rc_discs *d, size_t k, double size)
 {
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t j = 0; j < d->ny; j++) {
-        double *sum = sums_of(d, j);
-        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++) {
-            double x = delta[0] - (d->u[0][k] - d->w[0][k]);
-            double y = delta[1] - (d->u[1][k] - d->w[1][k]), r = sqrt(x * x + y * y);
-            if (d->face[k] == OFF || r == 0)
-                continue;
-            x /= r;
-            y /= r;
-            sum[0] += d->g[k] * x;
-            sum[1] += d->g[k] * y;
-            sum[2] += d->g[k] / r * y * y;
-            sum[3] += d->g[k] / r * x * x;
-            sum[4] -= d->g[k] / r * x * y;
-            sum[5] += d->g[k] * r;
-        }
-    }
-    total(d, 6, out);
+    return d->face[k] == SLIP && size > d->g[k] / 2;
 }
 
-/* delta where no node sticks: the largest S'delta - sum g |G - delta|, by Newton's method. */
 static void
-delta_of_slip(struct rc_discs *d)
+inside(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
 {
-    double at[6], size = hypot(d->sum[0], d->sum[1]);
+    double size = hypot(d->q[0][k], d->q[1][k]);
+    bool in = size < d->g[k] * (1 - on_circle) && !on_chord(d, k, size);
 
-    slides(d, d->delta, at);
-    for (int step = 0; step < 100; step++) {
-        double f[2] = {d->sum[0] - at[0], d->sum[1] - at[1]}, move[2], next[2], there[6], part = 1;
-        double value = d->sum[0] * d->delta[0] + d->sum[1] * d->delta[1] - at[5], slope;
-
-        if (hypot(f[0], f[1]) <= 1e-14 * size)
-            return;
-        solve(&at[2], f, move);
-        slope = move[0] * f[0] + move[1] * f[1];
-        for (;; part /= 2) {
-            if (!(slope > 0) || part < 1e-9)
-                return;
-            next[0] = d->delta[0] + part * move[0];
-            next[1] = d->delta[1] + part * move[1];
-            slides(d, next, there);
-            if (d->sum[0] * next[0] + d->sum[1] * next[1] - there[5] >=
-                value + 1e-4 * part * slope - 1e-14 * fabs(at[5]))
-                break;
-        }
-        d->delta[0] = next[0];
-        d->delta[1] = next[1];
-        memcpy(at, there, sizeof at);
-    }
+    (void)with;
+    for (int c = 0; c < 2; c++)
+        sum[c] += in ? d->u[c][k] - d->w[c][k] : 0;
+    sum[2] += in;
 }
 
 static void
 find_delta(struct rc_discs *d)
 {
+    struct moved m = {.y = d->d, .who = ALL};
     double at[3];
 
     if (d->given)
         return;
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t j = 0; j < d->ny; j++) {
-        double *sum = sums_of(d, j);
-        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++)
-            if (d->face[k] != OFF && hypot(d->q[0][k], d->q[1][k]) < d->g[k] * (1 - on_circle)) {
-                sum[0] += d->u[0][k] - d->w[0][k];
-                sum[1] += d->u[1][k] - d->w[1][k];
-                sum[2]++;
-            }
-    }
-    total(d, 3, at);
-    if (at[2] == 0) {
-        delta_of_slip(d);
+    sum_nodes(d, inside, NULL, 3, at);
+    if (at[2] > 0) {
+        d->delta[0] = at[0] / at[2];
+        d->delta[1] = at[1] / at[2];
         return;
     }
-    d->delta[0] = at[0] / at[2];
-    d->delta[1] = at[1] / at[2];
+    d->part = 0; /* d is taken for what a step would shift */
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t k = 0; k < d->n; k++)
+        for (int c = 0; c < 2; c++)
+            d->d[c][k] = d->q[c][k] - (d->u[c][k] - d->w[c][k]) / d->m->self;
+    carry(d, &m, d->sum);
+    d->delta[0] = m.nu[0] * d->m->self;
+    d->delta[1] = m.nu[1] * d->m->self;
 }
 
-/* Faces, D, the residual along what is free, B'B. */
-static void
-find_faces(struct rc_discs *d)
+/* How far a node slips inwards. */
+static inline double
+inwards(const struct rc_discs *d, size_t k)
 {
-    double at[8];
+    double x = d->q[0][k], y = d->q[1][k], size = hypot(x, y);
 
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t j = 0; j < d->ny; j++) {
-        double *sum = sums_of(d, j);
-        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++) {
-            double g = d->g[k], x = d->q[0][k], y = d->q[1][k], size = hypot(x, y), inwards, slip;
-            double sx, sy;
-            for (int c = 0; c < 2; c++)
-                d->r[c][k] = 0;
-            d->curve[k] = 0;
-            if (d->face[k] == OFF)
+    return size > 0 ? (slip_of(d, 0, k) * x + slip_of(d, 1, k) * y) / size : 0;
+}
+
+static void
+first_look(struct rc_discs *d, size_t k)
+{
+    double g = d->g[k], size = hypot(d->q[0][k], d->q[1][k]), in = inwards(d, k);
+    bool circle =
+        size >= g * (1 - on_circle) || (on_chord(d, k, size) && size - in / d->m->self >= g);
+
+    d->face[k] = !circle ? STICK : in > 0 ? INWARDS : SLIP;
+}
+
+/* The node beside node i of n; n: none. */
+static inline size_t
+beside(size_t i, int step, size_t n, bool round)
+{
+    if (step < 0)
+        return i > 0 ? i - 1 : round && n > 1 ? n - 1 : n;
+    if (step > 0)
+        return i + 1 < n ? i + 1 : round && n > 1 ? 0 : n;
+    return i;
+}
+
+/* Whether the residuals of the neighbours would push a node out again that sticks. */
+static bool
+is_pushed_out(const struct rc_discs *d, size_t i, size_t j)
+{
+    bool round = d->t->boundary == RC_PERIODIC;
+    size_t k = j * d->nx + i;
+    double sum = 0, own[2] = {-slip_of(d, 0, k), -slip_of(d, 1, k)};
+
+    for (int b = -1; b <= 1; b++)
+        for (int a = -1; a <= 1; a++) {
+            size_t x = beside(i, a, d->nx, round), y = beside(j, b, d->ny, round), at;
+            double r = hypot(a * d->t->shape.dx, b * d->t->shape.dy);
+            if ((a == 0 && b == 0) || x == d->nx || y == d->ny)
                 continue;
-            sx = d->u[0][k] - d->w[0][k] - d->delta[0];
-            sy = d->u[1][k] - d->w[1][k] - d->delta[1];
-            slip = hypot(sx, sy);
-            inwards = size > 0 ? (sx * x + sy * y) / size : 0;
-            if (slip > sum[6])
-                sum[6] = slip;
-            if (size < g * (1 - on_circle) || inwards > 0) {
-                d->face[k] = STICK;
-                d->r[0][k] = (float)-sx;
-                d->r[1][k] = (float)-sy;
-                sum[0]++;
-                sum[2]++;
-                sum[3]++;
-            } else {
-                double tx = -y / size, ty = x / size, along = sx * tx + sy * ty;
-                d->face[k] = SLIP;
-                d->curve[k] = (float)(-inwards / g);
-                d->r[0][k] = (float)(-along * tx);
-                d->r[1][k] = (float)(-along * ty);
-                sum[1]++;
-                sum[2] += tx * tx;
-                sum[3] += ty * ty;
-                sum[4] += tx * ty;
-            }
-            slip = hypot((double)d->r[0][k], (double)d->r[1][k]);
-            if (slip > sum[5])
-                sum[5] = slip;
+            at = y * d->nx + x;
+            if (d->face[at] == STICK || d->face[at] == INWARDS)
+                sum += (d->q[0][k] * (own[0] + slip_of(d, 0, at)) +
+                        d->q[1][k] * (own[1] + slip_of(d, 1, at))) /
+                       (r * r * r);
         }
-    }
-    total(d, 5, at);
-    d->stick = (size_t)at[0];
-    d->slipping = (size_t)at[1];
-    memcpy(d->bb, &at[2], sizeof d->bb);
-    d->residual = most(d, 5);
-    d->slip = most(d, 6);
+    return sum > 0;
 }
 
-/* ---- along what is free ---- */
-
 static void
-sum_of(const struct rc_discs *d, float *const v[2], double out[2])
+last_look(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
 {
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t j = 0; j < d->ny; j++) {
-        double *sum = sums_of(d, j);
-        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++) {
-            sum[0] += (double)v[0][k];
-            sum[1] += (double)v[1][k];
-        }
+    double slip[2] = {slip_of(d, 0, k), slip_of(d, 1, k)}, size = hypot(slip[0], slip[1]);
+
+    (void)with;
+    sum[4] = fmax(sum[4], size);
+    if (d->face[k] == INWARDS) {
+        d->face[k] = d->curve[k] < 0 ? SLIP : STICK;
+        sum[2] += d->face[k] == SLIP;
     }
-    total(d, 2, out);
+    sum[d->face[k] == STICK ? 0 : 1]++;
+    d->curve[k] = d->face[k] == SLIP ? (float)(fmax(-inwards(d, k), 0) / d->g[k]) : 0;
+    free_part(d, k, slip);
+    for (int c = 0; c < 2; c++)
+        d->r[c][k] = (float)-slip[c];
+    sum[3] = fmax(sum[3], hypot(slip[0], slip[1]));
 }
 
-/* v loses what a shift of all nodes explains of it, B (B'B)^-1 B'v, with B the free part of a shift: v'B is
- * the load of tractions, and of a residual what delta may still be. */
-static void
-without_shift(const struct rc_discs *d, float *const v[2])
+/* Faces, D, the residual along what is free; how many nodes were left on their circles that slip inwards. */
+static size_t
+find_faces(struct rc_discs *d, bool sift)
 {
-    double load[2], mu[2];
+    double at[3];
 
-    if (d->given)
-        return;
-    sum_of(d, v, load);
-    solve(d->bb, load, mu);
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++) {
-        double x = mu[0], y = mu[1];
-        rc_free_part(d->face[k], d->q[0][k], d->q[1][k], &x, &y);
-        v[0][k] -= (float)x;
-        v[1][k] -= (float)y;
+        d->curve[k] = d->r[0][k] = d->r[1][k] = 0;
+        if (d->face[k] != OFF)
+            first_look(d, k);
     }
-}
-
-static double
-dot(const struct rc_discs *d, float *const a[2], float *const b[2])
-{
-    double out;
-
 #pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t j = 0; j < d->ny; j++) {
-        double *sum = sums_of(d, j);
-        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++)
-            sum[0] += (double)a[0][k] * (double)b[0][k] + (double)a[1][k] * (double)b[1][k];
-    }
-    total(d, 1, &out);
-    return out;
+    for (size_t j = 0; j < d->ny; j++)
+        for (size_t i = 0; i < d->nx && sift; i++)
+            if (d->face[j * d->nx + i] == INWARDS && is_pushed_out(d, i, j))
+                d->curve[j * d->nx + i] = -1;
+    sum_nodes(d, last_look, NULL, 3, at);
+    d->stick = (size_t)at[0];
+    d->slipping = (size_t)at[1];
+    d->residual = most(d, 3);
+    d->slip = most(d, 4);
+    return (size_t)at[2];
 }
 
-/* |z|_1/|q|_1. In 50 problems |z|_1 alone was 1.02 to 1.46 of the error below 1e-2, next to sliding down
- * to 0.9 of it. */
-static double
-relative(const struct rc_discs *d)
+/* ---- the residual ---- */
+
+static void
+load_of(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
 {
-    double out[2];
+    float *const *v = with;
 
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t j = 0; j < d->ny; j++) {
-        double *sum = sums_of(d, j);
-        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++) {
-            sum[0] += hypot((double)d->z[0][k], (double)d->z[1][k]);
-            sum[1] += hypot(d->q[0][k], d->q[1][k]);
-        }
-    }
-    total(d, 2, out);
-    return out[0] == 0 ? 0 : safety * out[0] / out[1];
+    sum[0] += (double)v[0][k];
+    sum[1] += (double)v[1][k];
+    for (int c = 0; c < 3; c++)
+        sum[2 + c] += (double)d->m->n[c][k];
 }
 
-/* ---- steps ---- */
+static void
+errors(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+{
+    double size = hypot(d->q[0][k], d->q[1][k]);
 
-/* z = M r, of the load 0 */
+    (void)with;
+    sum[0] += hypot((double)d->z[0][k], (double)d->z[1][k]);
+    if (d->face[k] == SLIP)
+        sum[0] += fmax(d->g[k] - size, 0);
+    sum[1] += size;
+    sum[2] += d->q[0][k];
+    sum[3] += d->q[1][k];
+}
+
+/* z = M r, of the load 0, and the estimate: |z|_1 and what is missing to the circles, over |q|_1. */
 static void
 precondition(struct rc_discs *d)
 {
-    without_shift(d, d->r);
+    double at[5], mu[2] = {0, 0};
+
     rc_extension_apply(d->m, d->r, d->z);
-    without_shift(d, d->z);
-}
-
-/* Nodes that stick and have left their discs. */
-static double
-left(const struct rc_discs *d)
-{
-    double out;
-
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t j = 0; j < d->ny; j++) {
-        double *sum = sums_of(d, j);
-        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++)
-            sum[0] += d->face[k] == STICK && hypot(d->q[0][k] + (double)d->x[0][k],
-                                                   d->q[1][k] + (double)d->x[1][k]) > d->g[k];
-    }
-    total(d, 1, &out);
-    return out;
-}
-
-/* x: some steps towards the minimum on the faces. z is M r when it begins. */
-static void
-conjugate_gradients(struct rc_discs *d)
-{
-    double last = 0;
-
-    for (int c = 0; c < 2; c++)
-        memset(d->x[c], 0, d->n * sizeof *d->x[c]);
-    for (int step = 0; step < STEPS; step++) {
-        double rz = dot(d, d->r, d->z), beta = step > 0 ? rz / last : 0, curvature, alpha;
-
-        last = rz;
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-        for (size_t k = 0; k < d->n; k++)
-            for (int c = 0; c < 2; c++)
-                d->p[c][k] = d->z[c][k] + (step > 0 ? (float)beta * d->p[c][k] : 0);
-        rc_tangential_apply_single(d->t, d->p, d->y);
+    if (!d->given) {
+        sum_nodes(d, load_of, d->z, 5, at);
+        solve(&at[2], at, mu);
 #pragma omp parallel for num_threads(d->threads) schedule(static)
         for (size_t k = 0; k < d->n; k++) {
-            double y[2];
-            for (int c = 0; c < 2; c++)
-                y[c] = (double)(d->y[c][k] + d->curve[k] * d->p[c][k]);
-            rc_free_part(d->face[k], d->q[0][k], d->q[1][k], &y[0], &y[1]);
-            for (int c = 0; c < 2; c++)
-                d->y[c][k] = (float)y[c];
-        }
-        curvature = dot(d, d->p, d->y);
-        if (!(curvature > 0))
-            break;
-        alpha = rz / curvature;
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-        for (size_t k = 0; k < d->n; k++)
-            for (int c = 0; c < 2; c++) {
-                d->x[c][k] += (float)alpha * d->p[c][k];
-                d->r[c][k] -= (float)alpha * d->y[c][k];
-            }
-        d->inner++;
-        if (left(d) > many * (double)d->stick)
-            break;
-        if (step + 1 < STEPS)
-            precondition(d);
-    }
-}
-
-/* h = T (q_new - q), d the difference; the decrease that the energy's quadratic has along it: below 1/2 it
- * rises. Where all is rounding, 1. */
-static double
-judge(struct rc_discs *d)
-{
-    double out[3];
-
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t k = 0; k < d->n; k++)
-        for (int c = 0; c < 2; c++)
-            d->d[c][k] = d->face[k] == OFF ? 0 : d->d[c][k] - d->q[c][k];
-    rc_tangential_apply(d->t, d->d, d->h);
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t j = 0; j < d->ny; j++) {
-        double *sum = sums_of(d, j);
-        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++)
-            for (int c = 0; c < 2; c++) {
-                double slip = d->u[c][k] - d->w[c][k] - d->delta[c];
-                sum[0] -= d->d[c][k] * slip;
-                sum[1] += d->d[c][k] * d->h[c][k];
-                sum[2] += d->g[k] * fabs(slip);
-            }
-    }
-    total(d, 3, out);
-    if (out[1] / 2 - out[0] <= 4 * DBL_EPSILON * out[2] && out[1] <= 16 * DBL_EPSILON * out[2])
-        return 1;
-    return out[1] > 0 ? out[0] / out[1] : out[0] > 0 ? 1 : 0;
-}
-
-/* d: from q along so much of x, and back. */
-static double
-go(struct rc_discs *d, double part)
-{
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t k = 0; k < d->n; k++)
-        for (int c = 0; c < 2; c++)
-            d->d[c][k] = d->q[c][k] + part * (double)d->x[c][k];
-    project(d, d->d, true);
-    return judge(d);
-}
-
-static void
-take(struct rc_discs *d)
-{
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t k = 0; k < d->n; k++)
-        for (int c = 0; c < 2; c++) {
-            d->q[c][k] += d->d[c][k];
-            d->u[c][k] += d->h[c][k];
-        }
-}
-
-/* A step of the projected gradient. */
-static double
-fall_back(struct rc_discs *d)
-{
-    d->fallbacks++;
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t k = 0; k < d->n; k++)
-        for (int c = 0; c < 2; c++)
-            d->d[c][k] = d->q[c][k] - (d->u[c][k] - d->w[c][k] - d->delta[c]) / d->t->norm;
-    project(d, d->d, false);
-    return judge(d);
-}
-
-/* Whether the tractions add up to the load. */
-static bool
-carries(const struct rc_discs *d)
-{
-    double out[3];
-
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t j = 0; j < d->ny; j++) {
-        double *sum = sums_of(d, j);
-        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++) {
-            sum[0] += d->q[0][k];
-            sum[1] += d->q[1][k];
-            sum[2] += d->g[k];
+            double n[3] = {(double)d->m->n[0][k], (double)d->m->n[1][k], (double)d->m->n[2][k]};
+            d->z[0][k] -= (float)(n[0] * mu[0] + n[2] * mu[1]);
+            d->z[1][k] -= (float)(n[2] * mu[0] + n[1] * mu[1]);
         }
     }
-    total(d, 3, out);
-    return d->given || hypot(out[0] - d->sum[0], out[1] - d->sum[1]) <= 1e-9 * out[2];
+    sum_nodes(d, errors, NULL, 4, at);
+    d->carries = d->given || hypot(at[2] - d->sum[0], at[3] - d->sum[1]) <= 1e-9 * d->limit;
+    d->estimate = at[0] == 0 ? 0 : safety * at[0] / at[1];
+    d->estimate *= 1 + fmin(early * d->estimate, 0.5);
 }
 
 /* Of the residual, where a displacement is given; false: rounding. */
 static bool
 has_mean(const struct rc_discs *d, double mean[2])
 {
-    sum_of(d, d->r, mean);
-    mean[0] /= (double)d->n;
-    mean[1] /= (double)d->n;
+    double at[5];
+
+    sum_nodes(d, load_of, d->r, 5, at);
+    mean[0] = at[0] / (double)d->n;
+    mean[1] = at[1] / (double)d->n;
     return hypot(mean[0], mean[1]) > 1e-6 * d->slip;
+}
+
+/* Faces and what they leave. False: nothing resists the mean of the residual. */
+static bool
+look(struct rc_discs *d, double mean[2])
+{
+    size_t sifted;
+
+    for (bool sift = d->sift;; sift = false) {
+        sifted = find_faces(d, sift);
+        if (!rc_extension_set(d->m, d->face, d->q, d->curve, d->given) && has_mean(d, mean))
+            return false;
+        precondition(d);
+        if (sifted == 0 || d->estimate > d->tol)
+            return true;
+    }
+}
+
+/* ---- steps ---- */
+
+static void
+conjugate(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+{
+    double f[2] = {d->d[0][k], d->d[1][k]};
+
+    (void)with;
+    free_part(d, k, f);
+    for (int c = 0; c < 2; c++) {
+        double y = d->h[c][k] + (double)d->curve[k] * f[c];
+        sum[0] += (double)d->z[c][k] * y;
+        sum[1] += f[c] * y;
+    }
+}
+
+/* z becomes the direction: so much of the last step is added that T + D ties it no more to that. */
+static void
+direct(struct rc_discs *d)
+{
+    double at[2], beta;
+
+    if (d->part == 0)
+        return;
+    sum_nodes(d, conjugate, NULL, 2, at);
+    beta = at[1] > 0 ? fmin(fmax(-d->part * at[0] / at[1], 0), 1) / d->part : 0;
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t k = 0; k < d->n; k++) {
+        double f[2] = {d->d[0][k], d->d[1][k]};
+        free_part(d, k, f);
+        for (int c = 0; c < 2; c++)
+            d->z[c][k] += (float)(beta * f[c]);
+    }
+}
+
+enum {
+    FALL,     /* -s'd                                    */
+    TWIST,    /* d'T d                                   */
+    CURVED,   /* f'D f, f the free part of d             */
+    DOWN,     /* r'f                                     */
+    CLIPPED,  /* |d - p z|_1, p z the step before the way back */
+    STRAIGHT, /* |p z|_1                                 */
+    SCALE     /* of rounding                             */
+};
+
+static void
+energies(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+{
+    double p = *(const double *)with, f[2] = {d->d[0][k], d->d[1][k]};
+    double z[2] = {p * (double)d->z[0][k], p * (double)d->z[1][k]};
+
+    sum[CLIPPED] += hypot(f[0] - z[0], f[1] - z[1]);
+    sum[STRAIGHT] += hypot(z[0], z[1]);
+    for (int c = 0; c < 2; c++) {
+        double slip = slip_of(d, c, k);
+        sum[FALL] -= f[c] * slip;
+        sum[TWIST] += f[c] * d->h[c][k];
+        sum[SCALE] += d->g[k] * fabs(slip);
+    }
+    free_part(d, k, f);
+    sum[CURVED] += (double)d->curve[k] * (f[0] * f[0] + f[1] * f[1]);
+    sum[DOWN] += (double)d->r[0][k] * f[0] + (double)d->r[1][k] * f[1];
+}
+
+/* d, the tractions where a step leads, becomes the way there, h = T d; true: the energy falls along it. */
+static bool
+judge(struct rc_discs *d, double p, double at[SUMS])
+{
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t k = 0; k < d->n; k++)
+        for (int c = 0; c < 2; c++)
+            d->d[c][k] = d->face[k] == OFF ? 0 : d->d[c][k] - d->q[c][k];
+    rc_tangential_apply(d->t, d->d, d->h);
+    sum_nodes(d, energies, &p, 7, at);
+    return at[FALL] > 0;
+}
+
+/* So much of the way, that back led to from `reach` of z; a node that was to leave its disc is on a chord. */
+static void
+take(struct rc_discs *d, double length, double reach)
+{
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t k = 0; k < d->n; k++) {
+        double end = hypot(d->q[0][k] + d->d[0][k], d->q[1][k] + d->d[1][k]);
+        double far =
+            hypot(d->q[0][k] + reach * (double)d->z[0][k], d->q[1][k] + reach * (double)d->z[1][k]);
+        if (d->face[k] == STICK && fmax(end, far) >= d->g[k] * (1 - on_circle))
+            d->face[k] = SLIP;
+        for (int c = 0; c < 2; c++) {
+            d->q[c][k] += length * d->d[c][k];
+            d->u[c][k] += length * d->h[c][k];
+        }
+    }
+}
+
+/* A step of the projected gradient. */
+static void
+fall_back(struct rc_discs *d)
+{
+    double at[SUMS];
+
+    d->fallbacks++;
+    d->part = 0;
+    d->sift = true;
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t k = 0; k < d->n; k++)
+        for (int c = 0; c < 2; c++)
+            d->d[c][k] = d->q[c][k] - slip_of(d, c, k) / d->t->norm;
+    project(d, d->d);
+    if (judge(d, 0, at))
+        take(d, fmin(at[FALL] / at[TWIST], 1), 0);
+}
+
+/* A step along z. */
+static void
+step_along(struct rc_discs *d)
+{
+    double at[SUMS], length, all, reach = d->reach;
+
+    direct(d);
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t k = 0; k < d->n; k++)
+        for (int c = 0; c < 2; c++)
+            d->d[c][k] = d->q[c][k] + d->reach * (double)d->z[c][k];
+    back(d, d->d);
+    if (!judge(d, reach, at) && at[TWIST] > 16 * DBL_EPSILON * at[SCALE]) {
+        fall_back(d);
+        return;
+    }
+    all = at[TWIST] + at[CURVED];
+    length = at[DOWN] / all;
+    if (!(length >= 0.5)) /* radial moves count */
+        length = (at[FALL] + at[CURVED] / 2) / all;
+    d->part = at[CLIPPED] > clipped * at[STRAIGHT] ? 0 : reach;
+    d->reach =
+        fmin(fmax(reach * length, length < short_step ? reach / 8 : fmin(0.5, 4 * reach)), 1);
+    length = at[TWIST] > 16 * DBL_EPSILON * at[SCALE]
+                 ? fmin(fmin(length, 1), 1.9 * at[FALL] / at[TWIST])
+                 : 1; /* nothing is left but rounding */
+    d->sift = length >= short_step;
+    take(d, length, reach);
 }
 
 /* Complete contact that sticks: no traction of a periodic map resists the motion of its mean plane, and
@@ -609,89 +707,97 @@ to_first_circle(struct rc_discs *d, const double mean[2])
 enum rc_status
 rc_discs_step(struct rc_discs *d)
 {
-    double part, mean[2];
+    double mean[2];
+    bool seen;
 
     find_delta(d);
-    find_faces(d);
-    if (!rc_extension_set(d->m, d->face, d->q, d->curve, d->given) && has_mean(d, mean)) {
+    seen = look(d, mean);
+    if (!seen)
         d->estimate = 1;
-        if (d->steps++ >= d->most)
-            return RC_SHORT;
-        if (d->slipping == 0)
-            to_first_circle(d, mean);
-        else if (fall_back(d) > 0.5)
-            take(d);
-        return RC_MORE;
-    }
-    precondition(d);
-    d->estimate = relative(d);
-    if (!(d->estimate > d->tol))
-        return carries(d) ? RC_OK : RC_SHORT;
+    else if (!(d->estimate > d->tol))
+        return d->carries ? RC_OK : RC_SHORT;
     if (d->steps >= d->most)
         return RC_SHORT;
     d->steps++;
-    conjugate_gradients(d);
-    part = go(d, 1);
-    if (!(part > 0.5))
-        part = go(d, fmax(part, 0.1));
-    if (part > 0.5 || fall_back(d) > 0.5)
-        take(d);
+    if (seen)
+        step_along(d);
+    else if (d->slipping == 0)
+        to_first_circle(d, mean);
+    else
+        fall_back(d);
     return RC_MORE;
 }
 
-enum rc_status
-rc_discs_begin(struct rc_discs *d, struct rc_err *err)
+static void
+radius(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
 {
-    for (size_t k = 0; k < d->n; k++)
-        d->face[k] = d->g[k] > 0 ? STICK : OFF;
+    (void)with;
+    sum[0] += d->g[k];
+}
+
+static const double near = 0.99; /* to its circle */
+
+static void
+well_inside(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+{
+    (void)with;
+    sum[0] += hypot(d->q[0][k], d->q[1][k]) < near * d->g[k];
+}
+
+void
+rc_discs_begin(struct rc_discs *d)
+{
+    double inside;
+
 #pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t k = 0; k < d->n; k++)
+    for (size_t k = 0; k < d->n; k++) {
+        d->face[k] = d->g[k] > 0 ? STICK : OFF;
         for (int c = 0; c < 2; c++)
             if (d->face[k] == OFF)
                 d->q[c][k] = 0;
-    project(d, d->q, false);
+    }
+    sum_nodes(d, radius, NULL, 1, &d->limit);
+    project(d, d->q);
+    sum_nodes(d, well_inside, NULL, 1, &inside);
+    for (size_t k = 0; k < d->n && inside > 0; k++) /* a start may have been left on chords */
+        if (d->face[k] == STICK && hypot(d->q[0][k], d->q[1][k]) >= near * d->g[k])
+            d->face[k] = SLIP;
     rc_tangential_apply(d->t, d->q, d->u);
-    d->steps = d->inner = d->fallbacks = 0;
-    return rc_extension_measure(d->m, d->face, err);
+    d->steps = d->fallbacks = 0;
+    d->part = 0;
+    d->reach = 1;
+    d->sift = true;
 }
 
 /* ---- room ---- */
 
-/* Maps in pairs, of doubles and of floats. */
-static double **
-pair_of(struct rc_discs *d, size_t k)
-{
-    double **const pairs[] = {d->w, d->q, d->u, d->d, d->h};
-
-    return pairs[k];
-}
-
-static float **
-single_pair_of(struct rc_discs *d, size_t k)
-{
-    float **const pairs[] = {d->x, d->r, d->z, d->p, d->y};
-
-    return pairs[k];
-}
 enum {
-    PAIRS = 5
+    MAPS = 11, /* of doubles */
+    SINGLE = 5
 };
 
+/* All maps lie in two rooms. */
 static bool
 allocate(struct rc_discs *d)
 {
-    for (size_t k = 0; k < PAIRS; k++)
-        for (int c = 0; c < 2; c++) {
-            double *map = pair_of(d, k)[c] = rc_alloc(d->n, sizeof *map);
-            if (map == NULL || (single_pair_of(d, k)[c] = rc_alloc(d->n, sizeof(float))) == NULL)
-                return false;
-            memset(map, 0, d->n * sizeof *map);
-        }
-    d->g = rc_alloc(d->n, sizeof *d->g);
-    d->curve = rc_alloc(d->n, sizeof *d->curve);
+    double *map = d->maps = rc_alloc(MAPS * d->n, sizeof *map);
+    float *single = d->single = rc_alloc(SINGLE * d->n, sizeof *single);
+
     d->face = rc_alloc(d->n, 1);
     d->partial = rc_alloc(d->ny * SUMS, sizeof *d->partial);
-    return d->g != NULL && d->curve != NULL && d->face != NULL && d->partial != NULL;
+    if (map == NULL || single == NULL || d->face == NULL || d->partial == NULL)
+        return false;
+    memset(map, 0, MAPS * d->n * sizeof *map);
+    d->g = map;
+    d->curve = single;
+    for (size_t c = 0; c < 2; c++) {
+        double **const pairs[] = {d->w, d->q, d->u, d->d, d->h};
+        for (size_t k = 0; k < 5; k++)
+            pairs[k][c] = map + (1 + 2 * k + c) * d->n;
+        d->r[c] = single + (1 + c) * d->n;
+        d->z[c] = single + (3 + c) * d->n;
+    }
+    return true;
 }
 
 struct rc_discs *
@@ -724,14 +830,9 @@ rc_discs_free(struct rc_discs *d)
 {
     if (d == NULL)
         return;
-    for (size_t k = 0; k < PAIRS; k++)
-        for (int c = 0; c < 2; c++) {
-            free(pair_of(d, k)[c]);
-            free(single_pair_of(d, k)[c]);
-        }
+    free(d->maps);
+    free(d->single);
     rc_extension_free(d->m);
-    free(d->g);
-    free(d->curve);
     free(d->face);
     free(d->partial);
     free(d);
@@ -742,6 +843,6 @@ rc_discs_memory(const struct rc_shape *shape, enum rc_boundary boundary)
 {
     size_t n = shape->nx * shape->ny;
 
-    return n * (2 * PAIRS + 1) * sizeof(double) + n * (2 * PAIRS + 1) * sizeof(float) + n +
+    return n * (MAPS * sizeof(double) + SINGLE * sizeof(float) + 1) +
            shape->ny * SUMS * sizeof(double) + rc_extension_memory(shape, boundary);
 }

@@ -28,15 +28,21 @@ struct rc_discs {
     double estimate;     /* of the relative L1 error of q */
     double residual;     /* largest slip where nothing may slip, over the largest slip, m */
     double slip;         /* largest slip, or what the bodies have moved where that is less, m */
-    size_t steps, inner, fallbacks, stick, slipping;
-    /* of one step */
+    size_t steps, fallbacks, stick, slipping;
+    /* of one step, and of the last one */
     struct rc_extension *m;
-    double *d[2], *h[2];                     /* where it goes, and T of that                     */
-    float *x[2], *r[2], *z[2], *p[2], *y[2]; /* conjugate gradients: x, residual, M r, p, T p    */
-    float *curve;                            /* D of nodes that slip                             */
-    unsigned char *face;                     /* enum rc_face                                     */
-    double *partial;                         /* sums of rows                                     */
-    double bb[3];                            /* B'B: sums over the free directions, xx yy xy     */
+    double *d[2], *h[2]; /* where it goes, and T of that                               */
+    bool carries;        /* q adds up to the load                                          */
+    double limit;        /* sum of g                                                       */
+    double reach;        /* how far along the direction the way back begins, 0.5 to 1      */
+    double part;         /* that of the last step; 0: nothing of it is kept                */
+    bool sift;          /* nodes that would slip inwards and back again are left on their circles */
+    float *r[2], *z[2]; /* residual along what is free; M r, then the direction       */
+    float *curve;       /* D of nodes that slip                                       */
+    unsigned char *face; /* enum rc_face                                               */
+    double *maps;        /* where the maps lie                                             */
+    float *single;
+    double *partial; /* sums of rows                                               */
 };
 
 /* Rooms for maps; NULL when memory is short. */
@@ -44,9 +50,9 @@ struct rc_discs *rc_discs_new(struct rc_tangential *t, struct rc_err *err);
 void rc_discs_free(struct rc_discs *d); /* NULL is allowed */
 size_t rc_discs_memory(const struct rc_shape *shape, enum rc_boundary boundary);
 /* Starts from what stands in q, which is put on the discs and the load; the load must be one that the discs
- * can carry. u is found. RC_FAIL when memory is short. */
-enum rc_status rc_discs_begin(struct rc_discs *d, struct rc_err *err);
-/* One outer step: RC_MORE, RC_OK when the estimate is below tol, RC_SHORT when it cannot get there. */
+ * can carry. u is found. */
+void rc_discs_begin(struct rc_discs *d);
+/* One step: RC_MORE, RC_OK when the estimate is below tol, RC_SHORT when it cannot get there. */
 enum rc_status rc_discs_step(struct rc_discs *d);
 
 #endif

@@ -1,51 +1,57 @@
 #include "extension.h"
 
+#include <math.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "distance.h"
 #include "libcontact/memory.h"
-#include "libcontact/solver/solver.h"
 
 enum {
     SUMS = 4
 };
-static const double fade = 0.5, surrounded = 3;
-
-/* ---- G ---- */
-
-static void
-rows(const void *of, const struct rc_lattice *at, size_t n, size_t first, size_t last, double *out)
-{
-    (void)of;
-    for (size_t j = first; j < last; j++)
-        for (size_t i = 0; i < n; i++) {
-            double x = (double)(i * at->sx) * at->dx, y = (double)(j * at->sy) * at->dy;
-            double r2 = x * x + y * y;
-            *out++ = r2 > 0 ? 1 / (r2 * sqrt(sqrt(r2))) : 0;
-        }
-}
-
-static const struct rc_kernel spread = {.rows = rows};
+static const double around = 1.5;        /* the wave number of a grid, times its spacing */
+static const double self_of_wave = 0.84; /* on square cells that of a node alone */
 
 /* ---- plan ---- */
+
+static double
+power(const void *of, double q)
+{
+    return rc_tangential_power(of, q);
+}
+
+/* The grid of fields: the map in its frame. */
+static struct rc_shape
+framed(const struct rc_shape *s, enum rc_boundary boundary)
+{
+    struct rc_frame f = rc_tangential_frame(s, boundary);
+
+    return (struct rc_shape){s->nx + 2 * f.x, s->ny + 2 * f.y, s->dx, s->dy};
+}
+
+static struct rc_pyramid_base
+base_of(const struct rc_shape *s, enum rc_boundary boundary, int threads)
+{
+    struct rc_shape grid = framed(s, boundary);
+
+    return (struct rc_pyramid_base){.shape = grid,
+                                    .n = grid.ny,
+                                    .count = 1,
+                                    .round = boundary == RC_PERIODIC,
+                                    .pairs = true,
+                                    .threads = threads};
+}
 
 void
 rc_extension_free(struct rc_extension *e)
 {
     if (e == NULL)
         return;
-    rc_spectrum_free(e->spread);
-    free(e->far);
+    rc_pyramid_free(e->pyramid);
+    free(e->maps);
+    free(e->row);
     free(e->partial);
-    free(e->close);
-    free(e->known);
-    free(e->tie);
-    for (int k = 0; k < 3; k++)
-        free(e->n[k]);
-    for (int k = 0; k < 2; k++)
-        free(e->v[k]);
     free(e);
 }
 
@@ -53,28 +59,31 @@ struct rc_extension *
 rc_extension_new(struct rc_tangential *t, struct rc_err *err)
 {
     struct rc_extension *e = calloc(1, sizeof *e);
-    size_t n = t->shape.nx * t->shape.ny;
+    struct rc_pyramid_base base = base_of(&t->shape, t->boundary, t->threads);
+    size_t n = t->shape.nx * t->shape.ny, all = base.shape.nx * base.shape.ny;
     bool room = e != NULL;
 
     if (room) {
-        float **maps[] = {&e->close, &e->known, &e->tie,  &e->n[0],
-                          &e->n[1],  &e->n[2],  &e->v[0], &e->v[1]};
-        for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
-            room = (*maps[k] = rc_alloc(n, sizeof(float))) != NULL && room;
+        e->maps = rc_alloc(5 * n + 2 * all, sizeof *e->maps);
+        e->row = rc_alloc(3 * (size_t)t->threads * base.shape.nx, sizeof *e->row);
+        e->partial = rc_alloc(t->shape.ny * SUMS, sizeof *e->partial);
+        room = e->maps != NULL && e->row != NULL && e->partial != NULL;
     }
-    if (room && t->boundary == RC_PERIODIC)
-        room = (e->far = rc_alloc(n, sizeof(float))) != NULL &&
-               (e->partial = rc_alloc(t->shape.ny * SUMS, sizeof(double))) != NULL;
     if (!room) {
         rc_err_set(err, "out of memory for the friction of %zu nodes", n);
         rc_extension_free(e);
         return NULL;
     }
+    e->known = e->maps;
+    e->tie = e->maps + n;
+    for (size_t k = 0; k < 3; k++)
+        e->n[k] = e->maps + (2 + k) * n;
+    for (size_t c = 0; c < 2; c++)
+        e->v[c] = e->maps + 5 * n + c * all;
     e->t = t;
-    for (int c = 0; c < 2; c++)
-        e->self[c] = (float)t->self[c];
-    if ((e->spread = rc_spectrum_new(t->fft_single, err)) != NULL &&
-        rc_spectrum_set_values(e->spread, t->fft_single, &spread, err) == RC_OK)
+    e->grid = base.shape;
+    e->self = self_of_wave * rc_tangential_wave(t, around / fmin(t->shape.dx, t->shape.dy));
+    if ((e->pyramid = rc_pyramid_new(&base, power, t, err)) != NULL)
         return e;
     rc_extension_free(e);
     return NULL;
@@ -83,211 +92,166 @@ rc_extension_new(struct rc_tangential *t, struct rc_err *err)
 size_t
 rc_extension_memory(const struct rc_shape *shape, enum rc_boundary boundary)
 {
-    size_t n = shape->nx * shape->ny, level = n * sizeof(float) + shape->ny * SUMS * sizeof(double);
+    struct rc_pyramid_base base = base_of(shape, boundary, 1);
 
-    return 8 * n * sizeof(float) + (boundary == RC_PERIODIC ? level : 0) +
-           rc_spectrum_memory(shape, boundary, RC_SINGLE, 1);
+    return (5 * shape->nx * shape->ny + 2 * base.shape.nx * base.shape.ny) * sizeof(float) +
+           shape->ny * SUMS * sizeof(double) + rc_pyramid_memory(&base);
 }
 
-enum rc_status
-rc_extension_measure(struct rc_extension *e, const unsigned char *face, struct rc_err *err)
-{
-    const struct rc_shape *s = &e->t->shape;
-    size_t nx = s->nx, own = rc_distance_scratch(s) + nx;
-    float *scratch = rc_alloc((size_t)e->t->threads * own, sizeof *scratch);
-
-    if (scratch == NULL)
-        return rc_err_set(err, "out of memory for the distances of %zu x %zu nodes", nx, s->ny);
-    rc_distance_columns(s, e->t->boundary, face, e->t->threads, e->close);
-#pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t j = 0; j < s->ny; j++) {
-        float *room = scratch + (size_t)omp_get_thread_num() * own;
-        float *d2 = room + rc_distance_scratch(s), *close = e->close + j * nx;
-        rc_distance_row(s, e->t->boundary, room, close, d2);
-        for (size_t i = 0; i < nx; i++) {
-            double d = sqrt((double)d2[i]) - 0.5;
-            /* beside a node that carries something lie others */
-            close[i] = (float)(1 / sqrt(face[j * nx + i] ? 0.5 : fmax(d, 0.25)));
-        }
-    }
-    free(scratch);
-    return RC_OK;
-}
-
-/* ---- one map, by G ---- */
+/* ---- rows for the pyramid ---- */
 
 struct pass {
-    struct rc_extension *e;
+    const struct rc_extension *e;
     float *const *r;
-    int which; /* of both components; of N's */
-    const float *from;
-    float *to;
 };
 
-/* P of a node. */
-static inline void
-projection(const struct rc_extension *e, size_t k, double p[3])
-{
-    double x = e->q[0][k], y = e->q[1][k], over;
-
-    p[0] = p[1] = e->face[k] == RC_FACE_OFF ? 0 : 1;
-    p[2] = 0;
-    if (e->face[k] != RC_FACE_SLIP)
-        return;
-    over = 1 / (x * x + y * y);
-    p[0] = y * y * over;
-    p[1] = x * x * over;
-    p[2] = -x * y * over;
-}
-
+/* Of row j of the grid the row of the map, which *j becomes, and the place of its first node in *to; false: it is off
+ * the map. */
 static bool
-known_in(void *ctx, size_t j, void *row)
+on_map(const struct rc_extension *e, size_t *j, float **to)
 {
-    const struct pass *p = ctx;
-    size_t nx = p->e->t->shape.nx;
-    float *to = row;
-    bool any = false;
-
-    for (size_t i = 0; i < nx; i++) {
-        double of[3];
-        size_t k = j * nx + i;
-        projection(p->e, k, of);
-        to[i] = (float)(of[p->which] * (double)p->e->known[k]);
-        any |= p->e->face[k] != RC_FACE_OFF;
-    }
-    return any;
-}
-
-static bool
-residual_in(void *ctx, size_t j, void *row)
-{
-    const struct pass *p = ctx;
-    size_t nx = p->e->t->shape.nx, at = j * nx;
-    const float *known = p->e->known + at, *r = p->from + at;
-    float *to = row;
-
-    for (size_t i = 0; i < nx; i++)
-        to[i] = known[i] * r[i];
-    return true;
-}
-
-static bool
-row_in(void *ctx, size_t j, void *row)
-{
-    const struct pass *p = ctx;
-    size_t nx = p->e->t->shape.nx;
-
-    memcpy(row, p->from + j * nx, nx * sizeof(float));
-    return true;
-}
-
-static bool
-row_out(void *ctx, size_t j, void *row)
-{
-    const struct pass *p = ctx;
-    size_t nx = p->e->t->shape.nx;
-
-    memcpy(p->to + j * nx, row, nx * sizeof(float));
+    if (*j < e->t->frame.y || *j - e->t->frame.y >= e->t->shape.ny)
+        return false;
+    *j -= e->t->frame.y;
+    *to += e->t->frame.x;
     return true;
 }
 
 static void
-by_spread(struct rc_extension *e, rc_row *in, struct pass pass)
+weight_row(const void *of, int c, size_t j, float weight, float *to)
 {
-    const struct rc_spectrum *factor[] = {e->spread};
-    rc_row *both[] = {in, row_out};
+    const struct rc_extension *e = of;
+    size_t nx = e->t->shape.nx;
+    const float *n;
 
-    pass.e = e;
-    rc_fft_chain(e->t->fft_single, 1, factor, both, &pass);
-    e->t->convolutions += 0.5;
+    if (!on_map(e, &j, &to))
+        return;
+    n = e->n[c] + j * nx;
+    for (size_t i = 0; i < nx; i++)
+        to[i] += weight * n[i];
+}
+
+static void
+residual_row(const void *of, int c, size_t j, float weight, float *to)
+{
+    const struct pass *p = of;
+    size_t nx = p->e->t->shape.nx;
+    const float *known, *r;
+
+    if (!on_map(p->e, &j, &to))
+        return;
+    known = p->e->known + j * nx;
+    r = p->r[c] + j * nx;
+    for (size_t i = 0; i < nx; i++)
+        to[i] += weight * known[i] * r[i];
+}
+
+static void
+field_row(const void *of, int c, size_t j, float weight, float *to)
+{
+    const struct rc_extension *e = of;
+    size_t nx = e->grid.nx;
+    const float *v = e->v[c] + j * nx;
+
+    for (size_t i = 0; i < nx; i++)
+        to[i] += weight * v[i];
+}
+
+static void
+no_row(const void *of, int c, size_t j, float weight, float *to)
+{
+    (void)of, (void)c, (void)j, (void)weight, (void)to;
+}
+
+/* Rows of the pyramid, `count` components of them. */
+static float *
+rows_of(const struct rc_extension *e, size_t j, int count)
+{
+    size_t nx = e->grid.nx;
+    float *row = e->row + 3 * (size_t)omp_get_thread_num() * nx;
+
+    for (int c = 0; c < count; c++)
+        rc_pyramid_row(e->pyramid, c, j, row + (size_t)c * nx);
+    return row;
+}
+
+/* A place on the grid. */
+struct place {
+    bool on_map;
+    size_t k;    /* of the map */
+    float taper; /* off the map: fields fall off to 0 beyond the end of the frame */
+};
+
+static float
+taper(size_t at, size_t frame, size_t n)
+{
+    size_t off = at < frame ? frame - at : at < frame + n ? 0 : at - frame - n + 1;
+
+    return 1 - (float)off / (float)(frame + 1);
+}
+
+static struct place
+place_of(const struct rc_extension *e, size_t i, size_t j)
+{
+    const struct rc_frame f = e->t->frame;
+    size_t nx = e->t->shape.nx, ny = e->t->shape.ny;
+
+    if (i >= f.x && i < f.x + nx && j >= f.y && j < f.y + ny)
+        return (struct place){true, (j - f.y) * nx + i - f.x, 1};
+    return (struct place){false, 0, taper(i, f.x, nx) * taper(j, f.y, ny)};
 }
 
 /* ---- fields without a mean ---- */
 
-static inline void
-by_n(const struct rc_extension *e, size_t k, double x, double y, double out[2])
-{
-    out[0] = (double)e->n[0][k] * x + (double)e->n[2][k] * y;
-    out[1] = (double)e->n[2][k] * x + (double)e->n[1][k] * y;
-}
-
-/* Phi m of a node, and (1 - c P) of that. */
-static inline void
-far_field(const struct rc_extension *e, size_t k, const double m[2], double phi[2], double rest[2])
-{
-    double known[2];
-
-    by_n(e, k, (double)e->far[k] * m[0], (double)e->far[k] * m[1], phi);
-    known[0] = phi[0];
-    known[1] = phi[1];
-    rc_free_part(e->face[k], e->q[0][k], e->q[1][k], &known[0], &known[1]);
-    for (int c = 0; c < 2; c++)
-        rest[c] = phi[c] - (double)e->known[k] * known[c];
-}
-
-/* What goes back to the neighbours of a node, of v = A E r and the ties in z. */
-static inline void
-to_neighbours(const struct rc_extension *e, size_t k, float *const z[2], double rest[2])
-{
-    double own[2] = {(double)e->v[0][k], (double)e->v[1][k]};
-
-    rc_free_part(e->face[k], e->q[0][k], e->q[1][k], &own[0], &own[1]);
-    for (int c = 0; c < 2; c++)
-        rest[c] = (double)e->v[c][k] - (double)e->known[k] * own[c] - (double)z[c][k];
-}
-
-/* Of a node, to be summed over the map: (1 - c P) Phi, by columns; v; Phi' of what goes back. */
+/* The mean over a periodic map of v; rows by themselves, in order, so that threads change nothing. */
 static void
-mean_of_far(const struct rc_extension *e, size_t k, float *const z[2], double out[SUMS])
-{
-    double phi[2];
-
-    (void)z;
-    far_field(e, k, (const double[2]){1, 0}, phi, &out[0]);
-    far_field(e, k, (const double[2]){0, 1}, phi, &out[2]);
-}
-
-static void
-mean_of_field(const struct rc_extension *e, size_t k, float *const z[2], double out[SUMS])
-{
-    (void)z;
-    out[0] = (double)e->v[0][k];
-    out[1] = (double)e->v[1][k];
-}
-
-static void
-far_of_rest(const struct rc_extension *e, size_t k, float *const z[2], double out[SUMS])
-{
-    double rest[2];
-
-    to_neighbours(e, k, z, rest);
-    by_n(e, k, (double)e->far[k] * rest[0], (double)e->far[k] * rest[1], out);
-}
-
-/* Mean over the map; rows by themselves, in order, so that threads change nothing. */
-static void
-mean(const struct rc_extension *e,
-     void (*of)(const struct rc_extension *e, size_t k, float *const z[2], double out[SUMS]),
-     float *const z[2], double out[SUMS])
+mean_of_field(const struct rc_extension *e, double out[2])
 {
     size_t nx = e->t->shape.nx, ny = e->t->shape.ny;
-    struct rc_total all[SUMS] = {{0}};
+    struct rc_total all[2] = {{0}};
 
 #pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t j = 0; j < ny; j++) {
-        double *sum = e->partial + j * SUMS;
-        memset(sum, 0, SUMS * sizeof *sum);
-        for (size_t k = j * nx; k < (j + 1) * nx; k++) {
-            double node[SUMS] = {0};
-            of(e, k, z, node);
-            for (int c = 0; c < SUMS; c++)
-                sum[c] += node[c];
+    for (size_t j = 0; j < ny; j++)
+        for (int c = 0; c < 2; c++) {
+            double sum = 0;
+            for (size_t k = j * nx; k < (j + 1) * nx; k++)
+                sum += (double)e->v[c][k];
+            e->partial[j * SUMS + (size_t)c] = sum;
         }
-    }
-    for (int c = 0; c < SUMS; c++) {
+    for (int c = 0; c < 2; c++) {
         for (size_t j = 0; j < ny; j++)
             rc_total_add(&all[c], e->partial[j * SUMS + (size_t)c]);
         out[c] = rc_total_value(&all[c]) / (double)(nx * ny);
+    }
+}
+
+/* v = E r, r NULL for 0, with `beyond` as the pyramid takes it; z: what ties tangents to their residuals. */
+static void
+extend(struct rc_extension *e, float *const r[2], const double beyond[2], float *const z[2])
+{
+    const struct pass pass = {e, r};
+    size_t nx = e->grid.nx;
+
+    rc_pyramid_extend(e->pyramid, r == NULL ? no_row : residual_row, &pass, beyond);
+#pragma omp parallel for num_threads(e->t->threads) schedule(static)
+    for (size_t j = 0; j < e->grid.ny; j++) {
+        const float *row = rows_of(e, j, 2);
+        for (size_t i = 0; i < nx; i++) {
+            struct place p = place_of(e, i, j);
+            double v[2] = {(double)(p.taper * row[i]), (double)(p.taper * row[nx + i])}, away[2];
+            size_t k = p.k;
+            for (int c = 0; c < 2; c++)
+                e->v[c][j * nx + i] = (float)(away[c] = v[c]);
+            if (!p.on_map)
+                continue;
+            rc_free_part(e->face[k], e->q[0][k], e->q[1][k], &away[0], &away[1]);
+            for (int c = 0; c < 2; c++) {
+                double left = (r == NULL ? 0 : (double)r[c][k]) - away[c];
+                e->v[c][j * nx + i] += (float)((double)e->known[k] * left);
+                if (z != NULL)
+                    z[c][k] = (float)((double)e->tie[k] * left);
+            }
+        }
     }
 }
 
@@ -296,170 +260,166 @@ static bool
 invert_means(struct rc_extension *e)
 {
     static const double singular = 1e-10;
-    double b[SUMS], det, size = 0;
+    double b[2][2], det, size = 0;
 
-    mean(e, mean_of_far, NULL, b);
-    det = b[0] * b[3] - b[1] * b[2];
-    for (int k = 0; k < SUMS; k++)
-        size += b[k] * b[k];
+    for (int c = 0; c < 2; c++) {
+        double mean[2];
+        extend(e, NULL, (const double[2]){c == 0, c == 1}, NULL);
+        mean_of_field(e, mean);
+        b[0][c] = mean[0];
+        b[1][c] = mean[1];
+        size += mean[0] * mean[0] + mean[1] * mean[1];
+    }
+    det = b[0][0] * b[1][1] - b[0][1] * b[1][0];
     if (!(fabs(det) > singular * size))
         return false;
-    e->b[0] = b[3] / det;
-    e->b[1] = -b[2] / det;
-    e->b[2] = -b[1] / det;
-    e->b[3] = b[0] / det;
+    e->b[0] = b[1][1] / det;
+    e->b[1] = -b[0][1] / det;
+    e->b[2] = -b[1][0] / det;
+    e->b[3] = b[0][0] / det;
     return true;
-}
-
-/* Takes the mean of v, and tells it to the ties. */
-static void
-level(struct rc_extension *e, float *const z[2])
-{
-    double of[SUMS], m[2];
-
-    mean(e, mean_of_field, NULL, of);
-    m[0] = e->b[0] * of[0] + e->b[1] * of[1];
-    m[1] = e->b[2] * of[0] + e->b[3] * of[1];
-#pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t k = 0; k < e->t->shape.nx * e->t->shape.ny; k++) {
-        double phi[2], rest[2];
-        far_field(e, k, m, phi, rest);
-        rc_free_part(e->face[k], e->q[0][k], e->q[1][k], &phi[0], &phi[1]);
-        for (int c = 0; c < 2; c++) {
-            e->v[c][k] -= (float)rest[c];
-            z[c][k] += (float)((double)e->tie[k] * phi[c]);
-        }
-    }
-}
-
-/* The transpose of that. */
-static void
-level_transposed(struct rc_extension *e, float *const z[2])
-{
-    double of[SUMS], eta[2];
-
-    mean(e, far_of_rest, z, of);
-    eta[0] = e->b[0] * of[0] + e->b[2] * of[1];
-    eta[1] = e->b[1] * of[0] + e->b[3] * of[1];
-#pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t k = 0; k < e->t->shape.nx * e->t->shape.ny; k++)
-        for (int c = 0; c < 2; c++)
-            e->v[c][k] -= (float)eta[c];
 }
 
 /* ---- the set ---- */
 
-static double
-self(const struct rc_extension *e, size_t k)
+/* n becomes c P. */
+static void
+know(struct rc_extension *e, const float *curve)
 {
-    double p[3];
+#pragma omp parallel for num_threads(e->t->threads) schedule(static)
+    for (size_t k = 0; k < e->t->shape.nx * e->t->shape.ny; k++) {
+        double c = e->face[k] == RC_FACE_OFF ? 0 : 1, x = e->q[0][k], y = e->q[1][k], over;
+        e->tie[k] = 0;
+        e->n[0][k] = e->n[1][k] = (float)c;
+        e->n[2][k] = 0;
+        if (e->face[k] == RC_FACE_SLIP) {
+            c = e->self / (e->self + (double)curve[k]);
+            e->tie[k] =
+                (float)((1 - c) / (e->self + (double)curve[k])); /* (1 - c)/D = 1/(T0 + D) */
+            over = c / (x * x + y * y);
+            e->n[0][k] = (float)(y * y * over);
+            e->n[1][k] = (float)(x * x * over);
+            e->n[2][k] = (float)(-x * y * over);
+        }
+        e->known[k] = (float)c;
+    }
+}
 
-    projection(e, k, p);
-    return (p[0] * (double)e->self[0] + p[1] * (double)e->self[1]) / (p[0] + p[1]);
+/* n becomes c P (1 - part) P: the tractions of a shift are large where the surroundings are not known. */
+static void
+share(struct rc_extension *e)
+{
+    static const double least = 1e-3;
+    size_t nx = e->t->shape.nx, all = e->grid.nx;
+
+#pragma omp parallel for num_threads(e->t->threads) schedule(static)
+    for (size_t j = 0; j < e->t->shape.ny; j++) {
+        const float *row = rows_of(e, j + e->t->frame.y, 3) + e->t->frame.x;
+        for (size_t i = 0; i < nx; i++) {
+            size_t k = j * nx + i;
+            double a = 1 - (double)row[i], b = 1 - (double)row[all + i],
+                   c = -(double)row[2 * all + i];
+            double mean = (a + b) / 2, half = hypot((a - b) / 2, c), low, high, ratio, along, x, y;
+            if (e->face[k] == RC_FACE_OFF)
+                continue;
+            low = fmax(mean - half, least);
+            high = fmax(mean + half, least);
+            ratio = half > 0 ? (high - low) / (2 * half) : 0;
+            a = (high + low) / 2 + ratio * (a - mean);
+            b = (high + low) / 2 + ratio * (b - mean);
+            c *= ratio;
+            if (e->face[k] == RC_FACE_STICK) {
+                e->n[0][k] = (float)a;
+                e->n[1][k] = (float)b;
+                e->n[2][k] = (float)c;
+                continue;
+            }
+            x = e->q[0][k];
+            y = e->q[1][k];
+            along = (a * y * y - 2 * c * x * y + b * x * x) / (x * x + y * y);
+            for (int m = 0; m < 3; m++)
+                e->n[m][k] *= (float)along;
+        }
+    }
 }
 
 bool
 rc_extension_set(struct rc_extension *e, const unsigned char *face, double *const q[2],
                  const float *curve, bool given)
 {
-    size_t n = e->t->shape.nx * e->t->shape.ny;
-
     e->face = face;
     e->q = q;
-#pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t k = 0; k < n; k++) {
-        double own, c;
-        e->known[k] = face[k] == RC_FACE_OFF ? 0 : 1;
-        e->tie[k] = 0;
-        if (face[k] != RC_FACE_SLIP)
-            continue;
-        own = self(e, k);
-        c = own / (own + (double)curve[k]);
-        e->known[k] = (float)c;
-        e->tie[k] = (float)((1 - c) / (own + (double)curve[k])); /* (1 - c)/D = 1/(T0 + D) */
-    }
-    for (int k = 0; k < 3; k++)
-        by_spread(e, known_in, (struct pass){.which = k, .to = e->n[k]});
-#pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t k = 0; k < n; k++) {
-        double a = (double)e->n[0][k], c = (double)e->n[1][k], b = (double)e->n[2][k], det;
-        double near = fmax((a + c) / 2, 0), close = (double)e->close[k];
-        double part = near / (surrounded * close),
-               f = fade * close / (1 + part * part * part * part);
-        a = fmax(a, 0) + f;
-        c = fmax(c, 0) + f;
-        det = a * c - b * b;
-        if (!(det > 0)) /* of rounding */
-            det = a * c, b = 0;
-        e->n[0][k] = (float)(c / det);
-        e->n[1][k] = (float)(a / det);
-        e->n[2][k] = (float)(-b / det);
-        if (e->far != NULL)
-            e->far[k] = (float)f;
-    }
-    e->level = given && e->far != NULL;
-    if (e->level)
-        e->level = invert_means(e);
-    return e->level || !given || e->far == NULL;
+    know(e, curve);
+    rc_pyramid_set(e->pyramid, weight_row, e);
+    if (!given)
+        share(e);
+    e->level = given && e->t->boundary == RC_PERIODIC;
+    if (!e->level)
+        return true;
+    return e->level = invert_means(e);
 }
 
 /* ---- E' A E ---- */
 
-/* v from the sums of what neighbours know; z: what ties tangents to their residuals. */
+/* v, fields that z is to have the transpose of, becomes what goes back to the neighbours; `first`: with the ties in z;
+ * else a shift of -eta is added. */
 static void
-extend(struct rc_extension *e, float *const r[2], float *const z[2])
+to_neighbours(struct rc_extension *e, bool first, const double eta[2], float *const z[2])
 {
-#pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t k = 0; k < e->t->shape.nx * e->t->shape.ny; k++) {
-        double v[2], away[2];
-        by_n(e, k, (double)e->v[0][k], (double)e->v[1][k], v);
-        away[0] = v[0];
-        away[1] = v[1];
-        rc_free_part(e->face[k], e->q[0][k], e->q[1][k], &away[0], &away[1]);
-        for (int c = 0; c < 2; c++) {
-            double left = (double)r[c][k] - away[c];
-            e->v[c][k] = (float)(v[c] + (double)e->known[k] * left);
-            z[c][k] = (float)((double)e->tie[k] * left);
-        }
-    }
-}
+    size_t nx = e->grid.nx;
 
-/* The transpose, of v = A E r and the ties in z: v becomes what goes back to the neighbours. */
-static void
-gather(struct rc_extension *e, float *const z[2])
-{
 #pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t k = 0; k < e->t->shape.nx * e->t->shape.ny; k++) {
-        double v[2] = {(double)e->v[0][k], (double)e->v[1][k]}, own[2] = {v[0], v[1]}, rest[2];
-        to_neighbours(e, k, z, rest);
-        rc_free_part(e->face[k], e->q[0][k], e->q[1][k], &own[0], &own[1]);
-        for (int c = 0; c < 2; c++)
-            z[c][k] += (float)((double)e->known[k] * own[c]);
-        by_n(e, k, rest[0], rest[1], v);
-        e->v[0][k] = (float)v[0];
-        e->v[1][k] = (float)v[1];
-    }
+    for (size_t j = 0; j < e->grid.ny; j++)
+        for (size_t i = 0; i < nx; i++) {
+            struct place p = place_of(e, i, j);
+            size_t at = j * nx + i, k = p.k;
+            double v[2], own[2];
+            for (int c = 0; c < 2; c++)
+                own[c] = v[c] = first ? (double)e->v[c][at] : -eta[c];
+            if (p.on_map)
+                rc_free_part(e->face[k], e->q[0][k], e->q[1][k], &own[0], &own[1]);
+            for (int c = 0; c < 2; c++) {
+                double known = p.on_map ? (double)e->known[k] * own[c] : 0;
+                double rest = (double)p.taper * (v[c] - known);
+                e->v[c][at] = (float)(first ? rest - (p.on_map ? (double)z[c][k] : 0)
+                                            : (double)e->v[c][at] + rest);
+                if (p.on_map)
+                    z[c][k] += (float)known;
+            }
+        }
 }
 
 void
 rc_extension_apply(struct rc_extension *e, float *const r[2], float *const z[2])
 {
-    for (int c = 0; c < 2; c++)
-        by_spread(e, residual_in, (struct pass){.from = r[c], .to = e->v[c]});
-    extend(e, r, z);
-    if (e->level)
-        level(e, z);
+    size_t nx = e->t->shape.nx, n = nx * e->t->shape.ny;
+    double of[2], m[2], eta[2];
+
+    extend(e, r, NULL, z);
+    if (e->level) {
+        mean_of_field(e, of);
+        m[0] = -(e->b[0] * of[0] + e->b[1] * of[1]);
+        m[1] = -(e->b[2] * of[0] + e->b[3] * of[1]);
+        extend(e, r, m, z);
+    }
     rc_tangential_inverse(e->t, e->v, e->v);
-    if (e->level)
-        level_transposed(e, z);
-    gather(e, z);
-    for (int c = 0; c < 2; c++)
-        by_spread(e, row_in, (struct pass){.from = e->v[c], .to = e->v[c]});
+    to_neighbours(e, true, NULL, z);
+    rc_pyramid_gather(e->pyramid, field_row, e, of);
+    if (e->level) {
+        eta[0] = (e->b[0] * of[0] + e->b[2] * of[1]) / (double)n;
+        eta[1] = (e->b[1] * of[0] + e->b[3] * of[1]) / (double)n;
+        to_neighbours(e, false, eta, z);
+        rc_pyramid_gather(e->pyramid, field_row, e, NULL);
+    }
 #pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t k = 0; k < e->t->shape.nx * e->t->shape.ny; k++) {
-        double back[2] = {(double)(e->known[k] * e->v[0][k]), (double)(e->known[k] * e->v[1][k])};
-        rc_free_part(e->face[k], e->q[0][k], e->q[1][k], &back[0], &back[1]);
-        z[0][k] += (float)back[0];
-        z[1][k] += (float)back[1];
+    for (size_t j = 0; j < e->t->shape.ny; j++) {
+        const float *row = rows_of(e, j + e->t->frame.y, 2) + e->t->frame.x;
+        for (size_t i = 0; i < nx; i++) {
+            size_t k = j * nx + i;
+            double back[2] = {(double)row[i], (double)row[e->grid.nx + i]};
+            rc_free_part(e->face[k], e->q[0][k], e->q[1][k], &back[0], &back[1]);
+            for (int c = 0; c < 2; c++)
+                z[c][k] += (float)((double)e->known[k] * back[c]);
+        }
     }
 }

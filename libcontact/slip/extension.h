@@ -13,26 +13,28 @@
  * circles, and, the less the larger D is, along their tangents. Here v = E r is an explicit guess of that
  * field,
  *
- *     v_i = e_i + c_i P_i (r_i - e_i),   e_i = N_i^-1 sum_j G_ij c_j P_j r_j,   N_i = sum_j G_ij c_j P_j + f_i,
- *     G_ij = |x_i - x_j|^(-5/2),         c = T0/(T0 + D): what is known of v from the residual of a node
+ *     v = e + c P (r - e),   e from the pyramid of pairs with W_0 = c P,   c = T0/(T0 + D):
  *
- * with the fade f of the preconditioner of the normal problem, and 2 x 2 matrices N: missing components
- * are told by neighbours that have them. Then
+ * c is what is known of v from the residual of a node, T0 what a wave of about 4 nodes makes of tractions. Then
  *
  *     z = E' A E r + (1 - c)^2/D P (r - e) and its transpose:
  *
  * symmetric, and r'z >= r'(T + D)^-1 r whatever the guess: z bounds the error in the energy norm from
- * above.
+ * above. On the final faces conjugate gradients with it take 2, 4 and 7 steps to 1e-2, 1e-4 and 1e-8 of that norm
+ * at 128 to 512 nodes a side and 11 to 83 % of contact.
  *
  * A periodic T has no mean, T(0) = 0, and its inverse allows none: the least of v'Av is over fields v without
  * a mean. A force given, the residual has none either. A displacement given, what the guess has of it goes to
  * where nothing is known, by a change of rank 2:
  *
- *     e -> e - Phi m,   Phi = N^-1 f,   m = B^-1 mean(e + c P (r - e)),   B = mean((1 - c P) Phi).
+ *     e -> e - Phi m,   m = B^-1 mean(e + c P (r - e)),   B = mean((1 - c P) Phi),
+ *
+ * with Phi m what the pyramid makes of m beyond its coarsest level.
  */
 #ifndef RC_EXTENSION_H
 #define RC_EXTENSION_H
 
+#include "libcontact/solver/solver.h"
 #include "tangential.h"
 
 enum rc_face {
@@ -43,28 +45,28 @@ enum rc_face {
 
 struct rc_extension {
     struct rc_tangential *t;
-    struct rc_spectrum *spread; /* G */
-    const unsigned char *face;  /* the caller's, as q is */
+    struct rc_pyramid *pyramid;
+    struct rc_shape grid;      /* of fields: the map in its frame */
+    float *maps;               /* where the maps lie */
+    const unsigned char *face; /* the caller's, as q is */
     double *const *q;
-    float self[2];
-    float *close; /* d^(-1/2), d the distance from the contact */
-    float *known; /* c                                         */
-    float *tie;   /* (1 - c)^2/D                               */
-    float *n[3];  /* of N^-1, xx yy xy                         */
-    float *v[2];
-    float *far;      /* f; NULL: T has a mean                             */
-    double *partial; /* sums of rows; NULL as f                           */
-    bool level;      /* v is to have no mean                              */
-    double b[4];     /* B^-1, by rows                                     */
+    float
+        *known; /* c                                                                             */
+    float *tie; /* (1 - c)^2/D                                                                   */
+    float
+        *n[3]; /* xx yy xy: about the tractions M P of a shift of all nodes by 1, up to a factor */
+    float *v[2];     /* on the grid                           */
+    float *row;      /* for each thread                       */
+    double *partial; /* sums of rows                          */
+    double self;     /* T0                                    */
+    bool level;      /* v is to have no mean                  */
+    double b[4];     /* B^-1, by rows                         */
 };
 
 /* NULL when memory is short. */
 struct rc_extension *rc_extension_new(struct rc_tangential *t, struct rc_err *err);
 void rc_extension_free(struct rc_extension *e); /* NULL is allowed */
 size_t rc_extension_memory(const struct rc_shape *shape, enum rc_boundary boundary);
-/* The nodes that may carry something: they stay until the next call. RC_FAIL when memory is short. */
-enum rc_status rc_extension_measure(struct rc_extension *e, const unsigned char *face,
-                                    struct rc_err *err);
 /* Faces, tractions, whose directions are the normals of the circles, and D where nodes slip; whether the
  * displacement is given. False: B is singular, as where all nodes of a periodic map stick, and what is
  * applied is the inverse for residuals without a mean. */

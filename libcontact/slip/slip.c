@@ -173,8 +173,7 @@ rc_slip_step(struct rc_slip *s, struct rc_err *err)
     }
     if (!s->begun) {
         pose(s);
-        if (rc_discs_begin(s->discs, err) != RC_OK)
-            return RC_FAIL;
+        rc_discs_begin(s->discs);
         s->begun = true;
         return RC_MORE;
     }

@@ -65,25 +65,6 @@ set_spectra(struct rc_tangential *t, struct rc_err *err)
     return RC_OK;
 }
 
-/* A unit traction on a node: the mean of the spectrum over all waves. */
-static void
-set_self(struct rc_tangential *t)
-{
-    size_t nx, ny;
-
-    rc_fft_period(&t->shape, t->boundary, &nx, &ny);
-    for (int k = 0; k < 2; k++) {
-        double sum = 0;
-        for (size_t i = 0; i < t->columns; i++) {
-            double twice = i == 0 || 2 * i == nx ? 1 : 2;
-            for (size_t j = 0; j < t->cy; j++)
-                sum += twice * (j == 0 || 2 * j == ny ? 1 : 2) *
-                       t->quarter[k == 0 ? RC_SHEAR_XX : RC_SHEAR_YY][i * t->cy + j];
-        }
-        t->self[k] = sum / ((double)nx * (double)ny);
-    }
-}
-
 /* On the free boundary what a uniform traction does in the middle of the rectangle, as if it were across it
  * everywhere; on a periodic map the longest wave. */
 static double
@@ -97,13 +78,73 @@ norm_of(const struct rc_tangential *t)
     return 2 * (a * asinh(b / a) + b * asinh(a / b)) * most;
 }
 
-/* The caller's units are such that no decade is lost in single precision. */
-static void
-set_single(struct rc_tangential *t)
+/* Along x or y of a free map, between the waves on both sides; false: its grid has none as long or as short. */
+static bool
+along(const struct rc_tangential *t, bool x, double q, double *out)
 {
-    for (int k = 0; k < 3; k++)
-        for (size_t i = 0; i < t->columns * t->cy; i++)
-            t->single[k][i] = (float)t->quarter[k][i];
+    size_t nodes[2], n;
+    double spacing = x ? t->shape.dx : t->shape.dy, at, part, value[2];
+
+    rc_fft_period(&t->shape, t->boundary, &nodes[0], &nodes[1]);
+    n = nodes[x ? 0 : 1];
+    at = q * spacing * (double)n / (2 * RC_PI);
+    if (at < 1 || at > (double)(n / 2))
+        return false;
+    part = at - floor(at);
+    for (int k = 0; k < 2; k++) {
+        size_t wave = (size_t)at + (k == 1 && part > 0), place = x ? wave * t->cy : wave;
+        value[k] = (t->quarter[RC_SHEAR_XX][place] + t->quarter[RC_SHEAR_YY][place]) / 2;
+    }
+    *out = (1 - part) * value[0] + part * value[1];
+    return true;
+}
+
+double
+rc_tangential_wave(const struct rc_tangential *t, double q)
+{
+    double x, y;
+
+    if (t->boundary == RC_FREE) {
+        bool has_x = along(t, true, q, &x), has_y = along(t, false, q, &y);
+        if (has_x || has_y)
+            return ((has_x ? x : 0) + (has_y ? y : 0)) / (has_x && has_y ? 2 : 1);
+    }
+    return (2 + t->shear.kap) / (q * t->shear.estar);
+}
+
+double
+rc_tangential_power(const struct rc_tangential *t, double q)
+{
+    double last = RC_PI / fmin(t->shape.dx, t->shape.dy);
+
+    for (; t->boundary == RC_FREE && q <= last; q *= 2) {
+        double sum = 0, count = 0;
+        for (int x = 0; x < 2; x++) {
+            double here, shorter;
+            if (!along(t, x == 1, q, &here) || !along(t, x == 1, 2 * q, &shorter))
+                continue;
+            sum += log2(here / shorter);
+            count++;
+        }
+        if (count > 0)
+            return sum / count;
+    }
+    return 1;
+}
+
+/* The inverse of (XX -XY; -XY YY), wave by wave; nothing stands against the mean. The caller's units are such that no
+ * decade is lost in single precision. */
+static void
+set_inverse(struct rc_tangential *t)
+{
+    for (size_t i = 0; i < t->columns * t->cy; i++) {
+        double a = t->quarter[RC_SHEAR_XX][i], c = t->quarter[RC_SHEAR_YY][i];
+        double b = t->quarter[RC_SHEAR_XY][i], determinant = a * c - b * b;
+        double over = determinant > 0 ? 1 / determinant : 0;
+        t->single[RC_SHEAR_XX][i] = (float)(c * over);
+        t->single[RC_SHEAR_YY][i] = (float)(a * over);
+        t->single[RC_SHEAR_XY][i] = (float)(-b * over);
+    }
 }
 
 /* ---- plan ---- */
@@ -113,7 +154,7 @@ rc_tangential_free(struct rc_tangential *t)
 {
     if (t == NULL)
         return;
-    rc_fft_free(t->fft_single); /* works in memory of the other */
+    rc_fft_free(t->framed); /* works in memory of the other */
     rc_fft_free(t->fft);
     for (int k = 0; k < RC_SHEAR_KERNELS; k++)
         free(t->quarter[k]);
@@ -152,6 +193,15 @@ allocate(struct rc_tangential *t)
     return true;
 }
 
+struct rc_frame
+rc_tangential_frame(const struct rc_shape *shape, enum rc_boundary boundary)
+{
+    const struct rc_pair pair = {.estar = 1};
+
+    return rc_operator_frame(shape,
+                             &(struct rc_operator_options){.boundary = boundary, .pair = &pair});
+}
+
 struct rc_tangential *
 rc_tangential_new(const struct rc_shape *shape, enum rc_boundary boundary,
                   const struct rc_shear *shear, size_t threads, struct rc_err *err)
@@ -169,8 +219,11 @@ rc_tangential_new(const struct rc_shape *shape, enum rc_boundary boundary,
     t->fft = rc_fft_new(NULL, NULL, shape, boundary, RC_DOUBLE, threads, err);
     if (t->fft == NULL)
         goto fail;
-    t->fft_single = rc_fft_new(NULL, t->fft, shape, boundary, RC_SINGLE, threads, err);
-    if (t->fft_single == NULL)
+    t->frame = rc_tangential_frame(shape, boundary);
+    t->framed = boundary == RC_FREE
+                    ? rc_fft_new_framed(NULL, t->fft, shape, &t->frame, RC_SINGLE, threads, err)
+                    : rc_fft_new(NULL, t->fft, shape, boundary, RC_SINGLE, threads, err);
+    if (t->framed == NULL)
         goto fail;
     if (!allocate(t)) {
         rc_err_set(err, "out of memory for the shear of %zu x %zu nodes", shape->nx, shape->ny);
@@ -178,8 +231,7 @@ rc_tangential_new(const struct rc_shape *shape, enum rc_boundary boundary,
     }
     if (set_spectra(t, err) != RC_OK)
         goto fail;
-    set_self(t);
-    set_single(t);
+    set_inverse(t);
     t->norm = norm_of(t);
     return t;
 fail:
@@ -213,32 +265,37 @@ struct pass {
     int which; /* of the two maps */
 };
 
-static const struct rc_shear_ops *
-ops(bool single)
-{
-    return single ? &rc_shear_single : &rc_shear_double;
-}
-
 static size_t
 size_of(bool single)
 {
     return single ? sizeof(float) : sizeof(double);
 }
 
+static size_t
+nodes_of_row(const struct pass *p)
+{
+    return p->t->shape.nx + (p->single ? 2 * p->t->frame.x : 0);
+}
+
 static bool
 row_in(void *ctx, size_t j, void *row)
 {
     const struct pass *p = ctx;
-    size_t nx = p->t->shape.nx;
+    size_t bytes = nodes_of_row(p) * size_of(p->single);
+    const char *from = (const char *)p->from + j * bytes;
 
-    return ops(p->single)->row((const char *)p->from + j * nx * size_of(p->single), nx, row);
+    memcpy(row, from, bytes);
+    for (size_t i = 0; i < bytes; i++)
+        if (from[i] != 0) /* -0 counts as something */
+            return true;
+    return false;
 }
 
 static bool
 row_out(void *ctx, size_t j, void *row)
 {
     const struct pass *p = ctx;
-    size_t bytes = p->t->shape.nx * size_of(p->single);
+    size_t bytes = nodes_of_row(p) * size_of(p->single);
 
     memcpy((char *)p->to + j * bytes, row, bytes);
     return true;
@@ -254,44 +311,59 @@ column_of(const struct pass *p, int which, size_t i)
 }
 
 /* And of the quarter of a kernel. */
-static const void *
+static const double *
 quarter_of(const struct pass *p, enum rc_shear_which kernel, size_t i)
 {
-    if (p->single && kernel < RC_SHEAR_XZ)
-        return p->t->single[kernel] + i * p->t->cy;
     return p->t->quarter[kernel] + i * p->t->cy;
 }
 
-static struct rc_shear_column
-both(const struct pass *p, size_t i, void *to)
+/* Real parts and then imaginary ones: a x - b y, b of a kernel that is odd in both directions: its transform is
+ * (-i)^2 b. x is the map that is wanted. */
+RC_CLONES static void
+multiply(const struct rc_tangential *t, const double *a, const double *b, const double *x,
+         const double *y, double *to)
 {
-    return (struct rc_shear_column){.n = p->t->length,
-                                    .wave = p->t->wave,
-                                    .mirror = p->t->mirror,
-                                    .x = column_of(p, p->which, i),
-                                    .y = column_of(p, 1 - p->which, i),
-                                    .to = to};
+    size_t n = t->length;
+
+    for (size_t k = 0; k < n; k++) {
+        double straight = a[t->wave[k]], cross = -(double)t->mirror[k] * b[t->wave[k]];
+        to[k] = straight * x[k] + cross * y[k];
+        to[n + k] = straight * x[n + k] + cross * y[n + k];
+    }
+}
+
+RC_CLONES static void
+multiply_single(const struct rc_tangential *t, const float *a, const float *b, const float *x,
+                const float *y, float *to)
+{
+    size_t n = t->length;
+
+    for (size_t k = 0; k < n; k++) {
+        float straight = a[t->wave[k]], cross = -(float)t->mirror[k] * b[t->wave[k]];
+        to[k] = straight * x[k] + cross * y[k];
+        to[n + k] = straight * x[n + k] + cross * y[n + k];
+    }
 }
 
 static void
 apply_column(void *ctx, size_t i, void *to)
 {
     const struct pass *p = ctx;
-    const struct rc_shear_column c = both(p, i, to);
 
-    ops(p->single)->apply(&c, quarter_of(p, p->which == 0 ? RC_SHEAR_XX : RC_SHEAR_YY, i),
-                          quarter_of(p, RC_SHEAR_XY, i));
+    multiply(p->t, quarter_of(p, p->which == 0 ? RC_SHEAR_XX : RC_SHEAR_YY, i),
+             quarter_of(p, RC_SHEAR_XY, i), column_of(p, p->which, i),
+             column_of(p, 1 - p->which, i), to);
 }
 
 static void
 inverse_column(void *ctx, size_t i, void *to)
 {
     const struct pass *p = ctx;
-    const struct rc_shear_column c = both(p, i, to);
+    size_t at = i * p->t->cy;
 
-    ops(p->single)->inverse(&c, quarter_of(p, p->which == 0 ? RC_SHEAR_XX : RC_SHEAR_YY, i),
-                            quarter_of(p, RC_SHEAR_XY, i),
-                            quarter_of(p, p->which == 0 ? RC_SHEAR_YY : RC_SHEAR_XX, i));
+    multiply_single(p->t, p->t->single[p->which == 0 ? RC_SHEAR_XX : RC_SHEAR_YY] + at,
+                    p->t->single[RC_SHEAR_XY] + at, column_of(p, p->which, i),
+                    column_of(p, 1 - p->which, i), to);
 }
 
 /* -i (a X + b Y) of both maps: to the normal direction. */
@@ -335,7 +407,7 @@ forward(struct rc_tangential *t, bool single, const void *map, int which)
 {
     struct pass pass = {.t = t, .single = single, .from = map};
 
-    rc_fft_forward(single ? t->fft_single : t->fft, row_in, &pass, t->waves[which], NULL);
+    rc_fft_forward(single ? t->framed : t->fft, row_in, &pass, t->waves[which], NULL);
     t->convolutions += single ? 0.25 : 0.5;
 }
 
@@ -344,7 +416,7 @@ back(struct rc_tangential *t, bool single, rc_wave_column *column, void *map, in
 {
     struct pass pass = {.t = t, .single = single, .to = map, .which = which};
 
-    rc_fft_back(single ? t->fft_single : t->fft, NULL, column, row_out, &pass);
+    rc_fft_back(single ? t->framed : t->fft, NULL, column, row_out, &pass);
     t->convolutions += single ? 0.25 : 0.5;
 }
 
@@ -357,15 +429,6 @@ rc_tangential_apply(struct rc_tangential *t, double *const q[2], double *const u
         forward(t, false, q[k], k);
     for (int k = 0; k < 2; k++)
         back(t, false, apply_column, u[k], k);
-}
-
-void
-rc_tangential_apply_single(struct rc_tangential *t, float *const q[2], float *const u[2])
-{
-    for (int k = 0; k < 2; k++)
-        forward(t, true, q[k], k);
-    for (int k = 0; k < 2; k++)
-        back(t, true, apply_column, u[k], k);
 }
 
 void
