@@ -49,4 +49,33 @@ rc_total_value(const struct rc_total *total)
     return isfinite(total->sum) ? total->sum + total->lost : total->sum;
 }
 
+/* Sums over a map that depend neither on the number of threads nor on who takes which row (or block): each row is
+ * summed by itself, and the rows are added in their order, with compensation for rounding. A row has `sums` numbers
+ * that are added, and behind them `mosts` of which the largest counts. */
+enum {
+    RC_SUMS_MOST = 16 /* numbers that are added */
+};
+struct rc_sums {
+    double *row;
+    size_t rows, sums, mosts;
+    int threads;
+};
+
+/* RC_FAIL: memory is short; free(sums.row) in either case. */
+enum rc_status rc_sums_new(struct rc_sums *s, size_t rows, size_t sums, size_t mosts, int threads);
+/* The numbers of row j: 0 after rc_sums_clear. */
+static inline double *
+rc_sums_of(const struct rc_sums *s, size_t j)
+{
+    return s->row + j * (s->sums + s->mosts);
+}
+void rc_sums_clear(const struct rc_sums *s);
+/* As totals, which ranks may then add up, and the largest numbers. */
+void rc_sums_add(const struct rc_sums *s, struct rc_total *total, double *most);
+/* `sums` sums and `mosts` largest numbers. */
+void rc_sums_total(const struct rc_sums *s, double *total);
+/* Clears the rows, has each do its work, whatever that is besides its sums, and totals them. */
+typedef void rc_sums_work(void *ctx, size_t j, double *sums);
+void rc_sums_rows(const struct rc_sums *s, rc_sums_work *work, void *ctx, double *total);
+
 #endif

@@ -411,7 +411,7 @@ rc_adhesion_set_approach(struct rc_adhesion *a, double approach, struct rc_err *
 static double
 softest(const struct rc_adhesion *a)
 {
-    return fmin(a->gap.mu, a->way);
+    return fmin(a->gap.mode.mu, a->way);
 }
 
 static double
@@ -420,14 +420,14 @@ own_error(const struct rc_adhesion *a)
     double mu = a->judged > 0 ? softest(a) : a->mu[a->control];
 
     mu = mu == 0 ? 1 : fmin(fmax(mu, single), 1);
-    return fmax(safe / sqrt(mu), safe_soft / fmax(mu, soft)) * a->gap.error;
+    return fmax(safe / sqrt(mu), safe_soft / fmax(mu, soft)) * a->gap.told.error;
 }
 
 /* What dents of earlier states may be off, over the pressures of this one. */
 static double
 inherited_error(const struct rc_adhesion *a)
 {
-    return a->gap.size > 0 ? fmax(a->dents, a->dents_load / a->gap.size) : a->dents;
+    return a->gap.told.size > 0 ? fmax(a->dents, a->dents_load / a->gap.told.size) : a->dents;
 }
 
 static double
@@ -469,8 +469,8 @@ move(struct rc_adhesion *a)
     bool before = a->unstable;
 
     rc_gap_move(&a->gap);
-    if (a->gap.error <= loosest)
-        a->way = fmin(a->way, a->gap.way);
+    if (a->gap.told.error <= loosest)
+        a->way = fmin(a->way, a->gap.way.stiffness);
     a->unstable = a->gap.negative;
     a->jumps += a->begun && a->unstable && !before;
 }
@@ -483,10 +483,10 @@ down(struct rc_adhesion *a)
     rc_gap_look(g);
     if (ends(a)) {
         rc_gap_look_along(g);
-        a->way = fmin(a->way, g->way);
+        a->way = fmin(a->way, g->way.stiffness);
     }
     a->below = ends(a) ? a->below + 1 : 0;
-    if (a->judged > 0 && g->error > 10 * a->judged) { /* on the way to another place */
+    if (a->judged > 0 && g->told.error > 10 * a->judged) { /* on the way to another place */
         a->judged = 0;
         a->way = INFINITY;
     }
@@ -513,13 +513,13 @@ eigen(struct rc_adhesion *a)
     struct rc_gap *g = &a->gap;
     bool negative;
 
-    if (g->mu_error > 0)
+    if (g->mode.error > 0)
         rc_gap_eigen_step(g);
-    negative = g->mu < -single;
-    if (g->eigen_steps < EIGEN_STEPS && g->mu_error > 0 &&
-        g->mu_error > (negative ? 0.5 : eigen_exact) * fmax(fabs(g->mu), single))
+    negative = g->mode.mu < -single;
+    if (g->mode.steps < EIGEN_STEPS && g->mode.error > 0 &&
+        g->mode.error > (negative ? 0.5 : eigen_exact) * fmax(fabs(g->mode.mu), single))
         return RC_MORE;
-    a->judged = fmax(g->error, 1e-300);
+    a->judged = fmax(g->told.error, 1e-300);
     if (negative && a->leaves < LEAVES) {
         rc_gap_leave(g);
         a->leaves++;
@@ -579,7 +579,7 @@ static void
 put_back(struct rc_adhesion *a, const double *gap, double c)
 {
     copy_gap(a, a->gap.x, gap);
-    a->gap.known = false; /* its softest mode is another's */
+    a->gap.mode.known = false; /* its softest mode is another's */
     set_shift(a, c);
     a->gap.control = a->control;
     a->gap.given = a->given;
@@ -726,14 +726,19 @@ at_edge(const struct rc_adhesion *a)
     return s / g->law.strength;
 }
 
-/* Sums of a row: p, sigma, its area, nodes in contact, below 0, the gap; extremes of p and -p; the largest
- * violation, and correction of the gap. */
+enum {
+    MOST = RC_GAP_MOST
+};
+
+/* Sums of a row: p, sigma, its area, nodes in contact, below 0, the gap. Largest: p, -p, violation, correction of
+ * the gap. */
 static void
-figures_row(struct rc_gap *g, size_t j, double *sums)
+figures_row(void *ctx, size_t j, double *sums)
 {
+    const struct rc_gap *g = ctx;
     size_t m = rc_gap_on_map(g, j);
 
-    sums[6] = sums[7] = -INFINITY;
+    sums[MOST] = sums[MOST + 1] = -INFINITY;
     for (size_t i = 0; i < m; i += RC_GAP_LINE) {
         size_t n = m - i < RC_GAP_LINE ? m - i : RC_GAP_LINE;
         const double *x = g->x + j * g->px + i;
@@ -748,26 +753,16 @@ figures_row(struct rc_gap *g, size_t j, double *sums)
             sums[3] += x[k] <= 0;
             sums[4] += x[k] < 0;
             sums[5] += x[k];
-            sums[6] = fmax(sums[6], p);
-            sums[7] = fmax(sums[7], -p);
+            sums[MOST] = fmax(sums[MOST], p);
+            sums[MOST + 1] = fmax(sums[MOST + 1], -p);
             if (x[k] < 0)
                 wrong -= hard;
             else if (x[k] == 0)
                 wrong = fmin(wrong, 0) + fmax(wrong - hard, 0);
-            sums[8] = fmax(sums[8], fabs(wrong));
-            sums[9] = fmax(sums[9], fabs(g->z[j * g->px + i + k]));
+            sums[MOST + 2] = fmax(sums[MOST + 2], fabs(wrong));
+            sums[MOST + 3] = fmax(sums[MOST + 3], fabs(g->z[j * g->px + i + k]));
         }
     }
-}
-
-static double
-most_of(const struct rc_gap *g, size_t q)
-{
-    double most = -INFINITY;
-
-    for (size_t j = 0; j < g->ny; j++)
-        most = fmax(most, g->sums[j * RC_GAP_SUMS + q]);
-    return most;
 }
 
 static void
@@ -783,7 +778,7 @@ find_figures(struct rc_adhesion *a)
                                       .pull_off_spread = NAN,
                                       .states = 1,
                                       .edge_traction = at_edge(a)};
-    rc_gap_rows(g, figures_row, sums);
+    rc_sums_rows(&g->sums, figures_row, g, sums);
     f->load = sums[0] * e * cell;
     f->mean_pressure = sums[0] * e / nodes;
     f->attractive_load = sums[1] * e * cell;
@@ -795,19 +790,19 @@ find_figures(struct rc_adhesion *a)
     f->plastic_nodes = (size_t)sums[4];
     f->plastic_area = sums[4] * cell;
     f->mean_gap = sums[5] * a->whole->length / nodes;
-    f->max_pressure = most_of(g, 6) * e;
-    f->min_pressure = -most_of(g, 7) * e;
-    f->kkt_residual = most_of(g, 8) / g->law.strength;
-    f->gap_error = most_of(g, 9) * a->whole->length;
+    f->max_pressure = sums[MOST] * e;
+    f->min_pressure = -sums[MOST + 1] * e;
+    f->kkt_residual = sums[MOST + 2] / g->law.strength;
+    f->gap_error = sums[MOST + 3] * a->whole->length;
     f->approach = rc_gap_shift(g) * a->whole->length;
     f->stability = a->judged > 0 ? softest(a) : NAN;
     f->stable = a->judged > 0 && softest(a) > 0;
     f->separated = a->separated;
     f->jumps = a->jumps;
     f->iterations = g->iterations;
-    f->eigen_steps = g->eigen_steps;
+    f->eigen_steps = g->mode.steps;
     f->convolutions = g->convolutions;
-    f->pressure_error = isinf(g->error) ? NAN : estimate(a);
+    f->pressure_error = isinf(g->told.error) ? NAN : estimate(a);
     f->inherited_error = inherited_error(a);
     f->converged = a->converged;
     a->fresh = true;
@@ -886,7 +881,7 @@ rc_adhesion_progress(const struct rc_adhesion *a, struct rc_adhesion_progress *p
         .approach = a->control == RC_GAP_LOAD || !a->held ? NAN
                     : a->control == RC_GAP_SHIFT          ? a->given * a->whole->length
                                                  : (-a->given - a->mean_h) * a->whole->length,
-        .error = a->stage == STAGE_NEW || isinf(g->error) ? NAN : estimate(a),
+        .error = a->stage == STAGE_NEW || isinf(g->told.error) ? NAN : estimate(a),
         .tol = a->tol};
 }
 
@@ -953,7 +948,7 @@ rc_adhesion_set_heights(struct rc_adhesion *a, const double *h, struct rc_err *e
     set_shift(a, c);
     g->control = a->control;
     g->given = a->given;
-    g->known = false;
+    g->mode.known = false;
     a->held = false;
     return RC_OK;
 }
@@ -976,9 +971,9 @@ rc_adhesion_keep_shape(struct rc_adhesion *a, double *h)
                 h[j * g->nx + i] += *x * a->whole->length;
             *x = 0;
         }
-    if (dented && !isinf(g->error)) {
+    if (dented && !isinf(g->told.error)) {
         a->dents += own_error(a);
-        a->dents_load += own_error(a) * g->size;
+        a->dents_load += own_error(a) * g->told.size;
     }
 }
 

@@ -6,7 +6,6 @@
  */
 #include "gap.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,33 +50,18 @@ hard_at(const struct rc_gap *g, size_t j, size_t i)
     return g->hards != NULL ? g->hards[j * g->nx + i] : g->hard;
 }
 
-void
-rc_gap_total(const struct rc_gap *g, double *sums)
+/* Work on all rows of the grid: rows of these take the state, or the state and what they are to do with it. */
+static void
+rows(const struct rc_gap *g, rc_sums_work *work, void *ctx, double *sums)
 {
-    struct rc_total all[RC_GAP_SUMS] = {{0}};
-
-    for (size_t j = 0; j < g->py; j++)
-        for (size_t q = 0; q < RC_GAP_SUMS; q++)
-            rc_total_add(&all[q], g->sums[j * RC_GAP_SUMS + q]);
-    for (size_t q = 0; q < RC_GAP_SUMS; q++)
-        sums[q] = rc_total_value(&all[q]);
+    rc_sums_rows(&g->sums, work, ctx, sums);
 }
 
-void
-rc_gap_clear(struct rc_gap *g)
-{
-    memset(g->sums, 0, g->py * RC_GAP_SUMS * sizeof *g->sums);
-}
-
-void
-rc_gap_rows(struct rc_gap *g, rc_gap_work *work, double *sums)
-{
-    rc_gap_clear(g);
-#pragma omp parallel for num_threads(g->threads) schedule(static)
-    for (size_t j = 0; j < g->py; j++)
-        work(g, j, g->sums + j * RC_GAP_SUMS);
-    rc_gap_total(g, sums);
-}
+/* A row's work with a number: how far, or by how much. */
+struct by {
+    struct rc_gap *g;
+    double a;
+};
 
 /* sigma, V and D at n <= LINE gaps of row j from node i on, with the hardness. */
 void
@@ -116,7 +100,7 @@ u_out(void *ctx, size_t j, void *from)
 {
     struct rc_gap *g = ctx;
     const double *row = from;
-    double *sums = g->sums + j * RC_GAP_SUMS;
+    double *sums = rc_sums_of(&g->sums, j);
 
     memcpy(g->au + j * g->px, row, g->px * sizeof *row);
     for (size_t i = 0; i < g->px; i++)
@@ -130,7 +114,7 @@ take_mean(const struct rc_gap *g, double *v, double mean)
 {
     if (g->control != RC_GAP_LOAD || mean == 0)
         return;
-#pragma omp parallel for num_threads(g->threads) schedule(static)
+#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
     for (size_t k = 0; k < g->n; k++)
         v[k] -= mean;
 }
@@ -140,12 +124,12 @@ find_au(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS];
 
-    rc_gap_clear(g);
+    rc_sums_clear(&g->sums);
     rc_whole_inverse_rows(g->whole, u_in, u_out, g);
-    rc_gap_total(g, sums);
+    rc_sums_total(&g->sums, sums);
     take_mean(g, g->au, sums[0] / (double)g->n);
     g->convolutions++;
-    g->drift = 0;
+    g->told.drift = 0;
 }
 
 /* ---- residual ---- */
@@ -159,11 +143,12 @@ added(const struct rc_gap *g)
 /* r = A u + S + sigma, and its sum over nodes apart. What the traction takes from the stiffness of the last
  * state's softest mode, by the way. */
 static void
-residual_row(struct rc_gap *g, size_t j, double *sums)
+residual_row(void *ctx, size_t j, double *sums)
 {
+    struct rc_gap *g = ctx;
     const double *x = g->x + j * g->px, *au = g->au + j * g->px;
     const double load = g->control == RC_GAP_LOAD ? g->given : 0;
-    const float *soft = g->e[0] + j * g->px;
+    const float *soft = g->mode.e[0] + j * g->px;
     double *r = g->r + j * g->px;
     size_t m = on_map(g, j);
 
@@ -176,7 +161,7 @@ residual_row(struct rc_gap *g, size_t j, double *sums)
             r[i + k] = au[i + k] + load + s[k];
             sums[0] += apart ? r[i + k] : 0;
             sums[1] += apart;
-            if (g->watched && x[i + k] > 0)
+            if (g->mode.watched && x[i + k] > 0)
                 sums[2] += d[k] * (double)soft[i + k] * (double)soft[i + k];
         }
     }
@@ -190,10 +175,11 @@ residual_row(struct rc_gap *g, size_t j, double *sums)
 /* Which nodes are held, and how many are not as they were; r becomes the negative residual of the others, and 0 on
  * these. */
 static void
-hold_row(struct rc_gap *g, size_t j, double *sums)
+hold_row(void *ctx, size_t j, double *sums)
 {
+    struct rc_gap *g = ctx;
     const double *x = g->x + j * g->px;
-    double *r = g->r + j * g->px, most = 0;
+    double *r = g->r + j * g->px;
     unsigned char *off = g->off + j * g->px;
     size_t m = on_map(g, j);
 
@@ -205,24 +191,13 @@ hold_row(struct rc_gap *g, size_t j, double *sums)
             held = at >= 0 && at <= hard;
             at = at > hard ? at - hard : at;
         }
-        sums[3] += off[i] != held;
+        sums[2] += off[i] != held;
         off[i] = held;
         r[i] = held ? 0 : -at;
         sums[0] += r[i];
         sums[1] += !held;
-        most = fmax(most, fabs(r[i]));
+        sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], fabs(r[i]));
     }
-    sums[2] = most;
-}
-
-static double
-most_of(const struct rc_gap *g, size_t q)
-{
-    double most = 0;
-
-    for (size_t j = 0; j < g->py; j++)
-        most = fmax(most, g->sums[j * RC_GAP_SUMS + q]);
-    return most;
 }
 
 static void
@@ -230,16 +205,16 @@ find_residual(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS];
 
-    rc_gap_rows(g, residual_row, sums);
+    rows(g, residual_row, g, sums);
     g->level = g->control == RC_GAP_MEAN && sums[1] > 0 ? sums[0] / sums[1] : 0;
-    g->negative = g->watched && sums[2] > g->stiffness;
-    rc_gap_rows(g, hold_row, sums);
+    g->negative = g->mode.watched && sums[2] > g->mode.stiffness;
+    rows(g, hold_row, g, sums);
     g->free = (size_t)sums[1];
-    g->same = sums[3] == 0;
+    g->way.same = sums[2] == 0;
     g->mean_r = g->control != RC_GAP_MEAN ? sums[0] / (double)g->n
                 : g->free > 0             ? sums[0] / sums[1]
                                           : 0;
-    g->scale = most_of(g, 2);
+    g->scale = sums[RC_GAP_MOST];
 }
 
 /* ---- z = K r ---- */
@@ -270,7 +245,7 @@ z_out(void *ctx, size_t j, void *from)
     const unsigned char *off = g->off + j * g->px;
     const double *r = g->r + j * g->px;
     const float *row = from;
-    double *z = g->z + j * g->px, *sums = g->sums + j * RC_GAP_SUMS;
+    double *z = g->z + j * g->px, *sums = rc_sums_of(&g->sums, j);
 
     for (size_t i = 0; i < g->px; i++) {
         double is = off[i] ? 0 : (double)row[i] * g->scale + g->lift * g->mean_r;
@@ -304,35 +279,39 @@ barred(const struct rc_gap *g, size_t at, bool map)
     return map && g->x[at] == 0 && g->d[at] * g->r[at] < 0;
 }
 
-/* d = z + beta d within the bounds; `mean_r`: the mean of z, where it is to be 0. */
+/* d = z + beta d within the bounds, less `a`: the mean of z, where it is to be 0. */
 static void
-direction_row(struct rc_gap *g, size_t j, double *sums)
+direction_row(void *ctx, size_t j, double *sums)
 {
+    const struct by *c = ctx;
+    struct rc_gap *g = c->g;
     size_t m = on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
         size_t at = j * g->px + i;
-        double is = g->off[at] ? 0 : g->z[at] - g->mean_r + g->beta * g->d[at];
+        double is = g->off[at] ? 0 : g->z[at] - c->a + g->way.beta * g->d[at];
         g->d[at] = is;
         if (barred(g, at, i < m))
             g->d[at] = is = 0;
         sums[0] += g->r[at] * is;
         sums[1] += is;
         sums[2] += is != 0;
-        sums[3] = fmax(sums[3], fabs(is));
+        sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], fabs(is));
     }
 }
 
 static void
-level_row(struct rc_gap *g, size_t j, double *sums)
+level_row(void *ctx, size_t j, double *sums)
 {
+    const struct by *c = ctx;
+    struct rc_gap *g = c->g;
     size_t m = on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
         size_t at = j * g->px + i;
         if (g->d[at] == 0)
             continue;
-        g->d[at] -= g->mean_r;
+        g->d[at] -= c->a;
         if (barred(g, at, i < m))
             g->d[at] = 0;
         sums[0] += g->r[at] * g->d[at];
@@ -345,17 +324,17 @@ level_row(struct rc_gap *g, size_t j, double *sums)
 static double
 set_direction(struct rc_gap *g, double sum_z)
 {
+    struct by by = {g, g->control == RC_GAP_MEAN ? sum_z / (double)g->free : 0};
     double sums[RC_GAP_SUMS];
 
-    g->mean_r = g->control == RC_GAP_MEAN ? sum_z / (double)g->free : 0;
-    rc_gap_rows(g, direction_row, sums);
-    g->unit = most_of(g, 3);
-    g->whole_way = (size_t)sums[2] == g->free;
+    rows(g, direction_row, &by, sums);
+    g->way.unit = sums[RC_GAP_MOST];
+    g->way.whole = (size_t)sums[2] == g->free;
     for (int k = 0; k < PROJECT && g->control == RC_GAP_MEAN && sums[2] > 0; k++) {
-        g->mean_r = sums[1] / sums[2];
-        rc_gap_rows(g, level_row, sums);
+        by.a = sums[1] / sums[2];
+        rows(g, level_row, &by, sums);
     }
-    g->whole_way &= (size_t)sums[2] == g->free;
+    g->way.whole &= (size_t)sums[2] == g->free;
     return sums[0];
 }
 
@@ -366,7 +345,7 @@ d_in(void *ctx, size_t j, void *to)
 {
     const struct rc_gap *g = ctx;
 
-    return to_single(g->d + j * g->px, g->px, 1 / g->unit, to);
+    return to_single(g->d + j * g->px, g->px, 1 / g->way.unit, to);
 }
 
 static bool
@@ -375,13 +354,13 @@ ad_out(void *ctx, size_t j, void *from)
     struct rc_gap *g = ctx;
     const float *row = from;
     const double *d = g->d + j * g->px, *au = g->au + j * g->px;
-    double *ad = g->ad + j * g->px, *sums = g->sums + j * RC_GAP_SUMS, plus = added(g);
+    double *ad = g->ad + j * g->px, *sums = rc_sums_of(&g->sums, j), plus = added(g);
     size_t m = on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
-        double is = (double)row[i] * g->unit;
+        double is = (double)row[i] * g->way.unit;
         if (i < m) {
-            sums[0] += fabs(is - g->beta * ad[i]);
+            sums[0] += fabs(is - g->way.beta * ad[i]);
             sums[1] += fabs(au[i] + plus);
             sums[6] += fabs(is);
         }
@@ -398,12 +377,12 @@ ad_out(void *ctx, size_t j, void *from)
 static void
 find_error(struct rc_gap *g)
 {
-    double off = g->change + g->drift;
+    double off = g->told.change + g->told.drift;
 
     if (off <= vanishing * g->law.strength * (double)(g->nx * g->ny))
-        g->error = rounding;
+        g->told.error = rounding;
     else
-        g->error = g->size > 0 ? off / g->size + rounding : INFINITY;
+        g->told.error = g->told.size > 0 ? off / g->told.size + rounding : INFINITY;
 }
 
 /* d'A d; the error by the way. */
@@ -412,15 +391,15 @@ find_ad(struct rc_gap *g, double *mean_d)
 {
     double sums[RC_GAP_SUMS], mean;
 
-    rc_gap_clear(g);
+    rc_sums_clear(&g->sums);
     rc_whole_rough_inverse_rows(g->whole, d_in, ad_out, g);
-    rc_gap_total(g, sums);
+    rc_sums_total(&g->sums, sums);
     g->convolutions += 0.5;
     mean = g->control == RC_GAP_LOAD ? sums[3] / (double)g->n : 0;
     take_mean(g, g->ad, mean);
-    g->size = sums[1];
-    g->moves = sums[6];
-    g->change = sums[0];
+    g->told.size = sums[1];
+    g->told.moves = sums[6];
+    g->told.change = sums[0];
     find_error(g);
     *mean_d = sums[4] / (double)g->n;
     return fmax(sums[2] - mean * sums[4], single * sums[5]);
@@ -430,9 +409,11 @@ find_ad(struct rc_gap *g, double *mean_d)
 
 /* Of V(x + a d) - V(x) - a sigma(x) d, (sigma(x + a d) - sigma(x)) d and D d^2, the sums; of |V| too. */
 static void
-line_row(struct rc_gap *g, size_t j, double *sums)
+line_row(void *ctx, size_t j, double *sums)
 {
-    const double *x = g->x + j * g->px, *d = g->d + j * g->px, a = g->trial;
+    const struct by *c = ctx;
+    const struct rc_gap *g = c->g;
+    const double *x = g->x + j * g->px, *d = g->d + j * g->px, a = c->a;
     size_t m = on_map(g, j);
 
     for (size_t i = 0; i < m; i += LINE) {
@@ -454,13 +435,15 @@ line_row(struct rc_gap *g, size_t j, double *sums)
 
 /* step = a d clipped to the bounds; sums[0] counts clipped nodes. */
 static void
-clip_row(struct rc_gap *g, size_t j, double *sums)
+clip_row(void *ctx, size_t j, double *sums)
 {
+    const struct by *c = ctx;
+    struct rc_gap *g = c->g;
     size_t m = on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
         size_t at = j * g->px + i;
-        double x = g->x[at], to = x + g->trial * g->d[at];
+        double x = g->x[at], to = x + c->a * g->d[at];
         if (i < m && ((x >= 0 && to < 0 && !(x == 0 && g->yields)) || (x < 0 && to > 0))) {
             to = 0;
             sums[0]++;
@@ -473,13 +456,15 @@ clip_row(struct rc_gap *g, size_t j, double *sums)
 
 /* Where the mean is given: what clipping has added is taken from nodes apart. */
 static void
-lower_row(struct rc_gap *g, size_t j, double *sums)
+lower_row(void *ctx, size_t j, double *sums)
 {
+    const struct by *c = ctx;
+    struct rc_gap *g = c->g;
     for (size_t i = 0; i < g->px; i++) {
         size_t at = j * g->px + i;
         double to = g->x[at] + g->step[at];
         if (to > 0) {
-            to = fmax(to - g->mean_r, 0);
+            to = fmax(to - c->a, 0);
             g->step[at] = to - g->x[at];
         }
         sums[1] += to;
@@ -494,10 +479,10 @@ keep_mean(struct rc_gap *g, double sum, double count)
     double sums[RC_GAP_SUMS] = {0, sum, count};
 
     for (int k = 0; k < NEWTON && sums[2] > 0; k++) {
-        g->mean_r = (sums[1] - want) / sums[2];
+        struct by by = {g, (sums[1] - want) / sums[2]};
         if (fabs(sums[1] - want) <= 1e-15 * want)
             return;
-        rc_gap_rows(g, lower_row, sums);
+        rows(g, lower_row, &by, sums);
     }
 }
 
@@ -506,20 +491,20 @@ step_in(void *ctx, size_t j, void *to)
 {
     const struct rc_gap *g = ctx;
 
-    return to_single(g->step + j * g->px, g->px, 1 / g->unit, to);
+    return to_single(g->step + j * g->px, g->px, 1 / g->way.unit, to);
 }
 
-/* A of the step, to where z was; sums: its half with the step, A u with it, itself, the step. */
+/* A of the step; sums: its half with the step, A u with it, itself, the step. */
 static bool
 step_out(void *ctx, size_t j, void *from)
 {
     struct rc_gap *g = ctx;
     const float *row = from;
     const double *step = g->step + j * g->px, *au = g->au + j * g->px;
-    double *to = g->r + j * g->px, *sums = g->sums + j * RC_GAP_SUMS;
+    double *to = g->a_step + j * g->px, *sums = rc_sums_of(&g->sums, j);
 
     for (size_t i = 0; i < g->px; i++) {
-        to[i] = (double)row[i] * g->unit;
+        to[i] = (double)row[i] * g->way.unit;
         sums[0] += step[i] * to[i] / 2;
         sums[1] += step[i] * au[i];
         sums[2] += to[i];
@@ -531,8 +516,9 @@ step_out(void *ctx, size_t j, void *from)
 
 /* What the step changes in V, and |V|. */
 static void
-step_law_row(struct rc_gap *g, size_t j, double *sums)
+step_law_row(void *ctx, size_t j, double *sums)
 {
+    const struct rc_gap *g = ctx;
     const double *x = g->x + j * g->px, *step = g->step + j * g->px;
     size_t m = on_map(g, j);
 
@@ -550,42 +536,45 @@ step_law_row(struct rc_gap *g, size_t j, double *sums)
     }
 }
 
-/* By how much Phi rises with the step that stands there, whose A comes to where r was. */
+/* By how much Phi rises with `step`; finds a_step, and `moves`. */
 static double
 rise(struct rc_gap *g, double *least)
 {
     double sums[RC_GAP_SUMS], law[RC_GAP_SUMS], load = g->control == RC_GAP_LOAD ? g->given : 0,
                                                 mean;
 
-    rc_gap_clear(g);
+    rc_sums_clear(&g->sums);
     rc_whole_rough_inverse_rows(g->whole, step_in, step_out, g);
-    rc_gap_total(g, sums);
+    rc_sums_total(&g->sums, sums);
     g->convolutions += 0.5;
     mean = g->control == RC_GAP_LOAD ? sums[2] / (double)g->n : 0;
-    take_mean(g, g->r, mean);
-    rc_gap_rows(g, step_law_row, law);
+    take_mean(g, g->a_step, mean);
+    rows(g, step_law_row, g, law);
     *least = 1e-14 * (law[1] + fabs(sums[1])) + single * fabs(sums[0]);
-    g->moves = sums[4];
+    g->told.moves = sums[4];
     return sums[0] - mean * sums[3] / 2 + sums[1] + load * sums[3] + law[0];
 }
 
 static void
-take_step_row(struct rc_gap *g, size_t j, double *sums)
+take_step_row(void *ctx, size_t j, double *sums)
 {
+    struct rc_gap *g = ctx;
     (void)sums;
     for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
         g->x[k] += g->step[k];
-        g->au[k] += g->r[k];
+        g->au[k] += g->a_step[k];
     }
 }
 
 static void
-take_whole_row(struct rc_gap *g, size_t j, double *sums)
+take_whole_row(void *ctx, size_t j, double *sums)
 {
+    const struct by *c = ctx;
+    struct rc_gap *g = c->g;
     (void)sums;
     for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
-        g->x[k] += g->trial * g->d[k];
-        g->au[k] += g->trial * g->ad[k];
+        g->x[k] += c->a * g->d[k];
+        g->au[k] += c->a * g->ad[k];
     }
 }
 
@@ -600,8 +589,7 @@ look(struct rc_gap *g, struct line *l, double a)
 {
     double sums[RC_GAP_SUMS];
 
-    g->trial = a;
-    rc_gap_rows(g, line_row, sums);
+    rows(g, line_row, &(struct by){g, a}, sums);
     l->phi = a * (a * l->q / 2 - l->rd) + sums[0];
     l->slope = a * l->q - l->rd + sums[1];
     l->bend = l->q - sums[2];
@@ -612,7 +600,7 @@ look(struct rc_gap *g, struct line *l, double a)
 static double
 way_of(const struct rc_gap *g, const struct line *l)
 {
-    return g->dwd > 0 ? l->bend / g->dwd : INFINITY;
+    return g->way.dwd > 0 ? l->bend / g->way.dwd : INFINITY;
 }
 
 /* The minimum along d, by Newton's method from 0, kept between slopes of either sign once there are such. */
@@ -623,7 +611,7 @@ line_minimum(struct rc_gap *g, struct line *l, double most)
 
     look(g, l, 0);
     g->negative |= l->bend < 0;
-    g->way = way_of(g, l);
+    g->way.stiffness = way_of(g, l);
     for (int k = 0; k < NEWTON; k++) {
         double bend = fmax(l->bend, curvature * l->q);
         double next = bend > 0 ? a - l->slope / bend : most;
@@ -644,54 +632,57 @@ line_minimum(struct rc_gap *g, struct line *l, double most)
     return a;
 }
 
-/* Takes the step that `trial` and d stand for, shortened until Phi does not rise. */
+/* Takes the step of a d, shortened until Phi does not rise. */
 static void
-go(struct rc_gap *g, struct line *l)
+go(struct rc_gap *g, struct line *l, double a)
 {
+    struct by by = {g, a};
     double sums[RC_GAP_SUMS];
 
-    for (int k = 0; k < SHORTEN; k++, g->trial *= shorter) {
+    for (int k = 0; k < SHORTEN; k++, by.a *= shorter) {
         double least, up;
-        rc_gap_rows(g, clip_row, sums);
+        rows(g, clip_row, &by, sums);
         if (sums[0] == 0) {
             if (k > 0)
-                look(g, l, g->trial);
-            g->fall -= l->phi;
-            g->drift += float_rounding * g->trial * g->moves;
-            rc_gap_rows(g, take_whole_row, sums);
+                look(g, l, by.a);
+            g->from.fall -= l->phi;
+            g->told.drift += float_rounding * by.a * g->told.moves;
+            rows(g, take_whole_row, &by, sums);
             return;
         }
-        g->restart = sums[0] > clipped_anew * (double)g->free;
+        g->way.restart = sums[0] > clipped_anew * (double)g->free;
         if (g->control == RC_GAP_MEAN)
             keep_mean(g, sums[1], sums[2]);
         up = rise(g, &least);
         if (up <= least) {
-            g->fall -= up;
-            g->drift += float_rounding * g->moves;
-            rc_gap_rows(g, take_step_row, sums);
+            g->from.fall -= up;
+            g->told.drift += float_rounding * g->told.moves;
+            rows(g, take_step_row, g, sums);
             return;
         }
-        g->restart = true;
+        g->way.restart = true;
     }
     g->stuck = true;
 }
 
 static void
-largest_row(struct rc_gap *g, size_t j, double *sums)
+largest_row(void *ctx, size_t j, double *sums)
 {
+    const struct rc_gap *g = ctx;
     for (size_t i = 0; i < on_map(g, j); i++)
-        sums[0] = fmax(sums[0], fabs(g->d[j * g->px + i]));
+        sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], fabs(g->d[j * g->px + i]));
 }
 
 /* The longest step before a node that is apart comes to 0. */
 static void
-reach_row(struct rc_gap *g, size_t j, double *sums)
+reach_row(void *ctx, size_t j, double *sums)
 {
+    const struct rc_gap *g = ctx;
     const double *x = g->x + j * g->px, *d = g->d + j * g->px;
 
     for (size_t i = 0; i < on_map(g, j); i++)
         if (x[i] > 0 && d[i] < 0)
-            sums[0] = fmax(sums[0], -x[i] / d[i]);
+            sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], -x[i] / d[i]);
 }
 
 /* Under a load nothing else bounds a step that is alike everywhere: drawn apart it is not to leap over what
@@ -701,49 +692,47 @@ longest(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS];
 
-    if (g->control != RC_GAP_LOAD || g->mean_d == 0)
+    if (g->control != RC_GAP_LOAD || g->way.mean == 0)
         return INFINITY;
-    if (g->mean_d < 0) {
-        rc_gap_rows(g, reach_row, sums);
-        return most_of(g, 0) > 0 ? most_of(g, 0) : INFINITY;
+    if (g->way.mean < 0) {
+        rows(g, reach_row, g, sums);
+        return sums[RC_GAP_MOST] > 0 ? sums[RC_GAP_MOST] : INFINITY;
     }
     if (g->given >= 0)
         return INFINITY;
-    rc_gap_rows(g, largest_row, sums);
-    return 4 * g->law.range / most_of(g, 0);
+    rows(g, largest_row, g, sums);
+    return 4 * g->law.range / sums[RC_GAP_MOST];
 }
 
 static void
-nearest_row(struct rc_gap *g, size_t j, double *sums)
+nearest_row(void *ctx, size_t j, double *sums)
 {
-    sums[0] = -INFINITY;
+    const struct rc_gap *g = ctx;
+
+    sums[RC_GAP_MOST] = -INFINITY;
     for (size_t i = 0; i < on_map(g, j); i++)
-        sums[0] = fmax(sums[0], -g->x[j * g->px + i]);
+        sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], -g->x[j * g->px + i]);
 }
 
 static double
 nearest(struct rc_gap *g)
 {
-    double sums[RC_GAP_SUMS], most = -INFINITY;
+    double sums[RC_GAP_SUMS];
 
-    rc_gap_clear(g);
-    for (size_t j = 0; j < g->ny; j++) {
-        nearest_row(g, j, sums);
-        most = fmax(most, sums[0]);
-    }
-    return -most;
+    rows(g, nearest_row, g, sums);
+    return -sums[RC_GAP_MOST];
 }
 
 void
 rc_gap_look_along(struct rc_gap *g)
 {
-    struct line line = {.rd = g->rd, .q = g->dad};
+    struct line line = {.rd = g->way.rd, .q = g->way.dad};
 
-    g->way = INFINITY;
-    if (g->stuck || !(g->rd > 0))
+    g->way.stiffness = INFINITY;
+    if (g->stuck || !(g->way.rd > 0))
         return;
     look(g, &line, 0);
-    g->way = way_of(g, &line);
+    g->way.stiffness = way_of(g, &line);
 }
 
 static double
@@ -756,9 +745,9 @@ find_z(struct rc_gap *g, double *old, double *sum_z)
         *old = *sum_z = 0;
         return 0;
     }
-    rc_gap_clear(g);
+    rc_sums_clear(&g->sums);
     rc_whole_rough_rows(g->whole, r_in, z_out, g);
-    rc_gap_total(g, sums);
+    rc_sums_total(&g->sums, sums);
     g->convolutions += 0.5;
     *old = sums[1];
     *sum_z = sums[2];
@@ -769,14 +758,14 @@ static void
 refresh(struct rc_gap *g)
 {
     find_au(g);
-    g->fresh_error = g->error;
+    g->told.fresh = g->told.error;
 }
 
 /* Whether most of the error is that of A u in single precision. */
 static bool
 drifted(const struct rc_gap *g)
 {
-    return g->drift > 10 * g->change;
+    return g->told.drift > 10 * g->told.change;
 }
 
 /* d'W d, W the inverse of K on the nodes that are not held, from r'z = z'W z and r = W z; NAN where nodes have been
@@ -784,10 +773,11 @@ drifted(const struct rc_gap *g)
 static void
 measure_way(struct rc_gap *g, double rz)
 {
-    double along = g->rd - rz; /* beta times r'd of the last direction */
-    double last = g->beta > 0 ? (g->same ? g->beta * g->beta * g->dwd : NAN) : 0;
+    double along = g->way.rd - rz; /* beta times r'd of the last direction */
+    double last =
+        g->way.beta > 0 ? (g->way.same ? g->way.beta * g->way.beta * g->way.dwd : NAN) : 0;
 
-    g->dwd = g->whole_way ? rz + 2 * along + last : NAN;
+    g->way.dwd = g->way.whole ? rz + 2 * along + last : NAN;
 }
 
 void
@@ -795,59 +785,59 @@ rc_gap_look(struct rc_gap *g)
 {
     double rz, old, sum_z;
 
-    if (g->error <= fresh * g->fresh_error || drifted(g))
+    if (g->told.error <= fresh * g->told.fresh || drifted(g))
         refresh(g);
     find_residual(g);
     rz = find_z(g, &old, &sum_z);
-    g->beta = g->restart || !(g->rz > 0) ? 0 : fmax((rz - old) / g->rz, 0);
-    g->rd = set_direction(g, sum_z);
-    if (!(g->rd > 0) && g->beta > 0) {
-        g->beta = 0;
-        g->rd = set_direction(g, sum_z);
+    g->way.beta = g->way.restart || !(g->way.rz > 0) ? 0 : fmax((rz - old) / g->way.rz, 0);
+    g->way.rd = set_direction(g, sum_z);
+    if (!(g->way.rd > 0) && g->way.beta > 0) {
+        g->way.beta = 0;
+        g->way.rd = set_direction(g, sum_z);
     }
     measure_way(g, rz);
-    g->rz = rz;
-    g->restart = false;
+    g->way.rz = rz;
+    g->way.restart = false;
     g->iterations++;
-    if (g->rd > 0) {
-        g->dad = find_ad(g, &g->mean_d);
+    if (g->way.rd > 0) {
+        g->way.dad = find_ad(g, &g->way.mean);
         return;
     }
-    if (g->drift > 0) { /* the residual is rounding: is it that of A u? */
+    if (g->told.drift > 0) { /* the residual is rounding: is it that of A u? */
         refresh(g);
-        g->restart = true;
+        g->way.restart = true;
         return;
     }
     g->stuck = true;
-    if (rz > 0 && g->size > 0)
+    if (rz > 0 && g->told.size > 0)
         find_error(g);
     else
-        g->error = rounding;
+        g->told.error = rounding;
 }
 
 void
 rc_gap_move(struct rc_gap *g)
 {
-    struct line line = {.rd = g->rd, .q = g->dad};
+    struct line line = {.rd = g->way.rd, .q = g->way.dad};
 
-    if (g->stuck || !(g->rd > 0))
+    if (g->stuck || !(g->way.rd > 0))
         return;
-    g->trial = line_minimum(g, &line, longest(g));
-    go(g, &line);
+    go(g, &line, line_minimum(g, &line, longest(g)));
     if (g->stuck && drifted(g)) { /* not before A u is as it is */
         refresh(g);
-        g->restart = true;
+        g->way.restart = true;
         g->stuck = false;
     }
-    g->parting = g->control == RC_GAP_LOAD && g->given < 0 && g->mean_d > 0 &&
+    g->parting = g->control == RC_GAP_LOAD && g->given < 0 && g->way.mean > 0 &&
                  nearest(g) > 20 * g->law.range;
 }
 
 /* ---- states ---- */
 
 static void
-mean_row(struct rc_gap *g, size_t j, double *sums)
+mean_row(void *ctx, size_t j, double *sums)
 {
+    const struct rc_gap *g = *(const struct rc_gap *const *)ctx;
     size_t m = on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++)
@@ -857,14 +847,13 @@ mean_row(struct rc_gap *g, size_t j, double *sums)
 }
 
 double
-rc_gap_shift(const struct rc_gap *at)
+rc_gap_shift(const struct rc_gap *g)
 {
-    struct rc_gap *g = (struct rc_gap *)(uintptr_t)at; /* its sums only */
     double sums[RC_GAP_SUMS], mean;
 
     if (g->control == RC_GAP_SHIFT)
         return g->given;
-    rc_gap_rows(g, mean_row, sums);
+    rows(g, mean_row, &g, sums);
     mean = sums[0] / (double)g->n;
     return (g->control == RC_GAP_LOAD ? g->whole->mean * g->given : 0) - mean;
 }
@@ -879,52 +868,55 @@ rc_gap_apart(struct rc_gap *g, double clearance)
         }
     g->control = g->whole->boundary == RC_FREE ? RC_GAP_SHIFT : RC_GAP_MEAN;
     g->given = -clearance;
-    g->known = false;
+    g->mode.known = false;
 }
 
-/* Of the map's nodes that are apart and those beyond it. */
+/* The map's nodes that are apart and those beyond it move by `a`. */
 static void
-shift_row(struct rc_gap *g, size_t j, double *sums)
+shift_row(void *ctx, size_t j, double *sums)
 {
+    const struct by *c = ctx;
+    struct rc_gap *g = c->g;
     size_t m = on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
         double *x = g->x + j * g->px + i;
         if (i >= m || *x > 0)
-            *x = i < m ? fmax(*x + g->trial, 0) : *x + g->trial;
+            *x = i < m ? fmax(*x + c->a, 0) : *x + c->a;
         sums[1] += *x;
         sums[2] += i >= m || *x > 0;
     }
 }
 
 static void
-shift(struct rc_gap *g, double by)
+shift(struct rc_gap *g, double a)
 {
+    struct by by = {g, a};
     double sums[RC_GAP_SUMS];
 
-    g->trial = by;
-    rc_gap_rows(g, shift_row, sums);
+    rows(g, shift_row, &by, sums);
     if (g->control == RC_GAP_MEAN && sums[2] == 0) { /* no node is apart, which would move */
         for (size_t k = 0; k < g->n; k++)
             g->x[k] = g->given;
         return;
     }
     for (int k = 0; k < NEWTON && g->control == RC_GAP_MEAN && sums[2] > 0; k++) {
-        g->trial = (g->given * (double)g->n - sums[1]) / sums[2];
-        if (fabs(g->trial) <= 1e-15 * g->given)
+        by.a = (g->given * (double)g->n - sums[1]) / sums[2];
+        if (fabs(by.a) <= 1e-15 * g->given)
             break;
-        rc_gap_rows(g, shift_row, sums);
+        rows(g, shift_row, &by, sums);
     }
 }
 
 /* Where a state begins, and the slope of Phi there, that of held nodes too. */
 static void
-keep_row(struct rc_gap *g, size_t j, double *sums)
+keep_row(void *ctx, size_t j, double *sums)
 {
+    struct rc_gap *g = ctx;
     (void)sums;
     for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
-        g->start[k] = (float)g->x[k];
-        g->slope[k] = (float)g->r[k];
+        g->from.x[k] = (float)g->x[k];
+        g->from.slope[k] = (float)g->r[k];
     }
 }
 
@@ -933,10 +925,10 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
 {
     double c = rc_gap_shift(g), sums[RC_GAP_SUMS];
 
-    g->watched = g->known && g->mu > 0 && control == g->control;
-    if (g->watched) { /* of the softest mode without the traction */
-        rc_gap_rows(g, residual_row, sums);
-        g->stiffness = g->mu + sums[2];
+    g->mode.watched = g->mode.known && g->mode.mu > 0 && control == g->control;
+    if (g->mode.watched) { /* of the softest mode without the traction */
+        rows(g, residual_row, g, sums);
+        g->mode.stiffness = g->mode.mu + sums[2];
     }
     g->control = control;
     g->given = given;
@@ -947,29 +939,30 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
     /* of the mean of the grid: what it lacks to twice the largest; else K has it as it is */
     g->lift = control == RC_GAP_LOAD ? (2 * g->whole->most - g->whole->mean) : 0;
     g->level = 0;
-    g->restart = true;
-    g->rz = 0;
-    g->error = INFINITY;
-    g->fresh_error = 1;
+    g->way.restart = true;
+    g->way.rz = 0;
+    g->told.error = INFINITY;
+    g->told.fresh = 1;
     g->stuck = g->parting = g->negative = false;
-    g->iterations = g->eigen_steps = 0;
+    g->iterations = g->mode.steps = 0;
     g->convolutions = 0;
     memset(g->z, 0, g->n * sizeof *g->z);
     memset(g->d, 0, g->n * sizeof *g->d);
     memset(g->ad, 0, g->n * sizeof *g->ad);
     find_au(g);
-    g->fall = 0;
-    rc_gap_rows(g, residual_row, sums);
-    rc_gap_rows(g, keep_row, sums);
+    g->from.fall = 0;
+    rows(g, residual_row, g, sums);
+    rows(g, keep_row, g, sums);
 }
 
 static void
-way_row(struct rc_gap *g, size_t j, double *sums)
+way_row(void *ctx, size_t j, double *sums)
 {
+    const struct rc_gap *g = ctx;
     for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
-        double way = g->x[k] - (double)g->start[k];
-        sums[0] += (double)g->slope[k] * way;
-        sums[1] += fabs((double)g->slope[k] * way);
+        double way = g->x[k] - (double)g->from.x[k];
+        sums[0] += (double)g->from.slope[k] * way;
+        sums[1] += fabs((double)g->from.slope[k] * way);
     }
 }
 
@@ -978,13 +971,13 @@ rc_gap_jumped(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS];
 
-    rc_gap_rows(g, way_row, sums);
-    return g->fall > -sums[0] + single * sums[1];
+    rows(g, way_row, g, sums);
+    return g->from.fall > -sums[0] + single * sums[1];
 }
 
 enum {
     DOUBLES = 7,
-    FLOATS = RC_GAP_FLOATS
+    FLOATS = RC_GAP_FLOATS + 2
 };
 
 enum rc_status
@@ -1002,21 +995,24 @@ rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction 
                          .px = whole->grid.nx,
                          .py = whole->grid.ny,
                          .n = n,
-                         .threads = whole->threads,
                          .h = h,
                          .hard = hard,
                          .hards = hards,
                          .yields = hards != NULL || !isinf(hard)};
     for (size_t k = 0; k < DOUBLES; k++)
         all &= (*room[k] = rc_alloc(n, sizeof(double))) != NULL;
-    for (size_t k = 0; k < FLOATS; k++)
-        all &= (g->e[k] = rc_alloc(n, sizeof(float))) != NULL;
-    g->start = g->e[FLOATS - 2];
-    g->slope = g->e[FLOATS - 1];
-    g->off = rc_alloc(n, 1);
-    g->sums = rc_alloc(g->py * RC_GAP_SUMS, sizeof *g->sums);
-    if (all && g->off != NULL && g->sums != NULL)
+    for (size_t k = 0; k < RC_GAP_FLOATS; k++)
+        all &= (g->mode.e[k] = rc_alloc(n, sizeof(float))) != NULL;
+    all &= (g->from.x = rc_alloc(n, sizeof(float))) != NULL;
+    all &= (g->from.slope = rc_alloc(n, sizeof(float))) != NULL;
+    all &= (g->off = rc_alloc(n, 1)) != NULL;
+    all &= rc_sums_new(&g->sums, g->py, RC_GAP_MOST, RC_GAP_SUMS - RC_GAP_MOST, whole->threads) ==
+           RC_OK;
+    g->a_step = g->r;
+    if (all) {
+        memset(g->off, 0, n);
         return RC_OK;
+    }
     return rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", g->nx, g->ny);
 }
 
@@ -1027,10 +1023,12 @@ rc_gap_free(struct rc_gap *g)
 
     for (size_t k = 0; k < DOUBLES; k++)
         free(room[k]);
-    for (size_t k = 0; k < FLOATS; k++)
-        free(g->e[k]);
+    for (size_t k = 0; k < RC_GAP_FLOATS; k++)
+        free(g->mode.e[k]);
+    free(g->from.x);
+    free(g->from.slope);
     free(g->off);
-    free(g->sums);
+    free(g->sums.row);
     free(g->hards);
 }
 
@@ -1063,10 +1061,9 @@ rc_gap_down(struct rc_gap *g, double first)
         line = other;
         a *= 2;
     }
-    g->trial = a;
-    go(g, &line);
-    g->restart = true;
-    g->rz = 0;
+    go(g, &line, a);
+    g->way.restart = true;
+    g->way.rz = 0;
     g->stuck = false;
-    g->error = INFINITY;
+    g->told.error = INFINITY;
 }

@@ -24,57 +24,76 @@ enum rc_gap_control {
 };
 
 enum {
-    RC_GAP_SUMS = 12,
-    RC_GAP_FLOATS = 11, /* maps in single precision */
-    RC_GAP_LINE = 512   /* nodes of a row that a law is asked for together, at most */
+    RC_GAP_MOST = 12, /* from here on the largest numbers of the rows count, before it their sums */
+    RC_GAP_SUMS = 16,
+    RC_GAP_FLOATS = 9, /* maps of the softest mode */
+    RC_GAP_LINE = 512  /* nodes of a row that a law is asked for together, at most */
+};
+
+/* The direction d of the next step, z + beta times the last one. W is that of stability.c, and so is the bound
+ * `stiffness` of its smallest eigenvalue; dwd NAN, stiffness INFINITY: not known. */
+struct rc_gap_way {
+    double rz, beta, rd, dad, dwd; /* r'z, beta, r'd, d'A d, d'W d                         */
+    double mean, unit;             /* of d on the grid; its largest number                 */
+    double stiffness;              /* d'(A - D) d over d'W d                               */
+    bool same, whole;              /* as before the same nodes are held; all others move   */
+    bool restart;                  /* the next one has beta 0                              */
+};
+
+/* What the pressure is off, L1. */
+struct rc_gap_told {
+    double error,
+        fresh;    /* |A z| over |p|, with drift; the same when A u was found, INFINITY: not yet */
+    double drift; /* of A u since then: steps add to it in single precision                     */
+    double size,
+        change;   /* |p|, |A z|                                                                 */
+    double moves; /* |A d| of a step                                                            */
+};
+
+/* The softest mode of the last state, by stability.c. */
+struct rc_gap_mode {
+    float *
+        e[RC_GAP_FLOATS]; /* x, K^-1 x, (A - D) x; the same of its residual and of its way        */
+    double mu, error;     /* smallest eigenvalue, and how far one is at most                      */
+    double stiffness;     /* of that of the state before, if nothing pulled                       */
+    bool known, watched;  /* e[1] holds it; e[0] that of the state before, of this control        */
+    size_t steps;
+};
+
+/* Where a state began. */
+struct rc_gap_from {
+    float *x, *slope; /* and the slope of Phi there */
+    double fall;      /* of Phi since               */
 };
 
 struct rc_gap {
     struct rc_whole *whole;
     struct rc_attraction law;
     size_t nx, ny, px, py, n; /* of the map, of the grid; nodes of the grid */
-    int threads;
-    const double *h; /* nx ny                                                 */
-    double hard;     /* bound of p + sigma; INFINITY: none                    */
-    double *hards;   /* nx ny, instead of it; NULL: one for all               */
-    bool yields;     /* some node has such a bound                            */
+    const double *h;          /* nx ny                                                 */
+    double hard;              /* bound of p + sigma; INFINITY: none                    */
+    double *hards;            /* nx ny, instead of it; NULL: one for all               */
+    bool yields;              /* some node has such a bound                            */
     enum rc_gap_control control;
     double given; /* c, the mean of x, or S                                */
     /* x, A u, residual, its correction K r, direction, A of that; room for a step */
     double *x, *au, *r, *z, *d, *ad, *step;
-    unsigned char *off; /* 1: held at 0; on the whole grid                       */
-    double *sums;       /* RC_GAP_SUMS of each row                               */
-    double level;       /* what is taken from A u + S to make p                  */
-    double lift;        /* of the preconditioner at the mean                     */
-    /* of the last step */
-    double rz, scale, mean_r, beta;
-    double rd, dad, mean_d; /* of the direction: r'd, d'A d, its mean on the grid */
-    double dwd;             /* d'W d, W as in stability.c; NAN: not known */
-    double
-        way; /* its stiffness, as an eigenvalue of stability.c, none of which is smaller than the smallest; INFINITY: not known */
-    bool same, whole_way; /* the same nodes are held as before; all others move along d */
-    bool restart;
-    size_t free;        /* nodes not held                                        */
-    double unit;        /* of a direction in single precision */
-    double fresh_error; /* that error when A u came from double precision */
-    double error;       /* |A z| over |p|, L1, with drift; INFINITY before the first step */
-    double drift; /* of A u since it came from double precision, L1: steps add to it in single */
-    double size, change, moves; /* |p|, |A z|, and |A d| of a step, L1           */
-    bool negative;    /* stiffness there was negative, of its direction or of the softest mode */
-    bool watched;     /* e[0] is the softest mode of the state before, of this control */
-    double stiffness; /* of that mode, if nothing pulled                              */
-    bool stuck;       /* no step goes down any more                            */
-    bool parting;     /* drawn apart, with nothing left to hold                */
-    double trial;     /* of a row's work: the length of the step               */
-    float *start, *slope; /* where the state began: x, and the slope of Phi                  */
-    double fall;          /* of Phi since                                                    */
+    double *a_step;       /* A of a step: the room of r, which the next look finds anew */
+    unsigned char *off;   /* 1: held at 0; on the whole grid                       */
+    struct rc_sums sums;  /* of the rows of the grid                               */
+    double level;         /* what is taken from A u + S to make p                  */
+    double lift;          /* of the preconditioner at the mean                     */
+    double scale, mean_r; /* of the residual: the largest, the mean                */
+    size_t free;          /* nodes not held                                        */
+    struct rc_gap_way way;
+    struct rc_gap_told told;
+    struct rc_gap_mode mode;
+    struct rc_gap_from from;
+    bool negative; /* stiffness there was negative, of its direction or of the softest mode */
+    bool stuck;    /* no step goes down any more                            */
+    bool parting;  /* drawn apart, with nothing left to hold                */
     double convolutions;
     size_t iterations;
-    /* of the eigenvector: x, K^-1 x, (A - D) x; the same of the residual and of the direction */
-    float *e[RC_GAP_FLOATS];
-    double mu, mu_error; /* smallest eigenvalue, and how far one is at most      */
-    bool known;          /* e[1] holds an eigenvector of the last state           */
-    size_t eigen_steps;
 };
 
 /* RC_FAIL when memory is short; rc_gap_free in either case. h, hards: nx ny, of the caller's, who keeps h;
@@ -91,7 +110,7 @@ void rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given);
 /* The way down from here, and with it what the pressure is off; and a step along it. */
 void rc_gap_look(struct rc_gap *g);
 void rc_gap_move(struct rc_gap *g);
-/* Finds `way` without a step. */
+/* Finds way.stiffness without a step. */
 void rc_gap_look_along(struct rc_gap *g);
 /* Whether the straight way from where the state began leads over a place that is not convex: Phi has fallen
  * by more than its slope there allows. */
@@ -113,15 +132,10 @@ rc_gap_on_map(const struct rc_gap *g, size_t j)
 {
     return j < g->ny ? g->nx : 0;
 }
-/* Every row of the grid by itself, then the sums in order: the same for any number of threads. */
-typedef void rc_gap_work(struct rc_gap *g, size_t j, double *sums);
-void rc_gap_rows(struct rc_gap *g, rc_gap_work *work, double *sums);
-void rc_gap_clear(struct rc_gap *g);
-void rc_gap_total(const struct rc_gap *g, double *sums);
 /* V, sigma and D at n <= RC_GAP_LINE gaps of row j from node i on, with the hardness. */
 void rc_gap_law(const struct rc_gap *g, size_t j, size_t i, size_t n, const double *gap, double *v,
                 double *s, double *d);
-/* Down from here along d, which is to be a way of less than no curvature. */
+/* Down from here along d, whose largest number is way.unit and which is to be a way of less than no curvature. */
 void rc_gap_down(struct rc_gap *g, double first);
 
 /* ---- stability.c ---- */

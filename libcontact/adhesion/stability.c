@@ -52,7 +52,7 @@ give_row(void *ctx, size_t j, void *from)
     const struct product *p = ctx;
     struct rc_gap *g = p->g;
     const float *row = from;
-    double *sums = g->sums + j * RC_GAP_SUMS;
+    double *sums = rc_sums_of(&g->sums, j);
 
     for (size_t i = 0; i < g->px; i++) {
         bool off = g->off[j * g->px + i];
@@ -71,7 +71,7 @@ add_mean(const struct product *p, double add)
 {
     struct rc_gap *g = p->g;
 
-#pragma omp parallel for num_threads(g->threads) schedule(static)
+#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
     for (size_t k = 0; k < g->n; k++)
         p->to[k] = g->off[k] ? 0 : (float)((double)p->to[k] + add);
 }
@@ -82,9 +82,9 @@ apply_k(struct rc_gap *g, const float *from, float *to)
     struct product p = {.g = g, .from = from, .to = to};
     double sums[RC_GAP_SUMS];
 
-    rc_gap_clear(g);
+    rc_sums_clear(&g->sums);
     rc_whole_rough_rows(g->whole, take_row, give_row, &p);
-    rc_gap_total(g, sums);
+    rc_sums_total(&g->sums, sums);
     g->convolutions += 0.5;
     add_mean(&p, g->control == RC_GAP_MEAN && sums[3] > 0 ? -sums[1] / sums[3]
                                                           : g->lift * sums[2] / (double)g->n);
@@ -94,7 +94,7 @@ apply_k(struct rc_gap *g, const float *from, float *to)
 static void
 soften(struct rc_gap *g, const float *x, float *to)
 {
-#pragma omp parallel for num_threads(g->threads) schedule(static)
+#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
     for (size_t j = 0; j < g->ny; j++)
         for (size_t i = 0; i < g->nx; i += RC_GAP_LINE) {
             size_t n = g->nx - i < RC_GAP_LINE ? g->nx - i : RC_GAP_LINE, at = j * g->px + i;
@@ -112,9 +112,9 @@ apply_stiffness(struct rc_gap *g, const float *from, float *to)
     struct product p = {.g = g, .from = from, .to = to};
     double sums[RC_GAP_SUMS];
 
-    rc_gap_clear(g);
+    rc_sums_clear(&g->sums);
     rc_whole_rough_inverse_rows(g->whole, take_row, give_row, &p);
-    rc_gap_total(g, sums);
+    rc_sums_total(&g->sums, sums);
     g->convolutions += 0.5;
     add_mean(&p, g->control == RC_GAP_LOAD ? -sums[0] / (double)g->n : 0);
     soften(g, from, to);
@@ -123,14 +123,15 @@ apply_stiffness(struct rc_gap *g, const float *from, float *to)
 /* ---- the space of three ---- */
 
 static void
-gram_row(struct rc_gap *g, size_t j, double *sums)
+gram_row(void *ctx, size_t j, double *sums)
 {
+    const struct rc_gap *g = ctx;
     for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
         size_t q = 0;
         for (size_t a = 0; a < SPACE; a++)
             for (size_t b = 0; b <= a; b++, q++) {
-                sums[q] += (double)g->e[3 * a][k] * (double)g->e[3 * b + 1][k];
-                sums[q + 6] += (double)g->e[3 * a][k] * (double)g->e[3 * b + 2][k];
+                sums[q] += (double)g->mode.e[3 * a][k] * (double)g->mode.e[3 * b + 1][k];
+                sums[q + 6] += (double)g->mode.e[3 * a][k] * (double)g->mode.e[3 * b + 2][k];
             }
     }
 }
@@ -239,8 +240,9 @@ best(const double *sums, double *c)
 
 /* Where contact holds a node it does not move. Where it holds all of the map, nothing softens. */
 static void
-mask_row(struct rc_gap *g, size_t j, double *sums)
+mask_row(void *ctx, size_t j, double *sums)
 {
+    struct rc_gap *g = ctx;
     size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
@@ -250,14 +252,21 @@ mask_row(struct rc_gap *g, size_t j, double *sums)
     }
 }
 
+struct first {
+    struct rc_gap *g;
+    double noise; /* beside a vector that is not known */
+};
+
 /* Sums of W x and of the free nodes. */
 static void
-first_row(struct rc_gap *g, size_t j, double *sums)
+first_row(void *ctx, size_t j, double *sums)
 {
+    const struct first *c = ctx;
+    struct rc_gap *g = c->g;
     size_t m = rc_gap_on_map(g, j);
-    float *w = g->e[X + 1] + j * g->px;
+    float *w = g->mode.e[X + 1] + j * g->px;
 
-    for (size_t i = 0; i < m && !g->known; i += RC_GAP_LINE) {
+    for (size_t i = 0; i < m && !g->mode.known; i += RC_GAP_LINE) {
         size_t n = m - i < RC_GAP_LINE ? m - i : RC_GAP_LINE, at = j * g->px + i;
         double v[RC_GAP_LINE], s[RC_GAP_LINE], d[RC_GAP_LINE];
         rc_gap_law(g, j, i, n, g->x + at, v, s, d);
@@ -268,10 +277,10 @@ first_row(struct rc_gap *g, size_t j, double *sums)
     for (size_t i = 0; i < g->px; i++) {
         uint64_t hash = ((uint64_t)(j * g->px + i) + 1) * 0x9e3779b97f4a7c15u;
         double noise = (double)(hash >> 40) / 0x1p24 - 0.5;
-        if (!g->known && i >= m)
+        if (!g->mode.known && i >= m)
             w[i] = 0;
         if (i < m)
-            w[i] = (float)((double)w[i] * (1 + noise / 4) + g->trial * noise);
+            w[i] = (float)((double)w[i] * (1 + noise / 4) + c->noise * noise);
         if (g->off[j * g->px + i])
             w[i] = 0;
         sums[0] += (double)w[i];
@@ -283,12 +292,12 @@ first_row(struct rc_gap *g, size_t j, double *sums)
 static void
 combine(struct rc_gap *g, const double *c)
 {
-#pragma omp parallel for num_threads(g->threads) schedule(static)
+#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
     for (size_t k = 0; k < g->n; k++)
         for (size_t q = 0; q < 3; q++) {
-            double way = c[1] * (double)g->e[Y + q][k] + c[2] * (double)g->e[D + q][k];
-            g->e[D + q][k] = (float)way;
-            g->e[X + q][k] = (float)(c[0] * (double)g->e[X + q][k] + way);
+            double way = c[1] * (double)g->mode.e[Y + q][k] + c[2] * (double)g->mode.e[D + q][k];
+            g->mode.e[D + q][k] = (float)way;
+            g->mode.e[X + q][k] = (float)(c[0] * (double)g->mode.e[X + q][k] + way);
         }
 }
 
@@ -296,16 +305,18 @@ static void
 clear(struct rc_gap *g, size_t first)
 {
     for (size_t q = 0; q < 3; q++)
-        memset(g->e[first + q], 0, g->n * sizeof *g->e[0]);
+        memset(g->mode.e[first + q], 0, g->n * sizeof *g->mode.e[0]);
 }
 
 /* W y = t - mu w, less its mean on free nodes where that is given. */
 static void
-residual_row(struct rc_gap *g, size_t j, double *sums)
+residual_row(void *ctx, size_t j, double *sums)
 {
+    struct rc_gap *g = ctx;
     for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
-        double r = g->off[k] ? 0 : (double)g->e[X + 2][k] - g->mu * (double)g->e[X + 1][k];
-        g->e[Y + 1][k] = (float)r;
+        double r =
+            g->off[k] ? 0 : (double)g->mode.e[X + 2][k] - g->mode.mu * (double)g->mode.e[X + 1][k];
+        g->mode.e[Y + 1][k] = (float)r;
         sums[0] += r;
         sums[1] += !g->off[k];
     }
@@ -314,7 +325,7 @@ residual_row(struct rc_gap *g, size_t j, double *sums)
 static void
 take_off(struct rc_gap *g, float *v, double mean)
 {
-#pragma omp parallel for num_threads(g->threads) schedule(static)
+#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
     for (size_t k = 0; k < g->n; k++)
         if (!g->off[k])
             v[k] = (float)((double)v[k] - mean);
@@ -324,30 +335,31 @@ void
 rc_gap_eigen_begin(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS], c[SPACE] = {1, 0, 0};
+    struct first first = {.g = g};
 
-    rc_gap_rows(g, mask_row, sums);
-    g->mu = sums[0] > 0 ? INFINITY : 1;
-    g->mu_error = sums[0] > 0 ? INFINITY : 0;
-    g->eigen_steps = 0;
+    rc_sums_rows(&g->sums, mask_row, g, sums);
+    g->mode.mu = sums[0] > 0 ? INFINITY : 1;
+    g->mode.error = sums[0] > 0 ? INFINITY : 0;
+    g->mode.steps = 0;
     if (sums[0] == 0)
         return;
-    g->trial = g->known ? 0 : 0.05;
-    rc_gap_rows(g, first_row, sums);
+    first.noise = g->mode.known ? 0 : 0.05;
+    rc_sums_rows(&g->sums, first_row, &first, sums);
     if (!(sums[2] > 0)) { /* of the last vector nothing is left */
-        g->known = false;
-        g->trial = 0.05;
-        rc_gap_rows(g, first_row, sums);
+        g->mode.known = false;
+        first.noise = 0.05;
+        rc_sums_rows(&g->sums, first_row, &first, sums);
     }
     if (g->control == RC_GAP_MEAN)
-        take_off(g, g->e[X + 1], sums[0] / sums[1]);
-    apply_k(g, g->e[X + 1], g->e[X]);
-    apply_stiffness(g, g->e[X], g->e[X + 2]);
+        take_off(g, g->mode.e[X + 1], sums[0] / sums[1]);
+    apply_k(g, g->mode.e[X + 1], g->mode.e[X]);
+    apply_stiffness(g, g->mode.e[X], g->mode.e[X + 2]);
     clear(g, Y);
     clear(g, D);
-    rc_gap_rows(g, gram_row, sums);
+    rc_sums_rows(&g->sums, gram_row, g, sums);
     best(sums, c);
     combine(g, c);
-    g->mu = sums[6] / sums[0];
+    g->mode.mu = sums[6] / sums[0];
 }
 
 void
@@ -355,47 +367,44 @@ rc_gap_eigen_step(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS], c[SPACE];
 
-    rc_gap_rows(g, residual_row, sums);
+    rc_sums_rows(&g->sums, residual_row, g, sums);
     if (g->control == RC_GAP_MEAN)
-        take_off(g, g->e[Y + 1], sums[0] / sums[1]);
-    apply_k(g, g->e[Y + 1], g->e[Y]);
-    apply_stiffness(g, g->e[Y], g->e[Y + 2]);
-    rc_gap_rows(g, gram_row, sums);
-    g->mu_error = sqrt(fmax(sums[2], 0)); /* y'W y, of x with x'W x = 1 */
+        take_off(g, g->mode.e[Y + 1], sums[0] / sums[1]);
+    apply_k(g, g->mode.e[Y + 1], g->mode.e[Y]);
+    apply_stiffness(g, g->mode.e[Y], g->mode.e[Y + 2]);
+    rc_sums_rows(&g->sums, gram_row, g, sums);
+    g->mode.error = sqrt(fmax(sums[2], 0)); /* y'W y, of x with x'W x = 1 */
     best(sums, c);
     combine(g, c);
-    rc_gap_rows(g, gram_row, sums);
-    g->mu = sums[6] / sums[0];
-    g->eigen_steps++;
-    g->known = true;
+    rc_sums_rows(&g->sums, gram_row, g, sums);
+    g->mode.mu = sums[6] / sums[0];
+    g->mode.steps++;
+    g->mode.known = true;
 }
 
 /* ---- off a saddle ---- */
 
 static void
-push_row(struct rc_gap *g, size_t j, double *sums)
+push_row(void *ctx, size_t j, double *sums)
 {
+    struct rc_gap *g = ctx;
     size_t m = rc_gap_on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
         size_t at = j * g->px + i;
-        g->d[at] = g->off[at] ? 0 : (double)g->e[X][at];
+        g->d[at] = g->off[at] ? 0 : (double)g->mode.e[X][at];
         if (i < m)
-            sums[0] = fmax(sums[0], fabs(g->d[at]));
-        sums[1] = fmax(sums[1], fabs(g->d[at]));
+            sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], fabs(g->d[at]));
+        sums[RC_GAP_MOST + 1] = fmax(sums[RC_GAP_MOST + 1], fabs(g->d[at]));
     }
 }
 
 void
 rc_gap_leave(struct rc_gap *g)
 {
-    double sums[RC_GAP_SUMS], most = 0;
+    double sums[RC_GAP_SUMS];
 
-    rc_gap_rows(g, push_row, sums);
-    g->unit = 0;
-    for (size_t j = 0; j < g->py; j++) {
-        most = fmax(most, g->sums[j * RC_GAP_SUMS]);
-        g->unit = fmax(g->unit, g->sums[j * RC_GAP_SUMS + 1]);
-    }
-    rc_gap_down(g, 0.1 * g->law.range / most);
+    rc_sums_rows(&g->sums, push_row, g, sums);
+    g->way.unit = sums[RC_GAP_MOST + 1];
+    rc_gap_down(g, 0.1 * g->law.range / sums[RC_GAP_MOST]);
 }

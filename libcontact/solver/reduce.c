@@ -10,16 +10,11 @@
 static void
 total_of(const struct rc_solver *s, size_t n, double total[RC_SUMS])
 {
+    const struct rc_sums rows = {s->partial, n, RC_MOST, RC_SUMS - RC_MOST, s->posed.threads};
     struct rc_total sum[RC_SUMS] = {{0}};
-    const double *partial = s->partial;
     double most = 0;
 
-    for (size_t b = 0; b < n; b++, partial += RC_SUMS) {
-        for (size_t q = 0; q < RC_MOST; q++)
-            rc_total_add(&sum[q], partial[q]);
-        if (partial[RC_MOST] > most)
-            most = partial[RC_MOST];
-    }
+    rc_sums_add(&rows, sum, &most);
     if (s->posed.rows.ranks != NULL)
         rc_ranks_totals(s->posed.rows.ranks, RC_MOST, sum, total, &most);
     else
