@@ -157,12 +157,6 @@ failed:
     return NULL;
 }
 
-size_t
-rc_elimination_nodes(const struct rc_elimination *e)
-{
-    return (size_t)e->n;
-}
-
 /* ---- taking out ---- */
 
 size_t

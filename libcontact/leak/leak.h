@@ -142,7 +142,6 @@ struct rc_elimination;
 
 /* NULL when memory is short, or as rc_ordering. */
 struct rc_elimination *rc_elimination_new(const struct rc_passage *a, struct rc_err *err);
-size_t rc_elimination_nodes(const struct rc_elimination *e);
 /* Bytes that the first rc_elimination_run takes. */
 size_t rc_elimination_memory(const struct rc_elimination *e);
 /* The conductance from inlet to outlet. RC_FAIL when memory is short. */

@@ -82,12 +82,6 @@ rc_ranks_own(const struct rc_ranks *r)
     return r == NULL ? 0 : r->own;
 }
 
-struct rc_traffic *
-rc_ranks_traffic(const struct rc_ranks *r)
-{
-    return r->traffic;
-}
-
 void
 rc_ranks_sent(const struct rc_ranks *r, struct rc_sent *sent)
 {

@@ -123,7 +123,6 @@ void rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *fro
  * of the map, unless it goes `round`. Ranks without rows take part. */
 void rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void *first,
                      const void *last, void *before, void *after, bool has[2]);
-struct rc_traffic *rc_ranks_traffic(const struct rc_ranks *ranks);
 #else
 static inline size_t
 rc_ranks_count(const struct rc_ranks *ranks)

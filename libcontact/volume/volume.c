@@ -192,13 +192,6 @@ rc_slabs_free(struct rc_slabs *v)
     free(v);
 }
 
-void
-rc_slabs_set(struct rc_slabs *v, const double *thickness)
-{
-    memcpy(v->thickness, thickness, v->slabs * sizeof *v->thickness);
-    memset(v->strained, 0, v->slabs * sizeof *v->strained);
-}
-
 size_t
 rc_slabs_memory(const struct rc_shape *shape, const struct rc_slabs_options *o)
 {

@@ -92,8 +92,6 @@ struct rc_slabs;
 struct rc_slabs *rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *options,
                               struct rc_err *err);
 void rc_slabs_free(struct rc_slabs *slabs); /* NULL is allowed */
-/* Other thicknesses, as many; a strain that was collected is gone. */
-void rc_slabs_set(struct rc_slabs *slabs, const double *thickness);
 /* Bytes that it takes, on the rank that takes most. */
 size_t rc_slabs_memory(const struct rc_shape *shape, const struct rc_slabs_options *options);
 

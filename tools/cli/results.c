@@ -7,8 +7,9 @@
 
 #include "libcontact/contact.h"
 
-bool
-results_channel(const char *channel)
+/* Whether frames of this channel are computed from a height: what rc-solve, rc-deflect and rc-stress write. */
+static bool
+computed(const char *channel)
 {
     static const char *const solved[] = {"pressure",   "gap",        "displacement",   "plastic",
                                          "traction-x", "traction-y", "fluid-pressure", "flux",
@@ -44,9 +45,9 @@ refuse(struct tool *t, const struct rc_grid *g)
     struct rc_grid *next;
 
     tool_where(t, g, where, sizeof where);
-    while (results_channel(g->channel) && (next = tool_read(t)) != NULL &&
+    while (computed(g->channel) && (next = tool_read(t)) != NULL &&
            rc_grid_case(next) == rc_grid_case(g))
-        if (results_channel(next->channel))
+        if (computed(next->channel))
             add_name(t->results.names, sizeof t->results.names, next->channel);
     tool_die(t, EXIT_IMPOSSIBLE,
              "%s: the case holds a height and what was computed from it (%s), which would not "
@@ -62,7 +63,7 @@ results_demand_none(struct tool *t, const struct rc_grid *g)
         t->results.names[0] = '\0';
         t->results.height = false;
     }
-    if (results_channel(g->channel))
+    if (computed(g->channel))
         add_name(t->results.names, sizeof t->results.names, g->channel);
     else if (strcmp(g->channel, "height") == 0)
         t->results.height = true;

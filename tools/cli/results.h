@@ -4,10 +4,6 @@
 
 #include "tool.h"
 
-/* Whether frames of this channel are computed from a height: what rc-solve, rc-deflect and
- * rc-stress write. */
-bool results_channel(const char *channel);
-
 /* A tool that changes heights calls this for every frame that it passes on: results in the same
  * case were computed from the old heights. Where a case holds both, in either order, it ends the
  * tool and names the results. */

@@ -12,8 +12,9 @@
 /* Hardening below so many times the yield stress. */
 static const double soft = 10;
 
-bool
-means_wanted(const struct rc_grid *g)
+/* Whether the pressures of single nodes alternate, as they do where a body hardens little. */
+static bool
+alternates(const struct rc_grid *g)
 {
     double yield, hardening;
 
@@ -49,7 +50,7 @@ means_take(struct tool *t, struct rc_grid *g, struct means *m)
     size_t nx = g->nx, ny = g->ny;
     double *p;
 
-    if (!means_wanted(g))
+    if (!alternates(g))
         return;
     p = malloc(nx * ny * sizeof *p);
     if (p == NULL)

@@ -79,9 +79,7 @@ struct means {
     double four, one; /* Pa: the largest mean of 2 x 2 nodes, and the largest of a node */
 };
 
-/* Whether the map is one whose nodes alternate. */
-bool means_wanted(const struct rc_grid *grid);
-/* Such a map becomes that of means about its nodes; of several maps the largest. */
+/* A map whose nodes alternate becomes that of means about its nodes; of several maps the largest. */
 void means_take(struct tool *tool, struct rc_grid *grid, struct means *means);
 
 /* ---- section.c ---- */
@@ -400,7 +398,7 @@ bool args_several(const struct args *args);
 
 /* ---- look.c: what a figure is like ---- */
 
-/* What a figure says in words of its own. */
+/* What a figure shows, and the values that its colours span. */
 struct look {
     struct channel what;
     struct range range;

@@ -112,23 +112,27 @@ is_part(const char *part, size_t n, const char *name)
     return false;
 }
 
-size_t
-name_distance(const char *typed, const char *name)
+/* How far a typed name is from a name: the number of letters left out, added, changed, or exchanged with their
+ * neighbour, without regard to case. If the typed name is a whole part of the name, as "pressure" is of
+ * "mean-pressure" and "area" of "contact_area", this is a little more than for the most mistakes that are allowed.
+ * SIZE_MAX: it is another name. */
+static size_t
+distance(const char *typed, const char *name)
 {
     size_t n = strlen(typed), m = strlen(name), most = n < 4 ? 1 : n < 9 ? 2 : 3, d;
 
     if (n == 0 || n >= NAME_SIZE || m >= NAME_SIZE)
-        return NAME_FAR;
+        return SIZE_MAX;
     d = mistakes(typed, n, name, m);
     if (d <= most && d < n)
         return d;
-    return n > 2 && is_part(typed, n, name) ? most + 1 : NAME_FAR;
+    return n > 2 && is_part(typed, n, name) ? most + 1 : SIZE_MAX;
 }
 
 void
 name_nearer(const char *typed, const char *name, char nearest[NAME_SIZE])
 {
-    if (name_distance(typed, name) < name_distance(typed, nearest))
+    if (distance(typed, name) < distance(typed, nearest))
         snprintf(nearest, NAME_SIZE, "%s", name);
 }
 

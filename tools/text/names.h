@@ -16,13 +16,6 @@ const char *name_respelt(const char *name, char text[NAME_SIZE]);
 /* Whether a[0..n) and b[0..m) are the same name in any spelling. */
 bool name_same(const char *a, size_t n, const char *b, size_t m);
 
-/* How far a typed name is from a name: the number of letters left out, added, changed, or exchanged
- * with their neighbour, without regard to case. If the typed name is a whole part of the name, as
- * "pressure" is of "mean-pressure" and "area" of "contact_area", this is a little more than for the most mistakes that are
- * allowed. NAME_FAR: it is another name. */
-size_t name_distance(const char *typed, const char *name);
-#define NAME_FAR ((size_t)-1)
-
 /* Puts the name in the place of `nearest`, which starts as "", where it is nearer to what was typed. */
 void name_nearer(const char *typed, const char *name, char nearest[NAME_SIZE]);
 /* ": did you mean NAME?" for the end of a message; "" where no name is near. */
