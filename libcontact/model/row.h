@@ -83,7 +83,7 @@ enum rc_status rc_model_remember(struct rc_model *m, struct rc_err *err);
 enum rc_status rc_model_recall(struct rc_model *m, struct rc_err *err);
 
 #define RC_FIGURES(name) extern const struct rc_figure rc_figures_##name[];
-#include "libcontact/model/figures.list"
+#include "figures.list"
 #undef RC_FIGURES
 
 /* -DRC_MODELS_LIST=... replaces the list (tests/toys does). */
