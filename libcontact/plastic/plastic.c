@@ -11,13 +11,14 @@
  * no curvature above 2 mu. An application of F costs one sweep up, one contact, and one sweep down.
  *
  * A load begins with elastic trials, which change no strain: the contact at its end, and one sweep down.
- * Where no stress exceeds the yield stress the load is done, as most unloading is. Where only traces do, as
- * in reloading to the same peak, one increment is enough. Else bisection finds the last load up to which
- * nothing flows, and the increments go from there.
+ * Where no stress exceeds the yield stress the load is done, as most unloading is. Where little does, as in
+ * reloading to the same peak, one increment follows, and all of its flow counts as an error of the increments.
+ * Where that is small beside the error of the loads before it stays; else it is undone. Then bisection finds the
+ * last load up to which nothing flows, and the increments go from there.
  *
  * The increments are not converged one by one. Each begins with the last one, is applied twice, and takes
  * the mixture of both that Anderson's method with one step kept would take: what it lags behind is caught
- * up by the next, which sees the true stress. Where it lags by more than 0.03 of the yield stress it is
+ * up by the next, which sees the true stress. Where it lags by more than 0.04 of the yield stress it is
  * applied again, for a lag changes the path, which no estimate sees. The last is applied until it lags no
  * more, for a load is believed where |F(x) - x| as a stress is small against the yield stress, not where it
  * is small against x. In time the return is of second order (two steps back, BDF2): its base is
@@ -51,19 +52,24 @@ enum {
     INCREMENTS = 16,
     FEW = 8,          /* increments; with fewer nothing is said of their error */
     EACH = 2,         /* applications of an increment, at least */
-    MOST_EACH = 6,    /* and at most */
+    MOST_EACH = 24,   /* and at most */
     LAST = 4,         /* of the last one, at least */
     MOST = 200,       /* and at most */
     BISECTIONS = 4,   /* for the last elastic load */
     BISECT_FIRST = 2, /* of them, after which one that is still 0 is believed to be */
     HALVINGS = 40
 };
-static const double settled = 0.02;   /* the lag at which a load is believed */
-static const double moves = 5e-3;     /* and the error of the pressure from the iteration */
-static const double lags = 0.03;      /* at which an increment inside a load is */
-static const double trace = 0.01;     /* of the first trial: flow that one increment follows */
-static const double keeps = 0.03;     /* part of a contact's tolerance that flow keeps */
-static const double kept_goal = 3e-3; /* tolerance of the contacts times all increments, at most */
+static const double settled = 0.02; /* the lag at which a load is believed */
+static const double moves = 5e-3;   /* and the error of the pressure from the iteration */
+static const double lags = 0.04;    /* at which an increment inside a load is */
+static const double trace = 0.01;   /* of the first trial: flow that one increment follows, */
+static const double little =
+    0.2; /* and flow that it is tried with in a body that has yielded before */
+static const double once_part =
+    0.5; /* it stays where its error is at most this part of the inherited one, */
+static const double once_least = 5e-4; /* or this */
+static const double keeps = 0.03;      /* part of a contact's tolerance that flow keeps */
+static const double kept_goal = 3e-3;  /* tolerance of the contacts times all increments, at most */
 
 /* ---- rows ---- */
 
@@ -299,7 +305,6 @@ accept(struct rc_plastic *p, struct rc_voxel *v)
 {
     double d[RC_DEVIATOR], grown;
 
-    (void)p;
     for (size_t a = 0; a < RC_DEVIATOR; a++)
         d[a] = v->x[a] - (double)v->beta * v->last[a];
     grown = (double)v->beta * v->grown + 2 * rc_mises_of(d) / 3;
@@ -309,6 +314,20 @@ accept(struct rc_plastic *p, struct rc_voxel *v)
         v->e[a] += v->x[a];
         v->last[a] = v->x[a];
         v->moved[a] = v->left[a] = 0;
+        v->missed[a] += p->once ? (float)v->x[a] : 0;
+    }
+}
+
+/* The only increment of the load is forgotten. */
+static void
+undo(struct rc_plastic *p, struct rc_voxel *v)
+{
+    (void)p;
+    v->strain -= v->grown;
+    v->grown = 0;
+    for (size_t a = 0; a < RC_DEVIATOR; a++) {
+        v->e[a] -= v->last[a];
+        v->last[a] = v->x[a] = v->missed[a] = 0;
     }
 }
 
@@ -490,6 +509,13 @@ begin_increments(struct rc_plastic *p, size_t count, double start)
     p->stage = RC_PLASTIC_TRIAL;
 }
 
+/* Whether one increment is tried with little flow, whose error is then found. */
+static bool
+follows_little(const struct rc_plastic *p)
+{
+    return !p->few && !p->thorough && rc_voxels_count(&p->voxels) > 0;
+}
+
 /* One elastic trial of the load, its end first. */
 static enum rc_status
 probe(struct rc_plastic *p, struct rc_err *err)
@@ -507,7 +533,8 @@ probe(struct rc_plastic *p, struct rc_err *err)
         p->elastic = true;
         begin_increments(p, 1, p->to);
         p->stage = RC_PLASTIC_STATE;
-    } else if (p->trial == 1 && p->figures.lag < trace) {
+    } else if (p->trial == 1 && p->figures.lag < (follows_little(p) ? little : trace)) {
+        p->once = !p->few;
         begin_increments(p, 1, p->from);
     } else if (p->trial > BISECTIONS || (p->trial > BISECT_FIRST && p->low == 0)) {
         begin_increments(p, p->increments, share_of_way(p, p->low));
@@ -661,6 +688,13 @@ compare_order(struct rc_plastic *p, struct rc_err *err)
     p->figures.increment_error = own > 0 ? all * own / (own + inherited) : 0;
     p->figures.inherited_error = all - p->figures.increment_error;
     p->stage = RC_PLASTIC_DONE;
+    if (p->once &&
+        p->figures.increment_error > fmax(once_part * p->figures.inherited_error, once_least)) {
+        p->once = p->stopped = false;
+        for_each(p, undo);
+        p->trial = 1; /* the first is known */
+        p->stage = RC_PLASTIC_PROBE;
+    }
     return RC_OK;
 }
 
@@ -729,7 +763,7 @@ rc_plastic_set_load(struct rc_plastic *p, double load, struct rc_err *err)
     p->trial = 0;
     p->low = p->order = 0;
     p->high = 1;
-    p->stopped = p->elastic = false;
+    p->stopped = p->elastic = p->once = false;
     p->figures = (struct rc_plastic_figures){0};
     p->stage = RC_PLASTIC_PROBE;
     rc_plastic_solve_to(p, fmin(p->asked_tol, kept_goal / (double)(p->taken + p->increments)));

@@ -39,6 +39,8 @@ struct rc_plastic {
     bool alone;      /* no load: p is 0                                                          */
     bool flows;      /* some voxel did in the last application                                   */
     bool elastic;    /* nothing flows on the way to this load                                    */
+    bool once;       /* one increment follows, whose flow counts as missed */
+    bool thorough;   /* not even where little flows                        */
     bool few;        /* some load so far was reached in too few increments to tell their error   */
     bool failed;     /* memory was short in a row                                                */
     bool pressed;    /* a load has been: the solver's pressure is one to start from */

@@ -121,6 +121,7 @@ make(struct rc_press *p, struct rc_err *err)
 static enum rc_status
 try_load(struct rc_press *p, struct rc_err *err)
 {
+    p->plastic->thorough = p->try > 0;
     rc_plastic_set_increments(p->plastic, p->increments);
     return rc_plastic_set_load(p->plastic, p->load, err);
 }

@@ -33,6 +33,7 @@ enum { /* figures, in order */
     KEPT,
     ELASTIC,
     FEW,
+    ONCE, /* 1: once; 2: thorough */
     INCREMENT,
     TRIAL,
     FROM,
@@ -50,7 +51,7 @@ enum { /* figures, in order */
     ITERATION_ERROR,
     FIGURES
 };
-static const double form = 3; /* of this list */
+static const double form = 4; /* of this list */
 
 enum {                        /* numbers of a voxel behind its place */
     STRAIN = RC_DEVIATOR + 1, /* the place of the equivalent strain */
@@ -150,6 +151,7 @@ rc_plastic_state(const struct rc_plastic *p, double *state)
         [KEPT] = p->kept,
         [ELASTIC] = p->elastic,
         [FEW] = p->few,
+        [ONCE] = p->once + 2 * p->thorough,
         [INCREMENT] = (double)p->increment,
         [TRIAL] = (double)p->trial,
         [FROM] = p->from,
@@ -275,6 +277,8 @@ take_figures(struct rc_plastic *p, const double *s)
     p->kept = s[KEPT];
     p->elastic = s[ELASTIC] != 0;
     p->few = s[FEW] != 0;
+    p->once = s[ONCE] == 1;
+    p->thorough = s[ONCE] >= 2;
     p->low = s[LOW];
     p->high = s[HIGH];
     p->increment = (size_t)s[INCREMENT];

@@ -29,7 +29,8 @@ rc_strained_check(const struct rc_stress_options *o, struct rc_err *err)
     if (e == NULL)
         return RC_OK;
     if (o->body.layers > 0)
-        return rc_err_set(err, "the stress of plastic strain is not known under layers");
+        return rc_err_set(err,
+                          "the stress of plastic strain is not implemented for bodies with layers");
     if (!(o->body.e > 0) || isinf(o->body.e))
         return rc_err_set(err, "the stress of plastic strain needs the body's Young's modulus");
     if (e->slabs == 0)
