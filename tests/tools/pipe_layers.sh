@@ -26,6 +26,9 @@ near "$(field approach same.json)" "$(field approach bare.json)" 1e-9 "  approac
 solve --layer 1mm,1000GPa,0.3,-3GPa --layer 0.5mm,300GPa,0.25 --report pressed.json --output pressure ball.rcg -o pressed.rcg
 solve --layer 1mm,1000GPa,0.3 --layer 0.5mm,300GPa,0.25 --output pressure ball.rcg -o free.rcg
 pressures() { rc-export --format csv "$1" | grep -v '^#' | sha256sum; }
+claim "one without its unit is warned of" warns 'residual stress, 4 Pa, is below a millionth of the modulus of the layer: is its unit right' solve --layer 1mm,1000GPa,0.3,4 --output pressure ball.rcg -o x.rcg
+claim "  and one above the modulus" warns 'residual stress, -3 TPa, is above the modulus of the layer' solve --layer 1mm,1000GPa,0.3,-3e12 --output pressure ball.rcg -o x.rcg
+claim "  others are not" eval 'solve --layer 1mm,1000GPa,0.3,-3GPa --output pressure ball.rcg -o x.rcg 2>none.err && [ ! -s none.err ]'
 claim "a residual stress stands in the stream" says 'layers.residual=-3000000000;0$' rc-info pressed.rcg
 claim "  beside the layers, as they are" says 'layers=0.001,1000000000000,0.3;0.0005,300000000000,0.25;inf,100000000000,0.3$' rc-info pressed.rcg
 claim "  in the history and the report" eval 'says "rc-solve .*--layer 0.001,1000000000000,0.3,-3000000000" rc-info pressed.rcg && says "0.001,1000000000000,0.3,-3000000000; 0.0005" cat pressed.json'

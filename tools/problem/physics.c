@@ -110,6 +110,21 @@ check_elasticity(struct tool *t, struct physics *a)
     a->surface_estar = 1 / (plane_compliance(a->e1, a->nu1) + plane_compliance(a->e2, a->nu2));
 }
 
+/* No residual stress of use is below a millionth of the modulus, and none is above it. */
+static void
+warn_of_residual(struct tool *t, const char *layer, double stress, double e)
+{
+    const double least = 1e-6;
+    char is[SHOWN_NUMBER];
+
+    if (stress != 0 && (fabs(stress) < least * e || fabs(stress) > e))
+        tool_warn(t,
+                  "--layer %s: the residual stress, %s, is %s of the layer: is its unit right, as "
+                  "in -3GPa?",
+                  layer, shown_in_unit(is, stress, "Pa"),
+                  fabs(stress) > e ? "above the modulus" : "below a millionth of the modulus");
+}
+
 /* The layers lie on body 1. History has them in SI. */
 static void
 check_layers(struct tool *t, struct physics *a)
@@ -132,6 +147,7 @@ check_layers(struct tool *t, struct physics *a)
         struct rc_layer *m = &a->layers[k];
         if (layer_read(a->layer.step[k].text, m, &a->residual[k], &err) != RC_OK)
             tool_die(t, EXIT_USAGE, "--layer %s: %s", a->layer.step[k].text, err.text);
+        warn_of_residual(t, a->layer.step[k].text, a->residual[k], m->e);
         if ((si = malloc(4 * RC_NUMBER_SIZE)) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
         snprintf(si, 4 * RC_NUMBER_SIZE, "%s,%s,%s%s%s", rc_number_text(h, m->thickness),
