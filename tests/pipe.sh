@@ -141,3 +141,12 @@ finish() {
     echo "$claims claims, $failures failed"
     [ "$claims" -gt 0 ] && [ "$failures" = 0 ]
 }
+
+# energy_of STREAM CELL OPTIONS: half the sum of the first pressure times the displacement that rc-deflect finds for it, times
+# the area of a cell, m2.
+energy_of() {
+    rc-pick --channel pressure --case 1 "$1" >energy-p.rcg
+    rc-deflect --quiet "${@:3}" -o energy-u.rcg energy-p.rcg
+    paste <(rc-export --format xyz energy-p.rcg | grep -v '^#') <(rc-export --format xyz energy-u.rcg | grep -v '^#') |
+        awk -v cell="$2" '{ sum += $3 * $6 } END { printf "%.17g\n", cell * sum / 2 }'
+}

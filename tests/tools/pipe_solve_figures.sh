@@ -35,6 +35,8 @@ press() { rc-solve --quiet --periodic --load 50mN --estar 3GPa --hardness 100MPa
 export -f press
 press first.json s.rcg -o first.rcg
 between 1e-12 "$(field yielded_area first.json)" "$(field plastic_area first.json)" "some of what is at the hardness yields"
+# half the sum of the pressure times its displacement, which rc-deflect finds
+near "$(field elastic_energy first.json)" "$(energy_of first.rcg 1e-12 --periodic)" 1e-5 "the elastic energy, with nodes at the hardness"
 # the mean of max(gap, 0), from the gaps themselves
 mean=$(rc-export --channel gap --format csv first.rcg | tr ',;\t' '\n\n\n' |
     awk '/^ *-?[0-9]/ { n++; if ($1 > 0) sum += $1 } END { printf "%.17g\n", sum / n }')

@@ -127,6 +127,8 @@ ball="rc-solve --quiet --E1 210GPa --nu1 0.3 --E2 rigid --load 0.3N --yield 2GPa
 $ball --report free.json ball.rcg -o free.rcg
 $ball --periodic --report periodic.json ball.rcg -o periodic.rcg
 near "$(field max_pressure free.json)" "$(field max_pressure periodic.json)" 2e-2 "a ball on a free map is pressed as one on a map that repeats far away"
+near "$(field elastic_energy free.json)" "$(energy_of free.rcg 1e-12)" 1e-5 "  its elastic energy is that of the pressure alone, without the residual displacement"
+near "$(field elastic_energy periodic.json)" "$(energy_of periodic.rcg 1e-12 --periodic)" 1e-5 "  on both"
 near "$(field plastic_depth free.json)" "$(field plastic_depth periodic.json)" "$same" "  and yields as deep"
 near "$(rc-stress --quiet --residual --depths 5um --components sxx free.rcg | rc-info --json | grep -o '"minimum": [^,}]*' | sed 's/.* //')" \
     "$(rc-stress --quiet --residual --depths 5um --components sxx periodic.rcg | rc-info --json | grep -o '"minimum": [^,}]*' | sed 's/.* //')" 3e-2 \

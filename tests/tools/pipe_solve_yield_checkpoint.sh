@@ -75,7 +75,7 @@ near "$(figures_of part.tsv | awk '$1 ~ /^plastic_work/ { print $2 }')" "$(figur
 
 interrupted() {
     local status
-    $solve $history --increments 100 --checkpoint signal.rcg --interval 0.01 --report signal.tsv -o signal-out.rcg rough.rcg &
+    ${solve/--quiet/} $history --increments 100 --checkpoint signal.rcg --interval 0.01 --report signal.tsv -o signal-out.rcg rough.rcg 2>signal.err &
     until [ -s signal.rcg ] && grep -aq '^channel=state$' signal.rcg || ! kill -0 $!; do sleep 0.02; done
     kill -TERM $!
     wait $!
@@ -83,6 +83,7 @@ interrupted() {
     [ $status = 143 ] && rc-info --quiet signal.rcg >/dev/null
 }
 claim "a signal leaves a state" interrupted
+claim "  and what is written is said to be on the way" grep -Eq 'interrupted in increment [0-9]+ of 100: what is written is on the way there, not a solution: its error is not known$' signal.err
 claim "from which it goes on" bash -c "
     $solve $history --increments 100 --checkpoint signal.rcg --resume --report on.tsv -o on.rcg rough.rcg &&
     $solve $history --increments 100 --report straight.tsv -o straight.rcg rough.rcg"
