@@ -766,6 +766,9 @@ struct rc_yield {
                                             last it goes on as between the last two              */
 };
 
+/* Yield stress at an equivalent plastic strain, Pa. */
+RC_API double rc_yield_stress(const struct rc_yield *law, double strain);
+
 struct rc_plastic_problem {
     /* pair.one is the body that yields, with e and nu; its load does not count, nor does an approach; no
      * bound of the pressure */
@@ -846,24 +849,10 @@ RC_API void rc_plastic_free(struct rc_plastic *plastic); /* NULL is allowed */
 RC_API size_t rc_plastic_memory(const struct rc_shape *shape,
                                 const struct rc_plastic_problem *problem, double yielding);
 
-/* Slabs for a body that would yield under the elastic contact pressure p (nx ny Pa): half a node thick
- * at the surface, each by a quarter thicker than the one above, down to below where Mises' stress falls
- * under the yield stress. */
-struct rc_plastic_depths {
-    size_t slabs;         /* 0: nothing yields                                                    */
-    double *thickness;    /* m, of each, the caller's to free; NULL: none                         */
-    double most, deepest; /* Pa, the largest Mises stress, and its depth, m                       */
-};
-/* RC_FAIL as rc_stress_new, and when memory is short. */
-RC_API enum rc_status rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary,
-                                        const double *p, const struct rc_body *body, double yield,
-                                        size_t threads, struct rc_plastic_depths *depths,
-                                        struct rc_err *err);
-
 /* ---- a body that may yield, its elastic contact first: plastic/press.c ---- */
 
 /* As long as nothing yields the elastic contact is the solution. Of the problem thickness NULL lets the slabs
- * be chosen, so many of them (0: those of rc_plastic_depths), increments 0 their number for each load, so
+ * be chosen, so many of them (0: as many as halve, at the surface, the spacing and grow by a quarter), increments 0 their number for each load, so
  * that its estimated error is at most contact.tol (0: 1e-2), and lag 0 what suits that. */
 struct rc_press;
 enum {

@@ -62,6 +62,19 @@ struct rc_plastic {
 
 /* Whether this is a body that can yield. */
 enum rc_status rc_plastic_check(const struct rc_plastic_problem *problem, struct rc_err *err);
+/* Slabs for a body that would yield under the elastic contact pressure p (nx ny Pa): half a node thick
+ * at the surface, each by a quarter thicker than the one above, down to below where Mises' stress falls
+ * under the yield stress. */
+struct rc_plastic_depths {
+    size_t slabs;         /* 0: nothing yields                                                    */
+    double *thickness;    /* m, of each, the caller's to free; NULL: none                         */
+    double most, deepest; /* Pa, the largest Mises stress, and its depth, m                       */
+};
+/* RC_FAIL as rc_stress_new, and when memory is short. */
+enum rc_status rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary,
+                                 const double *p, const struct rc_body *body, double yield,
+                                 size_t threads, struct rc_plastic_depths *depths,
+                                 struct rc_err *err);
 /* n thicknesses to the depth of the stack that rc_plastic_depths has found. */
 void rc_plastic_stack(const struct rc_plastic_depths *found, size_t n, double *thickness);
 /* The contacts are found to this tolerance from the next load that is set. */

@@ -31,8 +31,6 @@ rc_mises_of(const double *s)
 }
 
 enum rc_status rc_yield_check(const struct rc_yield *law, struct rc_err *err);
-/* Yield stress at an equivalent plastic strain. */
-double rc_yield_stress(const struct rc_yield *law, double strain);
 /* The work that hardening has taken from 0 to this strain, J/m^3: the integral of the yield stress. */
 double rc_yield_work(const struct rc_yield *law, double strain);
 /* The growth of the equivalent strain that takes a Mises stress back to the yield stress, which it lowers

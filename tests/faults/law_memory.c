@@ -522,27 +522,19 @@ over_again(struct rc_plastic *plastic, struct rc_err *err)
 static enum rc_status
 yields(double *out, struct rc_err *err)
 {
+    const double thickness[] = {0.5e-6, 0.5e-6, 1e-6, 1e-6};
     struct rc_plastic_problem problem = {
         .contact = {.boundary = RC_PERIODIC, .pair = bare, .tol = 1e-5, .threads = 1},
+        .slabs = 4,
+        .thickness = thickness,
         .increments = 4};
     double *const strain[RC_PLASTIC_STRAINS] = {[RC_PEEQ] = out + N};
-    struct rc_problem elastic = problem.contact;
-    struct rc_plastic_depths depths = {0};
-    struct rc_plastic *plastic = NULL;
+    struct rc_plastic *plastic;
     enum rc_status status = RC_FAIL;
-    struct rc_solver *solver;
     double load;
     size_t increment, application;
 
-    elastic.load = 1e-3;
     problem.yield.stress = bare.one.e / 100;
-    solver = rc_solver_new(&shape, rough, &elastic, err);
-    if (solver == NULL || finish_load(solver, err) != RC_OK ||
-        rc_plastic_depths(&shape, RC_PERIODIC, rc_solver_pressure(solver), &bare.one,
-                          problem.yield.stress, 1, &depths, err) != RC_OK)
-        goto done;
-    problem.slabs = depths.slabs;
-    problem.thickness = depths.thickness;
     plastic = rc_plastic_new(&shape, rough, &problem, err);
     if (plastic == NULL)
         goto done;
@@ -567,10 +559,9 @@ yields(double *out, struct rc_err *err)
     rc_plastic_strain(plastic, 0, strain);
     out[3 * N] = rc_plastic_result(plastic)->depth;
     out[3 * N + 1] = (double)rc_plastic_memory(&shape, &problem, 0.1);
+    out[3 * N + 2] = rc_yield_stress(&problem.yield, 0);
 done:
     rc_plastic_free(plastic);
-    rc_solver_free(solver);
-    free(depths.thickness);
     return status;
 }
 

@@ -158,13 +158,7 @@ yield_law_check(struct tool *t, const struct yield_law *read, const struct physi
                      "a body that yields inside must be compressible");
     yield_law_refuse(t, a->approach.n > 0, "--approach",
                      "a body that yields follows loads: give --load or --mean-pressure");
-    check_unit(t, yield_law_first(law), a->surface_estar);
-}
-
-double
-yield_law_first(const struct rc_yield *law)
-{
-    return law->points > 0 ? law->stress_at[0] : law->stress;
+    check_unit(t, rc_yield_stress(law, 0), a->surface_estar);
 }
 
 double
@@ -175,22 +169,4 @@ yield_law_hardening(const struct rc_yield *law)
     return law->points == 1
                ? 0
                : (law->stress_at[1] - law->stress_at[0]) / (law->strain_at[1] - law->strain_at[0]);
-}
-
-/* With the growth of the stack that was found, to the power of how many more there are, its slabs are
- * divided, or put together, all alike. */
-double *
-yield_stack(const struct rc_plastic_depths *found, size_t n)
-{
-    double depth = 0, first, growth;
-    double *thickness = malloc(n * sizeof *thickness);
-
-    for (size_t k = 0; k < found->slabs; k++)
-        depth += found->thickness[k];
-    first = found->slabs > 1 ? found->thickness[1] / found->thickness[0] : 1;
-    growth = pow(first, (double)found->slabs / (double)n);
-    first = growth > 1 ? depth * (growth - 1) / (pow(growth, (double)n) - 1) : depth / (double)n;
-    for (size_t k = 0; k < n && thickness != NULL; k++, first *= growth)
-        thickness[k] = first;
-    return thickness;
 }

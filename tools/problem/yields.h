@@ -19,12 +19,7 @@ enum rc_status yield_law_read(struct yield_law *law, const char *text, struct rc
 void yield_law_refuse(struct tool *tool, bool given, const char *what, const char *why);
 /* The same for all of the physics that does not, and for a yield stress whose unit was forgotten. */
 void yield_law_check(struct tool *tool, const struct yield_law *law, const struct physics *physics);
-/* Pa: the yield stress of what has not yielded. */
-double yield_law_first(const struct rc_yield *law);
-/* Pa: by which that grows at first, per equivalent plastic strain. */
+/* Pa: growth of the yield stress at first, per equivalent plastic strain. */
 double yield_law_hardening(const struct rc_yield *law);
-/* Thicknesses of n slabs to the depth of the stack that rc_plastic_depths has found, which the caller
- * frees. NULL: memory is short. */
-double *yield_stack(const struct rc_plastic_depths *found, size_t n);
 
 #endif

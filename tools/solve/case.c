@@ -106,7 +106,7 @@ solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
     set_number(run, g, "approach", c->approach);
     /* who reads the stream finds the strain behind the pressure, or misses it */
     set_number(run, g, "slabs", yields ? (double)run->yielding.found->slabs : NAN);
-    set_number(run, g, "yield", yields ? yield_law_first(law) : NAN);
+    set_number(run, g, "yield", yields ? rc_yield_stress(law, 0) : NAN);
     set_number(run, g, "hardening", yields ? yield_law_hardening(law) : NAN);
 }
 

@@ -340,7 +340,7 @@ yield_peak(const struct run *run, double max_pressure, const char **name)
         10; /* hardening below so many times the yield stress lets nodes alternate */
     const struct yielding *y = &run->yielding;
     const bool alternates =
-        y->plastic != NULL && yield_law_hardening(&y->law) < soft * yield_law_first(&y->law);
+        y->plastic != NULL && yield_law_hardening(&y->law) < soft * rc_yield_stress(&y->law, 0);
 
     if (name != NULL)
         *name = alternates ? "largest pressure over 2 x 2 nodes" : "largest pressure";
@@ -559,7 +559,7 @@ yield_report(struct report *r, const struct run *run)
     const struct yielding *y = &run->yielding;
     const bool on = y->plastic != NULL;
     const struct rc_plastic_figures none = {0}, *f = on ? rc_plastic_result(y->plastic) : &none;
-    double stress = yield_law_first(&y->law);
+    double stress = rc_yield_stress(&y->law, 0);
 
     report_number(r, "yield", y->wanted ? stress : NAN, "Pa");
     report_number(r, "hardening", y->wanted && y->law.points == 0 ? y->law.modulus : NAN, "Pa");
