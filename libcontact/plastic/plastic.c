@@ -702,13 +702,15 @@ compare_order(struct rc_plastic *p, struct rc_err *err)
  * volume: their stress, as the modulus times the strain that is spread over the cube of a side, beside the
  * pressure. Measured on balls, whose contact takes 5 to 28 % of the map: 0.4 to 0.47 of this without the
  * factor. Those of the load: the mean pressure of the map with its padding beside the yield stress; half of
- * it is enough on 212 balls, pairs of balls and rough balls, 0.4 on all but one of them. */
+ * it is enough on 212 balls, pairs of balls and rough balls, 0.4 on all but one of them. Where few nodes touch,
+ * one of them bears most, and what changes its limit the others must bear: times 20, 5 and 3 at 3, 6 and 8
+ * nodes, which 1 + (13 / nodes)^2 covers. */
 static double
 image_error(const struct rc_plastic *p)
 {
-    const double most = 0.6, share = 0.5, *v = pressure(p);
+    const double most = 0.6, share = 0.5, few = 13, least = 3, *v = pressure(p);
     double area = (double)p->n * p->shape.dx * p->shape.dy, side = sqrt(area), sum = 0;
-    size_t touching = 0;
+    double touching = 0, each;
 
     if (p->round || v == NULL || rc_voxels_count(&p->voxels) == 0)
         return 0;
@@ -716,9 +718,10 @@ image_error(const struct rc_plastic *p)
         sum += v[k];
         touching += v[k] > 0;
     }
+    each = few / fmax(touching, least);
     return most * 2 * (1 + p->nu) * p->shear * p->figures.strained /
-               (side * side * side * sum / (double)touching) +
-           share * sum / (double)p->n / (4 * p->yield);
+               (side * side * side * sum / touching) +
+           share * (1 + each * each) * sum / (double)p->n / (4 * p->yield);
 }
 
 /* Of the pressure, from the tolerance of this contact and of those that flow has kept. */

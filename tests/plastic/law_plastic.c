@@ -397,6 +397,55 @@ free_maps(void **state)
     rc_plastic_free(plastic[1]);
 }
 
+/* A ball beside the middle of the nodes, where 3 and 8 of them touch, on a map and on one three times as wide. */
+static void
+free_maps_of_few_nodes(void **state)
+{
+    enum {
+        SLABS = 10,
+        SMALL = 16,
+        LARGE = 48
+    };
+    const double radius = 20, yield = 0.005, loads[] = {2, 9};
+    double thickness[SLABS];
+
+    (void)state;
+    for (size_t k = 0; k < SLABS; k++)
+        thickness[k] = 0.5 * pow(1.3, (double)k);
+    for (size_t l = 0; l < 2; l++) {
+        struct rc_plastic *plastic[2];
+        double off = 0, all = 0, said;
+        for (int q = 0; q < 2; q++) {
+            static double h[LARGE * LARGE];
+            size_t n = q == 0 ? SMALL : LARGE;
+            struct rc_plastic_problem problem = {.contact = {.pair.one.nu = 0.3, .tol = 1e-5},
+                                                 .yield = {.stress = yield},
+                                                 .slabs = SLABS,
+                                                 .thickness = thickness,
+                                                 .increments = 8};
+            for (size_t k = 0; k < n * n; k++)
+                h[k] = -(pow((double)(k % n) - (double)(n - 1) / 2 + 0.3, 2) +
+                         pow((double)(k / n) - (double)(n - 1) / 2 + 0.3, 2)) /
+                       (2 * radius);
+            plastic[q] = plastic_new((struct rc_shape){n, n, 1, 1}, h, problem);
+            (void)pressed(plastic[q], loads[l] * 2 * yield);
+        }
+        for (size_t k = 0; k < SMALL * SMALL; k++) {
+            size_t there =
+                (k / SMALL + (LARGE - SMALL) / 2) * LARGE + k % SMALL + (LARGE - SMALL) / 2;
+            double p = rc_solver_pressure(rc_plastic_solver(plastic[0]))[k];
+            double q = rc_solver_pressure(rc_plastic_solver(plastic[1]))[there];
+            off += fabs(p - q);
+            all += q;
+        }
+        said = rc_plastic_result(plastic[0])->image_error;
+        print_message("few nodes: images %.1e, told %.1e\n", off / all, said);
+        assert_true(said >= off / all);
+        rc_plastic_free(plastic[0]);
+        rc_plastic_free(plastic[1]);
+    }
+}
+
 /* ---- rolling ---- */
 
 /* A cylinder rolls over a body without hardening, round and round a period: what the equivalent strain, where
@@ -982,12 +1031,19 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(onset),         cmocka_unit_test(ball_hardness),
-        cmocka_unit_test(fully_plastic), cmocka_unit_test(let_go),
-        cmocka_unit_test(free_maps),     cmocka_unit_test(shakedown),
-        cmocka_unit_test(estimate),      cmocka_unit_test(inherits),
-        cmocka_unit_test(goes_on),       cmocka_unit_test(refuses_states),
-        cmocka_unit_test(is_lean),       cmocka_unit_test(elastic_first),
+        cmocka_unit_test(onset),
+        cmocka_unit_test(ball_hardness),
+        cmocka_unit_test(fully_plastic),
+        cmocka_unit_test(let_go),
+        cmocka_unit_test(free_maps_of_few_nodes),
+        cmocka_unit_test(free_maps),
+        cmocka_unit_test(shakedown),
+        cmocka_unit_test(estimate),
+        cmocka_unit_test(inherits),
+        cmocka_unit_test(goes_on),
+        cmocka_unit_test(refuses_states),
+        cmocka_unit_test(is_lean),
+        cmocka_unit_test(elastic_first),
         cmocka_unit_test(chooses),
     };
 
