@@ -1,7 +1,8 @@
 /*
  * The verbs of libcontact: contact of rough surfaces on elastic half-spaces.
  *
- * Physics on arrays: nothing here reads or writes files, prints, or keeps state between calls.
+ * Physics on arrays: nothing here reads or writes files, prints, or keeps state between calls, but for
+ * the memory budget of grid.h.
  * Arrays hold nx*ny doubles in the layout of grid.h. Everything is SI: metres, pascals, newtons.
  * Pressure is compression positive, displacement positive into the body, heights positive towards
  * the other body, stresses tension positive, depth positive below the surface. On the free
@@ -177,8 +178,6 @@ struct rc_filter {
  * infinite, or memory is short; h is then as it was. */
 RC_API enum rc_status rc_filter(const struct rc_shape *shape, const struct rc_filter *what,
                                 double *h, struct rc_err *err);
-/* Bytes that it takes beside h; 0 for a cut-off that it refuses, and when not even its plan has room. */
-RC_API size_t rc_filter_memory(const struct rc_shape *shape, const struct rc_filter *what);
 
 /* Makes points missing that lie further than `times` times the spread from the median of the others
  * in the 5 x 5 nodes around them; *count counts them. The spread is 1.4826 times the median
@@ -188,8 +187,6 @@ RC_API size_t rc_filter_memory(const struct rc_shape *shape, const struct rc_fil
  * as it was. */
 RC_API enum rc_status rc_outliers(const struct rc_shape *shape, double times, bool periodic,
                                   size_t threads, double *h, size_t *count, struct rc_err *err);
-/* Bytes that it takes beside h. */
-RC_API size_t rc_outliers_memory(const struct rc_shape *shape, size_t threads);
 
 /* Leads the outer `width` (m) of the map to the mean of all heights: the difference from the mean
  * is multiplied by (1 - cos(pi s / width)) / 2 for either direction, s being the distance of the
@@ -208,8 +205,6 @@ RC_API void rc_taper_frame(const struct rc_shape *shape, double width, size_t *c
  * nothing was measured, a value is infinite, or memory is short. */
 RC_API enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled,
                                  struct rc_err *err);
-/* Bytes that it takes beside h for so many missing values. */
-RC_API size_t rc_inpaint_memory(size_t missing);
 
 /* Width of the widest hole in m: twice the largest distance of a missing value (NaN) from the nearest
  * one that is there, node to node: 2 min(dx, dy) for a single missing node, and for a disc its
@@ -390,9 +385,6 @@ struct rc_areal {
 RC_API enum rc_status rc_areal(const struct rc_shape *shape, const double *h,
                                const struct rc_surface_options *options, struct rc_areal *areal,
                                struct rc_err *err);
-/* Bytes that it takes beside h, of which so many are missing. */
-RC_API size_t rc_areal_memory(const struct rc_shape *shape, size_t missing,
-                              const struct rc_surface_options *options);
 
 /* Feature parameters of ISO 25178-2: by watershed over eight neighbours, pruned by Wolf's rule at 5 % of
  * Sz, about the mean of what is there. NAN: not defined, as of a flat and of a map of less than 3 nodes a
@@ -411,8 +403,6 @@ struct rc_features {
 RC_API enum rc_status rc_features(const struct rc_shape *shape, const double *h,
                                   const struct rc_surface_options *options,
                                   struct rc_features *features, struct rc_err *err);
-/* Bytes that it takes beside h, of a surface that is rough down to the grid. */
-RC_API size_t rc_features_memory(const struct rc_shape *shape);
 
 /* Parameters of ISO 21920-2, about the mean. NAN: not defined. */
 struct rc_profile {
@@ -472,8 +462,6 @@ RC_API struct rc_psd *rc_psd_new(const struct rc_shape *shape, const double *h,
 /* Name of window k = 0, 1, ...: none, hann, hamming, blackman; NULL past the last. */
 RC_API const char *rc_window_name(size_t k);
 RC_API void rc_psd_free(struct rc_psd *psd); /* NULL is allowed */
-/* Bytes that making it takes beside h and map. */
-RC_API size_t rc_psd_memory(const struct rc_shape *shape);
 
 /* ---- bodies ---- */
 
@@ -1075,8 +1063,8 @@ RC_API struct rc_leak *rc_leak_new(const struct rc_shape *shape, const double *p
  * that is not finite leaves all as it was. After RC_FAIL for want of memory it is of no further use. */
 RC_API enum rc_status rc_leak_set_gap(struct rc_leak *leak, const double *p, const double *g,
                                       struct rc_err *err);
-/* RC_MORE until the flow is known, then RC_OK: two steps. The first takes what rc_leak_step_memory
- * says; RC_FAIL when that is not there. */
+/* RC_MORE until the flow is known, then RC_OK: two steps. RC_FAIL when memory is short, before
+ * the first begins to eliminate. */
 RC_API enum rc_status rc_leak_step(struct rc_leak *leak, struct rc_err *err);
 /* What percolates and where is known at once, conductances after the last step. */
 RC_API const struct rc_leak_figures *rc_leak_result(const struct rc_leak *leak);
@@ -1089,9 +1077,6 @@ RC_API void rc_leak_flux(const struct rc_leak *leak, double *flux);
 /* 0 in contact, 1 where fluid stands (dead ends, shut in), 2 where it flows. */
 RC_API void rc_leak_channel(const struct rc_leak *leak, double *channel);
 RC_API void rc_leak_free(struct rc_leak *leak); /* NULL is allowed */
-/* Bytes that rc_leak_new takes at most; those that the steps take more than are held after it. */
-RC_API size_t rc_leak_memory(const struct rc_shape *shape);
-RC_API size_t rc_leak_step_memory(const struct rc_leak *leak);
 
 /* ---- friction in the contact: slip/slip.c ---- */
 

@@ -44,6 +44,22 @@ RC_API enum rc_status rc_err_set(struct rc_err *err, const char *format, ...)
 #endif
     ;
 
+/* What the library and the tools have allocated, in bytes. Code, the stacks of threads, arrays of the caller and
+ * what other libraries take for themselves do not count. */
+struct rc_memory {
+    size_t held;
+    size_t peak; /* the most so far                                                             */
+    size_t refused; /* what would have been held with the block refused last since the budget was
+                       set; 0: none                                                                 */
+};
+
+/* Bytes that the library may hold in this process; 0, the default: any. What would need more fails as where
+ * memory is short: makers and verbs allocate their maps before they iterate. */
+RC_API void rc_memory_budget(size_t bytes);
+/* Whether so much more may be taken. */
+RC_API bool rc_memory_ask(size_t bytes);
+RC_API struct rc_memory rc_memory_held(void);
+
 /* What physics on arrays needs to know of a grid. Sizes count nodes; spacings are in metres. */
 struct rc_shape {
     size_t nx, ny;

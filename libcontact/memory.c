@@ -1,4 +1,11 @@
 #define _DEFAULT_SOURCE /* madvise */
+#undef malloc
+#undef calloc
+#undef realloc
+#undef aligned_alloc
+#undef free
+#include <malloc.h>
+#include <stdatomic.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +22,156 @@ enum {
         2 * 1024 * 1024 /* the page that x86-64 and most ARM systems have beside the usual one */
 };
 
+/* ---- budget ---- */
+
+static atomic_size_t held, lent, peak, budget, refused; /* bytes; budget and refused 0: none */
+static _Thread_local struct {
+    bool on;
+    size_t bytes;
+} lending;
+
+/* Blocks of other libraries that are freed here were never added. */
+static size_t
+held_now(void)
+{
+    const size_t now = atomic_load_explicit(&held, memory_order_relaxed) -
+                       atomic_load_explicit(&lent, memory_order_relaxed);
+
+    return now > SIZE_MAX / 2 ? 0 : now;
+}
+
+void
+rc_memory_budget(size_t bytes)
+{
+    atomic_store(&budget, bytes);
+    atomic_store(&refused, 0);
+}
+
+bool
+rc_memory_ask(size_t bytes)
+{
+    const size_t now = held_now(), with = bytes > SIZE_MAX - now ? SIZE_MAX : now + bytes;
+    const size_t allowed = atomic_load_explicit(&budget, memory_order_relaxed);
+
+    if (allowed == 0 || with <= allowed || lending.on)
+        return true;
+    atomic_store(&refused, with);
+    return false;
+}
+
+struct rc_memory
+rc_memory_held(void)
+{
+    return (struct rc_memory){held_now(), atomic_load(&peak), atomic_load(&refused)};
+}
+
+/* ---- blocks ---- */
+
+void
+rc_memory_lend(void)
+{
+    lending.on = true;
+    lending.bytes = 0;
+}
+
+size_t
+rc_memory_lent(void)
+{
+    lending.on = false;
+    return lending.bytes;
+}
+
+void
+rc_memory_return(size_t bytes)
+{
+    atomic_fetch_sub(&lent, bytes);
+}
+
+static void
+lend(size_t bytes)
+{
+    if (!lending.on)
+        return;
+    lending.bytes += bytes;
+    atomic_fetch_add(&lent, bytes);
+}
+
+/* What a block counts. The C library maps up to one large page more behind one that is aligned so: rc_alloc
+ * leaves the true size at the block's end. */
+static size_t
+size_of(void *at)
+{
+    const size_t usable = malloc_usable_size(at);
+    size_t bytes;
+
+    if ((uintptr_t)at % LARGE != 0 || usable < LARGE)
+        return usable;
+    memcpy(&bytes, (char *)at + usable - sizeof bytes, sizeof bytes);
+    return bytes;
+}
+
+static void *
+add(void *at)
+{
+    const size_t bytes = size_of(at);
+    size_t most = atomic_load_explicit(&peak, memory_order_relaxed), now;
+
+    lend(bytes);
+    atomic_fetch_add_explicit(&held, bytes, memory_order_relaxed);
+    now = held_now();
+    while (now > most && !atomic_compare_exchange_weak(&peak, &most, now))
+        continue;
+    return at;
+}
+
+static void
+take_off(size_t bytes)
+{
+    lend(-bytes);
+    atomic_fetch_sub_explicit(&held, bytes, memory_order_relaxed);
+}
+
+void *
+rc_malloc(size_t bytes)
+{
+    return rc_memory_ask(bytes) ? add(malloc(bytes)) : NULL;
+}
+
+void *
+rc_calloc(size_t n, size_t size)
+{
+    const size_t bytes = size != 0 && n > SIZE_MAX / size ? SIZE_MAX : n * size;
+
+    return rc_memory_ask(bytes) ? add(calloc(n, size)) : NULL;
+}
+
+void *
+rc_realloc(void *at, size_t bytes)
+{
+    const size_t before = size_of(at);
+    void *now;
+
+    if (bytes > before && !rc_memory_ask(bytes - before))
+        return NULL;
+    if ((now = realloc(at, bytes)) == NULL)
+        return NULL;
+    take_off(before);
+    return add(now);
+}
+
+void *
+rc_aligned_alloc(size_t line, size_t bytes)
+{
+    return rc_memory_ask(bytes) ? add(aligned_alloc(line, bytes)) : NULL;
+}
+
+void
+rc_free(void *at)
+{
+    take_off(size_of(at));
+    free(at);
+}
+
 void *
 rc_alloc(size_t n, size_t size)
 {
@@ -24,14 +181,17 @@ rc_alloc(size_t n, size_t size)
     if (size != 0 && n > SIZE_MAX / 2 / size)
         return NULL;
     bytes = n * size;
-    if (posix_memalign(&at, bytes < LARGE ? LINE : LARGE, bytes > 0 ? bytes : 1) != 0)
+    if (bytes < LARGE)
+        return rc_memory_ask(bytes) && posix_memalign(&at, LINE, bytes > 0 ? bytes : 1) == 0
+                   ? add(at)
+                   : NULL;
+    if (!rc_memory_ask(bytes) || posix_memalign(&at, LARGE, bytes + sizeof bytes) != 0)
         return NULL;
+    memcpy((char *)at + malloc_usable_size(at) - sizeof bytes, &bytes, sizeof bytes);
 #ifdef MADV_HUGEPAGE
-    if (bytes >= LARGE)
-        (void)madvise(at, bytes / LARGE * LARGE,
-                      MADV_HUGEPAGE); /* a wish: refused, nothing is lost */
+    (void)madvise(at, bytes / LARGE * LARGE, MADV_HUGEPAGE); /* a wish: refused, nothing is lost */
 #endif
-    return at;
+    return add(at);
 }
 
 #ifdef __SSE2__

@@ -287,8 +287,6 @@ main(int argc, char **argv)
     open_two(&t, &b);
     while ((a = tool_channel(&t, "height", true)) != NULL) {
         next_second(&t, &b, a);
-        if (b.t.expected_memory > t.expected_memory) /* that reader knew of A in memory */
-            t.expected_memory = b.t.expected_memory;
         t.missing |= b.t.missing;
         t.infinite |= b.t.infinite;
         demand_heights(&t, a);

@@ -47,14 +47,11 @@ static enum rc_status
 remove_form(struct tool *t, struct rc_grid *g, struct rc_form form, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(g);
-    size_t n = g->nx * g->ny;
     char where[256], text[SHOWN_NUMBER];
     double radius;
 
     form.robust = args.robust;
     form.threads = t->threads;
-    /* the residuals, and those near their median */
-    tool_demand_memory(t, g, args.robust ? (n + n / 32) * sizeof *g->v : 0);
     if (rc_detrend_form(&shape, &form, g->v, &radius, err) != RC_OK)
         return RC_FAIL;
     tool_where(t, g, where, sizeof where);
@@ -87,7 +84,6 @@ rows(struct tool *t, struct rc_grid *g, double degree, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(g);
 
-    tool_demand_memory(t, g, degree > 0 ? 16 * g->nx * sizeof *g->v : 0);
     if (rc_detrend_rows(&shape, (size_t)degree, args.robust, g->v, err) != RC_OK)
         return RC_FAIL;
     return degree > 0 ? end_period(t, g, err) : RC_OK;
@@ -117,7 +113,6 @@ filter(struct tool *t, struct rc_grid *g, double cutoff, bool high, struct rc_er
                                    .periodic = is_periodic(g),
                                    .threads = t->threads};
 
-    tool_demand_memory(t, g, rc_filter_memory(&shape, &what));
     return rc_filter(&shape, &what, g->v, err);
 }
 
@@ -151,7 +146,6 @@ outliers(struct tool *t, struct rc_grid *g, double times, struct rc_err *err)
     size_t count, nodes = g->nx * g->ny;
     char where[256];
 
-    tool_demand_memory(t, g, rc_outliers_memory(&shape, t->threads));
     if (rc_outliers(&shape, times, is_periodic(g), t->threads, g->v, &count, err) != RC_OK)
         return RC_FAIL;
     t->missing = true;
@@ -212,7 +206,7 @@ mirror(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
     size_t nodes, bytes;
     double *v;
 
-    (void)value;
+    (void)t, (void)value;
     if (rc_grid_get(g, "section") != NULL || strcmp(rc_grid_dunit(g), "m") != 0)
         return rc_err_set(err, "--mirror: the frame is no map of places: leave it out, with "
                                "rc-pick --channel");
@@ -224,7 +218,6 @@ mirror(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
     if (rc_shape_check(&to, err) != RC_OK || rc_size_mul(to.nx, to.ny, &nodes, err) != RC_OK ||
         rc_size_mul(nodes, sizeof *v, &bytes, err) != RC_OK)
         return RC_FAIL;
-    tool_demand_memory(t, g, bytes);
     if ((v = malloc(bytes)) == NULL)
         return rc_err_set(err, "out of memory for %zu x %zu nodes", to.nx, to.ny);
     rc_reflect(&from, g->v, v);
@@ -259,7 +252,6 @@ warn_of_holes(struct tool *t, const struct rc_grid *g, size_t missing, struct rc
 
     if ((double)missing <= filled_much * (double)nodes || missing == nodes || t->quiet)
         return RC_OK;
-    tool_demand_memory(t, g, nodes * sizeof(uint32_t));
     if (rc_hole_width(&shape, g->v, &width, err) != RC_OK)
         return RC_FAIL;
     tool_warn(
@@ -279,7 +271,6 @@ fill(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
     size_t filled, nodes = g->nx * g->ny, missing = count_missing(g);
 
     (void)value;
-    tool_demand_memory(t, g, rc_inpaint_memory(missing));
     if (warn_of_holes(t, g, missing, err) != RC_OK)
         return RC_FAIL;
     if (rc_inpaint(&shape, g->v, &filled, err) != RC_OK)

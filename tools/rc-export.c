@@ -214,7 +214,6 @@ with_rows_of(struct tool *t, const struct rc_grid *g, const struct rc_shape *sha
     struct rc_err err;
     struct rc_grid *to;
 
-    tool_demand_memory(t, g, shape->nx * shape->ny * sizeof *g->v);
     to = rc_grid_new(shape, g->channel, g->unit, &err);
     for (size_t k = 0; to != NULL && k < g->keys; k++)
         if (rc_grid_set(to, g->key[k].name, g->key[k].value, &err) != RC_OK)

@@ -155,13 +155,11 @@ write_frame(struct run *run, const struct leak_case *c, const struct rc_leak *le
 static void
 solve(struct run *run, const struct leak_case *c, struct rc_leak *leak)
 {
-    size_t nodes = rc_grid_nodes(c->gap), bytes = rc_leak_step_memory(leak);
     enum rc_status status;
     struct rc_err err;
 
-    if (bytes < nodes * sizeof(double)) /* a frame, after it */
-        bytes = nodes * sizeof(double);
-    tool_demand_memory(&run->t, c->gap, bytes);
+    tool_demand_memory(&run->t, c->gap,
+                       rc_grid_nodes(c->gap) * sizeof(double)); /* a frame, after it */
     tool_progress(&run->t, "flow through %zu nodes", c->figures->unknowns);
     while ((status = rc_leak_step(leak, &err)) == RC_MORE)
         continue;
@@ -191,7 +189,6 @@ do_case(struct run *run, const struct rc_grid *gap)
 
     tool_demand_finite(&run->t, gap, "recompute the map");
     touch = look_at_contact(run, &c);
-    tool_demand_memory(&run->t, gap, rc_leak_memory(&shape));
     leak = rc_leak_new(&shape, touch == NULL ? NULL : touch->v, gap->v, &options, &err);
     if (leak == NULL)
         tool_die_at(&run->t, gap, EXIT_IMPOSSIBLE, "%s", err.text);

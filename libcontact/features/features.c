@@ -163,13 +163,3 @@ rc_features(const struct rc_shape *shape, const double *h, const struct rc_surfa
     free(f.hill);
     return status;
 }
-
-/* Of a rough surface one node in twenty is a peak. */
-size_t
-rc_features_memory(const struct rc_shape *shape)
-{
-    size_t nodes = shape->nx * shape->ny;
-
-    return nodes * (1 + sizeof(uint32_t)) + nodes / 20 * sizeof(struct rc_hill) +
-           rc_hills_prune_memory(shape);
-}

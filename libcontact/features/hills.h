@@ -124,7 +124,5 @@ enum rc_status rc_hills_find(struct rc_field *field, struct rc_hills *hills);
 
 /* saddles.c: prunes them by Wolf's rule, and counts their nodes. RC_FAIL likewise. */
 enum rc_status rc_hills_prune(const struct rc_field *field, struct rc_hills *hills);
-/* Bytes that it takes. */
-size_t rc_hills_prune_memory(const struct rc_shape *shape);
 
 #endif

@@ -314,10 +314,3 @@ rc_hills_prune(const struct rc_field *f, struct rc_hills *s)
     }
     return status;
 }
-
-/* Of a rough surface one node in twenty is a peak, and each has three saddles, which are there twice. */
-size_t
-rc_hills_prune_memory(const struct rc_shape *shape)
-{
-    return shape->nx * shape->ny / 20 * 3 * 2 * sizeof(struct saddle);
-}

@@ -158,9 +158,3 @@ rc_blocks_fill(const struct rc_passage *a, const struct rc_levels *levels, struc
     free(seen);
     return status;
 }
-
-size_t
-rc_blocks_memory(size_t nodes)
-{
-    return nodes * (3 * sizeof(int32_t) + 2);
-}

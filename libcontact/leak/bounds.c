@@ -161,9 +161,3 @@ done:
     free(r.way);
     return status;
 }
-
-size_t
-rc_leak_bounds_memory(size_t nodes)
-{
-    return nodes * (sizeof(double) + sizeof(int32_t) + 1);
-}

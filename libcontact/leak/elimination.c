@@ -159,15 +159,6 @@ failed:
 
 /* ---- taking out ---- */
 
-size_t
-rc_elimination_memory(const struct rc_elimination *e)
-{
-    size_t n = (size_t)e->n;
-
-    return e->start[n] * (sizeof *e->row + sizeof *e->c) +
-           n * (5 * sizeof(double) + sizeof *e->at + 3 * sizeof(int32_t));
-}
-
 static void
 drop_room(struct rc_elimination *e)
 {
@@ -352,11 +343,4 @@ rc_elimination_free(struct rc_elimination *e)
     free(e->node);
     free(e->start);
     free(e);
-}
-
-size_t
-rc_elimination_new_memory(size_t nodes)
-{
-    return nodes * (2 * sizeof(int32_t) + sizeof(size_t) + (2 + RC_DIRECTIONS) * sizeof(int32_t)) +
-           rc_ordering_memory(nodes);
 }

@@ -236,27 +236,6 @@ rc_leak_set_gap(struct rc_leak *l, const double *p, const double *g, struct rc_e
                                                                               : RC_FAIL;
 }
 
-size_t
-rc_leak_memory(const struct rc_shape *s)
-{
-    size_t n = s->nx * s->ny, most = rc_percolation_memory(n);
-
-    if (most < rc_elimination_new_memory(n))
-        most = rc_elimination_new_memory(n);
-    if (most < rc_blocks_memory(n))
-        most = rc_blocks_memory(n);
-    return n * (3 * sizeof(double) + 2) + most;
-}
-
-size_t
-rc_leak_step_memory(const struct rc_leak *l)
-{
-    size_t n = l->shape.nx * l->shape.ny, after = rc_leak_bounds_memory(n);
-    size_t most = l->elimination == NULL ? 0 : rc_elimination_memory(l->elimination);
-
-    return most > after ? most : after;
-}
-
 /* ---- steps ---- */
 
 static enum rc_status

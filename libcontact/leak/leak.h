@@ -115,7 +115,6 @@ struct rc_critical {
  * stand on inlet and outlet; every node that they reach is in one of them. */
 enum rc_status rc_percolation(const struct rc_passage *a, struct rc_critical *critical,
                               uint8_t *tree, struct rc_err *err);
-size_t rc_percolation_memory(size_t nodes);
 
 /* ---- blocks.c ---- */
 
@@ -125,7 +124,6 @@ enum rc_status rc_blocks(struct rc_passage *a, struct rc_err *err);
  * where they are shut in; and nodes in contact NAN. */
 enum rc_status rc_blocks_fill(const struct rc_passage *a, const struct rc_levels *levels,
                               struct rc_err *err);
-size_t rc_blocks_memory(size_t nodes);
 
 /* ---- ordering.c ---- */
 
@@ -134,7 +132,6 @@ size_t rc_blocks_memory(size_t nodes);
  * library was built without an ordering. */
 enum rc_status rc_ordering(int32_t n, const int32_t *start, const int32_t *row, int32_t *order,
                            struct rc_err *err);
-size_t rc_ordering_memory(size_t nodes);
 
 /* ---- elimination.c ---- */
 
@@ -142,15 +139,12 @@ struct rc_elimination;
 
 /* NULL when memory is short, or as rc_ordering. */
 struct rc_elimination *rc_elimination_new(const struct rc_passage *a, struct rc_err *err);
-/* Bytes that the first rc_elimination_run takes. */
-size_t rc_elimination_memory(const struct rc_elimination *e);
 /* The conductance from inlet to outlet. RC_FAIL when memory is short. */
 enum rc_status rc_elimination_run(struct rc_elimination *e, const struct rc_passage *a,
                                   enum rc_face_rule rule, double *conductance, struct rc_err *err);
 /* After it: the levels of nodes that flow. */
 void rc_elimination_levels(struct rc_elimination *e, const struct rc_levels *levels);
 void rc_elimination_free(struct rc_elimination *e); /* NULL is allowed */
-size_t rc_elimination_new_memory(size_t nodes);     /* bytes that rc_elimination_new takes */
 
 /* ---- bounds.c ---- */
 
@@ -161,6 +155,5 @@ enum rc_status rc_leak_bounds(const struct rc_passage *a, const uint8_t *tree,
 /* c dP through a face of conductance c, from node k. */
 double rc_leak_driven(const struct rc_passage *a, const struct rc_levels *levels, int32_t k,
                       int32_t other, enum rc_direction d, double *c);
-size_t rc_leak_bounds_memory(size_t nodes);
 
 #endif

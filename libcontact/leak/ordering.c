@@ -22,10 +22,3 @@ rc_ordering(int32_t n, const int32_t *start, const int32_t *row, int32_t *order,
     return rc_err_set(err, "this build has no flow through gaps: AMD of SuiteSparse was not found");
 }
 #endif
-
-size_t
-rc_ordering_memory(size_t nodes)
-{
-    return (nodes * (4 + 1 + 7) + nodes) *
-           sizeof(int32_t); /* amd.h: nz + nz/5 + 7 n, and lengths */
-}

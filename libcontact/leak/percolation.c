@@ -166,9 +166,3 @@ done:
     free(parent);
     return status;
 }
-
-size_t
-rc_percolation_memory(size_t nodes)
-{
-    return nodes * (2 * sizeof(struct opening) + sizeof(int32_t)); /* qsort takes a copy */
-}

@@ -33,6 +33,7 @@ void
 rc_nested_free(struct rc_solver *s)
 {
     rc_solver_free(s->nested.coarse);
+    rc_memory_return(s->nested.lent);
     s->nested = (struct rc_nested){.ahead = false};
 }
 
@@ -455,7 +456,9 @@ rc_nested_step(struct rc_solver *s)
     struct rc_solver *c;
 
     if (s->nested.coarse == NULL) {
+        rc_memory_lend();
         s->nested.coarse = coarse_new(s, &s->nested.sought);
+        s->nested.lent = rc_memory_lent();
         if (s->nested.coarse == NULL)
             rc_nested_free(s);
         return;

@@ -133,6 +133,7 @@ struct rc_nested {
     bool ahead;               /* there is one, and it is not done                            */
     struct rc_solver *coarse; /* NULL: not yet begun                                         */
     bool sought; /* the coarse grid seeks the load too, and this grid begins with its result */
+    size_t lent; /* bytes of the coarser solver */
 };
 
 struct rc_solver {

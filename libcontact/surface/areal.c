@@ -319,13 +319,3 @@ done:
     free(piece);
     return status;
 }
-
-size_t
-rc_areal_memory(const struct rc_shape *shape, size_t missing,
-                const struct rc_surface_options *options)
-{
-    size_t sorted = rc_material_ratio_memory(shape);
-    size_t waves = rc_texture_memory(shape, options->boundary, missing == 0);
-
-    return sorted > waves ? sorted : waves;
-}

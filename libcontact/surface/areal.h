@@ -27,12 +27,10 @@ rc_there(double v)
 /* material_ratio.c: sk to sxp. RC_FAIL when memory is short. */
 enum rc_status rc_material_ratio(const struct rc_relief *relief, struct rc_areal *areal,
                                  struct rc_err *err);
-size_t rc_material_ratio_memory(const struct rc_shape *shape);
 
 /* texture.c: sal, str, std, where they are defined. RC_FAIL as in rc_areal. */
 enum rc_status rc_texture(const struct rc_relief *relief, struct rc_areal *areal,
                           struct rc_err *err);
-size_t rc_texture_memory(const struct rc_shape *shape, enum rc_boundary boundary, bool whole);
 
 /* spectrum.c: Hann's window over n nodes at node i, nowhere 0; 1 on a side of one node. */
 double rc_hann(size_t i, size_t n);

@@ -602,20 +602,3 @@ rc_filter(const struct rc_shape *shape, const struct rc_filter *what, double *h,
     gauss_free(&g);
     return status;
 }
-
-size_t
-rc_filter_memory(const struct rc_shape *shape, const struct rc_filter *what)
-{
-    struct gauss g = {.shape = shape, .periodic = what->periodic};
-    size_t bytes = 0, nodes = shape->nx * shape->ny;
-
-    g.threads = rc_useful_threads(shape, what->threads);
-    if (check_cutoff(shape, what, NULL) == RC_OK && plan(&g, what->cutoff))
-        bytes =
-            (shape->ny * 2 * g.stride + low_numbers(&g) +
-             (size_t)g.threads * (g.per_thread + g.rows_per_thread) +
-             (what->robust ? nodes + nodes / 32 : 0)) * /* residuals, and those near their median */
-            sizeof(double);
-    gauss_free(&g);
-    return bytes;
-}

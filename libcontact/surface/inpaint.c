@@ -37,19 +37,13 @@ equations_free(struct equations *e)
     free(e->diagonal);
 }
 
-size_t
-rc_inpaint_memory(size_t missing)
-{
-    return missing * (VECTORS * sizeof(double) + sizeof(size_t) + 1);
-}
-
 static enum rc_status
 equations_new(struct equations *e, const struct rc_shape *shape, size_t n, struct rc_err *err)
 {
     size_t bytes;
 
     *e = (struct equations){.n = n, .wx = shape->dy / shape->dx, .wy = shape->dx / shape->dy};
-    if (rc_size_mul(n, rc_inpaint_memory(1), &bytes, err) != RC_OK)
+    if (rc_size_mul(n, VECTORS * sizeof *e->diagonal + sizeof *e->above + 1, &bytes, err) != RC_OK)
         return RC_FAIL;
     e->sides = calloc(n, 1);
     e->above = malloc(n * sizeof *e->above);

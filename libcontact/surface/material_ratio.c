@@ -203,9 +203,3 @@ done:
     free(count);
     return status;
 }
-
-size_t
-rc_material_ratio_memory(const struct rc_shape *shape)
-{
-    return 2 * shape->nx * shape->ny * sizeof(double);
-}

@@ -135,15 +135,6 @@ find_differences(const struct square *s, const double *h, int threads, double *d
     }
 }
 
-size_t
-rc_outliers_memory(const struct rc_shape *shape, size_t threads)
-{
-    size_t width = shape->nx + 2 * HALF + LANES;
-    size_t lines = SIDE * (size_t)rc_useful_threads(shape, threads) * width;
-
-    return (shape->nx * shape->ny + lines) * sizeof(double);
-}
-
 enum rc_status
 rc_outliers(const struct rc_shape *shape, double times, bool periodic, size_t threads, double *h,
             size_t *count, struct rc_err *err)

@@ -579,13 +579,3 @@ rc_psd_free(struct rc_psd *psd)
     free(psd->modes);
     free(psd);
 }
-
-size_t
-rc_psd_memory(const struct rc_shape *shape)
-{
-    struct rings r = rings_of(shape);
-    size_t after = parts_of(&r) * r.n * sizeof(struct ring) + r.n * sizeof(struct bin);
-    size_t transform = rc_power_memory(shape, NULL);
-
-    return rc_fourier_size(shape) * sizeof(double) + (after > transform ? after : transform);
-}

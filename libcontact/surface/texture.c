@@ -395,12 +395,3 @@ rc_texture(const struct rc_relief *r, struct rc_areal *a, struct rc_err *err)
         return RC_OK;
     return find_direction(r, a, err);
 }
-
-size_t
-rc_texture_memory(const struct rc_shape *s, enum rc_boundary boundary, bool whole)
-{
-    struct rc_offsets at = offsets_of(s, boundary);
-
-    /* sums, and pairs when something is missing; a spectrum takes less */
-    return rc_power_memory(s, &at) + (whole ? 1 : 2) * sums_of(&at) * sizeof(double);
-}

@@ -194,11 +194,3 @@ rc_autocorrelate(const struct rc_shape *shape, const struct rc_offsets *at, rc_m
     work_free(&w);
     return RC_OK;
 }
-
-size_t
-rc_power_memory(const struct rc_shape *shape, const struct rc_offsets *at)
-{
-    size_t px = at == NULL ? shape->nx : at->px;
-
-    return shape->ny * (px / 2 + 1) * sizeof(double complex);
-}

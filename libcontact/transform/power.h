@@ -26,7 +26,5 @@ struct rc_offsets {
 enum rc_status rc_autocorrelate(const struct rc_shape *shape, const struct rc_offsets *offsets,
                                 rc_map_row *row, const void *map, size_t threads, double *sums,
                                 struct rc_err *err);
-/* Bytes that either takes beside its result. */
-size_t rc_power_memory(const struct rc_shape *shape, const struct rc_offsets *offsets);
 
 #endif

@@ -408,8 +408,6 @@ leaks(double *out, struct rc_err *err)
         rc_leak_channel(leak, out + 2 * N);
         out[3 * N] = rc_leak_result(leak)->conductance;
         out[3 * N + 1] = rc_leak_result(leak)->lower;
-        out[3 * N + 2] = (double)rc_leak_memory(&shape);
-        out[3 * N + 3] = (double)rc_leak_step_memory(leak);
     }
     rc_leak_free(leak);
     return status;
@@ -726,33 +724,25 @@ slabs_single(double *out, struct rc_err *err)
 static enum rc_status
 plans(double *out, struct rc_err *err)
 {
-    static const struct rc_filter filter = {.cutoff = 5e-6, .threads = 1};
     static const struct rc_conv_options conv = {.threads = 1};
     static const struct rc_problem problem = {.pair.estar = 1e9, .load = 1e-3, .threads = 1};
     static const struct rc_stress_options stress = {.body.nu = 0.3, .wanted = 1, .threads = 1};
-    static const struct rc_surface_options surface = {.threads = 1};
     static const struct rc_patch_options patches = {.threads = 1};
     struct rc_expected expected;
     struct rc_contact apart;
     const char *reason;
-    size_t bytes[12];
+    size_t bytes[6];
 
     rc_contact_apart(NULL, &shape, rough, NULL, &apart);
     if (!(apart.mean_gap > 0))
         return rc_err_set(err, "no gap");
-    bytes[0] = rc_filter_memory(&shape, &filter);
-    bytes[1] = rc_outliers_memory(&shape, 1);
-    bytes[2] = rc_inpaint_memory(9);
-    bytes[3] = rc_areal_memory(&shape, 0, &surface);
-    bytes[4] = rc_psd_memory(&shape);
-    bytes[5] = rc_conv_memory(&shape, &conv);
-    bytes[6] = rc_solver_memory(&shape, &problem);
-    bytes[7] = rc_stress_memory(&shape, &stress, NULL, 0, 0);
-    bytes[8] = rc_patches_memory(&shape, pressure, &patches);
-    bytes[9] = rc_solver_stiffness_memory(&shape, &problem);
-    bytes[10] = rc_solver_conductance_memory(&shape, &problem);
-    bytes[11] = rc_features_memory(&shape);
-    for (size_t k = 0; k < 12; k++) {
+    bytes[0] = rc_conv_memory(&shape, &conv);
+    bytes[1] = rc_solver_memory(&shape, &problem);
+    bytes[2] = rc_stress_memory(&shape, &stress, NULL, 0, 0);
+    bytes[3] = rc_patches_memory(&shape, pressure, &patches);
+    bytes[4] = rc_solver_stiffness_memory(&shape, &problem);
+    bytes[5] = rc_solver_conductance_memory(&shape, &problem);
+    for (size_t k = 0; k < 6; k++) {
         out[k] = (double)bytes[k];
         if (bytes[k] == 0)
             return rc_err_set(err, "no plan %zu", k);
@@ -782,6 +772,8 @@ without(double *out, struct rc_err *err)
     size_t product, least, largest;
 
     (void)rc_version(), (void)rc_threads_available();
+    rc_memory_budget(0);
+    (void)rc_memory_ask(1), (void)rc_memory_held();
     (void)rc_engine_info(0), (void)rc_method_info(0), (void)rc_window_name(0);
     rc_synth_sphere(&shape, 1e-3, out);
     rc_synth_paraboloid(&shape, place, 1e-3, 2e-3, 10, out);

@@ -35,7 +35,7 @@ emulated  truth_memory_room bounds of address space, which the emulator does not
 emulated  pipe_cost         ends a run by a signal that comes, so much slower, before anything is measured
 emulated  pipe_memory       bounds of memory, of which the emulator has its own
 emulated  pipe_help         an example of rc-cost(1) bounds its time
-emulated  law_memory_estimates bounds of memory, of which the emulator has its own
+emulated  law_memory_budget bounds of memory, of which the emulator has its own
 emulated  format_hdf5       its file of 128 MiB ends by the bound of processor time, before that of memory
 END
 }

@@ -1012,7 +1012,7 @@ chooses(void **state)
     rc_press_free(press);
 }
 
-/* As law_memory_estimates finds it to be: of a map whose voxels have yielded by three tenths, in 12 slabs. */
+/* As law_memory_budget finds it to be: of a map whose voxels have yielded by three tenths, in 12 slabs. */
 static void
 is_lean(void **state)
 {

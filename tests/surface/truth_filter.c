@@ -417,20 +417,6 @@ test_refusals(void **state)
     free(h);
 }
 
-static void
-test_memory(void **state)
-{
-    const struct rc_shape large = {4096, 4096, 1e-6, 1e-6};
-    const double map = 4096.0 * 4096 * sizeof(double);
-
-    (void)state;
-    for (double cutoff = 2e-6; cutoff < 4096e-6; cutoff *= 3.7) {
-        struct rc_filter what = {.cutoff = cutoff, .robust = true, .periodic = true, .threads = 2};
-        double bytes = (double)rc_filter_memory(&large, &what);
-        assert_true(bytes > map && bytes < 4 * map);
-    }
-}
-
 int
 main(void)
 {
@@ -445,7 +431,6 @@ main(void)
         cmocka_unit_test(test_exact_ground),
         cmocka_unit_test(test_threads_and_high),
         cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_memory),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,6 +3,7 @@
  */
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "libcontact/contact.h"
 #include "tools/machine/machine.h"
@@ -16,6 +17,56 @@ enum {
 
 static const char smaller[] =
     "cut a part out with rc-pick --crop, or take fewer nodes with rc-pick --resample";
+
+/* ---- the budget ---- */
+
+void
+tool_budget(struct tool *t)
+{
+    const size_t held = rc_memory_held().held, resident = memory_held();
+    const struct memory_room room = memory_room("");
+    double most = (double)held + room.bytes;
+
+    if (t->beside == 0)
+        t->beside = LATER + (resident > held ? resident - held : 0);
+    t->bound = room.why;
+    if (t->memory != 0 && (double)t->memory - (double)t->beside < most) {
+        most = (double)t->memory - (double)t->beside;
+        t->bound = "--memory allows";
+    }
+    t->budget = unit_size(fmax(most, 1));
+    rc_memory_budget(t->budget);
+    t->budget_at = tool_now();
+}
+
+void
+tool_add_refusal(const struct tool *t, char *text, size_t size)
+{
+    const size_t refused = rc_memory_held().refused, n = strlen(text);
+    char need[SHOWN_NUMBER], allowed[SHOWN_NUMBER];
+
+    if (refused == 0 || strstr(text, "out of memory") == NULL)
+        return;
+    snprintf(text + n, size - n, ": at least %s needed, %s %s: %s",
+             shown_bytes(need, (double)(refused + t->beside)), t->bound,
+             shown_bytes(allowed, (double)size_sum(t->budget, t->beside)),
+             t->remedy == NULL ? smaller : t->remedy);
+}
+
+void
+tool_demand_memory(struct tool *t, const struct rc_grid *g, size_t bytes)
+{
+    if (!rc_memory_ask(bytes))
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "out of memory for %zu x %zu nodes", g->nx, g->ny);
+}
+
+size_t
+tool_counted_memory(const struct tool *t)
+{
+    return rc_memory_held().peak + t->beside;
+}
+
+/* ---- estimates ---- */
 
 size_t
 tool_memory_with(size_t bytes)
@@ -107,10 +158,4 @@ tool_demand_memory_or(struct tool *t, const struct rc_grid *g, size_t bytes, con
 
     if (tool_ask_memory(t, &shape, bytes, remedy, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-}
-
-void
-tool_demand_memory(struct tool *t, const struct rc_grid *g, size_t bytes)
-{
-    tool_demand_memory_or(t, g, bytes, NULL);
 }

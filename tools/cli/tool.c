@@ -54,6 +54,7 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
     options_read(t, argc, argv);
     if (t->threads == 0)
         t->threads = threads_wanted(t);
+    tool_budget(t);
     if (info->reads == READS_NOTHING && t->operands > 0)
         tool_die(t, EXIT_USAGE, "'%s': this tool reads no files; see %s --help", t->operand[0],
                  info->name);
@@ -88,16 +89,16 @@ mebibytes(double bytes)
 int
 tool_finish(struct tool *t)
 {
-    double expected, taken;
+    double counted, taken;
     size_t peak;
 
     tool_progress_end(t);
     output_end(t);
     peak = memory_peak(); /* output may be made at the end */
-    expected = ranks_most(t, (double)t->expected_memory);
+    counted = ranks_most(t, (double)tool_counted_memory(t));
     taken = ranks_most(t, (double)(peak > t->beside_memory ? peak : t->beside_memory));
-    if (expected > 0 && t->debug)
-        tool_note(t, "memory: %.1f MiB expected, %.1f MiB taken", mebibytes(expected),
+    if (t->debug)
+        tool_note(t, "memory: %.1f MiB counted, %.1f MiB taken", mebibytes(counted),
                   mebibytes(taken));
     ranks_end(t);
     output_end_by_signal();

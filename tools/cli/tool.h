@@ -128,8 +128,13 @@ struct tool {
     const struct tool_info *info;
     void *args;
     /* the options of every tool */
-    size_t threads; /* at least 1                                                          */
-    size_t memory;  /* bytes; 0: no limit                                                  */
+    size_t threads;     /* at least 1                                                          */
+    size_t memory;      /* bytes; 0: no limit                                                  */
+    size_t beside;      /* bytes of code and stacks, which the allocator does not count           */
+    size_t budget;      /* bytes that the allocator may give                                      */
+    const char *bound;  /* what bounds it, as in "--memory allows"                          */
+    const char *remedy; /* for the message when memory is short; NULL: a smaller map        */
+    double budget_at;   /* s: when the machine was last asked                               */
     size_t expected_memory; /* bytes: the most of the estimates made so far                */
     size_t beside_memory;   /* bytes: the most of tool_memory_beside                       */
     const char *vickers;    /* a hardness that was given so, as it was written; or NULL    */
@@ -266,8 +271,13 @@ enum {
 size_t tool_code(const struct tool *tool, size_t bytes);
 /* So many bytes of code and plans are in memory from here on. */
 void tool_code_there(struct tool *tool, size_t bytes);
-/* Before work on a map that will take `bytes` beside what the tool holds by now: ends the tool when
- * both together are more than --memory allows, or `bytes` more than the machine has. */
+/* The budget of the allocator: what --memory allows, or what the machine has, if that is less. */
+void tool_budget(struct tool *tool);
+/* To a message that memory is short: how much is needed, what bounds it, and what to do. */
+void tool_add_refusal(const struct tool *tool, char *text, size_t size);
+/* What allocations and code took at most so far. */
+size_t tool_counted_memory(const struct tool *tool);
+/* Before long work that will allocate so many bytes after it: ends the tool when they exceed the budget. */
 void tool_demand_memory(struct tool *tool, const struct rc_grid *grid, size_t bytes);
 /* The same, with a remedy for the message beside that of a smaller map; NULL: none. */
 void tool_demand_memory_or(struct tool *tool, const struct rc_grid *grid, size_t bytes,

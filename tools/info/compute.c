@@ -107,16 +107,11 @@ find_areal(const struct info_wanted *w, struct tool *t, const struct rc_grid *g,
 {
     const struct rc_surface_options options = {.boundary = boundary_of(g), .threads = t->threads};
     const struct rc_shape shape = rc_grid_shape(g);
-    size_t missing = 0, bytes;
+    size_t missing = 0;
     struct rc_err err;
 
     for (size_t k = 0; k < rc_grid_nodes(g); k++)
         missing += isfinite(g->v[k]) ? 0 : 1;
-    bytes = rc_areal_memory(&shape, missing, &options);
-    if (bytes < rc_features_memory(&shape)) /* one after the other */
-        bytes = rc_features_memory(&shape);
-    tool_demand_memory(t, g, bytes + tool_code(t, TOOL_TRANSFORMS));
-    tool_code_there(t, TOOL_TRANSFORMS);
     f->areal = room(t, 1, sizeof *f->areal);
     if (rc_areal(&shape, g->v, &options, f->areal, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -164,9 +159,6 @@ find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct 
     struct rc_err err;
 
     tool_demand_finite(t, g, "fill them first, with rc-detrend --fill");
-    /* its map is drawn when the transform, which takes as much memory, is done */
-    tool_demand_memory(t, g, rc_psd_memory(&shape) + tool_code(t, TOOL_TRANSFORMS));
-    tool_code_there(t, TOOL_TRANSFORMS);
     if (w->fit.n == 2) {
         options.shortest = w->fit.v[0];
         options.longest = w->fit.v[1];
@@ -221,7 +213,6 @@ find_patches(struct tool *t, const struct rc_grid *g, const double *touch, struc
     struct rc_err err;
 
     tool_demand_finite(t, g, "solve the contact again");
-    tool_demand_memory(t, g, rc_patches_memory(&shape, touch, &options));
     f->patches = room(t, 1, sizeof *f->patches);
     if (rc_patches_find(&shape, touch, &options, f->patches, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);

@@ -53,7 +53,7 @@ leak_report(struct report *r, const struct leak_case *c)
     report_number(r, "total", c->setup + c->solve, "s");
     report_end(r);
     report_count(r, "peak_memory", tool_peak_memory(), "B");
-    report_count(r, "memory_estimate", r->tool->expected_memory, "B");
+    report_count(r, "memory_estimate", tool_counted_memory(r->tool), "B");
     report_finish_row(r);
 }
 

@@ -130,7 +130,7 @@ read_rotate(const char *text, struct request *r, struct rc_err *err)
 /* ---- maps ---- */
 
 static enum rc_status
-new_map(struct tool *t, const struct rc_grid *g, const struct rc_shape *shape, struct rc_grid **to,
+new_map(const struct rc_grid *g, const struct rc_shape *shape, struct rc_grid **to,
         struct rc_err *err)
 {
     size_t nodes, bytes;
@@ -141,7 +141,6 @@ new_map(struct tool *t, const struct rc_grid *g, const struct rc_shape *shape, s
         return RC_FAIL;
     if (bytes > SIZE_MAX / 2)
         return rc_err_set(err, "%zu nodes are more than this machine can address", nodes);
-    tool_demand_memory(t, g, bytes);
     *to = rc_grid_new(shape, g->channel, g->unit, err);
     return *to == NULL ? RC_FAIL : RC_OK;
 }
@@ -278,7 +277,7 @@ resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_e
     same = covers && from.nx == to.nx && from.ny == to.ny;
     if (same && from.dx == to.dx && from.dy == to.dy)
         return RC_OK;
-    if (new_map(t, g, &to, &map, err) != RC_OK)
+    if (new_map(g, &to, &map, err) != RC_OK)
         return RC_FAIL;
     if (rc_resample(&from, g->v, periodic, &to, map->v, err) != RC_OK) {
         rc_grid_free(map);
@@ -311,7 +310,8 @@ rotate(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err
     struct rc_shape from = rc_grid_shape(g), to = rc_rotate_shape(&from, (size_t)r->v[0]);
     struct rc_grid *map = NULL;
 
-    if (new_map(t, g, &to, &map, err) != RC_OK)
+    (void)t;
+    if (new_map(g, &to, &map, err) != RC_OK)
         return RC_FAIL;
     rc_rotate(&from, g->v, (size_t)r->v[0], map->v);
     replace(g, map);

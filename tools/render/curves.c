@@ -927,6 +927,7 @@ curves_draw(struct tool *t, const char *columns, const struct curve_style *style
     struct curves *c = calloc(1, sizeof *c);
     struct canvas *canvas;
 
+    t->remedy = "give fewer rows";
     if (c == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     c->tool = t;

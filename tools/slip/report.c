@@ -62,7 +62,7 @@ slip_report(struct slip_run *run, const struct slip_state *s)
     report_number(r, "total", s->seconds, "s");
     report_end(r);
     report_count(r, "peak_memory", tool_peak_memory(), "B");
-    report_count(r, "memory_estimate", run->t.expected_memory, "B");
+    report_count(r, "memory_estimate", tool_counted_memory(&run->t), "B");
     report_finish_row(r);
 }
 

@@ -313,8 +313,8 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "total", run->done - run->began, "s");
     report_end(r);
     report_count(r, "peak_memory", (size_t)ranks_most(&run->t, (double)tool_peak_memory()), "B");
-    report_count(r, "memory_estimate", (size_t)ranks_most(&run->t, (double)run->t.expected_memory),
-                 "B");
+    report_count(r, "memory_estimate",
+                 (size_t)ranks_most(&run->t, (double)tool_counted_memory(&run->t)), "B");
     report_ranks(r, &run->t);
     report_number(r, "hardness_min", run->hardness_min, "Pa"); /* columns keep their places */
     report_number(r, "hardness_max", run->hardness_max, "Pa");

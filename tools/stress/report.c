@@ -310,7 +310,7 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_count(out, "peak_memory", (size_t)ranks_most(out->tool, (double)tool_peak_memory()),
                  "B");
     report_count(out, "memory_estimate",
-                 (size_t)ranks_most(out->tool, (double)out->tool->expected_memory), "B");
+                 (size_t)ranks_most(out->tool, (double)tool_counted_memory(out->tool)), "B");
     report_ranks(out, out->tool);
     report_finish_row(out);
 }
