@@ -882,6 +882,21 @@ RC_API size_t rc_press_memory(const struct rc_press *press, const double *state,
                               bool kept);
 RC_API void rc_press_free(struct rc_press *press); /* NULL is allowed */
 
+/* The model (model.h) of such a body, along a history of loads; its heights cannot change. The problem is that of
+ * rc_press_new; what it points to has to last. */
+struct rc_yielding_figures {
+    struct rc_contact contact;
+    struct rc_plastic_figures plastic; /* all 0: nothing has yielded                              */
+    size_t slabs;
+    double max_mises_over_yield,
+        max_mises_depth; /* of the elastic contact; m; NAN: unknown       */
+};
+RC_API struct rc_model *rc_yielding_new(const struct rc_shape *shape, const double *h,
+                                        const struct rc_plastic_problem *problem,
+                                        struct rc_err *err);
+/* The figures after a look, of a model that yields or has such an inner model; NULL: it has none. */
+RC_API const struct rc_yielding_figures *rc_yielding_result(const struct rc_model *model);
+
 /* ---- adhesion: adhesion/adhesion.c ---- */
 
 /* Rows of the table of laws, k = 0, 1, ...; NULL past the last. */

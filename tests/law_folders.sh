@@ -14,7 +14,7 @@
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/model    | %base                                    | libcontact libcontact/solver=rc_figures_
-libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/leak=rc_figures_
+libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/leak=rc_figures_ libcontact/plastic=rc_figures_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
 libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
@@ -28,6 +28,7 @@ libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libc
 libcontact/stress   |                                          | libcontact/transform libcontact/body
 libcontact/stress   | libcontact/volume/volume.h               | libcontact/volume
 libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform
+libcontact/plastic  | libcontact/model/row.h                   | libcontact/model
 libcontact/plastic  | %base libcontact/volume/volume.h         | libcontact libcontact/volume libcontact/solver libcontact/stress
 libcontact/adhesion | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/body
 libcontact/leak     | %base                                    | libcontact

@@ -12,6 +12,8 @@ struct rc_state;
 void rc_state_numbers(struct rc_state *s, size_t n, double *v);
 /* A size or a yes/no, at most `most`, as one number. */
 void rc_state_count(struct rc_state *s, size_t *n, size_t most);
+/* While n numbers are read: whether so many are left; else they are refused. */
+bool rc_state_holds(struct rc_state *s, size_t n);
 /* Whether numbers are read, and none of them was refused so far. */
 bool rc_state_reads(const struct rc_state *s);
 /* While numbers are read: they are not those of this model. `why`: a part of a sentence. */

@@ -33,15 +33,21 @@ rc_state_refuse(struct rc_state *s, const char *why)
         s->bad = why;
 }
 
+bool
+rc_state_holds(struct rc_state *s, size_t n)
+{
+    if (s->mode == READS && n > s->n - s->at)
+        rc_state_refuse(s, "numbers are missing");
+    return s->bad == NULL;
+}
+
 void
 rc_state_numbers(struct rc_state *s, size_t n, double *v)
 {
     if (n == 0)
         return;
-    if (s->mode == READS && (s->bad != NULL || n > s->n - s->at)) {
-        rc_state_refuse(s, "numbers are missing");
+    if (!rc_state_holds(s, n))
         return;
-    }
     if (s->mode == READS)
         memcpy(v, s->from + s->at, n * sizeof *v);
     else if (s->mode == WRITES)
@@ -103,9 +109,7 @@ exchange_kept(struct rc_model *m, struct rc_state *s)
     double *v;
 
     rc_state_count(s, &n, SIZE_MAX / sizeof *v - 1);
-    if (rc_state_reads(s) && n > s->n - s->at)
-        rc_state_refuse(s, "numbers are missing");
-    if (rc_state_reads(s)) {
+    if (rc_state_holds(s, n) && rc_state_reads(s)) {
         if ((v = realloc(m->kept.v, (n + 1) * sizeof *v)) == NULL) {
             rc_state_refuse(s, "memory is short");
             return;

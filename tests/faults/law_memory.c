@@ -325,6 +325,34 @@ done:
     return status;
 }
 
+/* The model that yields: a load, one on its way that is forgotten, and a larger one. */
+static enum rc_status
+yielding_model(double *out, struct rc_err *err)
+{
+    static const double slabs[] = {.5e-6, .7e-6, 1e-6};
+    struct rc_plastic_problem problem = {
+        .contact = {.boundary = RC_PERIODIC, .pair = bare, .tol = 0.1, .threads = 1},
+        .yield.stress = bare.one.e / 100,
+        .slabs = 3,
+        .thickness = slabs,
+        .increments = 4};
+    struct rc_model *m = rc_yielding_new(&shape, rough, &problem, err);
+    enum rc_status status = RC_FAIL;
+    struct rc_point to = {0};
+
+    rc_point_set(&to, RC_LOAD, 1e-3);
+    if (m == NULL || rc_model_run(m, &to, err) == RC_FAIL || rc_model_look(m, NULL, err) != RC_OK ||
+        rc_model_keep(m, err) != RC_OK || rc_model_go(m, &to, err) != RC_MORE ||
+        rc_model_step(m, err) == RC_FAIL || rc_model_run(m, &to, err) == RC_FAIL ||
+        rc_model_look(m, NULL, err) != RC_OK || rc_model_frame(m, "residual", out, err) != RC_OK)
+        goto done;
+    out[N] = rc_yielding_result(m)->plastic.depth;
+    status = RC_OK;
+done:
+    rc_model_free(m);
+    return status;
+}
+
 /* ---- adhesion ---- */
 
 /* A state by approach, one by load from where another path was, and a retraction. */
@@ -856,6 +884,7 @@ static const struct {
     {.name = "contact, coated", .use = coated_contact},
     {.name = "contact, free to tilt", .use = free_to_tilt},
     {.name = "the elastic model", .use = elastic_model},
+    {.name = "the yielding model", .use = yielding_model},
     {.name = "plasticity", .use = yields},
     {.name = "plasticity after elasticity", .use = may_yield},
     {.name = "adhesion", .use = adheres},
