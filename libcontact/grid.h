@@ -47,10 +47,10 @@ RC_API enum rc_status rc_err_set(struct rc_err *err, const char *format, ...)
 /* What the library and the tools have allocated, in bytes. Code, the stacks of threads, arrays of the caller and
  * what other libraries take for themselves do not count. */
 struct rc_memory {
-    size_t held;
+    size_t held; /* now                                                                         */
     size_t peak; /* the most so far                                                             */
-    size_t refused; /* what would have been held with the block refused last since the budget was
-                       set; 0: none                                                                 */
+    size_t
+        refused; /* with the block refused last since the budget was set; 0: none               */
 };
 
 /* Bytes that the library may hold in this process; 0, the default: any. What would need more fails as where

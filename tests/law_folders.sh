@@ -62,7 +62,7 @@ formats             |                                          | formats/readers
 formats             |                                          | formats/readers/text=rc_format_
 formats             |                                          | formats/writers=rc_export_
 tools/text          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
-tools/machine       | -                                        | -
+tools/machine       | -                                        | libcontact=rc_
 tools/cli           | tools/text/text.h tools/machine/machine.h | tools/text tools/machine
 tools/cli           | %public formats/rcg/rcg.h                | %physics formats/rcg
 tools/cli           | formats/core/core.h                      | formats/core
@@ -172,7 +172,7 @@ private_faults() {
     awk '
         FILENAME == "public.txt" { public[$1] = 1; next }
         $1 == "D" { if ($2 ~ /^libcontact\//) where[$3] = 1; next }
-        $2 !~ /^libcontact\// && $3 in where && !($3 in public) { sub(/\/.*/, "", $2); print "private", $2, $3 }' \
+        $2 !~ /^libcontact\// && $3 in where && !($3 in public) && $3 !~ /^rc_(malloc|calloc|realloc|aligned_alloc|free)$/ { sub(/\/.*/, "", $2); print "private", $2, $3 }' \
         public.txt "$1" | sort -u
 }
 

@@ -137,7 +137,6 @@ tool_ask_memory(struct tool *t, const struct rc_shape *shape, size_t bytes, cons
         return rc_err_set(err, "%s need about %s, --memory allows %s: %s", what,
                           shown_bytes(need, (double)with), shown_bytes(allowed, (double)t->memory),
                           remedy);
-    t->expected_memory = with > t->expected_memory ? with : t->expected_memory;
     t->unseen_memory = size_sum(t->unseen_memory, bytes);
     if (t->unseen_memory < UNSEEN && bytes < FEW_BYTES)
         return RC_OK;

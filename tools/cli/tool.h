@@ -135,11 +135,10 @@ struct tool {
     const char *bound;  /* what bounds it, as in "--memory allows"                          */
     const char *remedy; /* for the message when memory is short; NULL: a smaller map        */
     double budget_at;   /* s: when the machine was last asked                               */
-    size_t expected_memory; /* bytes: the most of the estimates made so far                */
-    size_t beside_memory;   /* bytes: the most of tool_memory_beside                       */
-    const char *vickers;    /* a hardness that was given so, as it was written; or NULL    */
-    size_t unseen_memory;   /* bytes asked for since the machine was last looked at        */
-    size_t code_memory;     /* bytes: the most of tool_code_there                          */
+    size_t beside_memory; /* bytes: the most of tool_memory_beside                       */
+    const char *vickers;  /* a hardness that was given so, as it was written; or NULL    */
+    size_t unseen_memory; /* bytes asked for since the machine was last looked at        */
+    size_t code_memory;   /* bytes: the most of tool_code_there                          */
     bool quiet, verbose, progress;
     bool debug;              /* verbose too, and tells of memory */
     enum tool_writes writes; /* info->writes, or text where an option asks for it          */
