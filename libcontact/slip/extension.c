@@ -7,9 +7,6 @@
 
 #include "libcontact/memory.h"
 
-enum {
-    SUMS = 4
-};
 static const double around = 1.5;        /* the wave number of a grid, times its spacing */
 static const double self_of_wave = 0.84; /* on square cells that of a node alone */
 
@@ -51,7 +48,6 @@ rc_extension_free(struct rc_extension *e)
     rc_pyramid_free(e->pyramid);
     free(e->maps);
     free(e->row);
-    free(e->partial);
     free(e);
 }
 
@@ -66,8 +62,7 @@ rc_extension_new(struct rc_tangential *t, struct rc_err *err)
     if (room) {
         e->maps = rc_alloc(5 * n + 2 * all, sizeof *e->maps);
         e->row = rc_alloc(3 * (size_t)t->threads * base.shape.nx, sizeof *e->row);
-        e->partial = rc_alloc(t->shape.ny * SUMS, sizeof *e->partial);
-        room = e->maps != NULL && e->row != NULL && e->partial != NULL;
+        room = e->maps != NULL && e->row != NULL;
     }
     if (!room) {
         rc_err_set(err, "out of memory for the friction of %zu nodes", n);
@@ -95,7 +90,7 @@ rc_extension_memory(const struct rc_shape *shape, enum rc_boundary boundary)
     struct rc_pyramid_base base = base_of(shape, boundary, 1);
 
     return (5 * shape->nx * shape->ny + 2 * base.shape.nx * base.shape.ny) * sizeof(float) +
-           shape->ny * SUMS * sizeof(double) + rc_pyramid_memory(&base);
+           rc_pyramid_memory(&base);
 }
 
 /* ---- rows for the pyramid ---- */
@@ -203,25 +198,17 @@ place_of(const struct rc_extension *e, size_t i, size_t j)
 
 /* ---- fields without a mean ---- */
 
-/* The mean over a periodic map of v; rows by themselves, in order, so that threads change nothing. */
+/* The mean over a periodic map of v. */
 static void
 mean_of_field(const struct rc_extension *e, double out[2])
 {
-    size_t nx = e->t->shape.nx, ny = e->t->shape.ny;
-    struct rc_total all[2] = {{0}};
+    size_t n = e->grid.nx * e->grid.ny;
 
-#pragma omp parallel for num_threads(e->t->threads) schedule(static)
-    for (size_t j = 0; j < ny; j++)
-        for (int c = 0; c < 2; c++) {
-            double sum = 0;
-            for (size_t k = j * nx; k < (j + 1) * nx; k++)
-                sum += (double)e->v[c][k];
-            e->partial[j * SUMS + (size_t)c] = sum;
-        }
     for (int c = 0; c < 2; c++) {
-        for (size_t j = 0; j < ny; j++)
-            rc_total_add(&all[c], e->partial[j * SUMS + (size_t)c]);
-        out[c] = rc_total_value(&all[c]) / (double)(nx * ny);
+        struct rc_total sum = {0};
+        for (size_t k = 0; k < n; k++)
+            rc_total_add(&sum, (double)e->v[c][k]);
+        out[c] = rc_total_value(&sum) / (double)n;
     }
 }
 

@@ -20,8 +20,7 @@
  *     z = E' A E r + (1 - c)^2/D P (r - e) and its transpose:
  *
  * symmetric, and r'z >= r'(T + D)^-1 r whatever the guess: z bounds the error in the energy norm from
- * above. On the final faces conjugate gradients with it take 2, 4 and 7 steps to 1e-2, 1e-4 and 1e-8 of that norm
- * at 128 to 512 nodes a side and 11 to 83 % of contact.
+ * above.
  *
  * A periodic T has no mean, T(0) = 0, and its inverse allows none: the least of v'Av is over fields v without
  * a mean. A force given, the residual has none either. A displacement given, what the guess has of it goes to
@@ -55,12 +54,11 @@ struct rc_extension {
     float *tie; /* (1 - c)^2/D                                                                   */
     float
         *n[3]; /* xx yy xy: about the tractions M P of a shift of all nodes by 1, up to a factor */
-    float *v[2];     /* on the grid                           */
-    float *row;      /* for each thread                       */
-    double *partial; /* sums of rows                          */
-    double self;     /* T0                                    */
-    bool level;      /* v is to have no mean                  */
-    double b[4];     /* B^-1, by rows                         */
+    float *v[2]; /* on the grid                           */
+    float *row;  /* for each thread                       */
+    double self; /* T0                                    */
+    bool level;  /* v is to have no mean                  */
+    double b[4]; /* B^-1, by rows                         */
 };
 
 /* NULL when memory is short. */

@@ -78,58 +78,51 @@ norm_of(const struct rc_tangential *t)
     return 2 * (a * asinh(b / a) + b * asinh(a / b)) * most;
 }
 
-/* Along x or y of a free map, between the waves on both sides; false: its grid has none as long or as short. */
-static bool
-along(const struct rc_tangential *t, bool x, double q, double *out)
+/* Along x or y of a free map, between the waves on both sides; NAN: its grid has none as long or as short. */
+static double
+along(const struct rc_tangential *t, bool x, double q)
 {
-    size_t nodes[2], n;
-    double spacing = x ? t->shape.dx : t->shape.dy, at, part, value[2];
+    size_t nodes[2], n, wave[2];
+    double at, value[2];
 
     rc_fft_period(&t->shape, t->boundary, &nodes[0], &nodes[1]);
     n = nodes[x ? 0 : 1];
-    at = q * spacing * (double)n / (2 * RC_PI);
+    at = q * (x ? t->shape.dx : t->shape.dy) * (double)n / (2 * RC_PI);
     if (at < 1 || at > (double)(n / 2))
-        return false;
-    part = at - floor(at);
+        return NAN;
+    wave[0] = (size_t)at;
+    wave[1] = (size_t)ceil(at);
     for (int k = 0; k < 2; k++) {
-        size_t wave = (size_t)at + (k == 1 && part > 0), place = x ? wave * t->cy : wave;
+        size_t place = x ? wave[k] * t->cy : wave[k];
         value[k] = (t->quarter[RC_SHEAR_XX][place] + t->quarter[RC_SHEAR_YY][place]) / 2;
     }
-    *out = (1 - part) * value[0] + part * value[1];
-    return true;
+    return value[0] + (at - floor(at)) * (value[1] - value[0]);
+}
+
+/* Of both, or of the one that is there. */
+static double
+mean_of(double x, double y)
+{
+    return isnan(x) ? y : isnan(y) ? x : (x + y) / 2;
 }
 
 double
 rc_tangential_wave(const struct rc_tangential *t, double q)
 {
-    double x, y;
+    double mean = t->boundary == RC_FREE ? mean_of(along(t, true, q), along(t, false, q)) : NAN;
 
-    if (t->boundary == RC_FREE) {
-        bool has_x = along(t, true, q, &x), has_y = along(t, false, q, &y);
-        if (has_x || has_y)
-            return ((has_x ? x : 0) + (has_y ? y : 0)) / (has_x && has_y ? 2 : 1);
-    }
-    return (2 + t->shear.kap) / (q * t->shear.estar);
+    return isnan(mean) ? (2 + t->shear.kap) / (q * t->shear.estar) : mean;
 }
 
 double
 rc_tangential_power(const struct rc_tangential *t, double q)
 {
-    double last = RC_PI / fmin(t->shape.dx, t->shape.dy);
+    double last = RC_PI / fmin(t->shape.dx, t->shape.dy), power = NAN;
 
-    for (; t->boundary == RC_FREE && q <= last; q *= 2) {
-        double sum = 0, count = 0;
-        for (int x = 0; x < 2; x++) {
-            double here, shorter;
-            if (!along(t, x == 1, q, &here) || !along(t, x == 1, 2 * q, &shorter))
-                continue;
-            sum += log2(here / shorter);
-            count++;
-        }
-        if (count > 0)
-            return sum / count;
-    }
-    return 1;
+    for (; t->boundary == RC_FREE && q <= last && isnan(power); q *= 2)
+        power = mean_of(log2(along(t, true, q) / along(t, true, 2 * q)),
+                        log2(along(t, false, q) / along(t, false, 2 * q)));
+    return isnan(power) ? 1 : power;
 }
 
 /* The inverse of (XX -XY; -XY YY), wave by wave; nothing stands against the mean. The caller's units are such that no

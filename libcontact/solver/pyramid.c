@@ -140,7 +140,8 @@ struct level {
 
 struct rc_pyramid {
     struct rc_pyramid_base base;
-    size_t levels; /* 1 .. levels; level 0 is the base */
+    size_t levels;           /* 1 .. levels; level 0 is the base */
+    int weights, components; /* maps of them               */
     struct level level[MOST_LEVELS];
     float beyond[2]; /* what the extension takes for y beyond the coarsest level               */
     float *scratch;  /* three rows of the base for each thread                                */
@@ -223,26 +224,13 @@ some(size_t n)
     return n > 0 ? n : 1; /* of a rank without rows */
 }
 
-/* Maps of the weights of a level. */
-static int
-weights(const struct rc_pyramid_base *b)
-{
-    return b->pairs ? 3 : 1;
-}
-
-static int
-components(const struct rc_pyramid_base *b)
-{
-    return b->pairs ? 2 : 1;
-}
-
 static bool
 level_new(const struct rc_pyramid *p, struct level *l)
 {
     bool room = true;
 
     l->threads = nodes(l) < FEW ? 1 : p->base.threads;
-    for (int c = 0; c < weights(&p->base) && room; c++) {
+    for (int c = 0; c < p->weights && room; c++) {
         l->weight[c] = rc_alloc(some(nodes(l)), sizeof(float));
         l->value[c] = rc_alloc(some(nodes(l)), sizeof(float));
         room = l->weight[c] != NULL && l->value[c] != NULL;
@@ -287,6 +275,8 @@ rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power, const voi
 
     if (fine) {
         p->base = *base;
+        p->weights = base->pairs ? 3 : 1;
+        p->components = base->pairs ? 2 : 1;
         p->scratch = rc_alloc(3 * (size_t)base->threads * g.nx, sizeof *p->scratch);
         fine = p->scratch != NULL;
     }
@@ -629,7 +619,7 @@ down_row(const struct rc_pyramid *p, const struct level *l, enum down what, size
     float *sum = scratch(p), *coarse[2] = {sum + p->base.shape.nx, sum + 2 * p->base.shape.nx};
     bool coarsest = l == &p->level[p->levels];
     float k = coarsest ? 0 : next->k;
-    int count = what == SURROUNDINGS ? weights(&p->base) : components(&p->base);
+    int count = what == SURROUNDINGS ? p->weights : p->components;
 
     for (int c = 0; c < count; c++) {
         float *row = coarse[what == SURROUNDINGS ? 0 : c];
@@ -728,7 +718,7 @@ void
 rc_pyramid_set(struct rc_pyramid *p, rc_pyramid_add *w, const void *of)
 {
     struct level *l = &p->level[1];
-    int count = weights(&p->base);
+    int count = p->weights;
     float sum = 0, part = 1, weight;
 
     if (p->levels == 0)
@@ -759,7 +749,7 @@ rc_pyramid_set(struct rc_pyramid *p, rc_pyramid_add *w, const void *of)
 void
 rc_pyramid_extend(struct rc_pyramid *p, rc_pyramid_add *r, const void *of, const double *beyond)
 {
-    int count = components(&p->base);
+    int count = p->components;
 
     for (int c = 0; c < count; c++) {
         p->beyond[c] = beyond == NULL ? 0 : (float)beyond[c];
@@ -779,7 +769,7 @@ sum_beyond(struct rc_pyramid *p, double *beyond)
     const struct rows rows = {l, COARSER, p->base.pairs};
     float *row = scratch(p);
 
-    for (int c = 0; c < components(&p->base); c++) {
+    for (int c = 0; c < p->components; c++) {
         beyond[c] = 0;
         for (size_t j = 0; j < l->n; j++) {
             memset(row, 0, l->x.coarse * sizeof *row);
@@ -793,7 +783,7 @@ sum_beyond(struct rc_pyramid *p, double *beyond)
 void
 rc_pyramid_gather(struct rc_pyramid *p, rc_pyramid_add *f, const void *of, double *beyond)
 {
-    int count = components(&p->base);
+    int count = p->components;
 
     for (int c = 0; c < count && p->levels == 0; c++) { /* a single node: y is what is beyond */
         p->beyond[c] = 0;
