@@ -18,6 +18,7 @@
 
 enum {
     LINE = 64,
+    SMALL = 1 << 18,
     LARGE =
         2 * 1024 * 1024 /* the page that x86-64 and most ARM systems have beside the usual one */
 };
@@ -66,6 +67,13 @@ rc_memory_held(void)
 }
 
 /* ---- blocks ---- */
+
+/* Small blocks are counted, and never refused: messages need some. */
+static bool
+fits(size_t bytes)
+{
+    return bytes < SMALL || rc_memory_ask(bytes);
+}
 
 void
 rc_memory_lend(void)
@@ -134,7 +142,7 @@ take_off(size_t bytes)
 void *
 rc_malloc(size_t bytes)
 {
-    return rc_memory_ask(bytes) ? add(malloc(bytes)) : NULL;
+    return fits(bytes) ? add(malloc(bytes)) : NULL;
 }
 
 void *
@@ -142,7 +150,7 @@ rc_calloc(size_t n, size_t size)
 {
     const size_t bytes = size != 0 && n > SIZE_MAX / size ? SIZE_MAX : n * size;
 
-    return rc_memory_ask(bytes) ? add(calloc(n, size)) : NULL;
+    return fits(bytes) ? add(calloc(n, size)) : NULL;
 }
 
 void *
@@ -151,7 +159,7 @@ rc_realloc(void *at, size_t bytes)
     const size_t before = size_of(at);
     void *now;
 
-    if (bytes > before && !rc_memory_ask(bytes - before))
+    if (bytes > before && !fits(bytes - before))
         return NULL;
     if ((now = realloc(at, bytes)) == NULL)
         return NULL;
@@ -162,7 +170,7 @@ rc_realloc(void *at, size_t bytes)
 void *
 rc_aligned_alloc(size_t line, size_t bytes)
 {
-    return rc_memory_ask(bytes) ? add(aligned_alloc(line, bytes)) : NULL;
+    return fits(bytes) ? add(aligned_alloc(line, bytes)) : NULL;
 }
 
 void
@@ -182,10 +190,9 @@ rc_alloc(size_t n, size_t size)
         return NULL;
     bytes = n * size;
     if (bytes < LARGE)
-        return rc_memory_ask(bytes) && posix_memalign(&at, LINE, bytes > 0 ? bytes : 1) == 0
-                   ? add(at)
-                   : NULL;
-    if (!rc_memory_ask(bytes) || posix_memalign(&at, LARGE, bytes + sizeof bytes) != 0)
+        return fits(bytes) && posix_memalign(&at, LINE, bytes > 0 ? bytes : 1) == 0 ? add(at)
+                                                                                    : NULL;
+    if (!fits(bytes) || posix_memalign(&at, LARGE, bytes + sizeof bytes) != 0)
         return NULL;
     memcpy((char *)at + malloc_usable_size(at) - sizeof bytes, &bytes, sizeof bytes);
 #ifdef MADV_HUGEPAGE

@@ -179,7 +179,7 @@ refuses 1 'anisotropy 2: a profile has one direction only' "a profile with a lay
     "rc-synth selfaffine --hurst 0.8 --rms-height 1um --anisotropy 2 --ny 1 $grid"
 # the expectation includes the memory of the tool itself, sanitizers and all
 large="rc-synth selfaffine --hurst 0.8 --rms-height 1um --nx 1000 --dx 1um"
-enough=$($large --debug 2>&1 >/dev/null | sed -n 's/.*memory: \([0-9]*\).* expected.*/\1/p')
+enough=$($large --debug 2>&1 >/dev/null | sed -n 's/.*memory: \([0-9]*\).* counted.*/\1/p')
 enough=$((enough + 4))
 refuses 1 "need about [0-9]* MiB, --memory allows $enough MiB" "a distribution takes more memory" \
     "$large --skewness 1 --memory ${enough}M"

@@ -40,16 +40,20 @@ tool_budget(struct tool *t)
 }
 
 void
-tool_add_refusal(const struct tool *t, char *text, size_t size)
+tool_add_refusal(const struct tool *t, const struct rc_grid *g, char *text, size_t size)
 {
-    const size_t refused = rc_memory_held().refused, n = strlen(text);
-    char need[SHOWN_NUMBER], allowed[SHOWN_NUMBER];
+    const size_t refused = rc_memory_held().refused;
+    char need[SHOWN_NUMBER], allowed[SHOWN_NUMBER], what[64] = "out of memory: the work needs";
 
     if (refused == 0 || strstr(text, "out of memory") == NULL)
         return;
-    snprintf(text + n, size - n, ": at least %s needed, %s %s: %s",
-             shown_bytes(need, (double)(refused + t->beside)), t->bound,
-             shown_bytes(allowed, (double)size_sum(t->budget, t->beside)),
+    if (g != NULL)
+        snprintf(what, sizeof what, "%zu x %zu nodes need", g->nx, g->ny);
+    snprintf(text, size, "%s about %s, %s %s: %s", what,
+             shown_bytes(need, (double)size_sum(refused, t->beside)), t->bound,
+             t->memory != 0 && strcmp(t->bound, "--memory allows") == 0
+                 ? shown_bytes(allowed, (double)t->memory)
+                 : shown_bytes(allowed, (double)size_sum(t->budget, t->beside)),
              t->remedy == NULL ? smaller : t->remedy);
 }
 

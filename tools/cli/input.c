@@ -25,10 +25,9 @@ allow(void *tool, const struct rc_shape *shape, size_t bytes, struct rc_err *err
 {
     struct tool *t = tool;
 
-    (void)shape, (void)bytes, (void)err;
     if (tool_now() > t->budget_at + seconds)
         tool_budget(t);
-    return RC_OK;
+    return tool_ask_memory(t, shape, bytes, "use a coarser or smaller map, or raise --memory", err);
 }
 
 /* As of `--load 60 N`, whose last word would be a file. */

@@ -44,7 +44,7 @@ tool_fail(struct tool *t, const char *format, ...)
     va_start(ap, format);
     vsnprintf(text, sizeof text, format, ap);
     va_end(ap);
-    tool_add_refusal(t, text, sizeof text);
+    tool_add_refusal(t, NULL, text, sizeof text);
     say(t, text);
     tool_fails_with(t, EXIT_IMPOSSIBLE);
 }
@@ -130,7 +130,7 @@ tool_die(struct tool *t, int status, const char *format, ...)
     va_start(ap, format);
     vsnprintf(text, sizeof text, format, ap);
     va_end(ap);
-    tool_add_refusal(t, text, sizeof text);
+    tool_add_refusal(t, NULL, text, sizeof text);
     die(t, status, text);
 }
 
@@ -158,7 +158,7 @@ tool_die_at(struct tool *t, const struct rc_grid *g, int status, const char *for
     va_start(ap, format);
     vsnprintf(text, sizeof text, format, ap);
     va_end(ap);
-    tool_add_refusal(t, text, sizeof text);
+    tool_add_refusal(t, g, text, sizeof text);
     snprintf(whole, sizeof whole, "%s: %s", tool_where(t, g, where, sizeof where), text);
     die(t, status, whole);
 }

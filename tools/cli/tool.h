@@ -272,8 +272,9 @@ size_t tool_code(const struct tool *tool, size_t bytes);
 void tool_code_there(struct tool *tool, size_t bytes);
 /* The budget of the allocator: what --memory allows, or what the machine has, if that is less. */
 void tool_budget(struct tool *tool);
-/* To a message that memory is short: how much is needed, what bounds it, and what to do. */
-void tool_add_refusal(const struct tool *tool, char *text, size_t size);
+/* Where the budget refused memory, makes the message "out of memory ..." say how much is needed, what bounds it and
+ * what to do; g: NULL, or the map. */
+void tool_add_refusal(const struct tool *tool, const struct rc_grid *g, char *text, size_t size);
 /* What allocations and code took at most so far. */
 size_t tool_counted_memory(const struct tool *tool);
 /* Before long work that will allocate so many bytes after it: ends the tool when they exceed the budget. */
