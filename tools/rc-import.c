@@ -183,13 +183,14 @@ refuse_stream(const char *name, struct rc_err *err)
                       piped ? "... | rc-info" : "rc-info ", piped ? "" : name);
 }
 
-/* Puts what was packed with gzip in place of the file. --memory bounds both together. */
+/* Puts what was packed with gzip in place of the file. --memory bounds all that the process holds. */
 static enum rc_status
 unpack(const struct tool *t, struct source *s, struct rc_err *err)
 {
-    size_t most = t->memory == 0             ? rc_memory_limit(s->file.size)
-                  : t->memory > s->file.size ? t->memory - s->file.size
-                                             : 0;
+    const size_t held = rc_memory_held().held;
+    size_t most = t->memory == 0     ? rc_memory_limit(s->file.size)
+                  : t->budget > held ? t->budget - held
+                                     : 0;
     size_t size, n = strlen(s->name);
     unsigned char *data = rc_file_unpack(&s->file, most, &size, err);
 
