@@ -143,8 +143,10 @@ struct rc_pyramid {
     size_t levels;           /* 1 .. levels; level 0 is the base */
     int weights, components; /* maps of them               */
     struct level level[MOST_LEVELS];
-    float beyond[2]; /* what the extension takes for y beyond the coarsest level               */
-    float *scratch;  /* three rows of the base for each thread                                */
+    /* What the extension takes for y beyond the coarsest level; after rc_pyramid_set 0, for a single node has no
+     * surroundings. */
+    float beyond[3];
+    float *scratch; /* three rows of the base for each thread                                */
     /* where ranks share the base: */
     float *room;   /* rows made here of the first level that all hold                         */
     size_t *dealt; /* the first of them, of each rank                                         */
@@ -721,6 +723,7 @@ rc_pyramid_set(struct rc_pyramid *p, rc_pyramid_add *w, const void *of)
     int count = p->weights;
     float sum = 0, part = 1, weight;
 
+    memset(p->beyond, 0, sizeof p->beyond);
     if (p->levels == 0)
         return;
     for (size_t m = 1; m <= p->levels; m++, part *= (float)M_SQRT1_2)
