@@ -1,13 +1,13 @@
 /*
  * Memory within a budget.
  *
- * In libcontact, formats and tools malloc, calloc, realloc, aligned_alloc and free are those of memory.c (see
- * CMakeLists.txt). They call the C library's and add up what it gives (malloc_usable_size): one atomic addition a
- * call, no header and no table. What would exceed the budget is refused, and takes the path of an allocation that
- * fails; so no other function has to know how much memory its subject needs. Memory that other libraries take for
- * themselves (FFTW's planner, GSL, HDF5) does not count. The budget is the process's, as its memory is; every rank
- * has its own, and the ranks agree on a failure. Work that allocates large maps only after a long iteration asks
- * for them before it: rc_memory_ask (grid.h).
+ * libcontact, formats and tools use malloc, calloc, realloc, aligned_alloc and free of memory.c (see
+ * CMakeLists.txt). These call the C library and add up malloc_usable_size: one atomic addition a call, no
+ * header and no table. An allocation that would exceed the budget fails as if memory were short, so
+ * callers need no forecast of their own. The counter does not see what other libraries allocate (FFTW's
+ * planner, GSL, HDF5). Each process has one budget; under MPI each rank has its own, and the ranks agree
+ * on a failure. Work that allocates large maps only after a long iteration asks for them before it:
+ * rc_memory_ask (grid.h).
  */
 #ifndef RC_MEMORY_H
 #define RC_MEMORY_H
@@ -27,9 +27,9 @@ void *rc_realloc(void *at, size_t bytes);
 void *rc_aligned_alloc(size_t line, size_t bytes);
 void rc_free(void *at);
 
-/* What this thread allocates from here to rc_memory_lent does not count: it takes the place of pages of larger
- * maps that nobody has touched yet, and is freed before they are. rc_memory_lent says how much it was, which
- * rc_memory_return takes once it is freed. */
+/* Allocations of this thread between rc_memory_lend and rc_memory_lent do not count: they take the place of
+ * pages of larger maps that are still untouched, and are freed before those are touched. rc_memory_lent returns
+ * their bytes; pass them to rc_memory_return after freeing. */
 void rc_memory_lend(void);
 size_t rc_memory_lent(void);
 void rc_memory_return(size_t bytes);

@@ -1,19 +1,23 @@
 /*
- * Semismooth Newton on the faces of the discs, one step of preconditioned conjugate gradients on each set of faces:
- * sets change too fast for a second one to pay.
+ * Semismooth Newton on the faces of the discs. Each set of faces gets one step of preconditioned
+ * conjugate gradients: the sets change too fast for a second step to pay.
  *
- *  1. delta is the mean of Tq - w over |q| < g; where there is no such node, that of a step of the projected gradient.
- *  2. A node inside its circle sticks: both components are free. One on its circle slips, its tangent alone is free,
- *     but for one whose slip points inwards: that sticks again, unless the residuals of its neighbours would push it out
- *     again. A shortened step leaves slipping nodes on chords, inside: they slip on as long as they are pushed outwards.
- *  3. D = |s|/g along the tangents of what slips, the curvature of the circle, without which it is not Newton's method.
- *  4. z = M r (extension.h), of no load; d = z + beta times the last step (Hestenes and Stiefel).
- *  5. Back: nodes that slip radially on to their circles; those of each tile of 16 x 16 nodes that stick to the nearest
- *     tractions on the discs that carry what the tile carried; what is left by one shift.
- *  6. The length is that of Newton's energy on the faces, at most 1 and at most 1.9 of what lowers the energy most along
- *     the way; where the energy does not fall, a step of the projected gradient, which always lowers it.
+ *  1. delta is the mean of Tq - w over the nodes with |q| < g. Without such a node it is that of a
+ *     projected gradient step.
+ *  2. A node inside its circle sticks: both components are free. A node on its circle slips: only its
+ *     tangent is free. If its slip points inwards it sticks again, unless the residuals of its neighbours
+ *     would push it out. A shortened step leaves slipping nodes on chords, inside the circle: they slip
+ *     on while pushed outwards.
+ *  3. D = |s|/g along the tangents of slipping nodes is the curvature of the circle, as Newton's method
+ *     needs it.
+ *  4. z = M r (extension.h), of zero load; d = z + beta times the last step (Hestenes and Stiefel).
+ *  5. Slipping nodes return radially to their circles. The sticking nodes of each tile of 16 x 16 take
+ *     the nearest tractions on the discs that carry the load of the tile. One shift carries the rest.
+ *  6. The length minimises Newton's energy on the faces; it is at most 1, and at most 1.9 times the
+ *     length that lowers the energy most. If the energy does not fall, a projected gradient step follows,
+ *     which lowers it.
  *
- * M applied to the residual is also the estimate of the error.
+ * M applied to the residual also gives the estimate of the error.
  */
 #include "discs.h"
 

@@ -9,9 +9,8 @@
  *     r'(T + D)^-1 r = least of  v'Av + sum over slipping nodes of (t'(r - v))^2/D     over all fields v with
  *                      v = r where nodes stick:
  *
- * a displacement v of everything, most of which nobody asks for: off the contact, along the normals of the
- * circles, and, the less the larger D is, along their tangents. Here v = E r is an explicit guess of that
- * field,
+ * The displacement v is unknown off the contact, along the normals of the circles, and along their tangents,
+ * there the less the larger D is. Here v = E r is an explicit guess of it,
  *
  *     v = e + c P (r - e),   e from the pyramid of pairs with W_0 = c P,   c = T0/(T0 + D):
  *
