@@ -1,5 +1,5 @@
 /*
- * What the bounds of the pressure are, and what they can carry.
+ * The bounds of the pressure and the load that they can carry.
  */
 #include "bounds.h"
 
@@ -10,7 +10,7 @@
 #include "libcontact/memory.h"
 #include "libcontact/operator/operator.h"
 
-/* ---- of a problem ---- */
+/* ---- from a problem ---- */
 
 static struct rc_bounds
 of_numbers(double high, size_t nodes)
@@ -27,10 +27,10 @@ of_numbers(double high, size_t nodes)
 
 /* Figures of a map of upper bounds. */
 struct survey {
-    double least, most;  /* of the nodes that have a bound                            */
-    double sum;          /* of all nodes; INFINITY where a node has no bound          */
-    size_t numbers, bad; /* nodes that have a bound, and nodes with one of 0 or less  */
-    size_t first_bad;    /* index in the whole map                                    */
+    double least, most;  /* of the nodes that have a bound                           */
+    double sum;          /* of all nodes; INFINITY if a node has no bound            */
+    size_t numbers, bad; /* nodes that have a bound, and nodes with one of 0 or less */
+    size_t first_bad;    /* index in the whole map                                   */
 };
 
 static struct survey
@@ -125,7 +125,7 @@ rc_bounds_keep_load(struct rc_bounds *b, double sum)
     b->box.rest = rc_bounded(b) ? fmax(ldexp(apart, -42), 1e-14 * rc_above(b, sum)) : 0;
 }
 
-/* ---- what they can carry ---- */
+/* ---- the load that they can carry ---- */
 
 enum rc_status
 rc_bounds_carry(const struct rc_bounds *b, double load, double cell, size_t nodes,

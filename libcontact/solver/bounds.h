@@ -2,11 +2,10 @@
  * The bounds of the pressure. No other file of this folder knows their values. The lower bound is
  * 0, because the bodies do not pull; the upper bound is the hardness: a number, a map, or none.
  *
- * Loops over nodes ask a box, the bounds of the nodes from some node on. Where a loop is hot, its
- * body is an RC_INLINE function, which an RC_CLONES function calls twice: with rc_box_of_numbers,
- * so that the compiler sees two numbers and no map, and with the box as it is. To make the lower
- * bound a map as well, do with it what is done with `highs`: here, and in tiles.c, which copies a
- * tile of it.
+ * Loops over nodes use a box: the bounds of the nodes that follow a given node. The body of a hot loop is an
+ * RC_INLINE function that an RC_CLONES function calls twice: with rc_box_of_numbers, where the compiler sees
+ * two numbers and no map, and with the box itself. A lower bound that is a map would need the code of `highs`
+ * twice: here and in tiles.c, which copies a tile of it.
  */
 #ifndef RC_BOUNDS_H
 #define RC_BOUNDS_H
@@ -20,19 +19,19 @@
 
 struct rc_box {
     double low, high;    /* Pa                                                                 */
-    const double *highs; /* Pa, node by node, instead of high; NULL: high is that of all nodes */
-    double rest;         /* Pa: so near to a bound a pressure is at it, but for rounding       */
-    double per_unit;     /* 1 / (unit of the bounds): rc_room counts in units                  */
+    const double *highs; /* Pa, node by node, in place of high; NULL: high holds for all nodes */
+    double rest;         /* Pa: a pressure this near to a bound is at it but for rounding      */
+    double per_unit;     /* 1/Pa: 1 / rc_bounds.unit, for rc_room                              */
 };
 
 struct rc_bounds {
-    struct rc_box box; /* of the nodes held here; an upper bound of INFINITY is none         */
-    double unit;       /* Pa: rooms between the bounds are counted in it                     */
-    double highest;    /* Pa: the largest upper bound that is a number, or the lower one     */
-    bool open;         /* some node has no upper bound                                       */
-    double floor;      /* Pa: the sum of the lower bounds of all nodes of the map            */
-    double full;       /* Pa: the sum of the upper bounds                                    */
-    double *own;       /* copy of the map of upper bounds; NULL before rc_bounds_keep        */
+    struct rc_box box; /* of the nodes held here; INFINITY: no upper bound            */
+    double unit;       /* Pa: unit of the distance between the bounds                 */
+    double highest;    /* Pa: the largest finite upper bound, or the lower one        */
+    bool open;         /* some node has no upper bound                                */
+    double floor;      /* Pa: the sum of the lower bounds of all nodes of the map     */
+    double full;       /* Pa: the sum of the upper bounds                             */
+    double *own;       /* copy of the map of upper bounds; NULL before rc_bounds_keep */
 };
 
 /* ---- of a node ---- */
@@ -107,9 +106,9 @@ rc_clip(struct rc_box box, size_t k, double p)
     return p < high ? p : high;
 }
 
-/* The same for a pressure that stays: within the rounding of a bound it is at it. Otherwise, where a
- * load is a whole number of nodes times the hardness, nodes would end a few units of the last digit
- * below the hardness, and count as elastic. */
+/* rc_clip for a pressure that is kept: a pressure within rounding of a bound is set to it. Without this,
+ * nodes could end a few units in the last place below the hardness and count as elastic when the load is a
+ * whole number of nodes times the hardness. */
 static inline double
 rc_settled(struct rc_box box, size_t k, double p)
 {
@@ -119,7 +118,7 @@ rc_settled(struct rc_box box, size_t k, double p)
     return p < high - box.rest ? p : high;
 }
 
-/* The box for numbers as large as `most`, whose rounding may be more than `rest`. */
+/* The box for numbers as large as `most`, where rounding can exceed `rest`. */
 static inline struct rc_box
 rc_box_rounded(struct rc_box box, double most)
 {
@@ -130,11 +129,11 @@ rc_box_rounded(struct rc_box box, double most)
 
 /* ---- of the map ---- */
 
-/* A sum of rc_room, in Pa. */
+/* A sum of rc_room, converted to Pa. */
 static inline double
 rc_rooms(const struct rc_bounds *b, double sum)
 {
-    return sum > 0 ? sum * b->unit : 0; /* none of no bound is none */
+    return sum > 0 ? sum * b->unit : 0; /* 0 times an unlimited unit is 0 */
 }
 
 /* The part of a sum over the map that is above the lower bounds. */
@@ -144,8 +143,8 @@ rc_above(const struct rc_bounds *b, double sum)
     return sum - b->floor;
 }
 
-/* A shift that is large enough to bring any node of the box to its upper bound; where a node has none,
- * at least `amount`. */
+/* A shift that brings every node of the box to its upper bound; at least `amount` if a node has no upper
+ * bound. */
 static inline double
 rc_reach(const struct rc_bounds *b, double amount)
 {
@@ -159,26 +158,25 @@ rc_bounded(const struct rc_bounds *b)
     return b->highest > b->box.low;
 }
 
-/* Nodes off the working set carry nothing: there is no upper bound, and the lower one is 0. */
+/* Nodes off the working set carry no pressure: there is no upper bound, and the lower bound is 0. */
 static inline bool
 rc_bare(const struct rc_bounds *b)
 {
     return !rc_bounded(b) && b->box.low == 0;
 }
 
-/* The bounds of this problem, with their sums; rc_bounds_keep then copies the map, and nodes can be
- * asked. All ranks call it, and all get the same sums. RC_FAIL for a map with values that are no
- * bounds, and for a map and a number together. A map of one value counts as that number. */
+/* The bounds of this problem, with their sums; rc_bounds_keep then copies the map; after it the functions of
+ * nodes may be called. All ranks call it, and all get the same sums. RC_FAIL for a map with invalid bounds,
+ * and for a map and a number together. A map of one value counts as that number. */
 enum rc_status rc_bounds_of(struct rc_bounds *b, const struct rc_problem *problem,
                             const struct rc_shape *whole, struct rc_err *err);
-/* Copies the bounds of the n nodes held here. RC_FAIL when memory is short; other ranks do not learn
- * of it. */
+/* Copies the bounds of the n nodes held here. RC_FAIL when memory is short, on this rank only. */
 enum rc_status rc_bounds_keep(struct rc_bounds *b, size_t n);
 void rc_bounds_free(struct rc_bounds *b);
 /* Poses a problem with these bounds; `highs`: the map on that problem's grid, NULL without a map. */
 void rc_bounds_pose(const struct rc_bounds *b, const double *highs, struct rc_problem *problem);
-/* Nodal pressures of this sum are kept to 1e-14 of it: so near to its bound a node is at it. Without an
- * upper bound a node comes to the lower one exactly. */
+/* Sets `rest` for nodal pressures of this sum: 1e-14 of the sum. Without an upper bound nodes reach the lower
+ * bound exactly. */
 void rc_bounds_keep_load(struct rc_bounds *b, double sum);
 /* RC_FAIL when they cannot carry this load (N) on so many cells (m2). */
 enum rc_status rc_bounds_carry(const struct rc_bounds *b, double load, double cell, size_t nodes,

@@ -1,7 +1,7 @@
 /*
- * The elastic model: a contact by rc_solver, under a load or at an approach, with a hardness, a counter
- * body that is free to tilt, and the stiffness and the conductance as figures. A point that is kept leaves
- * its dents in the shape.
+ * The elastic model: a contact by rc_solver, under a load or at an approach, with a hardness, a counter body
+ * that is free to tilt, and the stiffness and the conductance as figures. Keeping a point adds its plastic
+ * dents to the shape.
  */
 #include "solver.h"
 
@@ -16,14 +16,15 @@ struct elastic {
     struct rc_model base;
     struct rc_problem problem;
     struct rc_elastic_asks asks;
-    size_t n;                 /* nodes of this rank                            */
-    double *h;                /* undeformed heights, until the solver has them */
-    double *dent;             /* heights less the undeformed ones; NULL: none  */
-    double height_error, off; /* m, N: of the heights, and what earlier loads were off */
-    double first_top, top;    /* m: highest node of the first shape, and of the present one */
-    struct rc_solver *solver; /* NULL: no load so far                          */
-    bool apart;               /* at this point: no load                        */
-    bool looked, deformed;    /* figures are of this point; the dents were kept */
+    size_t n;     /* nodes of this rank                                     */
+    double *h;    /* undeformed heights; freed when the solver has its copy */
+    double *dent; /* heights less the undeformed ones; NULL: none           */
+    /* m, N: error of the heights; error of the loads that made the dents */
+    double height_error, off;
+    double first_top, top;    /* m: highest node of the first shape, and of the present one   */
+    struct rc_solver *solver; /* NULL: no load so far                                         */
+    bool apart;               /* at this point: no load                                       */
+    bool looked, deformed;    /* the figures belong to this point; its dents are in the shape */
     struct rc_elastic_figures figures;
 };
 
@@ -78,7 +79,7 @@ highest(const struct elastic *e)
     return rc_ranks_most(e->problem.ranks, top);
 }
 
-/* The solver under this load or approach: made where there is none. */
+/* Sets this load or approach; makes the solver at the first call. */
 static enum rc_status
 press(struct elastic *e, double load, double approach, struct rc_err *err)
 {
@@ -93,7 +94,7 @@ press(struct elastic *e, double load, double approach, struct rc_err *err)
     if (e->solver == NULL)
         return RC_FAIL;
     e->solver->posed.dents = e->off;
-    free(e->h); /* it has its own */
+    free(e->h); /* the solver has a copy */
     e->h = NULL;
     return RC_OK;
 }
@@ -149,7 +150,7 @@ step(struct rc_model *m, struct rc_err *err)
     return e->apart ? RC_OK : rc_solver_step(e->solver);
 }
 
-/* Where no node is at the hardness the conductance has found the stiffness too. */
+/* Where no node is at the hardness, the conductance has also given the stiffness. */
 static enum rc_status
 look_at_stiffness(struct elastic *e, struct rc_err *err)
 {
@@ -200,7 +201,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     return RC_OK;
 }
 
-/* The shape that yielding leaves, and the dents as what it lacks. */
+/* The shape after elastic unloading, and the dents: this shape less the undeformed heights. */
 static enum rc_status
 dent(struct elastic *e, struct rc_err *err)
 {
@@ -270,7 +271,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     return RC_OK;
 }
 
-/* The dents stay in the new heights. */
+/* The dents are added to the new heights. */
 static enum rc_status
 set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 {
@@ -291,7 +292,7 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 
 /* ---- states ---- */
 
-/* Reads other dents than the present ones into the shape. */
+/* Replaces the dents of the shape by those of the state. */
 static void
 read_dent(struct elastic *e, struct rc_state *s, bool some)
 {
@@ -317,7 +318,7 @@ done:
     free(h);
 }
 
-/* Sets the load or the approach, and starts from the pressure that was reached. */
+/* Sets the load or the approach, and takes the stored pressure as start. */
 static void
 read_pressure(struct elastic *e, struct rc_state *s, double load)
 {
@@ -338,7 +339,7 @@ read_pressure(struct elastic *e, struct rc_state *s, double load)
     free(p);
 }
 
-/* The dents of earlier points; the pressure, where the point is not kept. */
+/* A state holds the dents of earlier points and, for a point that is not kept, its pressure. */
 static void
 state(struct rc_model *m, struct rc_state *s)
 {
@@ -355,7 +356,7 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_numbers(s, 1, &e->height_error);
     rc_state_numbers(s, 1, &e->off);
     rc_state_numbers(s, 1, &load);
-    if (!rc_state_reads(s)) { /* the solver's pressure is not changed */
+    if (!rc_state_reads(s)) { /* writing: the solver's pressure is not changed */
         rc_state_numbers(s, dented ? e->n : 0, e->dent);
         rc_state_numbers(s, pressed ? e->n : 0, pressed ? e->solver->it.p : NULL);
         return;
@@ -427,7 +428,7 @@ rc_elastic_new(const struct rc_shape *shape, const double *h, const struct rc_pr
     struct rc_model *m;
     struct elastic *e;
 
-    any.approach = 1; /* loads are checked when they come */
+    any.approach = 1; /* any approach: set_load checks the loads */
     if (rc_solver_expect(shape, &any, &expected, err) != RC_OK ||
         (m = rc_model_make(&rc_model_elastic, sizeof *e, shape, err)) == NULL)
         return NULL;

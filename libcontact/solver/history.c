@@ -2,14 +2,15 @@
  * A loading history: each load acts on the shape that the earlier loads have left, and between two
  * loads the bodies may be taken apart.
  *
- * What the pressure of a load that yields is off stays in the dents. The map from a shape to the next does not
- * enlarge it, so that errors of loads, in newtons, add up, and are over the present load a part of its error.
+ * The error of the pressure of a yielding load stays in the dents. The map from one shape to the next does
+ * not increase this error, so the errors (N) of all earlier loads add up; their sum over the present load is
+ * a part of its relative error.
  */
 #include "solver.h"
 
 #include <math.h>
 
-static const double finest = 1e-11; /* of the pressure, that a load that yields is solved to */
+static const double finest = 1e-11; /* smallest relative tolerance of a yielding load */
 
 double
 rc_history_error(const struct rc_solver *s)

@@ -1,5 +1,5 @@
 /*
- * The iterate: the pressure, its gap, and the estimate of its error.
+ * The iterate: the pressure, its gap, and its estimated error.
  */
 #include "solver.h"
 
@@ -33,7 +33,7 @@ rc_iterate_level(struct rc_solver *s)
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t k = 0; k < s->posed.n; k++)
         s->it.p[k] = rc_clip(box, k, mean);
-    if (box.highs != NULL) /* other nodes carry what was clipped */
+    if (box.highs != NULL) /* nodes that were not clipped carry the rest */
         rc_projection_of(s, s->it.p);
 }
 
@@ -127,7 +127,7 @@ rc_iterate_displace_rows(struct rc_solver *s)
 {
     double total[RC_SUMS];
 
-    if (s->op->row_cost >= 1) { /* for the same price in double precision */
+    if (s->op->row_cost >= 1) { /* double precision costs no more */
         rc_iterate_displace(s);
         return 0;
     }
@@ -181,7 +181,8 @@ elastic_block(void *at, size_t first, size_t n, double *sums)
     elastic_sums(rc_box(s, first), n, s->it.p + first, s->it.v + first, sums);
 }
 
-/* No node is elastic: of the shifts that suit this pressure the one that is sought, or the middle one. */
+/* The shift where no node is elastic: the wanted shift if it is admissible for this pressure, else the middle
+ * of the admissible interval. */
 static double
 middle(const struct rc_solver *s)
 {
@@ -217,11 +218,11 @@ rc_iterate_stiffness(const struct rc_solver *s)
     return s->op->inverse_near[1][1] / (s->load.length * s->load.per_pressure);
 }
 
-/* The part of the load by which that shift may be off: it only chooses a working set. */
+/* Relative error of the load up to which that shift is found: it only selects a working set. */
 static const double unbalanced = 1e-4;
 
-/* Context of the shift that balances nodes: each moves by its gap and the stiffness of a node among still
- * neighbours, as far as its bounds let it. */
+/* Context of the search for the balancing shift: each node moves by its gap times the stiffness of a node
+ * whose neighbours are fixed, within its bounds. */
 struct balance {
     struct rc_solver *s;
     double stiffness, shift;
@@ -305,7 +306,7 @@ rest_block(void *at, size_t first, size_t n, double *sums)
 {
     struct rc_solver *s = at;
     const struct rc_box box = rc_box(s, 0);
-    /* the tolerance is that of the whole map: these nodes may have most of the error */
+    /* the tolerance refers to the whole map: these nodes can hold most of the error */
     const double near = fmin(10 * s->load.tol, 1e-2);
 
     for (size_t k = first; k < first + n; k++) {
@@ -340,8 +341,8 @@ rc_iterate_checked(struct rc_solver *s, double error, size_t again)
     s->it.next_check = s->it.iterations + again;
 }
 
-/* The operator's error is a bound relative to |K| |p|. The error of the pressure that follows from it
- * was 0.2 to 0.6 of that bound (multi-level sums, smooth and rough spheres). */
+/* The operator's error is a bound relative to |K| |p|. The measured error of the pressure was 0.2 to 0.6 of
+ * it (multi-level sums, smooth and rough spheres). */
 double
 rc_iterate_operator_error(const struct rc_solver *s)
 {
@@ -351,7 +352,7 @@ rc_iterate_operator_error(const struct rc_solver *s)
 double
 rc_iterate_judge(struct rc_solver *s)
 {
-    if (s->posed.rough) /* a coarser grid has no convolution in double precision */
+    if (s->posed.rough) /* coarser grids do without convolutions in double precision */
         (void)rc_iterate_displace_rows(s);
     else if (!s->it.fresh)
         rc_iterate_displace(s);

@@ -1,8 +1,8 @@
 /*
- * The load: it is given, or it is sought for a given approach. The shift grows nearly as a power of
- * the load (2/3 for a sphere, 1 for a punch), so the search takes secants in logarithms, inside a
- * bracket. Each load starts from the solution of the last one, and the first loads are solved only
- * as accurately as the next guess needs.
+ * The load: given, or found for a given approach. The shift grows nearly as a power of the load (2/3 for a
+ * sphere, 1 for a punch), so the search is a secant method in logarithms, inside a bracket. Each load starts
+ * from the solution of the last one, and the first loads are solved to a loose tolerance, enough for the next
+ * guess.
  */
 #include "solver.h"
 
@@ -43,13 +43,13 @@ rc_load_set(struct rc_solver *s, double load, struct rc_err *err)
     s->load.load = load;
     s->load.sum = load / s->posed.cell;
     if (s->load.sum >= bounds->full * (1 - 8 * DBL_EPSILON))
-        s->load.sum = bounds->full; /* every node yields, whatever the rounding */
+        s->load.sum = bounds->full; /* every node is at its upper bound, whatever the rounding */
     rc_bounds_keep_load(&s->posed.bounds, s->load.sum);
     set_units(&s->load, s->posed.nodes, s->op->unit);
     return RC_OK;
 }
 
-/* ---- where it begins ---- */
+/* ---- the first load ---- */
 
 static void
 begin_search(struct rc_solver *s, double target)
@@ -71,9 +71,9 @@ depth_block(void *at, size_t first, size_t n, double *sums)
         sums[RC_MOST] = fmax(sums[RC_MOST], -s->posed.h[k]);
 }
 
-/* RC_FAIL where every node carries its hardness before this approach: under that load the bodies come as near
- * as one likes. The last node that yields is the one for which K H - h is largest, which no node is below
- * `depth`, of the lowest, to reach. */
+/* RC_FAIL where every node reaches its hardness before this approach: under that load the approach is
+ * undetermined. The last node to yield is the one with the largest K H - h, which is at least that of the
+ * lowest node, at `depth`. */
 static enum rc_status
 check_yield(struct rc_solver *s, double approach, double depth, struct rc_err *err)
 {
@@ -110,7 +110,8 @@ check_yield(struct rc_solver *s, double approach, double depth, struct rc_err *e
     return status;
 }
 
-/* RC_FAIL where complete contact is reached before this approach: the bodies come no nearer. */
+/* RC_FAIL where complete contact is reached before this approach: a larger load does not increase the
+ * approach. */
 static enum rc_status
 check_approach(struct rc_solver *s, double approach, struct rc_err *err)
 {
@@ -132,8 +133,8 @@ check_approach(struct rc_solver *s, double approach, struct rc_err *err)
     return RC_OK;
 }
 
-/* Where the load is sought, the given load is a guess; without it, the guess is the load of a flat
- * punch that is as large as the part of the surface above the approach. */
+/* Where the load is sought, the given load is a first guess; without one, the guess is the load of a flat
+ * punch with the area of the surface above the approach. */
 enum rc_status
 rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_err *err)
 {
@@ -164,14 +165,14 @@ rc_load_next(struct rc_solver *s, double load, double approach, struct rc_err *e
         if (check_approach(s, approach, err) != RC_OK)
             return RC_FAIL;
         begin_search(s, approach);
-        load = s->load.load; /* to begin with */
+        load = s->load.load; /* first guess */
     }
     return rc_load_set(s, load, err);
 }
 
 /* ---- the search ---- */
 
-/* The load at which the shift would be the target, by the power law through the last solution. */
+/* The load with this shift, by the power law through the last solution. */
 static double
 next_load(const struct rc_load *q, double load, double shift)
 {
@@ -185,8 +186,8 @@ next_load(const struct rc_load *q, double load, double shift)
     return shift < q->target ? load * 2 : load / 2;
 }
 
-/* The next solution is more accurate. The bracket, which came from less accurate ones, may not hold the
- * load that is sought: it is dropped. */
+/* Lowers the tolerance. The bracket came from less accurate solutions and may miss the load, so it is
+ * dropped. */
 static void
 tighten(struct rc_load *q, double tol)
 {
@@ -217,8 +218,8 @@ bound_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* While no node is elastic the bodies come nearer under one load: the loads on either side of it tell approaches
- * that are too small and too large. All nodes are put at a bound; false where that is not the contact of this
+/* While no node is elastic the approach varies at constant load: the loads next to it have approaches that
+ * are too small and too large. Sets all nodes to a bound; false where this is not the contact of the wanted
  * approach either. */
 static bool
 settle(struct rc_solver *s)
@@ -260,14 +261,15 @@ rc_load_search(struct rc_solver *s)
     closed = next == q->load || q->high <= q->low * (1 + 1e-15);
     done = closed || off <= RC_LOAD_TOL * s->posed.tol;
     if (done && q->tol > s->posed.tol) {
-        tighten(q, s->posed.tol); /* the right load, but not yet well solved */
+        /* the load is right, but the contact is not solved accurately enough */
+        tighten(q, s->posed.tol);
         return RC_MORE;
     }
     if (done && (rc_load_reached(s) || !rc_bounded(&s->posed.bounds) || settle(s)))
         return RC_OK;
     if (closed)
         return RC_SHORT;
-    /* where nodes yield the approach jumps, and to be near the load is not to be near the end */
+    /* where nodes yield the approach jumps, so a load near the right one can still have a wrong approach */
     tighten(q, rc_bounded(&s->posed.bounds) && off < loose ? s->posed.tol
                                                            : fmax(s->posed.tol, 0.1 * off));
     if (rc_load_set(s, next, NULL) != RC_OK)

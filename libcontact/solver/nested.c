@@ -1,8 +1,8 @@
 /*
- * A start from coarser grids. The same contact is solved roughly on a grid of half the nodes a side (a
- * profile stays one node wide, and a strip becomes so), which has a start from a coarser grid itself, and
- * each coarse pressure is shared by the nodes of this grid over it. A call of rc_nested_step does one
- * iteration on one of the coarser grids, or plans one of them, so that the caller sees every iteration.
+ * A start from coarser grids. The contact is first solved roughly on a grid of half the nodes a side (a
+ * profile stays one node wide, and a strip becomes one node wide), which starts from a coarser grid itself.
+ * The load of each coarse node is then divided among the fine nodes that it covers. A call of rc_nested_step
+ * does one iteration on one coarser grid, or plans one, so the caller sees every iteration.
  */
 #include "solver.h"
 
@@ -13,11 +13,11 @@
 #include "libcontact/memory.h"
 
 enum {
-    ROUNDS = 8,       /* of Newton's method over a coarse node */
-    COARSEST = 24,    /* nodes along the map from which a coarser grid is worth solving first */
-    FEW_NODES = 16384 /* a rank; with fewer, each rank solves the whole grid for itself */
+    ROUNDS = 8,       /* of Newton's method for the fine nodes of a coarse node */
+    COARSEST = 24,    /* nodes along the map; a smaller coarse grid does not pay */
+    FEW_NODES = 16384 /* of a rank; with fewer, each rank solves the whole grid itself */
 };
-/* A more accurate start saves no step, unless nodes are at their upper bounds. */
+/* A more accurate start saves no steps, unless nodes are at their upper bounds. */
 static const double coarse_tol = 8e-2, coarse_tol_yielding = 3e-2;
 
 void
@@ -65,15 +65,15 @@ rc_nested_convolutions(const struct rc_solver *s)
 
 /* ---- rows ---- */
 
-/* Rows of the coarser grid that lie under the rows held here. The two rows over one coarse row are
- * always held by the same rank. */
+/* Rows of the coarser grid that cover the rows held here. The two fine rows of a coarse row are always on the
+ * same rank. */
 static size_t
 rows_under(const struct rc_rows *fine)
 {
     return (fine->n + 1) / 2;
 }
 
-/* Means of the (up to) four nodes under each coarse node, of these rows. */
+/* Means over the (up to) four fine nodes of each coarse node, of these rows. */
 static void
 coarsen(const struct rc_posed *fine, const double *v, size_t coarse_nx, double *h)
 {
@@ -102,8 +102,8 @@ largest(const struct rc_ranks *ranks, const double *v, size_t n)
 
 /* ---- between ranks ---- */
 
-/* The first coarse row of each rank: `under` of the coarse rows that lie under its fine rows, `own` of
- * the coarse rows that it solves. */
+/* The first coarse row of each rank: `under`: of those that cover its fine rows; `own`: of those that it
+ * solves. */
 struct dealt {
     size_t *under, *own;
 };
@@ -130,8 +130,7 @@ dealt_free(struct dealt *d)
     free(d->own);
 }
 
-/* NULL for a small grid, which every rank solves for itself: waiting for sums of other ranks would
- * take longer. */
+/* NULL for a small grid, which every rank solves by itself: communication would take longer. */
 static const struct rc_ranks *
 ranks_for(const struct rc_solver *s, const struct rc_shape *coarse)
 {
@@ -140,8 +139,7 @@ ranks_for(const struct rc_solver *s, const struct rc_shape *coarse)
     return coarse->nx * coarse->ny < FEW_NODES * rc_ranks_count(ranks) ? NULL : ranks;
 }
 
-/* This map on the coarser grid, the rows that this rank solves. NULL when memory is short on any
- * rank. */
+/* This map on the coarser grid, for the rows that this rank solves. NULL when memory is short on any rank. */
 static double *
 coarse_map(const struct rc_solver *s, const double *map, const struct rc_shape *shape,
            const struct rc_rows *rows)
@@ -171,8 +169,8 @@ coarse_map(const struct rc_solver *s, const double *map, const struct rc_shape *
     return own;
 }
 
-/* A map of the coarse grid under the rows held here. Where several ranks share the coarse grid, it is
- * moved to `room`. NULL when memory is short on any rank. */
+/* Returns the rows of a coarse map that cover the fine rows held here. Where several ranks share the coarse
+ * grid, they are moved into `room`. NULL when memory is short on any rank. */
 static const double *
 map_under(const struct rc_solver *s, const struct rc_solver *c, const double *map, double **room)
 {
@@ -182,7 +180,7 @@ map_under(const struct rc_solver *s, const struct rc_solver *c, const double *ma
     bool fine;
 
     *room = NULL;
-    if (c->posed.rows.ranks == NULL) /* all rows are here */
+    if (c->posed.rows.ranks == NULL) /* this rank has all rows */
         return map + (s->posed.rows.first + 1) / 2 * nx;
     *room = rc_alloc(rows_under(&s->posed.rows) * nx, sizeof **room);
     fine = deal(&s->posed, &c->posed.rows, &d) && *room != NULL;
@@ -200,8 +198,8 @@ map_under(const struct rc_solver *s, const struct rc_solver *c, const double *ma
 
 /* ---- down ---- */
 
-/* To show the error of the grid, the coarse solution itself has to be more accurate than that error,
- * which is proportional to the spacing. */
+/* The discretization error, proportional to the spacing, is the difference of two grids. The error of the
+ * coarse solution must be smaller than this difference. */
 static double
 tolerance(const struct rc_solver *s, const struct rc_shape *coarse)
 {
@@ -213,7 +211,7 @@ tolerance(const struct rc_solver *s, const struct rc_shape *coarse)
     return fmax(s->load.target > 0 ? coarse_tol_yielding : coarse_tol, s->load.tol);
 }
 
-/* NULL when memory is short: then the constant start stays. */
+/* NULL when memory is short: the constant start is then kept. */
 static struct rc_solver *
 coarse_new(const struct rc_solver *s, bool *sought)
 {
@@ -231,7 +229,7 @@ coarse_new(const struct rc_solver *s, bool *sought)
     double *h = coarse_map(s, s->posed.h, &shape, &rows), *highs = NULL, lower;
     struct rc_solver *c;
 
-    /* a coarse node carries the mean of its four nodes; without bound where one of them has none */
+    /* a coarse node has the mean bound of its four nodes; no bound if one of them has none */
     if (h != NULL && fine_highs != NULL)
         highs = coarse_map(s, fine_highs, &shape, &rows);
     if (h == NULL || (fine_highs != NULL && highs == NULL)) {
@@ -239,10 +237,11 @@ coarse_new(const struct rc_solver *s, bool *sought)
         return NULL;
     }
     rc_bounds_pose(&s->posed.bounds, highs, &problem);
-    lower = -largest(rows.ranks, h, rows.n * shape.nx); /* that of the fine heights is 0 */
+    lower = -largest(rows.ranks, h, rows.n * shape.nx); /* the largest fine height is 0 */
     rc_tilt_pose(s, &problem);
     *sought =
-        s->load.target > 2 * lower && !problem.tilt_free; /* lower by which tilt is not known */
+        /* a free tilt changes `lower` */
+        s->load.target > 2 * lower && !problem.tilt_free;
     if (*sought)
         problem.approach = s->load.target - lower;
     c = rc_solver_coarse(s, &shape, h, &problem, NULL);
@@ -256,14 +255,14 @@ coarse_new(const struct rc_solver *s, bool *sought)
 
 /* ---- up ---- */
 
-/* What the coarse grid knows under the rows held here. */
+/* The coarse solution over the rows held here. */
 struct known {
-    size_t nx, rows;     /* of the coarse grid; its rows under those held here                */
+    size_t nx, rows;     /* of the coarse grid; number of its rows that cover those held here */
     const double *p, *u; /* pressure, and displacement but for a constant                     */
-    const double *before, *after; /* rows of u beside them; NULL: none                        */
+    const double *before, *after; /* rows of u before and after them; NULL: none */
     double *rooms[3]; /* where ranks share the coarse grid: p, u, and the rows beside them */
-    double stiffness; /* of a fine node among still neighbours, Pa/m                       */
-    bool round;       /* the map repeats                                                   */
+    double stiffness; /* Pa/m: of a fine node whose neighbours are fixed */
+    bool round;       /* the map is periodic */
 };
 
 static void
@@ -273,7 +272,7 @@ known_free(struct known *k)
         free(k->rooms[i]);
 }
 
-/* Fetches it, with u in the place of c->it.v. False when memory is short on any rank. */
+/* Fetches the coarse solution; u replaces c->it.v. False when memory is short on any rank. */
 static bool
 known_under(const struct rc_solver *s, struct rc_solver *c, struct known *k)
 {
@@ -306,15 +305,15 @@ known_under(const struct rc_solver *s, struct rc_solver *c, struct known *k)
     return true;
 }
 
-/* The nodes over one coarse node: what they would carry but for a constant, and what they carry. */
+/* The fine nodes of one coarse node: their pressures but for a common shift, and the load that they share. */
 struct over {
     size_t n, k[4];
     double y[4], load;
 };
 
-/* One shift for all of them, by Newton's method; what it leaves is corrected with the load of the map.
- * Where one of them would yield, the displacement of the coarse grid does not say which of the others do, and
- * all carry the same. */
+/* Finds the common shift by Newton's method; projection onto the load of the map later corrects its
+ * remainder. If one of the nodes would yield, the coarse displacement does not tell which others yield, so
+ * all get the same pressure. */
 static void
 share(const struct over *o, struct rc_box box, double *p)
 {
@@ -341,7 +340,7 @@ share(const struct over *o, struct rc_box box, double *p)
         p[o->k[i]] = rc_clip(box, o->k[i], yields ? mean : o->y[i] + mu);
 }
 
-/* The node after i, or before it, of n of a coarse line; i where there is none. */
+/* The node after or before i on a coarse line of n nodes; i where there is none. */
 static size_t
 beside(size_t i, bool after, size_t n, bool round)
 {
@@ -350,8 +349,8 @@ beside(size_t i, bool after, size_t n, bool round)
     return i > 0 ? i - 1 : round ? n - 1 : i;
 }
 
-/* Over the coarse node i of row j. The fine nodes are a quarter of the coarse spacing beside it, where the
- * displacement is found by linear interpolation. */
+/* Coarse node i of row j. Its fine nodes lie a quarter of the coarse spacing from it; the displacement there
+ * is interpolated linearly. */
 static void
 share_at(struct rc_solver *s, const struct known *c, size_t i, size_t j)
 {
@@ -386,10 +385,10 @@ repeat_at(struct rc_solver *s, const struct known *c, size_t i, size_t j)
             s->it.p[y * nx + x] = rc_clip(box, y * nx + x, c->p[j * c->nx + i]);
 }
 
-/* The pressure of each coarse node on the nodes over it: each of them presses the more, the higher it
- * stands above the displacement of the coarse grid, with the stiffness of a node whose neighbours keep
- * still. To repeat the coarse pressure instead begins with four to five times the error. Where
- * the displacement is not known it is repeated. */
+/* Divides the load of each coarse node among its fine nodes: the higher a fine node lies above the
+ * interpolated displacement, the larger its pressure, with the stiffness of a node whose neighbours are
+ * fixed. Repeating the coarse pressure instead starts with four to five times the error; this is done where
+ * the displacement is unknown. */
 static void
 refine(struct rc_solver *s, struct rc_solver *c)
 {
@@ -412,14 +411,14 @@ refine(struct rc_solver *s, struct rc_solver *c)
     known_free(&k);
     if (fabs(rc_iterate_carried(s) - s->load.sum) <= 1e-14 * s->load.sum)
         return;
-    /* an odd line is counted twice; should nodes have to join, the highest join first */
+    /* an odd line was counted twice; if nodes have to join, the highest joins first */
     for (size_t i = 0; i < s->posed.n; i++)
         s->it.v[i] = -s->posed.h[i];
     rc_projection_balance(s, s->it.v);
 }
 
-/* Figures of the coarse solution. Where the approach was given, both grids have it, and there is
- * nothing to compare. */
+/* Figures of the coarse solution. For a given approach both grids have the same approach, so its difference
+ * tells nothing. */
 static void
 compare(struct rc_solver *s, struct rc_solver *c)
 {

@@ -1,27 +1,27 @@
 /*
  * Projected conjugate gradients with the extension preconditioner (preconditioner.h).
  *
- * Working set W: the elastic nodes and those at a bound that want to leave it, but for those that
- * would only be pushed back (working_set.c). Residual r = -g on W with zero mean, z = E' A E r with
- * zero mean, direction z + beta delta conjugate to the last step delta unless much of that was
- * clipped; restarted when beta is negative. The step finds its way back into {0 <= p <= H, sum p =
- * S} tile by tile (tiles.c), or, where that leads nowhere, by one shift of the nodes of W
- * (projection.c). Scaling instead, as in (31b) of Polonsky and Keer, fails near saturation;
- * shifting all nodes drags every separated one into contact.
+ * Working set W: the elastic nodes, and the nodes at a bound whose gap has the wrong sign, except those that
+ * the next step would return to the bound (working_set.c). Residual r = -g on W with zero mean, z = E' A E r
+ * with zero mean, direction z + beta delta, conjugate to the last step delta unless much of that step was
+ * clipped; restarted when beta is negative. The step is returned to {0 <= p <= H, sum p = S} tile by tile
+ * (tiles.c) or, where this does not lower the energy, by one shift of all nodes of W (projection.c). Scaling
+ * instead, as in (31b) of Polonsky and Keer, fails near saturation; one shift of all nodes of the map puts
+ * every separated node into contact.
  *
- * Its length is foretold from the steps before, so that the one convolution K delta of the step as
- * it was clipped serves all: the new gap, the change of the energy, which is a quadratic along
- * delta and known exactly, and the conjugacy of the next direction. A clipped step that goes far
- * beyond the lowest energy is repeated with a smaller length; an unclipped one goes to the lowest
- * energy. So no step raises the energy. Every SPACER steps, and where no length of delta lowers the
- * energy, a projected-gradient step is made instead. By the spacer-step theorem (Luenberger and Ye,
- * Linear and Nonlinear Programming) the whole then converges to the one minimum.
+ * The length of a step is predicted from earlier steps, so one convolution K delta of the clipped step is
+ * enough for three purposes: the new gap, the change of the energy (a quadratic along delta, known exactly)
+ * and the conjugacy of the next direction. A clipped step that goes far beyond the lowest energy is repeated
+ * with a smaller length; an unclipped one ends at the lowest energy. So no step raises the energy. Every
+ * SPACER steps, and where no length lowers the energy, a projected-gradient step is taken instead. By the
+ * spacer-step theorem (Luenberger and Ye, Linear and Nonlinear Programming) the iteration then converges to
+ * the unique minimum.
  *
  * ||z||_1 / ||p||_1 estimates the error of the pressure and costs nothing here: z is at hand.
  *
- * Where the operator allows it, K delta is summed in single precision: its error is relative to
- * delta, which shrinks. `drift` adds up what that may have done to p; v is computed anew in double
- * precision before it matters, and always before an estimate ends the iteration.
+ * Where the operator allows it, K delta is summed in single precision: its error is relative to delta, which
+ * shrinks. `drift` is a bound of the resulting error of p; v is recomputed in double precision before this
+ * error matters, and always before an estimate ends the iteration.
  */
 #include "solver.h"
 
@@ -32,51 +32,52 @@
 #include "libcontact/memory.h"
 
 enum {
-    SPACER = 30,   /* steps after which one is a projected-gradient step                    */
-    PATIENCE = 40, /* steps without a better estimate, after which only rounding is left;
-                      at least one of them is a spacer                                      */
-    TRIES = 4,     /* to shorten a step                                                     */
-    LARGE = 2      /* times the elastic nodes: a set so large is not to follow their mean gap */
+    SPACER = 30, /* steps after which one is a projected-gradient step                    */
+    /* steps without a better estimate, after which only rounding errors are left; at least one of them is a
+     * spacer step */
+    PATIENCE = 40,
+    TRIES = 4, /* attempts to shorten a step */
+    LARGE = 2  /* times the elastic nodes: a larger set does not use their mean gap */
 };
-/* The longest step, relative to the load: beyond it the pressure of the nodes that stay would be lost
- * in rounding. Only heights that are far larger than the displacement ask for longer ones. */
+/* The longest step, relative to the load: beyond it rounding loses the pressure of the nodes that stay. Only
+ * heights that far exceed the displacement need longer steps. */
 static const double longest = 1e6;
-/* The least length that is foretold for a step: under a coat that bends the first ones are as short. */
+/* The smallest predicted length of a step: the first steps under a stiff coating are as short as this. */
 static const double shortest = 0.15;
-/* A clipped step is taken whole, so that its nodes come to rest at their bounds, where the lowest
- * energy lies at least this part of the way along it. With that part s, the whole step still gains
- * (2 s - 1)/s^2 of the largest possible gain. */
+/* A clipped step is taken whole, so that its clipped nodes stay at their bounds, if the lowest energy lies at
+ * least this fraction s of the way along it. The whole step then has at least (2 s - 1)/s^2 of the largest
+ * possible gain. */
 static const double enough = 0.75;
-/* An estimate above this at the start means that the heights are much larger than the displacements:
- * each node touches, or yields, nearly independently of the others. A better start is then a bed of
- * springs, each with the stiffness of its own cell. */
+/* An estimate above this at the start means that the heights far exceed the displacements: each node touches
+ * or yields nearly independently of the others. A bed of springs, each with the stiffness of its own cell, is
+ * then a better start. */
 static const double apart = 100;
-/* The largest clipped step, relative to the load, that the next direction is conjugate to. On one
- * material, where the eigenvalues are near 1, a larger limit saves no step, and the estimate, which is most
- * accurate for errors along the smallest eigenvalues, gets worse. */
+/* The largest clipped step, relative to the load, for which the next direction is made conjugate. On uniform
+ * bodies, where the eigenvalues are near 1, a larger limit saves no steps and makes the estimate less
+ * accurate, because it is most accurate for errors along the smallest eigenvalues. */
 static const double conjugate = 1e-2;
-/* What a step keeps of the last direction, b, is (z'r) / (z'r before) in conjugate gradients on a fixed
- * set, about the square of the ratio of two estimates. Where nodes have come or gone z'q contains their
- * residuals as well, and the next step would repeat what the last one has done already: on one material
- * four steps in place of six at 33 % contact. So b is at most that, as Gilbert and Nocedal have it
- * (SIAM J. Optim. 2, 1992). But under coats a few eigenvalues may lie far from the others, and the two ratios
- * differ: seven elastic nodes under one 10^4 times as stiff as its base took 100 steps. There b is left as it
- * is where at most this part of the set has come or gone. On one material that would save nothing, and cost
- * the estimate its honesty: it was down to 0.96 of the error at 99 % contact. */
+/* In conjugate gradients on a fixed set the factor of the last direction is b = (z'r) / (z'r before), about
+ * the square of the ratio of two estimates. If nodes joined or left, z'q also contains their residuals, and
+ * the next step would repeat the last one: four steps in place of six on uniform bodies at 33 % contact when
+ * b is limited to this square (Gilbert and Nocedal, SIAM J. Optim. 2, 1992). But under coatings a few
+ * eigenvalues can lie far from the others, and the two values of b differ: seven elastic nodes under a
+ * coating 10^4 times as stiff as its base took 100 steps. So b is not limited if at most this fraction of the
+ * set joined or left. On uniform bodies a larger fraction would save nothing and make the estimate too small:
+ * 0.96 of the error at 99 % contact. */
 static const double few = 3e-4;
 
 struct pcg {
     float *delta, *q;      /* the last step and K times it, in the units of the operator's rows */
     struct rc_tile *tiles; /* scratch of a move                                            */
-    struct rc_tile_line line; /* the same                                                     */
-    double curvature; /* delta'q; 0: the next direction is not conjugate to anything       */
-    double alpha;     /* length foretold for the next step                                 */
-    double drift;     /* relative error of p from single precision, an upper estimate      */
-    double estimate;  /* the last one; NAN: none yet                                       */
-    double before;    /* that of the iteration before this one                             */
-    double rate;      /* the last estimate over the one before, at most 1                  */
-    double best;      /* the least estimate                                                */
-    size_t best_at;   /* and its iteration                                                 */
+    struct rc_tile_line line; /* the same                                               */
+    double curvature;         /* delta'q; 0: the next direction is not made conjugate   */
+    double alpha;             /* predicted length of the next step                      */
+    double drift;             /* bound of the relative error of p from single precision */
+    double estimate;          /* the last one; NAN: none yet                */
+    double before;            /* the estimate one iteration earlier         */
+    double rate;              /* ratio of the last two estimates, at most 1 */
+    double best;              /* the least estimate                         */
+    size_t best_at;           /* and its iteration                          */
 };
 
 /* What the passes over all nodes share. */
@@ -142,9 +143,9 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
 
 /* ---- v, the working set, the residual ---- */
 
-/* The working set that belongs to v. Where nearly all that is loaded yields, only a few nodes are
- * elastic: their mean gap says little of the shift, and nodes that want to leave their bounds by it would
- * all go the same way. There the shift is the one with which as much load comes as goes. */
+/* The working set for v. Where nearly all loaded nodes yield, only a few are elastic. Their mean gap then
+ * says little about the shift, and with it the nodes that leave their bounds would all move the same way.
+ * There the shift is the one at which the load of nodes that join equals that of nodes that leave. */
 static void
 settle(struct rc_solver *solver)
 {
@@ -154,8 +155,8 @@ settle(struct rc_solver *solver)
     rc_working_set_find(solver, true);
 }
 
-/* The first v. In single precision, which a rough solution bears, its error is relative to the whole
- * displacement, and on large maps it would have to be computed anew on the way. */
+/* The first v, in single precision if the solution is a rough one. The error of single precision is relative
+ * to the whole displacement, so on large maps v would have to be recomputed during the iteration. */
 static void
 begin(struct rc_solver *solver, struct pcg *s)
 {
@@ -169,7 +170,7 @@ begin(struct rc_solver *solver, struct pcg *s)
     settle(solver);
 }
 
-/* v in double precision and the whole working set: an estimate from these may end the iteration. */
+/* v in double precision and the whole working set: an estimate from them may end the iteration. */
 static void
 renew(struct rc_solver *solver, struct pcg *s)
 {
@@ -191,7 +192,8 @@ enum { /* sums of z */
 };
 
 enum {
-    PIECE = 256 /* nodes of a row taken together: what is formed of them stays in the cache */
+    /* nodes of a row that are processed together: their intermediate values stay in the cache */
+    PIECE = 256
 };
 
 RC_CLONES static void
@@ -253,7 +255,7 @@ turn_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* z becomes the direction, `mean` its mean over W; the estimate of the error of p. */
+/* z becomes the direction and `mean` its mean over W; returns the estimated error of p. */
 static double
 precondition(struct rc_solver *solver, struct pcg *s, double *mean)
 {
@@ -292,7 +294,7 @@ start_from_springs(struct rc_solver *solver)
 {
     double least = 0, stiffness;
 
-    for (size_t k = 0; k < solver->posed.n; k++) /* the highest is 0 */
+    for (size_t k = 0; k < solver->posed.n; k++) /* the largest height is 0 */
         least = fmin(least, solver->posed.h[k]);
     least = -rc_ranks_most(solver->posed.rows.ranks, -least);
     stiffness =
@@ -305,9 +307,9 @@ start_from_springs(struct rc_solver *solver)
     restore(solver);
 }
 
-/* The direction, its mean, and the estimate; where time is short perhaps that of the last step. An estimate
- * below the tolerance is only believed if v was computed in double precision; where the last estimates
- * foretell one, v is renewed at once. */
+/* Finds the direction, its mean and the estimate; if the caller cannot wait, the estimate may be that of the
+ * last step. An estimate below the tolerance counts only if v was computed in double precision; where the
+ * last estimates predict one, v is recomputed at once. */
 static void
 find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
 {
@@ -327,7 +329,7 @@ find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
         s->estimate = precondition(solver, s, mean);
     }
     if (!sure && (s->estimate <= solver->load.tol || s->estimate < 3 * s->drift)) {
-        if (rc_solver_hurried(solver)) { /* not to be believed */
+        if (rc_solver_hurried(solver)) { /* not confirmed in double precision */
             s->estimate = isnan(s->before) ? INFINITY : s->before;
             return;
         }
@@ -337,7 +339,7 @@ find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
     s->rate = s->estimate < s->before ? s->estimate / s->before : 1;
 }
 
-/* ---- a step along it, clipped, with one convolution of what was left ---- */
+/* ---- a clipped step along it, with one convolution of the clipped step ---- */
 
 RC_INLINE double
 farthest_in(struct rc_box box, size_t n, const double *restrict p, const float *restrict delta,
@@ -355,7 +357,7 @@ farthest_in(struct rc_box box, size_t n, const double *restrict p, const float *
     return most;
 }
 
-/* After a move: the largest part of the way to a bound that any node has gone. */
+/* After a move: the largest fraction of the distance to a bound that any node has covered. */
 RC_CLONES static double
 farthest(struct rc_box box, size_t n, const double *p, const float *delta, double scale)
 {
@@ -396,13 +398,13 @@ step_in(void *at, size_t j, void *to)
 }
 
 enum {
-    SLOPE,     /* delta'g                       */
-    CURVATURE, /* delta'q                       */
-    SQUARE,    /* q'q                           */
-    GAP,       /* of v over the elastic nodes   */
-    PULL,      /* of q there                    */
-    ELASTIC,   /* how many                      */
-    CARRIED    /* of p                          */
+    SLOPE,     /* delta'g                     */
+    CURVATURE, /* delta'q                     */
+    SQUARE,    /* q'q                         */
+    GAP,       /* of v over the elastic nodes */
+    PULL,      /* of q there                  */
+    ELASTIC,   /* number of elastic nodes     */
+    CARRIED    /* of p                        */
 };
 
 RC_INLINE void
@@ -444,7 +446,7 @@ along(struct rc_box box, size_t n, const double *p, const double *v, double shif
         along_in(box, n, p, v, shift, delta, row, q, sums);
 }
 
-/* The same for a stretch without nodes of the set: no node there has moved, or carries anything. */
+/* The same for a stretch without nodes of the set, where no node has moved or carries pressure. */
 RC_CLONES static double
 beside(size_t n, const float *restrict row, float *restrict q)
 {
@@ -487,7 +489,7 @@ follow(size_t n, const float *restrict q, double factor, double *restrict v)
         v[k] += factor * (double)q[k];
 }
 
-/* v follows p; a is the part of the step that p took. */
+/* Updates v after p; a is the fraction of the step that p took. */
 static void
 follow_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -497,8 +499,8 @@ follow_block(void *at, size_t first, size_t n, double *sums)
     follow(n, c->s->q + first, c->a * c->solver->load.length, c->solver->it.v + first);
 }
 
-/* Takes p back by a part b of the step. A node that came from a bound returns to it exactly, whatever
- * the rounding. */
+/* Takes back a fraction b of the step. A node that left a bound returns to it exactly, whatever the rounding.
+ * */
 static void
 back_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -521,9 +523,9 @@ back_block(void *at, size_t first, size_t n, double *sums)
 
 /* A trial step. */
 struct trial {
-    double size; /* relative L1 norm                                            */
-    double fits; /* the factor to which it may be lengthened within the box     */
-    double best; /* the part of it that leads to the lowest energy; 0: none     */
+    double size; /* relative L1 norm                                             */
+    double fits; /* factor by which the step can be lengthened within the bounds */
+    double best; /* fraction of the step with the lowest energy; 0: none         */
     bool clipped;
     double total[RC_SUMS];
 };
@@ -536,11 +538,11 @@ undo(struct rc_solver *solver, struct pcg *s, double size)
 
     rc_reduce_blocks(solver, back_block, &c, total);
     restore(solver);
-    s->drift += solver->op->row_error * size; /* delta was rounded */
+    s->drift += solver->op->row_error * size; /* rounding of delta */
 }
 
-/* Moves p along the direction in z, whose mean is given, and back into the box; sets delta and q, and
- * what *t says of them. */
+/* Moves p along the direction in z with the given mean, and back into the bounds; sets delta, q and the
+ * figures in *t. */
 static void
 attempt(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool tiles,
         struct trial *t)
@@ -576,14 +578,14 @@ attempt(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool
     t->best = t->total[CURVATURE] > 0 && best > 0 ? best : 0;
 }
 
-/* Tries steps, each shorter than the last, until one is good enough; *alpha becomes its length. */
+/* Tries shorter and shorter steps until one is good enough; *alpha becomes its length. */
 static void
 make_best(struct rc_solver *solver, struct pcg *s, double *alpha, double mean, bool tiles,
           struct trial *t)
 {
     attempt(solver, s, *alpha, mean, tiles, t);
-    /* Too far. A part of a clipped step would leave its clipped nodes just off their bounds; a shorter
-     * step that is clipped anew puts them on. */
+    /* The step is too long. A fraction of a clipped step would leave its clipped nodes just off their bounds;
+     * a shorter step that is clipped anew puts them on their bounds. */
     for (int tries = 0; tries < TRIES && t->clipped && t->best < enough; tries++) {
         undo(solver, s, t->size);
         *alpha *= fmax(t->best, 0.2);
@@ -593,7 +595,7 @@ make_best(struct rc_solver *solver, struct pcg *s, double *alpha, double mean, b
         undo(solver, s, t->size);
 }
 
-/* v, the working set and the residual after that part of a step. */
+/* Updates v, the working set and the residual after that fraction of a step. */
 static void
 follow_step(struct rc_solver *solver, struct pcg *s, const struct trial *t, double part)
 {
@@ -618,9 +620,9 @@ follow_step(struct rc_solver *solver, struct pcg *s, const struct trial *t, doub
     settle(solver);
 }
 
-/* One step of p along the direction in z, whose mean is given, and back into the box, such that the
- * energy falls; v, the working set and the residual follow. Returns the relative change of p; 0 when
- * no length lowers the energy, and p is as before. */
+/* One step of p along the direction in z with the given mean, and back into the bounds, that lowers the
+ * energy; updates v, the working set and the residual. Returns the relative change of p; 0 when no length
+ * lowers the energy, and p is unchanged. */
 static double
 advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool tiles)
 {
@@ -643,7 +645,7 @@ advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool
     return t.size * part;
 }
 
-/* ---- the step that always descends ---- */
+/* ---- the projected-gradient step, which always lowers the energy ---- */
 
 static void
 gradient_block(void *at, size_t first, size_t n, double *sums)
@@ -658,8 +660,8 @@ gradient_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* A projected-gradient step. The way to a projection descends for any `length`; 1 / |K| and the
- * compliance of a single node are used. */
+/* A projected-gradient step. The path to the projection descends for any `length`; 1 / |K| and the compliance
+ * of a single node are used. */
 static double
 gradient_step(struct rc_solver *solver, struct pcg *s, double length)
 {
@@ -670,7 +672,7 @@ gradient_step(struct rc_solver *solver, struct pcg *s, double length)
     rc_working_set_all(solver);
     size = total[0] / solver->load.per_pressure / solver->load.sum;
     change = advance(solver, s, size > longest ? longest / size : 1, 0, false);
-    s->curvature = 0; /* not a direction to be conjugate to */
+    s->curvature = 0; /* the next direction is not made conjugate to it */
     if (change == 0)
         rc_working_set_find(solver, false);
     return change;
@@ -688,7 +690,7 @@ step(struct rc_solver *solver, void *at)
 
     if (!solver->it.known)
         begin(solver, s);
-    if (rc_solver_hurried(solver)) /* p stays, and v with it */
+    if (rc_solver_hurried(solver)) /* p and v stay */
         return (struct rc_found){.estimate = isnan(s->estimate) ? INFINITY : s->estimate,
                                  .change = 1};
     find_direction(solver, s, &mean);
@@ -699,12 +701,12 @@ step(struct rc_solver *solver, void *at)
         s->best = s->estimate;
         s->best_at = solver->it.iterations;
     } else if (solver->it.iterations > s->best_at + PATIENCE) {
-        return found; /* rounding: it stands still */
+        return found; /* only rounding errors are left */
     }
     if (rc_solver_hurried(solver))
         return (struct rc_found){.estimate = s->estimate, .change = 1};
-    /* A clipped direction need not descend. Where that happens again and again, the error is that of
-     * single nodes at edges of the contact, which a step of 1 / |K| hardly moves. */
+    /* A clipped direction may raise the energy. If this happens repeatedly, the error is that of single nodes
+     * at edges of the contact, which a step of 1 / |K| hardly moves. */
     alpha = s->estimate * s->alpha > longest ? longest / s->estimate : s->alpha;
     still = solver->it.iterations > s->best_at + 3;
     if (solver->it.iterations % SPACER == SPACER - 1)
@@ -716,7 +718,7 @@ step(struct rc_solver *solver, void *at)
     return found;
 }
 
-/* From bench-solve, 512^2 to 2048^2, 1 to 99 % contact: the size of the grid does not matter. */
+/* Fit to bench-solve, 512^2 to 2048^2, 1 to 99 % contact: the number does not depend on the grid size. */
 static double
 convolutions(double nodes, double digits)
 {

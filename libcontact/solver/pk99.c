@@ -1,12 +1,11 @@
 /*
- * The scheme of Polonsky and Keer, Wear 231 (1999), section 3.2: conjugate gradients on the
- * pressure with the contact set and the load enforced in every step. Equation numbers are the
- * paper's; its slips are corrected ((31b) scales by P0/P), and the upper bound, which it leaves
- * open, is treated like the lower one: a node leaves H where the gap is positive, as it enters
- * contact where the gap is negative.
+ * The scheme of Polonsky and Keer, Wear 231 (1999), section 3.2: conjugate gradients on the pressure with the
+ * contact set and the load enforced in every step. Equation numbers are the paper's; its errors are corrected
+ * ((31b) scales by P0/P). The paper has no upper bound; here it is treated like the lower one: a node leaves
+ * H where the gap is positive, as it enters contact where the gap is negative.
  *
- * Where many nodes change sides at once the scheme can cycle for ever (one tall node over a plain;
- * loads close to saturation): safeguard.c takes back what raised the energy.
+ * Where many nodes join or leave at once the scheme can cycle forever (one high node above a plane; loads
+ * close to saturation): safeguard.c reverts a step that raised the energy.
  */
 #include "solver.h"
 
@@ -24,7 +23,7 @@ struct state {
     double G;     /* (22) of the last step                           */
     double delta; /* 0: the next direction is steepest descent       */
     double tau;   /* last step length, 0 before the first            */
-    double first; /* a length that is safe where (26) is 0/0         */
+    double first; /* a safe length where (26) is 0/0                 */
     struct rc_safeguard safeguard;
 };
 
@@ -131,7 +130,7 @@ length_block(void *at, size_t first, size_t n, double *sums)
         }
 }
 
-/* (24) to (26): the step length. One elastic node has nothing to exchange with: 0/0. */
+/* (24) to (26): the step length. With one elastic node (26) is 0/0. */
 static void
 measure(struct rc_solver *solver, struct state *s)
 {
@@ -151,7 +150,7 @@ measure(struct rc_solver *solver, struct state *s)
         memset(s->t, 0, solver->posed.n * sizeof *s->t);
 }
 
-/* (28) to (30): the step, the box, and the nodes that want to leave their bound, counted. */
+/* (28) to (30): the step and the bounds; counts the nodes that leave their bound. */
 static void
 move_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -193,7 +192,7 @@ change_block(void *at, size_t first, size_t n, double *sums)
         sums[0] += fabs(c->solver->it.p[k] - c->s->old[k]);
 }
 
-/* After a move: the load, and (32), how far it went. */
+/* After a move: restores the load and returns (32), the relative change. */
 static double
 settle(struct rc_solver *solver, struct state *s)
 {
@@ -224,8 +223,7 @@ step(struct rc_solver *solver, void *at)
         move(solver, s);
     }
     change = settle(solver, s);
-    if (change <=
-        DBL_EPSILON) { /* no node can go where the paper would have it: the way down is open */
+    if (change <= DBL_EPSILON) { /* no node can follow the paper's step: use the safeguard's step */
         rc_safeguard_step(solver, s->old, s->t, s->r);
         s->delta = 0;
         change = settle(solver, s);
@@ -243,7 +241,7 @@ forget(void *at)
     s->safeguard.energy = INFINITY;
 }
 
-/* Most iterations find the contact; once it is found, each digit costs few. */
+/* Most iterations find the contact; after that each digit costs only a few. */
 static double
 convolutions(double nodes, double digits)
 {

@@ -9,7 +9,7 @@
 #include "pyramid.h"
 
 struct rc_preconditioner {
-    struct rc_operator *op; /* the caller's                                                   */
+    struct rc_operator *op; /* owned by the caller */
     struct rc_pyramid *pyramid;
     float *node; /* minus rc_load_share on W                                       */
     const unsigned char *w;
@@ -17,8 +17,9 @@ struct rc_preconditioner {
     size_t above, below; /* rows of the frame that are held here                           */
     float *row;          /* of the framed map, for each thread                             */
     float *
-        frame; /* a field on the frame: nodes of a row follow each other, all or left and right of the
-                     map; NULL: there is none */
+        /* a field on the frame: the nodes of a frame row in order, all of the row or those left and right of
+         * the map; NULL: no frame */
+        frame;
 };
 
 /* ---- the frame ---- */
@@ -46,7 +47,8 @@ is_on_map(const struct rc_preconditioner *e, size_t j)
     return j >= e->above && j - e->above < e->op->shape.ny;
 }
 
-/* Of a framed row the part on the map, of which it becomes row *j; NULL where it is off the map. */
+/* The part of a framed row that is on the map; *j becomes its row of the map. NULL where it is off the map.
+ * */
 static float *
 on_map(const struct rc_preconditioner *e, size_t *j, void *row)
 {
@@ -73,21 +75,21 @@ keep_frame(struct rc_preconditioner *e, size_t j, const float *row)
     memcpy(to + x, row + x + nx, x * sizeof *to);
 }
 
-/* Falls off from 1 at the map to 0 beyond the end of the frame. */
+/* Decreases linearly from 1 at the map to 0 beyond the end of the frame. */
 static float
 taper(size_t off, size_t frame)
 {
     return 1 - (float)off / (float)(frame + 1);
 }
 
-/* Nodes from k to the nearest of n that follow `before` others. */
+/* Number of nodes from k to the nearest of the n nodes that start at `before`. */
 static size_t
 beside(size_t k, size_t before, size_t n)
 {
     return k < before ? before - k : k < before + n ? 0 : k - before - n + 1;
 }
 
-/* What the extension is multiplied by on column i of a row of the frame that is multiplied by `of_row`. */
+/* Factor of the extension in column i of a frame row whose own factor is `of_row`. */
 static float
 frame_factor(const struct rc_preconditioner *e, size_t i, float of_row)
 {
@@ -116,7 +118,7 @@ fade_frame(const struct rc_preconditioner *e, size_t j, float *row)
             row[i] *= frame_factor(e, i, of_row);
 }
 
-/* Adds `weight` times the field that was kept, faded, to a row. */
+/* Adds `weight` times the kept frame field, with its decrease, to a row. */
 static void
 add_frame(const struct rc_preconditioner *e, size_t j, float weight, float *to)
 {
@@ -163,13 +165,14 @@ make_room(struct rc_preconditioner *e, struct rc_err *err)
                       op->shape.ny);
 }
 
-/* Of a map of which `count` ranks hold rows; this one those of `rows`, with what it has of the frame. */
+/* The pyramid's finest grid on a map of which `count` ranks hold rows: this rank holds `rows`, with its part
+ * of the frame. */
 static struct rc_pyramid_base
 base_of(const struct rc_shape *whole, enum rc_boundary boundary, struct rc_frame frame,
         size_t count, const struct rc_rows *rows)
 {
     double unit = sqrt(whole->dx) * sqrt(whole->dy);
-    size_t before = rows->first > 0 ? frame.y : 0; /* a rank without rows comes last */
+    size_t before = rows->first > 0 ? frame.y : 0; /* a rank without rows is the last one */
     size_t above = rows->n > 0 && rows->first == 0 ? frame.y : 0;
     size_t below = rows->n > 0 && rows->first + rows->n == rows->ny ? frame.y : 0;
     size_t both = rc_rows_unit(whole->nx) | frame.y;
@@ -232,7 +235,7 @@ rc_preconditioner_memory(const struct rc_shape *shape, const struct rc_operator_
     struct rc_pyramid_base base =
         base_of(shape, options->boundary, rc_operator_frame(shape, options), ranks, &most);
 
-    /* the numbers of the nodes, and the field on the frame */
+    /* a number for each node, and the field on the frame */
     return rc_pyramid_memory(&base) + base.n * base.shape.nx * sizeof(float);
 }
 
@@ -277,8 +280,8 @@ field_row(const void *of, int c, size_t j, float weight, float *row)
         add_numbers(n, weight, f->w + j * n, f->r + j * n, f->offset, to);
 }
 
-/* The pressure M 1 of a shift of all of W is large at nodes whose surroundings are not W: it is nearly
- * proportional to the part of them that is missing. */
+/* The pressure M 1 of a common shift of W is large at nodes with few neighbours on W: it is nearly
+ * proportional to the missing part of their surroundings. */
 RC_CLONES static void
 share(size_t n, const unsigned char *w, const float *part, float *restrict node)
 {

@@ -1,10 +1,10 @@
 /*
- * The way back into {0 <= p <= H, sum p = S}: the load is kept exactly while pressures stay in the
- * box, the constraint that scaling alone breaks.
+ * Returns pressures to {0 <= p <= H, sum p = S}: keeps the load exactly and the pressures within their
+ * bounds, which scaling alone does not.
  *
- * The Euclidean projection of y on it is clip(y + mu, 0, H) with one shift mu for all nodes. The
- * load phi(mu) = sum clip(y + mu, 0, H) is monotone and piecewise linear in the shift: Newton's
- * method inside a bracket finds it. tiles.c has the way back that most steps take.
+ * The Euclidean projection of y on it is clip(y + mu, 0, H) with one shift mu for all nodes. The load phi(mu)
+ * = sum clip(y + mu, 0, H) is monotone and piecewise linear in the shift: Newton's method inside a bracket
+ * finds it. Most steps use tiles.c instead.
  */
 #include "solver.h"
 
@@ -14,7 +14,7 @@
 
 /* ---- the shift ---- */
 
-/* The bracket is halved where Newton's step leaves it. */
+/* Newton's method; where a step leaves the bracket, the bracket is halved. */
 double
 rc_newton(rc_excess_at *at, void *ctx, double low, double high, double start, double least)
 {
@@ -76,7 +76,7 @@ excess_of_map(void *ctx, double shift)
     return (struct rc_excess){.load = total[LOAD] - m->s->load.sum, .slope = total[ELASTIC]};
 }
 
-/* Where the load is the sum of the upper bounds, all nodes are at their upper bounds. */
+/* Where the load equals the sum of the upper bounds, puts all nodes at their upper bounds. */
 static bool
 fill(const struct rc_solver *s, double *y)
 {
@@ -105,7 +105,7 @@ rc_projection_of(const struct rc_solver *s, double *y)
     }
     most = rc_ranks_most(s->posed.rows.ranks, most);
     least = -rc_ranks_most(s->posed.rows.ranks, -least);
-    low = bounds->box.low - most; /* nothing above its lower bound */
+    low = bounds->box.low - most; /* no node is above its lower bound */
     high = bounds->box.low + rc_reach(bounds, rc_above(bounds, sum)) - least;
     mu = rc_newton(excess_of_map, &map, low, high, fmin(fmax(0, low), high), 4 * DBL_EPSILON * sum);
     box = rc_box_rounded(bounds->box, fmax(most, -least));
@@ -115,8 +115,8 @@ rc_projection_of(const struct rc_solver *s, double *y)
 
 /* ---- of a step ---- */
 
-/* Context of the passes over all nodes: on W p becomes y = p + alpha (d - mean), and then
- * clip(y + shift, 0, H). Loads count from the lower bounds. */
+/* Context of the passes over all nodes: on W p becomes y = p + alpha (d - mean), and then clip(y + shift, 0,
+ * H). Loads are those above the lower bounds. */
 struct step {
     struct rc_move *m;
     struct rc_box box;
@@ -124,9 +124,9 @@ struct step {
 };
 
 enum {    /* sums of the first pass, */
-    HELD, /* by nodes off W          */
+    HELD, /* load of nodes off W */
     ROOM,
-    /* and of the others */
+    /* and of the later passes */
     CARRIED = 0,
     COUNT,
     SIZE = 0
@@ -232,9 +232,10 @@ rc_move_shift(struct rc_move *m)
 struct scale {
     struct rc_solver *s;
     double f;
-    bool cap; /* only nodes that would reach their bound move, to it; else all are multiplied */
+    /* only nodes that would reach their bound move, to the bound; else all elastic nodes are multiplied */
+    bool cap;
     const double *g;
-    double least, most; /* gaps between which rooms are added up */
+    double least, most; /* nodes with gaps between these join */
 };
 
 static inline double
@@ -245,7 +246,8 @@ scaled(const struct scale *c, struct rc_box box, size_t k)
     return low + c->f * (c->s->it.p[k] - low);
 }
 
-/* Of the elastic nodes; sums[1]: the rooms of those that would reach the bound with the factor f. */
+/* sums[0]: load of the elastic nodes; sums[1]: rooms of those that would reach the bound with the factor f.
+ * */
 static void
 elastic_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -298,7 +300,7 @@ scale_elastic(struct rc_solver *s, double target)
     } while (capped > 0);
 }
 
-/* Whether a node without pressure has a gap from `least` to `most`. */
+/* Whether a node without pressure has a gap between `least` and `most`. */
 static bool
 may_join(const struct scale *c, struct rc_box box, size_t k, double least, double most)
 {
@@ -316,7 +318,7 @@ room_block(void *at, size_t first, size_t n, double *sums)
             sums[0] += rc_room(box, k);
 }
 
-/* The rooms of those nodes. */
+/* Sum of the rooms of those nodes. */
 static double
 room_of_gaps(struct scale *c, double least, double most)
 {
@@ -328,7 +330,7 @@ room_of_gaps(struct scale *c, double least, double most)
     return total[0];
 }
 
-/* Doubles in their order as whole numbers, and back. */
+/* Order of a double among all doubles as a whole number, and its inverse. */
 static int64_t
 rank_of(double v)
 {
@@ -348,7 +350,7 @@ of_rank(int64_t rank)
     return v;
 }
 
-/* The gap of the last node that joins when room for `wanted` is needed: bisection over all doubles. */
+/* The gap of the last node that joins when the sum of rooms must be `wanted`: bisection over all doubles. */
 static double
 last_gap(struct scale *c, double wanted)
 {
@@ -364,7 +366,8 @@ last_gap(struct scale *c, double wanted)
     return of_rank(low);
 }
 
-/* The rooms of nodes without pressure and with just this gap, in the rows before those held here. */
+/* Sum of the rooms of nodes without pressure and with exactly this gap, in the rows before those held here.
+ * */
 static double
 equal_before(const struct scale *c, double gap)
 {
@@ -379,9 +382,9 @@ equal_before(const struct scale *c, double gap)
     return rc_ranks_sum_before(c->s->posed.rows.ranks, here);
 }
 
-/* All loaded nodes, if any, are at their upper bounds and `rest` is still missing. Nodes without
- * pressure join in the order of their gap, those of equal gap in the order of the map. All but the
- * last one to join come to their upper bounds. */
+/* All loaded nodes, if any, are at their upper bounds and `rest` is still missing. Nodes without pressure
+ * join in the order of their gap; nodes of equal gap in the order of the map. All but the last one reach
+ * their upper bounds. */
 static void
 add_nodes(struct rc_solver *s, double rest, const double *g)
 {
@@ -399,7 +402,7 @@ add_nodes(struct rc_solver *s, double rest, const double *g)
             continue;
         if (g[k] < last) {
             s->it.p[k] = rc_high(box, k);
-        } else if (taken < wanted) { /* of this gap not all need join */
+        } else if (taken < wanted) { /* only some of the nodes of this gap join */
             s->it.p[k] = rc_settled(box, k, rc_low(box, k) + rest - rc_rooms(bounds, taken));
             taken += rc_room(box, k);
         }
@@ -424,7 +427,7 @@ times_block(void *at, size_t first, size_t n, double *sums)
         c->s->it.p[k] = scaled(c, rc_box(c->s, 0), k);
 }
 
-/* The nodes at the bound carry too much by themselves. */
+/* The nodes at the bound alone exceed the load. */
 static void
 scale_all(struct rc_solver *s)
 {
@@ -469,7 +472,7 @@ rc_projection_balance(struct rc_solver *s, const double *g)
     full = rc_rooms(bounds, total[FULL]);
     target = sum - full;
     if (fabs(target) <= 1e-14 * sum)
-        target = 0; /* the nodes at the bound carry the load, and the others nothing */
+        target = 0; /* the nodes at the bound carry the whole load */
     if (elastic == 0 && target == 0)
         return;
     if (elastic > 0 && target >= 0 && target <= elastic) {

@@ -9,20 +9,21 @@
 
 enum {
     MOST_LEVELS = 64,
-    FEW = 16384,       /* nodes of a level, for which no team of threads is called             */
-    FEW_OF_RANK = 1024 /* nodes of a level that a rank would hold, if it were shared any more */
+    FEW = 16384,       /* nodes of a level; a smaller one is processed by one thread */
+    FEW_OF_RANK = 1024 /* nodes of a level per rank; with fewer, ranks no longer share the level */
 };
 
 /* ---- one direction ---- */
 
-/* Along one direction n nodes become `coarse` ones, node j that over 2 j and 2 j + 1, or, where it is kept,
- * that over j. */
+/* One direction of a grid of n nodes, of which the coarser grid has `coarse` nodes: its node j lies over
+ * nodes 2 j and 2 j + 1 or, where this direction is kept, over node j. */
 struct axis {
     size_t n, coarse;
     bool halved, round;
 };
 
-/* Where a node takes its value from: 3/4 from the coarse node over it, 1/4 from the one on its other side. */
+/* The coarse nodes from which node j is interpolated: 3/4 of the coarse node over it, 1/4 of the neighbour on
+ * its other side. */
 static void
 parents(const struct axis *a, size_t j, size_t *near, size_t *far)
 {
@@ -35,7 +36,7 @@ parents(const struct axis *a, size_t j, size_t *near, size_t *far)
         *far = k < last ? k + 1 : a->round ? 0 : k;
 }
 
-/* The nodes that take their values from coarse node k, at most 4, and how much of it. */
+/* The nodes that are interpolated from coarse node k, at most 4, and its weight in each. */
 static size_t
 children(const struct axis *a, size_t k, size_t *at, float *weight)
 {
@@ -130,12 +131,12 @@ struct level {
     float *most[3];   /* of pairs max(w, 1)^-1                    */
     float *value[3];  /* X, then y; and the same of the transpose */
     int threads;
-    /* Ranks that share the finer level make rows of this one over those that they hold. They keep these
-     * where they share this level too, else all get all rows. */
+    /* Each rank that shares the finer level computes the rows of this level over its own rows. If this level
+     * is shared too, the rank keeps these rows; otherwise all ranks get all rows. */
     bool parts, shared;
-    size_t own_first, own; /* made here                                                  */
-    size_t first, n;       /* held here                                                  */
-    float *beside;         /* of a shared level the values of the rows beside those held */
+    size_t own_first, own; /* computed here */
+    size_t first, n;       /* held here     */
+    float *beside; /* of a shared level: values of the rows before and after those held here */
 };
 
 struct rc_pyramid {
@@ -143,14 +144,15 @@ struct rc_pyramid {
     size_t levels;           /* 1 .. levels; level 0 is the base */
     int weights, components; /* maps of them               */
     struct level level[MOST_LEVELS];
-    /* What the extension takes for y beyond the coarsest level; after rc_pyramid_set 0, for a single node has no
-     * surroundings. */
+    /* The value of y beyond the coarsest level in the extension; 0 after rc_pyramid_set, because a single
+     * node has no surroundings. */
     float beyond[3];
     float *scratch; /* three rows of the base for each thread                                */
     /* where ranks share the base: */
-    float *room;   /* rows made here of the first level that all hold                         */
-    size_t *dealt; /* the first of them, of each rank                                         */
-    float *edge;   /* rows of a shared level: the first and the last one held, those beside them */
+    float *room;   /* rows computed here of the first level that all ranks hold */
+    size_t *dealt; /* the first of these rows, for each rank */
+    /* rows of a shared level: the first and last one held here, and their neighbours on other ranks */
+    float *edge;
 };
 
 /* A level on the way from the base to the coarsest one. */
@@ -172,8 +174,8 @@ finest(const struct rc_pyramid_base *b)
                          .shared = b->count > 1};
 }
 
-/* The next level, which *g becomes; false when there is none. A level whose ranks would begin with an odd
- * row, or of few nodes, is no longer shared. */
+/* Replaces *g by the next level; false when there is none. A level is no longer shared if a rank would begin
+ * with an odd row or hold few nodes. */
 static bool
 coarser(const struct rc_pyramid_base *b, struct grid *g, struct level *l)
 {
@@ -200,7 +202,8 @@ coarser(const struct rc_pyramid_base *b, struct grid *g, struct level *l)
     return true;
 }
 
-/* How far the sums of a level reach into the next one, and the weight of what is coarser. */
+/* Sets k and t of the level: the factor of its sums in the next level, and the weight of the coarser values.
+ * */
 static void
 set_factors(struct level *l, const double spacing[2], rc_power_at *power, const void *of)
 {
@@ -213,7 +216,7 @@ set_factors(struct level *l, const double spacing[2], rc_power_at *power, const 
     l->t = (float)exp2(a < 1 && d == 1 ? 5 - 4 * a : a < 2 ? 3 - 2 * a : 1 - a);
 }
 
-/* That are held here. */
+/* Nodes held here. */
 static size_t
 nodes(const struct level *l)
 {
@@ -223,7 +226,7 @@ nodes(const struct level *l)
 static size_t
 some(size_t n)
 {
-    return n > 0 ? n : 1; /* of a rank without rows */
+    return n > 0 ? n : 1; /* a rank without rows */
 }
 
 static bool
@@ -253,7 +256,7 @@ room_of_ranks(struct rc_pyramid *p, const struct level *l)
     return p->room != NULL && p->dealt != NULL && p->edge != NULL;
 }
 
-/* Which rows of the first level that all ranks hold each of them makes. */
+/* Decides which rows of the first unshared level each rank computes. */
 static void
 deal(struct rc_pyramid *p)
 {
@@ -338,7 +341,7 @@ scratch(const struct rc_pyramid *p)
 
 /* ---- from a level to the next ---- */
 
-/* The rows of a level that are held here, and those beside them. */
+/* The rows of a level that are held here, and the rows before and after them. */
 struct source {
     const struct rc_pyramid *p;
     size_t nx, ny, first, n;
@@ -378,7 +381,7 @@ fetch_beside(const struct source *s)
     rc_ranks_beside(&rows, b->round, nx * sizeof *v, v, v + nx, v + 2 * nx, v + 3 * nx, has);
 }
 
-/* `to`, of level m, becomes `factor` P' of component c of the rows of the level before it. */
+/* `to`, of level m, becomes `factor` P' of component c of the rows of level m - 1. */
 static void
 pull(struct rc_pyramid *p, size_t m, rc_pyramid_add *add, const void *of, int c, float factor,
      float *to)
@@ -410,7 +413,7 @@ pull(struct rc_pyramid *p, size_t m, rc_pyramid_add *add, const void *of, int c,
         rc_ranks_move(p->base.ranks, l->x.coarse * sizeof *to, p->dealt, NULL, made, to);
 }
 
-/* What the numbers of a level are multiplied by on their way up. */
+/* The factor of the values of a level on the way up. */
 enum up {
     AS_THEY_ARE,
     AT_MOST_ONE, /* of weights: min(w, 1) */
@@ -472,7 +475,7 @@ add_of_pairs(const struct rows *r, int c, size_t at, float weight, float *to)
 
     if (r->up == AS_THEY_ARE)
         add_as_they_are(n, weight, l->value[c] + at, to);
-    else if (r->up == AT_MOST_ONE) /* of make_weights */
+    else if (r->up == AT_MOST_ONE) /* used by make_weights */
         add_as_they_are(n, weight, l->most[c] + at, to);
     else
         add_times(n, r->up == COARSER ? weight * l->t : weight, m[c] + at, m[2] + at,
@@ -507,7 +510,7 @@ add_of_level(const void *of, int c, size_t j, float weight, float *to)
     }
 }
 
-/* `to`, of the level after `from`, becomes `factor` P' of those numbers, `count` maps of them. */
+/* `to`, of the level after `from`, becomes `factor` P' of `count` maps of values. */
 static void
 up(struct rc_pyramid *p, size_t from, enum up what, int count, float factor, float *const *to)
 {
@@ -527,7 +530,7 @@ values(const struct level *l, int c, size_t k)
     return l->beside + (k == (l->first + l->n) % l->y.coarse ? n : 0);
 }
 
-/* Row j, of all of the level before, of P of the values of a level. */
+/* Row j, of level l - 1, of P of the values of level l. */
 static void
 row_of(const struct level *l, int c, size_t j, float *sum, float *out)
 {
@@ -612,7 +615,7 @@ share_beside(const struct rc_pyramid *p, const struct level *l)
                     l->value[0] + (some(l->n) - 1) * n, l->beside, l->beside + n, has);
 }
 
-/* A row of a level; `coarse` what the next level says of it. */
+/* A row of a level, from the values of the next level in `coarse`. */
 static void
 down_row(const struct rc_pyramid *p, const struct level *l, enum down what, size_t j)
 {
@@ -643,7 +646,7 @@ down_row(const struct rc_pyramid *p, const struct level *l, enum down what, size
         sums_row(n, l->t, k, coarse[0], l->weight[0] + at, l->value[0] + at);
 }
 
-/* The values of all levels, from the coarsest on, take what the next coarser one says. */
+/* Computes the values of all levels, from the coarsest to the finest, each from the next coarser one. */
 static void
 down(struct rc_pyramid *p, enum down what)
 {
@@ -657,7 +660,7 @@ down(struct rc_pyramid *p, enum down what)
     }
 }
 
-/* ---- the whole ---- */
+/* ---- the pyramid ---- */
 
 void
 rc_pyramid_row(const struct rc_pyramid *p, int c, size_t j, float *row)
@@ -669,7 +672,7 @@ rc_pyramid_row(const struct rc_pyramid *p, int c, size_t j, float *row)
             row[i] = p->beyond[c];
 }
 
-/* A symmetric matrix, xx yy xy, whose eigenvalues become those of f. */
+/* A symmetric matrix, xx yy xy, as a function f of it: the same axes, eigenvalues f(...). */
 struct eigen {
     float mean, half; /* of both eigenvalues: their mean and half of their difference */
 };
@@ -692,7 +695,7 @@ of_eigen(const float m[3], struct eigen e, float high, float low, float out[3])
     out[2] = ratio * m[2];
 }
 
-/* Of the matrices w of a level: first min(w, 1), in `most`; then what the level keeps of them. */
+/* From the matrices w of a level: first min(w, 1), in `most`; then the weights that the level keeps. */
 static void
 make_weights(struct level *l, bool keep)
 {
@@ -764,7 +767,7 @@ rc_pyramid_extend(struct rc_pyramid *p, rc_pyramid_add *r, const void *of, const
     down(p, MEANS);
 }
 
-/* What goes beyond the coarsest level. */
+/* The sum of what f contributes to y beyond the coarsest level. */
 static void
 sum_beyond(struct rc_pyramid *p, double *beyond)
 {
@@ -788,7 +791,7 @@ rc_pyramid_gather(struct rc_pyramid *p, rc_pyramid_add *f, const void *of, doubl
 {
     int count = p->components;
 
-    for (int c = 0; c < count && p->levels == 0; c++) { /* a single node: y is what is beyond */
+    for (int c = 0; c < count && p->levels == 0; c++) { /* a single node: y is `beyond` */
         p->beyond[c] = 0;
         f(of, c, 0, 1, &p->beyond[c]);
         if (beyond != NULL)
@@ -799,7 +802,7 @@ rc_pyramid_gather(struct rc_pyramid *p, rc_pyramid_add *f, const void *of, doubl
         return;
     for (int c = 0; c < count; c++)
         pull(p, 1, f, of, c, p->level[1].k,
-             p->level[1].value[c]); /* of the way back to the base, where c = 1 on W */
+             p->level[1].value[c]); /* k c of the base, with c = 1 on W */
     for (size_t m = 1; m < p->levels; m++)
         up(p, m, COARSER, count, 1, p->level[m + 1].value);
     if (beyond != NULL)

@@ -1,7 +1,7 @@
 /*
- * Sums over all nodes that depend neither on the number of threads nor on that of ranks: each block or
- * row is summed by itself, and these sums are added in order, with compensation for rounding. A block
- * is some rows, or a part of one row, that one rank holds.
+ * Sums over all nodes that depend neither on the number of threads nor on that of ranks: each block or row is
+ * summed separately, and these sums are added in a fixed order with compensation for rounding. A block is
+ * some rows, or a part of one row, on one rank.
  */
 #include "solver.h"
 
@@ -28,7 +28,7 @@ rc_reduce_blocks(const struct rc_solver *s, rc_block *block, void *ctx, double t
 {
     size_t nx = s->posed.shape.nx, rows = rc_rows_block(nx);
     size_t size = rows > 1 || nx <= RC_BLOCK_NODES ? rows * nx : RC_BLOCK_NODES;
-    size_t parts = (rows * nx + size - 1) / size; /* of a row that is longer than a block */
+    size_t parts = (rows * nx + size - 1) / size; /* blocks of a row that is longer than a block */
     size_t n = (s->posed.shape.ny + rows - 1) / rows * parts;
 
     memset(s->partial, 0, n * RC_SUMS * sizeof *s->partial);
@@ -44,7 +44,7 @@ rc_reduce_blocks(const struct rc_solver *s, rc_block *block, void *ctx, double t
 size_t
 rc_reduce_partials(const struct rc_shape *shape)
 {
-    /* no more than the rows, or the parts of them */
+    /* at most the number of rows, or of their parts */
     return shape->ny * (shape->nx / RC_BLOCK_NODES + 1) + 1;
 }
 

@@ -1,5 +1,5 @@
 /*
- * Results of a solution: figures, gap, displacement, and the shape that yielding leaves.
+ * Results of a solution: figures, gap, displacement and the shape after yielding.
  */
 #include "solver.h"
 
@@ -66,7 +66,7 @@ struct figures {
     const struct rc_solver *s;
     double *displacement, *gap;
     double mean_h, mean_u;
-    double worst; /* m: by how much the gap may be wrong, from its worst violation */
+    double worst; /* m: bound of the error of the gap: its largest violation */
 };
 
 enum { /* sums of the first pass, */
@@ -75,7 +75,7 @@ enum { /* sums of the first pass, */
     PRESSURE,
     HEIGHT,
     V,
-    /* and of the second */
+    /* and of the second pass */
     SPREAD_H = 0,
     SPREAD_U,
     OPEN,
@@ -99,7 +99,7 @@ count_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* Spread of heights and displacements, the worst violation, and the frames. */
+/* Spread of heights and displacements, the largest violation, and the frames. */
 static void
 spread_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -144,7 +144,7 @@ yielded(const struct rc_solver *s, struct figures *f)
     return (size_t)total[0];
 }
 
-/* Nodes of the contact with a neighbour that is none. */
+/* Nodes in contact with a neighbour out of contact. */
 static size_t
 edge_nodes(const struct rc_solver *s)
 {
@@ -172,9 +172,9 @@ edge_nodes(const struct rc_solver *s)
     return rc_ranks_sum(rows->ranks, count);
 }
 
-/* The error of the grid, from a comparison with half the nodes a side. Peak pressure and approach
- * converge at least with the first power of the spacing, so their error is at most the difference of
- * the two grids; the error of the area is erratic, and at most half a cell along the edge. */
+/* The discretization error, from a comparison with half the nodes a side. Peak pressure and approach converge
+ * at least with the first power of the spacing, so their error is at most the difference of the two grids.
+ * The error of the area is erratic, and at most half a cell along the edge. */
 static struct rc_discretization
 left_out(const struct rc_solver *s, const struct rc_contact *c)
 {
@@ -211,14 +211,14 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     double total[RC_SUMS], n = (double)s->posed.nodes, scale;
     bool early = s->nested.ahead, stopped, hurried;
 
-    rc_nested_end(s); /* a start that was interrupted: its pressure is the best there is */
+    rc_nested_end(s); /* a nested start that was interrupted: use its pressure */
     *c = (struct rc_contact){.iterations = s->it.iterations};
-    /* an estimate above the tolerance needs no gap of double precision to be believed */
+    /* an estimate above the tolerance needs no confirmation in double precision */
     hurried =
         rc_solver_hurried(s) && s->it.checked == s->it.iterations && s->it.error > s->load.tol;
     stopped = !s->it.known || (!s->it.fresh && !early && !hurried);
     if (stopped && early)
-        (void)rc_iterate_displace_rows(s); /* nothing more is known of that pressure anyway */
+        (void)rc_iterate_displace_rows(s); /* no better gap of this pressure is needed */
     else if (stopped)
         rc_iterate_displace(s);
     rc_iterate_shift(s);
@@ -233,7 +233,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     c->plastic_area = s->posed.cell * (double)c->plastic_nodes;
     c->hardness_active = c->plastic_nodes > 0;
     c->edge_load_fraction = edge_load(s);
-    c->approach = /* the highest of h is 0 */
+    c->approach = /* the largest h is 0 */
         s->it.elastic > 0 || s->load.target > 0 ? rc_tilt_approach(s) : NAN;
     for (size_t a = 0; a < 2; a++)
         c->tilt[a] = rc_tilt_slope(s, a);
@@ -241,7 +241,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     f.mean_u = (total[V] + total[HEIGHT]) / n;
     rc_reduce_blocks(s, spread_block, &f, total);
     scale = sqrt(fmax(total[SPREAD_H], total[SPREAD_U]) / n);
-    if (total[SPREAD_H] == 0) /* one height everywhere: both vanish with the error */
+    if (total[SPREAD_H] == 0) /* all heights are equal: both figures would be only error */
         scale = s->op->norm * c->mean_pressure;
     c->kkt_residual = total[RC_MOST] == 0 ? 0 : total[RC_MOST] / scale;
     c->mean_gap = total[OPEN] / n;
@@ -254,7 +254,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     if (c->yielded_nodes > 0)
         c->shape_error = fmax(c->shape_error, c->gap_error);
     c->yielded_area = s->posed.cell * (double)c->yielded_nodes;
-    /* Stopped on a coarser grid: an estimate here would take longer than the iteration did. */
+    /* Stopped on a coarser grid: an estimate here would take longer than the whole iteration took. */
     if (!early && (stopped || s->it.checked != s->it.iterations || isnan(s->it.error))) {
         rc_working_set_find(s, false);
         rc_iterate_checked(s, rc_working_set_estimate(s), 1);

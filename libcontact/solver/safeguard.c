@@ -1,7 +1,7 @@
 /*
- * The safeguard that keeps a method from cycling. The energy 1/2 p'Kp - h'p costs nothing to follow,
- * and must fall. A step that raised it is taken back and replaced by a projected-gradient step, which
- * lowers the energy by at least |K|/2 times the square of the step's length: no cycle can close.
+ * The safeguard that keeps a method from cycling. The energy 1/2 p'Kp - h'p follows from known fields at no
+ * cost and must decrease. A step that raised it is reverted and replaced by a projected-gradient step, which
+ * lowers the energy by at least |K|/2 times the square of the step's length, so no cycle is possible.
  */
 #include "solver.h"
 
@@ -54,14 +54,14 @@ longest(const struct rc_solver *solver, const double *t)
     return -rc_ranks_most(solver->posed.rows.ranks, -most);
 }
 
-/* What the passes of a step share. */
+/* Context of the passes of a step. */
 struct way {
     struct rc_solver *solver;
     double *t, *r;
     double length;
 };
 
-enum { /* sums along the way */
+enum { /* sums along the step */
     ABOVE,
     BELOW
 };
@@ -95,7 +95,7 @@ product_block(void *at, size_t first, size_t n, double *sums)
     const struct rc_solver *s = w->solver;
 
     for (size_t k = first; k < first + n; k++) {
-        /* without the shift: t adds up to 0 but for rounding */
+        /* the shift is left out: the sum of t is 0 but for rounding */
         sums[ABOVE] -= (s->it.v[k] - s->it.shift) * w->t[k];
         sums[BELOW] += w->r[k] * w->t[k];
     }
@@ -126,7 +126,7 @@ rc_safeguard_step(struct rc_solver *solver, const double *old, double *t, double
     rc_projection_of(solver, t);
     rc_reduce_blocks(solver, turn_block, &w, total);
     if (total[0] <= 1e-15 * solver->load.sum)
-        return; /* this is as near as rounding lets us come */
+        return; /* only rounding errors are left */
     rc_operator_apply(solver->op, t, r);
     rc_iterate_count(solver, 1);
     rc_reduce_blocks(solver, product_block, &w, total);
@@ -134,5 +134,5 @@ rc_safeguard_step(struct rc_solver *solver, const double *old, double *t, double
     below = total[BELOW];
     w.length = fmin(below > 0 && above > 0 ? above / below : 0, longest(solver, t));
     rc_reduce_blocks(solver, move_block, &w, total);
-    rc_projection_balance(solver, solver->it.v); /* what rounding took of the load */
+    rc_projection_balance(solver, solver->it.v); /* corrects the load for rounding */
 }

@@ -1,5 +1,6 @@
 /*
- * The front: it makes a solver, steps it, judges its result, and sets other loads, heights and starts.
+ * The solver's front: it makes a solver, steps it, judges its result, and sets other loads, heights and
+ * starts.
  */
 #include "solver.h"
 
@@ -56,8 +57,7 @@ check(const struct rc_shape *s, const struct rc_problem *problem, struct rc_err 
     return RC_OK;
 }
 
-/* The paper's M^(-3/2) on a square grid; small maps and profiles have few nodes, and yet are to be
- * solved well. */
+/* The paper's M^(-3/2) on a square grid, but at most 1e-3. */
 static double
 tolerance(const struct rc_shape *shape, const struct rc_problem *problem)
 {
@@ -67,8 +67,9 @@ tolerance(const struct rc_shape *shape, const struct rc_problem *problem)
                             : fmin(most, pow((double)(shape->nx * shape->ny), -0.75));
 }
 
-/* No residual shows the engine's own error, so it has to be small beside the tolerance of the
- * pressure: at a tenth of it, as in the paper, the engine made up to a third of the final error. */
+/* The residual does not show the engine's own error, so this error must be small beside the tolerance of the
+ * pressure: at a tenth of the tolerance, as in the paper, the engine made up to a third of the final error.
+ * */
 static struct rc_operator_options
 operator_options(const struct rc_shape *shape, const struct rc_problem *problem)
 {
@@ -105,8 +106,8 @@ first_not_finite(const double *h, size_t n)
     return k;
 }
 
-/* Takes the heights less the largest of all ranks. `status`: RC_FAIL if this rank has failed before,
- * which all ranks then learn. */
+/* Stores the heights less the largest of all ranks. `status`: RC_FAIL if this rank failed before; all ranks
+ * then fail. */
 static enum rc_status
 take_heights(struct rc_posed *posed, const double *h, enum rc_status status, struct rc_err *err)
 {
@@ -158,7 +159,7 @@ pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
     return take_heights(posed, h, status, err);
 }
 
-/* Allocates the solver's maps and the method's state: on all ranks, or it fails on all. */
+/* Allocates the solver's maps and the method's state, on all ranks or on none. */
 static enum rc_status
 make_room(struct rc_solver *s, struct rc_err *err)
 {
@@ -176,8 +177,8 @@ make_room(struct rc_solver *s, struct rc_err *err)
     return rc_ranks_agree(s->posed.rows.ranks, status, err);
 }
 
-/* Takes over the operator; NULL when it could not be made, and *err says why. `all`: the ranks that
- * make this call. */
+/* Takes over the operator, which is NULL if it could not be made (*err then has the reason). `all`: the ranks
+ * that make this call. */
 static struct rc_solver *
 solver_new(const struct rc_ranks *all, const struct rc_shape *shape, const double *h,
            const struct rc_problem *problem, const struct rc_method *method, struct rc_operator *op,
@@ -251,7 +252,7 @@ rc_solver_free(struct rc_solver *s)
     free(s);
 }
 
-/* ---- what a solver would take ---- */
+/* ---- memory and cost of a solver ---- */
 
 const char *
 rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
@@ -275,8 +276,8 @@ rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
         held.ny = rc_rows_most(shape, ranks);
     n = held.nx * held.ny;
 
-    /* Heights, pressures and gaps, corrections and residuals of half the width, a mask. The coarser
-     * grids of a nested start are gone before most of this is touched. */
+    /* Heights, pressures and gaps; corrections and residuals in single precision; a mask. The coarser grids
+     * of a nested start are freed before most of this is touched. */
     return n * (3 * sizeof(double) + 2 * sizeof(float) + 1) +
            (problem->hardness_map != NULL ? n * sizeof(double) : 0) +
            (problem->tilt_free ? rc_solver_stiffness_memory(shape, problem) : 0) +
@@ -321,9 +322,9 @@ rc_solver_hurried(const struct rc_solver *s)
     return s->posed.hurry != NULL && *s->posed.hurry != 0;
 }
 
-/* Where a shape that has yielded is pressed again, nodes are at their upper bounds with a gap of 0, and
- * the iteration leaves them below by as much as the tolerance allows: they come to rest there, and the
- * pressure is judged once more. */
+/* When a yielded shape is loaded again, nodes are at their upper bounds with a gap of 0, and the iteration
+ * leaves them below by up to the tolerance. They are put at their bounds, and the pressure is judged once
+ * more. */
 static enum rc_status
 finished(struct rc_solver *s)
 {
@@ -343,7 +344,7 @@ finished(struct rc_solver *s)
     return s->it.error <= s->load.tol ? RC_OK : RC_MORE;
 }
 
-/* One iteration at the load that is set. */
+/* One iteration at the present load. */
 static enum rc_status
 step(struct rc_solver *s)
 {
@@ -360,8 +361,8 @@ step(struct rc_solver *s)
         return last || found.change == 0 ? RC_SHORT : RC_MORE;
     }
     last |= found.change <= DBL_EPSILON;
-    /* Judging costs four convolutions, a step two: so a solution is judged once its steps are small,
-     * and not after every step. */
+    /* Judging costs four convolutions, a step two: so a solution is judged when its steps are small, not
+     * after every step. */
     if (!last && (it->iterations < it->next_check || found.change > s->load.tol))
         return RC_MORE;
     rc_iterate_checked(s, rc_iterate_judge(s), 5 + it->iterations / 10);
@@ -399,7 +400,7 @@ rc_solver_restart(struct rc_solver *s)
 
 /* ---- other loads, heights and starts ---- */
 
-/* Resets the counts, and the figures of a coarser grid, which belong to the last load and heights. */
+/* Resets the counts and the comparison with a coarser grid, which belong to the last load and heights. */
 static void
 begin_anew(struct rc_solver *s)
 {
@@ -470,7 +471,7 @@ rc_solver_warm_start(struct rc_solver *s, double load, const double *p, struct r
     rc_nested_free(s);
     for (size_t k = 0; k < s->posed.n; k++) {
         s->it.p[k] = rc_settled(rc_box(s, 0), k, p[k]);
-        s->it.v[k] = -s->posed.h[k]; /* should nodes have to join, the highest join first */
+        s->it.v[k] = -s->posed.h[k]; /* if nodes have to join, the highest joins first */
     }
     rc_projection_restore(s, rc_iterate_carried(s));
     rc_solver_restart(s);
@@ -478,7 +479,7 @@ rc_solver_warm_start(struct rc_solver *s, double load, const double *p, struct r
     return RC_OK;
 }
 
-/* ---- what has been reached ---- */
+/* ---- figures and fields ---- */
 
 void
 rc_solver_progress(const struct rc_solver *s, struct rc_progress *progress)

@@ -1,18 +1,18 @@
 /*
- * The stiffness: the load that one unit of approach adds while a set of nodes moves together, no
- * node changing sides. With t the pressure that displaces all of them by one unit, K_WW t = 1, it
- * is the sum of t. The equation is solved by conjugate gradients with the preconditioner of the
- * contact. The sum is stationary at the solution, so its relative error is the square of that of t,
- * and single precision is enough.
+ * The stiffness: the load that one unit of approach adds while a set of nodes moves together and no node
+ * joins or leaves. If t is the pressure that displaces all of them by one unit, K_WW t = 1, the stiffness is
+ * the sum of t. The equation is solved by conjugate gradients with the preconditioner of the contact. The sum
+ * is stationary at the solution, so its relative error is the square of the relative error of t, and single
+ * precision is enough.
  *
- * For d load / d approach the set is that of the elastic nodes: one at its upper bound carries no
- * more. For the conductance it is that of all nodes in contact: the potential at the surface of a
- * conductor is that of the current as the displacement is that of the pressure (Barber 2003), and
- * it is one number wherever the bodies touch. Any t then gives a bound, (sum t)^2 / t'K t <= S, by
- * Schwarz's inequality in the scalar product of K.
+ * For d load / d approach the set is that of the elastic nodes, because nodes at their upper bounds carry no
+ * further load. For the conductance it is that of all nodes in contact: electrical potential and current
+ * density at the surface obey the same equation as displacement and pressure (Barber 2003), and the potential
+ * is uniform in the contact. Any t then gives a lower bound, (sum t)^2 / t'K t <= S, by Schwarz's inequality
+ * in the scalar product of K.
  *
- * Where the face is free to tilt the set may also be displaced by the arm of each node about the force,
- * along x or y.
+ * Where the counter body may tilt, each node of the set is also displaced by its arm about the force, along x
+ * or y.
  */
 #include "solver.h"
 
@@ -25,14 +25,14 @@
 enum {
     STEPS = 60
 };
-static const double enough = 1e-4; /* of the energy norm: 1e-8 of the sum */
+static const double enough = 1e-4; /* error in the energy norm: 1e-8 of the sum */
 
 struct system {
     struct rc_solver *s;
     float *t, *d, *q; /* solution, direction, K d on W */
     double a;
-    size_t by; /* W is displaced by 1 (0), or by its arms along x (1) or y (2) */
-    bool arms; /* the moments of t are asked for */
+    size_t by; /* all nodes of W are displaced by 1 (0) or by their arms along x (1) or y (2) */
+    bool arms; /* the moments of t are needed */
 };
 
 static bool
@@ -67,7 +67,7 @@ displaced(void *at, size_t j, void *from)
     return true;
 }
 
-/* t and r along d: a is the length. */
+/* A step of length a along d, for t and r. */
 static void
 move_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -104,7 +104,7 @@ turn_block(void *at, size_t first, size_t n, double *sums)
                 sums[1 + a] += (double)c->t[k] * rc_arm(c->s, a, k);
 }
 
-/* `sum`: of t, and of its moments where they are asked for. */
+/* `sum`: of t, and its moments if they are needed. */
 static void
 solve(struct system *c, double sum[3])
 {
@@ -123,7 +123,7 @@ solve(struct system *c, double sum[3])
         rc_reduce_blocks(s, turn_block, c, total);
         for (size_t q = 0; q < 3; q++)
             sum[q] = total[q];
-        /* r'z bounds the square of the energy norm of the error from above; that of t is t'K t */
+        /* r'z is an upper bound of the squared energy norm of the error; that of t is t'K t */
         if (!(rz > 0) || (step > 0 && rz <= enough * enough * sum[c->by]))
             break;
         rc_reduce_rows_begin(s);
@@ -199,7 +199,8 @@ by_arms(void *at, size_t first, size_t n, double *sums)
         c->s->set.r[k] *= (float)rc_arm(c->s, c->by - 1, k);
 }
 
-/* The sums of t that displaces the elastic nodes, or all in contact, as c->by says; their number. */
+/* Finds t for the elastic nodes or for all nodes in contact, and its sums; c->by selects the displacement.
+ * Returns the number of nodes. */
 static size_t
 fix_and_solve(struct system *c, bool touching, double sum[3])
 {
@@ -217,12 +218,12 @@ fix_and_solve(struct system *c, bool touching, double sum[3])
     else
         moving = 0;
     rc_working_set_forget(s);
-    rc_working_set_find(s, false); /* who goes on stepping finds the contact's own residual */
+    rc_working_set_find(s, false); /* restores the residual of the contact for further steps */
     return moving;
 }
 
-/* The stiffness of the elastic nodes, or of all in contact, N/m; NAN where there are none, and
- * where they are all of a periodic map, whose mean nothing moves. */
+/* The stiffness of the elastic nodes, or of all in contact, N/m; NAN where there are none, and where they are
+ * all nodes of a periodic map, whose mean displacement is undefined. */
 static double
 stiffness_of(struct system *c, bool touching)
 {
@@ -230,7 +231,7 @@ stiffness_of(struct system *c, bool touching)
 
     if (fix_and_solve(c, touching, sum) == 0)
         return NAN;
-    /* one unit of t displaces by one unit of the operator's rows */
+    /* t of one unit of pressure displaces by one unit of the operator's rows */
     return sum[0] * c->s->posed.cell / c->s->op->unit;
 }
 
@@ -256,8 +257,8 @@ rc_stiffness_turning(struct rc_solver *s, float *room, double k[3][3])
     return turning(&c, k);
 }
 
-/* The face follows: with k of shift and turns, 1 over the shift that a unit of load makes while no moment
- * acts. A contact that does not resist a turn is not turned by its load either. */
+/* The stiffness with a free tilt, from k of shift and rotations: 1 over the shift caused by a unit load
+ * without moment. An axis about which the contact does not resist rotation does not rotate. */
 static double
 free_to_turn(double k[3][3])
 {
@@ -295,8 +296,7 @@ struct bound {
 size_t
 rc_solver_conductance_memory(const struct rc_shape *shape, const struct rc_problem *problem)
 {
-    const struct bound *b =
-        NULL; /* two maps instead of the two that are then gone, which are smaller */
+    const struct bound *b = NULL; /* two maps replace the two smaller ones that are then freed */
 
     return nodes_held(shape, problem) * (sizeof *b->t + sizeof *b->p + sizeof *b->u);
 }
@@ -322,7 +322,7 @@ energy_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* A bound of the stiffness from below, N/m, by a convolution in double precision. */
+/* A lower bound of the stiffness, N/m, by a convolution in double precision. */
 static enum rc_status
 bound_below(struct rc_solver *s, const float *t, double *bound, struct rc_err *err)
 {

@@ -1,21 +1,20 @@
 /*
- * A step and the way back into {0 <= p <= H, sum p = S}, tile by tile.
+ * A step and the return to {0 <= p <= H, sum p = S}, tile by tile.
  *
- * A node that its bound stops leaves a surplus of load. One shift of all nodes takes the surplus
- * back, but it is not spread evenly: a remainder with waves as long as the map stays, and K
- * multiplies a wave by 2/(E* q). The clipped step is then too long for the energy, and the more so
- * the larger the map. Here each tile of 16 x 16 nodes keeps its own load by a shift of its own, so
- * that no wave longer than a tile remains. All elastic nodes share only the load that a tile cannot
- * keep, because its nodes would have to pull or to exceed their upper bounds.
+ * A node that stops at its bound leaves a surplus of load. One shift of all nodes removes the surplus but
+ * spreads it over the whole map: a remainder with waves as long as the map is left, and K multiplies a wave
+ * by 2/(E* q). The clipped step is then too long for the energy, the more so the larger the map. Here each
+ * tile of 16 x 16 nodes preserves its own load by a shift of its own, so no remainder has waves longer than a
+ * tile. All elastic nodes share only the load that a tile cannot carry because its nodes would have to pull
+ * or to exceed their upper bounds.
  *
- * The step was computed as if the stopped nodes had moved freely, so before the shift their
- * neighbours are corrected. In the quadratic form of the inverse, A, the nearest point of the box
- * is p + d + A mu with multipliers mu on the stopped nodes; one Jacobi sweep with the coefficients
- * of A between a node and its eight neighbours gives most of it. Errors after 1, 2, 3, 4 steps at
- * 2048 x 2048, 39 % contact, rough down to 2 nodes: 0.060, 4.2e-3, 3.1e-4, 7.3e-5 without, 0.047,
- * 2.0e-3, 1.7e-4, 3.6e-5 with it.
+ * The step was computed as if the stopped nodes had moved freely, so their neighbours are corrected before
+ * the shift. In the quadratic form of the inverse, A, the nearest admissible point is p + d + A mu with
+ * multipliers mu on the stopped nodes; one Jacobi sweep with the coefficients of A between a node and its
+ * eight neighbours gives most of it. Errors after 1, 2, 3, 4 steps at 2048 x 2048, 39 % contact, rough down
+ * to 2 nodes: 0.060, 4.2e-3, 3.1e-4, 7.3e-5 without the sweep, 0.047, 2.0e-3, 1.7e-4, 3.6e-5 with it.
  *
- * All of this is done in one pass, in cache.
+ * All of this is one pass over the map, with tiles in the cache.
  */
 #include "solver.h"
 
@@ -29,17 +28,17 @@
 enum {
     TILE = RC_TILE_ROWS, /* nodes a side */
     NODES = TILE * TILE,
-    EDGE = TILE + 2, /* with one node around */
-    ROUNDS = 60      /* of Newton's method in a tile: 3 or 4 do */
+    EDGE = TILE + 2, /* with one node on each side */
+    ROUNDS = 60      /* limit of Newton's method in a tile; 3 or 4 are enough */
 };
-/* Damping of the Jacobi sweep: with 1, neighbours that are both stopped would be pushed too far. */
+/* Damping of the Jacobi sweep: without it, two stopped neighbours would be corrected too much. */
 static const float damping = 0.8F;
-/* A node that the shift leaves alone: at its lower bound, and at its upper one. */
+/* Marks of y: the shift does not move this node, which is at its lower or upper bound. */
 static const float stays_low = -FLT_MAX, stays_high = FLT_MAX;
-/* A remainder up to this, relative to the tolerance, is put into a single tile. */
+/* A remainder up to this fraction of the tolerance is put into a single tile. */
 static const double little = 1e-2;
 
-/* A tile keeps its load where it is off by no more than this part, which is rounding. */
+/* An error of a tile's load up to this fraction is rounding. */
 static const double kept = 1e-5;
 
 /* ---- one tile ---- */
@@ -54,17 +53,17 @@ struct place {
     struct rc_box box;
 };
 
-/* A copy of a tile. The pressures after the step, y, are in single precision, in the units of the
- * rows, and count from the lower bound: only the shift follows from them, and the rest is corrected
- * at the end. */
+/* A copy of a tile. The pressures after the step, y, are in single precision, in the units of the rows and
+ * above the lower bound: only the shift is computed from them; the pressures themselves are computed in
+ * double precision. */
 struct copy {
     double p[NODES];
-    float d[NODES], on[NODES]; /* 1 on the set, else 0                                        */
-    float y[NODES];            /* pressures of the set after the step; off the set: stays_low */
-    float push[NODES];         /* the correction from stopped neighbours                      */
-    double sum;                /* the load of the tile after the step, counted like y         */
-    bool out;                  /* a node would leave the box                                  */
-    bool held_in;              /* a node at its bound would leave the box, and is not moved   */
+    float d[NODES], on[NODES]; /* 1 on the set, else 0                                         */
+    float y[NODES];            /* pressures of the set after the step; off the set: stays_low  */
+    float push[NODES];         /* the correction from stopped neighbours                       */
+    double sum;                /* the load of the tile after the step, counted like y          */
+    bool out;                  /* a node left its bounds                                       */
+    bool held_in;              /* a node at its bound would leave its bounds, and is not moved */
     /* with a map of bounds only: the upper bounds, and the largest y */
     double high[NODES];
     float most[NODES];
@@ -85,7 +84,7 @@ take(const struct place *t, struct copy *c)
     }
 }
 
-/* The bounds of its nodes, out of the map. */
+/* The upper bounds of the tile's nodes, from the map. */
 RC_INLINE struct rc_box
 take_bounds(const struct place *t, struct rc_box box, double scale, struct copy *c)
 {
@@ -104,7 +103,7 @@ most_of(struct rc_box box, float most, const float *mosts, size_t k)
     return box.highs != NULL ? mosts[k] : most;
 }
 
-/* The pressure after the step before any shift: a node at its bound that would leave the box stays. */
+/* The pressure after the step before any shift; a node at its bound that would leave its bounds stays. */
 RC_INLINE double
 aimed(double low, double high, double p, double v)
 {
@@ -137,8 +136,7 @@ aim(struct rc_box box, double alpha, double mean, double scale, struct copy *c)
     c->held_in = held > 0;
 }
 
-/* One sweep for the multipliers; the stopped nodes go to their bounds. `near`: the coefficients of
- * A. */
+/* One sweep for the multipliers; stopped nodes are put at their bounds. `near`: the coefficients of A. */
 RC_INLINE void
 push_back(struct rc_box box, double (*near)[3], float most, struct copy *c)
 {
@@ -168,7 +166,7 @@ push_back(struct rc_box box, double (*near)[3], float most, struct copy *c)
 }
 
 /* The shift with which the nodes carry `sum`. Their load is piecewise linear in the shift, which suits
- * Newton's method; with two bounds it is neither convex nor concave, which calls for a bracket. */
+ * Newton's method; with two bounds it is neither convex nor concave, so a bracket is needed. */
 RC_INLINE float
 shift_of(struct rc_box box, const float *y, float most, const float *mosts, float sum)
 {
@@ -207,7 +205,7 @@ enum { /* sums of the pass */
     OUT
 };
 
-/* p becomes y + push + shift in the box, in double precision; y becomes the change of p. */
+/* p becomes y + push + shift within the bounds, in double precision; y becomes the change of p. */
 RC_INLINE void
 settle(struct rc_box box, double alpha, double mean, double shift, double scale, struct copy *c,
        struct rc_tile *tile, double *sums)
@@ -229,7 +227,7 @@ settle(struct rc_box box, double alpha, double mean, double shift, double scale,
         below = v - low;
         above = high - v;
         carried += on * below;
-        /* multiplied, not chosen: gcc 12 loses sums of lanes where a chain of choices becomes
+        /* a product, not a conditional: gcc 12 loses sums of vector lanes if a chain of conditionals becomes
          * branches */
         left = above < below ? above : below;
         left *= on;
@@ -269,7 +267,7 @@ move_copy(struct rc_box box, struct copy *c, const struct place *t, const struct
         push_back(box, m->solver->op->inverse_near, most, c);
     else
         memset(c->push, 0, sizeof c->push);
-    if (c->sum <= 0) /* the tile cannot keep its load: it would have to pull */
+    if (c->sum <= 0) /* the tile cannot carry its load: it would have to pull */
         for (size_t k = 0; k < NODES; k++)
             c->push[k] = stays_low;
     else if (c->out || c->held_in)
@@ -293,13 +291,13 @@ move_tile(struct rc_box box, const struct place *t, const struct rc_move *m, dou
         move_copy(take_bounds(t, box, scale, &c), &c, t, m, scale, tile, sums);
 }
 
-/* ---- all of them ---- */
+/* ---- all tiles ---- */
 
 struct tiles {
     struct rc_move *m;
     size_t nx, ny; /* of tiles */
     struct rc_tile *tiles;
-    double shift; /* the load that they could not keep */
+    double shift; /* sum of the loads that tiles could not carry */
 };
 
 static bool
@@ -350,7 +348,7 @@ move_band(struct tiles *a, size_t by)
     }
 }
 
-/* ---- the load that tiles could not keep ---- */
+/* ---- the load that tiles could not carry ---- */
 
 static inline bool
 elastic(const struct place *t, size_t k)
@@ -373,7 +371,7 @@ shift_tile(const struct tiles *a, size_t q, double shift)
             }
 }
 
-/* The load that this shift adds, less the wanted one, and its slope. */
+/* The load that this shift adds less the wanted load, and its slope. */
 static struct rc_excess
 excess_of(void *ctx, double shift)
 {
@@ -406,8 +404,8 @@ excess_of(void *ctx, double shift)
     return (struct rc_excess){.load = total[0] - a->shift, .slope = total[1]};
 }
 
-/* The tile with the most room for load, and that *room, among those of all ranks. The number of tiles
- * when there is none, or when it belongs to another rank. */
+/* The tile of all ranks with the most room for load, and its room in *room. Returns the number of tiles when
+ * there is none, or when another rank holds it. */
 static size_t
 roomiest(const struct tiles *a, double *room)
 {
@@ -431,7 +429,7 @@ roomiest(const struct tiles *a, double *room)
     return best;
 }
 
-/* All elastic nodes share the rest; false when they cannot carry it. */
+/* Spreads the rest over all elastic nodes; false when they cannot carry it. */
 static bool
 share(struct tiles *a, double rest)
 {
@@ -458,7 +456,7 @@ share(struct tiles *a, double rest)
 
 /* ---- on a line ---- */
 
-/* Tiles of a row or a column follow each other, whichever rank has them: all ranks go through all. */
+/* The tiles of a row or a column form one sequence across all ranks; every rank processes all of them. */
 enum rc_status
 rc_tile_line_new(struct rc_tile_line *line, const struct rc_posed *posed)
 {
@@ -487,7 +485,7 @@ rc_tile_line_free(struct rc_tile_line *line)
     free(line->from);
 }
 
-/* A line, and which tiles of it are held here. */
+/* A line of tiles, and which of them are held here. */
 struct along {
     const struct tiles *own;
     struct rc_tile *tiles;
@@ -498,10 +496,10 @@ struct group {
     double left, room, count; /* as of a tile */
 };
 
-/* What tiles cannot keep goes to the elastic nodes of the smallest group of 2, 4, 8, ... of them that can
- * all take it. Shared by all of the line it would leave loads and their counterparts far apart, and a
- * line does not forget them: the displacement's error would grow as the square root of its length, on a map
- * only as the logarithm. A random walk of 262144 nodes with 30 % contact takes 8 steps, and 62 without. */
+/* The load that tiles cannot carry goes to the elastic nodes of the smallest group of 2, 4, 8, ... tiles that
+ * can carry it. Spread over the whole line, loads would be moved far; on a line this matters, because the
+ * error of the displacement then grows as the square root of the length (on a map only as its logarithm). A
+ * random walk of 262144 nodes with 30 % contact takes 8 steps, without groups 62. */
 static struct group
 keep_within(const struct along *a, size_t first, size_t n, double *sums)
 {
@@ -527,7 +525,7 @@ keep_within(const struct along *a, size_t first, size_t n, double *sums)
     return (struct group){0, g.room - fabs(shift), g.count};
 }
 
-/* Sums are counted once, where the first row is held. */
+/* Only the rank with the first row adds the sums, so that they are counted once. */
 static void
 keep_on_line(const struct tiles *own, const struct rc_tile_line *line)
 {

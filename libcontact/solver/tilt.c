@@ -1,27 +1,27 @@
 /*
- * A counter body that is free to turn: the force acts at a point, about which the pressures have no
- * moment. With x the place of a node from that point, the face of the counter body rises by a x, and
- * the contact is that of the heights h - a x. The two slopes a are the multipliers of the two moments
- * p'x = 0, beside the shift, that of the load. So G(a) = min over p of 1/2 p'Kp - p'(h - a x) is
- * concave, its gradient is the moment, and where it is 0 is the solution.
+ * A counter body that is free to tilt: the force acts at a point about which the pressures have no moment.
+ * With x the position of a node from that point, a tilt with slopes a raises the counter surface by a x, and
+ * the contact is that of the heights h - a x. The two slopes are the multipliers of the two conditions p'x =
+ * 0, as the shift is that of the load. So G(a) = min over p of 1/2 p'Kp - p'(h - a x) is concave, its
+ * gradient is the moment, and the solution is its maximum.
  *
- * G is maximised by Newton's method: the contact is solved, its moment taken, and the face turned by
- * H^-1 times the moment. While no node changes sides the moment falls by
+ * Newton's method maximises G: the contact is solved, its moment is computed, and the body is turned by H^-1
+ * times the moment. While no node joins or leaves, the derivative of the moment is minus
  *
  *     H = x'K^-1 x - x'K^-1 1 1'K^-1 x / 1'K^-1 1
  *
- * on the elastic nodes (stiffness.c). A coarser grid hands up its slopes and its H; each turn corrects H
- * by what the moment did, and one that did too little has it found anew. Where the whole turn is too
- * much or too little, the length of the turn is sought between bounds. Contacts on the way are solved
- * as accurately as the next turn needs.
+ * on the elastic nodes (stiffness.c). A coarser grid hands its slopes and its H to the finer one; each turn
+ * corrects H by the observed change of the moment, and after a turn that changed the moment too little H is
+ * recomputed. If a full turn is too long or too short, a line search between bounds finds its length.
+ * Contacts on the way are solved only as accurately as the next turn needs.
  *
- * With t the step to the solution, the pressure changes by at most sqrt(S m'H^-1 m), S = 1'K^-1 1, in
- * the sum of its sizes: exactly so if the nodes were springs side by side, by Schwarz's inequality.
+ * To the solution the pressure changes by at most sqrt(S m'H^-1 m), S = 1'K^-1 1, in the L1 norm: exact for
+ * independent springs, by Schwarz's inequality.
  *
- * Without a coarser grid it begins with the facet on which a rigid body would stand, which is also where
- * approaches count from. It is the plane above all heights that is lowest at the point of the force: a
- * linear program of three unknowns, whose dual simplex method goes from one triangle around that point
- * to the next.
+ * Without a coarser grid the start is the facet on which a rigid body would rest, which also defines zero
+ * approach. It is the plane above all heights that is lowest at the point of the force: a linear program of
+ * three unknowns, solved by the dual simplex method, which moves from one triangle around that point to the
+ * next.
  *
  * Arms are in units of the length of the map, so that slopes become rises in metres.
  */
@@ -33,48 +33,47 @@
 #include "libcontact/memory.h"
 
 enum {
-    PIVOTS = 200, /* a start needs no more, and what is then left above the facet is little */
+    /* of the simplex method: a start needs no more, because only little is then left above the facet */
+    PIVOTS = 200,
     TURNS = 200,
-    EVEN = 6, /* trials of a length after which the interval is halved */
-    /* trials, each of four times the last length, after which upper bounds are taken to carry no such load
-     * there: then the moment about some axis keeps its sign however far the face turns */
+    EVEN = 6, /* trials of the line search, after which the interval is halved */
+    /* trials, each four times as long as the last, after which the upper bounds cannot carry such a load
+     * there: then the moment about some axis keeps its sign at any tilt */
     FAR = 12
 };
-static const double loose = 1e-2;   /* tolerance of the first contacts */
-static const double finest = 1e-3;  /* of the tolerance: where the moment hangs on few nodes */
-static const double far_softer = 3; /* of the error by another H, that calls for H anew */
-static const double thin =
-    1e-7; /* of S: less of H is none, but for the rounding of single precision */
+static const double loose = 1e-2; /* tolerance of the first contacts */
+/* of the tolerance; needed where few nodes determine the moment */
+static const double finest = 1e-3;
+/* a new H that changes the error by more than this factor is recomputed */
+static const double far_softer = 3;
+static const double thin = 1e-7; /* of S: a smaller H is 0 but for rounding in single precision */
 
 struct rc_tilt {
     double at[2]; /* m: the point of the force, from the middle of the map                        */
-    double
-        length; /* m: unit of arms                                                              */
-    bool
-        turns[2]; /* a profile turns about one axis only                                          */
-    double
-        rise[2];  /* m, over the length: of the face; posed.h = heights - rise arm                */
-    double touch; /* m: of the face above the point of the force, at first touch; NAN: not sought */
-    bool placed;  /* the rise comes from a contact                                                */
-    bool begun;   /* the search at this load                                                      */
-    double goal;  /* tolerance that it ends at                                                    */
+    double length;  /* m: unit of arms */
+    bool turns[2];  /* a profile turns about one axis only */
+    double rise[2]; /* m, over the length of the map: posed.h = heights - rise arm */
+    /* m: height of a rigid body above the point of the force at first touch; NAN: unknown */
+    double touch;
+    bool placed; /* the rise comes from a contact */
+    bool begun;  /* the search at this load */
+    double goal; /* final tolerance of this search */
     size_t
         turned; /* times                                                                        */
-    double
-        moment[2]; /* of p over its sum                                                          */
-    double error;  /* of the pressure, from that moment                                          */
-    bool known;    /* H and S                                                                    */
+    double moment[2]; /* of p, divided by its sum */
+    double error;     /* error of the pressure from that moment */
+    bool known;       /* H and S are known */
     double h[2][2], s;
-    /* The turn: from where, which way, how far, and between which lengths the moment about its axis
-     * vanishes */
+    /* The turn: its base, direction, length, and the lengths between which the moment about its axis
+     * vanishes. */
     bool turning;
     double base[2], way[2], at_base[2], error_at_base, far;
     double low, high, moment_low, moment_high;
     size_t trials;
-    float *room; /* for the search of H */
+    float *room; /* for the computation of H */
 };
 
-/* Of a node of the whole map. */
+/* The arm of a node of the whole map. */
 static double
 arm_of(const struct rc_solver *s, size_t axis, size_t node)
 {
@@ -222,16 +221,16 @@ rc_tilt_load(struct rc_solver *s)
         s->tilt->begun = false;
 }
 
-/* ---- the facet ---- */
+/* ---- the facet: start and zero of the approach ---- */
 
-/* Nodes on which a plane rests, with their shares of the force. */
+/* Nodes that support a plane, with their shares of the force. */
 struct facet {
-    size_t n; /* of nodes, and of the unknowns: height at the point of the force, rises */
+    size_t n; /* number of nodes, and of the unknowns: height at the point of the force, rises */
     size_t node[3];
     double h[3], share[3], plane[3];
 };
 
-/* a x = b by elimination with pivots; b becomes x. False: no solution. */
+/* Solves a x = b by elimination with pivots; b becomes x. False: no solution. */
 static bool
 solve_few(size_t n, double (*a)[3], double *b)
 {
@@ -261,7 +260,7 @@ solve_few(size_t n, double (*a)[3], double *b)
     return true;
 }
 
-/* 1 and the arms that turn, of a node of the whole map. */
+/* 1 and the arms of the axes that turn, for a node of the whole map. */
 static void
 arms(const struct rc_solver *s, size_t node, double *row)
 {
@@ -282,7 +281,7 @@ height_of(const struct rc_solver *s, size_t node)
     return rc_ranks_most(s->posed.rows.ranks, here ? s->posed.h[node - first] : -INFINITY);
 }
 
-/* Shares of a unit force at this place in a facet: those that balance it. */
+/* Shares of a unit force at this place among the nodes of a facet, by equilibrium. */
 static bool
 shares(const struct rc_solver *s, const struct facet *f, const double *place, double *share)
 {
@@ -310,7 +309,7 @@ plane_of(const struct rc_solver *s, struct facet *f)
     return solve_few(f->n, a, f->plane);
 }
 
-/* Corners of the map around the point of the force. */
+/* Starts with corners of the map around the point of the force. */
 static void
 begin_facet(const struct rc_solver *s, struct facet *f)
 {
@@ -348,7 +347,7 @@ above_block(void *at, size_t first, size_t n, double *sums)
         sums[RC_MOST] = fmax(sums[RC_MOST], above_plane(at, k));
 }
 
-/* The first node that is so high, counted from the last. */
+/* The first node with this height, counted from the last one. */
 static void
 which_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -371,7 +370,7 @@ above_facet(const struct rc_solver *s, const struct facet *f)
     return c;
 }
 
-/* The node takes the place of the one that would first have to pull. */
+/* The node replaces the node of the facet that would first have to pull. */
 static bool
 exchange(const struct rc_solver *s, struct facet *f, size_t node)
 {
@@ -423,7 +422,7 @@ rc_tilt_approach(const struct rc_solver *s)
     return s->it.shift + (s->tilt == NULL || isnan(s->tilt->touch) ? 0 : s->tilt->touch);
 }
 
-/* ---- the moment, and what it does ---- */
+/* ---- the moment and its derivative ---- */
 
 static void
 moment_block(void *at, size_t first, size_t n, double *sums)
@@ -440,8 +439,8 @@ moment_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* Eigenvalues of the symmetric matrix a b, b d, the smaller first, with the eigenvector of the smaller, and that
- * of the other a quarter turn on. */
+/* Eigenvalues of the symmetric matrix a b, b d, the smaller first; the eigenvector of the smaller, and the
+ * other one at a right angle to it. */
 static void
 eigenvalues(double a, double b, double d, double value[2], double vector[2][2])
 {
@@ -449,7 +448,7 @@ eigenvalues(double a, double b, double d, double value[2], double vector[2][2])
 
     value[1] = mean + half;
     value[0] = value[1] > 0 ? (a * d - b * b) / value[1] : 0;
-    if (a >= d) { /* the larger entry's row is the better one */
+    if (a >= d) { /* use the row with the larger entry */
         vector[1][0] = (a - d) / 2 + half;
         vector[1][1] = b;
     } else {
@@ -463,7 +462,7 @@ eigenvalues(double a, double b, double d, double value[2], double vector[2][2])
     vector[0][1] = vector[1][0];
 }
 
-/* Of H over S. Without H it stands for itself that the contact is as wide as the map. */
+/* Eigenvalues of H over S. Without H: those of a contact as wide as the map. */
 static void
 stiffnesses(const struct rc_tilt *t, double value[2], double vector[2][2])
 {
@@ -473,7 +472,7 @@ stiffnesses(const struct rc_tilt *t, double value[2], double vector[2][2])
                 t->known && t->turns[1] ? t->h[1][1] / t->s : 1, value, vector);
 }
 
-/* By how much the moment lets the pressure be off. */
+/* Error of the pressure due to the moment. */
 static double
 error_of(const struct rc_tilt *t, const double value[2], double vector[2][2])
 {
@@ -520,7 +519,7 @@ rc_tilt_goal(const struct rc_solver *s)
     return s->tilt != NULL && s->tilt->begun ? s->tilt->goal : s->load.tol;
 }
 
-/* ---- the search ---- */
+/* ---- the search for the tilt ---- */
 
 /* Moments of the arms of the elastic nodes. */
 static void
@@ -557,11 +556,11 @@ spread(struct rc_solver *s, double *xx, double *xy, double *yy)
     return sum[0];
 }
 
-/* A node that changes sides first when nothing resists the turn. */
+/* Context of the search for the node that joins first when nothing resists the turn. */
 struct first_touch {
     const struct rc_solver *s;
     const double *way;
-    double centre; /* arm of the pressure along the way */
+    double centre; /* arm of the pressure along the direction */
 };
 
 static void
@@ -581,7 +580,7 @@ touch_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* How far to turn this way until something resists, and a little more. */
+/* The turn in this direction until something resists, and a little more. */
 static double
 until_touch(struct rc_solver *s, const double way[2], double centre)
 {
@@ -593,7 +592,7 @@ until_touch(struct rc_solver *s, const double way[2], double centre)
     return total[RC_MOST] > 0 ? 1 / total[RC_MOST] + more : more;
 }
 
-/* Newton's step, and where nothing resists the way to the first touch. */
+/* Newton's step; if nothing resists, the turn to the first touch. */
 static void
 choose_way(struct rc_solver *s)
 {
@@ -618,7 +617,7 @@ choose_way(struct rc_solver *s)
     }
 }
 
-/* H and S of the elastic nodes; none where none are elastic. */
+/* H and S of the elastic nodes; unknown where no node is elastic. */
 static void
 find_stiffness(struct rc_solver *s)
 {
@@ -634,8 +633,7 @@ find_stiffness(struct rc_solver *s)
             t->h[a][b] = k[1 + a][1 + b] - k[0][1 + a] * k[0][1 + b] / k[0][0];
 }
 
-/* The turn has changed the moment from that at its base: H is made to say so (Broyden, Fletcher,
- * Goldfarb, Shanno). */
+/* Corrects H by the observed change of the moment from its base (Broyden, Fletcher, Goldfarb, Shanno). */
 static void
 learn(struct rc_solver *s)
 {
@@ -664,7 +662,7 @@ about_way(const struct rc_tilt *t, const double moment[2])
     return moment[0] * t->way[0] + moment[1] * t->way[1];
 }
 
-/* Keeps the bracket, and chooses another length in it, or a larger one where there is no end yet. */
+/* Updates the bracket and chooses another length in it, or a larger one where it has no upper end yet. */
 static double
 next_length(struct rc_tilt *t)
 {
@@ -747,9 +745,9 @@ rc_tilt_end(struct rc_solver *s, enum rc_status status)
     return status;
 }
 
-/* Whether H is to be found anew before the search ends: there is none, or it is of another contact and much stiffer
- * than springs under the elastic nodes, by which the error would not be small. Nodes at edges are the stiffer ones,
- * so that a true H is above that of springs, but not by much. */
+/* Whether H must be recomputed before the search ends: it is unknown, or it belongs to another contact and is
+ * so much stiffer than springs under the elastic nodes that the error would be underestimated. Nodes at edges
+ * are stiffer than others, so a true H exceeds that of springs, but not by much. */
 static bool
 doubtful(struct rc_solver *s, double least)
 {
@@ -770,7 +768,7 @@ rc_tilt_search(struct rc_solver *s)
     double least = t->goal / 4, was = t->error_at_base, sure;
 
     measure(s);
-    /* what a contact may be off and still tell which way to turn */
+    /* the error of a contact that still gives the sign of the next turn */
     sure = 0.3 * (t->error < 1 ? t->error : hypot(t->moment[0], t->moment[1]));
     if (s->it.error > sure && s->load.tol > (t->error > least ? finest * least : least)) {
         s->load.tol = fmax(t->error > least ? finest * least : least, fmin(sure, s->load.tol) / 3);
@@ -794,7 +792,7 @@ rc_tilt_search(struct rc_solver *s)
                 return RC_SHORT;
             double far = next_length(t);
             if (far > t->low * (1 + 1e-12)) {
-                /* short turns change the moment by less than a loose contact would show */
+                /* short turns change the moment by less than the error of a loosely solved contact */
                 s->load.tol = fmax(finest * least, s->load.tol / 2);
                 turn_to(s, far);
                 return RC_MORE;
@@ -832,7 +830,7 @@ rc_tilt_from_coarse(struct rc_solver *s, const struct rc_solver *coarse)
             t->h[a][b] = c->h[a][b] * coarse->posed.cell / s->posed.cell / (per * per);
 }
 
-/* Gaps of the elastic nodes, which are 0 on average, times their arms. */
+/* Gaps of the elastic nodes, 0 on average, times their arms. */
 static void
 gaps_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -877,7 +875,7 @@ rc_tilt_pose(const struct rc_solver *s, struct rc_problem *coarse)
     coarse->tilt_free = s->tilt != NULL;
     if (s->tilt == NULL)
         return;
-    /* an odd line is one of two, of which the other lies beyond the map */
+    /* an odd line is one of two fine lines under a coarse one; the other lies beyond the map */
     coarse->force_at[0] = s->tilt->at[0] - (w->nx > 1 && w->nx % 2 == 1 ? w->dx / 2 : 0);
     coarse->force_at[1] = s->tilt->at[1] - (w->ny > 1 && w->ny % 2 == 1 ? w->dy / 2 : 0);
 }

@@ -1,29 +1,28 @@
 /*
- * The working set, the residual on it, and the correction that follows from it.
+ * The working set, its residual, and the correction from it.
  *
- * The elastic nodes are on the set, and so are nodes at a bound that would leave it. Not every node
- * that penetrates the other body (p = 0 and g < 0, or the like at the upper bound) would: beside an
- * edge of contact whose pressure is about to fall, a node overlaps a little, and as soon as its
- * neighbours fit it would have to pull. With such nodes on the set the preconditioner counts on
- * that pull, the bound takes it away, and the step is too long: at 2048 x 2048 and 50 % contact
- * that doubled the number of steps.
+ * The elastic nodes are in the set, and so are nodes at a bound that would leave it. Not every node that
+ * penetrates the other body (p = 0 and g < 0, or the reverse at the upper bound) would: beside an edge of
+ * contact whose pressure is about to decrease, a node penetrates a little, but as soon as its neighbours fit
+ * it would have to pull. With such nodes in the set the preconditioner uses that pull, the bound removes it,
+ * and the step is too long: at 2048 x 2048 and 50 % contact this doubled the number of steps.
  *
- * The pressure that a node would get is z = A r, with A the inverse of the operator and r the
- * residual, extended smoothly: (A r)_i ~ sum_j a_ij (r_i - r_j). On one material a_ij = |x_i - x_j|^(-3)
- * falls off so fast that the sign of the sum can be told from the eight neighbours in the set. A node joins
- * unless that sign is the wrong one: one without neighbours in the set always does, and so do all nodes once
- * the residual of their neighbours is near 0.
+ * The pressure that a node would get is z = A r, with A the inverse of the operator and r the residual,
+ * extended smoothly: (A r)_i ~ sum_j a_ij (r_i - r_j). On uniform bodies a_ij = |x_i - x_j|^(-3) decreases so
+ * fast that the eight neighbours in the set give the sign of the sum. A node joins unless that sign is wrong:
+ * a node without neighbours in the set always joins, and so do all nodes once the residual of their
+ * neighbours is near 0.
  *
- * Under a coat that bends, a_ij alternates in sign, and nodes far beyond the neighbours count. There a node
- * joins if it would still want to once the elastic nodes fit: K z on the set is r, and beside it about the
- * extension E r from the elastic nodes (preconditioner.h), so r_i has to exceed that. The sets of a
- * primal-dual active set method, whose systems are solved exactly, are the same but for the error of E, and
- * on a map of 128 x 128 under a coat of two nodes with E_1/E_s 400 that method took four steps.
- * Coats of one to four nodes, E_1/E_s 100 and 400, 1 to 40 % contact at 512 x 512: 10 to 25 equivalents by
- * neighbours of which those that want less counted little, now 9 to 23. Nobody joining but nodes with a
- * positive z, by a correction made for it, was far worse.
+ * Under a stiff coating a_ij alternates in sign, and nodes far beyond the neighbours count. There a node
+ * joins if its residual would keep its sign when the elastic nodes fit: K z is r on the set, and beside it
+ * about the extension E r from the elastic nodes (preconditioner.h), so r_i must exceed that. The sets of a
+ * primal-dual active set method, whose systems are solved exactly, are the same but for the error of E; on a
+ * map of 128 x 128 under a coating of two nodes with E_1/E_s = 400 that method took four steps. Coatings of
+ * one to four nodes, E_1/E_s 100 and 400, 1 to 40 % contact at 512 x 512: 9 to 23 equivalents, against 10 to
+ * 25 with neighbours whose residual is smaller weighted less. Only nodes with a positive z, from a correction
+ * computed for this purpose, was far worse.
  *
- * The estimate that ends the iteration is made with all nodes that want to leave their bounds.
+ * The estimate that ends the iteration uses all nodes that want to leave their bounds.
  */
 #include "solver.h"
 
@@ -33,19 +32,19 @@
 
 #include "libcontact/memory.h"
 
-enum {        /* bits of w, while this is undecided          */
-    WAS = 1,  /* it was in the set before                    */
-    WANTS = 2 /* it is at a bound, and its gap has the wrong sign */
+enum {        /* bits of w during sifting */
+    WAS = 1,  /* in the set before */
+    WANTS = 2 /* at a bound, with a gap of the wrong sign */
 };
 
 enum {
-    FEW = 5 /* elastic nodes, of which one may be the wrong one */
+    FEW = 5 /* elastic nodes; with so few, one of them may be wrong */
 };
 
 void
 rc_working_set_forget(struct rc_solver *s)
 {
-    s->set.changed = INFINITY; /* the preconditioner has been told nothing of it */
+    s->set.changed = INFINITY; /* the preconditioner has not been set */
 }
 
 enum rc_status
@@ -77,16 +76,16 @@ rc_working_set_free(struct rc_solver *s)
     free(s->set.beside_r);
 }
 
-/* ---- nodes that would only be pushed back ---- */
+/* ---- nodes that the next step would return to their bound ---- */
 
 struct sift {
     struct rc_solver *s;
-    float weight[3][3]; /* a_ij                                  */
-    bool ahead;         /* z has the extension from the elastic nodes */
-    bool beside[2];     /* other ranks hold a row before, and after */
+    float weight[3][3]; /* a_ij                                                    */
+    bool ahead;         /* z holds the extension from the elastic nodes            */
+    bool beside[2];     /* other ranks hold a row before and after those held here */
 };
 
-/* A row and the two next to it; NULL where there is none. */
+/* A row and the two next to it; NULL: outside the map. */
 struct three {
     const unsigned char *w[3];
     const float *r[3];
@@ -116,7 +115,7 @@ rows_about(const struct sift *c, size_t j)
 }
 
 /* sum_j a_kj (r_k - r_j) over the neighbours of node i of a row that are in the set; `sign` -1: the node is
- * at its upper bound, and counts the other way round. */
+ * at its upper bound, and the sign is reversed. */
 static float
 pull(const struct sift *c, const struct three *t, size_t i, float sign)
 {
@@ -154,7 +153,7 @@ look_beside(struct sift *c)
                     s->set.beside_r, s->set.beside_r + nx, c->beside);
 }
 
-/* First of the nodes from k on that wants to join, or end. */
+/* The first node from k on that wants to join, or `end`. */
 static size_t
 next(const unsigned char *w, size_t k, size_t end)
 {
@@ -171,8 +170,8 @@ next(const unsigned char *w, size_t k, size_t end)
     return k;
 }
 
-/* Sets z to 1 at the nodes marked WANTS that are to join, else to 0. Such a node is at its lower bound
- * with r > 0, or at its upper one with r < 0. */
+/* Sets z to 1 at the nodes marked WANTS that shall join, else to 0. Such a node is at its lower bound with r
+ * > 0, or at its upper bound with r < 0. */
 static void
 decide(const struct sift *c)
 {
@@ -221,8 +220,8 @@ settle_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* Takes nodes that would only be pushed back out of the set, and corrects the sum of the residual, the
- * number of nodes and that of changes. Uses z. */
+/* Removes nodes from the set that the next step would return to their bound, and corrects the sum of the
+ * residual, the number of nodes and the number of changes. Uses z. */
 static void
 sift_out(struct rc_solver *s, double *residual, double *count, double *changed)
 {
@@ -249,16 +248,16 @@ sift_out(struct rc_solver *s, double *residual, double *count, double *changed)
 
 /* ---- the set and its residual ---- */
 
-/* Context of the pass over all nodes; its sums are the first of the above. */
+/* Context of the pass over all nodes; its sums are the first of those above. */
 struct residual {
     struct rc_solver *s;
-    unsigned char wants; /* the mark of a node at a bound with a gap of the wrong sign       */
-    const float *q;      /* v += factor q; NULL: v stays                                     */
+    unsigned char wants; /* the mark of a node at a bound with a gap of the wrong sign */
+    const float *q;      /* v += factor q; NULL: v stays                               */
     double factor;
 };
 
 enum {
-    STRETCH = 64 /* nodes looked at together */
+    STRETCH = 64 /* nodes that are processed together */
 };
 
 RC_CLONES static bool
@@ -304,7 +303,7 @@ residual_in(struct rc_box box, size_t n, const double *restrict p, const double 
             float *restrict r, double *restrict sums)
 {
     double sum = 0, count = 0, saturated = 0;
-    float side[RC_BLOCK_NODES]; /* 0: stays at its bound, 1: elastic, 2: leaves it */
+    float side[RC_BLOCK_NODES]; /* 0: stays at its bound, 1: elastic, 2: leaves its bound */
     int changed = 0;
 
 #pragma omp simd reduction(+ : sum, count, saturated)
@@ -341,7 +340,7 @@ residual_of(struct rc_box box, size_t n, const double *p, const double *v, doubl
         residual_in(box, n, p, v, shift, scale, wants, w, r, sums);
 }
 
-/* Whether one of them wants to join. */
+/* Whether one of the nodes wants to join. */
 RC_CLONES static bool
 some_want(size_t n, const double *v, double shift)
 {
@@ -353,7 +352,7 @@ some_want(size_t n, const double *v, double shift)
     return any != 0;
 }
 
-/* Off the set and not pressed is far off, where none wants to join: pressures are not even read. */
+/* In a stretch off the set without pressure where no node wants to join, pressures are not read. */
 static void
 residual_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -447,9 +446,9 @@ rc_working_set_fix(struct rc_solver *s, bool touching)
     return s->set.size;
 }
 
-/* ---- the correction, and the error that it tells ---- */
+/* ---- the correction and the estimated error ---- */
 
-/* The part of the working set that may change before the preconditioner is told. */
+/* The fraction of the working set that may change before the preconditioner is set anew. */
 static const double little = 1e-3;
 
 static void
@@ -487,7 +486,7 @@ struct size {
     double share; /* of M 1 in z                                   */
 };
 
-/* Takes the pressure of the shift out of z. */
+/* Takes the pressure of the common shift out of z. */
 RC_CLONES static void
 centre(size_t n, const unsigned char *restrict w, const float *restrict node, float share,
        float *restrict z, double *sums)
@@ -514,12 +513,12 @@ size_block(void *at, size_t first, size_t n, double *sums)
            s->z + first, sums);
 }
 
-/* z has no less energy than the error, but its size may be smaller: where few waves carry the error some of
- * them can cancel. On a map they are many. On a profile they are few: of 2212 that repeat the size of z was
- * 0.982 to 2.2 of the error, of 512 that end 0.96 to 1.11; under coats, with five elastic
- * nodes, 0.74. Where nearly all that is loaded yields, they are as few as the nodes that are not at a bound,
- * and one of those may be the wrong one: of 955 with 1 to 13 elastic nodes the size of z was 0.63 (one
- * elastic node), 0.89 (three) to 33 of the error. */
+/* The energy of z is at least that of the error, but its L1 norm can be smaller: where few waves carry the
+ * error some of them can cancel. Maps have many waves, profiles have few: for 2212 periodic profiles the norm
+ * of z was 0.982 to 2.2 of the error, for 512 free ones 0.96 to 1.11; under coatings, with five elastic
+ * nodes, 0.74. Where nearly all loaded nodes yield, there are as few waves as elastic nodes, and one of those
+ * may be wrong: for 955 such contacts with 1 to 13 elastic nodes the norm of z was 0.63 (one elastic node),
+ * 0.89 (three) to 33 of the error. */
 static double
 caution(const struct rc_solver *s)
 {
@@ -538,7 +537,7 @@ rc_working_set_error(struct rc_solver *s, double share)
 
     rc_reduce_blocks(s, size_block, &c, total);
     if (s->it.elastic == 0 && s->set.size > 0)
-        return INFINITY; /* some want to move, but no gap says how far */
+        return INFINITY; /* nodes want to move, but no gap gives the distance */
     return caution(s) * (total[0] + s->set.left_out) / unit + rc_iterate_operator_error(s);
 }
 
@@ -565,9 +564,9 @@ rc_working_set_estimate(struct rc_solver *s)
     double total[RC_SUMS];
 
     if (s->set.size < 2 && s->set.size == s->it.elastic)
-        return 0; /* nothing to exchange, nobody wants to move */
+        return 0; /* no load to exchange, and no node wants to move */
     if (s->it.elastic == 0)
-        return INFINITY; /* some do, but no gap says how far */
+        return INFINITY; /* nodes want to move, but no gap gives the distance */
     rc_working_set_spread(s);
     rc_working_set_correct(s, NULL, NULL);
     rc_reduce_blocks(s, share_block, s, total);
