@@ -273,7 +273,6 @@ draw_figure(struct tool *t, const struct args *a, struct rc_grid *g, const struc
     struct rc_grid *even = NULL;
     struct words words;
     struct canvas *c;
-    size_t bytes;
     struct rc_err err;
 
     if (rc_grid_get(g, "section") != NULL) {
@@ -283,9 +282,6 @@ draw_figure(struct tool *t, const struct args *a, struct rc_grid *g, const struc
         f->largest = "the narrowest place of the widest way";
     if (a->hertz)
         f->circle = words_hertz(t, &words, g, &a->style.given, &f->radius);
-    if (figure_memory(f, even == NULL ? g : even, &bytes, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    tool_demand_memory(t, g, bytes + look_code(t));
     if ((c = figure_draw(f, even == NULL ? g : even, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     warn_of_text(t, a, c);
@@ -306,7 +302,6 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
 {
     struct view view;
     struct canvas *c;
-    size_t bytes;
     struct rc_err err;
 
     view_read(t, a->view, &view);
@@ -317,9 +312,6 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
     view_check(t, g, f);
     view_say(f, subtitle);
     f->missing = 0; /* they are holes */
-    if (relief_memory(f, &view, g, &bytes, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    tool_demand_memory(t, g, bytes + look_code(t));
     if ((c = relief_draw(f, &view, g, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     warn_of_text(t, a, c);
@@ -448,7 +440,7 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     struct survey all;
     struct look look;
     struct figure f;
-    size_t columns, rows, bytes;
+    size_t columns, rows;
     struct panels panels;
     struct means means = {false, 0, 0};
     struct canvas *c;
@@ -474,9 +466,6 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     if (columns == 0)
         columns = panels_columns(frames->n, (f.right - f.left) / (f.bottom - f.top));
     panels = (struct panels){&f, panel, frames->n, columns};
-    if (panels_memory(&panels, &bytes, &err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
-    tool_demand_memory(t, frames->grid[0], bytes + look_code(t));
     if ((c = panels_draw(&panels, &err)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
     warn_of_text(t, a, c);
@@ -489,19 +478,6 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
 }
 
 /* ---- curves ---- */
-
-/* Demands memory for the page; the tables or frames that the curves were drawn from are freed by
- * now. */
-static void
-demand_page(struct tool *t, const struct canvas *c)
-{
-    enum canvas_format format = canvas_format(ending_of(t->out_name));
-    struct rc_err err;
-
-    if (tool_ask_memory(t, NULL, canvas_memory(c, format) + look_code(t), "take a smaller --width",
-                        &err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
-}
 
 static void
 render_curves(struct tool *t, struct args *a)
@@ -516,7 +492,6 @@ render_curves(struct tool *t, struct args *a)
                             .stamp = drawn.stamp,
                             .subtitle = *drawn.source == '\0' ? NULL : drawn.source};
     warn_of_text(t, a, c);
-    demand_page(t, c);
     write_picture(t, NULL, &words, c);
     canvas_free(c);
 }
@@ -552,7 +527,6 @@ render_lines(struct tool *t, struct args *a, const struct frames *f)
     a->style.hertz = a->hertz;
     c = draw_lines(t, a, f, &drawn);
     warn_of_text(t, a, c);
-    demand_page(t, c);
     write_picture(t, f->grid[0], &(struct figure){.title = drawn.title, .stamp = drawn.stamp}, c);
     canvas_free(c);
 }

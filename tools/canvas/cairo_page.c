@@ -69,24 +69,19 @@ show_lines(cairo_t *cairo, const struct item *i)
 
 /* Pixels are 0xAARRGGBB. */
 static void
-show_image(cairo_t *cairo, const struct item *i)
+show_image(struct canvas *c, cairo_t *cairo, const struct item *i)
 {
-    cairo_surface_t *image = cairo_image_surface_create(
-        i->inked != NULL ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24, (int)i->nx, (int)i->ny);
-    unsigned char *to = cairo_image_surface_get_data(image);
-    size_t stride = (size_t)cairo_image_surface_get_stride(image);
+    unsigned *pixel = malloc(i->nx * i->ny * sizeof *pixel);
+    cairo_surface_t *image = cairo_image_surface_create_for_data(
+        (unsigned char *)pixel, i->inked != NULL ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24,
+        (int)i->nx, (int)i->ny, 4 * (int)i->nx);
 
-    for (size_t y = 0; y < i->ny && to != NULL; y++)
-        for (size_t x = 0; x < i->nx; x++) {
-            const unsigned char *from = i->rgb + 3 * (y * i->nx + x);
-            unsigned pixel =
-                0xff000000U | (unsigned)from[0] << 16 | (unsigned)from[1] << 8 | from[2];
-
-            if (i->inked != NULL && !i->inked[y * i->nx + x])
-                pixel = 0;
-            memcpy(to + y * stride + 4 * x, &pixel, sizeof pixel);
-        }
-    cairo_surface_mark_dirty(image);
+    c->short_of_memory = c->short_of_memory || pixel == NULL;
+    for (size_t k = 0; k < i->nx * i->ny && pixel != NULL; k++)
+        pixel[k] = i->inked != NULL && !i->inked[k]
+                       ? 0
+                       : 0xff000000U | (unsigned)i->pixel[k].r << 16 |
+                             (unsigned)i->pixel[k].g << 8 | i->pixel[k].b;
     cairo_save(cairo);
     cairo_translate(cairo, i->x, i->y);
     cairo_scale(cairo, i->w / (double)i->nx, i->h / (double)i->ny);
@@ -96,6 +91,7 @@ show_image(cairo_t *cairo, const struct item *i)
     cairo_fill(cairo);
     cairo_restore(cairo);
     cairo_surface_destroy(image);
+    free(pixel);
 }
 
 static void
@@ -129,14 +125,16 @@ show(struct canvas *c, cairo_t *cairo, const struct item *i)
         show_lines(cairo, i);
         break;
     case ITEM_IMAGE:
-        show_image(cairo, i);
+        show_image(c, cairo, i);
         break;
     }
 }
 
 static enum rc_status
-check(cairo_t *cairo, struct rc_err *err)
+check(const struct canvas *c, cairo_t *cairo, struct rc_err *err)
 {
+    if (canvas_check(c, err) != RC_OK)
+        return RC_FAIL;
     if (cairo_status(cairo) != CAIRO_STATUS_SUCCESS)
         return rc_err_set(err, "the figure cannot be drawn: %s",
                           cairo_status_to_string(cairo_status(cairo)));
@@ -145,47 +143,26 @@ check(cairo_t *cairo, struct rc_err *err)
 
 /* ---- pixels ---- */
 
-struct drawn {
-    cairo_surface_t *surface;
-    cairo_t *cairo;
-    size_t items; /* of the canvas, that are on it */
-};
-
 enum rc_status
 drawn_update(struct canvas *c, struct rc_err *err)
 {
-    struct drawn *d = c->drawn;
+    cairo_surface_t *surface;
+    cairo_t *cairo;
+    enum rc_status status;
 
-    if (d == NULL) {
-        if ((d = c->drawn = calloc(1, sizeof *d)) == NULL)
-            return rc_err_set(err, "out of memory for a figure");
-        d->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)c->w, (int)c->h);
-        d->cairo = cairo_create(d->surface);
-    }
-    if (d->items == c->items)
-        return check(d->cairo, err);
-    while (d->items < c->items)
-        show(c, d->cairo, &c->item[d->items++]);
-    cairo_surface_flush(d->surface);
-    return check(d->cairo, err);
-}
-
-const unsigned *
-drawn_row(const struct drawn *d, size_t y)
-{
-    size_t stride = (size_t)cairo_image_surface_get_stride(d->surface);
-
-    return (const unsigned *)(const void *)(cairo_image_surface_get_data(d->surface) + y * stride);
-}
-
-void
-drawn_free(struct drawn *d)
-{
-    if (d == NULL)
-        return;
-    cairo_destroy(d->cairo);
-    cairo_surface_destroy(d->surface);
-    free(d);
+    if (c->drawn != NULL)
+        return RC_OK;
+    if ((c->drawn = calloc(c->w * c->h, sizeof *c->drawn)) == NULL)
+        return rc_err_set(err, "out of memory for a figure of %zu by %zu pixels", c->w, c->h);
+    surface = cairo_image_surface_create_for_data((unsigned char *)c->drawn, CAIRO_FORMAT_RGB24,
+                                                  (int)c->w, (int)c->h, 4 * (int)c->w);
+    cairo = cairo_create(surface);
+    for (size_t k = 0; k < c->items; k++)
+        show(c, cairo, &c->item[k]);
+    status = check(c, cairo, err);
+    cairo_destroy(cairo);
+    cairo_surface_destroy(surface);
+    return status;
 }
 
 /* ---- PDF ---- */
@@ -238,7 +215,7 @@ pdf_write(struct canvas *c, const struct picture_text *text, size_t texts, FILE 
     for (size_t k = 0; k < c->items; k++)
         show(c, cairo, &c->item[k]);
     cairo_show_page(cairo);
-    status = check(cairo, err);
+    status = check(c, cairo, err);
     cairo_destroy(cairo);
     cairo_surface_finish(surface);
     if (sink.why != 0)

@@ -37,7 +37,7 @@ item_clear(struct item *i)
 {
     free(i->text);
     free(i->point);
-    free(i->rgb);
+    free(i->pixel);
     free(i->inked);
 }
 
@@ -48,17 +48,16 @@ canvas_free(struct canvas *c)
         return;
     for (size_t k = 0; k < c->items; k++)
         item_clear(&c->item[k]);
-    item_clear(&c->dots);
     free(c->item);
     free(c->path);
     lettering_free(c->lettering);
-    drawn_free(c->drawn);
+    free(c->drawn);
     free(c);
 }
 
 /* Takes over what the item owns, also when it fails. */
 static void
-append(struct canvas *c, struct item item)
+add(struct canvas *c, struct item item)
 {
     if (c->items == c->capacity) {
         size_t capacity = c->capacity == 0 ? 64 : 2 * c->capacity;
@@ -73,13 +72,6 @@ append(struct canvas *c, struct item item)
         c->capacity = capacity;
     }
     c->item[c->items++] = item;
-}
-
-static void
-add(struct canvas *c, struct item item)
-{
-    canvas_settle(c);
-    append(c, item);
 }
 
 /* ---- text ---- */
@@ -232,85 +224,19 @@ canvas_triangle(struct canvas *c, double corner[3][2], struct rgb colour)
 /* ---- pixels ---- */
 
 void
-canvas_image(struct canvas *c, double x, double y, double w, double h, const unsigned char *rgb,
-             size_t nx, size_t ny)
+canvas_image(struct canvas *c, double x, double y, double w, double h, struct rgb *pixel,
+             bool *inked, size_t nx, size_t ny)
 {
-    unsigned char *own = malloc(3 * nx * ny);
-
-    if (own == NULL) {
-        c->short_of_memory = true;
-        return;
-    }
-    memcpy(own, rgb, 3 * nx * ny);
-    canvas_take_image(c, x, y, w, h, own, nx, ny);
-}
-
-void
-canvas_take_image(struct canvas *c, double x, double y, double w, double h, unsigned char *rgb,
-                  size_t nx, size_t ny)
-{
-    add(c, (struct item){
-               .kind = ITEM_IMAGE, .x = x, .y = y, .w = w, .h = h, .rgb = rgb, .nx = nx, .ny = ny});
-}
-
-void
-canvas_pixel(struct canvas *c, size_t x, size_t y, struct rgb colour)
-{
-    size_t at = y * c->w + x;
-
-    if (x >= c->w || y >= c->h)
-        return;
-    if (c->dots.rgb == NULL) {
-        c->dots.rgb = calloc(c->w * c->h, 3);
-        c->dots.inked = calloc(c->w * c->h, 1);
-        if (c->dots.rgb == NULL || c->dots.inked == NULL) {
-            c->short_of_memory = true;
-            item_clear(&c->dots);
-            c->dots = (struct item){.rgb = NULL};
-            return;
-        }
-        c->dots_left = c->dots_right = x;
-        c->dots_top = c->dots_bottom = y;
-    }
-    c->dots_left = x < c->dots_left ? x : c->dots_left;
-    c->dots_right = x > c->dots_right ? x : c->dots_right;
-    c->dots_top = y < c->dots_top ? y : c->dots_top;
-    c->dots_bottom = y > c->dots_bottom ? y : c->dots_bottom;
-    memcpy(c->dots.rgb + 3 * at, (unsigned char[]){colour.r, colour.g, colour.b}, 3);
-    c->dots.inked[at] = 1;
-}
-
-/* Cut to what was set: in the same memory, rows move to the front. */
-void
-canvas_settle(struct canvas *c)
-{
-    struct item i = c->dots;
-    size_t left = c->dots_left, top = c->dots_top;
-    bool whole = true;
-
-    if (i.rgb == NULL)
-        return;
-    c->dots = (struct item){.rgb = NULL};
-    i.kind = ITEM_IMAGE;
-    i.nx = c->dots_right - left + 1;
-    i.ny = c->dots_bottom - top + 1;
-    i.x = (double)left;
-    i.y = (double)top;
-    i.w = (double)i.nx;
-    i.h = (double)i.ny;
-    for (size_t j = 0; j < i.ny; j++) {
-        size_t from = (top + j) * c->w + left;
-
-        memmove(i.rgb + 3 * j * i.nx, i.rgb + 3 * from, 3 * i.nx);
-        memmove(i.inked + j * i.nx, i.inked + from, i.nx);
-    }
-    for (size_t k = 0; k < i.nx * i.ny && whole; k++)
-        whole = i.inked[k];
-    if (whole) {
-        free(i.inked);
-        i.inked = NULL;
-    }
-    append(c, i);
+    add(c, (struct item){.kind = ITEM_IMAGE,
+                         .x = x,
+                         .y = y,
+                         .w = w,
+                         .h = h,
+                         .pixel = pixel,
+                         .inked = inked,
+                         .nx = nx,
+                         .ny = ny});
+    c->short_of_memory = c->short_of_memory || pixel == NULL;
 }
 
 enum rc_status
@@ -330,10 +256,9 @@ canvas_row(struct canvas *c, size_t y, unsigned char *rgb, struct rc_err *err)
 {
     const unsigned *row;
 
-    canvas_settle(c);
     if (canvas_check(c, err) != RC_OK || drawn_update(c, err) != RC_OK)
         return RC_FAIL;
-    row = drawn_row(c->drawn, y);
+    row = c->drawn + y * c->w;
     for (size_t x = 0; x < c->w; x++) {
         rgb[3 * x] = (unsigned char)(row[x] >> 16 & 0xff);
         rgb[3 * x + 1] = (unsigned char)(row[x] >> 8 & 0xff);
@@ -359,12 +284,6 @@ canvas_format(const char *name)
                                       : CANVAS_PNG;
 }
 
-size_t
-canvas_memory(const struct canvas *c, enum canvas_format format)
-{
-    return format == CANVAS_PNG ? 4 * c->w * c->h : 0;
-}
-
 static enum rc_status
 next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
 {
@@ -375,7 +294,6 @@ enum rc_status
 canvas_write(struct canvas *c, enum canvas_format format, const struct picture_text *text,
              size_t texts, FILE *file, struct rc_err *err)
 {
-    canvas_settle(c);
     if (canvas_check(c, err) != RC_OK)
         return RC_FAIL;
     if (format == CANVAS_SVG)

@@ -65,15 +65,11 @@ void canvas_stroke(struct canvas *canvas, double width, struct rgb colour);
 /* The same in dashes of that length with gaps as long. */
 void canvas_dashes(struct canvas *canvas, double width, double dash, struct rgb colour);
 
-/* An image of nx by ny pixels (red, green, blue, row by row) over the rectangle, its pixels with
- * sharp edges however large they become. */
-void canvas_image(struct canvas *canvas, double x, double y, double w, double h,
-                  const unsigned char *rgb, size_t nx, size_t ny);
-/* The same of pixels that are given away: the canvas frees them. */
-void canvas_take_image(struct canvas *canvas, double x, double y, double w, double h,
-                       unsigned char *rgb, size_t nx, size_t ny);
-/* A pixel of the page; in a PDF or SVG pixels set one after another are one image. */
-void canvas_pixel(struct canvas *canvas, size_t x, size_t y, struct rgb colour);
+/* An image of nx by ny pixels, row by row, over the rectangle; its pixels have sharp edges however large
+ * they become. Only those show that are inked (NULL: all). The canvas frees both; `pixel` NULL: memory is
+ * short, which canvas_check reports. */
+void canvas_image(struct canvas *canvas, double x, double y, double w, double h, struct rgb *pixel,
+                  bool *inked, size_t nx, size_t ny);
 
 /* RC_FAIL when something before could not be drawn, or there is no font. */
 enum rc_status canvas_check(const struct canvas *canvas, struct rc_err *err);
@@ -95,8 +91,6 @@ enum canvas_format canvas_format(const char *name);
  * `pixels` the size of an SVG is in the pixels of a screen, one for each of the page. */
 void canvas_set_dpi(struct canvas *canvas, double dpi, bool pixels);
 
-/* Bytes that writing it will take: of a PNG the pixels of the page. */
-size_t canvas_memory(const struct canvas *canvas, enum canvas_format format);
 /* Writes the page on `file`, which stays the caller's. No time is written: the same page is the
  * same bytes. `text` goes into the chunks of a PNG; of the others Title, Description and Software
  * have a place. RC_FAIL as canvas_check, or when the device refuses. */

@@ -34,11 +34,10 @@ struct item {
     struct item_point *point;
     size_t points;
     /* images; `inked` NULL: all pixels show */
-    unsigned char *rgb, *inked;
+    struct rgb *pixel;
+    bool *inked;
     size_t nx, ny;
 };
-
-struct drawn; /* the page as pixels */
 
 struct canvas {
     size_t w, h;
@@ -48,23 +47,15 @@ struct canvas {
     size_t items, capacity;
     struct item_point *path; /* the line being drawn */
     size_t points, point_capacity;
-    struct item dots; /* pixels set one by one; rgb NULL: none yet                             */
-    size_t dots_left, dots_right, dots_top, dots_bottom;
     struct lettering *lettering;
-    struct drawn *drawn;
+    unsigned *drawn; /* the page as pixels; NULL: not yet */
     bool short_of_memory;
 };
 
-/* The items that are pixels set one by one become an image in the list. */
-void canvas_settle(struct canvas *canvas);
-
 /* ---- cairo_page.c ---- */
 
-/* The page as pixels, brought up to the last item: row y is 32 bits a pixel, 0xXXRRGGBB. */
+/* Draws the items on the page's pixels, once. */
 enum rc_status drawn_update(struct canvas *canvas, struct rc_err *err);
-const unsigned *drawn_row(const struct drawn *drawn, size_t y);
-void drawn_free(struct drawn *drawn); /* NULL is allowed */
-
 enum rc_status pdf_write(struct canvas *canvas, const struct picture_text *text, size_t texts,
                          FILE *file, struct rc_err *err);
 

@@ -204,11 +204,11 @@ static enum rc_status
 image_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
 {
     const struct enlarged *e = ctx;
-    const unsigned char *row = e->item->rgb + 3 * (y / e->times) * e->item->nx;
+    const struct rgb *row = e->item->pixel + y / e->times * e->item->nx;
 
     (void)err;
     for (size_t x = 0; x < e->times * e->item->nx; x++)
-        memcpy(rgb + 3 * x, row + 3 * (x / e->times), 3);
+        memcpy(rgb + 3 * x, row + x / e->times, 3);
     return RC_OK;
 }
 
@@ -251,7 +251,7 @@ put_dots(struct svg *s, struct item *i, struct rc_err *err)
     fprintf(s->file, "<clipPath id=\"clip%zu\"><path d=\"", ++s->clips);
     for (size_t y = 0; y < i->ny; y++)
         for (size_t x = 0, n; x < i->nx; x += n) {
-            const unsigned char *inked = i->inked + y * i->nx + x;
+            const bool *inked = i->inked + y * i->nx + x;
 
             for (n = 1; x + n < i->nx && inked[n] == inked[0];)
                 n++;
@@ -294,9 +294,7 @@ put_item(struct svg *s, struct item *i, struct rc_err *err)
             put_lines(s, i);
         break;
     case ITEM_IMAGE:
-        if (i->inked == NULL)
-            return put_image(s, i, err);
-        return put_dots(s, i, err);
+        return (i->inked != NULL ? put_dots : put_image)(s, i, err);
     }
     return RC_OK;
 }

@@ -152,8 +152,6 @@ cost_plot(const struct cost_case *c, const char *ending, size_t *bytes, struct r
     for (size_t k = 0; k < n; k++)
         graph[k] = d[k].graph;
     canvas = graphs_draw(graph, n, err);
-    if (canvas != NULL)
-        tool_demand_memory(c->tool, c->heights, canvas_memory(canvas, canvas_format(ending)));
     if (canvas != NULL && (file = open_memstream(&picture, bytes)) != NULL) {
         status = canvas_write(canvas, canvas_format(ending), text, sizeof text / sizeof *text, file,
                               err);

@@ -168,19 +168,16 @@ new_rows(struct page *p, size_t w, size_t h, size_t first, size_t rows, struct r
 
 static enum rc_status
 paint_rows(struct page *p, const struct shades *shades, size_t w, size_t h, size_t first,
-           size_t rows, unsigned char *rgb, struct rc_err *err)
+           size_t rows, struct rgb *pixel, struct rc_err *err)
 {
     struct raster *r = new_rows(p, w, h, first, rows, err);
 
     if (r == NULL)
         return RC_FAIL;
     for (size_t j = 0; j < rows; j++)
-        for (size_t i = 0; i < w; i++) {
-            struct rgb colour = lit(shades, cell_colour(p, r, i, j, first), i, first + j, w, h);
-
-            memcpy(rgb + 3 * ((first + j) * w + i), (unsigned char[]){colour.r, colour.g, colour.b},
-                   3);
-        }
+        for (size_t i = 0; i < w; i++)
+            pixel[(first + j) * w + i] =
+                lit(shades, cell_colour(p, r, i, j, first), i, first + j, w, h);
     raster_free(r);
     return RC_OK;
 }
@@ -189,24 +186,25 @@ paint_rows(struct page *p, const struct shades *shades, size_t w, size_t h, size
 static enum rc_status
 paint(struct page *p, size_t w, size_t h, struct rc_err *err)
 {
-    unsigned char *rgb = malloc(3 * w * h);
+    struct rgb *pixel = malloc(w * h * sizeof *pixel);
     enum rc_status status = RC_OK;
     struct shades shades;
 
-    if (rgb == NULL)
+    if (pixel == NULL)
         return rc_err_set(err, "out of memory for a map of %zu by %zu pixels", w, h);
     if (shades_new(p, w, h, &shades, err) != RC_OK) {
-        free(rgb);
+        free(pixel);
         return RC_FAIL;
     }
     for (size_t first = 0; first < h && status == RC_OK; first += BAND)
-        status = paint_rows(p, &shades, w, h, first, h - first < BAND ? h - first : BAND, rgb, err);
+        status =
+            paint_rows(p, &shades, w, h, first, h - first < BAND ? h - first : BAND, pixel, err);
     shades_free(&shades);
     if (status == RC_OK)
-        canvas_take_image(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w,
-                          (double)p->plot_h, rgb, w, h);
+        canvas_image(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w,
+                     (double)p->plot_h, pixel, NULL, w, h);
     else
-        free(rgb);
+        free(pixel);
     return status;
 }
 
@@ -366,15 +364,14 @@ draw_map(struct page *p, struct rc_err *err)
 static void
 paint_bar(struct page *p, double x, double y, double w, double h)
 {
-    unsigned char rgb[3 * STEPS];
+    struct rgb *pixel = malloc(STEPS * sizeof *pixel);
 
-    for (size_t k = 0; k < STEPS; k++) {
+    for (size_t k = 0; k < STEPS && pixel != NULL; k++) {
         double t = ((double)k + 0.5) / STEPS;
-        struct rgb c = colormap_at(p->f->map, p->bar_below ? t : 1 - t);
 
-        memcpy(rgb + 3 * k, (unsigned char[]){c.r, c.g, c.b}, 3);
+        pixel[k] = colormap_at(p->f->map, p->bar_below ? t : 1 - t);
     }
-    canvas_image(p->c, x, y, w, h, rgb, p->bar_below ? STEPS : 1, p->bar_below ? 1 : STEPS);
+    canvas_image(p->c, x, y, w, h, pixel, NULL, p->bar_below ? STEPS : 1, p->bar_below ? 1 : STEPS);
 }
 
 /* Draws a triangle at each end of the bar that some values lie beyond. */
@@ -541,6 +538,16 @@ page_heading(struct page *p)
     draw_stamp(p, middle, y);
 }
 
+static void
+draw_missing(struct page *p, double x, double y, size_t w, size_t h)
+{
+    struct rgb *pixel = malloc(w * h * sizeof *pixel);
+
+    for (size_t k = 0; k < w * h && pixel != NULL; k++)
+        pixel[k] = missing_at(p, k % w, k / w);
+    canvas_image(p->c, x, y, (double)w, (double)h, pixel, NULL, w, h);
+}
+
 /* Across n pixels and a third more, n high. */
 static void
 draw_swatch(struct page *p, enum swatch swatch, double x, double y, size_t n)
@@ -561,9 +568,8 @@ draw_swatch(struct page *p, enum swatch swatch, double x, double y, size_t n)
         canvas_fill(p->c, x, y, w, h, p->f->map->none);
     if (swatch == SWATCH_ONE || swatch == SWATCH_TWO)
         canvas_fill(p->c, x, y, w, h, figure_colour(p->f, swatch == SWATCH_ONE ? 1 : 2));
-    for (size_t j = 0; swatch == SWATCH_MISSING && j < n; j++)
-        for (size_t i = 0; i < n + n / 3; i++)
-            canvas_pixel(p->c, (size_t)x + i, (size_t)y + j, missing_at(p, i, j));
+    if (swatch == SWATCH_MISSING)
+        draw_missing(p, x, y, n + n / 3, n);
     if (swatch >= SWATCH_NONE && swatch <= SWATCH_MISSING)
         canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * u)), page_ink);
 }
@@ -615,133 +621,6 @@ draw(struct page *p, struct rc_err *err)
     draw_marks_across(p, &p->across, x, y + h, w);
     draw_legend(p);
     return canvas_check(p->c, err);
-}
-
-/* About how many pieces the line at a level has: neighbours are compared that are as far apart as
- * the pixels of the raster. */
-static size_t
-count_crossings(const struct rc_grid *g, size_t w, size_t h, double level)
-{
-    size_t across = g->nx > w ? g->nx / w : 1, down = g->ny > h ? g->ny / h : 1, n = 0;
-
-    for (size_t j = 0; j + down < g->ny; j += down)
-        for (size_t i = 0; i + across < g->nx; i += across) {
-            const double *v = g->v + j * g->nx + i;
-            n += (*v > level) != (v[across] > level);
-            n += (*v > level) != (v[down * g->nx] > level);
-        }
-    return n;
-}
-
-/* Pieces of all lines that draw_contours makes; *most: those of the level that has most. */
-static size_t
-count_lines(const struct page *p, size_t *most)
-{
-    const struct figure *f = p->f;
-    const struct axis *a = &p->values;
-    const struct rc_grid *of[2] = {f->contact, f->hard > 0 ? f->pressure : NULL};
-    const double border[2] = {0, f->hard};
-    size_t all = 0, n;
-
-    *most = 0;
-    for (long long k = a->ticks.first; !f->border && k <= a->ticks.last; k++) {
-        if (f->zero_is_none && k == 0)
-            continue;
-        n = count_crossings(p->g, p->plot_w, p->plot_h, ticks_at(&a->ticks, k) * a->scale.size);
-        all += n;
-        *most = n > *most ? n : *most;
-    }
-    for (size_t k = 0; k < 2; k++) {
-        n = of[k] == NULL ? 0 : raster_border_lines(of[k], border[k]);
-        all += n;
-        *most = n > *most ? n : *most;
-    }
-    return all;
-}
-
-enum {
-    PAINTED = 4 /* bytes of a pixel of an image, as cairo takes it */
-};
-
-/* First the map is reduced to means and coloured, band by band, then reduced as a whole for the contours. */
-struct page_bytes
-page_map_bytes(const struct page *p)
-{
-    enum {
-        MEAN = 8,      /* bytes of a pixel                                                        */
-        COLOUR = 3,    /* of a pixel, kept                                                        */
-        PART = 4,      /* not in contact, or missing: only in memory where there is any           */
-        PARTS = 1024,  /* pixels of these that come into memory at once                           */
-        SHADE = 12,    /* of a node, reduced to no finer than pixels                              */
-        PIECE = 32,    /* of a line of a contour, while its level is drawn                        */
-        RECORDED = 24, /* as cairo keeps it for a PDF                                             */
-        STROKED = 48   /* and of what is kept of it                                               */
-    };
-    const struct figure *f = p->f;
-    size_t plot = p->plot_w * p->plot_h, nodes = p->g->nx * p->g->ny, raster = plot, parts;
-    size_t wide = p->plot_w, band;
-    size_t lines, most, then;
-    struct page_bytes bytes;
-
-    if (f->vector && f->missing == 0) {
-        wide = p->g->nx < IMAGE_MOST ? p->g->nx : IMAGE_MOST;
-        raster = wide * (p->g->ny < IMAGE_MOST ? p->g->ny : IMAGE_MOST);
-    }
-    parts = (f->zero_is_none ? raster : 0) +
-            (f->missing < raster / PARTS ? PARTS * f->missing : raster);
-    band = raster < BAND * wide ? raster : BAND * wide;
-    bytes.drawn = COLOUR * raster + (MEAN + 2 * PART) * band;
-    bytes.kept = COLOUR * raster;
-    bytes.painted = PAINTED * raster;
-    bytes.packed = f->paper ? COLOUR * raster : 0;
-    if (f->hillshade)
-        bytes.drawn += SHADE * (nodes < raster ? nodes : raster);
-    if (!f->contour)
-        return bytes;
-    lines = count_lines(p, &most);
-    raster = nodes < plot ? nodes : plot;
-    parts = parts < 2 * raster ? parts : 2 * raster;
-    bytes.kept += STROKED * lines;
-    bytes.painted += f->paper ? RECORDED * lines : 0;
-    then = bytes.kept + PIECE * most + MEAN * raster + PART * parts;
-    bytes.drawn = then > bytes.drawn ? then : bytes.drawn;
-    return bytes;
-}
-
-size_t
-page_pixel_bytes(const struct page *p)
-{
-    return p->f->vector ? 0 : PAINTED * p->w * p->h;
-}
-
-/* First the map is reduced to means and coloured, then, but for an SVG, all is painted on the
- * page: its values are gone by then. */
-static size_t
-memory_of(const struct page *p)
-{
-    size_t then, values = p->g->nx * p->g->ny * sizeof *p->g->v;
-    struct page_bytes map;
-
-    if (p->curve)
-        return page_pixel_bytes(p);
-    map = page_map_bytes(p);
-    then = p->f->vector && !p->f->paper ? 0
-                                        : page_pixel_bytes(p) + map.kept + map.painted + map.packed;
-    then = then > values ? then - values : 0;
-    return map.drawn > then ? map.drawn : then;
-}
-
-enum rc_status
-figure_memory(const struct figure *f, const struct rc_grid *g, size_t *bytes, struct rc_err *err)
-{
-    struct page page = {.f = f, .g = g, .curve = !f->section && (g->nx == 1) != (g->ny == 1)};
-
-    if ((page.c = page_canvas(&page, 1, 1, err)) == NULL)
-        return RC_FAIL;
-    page_lay_out(&page);
-    canvas_free(page.c);
-    *bytes = memory_of(&page);
-    return RC_OK;
 }
 
 struct canvas *

@@ -79,10 +79,6 @@ struct figure {
 double figure_place(const struct figure *figure, double value);
 struct rgb figure_colour(const struct figure *figure, double value);
 
-/* Bytes that drawing takes beside the map, and writing, for which its values have to be gone,
- * once lettering is in memory, which this call brings there. */
-enum rc_status figure_memory(const struct figure *figure, const struct rc_grid *grid, size_t *bytes,
-                             struct rc_err *err);
 /* The grid holds values, nx and ny; *figure says where they lie. NULL when memory is short. */
 struct canvas *figure_draw(const struct figure *figure, const struct rc_grid *grid,
                            struct rc_err *err);

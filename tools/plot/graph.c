@@ -905,25 +905,6 @@ fail:
     return NULL;
 }
 
-/* Points are a path, then an item of it. */
-enum rc_status
-graph_memory(const struct graph *g, size_t *bytes, struct rc_err *err)
-{
-    enum {
-        POINT = 24 /* bytes of an item's point */
-    };
-    struct graph_page *p = graph_page_new(g, err);
-    size_t points = 0;
-
-    if (p == NULL)
-        return RC_FAIL;
-    for (size_t s = 0; s < g->n; s++)
-        points += g->series[s].n;
-    *bytes = POINT * points;
-    free(p);
-    return RC_OK;
-}
-
 enum {
     GRAPHS = 4 /* on a canvas */
 };

@@ -70,9 +70,6 @@ enum {
     GRAPH_COLOURS = 7 /* series after so many have a colour again, with another marker */
 };
 
-/* Bytes that drawing it will take, once lettering is in memory, which this call brings there; canvas_memory
- * tells those of writing it. RC_FAIL as graph_draw. */
-enum rc_status graph_memory(const struct graph *graph, size_t *bytes, struct rc_err *err);
 /* NULL when memory is short or an axis has no point: a logarithmic one holds none at or below 0. */
 struct canvas *graph_draw(const struct graph *graph, struct rc_err *err);
 /* Several, as wide as the first, one below the other. */

@@ -108,16 +108,8 @@ void page_measure(struct page *page);
 void page_legend(struct page *page, double width);
 /* Draws the map in its frame, with the axes asked for. In figure.c, like the functions below. */
 enum rc_status page_map(struct page *page, bool left, bool below, struct rc_err *err);
-/* Bytes of a map of the page: while it is drawn; kept afterwards; more while the page is painted; more while
- * it goes into a PDF. */
-struct page_bytes {
-    size_t drawn, kept, painted, packed;
-};
-struct page_bytes page_map_bytes(const struct page *page);
 /* Width over height of the plot of a figure. */
 double page_aspect(const struct figure *figure);
-/* Bytes of the page as pixels; 0 for a PDF or SVG. */
-size_t page_pixel_bytes(const struct page *page);
 /* Draws the colour bar beside the plot, and the legend at the foot of the page. */
 void page_bar(struct page *page);
 /* Where a value of the axis lies between its ends, 0 to 1. */

@@ -157,36 +157,6 @@ sheet_new(const struct panels *panels, struct rc_err *err)
     return NULL;
 }
 
-/* Maps are drawn one after another, each beside what is kept of those before; then all are painted. */
-enum rc_status
-panels_memory(const struct panels *panels, size_t *bytes, struct rc_err *err)
-{
-    struct sheet *s = sheet_new(panels, err);
-    size_t kept = 0, first = 0, painted = 0, packed = 0;
-    bool together = panels->figure->paper; /* cairo keeps all images of a PDF to its end */
-
-    if (s == NULL)
-        return RC_FAIL;
-    for (size_t k = 0; k < panels->n; k++) {
-        struct page_bytes map;
-
-        s->page.f = &panels->panel[k].figure;
-        s->page.g = panels->panel[k].grid;
-        s->page.plot_w = (size_t)s->w;
-        s->page.plot_h = (size_t)s->h;
-        map = page_map_bytes(&s->page);
-        first = kept + map.drawn > first ? kept + map.drawn : first;
-        kept += map.kept;
-        packed = map.packed > packed ? map.packed : packed;
-        painted = together ? painted + map.painted : map.painted > painted ? map.painted : painted;
-    }
-    s->page.f = panels->figure;
-    kept += page_pixel_bytes(&s->page) + painted + packed;
-    *bytes = first > kept ? first : kept;
-    free(s);
-    return RC_OK;
-}
-
 struct canvas *
 panels_draw(const struct panels *panels, struct rc_err *err)
 {

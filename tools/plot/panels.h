@@ -23,8 +23,6 @@ enum {
 
 /* Columns that give n panels of that aspect, width over height, a page of fair shape. */
 size_t panels_columns(size_t n, double aspect);
-/* Bytes that drawing them will take. RC_FAIL as panels_draw. */
-enum rc_status panels_memory(const struct panels *panels, size_t *bytes, struct rc_err *err);
 /* NULL when memory is short or the width too small for so many columns. */
 struct canvas *panels_draw(const struct panels *panels, struct rc_err *err);
 

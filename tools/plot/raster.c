@@ -308,22 +308,6 @@ parts(const struct rc_grid *g, size_t i, size_t j, bool below, double level)
     return reaches(g, i, j, level) != reaches(g, below ? i : i + 1, below ? j + 1 : j, level);
 }
 
-size_t
-raster_border_lines(const struct rc_grid *g, double level)
-{
-    size_t lines = 0;
-
-    for (int below = 0; below < 2; below++) {
-        size_t rows = below ? g->ny : g->nx, n = below ? g->nx : g->ny;
-
-        for (size_t r = 0; r + 1 < rows; r++)
-            for (size_t k = 0; k < n; k++)
-                lines += parts(g, below ? k : r, below ? r : k, below, level) &&
-                         (k == 0 || !parts(g, below ? k - 1 : r, below ? r : k - 1, below, level));
-    }
-    return lines;
-}
-
 enum rc_status
 raster_border(const struct rc_grid *g, double level, size_t w, size_t h, struct lines *l,
               struct rc_err *err)

@@ -50,8 +50,6 @@ struct lines {
  * parts without contact count as 0, missing cells have no line. */
 enum rc_status raster_contour(const struct raster *raster, double level, struct lines *lines,
                               struct rc_err *err);
-/* How many lines raster_border adds. */
-size_t raster_border_lines(const struct rc_grid *grid, double level);
 /* Adds the borders between nodes of at least `level` (above 0: level 0) and the others, along the
  * edges of their cells, in cells of a raster of w by h. */
 enum rc_status raster_border(const struct rc_grid *grid, double level, size_t w, size_t h,

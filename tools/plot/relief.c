@@ -27,7 +27,7 @@ struct scene {
     double *value;                /* of each, NaN: none                                      */
     size_t w, h, fine;            /* of the image, `fine` samples a side of each pixel        */
     float *depth;                 /* nearest so far, toward the viewer                       */
-    unsigned char *rgb;
+    struct rgb *colour;
 };
 
 /* A corner of a triangle on the image. */
@@ -225,9 +225,7 @@ put(struct scene *s, size_t at, double depth, struct rgb colour, double shade)
     if (!((float)depth > s->depth[at]))
         return;
     s->depth[at] = (float)depth;
-    s->rgb[3 * at] = lit(colour.r, shade);
-    s->rgb[3 * at + 1] = lit(colour.g, shade);
-    s->rgb[3 * at + 2] = lit(colour.b, shade);
+    s->colour[at] = (struct rgb){lit(colour.r, shade), lit(colour.g, shade), lit(colour.b, shade)};
 }
 
 static struct rgb
@@ -339,30 +337,42 @@ draw_walls(struct scene *s)
     }
 }
 
-/* The mean of the samples of each pixel, over white; pixels without any stay as they are. */
+/* The mean of the samples of pixel (x, y), over white; false without any. */
+static bool
+mean_at(const struct scene *s, size_t x, size_t y, struct rgb *mean)
+{
+    size_t n = s->fine, covered = 0;
+    double sum[3] = {0, 0, 0}, all = (double)(n * n);
+
+    for (size_t k = 0; k < n * n; k++) {
+        size_t at = (y * n + k / n) * s->w + x * n + k % n;
+        bool is = s->depth[at] > -INFINITY;
+
+        covered += is;
+        sum[0] += is ? s->colour[at].r : 255;
+        sum[1] += is ? s->colour[at].g : 255;
+        sum[2] += is ? s->colour[at].b : 255;
+    }
+    *mean = (struct rgb){(unsigned char)(sum[0] / all + 0.5), (unsigned char)(sum[1] / all + 0.5),
+                         (unsigned char)(sum[2] / all + 0.5)};
+    return covered > 0;
+}
+
 static void
 put_image(struct scene *s)
 {
-    size_t n = s->fine, across = s->w / n, down = s->h / n;
+    size_t across = s->w / s->fine, down = s->h / s->fine, n = across * down;
+    struct rgb *pixel = malloc(n * sizeof *pixel);
+    bool *inked = malloc(n * sizeof *inked);
 
-    for (size_t y = 0; y < down; y++)
-        for (size_t x = 0; x < across; x++) {
-            double sum[3] = {0, 0, 0};
-            size_t covered = 0;
-
-            for (size_t k = 0; k < n * n; k++) {
-                size_t at = (y * n + k / n) * s->w + x * n + k % n;
-
-                covered += s->depth[at] > -INFINITY;
-                for (size_t c = 0; c < 3; c++)
-                    sum[c] += s->depth[at] > -INFINITY ? s->rgb[3 * at + c] : 255;
-            }
-            if (covered > 0)
-                canvas_pixel(s->page.c, (size_t)s->left + x, (size_t)s->top + y,
-                             (struct rgb){(unsigned char)(sum[0] / (double)(n * n) + 0.5),
-                                          (unsigned char)(sum[1] / (double)(n * n) + 0.5),
-                                          (unsigned char)(sum[2] / (double)(n * n) + 0.5)});
-        }
+    if (inked == NULL) {
+        free(pixel);
+        pixel = NULL;
+    }
+    for (size_t k = 0; k < n && pixel != NULL; k++)
+        inked[k] = mean_at(s, k % across, k / across, &pixel[k]);
+    canvas_image(s->page.c, s->left, s->top, (double)across, (double)down, pixel, inked, across,
+                 down);
 }
 
 static enum rc_status
@@ -377,8 +387,8 @@ draw_image(struct scene *s, struct rc_err *err)
     s->w = across * s->fine;
     s->h = down * s->fine;
     s->depth = malloc(s->w * s->h * sizeof *s->depth);
-    s->rgb = malloc(3 * s->w * s->h);
-    if (s->depth == NULL || s->rgb == NULL) {
+    s->colour = malloc(s->w * s->h * sizeof *s->colour);
+    if (s->depth == NULL || s->colour == NULL) {
         rc_err_set(err, "out of memory for a relief of %zu by %zu pixels", across, down);
     } else {
         for (size_t k = 0; k < s->w * s->h; k++)
@@ -388,7 +398,7 @@ draw_image(struct scene *s, struct rc_err *err)
             put_image(s);
     }
     free(s->depth);
-    free(s->rgb);
+    free(s->colour);
     return status;
 }
 
@@ -611,25 +621,6 @@ draw(struct scene *s, struct rc_err *err)
     return canvas_check(p->c, err);
 }
 
-/* Bytes of a scene that is laid out: its mesh, and its pixels, first by themselves and then on the
- * page. */
-static size_t
-memory_of(const struct scene *s)
-{
-    enum {
-        FINE = 7,   /* bytes of a pixel of the image: its depth and its colour */
-        IMAGE = 10, /* of one of the plot: its colour on the way to the page   */
-        PIXEL = 4   /* of the page                                             */
-    };
-    size_t nx = s->page.g->nx < RELIEF_SIDE ? s->page.g->nx : RELIEF_SIDE;
-    size_t ny = s->page.g->ny < RELIEF_SIDE ? s->page.g->ny : RELIEF_SIDE;
-    size_t plot = s->page.plot_w * s->page.plot_h, fine = plot < 5000000 ? 4 : 1;
-    size_t first = FINE * fine * plot + 3 * plot;
-    size_t then = IMAGE * plot + (s->f->vector ? 0 : PIXEL * s->page.w * s->page.h);
-
-    return nx * ny * sizeof *s->value + (first > then ? first : then);
-}
-
 static struct scene *
 scene_new(const struct figure *f, const struct view *view, const struct rc_grid *g,
           struct rc_err *err)
@@ -647,24 +638,6 @@ scene_new(const struct figure *f, const struct view *view, const struct rc_grid 
     page_size(&s->page, RELIEF_WIDTH);
     set_view(s);
     return s;
-}
-
-enum rc_status
-relief_memory(const struct figure *f, const struct view *view, const struct rc_grid *g,
-              size_t *bytes, struct rc_err *err)
-{
-    struct scene *s = scene_new(f, view, g, err);
-    enum rc_status status = RC_FAIL;
-
-    if (s == NULL)
-        return RC_FAIL;
-    if ((s->page.c = page_canvas(&s->page, 1, 1, err)) != NULL) {
-        status = lay_out(s, err);
-        *bytes = memory_of(s);
-        canvas_free(s->page.c);
-    }
-    free(s);
-    return status;
 }
 
 struct canvas *

@@ -24,9 +24,6 @@ enum {
 /* Whether heights and places are both lengths: then z is drawn that many times too high. */
 bool relief_to_scale(const struct figure *figure);
 double relief_exaggeration(const struct figure *figure);
-/* As figure_memory, of a relief. */
-enum rc_status relief_memory(const struct figure *figure, const struct view *view,
-                             const struct rc_grid *grid, size_t *bytes, struct rc_err *err);
 /* lo and hi of the figure are the bottom and the top of the box. NULL when memory is short. */
 struct canvas *relief_draw(const struct figure *figure, const struct view *view,
                            const struct rc_grid *grid, struct rc_err *err);

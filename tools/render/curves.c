@@ -891,14 +891,10 @@ draw(struct curves *c, struct drawn *drawn)
     };
     struct canvas *canvas;
     struct rc_err err;
-    size_t bytes;
 
     wording_axis(c->tool, c->style, 'x', &graph.x);
     wording_axis(c->tool, c->style, 'y', &graph.y);
     wording_legend(c->tool, c->style, c->series, c->n, c->legend, sizeof c->legend);
-    if (graph_memory(&graph, &bytes, &err) != RC_OK ||
-        tool_ask_memory(c->tool, NULL, bytes, "give fewer rows", &err) != RC_OK)
-        tool_die(c->tool, EXIT_IMPOSSIBLE, "%s", err.text);
     if ((canvas = graph_draw(&graph, &err)) == NULL)
         tool_die(c->tool, EXIT_IMPOSSIBLE, "%s", err.text);
     return canvas;

@@ -92,7 +92,6 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
     const char *source = rc_grid_get(s->grid[0], "source");
     struct canvas *canvas;
     struct rc_err err;
-    size_t bytes;
 
     snprintf(drawn->title, sizeof drawn->title, "%s",
              s->style->title == NULL ? title : s->style->title);
@@ -110,9 +109,6 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
     wording_axis(s->tool, s->style, 'x', &graph->x);
     wording_axis(s->tool, s->style, 'y', &graph->y);
     wording_legend(s->tool, s->style, s->series, graph->n, s->legend, sizeof s->legend);
-    if (graph_memory(graph, &bytes, &err) != RC_OK)
-        tool_die(s->tool, EXIT_IMPOSSIBLE, "%s", err.text);
-    tool_demand_memory(s->tool, s->grid[0], bytes);
     if ((canvas = graph_draw(graph, &err)) == NULL)
         tool_die(s->tool, EXIT_IMPOSSIBLE, "%s", err.text);
     for (size_t k = 0; k <= s->n; k++) {

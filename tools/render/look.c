@@ -65,16 +65,6 @@ set_categories(struct tool *t, const struct args *a, const struct look *look, st
     f->border = true;
 }
 
-size_t
-look_code(const struct tool *t)
-{
-    enum {
-        CAIRO = 1 << 20 /* an SVG is written without it */
-    };
-
-    return canvas_format(ending_of(t->out_name)) == CANVAS_SVG ? 0 : CAIRO;
-}
-
 void
 look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid,
             const struct rc_grid *const *touch, size_t n, const struct survey *s, struct look *look,

@@ -279,9 +279,6 @@ struct curve_style {
     const char *family;
 };
 
-/* Bytes of code of what paints or writes the page. */
-size_t look_code(const struct tool *tool);
-
 /* ---- wording.c: words of a figure as the command line gives them ---- */
 
 /* The subtitle given, else the figure's own, but none under an empty title. */

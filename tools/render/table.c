@@ -59,15 +59,6 @@ no_memory(struct tool *t, const char *source)
 
 /* ---- the file ---- */
 
-static void
-ask(struct tool *t, const char *source, size_t bytes)
-{
-    struct rc_err err;
-
-    if (tool_ask_memory(t, NULL, bytes, "give fewer rows", &err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", source, err.text);
-}
-
 /* The whole of it, ended by a NUL. */
 static char *
 read_file(struct tool *t, const char *source, FILE *file, size_t *size)
@@ -274,17 +265,6 @@ read_heading(struct reading *r, const char *start[CELLS], const size_t length[CE
                          slash + 1);
         }
     }
-}
-
-/* Demands memory for the columns wanted, a value a line; their arrays grow twofold. */
-static void
-ask_for_rows(struct reading *r)
-{
-    size_t lines = 1, columns = r->table->columns;
-
-    for (const char *s = r->at; (s = memchr(s, '\n', (size_t)(r->end - s))) != NULL; s++)
-        lines++;
-    ask(r->tool, r->table->source, lines * columns * sizeof(double));
 }
 
 static void
@@ -603,7 +583,6 @@ table_read(struct table *table, struct tool *t, const char *file)
         tool_die(t, EXIT_IMPOSSIBLE, "%s is empty: there is no table to draw", table->source);
     if (memchr(text, '\0', size) != NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s is no table: it holds binary data", table->source);
-    ask_for_rows(&r);
     if (peek(&r) == '{')
         read_json(&r);
     else
