@@ -41,14 +41,14 @@ rc_body_material(const struct rc_body *b, double depth)
 
 /* ---- a pair, checked ---- */
 
-/* The caller left it out: it is rigid, or E* stands for it. */
+/* The caller gave no values: it is rigid, or E* includes it. */
 static bool
 unsaid(const struct rc_body *b)
 {
     return b->e == 0 && b->layers == 0;
 }
 
-/* Of a body for which no wave counts, 0. */
+/* True for a body that deforms under some wave. */
 static bool
 gives_way(const struct rc_body *b)
 {
@@ -114,7 +114,7 @@ rc_pair_bends(const struct rc_pair *p, double side)
 
 /* ---- made ready ---- */
 
-/* The uniform ones as one, of `compliance`; the others by themselves. */
+/* Combines the uniform bodies into one, of `compliance`; the others stay separate. */
 static enum rc_status
 make(struct rc_solids *s, const struct rc_pair *p, struct rc_err *err)
 {
@@ -151,7 +151,7 @@ rc_solids_free(struct rc_solids *s)
     s->n = 0;
 }
 
-/* 1/E* of both add up; a single E* keeps its last bit. */
+/* The sum of 1/E* of both; a single E* is returned to the last bit. */
 static double
 together(size_t n, const double estar[2])
 {
@@ -252,7 +252,7 @@ rc_inside_symbol(const struct rc_inside *in, int kernel, const struct rc_waves *
                                 rc_stress_turned(kernel) ? &turned : shape);
 }
 
-/* Sxz of a traction along y is syz of one along x: both change sides with x and y. */
+/* Sxz under a traction along y equals syz under one along x: both change sides with x and y. */
 int
 rc_stress_kernel(const struct rc_inside_type *type, int load, int component)
 {

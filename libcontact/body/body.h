@@ -1,7 +1,7 @@
 /*
- * What a body does under load, however it is made: the face of this folder. Operators and stresses
- * ask a body, or the pair of both, and never learn which row of bodies.list answers. Internal:
- * never installed.
+ * The response of a body to loads, for any type of body: the interface of this folder. Operators and stresses
+ * ask a body, or the pair of both, and do not know which row of bodies.list answers. Internal: never
+ * installed.
  */
 #ifndef RC_BODY_H
 #define RC_BODY_H
@@ -12,16 +12,16 @@
 /* ---- inside a body ---- */
 
 enum {
-    RC_NORMAL, /* a unit pressure                              */
-    RC_SHEAR,  /* a unit traction along +x on the body         */
-    RC_TURNED, /* and along +y: that with x and y exchanged    */
+    RC_NORMAL, /* a unit pressure                                           */
+    RC_SHEAR,  /* a unit traction along +x on the body                      */
+    RC_TURNED, /* a unit traction along +y: RC_SHEAR with x and y exchanged */
     RC_LOADS,
     RC_STRESS_KERNELS = RC_LOADS * RC_COMPONENTS, /* load * RC_COMPONENTS + component */
-    RC_WAVE_NUMBERS = 10                          /* kept of a wave at most           */
+    RC_WAVE_NUMBERS = 10                          /* largest count of numbers per wave */
 };
 extern const unsigned rc_stress_parity[RC_STRESS_KERNELS];
-/* Whether a kernel is one of the traction along +y; and the one along +x that it is with x and y exchanged,
- * or itself. */
+/* Whether a kernel belongs to the traction along +y; and the equal kernel of the traction along +x with x and
+ * y exchanged, or the kernel itself. */
 static inline bool
 rc_stress_turned(int kernel)
 {
@@ -35,8 +35,8 @@ struct rc_cell {
     double dx, dy; /* m */
 };
 
-/* Waves at a depth: their directions qx/q and qy/q, their wave numbers q, rad/m, and what is known of each.
- * Only the first may have q = 0. */
+/* Waves at a depth: their directions qx/q and qy/q, wave numbers q, rad/m, and the numbers that describe
+ * each. Only the first may have q = 0. */
 struct rc_waves {
     size_t n;
     const double *x, *y, *q, *numbers;
@@ -45,20 +45,20 @@ struct rc_waves {
 void rc_wave_directions(size_t n, const double *qx, const double *qy, double *x, double *y,
                         double *q);
 
-/* A depth of a body. The row that made it keeps its own data behind this. */
+/* A depth of a body. Each type stores its own data after this struct. */
 struct rc_inside {
     const struct rc_inside_type *type;
     double depth; /* m */
 };
 struct rc_solid;
 
-/* How a row of bodies.list finds stresses. Symbols and means are asked for of the first two loads:
- * rc_inside_symbol turns them. */
+/* How a body type computes stresses. Symbols and means are requested for the first two loads only:
+ * rc_inside_symbol turns them for the third. */
 struct rc_inside_type {
-    bool shares;   /* szz of the shear is sxz of the pressure                                */
-    bool coarsens; /* at a depth no wave is felt that is much shorter: a coarser grid does   */
-    /* How many numbers describe a wave at a depth, and the bytes of a depth; with the shear or
-     * without. */
+    bool shares; /* szz of the shear is sxz of the pressure                                */
+    /* waves much shorter than the depth do not reach it, so a coarser grid is enough */
+    bool coarsens;
+    /* How many numbers describe a wave at a depth, and the bytes of a depth, with or without the shear. */
     size_t (*numbers)(bool shear);
     size_t (*memory)(bool shear, enum rc_boundary boundary);
     /* NULL when memory is short or the body is rigid there. */
@@ -73,9 +73,8 @@ struct rc_inside_type {
                    double *out);
     /* Its mean on the periodic map, the same at any depth. */
     double (*mean)(const struct rc_inside *inside, int kernel, const struct rc_shape *shape);
-    /* Stresses at (x[i], y[i]), i < n, of unit load on the cell about the origin, of every kernel
-     * whose bit is set, to out[kernel][i]; and the same at (i step, y), faster where the step is
-     * that from cell to cell, dx. On the free boundary. */
+    /* Stresses at (x[i], y[i]), i < n, under unit load on the cell about the origin, for every kernel whose
+     * bit is set, to out[kernel][i]; and the same at (i step, y), faster where step is dx. Free boundary. */
     void (*coefficients)(const struct rc_inside *inside, const struct rc_cell *cell,
                          unsigned kernels, size_t n, const double *x, const double *y,
                          double *const out[RC_STRESS_KERNELS]);
@@ -91,39 +90,39 @@ rc_inside_free(struct rc_inside *inside) /* NULL is allowed */
 /* The symbol, with the mean where q = 0. */
 void rc_inside_symbol(const struct rc_inside *inside, int kernel, const struct rc_waves *waves,
                       const struct rc_shape *shape, double *out);
-/* The kernel of a load and component, or an equal one that stands for it; and the kernels (bits)
- * that these components (bits) need, of these loads (bits). */
+/* The kernel of a load and component, or the equal kernel that replaces it; and the kernels (bits) needed for
+ * these components (bits) under these loads (bits). */
 int rc_stress_kernel(const struct rc_inside_type *type, int load, int component);
 unsigned rc_stress_distinct(const struct rc_inside_type *type, unsigned components, unsigned loads);
 
-/* One kernel at one depth, as engines ask for it. `field` outlives every plan that uses the kernel. */
+/* One kernel at one depth, for the engines. `field` outlives every plan that uses the kernel. */
 struct rc_stress_field {
     const struct rc_inside *inside;
     int kernel;
 };
 struct rc_kernel rc_stress_field_kernel(const struct rc_stress_field *field);
 
-/* ---- a body that can be asked ---- */
+/* ---- a prepared body ---- */
 
-/* What is asked of it: how its surface is displaced, or the stresses inside. */
+/* The requested results: displacement of the surface, or stresses inside. */
 enum rc_use {
     RC_SURFACE,
     RC_INSIDE
 };
 
-/* A body made ready. The row that made it keeps its own data behind this. */
+/* A prepared body. Each type stores its own data after this struct. */
 struct rc_solid {
     const struct rc_body_type *type;
 };
 
-/* A row of bodies.list. Displacements are those of a half-space of a composite modulus E*(q) for
- * each wave, of this body on a rigid one: a pressure of wave number q displaces the surface by
- * 2/(E* q) of its height. */
+/* A row of bodies.list. Displacements are those of a half-space whose composite modulus E*(q) depends on the
+ * wave, for this body on a rigid one: a pressure wave of wave number q displaces the surface by 2/(E* q)
+ * times its amplitude. */
 struct rc_body_type {
     const char *name, *summary;
-    /* Whether a body that names no type is of this one. */
+    /* Whether a body without a type name is of this type. */
     bool (*takes)(const struct rc_body *body);
-    /* RC_FAIL, and *err says which, when a number makes no sense for this use. */
+    /* RC_FAIL, and *err says which, when a number is invalid for this use. */
     enum rc_status (*check)(const struct rc_body *body, enum rc_use use, struct rc_err *err);
     /* NULL when memory is short. Layers are copied. */
     struct rc_solid *(*new)(const struct rc_body *body, struct rc_err *err);
@@ -131,31 +130,31 @@ struct rc_body_type {
 
     /* ---- its surface ---- */
 
-    /* (1 - nu^2)/E, 1/Pa, where E* is the same for all waves: two such bodies are as one. NULL: it
-     * is not. */
+    /* (1 - nu^2)/E, 1/Pa, if E* is the same for all waves: two such bodies can be combined. NULL: E*
+     * varies. */
     double (*compliance)(const struct rc_body *body);
-    /* The spectrum of its padded kernel is positive, whatever the map; else it may not be, and its
-     * inverse is kept within bounds of that of a uniform body. */
+    /* The spectrum of its padded kernel is positive on any map; if not, the inverse is kept within bounds of
+     * that of a uniform body. */
     bool positive;
-    /* E*(q), Pa, q in rad/m; of the square of q it may come from a table, to 1e-12. */
+    /* E*(q), Pa, q in rad/m; may come from a table in the square of q, accurate to 1e-12. */
     double (*modulus)(const struct rc_solid *solid, double q);
     double (*modulus_of)(const struct rc_solid *solid, double q2);
-    /* The least E*(q) of all waves, near enough. */
+    /* The least E*(q) of all waves, approximately. */
     double (*softest)(const struct rc_solid *solid);
-    /* The length (m) over which layers that are thin beside `side` bend; 0: over no more than they are thick.
-     * NULL: there are none. */
+    /* The length (m) over which layers that are thin compared with `side` bend; 0: not more than their
+     * thickness. NULL: no layers. */
     double (*bends)(const struct rc_body *body, double side);
-    /* Adds the displacement under a cell, as rc_kernel's rows have it, in units of 1/modulus (Pa) and of
-     * length (m), in which the lattice is. */
+    /* Adds the displacement under a cell, as rc_kernel's rows, in units of 1/modulus (Pa) and of `length`
+     * (m); the lattice is in the same length. */
     void (*add_rows)(const struct rc_solid *solid, double length, double modulus,
                      const struct rc_lattice *at, size_t n, size_t first, size_t last, double *out);
 
-    /* ---- its inside; NULL: stresses are not known ---- */
+    /* ---- its inside; NULL: stresses not implemented ---- */
 
     const struct rc_inside_type *inside;
 };
 
-/* The list may be a longer one that includes this one: so others add bodies of their own. */
+/* Another list may include this one and add bodies. */
 #ifndef RC_BODIES_LIST
 #define RC_BODIES_LIST "libcontact/body/bodies.list"
 #endif
@@ -163,15 +162,15 @@ struct rc_body_type {
 #include RC_BODIES_LIST
 #undef RC_BODY
 
-/* Whether a depth is above an interface or at it: sums of thicknesses are rounded, and a depth that
- * is meant to be one must not be below it. */
+/* Whether a depth is above or at an interface: sums of thicknesses have rounding errors, and a depth meant to
+ * be at the interface must not be below it. */
 static inline bool
 rc_within(double depth, double bottom)
 {
     return depth <= bottom * (1 + 1e-13);
 }
 
-/* The row of a body. */
+/* The type of a body. */
 const struct rc_body_type *rc_body_type(const struct rc_body *body);
 
 static inline void
@@ -183,57 +182,55 @@ rc_solid_free(struct rc_solid *solid) /* NULL is allowed */
 
 /* ---- both bodies ---- */
 
-/* RC_FAIL, and *err says which, when a number of the bodies makes no sense. */
+/* RC_FAIL, and *err says which, when a number of the bodies is invalid. */
 enum rc_status rc_pair_check(const struct rc_pair *pair, struct rc_err *err);
 /* Whether the spectrum of their padded kernel is positive, whatever the map. */
 bool rc_pair_positive(const struct rc_pair *pair);
-/* E* of both, Pa, where it is the same for all waves; NAN: it is not. Of a pair that has been
- * checked. */
+/* E* of both, Pa, if it is the same for all waves; NAN: it varies. For a checked pair. */
 double rc_pair_modulus(const struct rc_pair *pair);
-/* The larger of the lengths (m) over which the layers of either bend, of those that are thin beside `side`; 0:
- * none does. */
+/* The larger of the lengths (m) over which layers of either body bend that are thin compared with `side`; 0:
+ * none. */
 double rc_pair_bends(const struct rc_pair *pair, double side);
 
-/* Both bodies made ready: a single solid where both are uniform, else one for each body that is not
- * rigid. */
+/* Both bodies, prepared: a single solid if both are uniform, else one for each body that is not rigid. */
 struct rc_solids {
     size_t n;
     struct rc_solid *solid[2];
 };
-/* Makes those of a pair that has been checked; RC_FAIL on all ranks when memory is short on one.
- * Free them in either case. */
+/* Prepares the bodies of a checked pair; RC_FAIL on all ranks when memory is short on one. Free them in
+ * either case. */
 enum rc_status rc_solids_new(struct rc_solids *solids, const struct rc_pair *pair,
                              const struct rc_ranks *ranks, struct rc_err *err);
 void rc_solids_free(struct rc_solids *solids);
 
-/* E*(q) of both, Pa; of the square of q it may come from tables, to 1e-12; and its least. */
+/* E*(q) of both, Pa, which may come from tables in the square of q, accurate to 1e-12; and its least. */
 double rc_solids_modulus(const struct rc_solids *solids, double q);
 double rc_solids_modulus_of(const struct rc_solids *solids, double q2);
 double rc_solids_softest(const struct rc_solids *solids);
 
-/* The displacement of both surfaces together under unit pressure on a cell, in units of 1/modulus
- * (Pa) and of length (m): 1 and 1 are m/Pa. */
+/* The sum of the displacements of both surfaces under unit pressure on a cell, in units of 1/modulus (Pa) and
+ * of `length` (m): 1 and 1 give m/Pa. */
 struct rc_surface {
     const struct rc_solids *solids;
     double length, modulus;
 };
-/* `surface` outlives what is made of the kernel. */
+/* `surface` outlives everything made of the kernel. */
 struct rc_kernel rc_surface_kernel(const struct rc_surface *surface);
-/* The same of a uniform half-space of E* = 1, for its spectrum. */
+/* The same for a uniform half-space of E* = 1, for its spectrum. */
 extern const struct rc_kernel rc_kernel_of_one;
 
-/* ---- tractions along the surfaces of two bare bodies: shear.c ---- */
+/* ---- tractions along the surfaces of two uniform bodies: shear.c ---- */
 
 struct rc_shear {
-    double estar, kap, beta; /* Pa; what shear feels beside it; Dundurs' constant, of body 1 */
+    double estar, kap, beta; /* Pa; kap and Dundurs' constant beta of body 1, defined in shear.c */
 };
-/* nu: of both bodies, where only E* of the pair is known; else of no use. RC_FAIL when a number makes
- * no sense, or there are layers. */
+/* nu: of both bodies, used only where just E* of the pair is known. RC_FAIL when a number is invalid, or
+ * there are layers. */
 enum rc_status rc_pair_shear(const struct rc_pair *pair, double nu, struct rc_shear *shear,
                              struct rc_err *err);
 
-/* Displacement along x and y under a unit traction on a cell, m/Pa; XY of both; XZ and YZ that along z
- * under a traction along x and y, which is minus that along x and y under a pressure. */
+/* Displacement along x and y under a unit traction on a cell, m/Pa; XY for both orders; XZ and YZ: that along
+ * z under a traction along x and y, which is minus that along x and y under a pressure. */
 enum rc_shear_which {
     RC_SHEAR_XX,
     RC_SHEAR_YY,

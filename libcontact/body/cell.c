@@ -2,12 +2,11 @@
  * Stresses inside a half-space under unit load on a cell of its surface, from the closed forms of
  * forms.c.
  *
- * No single form keeps its digits everywhere. On and next to the cell Love's differences over its
- * four corners hold, down to z = 0; their error is absolute, some 1e-16 of the load, so farther
- * away, where the stress falls as 1/R^2, they lose. There Gauss's rule for the integral of the
- * point loads over the cell is exact to rounding, with fewer points the farther it is. Farthest,
- * on a line of nodes, neighbours share their points: means over cells are taken from the values at
- * the nodes.
+ * No single form is accurate everywhere. On and next to the cell: Love's differences over its four corners,
+ * down to z = 0. Their error is absolute, some 1e-16 of the load, so they lose relative accuracy farther
+ * away, where the stress decreases as 1/R^2. There Gauss's rule for the integral of point loads over the cell
+ * is exact to rounding, with fewer points at larger distances. At the largest distances, on a line of nodes,
+ * neighbours share their points: means over cells are computed from the values at the nodes.
  */
 #include "forms.h"
 
@@ -17,8 +16,9 @@
 #include "quadrature.h"
 
 enum {
-    BLOCK = 256,        /* points evaluated together: their arrays stay in the first cache     */
-    STRIDE = BLOCK + 24 /* from array to array: else equal places share a line of the cache */
+    BLOCK = 256, /* points evaluated together: their arrays fit into the first cache */
+    /* from array to array, so that equal places do not share a line of the cache */
+    STRIDE = BLOCK + 24
 };
 
 /* ---- by points ---- */
@@ -78,7 +78,7 @@ by_points(const struct rc_closed *at, const struct rc_cell *c, unsigned kernels,
 
 /* ---- by points, on a line of nodes ---- */
 
-/* Distance over the cell from which the next term is below 1e-13 of a load's stress. */
+/* Distance over the cell beyond which the next term is below 1e-13 of a load's stress. */
 static const double far = 80;
 
 RC_WIDE_CLONES static void
@@ -121,7 +121,7 @@ by_means(const struct rc_closed *at, const struct rc_cell *c, unsigned kernels, 
 
 /* ---- by corners ---- */
 
-/* A point on an edge but for rounding is on it. */
+/* A point within rounding of an edge is put on it. */
 static double
 snap(double x, double side)
 {
@@ -148,7 +148,7 @@ by_corners(const struct rc_closed *at, const struct rc_cell *c, int kernel, doub
     return sum / (2 * RC_PI);
 }
 
-/* ---- by whichever keeps its digits ---- */
+/* ---- choice of the accurate form ---- */
 
 void
 rc_closed_coefficients(const struct rc_closed *at, const struct rc_cell *c, unsigned kernels,

@@ -25,13 +25,12 @@
  *             sxy  LX - 2 nu X/(R + z) - z X/(R (R + z))
  *             sxz  -T1 + z XY / (R (X^2 + z^2))   szz as sxz of the normal load   syz  -z/R
  *
- * Both arctangents have a second argument that is never negative: no branch is crossed.
+ * The second argument of both arctangents is never negative, so no branch is crossed.
  *
- * Limits. At z = 0 the terms with a factor z are 0. On an edge or a corner of the cell the
- * arctangents are 0: with the other corners that is the mean of the limits from all sides, so szz
- * is -1/2 on an edge and -1/4 at a corner. Logarithms have no limit there (normal: sxy at corners;
- * along x: sxx and syy on the edges across x, sxy on those along it): they are taken at a small
- * distance, `floor`.
+ * Limits. At z = 0 the terms with a factor z are 0. On an edge or a corner of the cell the arctangents with X
+ * = 0 or Y = 0 are 0; the sum over the corners is then the mean of the limits from all sides, so szz is -1/2
+ * on an edge and -1/4 at a corner. Logarithms have no limit there (normal: sxy at corners; along x: sxx and
+ * syy on the edges across x, sxy on those along it): they are evaluated at a small distance, `floor`.
  *
  * The periodic half-space under a wave of pressure or shear: q^2 = qx^2 + qy^2, each times
  * exp(-q z). Under a uniform load the limit q -> 0 depends on the direction of q.
@@ -79,7 +78,7 @@ t1(const struct rc_corner *k)
     return atan2(k->x * k->y, k->z * k->r);
 }
 
-/* z XY / (R (X^2 + z^2)), and so on: 0 at the surface. */
+/* z XY / (R (X^2 + z^2)) and its like: 0 at the surface. */
 static double
 xy_x(const struct rc_corner *k)
 {
@@ -233,8 +232,8 @@ rc_wave_directions(size_t n, const double *qx, const double *qy, double *x, doub
 
 /* ---- the components ---- */
 
-/* Load, component, its forms above, its parity; szz of the shear is sxz of the pressure. The shear along y
- * has no forms of its own. */
+/* Load, component, its forms above, its parity; szz under the shear is sxz under the pressure. The shear
+ * along y needs no forms of its own. */
 #define KERNELS                                                                                    \
     KERNEL(NORMAL, SXX, n_xx, 0)                                                                   \
     KERNEL(NORMAL, SYY, n_yy, 0)                                                                   \

@@ -17,7 +17,7 @@ struct rc_points {
 /* A corner of a cell seen from the point of the field: X, Y and the distance R, at depth z. */
 struct rc_corner {
     double x, y, z, r, nu;
-    double floor; /* least distance from an edge that a logarithm is taken at, m */
+    double floor; /* m: smallest distance from an edge at which a logarithm is evaluated */
 };
 
 struct rc_stress_forms {
@@ -31,7 +31,7 @@ struct rc_stress_forms {
 };
 extern const struct rc_stress_forms rc_stress_forms[RC_TURNED * RC_COMPONENTS];
 
-/* cell.c: a depth of this material, as rc_inside_type has them. */
+/* cell.c: a depth of a uniform body, with the functions of rc_inside_type. */
 struct rc_closed {
     double depth, nu;
 };

@@ -1,6 +1,5 @@
 /*
- * A kernel: the field that a unit pressure on one cell makes, as engines and transforms ask for it.
- * Internal: never installed.
+ * A kernel: the field of a unit pressure on one cell, for engines and transforms. Internal: never installed.
  */
 #ifndef RC_KERNEL_H
 #define RC_KERNEL_H

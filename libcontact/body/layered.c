@@ -1,12 +1,12 @@
 /*
- * Bonded layers on a half-space. The normal displacement of the surface under unit pressure on a
- * cell dx x dy is that of a half-space of the top material in closed form, and the integral over
- * the cell of what the rest of the stack changes, D(r), which is smooth on twice the thickness s/2
- * of the top layer.
+ * Bonded layers on a half-space. The normal displacement of the surface under unit pressure on a cell dx x dy
+ * is that of a half-space of the top material in closed form, plus the integral over the cell of the
+ * difference D(r) between the stack and that half-space. D is smooth on the scale s = twice the thickness of
+ * the top layer.
  *
- * Integrated is by Gauss's rule, with the fewer points the larger sqrt(r^2 + s^2) is against the
- * sides; a cell that is too near for any rule is halved. Farther than forty cells means are taken
- * from the values at the nodes, which neighbours share.
+ * Gauss's rule integrates D, with fewer points the larger sqrt(r^2 + s^2) is compared with the sides; a cell
+ * too near for any rule is halved. Beyond forty cells means are computed from the values at the nodes, which
+ * neighbours share.
  */
 
 #include <math.h>
@@ -17,19 +17,19 @@
 #include "uniform.h"
 
 enum {
-    BLOCK = 128, /* distances looked up together                     */
-    TILE = 96,   /* columns whose node values are found together     */
-    TALL = 40,   /* rows of them                                     */
-    NEAREST = 4  /* half sides: below, a cell is halved              */
+    BLOCK = 128, /* distances looked up together */
+    TILE = 96,   /* columns whose node values are computed together */
+    TALL = 40,   /* rows of such a tile */
+    NEAREST = 4  /* half sides: a nearer cell is halved */
 };
 static const double far = 40; /* cells */
 
-/* What is integrated, in the units of the grid. */
+/* The integrand, in the units of the grid. */
 struct part {
     const struct rc_stack *stack;
-    double unit;   /* m^2 of a unit of squared length          */
-    double scale;  /* s in these units                         */
-    double factor; /* of the result                            */
+    double unit;   /* m^2 per unit of squared length */
+    double scale;  /* s in these units               */
+    double factor; /* of the result                  */
 };
 
 /* Adds up weight * D over n <= BLOCK points. */
@@ -83,7 +83,7 @@ struct tile {
     double mean[TALL][TILE];                     /* along x                                     */
 };
 
-/* Rows first - 3 .. last + 2 and columns left - 3 .. right + 2 of D. */
+/* Computes D in rows first - 3 .. last + 2 and columns left - 3 .. right + 2. */
 static void
 fill_tile(const struct part *d, const struct rc_lattice *at, size_t left, size_t right,
           size_t first, size_t last, struct tile *t)
@@ -117,8 +117,7 @@ mean_at(const struct tile *t, size_t j, size_t i)
            rc_mean_of[3] * (t->mean[c - 3][i] + t->mean[c + 3][i]);
 }
 
-/* Columns of row j nearer than forty cells: they are integrated. All, on a lattice that leaves nodes
- * out. */
+/* Columns of row j within forty cells, which are integrated. All columns on a lattice that skips nodes. */
 static size_t
 near_columns(const struct rc_lattice *at, double y, size_t n)
 {
@@ -253,12 +252,12 @@ softest_below(const struct rc_body *b, size_t k)
     return soft;
 }
 
-/* Layers from the top on, bonded, are a plate of stiffness D about its neutral plane; on a half-space a plate
- * bends over (2 D / E')^(1/3), E' = E/(1 - nu^2). */
+/* Bonded layers from the top down act as a plate of stiffness D about its neutral plane; on a half-space a
+ * plate bends over (2 D / E')^(1/3), E' = E/(1 - nu^2). */
 static double
 bends(const struct rc_body *b, double side)
 {
-    double depth = 0, sums[3] = {0}, most = 0; /* of E' z^n dz */
+    double depth = 0, sums[3] = {0}, most = 0; /* sums of E' z^n dz */
 
     for (size_t k = 0; k < b->layers; k++) {
         double below = depth + b->layer[k].thickness, length;

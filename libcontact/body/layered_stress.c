@@ -14,10 +14,10 @@
  *               syy  -cos(phi) H_1[(L + 3 N - 2 V)/4] - cos(3 phi) H_3[e]
  *               sxy  -sin(phi) H_1[(L - N + 2 V)/4] + sin(3 phi) H_3[e]
  *
- * In the top layer G is what stands between the stack and a half-space of the layer's material, whose
- * closed forms are left to others: it falls as exp(-q s), s = 2 t - z, t the thickness. Below it is all,
- * and falls as exp(-q z). The functions are smooth on s, which stands for the depth in the rules of
- * integration; a cell that is too near for any is halved.
+ * In the top layer G is the difference between the stack and a half-space of the layer's material, whose
+ * closed forms are added elsewhere; it decreases as exp(-q s), s = 2 t - z, t the thickness. Below the top
+ * layer G is the whole stress, and decreases as exp(-q z), s = z. The functions are smooth on the scale s,
+ * which replaces the depth in the rules of integration; a cell too near for any rule is halved.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -29,21 +29,21 @@
 #include "radial.h"
 
 enum {
-    BLOCK = 64,       /* points looked up together            */
-    NEAREST = 4,      /* half sides: below, a cell is halved  */
-    PRESSURE = 4,     /* functions of the pressure            */
-    FUNCTIONS = 4 + 7 /* and of both loads                    */
+    BLOCK = 64,       /* points looked up together           */
+    NEAREST = 4,      /* half sides: a nearer cell is halved */
+    PRESSURE = 4,     /* functions of the pressure           */
+    FUNCTIONS = 4 + 7 /* of both loads                       */
 };
-static const double far = 80; /* cells: from there on means on a line of nodes */
+static const double far = 80; /* cells: beyond this means on a line of nodes */
 
 struct inside {
     struct rc_inside in;
     const struct rc_stack *stack;
     size_t medium;
-    double depth;             /* in the top layer no more than its thickness */
-    bool shear;               /* the tangential load too                     */
-    double scale;             /* s, m                                        */
-    struct rc_radial *radial; /* of the functions above; NULL: of waves only */
+    double depth;             /* in the top layer at most its thickness   */
+    bool shear;               /* also for the tangential load             */
+    double scale;             /* s, m                                     */
+    struct rc_radial *radial; /* of the functions above; NULL: waves only */
 };
 
 _Static_assert((int)RC_UNDER_BOTH <= (int)RC_WAVE_NUMBERS,
@@ -110,8 +110,8 @@ symbol(const struct rc_inside *in, int kernel, const struct rc_waves *w, double 
         out[k] = wave_stress(kernel, w->x[k], w->y[k], w->numbers + k * step);
 }
 
-/* Under a patch that grows without end the strains along the surface are those of the substrate; on a
- * profile those along y are 0. */
+/* Under a uniform load on a patch that grows without limit the strains along the surface are those of the
+ * substrate; on a profile those along y are 0. */
 static double
 mean(const struct rc_inside *inside, int kernel, const struct rc_shape *shape)
 {
@@ -136,7 +136,7 @@ mean(const struct rc_inside *inside, int kernel, const struct rc_shape *shape)
 
 /* ---- of a point ---- */
 
-/* The same numbers of a half-space of one material. */
+/* The same numbers for a half-space of one material. */
 static void
 half_space(double nu, double x, double *f)
 {
@@ -186,7 +186,7 @@ functions(const void *ctx, double q, double *g)
         g[k] /= 2 * RC_PI;
 }
 
-/* Where a point is seen from the load, and its functions there. */
+/* Direction of a point from the load, and the functions there. */
 struct place {
     double c, s, c2, s2, c3, s3; /* cosines and sines of phi, 2 phi, 3 phi */
     const double *h;
@@ -200,7 +200,7 @@ place_of(double x, double y, double r, const double *h)
     return (struct place){c, s, c2, s2, c * c2 - s * s2, s * c2 + c * s2, h};
 }
 
-/* The stresses of the traction along x. */
+/* Adds the stresses under the traction along x. */
 static void
 add_shear(const struct place *p, double weight, const enum rc_component to[RC_COMPONENTS],
           double *sum)
@@ -215,7 +215,7 @@ add_shear(const struct place *p, double weight, const enum rc_component to[RC_CO
     sum[to[RC_SYZ]] -= weight * p->s2 * h[6];
 }
 
-/* Adds weight times the stresses of all kernels of the loads; those along y where `turned`. */
+/* Adds weight times the stresses of all kernels of the loads; with `turned` those of the traction along y. */
 static void
 add_stresses(const struct inside *in, const struct place *p, double weight, bool turned,
              double *sum)
@@ -240,9 +240,9 @@ add_stresses(const struct inside *in, const struct place *p, double weight, bool
 
 /* ---- of a cell ---- */
 
-/* Points of one rule, to be looked up together. */
+/* Points of one rule, looked up together. */
 struct block {
-    bool turned; /* the load along y too */
+    bool turned; /* for the traction along y too */
     size_t n;
     double x[BLOCK], y[BLOCK], r[BLOCK], weight[BLOCK];
 };
@@ -261,7 +261,7 @@ flush(const struct inside *in, struct block *b, double *sum)
     b->n = 0;
 }
 
-/* Adds to sum[] the integrals over the rectangle of half sides a, b whose middle is (x, y) away. */
+/* Adds to sum[] the integrals over the rectangle of half sides a, b with its middle at (x, y). */
 static void
 integrate(const struct inside *in, double x, double y, double a, double b, struct block *block,
           double *sum)
@@ -384,8 +384,8 @@ add_line(const struct inside *in, const struct rc_cell *c, unsigned kernels, dou
 
 /* ---- made ---- */
 
-/* The part in closed form: in the top layer that of a half-space of its material; deeper there is
- * none, and all values are set to 0. */
+/* The part in closed form: in the top layer that of a half-space of its material; deeper there is none, and
+ * all values are 0. */
 static bool
 closed(const struct inside *in, unsigned kernels, size_t n, struct rc_closed *at,
        double *const out[RC_STRESS_KERNELS])

@@ -1,6 +1,6 @@
 /*
- * The exponent of x and the first bits of its mantissa are the number of the piece, the others how far x
- * is in it. A piece is the polynomial through its Chebyshev points.
+ * The exponent of x and the first bits of its mantissa give the number of the piece, the other bits the
+ * position in it. A piece is the polynomial through its Chebyshev points.
  */
 #include "octaves.h"
 
@@ -24,7 +24,7 @@ struct rc_octaves {
     double (*piece)[TERMS];
 };
 
-/* The number of the piece of x, and how far x is in it, from -1/2 to 1/2. */
+/* The number of the piece of x, and the position of x in it, -1/2 to 1/2. */
 static inline uint64_t
 piece_of(double x, double *t)
 {
@@ -39,7 +39,7 @@ piece_of(double x, double *t)
     return bits >> (mantissa - PIECE_BITS);
 }
 
-/* Where a piece begins. */
+/* Lower end of a piece. */
 static double
 begin_of(uint64_t piece)
 {
@@ -109,7 +109,7 @@ rc_octaves_values(const struct rc_octaves *o, size_t n, const double *x, double 
         uint64_t piece = piece_of(x[k], &t) - o->first;
         const double *c;
 
-        if (piece >= o->n) { /* or below the first: it wraps */
+        if (piece >= o->n) { /* below the first piece the difference wraps */
             out[k] = o->f(o->ctx, x[k]);
             continue;
         }

@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-/* Distance over the half side of a cell from which a rule of so many points in that direction is taken. */
+/* Distance over the half side of a cell from which a rule of this number of points in that direction is
+ * used. */
 static const struct rule {
     double from;
     int points;

@@ -1,11 +1,11 @@
 /*
  * The integral is a convolution in the logarithms of q and r, with the kernel exp(x) J_m(exp(x)), whose
  * Fourier transform is 2^(iw) Gamma((1 + m + iw)/2) / Gamma((1 + m - iw)/2). So one transform of samples at
- * even steps of ln q gives r f(r) at even steps of ln r. What does not decay as q -> 0 is taken off
- * beforehand and added in closed form: tail exp(-q s)/q, which makes tail/sqrt(r^2 + s^2).
+ * even steps of ln q gives r f(r) at even steps of ln r. The part that does not decay as q -> 0 is subtracted
+ * before and added in closed form: tail exp(-q s)/q, whose integral is tail/sqrt(r^2 + s^2).
  *
- * Kept is f sqrt(r^2 + s^2), which is bounded and smooth in ln r, with six-point interpolation; near the
- * axis, where ln r has no end, the power series of the Bessel function is summed.
+ * The table holds f sqrt(r^2 + s^2), which is bounded and smooth in ln r, for six-point interpolation; near
+ * the axis, where ln r is unbounded, the power series of the Bessel function is summed.
  */
 #include "radial.h"
 
@@ -17,15 +17,15 @@
 #include "libcontact/memory.h"
 
 enum {
-    SAMPLES = 2048, /* of ln q                           */
-    FINER = 8,      /* steps of ln r in one of ln q      */
-    POINTS = 6,     /* of the interpolation              */
-    TERMS = 10      /* of the power series               */
+    SAMPLES = 2048, /* of ln q                        */
+    FINER = 8,      /* steps of ln r per step of ln q */
+    POINTS = 6,     /* of the interpolation           */
+    TERMS = 10      /* of the power series            */
 };
 
-static const double step = 0.05;    /* of ln q                              */
-static const double near = 0.125;   /* of s: from there on the table        */
-static const double farthest = 1e6; /* of s: from there on as at its end    */
+static const double step = 0.05;    /* of ln q                                         */
+static const double near = 0.125;   /* of s: the table starts here                     */
+static const double farthest = 1e6; /* of s: beyond, the value at the end of the table */
 
 struct rc_radial {
     size_t n; /* functions                                          */
@@ -43,7 +43,7 @@ sample(size_t n, double unit)
     return exp(((double)n - 0.5 * SAMPLES) * step) / unit;
 }
 
-/* w ln 2 + 2 arg Gamma((1 + m + i w)/2), by which the wave k of ln q is turned. */
+/* w ln 2 + 2 arg Gamma((1 + m + i w)/2): the phase of the wave k of ln q. */
 static double
 turn(int order, double w)
 {
@@ -69,7 +69,7 @@ transform(const struct rc_radial_source *source, size_t i, const double *g, doub
     gsl_fft_complex_radix2_forward(h, 1, SAMPLES);
     for (size_t k = SAMPLES; k < all; k++)
         out[2 * k] = out[2 * k + 1] = 0;
-    for (size_t k = SAMPLES / 2 + 1; k < SAMPLES; k++) { /* negative waves to the end */
+    for (size_t k = SAMPLES / 2 + 1; k < SAMPLES; k++) { /* negative waves follow */
         size_t to = all - SAMPLES + k;
         out[2 * to] = h[2 * k];
         out[2 * to + 1] = h[2 * k + 1];
@@ -95,7 +95,7 @@ transform(const struct rc_radial_source *source, size_t i, const double *g, doub
         out[2 * j] /= SAMPLES;
 }
 
-/* Powers of q s: else they overflow. */
+/* The coefficients use powers of q s, which do not overflow. */
 static void
 set_series(struct rc_radial *f, const struct rc_radial_source *source, const double *g)
 {
@@ -144,7 +144,7 @@ table_new(struct rc_radial *f, const struct rc_radial_source *source)
     return f->table == NULL ? RC_FAIL : RC_OK;
 }
 
-/* The table of function i from what stands at out[2 j]. */
+/* Sets the table of function i from out[2 j]. */
 static void
 set_table(struct rc_radial *f, const struct rc_radial_source *source, size_t i, const double *out)
 {
@@ -227,7 +227,8 @@ by_series(const struct rc_radial *f, double r, double *out)
     }
 }
 
-/* Weights of Lagrange's polynomial through six even points, at t from the third of them, 0 <= t < 1. */
+/* Weights of Lagrange's polynomial through six equidistant points, at t from the third of them, 0 <= t <
+ * 1. */
 static inline void
 weigh(double t, double w[POINTS])
 {

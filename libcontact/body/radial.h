@@ -1,9 +1,9 @@
 /*
- * Functions of the distance from a load, given by how they act on waves:
+ * Functions of the distance from a load, given by their Hankel transforms G:
  *
  *     f(r) = integral from 0 to infinity of G(q) J_m(q r) q dq
  *
- * tabulated once, for all grids, several of them together. Internal: never installed.
+ * tabulated once for all grids, several functions together. Internal: never installed.
  */
 #ifndef RC_RADIAL_H
 #define RC_RADIAL_H
@@ -17,12 +17,12 @@ enum {
 };
 
 struct rc_radial_source {
-    size_t n;         /* functions that are looked up together, at most RC_RADIAL_MOST */
-    const int *order; /* m >= 0 of each                                */
-    double scale;     /* s, m: f is smooth on it; its nearest singularity is r = i s */
-    double unit;      /* m: wave numbers are taken about 1/unit        */
-    double last;      /* G = 0 where q unit is above this              */
-    double tail;      /* G -> tail/q as q -> 0: f -> tail/r far away; of order 0 */
+    size_t n;         /* functions that are looked up together, at most RC_RADIAL_MOST      */
+    const int *order; /* m >= 0 of each                                                     */
+    double scale;     /* m: f is smooth on this scale s; its nearest singularity is r = i s */
+    double unit;      /* m: the unit of wave numbers is 1/unit                              */
+    double last;      /* G = 0 where q unit is above this                                   */
+    double tail;      /* G -> tail/q as q -> 0: f -> tail/r far away; of order 0            */
     void (*wave)(const void *ctx, double q, double *g); /* all n G */
     const void *ctx;
 };

@@ -1,14 +1,14 @@
 /*
- * Two bare half-spaces under tractions along their surfaces. With q the traction on body 1, p the pressure,
- * x = (x, y) the way from the source, r = |x|, and displacements those of body 1 less those of body 2 (u_z
- * of both together, as K p),
+ * Two uniform half-spaces under tractions along their surfaces. With q the traction on body 1, p the
+ * pressure, x = (x, y) the vector from the source, r = |x|, and displacements of body 1 less those of body 2
+ * (u_z: the sum of both, as K p),
  *
  *     u_t = 1/(pi E*) [ (1/r + kap x x'/r^3) q - beta x/r^2 p ]
  *     u_z = 1/(pi E*) [ p/r + beta x.q/r^2 ]                           (Johnson 1985, eq. 3.19 and 3.76)
  *
- * kap = sum(nu/G)/sum((1-nu)/G) over the bodies, and beta is Dundurs' constant: what the bodies are
- * beside E* is in these two numbers. Over a cell these have closed forms at its corners, which lose
- * their digits far away: from five cells on Gauss's rule is taken.
+ * kap = sum(nu/G)/sum((1-nu)/G) over the bodies, and beta is Dundurs' constant: besides E* the response
+ * depends on these two numbers only. The integrals over a cell have closed forms at its corners, which lose
+ * accuracy far away: beyond five cells Gauss's rule is used.
  */
 #include <math.h>
 
@@ -101,7 +101,7 @@ point(int integral, double x, double y)
     }
 }
 
-/* Over the cell of half sides a, b whose middle is at (x, y) from the point. */
+/* Over the cell of half sides a, b with its middle at (x, y) from the point. */
 static double
 near(int integral, double x, double y, double a, double b)
 {
@@ -129,7 +129,7 @@ const unsigned rc_shear_parity[RC_SHEAR_KERNELS] = {
     [RC_SHEAR_XZ] = RC_ODD_X, [RC_SHEAR_YZ] = RC_ODD_Y,
 };
 
-/* A kernel as two of the integrals, with their factors. */
+/* A kernel as the sum of two of the integrals, with their factors. */
 struct sum {
     int integral[2];
     double factor[2];
@@ -184,7 +184,7 @@ rows(const void *of, const struct rc_lattice *at, size_t n, size_t first, size_t
         }
 }
 
-/* Across a wave the half-space is softer by 1 + kap than along it. */
+/* Along the wave vector the half-space is stiffer by 1 + kap than across it. */
 static double
 symbol(const void *of, double qx, double qy)
 {

@@ -1,13 +1,14 @@
 /*
- * The frequency response of a stack of bonded isotropic layers, by recursion from below.
+ * The frequency response of a stack of bonded isotropic layers, by recursion from the bottom up.
  *
- * Along a wave of wave number q the displacements are U sin(q l) and W cos(q l), the tractions f = (fx, fz)
- * on a plane from above. Below a plane (U, W) = Y f. What is carried upwards is not Y but its minors
+ * In a wave of wave number q along l the displacements are U sin(q l) and W cos(q l), the tractions from
+ * above on a plane f = (fx, fz). Everything below a plane responds by (U, W) = Y f. The recursion uses not Y
+ * but its minors
  *
  *     y = (a, b, c, d, e):  Y_xx = c/e,  Y_zz = b/e,  Y_xz = -d/e,  det Y = a/e
  *
- * because then no difference of large numbers ever appears. Displacements are in units of 1/q, stresses
- * in units of the shear modulus of the medium; M is the matrix by which y changes with q z.
+ * so that no differences of large numbers appear. Displacements are in units of 1/q, stresses in units of the
+ * shear modulus of the medium; M is the matrix of dy/d(q z).
  */
 #include "stack.h"
 
@@ -33,7 +34,7 @@ struct minors {
     double a, b, c, d, e;
 };
 
-/* A half-space of this material; nothing gives under a rigid one. */
+/* A half-space of this material; a rigid one does not deform. */
 static struct minors
 half_space(const struct rc_material *m)
 {
@@ -42,7 +43,7 @@ half_space(const struct rc_material *m)
     return (struct minors){(3 - 4 * m->nu) / 4, 1 - m->nu, 1 - m->nu, (1 - 2 * m->nu) / 2, 1};
 }
 
-/* The same plane seen from the medium above, whose shear modulus is r times that below. */
+/* The minors at the same plane for the medium above, whose shear modulus is r times that below. */
 static struct minors
 change_medium(struct minors y, double r)
 {
@@ -86,8 +87,8 @@ third_and_fourth(double x, double th, double *p3, double *p4)
     *p4 = th * s4 / 16;
 }
 
-/* From the bottom of a layer to its top, x = q t. *grown is the factor by which e has grown, times
- * exp(-2x); e itself is divided by it and stays 1. */
+/* From the bottom of a layer to its top, x = q t. e is divided by its growth and stays 1; *grown is this
+ * growth times exp(-2x). */
 static struct minors
 through(struct minors y, const struct medium *m, double x, double *grown)
 {
@@ -104,7 +105,7 @@ through(struct minors y, const struct medium *m, double x, double *grown)
     return (struct minors){top.a / top.e, top.b / top.e, top.c / top.e, top.d / top.e, 1};
 }
 
-/* Minors of the surface. */
+/* Minors at the surface. */
 static struct minors
 surface(const struct rc_stack *s, double q)
 {
@@ -164,11 +165,11 @@ rc_stack_top(const struct rc_stack *s, size_t medium)
     return top;
 }
 
-/* Tractions on a plane, along the wave and down, and those across the wave, each per unit load. */
+/* Tractions on a plane along the wave and down, and across the wave, per unit load. */
 struct traction {
     double x, z, across;
 };
-/* The state below a plane: minors with e = 1, and the one number of the shear across the wave. */
+/* The response below a plane: minors with e = 1, and the number of the shear across the wave. */
 struct below {
     struct minors y;
     double across;
@@ -180,7 +181,7 @@ below_all(const struct rc_material *substrate)
     return (struct below){half_space(substrate), isinf(substrate->modulus) ? 0 : 1};
 }
 
-/* The same plane seen from the medium `above` it. */
+/* The response at the same plane for the medium `above` it. */
 static struct below
 seen_from(const struct rc_material *above, const struct rc_material *m, struct below b)
 {
@@ -191,7 +192,7 @@ seen_from(const struct rc_material *above, const struct rc_material *m, struct b
     return (struct below){change_medium(b.y, r), b.across * r};
 }
 
-/* At the top of a piece, x = q h, of what stands below it. */
+/* At the top of a piece, x = q h, from the response below it. */
 static struct below
 above_piece(struct below b, const struct medium *m, double x)
 {
@@ -228,7 +229,7 @@ third(double x, double ch, double sh)
     return exp(-x) * sum;
 }
 
-/* What of exp(x Q) v acts on a plane, times exp(-x). */
+/* The tractions on a plane in exp(x Q) v, times exp(-x). */
 static struct traction
 carried(const struct medium *m, double x, struct state v)
 {
@@ -240,7 +241,7 @@ carried(const struct medium *m, double x, struct state v)
                              .z = k0 * v.fz + k1 * v1.fz + k2 * v2.fz + k3 * v3.fz};
 }
 
-/* From the top of a piece, x = q h, to its bottom, where b stands below. */
+/* From the top of a piece, x = q h, to its bottom, with the response b below. */
 static struct traction
 down_piece(struct traction f, struct below b, const struct medium *m, double x)
 {
@@ -254,8 +255,8 @@ down_piece(struct traction f, struct below b, const struct medium *m, double x)
                              .across = 2 * decay / ((1 + th) + b.across * (1 - th)) * f.across};
 }
 
-/* Tractions f[0] under the pressure and f[1] under the shear at the bottom of layer j, below which b
- * stands, seen from it: up to the surface and, on the way back, down. */
+/* Tractions f[0] under the pressure and f[1] under the shear at the bottom of layer j, with the response b
+ * below (in the units of layer j): recursion up to the surface and then down. */
 static void
 go_down(const struct rc_stack *s, double q, size_t j, struct below b, struct traction f[2])
 {
@@ -308,7 +309,7 @@ rc_stack_inside(const struct rc_stack *s, size_t medium, double depth, double q,
 
 /* ---- at a distance ---- */
 
-/* Where the top layer is so thick for a wave that it feels nothing else; times q. */
+/* q t above which a wave does not reach below the top layer. */
 static const double thick = 25;
 
 static void
@@ -317,8 +318,8 @@ difference(const void *ctx, double q, double *g)
     *g = rc_stack_excess(ctx, q) / (RC_PI * q);
 }
 
-/* D(r) = 1/RC_PI integral of (g - g(infinity)) J_0(q r) dq. It falls as exp(-2 q t), t the thickness of the
- * top layer. */
+/* D(r) = 1/pi integral of (g - g(infinity)) J_0(q r) dq. The integrand decreases as exp(-2 q t), t the
+ * thickness of the top layer. */
 static struct rc_radial *
 far(const struct rc_stack *s)
 {
@@ -362,8 +363,8 @@ response_of(const void *ctx, double q2)
     return q * s->material[0].thickness > thick ? s->top : rc_stack_response(s, q);
 }
 
-/* D from where its power series ends to a million times the top layer, g from waves that feel the layers
- * little to those that feel nothing but the top one. */
+/* D from the end of its power series to a million times the top layer; g from waves so long that the layers
+ * hardly matter to waves so short that only the top layer matters. */
 static enum rc_status
 tables(struct rc_stack *s)
 {
@@ -376,7 +377,7 @@ tables(struct rc_stack *s)
     return s->far_table == NULL || s->response_table == NULL ? RC_FAIL : RC_OK;
 }
 
-/* ---- made of a body ---- */
+/* ---- from a body ---- */
 
 static enum rc_status
 check_material(const char *what, double e, double nu, bool rigid, struct rc_err *err)

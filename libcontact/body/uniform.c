@@ -3,11 +3,10 @@
  *
  *     K(x, y) = 1/(pi E*) integral over the cell of 1/|r - r'|       (Johnson 1985, eq. 3.25)
  *
- * Three forms, because no single one keeps its digits everywhere. Near the cell Love's closed form
- * (Johnson eq. 3.25), whose four terms grow with r while their sum falls as 1/r: it loses
- * (r/h)^2 in relative accuracy. Farther out Gauss's rule with 6 x 6 points, whose error at five
- * cells is below rounding. Far away Taylor's series of 1/r about the centre of the cell to sixth
- * order, whose next term at forty cells is below rounding.
+ * Three forms, because no single one is accurate everywhere. Near the cell: Love's closed form (Johnson eq.
+ * 3.25), whose four terms grow with r while their sum decreases as 1/r, so its relative error grows as
+ * (r/h)^2. From five cells: Gauss's rule with 6 x 6 points, whose error is below rounding. From forty cells:
+ * Taylor's series of 1/r about the centre of the cell to sixth order, whose next term is below rounding.
  */
 #include "uniform.h"
 
@@ -48,9 +47,9 @@ middle(double x, double y, double a, double b)
     return a * b * sum;
 }
 
-/* Adds to out[i] for first <= i < n, at x = i dx. The derivatives of 1/r of order 2j in x and 2k in y, times
- * r^(2j+2k+1), are polynomials in X = (x/r)^2 and Y = (y/r)^2; the integral of the series takes
- * a^(2j) b^(2k) / (2j+1)! (2k+1)!. */
+/* Adds to out[i] for first <= i < n, x = i dx, the integral by the series. The derivatives of 1/r of order 2j
+ * in x and 2k in y, times r^(2j+2k+1), are polynomials in X = (x/r)^2 and Y = (y/r)^2; integration multiplies
+ * them by a^(2j) b^(2k) / ((2j+1)! (2k+1)!). */
 RC_CLONES static void
 far(double scale, double dx, double y, double a, double b, size_t first, size_t n, double *out)
 {
@@ -198,7 +197,7 @@ static void
 add_rows(const struct rc_solid *s, double length, double modulus, const struct rc_lattice *at,
          size_t n, size_t first, size_t last, double *out)
 {
-    (void)length; /* a half-space has none of its own */
+    (void)length; /* a half-space has no length of its own */
     rc_uniform_add_rows(estar_of(s) / modulus, at, n, first, last, out);
 }
 

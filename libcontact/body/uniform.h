@@ -1,12 +1,12 @@
 /*
- * The half-space of one material, for the bodies that are made of it in part. Internal: never installed.
+ * The half-space of one material, also used by types that contain one. Internal: never installed.
  */
 #ifndef RC_UNIFORM_H
 #define RC_UNIFORM_H
 
 #include "body.h"
 
-/* Of this composite modulus, Pa; nothing is known of its inside. NULL when memory is short. */
+/* A half-space of this composite modulus, Pa, without stresses inside. NULL when memory is short. */
 struct rc_solid *rc_uniform_new(double estar, struct rc_err *err);
 /* Poisson's ratio. */
 double rc_uniform_nu(const struct rc_solid *solid);

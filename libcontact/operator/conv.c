@@ -1,5 +1,5 @@
 /*
- * One kernel on one grid: which engine does the sums, and why.
+ * One kernel on one grid: the choice of the engine and its reason.
  */
 #include "engine.h"
 
@@ -17,25 +17,24 @@ static const struct rc_engine *const engines[] = {
 
 enum {
     ENGINES = sizeof engines / sizeof *engines,
-    SMALL = 24 * 24,  /* nodes below which the direct sum beats the transforms              */
-    LARGE = 512 * 512 /* nodes from which multi-level summation pays on a sparse map        */
+    SMALL = 24 * 24,  /* nodes; for fewer the direct sum beats the transforms */
+    LARGE = 512 * 512 /* nodes; for more multi-level summation pays on a sparse map */
 };
 
-/* Where multi-level summation begins to beat the transforms (bench-convolution sparse: 0.7 of their
- * time with 5 % of the nodes loaded in one disc, about theirs in 300 spots). */
+/* Where multi-level summation beats the transforms (bench-convolution sparse: 0.7 of their time with 5 % of
+ * the nodes loaded in one disc, about their time with 300 spots). */
 static const double sparse = 0.05, sparse_tol = 1e-6;
 
 struct rc_conv {
     const struct rc_engine *engine;
-    bool precise; /* by its name */
+    bool precise; /* the engine's name demanded double precision */
     const char *reason;
     void *plan;
-    struct rc_solids own;      /* the bodies, where they are not the caller's */
-    struct rc_surface surface; /* of these, in m and Pa                       */
+    struct rc_solids own;      /* the bodies, unless the caller owns them */
+    struct rc_surface surface; /* of these, in m and Pa                   */
 };
 
-/* Without a surface the sum serves estimates only: the memory of a plan hardly depends on the
- * bodies. */
+/* Without a surface, for estimates only: the memory of a plan hardly depends on the bodies. */
 static struct rc_sum
 sum_of(const struct rc_shape *shape, const struct rc_surface *surface,
        const struct rc_conv_options *o)
@@ -109,7 +108,7 @@ rc_engine_serves(const struct rc_engine *engine, const char *name, enum rc_bound
     return RC_OK;
 }
 
-/* The choice among the engines, with its reason. */
+/* Chooses an engine; *reason says why. */
 static const struct rc_engine *
 choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **reason)
 {
@@ -144,7 +143,7 @@ choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **r
     return &rc_engine_fft;
 }
 
-/* The engine that is asked for, or the choice; *precise when its name asks for double precision. */
+/* The requested engine, or the choice; *precise if its name demands double precision. */
 static const struct rc_engine *
 find(struct rc_sum *sum, const struct rc_conv_options *o, bool *precise, const char **reason,
      struct rc_err *err)
@@ -183,7 +182,7 @@ rc_conv_choice(const struct rc_shape *shape, const struct rc_conv_options *optio
     return engine == NULL ? "" : name_of(engine, precise);
 }
 
-/* Takes the bodies, where they are its own. */
+/* Takes over the bodies if `own`. */
 static struct rc_conv *
 conv_new(const struct rc_solids *bodies, bool own, const struct rc_shape *shape,
          const struct rc_conv_options *options, struct rc_err *err)
@@ -203,7 +202,7 @@ conv_new(const struct rc_solids *bodies, bool own, const struct rc_shape *shape,
     sum = sum_of(shape, &conv->surface, options);
     if ((conv->engine = find(&sum, options, &conv->precise, &conv->reason, err)) == NULL ||
         (conv->plan = conv->engine->new (&sum, err)) == NULL) {
-        conv->own.n = 0; /* the caller's again */
+        conv->own.n = 0; /* return ownership to the caller */
         rc_conv_free(conv);
         return NULL;
     }

@@ -13,7 +13,7 @@ struct plan {
     double error;
 };
 
-/* Errors below this are asked of double precision; single gives some 1e-6 of the largest |u|. */
+/* Smaller errors than this need double precision; single precision gives some 1e-6 of the largest |u|. */
 static const double single_floor = 1e-5;
 
 static enum rc_precision

@@ -1,11 +1,11 @@
 /*
- * Layout of the transforms and spectra of kernels. A kernel that is even or odd in x and in y has a
- * spectrum that is real up to a power of -i and given by a quarter of it.
+ * Layout of the transforms and spectra of kernels. A kernel that is even or odd in x and in y has a spectrum
+ * that is real up to a power of -i and determined by a quarter of its values.
  *
- * Free boundary: zero padding to px >= 2 nx, py >= 2 ny is exact, and so is none across a profile; the
+ * Free boundary: zero padding to px >= 2 nx, py >= 2 ny is exact; a profile needs no padding across it. The
  * spectrum is the real even or odd transform of a quarter of the kernel's values. At the offset of half a
- * period the kernel's own value stands: with a zero there the spectrum of thin grids turns negative and has
- * no useful inverse. Periodic boundary: nothing is padded, the spectrum is the kernel's symbol.
+ * period the kernel has its own value: with 0 there the spectrum of narrow grids gets negative and has no
+ * useful inverse. Periodic boundary: no padding; the spectrum is the kernel's symbol.
  */
 #include "fft.h"
 
@@ -19,13 +19,13 @@
 #include "libcontact/memory.h"
 #include "libcontact/transform/transform.h"
 
-/* Transforms of half a period of even or odd values; of a period of odd length, which has no node in its
- * middle, of even values only, by way of all of it. Odd values on a period of one node are zero. */
+/* Transforms of half a period of even or odd values. A period of odd length has no node in its middle: only
+ * even values, by a transform of the whole period. Odd values on a period of one node are zero. */
 struct half {
-    struct rc_dct *dct;   /* of even length     */
-    struct rc_line *line; /* of odd length      */
-    size_t length, n;     /* of the period; half */
-    double *scratch;      /* for each thread: the period and its waves */
+    struct rc_dct *dct;   /* of even length                                */
+    struct rc_line *line; /* of odd length                                 */
+    size_t length, n;     /* of the period; of half of it                  */
+    double *scratch;      /* for each thread: the period and its transform */
 };
 
 struct rc_fft {
@@ -34,24 +34,27 @@ struct rc_fft {
     struct rc_layout layout;
     const struct rc_fft_ops *ops;
     void *plan;
-    struct half along_x, along_y; /* of a quarter of a kernel                                  */
-    double *columns;              /* COLUMNS columns of a spectrum for each thread              */
-    struct rc_turn turn, quarter; /* of waves, and of the rows of a quarter; where ranks share it */
+    struct half along_x, along_y; /* of a quarter of a kernel                      */
+    double *columns;              /* COLUMNS columns of a spectrum for each thread */
+    /* transpositions of waves and of the rows of a quarter, where ranks share it */
+    struct rc_turn turn, quarter;
 };
 
 enum {
-    COLUMNS = 16,    /* of a quarter transformed together: two cache lines, fetched as a pair */
-    PREFETCH = 8,    /* rows fetched in advance: they lie pages apart */
+    /* columns of a quarter transformed together: two cache lines, fetched as a pair */
+    COLUMNS = 16,
+    PREFETCH = 8,    /* rows fetched in advance, because they lie pages apart */
     ROWS = 8,        /* of a kernel evaluated together */
     LINE_BYTES = 128 /* of waves that are transformed together */
 };
 
 struct rc_spectrum {
     unsigned parity;
-    size_t columns; /* those from here on are zero */
-    double total;   /* at wave number 0            */
-    void *values;   /* the columns held here, of cy numbers, as fft.h has them, over px py */
-    double over;    /* 0; or over these numbers, which are another's                 */
+    size_t columns; /* columns from this one on are zero                                      */
+    double total;   /* at wave number 0                                                       */
+    void *values;   /* the columns held here, of cy numbers in the order of fft.h, over px py */
+    /* 0: these numbers; else `over` divided by these numbers, which another spectrum owns */
+    double over;
 };
 
 /* ---- layout ---- */
@@ -97,7 +100,7 @@ layout_of(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision
     return l;
 }
 
-/* What rank `own` of `count` has of it: rows as maps are shared, lines of columns dealt out. */
+/* The part that rank `own` of `count` holds: rows as maps are shared, and lines of columns. */
 static void
 share_layout(struct rc_layout *l, enum rc_precision precision, size_t count, size_t own,
              const struct rc_turn *turn)
@@ -112,7 +115,7 @@ share_layout(struct rc_layout *l, enum rc_precision precision, size_t count, siz
     l->turn = turn;
 }
 
-/* Columns of one of so many ranks, the most. */
+/* The largest number of columns of one rank. */
 static size_t
 most_columns(const struct rc_layout *l, size_t line, size_t ranks)
 {
@@ -156,10 +159,11 @@ rc_fft_scratch(const struct rc_shape *shape, enum rc_boundary boundary, enum rc_
 {
     struct rc_layout l = layout_of(shape, boundary, precision);
     size_t number = 2 * real_size(precision), column = l.py * number;
-    /* fft_body.h: columns taken together and one more, a row and its transform, a spectrum's column */
+    /* fft_body.h: columns processed together and one more, a row and its transform, a spectrum's column */
     size_t each = (line_of(precision) + 1) * column + 2 * l.stride * number + column / 4;
 
-    each += COLUMNS * l.cy * sizeof(double) + 4 * (l.px + l.py) * sizeof(double); /* and dct.c */
+    /* dct.c also needs memory */
+    each += COLUMNS * l.cy * sizeof(double) + 4 * (l.px + l.py) * sizeof(double);
     return (size_t)rc_useful_threads(shape, threads) * each + 3 * l.m * number;
 }
 
@@ -211,7 +215,7 @@ half_run(const struct half *h, bool odd, double *v)
 
 /* ---- plan ---- */
 
-/* Who has which rows and columns. */
+/* Sets the rows and columns of each rank. */
 static enum rc_status
 share(struct rc_fft *f, const struct rc_ranks *ranks, enum rc_precision precision,
       struct rc_err *err)
@@ -231,7 +235,7 @@ share(struct rc_fft *f, const struct rc_ranks *ranks, enum rc_precision precisio
     return RC_OK;
 }
 
-/* In a frame a plan has no spectra of its own. */
+/* With a frame the plan makes no spectra itself. */
 static struct rc_fft *
 fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
         enum rc_boundary boundary, const struct rc_frame *frame, enum rc_precision precision,
@@ -253,7 +257,7 @@ fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_sha
         l->nx += 2 * frame->x;
         l->rows = l->ny += 2 * frame->y;
     }
-    l->threads = rc_useful_threads(&own, threads); /* those of all that works on these rows */
+    l->threads = rc_useful_threads(&own, threads); /* of all processes that share these rows */
     team = (size_t)l->threads;
     f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
     if (share(f, ranks, precision, err) != RC_OK)
@@ -274,7 +278,7 @@ fail:
     return NULL;
 }
 
-/* The same on all ranks. */
+/* RC_FAIL on one rank becomes a failure on all. */
 static struct rc_fft *
 agree(const struct rc_ranks *ranks, struct rc_fft *f, struct rc_err *err)
 {
@@ -366,7 +370,7 @@ columns_of(const struct rc_fft *f)
     return f->columns + (size_t)omp_get_thread_num() * COLUMNS * f->layout.cy;
 }
 
-/* Column c of those held here. */
+/* Stores column c of those held here. */
 static void
 store_column(struct rc_spectrum *k, const struct rc_fft *f, size_t c, const double *s)
 {
@@ -378,7 +382,7 @@ store_column(struct rc_spectrum *k, const struct rc_fft *f, size_t c, const doub
                   k->values);
 }
 
-/* The total is known to whoever holds the first column. */
+/* The rank with the first column sends the total to the others. */
 static void
 share_total(struct rc_spectrum *k, const struct rc_fft *f)
 {
@@ -421,7 +425,7 @@ rc_fft_quarter_row(const struct rc_fft *f, unsigned parity, double *row)
     half_run(&f->along_x, parity & RC_ODD_X, row);
 }
 
-/* From all rows of the columns held here, `wide` numbers from row to row. */
+/* From all rows of the columns held here; rows are `wide` numbers apart. */
 static void
 set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, const double *rows,
             size_t wide, rc_column *each, void *ctx)
@@ -454,7 +458,7 @@ set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, cons
     share_total(k, f);
 }
 
-/* From the rows held here. */
+/* From the rows held here; ranks exchange them. */
 static enum rc_status
 turn_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, const double *rows,
              rc_column *each, void *ctx, struct rc_err *err)
@@ -639,7 +643,7 @@ rc_spectrum_new_reciprocal(const struct rc_fft *f, const struct rc_spectrum *of,
         return NULL;
     }
     *k = *of;
-    k->over = 1 / (size * size); /* both are divided by it */
+    k->over = 1 / (size * size); /* both are divided by size */
     k->total = of->total == 0 ? 0 : 1 / of->total;
     return k;
 }
@@ -703,7 +707,7 @@ rc_fft_field_sum(struct rc_fft *f, size_t n, const struct rc_fft_term *terms, do
     f->ops->field(f->plan, columns, n, parts, u);
 }
 
-/* ---- waves by themselves ---- */
+/* ---- waves alone ---- */
 
 size_t
 rc_fft_length(const struct rc_fft *f)

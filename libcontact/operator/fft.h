@@ -1,8 +1,8 @@
 /*
- * The transform engine by its parts: several kernels on one grid, one transform of the source, in
- * double or single precision, on the free or the periodic boundary. Internal: never installed.
+ * The parts of the transform engine: several kernels on one grid with one transform of the source, in double
+ * or single precision, on the free or the periodic boundary. Internal: never installed.
  *
- * Only fft_body.h, compiled once for each precision, knows FFTW.
+ * Only fft_body.h, compiled once for each precision, uses FFTW.
  */
 #ifndef RC_FFT_H
 #define RC_FFT_H
@@ -12,24 +12,23 @@
 
 enum rc_precision {
     RC_DOUBLE,
-    RC_SINGLE /* inside, and the rows of a chain; maps are double on both sides */
+    RC_SINGLE /* single inside and in the rows of a chain; maps are double on both sides */
 };
 
 struct rc_fft;
-struct rc_spectrum; /* of one kernel: a quarter of it, real */
+struct rc_spectrum; /* of one kernel: a quarter of its values, real */
 
-/* `shape` is that of the whole map. Where ranks share the map (NULL: none), maps and rows are those
- * held here, row 0 is the first of them, and spectra have the columns that are multiplied here. The
- * plan works in the memory of `lender`, another plan, which outlives it: the two never run at the
- * same time. NULL, or a lender with too little memory: the plan takes its own. */
+/* `shape` is that of the whole map. Where ranks share the map (NULL: none), maps and rows are those held
+ * here, row 0 is the first of them, and spectra have the columns that this rank multiplies. The plan works in
+ * the memory of `lender`, another plan that outlives it; the two never run at the same time. If `lender` is
+ * NULL or its memory too small, the plan allocates its own. */
 struct rc_fft *rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender,
                           const struct rc_shape *shape, enum rc_boundary boundary,
                           enum rc_precision precision, size_t threads, struct rc_err *err);
-/* The same transforms, with the spectra of rc_fft_new, of a free map in a frame: x columns and y rows of
- * the padding on either side of it, at most half of its nodes. Row and column 0 are the first of the
- * frame, whose rows belong to the ranks with the first and the last row of the map. From the map on the
- * map a kernel acts as before; over distances that the padding does not hold it acts the other way round.
- * Chains only. */
+/* The same transforms, with the spectra of rc_fft_new, of a free map in a frame: x columns and y rows of the
+ * padding on either side of it, at most half of the padding. Row and column 0 are the first of the frame; its
+ * rows belong to the ranks with the first and the last row of the map. Within the map a kernel acts as
+ * before; over distances that exceed the padding it acts around the period. Chains only. */
 struct rc_frame {
     size_t x, y;
 };
@@ -37,68 +36,68 @@ struct rc_fft *rc_fft_new_framed(const struct rc_ranks *ranks, struct rc_fft *le
                                  const struct rc_shape *shape, const struct rc_frame *frame,
                                  enum rc_precision precision, size_t threads, struct rc_err *err);
 void rc_fft_free(struct rc_fft *fft);
-/* Sides of the grid that is transformed: with the padding of a free map; a profile has none across. */
+/* Sides of the transformed grid: with padding for a free map; a profile has none across it. */
 void rc_fft_period(const struct rc_shape *shape, enum rc_boundary boundary, size_t *px, size_t *py);
-/* Bytes of a plan with one spectrum, and of each further spectrum; where ranks share the map, on
- * the rank that takes most. */
+/* Bytes of a plan with one spectrum, and of each further spectrum; where ranks share the map, of the rank
+ * that needs most. */
 size_t rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary,
                      enum rc_precision precision, size_t ranks);
 size_t rc_spectrum_memory(const struct rc_shape *shape, enum rc_boundary boundary,
                           enum rc_precision precision, size_t ranks);
-/* Of the rows under way in a plan, which may work in a lender's; `frame` NULL: none. */
+/* Bytes of the rows in work in a plan, which can be a lender's; `frame` NULL: none. */
 size_t rc_fft_rows_memory(const struct rc_shape *shape, enum rc_boundary boundary,
                           const struct rc_frame *frame, enum rc_precision precision, size_t ranks);
-/* Bytes beside them in which rows and columns are transformed: they grow with the threads. */
+/* Bytes in which rows and columns are transformed; they grow with the threads. */
 size_t rc_fft_scratch(const struct rc_shape *shape, enum rc_boundary boundary,
                       enum rc_precision precision, size_t threads);
 
 /* NULL when memory is short. */
 struct rc_spectrum *rc_spectrum_new(const struct rc_fft *fft, struct rc_err *err);
 void rc_spectrum_free(struct rc_spectrum *spectrum);
-/* Its value at wave number 0; for a kernel given by values that is their sum over a period. */
+/* Its value at wave number 0: for a kernel given by values, their sum over a period. */
 double rc_spectrum_total(const struct rc_spectrum *spectrum);
-/* Makes it the spectrum of a kernel: on the free boundary the transform of its values,
- * on the periodic one its symbol. RC_FAIL when memory is short or the kernel has no symbol. */
+/* Sets it to the spectrum of a kernel: on the free boundary the transform of its values, on the periodic one
+ * its symbol. RC_FAIL when memory is short or the kernel has no symbol. */
 enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                const struct rc_kernel *kernel, struct rc_err *err);
-/* The same of a free map; `each` sees, by several threads at once, the n wave numbers along y of column i
- * along x, and may change them before they are kept. Columns are those held here: rc_fft_columns. */
+/* The same for a free map. `each` is called by several threads with the n wave numbers along y of column i
+ * along x, and may change them before they are stored. Columns are those held here: rc_fft_columns. */
 typedef void rc_column(void *ctx, size_t i, size_t n, double *column);
 enum rc_status rc_spectrum_set_by(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                   const struct rc_kernel *kernel, rc_column *each, void *ctx,
                                   struct rc_err *err);
-/* Wave numbers of a column and along it: of the padded map, rad/m. */
+/* Wave numbers of a column, and of its entries, in the padded map, rad/m. */
 double rc_fft_qx(const struct rc_fft *fft, size_t i);
 double rc_fft_qy(const struct rc_fft *fft, size_t j);
 void rc_fft_waves(const struct rc_fft *fft, size_t *columns, size_t *n);
-/* Columns that are multiplied here: `n` from `first` on; without ranks all. */
+/* Columns that this rank multiplies: `n` from `first` on; without ranks all. */
 void rc_fft_columns(const struct rc_fft *fft, size_t *first, size_t *n);
-/* Threads that may hand in rows of a quarter. */
+/* Number of threads that may pass rows of a quarter. */
 int rc_fft_threads(const struct rc_fft *fft);
-/* The reciprocal of another kernel's spectrum: the inverse of the padded circulant, or of the
- * symbol; zero where that is zero. It is formed in use, from the numbers of `of`, which outlives
- * it; no fields are summed by it. NULL when memory is short. */
+/* The reciprocal of another kernel's spectrum: the inverse of the padded circulant, or of the symbol; zero
+ * where that is zero. It is computed during use from `of`, which outlives it, and serves only chains. NULL
+ * when memory is short. */
 struct rc_spectrum *rc_spectrum_new_reciprocal(const struct rc_fft *fft,
                                                const struct rc_spectrum *of, struct rc_err *err);
-/* The transform of the kernel's values on either boundary; on the periodic one each offset
- * counts once, by its shortest way around the map. */
+/* The transform of the kernel's values on either boundary; on the periodic one each offset counts once, by
+ * the shortest way around the map. */
 enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                       const struct rc_kernel *kernel, struct rc_err *err);
 
-/* The same by hand, for a kernel of this parity. On the free boundary: from a quarter of the
- * kernel's period, its values at the offsets i < *nx, j < *ny. Each row of *nx values is
- * transformed as soon as it is known, by threads of one OpenMP team; then the spectrum is made from
- * all rows. Ranks make rows *first .. *first + *n - 1 each, and hand in these; RC_FAIL when memory for
- * the others' is short, which without ranks it never is. */
+/* The same in steps, for a kernel of this parity. On the free boundary: from a quarter of the kernel's
+ * period, its values at the offsets i < *nx, j < *ny. Each row of *nx values is transformed as soon as it is
+ * passed, by threads of one OpenMP team; then the spectrum is made from all rows. Ranks compute and pass rows
+ * *first .. *first + *n - 1 each; RC_FAIL when memory for the rows of the others is short, which cannot
+ * happen without ranks. */
 void rc_fft_quarter(const struct rc_fft *fft, size_t *nx, size_t *ny);
 void rc_fft_quarter_rows(const struct rc_fft *fft, size_t *first, size_t *n);
 void rc_fft_quarter_row(const struct rc_fft *fft, unsigned parity, double *row);
 enum rc_status rc_spectrum_set_quarter(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                        unsigned parity, const double *rows, struct rc_err *err);
-/* On the periodic boundary: from the kernel's transform, over (-i)^(number of odd directions), at
- * wave numbers qx, qy >= 0 in rad/m. It is asked, by several threads at once, for a column i of
- * equal qx: out[j] at qy[j], j < n; it may return false where all are zero. Waves of two nodes in a
- * direction in which the kernel is odd are left out: they are zero at all nodes. */
+/* On the periodic boundary: from the kernel's transform, over (-i)^(number of odd directions), at wave
+ * numbers qx, qy >= 0 in rad/m. Several threads call it for a column i of equal qx: out[j] at qy[j], j < n;
+ * it may return false where all are zero. Waves of two nodes are left out in a direction in which the kernel
+ * is odd: they are zero at all nodes. */
 typedef bool rc_symbol(const void *of, size_t i, double qx, size_t n, const double *qy,
                        double *out);
 void rc_spectrum_sample(struct rc_spectrum *spectrum, const struct rc_fft *fft, unsigned parity,
@@ -107,24 +106,23 @@ void rc_spectrum_sample(struct rc_spectrum *spectrum, const struct rc_fft *fft, 
 /* u = K p. u and p may be the same. */
 void rc_fft_apply(struct rc_fft *fft, const struct rc_spectrum *kernel, const double *p, double *u);
 
-/* What is done with a row on its way: row j of nx numbers in the plan's precision. It writes
- * what is transformed next, and returns false where that is zero; the last one only reads. Rows
- * are taken by several threads, each once. */
+/* Processes a row in the middle of a chain: row j of nx numbers in the plan's precision. It writes the row
+ * that is transformed next and returns false where this row is zero; the last function only reads. Several
+ * threads share the rows; each row is passed once. */
 enum {
     RC_CHAIN = 4
 };
 typedef bool rc_row(void *ctx, size_t j, void *row);
-/* The first row function writes the source of kernels[0], rows[k] turns its field into the
- * source of kernels[k], rows[n] takes the last field: n <= RC_CHAIN kernels, n + 1 functions,
- * and no map between them. */
+/* rows[0] writes the source of kernels[0], rows[k] turns its field into the source of kernels[k], and rows[n]
+ * reads the last field: n <= RC_CHAIN kernels, n + 1 functions, and no map between them. */
 void rc_fft_chain(struct rc_fft *fft, size_t n, const struct rc_spectrum *const *kernels,
                   rc_row *const *rows, void *ctx);
-/* Keeps the whole transform of p, as one of RC_SOURCES; then u = K p for as many kernels as are wanted. */
+/* Keeps the whole transform of p as one of RC_SOURCES; then u = K p for any number of kernels. */
 enum {
     RC_SOURCES = 3
 };
 enum rc_status rc_fft_load(struct rc_fft *fft, size_t source, const double *p, struct rc_err *err);
-/* Of source 0. */
+/* The field of source 0. */
 void rc_fft_field(struct rc_fft *fft, const struct rc_spectrum *kernel, double *u);
 /* u = the sum of weight K p over n > 0 terms; the first one's weight is 1. */
 struct rc_fft_term {
@@ -134,12 +132,11 @@ struct rc_fft_term {
 };
 void rc_fft_field_sum(struct rc_fft *fft, size_t n, const struct rc_fft_term *terms, double *u);
 
-/* Maps to their waves and back by themselves, for sums over several maps at once. A column of those
- * held here has rc_fft_length numbers in the plan's precision: first their real parts, then their
- * imaginary parts. Number t stands for wave number rc_fft_wave(fft, t) along y, and column i lies at
- * 2 i rc_fft_length real numbers from `waves`. Where `waves` is NULL, `column`, called by several
- * threads, takes or makes one column after the other. Forward divides by the nodes of the (padded)
- * map, back does not. */
+/* Transforms maps to waves and back separately, for sums over several maps. Each column held here has
+ * rc_fft_length numbers in the plan's precision: first their real parts, then their imaginary parts. Number t
+ * stands for wave number rc_fft_wave(fft, t) along y, and column i lies at 2 i rc_fft_length real numbers
+ * from `waves`. Where `waves` is NULL, `column`, called by several threads, reads or writes one column after
+ * the other. Forward divides by the nodes of the (padded) map, back does not. */
 typedef void rc_wave_column(void *ctx, size_t i, void *column);
 size_t rc_fft_length(const struct rc_fft *fft);
 size_t rc_fft_wave(const struct rc_fft *fft, size_t t);
@@ -150,46 +147,40 @@ void rc_fft_back(struct rc_fft *fft, const void *waves, rc_wave_column *column, 
 
 /* ---- between fft.c and fft_body.h ---- */
 
-/* Columns have length py = radix * m and are transformed as `radix` interleaved transforms of
- * length m: with w = exp(-2 pi i / py),
- *
- *     X[radix k + r] = sum over n < m of y_r[n] exp(-2 pi i n k / m),
- *     y_r[n] = w^(r n) sum over s < 4 of (-i)^(r s) x[n + s m],       radix = 4
- *
- * where only the first ny of x are not zero. radix = 1 leaves it to FFTW.
- *
- * A spectrum is given by a quarter of it, cx columns of cy numbers s(q), q <= py/2. A column is
- * stored in the order of the residues r: A[k] = s(radix k) up to the middle and, for radix 4,
- * B[k] = s(4k + 1) for all k < m (beyond the middle by symmetry, which also gives residue 3) and
- * C[k] = s(4k + 2) up to the middle: cy numbers in all. */
+/* Columns have length py = radix * m and are transformed as `radix` interleaved transforms of length m: with
+ * w = exp(-2 pi i / py), *     X[radix k + r] = sum over n < m of y_r[n] exp(-2 pi i n k / m), y_r[n] = w^(r
+ * n) sum over s < 4 of (-i)^(r s) x[n + s m],       radix = 4 * where only the first ny of x are not zero.
+ * With radix = 1 FFTW transforms the whole column. * A spectrum is determined by a quarter of it, cx columns
+ * of cy numbers s(q), q <= py/2. A column is stored in the order of the residues r: A[k] = s(radix k) up to
+ * the middle and, for radix 4, B[k] = s(4k + 1) for all k < m (beyond the middle by symmetry, which also
+ * gives residue 3) and C[k] = s(4k + 2) up to the middle: cy numbers in all. */
 struct rc_layout {
     size_t nx, ny;
-    size_t px, py; /* transform lengths                                                     */
-    size_t cx, cy; /* px/2 + 1, py/2 + 1                                                    */
-    size_t stride; /* complex numbers from row to row, a whole number of cache lines         */
+    size_t px, py; /* transform lengths                                  */
+    size_t cx, cy; /* px/2 + 1, py/2 + 1                                 */
+    size_t stride; /* complex numbers from row to row: whole cache lines */
     size_t radix, m;
     int threads;
-    /* What is here of it; without ranks all: rows, columns and how many complex numbers lie from row to row
-     * where all rows of these columns are together. */
+    /* The part held here, without ranks all: rows, columns, and complex numbers from row to row where all
+     * rows of these columns are together. */
     size_t rows, first, columns, wide;
-    const struct rc_turn *turn; /* rows to columns in units of `line`; NULL: all is here */
+    const struct rc_turn *turn; /* rows to columns in units of `line`; NULL: no ranks */
 };
 
-/* Complex numbers of the rows in work: columns of all rows, and with ranks the rows to send and
- * receive. */
+/* Complex numbers of the rows in work: columns of all rows and, with ranks, rows to send and receive. */
 static inline size_t
 rc_layout_rows(const struct rc_layout *l)
 {
     return l->ny * l->wide + (l->turn == NULL ? 0 : l->rows * l->stride);
 }
 
-/* What a transform is multiplied by: a spectrum, stored as above, or `over` over it. */
+/* The factor of a transform: a spectrum, stored as above, or `over` divided by it. */
 struct rc_factor {
     const void *spectrum;
     unsigned parity;
     double over; /* 0: the spectrum itself */
 };
-/* A row function, and what its row is multiplied by. */
+/* A row function, and the factor of its row's transform. */
 struct rc_link {
     rc_row *row;
     struct rc_factor factor;
@@ -204,14 +195,13 @@ struct rc_part {
 };
 
 struct rc_fft_ops {
-    size_t real_size; /* bytes of a real number                                  */
-    size_t line;      /* complex numbers that are transformed together as columns */
-    /* NULL: out of memory. `lent`: memory for the rows under way, rc_layout_rows of complex numbers, which
-     * outlives the plan; NULL: it takes its own. */
+    size_t real_size; /* bytes of a real number                                           */
+    size_t line;      /* complex numbers per row that are transformed together as columns */
+    /* NULL: out of memory. `lent`: memory for the rows in work, rc_layout_rows complex numbers, which
+     * outlives the plan; NULL: the plan allocates it. */
     void *(*new)(const struct rc_layout *layout, void *lent);
     void (*free)(void *plan);
-    /* Memory of the plan that is in use only while it transforms; NULL: it has not so many
-     * bytes. */
+    /* Memory that the plan uses only while it transforms; NULL: it has fewer bytes. */
     void *(*workspace)(void *plan, size_t bytes);
     /* Stores s(q), q < cy, times `scale` as column c of a spectrum; mirror -1: odd in y. */
     void (*store)(const struct rc_layout *layout, size_t c, double scale, double mirror,
@@ -219,7 +209,7 @@ struct rc_fft_ops {
     void (*apply)(void *plan, const struct rc_factor *factor, const double *p, double *u);
     void (*chain)(void *plan, size_t n, const struct rc_link *links, rc_row *last, void *ctx);
     bool (*load)(void *plan, size_t source, const double *p); /* false: out of memory */
-    /* A sum of terms; from column `columns` on all spectra are zero. */
+    /* A sum of terms; all spectra are zero from column `columns` on. */
     void (*field)(void *plan, size_t columns, size_t n, const struct rc_part *parts, double *u);
     /* rc_fft_forward and rc_fft_back. */
     void (*forward)(void *plan, rc_row *row, void *ctx, void *waves, rc_wave_column *column);

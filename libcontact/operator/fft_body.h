@@ -2,14 +2,13 @@
  * Rows, columns and multiplication of the transform engine, in one precision: REAL, COMPLEX,
  * FFTW(name) and C99(name) are set by the file that includes this.
  *
- * The padded array is never formed. Each row is transformed by itself (real, nx of px values not
- * zero) into `waves`, ny rows of px/2 + 1 complex numbers; then the columns, one cache line of them
- * at a time: gathered, transformed to length py, multiplied, transformed back, and the ny values
- * that are wanted scattered; then the rows. Every pass reads and writes each number once.
+ * The padded array is never formed. Each row is transformed separately (real, nx of px values not zero) into
+ * `waves`, ny rows of px/2 + 1 complex numbers. Then the columns, one cache line of them at a time, are
+ * gathered, transformed to length py, multiplied, transformed back, and the needed ny values are scattered.
+ * Then the rows are transformed back. Every pass reads and writes each number once.
  *
- * Plans are one-dimensional, out of place and estimated: for the lengths that arise after splitting
- * they are as fast as measured ones within a tenth, are made in no time, and are the same on
- * every run.
+ * Plans are one-dimensional, out of place and estimated (FFTW_ESTIMATE): for the lengths after splitting they
+ * are as fast as measured plans within a tenth, take no time to make, and are the same in every run.
  */
 #include <complex.h> /* before fftw3.h: its complex numbers are then C's own */
 #include <fftw3.h>
@@ -24,10 +23,12 @@
 #include "libcontact/memory.h"
 
 enum {
-    LINE = 128 / sizeof(COMPLEX), /* columns taken together: two cache lines, fetched as a pair  */
-    PREFETCH = 8,                 /* rows fetched in advance */
-    GAP = 8, /* complex numbers between pieces: equal places in different pieces
-                                    would else fall on the same lines of the cache */
+    /* columns processed together: two cache lines, fetched as a pair */
+    LINE = 128 / sizeof(COMPLEX),
+    PREFETCH = 8, /* rows fetched in advance */
+    /* complex numbers between pieces, so that equal places of different pieces do not share lines of the
+     * cache */
+    GAP = 8,
 };
 
 struct map {
@@ -39,17 +40,17 @@ struct map {
 struct plan {
     struct rc_layout l;
     FFTW(plan) row_forward, row_back, column_forward, column_back;
-    COMPLEX *waves;  /* of each row, the columns that are here: ny rows of `wide`          */
-    COMPLEX *pieces; /* of the rows that are here, for other ranks; NULL: all is here      */
-    COMPLEX *own;    /* what of it is to be freed; NULL: it was lent                      */
-    COMPLEX *source[RC_SOURCES]; /* those columns in pieces, transformed: a loaded map; or NULL */
+    COMPLEX *waves;              /* of each row, the columns held here: ny rows of `wide` */
+    COMPLEX *pieces;             /* of the rows held here, for other ranks; NULL: no ranks */
+    COMPLEX *own;                /* memory of `waves` to be freed; NULL: it was lent */
+    COMPLEX *source[RC_SOURCES]; /* transformed columns of a loaded map, in pieces; or NULL */
     COMPLEX *twiddle; /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
     COMPLEX *scratch; /* for each thread: LINE columns, one more, a row, and a spectrum's column */
     size_t column;    /* complex numbers of one column in scratch: radix pieces and gaps    */
     size_t scratch_size; /* complex numbers of scratch of one thread                           */
 };
 
-/* FFTW uses the wide registers only on aligned data: everything it sees begins a cache line. */
+/* FFTW uses vector instructions only on aligned data: every array begins a cache line. */
 static size_t
 whole_lines(size_t n)
 {
@@ -95,7 +96,7 @@ plan_free(void *at)
     free(f);
 }
 
-/* Where a thread's row of px reals lies in its scratch; before it, room for its transform. */
+/* A thread's row of px reals in its scratch; before it lies the memory of its transform. */
 static REAL *
 row_of(const struct plan *f, COMPLEX *scratch)
 {
@@ -189,7 +190,7 @@ to_double(const REAL *restrict from, size_t n, double *restrict to)
         to[i] = (double)from[i];
 }
 
-/* Row j of what is transformed, from a map of doubles. */
+/* Row j of the source, from a map of doubles. */
 static bool
 row_in(void *map, size_t j, void *row)
 {
@@ -211,9 +212,9 @@ row_out(void *map, size_t j, void *row)
     return true;
 }
 
-/* Rows are written by one function and read by the next; either may be missing at the ends. Between
- * two kernels a row comes and goes without a map in between. What comes back is zero from column
- * `columns` on, whatever stands there. */
+/* Rows are written by one function and read by the next; the first or the last may be missing. Between two
+ * kernels a row passes without a map. Columns from `columns` on count as zero after the transform, whatever
+ * they contain. */
 static void
 transform_some(struct plan *f, size_t columns, void *ctx, rc_row *make, bool back, bool forward)
 {
@@ -234,7 +235,7 @@ transform_some(struct plan *f, size_t columns, void *ctx, rc_row *make, bool bac
         any = make(ctx, j, row);
         if (!forward)
             continue;
-        /* columns that fill up a line are gathered with the others */
+        /* the columns that fill up a line are gathered too */
         memset(waves + (any ? l->cx : 0), 0, (l->stride - (any ? l->cx : 0)) * sizeof *waves);
         if (any) {
             memset(row + l->nx, 0, (l->px - l->nx) * sizeof *row);
@@ -265,7 +266,7 @@ transform_rows(struct plan *f, void *ctx, rc_row *make, bool back, bool forward)
 
 /* ---- columns ---- */
 
-/* Rows lie pages apart: no hardware prefetcher follows. */
+/* Rows lie pages apart, which hardware prefetchers do not follow. */
 static inline void
 prefetch(const COMPLEX *x)
 {
@@ -273,8 +274,8 @@ prefetch(const COMPLEX *x)
     __builtin_prefetch(x + LINE / 2);
 }
 
-/* One butterfly: y_r = w^r sum_s (-i)^(r s) x_s for a whole line of columns; x_s stand `step`
- * apart, `have` of them, y_r of column b at y + b * column + r * gap. */
+/* One butterfly: y_r = w^r sum_s (-i)^(r s) x_s for a whole line of columns; the `have` values x_s are `step`
+ * apart, y_r of column b at y + b * column + r * gap. */
 static inline void
 butterfly(const struct plan *f, const COMPLEX *x, size_t step, int have, const COMPLEX w[3],
           COMPLEX *restrict y)
@@ -293,7 +294,7 @@ butterfly(const struct plan *f, const COMPLEX *x, size_t step, int have, const C
     }
 }
 
-/* Its inverse, of which `want` values are written. */
+/* The inverse butterfly; `want` of its values are written. */
 static inline void
 butterfly_back(const struct plan *f, COMPLEX *x, size_t step, int want, const COMPLEX w[3],
                const COMPLEX *restrict y)
@@ -315,7 +316,8 @@ butterfly_back(const struct plan *f, COMPLEX *x, size_t step, int want, const CO
     }
 }
 
-/* Places of a piece from j on to *end have equally many nodes j, j + m, ... on the map: that many. */
+/* The number of nodes j, j + m, ... on the map is the same for the places from j to *end of a piece; returns
+ * it. */
 static int
 nodes_of(const struct rc_layout *l, size_t j, size_t *end)
 {
@@ -325,7 +327,7 @@ nodes_of(const struct rc_layout *l, size_t j, size_t *end)
     return (int)(j < more ? whole + 1 : whole);
 }
 
-/* Places j < end of a line of columns x, each of so many nodes; `have` is a constant where it is called. */
+/* Places j < end of a line of columns x, each of `have` nodes; `have` is a constant at every call. */
 static inline void
 gather_run(const struct plan *f, const COMPLEX *x, size_t j, size_t end, int have, COMPLEX *y)
 {
@@ -403,7 +405,7 @@ scatter(struct plan *f, size_t first, const COMPLEX *y)
     }
 }
 
-/* What a product is written to, or with a weight added to. */
+/* The target of a product: written, or increased by a weight times the product. */
 struct target {
     COMPLEX *z;
     bool more;
@@ -486,7 +488,7 @@ multiply(const struct rc_layout *l, const REAL *s, unsigned parity, size_t r, co
     }
 }
 
-/* n numbers `over` s; 0 where s is. */
+/* n numbers `over` / s; 0 where s is 0. */
 RC_CLONES static void
 reciprocal(size_t n, const REAL *restrict s, REAL over, REAL *restrict to)
 {
@@ -613,7 +615,7 @@ field(void *at, size_t columns, size_t n_parts, const struct rc_part *parts, dou
     transform_some(f, columns, &map, row_out, true, false);
 }
 
-/* n complex numbers, times `factor`, to real and imaginary parts, and back. */
+/* Splits n complex numbers, times `factor`, into real and imaginary parts, and joins them. */
 RC_CLONES static void
 part(const COMPLEX *restrict z, size_t n, REAL factor, REAL *restrict re, REAL *restrict im)
 {

@@ -1,7 +1,7 @@
 /*
- * The operator of two bodies: K p by an engine in double precision, and row
- * by row in single precision by transforms, which serve the preconditioner too. Where the engine is not
- * to be mixed with single precision, rows are gathered and summed by it.
+ * The operator of two bodies: K p by an engine in double precision, and row by row in single precision by
+ * transforms, which the preconditioner uses too. If the engine must not be mixed with single precision, rows
+ * are gathered into a map that the engine sums.
  */
 #include "operator.h"
 
@@ -22,18 +22,18 @@ struct strip {
 
 struct own {
     struct rc_operator op;
-    struct rc_solids own;           /* the bodies, but for a coarse grid                   */
-    const struct rc_solids *bodies; /* these, or those of the finer grid                   */
-    bool positive;                  /* their kernel's spectrum is, on any map              */
-    double estar;                   /* of both, as the roughness feels it                  */
-    double bends;                   /* m: the length over which coats do                   */
-    struct rc_conv *conv;           /* K p in double precision, or NULL                    */
-    struct rc_fft *fft;             /* in single precision, on the grid in units of sqrt(dx dy) */
-    struct rc_fft *framed;          /* the same in the frame; NULL: there is none          */
+    struct rc_solids own;           /* the bodies, except on a coarse grid                  */
+    const struct rc_solids *bodies; /* these, or those of the finer grid                    */
+    bool positive;                  /* the spectrum of their kernel is positive on any map  */
+    double estar;                   /* of the pair, for waves as short as the roughness     */
+    double bends;                   /* m: the length over which stiff coatings bend         */
+    struct rc_conv *conv;           /* K p in double precision; NULL: none                  */
+    struct rc_fft *fft;             /* in single precision, lengths in units of sqrt(dx dy) */
+    struct rc_fft *framed;          /* the same with the frame; NULL: no frame              */
     struct rc_spectrum *kernel, *inverse;
     struct strip strip;
-    double *p, *u; /* maps and, for each thread, a row: for engines without   */
-    float *row;    /* single precision; else NULL                             */
+    double *p, *u; /* scratch for engines without single precision: maps */
+    float *row;    /* and a row for each thread; else NULL */
     int row_threads;
 };
 
@@ -50,10 +50,10 @@ conv_options(const struct rc_operator_options *o)
 
 /* ---- figures ---- */
 
-/* On the free boundary the largest row sum of K: what a uniform pressure does in the middle of a
- * rectangle a x b, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love 1929; Johnson 1985, eq.
- * 3.25). On a periodic map the eigenvalues are known, and the longest wave has the largest, 2 /
- * (E* q), q = 2 pi / L. Bodies are nowhere more compliant than their least E*(q). */
+/* On the free boundary the largest row sum of K: the displacement in the middle of a rectangle a x b under
+ * uniform pressure, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love 1929; Johnson 1985, eq. 3.25). On a
+ * periodic map the eigenvalues are known, and the longest wave has the largest, 2 / (E* q), q = 2 pi / L. E*
+ * is the least E*(q) of the bodies. */
 static double
 norm(const struct own *s)
 {
@@ -78,10 +78,10 @@ diagonal(const struct own *s)
     return self;
 }
 
-/* The mean of |q| / 2, times E*(q) over that of the roughness, times cos(i qx dx) cos(j qy dy) over
- * the wave numbers of the grid, |qx| <= pi/dx and |qy| <= pi/dy, lengths in units of sqrt(dx dy): a
- * sum over the middles of cells. Without cosines |q| itself has a closed form, half the mean
- * distance of a rectangle's points from its middle, and the sum is of the rest. */
+/* The mean of |q| / 2 E*(q) / E* cos(i qx dx) cos(j qy dy), E* that of the roughness, over the wave numbers
+ * of the grid, |qx| <= pi/dx and |qy| <= pi/dy, lengths in units of sqrt(dx dy): a sum over the middles of
+ * cells. For i = j = 0 the mean of |q| has a closed form, the mean distance of a rectangle's points from its
+ * middle, and only the difference is summed. */
 static void
 set_inverse_near(struct own *s, const struct rc_shape *unit, double length)
 {
@@ -106,8 +106,7 @@ set_inverse_near(struct own *s, const struct rc_shape *unit, double length)
             s->op.inverse_near[j][i] = sum[j != 1][i != 1];
 }
 
-/* The inverse, (-Laplace)^(1/2) E* / 2, ties two nodes the stronger the nearer they are: as
- * |x|^(-3). */
+/* The inverse, (-Laplace)^(1/2) E* / 2, couples two nodes with the strength |x|^(-3) of their distance. */
 static void
 set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
 {
@@ -118,19 +117,21 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
         }
 }
 
-/* The frame's part of the sides of a free map. The preconditioner's extension ends with the frame, and edges
- * of contact there become too stiff: on 1024 x 1024 nodes with 32 % contact the largest eigenvalue is 3.9
- * without a frame, 1.6, 1.4, 1.26 with a 32nd, a 16th and an eighth, at 512 x 512 the same, and 1.15 with
- * all of the padding. An eighth costs a quarter of the transforms of rows, a twelfth of the whole. */
+/* The frame, as a fraction of the sides of a free map. The preconditioner's extension ends with the frame,
+ * which makes edges of contact near the border too stiff: on 1024 x 1024 nodes with 32 % contact the largest
+ * eigenvalue is 3.9 without a frame, 1.6, 1.4, 1.26 with a frame of 1/32, 1/16 and 1/8 of the sides (the same
+ * at 512 x 512), and 1.15 with all of the padding. A frame of 1/8 costs a quarter of the transforms of rows,
+ * a twelfth of the total. */
 static const size_t frame_part = 8;
-/* Of a strip, where the rows are few: all of the padding. 65536 x 16 nodes, 6 and 41 % contact: 14 and 17
- * steps with an eighth, 9 and 11 with this. */
+/* On a strip, where there are few rows: all of the padding. 65536 x 16 nodes, 6 and 41 % contact: 14 and 17
+ * steps with an eighth, 9 and 11 with all. */
 static const size_t strip_part = 2;
-/* A strip is so many times as long as it is wide. */
+/* A strip is at least this many times as long as wide. */
 static const size_t strip = 8;
 
-/* Of a coat that bends: so many times the length over which it does, at most all of the padding. E1/Es 400,
- * 16 nodes thick, 1024 x 200 nodes, three loads: 38 to 68 equivalents with an eighth, 14 to 16 with this. */
+/* Under a stiff coating: this many times the length over which it bends, at most all of the padding. E1/Es
+ * 400, 16 nodes thick, 1024 x 200 nodes, three loads: 38 to 68 equivalents with an eighth of the sides, 14 to
+ * 16 with this. */
 static const double frame_bends = 3;
 
 static struct rc_shape
@@ -147,7 +148,7 @@ longest_side(const struct rc_shape *s)
     return fmax(s->dx * (double)s->nx, s->dy * (double)s->ny);
 }
 
-/* How much stiffer the bodies are for the shortest waves of a grid than for the longest ones. */
+/* Ratio of the stiffness of the bodies for the shortest and the longest waves of a grid. */
 static double
 stiffening(const struct rc_solids *bodies, const struct rc_shape *s)
 {
@@ -157,8 +158,8 @@ stiffening(const struct rc_solids *bodies, const struct rc_shape *s)
            rc_solids_modulus(bodies, 2 * RC_PI / longest_side(s));
 }
 
-/* An even number, so that coarser grids begin with the map; of a long side a multiple of the rows that stay
- * together on a rank. `bends`: nodes. */
+/* An even number, so that coarser grids begin with the map; for a long side a multiple of the rows that stay
+ * together on a rank. `bends`: in nodes. */
 static size_t
 frame_of(size_t side, size_t other, double bends)
 {
@@ -170,7 +171,7 @@ frame_of(size_t side, size_t other, double bends)
     return n / unit * unit;
 }
 
-/* `bends`: m. */
+/* `bends`: in m. */
 static struct rc_frame
 frame_around(const struct rc_shape *s, enum rc_boundary boundary, double bends)
 {
@@ -194,9 +195,9 @@ rc_operator_frame(const struct rc_shape *s, const struct rc_operator_options *o)
 
 /* ---- strips ---- */
 
-/* A line load on the width b of a strip of a free map sinks, for waves along it that are much longer than
- * b, by the integral of 2 / (pi E*(k)) dk/k from q to 5.03 / b, 5.03 = 2 exp(3/2 - 0.577): on one material a
- * logarithm, which hardly depends on q. */
+/* The displacement under a line load on the width b of a strip of a free map, for waves along it that are
+ * much longer than b, is the integral of 2 / (pi E*(k)) dk/k from q to 5.03 / b, 5.03 = 2 exp(3/2 - 0.577):
+ * on uniform bodies a logarithm, which hardly depends on q. */
 static void
 set_strip(struct own *s)
 {
@@ -215,7 +216,7 @@ set_strip(struct own *s)
     }
 }
 
-/* From where the logarithm is 1, as for a plane. */
+/* Whether the logarithm exceeds 1, its value for a plane. */
 static bool
 is_along_strip(const struct own *s, double q)
 {
@@ -231,7 +232,7 @@ strip_sum(const struct own *s, double q)
     return s->strip.sum[k] + (at - (double)k) * (s->strip.sum[k + 1] - s->strip.sum[k]);
 }
 
-/* E*(q) of waves, and of those along a strip. */
+/* E*(q) of waves, and of waves along a strip. */
 static double
 modulus_at(const struct own *s, double q)
 {
@@ -249,7 +250,7 @@ rc_operator_free(struct rc_operator *op)
 
     if (s == NULL)
         return;
-    rc_fft_free(s->fft); /* works in memory of conv or of framed, which works in that of conv */
+    rc_fft_free(s->fft); /* uses memory of conv or of framed, which uses memory of conv */
     rc_fft_free(s->framed);
     rc_conv_free(s->conv);
     rc_spectrum_free(s->kernel);
@@ -263,21 +264,20 @@ rc_operator_free(struct rc_operator *op)
 
 /* ---- the inverse ---- */
 
-/* A padded kernel may have a spectrum that is negative somewhere, on stiff coats that bend over
- * lengths near that of the map. Its inverse is then kept within these bounds of that of a uniform
- * half-space, wave by wave with the stiffness of the bodies. On soft coats a spectrum that is positive
- * is kept as it is, but for the longest waves: where they are thin and nearly incompressible it is down
- * to 0.005 of that half-space at the shortest waves, and with these bounds the estimate of the error
- * was down to half of the error. */
+/* The spectrum of a padded kernel may be negative for some waves, under stiff coatings that bend over lengths
+ * near that of the map. Its inverse is then kept within these bounds of that of a uniform half-space with the
+ * stiffness of the bodies for each wave. A positive spectrum, under soft coatings, is used unchanged except
+ * for the longest waves: for thin, nearly incompressible coatings it decreases to 0.005 of that half-space at
+ * the shortest waves, and with these bounds the estimated error was down to half of the error. */
 static const double least = 0.7, most = 1.5;
-static const double long_waves = 6; /* over half the smallest wave number of the padded map */
+static const double long_waves = 6; /* times half the smallest wave number of the padded map */
 
 struct bounded {
     const struct own *s;
     size_t first, n; /* first: of the columns held here              */
     double length, longest;
     double *kernel; /* spectrum of the kernel, column by column */
-    bool positive;  /* it is, and is kept, but for the longest waves */
+    bool positive;  /* the spectrum is positive, and used except for the longest waves */
 };
 
 static void
@@ -306,7 +306,7 @@ all_positive(const struct bounded *b, size_t columns)
     return -rc_ranks_most(b->s->op.rows.ranks, -low) > 0;
 }
 
-/* The column of the spectrum of a half-space of E* = 1 becomes that of the inverse. */
+/* Turns the column of the spectrum of a half-space of E* = 1 into that of the inverse. */
 static void
 invert_column(void *ctx, size_t i, size_t n, double *column)
 {
@@ -381,7 +381,7 @@ own_new(const struct rc_ranks *ranks, struct rc_err *err)
     return NULL;
 }
 
-/* All but the bodies and K p in double precision, which are there. */
+/* Sets everything but the bodies and K p in double precision, which exist. */
 static enum rc_status
 plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_options *o,
      struct rc_err *err)
@@ -424,7 +424,7 @@ plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_optio
     return RC_OK;
 }
 
-/* Room to gather rows of an engine that is not to be mixed with single precision. */
+/* Allocates the maps and rows for an engine that must not be mixed with single precision. */
 static enum rc_status
 make_room(struct own *s, const struct rc_operator_options *o, struct rc_err *err)
 {
@@ -512,7 +512,7 @@ rc_operator_memory(const struct rc_shape *shape, const struct rc_operator_option
           rc_fft_scratch(shape, o->boundary, RC_SINGLE, o->threads);
     if (frame.x + frame.y > 0)
         own += rc_fft_scratch(shape, o->boundary, RC_SINGLE, o->threads);
-    if (engine->fft == NULL) /* else rows are transformed in the memory of conv */
+    if (engine->fft == NULL) /* otherwise rows are transformed in the memory of conv */
         own += rc_fft_rows_memory(shape, o->boundary, &frame, RC_SINGLE, ranks);
     rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
     if (!engine->info.mixed || precise)
@@ -554,7 +554,7 @@ rc_operator_apply(struct rc_operator *op, const double *p, double *u)
     rc_conv_apply(((struct own *)op)->conv, p, u);
 }
 
-/* Rows are gathered into a map, summed, and handed out again. */
+/* Gathers rows into a map, sums, and passes the rows of the result. */
 static void
 apply_by_map(struct own *s, rc_row *in, rc_row *out, void *ctx)
 {
@@ -606,7 +606,7 @@ rc_operator_chain_framed(struct rc_operator *op, size_t n, const struct rc_spect
     rc_fft_chain(s->framed == NULL ? s->fft : s->framed, n, factors, rows, ctx);
 }
 
-/* The power of a plane: 1, and that of the stiffness of the bodies. */
+/* The power on a plane: 1 plus that of the stiffness of the bodies. */
 static double
 of_plane(const struct own *s, double q)
 {

@@ -1,10 +1,10 @@
 /*
- * What a pressure on the surface does, as the solver sees it: the face of this folder. Internal:
- * never installed.
+ * The action of a pressure on the surface, for the solver: the interface of this folder. Internal: never
+ * installed.
  *
- * The solver is handed an operator K and asks it for K p, for its inverse as multiplication of wave
- * numbers, and for a few figures; it never learns which bodies, which engine and which transforms
- * are behind, nor where the rows are that others hold: maps and rows are those held here.
+ * The solver gets an operator K and asks it for K p, for its inverse as a multiplication in wave numbers, and
+ * for a few figures. It does not know the bodies, the engine or the transforms, nor the rows of other ranks:
+ * maps and rows are those held here.
  */
 #ifndef RC_OPERATOR_H
 #define RC_OPERATOR_H
@@ -13,76 +13,76 @@
 #include "fft.h"
 #include "libcontact/transform/transform.h"
 
-/* Constant once it is made. Row by row pressures and displacements are in single precision and in
- * units of its own: u = unit K' p with K' of about 1, so that no decade of metres or pascals is
- * lost. Lengths beside them are in units of sqrt(dx dy). */
+/* Constant after it is made. Pressures and displacements row by row are in single precision and in their own
+ * units: u = unit K' p with K' of about 1, so that no decade of metres or pascals is lost. Lengths beside
+ * them are in units of sqrt(dx dy). */
 struct rc_operator {
     struct rc_shape whole, shape; /* of the whole map, and of the part of it held here */
     struct rc_rows rows;          /* the rows of that part */
     enum rc_boundary boundary;
     size_t threads;
-    double unit;     /* m/Pa                                                                   */
-    double estar;    /* Pa, where it is the same for all waves; NAN: it is not                 */
-    double norm;     /* m/Pa: a bound of the largest eigenvalue                                */
-    double diagonal; /* m/Pa: displacement of a node under unit pressure on its own cell       */
-    /* Of the inverse, in the units of rows: the pressures on a node and its eight neighbours that
-     * move this node by 1 and leave all others where they are; and the strength, up to a factor, by
-     * which smooth motions tie it to each of the eight. */
+    double unit;     /* m/Pa                                                             */
+    double estar;    /* Pa, if it is the same for all waves; NAN: it is not              */
+    double norm;     /* m/Pa: a bound of the largest eigenvalue                          */
+    double diagonal; /* m/Pa: displacement of a node under unit pressure on its own cell */
+    /* Of the inverse, in the units of rows: the pressures on a node and its eight neighbours that move this
+     * node by 1 and no other node; and the coupling of this node to each of the eight in smooth motions, up
+     * to a factor. */
     double inverse_near[3][3];
     double neighbour[3][3];
-    struct rc_frame frame; /* nodes of the padding that rc_operator_chain_framed takes along */
-    bool edges;       /* how a shift loads the edges of a set follows from no rule: layers, free */
-    double error;     /* of K p, relative to the sum of |K| |p|                              */
-    double row_error; /* the same, row by row                                                */
-    double row_cost;  /* of K p row by row, in equivalents of K p in double precision        */
-    double factor_cost; /* of each factor of a chain                                           */
-    bool exact;         /* K p can be had in double precision                                  */
-    bool bends;         /* a coat stiffer than what is under it: the inverse alternates in sign */
-    bool mean_free;     /* the mean of u is 0 whatever the pressure: it has no stiffness       */
-    const char *engine, *reason; /* which does the sums of K p, and why; NULL: none            */
+    struct rc_frame frame; /* nodes of the padding in rc_operator_chain_framed */
+    /* no rule gives the pressure of a common shift at the edges of a set: layers, free */
+    bool edges;
+    double error;       /* of K p, relative to the sum of |K| |p|                          */
+    double row_error;   /* the same, row by row                                            */
+    double row_cost;    /* of K p row by row, in equivalents of K p in double precision    */
+    double factor_cost; /* of each factor of a chain                                       */
+    bool exact;         /* K p is available in double precision                            */
+    bool bends;         /* a coating stiffer than its base: the inverse alternates in sign */
+    bool mean_free;     /* the mean of u is 0 for any pressure: it has no stiffness        */
+    const char *engine, *reason; /* engine of K p and the reason for it; NULL: none */
     const struct rc_spectrum *kernel, *inverse; /* factors for rc_operator_chain: K and K^-1   */
 };
 
 struct rc_operator_options {
     enum rc_boundary boundary;
-    const struct rc_pair *pair; /* the bodies: the caller's                                    */
-    const char *engine; /* NULL: auto                                                          */
-    double tol;         /* error of K p that the engine may make, as in rc_conv_options         */
-    size_t threads;     /* 0: all                                                              */
-    const struct rc_ranks *ranks; /* that share the map                                     */
+    const struct rc_pair *pair;   /* the bodies: the caller's                                    */
+    const char *engine;           /* NULL: auto                                    */
+    double tol;                   /* permitted error of K p, as in rc_conv_options */
+    size_t threads;               /* 0: all                                        */
+    const struct rc_ranks *ranks; /* ranks that share the map */
 };
 
 /* NULL when there is no such engine, or none for the boundary, or memory is short. */
 struct rc_operator *rc_operator_new(const struct rc_shape *shape,
                                     const struct rc_operator_options *options, struct rc_err *err);
-/* The same bodies on another grid, which these ranks share, without K p in double precision. */
+/* The same bodies on another grid that these ranks share, without K p in double precision. */
 struct rc_operator *rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
                                        const struct rc_shape *shape, struct rc_err *err);
 void rc_operator_free(struct rc_operator *op); /* NULL is allowed */
 /* RC_FAIL, and *err says why, when there is no such engine, or none for the boundary or the ranks. */
 enum rc_status rc_operator_check(const struct rc_shape *shape,
                                  const struct rc_operator_options *options, struct rc_err *err);
-/* The frame that it would take. */
+/* The frame that it would use. */
 struct rc_frame rc_operator_frame(const struct rc_shape *shape,
                                   const struct rc_operator_options *options);
-/* Bytes that it takes; 0 when there is no such engine. */
+/* Bytes of an operator; 0 when there is no such engine. */
 size_t rc_operator_memory(const struct rc_shape *shape, const struct rc_operator_options *options);
-/* The engine that it would take, and why; "" when there is none of that name. */
+/* The engine that it would use, and why; "" when there is none of that name. */
 const char *rc_operator_engine(const struct rc_shape *shape,
                                const struct rc_operator_options *options, const char **reason);
-/* Seconds that one K p takes in a solve, as rc_conv_seconds has them. */
+/* Seconds of one K p within a solve, as rc_conv_seconds. */
 double rc_operator_seconds(const struct rc_shape *shape, const struct rc_operator_options *options);
 
 /* u = K p, in m and Pa, in double precision; only where op->exact. */
 void rc_operator_apply(struct rc_operator *op, const double *p, double *u);
-/* u = K' p row by row: `in` writes the rows of p (floats), `out` takes those of u. Costs
- * op->row_cost. */
+/* u = K' p row by row: `in` writes the rows of p (floats), `out` reads those of u. Costs op->row_cost. */
 void rc_operator_apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx);
-/* The power a with which the inverse grows, A(q) ~ q^a, at wave number q, over the unit of lengths: 1 on one
- * material, up to 4 where a coat bends. */
+/* The power a with which the inverse grows, A(q) ~ q^a, at wave number q, in 1/unit of lengths: 1 on uniform
+ * bodies, up to 4 where a coating bends. */
 double rc_operator_power(const struct rc_operator *op, double q);
-/* Several convolutions, one after the other, with rows[k] between factor k - 1 and k: as
- * rc_fft_chain. Each factor costs op->factor_cost. */
+/* Several convolutions in sequence, with rows[k] between factor k - 1 and k, as rc_fft_chain. Each factor
+ * costs op->factor_cost. */
 void rc_operator_chain(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
                        rc_row *const *rows, void *ctx);
 /* The same with the frame: rows are those of rc_fft_new_framed. */
@@ -90,39 +90,38 @@ void rc_operator_chain_framed(struct rc_operator *op, size_t n,
                               const struct rc_spectrum *const *factors, rc_row *const *rows,
                               void *ctx);
 
-/* ---- K and its inverse on the whole grid that transforms see: whole.c ---- */
+/* ---- K and its inverse on the whole transformed grid: whole.c ---- */
 
-/* The map itself where it repeats, else the map in the upper left corner of a padded one, on which K
- * is the same circulant as its transforms take it for, and its inverse A exact: a displacement of all of
- * the padded grid belongs to one pressure. Everything is in units of its own: displacements of `length`,
- * pressures of `modulus`. */
+/* The map itself if it is periodic, else a padded grid with the map in its upper left corner. On this grid K
+ * is a circulant and its inverse A exact: a displacement of the whole grid belongs to one pressure. All
+ * fields are in units of their own: displacements of `length`, pressures of `modulus`. */
 struct rc_whole {
     struct rc_shape map, grid; /* in m                                                       */
     enum rc_boundary boundary;
     int threads;
-    double length;   /* m: sqrt(dx dy)                                                   */
-    double modulus;  /* Pa: E* as the roughness feels it                                 */
-    double diagonal; /* displacement of a node under unit pressure on its own cell       */
-    double mean;     /* K of a uniform pressure on all of the grid; 0 where it repeats   */
-    double most;     /* the largest eigenvalue of K                                      */
+    double length;   /* m: sqrt(dx dy)                                                    */
+    double modulus;  /* Pa: E* as the roughness feels it                                  */
+    double diagonal; /* displacement of a node under unit pressure on its own cell        */
+    double mean;     /* K of a uniform pressure on the whole grid; 0 where it is periodic */
+    double most;     /* largest eigenvalue of K                                           */
 };
 
-/* NULL when a number of the bodies makes no sense, no padding makes the inverse of a layered pair positive,
- * or memory is short. Engine and tolerance of the options do not count, nor do ranks. */
+/* NULL when a number of the bodies is invalid, no padding makes the inverse of a layered pair positive, or
+ * memory is short. Ignores engine, tolerance and ranks of the options. */
 struct rc_whole *rc_whole_new(const struct rc_shape *shape,
                               const struct rc_operator_options *options, struct rc_err *err);
 void rc_whole_free(struct rc_whole *whole); /* NULL is allowed */
-/* The whole grid of a map, but for layers that want more padding. */
+/* The whole grid of a map; layers may need more padding than this. */
 struct rc_shape rc_whole_grid(const struct rc_shape *shape, enum rc_boundary boundary);
-/* Bytes that it takes. */
+/* Bytes of an rc_whole. */
 size_t rc_whole_memory(const struct rc_shape *shape, const struct rc_operator_options *options);
-/* E* of the pair as the roughness of this grid feels it, Pa, and `diagonal`. */
+/* E* of the pair for waves as short as the roughness of this grid, Pa, and `diagonal`. */
 enum rc_status rc_whole_scales(const struct rc_shape *shape, const struct rc_pair *pair,
                                double *modulus, double *diagonal, struct rc_err *err);
 /* u = K p in double precision; p and u may be the same. */
 void rc_whole_apply(struct rc_whole *whole, const double *p, double *u);
-/* p = A u in double precision, rows of doubles; u = K p and p = A u in single, rows of floats. Rows are
- * those of the whole grid. */
+/* p = A u in double precision with rows of doubles; u = K p and p = A u in single precision with rows of
+ * floats. Rows are those of the whole grid. */
 void rc_whole_inverse_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx);
 void rc_whole_rough_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx);
 void rc_whole_rough_inverse_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx);

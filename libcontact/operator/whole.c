@@ -1,10 +1,10 @@
 /*
- * K and its inverse on the whole grid of the transforms. The padded grid is taken for a map that repeats,
- * on which the kernel counts once, by its shortest way around: pressures on the map then act on the map as
- * on the half-space, whatever the padding, and every wave has a K of its own, whose reciprocal is A.
+ * K and its inverse on the whole transformed grid. The padded grid is treated as periodic, with each offset
+ * of the kernel counted once, by the shortest way around: pressures on the map then act on the map as on the
+ * half-space, whatever the padding, and each wave has its own factor, whose reciprocal is A.
  *
- * A is wanted positive. On uniform bodies K is, with twice the sides; on layers that bend over lengths near
- * those of the map it becomes so with more.
+ * A must be positive. For uniform bodies K is positive with twice the sides; for layers that bend over
+ * lengths near those of the map it becomes so with more padding.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 #include "operator.h"
 
 enum {
-    SIDES = 5 /* tries, in halves of the map's sides */
+    SIDES = 5 /* trials, in halves of the map's sides */
 };
 static const size_t halves[SIDES] = {4, 6, 8, 12, 16};
 
@@ -48,7 +48,7 @@ rc_whole_free(struct rc_whole *whole)
 
     if (w == NULL)
         return;
-    rc_fft_free(w->rough); /* works in memory of the other */
+    rc_fft_free(w->rough); /* uses memory of the other */
     rc_fft_free(w->fft);
     rc_spectrum_free(w->kernel);
     rc_spectrum_free(w->inverse);
@@ -58,7 +58,7 @@ rc_whole_free(struct rc_whole *whole)
     free(w);
 }
 
-/* Drops transforms and spectra: another padding is tried. */
+/* Frees transforms and spectra before another padding is tried. */
 static void
 clear(struct own *w)
 {
@@ -136,7 +136,7 @@ plan(struct own *w, size_t threads, struct extremes *seen, struct rc_err *err)
     return RC_OK;
 }
 
-/* On a map that repeats the longest wave is the softest: 2/(E* q), q = 2 pi/L. */
+/* On a periodic map the longest wave is the most compliant: 2/(E* q), q = 2 pi/L. */
 static double
 most_of(const struct own *w)
 {

@@ -499,8 +499,8 @@ follow_block(void *at, size_t first, size_t n, double *sums)
     follow(n, c->s->q + first, c->a * c->solver->load.length, c->solver->it.v + first);
 }
 
-/* Takes back a fraction b of the step. A node that left a bound returns to it exactly, whatever the rounding.
- * */
+/* Takes back a fraction b of the step. A node that left a bound returns to it exactly, whatever the
+ * rounding. */
 static void
 back_block(void *at, size_t first, size_t n, double *sums)
 {

@@ -47,8 +47,8 @@ is_on_map(const struct rc_preconditioner *e, size_t j)
     return j >= e->above && j - e->above < e->op->shape.ny;
 }
 
-/* The part of a framed row that is on the map; *j becomes its row of the map. NULL where it is off the map.
- * */
+/* The part of a framed row that is on the map; *j becomes its row of the map. NULL where it is off the
+ * map. */
 static float *
 on_map(const struct rc_preconditioner *e, size_t *j, void *row)
 {

@@ -246,8 +246,8 @@ scaled(const struct scale *c, struct rc_box box, size_t k)
     return low + c->f * (c->s->it.p[k] - low);
 }
 
-/* sums[0]: load of the elastic nodes; sums[1]: rooms of those that would reach the bound with the factor f.
- * */
+/* sums[0]: load of the elastic nodes; sums[1]: rooms of those that would reach the bound with the factor
+ * f. */
 static void
 elastic_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -366,8 +366,8 @@ last_gap(struct scale *c, double wanted)
     return of_rank(low);
 }
 
-/* Sum of the rooms of nodes without pressure and with exactly this gap, in the rows before those held here.
- * */
+/* Sum of the rooms of nodes without pressure and with exactly this gap, in the rows before those held
+ * here. */
 static double
 equal_before(const struct scale *c, double gap)
 {

@@ -202,8 +202,8 @@ coarser(const struct rc_pyramid_base *b, struct grid *g, struct level *l)
     return true;
 }
 
-/* Sets k and t of the level: the factor of its sums in the next level, and the weight of the coarser values.
- * */
+/* Sets k and t of the level: the factor of its sums in the next level, and the weight of the coarser
+ * values. */
 static void
 set_factors(struct level *l, const double spacing[2], rc_power_at *power, const void *of)
 {

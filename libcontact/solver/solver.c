@@ -68,8 +68,8 @@ tolerance(const struct rc_shape *shape, const struct rc_problem *problem)
 }
 
 /* The residual does not show the engine's own error, so this error must be small beside the tolerance of the
- * pressure: at a tenth of the tolerance, as in the paper, the engine made up to a third of the final error.
- * */
+ * pressure: at a tenth of the tolerance, as in the paper, the engine made up to a third of the final
+ * error. */
 static struct rc_operator_options
 operator_options(const struct rc_shape *shape, const struct rc_problem *problem)
 {

@@ -224,8 +224,8 @@ void rc_iterate_count(struct rc_solver *solver, double convolutions);
 /* The shift: mean of v over the elastic nodes, or, when there are none, the middle between the
  * largest v at an upper bound and the smallest at a lower one. Sets `elastic` and `shift`. */
 void rc_iterate_shift(struct rc_solver *solver);
-/* Another shift: the one at which steps of all nodes by their gaps, within their bounds, preserve the load.
- * */
+/* Another shift: the one at which steps of all nodes by their gaps, within their bounds, preserve the
+ * load. */
 void rc_iterate_balance(struct rc_solver *solver);
 /* Pressure per displacement of a node whose neighbours are fixed, Pa/m. */
 double rc_iterate_stiffness(const struct rc_solver *solver);
@@ -341,8 +341,8 @@ double rc_tilt_error(struct rc_solver *solver, double contact);
 double rc_tilt_approach(const struct rc_solver *solver);
 /* Slope of the counter body along an axis. */
 double rc_tilt_slope(const struct rc_solver *solver, size_t axis);
-/* The first sets the tilt of a coarser grid's problem, the second takes the tilt that the coarser grid found.
- * */
+/* The first sets the tilt of a coarser grid's problem, the second takes the tilt that the coarser grid
+ * found. */
 void rc_tilt_pose(const struct rc_solver *solver, struct rc_problem *coarse);
 void rc_tilt_from_coarse(struct rc_solver *solver, const struct rc_solver *coarse);
 /* The tilt with the smallest gaps at the elastic nodes of p. */

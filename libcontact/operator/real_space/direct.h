@@ -1,6 +1,6 @@
 /*
- * The double sum as it is written, on any lattice: the engine `direct` and the coarsest level of
- * the engine `mlms`.
+ * The double sum without approximation, on any lattice: the engine `direct` and the coarsest level of the
+ * engine `mlms`.
  */
 #ifndef RC_DIRECT_H
 #define RC_DIRECT_H

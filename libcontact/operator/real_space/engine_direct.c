@@ -1,6 +1,5 @@
 /*
- * The sum as it is written: u_ij = sum_kl K_(i-k)(j-l) p_kl. N^2 terms, no approximation: the
- * engine that judges the others.
+ * The sum u_ij = sum_kl K_(i-k)(j-l) p_kl, N^2 terms without approximation: the reference for other engines.
  *
  * A kernel is even or odd in y, so rows d above and d below a target row share their coefficients:
  * both are added first, and what remains is one product for each (row, d, k, i), summed in
@@ -18,9 +17,9 @@ struct rc_direct {
     size_t nx, ny, width, strips;
     int threads;
     const struct rc_simd *simd;
-    double *k;       /* ny rows at y offsets 0 .. ny-1, each of `width`: x offsets -(nx-1) .. nx-1,
-                        and what fills the last strip */
-    double *scratch; /* of each thread: rows of a block, added and interleaved; and of the result */
+    /* ny rows at y offsets 0 .. ny-1, each of `width`: x offsets -(nx-1) .. nx-1, padded to whole strips */
+    double *k;
+    double *scratch; /* of each thread: rows of a block, added and interleaved; and the result */
     double mirror;   /* factor for negative y offsets */
 };
 
@@ -139,7 +138,7 @@ rc_direct_apply(struct rc_direct *s, const double *p, double *u)
 
 /* ---- the row ---- */
 
-/* Waking a thread costs about what ten thousand terms do. */
+/* Starting a thread costs about as much as ten thousand terms. */
 static int
 useful_threads(const struct rc_sum *sum)
 {
@@ -181,7 +180,7 @@ plan_free(void *at)
     rc_direct_free(at);
 }
 
-/* Random signs add up as the square root of their number; this covers a thousand nodes a side. */
+/* Terms of random sign add up as the square root of their number; this covers a thousand nodes a side. */
 static double
 error(const void *at)
 {

@@ -1,5 +1,5 @@
 /*
- * The multi-level sum (mlms.h): N (log 1/tol)^2 operations, and little memory beside the maps.
+ * The multi-level sum (mlms.h): N (log 1/tol)^2 operations, and little memory besides the maps.
  */
 #include "mlms.h"
 
@@ -29,7 +29,7 @@ tiles(const struct rc_mlms_axis axis[2])
     return axis[RC_X].tiles * axis[RC_Y].tiles;
 }
 
-/* Rows of a tile on any level, with margins and with what interpolation takes. */
+/* Rows of a tile on any level, with margins and interpolation. */
 static void
 set_sizes(struct rc_mlms *m)
 {
@@ -51,10 +51,10 @@ set_sizes(struct rc_mlms *m)
         rows = largest(rows, (y->tile + RC_BLOCK - 1) / RC_BLOCK * RC_BLOCK);
         row = largest(row, largest(wide << x->halved, 2 * (coarse + 2 * t)));
     }
-    /* single sources add to 2 margins beyond a tile, and up to a vector more at its end */
+    /* single sources add up to 2 margins beyond a tile, and up to a vector more at its end */
     m->out_stride = m->mid_stride + 2 * m->out_lead + 2 * RC_SIMD_WIDTH;
     m->plane_size = m->plane_stride * plane_rows;
-    /* two of them also take the even and odd nodes of a row that is reduced */
+    /* two of these arrays also hold the even and odd nodes of a row that is reduced */
     m->out_size = m->out_lead + largest(m->out_stride * rows, whole_vectors(row));
     m->mid_size = largest(m->mid_stride * (rows + 2 * t), whole_vectors(row));
     m->zeros_size = whole_vectors(row);
@@ -212,7 +212,7 @@ scratch(const struct rc_mlms *m)
     return &m->scratch[omp_get_thread_num()];
 }
 
-/* A single tile is no work for several threads. */
+/* A single tile does not occupy several threads. */
 static int
 threads(const struct rc_mlms *m, size_t level)
 {
@@ -229,8 +229,7 @@ reduce(struct rc_mlms *m, size_t level, const double *p)
         rc_mlms_reduce(m, level, p, k, scratch(m));
 }
 
-/* Displacements of a level, and in the same pass what the finer level, whose pressure is `finer`,
- * corrects in them. */
+/* Displacements of a level; in the same pass corrects those of the finer level, whose pressure is `finer`. */
 static void
 expand(struct rc_mlms *m, size_t level, const double *p, double *u, const double *finer)
 {
@@ -274,7 +273,7 @@ error(const void *at)
     return ((const struct rc_mlms *)at)->d.error;
 }
 
-/* Beside its own work, (log 1/tol)^2, stands that of the method. */
+/* The work of the sum, (log 1/tol)^2, and of the method. */
 static double
 seconds(const struct rc_sum *sum)
 {

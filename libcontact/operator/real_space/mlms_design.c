@@ -9,18 +9,18 @@
 /* ---- accuracy ---- */
 
 /*
- * Interpolating 1/x from the 2t nodes at odd distances about a node, in units of the fine spacing,
- * leaves the fraction
+ * Interpolation of 1/x from the 2t nodes at odd distances about a node, in units of the fine spacing, has the
+ * relative error
  *
  *     Q(t, r) = product over k = 1 .. t of (2k-1)^2 / (r^2 - (2k-1)^2)
  *
- * of it at distance r: exactly, for a pole; 1/r errs so along the axes, and less elsewhere. So the
- * largest coefficient that is left out beyond a region of m_c nodes is Q(t, m_c + 1) times the
- * kernel there, and that over the kernel at the node, `one`, is the error under a single loaded
- * node. Pressures of many nodes do worse: those that follow the signs of the error about a node
- * err by many_over_one() times that, relative to the largest sum of |K| |p|. For a kernel that
- * falls faster than 1/r, or that is smooth about the node, what counts is `all`: the sum of the
- * coefficients left out over that of |K| within the region (rc_mlms_left_out).
+ * at distance r: exactly for a pole; 1/r has this error along the axes and less elsewhere. So the largest
+ * coefficient neglected beyond a region of m_c nodes is Q(t, m_c + 1) times the kernel there; `one`, this
+ * over the kernel at the node, is the error under a single loaded node. Pressures on many nodes can have
+ * larger errors: many_over_one() times this, relative to the largest sum of |K| |p|, if they follow the signs
+ * of the error about a node. For a kernel that decreases faster than 1/r, or is smooth about the node, the
+ * relevant figure is `all`: the sum of the neglected coefficients over that of |K| within the region
+ * (rc_mlms_left_out).
  *
  * Measured on 256 x 256 nodes: e the error about a loaded node (four, of all parities), pressures
  * |e|^a sign(e) with a = 0, 1/2, 1 where |e| is above one of 19 fractions of its largest, and 1
@@ -43,8 +43,8 @@ many_over_one(double t, double reach)
     return 9 + 3.5 * reach / t;
 }
 
-/* For the displacement kernel on equal spacings: a cell displaces itself by 3.525 times what its
- * load, taken as a point load, does at the distance of one spacing. */
+/* For the displacement kernel on equal spacings: the displacement of a cell by its own pressure is 3.525
+ * times that of its load as a point load one spacing away. */
 static double
 expected_error(size_t t, size_t reach)
 {
@@ -57,8 +57,7 @@ expected_error(size_t t, size_t reach)
     return many_over_one((double)t, (double)reach) * q;
 }
 
-/* The smallest region whose expected error is at most tol; one of the whole map leaves nothing
- * out. */
+/* The smallest region whose expected error is at most tol; a region as large as the map neglects nothing. */
 static size_t
 reach_for(size_t t, double tol, const struct rc_shape *s)
 {
@@ -83,10 +82,10 @@ spacing(const struct rc_mlms_axis *a, double cell)
     return (double)a->step * cell;
 }
 
-/* The region: within `reach` coarser spacings (half a node more, in an ellipse) of the source's
- * cell, not of its node, since a long cell is near to the nodes beside its long side. Where both
- * directions are interpolated and the source itself is used, whose own coefficient is far from
- * smooth on coarse levels, the corners of the ellipse are corrected too. */
+/* The region: within `reach` coarser spacings (half a node more, in an ellipse) of the source's cell rather
+ * than its node, because a long cell is close to the nodes beside its long side. Where both directions are
+ * interpolated and the source itself is used, the corners of the ellipse are corrected too, because the
+ * source's own coefficient is far from smooth on coarse levels. */
 ptrdiff_t
 rc_mlms_extent(const struct rc_mlms_design *d, const struct rc_shape *shape,
                const struct rc_mlms_axis axis[2], size_t k, bool odd)
@@ -109,7 +108,7 @@ rc_mlms_extent(const struct rc_mlms_design *d, const struct rc_shape *shape,
     return l < (double)most ? (ptrdiff_t)floor(l) : (ptrdiff_t)most;
 }
 
-/* Offsets in the region, and those of them that join nodes of the same class. */
+/* Counts the offsets in the region, and those that join nodes of the same class. */
 static void
 count(const struct rc_mlms_design *d, const struct rc_shape *shape,
       const struct rc_mlms_axis axis[2], double *all, double *same)
@@ -128,7 +127,7 @@ count(const struct rc_mlms_design *d, const struct rc_shape *shape,
 
 /* ---- levels ---- */
 
-/* Tiles of about RC_MLMS_TILE places; at least two where a second thread pays. */
+/* Tiles of about RC_MLMS_TILE places; at least two if a second thread pays. */
 static void
 set_tiles(struct rc_mlms_axis *a)
 {
@@ -140,9 +139,9 @@ set_tiles(struct rc_mlms_axis *a)
     a->tiles = (places + a->tile - 1) / a->tile;
 }
 
-/* Whether a grid is coarsened, and in which direction: in that of the smaller spacing until both
- * spacings are alike, else the correction region would be many nodes long in it. A direction that
- * would not get shorter is left as it is. */
+/* Whether a grid is coarsened, and in which direction: that of the smaller spacing until both are equal,
+ * because the correction region would otherwise be many nodes long in it. A direction that would not get
+ * shorter is kept. */
 static bool
 halve(struct rc_mlms_axis axis[2], const struct rc_shape *shape, size_t t)
 {
@@ -176,8 +175,8 @@ set_reach(const struct rc_mlms_design *d, const struct rc_shape *shape, struct r
         axis[a].margin = axis[a].halved ? (axis[a].reach + 1) / 2 : axis[a].reach;
 }
 
-/* Products of one level as (10) - (17) write them, and about what they cost: corrections only about
- * half, because offsets of both signs share a product. */
+/* Products of one level in (10) to (17), and their approximate cost: corrections count half, because offsets
+ * of both signs share a product. */
 static double
 level_terms(const struct rc_mlms_design *d, const struct rc_shape *shape,
             const struct rc_mlms_axis axis[2], double *work)
@@ -191,7 +190,7 @@ level_terms(const struct rc_mlms_design *d, const struct rc_shape *shape,
     }
     count(d, shape, axis, &all, &same);
     corrections = (fine - even) * all + coarse * (all - same);
-    /* one direction after the other; the same for the reduction and for the interpolation back */
+    /* one direction after the other; the same for the interpolation back */
     if (axis[RC_Y].halved)
         transfers += 4 * (double)d->t * (double)axis[RC_X].n * (double)axis[RC_Y].n / 2;
     if (axis[RC_X].halved)
@@ -209,7 +208,7 @@ direct_work(const struct rc_mlms_axis axis[2])
     return 0.75 * nx * ceil(nx / RC_STRIP) * RC_STRIP * ny * ny;
 }
 
-/* Coarsens as long as it may, then takes the number of levels that costs least. */
+/* Coarsens as often as possible, then uses the number of levels with the lowest cost. */
 static void
 choose_levels(struct rc_mlms_design *d, const struct rc_shape *shape)
 {
@@ -245,7 +244,7 @@ choose_levels(struct rc_mlms_design *d, const struct rc_shape *shape)
     }
 }
 
-/* Waking a thread costs about what a few thousand nodes do. */
+/* Starting a thread costs about as much as a few thousand nodes. */
 static int
 useful_threads(const struct rc_sum *sum)
 {
@@ -255,7 +254,7 @@ useful_threads(const struct rc_sum *sum)
     return (int)(threads < most ? threads : most);
 }
 
-/* The cheapest of those orders that are expected to err by no more than tol. */
+/* The cheapest order whose expected error is at most tol. */
 static void
 cheapest(struct rc_mlms_design *d, const struct rc_sum *sum, double tol)
 {
@@ -283,8 +282,8 @@ measured(const struct rc_mlms_design *d, const struct rc_sum *sum)
                                          2 * one + 20 * all));
 }
 
-/* The expected error is that of one kernel; that of the kernel at hand is then measured, and the
- * tolerance that is asked of the expectation is changed until the measured error fits. */
+/* The expected error holds for one kernel. The error of the actual kernel is measured, and the tolerance of
+ * the expectation is changed until the measured error fits. */
 static void
 fit(struct rc_mlms_design *d, const struct rc_sum *sum, double tol)
 {
@@ -304,7 +303,7 @@ fit(struct rc_mlms_design *d, const struct rc_sum *sum, double tol)
         if (ask > 1 || ask < 1e-18)
             break;
     }
-    if (best.work < INFINITY) /* else memory is short, and allocating the plan will fail */
+    if (best.work < INFINITY) /* otherwise memory is short, and allocating the plan will fail */
         *d = best;
 }
 

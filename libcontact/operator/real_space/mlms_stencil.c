@@ -42,7 +42,7 @@ at(const struct table *t, const double sign[2], ptrdiff_t k, ptrdiff_t l)
     return factor * t->v[(size_t)labs(l) * t->nx + (size_t)labs(k)];
 }
 
-/* What interpolation in one direction makes of `from`, at every offset where that is known. */
+/* Interpolates `from` in one direction, at every offset where it is known. */
 static void
 interpolate(const struct rc_mlms *m, int direction, const struct table *from, struct table *to)
 {
@@ -59,7 +59,7 @@ interpolate(const struct rc_mlms *m, int direction, const struct table *from, st
         }
 }
 
-/* Offsets of either sign that share |k| and |l|. */
+/* Number of offsets of either sign with these |k| and |l|. */
 static double
 images(size_t k, size_t l)
 {
@@ -72,9 +72,9 @@ lattice(const struct rc_sum *sum, const struct rc_mlms_axis axis[2])
     return (struct rc_lattice){sum->shape.dx, sum->shape.dy, axis[RC_X].step, axis[RC_Y].step};
 }
 
-/* error[c]: the kernel less its interpolation in the directions of class c = x + 2 y; (13), (16);
- * at offsets up to the reach and `beyond`. *about: sum of |K| over those of the reach, without that
- * of the node itself. */
+/* error[c]: the kernel less its interpolation in the directions of class c = x + 2 y; (13), (16); at offsets
+ * up to the reach plus `beyond`. *about: sum of |K| over the offsets up to the reach, without the node
+ * itself. */
 static bool
 errors(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms_axis axis[2],
        size_t beyond, struct table error[4], double *about)
@@ -119,11 +119,10 @@ done:
     return done;
 }
 
-/* ---- what is left out ---- */
+/* ---- neglected coefficients ---- */
 
-/* Largest |K| that the nodes about a node of this level stand for. At the node itself the kernel is
- * that of a single cell; half a step away it is about that of all the cells between, of which
- * there are step_x step_y. */
+/* Largest |K| of the cells that the nodes next to a node of this level represent. At the node itself the
+ * kernel is that of a single cell; half a step away it is about that of all step_x step_y cells between. */
 static double
 local_kernel(const struct rc_sum *sum, const struct rc_mlms_axis axis[2])
 {
@@ -143,13 +142,13 @@ local_kernel(const struct rc_sum *sum, const struct rc_mlms_axis axis[2])
     return cells > 1 ? fmax(own / cells, 1.76 * between) : fmax(own, between);
 }
 
-/* What the corrections of a level leave out: see rc_mlms_left_out. */
+/* The neglected coefficients of a level: see rc_mlms_left_out. */
 static void
 left_out(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms_axis axis[2],
          double *one, double *all)
 {
     enum {
-        BEYOND = 4 /* coefficients fall fast with distance */
+        BEYOND = 4 /* coefficients decrease fast with distance */
     };
     struct table e[4] = {{0}};
     double largest = 0, most_of_all = 0, local = local_kernel(sum, axis), about = 0;
@@ -210,7 +209,7 @@ places(const struct rc_mlms_axis *a, ptrdiff_t delta, ptrdiff_t l, ptrdiff_t *fi
     *last = a->halved ? floor_half(l - delta) : l;
 }
 
-/* Rows of all offsets, for sources that stand alone. */
+/* Rows of all offsets, for single sources. */
 static bool
 unfold(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
        const struct rc_shape *shape, const struct table *e, const ptrdiff_t delta[2])

@@ -17,8 +17,8 @@ rounded(size_t n, size_t to)
     return (n + to - 1) / to * to;
 }
 
-/* Fetches in advance what will be read some rows later: rows are too short, and too far apart, for
- * the processor to do so by itself. */
+/* Prefetches values that are read some rows later: rows are too short and too far apart for the hardware to
+ * do so. */
 static void
 prefetch(const double *map, const struct rc_mlms_axis axis[2], ptrdiff_t x0, ptrdiff_t y, size_t n)
 {
@@ -96,7 +96,7 @@ rc_mlms_scan(const struct rc_mlms *m, size_t level, const double *p, size_t tile
 
 /* ---- (10) ---- */
 
-/* Values [x0, x0 + n) of row y of an nx x ny map, of which those inside are copied. */
+/* Values [x0, x0 + n) of row y of an nx x ny map; those outside are not copied. */
 static void
 copy_row(const double *map, const struct rc_mlms_axis axis[2], ptrdiff_t x0, ptrdiff_t y, size_t n,
          double *out)
@@ -186,8 +186,7 @@ rc_mlms_reduce(const struct rc_mlms *m, size_t level, const double *p, size_t ti
 
 /* ---- (14), (17) ---- */
 
-/* Pressures about an area of places, class by class, with the margins of the level; outside the map
- * they are zero. */
+/* Pressures about an area of places, class by class, with the margins of the level; zero outside the map. */
 static void
 gather(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p, struct area a,
        struct rc_mlms_scratch *w)
@@ -217,8 +216,8 @@ gather(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double 
         }
 }
 
-/* Adds what the pressures of one class do to the target classes of one parity in x, strip by strip.
- * Offsets of both signs of x share their coefficients; between classes that are delta = target -
+/* Adds the corrections from the pressures of one class to the target classes of one parity in x, strip by
+ * strip. Offsets of both signs of x share their coefficients; between classes that are delta = target -
  * source apart, offset k is place (k - delta)/2. */
 static void
 sum_class(const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
@@ -252,8 +251,8 @@ sum_class(const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
 
 /* ---- the same where few nodes carry pressure ---- */
 
-/* The nodes of a halo that carry pressure, row and column in it in one number; more than `most` of
- * them are not all listed. */
+/* Lists the nodes of a halo with pressure, row and column in one number; with more than `most` the list is
+ * incomplete. */
 static size_t
 list_loaded(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p,
             struct area h, size_t most, struct rc_mlms_scratch *w)
@@ -275,9 +274,9 @@ list_loaded(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const do
     return n;
 }
 
-/* Up to how many loaded nodes of a halo are cheaper one by one than all at once: measured at
- * 1024 x 1024 with random nodes, both take the same time when 7, 8, 8 % are loaded for errors of
- * 1e-4, 1e-6, 1e-8. */
+/* The number of loaded nodes of a halo up to which single sources cost less than all nodes at once. Measured
+ * at 1024 x 1024 with random nodes: both take the same time when 7, 8, 8 % are loaded for errors of 1e-4,
+ * 1e-6, 1e-8. */
 static size_t
 few_nodes(struct area h)
 {
@@ -286,8 +285,8 @@ few_nodes(struct area h)
     return h.nx > 0xffff || h.ny > 0xffff ? 0 : (size_t)(break_even * (double)(h.nx * h.ny));
 }
 
-/* The n listed nodes of a halo by class: values in w->plane[class], places behind the list, of
- * which begin[class] .. begin[class + 1] - 1 are the class's. */
+/* Sorts the n listed nodes of a halo by class: values in w->plane[class], places after the list, those of a
+ * class from begin[class] to begin[class + 1] - 1. */
 static void
 sort_by_class(const struct rc_mlms_axis axis[2], const double *p, struct area h, size_t n,
               struct rc_mlms_scratch *w, size_t begin[5])

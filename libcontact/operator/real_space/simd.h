@@ -1,6 +1,6 @@
 /*
- * The inner loops of the sums in real space, compiled for each width of registers. Rows are
- * contiguous in x; loops work on whole vectors of x, not on single nodes.
+ * The inner loops of the sums in real space, compiled for each width of registers. Rows are contiguous in x;
+ * loops process whole vectors of x, not single nodes.
  */
 #ifndef RC_SIMD_H
 #define RC_SIMD_H
@@ -9,9 +9,10 @@
 #include <stdint.h>
 
 enum {
-    RC_STRIP = 32,     /* nodes of a row that are summed at once                              */
-    RC_BLOCK = 4,      /* rows that are summed at once                                        */
-    RC_SIMD_WIDTH = 8, /* nodes by which counts are rounded up: a vector of the widest registers */
+    RC_STRIP = 32, /* nodes of a row summed at once */
+    RC_BLOCK = 4,  /* rows summed at once */
+    /* counts are rounded up to multiples of this: a vector of the widest registers */
+    RC_SIMD_WIDTH = 8,
 };
 
 /* One column of a stencil: its coefficients c[first] .. c[last], and RC_BLOCK - 1 zeros on either
@@ -21,13 +22,13 @@ struct rc_column {
     const double *c;
 };
 
-/* A strip of sources, and what their stencils add to one or two strips of targets. */
+/* A strip of sources, and one or two strips of targets to which its stencils add. */
 struct rc_strip {
     const double *src; /* the row `margin` above the first target row */
     size_t stride, margin;
     size_t rows,
         n; /* of targets; computed to multiples of RC_BLOCK and RC_SIMD_WIDTH, n <= RC_STRIP */
-    /* Column j takes src[x - near - j] + sign src[x - far + j], the one value when they are one. */
+    /* Column j uses src[x - near - j] + sign src[x - far + j], or the one value if both are the same. */
     size_t columns;
     ptrdiff_t near, far;
     double sign;
@@ -37,8 +38,8 @@ struct rc_strip {
     double *ring; /* columns (2 margin + RC_BLOCK) RC_STRIP, aligned to 64 bytes */
 };
 
-/* Single sources, and what a stencil, unfolded, adds to the targets about each. Rows of `out` are
- * long enough for what lies outside. */
+/* Single sources, and the targets to which an unfolded stencil adds around each. Rows of `out` are long
+ * enough for targets outside the map. */
 struct rc_scatter {
     const double *value;
     const uint32_t *place; /* y << 16 | x of each */
@@ -64,14 +65,14 @@ struct rc_simd {
     /* Even and odd places of n values, and back. */
     void (*deinterleave)(const double *src, size_t n, double *even, double *odd);
     void (*interleave)(const double *even, const double *odd, size_t n, double *out);
-    /* first + x for each src[x] != 0, x < n, a multiple of RC_SIMD_WIDTH; returns how many. The
-     * list has room for n. */
+    /* first + x for each src[x] != 0, x < n, a multiple of RC_SIMD_WIDTH; returns their number. The list has
+     * room for n. */
     size_t (*find_nonzero)(const double *src, size_t n, uint32_t first, uint32_t *list);
-    /* Values that are not zero. */
+    /* The number of values that are not zero. */
     size_t (*count_nonzero)(const double *src, size_t n);
 };
 
-/* Those for the processor at hand. */
+/* The loops for this processor. */
 const struct rc_simd *rc_simd(void);
 
 #endif

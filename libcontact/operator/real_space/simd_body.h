@@ -8,14 +8,14 @@ typedef int64_t NAME(flags) __attribute__((vector_size(WIDTH * 8)));
 #define AT(place) (*(VECTOR *)(place))
 #define FROM(place) (*(const VECTOR *)(place))
 
-/* So many vectors of one row, all columns. */
+/* All columns for this number of vectors of one row. */
 TARGET static inline __attribute__((always_inline)) void
 NAME(fold_row)(int vectors, const double *src, size_t columns, ptrdiff_t near, ptrdiff_t far,
                double sign, double *q, size_t size)
 {
     size_t j = 0;
 
-    if (near == far) { /* the offset zero */
+    if (near == far) { /* offset zero */
 #pragma GCC unroll 4
         for (int x = 0; x < vectors; x++)
             AT(q + x * WIDTH) = FROM(src - near + x * WIDTH);
@@ -29,8 +29,8 @@ NAME(fold_row)(int vectors, const double *src, size_t columns, ptrdiff_t near, p
     }
 }
 
-/* One source row to target rows first .. last-1 of a block; c[i] is the coefficient to row i. All
- * counts are constants where this is called: the sums stay in registers. */
+/* One source row to target rows first .. last-1 of a block; c[i] is the coefficient to row i. All counts are
+ * constants at every call, so the sums stay in registers. */
 TARGET static inline __attribute__((always_inline)) void
 NAME(step)(VECTOR sum[RC_BLOCK][4], int vectors, const double *q, const double *c, int first,
            int last)
@@ -49,9 +49,9 @@ NAME(step)(VECTOR sum[RC_BLOCK][4], int vectors, const double *q, const double *
     }
 }
 
-/* A block of RC_BLOCK target rows of so many vectors. Folded rows lie in a ring, `begin` that of
- * the first target row. Of a column's source rows the first reaches only the first target row, the
- * next two, and so on; the last only the last. */
+/* A block of RC_BLOCK target rows of this number of vectors. Folded rows lie in a ring; `begin` is that of
+ * the first target row. The first source row of a column reaches only the first target row, the second two,
+ * and so on; the last reaches only the last. */
 TARGET static inline __attribute__((always_inline)) void
 NAME(block)(int vectors, const struct rc_strip *s, const struct rc_column *column, size_t begin,
             size_t x0, double *out)
@@ -63,7 +63,7 @@ NAME(block)(int vectors, const struct rc_strip *s, const struct rc_column *colum
     for (int i = 0; i < RC_BLOCK; i++)
 #pragma GCC unroll 4
         for (int x = 0; x < vectors; x++)
-            sum[i][x] = (VECTOR){0}; /* not `out`: beside it, small terms lose their digits */
+            sum[i][x] = (VECTOR){0}; /* not `out`: small terms would lose digits beside it */
     for (size_t j = 0; j < s->columns; j++) {
         ptrdiff_t n = column[j].last - column[j].first + 1;
         size_t first = (size_t)((ptrdiff_t)(begin + s->margin) - column[j].last);
@@ -146,13 +146,13 @@ NAME(stencil)(const struct rc_strip *s)
     }
 }
 
-/* value times rows of c, added where they belong. */
+/* Adds value times rows of c at their targets. */
 TARGET static inline __attribute__((always_inline)) void
 NAME(add_rows)(size_t vectors, double value, const double *c, double *out, size_t rows,
                size_t stride)
 {
 #if WIDTH == 8
-    /* Stores across cache lines are dear: shift the coefficients to where a line begins. */
+    /* Stores across cache lines are slow: shift the coefficients to the start of a line. */
     size_t shift = (uintptr_t)out / sizeof *out % 8;
     const __m512i each = _mm512_setr_epi64(8, 9, 10, 11, 12, 13, 14, 15);
     const __m512i from = _mm512_sub_epi64(each, _mm512_set1_epi64((long long)shift));
