@@ -18,7 +18,7 @@ struct figures {
     double density, curvature, five, area;
 };
 
-/* Half the sum of both second differences, positive on a peak. */
+/* Minus half the sum of both second differences: positive on a peak. */
 static double
 curvature(const struct rc_field *f, size_t k)
 {
@@ -34,7 +34,7 @@ curvature(const struct rc_field *f, size_t k)
     return -0.5 * (xx + yy);
 }
 
-/* A neighbour is missing. */
+/* Whether a neighbour is missing. */
 static bool
 on_edge(const struct rc_field *f, size_t k)
 {
@@ -44,7 +44,7 @@ on_edge(const struct rc_field *f, size_t k)
     return false;
 }
 
-/* Puts a height among the highest, which are in order. */
+/* Inserts a height into the sorted list of the highest ones. */
 static void
 place(double highest[FIVE], double z)
 {
@@ -105,7 +105,7 @@ measure(struct rc_field *f, double sign, double mean, struct figures *to)
     return status;
 }
 
-/* Sets f->n, the range of what is there, and the mean. */
+/* Sets f->n, the range of the measured heights, and their mean. */
 static void
 survey(struct rc_field *f, double *mean)
 {

@@ -1,7 +1,7 @@
 /*
- * Hills by watershed: a node belongs to the hill that steepest ascent over its eight neighbours leads to.
- * Of equals the first one is the higher, so that a plateau has one peak. Hills are numbered in the order
- * of the map, so that those that touch lie near each other in memory.
+ * Hills by watershed: a node belongs to the hill whose peak the steepest ascent over its eight neighbours
+ * reaches. Of equal heights the first counts as higher, so that a plateau has one peak. Hills are numbered in
+ * the order of the map, so that touching hills lie near each other in memory.
  */
 #include "hills.h"
 
@@ -18,7 +18,7 @@ set_lengths(const struct rc_field *f, double length[RC_NEIGHBOURS])
         length[d] = sqrt(dx * dx * rc_across[d] * rc_across[d] + dy * dy * rc_down[d] * rc_down[d]);
 }
 
-/* Where the steepest ascent from node k leads. */
+/* The direction of the steepest ascent from node k. */
 static unsigned char
 ascent(const struct rc_field *f, const double length[RC_NEIGHBOURS], size_t k)
 {
@@ -41,7 +41,7 @@ ascent(const struct rc_field *f, const double length[RC_NEIGHBOURS], size_t k)
 }
 
 enum {
-    PIECE = 256 /* nodes of a row taken together */
+    PIECE = 256 /* nodes of a row processed together */
 };
 
 /* The same for n nodes of a row from h on that have all neighbours; rows are nx apart. */
@@ -57,7 +57,7 @@ ascents(const double *h, ptrdiff_t nx, double sign, const double length[RC_NEIGH
     }
     for (int d = 0; d < RC_NEIGHBOURS; d++) {
         const double *other = h + rc_down[d] * nx + rc_across[d], far = length[d];
-        const bool first = d < RC_NEIGHBOURS / 2; /* of equals */
+        const bool first = d < RC_NEIGHBOURS / 2; /* of equal heights */
 
         for (size_t i = 0; i < n; i++) {
             double z = sign * h[i], up = sign * other[i], slope = (up - z) / far;
@@ -99,7 +99,7 @@ is_peak(const struct rc_field *f, size_t k)
     return (f->mark[k] & RC_ASCENT) == RC_PEAK;
 }
 
-/* A hill for each peak, in the order of the map; other nodes have none yet. */
+/* A hill for each peak, in the order of the map; other nodes do not belong to a hill yet. */
 static enum rc_status
 number_peaks(struct rc_field *f, struct rc_hills *s)
 {
@@ -133,8 +133,8 @@ number_peaks(struct rc_field *f, struct rc_hills *s)
     return RC_OK;
 }
 
-/* Every node gets the hill of the peak that its ascent ends on. Of other bands only peaks are looked
- * at, which stay what they are. */
+/* Assigns every node to the hill of the peak that its ascent reaches. Of other bands only the peaks are read,
+ * which do not change. */
 static void
 climb(struct rc_field *f)
 {

@@ -1,5 +1,5 @@
 /*
- * Hills of a map: where its ascents lead to the same peak. Internal: never installed.
+ * Hills of a map: the nodes whose ascents reach the same peak. Internal: never installed.
  */
 #ifndef RC_HILLS_H
 #define RC_HILLS_H
@@ -11,7 +11,7 @@
 
 enum {
     RC_NEIGHBOURS = 8,
-    RC_BANDS = 64 /* of rows, at the most */
+    RC_BANDS = 64 /* of rows, at most */
 };
 
 struct rc_field {
@@ -19,30 +19,30 @@ struct rc_field {
     const double *h;
     double sign; /* -1: upside down */
     bool wraps;
-    double highest, range; /* m, of what is there */
-    double least;          /* m: what stands lower above its saddle is pruned */
-    size_t n;              /* nodes that are there */
+    double highest, range; /* m, of the measured heights */
+    double least;          /* m: hills with a smaller height above their saddle are pruned */
+    size_t n;              /* measured nodes */
     int threads;
-    unsigned char *mark; /* of each node: where its ascent leads, and the bit below */
-    uint32_t *hill;      /* of each node; RC_NO_HILL where there is none */
+    unsigned char *mark; /* of each node: direction of its ascent, and the bit below */
+    uint32_t *hill;      /* of each node; RC_NO_HILL: none */
 };
 
-enum {                       /* marks */
-    RC_PEAK = RC_NEIGHBOURS, /* instead of the neighbour that the ascent leads to */
-    RC_ABSENT,               /* not measured                                      */
-    RC_ASCENT = 15,          /* the bits of these                                 */
-    RC_BORDER = 16           /* in the first or the last row or column            */
+enum {                       /* marks                                   */
+    RC_PEAK = RC_NEIGHBOURS, /* in place of the direction of the ascent */
+    RC_ABSENT,               /* not measured                            */
+    RC_ASCENT = 15,          /* the bits of the values above            */
+    RC_BORDER = 16           /* in the first or the last row or column  */
 };
 
 static const uint32_t RC_NO_HILL = UINT32_MAX;
 
 struct rc_hill {
-    double top;      /* height of the peak */
-    size_t peak;     /* node                                                      */
-    size_t nodes;    /* its own, and, of one that is kept, those that go to it    */
-    uint32_t joined; /* a hill that it has been joined with, with a higher peak   */
-    uint32_t goes;   /* pruned: the hill that its nodes go to; itself: it is kept */
-    bool open;       /* reaches the edge or what was not measured */
+    double top;      /* height of the peak                                          */
+    size_t peak;     /* node                                                        */
+    size_t nodes;    /* its own and, for a kept hill, those of hills pruned into it */
+    uint32_t joined; /* a hill with a higher peak to which it has been joined       */
+    uint32_t goes;   /* the hill that gets its nodes; itself: it is kept            */
+    bool open;       /* reaches the edge or a missing node                          */
 };
 
 struct rc_hills {
@@ -65,7 +65,7 @@ rc_field_height(const struct rc_field *f, size_t k)
 static const int rc_across[RC_NEIGHBOURS] = {-1, 0, 1, -1, 1, -1, 0, 1};
 static const int rc_down[RC_NEIGHBOURS] = {-1, -1, -1, 0, 0, 1, 1, 1};
 
-/* A coordinate one step on; n: beyond the edge. */
+/* The next coordinate; n: beyond the edge. */
 static inline size_t
 rc_field_step(size_t i, int by, size_t n, bool wraps)
 {
@@ -74,7 +74,7 @@ rc_field_step(size_t i, int by, size_t n, bool wraps)
     return by == 0 ? i : i + 1 < n ? i + 1 : wraps ? 0 : n;
 }
 
-/* Neighbour d of node k; SIZE_MAX: there is none, or it was not measured. */
+/* Neighbour d of node k; SIZE_MAX: beyond the edge, or missing. */
 static inline size_t
 rc_field_neighbour(const struct rc_field *f, size_t k, int d)
 {
@@ -95,7 +95,7 @@ rc_field_before(const struct rc_field *f, size_t a, size_t b)
     return za > zb || (za == zb && a < b);
 }
 
-/* Neighbour d of node k; SIZE_MAX: there is none. Inside the map it need not have been measured. */
+/* Neighbour d of node k; SIZE_MAX: beyond the edge. Inside the map it may be missing. */
 static inline size_t
 rc_field_beside(const struct rc_field *f, size_t k, int d)
 {
@@ -104,25 +104,25 @@ rc_field_beside(const struct rc_field *f, size_t k, int d)
                : k + (size_t)((ptrdiff_t)f->shape.nx * rc_down[d] + rc_across[d]);
 }
 
-/* Bands of rows, each for one thread at a time. */
+/* Bands of rows; a thread processes one at a time. */
 static inline size_t
 rc_field_bands(const struct rc_field *f)
 {
     return f->shape.ny < RC_BANDS ? f->shape.ny : RC_BANDS;
 }
 
-/* The first node of a band; of one beyond the last, the end of the map. */
+/* The first node of a band; for a band beyond the last one, the end of the map. */
 static inline size_t
 rc_field_band(const struct rc_field *f, size_t band)
 {
     return f->shape.ny * band / rc_field_bands(f) * f->shape.nx;
 }
 
-/* hills.c: hills without their nodes, and the hill of each node; to be freed by the caller. RC_FAIL when
- * memory is short. */
+/* hills.c: hills without their nodes, and the hill of each node, which the caller frees. RC_FAIL when memory
+ * is short. */
 enum rc_status rc_hills_find(struct rc_field *field, struct rc_hills *hills);
 
-/* saddles.c: prunes them by Wolf's rule, and counts their nodes. RC_FAIL likewise. */
+/* saddles.c: prunes hills by Wolf's rule, and counts their nodes. RC_FAIL likewise. */
 enum rc_status rc_hills_prune(const struct rc_field *field, struct rc_hills *hills);
 
 #endif

@@ -5,13 +5,13 @@
 
 #include "libcontact/common.h"
 
-/* Of Rz: what rises or sinks less from the mean line is no hill or dale of its own. */
+/* Of Rz: a hill or dale that deviates less than this from the mean line does not count. */
 static const double discrimination = 0.1;
 
 /* ---- along a line ---- */
 
-/* Weights of four neighbours at a place 0 <= t < 1 between the second and the third: the cubic
- * that has the value of both there and the slopes of their neighbours. */
+/* Weights of four neighbours at a position 0 <= t < 1 between the second and the third: the cubic with the
+ * values of both and the central slopes there. */
 static void
 cubic(double t, double w[4])
 {
@@ -21,7 +21,7 @@ cubic(double t, double w[4])
     w[3] = t * t * (-0.5 + 0.5 * t);
 }
 
-/* Splits a place in nodes; at the edges the outer neighbours are the nodes there. */
+/* Splits a position in nodes; at the edges the edge nodes replace the missing outer neighbours. */
 static void
 split(double place, size_t n, size_t at[4], double w[4])
 {
@@ -101,7 +101,7 @@ measure_heights(const double *z, size_t n, double mean, struct rc_profile *p)
     }
 }
 
-/* Means over section lengths of the highest peak, the deepest pit and their sum. */
+/* Means over section lengths of the highest peak, the deepest pit and the sum of both. */
 static void
 measure_sections(const double *z, size_t n, double mean, size_t sections, struct rc_profile *p)
 {
@@ -121,7 +121,7 @@ measure_sections(const double *z, size_t n, double mean, size_t sections, struct
 
 /* ---- slopes ---- */
 
-/* By the formula over seven points, where all of them are there. */
+/* By the seven-point formula, where all seven points are measured. */
 static void
 measure_slopes(const double *z, size_t n, double step, struct rc_profile *p)
 {
@@ -141,13 +141,13 @@ measure_slopes(const double *z, size_t n, double step, struct rc_profile *p)
 /* ---- elements: a hill and the dale that follows it, between crossings of the mean line ---- */
 
 struct elements {
-    double from, last; /* of a rising crossing: where the element begins; NAN: none yet */
+    double from, last; /* start of the element, at a rising crossing; NAN: none yet */
     double top, bottom;
     double spacing, height;
     size_t n;
 };
 
-/* The profile rises through the mean line at `at`, after a dale that counts. */
+/* The profile crosses the mean line upwards at `at`, after a dale that counts. */
 static void
 end_element(struct elements *e, double at)
 {
@@ -159,13 +159,13 @@ end_element(struct elements *e, double at)
     e->from = at;
 }
 
-/* A hill begins at the last rising crossing before it has risen enough, after a dale that sank enough. */
+/* A hill begins at the last rising crossing before it is high enough, after a dale that was deep enough. */
 static void
 measure_elements(const double *z, size_t n, double mean, double step, struct rc_profile *p)
 {
     struct elements e = {.from = NAN, .last = NAN};
     double enough = discrimination * p->rz, top = 0, bottom = 0;
-    int side = 0; /* of the last hill or dale that counts: 1, -1; 0: none yet */
+    int side = 0; /* of the last hill (1) or dale (-1) that counts; 0: none yet */
 
     for (size_t k = 0; k < n; k++) {
         double d = z[k] - mean, before = k > 0 ? z[k - 1] - mean : 0;

@@ -1,10 +1,9 @@
 /*
- * Hills that are too low to count, by Wolf's rule. Where two hills touch, the lower of both nodes is a
- * pass from one to the other, and their highest pass is their saddle. Saddles are taken from the highest
- * down: where one joins two hills that no saddle has joined before, the hill whose peak is lower is pruned
- * when that peak stands less than 5 % of Sz above the saddle, and its nodes go to the hill across. This is
- * what Wolf's rule, the least height first, comes to: the hill with the least height always joins one with a
- * higher peak.
+ * Hills that are too low to count, by Wolf's rule. Where two hills touch, the lower of both nodes is a pass
+ * from one to the other, and their highest pass is their saddle. Saddles are processed from the highest down:
+ * where one joins two hills that are not joined yet, the hill with the lower peak is pruned if that peak is
+ * less than 5 % of Sz above the saddle, and its nodes go to the other hill. The result equals Wolf's rule,
+ * which prunes the hill of least height first: that hill always joins one with a higher peak.
  *
  * Passes are found row by row, in bands of rows, and only saddles are sorted.
  */
@@ -15,16 +14,17 @@
 #include "libcontact/memory.h"
 
 enum {
-    PIECE = 256,     /* nodes of a row taken together */
-    SLOTS = 1 << 14, /* pairs of hills that a band keeps in sight */
-    FEW = 64         /* saddles that are sorted together, on average */
+    PIECE = 256,     /* nodes of a row processed together */
+    SLOTS = 1 << 14, /* pairs of hills that a band remembers */
+    FEW = 64         /* saddles sorted together, on average */
 };
 
 /* ---- saddles ---- */
 
 struct saddle {
     double z;
-    size_t pass; /* the node of the pass times RC_NEIGHBOURS, and its neighbour on the other hill */
+    /* RC_NEIGHBOURS times the node of the pass, plus the direction of its neighbour on the other hill */
+    size_t pass;
     uint32_t a, b; /* the hills, a < b */
 };
 
@@ -48,19 +48,20 @@ saddles_add(struct saddles *s, const struct saddle *v)
     return true;
 }
 
-/* Bit d of `other`: neighbour d of a node is of another hill and higher, or is missing; of n nodes of a
- * row from k on that have all neighbours. */
+/* Bit d of `other`: neighbour d of a node belongs to another hill and is higher, or is missing; for n nodes
+ * of a row from k on that have all neighbours. */
 RC_CLONES static void
 find_others(const struct rc_field *f, size_t k, size_t n, unsigned char *restrict other)
 {
     const double *h = f->h + k, sign = f->sign;
     const uint32_t *hill = f->hill + k;
     uint32_t differs[PIECE] = {0};
-    double higher[PIECE] = {0}; /* bits too: numbers of one width are taken several at a time */
+    /* also bits: numbers of equal width are processed several at a time */
+    double higher[PIECE] = {0};
 
     for (int d = 0; d < RC_NEIGHBOURS; d++) {
         const ptrdiff_t by = rc_down[d] * (ptrdiff_t)f->shape.nx + rc_across[d];
-        const bool first = d < RC_NEIGHBOURS / 2; /* of equals */
+        const bool first = d < RC_NEIGHBOURS / 2; /* of equal heights */
         const double *above = h + by, bit = (double)(1U << d);
         const uint32_t *beyond = hill + by;
         for (size_t i = 0; i < n; i++) {
@@ -88,8 +89,8 @@ others(const struct rc_field *f, size_t k)
     return (unsigned char)found;
 }
 
-/* A band's search: the highest pass that it has seen of each pair of hills. A pair that comes into the
- * slot of another sends that one away: it may come again, and be found twice. */
+/* The search of a band: the highest pass found for each pair of hills. A new pair in an occupied slot moves
+ * the old one to the list: it may appear again, and be listed twice. */
 struct search {
     const struct rc_field *f;
     struct rc_hills *hills;
@@ -105,7 +106,7 @@ see_pass(struct search *s, double z, size_t pass, uint32_t a, uint32_t b)
     struct saddle *at = &s->slot[(low * 3 + high * 5) % SLOTS];
 
     if (at->a == low && at->b == high) {
-        if (z > at->z) /* of equals the first one stays */
+        if (z > at->z) /* of equal heights the first stays */
             *at = (struct saddle){z, pass, low, high};
         return;
     }
@@ -134,7 +135,7 @@ look_around(struct search *s, size_t k, unsigned other)
     }
 }
 
-/* Adds nodes to their hills, and looks at what lies around them. */
+/* Adds nodes to their hills, and examines their neighbours. */
 static void
 search_row(struct search *s, size_t row)
 {
@@ -202,8 +203,8 @@ step_of(const struct steps *s, double z)
     return at < (double)(s->n - 1) ? (size_t)at : s->n - 1;
 }
 
-/* Moves the saddles of all bands to one list, the highest first: by equal steps of height, then each
- * step by itself. */
+/* Merges the saddles of all bands into one list, the highest first: sorts into equal steps of height, then
+ * within each step. */
 static enum rc_status
 sort_saddles(const struct rc_field *f, struct saddles *band, struct saddles *all)
 {
@@ -240,7 +241,7 @@ sort_saddles(const struct rc_field *f, struct saddles *band, struct saddles *all
     return RC_OK;
 }
 
-/* All saddles, the highest first; some may be there twice. Hills get their nodes. */
+/* All saddles, the highest first; some may be listed twice. Counts the nodes of hills. */
 static enum rc_status
 find_saddles(const struct rc_field *f, struct rc_hills *hills, struct saddles *all)
 {
@@ -285,7 +286,7 @@ join(const struct rc_field *f, struct rc_hills *s, const struct saddle *at)
         lower->goes = a_lower ? at->b : at->a;
 }
 
-/* The hill that is kept where this one is. */
+/* The kept hill to which this one was pruned, or itself. */
 static uint32_t
 kept(struct rc_hills *s, uint32_t a)
 {

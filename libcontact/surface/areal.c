@@ -1,7 +1,6 @@
 /*
- * Parameters of a surface by ISO 25178-2: heights and slopes here, the rest in files of its own.
- * Sums are taken over pieces of the map, then over the pieces in their order: the number of threads
- * changes no digit.
+ * Parameters of a surface by ISO 25178-2: heights and slopes here, the others in their own files. Sums are
+ * formed over pieces of the map, then over the pieces in order, so the number of threads changes no digit.
  */
 #include "areal.h"
 
@@ -55,7 +54,7 @@ moments_of(const double *v, size_t n, double mean)
     return (struct moments){first, size, second, third, fourth};
 }
 
-/* The sums of one piece of the map, in any of the passes: a union has the size of the largest. */
+/* The sums of one piece of the map in any of the passes; the union has the size of the largest. */
 union piece {
     struct extent extent;
     struct moments moments;
@@ -81,7 +80,7 @@ measure_extent(struct rc_relief *r, union piece *piece, size_t pieces)
     }
     r->there = (size_t)rc_total_value(&there);
     r->mean = rc_total_value(&sum) / (double)r->there;
-    /* rounding may leave the mean outside the extremes, of a flat off its height */
+    /* for a flat far from 0, rounding may put the mean outside the extremes */
     r->mean = fmin(fmax(r->mean, r->minimum), r->maximum);
 }
 
@@ -124,14 +123,14 @@ struct slopes {
     double x2, x_pairs, y2, y_pairs, excess, triangles, curved2, curved;
 };
 
-/* What a slope adds to an area or a length, over its projection; g2 is its square. */
+/* What a slope adds to an area or a length, over its projection; g2 is the slope squared. */
 static inline double
 excess(double g2)
 {
     return g2 / (1 + sqrt(1 + g2));
 }
 
-/* Of n steps from v[i] to v[i + 1]. */
+/* From n steps v[i] to v[i + 1]. */
 RC_CLONES static void
 add_steps(const double *v, size_t n, double per_dx, struct slopes *to)
 {
@@ -148,7 +147,7 @@ add_steps(const double *v, size_t n, double per_dx, struct slopes *to)
     to->x_pairs += pairs;
 }
 
-/* Of n steps from v[i] to below[i]. */
+/* From n steps v[i] to below[i]. */
 RC_CLONES static void
 add_steps_down(const double *v, const double *below, size_t n, double per_dy, struct slopes *to)
 {
@@ -165,8 +164,8 @@ add_steps_down(const double *v, const double *below, size_t n, double per_dy, st
     to->y_pairs += pairs;
 }
 
-/* Four triangles of each four nodes: both halves along either diagonal, each with a side along x and
- * one along y. NaN in a corner makes its triangles NaN. */
+/* The four triangles of each four neighbouring nodes: both halves along either diagonal, each with a side
+ * along x and one along y. NaN in a corner makes its triangles NaN. */
 RC_CLONES static void
 add_triangles(const double *v, const double *below, size_t n, double per_dx, double per_dy,
               struct slopes *to)
@@ -192,7 +191,7 @@ add_triangles(const double *v, const double *below, size_t n, double per_dx, dou
     to->triangles += count;
 }
 
-/* A profile's segments stand for its triangles. */
+/* On a profile segments replace triangles. */
 static void
 add_segment(double from, double to_next, double per, struct slopes *to)
 {
@@ -204,7 +203,7 @@ add_segment(double from, double to_next, double per, struct slopes *to)
     to->triangles++;
 }
 
-/* Mean curvatures of row j: a neighbour beyond the edge is there where the map is periodic. */
+/* Mean curvatures of row j; on a periodic map neighbours wrap. */
 static void
 add_curvatures(const struct rc_relief *r, size_t j, struct slopes *to)
 {
@@ -269,7 +268,7 @@ measure_slopes(const struct rc_relief *r, struct slopes *row, struct rc_areal *a
         rc_total_add(&sum[6], row[j].curved2);
         rc_total_add(&sum[7], row[j].curved);
     }
-    /* 0/0, which is NAN, along a side of several nodes without a pair */
+    /* 0/0 = NAN along a side of several nodes without a pair */
     x = r->shape.nx > 1 ? rc_total_value(&sum[0]) / rc_total_value(&sum[1]) : 0;
     y = r->shape.ny > 1 ? rc_total_value(&sum[2]) / rc_total_value(&sum[3]) : 0;
     if (r->shape.nx * r->shape.ny > 1)
@@ -279,7 +278,7 @@ measure_slopes(const struct rc_relief *r, struct slopes *row, struct rc_areal *a
     a->sdr = rc_total_value(&sum[4]) / rc_total_value(&sum[5]);
 }
 
-/* ---- all of it ---- */
+/* ---- all parameters ---- */
 
 enum rc_status
 rc_areal(const struct rc_shape *shape, const double *h, const struct rc_surface_options *options,

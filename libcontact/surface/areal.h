@@ -1,5 +1,5 @@
 /*
- * The parts of an areal description, each into fields of its own. Internal: never installed.
+ * The parts of an areal description, each of which sets its own fields. Internal: never installed.
  */
 #ifndef RC_SURFACE_AREAL_H
 #define RC_SURFACE_AREAL_H
@@ -8,7 +8,7 @@
 
 #include "libcontact/common.h"
 
-/* A map, and figures of it that all parts need. */
+/* A map and its figures that all parts need. */
 struct rc_relief {
     struct rc_shape shape;
     const double *h;

@@ -1,14 +1,13 @@
 /*
- * The least-squares polynomial over the points that are there, in products of Chebyshev polynomials
- * on the points' bounding box.
+ * The least-squares polynomial over the measured points, in products of Chebyshev polynomials on the bounding
+ * box of these points.
  *
- * The product of two Chebyshev polynomials is the mean of two others, of the sum and the difference
- * of their degrees. So the normal equations of all terms are made of the sums of the weights times
- * single products, up to twice the degree, and those are sums along rows first. The normal
- * equations square the condition number of the problem; the residual of their solution is free of
- * that, and corrects the solution. Where that is not enough, a QR factorisation takes the points'
- * equations block by block (GSL's tall-skinny QR), and its condition number shows when they do not
- * determine the polynomial.
+ * The product of two Chebyshev polynomials is the mean of two others, of the sum and the difference of their
+ * degrees. So the normal equations follow from sums of the weights times single products, up to twice the
+ * degree, which are first summed along rows. The normal equations square the condition number of the problem;
+ * the residual of their solution does not suffer from this, and corrects the solution. Where this is not
+ * enough, a QR factorisation processes the points' equations block by block (GSL's tall-skinny QR); its
+ * condition number shows whether the points determine the polynomial.
  */
 #include "libcontact/common.h"
 
@@ -28,21 +27,21 @@
 #include "robust.h"
 
 enum {
-    BLOCK = 1024,   /* points that are factored at a time; above the largest number of terms */
-    ROWS = 512,     /* of the map that are summed at a time */
+    BLOCK = 1024,   /* points that are factored together; more than the largest number of terms */
+    ROWS = 512,     /* of the map that are summed together */
     CORRECTIONS = 4 /* of a solution of the normal equations */
 };
 
-/* Reciprocal condition numbers. Below the first, of the normal equations, the QR factorisation is
- * taken; below the second, of that, the points do not determine the polynomial. */
+/* Reciprocal condition numbers. Below the first one of the normal equations the QR factorisation is used;
+ * below the second one of the QR factorisation the points do not determine the polynomial. */
 static const double too_squared = 1e-10;
 static const double deficient = 1e-12;
 
 struct fit {
     const struct rc_shape *shape;
     const double *h;
-    double mean;                       /* subtracted first: a large datum would cost digits   */
-    size_t nx_terms, ny_terms, degree; /* polynomials along x, along y; bound of degrees */
+    double mean; /* subtracted first, because a large constant would cost digits */
+    size_t nx_terms, ny_terms, degree; /* polynomials along x, along y; largest total degree */
     size_t terms;
     size_t nx_orders, ny_orders; /* of the products of two of them */
     int threads;
@@ -50,7 +49,7 @@ struct fit {
     double *px, *py;         /* Chebyshev polynomials: px[a * nx + i], py[b * ny + j] */
     double *c;               /* coefficients; in a row, of b + a for all a, then the next b */
     double *step;            /* their correction */
-    double *residual, reach; /* robust: h - mean - polynomial, for weights; else NULL */
+    double *residual, reach; /* robust: h - mean - polynomial, for the weights; else NULL */
     double *rows;            /* of ROWS rows: nx_orders sums of w px, nx_terms sums of w e px */
     double *of_weights;      /* sums over the map of w T_k(x) T_l(y): at l nx_orders + k */
     double *of_residuals;    /* and of w e T_k(x) T_l(y): at l nx_terms + k */
@@ -214,7 +213,7 @@ subtract_row(size_t n, size_t terms, const double *c, const double *restrict px,
         to[i] = (from[i] - mean) - value[i];
 }
 
-/* `to` = h - mean - polynomial in row j, which is there a polynomial in x alone. */
+/* `to` = h - mean - polynomial in row j, where it is a polynomial in x alone. */
 static void
 residual_row(const struct fit *f, size_t j, double *to, double *scratch)
 {
@@ -234,7 +233,7 @@ lines_of(const struct fit *f)
     return f->lines + 3 * (size_t)omp_get_thread_num() * f->shape->nx;
 }
 
-/* Everywhere, into `to`, which may be h. */
+/* Subtracts everywhere, into `to`, which may be h. */
 static void
 subtract(const struct fit *f, double *to)
 {
@@ -243,7 +242,7 @@ subtract(const struct fit *f, double *to)
         residual_row(f, j, to + j * f->shape->nx, lines_of(f));
 }
 
-/* Residuals e and weights w of a row, both 0 where nothing is there, and w e. */
+/* Residuals e and weights w of a row, both 0 at missing points, and w e. */
 static void
 weigh_row(const struct fit *f, size_t j, double *e, double *w, double *we)
 {
@@ -261,7 +260,7 @@ weigh_row(const struct fit *f, size_t j, double *e, double *w, double *we)
     }
 }
 
-/* Sums of w e and, where asked for, of w over the rows from `first` on. */
+/* Sums of w e and, with `weights`, of w over the rows from `first` on. */
 static void
 sum_rows(const struct fit *f, size_t first, size_t count, bool weights)
 {
@@ -286,8 +285,8 @@ add_row(const struct fit *f, size_t j, const double *row, size_t n, size_t order
             to[l * n + k] += f->py[l * f->shape->ny + j] * row[k];
 }
 
-/* Sums over the map; those of the weights only where asked for. Where nothing is missing and all
- * weights are alike, the sums of the weights are the same in every row. */
+/* Sums over the map, with `weights` also those of the weights. Without missing points and with equal weights,
+ * the sums of the weights are the same in every row. */
 static void
 sum_map(const struct fit *f, bool weights)
 {
@@ -351,7 +350,7 @@ set_right(struct fit *f)
             gsl_vector_set(f->right, row, f->of_residuals[b * f->nx_terms + a]);
 }
 
-/* Factors the normal equations; false when their condition is too bad. */
+/* Factors the normal equations; false when they are too badly conditioned. */
 static bool
 factor_normal(struct fit *f)
 {
@@ -365,7 +364,7 @@ factor_normal(struct fit *f)
     return good;
 }
 
-/* Adds the step to the coefficients; gives its largest number. */
+/* Adds the step to the coefficients; returns its largest entry. */
 static double
 take_step(struct fit *f)
 {
@@ -410,8 +409,8 @@ put_equation(const struct fit *f, struct blocks *q, size_t k, size_t i, size_t j
     gsl_vector_set(q->heights, k, sqrt(w) * e);
 }
 
-/* Hands the first n equations of the block to GSL, which wants at least as many as there are terms:
- * the block is filled up with 0 = 0. */
+/* Passes the first n equations of the block to GSL, which needs at least as many as there are terms: the
+ * block is filled up with 0 = 0. */
 static int
 factor_block(struct fit *f, struct blocks *q, size_t n)
 {
@@ -490,7 +489,7 @@ solve_all(struct fit *f, struct rc_err *err)
 
 /* ---- the fit ---- */
 
-/* The polynomial of least squares with the weights as they are, from any coefficients. */
+/* The least-squares polynomial with the present weights, from any initial coefficients. */
 static enum rc_status
 solve(struct fit *f, struct rc_err *err)
 {
@@ -509,8 +508,8 @@ solve(struct fit *f, struct rc_err *err)
     return RC_OK;
 }
 
-/* Weights of the residuals, and a polynomial of these residuals that corrects the last one, in
- * turn. */
+/* Alternates between weights from the residuals and a polynomial of these residuals that corrects the last
+ * one. */
 static enum rc_status
 reweight(struct fit *f, double size, struct rc_err *err)
 {

@@ -1,13 +1,13 @@
 /*
- * Forms that are taken off a surface. Internal: never installed.
+ * Forms that are removed from a surface. Internal: never installed.
  */
 #ifndef RC_FORM_H
 #define RC_FORM_H
 
 #include "libcontact/contact.h"
 
-/* The smallest box that holds all points that are there, columns left to right and rows top to
- * bottom; how many points are there, and how many of them are infinite. */
+/* The smallest box with all measured points, columns left to right and rows top to bottom; the number of
+ * these points, and how many of them are infinite. */
 struct rc_box {
     size_t left, right, top, bottom, count, infinite;
 };

@@ -5,14 +5,13 @@
  *
  *     s * (w h) / s * w,      s(x, y) = exp(-pi (x^2 + y^2) / a^2),    a = sqrt(ln 2 / pi) L
  *
- * s is a product of a factor of x and one of y, so both sums are done one after the other, first along
- * x, line by line, then along y, where whole rows are added. Where a is many nodes long they go by coarser nodes: the product of two Gaussians
- * of the width a / sqrt(2), one about a fine node x and one about another, X, is the Gaussian of
- * width a of x - X times one of width a / 2 about the middle between them. Summed over coarse nodes
- * s apart that is a constant times the Gaussian of x - X but for a part 2 exp(-pi (a / 2s)^2),
- * which is less than rounding where s <= a / 7. The sums to the coarse nodes and back take the same
- * time for every L, and all terms are positive, so that a weighted mean stays one to rounding
- * however few points there are.
+ * s is a product of a factor in x and one in y, so the sums are computed first along x, line by line, then
+ * along y, where whole rows are added. Where a is many nodes long, coarser nodes in between are used. The
+ * product of two Gaussians of width a / sqrt(2), about the fine nodes x and X, is a Gaussian of width a in x
+ * - X times one of width a / 2 about the middle between x and X. Summed over coarse nodes at a spacing s, the
+ * second factor is a constant but for a fraction 2 exp(-pi (a / 2s)^2), which is below rounding for s <= a /
+ * 7. The sums to the coarse nodes and back take the same time for every L, and all terms are positive, so a
+ * weighted mean remains accurate to rounding however few points there are.
  */
 #include "libcontact/common.h"
 
@@ -25,18 +24,18 @@
 #include "robust.h"
 
 enum {
-    WIDE = 8,         /* columns of which sums are kept in registers: a cache line */
-    BLOCK = 4 * WIDE, /* sums along a line likewise */
-    TOGETHER = 4,     /* rows of sums that are made of the same rows */
-    BAND = 128,       /* rows that a thread takes at a time */
-    STRIP = 256       /* columns of them whose rows stay in the cache */
+    WIDE = 8,         /* columns whose sums are kept in registers: a cache line */
+    BLOCK = 4 * WIDE, /* sums along a line, likewise */
+    TOGETHER = 4,     /* sums of rows that use the same rows */
+    BAND = 128,       /* rows that a thread processes at a time */
+    STRIP = 256       /* columns of a band whose rows stay in the cache */
 };
 
-/* A Gaussian is cut where it is exp(-pi reach^2) = 2e-18 of its largest value. */
+/* A Gaussian is cut off where it is exp(-pi reach^2) = 2e-18 of its largest value. */
 static const double reach = 3.6;
-/* Coarse nodes to the width of the Gaussian. */
+/* Coarse nodes per width of the Gaussian. */
 static const double coarse_per_width = 7;
-/* Relative: a length that rounding has left just below two nodes counts as two. */
+/* Relative: a length just below two nodes because of rounding counts as two. */
 static const double slack = 1e-9;
 
 /* Sums along a line, or of rows: out[k] = sum over t < taps of w[(k % phases) taps + t] in[k step / phases +
@@ -47,13 +46,13 @@ struct sums {
     double *w;
 };
 
-/* The sums along one direction: down to the coarse nodes and up again; where `two` is false, `down`
- * does all. */
+/* The sums along one direction: down to the coarse nodes and up again; if `two` is false, `down` is the whole
+ * filter. */
 struct way {
     size_t n, m; /* nodes of the line, and after the first sums */
     bool two;
     struct sums down, up;
-    size_t pad; /* nodes that are read on either side of the line */
+    size_t pad; /* nodes read beyond each end of the line */
 };
 
 struct gauss {
@@ -62,7 +61,7 @@ struct gauss {
     int threads;
     struct way x, y;
     double *mid;        /* for each row of the map x.m numerators, then as many denominators */
-    double *low;        /* where y goes by coarse nodes, the same for each of these rows     */
+    double *low;        /* where y uses coarse nodes: the same for each coarse row           */
     size_t stride;      /* from numerators to denominators, and on to the next row           */
     double *room;       /* for each thread: lines, rows of sums and their weights            */
     const double **row; /* for each thread: the rows that are added                          */
@@ -103,7 +102,7 @@ sums_new(struct sums *s, size_t out, size_t taps, size_t phases)
     return s->w != NULL;
 }
 
-/* A width in nodes. */
+/* A width given in nodes. */
 static bool
 way_direct(struct way *way, double width)
 {
@@ -118,8 +117,8 @@ way_direct(struct way *way, double width)
     return true;
 }
 
-/* Coarse node c is at the fine place (c - before) step, so that those within reach of the ends of
- * the line are there. */
+/* Coarse node c is at the fine place (c - before) step; includes those within reach of the ends of the
+ * line. */
 static bool
 way_coarse(struct way *way, double width, size_t step)
 {
@@ -141,7 +140,7 @@ way_coarse(struct way *way, double width, size_t step)
     return true;
 }
 
-/* `width` of the Gaussian in nodes; a line of one node stays what it is. */
+/* `width` of the Gaussian in nodes; a line of one node is not filtered. */
 static bool
 way_new(struct way *way, size_t n, double width)
 {
@@ -159,14 +158,14 @@ way_new(struct way *way, size_t n, double width)
     return step < 2 ? way_direct(way, width) : way_coarse(way, width, step);
 }
 
-/* Where the numbers of sum k begin. */
+/* First input of sum k. */
 static inline ptrdiff_t
 first_of(const struct sums *s, size_t k)
 {
     return (ptrdiff_t)(k * s->step / s->phases) + s->start;
 }
 
-/* Adds `block` sums whose numbers begin one place after each other. Weights are `apart` numbers apart. */
+/* Adds `block` sums whose inputs begin one place after each other. Weights are `apart` numbers apart. */
 static inline void
 sum_some(const double *restrict in, const double *restrict w, size_t taps, size_t apart,
          size_t block, double *restrict sum)
@@ -212,7 +211,7 @@ add_block(const double *in, const double *w, size_t taps, size_t apart, size_t b
         sum_some(in, w, taps, apart, block, sum);
 }
 
-/* All sums along a line whose place 0 is `in`, those of each phase together; step is 1. */
+/* All sums along a line whose place 0 is `in`, phase by phase; step is 1. */
 RC_WIDE_CLONES static void
 sum_phases(const struct sums *s, const double *restrict in, double *restrict out)
 {
@@ -228,8 +227,8 @@ sum_phases(const struct sums *s, const double *restrict in, double *restrict out
     }
 }
 
-/* The same for a step over 1, without phases: numbers that are a step apart are brought together in
- * `part`, out + taps/step + 1 numbers. */
+/* The same for a step above 1, without phases: numbers that are a step apart are first collected in `part`,
+ * out + taps/step + 1 numbers. */
 RC_WIDE_CLONES static void
 sum_steps(const struct sums *s, const double *restrict in, double *restrict part,
           double *restrict out)
@@ -253,7 +252,7 @@ struct rows {
     bool wraps;
 };
 
-/* The rows that TOGETHER sums from k on are made of, and TOGETHER weights for each. */
+/* The rows used by TOGETHER sums from k on, and TOGETHER weights for each. */
 static size_t
 gather(const struct sums *s, const struct rows *of, size_t k, const double **row, double *w)
 {
@@ -273,8 +272,8 @@ gather(const struct sums *s, const struct rows *of, size_t k, const double **row
     return count;
 }
 
-/* Sums of the columns first ... first+n-1 of so many rows, TOGETHER of them, `apart` numbers from each to
- * the next. n is a multiple of WIDE. */
+/* Sums of the columns first ... first+n-1 of these rows: TOGETHER sums, `apart` numbers from each to the
+ * next. n is a multiple of WIDE. */
 RC_WIDE_CLONES static void
 add_rows(size_t rows, const double *const *row, const double *w, size_t first, size_t n,
          size_t apart, double *restrict out)
@@ -313,21 +312,21 @@ gauss_free(struct gauss *g)
     free(g->row);
 }
 
-/* Rows that TOGETHER sums are made of. */
+/* Number of rows used by TOGETHER sums. */
 static size_t
 rows_of(const struct sums *s)
 {
     return s->taps + TOGETHER * s->step;
 }
 
-/* A line with what lies beyond its ends, a multiple of WIDE. */
+/* Length of a line with both paddings, a multiple of WIDE. */
 static size_t
 line_room(const struct way *way)
 {
     return (way->n + 2 * way->pad + WIDE - 1) / WIDE * WIDE;
 }
 
-/* The sums, and how much room they take. */
+/* The sums and their memory. */
 static bool
 plan(struct gauss *g, double cutoff)
 {
@@ -336,7 +335,7 @@ plan(struct gauss *g, double cutoff)
     if (!way_new(&g->x, g->shape->nx, width / g->shape->dx) ||
         !way_new(&g->y, g->shape->ny, width / g->shape->dy))
         return false;
-    /* whole cache lines, and not all in the same places of the cache */
+    /* whole cache lines, whose places in the cache differ */
     g->stride = (g->x.m + WIDE - 1) / WIDE * WIDE + WIDE;
     g->rows_per_thread = larger(rows_of(&g->y.down), g->y.two ? rows_of(&g->y.up) : 0);
     g->per_thread = 2 * line_room(&g->x) + 2 * TOGETHER * g->stride +
@@ -370,13 +369,13 @@ gauss_new(struct gauss *g, const struct rc_shape *shape, const struct rc_filter 
 
 /* ---- one filtering ---- */
 
-/* What is filtered: heights less their mean, weighted by the residuals r (NULL: all alike). */
+/* The input: heights less their mean, weighted by the residuals r (NULL: equal weights). */
 struct weighted {
     const double *h, *r;
     double mean, reach;
 };
 
-/* What lies beyond the ends of a line: of a periodic one the other end, else nothing. */
+/* Fills the padding of a line: from the other end of a periodic one, else with zeros. */
 static void
 fill_ends(const struct way *way, bool periodic, double *line)
 {
@@ -404,7 +403,7 @@ take_row(const struct weighted *of, size_t first, size_t n, double *restrict abo
         above[i] = h[i] == h[i] ? below[i] * (h[i] - mean) : 0;
 }
 
-/* The room of this thread: place 0 of two lines, rows of sums, and weights. */
+/* The scratch of this thread: place 0 of two lines, rows of sums, and weights. */
 struct room {
     double *above, *below, *sums, *w;
     const double **row;
@@ -429,7 +428,7 @@ sum_down_x(const struct gauss *g, const struct room *room, const double *line, d
         sum_phases(&g->x.down, line, to);
 }
 
-/* Sums along x of all rows, into `mid`; what pads them there is added, too, and must be numbers. */
+/* Sums along x of all rows, into `mid`; its padding is added too, and must contain numbers. */
 static void
 sum_along_x(const struct gauss *g, const struct weighted *of)
 {
@@ -465,8 +464,8 @@ sum_down_y(const struct gauss *g)
     }
 }
 
-/* Writes n nodes: the quotient plus the mean or, of the high-pass, the input less both. A node with no
- * weight within reach stays as it is. */
+/* Writes n nodes: the quotient plus the mean or, for the high-pass, the input less both. A node without any
+ * weight within reach is not changed. */
 RC_WIDE_CLONES static void
 put_row(const struct weighted *of, bool low, size_t first, size_t n, const double *above,
         const double *below, double *to)
@@ -508,8 +507,8 @@ finish_rows(const struct gauss *g, const struct weighted *of, bool low, size_t j
     }
 }
 
-/* The low-pass of h or, less its mean, the high-pass; `to` may be the residuals that the weights
- * are made of, or h itself. */
+/* The low-pass of h or, less its mean, the high-pass; `to` may be the residuals used for the weights, or h
+ * itself. */
 static void
 pass(const struct gauss *g, const struct weighted *of, bool low, double *to)
 {
@@ -525,7 +524,7 @@ pass(const struct gauss *g, const struct weighted *of, bool low, double *to)
                 finish_rows(g, of, low, j, i, smaller(strip, m - i), to);
 }
 
-/* ---- what is asked for ---- */
+/* ---- the filters ---- */
 
 static enum rc_status
 check_cutoff(const struct rc_shape *shape, const struct rc_filter *what, struct rc_err *err)
@@ -557,7 +556,7 @@ check(const struct rc_shape *shape, const struct rc_filter *what, const struct r
     return RC_OK;
 }
 
-/* Residuals of the filter, weighted anew by them until the weights stay. */
+/* Residuals of the filter, with weights from them, until the weights no longer change. */
 static void
 reweight(const struct gauss *g, const struct rc_statistics *s, const double *h, double *r)
 {

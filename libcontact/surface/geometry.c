@@ -1,5 +1,5 @@
 /*
- * Parts of maps, maps mirrored and turned, and two surfaces face to face.
+ * Parts of maps, mirrored and rotated maps, and the sum of two facing surfaces.
  */
 #include "libcontact/contact.h"
 
@@ -19,12 +19,12 @@ rc_crop(const struct rc_shape *from, const double *v, size_t left, size_t top,
             "%zu and rows 0 to %zu",
             to->nx, to->ny, left, top, from->nx - 1, from->ny - 1);
     for (size_t j = 0; j < to->ny;
-         j++) /* where out is v, no value is overwritten before its turn */
+         j++) /* if out is v, each value is read before it is overwritten */
         memmove(out + j * to->nx, v + (top + j) * from->nx + left, to->nx * sizeof *v);
     return RC_OK;
 }
 
-/* ---- mirrored and turned ---- */
+/* ---- mirrored and rotated ---- */
 
 static void
 swap(double *a, double *b)
@@ -58,8 +58,8 @@ rc_reflect_shape(const struct rc_shape *from)
     return to;
 }
 
-/* A node at the edge stands beside its own image: the reflection about the edge of the cells, not
- * about the outermost nodes, so that the period is twice the map and each height counts alike. */
+/* The image of a node at the edge is its neighbour: reflection about the edge of the cells, not about the
+ * outermost nodes, so that the period is twice the map and each height has the same weight. */
 void
 rc_reflect(const struct rc_shape *from, const double *v, double *out)
 {
@@ -80,7 +80,7 @@ rc_rotate_shape(const struct rc_shape *from, size_t quarters)
     return (struct rc_shape){.nx = from->ny, .ny = from->nx, .dx = from->dy, .dy = from->dx};
 }
 
-/* A quarter turn reads along columns: block by block, so that what was fetched is used. */
+/* A quarter turn reads along columns: block by block, so that every fetched cache line is used fully. */
 void
 rc_rotate(const struct rc_shape *from, const double *v, size_t quarters, double *out)
 {
@@ -102,7 +102,7 @@ rc_rotate(const struct rc_shape *from, const double *v, size_t quarters, double 
                 }
 }
 
-/* ---- face to face ---- */
+/* ---- two facing surfaces ---- */
 
 enum rc_status
 rc_add_shape(const struct rc_shape *a, const struct rc_shape *b, struct rc_shape *sum,
@@ -118,8 +118,8 @@ rc_add_shape(const struct rc_shape *a, const struct rc_shape *b, struct rc_shape
     return RC_OK;
 }
 
-/* Each map is cut before it is mirrored: exchanging a and b then only changes the side from which
- * the sum is seen. */
+/* Each map is cut before it is mirrored, so exchanging a and b only changes the side from which the sum is
+ * seen. */
 static enum rc_status
 combine(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
         bool subtract, double *out, struct rc_err *err)

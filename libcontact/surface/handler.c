@@ -1,7 +1,7 @@
 /*
- * GSL has one error handler for all threads, and its default ends the process: it is off while at
- * least one thread works with GSL. If each thread gave back the handler that it had found, the last
- * could leave it off for good, and another could switch it on under a thread that still works.
+ * GSL has one error handler for all threads, and the default one ends the process: it is off while at least
+ * one thread uses GSL. If each thread restored the handler that it found, the last could leave it off for
+ * good, and another could switch it on while a third thread still uses GSL.
  */
 #include "handler.h"
 
@@ -11,7 +11,7 @@
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static size_t users;                 /* threads between begin and end */
-static gsl_error_handler_t *callers; /* the handler that they found   */
+static gsl_error_handler_t *callers; /* the handler before the first began */
 
 void
 rc_handler_begin(void)

@@ -1,11 +1,11 @@
 /*
  * Random surfaces whose heights are not Gaussian.
  *
- * Heights that are mapped one by one, the highest to the highest, get any distribution, but the
- * waves of the surface change; amplitudes that are put right wave by wave change the heights. Done
- * in turn, the two come close to each other (Schreiber and Schmitz 1996, Phys. Rev. Lett. 77, 635;
- * for rough surfaces Perez-Rafols and Almqvist 2019, Tribol. Int. 131, 591). The last step is of
- * the heights, so that it is their distribution which is kept.
+ * Replacing heights by those of the wanted distribution, in the same order, changes the spectrum of the
+ * surface; correcting the amplitude of each wave changes the heights. Alternating both approaches a surface
+ * with both properties (Schreiber and Schmitz 1996, Phys. Rev. Lett. 77, 635; for rough surfaces Perez-Rafols
+ * and Almqvist 2019, Tribol. Int. 131, 591). The last step corrects the heights, so their distribution is
+ * exact.
  */
 #include "synth.h"
 
@@ -19,8 +19,8 @@
 #include "libcontact/transform/transform.h"
 
 enum {
-    TABLE = 2049,     /* quantiles that are computed; a spline goes through them */
-    CLASSES = 1 << 16 /* of heights, in which ranks are interpolated             */
+    TABLE = 2049,     /* quantiles that are computed; a spline interpolates them */
+    CLASSES = 1 << 16 /* of heights; ranks are interpolated within a class */
 };
 
 bool
@@ -45,8 +45,8 @@ rc_heights_check(const struct rc_selfaffine *what, struct rc_err *err)
 
 /* ---- the distribution ---- */
 
-/* Heights as a function of the normal score z: the height with the same part of all heights below
- * it that the normal distribution has below z. */
+/* Heights as a function of the normal score z: the height below which lies the same fraction of all heights
+ * as lies below z in the normal distribution. */
 struct quantiles {
     gsl_spline *spline;
     gsl_interp_accel *near;
@@ -75,7 +75,7 @@ quantiles_free(struct quantiles *q)
         gsl_interp_accel_free(q->near);
 }
 
-/* For n heights, of which the lowest has the part 1/(2 n) below it. */
+/* For n heights: 1/(2 n) of the distribution lies below the lowest. */
 static enum rc_status
 quantiles_new(const struct rc_selfaffine *what, size_t n, struct quantiles *q, struct rc_err *err)
 {
@@ -95,7 +95,7 @@ quantiles_new(const struct rc_selfaffine *what, size_t n, struct quantiles *q, s
     return RC_OK;
 }
 
-/* The height that has this part of all heights below it. */
+/* The height below which this fraction of all heights lies. */
 static double
 quantiles_at(const struct quantiles *q, double below)
 {
@@ -144,8 +144,8 @@ class_of(const struct classes *c, double h, double *part)
     return k;
 }
 
-/* Each height becomes the quantile of its rank. Ranks are exact where a class holds one height, and
- * in other classes heights are taken as evenly spread. */
+/* Replaces each height by the quantile of its rank. Ranks are exact in classes with one height; in other
+ * classes heights are assumed evenly spaced. */
 static void
 set_heights(const struct quantiles *q, struct classes *c, double *h, size_t n)
 {
@@ -175,15 +175,15 @@ set_heights(const struct quantiles *q, struct classes *c, double *h, size_t n)
 
 /* ---- waves ---- */
 
-/* A wave of this column also counts for its conjugate, which is not kept; waves of the first column
- * and, of an even number of nodes, of the last are all kept. */
+/* A wave of this column also counts for its conjugate, which is not stored. The first column and, for an even
+ * number of nodes, the last are stored in full. */
 static double
 counted(const struct rc_shape *shape, size_t column)
 {
     return column == 0 || 2 * column == shape->nx ? 1 : 2;
 }
 
-/* RMS error of the amplitudes over the RMS of those wanted. */
+/* RMS error of the amplitudes over the RMS of the wanted ones. */
 static double
 misfit_of(const struct rc_shape *shape, const double complex *s, const double *amplitude)
 {
@@ -191,7 +191,7 @@ misfit_of(const struct rc_shape *shape, const double complex *s, const double *a
     double off = 0, whole = 0;
 
     for (size_t j = 0; j < shape->ny; j++) {
-        double row_off = 0, row_whole = 0; /* short sums keep their digits */
+        double row_off = 0, row_whole = 0; /* summed row by row to keep digits */
 
         for (size_t i = 0; i < columns; i++) {
             double a = amplitude[j * columns + i], d = cabs(s[j * columns + i]) - a;
@@ -215,7 +215,7 @@ set_amplitudes(double complex *s, const double *amplitude, size_t n)
     }
 }
 
-/* Puts heights and amplitudes right in turn; heights come first and last. */
+/* Alternates between correcting heights and amplitudes; begins and ends with heights. */
 static enum rc_status
 alternate(const struct rc_shape *shape, const struct quantiles *q, struct classes *c, size_t steps,
           double *amplitude, double complex *s, double *h, double *misfit, struct rc_err *err)

@@ -1,12 +1,11 @@
 /*
- * How wide holes are: exact distances of missing points from measured ones, in time proportional to
- * the size of the map, after Felzenszwalb and Huttenlocher (Theory of Computing 8, 2012).
+ * Widths of holes: exact distances of missing points from measured ones, in time proportional to the size of
+ * the map, after Felzenszwalb and Huttenlocher (Theory of Computing 8, 2012).
  *
- * Counting down and up the columns gives the steps from every node to the nearest measured one in
- * its column. Along a row the square of the distance of column i is then the least of
- * f_k + (i - k)^2 over the columns k, f_k the square of what was counted there, in units of dx:
- * parabolas of one shape, any two of which cross once. Their lower envelope is a list of them from
- * left to right, each the lowest on one run of columns.
+ * A count down and one up each column gives the steps from every node to the nearest measured node of its
+ * column. Along a row the squared distance of column i is then the least of f_k + (i - k)^2 over the columns
+ * k, with f_k the square of that count, in units of dx: parabolas of one shape, any two of which cross once.
+ * Their lower envelope is a list of parabolas from left to right, each the lowest on one run of columns.
  */
 #include "libcontact/contact.h"
 
@@ -16,13 +15,13 @@
 
 struct parabola {
     double f, apex;
-    double from; /* it is the lowest from here on, up to where the next one begins */
+    double from; /* this parabola is the lowest from here on, up to the start of the next one */
 };
 
 struct widths {
     struct rc_shape shape;
-    uint32_t *above; /* steps down to every node from the last measured one above it; `never` */
-    uint32_t *below; /* the same from below, of the row at hand                               */
+    uint32_t *above; /* steps down to every node from the nearest measured one above it; `never` */
+    uint32_t *below; /* the same from below, for the present row */
     struct parabola *list;
 };
 
@@ -45,7 +44,7 @@ count_down(struct widths *w, const double *h)
         w->above[k] = isnan(h[k]) ? one_more(w->above[k - nx]) : 0;
 }
 
-/* The lower envelope of a row of f; gives the number of parabolas in it. */
+/* The lower envelope of a row of f; returns the number of its parabolas. */
 static size_t
 envelope(const struct widths *w, const uint32_t *above)
 {
@@ -81,7 +80,7 @@ largest_in_row(struct widths *w, const double *h, size_t j)
     double largest = 0;
     size_t m, k = 0;
 
-    m = envelope(w, above); /* not empty: some row has a measured value */
+    m = envelope(w, above); /* never empty: some row has a measured value */
     for (size_t i = 0; i < w->shape.nx; i++) {
         double d;
 

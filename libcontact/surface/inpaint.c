@@ -1,8 +1,8 @@
 /*
- * Inpainting: missing values as Laplace's equation on the five-point stencil has them, with the
- * measured ones as boundary values and no flux across the edge of the map. Solved by conjugate
- * gradients that are preconditioned with the modified incomplete Cholesky factor (Gustafsson 1978),
- * whose number of iterations grows with the square root of the width of a hole only.
+ * Inpainting: missing values solve Laplace's equation on the five-point stencil, with the measured values as
+ * boundary values and no flux across the edge of the map. The solver is conjugate gradients with the modified
+ * incomplete Cholesky factor as preconditioner (Gustafsson 1978); its iterations grow only with the square
+ * root of the width of a hole.
  */
 #include "libcontact/contact.h"
 
@@ -15,7 +15,7 @@ enum {
     RIGHT = 2,
     ABOVE = 4,
     BELOW = 8,
-    VECTORS = 7, /* of the unknowns' length, in doubles */
+    VECTORS = 7, /* of the length of the unknowns, in doubles */
 };
 
 /* A x = b. Unknowns are numbered along rows: the missing neighbour on the left of k is k - 1. */
@@ -23,9 +23,9 @@ struct equations {
     size_t n;
     double wx, wy; /* weights of a neighbour along x, along y in the stencil              */
     unsigned char *sides;
-    size_t *above;    /* number of the neighbour above, where sides has ABOVE                */
-    double *diagonal; /* of A: weights of all neighbours that are in the map                 */
-    double *pivot;    /* 1 / diagonal of the incomplete factor                               */
+    size_t *above;             /* number of the neighbour above, where sides has ABOVE  */
+    double *diagonal;          /* of A: sum of the weights of all neighbours in the map */
+    double *pivot;             /* 1 / diagonal of the incomplete factor                 */
     double *x, *r, *z, *d, *q; /* solution, residual, preconditioned, direction, A direction     */
 };
 
@@ -59,7 +59,7 @@ equations_new(struct equations *e, const struct rc_shape *shape, size_t n, struc
     return RC_OK;
 }
 
-/* Enters a neighbour of unknown k: another unknown, or a measured value on the right-hand side. */
+/* Adds a neighbour of unknown k: another unknown, or a measured value to the right-hand side. */
 static void
 add_neighbour(struct equations *e, size_t k, unsigned char side, double weight, double neighbour,
               double datum)
@@ -71,12 +71,12 @@ add_neighbour(struct equations *e, size_t k, unsigned char side, double weight, 
         e->r[k] += weight * (neighbour - datum);
 }
 
-/* Sets up the equations, and the residual of x = 0: heights are counted from the datum. */
+/* Sets up the equations and the residual of x = 0; heights are relative to the datum. */
 static void
 set_up(struct equations *e, const struct rc_shape *shape, const double *h, double datum)
 {
     size_t nx = shape->nx, k = 0;
-    size_t row_above = 0; /* first unknown that may be the upper neighbour of the next one */
+    size_t row_above = 0; /* first unknown that can be the upper neighbour of the next one */
 
     for (size_t j = 0; j < shape->ny; j++) {
         size_t row = k, upper = row_above;
@@ -94,17 +94,17 @@ set_up(struct equations *e, const struct rc_shape *shape, const double *h, doubl
                 add_neighbour(e, k, ABOVE, e->wy, at[-(ptrdiff_t)nx], datum);
             if (j + 1 < shape->ny)
                 add_neighbour(e, k, BELOW, e->wy, at[nx], datum);
-            e->above[k] = upper - 1; /* meant only where sides has ABOVE */
+            e->above[k] = upper - 1; /* used only where sides has ABOVE */
             k++;
         }
         row_above = row;
     }
 }
 
-/* Pivots that keep the row sums of A. But for rounding they are positive: each is at least the
- * weights of the missing neighbours on the right and below; the last unknown, which has neither,
- * keeps the weights of its measured neighbours. Where rounding leaves next to nothing, the diagonal
- * of A stands in for it. */
+/* Pivots that preserve the row sums of A. But for rounding they are positive: each is at least the sum of the
+ * weights of the missing neighbours on the right and below; the last unknown, which has neither, keeps the
+ * weights of its measured neighbours. If rounding leaves next to nothing, the diagonal of A replaces the
+ * pivot. */
 static void
 factor(struct equations *e)
 {
@@ -176,8 +176,8 @@ dot(const double *a, const double *b, size_t n)
     return s;
 }
 
-/* Conjugate gradients from x = 0 until the residual is 1e-13 of the first one. Rounding may keep it
- * above that: after too many steps 1e-10 is enough. */
+/* Conjugate gradients from x = 0 until the residual is 1e-13 of the first one. If rounding keeps it above
+ * that for too many steps, 1e-10 is enough. */
 static enum rc_status
 solve(struct equations *e, struct rc_err *err)
 {

@@ -3,9 +3,9 @@
  * stands for the ratios k/n to (k+1)/n, so that areas under the curve are sums, and heights between
  * nodes are interpolated from (k + 1/2)/n.
  *
- * The core's line is that of least squares over the 40 % of smallest secant slope (ISO 25178-2, ISO
- * 13565-2); it meets the ratios 0 and 1 at the top and the bottom of the core. What stands above the
- * top, or lies below the bottom, is made a triangle of the same area on the ratios that it takes.
+ * The core's line is that of least squares over the 40 % of smallest secant slope (ISO 25178-2, ISO 13565-2);
+ * it meets the ratios 0 and 1 at the top and the bottom of the core. The material above the top, and the void
+ * below the bottom, are each replaced by a triangle of the same area and the same range of ratios.
  */
 #include "areal.h"
 
@@ -23,7 +23,7 @@ enum {
     BUCKETS = 1 << DIGIT
 };
 
-/* Whole numbers in the order of the doubles reversed: the highest is the smallest. */
+/* Integers in the reverse order of the doubles: the highest double is the smallest integer. */
 static uint64_t
 key_of(double v)
 {
@@ -43,8 +43,8 @@ height_of(uint64_t key)
     return v;
 }
 
-/* Sorts n keys digit by digit, the lowest first; returns where they lie in the end. A digit that all
- * share, as the lowest of values that were once single precision, takes no pass. */
+/* Sorts n keys digit by digit, the lowest first; returns the array that holds the result. A digit that all
+ * keys share, as the lowest digits of values read from single precision, takes no pass. */
 static uint64_t *
 sort(uint64_t *key, uint64_t *other, size_t n, size_t (*count)[BUCKETS])
 {
@@ -70,7 +70,7 @@ sort(uint64_t *key, uint64_t *other, size_t n, size_t (*count)[BUCKETS])
     return key;
 }
 
-/* The heights that are there, about the mean, the highest first, in room[0] or room[1]. */
+/* The measured heights about the mean, the highest first, in room[0] or room[1]. */
 static double *
 sorted_heights(const struct rc_relief *r, uint64_t *room[2], size_t (*count)[BUCKETS])
 {
@@ -90,7 +90,7 @@ sorted_heights(const struct rc_relief *r, uint64_t *room[2], size_t (*count)[BUC
 
 /* ---- the curve ---- */
 
-/* Height that this part of the surface reaches. */
+/* The height with this material ratio. */
 static double
 height_at(const double *z, size_t n, double ratio)
 {
@@ -102,8 +102,7 @@ height_at(const double *z, size_t n, double ratio)
     return z[k] + (place - below) * (z[k + 1] - z[k]);
 }
 
-/* Material above a height, per area of the surface; *ratio: the part of the surface that is that
- * high. */
+/* Material above a height, per area of the surface; *ratio: the material ratio there. */
 static double
 material_above(const double *z, size_t n, double height, double *ratio)
 {
@@ -116,7 +115,7 @@ material_above(const double *z, size_t n, double height, double *ratio)
     return rc_total_value(&sum) / (double)n;
 }
 
-/* Void below a height likewise. */
+/* Void below a height, likewise. */
 static double
 void_below(const double *z, size_t n, double height, double *ratio)
 {
@@ -129,7 +128,7 @@ void_below(const double *z, size_t n, double height, double *ratio)
     return rc_total_value(&sum) / (double)n;
 }
 
-/* The line top + slope ratio of least squares over m nodes from `first` on. */
+/* The least-squares line top + slope ratio over m nodes from `first` on. */
 static void
 core_line(const double *z, size_t n, size_t first, size_t m, double *top, double *slope)
 {
@@ -155,7 +154,7 @@ measure_core(const double *z, size_t n, struct rc_areal *a)
 
     m = m < 1 ? 1 : m;
     for (size_t k = 0; k + m <= n; k++) {
-        /* the secant goes from node to node, m - 1 steps: the last m nodes have one too */
+        /* the secant spans m - 1 steps from node to node, so the last m nodes have one too */
         double drop = z[k] - z[k + m - 1];
         first = drop < least ? k : first;
         least = drop < least ? drop : least;

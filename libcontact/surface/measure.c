@@ -1,6 +1,6 @@
-/* Figures of a map. Sums are compensated and moments taken about the mean, so that neither the
- * number of nodes nor a datum far away eats digits. Values are taken several at a time, each into
- * sums of its own, and without a branch: then only memory bounds the speed. */
+/* Figures of a map. Sums are compensated and moments are taken about the mean, so that neither the number of
+ * nodes nor a large constant costs digits. Several values are processed together, each in its own sum and
+ * without branches, so that only memory limits the speed. */
 #include "libcontact/common.h"
 #include "libcontact/ranks/ranks.h"
 
@@ -8,11 +8,11 @@
 #include <math.h>
 
 enum {
-    LANES = 8 /* values taken at a time */
+    LANES = 8 /* values processed together */
 };
 
-/* The sum of rc_total for each lane; what is rounded away is found without asking which of the
- * two is larger (Knuth, The Art of Computer Programming 2, 4.2.2, theorem B). */
+/* The sum of rc_total for each lane; its rounding error is computed without comparing magnitudes (Knuth, The
+ * Art of Computer Programming 2, 4.2.2, theorem B). */
 struct sums {
     double sum[LANES], lost[LANES];
 };
@@ -128,14 +128,13 @@ rms_about(const double *v, size_t n, double mean, double nodes)
     double left, square;
 
     take_all_about(&s, v, n, mean);
-    /* the mean itself is rounded: what it misses is taken out */
+    /* the mean is rounded itself: corrects for its error */
     left = value(&s.rest) / nodes;
     square = value(&s.squares) / nodes - left * left;
-    return square <= 0 ? 0 : sqrt(square); /* NaN, of squares beyond all numbers, stays so */
+    return square <= 0 ? 0 : sqrt(square); /* NaN, from an overflow of the squares, stays NaN */
 }
 
-/* ---- slope: over nodes whose next neighbour is there, along each side of more than one node
- * ---- */
+/* ---- slope: over nodes with a measured next neighbour, along each side of more than one node ---- */
 
 struct slope {
     double there[LANES];
@@ -171,7 +170,7 @@ take_slopes(struct slope *restrict to, const double *v, const double *right, con
     *to = s;
 }
 
-/* ---- all of it ---- */
+/* ---- all figures ---- */
 
 void
 rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *result)
@@ -211,7 +210,7 @@ rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *
         result->rms_slope = sqrt(value(&slope.squares) / count(slope.there));
 }
 
-/* ---- where the bodies touch, and where periods meet ---- */
+/* ---- slopes in contact, and steps across the period ---- */
 
 static size_t
 piece_of(size_t nx, size_t first)
@@ -232,7 +231,7 @@ fetch_beside(const struct rc_rows *rows, bool round, const struct rc_shape *shap
                     beside + RC_ROW_PIECE, has);
 }
 
-/* Adds the squared slopes of n nodes that touch, and how many these are; `right` the columns to the next. */
+/* Adds the squared slopes of n nodes in contact, and their number; `right`: the columns to the next node. */
 static void
 take_contact(struct rc_total sums[2], const double *row, const double *below, const double *load,
              size_t n, size_t right, const double per[2])
@@ -281,7 +280,7 @@ rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *sh
     return sqrt(total[0] / total[1]);
 }
 
-/* Adds the squared steps from a[i] to b[i], in the pieces in which a row of another rank comes. */
+/* Adds the squared steps from a[i] to b[i], piece by piece as rows of other ranks arrive. */
 static void
 add_steps(struct rc_total *squares, const double *a, const double *b, size_t n)
 {

@@ -1,6 +1,6 @@
 /*
- * Points that stand out of their neighbourhood: measured errors of single points, found by the
- * median of the 24 others in a square of 5 x 5, which a few of them do not move.
+ * Outliers: erroneous single points, found by the median of the 24 neighbours in a square of 5 x 5, on which
+ * a few bad neighbours have no effect.
  */
 #include "libcontact/common.h"
 
@@ -15,7 +15,7 @@ enum {
     HALF = 2, /* nodes of the square on either side */
     SIDE = 2 * HALF + 1,
     OTHERS = SIDE * SIDE - 1,
-    LANES = 8 /* points whose medians are found at a time */
+    LANES = 8 /* points whose medians are computed together */
 };
 
 /* ---- the median of 24 ---- */
@@ -32,8 +32,8 @@ order(double *restrict a, double *restrict b)
     }
 }
 
-/* The two in the middle of 24. Among 14 of them neither the smallest nor the largest can be one of
- * the two: both are dropped, another value comes in, and so on until all have come in. */
+/* The two middle values of 24. Among 14 of them neither the smallest nor the largest can be one of the two:
+ * both are dropped, another value is added, and so on until all have been added. */
 static inline void
 middle_two(double v[OTHERS][LANES], double *restrict low, double *restrict high)
 {
@@ -56,10 +56,10 @@ middle_two(double v[OTHERS][LANES], double *restrict low, double *restrict high)
     }
 }
 
-/* Differences of LANES points of a row from the medians of their neighbours; `row` holds the SIDE
- * rows around it, shifted so that the square begins with each. Missing neighbours count as above
- * and below all others in turn, which keeps the middle in its place; where an odd number is
- * missing, the median is the lower one of the two in the middle. */
+/* Differences of LANES points of a row from the medians of their neighbours; `row` holds the SIDE rows around
+ * it, shifted so that the square begins with each. Missing neighbours count alternately as above and below
+ * all others, which preserves the middle; with an odd number of them the median is the lower of the two
+ * middle values. */
 RC_CLONES static void
 differ(const double *const row[SIDE], double *d)
 {
@@ -95,7 +95,7 @@ struct square {
     double *lines; /* for each thread: SIDE such rows */
 };
 
-/* Row j, which may lie outside, with HALF nodes more at its start and enough at its end. */
+/* Copies row j, which may lie outside the map, with HALF more nodes at its start and enough at its end. */
 static void
 take_row(const struct square *s, const double *h, ptrdiff_t j, double *to)
 {

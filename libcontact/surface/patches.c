@@ -1,11 +1,11 @@
 /*
- * Patches of the contact: nodes that carry pressure, joined by their four neighbours. Each row is cut
- * into runs of contact; runs of neighbouring rows that overlap belong to one patch, which is found
- * by union-find. Bands of rows are joined side by side, then band to band.
+ * Patches of the contact: nodes in contact, joined through their four neighbours. Each row is cut into runs
+ * of contact; overlapping runs of neighbouring rows belong to one patch, found by union-find. Bands of rows
+ * are processed in parallel, then joined.
  *
- * Where ranks share the map, each rank looks at its own rows and at the rows just before and after
- * them, from which it only takes the joins. Each run of the row before is also a run of the last
- * row of another rank: these pairs join the patches of all ranks.
+ * Where ranks share the map, each rank processes its own rows and the rows just before and after them, which
+ * it only uses for joins. Each run of the row before is also a run of the last row of another rank: these
+ * pairs join the patches of all ranks.
  */
 #include "libcontact/contact.h"
 
@@ -16,19 +16,19 @@
 #include "libcontact/memory.h"
 #include "libcontact/ranks/ranks.h"
 
-/* Columns from .. to-1 of a row. Its parent is a run of the same patch, none with a greater index; itself, if
- * it is the patch's first. */
+/* Columns from .. to-1 of a row. Its parent is a run of the same patch with a smaller index, or itself if it
+ * is the first run of the patch. */
 struct run {
     size_t from, to;
     size_t parent;
-    size_t ends;  /* edges between contact and none at its ends: of length dy */
-    size_t sides; /* and along it: of length dx                               */
+    size_t ends;  /* edges of contact at its ends: of length dy */
+    size_t sides; /* edges of contact along it: of length dx */
 };
 
-/* The rows that are looked at. */
+/* The rows to be processed. */
 struct field {
-    size_t nx, rows;  /* rows: with those beside                     */
-    size_t own, last; /* of these, the ones held here: own .. last-1 */
+    size_t nx, rows;  /* rows: with the neighbouring rows of other ranks */
+    size_t own, last; /* the rows held here: own .. last-1 */
     const double *p, *before, *after;
 };
 
@@ -97,8 +97,8 @@ join(struct run *run, size_t a, size_t b)
         run[ra].parent = rb;
 }
 
-/* Row `below` lies under row `above`: their runs are joined where they overlap, and what of each has
- * no contact across counts as its side. */
+/* Row `below` lies under row `above`: joins their overlapping runs; nodes without contact on the other side
+ * count as edges. */
 static void
 join_rows(struct runs *r, size_t above, size_t below)
 {
@@ -152,7 +152,7 @@ join_all(const struct field *f, bool wraps, bool whole, int threads, struct runs
 {
     size_t nx = f->nx, ny = f->rows, bands = (size_t)threads < ny ? (size_t)threads : ny;
 
-    /* A band's patches only hold runs of the band. */
+    /* within a band, patches only contain runs of the band */
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (size_t band = 0; band < bands; band++)
         for (size_t j = ny * band / bands + 1; j < ny * (band + 1) / bands; j++)
@@ -162,7 +162,7 @@ join_all(const struct field *f, bool wraps, bool whole, int threads, struct runs
     if (!wraps)
         return;
     if (whole)
-        join_rows(r, ny - 1, 0); /* of a map of one row: the row with itself */
+        join_rows(r, ny - 1, 0); /* a map of one row: the row with itself */
     for (size_t j = 0; j < ny; j++)
         if (r->first[j] < r->first[j + 1]) {
             size_t left = r->first[j], right = r->first[j + 1] - 1;
@@ -179,8 +179,8 @@ struct part {
     size_t nodes, ends, sides;
 };
 
-/* Adds nodes and edges of the runs held here to the first run of their patch, and makes a part of
- * each patch that has nodes, in the order of the first runs. */
+/* Adds nodes and edges of the runs held here to the first run of their patch, and makes a part for each patch
+ * with nodes, in the order of the first runs. */
 static size_t
 make_parts(const struct field *f, struct runs *r, size_t before, struct part *part)
 {
@@ -201,20 +201,20 @@ make_parts(const struct field *f, struct runs *r, size_t before, struct part *pa
     return n;
 }
 
-/* One run that two ranks see: the places of its patch on either. */
+/* One run seen by two ranks: the places of its patch on both. */
 struct pair {
     size_t a, b;
 };
 
-/* What all ranks know: parts, where each rank's begin, and what joins them. */
+/* The data of all ranks: parts, where the parts of each rank begin, and pairs that join them. */
 struct all {
     struct part *part;
     struct pair *pair;
     size_t parts, pairs;
 };
 
-/* The lists of all ranks one after another, of *n entries of so many bytes here, in memory that the
- * caller frees; *n becomes the number of all entries. NULL when memory is short. */
+/* Concatenates the lists of all ranks, of *n entries of `bytes` each here, in memory that the caller frees;
+ * *n becomes the total number of entries. NULL when memory is short. */
 static void *
 gather_lists(const struct rc_ranks *ranks, size_t bytes, const void *own, size_t *n)
 {
@@ -246,8 +246,8 @@ patches_of_row(struct runs *r, size_t j, size_t before, size_t *at)
         *at++ = before + find(r->run, k);
 }
 
-/* The pairs that this rank knows: runs of the row before its own, as it sees them and as the rank
- * that holds the row does. */
+/* The pairs of this rank: runs of the row before its own, as it sees them and as the rank that holds the row
+ * sees them. */
 static enum rc_status
 make_pairs(const struct rc_rows *rows, bool wraps, const struct field *f, struct runs *r,
            size_t before, struct pair **pairs, size_t *n)
@@ -298,10 +298,10 @@ gather_all(const struct rc_rows *rows, bool wraps, const struct field *f, struct
     return status;
 }
 
-/* ---- joining what ranks have ---- */
+/* ---- joining across ranks ---- */
 
-/* Places in increasing order; parent[k]: where in this list the first place of the patch of place k
- * stands, or one nearer to it. */
+/* Places in increasing order; parent[k]: index in this list of the first place of the patch of place k, or of
+ * one nearer to it. */
 struct places {
     size_t n, *at, *parent;
 };
@@ -326,7 +326,7 @@ place(struct places *q, size_t at)
     return k;
 }
 
-/* Each part gets the place of the first part of its patch. */
+/* Gives each part the place of the first part of its patch. */
 static enum rc_status
 join_parts(struct all *all)
 {
@@ -368,7 +368,7 @@ by_place(const void *a, const void *b)
     return (x->at > y->at) - (x->at < y->at);
 }
 
-/* Parts of one patch become one. */
+/* Merges the parts of one patch. */
 static void
 merge_parts(struct all *all)
 {
@@ -389,7 +389,7 @@ merge_parts(struct all *all)
 
 /* ---- figures ---- */
 
-/* The larger patch first; of two that are equal the one whose first run comes first. */
+/* The larger patch first; of equal patches the one whose first run comes first. */
 static int
 larger_first(const void *a, const void *b)
 {
@@ -398,7 +398,7 @@ larger_first(const void *a, const void *b)
     return x->nodes != y->nodes ? (x->nodes < y->nodes) - (x->nodes > y->nodes) : by_place(a, b);
 }
 
-/* Sorts before there is a list: qsort may take as much memory again as the parts that it sorts. */
+/* Sorts before the list is allocated: qsort may need as much memory again as the parts that it sorts. */
 static enum rc_status
 list_patches(const struct rc_shape *s, struct all *all, struct rc_patches *patches)
 {
@@ -433,7 +433,7 @@ add_up(const struct rc_shape *s, const struct all *all, struct rc_patches *patch
         patches->contact_area - (RC_PI - 1 + log(2)) / 24 * cell * (double)(ends + sides);
 }
 
-/* The rows held here and the two beside them, which are fetched into `room`. */
+/* The rows held here and the two next to them, which are copied into `room`. */
 static struct field
 field_of(const struct rc_rows *rows, size_t nx, bool wraps, const double *p, double *room)
 {
@@ -452,7 +452,7 @@ field_of(const struct rc_rows *rows, size_t nx, bool wraps, const double *p, dou
     return f;
 }
 
-/* The parts of all ranks, each the whole of a patch. */
+/* The parts of all ranks, merged: each is a whole patch. */
 static enum rc_status
 find_parts(const struct rc_rows *rows, const struct field *f, bool wraps, int threads,
            struct runs *r, struct all *all)
@@ -525,15 +525,15 @@ rc_patches_free(struct rc_patches *patches)
     *patches = (struct rc_patches){0};
 }
 
-/* Nodes of the map for each run of a rough contact, as where a fifth of the map touches in runs of
- * three nodes; and for each patch, of a surface that is smooth over four nodes. */
+/* Nodes of the map per run of a rough contact (a fifth of the map in contact, in runs of three nodes), and
+ * per patch of a surface that is smooth over four nodes. */
 enum {
     NODES_A_RUN = 16,
     NODES_A_PATCH = 256
 };
 
-/* What a rank needs beside its rows: two rows of others, and places of runs in four rows; the parts
- * of all ranks, beside its own parts or, which takes as much again, while they are sorted. */
+/* Memory of a rank besides its rows: two rows of others, places of runs in four rows, and the parts of all
+ * ranks, beside its own parts or, of the same size, beside the copy used for sorting. */
 static size_t
 shared_memory(const struct rc_shape *s, size_t runs)
 {

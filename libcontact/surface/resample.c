@@ -1,8 +1,8 @@
 /*
  * Maps on other grids: means over coarser cells, cubic polynomials between nodes for finer ones.
  *
- * Places along an axis are counted in cells of the old grid, from its first edge: old cell i
- * reaches from i to i + 1, its node stands at i + 1/2. The middles of both grids coincide.
+ * Positions along an axis are in cells of the old grid, from its first edge: old cell i extends from i to i +
+ * 1, with its node at i + 1/2. The middles of both grids coincide.
  */
 #include "libcontact/contact.h"
 
@@ -14,8 +14,8 @@
 
 struct axis {
     size_t from, to;
-    double step; /* of the new cells                                          */
-    bool whole;  /* the new cells cover the old ones, no more and no less     */
+    double step; /* of the new cells                        */
+    bool whole;  /* the new cells cover the old map exactly */
 };
 
 static bool
@@ -30,14 +30,14 @@ axis_of(size_t from, double from_d, size_t to, double to_d)
     struct axis a = {.from = from, .to = to, .step = to_d / from_d};
 
     a.whole = near((double)to * to_d, (double)from * from_d);
-    if (a.whole || (from == 1 && to == 1)) { /* a single row has no width of its own */
+    if (a.whole || (from == 1 && to == 1)) { /* a single row has no width */
         a.whole = true;
         a.step = (double)from / (double)to;
     }
     return a;
 }
 
-/* Where new cell k begins, of k + 1/2 where its node stands. Whole numbers come out whole. */
+/* Where new cell k begins; for k + 1/2, where its node is. Whole numbers are exact. */
 static double
 edge(const struct axis *a, double k)
 {
@@ -61,8 +61,7 @@ finer(const struct axis *a)
 
 /* ---- means ---- */
 
-/* Sum of v over the part of a row between two places, and the length of that part that was
- * measured. */
+/* Sum of v over the part of a row between two positions, and the measured length of that part. */
 static void
 add_row(const double *v, double first, double last, double weight, double *sum, double *measured)
 {
@@ -84,7 +83,7 @@ cell_mean(const double *v, size_t nx, const double x[2], const double y[2])
     for (size_t j = (size_t)y[0]; (double)j < y[1]; j++)
         add_row(v + j * nx, x[0], x[1], fmin(y[1], (double)j + 1) - fmax(y[0], (double)j), &sum,
                 &measured);
-    /* half is enough, however it was rounded */
+    /* half is enough, with allowance for rounding */
     return measured >= 0.4999999999 * (x[1] - x[0]) * (y[1] - y[0]) ? sum / measured : NAN;
 }
 
@@ -116,18 +115,18 @@ rc_resample_means(const struct rc_shape *from, const double *v, const struct rc_
 
 enum {
     POINTS = 6,
-    ENDS = 3 /* nodes at an end that say how the map goes on there */
+    ENDS = 3 /* nodes at an end that extrapolate the map */
 };
 
-/* The nodes that give a value between them, and their weights. */
+/* The nodes from which a value is interpolated, and their weights. */
 struct stencil {
     size_t at[POINTS];
     double weight[POINTS];
 };
 
-/* Cubic convolution of Keys 1981 (IEEE Trans. ASSP 29, 1153, section VI) at t from node 2 to node
- * 3 of six: the cubic with the values of these two, and the slopes there that five nodes about
- * each give to the fourth order. */
+/* Cubic convolution of Keys 1981 (IEEE Trans. ASSP 29, 1153, section VI) at t from node 2 to node 3 of six:
+ * the cubic with the values of these two nodes and the slopes there from five nodes about each, of fourth
+ * order. */
 static void
 keys(double t, double weight[POINTS])
 {
@@ -143,8 +142,8 @@ keys(double t, double weight[POINTS])
     }
 }
 
-/* Gives the weight of a node `beyond` the end of a line to the last nodes of the line, end[0] the
- * outermost: the map goes on there as a parabola through three of them, a line through two. */
+/* Distributes the weight of a node `beyond` the end of a line to the last nodes of the line, end[0] the
+ * outermost: extrapolation by a parabola through three nodes, by a line through two. */
 static void
 extend(double beyond, double weight, size_t nodes, double *end[ENDS])
 {
@@ -197,8 +196,7 @@ stencil_at(const struct axis *a, size_t k, bool periodic)
     return s;
 }
 
-/* The two nodes about new node k, by the distances from them; beyond the last node the line through
- * the last two goes on. */
+/* The two nodes next to new node k, weighted by distance; beyond the last node, linear extrapolation. */
 static struct stencil
 between(const struct axis *a, size_t k, bool periodic)
 {
@@ -213,7 +211,7 @@ between(const struct axis *a, size_t k, bool periodic)
     return (struct stencil){{(size_t)((first + n) % n), (size_t)((first + 1) % n)}, {1 - t, t}};
 }
 
-/* Nodes that weigh nothing may be missing. */
+/* Nodes with zero weight may be missing. */
 static double
 product(const double *v, size_t nx, const struct stencil *x, const struct stencil *y)
 {
@@ -226,14 +224,14 @@ product(const double *v, size_t nx, const struct stencil *x, const struct stenci
     return sum;
 }
 
-/* The map that is looked at, its new axes, and whether it repeats. */
+/* The map, its new axes, and whether it is periodic. */
 struct between_nodes {
     const double *v;
     const struct axis *x, *y;
     bool periodic;
 };
 
-/* A value with a missing one among the nodes about it. */
+/* A value with a missing node among its neighbours. */
 static double
 beside_hole(const struct between_nodes *b, size_t i, size_t j, const struct stencil *sx,
             const struct stencil *sy)
@@ -251,7 +249,7 @@ beside_hole(const struct between_nodes *b, size_t i, size_t j, const struct sten
     return isnan(value) ? own : value;
 }
 
-/* Values at the columns of the old grid, at the place of a new row. */
+/* Values at the columns of the old grid, at the position of a new row. */
 static void
 row_at(const double *v, size_t nx, const struct stencil *s, double *row)
 {
@@ -312,7 +310,7 @@ fit(size_t from, double from_d, double d, size_t *n, double *to_d, struct rc_err
         *to_d = from_d;
     if (from == 1 || near(d, from_d))
         return RC_OK;
-    cells *= 1 + RC_SAME_SPACING; /* a cell that is as good as whole */
+    cells *= 1 + RC_SAME_SPACING; /* a cell that is whole within the tolerance of spacings */
     if (cells < 1)
         return rc_err_set(err, "a cell of %g m is wider than the map, %g m", d,
                           (double)from * from_d);
@@ -339,7 +337,7 @@ rc_resample_covers(const struct rc_shape *from, const struct rc_shape *to)
            axis_of(from->ny, from->dy, to->ny, to->dy).whole;
 }
 
-/* ---- from one to the other ---- */
+/* ---- from one grid to the other ---- */
 
 static enum rc_status
 check_inside(const struct axis *a, struct rc_err *err)
@@ -351,7 +349,7 @@ check_inside(const struct axis *a, struct rc_err *err)
     return RC_OK;
 }
 
-/* One axis coarser, the other finer: first the coarser one, into a map between. */
+/* One axis gets coarser, the other finer: first the coarser one, into an intermediate map. */
 static enum rc_status
 by_way_of(const struct axis *x, const struct axis *y, const double *v, bool periodic, double *out,
           struct rc_err *err)

@@ -1,11 +1,11 @@
 /*
- * The median of a map. Of a large map a sample tells between which two numbers the median lies almost
- * surely; one pass counts those below and keeps the few between them (Floyd and Rivest 1975, Commun.
- * ACM 18, 165). Where the sample was wrong, all numbers are kept.
+ * The median of a map. For a large map a sample gives two numbers between which the median lies almost
+ * surely; one pass counts the numbers below and keeps the few between them (Floyd and Rivest 1975, Commun.
+ * ACM 18, 165). If the sample was wrong, all numbers are kept.
  *
- * Among those it is found by counting: numbers are ordered as their bits are, so a histogram of the
- * highest bits tells in which bin the median lies; the second step is a histogram of the next bits
- * over the numbers in that bin. When only a small part of all numbers is left in the bin, they are
+ * The median of the kept numbers is found by counting. The bits of numbers sort like the numbers, so a
+ * histogram of the highest bits gives the bin of the median; the second step is a histogram of the next bits
+ * over the numbers in that bin. When only a small fraction of all numbers is left in the bin, they are
  * sorted.
  */
 #include "robust.h"
@@ -18,17 +18,17 @@
 
 /* Bits that are still unknown after each step. */
 static const int shifts[] = {53, 42, 31, 20, 9, 0};
-/* The key of no number, only of a NaN. */
+/* A key that no number has, only a NaN. */
 static const uint64_t unknown = UINT64_MAX;
 
 enum {
     STEPS = sizeof shifts / sizeof *shifts,
-    BINS = 1 << 11, /* at most, of a step */
-    PART = 64,      /* that is small enough to be sorted */
+    BINS = 1 << 11, /* largest number, of a step */
+    PART = 64,      /* a bin below this fraction of the numbers is sorted */
     SAMPLE = 1 << 15,
-    LARGE = 32 * SAMPLE, /* from so many numbers on a sample is taken */
-    NEAR = 32,           /* the part of the numbers that may lie near the median */
-    PIECE = 1024         /* numbers that are taken at a time */
+    LARGE = 32 * SAMPLE, /* numbers from which a sample is used */
+    NEAR = 32,           /* fraction of the numbers that may lie near the median: 1/NEAR */
+    PIECE = 1024         /* numbers processed together */
 };
 
 struct values {
@@ -47,7 +47,7 @@ number_at(const struct values *of, size_t k)
     return of->magnitude ? fabs(d) : d + 0.0; /* -0 is 0 */
 }
 
-/* Bits that stand in the order of the numbers. */
+/* Bits that sort like the numbers. */
 static inline uint64_t
 key_of(double d)
 {
@@ -69,7 +69,7 @@ number_of(uint64_t key)
     return d;
 }
 
-/* Counts, by the bits that step k finds, the numbers whose higher bits are those of `prefix`. */
+/* Counts, by the bits of step k, the numbers whose higher bits equal `prefix`. */
 static void
 count_bins(const struct values *of, uint64_t prefix, size_t k, size_t *bins)
 {
@@ -98,7 +98,7 @@ by_size(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* The keys with this prefix, count of them, sorted; NULL when memory is short. */
+/* The `count` keys with this prefix, sorted; NULL when memory is short. */
 static uint64_t *
 sort_bin(const struct values *of, uint64_t prefix, int shift, size_t count)
 {
@@ -121,7 +121,7 @@ sort_bin(const struct values *of, uint64_t prefix, int shift, size_t count)
     return keys;
 }
 
-/* The key with so many below it; *upper becomes the next one where that is found on the way, else
+/* The key with `rank` keys below it; *upper becomes the next key if it is found on the way, else
  * `unknown`. */
 static uint64_t
 key_at(const struct values *of, size_t rank, uint64_t *upper)
@@ -150,7 +150,7 @@ key_at(const struct values *of, size_t rank, uint64_t *upper)
     return prefix;
 }
 
-/* The smallest key above this one. */
+/* The next larger key. */
 static uint64_t
 next_key(const struct values *of, uint64_t key)
 {
@@ -165,7 +165,7 @@ next_key(const struct values *of, uint64_t key)
     return next;
 }
 
-/* ---- those near the median ---- */
+/* ---- numbers near the median ---- */
 
 static size_t
 count_there(const struct values *of)
@@ -186,13 +186,13 @@ by_value(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Numbers below and above the median by four standard deviations of a sample's median; false when
- * there are too few of them. */
+/* Bounds below and above the median, four standard deviations of a sample's median away; false when the
+ * sample is too small. */
 static bool
 guess(const struct values *of, double *sample, double bounds[2])
 {
     const uint64_t golden =
-        UINT64_C(0x9E3779B97F4A7C15); /* of 2^64: places that fill the map evenly */
+        UINT64_C(0x9E3779B97F4A7C15); /* of 2^64: these places fill the map evenly */
     size_t n = 0, off;
 
     for (uint64_t k = 0; k < SAMPLE; k++) {
@@ -239,8 +239,7 @@ take_piece(const struct values *of, size_t first, size_t n, const double bounds[
     return (struct counts){(size_t)there, (size_t)below, kept};
 }
 
-/* Counts the numbers that are there and those below the bounds, and keeps those within, `room` of them
- * at most. */
+/* Counts the measured numbers and those below the bounds, and keeps those within, at most `room`. */
 static struct counts
 keep_inside(const struct values *of, const double bounds[2], size_t room, double *kept)
 {
@@ -264,8 +263,8 @@ keep_inside(const struct values *of, const double bounds[2], size_t room, double
     return (struct counts){there, below, used};
 }
 
-/* Makes *near the numbers near the median, which lie in what it returns; or, where it returns NULL, all.
- * *count becomes the number of all, *rank that of those of *near below the median. */
+/* Sets *near to the numbers near the median, which are in the returned array; or to all numbers if it returns
+ * NULL. *count becomes the number of all, *rank the number of entries of *near below the median. */
 static double *
 narrow(const struct values *of, struct values *near, size_t *count, size_t *rank)
 {

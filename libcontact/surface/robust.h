@@ -1,6 +1,6 @@
 /*
- * What resists single points that lie far off: the median, and weights that leave such points out.
- * Internal: never installed.
+ * Robust statistics, insensitive to single points that lie far off: the median, and weights that exclude such
+ * points. Internal: never installed.
  */
 #ifndef RC_ROBUST_H
 #define RC_ROBUST_H
@@ -10,26 +10,24 @@
 
 #include "libcontact/grid.h"
 
-/* The median of v - about or, with `magnitude`, of |v - about|, over the values that are there (not
- * NaN); of an even number of them the mean of the two in the middle. It is exact, whatever the
- * number of threads. NAN when nothing is there. */
+/* The median of v - about or, with `magnitude`, of |v - about|, over the values that are not NaN; of an even
+ * number of them the mean of the two in the middle. Exact, independent of the number of threads. NAN when all
+ * are NaN. */
 double rc_median(const double *v, size_t n, double about, bool magnitude, int threads);
 
-/* Median of |r| times this is where a point loses all weight (ISO 16610-31, 16610-71): three
- * standard deviations where the residuals are Gaussian. */
+/* The median of |r| times this is the residual at which a point loses all weight (ISO 16610-31, 16610-71):
+ * three standard deviations for Gaussian residuals. */
 static const double rc_biweight_reach = 4.4478;
 
-/* Reweighting stops when the relative change of the reach is below the first, when the reach over
- * the heights is below the second, so that only rounding is left, or after RC_REWEIGHT_MAX
- * times. */
+/* Reweighting stops when the relative change of the reach is below the first; when the reach over the heights
+ * is below the second, so that only rounding is left; or after RC_REWEIGHT_MAX rounds. */
 static const double rc_reweight_tol = 1e-3;
 static const double rc_reweight_floor = 1e-13;
 enum {
     RC_REWEIGHT_MAX = 40
 };
 
-/* Weight of a point with the residual r (Beaton and Tukey 1974): 0 from |r| = reach on, and where r
- * is NaN. */
+/* Weight of a point with the residual r (Beaton and Tukey 1974): 0 for |r| >= reach and where r is NaN. */
 static inline double
 rc_biweight(double r, double reach)
 {
@@ -38,8 +36,7 @@ rc_biweight(double r, double reach)
     return left > 0 ? left * left : 0;
 }
 
-/* Whether reweighting has come to its end; `before` is the reach of the round before, `size` that
- * of the heights. */
+/* Whether reweighting has converged; `before` is the reach of the last round, `size` that of the heights. */
 static inline bool
 rc_reweighted(double reach, double before, double size)
 {

@@ -1,18 +1,18 @@
 /*
  * Spheres and cylinders by least squares in z, the way in which heights are measured.
  *
- * In lengths of half the map, about the middle of the points, a sphere is
+ * With lengths in units of half the map, about the middle of the points, a sphere is
  *
  *     A (x^2 + y^2 + z^2) + B x + C y + z + E = 0,        R = sqrt(B^2 + C^2 + 1 - 4 A E) / 2 A,
  *
- * which for A = 0 is a plane (Pratt 1987): no parameter runs away on shallow caps or where the apex
- * is off the map, and R has the sign of a bump or a hollow. With q = A (x^2 + y^2) + B x + C y + E
- * the side on which a surface lies is z = -2 q / (1 + sqrt(1 - 4 A q)). A cylinder whose axis runs
- * along v = y cos t - x sin t and rises with the slope s is the same in the plane across it: of u =
- * x cos t + y sin t and n = (z - s v) / sqrt(1 + s^2). On a profile both are circles.
+ * which for A = 0 is a plane (Pratt 1987): no parameter diverges on shallow caps or where the apex is off the
+ * map, and the sign of R distinguishes a bump from a hollow. With q = A (x^2 + y^2) + B x + C y + E the
+ * surface is z = -2 q / (1 + sqrt(1 - 4 A q)). A cylinder whose axis runs along v = y cos t - x sin t and
+ * rises with the slope s has the same equation in the plane across it, with u = x cos t + y sin t and n = (z
+ * - s v) / sqrt(1 + s^2). On a profile both are circles.
  *
- * The equation itself is linear in A, B, C, E, and its least-squares solution is where the
- * iteration starts (Levenberg 1944, Marquardt 1963).
+ * The equation is linear in A, B, C, E; the iteration (Levenberg 1944, Marquardt 1963) starts from its
+ * least-squares solution.
  */
 #include "libcontact/common.h"
 
@@ -26,12 +26,12 @@
 #include "robust.h"
 
 enum {
-    UNKNOWNS = 6, /* at most; those of a quadratic polynomial */
+    UNKNOWNS = 6, /* largest number; that of a quadratic polynomial */
     PAIRS =
-        (UNKNOWNS + 1) * (UNKNOWNS + 2) / 2, /* of the columns of the unknowns and one of heights */
-    TOGETHER = 4,                            /* sums of products that are made in one loop */
-    GROUPS = 256,                            /* of rows that are summed by one thread */
-    SEGMENT = 256,                           /* nodes of a row that are taken at a time */
+        (UNKNOWNS + 1) * (UNKNOWNS + 2) / 2, /* of the columns of the unknowns and the heights */
+    TOGETHER = 4,                            /* sums of products that one loop computes */
+    GROUPS = 256,                            /* of rows that one thread sums */
+    SEGMENT = 256,                           /* nodes of a row that are processed together */
     STEPS = 100,
     START_WEIGHTS = 6 /* rounds of them */
 };
@@ -41,22 +41,22 @@ enum {
     A,
     B,
     C,
-    E, /* of a cylinder B and C are its slopes along x and y at the middle, T its direction */
+    E, /* for a cylinder B and C are its slopes along x and y at the middle, T its direction */
     T,
     PARAMETERS
 };
 
-/* The last step may move the surface by this part of its size on average. Where the form fits the
- * heights steps shrink quadratically, where noise is left by a factor. */
+/* Converged when a step moves the surface by less than this fraction of its size on average. Where the form
+ * fits the heights, steps decrease quadratically; with noise, by a constant factor. */
 static const double settled = 1e-9;
-/* Sag over the height of the points, below which it is rounding. */
+/* Ratio of sag and height of the points, below which the curvature is rounding. */
 static const double no_curvature = 1e-11;
-/* Pivot of the normal equations, with a diagonal of 1, below which they determine nothing. */
+/* Pivot of the normal equations scaled to a diagonal of 1; below it they are singular. */
 static const double no_pivot = 1e-13;
 
-/* The surface at n places x of a row y. e holds heights and becomes their distances above the
- * surface, NaN where the surface has no height; d becomes the derivatives by the parameters, n
- * numbers each. */
+/* The surface at n positions x of a row y. e holds heights and becomes their distances above the surface, NaN
+ * where the surface has no height; d becomes the derivatives with respect to the parameters, n numbers
+ * each. */
 typedef void surface_row(const double *p, size_t n, const double *x, double y, double *e,
                          double *d);
 
@@ -67,8 +67,8 @@ struct round {
     const double *h;
     double mean, size; /* of the heights, m; size: root of their mean square about the mean */
     double scale;      /* m; lengths are in units of it                                     */
-    double middle_x, middle_y; /* nodes                                                         */
-    double *residual, reach;   /* robust: what is left of each height, for weights              */
+    double middle_x, middle_y; /* nodes                                        */
+    double *residual, reach;   /* robust: residual of each height, for weights */
     double *x, *sums;
     int threads;
     size_t unknowns, unknown[UNKNOWNS]; /* which parameters they are                            */
@@ -78,8 +78,8 @@ struct round {
 /* Sums over the points. */
 struct normal {
     double matrix[UNKNOWNS][UNKNOWNS], right[UNKNOWNS];
-    double squares; /* of what is left                    */
-    double outside; /* points with weight but no surface  */
+    double squares; /* of the residuals                  */
+    double outside; /* points with weight but no surface */
 };
 
 enum {
@@ -118,7 +118,7 @@ sphere_row(const double *p, size_t n, const double *restrict x, double y, double
     }
 }
 
-/* What a cylinder's parameters mean in its own directions. */
+/* The parameters of a cylinder in its own directions. */
 struct across {
     double cos, sin, rise, root; /* of the axis: s, sqrt(1 + s^2) */
     double slope, b;             /* slope across it at the middle, and its B */
@@ -141,7 +141,7 @@ cylinder_row(const double *p, size_t n, const double *restrict x, double y, doub
              double *restrict d)
 {
     const struct across c = across_of(p);
-    /* how b changes with the rise alone, and with the parameters */
+    /* derivatives of b with respect to the rise and to the parameters */
     const double rise = c.rise / c.root;
     const double by_rise = c.slope * c.rise / (c.root * c.root * c.root);
     const double b_B = -c.cos / c.root - by_rise * c.sin;
@@ -163,7 +163,7 @@ cylinder_row(const double *p, size_t n, const double *restrict x, double y, doub
     }
 }
 
-/* ---- rows of the linear equations that start them ---- */
+/* ---- rows of the linear equations of the start ---- */
 
 static void
 sphere_equation(const double *p, size_t n, const double *x, double y, double *e, double *d)
@@ -178,7 +178,7 @@ sphere_equation(const double *p, size_t n, const double *x, double y, double *e,
     }
 }
 
-/* In the plane across the axis, whose direction and slopes are already known. */
+/* In the plane across the axis, whose direction and slopes are known. */
 static void
 cylinder_equation(const double *p, size_t n, const double *x, double y, double *e, double *d)
 {
@@ -201,8 +201,8 @@ place_y(const struct round *f, size_t j)
     return ((double)j - f->middle_y) * f->shape->dy / f->scale;
 }
 
-/* Adds the sums of the products with each of so many columns of n numbers. Several sums grow side by
- * side: alone, each addition would wait for the one before. */
+/* Adds the sums of the products with each of these columns of n numbers. Several sums are computed together;
+ * alone, each addition would wait for the one before. */
 static inline void
 product_sums(size_t n, const double *restrict t, const double *const *column, size_t columns,
              double *sums)
@@ -225,8 +225,8 @@ product_sums(size_t n, const double *restrict t, const double *const *column, si
     }
 }
 
-/* Heights of n nodes in units of the scale, and their weights, both 0 where nothing is there; r:
- * the residuals that weights are made of, or NULL. */
+/* Heights of n nodes in units of the scale, and their weights, both 0 at missing points; r: the residuals for
+ * the weights, or NULL. */
 RC_WIDE_CLONES static void
 weigh(size_t n, const double *restrict h, const double *restrict r, double reach, double mean,
       double per, double *restrict e, double *restrict w)
@@ -240,8 +240,8 @@ weigh(size_t n, const double *restrict h, const double *restrict r, double reach
         w[i] *= rc_biweight(r[i], reach);
 }
 
-/* Adds the sums of n nodes: of the products of each column with those before it and itself, the heights
- * being the last column. Points with weight but no surface are counted. */
+/* Adds the sums of n nodes: the products of each column with the columns before it and with itself; the
+ * heights are the last column. Counts points with weight but no surface. */
 RC_WIDE_CLONES static void
 add_sums(size_t n, size_t unknowns, const size_t *column, double *restrict e, double *restrict w,
          const double *restrict d, double *restrict sums)
@@ -288,7 +288,7 @@ sum_row(const struct round *f, size_t j, surface_row *row, const double *p, size
     }
 }
 
-/* What the normal equations of a quadratic polynomial are made of. */
+/* The sums that make the normal equations of a quadratic polynomial. */
 struct powers {
     double w[5], we[3]; /* sums of w x^k, and of w e x^k */
 };
@@ -316,7 +316,7 @@ add_powers(size_t n, const double *restrict of_x, const double *restrict w,
                         {to->we[0] + e0, to->we[1] + e1, to->we[2] + e2}};
 }
 
-/* Of a quadratic polynomial, whose terms are products of a power of x and one of y. */
+/* For a quadratic polynomial, whose terms are products of a power of x and one of y. */
 static void
 sum_quadratic(const struct round *f, size_t j, surface_row *row, const double *p, size_t unknowns,
               const size_t *column, double *sums)
@@ -344,7 +344,7 @@ sum_quadratic(const struct round *f, size_t j, surface_row *row, const double *p
         *sums++ += sum.we[of_x[column[a]]] * y[of_y[column[a]]];
 }
 
-/* Group by group of rows, and the groups in their order: the sums do not depend on the threads. */
+/* Sums each group of rows, then the groups in order: the result does not depend on the threads. */
 static void
 sum_all(const struct round *f, row_sums *sum, surface_row *row, const double *p, size_t unknowns,
         const size_t *column, struct normal *normal)
@@ -371,7 +371,7 @@ sum_all(const struct round *f, row_sums *sum, surface_row *row, const double *p,
     normal->outside = total[OUTSIDE];
 }
 
-/* What does not need the derivatives: squares and points outside. */
+/* The sums that need no derivatives: squares and points outside. */
 static void
 sum_squares(const struct round *f, const double *p, struct normal *normal)
 {
@@ -384,8 +384,7 @@ sum_surface(const struct round *f, const double *p, struct normal *normal)
     sum_all(f, sum_row, f->surface, p, f->unknowns, f->unknown, normal);
 }
 
-/* What is left of each height in row j, in units of the scale; `beside` where the surface has no
- * height. */
+/* The residual of each height in row j, in units of the scale; `beside` where the surface has no height. */
 static void
 residual_row(const struct round *f, const double *p, size_t j, double beside, double *to)
 {
@@ -414,8 +413,8 @@ find_residuals(const struct round *f, const double *p)
 
 /* ---- the equations ---- */
 
-/* x of (matrix + damping times its diagonal) x = right, n unknowns, by Cholesky's factors of the
- * matrix with a diagonal of 1. False where a pivot is next to nothing. */
+/* x of (matrix + damping times its diagonal) x = right, n unknowns, by Cholesky's factors of the matrix
+ * scaled to a diagonal of 1. False where a pivot is below no_pivot. */
 static bool
 solve_damped(size_t n, const struct normal *normal, double damping, double *x)
 {
@@ -450,7 +449,7 @@ solve_damped(size_t n, const struct normal *normal, double damping, double *x)
     return true;
 }
 
-/* Mean square by which a step moves the surface, times the number of points. */
+/* Mean square displacement of the surface in a step, times the number of points. */
 static double
 moved(size_t n, const struct normal *normal, const double *step)
 {
@@ -471,7 +470,7 @@ undetermined(const struct round *f, struct rc_err *err)
                       f->reach > 0 ? "are left with weight" : "are there", f->name);
 }
 
-/* Iterates p towards the least squares with the present weights, to the end or for so many
+/* Iterates p to the least squares with the present weights, until it converges or for this number of
  * steps. */
 static enum rc_status
 descend(const struct round *f, double *p, size_t steps, struct rc_err *err)
@@ -495,7 +494,7 @@ descend(const struct round *f, double *p, size_t steps, struct rc_err *err)
             to[f->unknown[a]] += step[a];
         if (taken + 1 < steps) {
             sum_surface(f, to, &next);
-        } else { /* the last one: no other starts from there */
+        } else { /* the last pass: nothing starts from it */
             next = now;
             sum_squares(f, to, &next);
         }
@@ -508,7 +507,7 @@ descend(const struct round *f, double *p, size_t steps, struct rc_err *err)
             if (last)
                 break;
         } else if (next.outside == 0 && moved(f->unknowns, &now, step) <= enough) {
-            break; /* rounding keeps the squares from getting less */
+            break; /* only rounding errors are left */
         } else {
             damping = damping > 0 ? 10 * damping : 1e-3;
             if (damping > 1e12)
@@ -519,9 +518,9 @@ descend(const struct round *f, double *p, size_t steps, struct rc_err *err)
     return solve_damped(f->unknowns, &now, 0, (double[UNKNOWNS]){0}) ? RC_OK : undetermined(f, err);
 }
 
-/* ---- where it starts ---- */
+/* ---- the start ---- */
 
-/* Makes the surface less curved until it has a height at all points that count. */
+/* Reduces the curvature until the surface has a height at all points with weight. */
 static enum rc_status
 flatten(const struct round *f, double *p, struct rc_err *err)
 {
@@ -578,7 +577,7 @@ start_cylinder(const struct round *f, double *p, struct rc_err *err)
         return undetermined(f, err);
     p[A] = x[0];
     p[E] = x[2];
-    /* the slope across the axis that belongs to this B; that along it stays */
+    /* sets the slope across the axis for this B; keeps the slope along it */
     {
         struct across c = across_of(p);
         slope = -x[1] * c.root;
@@ -588,7 +587,7 @@ start_cylinder(const struct round *f, double *p, struct rc_err *err)
     return RC_OK;
 }
 
-/* What is left of n heights of a row without the quadratic polynomial of the coefficients c. */
+/* Residuals of n heights of a row without the quadratic polynomial of the coefficients c. */
 RC_WIDE_CLONES static void
 without_quadratic(size_t n, const double *restrict h, const double *restrict of_x, double y,
                   double mean, double per, const double c[UNKNOWNS], double *restrict to)
@@ -610,8 +609,8 @@ find_quadratic_residuals(const struct round *f, const double c[UNKNOWNS])
                           f->residual + j * nx);
 }
 
-/* Weights that leave out points far from a quadratic polynomial, which is itself found with such
- * weights. They need not have settled: they only serve the start. */
+/* Weights that exclude points far from a quadratic polynomial, which is itself fitted with such weights. They
+ * need not converge, because they only serve the start. */
 static enum rc_status
 start_weights(struct round *f, struct rc_err *err)
 {
@@ -747,7 +746,7 @@ radius_of(const struct round *f, const double *p)
     return f->scale * sqrt(square) / (2 * p[A]);
 }
 
-/* What is left, in metres; nothing is touched when a point lies beside the form. */
+/* Subtracts the form, in metres; changes nothing when a point lies beside the form. */
 static enum rc_status
 subtract(struct round *f, const double *p, double radius, double *h, struct rc_err *err)
 {

@@ -1,17 +1,16 @@
 /*
  * Power spectral densities, and the Hurst exponent.
  *
- * A window is laid over a map that is not periodic, about the mean that it sees, so that no wave
- * leaks from the mean. The density is divided by the mean square of the window and by nothing else:
- * so it is right on average for a surface that is alike everywhere. A factor that made the sum
- * Sq^2 would scale all waves by what the long ones, or a form that was left, do near the edges.
+ * A map that is not periodic is multiplied by a window, after its windowed mean is subtracted, so that the
+ * mean does not leak into the waves. The density is divided by the mean square of the window and by nothing
+ * else, so it is unbiased for a statistically homogeneous surface. A factor that made the sum equal Sq^2
+ * would scale all waves by the contribution of long waves, or of a remaining form, near the edges.
  *
- * The Hurst exponent is fitted to log c over log q, by least squares over 24 bins a decade. A bin
- * of n waves is known to about 1/sqrt(n/2) (their squares are distributed exponentially, and
- * opposite waves are the same), and the mean of a logarithm lies psi(n/2) - ln(n/2) too low; no
- * real surface follows a power law closer than a few per cent, which bounds the weight of the many
- * short waves. Where no range is given, the range is taken that balances the misfit of the line
- * against the number of bins left out.
+ * The Hurst exponent is fitted to log c over log q by least squares over 24 bins per decade. The relative
+ * error of a bin of n waves is about 1/sqrt(n/2) (squares of waves are distributed exponentially, and
+ * opposite waves are equal), and the mean of a logarithm is biased by psi(n/2) - ln(n/2). No real surface
+ * follows a power law better than a few per cent, which limits the weight of the many short waves. If no
+ * range is given, the chosen range balances the misfit of the line against the number of excluded bins.
  */
 #include "areal.h"
 
@@ -22,20 +21,20 @@
 #include "libcontact/transform/transform.h"
 
 enum {
-    PARTS = 64,     /* of the spectrum, at the most, summed by themselves */
-    PER_DECADE = 24 /* bins of the fit                                     */
+    PARTS = 64,     /* parts of the spectrum, at most, that are summed separately */
+    PER_DECADE = 24 /* bins of the fit                                            */
 };
 
-/* Relative error of a power law; the price of a bin left out, that of a misfit of twice the
- * expected one; the least ratio of the wavelengths at the ends of a power law; its largest misfit
- * over the expected one; and the Hurst exponents that surfaces can have, with an allowance. */
+/* Relative error of a power law; the cost of an excluded bin, equal to a misfit of twice the expected one;
+ * the smallest ratio of the wavelengths at the ends of a power law; its largest misfit over the expected one;
+ * and the possible Hurst exponents, with an allowance. */
 static const double model_error = 0.05, price = 4, span = 3, fits = 3;
 static const double lowest = -0.05, highest = 1.1;
-/* Relative, so that waves at the ends of a range belong to it; and the part of the largest density
- * below which there is only rounding. */
+/* Relative, so that waves at the ends of a range belong to it; and the fraction of the largest density below
+ * which there is only rounding. */
 static const double slack = 1e-9, rounded = 1e-27;
-/* The fit ends at this part of the wave number of the shortest wave that all directions hold: of
- * waves of just two nodes only a part is seen. */
+/* The fit ends at this fraction of the wave number of the shortest wave that the grid resolves in all
+ * directions: waves of exactly two nodes are only partly seen. */
 static const double resolved = 0.98;
 
 double
@@ -48,8 +47,8 @@ rc_hann(size_t i, size_t n)
 
 /* ---- windows ---- */
 
-/* a[0] - a[1] cos(x) + a[2] cos(2 x), x from 0 to 2 pi along a side: with so many waves it spreads a
- * wave of the surface to that number of neighbours (Harris 1978, Proc. IEEE 66, 51). */
+/* a[0] - a[1] cos(x) + a[2] cos(2 x), x from 0 to 2 pi along a side. The number of its waves is the number of
+ * neighbours to which it spreads a wave of the surface (Harris 1978, Proc. IEEE 66, 51). */
 struct window {
     const char *name;
     size_t waves;
@@ -73,7 +72,7 @@ rc_window_name(size_t k)
     return k < WINDOWS ? windows[k].name : NULL;
 }
 
-/* NULL: no window is called so. */
+/* NULL: no window has this name. */
 static const struct window *
 window_of(const struct rc_psd_options *o)
 {
@@ -93,8 +92,8 @@ weight(const struct window *w, size_t i, size_t n)
     return n == 1 || w->waves == 0 ? 1 : w->a[0] - w->a[1] * cos(x) + w->a[2] * cos(2 * x);
 }
 
-/* Of the weights of a side: the mean square, and how many waves count for one, because neighbours
- * are alike: the mean fourth power over the square of that, 35/18 of Hann's. */
+/* For the weights of a side: the mean square, and the number of waves that count as one, because neighbours
+ * are correlated: the mean fourth power over the square of that, 35/18 for Hann's. */
 static void
 side_figures(const struct window *w, size_t n, double *square, double *alike)
 {
@@ -109,15 +108,14 @@ side_figures(const struct window *w, size_t n, double *square, double *alike)
     *alike = rc_total_value(&four) / (double)n / (*square * *square);
 }
 
-/* Lowest rings, which hold what leaks from the mean. */
+/* Lowest rings, into which the mean leaks. */
 static double
 leaked(const struct window *w)
 {
     return w->waves > 0 ? (double)w->waves + 1.5 : 0;
 }
 
-/* Rings by which a range that is given is narrowed at either end, because waves beyond it may follow
- * another law. */
+/* Rings by which a given range is narrowed at either end, because waves beyond it may follow another law. */
 static double
 spread(const struct window *w)
 {
@@ -129,8 +127,8 @@ struct windowed {
     const double *h;
     const struct window *window;
     double *wx;   /* its weights along x */
-    double mean;  /* taken off before */
-    double alike; /* waves that count for one */
+    double mean;  /* subtracted before */
+    double alike; /* waves that count as one */
 };
 
 static void
@@ -143,7 +141,7 @@ windowed_row(const void *of, size_t j, double *row)
         row[i] = w->wx[i] * wy * (h[i] - w->mean);
 }
 
-/* The mean height as the window sees it, and the mean square of the heights about their own mean. */
+/* The windowed mean height, and the mean square of the heights about their plain mean. */
 static void
 find_means(struct windowed *w, double mean, double *square)
 {
@@ -166,7 +164,7 @@ find_means(struct windowed *w, double mean, double *square)
     *square = rc_total_value(&squares) / ((double)w->shape->nx * (double)w->shape->ny);
 }
 
-/* Lays the window and gives the factor that makes |FFT|^2 a density, and Sq^2. */
+/* Makes the window, the factor that turns |FFT|^2 into a density, and Sq^2. */
 static enum rc_status
 lay_window(struct windowed *w, double *factor, double *square, struct rc_err *err)
 {
@@ -200,19 +198,19 @@ lay_window(struct windowed *w, double *factor, double *square, struct rc_err *er
 /* Sums over one ring: over all waves, and over those of the fit. */
 struct ring {
     double n, q, c;
-    double fit_n, fit_q, fit_c; /* fit_c: of c q^`steep` */
+    double fit_n, fit_q, fit_c; /* fit_c: of c q^steep */
 };
 
 struct rings {
     struct rc_shape shape;
     double width; /* rad/m */
     size_t n;
-    double low, high; /* of the fit, rad/m                                      */
-    int steep;        /* c q^steep hardly changes across a ring                 */
+    double low, high; /* of the fit, rad/m                     */
+    int steep;        /* c q^steep hardly varies across a ring */
     struct ring *ring;
 };
 
-/* Wave number of the shortest wave that all directions hold. */
+/* Wave number of the shortest wave that the grid resolves in all directions. */
 static double
 nyquist(const struct rc_shape *s)
 {
@@ -228,8 +226,7 @@ rings_of(const struct rc_shape *s)
                           s->ny > 1 ? rc_fourier_q(s->ny / 2, s->ny, s->dy) : 0);
     struct rings r = {.shape = *s, .steep = s->nx > 1 && s->ny > 1 ? 3 : 2};
 
-    /* of a strip whose sides differ much, most rings as wide as the lowest wave number would be
-     * empty */
+    /* on a strip with very different sides, most rings as narrow as the lowest wave number would be empty */
     r.width = fmax(fmin(fabs(qx), fabs(qy)), corner / (2 * (double)(s->nx + s->ny)));
     r.n = (size_t)floor(corner / r.width + 0.5) + 1;
     return r;
@@ -259,7 +256,7 @@ add_column(const struct rings *r, const double *power, size_t k, double factor, 
     }
 }
 
-/* Parts into which the spectrum is cut: so few that their rings together are a fraction of it. */
+/* Number of parts of the spectrum, so few that their rings together are a fraction of its size. */
 static size_t
 parts_of(const struct rings *r)
 {
@@ -268,7 +265,7 @@ parts_of(const struct rings *r)
     return most < 1 ? 1 : most < PARTS ? most : PARTS;
 }
 
-/* Each part of the spectrum into rings of its own, which are then added up in their order. */
+/* Sums each part of the spectrum into its own rings, then adds the parts in order. */
 static enum rc_status
 fill_rings(struct rings *r, const double *power, double factor, int threads, struct rc_err *err)
 {
@@ -294,7 +291,7 @@ fill_rings(struct rings *r, const double *power, double factor, int threads, str
 
 /* ---- the power law ---- */
 
-/* Bins of the fit: log of c q^steep over log of q, its variance, and the wave numbers it holds. */
+/* Bins of the fit: log of c q^steep over log of q, its variance, and the range of wave numbers. */
 struct bin {
     double x, y, variance, low, high;
 };
@@ -316,7 +313,7 @@ log_variance(double n)
 static size_t
 make_bins(const struct rings *r, double alike, struct bin *bin)
 {
-    double share = 2 * alike, most = 0; /* share: waves that make one independent square */
+    double share = 2 * alike, most = 0; /* share: number of waves per independent square */
     size_t bins = 0, b = 0;
 
     for (size_t k = 0; k < r->n; k++)
@@ -365,7 +362,7 @@ line_add(struct line *l, const struct bin *b)
     l->yy += w * b->y * b->y;
 }
 
-/* Slope; *left: the sum of squared misfits, each over its expected square. */
+/* Slope; *left: the sum of squared misfits, each over its variance. */
 static double
 line_slope(const struct line *l, double *left)
 {
@@ -396,7 +393,7 @@ fit(const struct rings *r, const struct bin *bin, size_t from, size_t to, struct
     psd->hurst_error = 0.5 / sqrt(l.xx - l.x * l.x / l.w);
 }
 
-/* The bins that a power law explains best; from = to: none. */
+/* The bins that a power law fits best; from = to: none. */
 static void
 find_range(const struct rings *r, const struct bin *bin, size_t bins, size_t *from, size_t *to)
 {
@@ -481,7 +478,7 @@ draw_map(const struct rc_shape *s, const double *power, double factor, double *m
     for (size_t j = 0; j < s->ny; j++)
         for (size_t i = 0; i < s->nx; i++) {
             size_t k = (i + s->nx - s->nx / 2) % s->nx, l = (j + s->ny - s->ny / 2) % s->ny;
-            if (2 * k > s->nx) { /* the opposite wave is kept */
+            if (2 * k > s->nx) { /* the opposite wave is stored */
                 k = s->nx - k;
                 l = (s->ny - l) % s->ny;
             }

@@ -1,4 +1,4 @@
-/* Surfaces made from a formula or from a seed. */
+/* Surfaces from a formula or from a seed. */
 #include "synth.h"
 
 #include <complex.h>
@@ -8,7 +8,8 @@
 #include "libcontact/common.h"
 #include "libcontact/transform/transform.h"
 
-/* Waves at a cut-off and nodes on a rim are included, however decimal numbers were rounded. */
+/* Relative, so that waves at a cut-off and nodes on a rim are included despite the rounding of decimal
+ * numbers. */
 static const double slack = 1e-9;
 
 static double
@@ -17,7 +18,7 @@ place(size_t i, size_t n, double d)
     return ((double)i - 0.5 * (double)(n - 1)) * d;
 }
 
-/* Cosine and sine of degrees, with no rounding at right angles. */
+/* Cosine and sine of an angle in degrees, exact at right angles. */
 static void
 direction_of(double degrees, double *c, double *s)
 {
@@ -97,26 +98,26 @@ rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_
 /* ---- self-affine roughness ---- */
 
 enum {
-    STEPS = 20 /* between heights and waves: more change little */
+    STEPS = 20 /* between heights and waves: more steps change little */
 };
 
-/* The spectrum asked for; wave numbers in 1/m without the factor 2 pi: 1 / wavelength. */
+/* The wanted spectrum; wave numbers in 1/m without the factor 2 pi: 1 / wavelength. */
 struct spectrum {
-    double low, high; /* waves in between, both included               */
-    double rolloff;   /* flat below                                    */
-    double power;     /* amplitudes fall as q^-power above             */
+    double low, high; /* smallest and largest wave number, both included */
+    double rolloff;   /* flat below                                      */
+    double power;     /* amplitudes fall as q^-power above               */
     uint64_t seed;
     double anisotropy, c, s; /* of the lay: its ratio, cosine and sine of its direction */
 };
 
-/* 0 means that it is not given. */
+/* 0 means not given. */
 static bool
 bad_length(double length)
 {
     return !(length >= 0 && isfinite(length));
 }
 
-/* The shortest wavelength that every direction of the grid can hold. */
+/* The shortest wavelength that the grid resolves in all directions. */
 static double
 resolved(const struct rc_shape *shape)
 {
@@ -192,7 +193,7 @@ spectrum_of(const struct rc_shape *shape, const struct rc_selfaffine *what)
     struct spectrum s = {
         .low = what->long_cut == 0 ? 0 : (1 - slack) / what->long_cut,
         .high = (1 + slack) / shortest,
-        /* without a flat part: a wave number below all others */
+        /* without a flat part: below all other wave numbers */
         .rolloff = 1 / (what->rolloff == 0 ? size : what->rolloff),
         .power = what->hurst + (profile ? 0.5 : 1),
         .seed = what->seed,
@@ -202,7 +203,7 @@ spectrum_of(const struct rc_shape *shape, const struct rc_selfaffine *what)
     return s;
 }
 
-/* Wave number, across the lay, of the wave that has the same power. */
+/* Wave number, across the lay, of the wave with the same power. */
 static double
 wave_number(const struct spectrum *what, double qx, double qy)
 {
@@ -220,8 +221,8 @@ scramble(uint64_t z)
     return z ^ z >> 31;
 }
 
-/* A complex Gaussian number with mean square 1 that depends on seed, kx and ky alone (Box and
- * Muller 1958), with its phase moved on by so many periods. */
+/* A complex Gaussian number with mean square 1 that depends on seed, kx and ky alone (Box and Muller 1958),
+ * with its phase shifted by this number of periods. */
 static double complex
 draw(uint64_t seed, long kx, long ky, double periods)
 {
@@ -236,10 +237,10 @@ draw(uint64_t seed, long kx, long ky, double periods)
     return sqrt(-log(u)) * (cos(angle) + I * sin(angle));
 }
 
-/* Amplitude of the wave exp(2 pi i (kx x / Lx + ky y / Ly)). Numbers are drawn for waves about the
- * middle of the map, so that they are the same on every grid; the transform counts from node (0,
- * 0), hence the phase. Heights are real when opposite waves are conjugate: numbers are drawn for
- * one of each two. Waves of two nodes (Nyquist) are left out: they are their own opposites. */
+/* Amplitude of the wave exp(2 pi i (kx x / Lx + ky y / Ly)). The phases refer to the middle of the map, so
+ * that they are the same on every grid; the transform counts from node (0, 0), hence the extra phase. Heights
+ * are real if opposite waves are conjugate: a number is drawn for one of each pair. Waves of two nodes
+ * (Nyquist) are left out: they are their own opposites. */
 static double complex
 amplitude(const struct rc_shape *shape, const struct spectrum *what, long kx, long ky)
 {
@@ -257,7 +258,7 @@ amplitude(const struct rc_shape *shape, const struct spectrum *what, long kx, lo
     return size * draw(what->seed, kx, ky, periods);
 }
 
-/* Fills the spectrum; mean squares of height and of slope follow from Parseval's theorem. */
+/* Fills the spectrum; the mean squares of height and slope follow from Parseval's theorem. */
 static void
 make_waves(const struct rc_shape *shape, const struct spectrum *what, double complex *s,
            double *height2, double *slope2)
@@ -267,14 +268,14 @@ make_waves(const struct rc_shape *shape, const struct spectrum *what, double com
     *height2 = *slope2 = 0;
     for (size_t j = 0; j < shape->ny; j++) {
         long ky = rc_fourier_number(j, shape->ny);
-        double row_height2 = 0, row_slope2 = 0; /* short sums keep their digits */
+        double row_height2 = 0, row_slope2 = 0; /* summed row by row to keep digits */
         for (size_t i = 0; i < columns; i++) {
             double complex a = amplitude(shape, what, (long)i, ky);
             double qx = rc_fourier_q(i, shape->nx, shape->dx);
             double qy = rc_fourier_q(j, shape->ny, shape->dy);
             double a2 = creal(a) * creal(a) + cimag(a) * cimag(a);
             if (i > 0)
-                a2 *= 2; /* with the conjugate that is not stored */
+                a2 *= 2; /* includes the conjugate, which is not stored */
             row_height2 += a2;
             row_slope2 += a2 * (qx * qx + qy * qy);
             s[j * columns + i] = a;
@@ -284,7 +285,7 @@ make_waves(const struct rc_shape *shape, const struct spectrum *what, double com
     }
 }
 
-/* Gives heights of mean 0 and RMS 1 the size asked for; s is room for their waves. */
+/* Scales heights of mean 0 and RMS 1 to the wanted size; s: scratch for their waves. */
 static enum rc_status
 set_size(const struct rc_shape *shape, const struct rc_selfaffine *what, double complex *s,
          double *h, struct rc_err *err)
@@ -296,7 +297,7 @@ set_size(const struct rc_shape *shape, const struct rc_selfaffine *what, double 
         if (rc_fourier_forward(shape, h, s, err) != RC_OK)
             return RC_FAIL;
         for (size_t j = 0; j < shape->ny; j++) {
-            double row = 0; /* short sums keep their digits */
+            double row = 0; /* summed row by row to keep digits */
 
             for (size_t i = 0; i < columns; i++) {
                 double q = hypot(rc_fourier_q(i, shape->nx, shape->dx),

@@ -1,18 +1,18 @@
-/* Edges led to one height, so that a map can be repeated. */
+/* Edges tapered to one height, so that a map can be repeated. */
 #include "libcontact/common.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Of the middle of node i from the nearer edge of its side. */
+/* Distance of node i from the nearer edge of its side. */
 static double
 from_edge(size_t i, size_t n, double d)
 {
     return ((double)(i < n - 1 - i ? i : n - 1 - i) + 0.5) * d;
 }
 
-/* Weight of each node of a side: a raised cosine of its middle's distance from the edge, up to the
- * width; 1 on a side of one node. NULL when memory is short. */
+/* Weight of each node of a side: a raised cosine of the node's distance from the edge up to `width`, then 1;
+ * 1 on a side of one node. NULL when memory is short. */
 static double *
 weights(size_t n, double d, double width)
 {

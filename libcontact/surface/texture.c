@@ -1,13 +1,13 @@
 /*
- * How far heights are alike, and which way they run.
+ * Correlation length and direction of the texture.
  *
- * The autocorrelation is the mean product of the heights that are so far apart, over the pairs that
- * the map has (circular when it is periodic), over Sq^2; up to half the map. Sal is the nearest
- * offset whose correlation has fallen to 0.2, Str that over the farthest one up to which it has not:
- * both along rays from 0, a node at a time.
+ * The autocorrelation is the mean product of two heights at an offset, over the pairs in the map (circular
+ * when it is periodic), over Sq^2; for offsets up to half the map. Sal is the shortest offset at which the
+ * correlation has fallen to 0.2; Str is Sal over the longest one. Both are found along rays from 0, a node at
+ * a time.
  *
- * The direction is the strongest of the angular spectrum: the power of each wave, spread over the
- * angles up to its neighbours.
+ * The direction is the maximum of the angular spectrum, to which each wave contributes its power, spread over
+ * the angles up to its neighbours.
  */
 #include "areal.h"
 
@@ -17,18 +17,18 @@
 #include "libcontact/transform/transform.h"
 
 static const double fallen = 0.2, rounded = 1e-9;
-/* The widest angle that the power of a wave is spread over, to either side, radians. */
+/* The largest angle over which the power of a wave is spread, to either side, radians. */
 static const double widest = 0.05;
 
 enum {
     FEWEST = 180, /* rays in half a turn                                            */
     MOST = 3600,
     ANGLES = 720, /* bins of the angular spectrum in half a turn */
-    PARTS = 64,   /* of the spectrum, summed by themselves       */
-    WEDGE = 6     /* bins to either side that belong to the strongest direction  */
+    PARTS = 64,   /* parts of the spectrum that are summed separately */
+    WEDGE = 6     /* bins on either side of the maximum that belong to it */
 };
 
-/* ---- rows that are transformed ---- */
+/* ---- windowed rows for the transform ---- */
 
 struct windowed {
     const struct rc_relief *relief;
@@ -86,7 +86,7 @@ sums_of(const struct rc_offsets *at)
     return (2 * at->mx + 1) * (at->my + 1);
 }
 
-/* Pairs of nodes that are (x, y) nodes apart, when all were measured. */
+/* Number of pairs of nodes that are (x, y) nodes apart on a map without missing points. */
 static double
 all_pairs(const struct rc_relief *r, const struct rc_offsets *at, size_t i, size_t j)
 {
@@ -97,8 +97,8 @@ all_pairs(const struct rc_relief *r, const struct rc_offsets *at, size_t i, size
     return (double)((r->shape.nx - x) * (r->shape.ny - j));
 }
 
-/* Correlations, 1 at no offset and NAN where there is no pair; (2 mx + 1) (my + 1) of them. NULL: *err
- * says why. */
+/* Correlations, 1 at offset 0 and NAN where there is no pair; (2 mx + 1) (my + 1) of them. NULL on failure:
+ * *err says why. */
 static double *
 correlations(const struct rc_relief *r, const struct rc_offsets *at, double sq, struct rc_err *err)
 {
@@ -130,7 +130,7 @@ fail:
     return NULL;
 }
 
-/* The correlation at whole offsets; NAN beyond those that are kept. */
+/* The correlation at whole offsets; NAN beyond the stored ones. */
 static double
 correlation_of(const double *c, const struct rc_offsets *at, double x, double y)
 {
@@ -143,9 +143,9 @@ correlation_of(const double *c, const struct rc_offsets *at, double x, double y)
     return c[(size_t)y * (2 * at->mx + 1) + (size_t)(x + (double)at->mx)];
 }
 
-/* At (x, y) nodes, of which one is whole: by a cubic through four values along the other direction,
- * because a straight line would make a kink of the smooth top; by a line where the outer two of the
- * four are not there. */
+/* The correlation at (x, y) nodes, of which one is whole: by a cubic through four values along the other
+ * direction, because linear interpolation would give the smooth maximum a kink; linear where the outer two of
+ * the four are missing. */
 static double
 correlation_at(const double *c, const struct rc_offsets *at, double x, double y)
 {
@@ -165,7 +165,7 @@ correlation_at(const double *c, const struct rc_offsets *at, double x, double y)
     return v[1] + t * (v[2] - v[1]) - t * (1 - t) * ((2 - t) * a + (1 + t) * d) / 6;
 }
 
-/* Where the correlation first falls to 0.2 along this angle, m; NAN: nowhere on the map. */
+/* The offset at which the correlation first falls to 0.2 along this angle, m; NAN: nowhere on the map. */
 static double
 falls_at(const double *c, const struct rc_offsets *at, const struct rc_shape *s, double angle)
 {
@@ -218,8 +218,8 @@ measure_lengths(const struct rc_relief *r, const struct rc_offsets *at, const do
 
 /* ---- direction ---- */
 
-/* Wave number of a wave of the half plane that is kept, y up the picture. Gives 2 where the wave
- * also stands for its opposite, else 1. */
+/* Wave number of a wave of the stored half plane, y up the picture. Returns 2 if the wave also stands for its
+ * opposite, else 1. */
 static inline double
 wave_of(const struct rc_shape *s, size_t k, size_t j, double *qx, double *qy)
 {
@@ -228,7 +228,7 @@ wave_of(const struct rc_shape *s, size_t k, size_t j, double *qx, double *qy)
     return k == 0 || 2 * k == s->nx ? 1 : 2;
 }
 
-/* Part of a triangle of area 1 over -1 .. 1 that lies below u. */
+/* Area below u of a triangle of area 1 over -1 .. 1. */
 static double
 triangle_below(double u)
 {
@@ -237,7 +237,7 @@ triangle_below(double u)
     return rest < 0 ? (u < 0 ? 0 : 1) : u < 0 ? rest * rest / 2 : 1 - rest * rest / 2;
 }
 
-/* Adds a wave's power over the angles about its own, as a triangle. */
+/* Spreads a wave's power over the angles around its own, as a triangle. */
 static void
 add_power(double *bin, double angle, double half_width, double power)
 {
@@ -250,8 +250,8 @@ add_power(double *bin, double angle, double half_width, double power)
     }
 }
 
-/* Sums over the columns of one part. With `toward` NAN: the angular spectrum into sum[ANGLES]; else
- * cos and sin of twice the angle, weighted with power, within the wedge about that angle. */
+/* Sums over the columns of one part. With `toward` NAN: the angular spectrum into sum[ANGLES]; else cos and
+ * sin of twice the angle, weighted with power, within the wedge around that angle. */
 static void
 sum_part(const struct rc_shape *s, const double *power, size_t part, double toward, double wedge,
          double *sum)
@@ -292,8 +292,8 @@ sum_parts(const struct rc_relief *r, const double *power, double toward, double 
             sums[0][b] += sums[part][b];
 }
 
-/* The middle of the strongest bin, taken together with the bins about it: one wave is seen in
- * several. */
+/* The middle of the strongest bin, each bin taken together with its neighbours, because several bins see one
+ * wave. */
 static double
 strongest(const double bin[ANGLES])
 {
@@ -318,7 +318,7 @@ measure_direction(const struct rc_relief *r, const double *power, double (*sums)
 
     sum_parts(r, power, NAN, 0, sums);
     angle = strongest(sums[0]);
-    /* a window spreads a wave to its neighbours: the wedge takes two to either side */
+    /* a window spreads a wave to its neighbours: the wedge extends two waves to either side */
     for (int pass = 0; pass < 3; pass++) {
         sum_parts(r, power, angle, wedge, sums);
         if (!(sums[0][3] > 0))
@@ -330,7 +330,7 @@ measure_direction(const struct rc_relief *r, const double *power, double (*sums)
     a->std = 180 - angle < 1e-9 ? 0 : angle; /* rounded just below a half turn */
 }
 
-/* Makes the window, and the mean weighted by it. */
+/* Makes the window and the mean weighted by it. */
 static void
 lay_window(struct windowed *w)
 {

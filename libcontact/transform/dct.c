@@ -1,7 +1,6 @@
 /*
- * The whole period is laid out and transformed as any real line: FFTW's own even and odd transforms
- * of half a period do not use vector registers and take twice as long (1025 values: 5.0 us against
- * 2.5).
+ * The whole period is laid out and transformed as a real line: FFTW's even and odd transforms of half a
+ * period do not use vector registers and take twice as long (1025 values: 5.0 us against 2.5).
  */
 #include "dct.h"
 
@@ -18,12 +17,12 @@
 
 struct rc_dct {
     size_t n;
-    fftw_plan plan; /* of the whole period; NULL for a single value, which is its own transform */
-    size_t per_thread; /* doubles of scratch of one thread                                        */
-    double *scratch;   /* for each thread: the period, and its transform                          */
+    fftw_plan plan;    /* of the whole period; NULL for a single value, which needs none */
+    size_t per_thread; /* doubles of scratch of one thread                               */
+    double *scratch;   /* for each thread: the period, and its transform                 */
 };
 
-/* FFTW uses the wide registers only on aligned data: both begin a cache line. */
+/* FFTW uses vector registers only on aligned data: both arrays begin a cache line. */
 static size_t
 whole_lines(size_t n)
 {

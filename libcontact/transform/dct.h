@@ -10,13 +10,13 @@
 
 #include "libcontact/grid.h"
 
-/* For lines of n values, v_0 .. v_(n-1) of a period 2n - 2, and for as many threads at once as are
- * given. NULL when memory is short. */
+/* For lines of n values, v_0 .. v_(n-1) of a period 2n - 2, and this number of threads. NULL when memory is
+ * short. */
 struct rc_dct;
 struct rc_dct *rc_dct_new(size_t n, size_t threads, struct rc_err *err);
-/* In place: an even line becomes the sum of v_j cos(pi j k / (n-1)) over the whole period, an odd
- * one, whose ends count as zero, that of v_j sin(pi j k / (n-1)). Called by threads of one OpenMP
- * team, on lines of their own. */
+/* In place: an even line becomes the sum of v_j cos(pi j k / (n-1)) over the whole period; an odd line, whose
+ * ends count as zero, the sum of v_j sin(pi j k / (n-1)). The threads of one OpenMP team call it, each on its
+ * own lines. */
 void rc_dct_run(const struct rc_dct *dct, bool odd, double *line);
 void rc_dct_free(struct rc_dct *dct); /* NULL is allowed */
 

@@ -20,8 +20,8 @@ rc_fourier_size(const struct rc_shape *shape)
     return shape->ny * rc_fourier_columns(shape);
 }
 
-/* Runs a plan and frees it. Plans are made without measuring, so that the same map gives the same
- * bytes each time. */
+/* Runs a plan and frees it. Plans are made without measuring, so that the same map gives the same bytes in
+ * every run. */
 static enum rc_status
 run(const struct rc_shape *shape, fftw_plan plan, struct rc_err *err)
 {

@@ -1,9 +1,9 @@
 /*
  * Fourier transforms of periodic maps and lines. Internal: never installed.
  *
- * The spectrum of nx x ny real values has ny rows of nx/2 + 1 complex numbers. Column k is wave
- * number k along x; row k is wave number k along y, or k - ny in the upper half. The other half
- * plane is the complex conjugate. Nothing is divided by nx ny.
+ * The spectrum of nx x ny real values has ny rows of nx/2 + 1 complex numbers. Column k is wave number k
+ * along x; row k is wave number k along y, or k - ny in the upper half. The other half plane is the complex
+ * conjugate. No transform divides by nx ny.
  */
 #ifndef RC_FOURIER_H
 #define RC_FOURIER_H
@@ -29,8 +29,8 @@ rc_fourier_q(size_t k, size_t n, double d)
     return 2 * RC_PI * (double)rc_fourier_number(k, n) / ((double)n * d);
 }
 
-/* Length for n nodes and as much padding: the smallest multiple of `step` from 2n up without prime
- * factors over 7. */
+/* Length of a transform with n nodes and as much padding: the smallest multiple of `step` from 2n up without
+ * prime factors above 7. */
 size_t rc_fourier_length(size_t n, size_t step);
 
 /* s_k = sum of v_j exp(-2 pi i jk / n); v is kept. RC_FAIL when a side is too long for FFTW or
@@ -41,12 +41,11 @@ enum rc_status rc_fourier_forward(const struct rc_shape *shape, const double *v,
 enum rc_status rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v,
                                    struct rc_err *err);
 
-/* Transforms of single lines of n real values, for as many threads at once as are given. NULL when
- * memory is short. */
+/* Transforms of single lines of n real values, for this number of threads. NULL when memory is short. */
 struct rc_line;
 struct rc_line *rc_line_new(size_t n, size_t threads, struct rc_err *err);
-/* s_k, k <= n/2, of n values, and back (nothing is divided by n); they may lie anywhere. Called by
- * threads of one OpenMP team. */
+/* s_k, k <= n/2, of n values, and back (without division by n); any alignment. The threads of one OpenMP team
+ * call it. */
 void rc_line_forward(const struct rc_line *line, const double *v, double complex *s);
 void rc_line_backward(const struct rc_line *line, const double complex *s, double *v);
 void rc_line_free(struct rc_line *line); /* NULL is allowed */

@@ -1,9 +1,9 @@
 /*
- * Two locks. FFTW's own, which fftw_make_planner_thread_safe switches on for the whole process, is
- * taken in every call of its planner, those of the program that uses this library included. It is
- * switched on when this library is loaded: a thread that is planning at that moment would leave it
- * unlocked for good. libfftw3_omp has that function too, but there it does nothing. If a program
- * brings that one in first, the lock of this library still keeps its own plans apart.
+ * Two locks. FFTW's own lock, which fftw_make_planner_thread_safe switches on for the whole process, is taken
+ * by every call of its planner, also by calls from the program that uses this library. It is switched on when
+ * this library is loaded: a thread that is planning at that moment would leave it unlocked for good.
+ * libfftw3_omp has the same function, but there it does nothing. If the program loads libfftw3_omp first,
+ * this library's own lock still protects its plans.
  */
 #include "planner.h"
 

@@ -1,6 +1,6 @@
 /*
- * The lock of FFTW's planner, in which only one thread may be at a time, in a program with other
- * users of FFTW too. Internal: never installed.
+ * The lock of FFTW's planner, which only one thread may use at a time, also in a program with other users of
+ * FFTW. Internal: never installed.
  */
 #ifndef RC_PLANNER_H
 #define RC_PLANNER_H

@@ -1,8 +1,7 @@
 /*
- * Rows are transformed as they come and kept as complex numbers; columns are then taken a few at a
- * time, two cache lines of each row. Columns are never written back whole: of a spectrum only the
- * squares are written, of an autocorrelation only the rows of y >= 0, which fit in the place of the
- * rows of the map.
+ * Rows are transformed as they arrive and stored as complex numbers; then columns are transformed a few at a
+ * time, two cache lines of each row. Columns are never written back whole: of a spectrum only the squares are
+ * written, of an autocorrelation only the rows of y >= 0, which replace the rows of the map.
  */
 #include "power.h"
 
@@ -19,25 +18,25 @@
 #include "planner.h"
 
 enum {
-    COLUMNS = 8 /* taken together */
+    COLUMNS = 8 /* processed together */
 };
 
 struct work {
     struct rc_shape shape;
-    struct rc_offsets at; /* mx = my = 0: only a spectrum is wanted */
-    size_t columns;       /* complex numbers of a row               */
-    size_t lane;          /* complex numbers of a column's room     */
+    struct rc_offsets at; /* mx = my = 0: only the spectrum        */
+    size_t columns;       /* complex numbers of a row              */
+    size_t lane;          /* complex numbers of scratch per column */
     int threads;
     rc_map_row *row;
     const void *map;
-    double complex *rows; /* ny rows of `columns`                                         */
-    double complex *room; /* COLUMNS columns, and one more, of each thread                */
-    double *line;         /* px values of each thread                                      */
+    double complex *rows; /* ny rows of `columns`                         */
+    double complex *room; /* COLUMNS columns and one more for each thread */
+    double *line;         /* px values for each thread                    */
     struct rc_line *along_x;
     fftw_plan down, back; /* of a column: its waves, and the sums of their squares        */
 };
 
-/* A row's room in doubles, and a column's in complex numbers: whole cache lines. */
+/* Scratch of a row in doubles, of a column in complex numbers: whole cache lines. */
 static size_t
 whole_lines(size_t n)
 {
@@ -125,8 +124,8 @@ squares(const struct work *w, double complex *v)
     return power;
 }
 
-/* Columns from `first` on, as many as are taken together: into `power`, or, without one, back as
- * rows of sums. */
+/* The columns from `first` on that are processed together: into `power` or, if it is NULL, back as rows of
+ * sums. */
 static void
 transform_columns(const struct work *w, size_t first, double *power)
 {
@@ -142,7 +141,7 @@ transform_columns(const struct work *w, size_t first, double *power)
         if (power != NULL)
             memcpy(power + (first + k) * w->shape.ny, of, w->shape.ny * sizeof *of);
         else
-            /* into the column before, which is no longer needed, or into the spare one */
+            /* into the column before, which is no longer needed, or into the extra one */
             fftw_execute_dft_r2c(w->back, of, column - w->lane);
     }
     for (size_t j = 0; power == NULL && j <= w->at.my && j < w->shape.ny; j++)

@@ -1,13 +1,12 @@
 /*
- * Power of the waves of real maps, and what follows from it alone: autocorrelations. Internal: never
- * installed.
+ * Power of the waves of real maps, and autocorrelations, which follow from it. Internal: never installed.
  */
 #ifndef RC_POWER_H
 #define RC_POWER_H
 
 #include "libcontact/grid.h"
 
-/* Writes row j of a map, nx values. Rows are asked for by several threads, each once. */
+/* Writes row j of a map, nx values. Several threads call it, once for each row. */
 typedef void rc_map_row(const void *map, size_t j, double *row);
 
 /* |s|^2 of the waves of a map, for s as in fourier.h, column by column: wave number k along x and
@@ -16,10 +15,10 @@ typedef void rc_map_row(const void *map, size_t j, double *row);
 enum rc_status rc_power(const struct rc_shape *shape, rc_map_row *row, const void *map,
                         size_t threads, double *power, struct rc_err *err);
 
-/* Sums of the products of nodes that are (x, y) nodes apart, for 0 <= y <= my and -mx <= x <=
- * mx, my + 1 rows of 2 mx + 1 sums: opposite offsets have the same sums. The map repeats, px =
- * nx, py = ny, or is padded with zeros to px x py nodes, as far as these offsets reach: px >= nx
- * + mx, py >= ny + my. mx <= px/2, my <= py/2, my < ny. Fails likewise. */
+/* Sums of the products of nodes that are (x, y) nodes apart, for 0 <= y <= my and -mx <= x <= mx, my + 1 rows
+ * of 2 mx + 1 sums: opposite offsets have the same sums. The map is periodic (px = nx, py = ny) or padded
+ * with zeros to px x py nodes, with px >= nx + mx and py >= ny + my. mx <= px/2, my <= py/2, my < ny. Fails
+ * likewise. */
 struct rc_offsets {
     size_t px, py, mx, my;
 };

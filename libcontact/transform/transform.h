@@ -1,6 +1,6 @@
 /*
- * The face of this folder: Fourier transforms of maps and lines by FFTW, and what follows from the
- * power of their waves. Internal: never installed.
+ * The interface of this folder: Fourier transforms of maps and lines by FFTW, and results from the power of
+ * their waves. Internal: never installed.
  */
 #ifndef RC_TRANSFORM_H
 #define RC_TRANSFORM_H
