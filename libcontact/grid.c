@@ -295,14 +295,19 @@ shorten(char *history)
 enum rc_status
 rc_grid_history(struct rc_grid *g, const char *step, struct rc_err *err)
 {
+    static const size_t most = HISTORY_MAX / 2 - 16; /* of a step: the first and the last fit */
     const char *old = rc_grid_get(g, "history");
-    size_t size = (old == NULL ? 0 : strlen(old)) + strlen(step) + 4;
+    size_t n = strlen(step), keep = n <= most ? n : most;
+    size_t size = (old == NULL ? 0 : strlen(old)) + keep + 8;
     char *text = malloc(size);
     enum rc_status status;
 
     if (text == NULL)
         return rc_err_set(err, "out of memory for %zu bytes of history", size);
-    snprintf(text, size, "%s%s%s", old == NULL ? "" : old, old == NULL ? "" : " | ", step);
+    while (keep < n && (step[keep] & 0xc0) == 0x80) /* within a character of UTF-8 */
+        keep--;
+    snprintf(text, size, "%s%s%.*s%s", old == NULL ? "" : old, old == NULL ? "" : " | ", (int)keep,
+             step, keep < n ? "..." : "");
     if (strlen(text) > HISTORY_MAX)
         shorten(text);
     status = rc_grid_set(g, "history", text, err);

@@ -127,7 +127,7 @@ RC_API void rc_grid_origin(const struct rc_grid *grid, double *i, double *j);
 RC_API size_t rc_grid_case(const struct rc_grid *grid);
 
 /* Adds one step to the key `history`, steps joined by " | "; past 32 KiB middle steps become
- * "...". */
+ * "...", and so does the end of a step beyond 16368 bytes. */
 RC_API enum rc_status rc_grid_history(struct rc_grid *grid, const char *step, struct rc_err *err);
 
 RC_API bool rc_key_valid(const char *name);

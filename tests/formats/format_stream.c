@@ -753,6 +753,35 @@ test_long_history(void **state)
     rc_grid_free(g);
 }
 
+/* A single step that is too long is cut at its end, never inside a character, beside any number of others. */
+static void
+test_long_step(void **state)
+{
+    enum {
+        MOST = 32 * 1024,
+        LONG = 40001
+    };
+    struct rc_grid *g = ugly_grid();
+    char *step = malloc(LONG + 1);
+    const char *at;
+
+    (void)state;
+    assert_non_null(step);
+    for (size_t k = 0; k < 4; k++) {
+        memset(step, (int)('a' + k), LONG);
+        for (size_t i = k; i + 1 < LONG; i += 2) /* two bytes a character */
+            memcpy(step + i, "\xc3\xa4", 2);
+        step[LONG] = '\0';
+        assert_int_equal(rc_grid_history(g, step, NULL), RC_OK);
+        at = rc_grid_get(g, "history");
+        assert_true(strlen(at) <= MOST);
+        assert_int_equal(memcmp(at + strlen(at) - 5, "\xc3\xa4...", 5), 0);
+        assert_true(k == 0 || strstr(at, " | ") != NULL);
+    }
+    free(step);
+    rc_grid_free(g);
+}
+
 static void
 test_full_disk(void **state)
 {
@@ -800,6 +829,7 @@ main(void)
         cmocka_unit_test(test_second_stream_cut),
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_long_history),
+        cmocka_unit_test(test_long_step),
         cmocka_unit_test(test_full_disk),
     };
 

@@ -86,6 +86,14 @@ claim "  a loop is drawn" says 'Force along x against displacement along x' lege
 printf 'load fx fy # of a joint\n240N 0 0\n\n240N,43.2N,0\n240N\t-43.2N\t0\n240 43.2 0\n' >loop.txt
 rc-slip --mu 0.3 --history loop.txt --report loop2.tsv -o loop2.rcg ball.rcg
 claim "--history is --path from a file" cmp <(cut -f 1-39 loop.tsv) <(cut -f 1-39 loop2.tsv)
+# 14,000 characters, which the stream's history and a checkpoint keep, to the last corner
+rc-synth sphere --nx 4 --dx 10um --radius 1mm | rc-solve --quiet --load 1N $steel -o small.rcg
+awk 'BEGIN { for (k = 0; k < 600; k++) printf "1N %.15fN 0\n", k % 2 * 0.123456789012345 + k * 1e-6 }' >long.txt
+sed '$s/0[.]12/0.02/' long.txt >other.txt
+long='rc-slip --quiet --mu 0.3 --increments 1 --checkpoint long-kept.rcg -o long.rcg small.rcg'
+$long --history long.txt
+claim "the history of a long path is whole" bash -c "rc-info long.rcg | grep -c ';1,0.124055789012345,0 --increments 1'"
+refuses 1 'of another pressure, or of other options' "  and another last corner is another path" "$long --resume --history other.txt"
 rc-slip --quiet --mu 0.3 --path '100N,0,0; 240N,43.2N,0; 120N,20N,0; 0,0,0' --report grow.tsv -o grow.rcg ball.rcg
 near "$(column load 1 grow.tsv)" 100 1e-9 "loads change: contacts are solved on the way"
 rc-solve --quiet --load 100N $steel -o less.rcg sphere.rcg

@@ -6,26 +6,37 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/contact.h"
 #include "parts.h"
 
 struct line {
-    char text[8192];
-    size_t n;
+    struct tool *tool;
+    char *text;
+    size_t n, size;
     char between; /* words: a blank at the beginning of `a` stands for it */
 };
 
+/* Lists of loads and paths may be long: the text grows with them. */
 static void
 add(struct line *line, const char *a, const char *b)
 {
-    size_t left = sizeof line->text - line->n;
-    int n = snprintf(line->text + line->n, left, "%s%s", a, b);
+    size_t more = strlen(a) + strlen(b);
 
+    if (line->size - line->n <= more) {
+        size_t size = 2 * (line->n + more + 1);
+        char *text = realloc(line->text, size);
+        if (text == NULL)
+            tool_die(line->tool, EXIT_IMPOSSIBLE, "out of memory for %zu bytes of history", size);
+        line->text = text;
+        line->size = size;
+    }
+    snprintf(line->text + line->n, line->size - line->n, "%s%s", a, b);
     if (a[0] == ' ')
         line->text[line->n] = line->between;
-    line->n += n < 0 ? 0 : (size_t)n < left ? (size_t)n : left - 1;
+    line->n += more;
 }
 
 static void
@@ -95,10 +106,11 @@ add_steps(struct line *line, const struct steps *steps)
 }
 
 static void
-fill(const struct tool *t, struct line *line)
+fill(struct tool *t, struct line *line)
 {
     bool steps_done = false;
 
+    line->tool = t;
     line->n = 0;
     add(line, t->info->name, "");
     add(line, " ", rc_version());
@@ -120,7 +132,7 @@ fill(const struct tool *t, struct line *line)
 }
 
 const char *
-tool_history(const struct tool *t)
+tool_history(struct tool *t)
 {
     static struct line line = {.between = ' '};
 
@@ -129,7 +141,7 @@ tool_history(const struct tool *t)
 }
 
 size_t
-tool_result_words(const struct tool *t, const char *word[], size_t most)
+tool_result_words(struct tool *t, const char *word[], size_t most)
 {
     static struct line line = {.between = '\0'};
     size_t n = 0;

@@ -186,9 +186,9 @@ void tool_start(struct tool *tool, const struct tool_info *info, int argc, char 
 bool tool_given(const struct tool *tool, const char *name);
 /* This tool's line in a stream's history: name, version, the options that change the result, in SI.
  * Valid until the next call. */
-const char *tool_history(const struct tool *tool);
+const char *tool_history(struct tool *tool);
 /* The same options as separate words, for another command; at most `most`. Valid until the next call. */
-size_t tool_result_words(const struct tool *tool, const char *word[], size_t most);
+size_t tool_result_words(struct tool *tool, const char *word[], size_t most);
 
 /* The next frame of all inputs, cases numbered on; NULL at their end. The caller frees it. */
 struct rc_grid *tool_read(struct tool *tool);
