@@ -1,11 +1,12 @@
 /*
- * Which fluid flows: a node lies on a way from inlet to outlet that passes no node twice when it is in
- * one block with a face that would join the two (Hopcroft and Tarjan, Commun. ACM 16, 1973, 372). All
- * other fluid stands, exactly: dead ends hang on one node, and some fluid is shut in.
+ * Distinguishes flowing from still fluid: a node lies on a path from inlet to outlet that passes no node
+ * twice if it is in one block with an additional face that joins the two (Hopcroft and Tarjan, Commun. ACM
+ * 16, 1973, 372). In all other fluid the velocity is exactly zero: dead ends, which are connected through a
+ * single node, and enclosed fluid.
  *
- * The search in depth begins at the inlet and goes first over that face to the outlet. low[k] is the
- * earliest node that is reached from k and what is found below it by one face beside that to its parent. A
- * node is in the block of its parent when low reaches past that.
+ * The depth-first search starts at the inlet and first crosses that face to the outlet. low[k] is the
+ * earliest node that k and the nodes found below it reach by one face other than that to its parent. A node
+ * is in the block of its parent when low reaches beyond that parent.
  */
 #include "leak.h"
 
@@ -19,9 +20,9 @@ enum {
 
 struct search {
     const struct rc_passage *a;
-    int32_t *found, *low; /* 0: not yet                                  */
-    int32_t *order;       /* nodes of the map as they were found         */
-    uint8_t *way;         /* to its parent; the direction that is next   */
+    int32_t *found, *low; /* 0: not yet                                         */
+    int32_t *order;       /* nodes of the map in the order of the search        */
+    uint8_t *way;         /* direction to its parent; the next direction to try */
     uint8_t *next;
     int32_t n;
 };
@@ -41,7 +42,7 @@ find_node(struct search *s, int32_t k, enum rc_direction way)
     s->next[k] = 0;
 }
 
-/* All that hangs on node k, which was found from the outlet. */
+/* Searches everything connected to node k, which was found from the outlet. */
 static void
 search_from(struct search *s, int32_t k)
 {
@@ -108,7 +109,7 @@ done:
     return status;
 }
 
-/* The nodes that stand together with k, from list[0] on, and the pressure that they share. */
+/* The still nodes connected to node k, in list from list[0] on, and the pressure that they share. */
 static int32_t
 pool_of(const struct rc_passage *a, int32_t k, const struct rc_levels *levels, int32_t *list,
         bool *seen, double *shared)

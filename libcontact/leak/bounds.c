@@ -1,11 +1,12 @@
 /*
- * Bounds of the conductance G of a network, from any pressure P of its nodes:
+ * Bounds of the conductance G of a network, from any pressures P of its nodes:
  *
  *     G <= sum of k (dP)^2 over the faces, P cut off at 0 and 1     (Dirichlet)
  *     G >= q^2 / sum of f^2/k                                       (Thomson)
  *
- * for flows f over the faces that are lost nowhere and leave the inlet with q together. Those are k dP, and
- * what does not add up at a node is sent down the trees of greatest gaps to inlet or outlet.
+ * for flows f through the faces that are conserved at every node and have the sum q at the inlet. They are k
+ * dP, plus corrections: the imbalance of each node is sent along the trees of greatest gaps to inlet or
+ * outlet.
  */
 #include "leak.h"
 
@@ -17,13 +18,13 @@
 struct repair {
     const struct rc_passage *a;
     const struct rc_levels *levels;
-    double *down;   /* sent from a node to its parent                                      */
-    int32_t *order; /* nodes that flow, parents first                                      */
-    uint8_t *way;   /* to the parent                                                       */
+    double *down;   /* flow sent from a node to its parent */
+    int32_t *order; /* flowing nodes, parents first */
+    uint8_t *way;   /* direction to the parent */
     int32_t n;
 };
 
-/* P of a node, cut off. */
+/* P of a node, limited to 0 .. 1. */
 static void
 level_of(const struct rc_passage *a, const struct rc_levels *levels, int32_t k, double *p,
          double *rest)
@@ -48,7 +49,7 @@ rc_leak_driven(const struct rc_passage *a, const struct rc_levels *levels, int32
     return *c * rc_level_difference(p, rest, p_other, rest_other);
 }
 
-/* The node beside k towards which fluid can flow, or -1. */
+/* The neighbour of node k with flowing fluid, or -1. */
 static int32_t
 flowing_beside(const struct rc_passage *a, int32_t k, enum rc_direction d)
 {
@@ -57,7 +58,7 @@ flowing_beside(const struct rc_passage *a, int32_t k, enum rc_direction d)
     return other < 0 || other >= a->nodes || a->state[other] == RC_FLOWS ? other : -1;
 }
 
-/* What is sent over that face on top of it. */
+/* The correction of the flow through that face. */
 static double
 sent(const struct repair *r, int32_t k, int32_t other, enum rc_direction d)
 {
@@ -93,7 +94,7 @@ set_parents(struct repair *r, const uint8_t *tree)
         }
 }
 
-/* What leaves a node and has not come to it is sent to it by its parent. */
+/* The imbalance of a node is sent to its parent. */
 static void
 send_down(struct repair *r)
 {
@@ -123,7 +124,7 @@ add_up(const struct repair *r, double *lower, double *upper)
             int32_t k = r->order[m], other = flowing_beside(r->a, k, (enum rc_direction)d);
             double c, f;
             if (other < 0 || (other < r->a->nodes && (d == RC_BACK || d == RC_UP)))
-                continue; /* each face once */
+                continue; /* count each face once */
             f = rc_leak_driven(r->a, r->levels, k, other, (enum rc_direction)d, &c);
             rc_total_add(&energy, f / c * f);
             f += sent(r, k, other, (enum rc_direction)d);

@@ -1,18 +1,18 @@
 /*
- * The conductance of a network between inlet and outlet, by taking out node after node (star-mesh): a
- * node with conductances c_1 .. c_m to its neighbours is the same, to them, as faces c_i c_j / d between
- * each two of them, with d the sum of all c. Inlet and outlet are neighbours too; what joins them in the
- * end is the conductance.
+ * The conductance of a network between inlet and outlet, by eliminating node after node (star-mesh
+ * transformation): a node with conductances c_1 .. c_m to its neighbours is equivalent to faces c_i c_j / d
+ * between each pair of them, with d the sum of all c. Inlet and outlet are neighbours too; the face that
+ * joins them at the end is the conductance.
  *
- * This is Gaussian elimination, the factors L D L' of a matrix, but d is a sum of what is left, not a
- * difference of what was there and what has been taken away (Grassmann, Taksar and Heyman, Oper. Res. 33,
- * 1985, 1107). All numbers are positive and only sums, products and quotients are formed: each is right
- * to rounding, however far conductances lie apart, where Cholesky's method loses pools that hang on faces
- * of 1e-16 of those inside.
+ * This is Gaussian elimination with factors L D L', but d is a sum of the present conductances, not a
+ * difference of the original and the eliminated ones (Grassmann, Taksar and Heyman, Oper. Res. 33, 1985,
+ * 1107). All numbers are positive, and only sums, products and quotients are formed, so each number is
+ * accurate to rounding however much conductances differ. Cholesky's method loses pools connected by faces of
+ * 1e-16 of those inside.
  *
- * Column by column from the left: column j holds the conductances from node j to those taken out later. It
- * collects from the columns before it that have node j among theirs; each of these waits in a list of the
- * next node that it will reach.
+ * Column by column from the left: column j holds the conductances from node j to nodes that are eliminated
+ * later. It collects contributions from the earlier columns that contain node j; each of these waits in a
+ * list of the next node that it will reach.
  */
 #include "leak.h"
 
@@ -23,19 +23,20 @@
 
 struct rc_elimination {
     int32_t n;
-    int32_t *place;         /* of each node of the map, in the order; -1: it does not flow   */
-    int32_t *node;          /* the other way                                                 */
-    size_t *start;          /* column j: start[j] .. start[j + 1] - 1                         */
-    int32_t *row;           /* rising; NULL: not yet                                          */
-    double *c;              /* conductances                                                   */
-    double *in, *out, *sum; /* of column j: to inlet, to outlet, of all                       */
-    double *work;           /* of the column at hand, by place; then levels                   */
+    int32_t *place;         /* place of each node of the map in the order; -1: no flow */
+    int32_t *node;          /* the inverse of place                                    */
+    size_t *start;          /* column j: start[j] .. start[j + 1] - 1                  */
+    int32_t *row;           /* increasing; NULL: not yet known                         */
+    double *c;              /* conductances                                            */
+    double *in, *out, *sum; /* of column j: to inlet, to outlet, sum of all            */
+    double *work;           /* of the present column, by place; then levels            */
     double *rest;
-    size_t *at;             /* place in its column that it will act on next                   */
-    int32_t *waits, *after; /* the first column that waits for node j; the next after column k */
+    size_t *at; /* place in the column of the next node that it contributes to */
+    /* the first column that waits for node j; the next one after column k */
+    int32_t *waits, *after;
 };
 
-/* Nodes beside the one in place j that were taken out before it, by their places. */
+/* Neighbours of the node in place j that were eliminated before it, by their places. */
 static int
 earlier(const struct rc_elimination *e, const struct rc_passage *a, int32_t j, int32_t *list)
 {
@@ -89,8 +90,8 @@ done:
     return status;
 }
 
-/* Length of the columns. Row i of L has the places that lie, in the tree in which the parent of a column is
- * its first row (Liu, SIAM J. Matrix Anal. Appl. 11, 1990, 134), between the neighbours of node i and i. */
+/* Lengths of the columns. Row i of L contains the places between the neighbours of node i and i in the tree
+ * in which the parent of a column is its first row (Liu, SIAM J. Matrix Anal. Appl. 11, 1990, 134). */
 static enum rc_status
 count_columns(struct rc_elimination *e, const struct rc_passage *a, struct rc_err *err)
 {
@@ -157,7 +158,7 @@ failed:
     return NULL;
 }
 
-/* ---- taking out ---- */
+/* ---- elimination ---- */
 
 static void
 drop_room(struct rc_elimination *e)
@@ -200,14 +201,14 @@ make_room(struct rc_elimination *e, struct rc_err *err)
                       n, entries);
 }
 
-/* Which nodes a column holds: as count_columns, the parent of k being the first row of column k. */
+/* The nodes in each column: as count_columns; the parent of k is the first row of column k. */
 static void
 list_rows(struct rc_elimination *e, const struct rc_passage *a)
 {
     for (int32_t i = 0; i < e->n; i++) {
         int32_t list[RC_DIRECTIONS];
         e->at[i] = e->start[i];
-        e->waits[i] = i; /* the row that it was seen in last */
+        e->waits[i] = i; /* the last row that contained it */
         for (int m = earlier(e, a, i, list); m > 0; m--)
             for (int32_t k = list[m - 1]; e->waits[k] != i; k = e->row[e->start[k]]) {
                 e->row[e->at[k]++] = i;
@@ -216,7 +217,7 @@ list_rows(struct rc_elimination *e, const struct rc_passage *a)
     }
 }
 
-/* The faces of the map from the node in place j to later ones, to inlet and to outlet. */
+/* The faces of the map from the node in place j to later nodes, to inlet and to outlet. */
 static void
 own_faces(struct rc_elimination *e, const struct rc_passage *a, enum rc_face_rule rule, int32_t j)
 {
@@ -238,7 +239,7 @@ own_faces(struct rc_elimination *e, const struct rc_passage *a, enum rc_face_rul
     }
 }
 
-/* Column k waits for the next node that it reaches. */
+/* Adds column k to the list of the next node that it reaches. */
 static void
 let_wait(struct rc_elimination *e, int32_t k)
 {
@@ -251,7 +252,8 @@ let_wait(struct rc_elimination *e, int32_t k)
     e->waits[next] = k;
 }
 
-/* What taking out node k has put between node j, its neighbour at e->at[k], and later ones. */
+/* Adds the faces that the elimination of node k creates between node j, its neighbour at e->at[k], and later
+ * nodes. */
 static void
 collect(struct rc_elimination *e, int32_t j, int32_t k)
 {
@@ -298,8 +300,9 @@ rc_elimination_run(struct rc_elimination *e, const struct rc_passage *a, enum rc
     return RC_OK;
 }
 
-/* The level of the node in place j is a mean of those it is joined to, told by how far it lies from the one
- * to which it is joined best: what the weights lose counts only for what lies between these. */
+/* The level of the node in place j is a weighted mean of its neighbours' levels, computed as a difference
+ * from the neighbour with the largest conductance: rounding of the weights then only affects the differences
+ * between neighbours. */
 static void
 set_level(struct rc_elimination *e, int32_t j)
 {

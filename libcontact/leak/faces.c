@@ -9,7 +9,7 @@ rc_face(const struct rc_passage *p, enum rc_face_rule rule, int32_t k, int32_t o
     if (other >= p->nodes)
         return 2 * a * a * a * p->aspect;
     b = p->g[other];
-    /* 1 / integral of 1/g^3 over the way, divided by its length */
+    /* 1 / mean of 1/g^3 along the path */
     if (rule == RC_HARMONIC)
         a = 2 / (1 / (a * a * a) + 1 / (b * b * b));
     else

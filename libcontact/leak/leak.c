@@ -1,11 +1,11 @@
 /*
- * Leakage: fluid that a pressure drives through the gap from one edge of the map to the opposite one, by
- * Reynolds' equation without sliding, div(g^3 grad P) = 0. What is steady and thin: inertia, slip and
- * slopes across the film do not count, and the fluid does not lift the bodies.
+ * Leakage: fluid driven by pressure through the gap from one edge of the map to the opposite one, by
+ * Reynolds' equation without sliding, div(g^3 grad P) = 0. The flow is steady and thin: inertia, slip and
+ * slopes across the film are neglected, and the fluid does not deform the bodies.
  *
- * A node is a cell of uniform gap; flow goes through the faces of cells (finite volumes), faces.c, and over
- * half a cell at inlet and outlet. Contact is where pressure is carried: the gap alone does not tell, for
- * it is 0 there only as far as the contact was iterated.
+ * A node is a cell of uniform gap; flow passes through the faces of cells (finite volumes, faces.c), and over
+ * half a cell at inlet and outlet. Contact is where the pressure is positive; the gap cannot decide this,
+ * because in contact it is 0 only within the tolerance of the contact.
  */
 #include "leak.h"
 
@@ -23,19 +23,19 @@ enum stage {
 
 struct rc_leak {
     struct rc_shape shape;
-    bool down;            /* fluid goes from the first row to the last */
-    double along, across; /* sides of a cell, m                        */
-    double largest;       /* gap, m                                    */
+    bool down;            /* fluid flows from the first row to the last */
+    double along, across; /* sides of a cell, m                         */
+    double largest;       /* gap, m                                     */
     int threads;
     struct rc_passage a;
     uint8_t *tree;
-    struct rc_levels levels; /* of the passage's nodes; p NAN: none, or not known */
+    struct rc_levels levels; /* of the passage's nodes; p NAN: none, or unknown */
     struct rc_elimination *elimination;
     enum stage stage;
     struct rc_leak_figures figures;
 };
 
-/* A gap of less than this part of the largest lets nothing through, and its cube is a number still. */
+/* A gap below this fraction of the largest is closed; its cube is still a normal number. */
 static const double closed = 1e-30;
 
 #define FIGURE(member) RC_FIGURE(struct rc_leak_figures, member)
@@ -67,7 +67,7 @@ const struct rc_figure rc_figures_leak[] = {
 
 /* ---- the passage ---- */
 
-/* Of node k of the passage, its place in the map. */
+/* The place of node k of the passage in the map. */
 static size_t
 place_in_map(const struct rc_leak *l, size_t k)
 {
@@ -114,7 +114,7 @@ set_gap(struct rc_leak *l, const double *p, const double *g)
     }
 }
 
-/* RMS of the gap's slope where fluid flows, by differences between neighbours. */
+/* RMS slope of the gap where fluid flows, from differences between neighbours. */
 static double
 slope_of(const struct rc_leak *l)
 {
@@ -197,7 +197,7 @@ failed:
     return NULL;
 }
 
-/* Takes the gap, and finds what percolates. */
+/* Takes the gap, and finds the percolating path. */
 static enum rc_status
 begin(struct rc_leak *l, const double *p, const double *g, struct rc_err *err)
 {
@@ -261,7 +261,7 @@ step_harmonic(struct rc_leak *l, struct rc_err *err)
         if (rc_elimination_run(l->elimination, &l->a, RC_HARMONIC, &f->conductance, err) != RC_OK)
             return RC_FAIL;
         rc_elimination_levels(l->elimination, &l->levels);
-        rc_elimination_free(l->elimination); /* makes room */
+        rc_elimination_free(l->elimination); /* frees memory for the next step */
         l->elimination = NULL;
         f->conductance *= size;
     }
@@ -311,7 +311,7 @@ rc_leak_pressure(const struct rc_leak *l, double *pressure)
         pressure[place_in_map(l, k)] = l->levels.p[k];
 }
 
-/* Flux along a direction, m^2, the mean of what goes through the two faces. */
+/* Flux along a direction, m^2: the mean of the flows through the two faces. */
 static double
 flux_along(const struct rc_leak *l, int32_t k, enum rc_direction d)
 {

@@ -1,8 +1,8 @@
 /*
  * Flow through a gap as a network: what the files of this folder share. Internal: never installed.
  *
- * The map is turned so that the fluid goes along rows, from the inlet before column 0 to the outlet
- * after the last column. Inlet and outlet are numbered as two nodes after those of the map.
+ * The map is rotated so that the fluid flows along rows, from the inlet before column 0 to the outlet after
+ * the last column. Inlet and outlet are two more nodes after those of the map.
  */
 #ifndef RC_LEAK_H
 #define RC_LEAK_H
@@ -14,20 +14,20 @@
 struct rc_passage {
     size_t nx, ny; /* along the flow, across it                                            */
     int32_t nodes, inlet, outlet;
-    double aspect; /* of a cell: across over along                                         */
-    bool around;   /* the sides meet                                                       */
-    double *g;     /* gap over the largest; 0: no fluid                                    */
+    double aspect; /* of a cell: across over along      */
+    bool around;   /* the two sides join                */
+    double *g;     /* gap over the largest; 0: no fluid */
     uint8_t *state;
 };
 
 enum rc_passage_state {
-    RC_DRY,  /* in contact                              */
-    RC_DEAD, /* fluid that stands                       */
-    RC_FLOWS /* fluid on some way from inlet to outlet  */
+    RC_DRY,  /* in contact                           */
+    RC_DEAD, /* fluid at rest                        */
+    RC_FLOWS /* fluid on a path from inlet to outlet */
 };
 
-/* Pressures of nodes, 1 at the inlet, 0 at the outlet, each as a sum of two numbers: behind a narrow throat
- * they differ by less than a number near 1 can tell. */
+/* Pressures of nodes, 1 at the inlet, 0 at the outlet, each as a sum of two numbers: behind a narrow
+ * constriction they differ by less than the precision of a number near 1. */
 struct rc_levels {
     double *p, *rest;
 };
@@ -52,7 +52,7 @@ rc_opposite(enum rc_direction d)
     return (enum rc_direction)(d ^ 1);
 }
 
-/* The node beside node k of the map: inlet and outlet count; -1: there is none, or no fluid in it. */
+/* The neighbour of node k of the map, which may be inlet or outlet; -1: there is none, or it has no fluid. */
 static inline int32_t
 rc_passage_beside(const struct rc_passage *a, int32_t k, enum rc_direction d)
 {
@@ -91,45 +91,45 @@ rc_passage_beside(const struct rc_passage *a, int32_t k, enum rc_direction d)
 
 /* ---- faces.c ---- */
 
-/* What is between two nodes of gaps a and b: g^3 of the gap in series. */
+/* The gap between two nodes of gaps a and b: g^3 of the gap in series. */
 enum rc_face_rule {
-    RC_HARMONIC, /* half of the way a, half of it b     */
-    RC_LINEAR    /* a gap that goes from a to b linearly */
+    RC_HARMONIC, /* half of the way a, half of it b        */
+    RC_LINEAR    /* a gap that varies linearly from a to b */
 };
 
-/* Conductance from node k in this direction, where rc_passage_beside has a node; to inlet and outlet
- * over half a cell. In units of the largest gap, cubed. */
+/* Conductance from node k in this direction, where rc_passage_beside has a node; to inlet and outlet over
+ * half a cell. In units of the cube of the largest gap. */
 double rc_face(const struct rc_passage *a, enum rc_face_rule rule, int32_t k, int32_t other,
                enum rc_direction d);
 
 /* ---- percolation.c ---- */
 
-/* The nodes taken in by falling gap until inlet and outlet are joined. */
+/* Nodes are added in the order of decreasing gap until inlet and outlet are joined. */
 struct rc_critical {
     bool percolates, percolates_diagonal;
-    int32_t node; /* that joined them, by four neighbours                                 */
-    size_t width; /* of the fluid about it, in nodes, where it is narrowest               */
+    int32_t node; /* the node that joined them, through four neighbours */
+    size_t width; /* width of the fluid around it, in nodes, in its narrowest direction */
 };
 
-/* `tree` gets of each node the directions, as bits, in which the two trees of greatest gaps lead that
- * stand on inlet and outlet; every node that they reach is in one of them. */
+/* `tree` gets for each node, as bits, the directions of its edges in the two trees of greatest gaps rooted at
+ * inlet and outlet; every node that they reach is in one of them. */
 enum rc_status rc_percolation(const struct rc_passage *a, struct rc_critical *critical,
                               uint8_t *tree, struct rc_err *err);
 
 /* ---- blocks.c ---- */
 
-/* Tells apart, in `state`, what stands and what flows. */
+/* Distinguishes still and flowing nodes in `state`. */
 enum rc_status rc_blocks(struct rc_passage *a, struct rc_err *err);
-/* Gives nodes that stand the fluid pressure of the one node, inlet or outlet that they hang on, and NAN
- * where they are shut in; and nodes in contact NAN. */
+/* Sets still nodes to the fluid pressure of the one node, inlet or outlet through which they are connected,
+ * and to NAN if enclosed; sets nodes in contact to NAN. */
 enum rc_status rc_blocks_fill(const struct rc_passage *a, const struct rc_levels *levels,
                               struct rc_err *err);
 
 /* ---- ordering.c ---- */
 
-/* An order of n nodes in which few are joined when they are taken out one by one: order[0] the first.
- * Neighbours of node k: row[start[k]] .. row[start[k + 1] - 1]. RC_FAIL when memory is short or the
- * library was built without an ordering. */
+/* An order of n nodes in which few new faces appear during elimination: order[0] is the first. Neighbours of
+ * node k: row[start[k]] .. row[start[k + 1] - 1]. RC_FAIL when memory is short or the library was built
+ * without an ordering. */
 enum rc_status rc_ordering(int32_t n, const int32_t *start, const int32_t *row, int32_t *order,
                            struct rc_err *err);
 
@@ -142,17 +142,17 @@ struct rc_elimination *rc_elimination_new(const struct rc_passage *a, struct rc_
 /* The conductance from inlet to outlet. RC_FAIL when memory is short. */
 enum rc_status rc_elimination_run(struct rc_elimination *e, const struct rc_passage *a,
                                   enum rc_face_rule rule, double *conductance, struct rc_err *err);
-/* After it: the levels of nodes that flow. */
+/* After a run: the levels of flowing nodes. */
 void rc_elimination_levels(struct rc_elimination *e, const struct rc_levels *levels);
 void rc_elimination_free(struct rc_elimination *e); /* NULL is allowed */
 
 /* ---- bounds.c ---- */
 
-/* Of the conductance with harmonic faces, from any pressure and the trees of rc_percolation. */
+/* Bounds of the conductance with harmonic faces, from any pressures and the trees of rc_percolation. */
 enum rc_status rc_leak_bounds(const struct rc_passage *a, const uint8_t *tree,
                               const struct rc_levels *levels, double *lower, double *upper,
                               struct rc_err *err);
-/* c dP through a face of conductance c, from node k. */
+/* c dP, the flow through a face of conductance c from node k. */
 double rc_leak_driven(const struct rc_passage *a, const struct rc_levels *levels, int32_t k,
                       int32_t other, enum rc_direction d, double *c);
 

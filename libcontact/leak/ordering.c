@@ -1,5 +1,5 @@
 /* The order by approximate minimum degree of SuiteSparse (Amestoy, Davis and Duff, ACM Trans. Math. Softw.
- * 30, 2004, 381): the one file that knows it. */
+ * 30, 2004, 381). Only this file uses SuiteSparse. */
 #include "leak.h"
 
 #ifdef RC_AMD

@@ -1,10 +1,10 @@
 /*
- * Where the gap opens a way: nodes join by falling gap, in sets (union-find), until the sets of inlet
- * and outlet meet. The node that makes them meet is the critical constriction: no way from inlet to
- * outlet has a wider narrowest place.
+ * Finds the opening of the gap: nodes join in the order of decreasing gap, in sets (union-find), until the
+ * sets of inlet and outlet meet. The node that joins them is the critical constriction: no path from inlet to
+ * outlet has a larger smallest gap.
  *
- * The faces that join sets on the way are the two trees of greatest gaps (Kruskal), but for the one at
- * which inlet and outlet meet.
+ * The faces that join sets are the two trees of greatest gaps (Kruskal), except the face at which inlet and
+ * outlet meet.
  */
 #include "leak.h"
 
@@ -36,13 +36,14 @@ find(int32_t *parent, int32_t k)
     return k;
 }
 
-/* Joins the sets of a and b; whether they were two. */
+/* Joins the sets of a and b; returns whether they were different. */
 static bool
 join(int32_t *parent, int32_t a, int32_t b)
 {
     a = find(parent, a);
     b = find(parent, b);
-    parent[a > b ? b : a] = a > b ? a : b; /* inlet and outlet stay the last, and so the roots */
+    /* inlet and outlet are the last nodes, and so stay roots */
+    parent[a > b ? b : a] = a > b ? a : b;
     return a != b;
 }
 
@@ -75,7 +76,7 @@ take_in(const struct rc_passage *a, const struct opening *open, size_t n, int32_
     }
 }
 
-/* Whether corners would join what edges do not. */
+/* Whether corners would join inlet and outlet where edges do not. */
 static bool
 joins_by_corners(const struct rc_passage *a, const struct opening *open, size_t n, int32_t *parent)
 {
@@ -93,8 +94,8 @@ joins_by_corners(const struct rc_passage *a, const struct opening *open, size_t 
     return met(a, parent);
 }
 
-/* Fluid nodes in a row through node k, by steps of (i, j), around the map once at most; SIZE_MAX where the
- * row ends at inlet or outlet, not at walls. */
+/* Number of fluid nodes in a line through node k, in steps of (i, j), at most once around the map; SIZE_MAX
+ * if the line ends at inlet or outlet rather than at walls. */
 static size_t
 run_through(const struct rc_passage *a, int32_t k, int i, int j)
 {
@@ -118,7 +119,7 @@ run_through(const struct rc_passage *a, int32_t k, int i, int j)
     return n;
 }
 
-/* Along a diagonal nodes are sqrt(2) as far apart. */
+/* Along a diagonal nodes are sqrt(2) apart. */
 static size_t
 width_at(const struct rc_passage *a, int32_t k)
 {

@@ -1,5 +1,5 @@
 /*
- * What passes between ranks, by MPI. Only the thread that made the ranks calls these.
+ * Communication between ranks, by MPI. Only the thread that made the ranks calls these functions.
  */
 #include <assert.h>
 #include <limits.h>
@@ -13,9 +13,9 @@
 struct rc_ranks {
     MPI_Comm comm;
     size_t count, own;
-    int *number;                /* scratch: 4 * count          */
-    struct rc_traffic *traffic; /* counted where all is const  */
-    void *room;                 /* RC_RANKS_ROOM * count       */
+    int *number;                /* scratch: 4 * count                     */
+    struct rc_traffic *traffic; /* changed even where the ranks are const */
+    void *room;                 /* RC_RANKS_ROOM * count                  */
 };
 
 struct rc_ranks *
@@ -104,7 +104,7 @@ alone(const struct rc_ranks *r)
     return r == NULL || r->count == 1;
 }
 
-/* ---- small things ---- */
+/* ---- sums, gathering and broadcast ---- */
 
 void
 rc_ranks_gather(const struct rc_ranks *r, size_t bytes, const void *own, void *all)
@@ -149,10 +149,10 @@ rc_ranks_agree(const struct rc_ranks *r, enum rc_status status, struct rc_err *e
 /* ---- maps ---- */
 
 enum {
-    PIECE = 1 << 30 /* bytes of a row that are sent at a time: MPI counts in ints */
+    PIECE = 1 << 30 /* bytes of a row per message: MPI counts in ints */
 };
 
-/* A type of so many bytes, so that counts of them fit an int: at most half a line of 2^28 numbers. */
+/* A type of this many bytes, so that counts fit an int: at most half a line of 2^28 numbers. */
 static MPI_Datatype
 type_of(size_t bytes)
 {
@@ -196,7 +196,7 @@ rc_ranks_turn(const struct rc_turn *t, bool back, const void *from, void *to)
     r->traffic->seconds += MPI_Wtime() - began;
 }
 
-/* Things first .. end - 1. */
+/* Items first .. end - 1. */
 struct range {
     size_t first, end;
 };
@@ -209,14 +209,14 @@ common(struct range a, struct range b)
     return c.first < c.end ? c : (struct range){0, 0};
 }
 
-/* What rank q has of them, or, where `of` is NULL, all of them. */
+/* The items of rank q or, where `of` is NULL, all of them. */
 static struct range
 range_of(const size_t *of, size_t all, size_t q)
 {
     return of == NULL ? (struct range){0, all} : (struct range){of[q], of[q + 1]};
 }
 
-/* Those that lie in `part`, which an int can count. */
+/* Moves the items in `part`, whose number fits an int. */
 static void
 move_part(const struct rc_ranks *r, struct range part, size_t bytes, const size_t *from,
           const size_t *to, const void *v, void *w)
@@ -256,7 +256,7 @@ rc_ranks_move(const struct rc_ranks *r, size_t bytes, const size_t *from, const 
                   v, w);
 }
 
-/* The next rank that has rows, that way, or this one when there is no other. */
+/* The next rank with rows in this direction, or this rank when there is no other. */
 static int
 neighbour(const struct rc_ranks *r, const int *has, int step)
 {
@@ -284,7 +284,7 @@ rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void
         return;
     above = neighbour(r, r->number, -1);
     below = neighbour(r, r->number, 1);
-    /* also between the ends of a map that does not repeat, where nobody reads it */
+    /* also between the ends of a free map, where the result is not used */
     for (size_t at = 0; at < bytes; at += n) {
         n = bytes - at < PIECE ? bytes - at : PIECE;
         MPI_Irecv((char *)before + at, (int)n, MPI_BYTE, above, 1, r->comm, &request[0]);

@@ -1,5 +1,5 @@
 /*
- * Who owns which rows, and sums over ranks that do not show where the ranks begin.
+ * Ownership of rows, and sums over ranks that do not depend on where the ranks begin.
  */
 #include "ranks.h"
 
@@ -32,7 +32,7 @@ size_t
 rc_rows_dealt(size_t n, size_t unit, size_t count, size_t r)
 {
     size_t units = (n + unit - 1) / unit;
-    /* units * r / count without its overflow */
+    /* units * r / count without overflow */
     size_t first = (units / count * r + units % count * r / count) * unit;
 
     return first < n ? first : n;
@@ -58,9 +58,9 @@ rc_rows_of(const struct rc_ranks *ranks, const struct rc_shape *whole)
     return rows;
 }
 
-/* ---- a map turned round ---- */
+/* ---- transposition of a map ---- */
 
-/* The most that a rank has of what is dealt out. */
+/* The largest share of a rank. */
 static size_t
 most_dealt(const size_t *first, size_t count)
 {
@@ -71,8 +71,8 @@ most_dealt(const size_t *first, size_t count)
     return most;
 }
 
-/* MPI counts units, and their places within a rank, in ints. Every rank checks those of the fullest one,
- * so that all come to the same result. */
+/* MPI counts units, and offsets within a rank, in ints. Every rank checks the largest share, so that all get
+ * the same result. */
 static enum rc_status
 check_counts(const struct rc_turn *t, struct rc_err *err)
 {

@@ -1,18 +1,18 @@
 /*
- * Processes that share a map, each with rows of its own: the lowest folder, and the only one that knows
- * MPI. Internal: never installed (what users need of it is contact_mpi.h).
+ * Processes that share a map, each with its own rows: the lowest folder, and the only one that uses MPI.
+ * Internal: never installed (what users need of it is contact_mpi.h).
  *
- * Rank r of P owns whole rows, in units that neither a tile of the projection (16 rows) nor a block of the
- * sums (solver/reduce.c) straddles; of a map of few units some ranks hold no rows, and only take part in the
- * calls that all make together. With NULL for the ranks, and in a build without MPI, one process owns all
- * rows: every function is then empty, and nothing is copied.
+ * Rank r of P owns whole rows, in units that no tile of the projection (16 rows) and no block of the sums
+ * (solver/reduce.c) crosses; if a map has few units, some ranks hold no rows and only take part in collective
+ * calls. With NULL for the ranks, and in a build without MPI, one process owns all rows: every function is
+ * then empty, and nothing is copied.
  *
- * Results are the same for every P, bit for bit, where one process takes transforms too and, for stresses, no
- * coarser grids: each row and each column is transformed by itself with the same plan, blocks add up in the
- * same order whichever rank owns them, and their sums are compensated, so that the rounding of the total does
- * not depend on where ranks begin (but for ties: 1 in 1e15).
+ * Results are the same for every P, bit for bit, if one process uses transforms too and, for stresses, no
+ * coarser grids: each row and each column is transformed separately with the same plan, blocks are added in
+ * the same order whichever rank owns them, and their sums are compensated, so that the rounding of the total
+ * does not depend on where ranks begin (except for ties: 1 in 1e15).
  *
- * What is not local to rows, and how it is done:
+ * Operations that are not local to rows:
  *
  *   convolutions          rows are transformed, one exchange makes whole columns of them, multiplied there
  *                         by the columns of the spectrum that are kept there only, one exchange back
@@ -41,24 +41,24 @@
 /* ---- rows ---- */
 
 struct rc_rows {
-    const struct rc_ranks *ranks; /* NULL: all rows are here           */
+    const struct rc_ranks *ranks; /* NULL: one process holds all rows  */
     size_t ny;                    /* of the whole map                  */
     size_t first, n;              /* held here: first .. first + n - 1 */
 };
 
 enum {
-    RC_BLOCK_NODES = 4096, /* that add up by themselves                            */
-    RC_TILE_ROWS = 16,     /* that are never split                                 */
-    RC_ROW_PIECE = 1024    /* columns of rows beside, fetched at a time into arrays */
+    RC_BLOCK_NODES = 4096, /* that are summed separately */
+    RC_TILE_ROWS = 16,     /* that are never split */
+    RC_ROW_PIECE = 1024    /* columns of neighbouring rows that are fetched together */
 };
-/* Rows of nx nodes that make a block; 1 also where a row has more nodes than a block. */
+/* Rows of nx nodes that make a block; 1 also where a row exceeds a block. */
 size_t rc_rows_block(size_t nx);
-/* Rows that belong to one rank together; most rows that one of `count` ranks holds. */
+/* Rows that stay together on one rank; the largest number of rows of one of `count` ranks. */
 size_t rc_rows_unit(size_t nx);
 size_t rc_rows_most(const struct rc_shape *whole, size_t count);
 /* The rows of a map that are held here. */
 struct rc_rows rc_rows_of(const struct rc_ranks *ranks, const struct rc_shape *whole);
-/* n things in units of `unit` dealt out to `count` ranks: the first one of rank r; r = count: n. */
+/* n items, in units of `unit`, dealt to `count` ranks: the first one of rank r; r = count: n. */
 size_t rc_rows_dealt(size_t n, size_t unit, size_t count, size_t r);
 
 static inline struct rc_shape
@@ -67,47 +67,47 @@ rc_rows_shape(const struct rc_rows *rows, const struct rc_shape *whole)
     return (struct rc_shape){whole->nx, rows->n, whole->dx, whole->dy};
 }
 
-/* A map turned round: ranks that hold `row[r]` .. `row[r + 1] - 1` of its rows come to hold columns
- * `column[r]` .. `column[r + 1] - 1` of all of them, row by row. On the side of rows each rank keeps a piece
- * for every other rank, one after another; columns are in units of `unit` bytes. */
+/* The transposition of a map: ranks that hold its rows `row[r]` .. `row[r + 1] - 1` get columns `column[r]`
+ * .. `column[r + 1] - 1` of all of them, row by row. On the side of rows each rank stores a piece for every
+ * other rank, one after another; columns are in units of `unit` bytes. */
 struct rc_turn {
     const struct rc_ranks *ranks;
     size_t count, own, unit;
     size_t *row, *column; /* count + 1 each */
 };
-/* Rows and columns are dealt out in units of row_unit and 1; `frame` rows before the first and after the
- * last one, counted with the others in `row`, go to the ranks that have these. RC_FAIL on this rank alone
- * when its memory is short, on all ranks when one of them would hold more than an exchange can count.
+/* Rows are dealt in units of row_unit, columns in units of 1. `frame` rows before the first and after the
+ * last one, included in `row`, belong to the ranks that have the first and the last row. RC_FAIL on this rank
+ * alone when its memory is short, on all ranks when one of them would hold more than an exchange can count.
  * rc_turn_free in either case. */
 enum rc_status rc_turn_new(struct rc_turn *turn, const struct rc_ranks *ranks, size_t rows,
                            size_t row_unit, size_t frame, size_t columns, size_t unit,
                            struct rc_err *err);
 void rc_turn_free(struct rc_turn *turn);
-/* Copies row j of those held here to its pieces, or from them. */
+/* Copies row j (of those held here) to its pieces, or from them. */
 void rc_turn_put(const struct rc_turn *turn, size_t j, const void *row, void *pieces);
 void rc_turn_get(const struct rc_turn *turn, size_t j, const void *pieces, void *row);
 
-/* ---- what passes between ranks ---- */
+/* ---- communication ---- */
 
-/* What this rank has sent to others. */
+/* The data that this rank has sent. */
 struct rc_traffic {
     size_t turns;            /* exchanges of whole maps: rows to columns, or back               */
     double turned, messages; /* bytes and messages of these                                     */
     double seconds;          /* in them                                                         */
-    double other;            /* bytes of all that is small: sums, rows at seams, coarser grids  */
+    double other;            /* bytes of small messages: sums, neighbouring rows, coarser grids */
 };
 
 enum {
     RC_RANKS_ROOM = 160 /* bytes of a rank */
 };
 #ifdef RC_MPI
-/* Memory for so many bytes of each rank, until the next call that gathers. */
+/* Scratch of `RC_RANKS_ROOM` bytes for each rank, valid until the next call that gathers. */
 void *rc_ranks_room(const struct rc_ranks *ranks);
 size_t rc_ranks_count(const struct rc_ranks *ranks);
 size_t rc_ranks_own(const struct rc_ranks *ranks);
-/* all[r] becomes what rank r gave, `bytes` each. */
+/* all[r] becomes the value of rank r, `bytes` each. */
 void rc_ranks_gather(const struct rc_ranks *ranks, size_t bytes, const void *own, void *all);
-/* All get what rank `root` has. */
+/* All ranks get the value of rank `root`. */
 void rc_ranks_share(const struct rc_ranks *ranks, size_t root, size_t bytes, void *v);
 /* RC_OK when `status` is RC_OK on all ranks; else RC_FAIL on all, with the sentence of the first rank that
  * failed. */
@@ -115,12 +115,12 @@ enum rc_status rc_ranks_agree(const struct rc_ranks *ranks, enum rc_status statu
                               struct rc_err *err);
 /* Pieces to columns, or, `back`, columns to pieces. */
 void rc_ranks_turn(const struct rc_turn *turn, bool back, const void *from, void *to);
-/* Rows of `bytes`, from[r] .. from[r + 1] - 1 held by rank r, go to the ranks that hold them by `to`;
- * NULL: to all. */
+/* Moves rows of `bytes`, of which rank r holds from[r] .. from[r + 1] - 1, to the ranks that hold them by
+ * `to`; NULL: to all. */
 void rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *from, const size_t *to,
                    const void *v, void *w);
 /* The row before the first one held here and the one after the last; false where there is none: at the ends
- * of the map, unless it goes `round`. Ranks without rows take part. */
+ * of the map, unless it is periodic (`round`). Ranks without rows take part. */
 void rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void *first,
                      const void *last, void *before, void *after, bool has[2]);
 #else
@@ -166,7 +166,7 @@ rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *from, co
     __builtin_memcpy(w, v, (from[1] - from[0]) * bytes);
 }
 
-/* These are never reached where there is one rank. */
+/* Not reached with one rank. */
 static inline void *
 rc_ranks_room(const struct rc_ranks *ranks)
 {
@@ -189,7 +189,7 @@ rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void
 }
 #endif
 
-/* The sum over all ranks, the same for any number of them; the largest value; the sum of counts. */
+/* The sum over all ranks, independent of their number; the largest value; the sum of counts. */
 double rc_ranks_total(const struct rc_ranks *ranks, struct rc_total total);
 double rc_ranks_most(const struct rc_ranks *ranks, double v);
 size_t rc_ranks_sum(const struct rc_ranks *ranks, size_t n);

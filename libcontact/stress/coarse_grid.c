@@ -1,10 +1,11 @@
 /*
- * Between a map and every s-th node of it, by polynomials through eight nodes in each direction.
+ * Transfers fields between a map and every s-th node of it, by polynomials through eight nodes in each
+ * direction.
  *
- * Deep below the surface the kernels are smooth on the scale of the depth, so they need to be
- * known on a coarser grid only: pressures are reduced to it by the transpose of the interpolation,
- * the coarse field is the same sum over fewer nodes, and it is interpolated back (the multi-level
- * sum of Polonsky and Keer 1999, eqs. 10 and 15, where no corrections are needed).
+ * Deep below the surface the kernels are smooth on the scale of the depth, so a coarser grid is enough:
+ * pressures are reduced to it by the transpose of the interpolation, the coarse field is the same sum over
+ * fewer nodes, and is interpolated back (the multi-level sum of Polonsky and Keer 1999, eqs. 10 and 15, where
+ * no corrections are needed).
  */
 #include "coarse_grid.h"
 
@@ -27,13 +28,13 @@ struct axis {
 struct rc_coarse {
     struct axis x, y;
     int threads;
-    double *rows;    /* ny rows of x.coarse: between the two directions of a reduction   */
+    double *rows;    /* ny rows of x.coarse, after the first direction of a reduction */
     double *scratch; /* for each thread: a coarse row, and the fine nodes of one residue */
 };
 
-/* Largest sum of what such interpolation, of the source and of the field, leaves of any kernel,
- * over pressures of size 1 of the worst signs, at this depth over the coarse spacing: measured, s =
- * 4, the worst of all places of source and field between coarse nodes. */
+/* Largest error of this interpolation, of source and field, for any kernel and pressures of size 1 with the
+ * worst signs, at this ratio of depth to coarse spacing: measured for s = 4, the worst of all positions of
+ * source and field between coarse nodes. */
 static const struct {
     double ratio, error;
 } measured[] = {{1.42, 1.4e-1}, {2, 3.6e-2},    {2.83, 7.1e-3}, {4, 9.7e-4},   {5.66, 9.2e-5},
@@ -54,7 +55,7 @@ coarse_nodes(size_t n, size_t s)
     return s == 1 ? n : (n - 1) / s + ORDER;
 }
 
-/* Largest power of 2 whose steps of d are no longer than the spacing and make the axis shorter. */
+/* The largest power of 2 for which steps of that many d are at most `spacing` and shorten the axis. */
 static size_t
 step(size_t n, double d, double spacing)
 {
@@ -70,7 +71,7 @@ rc_coarse_steps(const struct rc_shape *shape, double spacing, size_t *sx, size_t
 {
     *sx = step(shape->nx, shape->dx, spacing);
     *sy = step(shape->ny, shape->dy, spacing);
-    /* what interpolation costs has to be won */
+    /* the gain must exceed the cost of the interpolation */
     return 2 * coarse_nodes(shape->nx, *sx) * coarse_nodes(shape->ny, *sy) < shape->nx * shape->ny;
 }
 
@@ -81,7 +82,7 @@ rc_coarse_shape(const struct rc_shape *s, size_t sx, size_t sy)
                              (double)sy * s->dy};
 }
 
-/* Lagrange's polynomials at each r / s between the two middle ones of ORDER nodes. */
+/* Lagrange's polynomials at each r / s between the two middle nodes of ORDER. */
 static bool
 set_axis(struct axis *a, size_t n, size_t s)
 {
@@ -99,7 +100,7 @@ set_axis(struct axis *a, size_t n, size_t s)
     return true;
 }
 
-/* Doubles of one thread. */
+/* Doubles of scratch of one thread. */
 static size_t
 scratch_size(const struct rc_coarse *c)
 {

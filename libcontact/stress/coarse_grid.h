@@ -1,6 +1,5 @@
 /*
- * Between a map and a coarser grid of every s-th node, for fields that are smooth on it. Internal:
- * never installed.
+ * Transfers smooth fields between a map and a coarser grid of every s-th node. Internal: never installed.
  */
 #ifndef RC_COARSE_GRID_H
 #define RC_COARSE_GRID_H
@@ -9,19 +8,19 @@
 
 struct rc_coarse;
 
-/* Largest spacing (m) at which the kernels of this depth may be known: the error of a stress is
- * then at most tol times the largest pressure, whatever its signs. 0: none. */
+/* Largest spacing (m) of a grid for the kernels of this depth with which the error of a stress is at most tol
+ * times the largest pressure, whatever the signs of the pressures. 0: none. */
 double rc_coarse_spacing(double depth, double tol);
-/* Steps in x and y that go with it; false when no coarser grid pays. */
+/* Steps in x and y for that spacing; false when no coarser grid pays. */
 bool rc_coarse_steps(const struct rc_shape *shape, double spacing, size_t *sx, size_t *sy);
-/* The coarser grid: its nodes overhang the map. */
+/* The coarser grid; its nodes extend beyond the map. */
 struct rc_shape rc_coarse_shape(const struct rc_shape *shape, size_t sx, size_t sy);
 
 /* NULL when memory is short. */
 struct rc_coarse *rc_coarse_new(const struct rc_shape *shape, size_t sx, size_t sy, size_t threads,
                                 struct rc_err *err);
 void rc_coarse_free(struct rc_coarse *coarse);
-/* Pressures (forces) of the map on the coarser grid, and a field back from it. */
+/* Reduces pressures (forces) of the map to the coarser grid, and interpolates a field back. */
 void rc_coarse_reduce(struct rc_coarse *coarse, const double *p, double *out);
 void rc_coarse_expand(struct rc_coarse *coarse, const double *u, double *out);
 

@@ -1,18 +1,17 @@
 /*
- * Depths at which to look, chosen from the pressure itself.
+ * Chooses the depths of stress maps from the pressure.
  *
- * A wave of pressure of wave number q is felt at the depth z as (1 + q z) exp(-q z), so the stress
- * there changes over the inverse of
+ * A pressure wave of wave number q has the amplitude (1 + q z) exp(-q z) at the depth z, so the stress there
+ * varies over a length 1/k,
  *
  *     k(z)^2 = sum of q^2 w^2 |p_q|^2 / sum of w^2 |p_q|^2,      w = (1 + q z) exp(-q z):
  *
- * near the surface the scale of roughness, deep down that of the whole contact. A straight line
- * between two depths dz apart errs by (k dz)^2 / 8 of what is left of the waves: each step is a
- * fixed part of 1/k, more where less is left. The last depth of a contact on a free half-space is
- * three radii of the Hertzian contact that is as spread out; on a periodic map it is where the
- * waves have died away.
+ * near the surface the scale of roughness, deep down that of the whole contact. Linear interpolation between
+ * two depths dz apart has an error of (k dz)^2 / 8 of the remaining waves, so each step is a fixed fraction
+ * of 1/k, larger where the waves are weaker. On a free half-space the last depth is three radii of the
+ * Hertzian contact with the same second moment; on a periodic map it is where the waves have decayed.
  *
- * In a layered body the stresses change over the thickness of a layer too, and jump at its sides.
+ * In a layered body the stresses also vary over the thickness of a layer, and jump at its interfaces.
  */
 #include "libcontact/contact.h"
 
@@ -28,9 +27,9 @@ enum {
     MOST = 2000 /* depths                                        */
 };
 
-/* A quarter of the scale leaves the largest Mises stress of Hertz's contact within 1 %. */
+/* With a quarter of 1/k the largest Mises stress of Hertz's contact is accurate to 1 %. */
 static const double part = 0.25, most_part = 0.75, radii = 3, died = 0.01;
-/* Of a layer, and of what is just below an interface. */
+/* Of a layer: largest step; distance of the depth just below an interface. */
 static const double layer_part = 0.25, just_below = 1e-6;
 
 struct bins {
@@ -42,7 +41,7 @@ struct bins {
 struct scan {
     const struct rc_shape *s;
     struct bins *b;
-    double low, step; /* of the bins: the lowest q, and from one to the next */
+    double low, step; /* of the bins: the lowest q, and the step of log q */
 };
 
 static struct scan
@@ -61,14 +60,14 @@ scan_of(const struct rc_shape *s, struct bins *b)
     return c;
 }
 
-/* Wave i along x and j along y has so much power; the mean is left out. */
+/* Adds the power of wave i along x and j along y; the mean is left out. */
 static void
 collect_wave(struct scan *c, size_t i, size_t j, double power)
 {
     double q = hypot(rc_fourier_q(i, c->s->nx, c->s->dx), rc_fourier_q(j, c->s->ny, c->s->dy));
     int k = q > 0 ? (int)(log(q / c->low) / c->step) : -1;
 
-    if (q > 0) /* columns between the first and the last stand for two */
+    if (q > 0) /* columns between the first and the last count twice */
         c->b->power[k < 0      ? 0
                     : k < BINS ? k
                                : BINS - 1] += (i == 0 || 2 * i == c->s->nx ? 1 : 2) * power;
@@ -147,7 +146,7 @@ shared_new(struct shared *w, const struct rc_ranks *ranks, const struct rc_shape
     return rc_ranks_agree(ranks, status, err);
 }
 
-/* The waves of a column of complex numbers, from those of its parts. */
+/* Adds the waves of a column of complex numbers, from its two parts. */
 static void
 collect_column(struct scan *c, struct shared *w, size_t i, size_t here, size_t wide)
 {
@@ -202,7 +201,7 @@ collect_shared(const struct rc_ranks *ranks, const struct rc_shape *s, const dou
 
 /* ---- scales ---- */
 
-/* k(z) of above, and what is left of the waves at that depth, squared. */
+/* k(z) as above, and the squared fraction of the waves that remains at that depth. */
 static double
 wave_number(const struct bins *b, double z, double *left)
 {
@@ -258,9 +257,9 @@ rounded(double z, int digits)
 
 struct descent {
     const struct rc_body *body;
-    size_t layer;  /* where z is                 */
-    double bottom; /* m, of that layer           */
-    double z;      /* m                          */
+    size_t layer;  /* the layer that contains z */
+    double bottom; /* m, of that layer          */
+    double z;      /* m                         */
     double *depths;
     size_t n;
 };
@@ -277,7 +276,7 @@ in_layer(const struct descent *d)
     return d->layer < d->body->layers;
 }
 
-/* Both sides of the interface below; false where nothing follows. */
+/* Adds both sides of the interface below; false where none follows. */
 static bool
 cross(struct descent *d)
 {
@@ -298,7 +297,7 @@ cross(struct descent *d)
     return true;
 }
 
-/* Three digits are enough, where they do not leave the layer or stand still. */
+/* Rounds to three digits, unless that leaves the layer or gives no step. */
 static bool
 go_down(struct descent *d, double step)
 {
@@ -352,7 +351,7 @@ rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape, con
     while (d.n + 2 <= MOST && all > 0) {
         double q = wave_number(b, d.z, &left);
         if (boundary == RC_FREE)
-            q = fmax(q, 1 / radius); /* the longest waves do not fit on the map */
+            q = fmax(q, 1 / radius); /* the longest waves are longer than the map */
         if (boundary == RC_FREE ? d.z >= radii * radius : left <= died * died * all)
             break;
         if (!go_down(&d, fmax(fmin(part * pow(all / left, 0.25), most_part) / q,

@@ -1,5 +1,5 @@
 /*
- * What is derived from the six components of a stress, point by point.
+ * Stresses derived from the six components, point by point.
  */
 #include "stress.h"
 
@@ -18,7 +18,7 @@ mises(size_t n, const double *const s[RC_COMPONENTS], double *restrict out)
     }
 }
 
-/* The least and the largest of n values; NaN is neither. */
+/* The smallest and the largest of n values, without NaN. */
 RC_WIDE_CLONES static void
 extremes(size_t n, const double *v, double *least, double *largest)
 {
@@ -56,7 +56,7 @@ void
 rc_extremes(size_t n, const double *v, size_t *least, size_t *largest)
 {
     enum {
-        PIECE = 4096 /* values looked through together: they stay in the first cache */
+        PIECE = 4096 /* values processed together: they fit into the first cache */
     };
     double low = INFINITY, high = -INFINITY;
     size_t of_low = 0, of_high = 0;
@@ -89,8 +89,8 @@ dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* A unit vector that B turns into `eigenvalue` of it: across the two rows of B - eigenvalue that
- * are the least parallel. */
+/* A unit eigenvector of B for `eigenvalue`: the cross product of the two least parallel rows of B -
+ * eigenvalue. */
 static void
 eigenvector(double B[3][3], double eigenvalue, double v[3])
 {
@@ -109,7 +109,7 @@ eigenvector(double B[3][3], double eigenvalue, double v[3])
     }
 }
 
-/* Two unit vectors across v and each other. */
+/* Two unit vectors orthogonal to v and to each other. */
 static void
 frame(const double v[3], double a[3], double b[3])
 {
@@ -137,11 +137,11 @@ between(double B[3][3], const double a[3], const double b[3])
 }
 
 /*
- * With m the mean of the diagonal and r^2 a sixth of the squared deviator, the eigenvalues of the
- * deviator over r are 2 cos(phi - 2 pi k / 3), cos 3 phi = det / 2 (Smith 1961, Comm. ACM 4, 168).
- * Where two of them are close phi has only half of its digits, but the third, which is far from
- * both, has all; the two are then those of the matrix across its vector (Scherzinger and Dohrmann
- * 2008, Comput. Methods Appl. Mech. Eng. 197, 4007).
+ * With m the mean of the diagonal and r^2 a sixth of the squared deviator, the eigenvalues of the deviator
+ * over r are 2 cos(phi - 2 pi k / 3), cos 3 phi = det / 2 (Smith 1961, Comm. ACM 4, 168). Where two of them
+ * are close, phi is accurate to half of the digits only, but the third eigenvalue is accurate; the two are
+ * then computed from the matrix orthogonal to its eigenvector (Scherzinger and Dohrmann 2008, Comput. Methods
+ * Appl. Mech. Eng. 197, 4007).
  */
 static void
 principal(const double *const s[RC_COMPONENTS], size_t k, double e[3])

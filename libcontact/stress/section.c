@@ -1,12 +1,12 @@
 /*
  * Stresses in a plane across the map, line by line of depth. Only the direction along the plane is
- * transformed: on the free boundary a line of the field is the sum, over the lines of pressure, of
- * convolutions with the kernel at the line's distance from the plane; lines as far on either side
- * share their kernels, and lines without pressure cost nothing. On the periodic boundary it is the
- * sum of all waves across the plane, for each wave along it.
+ * transformed. On the free boundary a line of the field is the sum, over the lines of pressure, of
+ * convolutions with the kernel at the line's distance from the plane; lines at equal distances on both sides
+ * share their kernels, and lines without pressure cost nothing. On the periodic boundary the field is the sum
+ * of all waves across the plane, for each wave along it.
  *
- * A section across x is the same with x and y exchanged: the map is transposed, and the kernels are
- * evaluated at the exchanged places.
+ * A section across x is the same with x and y exchanged: the map is transposed, and the kernels are evaluated
+ * at the exchanged positions.
  */
 #include "stress.h"
 
@@ -20,9 +20,9 @@ enum {
     PARTS = 16 /* partial sums, added in order: the result is the same for any number of threads */
 };
 
-/* The two lines of pressure at one distance from the plane, or the one that is there: their sum
- * for kernels that are even across the plane; for odd ones their difference, the line with the
- * plane on its positive side first. */
+/* The two lines of pressure at one distance from the plane, or the one that is on the map: their sum for
+ * kernels that are even across the plane; for odd ones their difference, the line on the positive side of the
+ * plane first. */
 struct pair {
     double offset;    /* m, >= 0 */
     size_t even, odd; /* lines of each source */
@@ -31,19 +31,19 @@ struct pair {
 
 struct plan {
     struct rc_stress_task task;
-    bool transposed;          /* across x: what is along is y                          */
-    size_t n, m;              /* nodes along and across                                */
-    double d_along, d_across; /* their spacings, m                                     */
-    size_t waves;             /* along: 0 .. waves - 1                                 */
-    size_t length;            /* of a transform                                        */
+    bool transposed;          /* section across x: y runs along the plane */
+    size_t n, m;              /* nodes along and across                   */
+    double d_along, d_across; /* their spacings, m                        */
+    size_t waves;             /* along: 0 .. waves - 1                    */
+    size_t length;            /* of a transform                           */
     int threads;
     struct rc_line *line;
     struct rc_dct *dct;     /* of a kernel along; NULL when periodic */
     double complex *source; /* of each map m lines of `waves`; of the waves across, when periodic */
     struct pair *pair;
     size_t pairs;
-    size_t kernels;  /* there is room for, from the first on */
-    double *scratch; /* for each thread: a line of each kernel, and its places or waves */
+    size_t kernels;  /* number of kernels with scratch, from the first on */
+    double *scratch; /* for each thread: a line of each kernel, and its positions or waves */
     size_t scratch_size;
     double complex *sum;      /* `waves` for each part and component */
     struct rc_inside *inside; /* at the depth */
@@ -106,10 +106,10 @@ memory(const struct rc_stress_task *t)
         plan.m * sizeof(struct pair) + (size_t)plan.threads * plan.scratch_size * sizeof(double) +
         PARTS * RC_COMPONENTS * plan.waves * sizeof(double complex) + rc_stress_inside_memory(t);
 
-    /* of a free map the lines that carry nothing are left untouched */
+    /* lines of a free map without pressure are not touched */
     if (t->options.boundary == RC_FREE && t->loaded > 0 && t->loaded < lines)
         lines = t->loaded;
-    /* the transposed map goes before the rest comes */
+    /* the transposed map is freed before the rest is allocated */
     return sizeof plan + t->sources * lines * plan.waves * sizeof(double complex) +
            (transposed > rest ? transposed : rest);
 }
@@ -145,7 +145,7 @@ opposite(const struct plan *plan, size_t j)
                                                                             : plan->m;
 }
 
-/* Makes the pair that line j begins, unless the line opposite does. */
+/* Makes the pair of line j, unless the opposite line does. */
 static void
 add_pair(struct plan *plan, const bool *loaded, size_t j)
 {
@@ -171,7 +171,7 @@ add_pair(struct plan *plan, const bool *loaded, size_t j)
     }
 }
 
-/* The lines of a source whose turn it is, v; a line that is loaded by another is 0. */
+/* Transforms the lines of a source in this part, v; a line that only another source loads is 0. */
 static void
 transform_lines(struct plan *plan, size_t source, const bool *loaded, const double *v)
 {
@@ -271,7 +271,7 @@ done:
     return NULL;
 }
 
-/* Adds what a load makes of one pair of lines; `k` is the kernel's transform along. */
+/* Adds the field of a load on one pair of lines; `k` is the kernel's transform along. */
 static void
 add_product(const struct plan *plan, int load, int kernel, const double *k, const struct pair *pair,
             double complex *sum)
@@ -357,7 +357,7 @@ set_numbers(const struct plan *plan, const double *q, double *numbers)
         memcpy(numbers + b * n, numbers + (m - b) * n, n * sizeof *numbers);
 }
 
-/* Symbols of all kernels at the waves across that belong to wave a along, `symbol` m each. */
+/* Symbols of all kernels at the waves across, for wave a along; m each, in `symbol`. */
 static void
 wave_symbols(const struct plan *plan, size_t a, double *scratch, double *symbol[RC_STRESS_KERNELS])
 {
@@ -381,12 +381,12 @@ wave_symbols(const struct plan *plan, size_t a, double *scratch, double *symbol[
     }
 }
 
-/* Transform of what wave b across of a source makes of a component, over that wave. */
+/* Transform of a component due to wave b across of a source, over that wave. */
 static double complex
 response(const struct plan *plan, size_t source, int component,
          double *const symbol[RC_STRESS_KERNELS], size_t b, bool last_x, bool last_y)
 {
-    static const double complex powers[] = {1, -I, -1}; /* of -i */
+    static const double complex powers[] = {1, -I, -1}; /* powers of -i */
     const struct rc_stress_task *t = &plan->task;
     double complex sum = 0;
 
@@ -438,7 +438,7 @@ sum_waves(struct plan *plan)
             rc_stress_count(t, k, plan->waves * plan->m);
 }
 
-/* ---- both ---- */
+/* ---- both boundaries ---- */
 
 static enum rc_status
 slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)

@@ -1,6 +1,6 @@
 /*
- * Stress maps by a row of engines.list: one sum for each kernel, depth and map that the kernel is for, in little memory beside
- * the maps (Polonsky and Keer 1999, section 3.3).
+ * Stress maps by a row of engines.list: one sum for each kernel, depth and map that uses the kernel, with
+ * little memory besides the maps (Polonsky and Keer 1999, section 3.3).
  */
 #include "stress.h"
 
@@ -13,8 +13,8 @@ struct plan {
     double *u; /* of one kernel */
 };
 
-/* An engine's tolerance is relative to the sum of |K| |p|. That of |K| grows with the logarithm of
- * the map, to some 2 under pressure and 8 under shear, and errors of all add. */
+/* An engine's tolerance is relative to the sum of |K| |p|. The sum of |K| grows with the logarithm of the map
+ * size, to some 2 under pressure and 8 under shear, and the errors of all loads add up. */
 static struct rc_sum
 sum_of(const struct rc_stress_task *t, const struct rc_stress_field *field)
 {
@@ -52,8 +52,8 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
     return plan;
 }
 
-/* The memory of a plan hardly depends on the body: it is asked for a bare one, at the depth of a
- * node. 0 when memory is short even for that. */
+/* The memory of a plan hardly depends on the body: computed for a uniform body, at a depth of one spacing. 0
+ * when memory is short even for this. */
 static size_t
 memory(const struct rc_stress_task *task)
 {
@@ -81,7 +81,7 @@ add(size_t n, double weight, const double *u, double *s)
         s[k] += weight * u[k];
 }
 
-/* The weight of a source in a component by a kernel; 0: it is not in it. */
+/* The weight of a source in a component by a kernel; 0: no contribution. */
 static double
 weight_of(const struct rc_stress_task *t, size_t source, int kernel, int component)
 {
@@ -94,7 +94,7 @@ weight_of(const struct rc_stress_task *t, size_t source, int kernel, int compone
     return weight;
 }
 
-/* Adds what a source makes by a kernel, where there is anything. */
+/* Adds the contribution of a source by a kernel, if any. */
 static void
 add_source(struct plan *plan, void *one, size_t source, int kernel, double *const s[RC_COMPONENTS])
 {

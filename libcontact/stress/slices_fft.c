@@ -1,14 +1,14 @@
 /*
- * Stress maps by Fourier transforms. The pressure, and maps of traction, are transformed once; then, for each depth, the
- * kernels of all components are tabulated together on a quarter of the padded map, each gives its
- * spectrum by real even or odd transforms, and one transform back gives each component: the products with
- * the kernels of all loads are added before it.
+ * Stress maps by Fourier transforms. The pressure, and maps of traction, are transformed once; then, for each
+ * depth, the kernels of all components are tabulated together on a quarter of the padded map, each gives its
+ * spectrum by real even or odd transforms, and one transform back gives each component, from the sum of the
+ * products with the kernels of all loads.
  *
- * Periodic: the kernels are known by their symbols, nothing is padded, and only the decay of the
- * waves is tabulated. Waves that do not reach the depth are left out.
+ * Periodic: the kernels have symbols, no padding is needed, and only the decay of the waves is tabulated.
+ * Waves that do not reach the depth are left out.
  *
- * Where a tolerance allows it transforms are in single precision, and on a free map, where the depth
- * allows it too, the same is done on a coarser grid.
+ * Where the tolerance permits, transforms are in single precision; on a free map, where the depth permits
+ * too, the same is done on a coarser grid.
  */
 #include "coarse_grid.h"
 
@@ -24,23 +24,23 @@ struct grid {
     struct rc_shape shape;
     struct rc_fft *fft;
     int threads;
-    size_t cx, cy;                          /* of a quarter of a kernel's period               */
-    size_t first_row, rows;                 /* of these rows, those that are made here         */
-    size_t first_column, columns;           /* and of the columns                              */
-    double *quarter[RC_STRESS_KERNELS];     /* free: these rows of cx values, transformed in x */
-    double *known;                          /* periodic: of each wave, columns of cy, so many   */
-    size_t numbers;                         /* numbers: what is left of it at the depth         */
+    size_t cx, cy;                          /* of a quarter of a kernel's period                */
+    size_t first_row, rows;                 /* of these rows, those computed here               */
+    size_t first_column, columns;           /* of these columns, those held here                */
+    double *quarter[RC_STRESS_KERNELS];     /* free: these rows of cx values, transformed in x  */
+    double *known;                          /* periodic: `numbers` for each wave, columns of cy */
+    size_t numbers;                         /* that describe a wave at the depth                */
     struct rc_inside *inside;               /* at the depth                                     */
-    double depth;                           /* of all the others, m                             */
-    struct rc_spectrum *spectrum[RC_LOADS]; /* the last ones made: as many as loads          */
-    int kernel[RC_LOADS];                   /* of which kernel each is; -1: of none            */
+    double depth;                           /* of all tables above, m                           */
+    struct rc_spectrum *spectrum[RC_LOADS]; /* the last ones, one per load                      */
+    int kernel[RC_LOADS];                   /* the kernel of each; -1: none                     */
 };
 
 struct plan {
     struct rc_stress_task task;
     struct grid *fine, *coarse; /* coarse: that of the last depth that had one; or NULL */
-    struct rc_coarse *between;  /* fine and coarse                                      */
-    size_t sx, sy;              /* fine nodes from one coarse node to the next          */
+    struct rc_coarse *between;  /* between fine and coarse                              */
+    size_t sx, sy;              /* fine nodes per coarse node                           */
     double *field;              /* of one component on the coarse grid                  */
 };
 
@@ -54,8 +54,8 @@ count(unsigned bits)
     return n;
 }
 
-/* Tolerances below this are left to double precision: single makes an error of up to 1e-6 of the
- * largest pressure. Errors of all loads add. */
+/* Smaller tolerances than this need double precision: single precision makes errors of up to 1e-6 of the
+ * largest pressure. The errors of all loads add up. */
 static const double single_floor = 1e-5;
 
 static enum rc_precision
@@ -80,7 +80,7 @@ grid_free(struct grid *g)
     free(g);
 }
 
-/* Room for what is tabulated at a depth. */
+/* Allocates the tables of a depth. */
 static enum rc_status
 make_tables(struct grid *g, struct rc_err *err)
 {
@@ -180,11 +180,11 @@ tabulate(struct grid *g)
 
 /* ---- waves ---- */
 
-/* q z from which on a wave is left out. At that depth each is down to (3 + q z) exp(-q z) = 7e-20;
- * even all of them in step with each other are then less than the rounding of the transforms. */
+/* q z beyond which a wave is left out. There each wave is down to (3 + q z) exp(-q z) = 7e-20; even all of
+ * them in phase are then below the rounding of the transforms. */
 static const double deepest = 48;
 
-/* The numbers of all waves at the depth of a periodic grid; 0 for the waves that are left out. */
+/* The numbers of all waves at the depth of a periodic grid; 0 for the waves left out. */
 static void
 set_known(struct grid *g)
 {
@@ -199,7 +199,7 @@ set_known(struct grid *g)
         double *column = g->known + i * g->cy * g->numbers;
         size_t n;
         memset(column, 0, g->cy * g->numbers * sizeof *column);
-        for (size_t j = qx > 0 ? 0u : 1u; j < g->cy; j += n) { /* q grows along a column */
+        for (size_t j = qx > 0 ? 0u : 1u; j < g->cy; j += n) { /* q increases along a column */
             for (n = 0; n < PIECE && j + n < g->cy; n++) {
                 double qy = rc_fourier_q(j + n, s->ny, s->dy);
                 q[n] = sqrt(qx * qx + qy * qy);
@@ -213,7 +213,7 @@ set_known(struct grid *g)
     }
 }
 
-/* A kernel at the depth of a grid, as rc_spectrum_sample asks for it. */
+/* A kernel at the depth of a grid, for rc_spectrum_sample. */
 struct component {
     const struct grid *grid;
     int kernel;
@@ -260,7 +260,7 @@ set_spectrum(struct grid *g, int kernel, struct rc_spectrum *s, struct rc_err *e
     return RC_OK;
 }
 
-/* Where the spectrum of a kernel is kept; -1: it is not. */
+/* Where the spectrum of a kernel is stored; -1: nowhere. */
 static int
 place_of(const struct grid *g, int kernel)
 {
@@ -270,7 +270,7 @@ place_of(const struct grid *g, int kernel)
     return -1;
 }
 
-/* Spectra of n different kernels: those that are there, others in the places of those that are not wanted. */
+/* Makes the spectra of n different kernels: reuses those stored, and replaces those not needed. */
 static enum rc_status
 make_spectra(struct grid *g, size_t n, const int *kernel, struct rc_err *err)
 {
@@ -296,7 +296,7 @@ make_spectra(struct grid *g, size_t n, const int *kernel, struct rc_err *err)
 
 /* ---- fields ---- */
 
-/* Szz of the shear is sxz of the normal load: next to each other they share the spectrum. */
+/* Szz of the shear equals sxz of the normal load: in adjacent places they share the spectrum. */
 static const enum rc_component order[RC_COMPONENTS] = {RC_SXX, RC_SYY, RC_SXY,
                                                        RC_SYZ, RC_SZZ, RC_SXZ};
 
@@ -342,14 +342,14 @@ component_field(struct grid *g, int c, double *s, struct rc_err *err)
 
 /* ---- coarser grids ---- */
 
-/* Whether a coarser grid does at this depth, and its steps. Errors of all loads add; those of
- * the shear's kernels are the smaller. */
+/* Whether a coarser grid is accurate enough at this depth, and its steps. The errors of all loads add up;
+ * those of the kernels of the shear are smaller. */
 static bool
 may_be_coarse(const struct rc_stress_task *t, double depth, size_t *sx, size_t *sy)
 {
     double tol = t->options.tol / (1 + rc_stress_shear(t));
 
-    /* which rows a coarser node is made of, other ranks hold */
+    /* other ranks hold some of the rows of a coarser node */
     return t->options.boundary == RC_FREE && t->type->coarsens && t->options.ranks == NULL &&
            rc_coarse_steps(&t->shape, rc_coarse_spacing(depth, tol), sx, sy);
 }
@@ -438,7 +438,7 @@ memory(const struct rc_stress_task *task)
 {
     size_t coarse = 0, bytes, sx, sy;
 
-    /* of coarser grids there is one at a time; at an unknown depth it may be the largest */
+    /* only one coarser grid exists at a time; at an unknown depth it may be the largest */
     if (task->depths == 0 && may_be_coarse(task, INFINITY, &sx, &sy))
         coarse = coarse_memory(task, sx > 1 ? 2 : 1, sy > 1 ? 2 : 1);
     for (size_t k = 0; k < task->depths; k++)

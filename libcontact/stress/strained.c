@@ -1,6 +1,6 @@
 /*
- * The stress of plastic strain in slabs, added to that of the pressure: one sweep up through the slabs and one down for
- * all depths.
+ * The stress due to plastic strain in slabs, added to that of the pressure: one sweep up through the slabs,
+ * and one down for all depths.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,7 @@ struct rc_strained {
     const struct rc_stress_task *task;
     struct rc_shape shape; /* rows held here */
     struct rc_slabs *slabs;
-    double *const *to; /* where the stresses go */
+    double *const *to; /* where the stresses are added */
 };
 
 static const enum rc_component components[PARTS] = {RC_SXX, RC_SYY, RC_SXY, RC_SXZ, RC_SYZ};
@@ -82,7 +82,7 @@ strain_row(void *ctx, size_t slab, enum rc_component c, size_t j, double *row)
     return true;
 }
 
-/* Both sweeps. `strained` has room for each slab. */
+/* Both sweeps. `strained` has an entry for each slab. */
 static void
 sweep(struct rc_strained *p, bool *strained)
 {
@@ -133,7 +133,7 @@ rc_strained_free(struct rc_strained *p)
 
 /* ---- stress ---- */
 
-/* How much of node k of n a plane at this place takes: what is linear in between. */
+/* The weight of node k of n in a plane at this position, by linear interpolation. */
 static double
 share(size_t k, size_t n, double step, double at)
 {
@@ -142,7 +142,7 @@ share(size_t k, size_t n, double step, double at)
     return fmax(0, 1 - fabs((double)k - fmin(fmax(place, 0), (double)(n - 1))));
 }
 
-/* To a line of the plane, from a row of it or across it: two rows reach the same line. */
+/* Adds a row to a line of the plane, along it or across it: two rows contribute to the same line. */
 static void
 add_to_plane(const struct rc_strained *p, size_t j, const double *s, double *line)
 {

@@ -1,5 +1,5 @@
 /*
- * Stress slices and sections: what evaluates them, and what is derived from them.
+ * Stress slices and sections: choice of the evaluator, and derived stresses.
  */
 #include "stress.h"
 
@@ -16,8 +16,8 @@ struct rc_stress {
     struct rc_solid *solid;
     struct rc_strained *strained; /* NULL: no plastic strain */
     size_t values;
-    double *own[RC_COMPONENTS]; /* components that are needed but not wanted */
-    struct rc_body body; /* the caller's, whose layers are kept where they have residual stress */
+    double *own[RC_COMPONENTS]; /* components that are needed but not requested */
+    struct rc_body body; /* the caller's; its layers are copied if they have residual stress */
     struct rc_stress_counts counts;
 };
 
@@ -38,7 +38,7 @@ automatic(const char *engine)
     return engine == NULL || strcmp(engine, "auto") == 0;
 }
 
-/* The engine of that name, NULL when there is none; or the one that sums stresses fastest. */
+/* The engine of that name, NULL when there is none; without a name the fastest one for stresses. */
 static const struct rc_engine *
 engine_of(const char *name, bool *precise)
 {
@@ -87,7 +87,7 @@ rc_stress_check(const struct rc_shape *shape, const struct rc_stress_options *o,
     return RC_OK;
 }
 
-/* What the surface carries, and which maps that takes. */
+/* The loads on the surface, and the maps of each. */
 static void
 set_loads(struct rc_stress_task *t)
 {
@@ -138,7 +138,7 @@ task_of(const struct rc_shape *shape, const double *p, const struct rc_solid *so
 
     set_loads(&task);
     task.kernels = rc_stress_distinct(task.type, components, task.loads);
-    task.options.body.layer = NULL; /* the caller's, who may give them up */
+    task.options.body.layer = NULL; /* the caller may free them */
     if (rc_ranks_count(o->ranks) == 1)
         task.options.ranks = NULL;
     task.engine = engine_of(o->engine, &task.precise);

@@ -1,5 +1,5 @@
 /*
- * How the stresses inside a body (libcontact/body) are summed over a map. Internal: never installed.
+ * Sums the stresses inside a body (libcontact/body) over a map. Internal: never installed.
  */
 #ifndef RC_STRESS_H
 #define RC_STRESS_H
@@ -10,30 +10,31 @@
 
 /* ---- sums over a map ---- */
 
-/* What is to be summed, and the tally of what it took. */
+/* The requested sum, and counters of the work. */
 struct rc_stress_task {
     struct rc_shape shape;
     struct rc_stress_options options;
-    const double *p; /* stays the caller's                                             */
-    unsigned loads;  /* bits: what the surface carries                                 */
-    size_t sources;  /* maps of it: the pressure, maps of traction                     */
+    const double *p; /* owned by the caller */
+    unsigned loads;  /* bits: the loads on the surface */
+    size_t sources;  /* maps of the loads: the pressure, maps of traction */
     const double *source[RC_LOADS];
     struct {
-        size_t source; /* what it is made of ... */
-        double weight; /* ... times this         */
+        size_t source; /* its map ... */
+        double weight; /* ... times this weight */
     } load[RC_LOADS];
     const struct rc_inside_type *type;
     const struct rc_solid *solid; /* NULL in an estimate */
-    unsigned components; /* bits of the six: what is wanted and what that is derived from  */
-    unsigned kernels;    /* bits: what these need, one of each set of equals               */
-    const struct rc_engine *engine; /* asked for or taken; NULL: there is none of that name */
-    bool precise;                   /* in double precision throughout, as its name asks     */
+    /* bits of the six: those requested and those needed for derived stresses */
+    unsigned components;
+    unsigned kernels;               /* bits: the kernels needed, one of each set of equal ones */
+    const struct rc_engine *engine; /* requested or chosen; NULL: there is none of that name */
+    bool precise;                   /* in double precision throughout, as demanded by its name */
     struct rc_stress_counts *counts;
-    /* In an estimate: what rc_stress_memory was told. */
+    /* In an estimate: the arguments of rc_stress_memory. */
     const double *depth;
     size_t depths, loaded;
 };
-/* Whether there is a load; what the traction is at most of the pressure, or of itself where it is larger. */
+/* Whether there is a load; the largest traction over the pressure, or 1 if it has maps of its own. */
 static inline bool
 rc_stress_has(const struct rc_stress_task *task, int load)
 {
@@ -41,19 +42,18 @@ rc_stress_has(const struct rc_stress_task *task, int load)
 }
 double rc_stress_shear(const struct rc_stress_task *task);
 
-/* Counts the evaluation of a kernel: as one of the shear where only the traction needs it. */
+/* Counts evaluations of a kernel, as one of the shear if only the traction needs it. */
 void rc_stress_count(const struct rc_stress_task *task, int kernel, size_t coefficients);
 
-/* Numbers kept of a wave at a depth. */
+/* Numbers stored per wave at a depth. */
 size_t rc_stress_numbers(const struct rc_stress_task *task);
-/* A depth of the body, to be freed by rc_inside_free: NULL when memory is short or the body is
- * rigid there. */
+/* A depth of the body; free it with rc_inside_free. NULL when memory is short or the body is rigid there. */
 struct rc_inside *rc_stress_inside(const struct rc_stress_task *task, double depth,
                                    struct rc_err *err);
 /* Bytes of it. */
 size_t rc_stress_inside_memory(const struct rc_stress_task *task);
 
-/* ---- strained.c: the stress of plastic strain, where there is any ---- */
+/* ---- strained.c: the stress due to plastic strain ---- */
 
 struct rc_strained;
 enum rc_status rc_strained_check(const struct rc_stress_options *options, struct rc_err *err);
@@ -67,9 +67,9 @@ void rc_strained_count(const struct rc_strained *strained, struct rc_stress_coun
 
 /* ---- what evaluates stresses ---- */
 
-/* What evaluates stresses: slices_fft.c, slices_engine.c and section.c end in one. */
+/* Evaluates stresses: slices_fft.c, slices_engine.c and section.c each end in one. */
 struct rc_stress_evaluator {
-    /* Bytes beside p and the results. */
+    /* Bytes besides p and the results. */
     size_t (*memory)(const struct rc_stress_task *task);
     void *(*new)(const struct rc_stress_task *task, struct rc_err *err);
     /* The components at one depth, s[c] for each bit: a map each, or a line of a section. */

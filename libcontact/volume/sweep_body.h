@@ -1,5 +1,5 @@
 /*
- * The sweeps in one precision: REAL and what goes with it is set by the file that includes this.
+ * The sweeps in one precision: the including file defines REAL and its constants.
  *
  * q is a wave vector in the plane, c = qx/q, d = qy/q; axes s along q and t across. Of strain and
  * stress
@@ -7,33 +7,31 @@
  *     ss = c^2 xx + d^2 yy + 2cd xy    st = cd (yy - xx) + (c^2 - d^2) xy    sz = -i (c xz + d yz)
  *     tt = d^2 xx + c^2 yy - 2cd xy                                          tz = -i (c yz - d xz)
  *
- * so that all coefficients below are real. Real parts of ss, tt, zz and st go with imaginary parts
- * of xz and yz: either half is computed by itself, and differs by a sign in these two.
+ * so that all coefficients below are real. Real parts of ss, tt, zz and st belong to imaginary parts of xz
+ * and yz: each half is computed separately, and differs by a sign in these two.
  *
- * Three waves go down from where they are known, three up; w are their amplitudes times q, D the
- * distance, x = q D. Their stress over 2 mu exp(-x), with f = 1 for waves that go down and -1 for
- * up:
+ * Three waves travel down and three up; w are their amplitudes times q, D the distance from the depth where
+ * they are known, x = q D. Their stress over 2 mu exp(-x), with f = 1 for downward and -1 for upward waves:
  *
  *     ss = -w1 + (x - 2 nu) w2    zz = w1 - (2 (1 - nu) + x) w2    sz = f (-w1 + (1 - 2 nu + x) w2)
  *     tt = -2 nu w2               st = -w3/2                       tz = -f w3/2
  *
- * After the distance D they are exp(-x) (w1 - x w2, w2, w3). A sheet of strain e dz sends out, over
- * q dz,
+ * After the distance D they are exp(-x) (w1 - x w2, w2, w3). A sheet of strain e dz emits, over q dz,
  *
  *     down (S1/2 + sz, (S2 + D2)/2, tz - st)    S2 = (zz - ss)/(2 (1 - nu))    D2 = sz/(1 - nu)
  *     up   (S1/2 - sz, (S2 - D2)/2, -tz - st)   S1 = (3 - 4 nu) S2 - (1 - 2 nu) zz/(1 - nu)
  *
- * and leaves in its own plane -2 mu (e_ab + nu/(1 - nu) (exx + eyy) delta_ab), a, b = x, y. At the
- * surface
+ * and causes the stress -2 mu (e_ab + nu/(1 - nu) (exx + eyy) delta_ab), a, b = x, y, in its own plane. At
+ * the surface
  *
  *     down1 = (3 - 4 nu) up1 - 4 (1 - nu)(1 - 2 nu) up2 + (1 - 2 nu) p/(2 mu)
  *     down2 = 2 up1 - (3 - 4 nu) up2 + p/(2 mu)          down3 = up3
  *     u = 4 (1 - nu) (up1 - 2 (1 - nu) up2)/q
  *
- * beside K p. Integrals over a slab, with x = q h, E = exp(-x) and F_n = sum over k of (-x)^k/(k +
- * n)!, so that E = 1 - x F1, F1 = 1 - x F2, F2 = 1/2 - x F3: what the slab sends out of 1 and of x
- * is g0 = x F1, g1 = x^2 (F1 - F2); of waves from outside its mean is m0 = F1, m1 = x (F1 - F2); of
- * its own j0 = x F2, j1 = x^2 (F2 - 2 F3).
+ * in addition to K p. Integrals over a slab, with x = q h, E = exp(-x) and F_n = sum over k of (-x)^k/(k +
+ * n)!, so that E = 1 - x F1, F1 = 1 - x F2, F2 = 1/2 - x F3: of the emitted waves, for the factors 1 and x,
+ * g0 = x F1, g1 = x^2 (F1 - F2); of the mean of outside waves m0 = F1, m1 = x (F1 - F2); of the mean of its
+ * own waves j0 = x F2, j1 = x^2 (F2 - 2 F3).
  */
 #include <math.h>
 #include <stdint.h>
@@ -43,7 +41,7 @@
 #include "sweep.h"
 
 enum {
-    BLOCK = 64 /* waves that go through the slabs of a group together, in the first cache */
+    BLOCK = 64 /* waves that pass the slabs of a group together; they fit into the first cache */
 };
 
 /* ---- coefficients ---- */
@@ -67,7 +65,7 @@ set_way(const struct rc_sweep_column *column, size_t first, size_t n, struct way
     for (size_t k = 0; k < n; k++) {
         double qy = column->qy[first + k], q2 = qx * qx + qy * qy;
         double mean = q2 > 0 ? 0 : 1,
-               q = sqrt(q2 + mean); /* of wave number 0 any direction will do */
+               q = sqrt(q2 + mean); /* for wave number 0 the direction is arbitrary */
         double over = 1 / q, c = (qx + mean) * over, d = qy * over;
         w->q[k] = (REAL)q;
         w->alive[k] = (REAL)(on * column->alive[first + k] * (1 - mean));
@@ -84,7 +82,7 @@ set_way(const struct rc_sweep_column *column, size_t first, size_t n, struct way
 static inline REAL
 decay(REAL x)
 {
-    const REAL shift = SHIFT, high = (REAL)0x1.62ep-1, /* of few digits: exact products */
+    const REAL shift = SHIFT, high = (REAL)0x1.62ep-1, /* few digits, so that products are exact */
         low = (REAL)(0.693147180559945309417 - 0x1.62ep-1);
     REAL y = x < (REAL)DEEPEST ? x : (REAL)DEEPEST;
     REAL u = shift - y * (REAL)1.44269504088896340736, n = u - shift;
@@ -109,7 +107,7 @@ decay(REAL x)
     s = (REAL)(1. / 2.) + r * s;
     s = 1 + r * s;
     s = 1 + r * s;
-    memcpy(&a, &u, sizeof a); /* its last digits are n */
+    memcpy(&a, &u, sizeof a); /* its last digits hold n */
     memcpy(&b, &s, sizeof b);
     b += a << MANTISSA;
     memcpy(&s, &b, sizeof s);
@@ -178,7 +176,7 @@ struct waves {
     REAL w1[BLOCK], w2[BLOCK], w3[BLOCK];
 };
 
-/* Where a half of a slab's numbers lies: xz and yz in the other one. */
+/* Where one half of a slab's numbers lies; for xz and yz it is the other half. */
 struct half {
     REAL sign;
     REAL *xx, *yy, *xy, *xz, *yz, *zz;
@@ -215,8 +213,8 @@ turn_strain(const struct way *w, const struct half *from, size_t n, struct strai
     }
 }
 
-/* Waves after a slab, those that it sends out by itself included; sign 1: down, -1: up. Numbers of
- * no account are set to 0: denormal ones would be slow. */
+/* Waves after a slab, including those that it emits; sign 1: down, -1: up. Negligible numbers are set to 0,
+ * because denormal ones would be slow. */
 RC_WIDE_CLONES static void
 pass(const struct slab_of *s, const struct strain *e, REAL sign, REAL nu, size_t n,
      const struct waves *in, struct waves *out)
@@ -237,7 +235,7 @@ pass(const struct slab_of *s, const struct strain *e, REAL sign, REAL nu, size_t
     }
 }
 
-/* The same of a slab without strain. */
+/* The same for a slab without strain. */
 RC_WIDE_CLONES static void
 carry(const struct slab_of *s, size_t n, const struct waves *in, struct waves *out)
 {
@@ -251,7 +249,7 @@ carry(const struct slab_of *s, size_t n, const struct waves *in, struct waves *o
     }
 }
 
-/* Mean stress of a slab from waves down on top of it, waves up below it and its strain. */
+/* Mean stress of a slab from the downward waves at its top, the upward waves at its bottom and its strain. */
 RC_WIDE_CLONES static void
 stress(const struct way *w, const struct slab_of *s, const struct strain *e, REAL nu, REAL modulus,
        size_t n, const struct waves *a, const struct waves *b, const struct half *to)
@@ -317,7 +315,7 @@ keep(const struct waves *w, size_t length, size_t first, size_t n, bool imaginar
     memcpy(v + 4 * length, w->w3, n * sizeof *v);
 }
 
-/* Both halves of m waves through a slab of this thickness; its strain is that of `slab`. */
+/* Both halves of m waves through a slab of this thickness and the strain of `slab`. */
 static void
 cross(const struct rc_sweep_column *column, const struct way *way, size_t first, size_t m,
       const struct rc_sweep_slab *slab, double thickness, bool down, struct waves w[2])
@@ -360,7 +358,7 @@ through(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_sl
     }
 }
 
-/* A mean has one wave, whose directions do not matter: nothing of it leaves its slab. */
+/* A mean has one wave, whose direction is arbitrary: it stays in its slab. */
 static void
 add_mean(const struct rc_sweep_slab *slab)
 {
@@ -389,7 +387,7 @@ down(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab 
         for (size_t k = 0; k < n; k++)
             set_slab(&way, slab[k].thickness, m, &of[k]);
         for (int i = 0; i < 2; i++) {
-            /* waves up below each slab, again */
+            /* recomputes the upward waves below each slab */
             fetch(any ? below : NULL, column->length, first, m, i, &b[n - 1]);
             for (size_t k = n; k-- > 0;) {
                 struct half half = half_of(&slab[k], column->length, first, i);
@@ -449,7 +447,7 @@ slice(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab
         for (size_t k = n; k-- > place->slab + 1;)
             cross(column, &way, first, m, &slab[k], slab[k].thickness, false, b);
         cross(column, &way, first, m, own, place->below, false, b);
-        set_slab(&way, 0, m, &of); /* all of whose means are values */
+        set_slab(&way, 0, m, &of); /* a slab of thickness 0, whose means are values */
         for (int i = 0; i < 2; i++) {
             struct half half;
             memset(&e, 0, sizeof e);
@@ -472,7 +470,7 @@ reflect(const struct rc_sweep_column *column, bool any, const void *p, double ov
     const double nu = column->nu;
     const REAL kappa = (REAL)(3 - 4 * nu), mixed = (REAL)(4 * (1 - nu) * (1 - 2 * nu));
     const REAL own = (REAL)(1 - 2 * nu);
-    REAL *w1 = waves, *w2 = w1 + 2 * length; /* the third goes down as it came up */
+    REAL *w1 = waves, *w2 = w1 + 2 * length; /* the third wave is reflected unchanged */
 
     if (!any)
         memset(waves, 0, 6 * length * sizeof *w1);
@@ -499,7 +497,7 @@ surface(const struct rc_sweep_column *column, const void *waves, void *u)
 
     for (size_t k = 0; k < length; k++) {
         double qy = column->qy[k], q = sqrt(column->qx * column->qx + qy * qy);
-        double by = q > 0 ? 4 * (1 - nu) / q : 0, two = 2 * (1 - nu); /* the dead are 0 */
+        double by = q > 0 ? 4 * (1 - nu) / q : 0, two = 2 * (1 - nu); /* dead waves are 0 */
         to[k] = (REAL)(by * (w1[k] - two * w2[k]));
         to[k + length] = (REAL)(by * (w1[k + length] - two * w2[k + length]));
     }

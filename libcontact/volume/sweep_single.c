@@ -1,4 +1,4 @@
-/* Half the memory and its traffic, for what does not need sixteen digits. */
+/* Single precision: half the memory and memory traffic, for uses that do not need sixteen digits. */
 #define REAL float
 #define BITS uint32_t
 #define SHIFT 0x1.8p23f

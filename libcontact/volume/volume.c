@@ -1,11 +1,11 @@
 /*
- * The sweeps over a stack of slabs: what is kept, what is transformed when. One map at a time is
- * transformed, into waves that are kept for each slab; the depths between groups of RC_SWEEP_SLABS
- * slabs keep the waves that pass, and the depths within a group are computed again on the way down.
+ * The sweeps over a stack of slabs: storage and order of the transforms. One map at a time is transformed
+ * into waves, which are stored for each slab. At the depths between groups of RC_SWEEP_SLABS slabs the
+ * passing waves are stored; those at depths within a group are computed again on the way down.
  *
- * Kept of a node, in numbers: 5 a slab, which the stresses of the slab take over, 3 a group, and 1
- * for the map under transform. Where slices are asked for: another 3 a group, waves down where those
- * were up, and 6 for the slice; what passes between the depths that are kept is computed for each.
+ * Storage per node, in numbers: 5 a slab, which the stresses of the slab replace, 3 a group, and 1 for the
+ * map in transform. With slices: another 3 a group (downward waves besides the upward ones) and 6 for the
+ * slice; waves between the stored depths are computed for each slice.
  */
 #include "volume.h"
 
@@ -19,7 +19,7 @@
 
 struct rc_slabs {
     struct rc_shape shape, here; /* of the whole map; of the rows held here */
-    size_t px, py;               /* nodes that repeat: those of the map, or more */
+    size_t px, py;               /* nodes of the period: those of the map, or more */
     size_t slabs, groups;
     double *thickness;
     double modulus, nu; /* 2 mu */
@@ -27,18 +27,18 @@ struct rc_slabs {
     const struct rc_ranks *ranks;
     struct rc_fft *fft;
     const struct rc_sweep_ops *ops;
-    size_t length, first, columns; /* waves of a column; columns held here                    */
-    size_t map;                    /* numbers of a map, as waves or as rows                   */
-    double *qy, *alive;            /* of the waves of a column                                */
-    void *strain;                  /* 5 maps a slab: strain, then stress                      */
-    void *zz;                      /* whole: a map for each slab of a group                   */
-    void *waves;                   /* 3 maps a group: those on top of it                      */
-    void *down;                    /* slices: 3 maps a group: those that go down there        */
-    void *slice;                   /* slices: 6 maps                                          */
-    bool *strained;                /* slabs of the last strain                                */
-    bool *passes;                  /* groups: whether there are waves on top                  */
-    double *rows;                  /* single: RC_COMPONENTS rows for each thread              */
-    double mean;                   /* of the pressure, Pa                                     */
+    size_t length, first, columns; /* waves of a column; columns held here             */
+    size_t map;                    /* numbers of a map, as waves or as rows            */
+    double *qy, *alive;            /* of the waves of a column                         */
+    void *strain;                  /* 5 maps a slab: strain, then stress               */
+    void *zz;                      /* whole: a map for each slab of a group            */
+    void *waves;                   /* 3 maps a group: those on top of it               */
+    void *down;                    /* slices: 3 maps a group: the downward waves there */
+    void *slice;                   /* slices: 6 maps                                   */
+    bool *strained;                /* slabs of the last strain                         */
+    bool *passes;                  /* groups: whether there are waves at its top       */
+    double *rows;                  /* single: RC_COMPONENTS rows for each thread       */
+    double mean;                   /* of the pressure, Pa                              */
     struct rc_slabs_counts counts;
 };
 
@@ -82,7 +82,7 @@ check(const struct rc_shape *shape, const struct rc_slabs_options *o, struct rc_
     return RC_OK;
 }
 
-/* Numbers of a map of waves, of as many columns, or of as many rows: the larger. */
+/* Numbers of a map as waves of this many columns or as rows: the larger. */
 static size_t
 map_size(const struct rc_shape *shape, size_t length, size_t columns, size_t rows)
 {
@@ -205,7 +205,7 @@ rc_slabs_memory(const struct rc_shape *shape, const struct rc_slabs_options *o)
     struct rc_shape here = {shape->nx, rows, shape->dx, shape->dy};
 
     rc_fft_period(shape, boundary(o), &px, &py);
-    columns = spectrum / size / (py / 2 + 1); /* of the rank that has most */
+    columns = spectrum / size / (py / 2 + 1); /* of the rank with most columns */
     threads = (size_t)rc_useful_threads(&here, o->threads);
     return sizeof(struct rc_slabs) + maps * map_size(shape, py, columns, rows) * size +
            rc_fft_memory(shape, boundary(o), o->precision, ranks) - spectrum +
@@ -214,7 +214,7 @@ rc_slabs_memory(const struct rc_shape *shape, const struct rc_slabs_options *o)
            (o->precision == RC_SINGLE ? threads * RC_COMPONENTS * shape->nx * sizeof(double) : 0);
 }
 
-/* ---- where things lie ---- */
+/* ---- layout ---- */
 
 static void *
 map_of(const struct rc_slabs *v, void *maps, size_t which)
@@ -228,14 +228,14 @@ strain_of(const struct rc_slabs *v, size_t slab, size_t component)
     return map_of(v, v->strain, slab * RC_SWEEP_STRAINS + component);
 }
 
-/* A column of waves that is `arrays` arrays deep. */
+/* A column of waves in `arrays` arrays. */
 static void *
 column_of(const struct rc_slabs *v, void *waves, size_t arrays, size_t i)
 {
     return waves == NULL ? NULL : (char *)waves + i * arrays * 2 * v->length * v->ops->real_size;
 }
 
-/* Waves on top of a group in column i, of v->waves or v->down; NULL below the last one. */
+/* Waves at the top of a group in column i, of v->waves or v->down; NULL below the last group. */
 static void *
 waves_in(const struct rc_slabs *v, void *waves, size_t group, size_t i)
 {
@@ -264,7 +264,7 @@ sweep_column(const struct rc_slabs *v, size_t i)
                                     .nu = v->nu};
 }
 
-/* The slabs of a group in column i; returns how many. */
+/* The slabs of a group in column i; returns their number. */
 static size_t
 slabs_of(const struct rc_slabs *v, size_t group, size_t i, const bool *wanted,
          struct rc_sweep_slab slab[RC_SWEEP_SLABS])
@@ -286,7 +286,7 @@ slabs_of(const struct rc_slabs *v, size_t group, size_t i, const bool *wanted,
 
 /* ---- rows ---- */
 
-/* What is on its way, and of which slab. */
+/* The map in transform, and its slab. */
 struct pass {
     struct rc_slabs *volume;
     const struct rc_slab_strain *strain;
@@ -306,7 +306,7 @@ single(const struct rc_slabs *v)
     return v->rows != NULL;
 }
 
-/* Room of this thread for a row of a component. */
+/* Scratch of this thread for a row of a component. */
 static double *
 row_of(const struct rc_slabs *v, enum rc_component c)
 {
@@ -371,7 +371,7 @@ displacement_row(void *ctx, size_t j, void *row)
     return true;
 }
 
-/* Where the stresses of a slab are kept, as waves and then as rows. */
+/* Where the stresses of a slab are stored, as waves and then as rows. */
 static void *
 stress_of(const struct rc_slabs *v, size_t slab, size_t component)
 {
@@ -390,7 +390,7 @@ keep_row(void *ctx, size_t j, void *row)
     return true;
 }
 
-/* The row of the last component goes on with those that are kept. */
+/* Passes the row of the last component on, with the stored rows of the others. */
 static bool
 stress_row(void *ctx, size_t j, void *row)
 {
@@ -481,7 +481,7 @@ reflect_column(void *ctx, size_t i, void *p)
     v->ops->reflect(&column, v->passes[0], p, 1 / v->modulus, waves_of(v, 0, i));
 }
 
-/* What a mean pressure makes in every slab. */
+/* The stress due to a mean pressure, in every slab. */
 static void
 add_mean(const struct rc_slabs *v, struct rc_sweep_slab *slab)
 {
@@ -567,7 +567,7 @@ rc_slabs_through(struct rc_slabs *v)
     }
 }
 
-/* Where a depth is, and in which group. */
+/* Finds a depth and its group. */
 static struct rc_sweep_place
 place_of(const struct rc_slabs *v, double depth, size_t *group)
 {
