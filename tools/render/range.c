@@ -5,11 +5,17 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* Per cent left beyond each end of the colours where an outlier would take most of them. */
 #define BEYOND 0.5
+
+enum {
+    PART = 16, /* bits of a value that are counted at a time */
+    PARTS = 1 << PART
+};
 
 static enum unit
 unit_of(const struct rc_grid *g)
@@ -44,6 +50,83 @@ counts(const double *touch, const struct rc_grid *g, size_t k)
     return isfinite(g->v[k]) && (touch == NULL || rc_in_contact(touch[k]));
 }
 
+/* Bits that are in the order of the values. */
+static uint64_t
+bits_of(double v)
+{
+    uint64_t bits;
+
+    v += 0.0; /* -0 is 0 */
+    memcpy(&bits, &v, sizeof bits);
+    return bits >> 63 != 0 ? ~bits : bits | 1ULL << 63;
+}
+
+static double
+value_of(uint64_t bits)
+{
+    double v;
+
+    bits = bits >> 63 != 0 ? bits & ~(1ULL << 63) : ~bits;
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
+/* How many values whose bits above the lowest `shift + PART` are those of `above` have each of the PART next ones. */
+static void
+count_parts(const struct frames_of *f, uint64_t above, int shift, size_t count[PARTS])
+{
+    const uint64_t mask = shift + PART < 64 ? ~0ULL << (shift + PART) : 0;
+
+    memset(count, 0, PARTS * sizeof *count);
+    for (size_t m = 0; m < f->n; m++) {
+        const struct rc_grid *g = f->grid[m];
+        const double *touch = touch_of(f, m);
+
+        for (size_t i = 0; i < g->nx * g->ny; i++)
+            if (counts(touch, g, i) && (bits_of(g->v[i]) & mask) == above)
+                count[bits_of(g->v[i]) >> shift & (PARTS - 1)]++;
+    }
+}
+
+/* Value number k, from 0, in order, found without another map in memory: its highest bits first. */
+static double
+ranked(const struct frames_of *f, size_t k)
+{
+    static size_t count[PARTS];
+    uint64_t bits = 0;
+
+    for (int shift = 64 - PART; shift >= 0; shift -= PART) {
+        uint64_t part = 0;
+
+        count_parts(f, bits, shift, count);
+        while (k >= count[part])
+            k -= count[part++];
+        bits |= part << shift;
+    }
+    return value_of(bits);
+}
+
+static double
+percentile(const struct frames_of *f, double percent)
+{
+    double place, below;
+    size_t n = 0, k;
+
+    for (size_t m = 0; m < f->n; m++)
+        for (size_t i = 0; i < f->grid[m]->nx * f->grid[m]->ny; i++)
+            n += counts(touch_of(f, m), f->grid[m], i);
+    if (n == 0)
+        return 0;
+    place = percent / 100 * (double)(n - 1);
+    k = (size_t)place;
+    below = ranked(f, k);
+    if (k + 1 >= n || place == (double)k)
+        return below;
+    return below + (place - (double)k) * (ranked(f, k + 1) - below);
+}
+
+/* ---- outliers ---- */
+
 static int
 by_size(const void *a, const void *b)
 {
@@ -51,123 +134,6 @@ by_size(const void *a, const void *b)
 
     return (x > y) - (x < y);
 }
-
-enum {
-    BINS = 4096,
-    FEW = 4096
-};
-
-/* Value number k, from 0, of the few from lo to hi. */
-static double
-pick(const struct frames_of *f, double lo, double hi, size_t k)
-{
-    double few[FEW];
-    size_t n = 0;
-
-    for (size_t m = 0; m < f->n; m++) {
-        const struct rc_grid *g = f->grid[m];
-        const double *touch = touch_of(f, m);
-
-        for (size_t i = 0; i < g->nx * g->ny && n < FEW; i++)
-            if (counts(touch, g, i) && g->v[i] >= lo && g->v[i] <= hi)
-                few[n++] = g->v[i];
-    }
-    qsort(few, n, sizeof *few, by_size);
-    return few[k < n ? k : n - 1];
-}
-
-static size_t
-bin_of(double v, double lo, double step)
-{
-    return (size_t)fmin((v - lo) / step, BINS - 1);
-}
-
-/* How many values from lo to hi lie in each bin from lo on. */
-static void
-count_bins(const struct frames_of *f, double lo, double hi, double step, size_t count[BINS])
-{
-    memset(count, 0, BINS * sizeof *count);
-    for (size_t m = 0; m < f->n; m++) {
-        const struct rc_grid *g = f->grid[m];
-        const double *touch = touch_of(f, m);
-
-        for (size_t i = 0; i < g->nx * g->ny; i++)
-            if (counts(touch, g, i) && g->v[i] >= lo && g->v[i] <= hi)
-                count[bin_of(g->v[i], lo, step)]++;
-    }
-}
-
-/* Narrows lo and hi to the values of a bin. */
-static void
-enter_bin(const struct frames_of *f, double *lo, double *hi, double step, size_t bin)
-{
-    double low = INFINITY, high = -INFINITY;
-
-    for (size_t m = 0; m < f->n; m++) {
-        const struct rc_grid *g = f->grid[m];
-        const double *touch = touch_of(f, m);
-
-        for (size_t i = 0; i < g->nx * g->ny; i++)
-            if (counts(touch, g, i) && g->v[i] >= *lo && g->v[i] <= *hi &&
-                bin_of(g->v[i], *lo, step) == bin) {
-                low = fmin(low, g->v[i]);
-                high = fmax(high, g->v[i]);
-            }
-    }
-    *lo = low;
-    *hi = high;
-}
-
-/* Value number k, from 0, of n values from lo to hi in order. It is found without another map in
- * memory: values are counted in bins, then those of one bin in finer bins. */
-static double
-ranked(const struct frames_of *f, double lo, double hi, size_t n, size_t k)
-{
-    size_t count[BINS];
-
-    while (n > FEW && hi > lo) {
-        double step = hi / BINS - lo / BINS;
-        size_t bin = 0;
-
-        if (!(step > 0)) /* of the smallest numbers there are */
-            return lo;
-        count_bins(f, lo, hi, step, count);
-        while (bin + 1 < BINS && k >= count[bin])
-            k -= count[bin++];
-        enter_bin(f, &lo, &hi, step, bin);
-        n = count[bin];
-    }
-    return hi > lo ? pick(f, lo, hi, k) : lo;
-}
-
-static double
-percentile(const struct frames_of *f, double percent)
-{
-    double lo = INFINITY, hi = -INFINITY, place, below;
-    size_t n = 0, k;
-
-    for (size_t m = 0; m < f->n; m++) {
-        const struct rc_grid *g = f->grid[m];
-        const double *touch = touch_of(f, m);
-
-        for (size_t i = 0; i < g->nx * g->ny; i++)
-            if (counts(touch, g, i)) {
-                lo = fmin(lo, g->v[i]);
-                hi = fmax(hi, g->v[i]);
-                n++;
-            }
-    }
-    if (n == 0)
-        return 0;
-    place = percent / 100 * (double)(n - 1);
-    k = (size_t)place;
-    below = ranked(f, lo, hi, n, k);
-    if (k + 1 >= n || place == (double)k)
-        return below;
-    return below + (place - (double)k) * (ranked(f, lo, hi, n, k + 1) - below);
-}
-
-/* ---- outliers ---- */
 
 /* The median of the values about a node. */
 static double
