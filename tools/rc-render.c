@@ -294,6 +294,47 @@ draw_figure(struct tool *t, const struct args *a, struct rc_grid *g, const struc
     free(f->medium);
 }
 
+/* ---- profiles ---- */
+
+/* Along the one row or column of a map, from edge to edge. */
+static void
+draw_profile(struct tool *t, const struct args *a, const struct rc_grid *g, const struct figure *f)
+{
+    const bool row = g->ny == 1;
+    const double first = row ? f->left : f->top, step = row ? g->dx : g->dy;
+    const size_t n = g->nx * g->ny;
+    double *x = malloc(n * sizeof *x);
+    struct graph_series series = {.kind = GRAPH_LINE, .x = x, .y = g->v, .n = n};
+    char gaps[128];
+    struct graph graph = {
+        .title = f->title,
+        .subtitle = f->subtitle,
+        .stamp = f->stamp,
+        .x = {row ? f->across : f->down, f->dunit, false, first, row ? f->right : f->bottom},
+        .y = {f->quantity, f->unit, f->log, f->lo, f->hi},
+        .series = &series,
+        .n = 1,
+        .note = f->missing > 0 ? gaps : NULL,
+        .width = f->width,
+        .dpi = f->dpi,
+        .family = f->family};
+    struct canvas *c;
+    struct rc_err err;
+
+    if (x == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "out of memory for a curve");
+    for (size_t k = 0; k < n; k++)
+        x[k] = first + ((double)k + 0.5) * step;
+    snprintf(gaps, sizeof gaps, "gaps: %s (%zu of %zu nodes)",
+             f->missing_is == NULL ? "not measured" : f->missing_is, f->missing, n);
+    if ((c = graph_draw(&graph, &err)) == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    free(x);
+    warn_of_text(t, a, c);
+    write_picture(t, g, f, c);
+    canvas_free(c);
+}
+
 /* ---- reliefs ---- */
 
 static void
@@ -370,6 +411,8 @@ render(struct tool *t, struct args *a, struct rc_grid *g, const struct beside *b
         write_picture(t, g, &f, NULL);
     else if (a->view != NULL)
         draw_relief(t, a, g, &f, &subtitle);
+    else if (look_is_profile(g))
+        draw_profile(t, a, g, &f);
     else
         draw_figure(t, a, g, beside, &s, &f);
 }

@@ -17,7 +17,7 @@ for kind in ramp curve; do
     pdftotext -layout "$kind.pdf" "$kind.txt"
     claim "$kind.pdf: poppler reads the title" says '^ *Height$' cat "$kind.txt"
     claim "  and the axis across" says '^ *x \(µm\)' cat "$kind.txt"
-    claim "  and the values' axis, which stands upright" says 'Height \(µm\)' cat "$kind.txt"
+    claim "  and the values' axis, which stands upright" says 'Height \((µ|n)m\)' cat "$kind.txt"
     claim "  and a mark with its minus" says '−[0-9]' cat "$kind.txt"
     claim "  all fonts are embedded" bash -c \
         "pdffonts $kind.pdf | tail -n +3 | awk '{ n++; bad += \$(NF - 4) != \"yes\" } END { exit !(n > 0 && bad == 0) }'"

@@ -9,8 +9,7 @@
 #include "raster.h"
 #include "ticks.h"
 
-static const struct rgb rule = {0xdd, 0xdd, 0xdd}, curve_ink = {0x1f, 0x4e, 0x8c},
-                        light = {0xff, 0xff, 0xff}, hard_ink = {0x00, 0x9e, 0x73},
+static const struct rgb light = {0xff, 0xff, 0xff}, hard_ink = {0x00, 0x9e, 0x73},
                         circle_ink = {0x1f, 0x8f, 0xd1}, edge_on_dark = {0xff, 0x8c, 0x1a};
 
 enum {
@@ -441,70 +440,6 @@ draw_bar(struct page *p)
         draw_marks_upright(p, a, x + w, y, h, false, false);
 }
 
-/* ---- curves ---- */
-
-static void
-draw_rules(struct page *p)
-{
-    double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
-           h = (double)p->plot_h, u = p->u;
-
-    for (long long k = p->across.ticks.first; k <= p->across.ticks.last; k++)
-        canvas_fill(p->c, x + page_place(&p->across, ticks_at(&p->across.ticks, k)) * w - 0.6 * u,
-                    y, 1.2 * u, h, rule);
-    for (long long k = p->values.ticks.first; k <= p->values.ticks.last; k++)
-        canvas_fill(p->c, x,
-                    y + (1 - page_place(&p->values, ticks_at(&p->values.ticks, k))) * h - 0.6 * u,
-                    w, 1.2 * u, rule);
-}
-
-static double
-height_of(const struct page *p, double value)
-{
-    double far = 1e5; /* pixels: beyond what is seen, within what can be drawn */
-    double y = (1 - page_place(&p->values, value / p->values.scale.size)) * (double)p->plot_h;
-
-    return (double)p->plot_y + fmin(fmax(y, -far), far);
-}
-
-/* Of the nodes that share a column of pixels the first, the extremes and the last are enough. */
-static void
-draw_curve(struct page *p)
-{
-    size_t n = p->g->nx * p->g->ny;
-    const double *v = p->g->v;
-    bool pen_down = false;
-
-    canvas_clip(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h);
-    for (size_t k = 0, next; k < n; k = next) {
-        double x = ((double)k + 0.5) / (double)n * (double)p->plot_w;
-        double lo = v[k], hi = v[k];
-
-        next = k + 1;
-        if (!isfinite(v[k])) {
-            pen_down = false;
-            continue;
-        }
-        while (next < n && isfinite(v[next]) &&
-               floor(((double)next + 0.5) / (double)n * (double)p->plot_w) == floor(x)) {
-            lo = fmin(lo, v[next]);
-            hi = fmax(hi, v[next++]);
-        }
-        x += (double)p->plot_x;
-        if (!pen_down)
-            canvas_move(p->c, x, height_of(p, v[k]));
-        canvas_draw_to(p->c, x, height_of(p, v[k]));
-        if (next > k + 1) {
-            canvas_draw_to(p->c, x, height_of(p, lo));
-            canvas_draw_to(p->c, x, height_of(p, hi));
-            canvas_draw_to(p->c, x, height_of(p, v[next - 1]));
-        }
-        pen_down = true;
-    }
-    canvas_stroke(p->c, 2.2 * p->u, curve_ink);
-    canvas_clip(p->c, 0, 0, 0, 0);
-}
-
 /* ---- the whole ---- */
 
 /* Over the plot, where it hides nothing. */
@@ -602,21 +537,15 @@ draw(struct page *p, struct rc_err *err)
            h = (double)p->plot_h;
 
     page_heading(p);
-    if (p->curve) {
-        draw_rules(p);
-        draw_curve(p);
-        draw_marks_upright(p, &p->values, x, y, h, true, false);
-    } else {
-        if (draw_map(p, err) != RC_OK)
-            return RC_FAIL;
-        media_draw(p);
-        if (p->f->circle != NULL)
-            draw_circle(p);
-        if (p->f->largest != NULL)
-            draw_cross(p, page_x(p, p->f->largest_x), page_y(p, p->f->largest_y));
-        draw_bar(p);
-        draw_marks_upright(p, &p->down, x, y, h, true, true);
-    }
+    if (draw_map(p, err) != RC_OK)
+        return RC_FAIL;
+    media_draw(p);
+    if (p->f->circle != NULL)
+        draw_circle(p);
+    if (p->f->largest != NULL)
+        draw_cross(p, page_x(p, p->f->largest_x), page_y(p, p->f->largest_y));
+    draw_bar(p);
+    draw_marks_upright(p, &p->down, x, y, h, true, true);
     canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
     draw_marks_across(p, &p->across, x, y + h, w);
     draw_legend(p);
@@ -626,7 +555,7 @@ draw(struct page *p, struct rc_err *err)
 struct canvas *
 figure_draw(const struct figure *f, const struct rc_grid *g, struct rc_err *err)
 {
-    struct page page = {.f = f, .g = g, .curve = !f->section && (g->nx == 1) != (g->ny == 1)};
+    struct page page = {.f = f, .g = g};
 
     if ((page.c = page_canvas(&page, 1, 1, err)) == NULL) /* to measure text on */
         return NULL;

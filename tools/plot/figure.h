@@ -1,6 +1,5 @@
 /*
- * Figures as people publish them: a map with axes, colour bar, title and legend, or, of a map with
- * one row or column, a curve. Lengths on the two axes of a map have the same scale unless that
+ * Figures as people publish them: a map with axes, colour bar, title and legend. Lengths on the two axes of a map have the same scale unless that
  * would leave a strip too thin to see (FIGURE_ASPECT); the figure then says so.
  */
 #ifndef RC_FIGURE_H

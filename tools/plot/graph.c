@@ -387,6 +387,28 @@ is_hollow(const struct graph_series *s, size_t k)
     return s->point != NULL && s->point[k].hollow;
 }
 
+/* Of the points from k on that share its column of pixels, in a series of many points, the extremes and the last
+ * are drawn. Returns the last. */
+static size_t
+draw_column(struct graph_page *p, const struct graph_series *s, size_t k)
+{
+    const double x = x_of(p, s->x[k]);
+    double lo = s->y[k], hi = lo;
+    size_t last = k;
+
+    while ((double)s->n > 8 * p->w && last + 1 < s->n && is_point(p->g, s, last + 1) &&
+           floor(x_of(p, s->x[last + 1])) == floor(x)) {
+        lo = fmin(lo, s->y[++last]);
+        hi = fmax(hi, s->y[last]);
+    }
+    if (last > k) {
+        canvas_draw_to(p->c, x, y_of(p, lo));
+        canvas_draw_to(p->c, x, y_of(p, hi));
+        canvas_draw_to(p->c, x, y_of(p, s->y[last]));
+    }
+    return last;
+}
+
 /* Laws are dashed; points of two kinds are not joined. */
 static void
 draw_line(struct graph_page *p, const struct graph_series *s, struct rgb colour)
@@ -401,6 +423,7 @@ draw_line(struct graph_page *p, const struct graph_series *s, struct rgb colour)
         if (!pen_down || is_hollow(s, k) != is_hollow(s, k - 1))
             canvas_move(p->c, x_of(p, s->x[k]), y_of(p, s->y[k]));
         canvas_draw_to(p->c, x_of(p, s->x[k]), y_of(p, s->y[k]));
+        k = draw_column(p, s, k);
         pen_down = true;
     }
     if (s->kind == GRAPH_LAW)

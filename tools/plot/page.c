@@ -183,10 +183,6 @@ set_axes(struct page *p)
     p->values.log = f->log;
 
     set_axis(&p->values, f->quantity, f->unit, f->lo, f->hi, fmax(fabs(f->lo), fabs(f->hi)));
-    if (p->curve && p->g->nx == 1) {
-        set_axis(&p->across, f->down, unit, f->top, f->bottom, y);
-        return;
-    }
     set_axis(&p->across, f->across, unit, f->left, f->right,
              f->section || x < 0.01 * both ? x : both);
     set_axis(&p->down, f->down, unit, f->top, f->bottom, f->section || y < 0.01 * both ? y : both);
@@ -217,7 +213,7 @@ page_bar_right(const struct page *p)
 double
 page_right(const struct page *p)
 {
-    if (p->curve || p->f->is != NULL)
+    if (p->f->is != NULL)
         return 24 * p->u + fmax(0.5 * p->across.widest, p->gutter);
     return page_bar_right(p) + 42 * p->u + p->values.widest + 1.8 * p->large.size + 24 * p->u;
 }
@@ -281,20 +277,15 @@ set_plot(struct page *p, double width)
     double aspect = page_aspect(p->f);
     double paper = unit_on_paper(p->f), w;
 
-    p->distorted = !p->curve && aspect != x / y;
-    if (p->curve)
-        aspect = 2;
+    p->distorted = aspect != x / y;
     if (width > 0)
         w = fmin(width, 0.85 * (double)p->f->width * aspect);
-    else if (p->curve)
-        w = paper > 0 ? 1000 * paper : 1000;
     else
         w = aspect >= 1 ? natural_side(p->g->nx, paper) : natural_side(p->g->ny, paper) * aspect;
     p->plot_w = (size_t)fmax(round(w), 1);
     p->plot_h = (size_t)fmax(round(w / aspect), 1);
     p->u = paper > 0   ? paper
            : width > 0 ? fmax((double)p->f->width / 1200, 0.5)
-           : p->curve  ? 1
                        : fmax((double)p->plot_w, (double)p->plot_h) / 900;
     p->bar_below = (double)p->plot_h < 300 * p->u && p->f->is == NULL;
     page_fonts(p);
@@ -305,18 +296,15 @@ static void
 measure_sides(struct page *p)
 {
     double u = p->u;
-    struct axis *upright = p->curve ? &p->values : &p->down;
 
     choose_marks(p, &p->across, (double)p->plot_w, false);
-    choose_marks(p, upright, (double)p->plot_h, true);
-    if (!p->curve)
-        even_steps(p);
-    p->left_w = 24 * u + 1.3 * p->large.size + 8 * u + upright->widest + 14 * u;
+    choose_marks(p, &p->down, (double)p->plot_h, true);
+    even_steps(p);
+    p->left_w = 24 * u + 1.3 * p->large.size + 8 * u + p->down.widest + 14 * u;
     p->gutter = media_gutter(p);
-    if (!p->curve)
-        choose_marks(p, &p->values, (double)(p->bar_below ? p->plot_w : p->plot_h), !p->bar_below);
+    choose_marks(p, &p->values, (double)(p->bar_below ? p->plot_w : p->plot_h), !p->bar_below);
     p->right_w = page_right(p);
-    if (p->bar_below && !p->curve)
+    if (p->bar_below)
         p->right_w =
             24 * u + fmax(fmax(0.5 * p->across.widest, p->gutter), 0.5 * p->values.widest + 14 * u);
 }
@@ -379,26 +367,25 @@ set_legend(struct page *p, double width)
     char text[LINE];
 
     p->notes = 0;
-    if (p->f->zero_is_none && (p->f->zeros > 0 || p->f->is != NULL) && !p->curve)
+    if (p->f->zero_is_none && (p->f->zeros > 0 || p->f->is != NULL))
         add_note(p, width, SWATCH_NONE, p->f->none);
     for (int k = 0; k < 2 && p->f->is != NULL && p->f->is[k] != NULL; k++)
         add_note(p, width, k == 0 ? SWATCH_ONE : SWATCH_TWO, p->f->is[k]);
-    snprintf(text, sizeof text, "%s%s (%zu of %zu nodes)", p->curve ? "gaps: " : "",
+    snprintf(text, sizeof text, "%s (%zu of %zu nodes)",
              p->f->missing_is == NULL ? "not measured" : p->f->missing_is, p->f->missing,
              p->f->nodes != 0 ? p->f->nodes : p->g->nx * p->g->ny);
     if (p->f->missing > 0)
-        add_note(p, width, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
-    if (p->f->contour && p->f->contact != NULL && !p->curve)
+        add_note(p, width, SWATCH_MISSING, text);
+    if (p->f->contour && p->f->contact != NULL)
         add_note(p, width, SWATCH_CONTACT, "edge of contact");
-    if (p->f->contour && p->f->hard > 0 && !p->curve)
+    if (p->f->contour && p->f->hard > 0)
         add_note(p, width, SWATCH_HARD, "pressure at the hardness");
-    if (p->f->circle != NULL && !p->curve)
+    if (p->f->circle != NULL)
         add_note(p, width, SWATCH_CIRCLE, p->f->circle);
-    if (p->f->largest != NULL && !p->curve)
+    if (p->f->largest != NULL)
         add_note(p, width, SWATCH_LARGEST, p->f->largest);
-    if (!p->curve)
-        add_media(p, width);
-    if (p->f->note != NULL && !p->curve)
+    add_media(p, width);
+    if (p->f->note != NULL)
         add_note(p, width, SWATCH_NOTHING, p->f->note);
     if (p->distorted)
         add_note(p, width, SWATCH_NOTHING, say_scales(p->f, text, sizeof text));
@@ -422,10 +409,9 @@ set_legend(struct page *p, double width)
 static double
 overhang(struct page *p)
 {
-    const char *left = p->curve ? p->values.label : p->down.label;
-    double longest = canvas_text_width(p->c, &p->large, left);
+    double longest = canvas_text_width(p->c, &p->large, p->down.label);
 
-    if (!p->curve && !p->bar_below && p->f->is == NULL)
+    if (!p->bar_below && p->f->is == NULL)
         longest = fmax(longest, canvas_text_width(p->c, &p->large, p->values.label));
     return fmax(0, 0.5 * (longest - (double)p->plot_h));
 }
@@ -475,7 +461,7 @@ set_page(struct page *p)
     page_words(p, text_w);
     set_legend(p, text_w);
     p->above = page_words_height(p) + 22 * u + over;
-    if (p->bar_below && !p->curve)
+    if (p->bar_below)
         marks = page_bar_below(p) + 28 * u + marks;
     p->below = fmax(marks, over) + p->legend_h + 22 * u;
     free = fmax(0, (double)p->w - content);

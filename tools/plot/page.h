@@ -47,7 +47,7 @@ struct page {
     const struct figure *f;
     const struct rc_grid *g;
     struct canvas *c;
-    bool curve, bar_below, distorted;
+    bool bar_below, distorted;
     double u; /* the unit of the design: text, gaps and lines grow with the plot       */
     struct canvas_font small, large, heading, subheading, stamp;
     struct axis across, down, values;
@@ -71,7 +71,7 @@ extern const struct rgb page_ink, page_faint;
 
 extern const struct rgb page_alarm;
 
-/* Settles everything of a page whose f, g and curve are set, measuring text on c. */
+/* Settles everything of a page whose f and g are set, measuring text on c. */
 void page_lay_out(struct page *page);
 /* Pixels that the swatch of note k takes, gap included. */
 double page_swatch(const struct page *page, size_t k);

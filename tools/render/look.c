@@ -33,18 +33,20 @@ choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid,
              struct look *look, struct figure *f)
 {
     struct range *r = &look->range;
+    bool axis = false; /* that suits the values */
 
     *r = (struct range){.kind = a->clip ? RANGE_CLIP : RANGE_AUTO};
     if (a->range != NULL)
         range_read(t, a->range, grid[0], r);
     range_doubt(t, a->range, grid[0]->unit, s, r);
-    range_choose(grid, touch, n, s, f->map, &look->what, look_is_profile(grid[0]) && !a->raw, r);
+    axis = r->kind == RANGE_AUTO && look_is_profile(grid[0]) && !a->raw;
+    range_choose(grid, touch, n, s, f->map, &look->what, r);
     if (r->kind == RANGE_VALUES)
         a->range = range_text(r);
     if (a->style.log != NULL)
         range_take_logarithm(t, grid, n, r);
-    f->lo = r->lo;
-    f->hi = r->hi;
+    f->lo = axis ? NAN : r->lo;
+    f->hi = axis ? NAN : r->hi;
     f->min = range_least(grid, touch, n, s, r);
     f->log = a->style.log != NULL;
     f->note = r->note[0] == '\0' ? NULL : r->note;

@@ -312,22 +312,10 @@ take_percentiles(const struct frames_of *f, struct range *r, double low, double 
              touch_of(f, 0) != NULL ? "contact" : "nodes");
 }
 
-/* The axis of a curve has room beyond its ends. */
-static void
-take_axis(const struct rc_grid *g, const struct survey *s, const struct channel *what,
-          struct range *r)
-{
-    double margin = 0.05 * s->max - 0.05 * s->min;
-    bool zero = what->from_zero && s->min >= -fmin(rounding(g, s->max), fabs(s->max));
-
-    r->lo = zero ? 0 : fmax(s->min - margin, -DBL_MAX);
-    r->hi = fmin(s->max + margin, DBL_MAX);
-}
-
 void
 range_choose(struct rc_grid *const *grid, const struct rc_grid *const *touch, size_t n,
              const struct survey *s, const struct colormap *map, const struct channel *what,
-             bool curve, struct range *r)
+             struct range *r)
 {
     const struct frames_of all = {grid, touch, n};
     const struct rc_grid *g = grid[0];
@@ -338,8 +326,6 @@ range_choose(struct rc_grid *const *grid, const struct rc_grid *const *touch, si
     r->hi = s->max;
     if (r->kind == RANGE_PERCENT)
         take_percentiles(&all, r, r->low_percent, r->high_percent);
-    else if (curve && r->kind != RANGE_SYMMETRIC)
-        take_axis(g, s, what, r);
     else if (r->kind == RANGE_CLIP || (r->kind == RANGE_AUTO && n == 1 && has_outlier(&all, s)))
         take_percentiles(&all, r, BEYOND, 100 - BEYOND);
     if (r->kind == RANGE_AUTO && r->note[0] != '\0' && r->hi - r->lo > 0.5 * (s->max - s->min)) {
@@ -347,7 +333,7 @@ range_choose(struct rc_grid *const *grid, const struct rc_grid *const *touch, si
         r->hi = s->max;
         r->note[0] = '\0';
     }
-    if (r->kind != RANGE_PERCENT && (!curve || r->kind == RANGE_SYMMETRIC))
+    if (r->kind != RANGE_PERCENT)
         anchor(g, map, what, r);
     widen(g, what, r);
 }

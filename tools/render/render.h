@@ -132,13 +132,12 @@ void range_read(struct tool *tool, const char *text, const struct rc_grid *grid,
                 struct range *range);
 /* "LO:HI" in SI, valid until the next call. */
 const char *range_text(const struct range *range);
-/* The ends of the colours of n frames, whose values are taken together, or of the upright axis of a
- * curve; an end that was given stays. A percentile is the value that so many per cent of the finite
+/* The ends of the colours of n frames, whose values are taken together; an end that was given stays. A percentile is the value that so many per cent of the finite
  * values are below, linear between two values; of a pressure only values in contact count, which touch[k] tells
  * (NULL: all count). */
 void range_choose(struct rc_grid *const *grid, const struct rc_grid *const *touch, size_t n,
                   const struct survey *survey, const struct colormap *map,
-                  const struct channel *what, bool curve, struct range *range);
+                  const struct channel *what, struct range *range);
 /* Warns of a range LO:HI, given as `text`, in which hardly any value can be told from another. */
 void range_doubt(struct tool *tool, const char *text, const char *unit, const struct survey *survey,
                  const struct range *range);
