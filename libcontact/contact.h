@@ -1121,6 +1121,7 @@ struct rc_slip_figures {
     double displacement[2]; /* m, of body 2 over body 1 since they have touched */
     size_t stick_nodes, slip_nodes; /* of those that carry something */
     double stick_area, slip_area;   /* m^2 */
+    double stick_fraction;          /* of the nodes that carry something; NAN: there is none */
     double stiffness;               /* N/m: |force| over |displacement|; NAN where one is 0 */
     double dissipated;              /* J, in this increment */
     double largest_slip;            /* m, in this increment */

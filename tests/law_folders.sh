@@ -15,6 +15,7 @@ cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/model    | %base                                    | libcontact libcontact/solver=rc_figures_
 libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/leak=rc_figures_ libcontact/plastic=rc_figures_
+libcontact/model    |                                          | libcontact/slip=rc_figures_ libcontact/stress=rc_figures_ libcontact/surface=rc_figures_ libcontact/features=rc_figures_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
 libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks

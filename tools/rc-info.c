@@ -118,63 +118,59 @@ result_of(const struct rc_grid *g, const struct rc_grid *touch, const struct rc_
 /* ---- JSON ---- */
 
 static void
-add_result(struct json *j, const struct result *r)
+put_result_object(struct report *r, const struct result *v)
 {
-    json_object(j, "result");
-    json_number(j, "load", r->load);
-    if (isnan(r->contact_area))
-        json_null(j, "contact_nodes");
+    report_object(r, "result");
+    report_value(r, "load", v->load);
+    if (isnan(v->contact_area))
+        report_value(r, "contact_nodes", NAN);
     else
-        json_count(j, "contact_nodes", r->contact_nodes);
-    json_number(j, "contact_area", r->contact_area);
-    json_number(j, "contact_fraction", r->contact_fraction);
-    json_number(j, "max_pressure", r->max_pressure);
-    json_number(j, "approach", r->approach);
-    json_number(j, "hardness", r->hardness);
-    json_number(j, "plastic_area", r->plastic_area);
-    if (r->converged == NULL)
-        json_null(j, "converged");
+        report_count(r, "contact_nodes", v->contact_nodes, NULL);
+    report_value(r, "contact_area", v->contact_area);
+    report_value(r, "contact_fraction", v->contact_fraction);
+    report_value(r, "max_pressure", v->max_pressure);
+    report_value(r, "approach", v->approach);
+    report_value(r, "hardness", v->hardness);
+    report_value(r, "plastic_area", v->plastic_area);
+    if (v->converged == NULL)
+        report_text(r, "converged", NULL);
     else
-        json_bool(j, "converged", strcmp(r->converged, "yes") == 0);
-    json_end(j, '}');
+        report_bool(r, "converged", strcmp(v->converged, "yes") == 0);
+    report_end(r);
 }
 
 static void
 show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s,
           const struct info_figures *f)
 {
+    struct report r = {.tool = t, .name = "--json", .file = t->out};
+    struct rc_statistics shown = *s;
     struct result result;
-    struct json j;
 
-    json_open(&j, t->out);
-    json_count(&j, "case", rc_grid_case(g));
-    json_count(&j, "frame", t->frame);
-    json_text(&j, "channel", g->channel);
-    json_count(&j, "nx", g->nx);
-    json_count(&j, "ny", g->ny);
-    json_number(&j, "dx", g->dx);
-    json_number(&j, "dy", g->dy);
-    json_text(&j, "dunit", rc_grid_dunit(g));
-    json_text(&j, "unit", g->unit);
-    json_text(&j, "type", g->type == RC_F32 ? "f32" : "f64");
-    json_number(&j, "minimum", s->minimum);
-    json_number(&j, "maximum", s->maximum);
-    json_number(&j, "mean", s->mean);
-    json_number(&j, "rms", s->rms);
-    json_number(&j, "rms_slope", is_height(g) ? s->rms_slope : NAN);
-    json_number(&j, "sum", s->sum);
-    json_count(&j, "missing", s->missing);
-    json_count(&j, "infinite", s->infinite);
+    if (!is_height(g))
+        shown.rms_slope = NAN;
+    report_begin(&r);
+    report_count(&r, "case", rc_grid_case(g), NULL);
+    report_count(&r, "frame", t->frame, NULL);
+    report_text(&r, "channel", g->channel);
+    report_count(&r, "nx", g->nx, NULL);
+    report_count(&r, "ny", g->ny, NULL);
+    report_number(&r, "dx", g->dx, NULL);
+    report_number(&r, "dy", g->dy, NULL);
+    report_text(&r, "dunit", rc_grid_dunit(g));
+    report_text(&r, "unit", g->unit);
+    report_text(&r, "type", g->type == RC_F32 ? "f32" : "f64");
+    report_table(&r, rc_figures("statistics"), &shown);
     if (is_pressure(g)) {
         result_of(g, f->touch, s, &result);
-        add_result(&j, &result);
+        put_result_object(&r, &result);
     }
-    json_object(&j, "keys");
+    report_object(&r, "keys");
     for (size_t k = 0; k < g->keys; k++)
-        json_text(&j, g->key[k].name, g->key[k].value);
-    json_end(&j, '}');
-    info_json(&args.wanted, f, &j);
-    json_close(&j);
+        report_text(&r, g->key[k].name, g->key[k].value);
+    report_end(&r);
+    info_json(&r, &args.wanted, f);
+    report_finish_row(&r);
 }
 
 /* ---- text ---- */

@@ -126,6 +126,16 @@ survey(struct rc_field *f, double *mean)
     f->range = f->n > 0 ? most - least : 0;
 }
 
+#define FIGURE(member) RC_FIGURE(struct rc_features, member)
+/* clang-format off */
+const struct rc_figure rc_figures_features[] = {
+    {FIGURE(spd), "1/m2", "Spd"}, {FIGURE(svd), "1/m2", "Svd"}, {FIGURE(spc), "1/m", "Spc"},
+    {FIGURE(s5p), "m", "S5p"}, {FIGURE(s5v), "m", "S5v"}, {FIGURE(s10z), "m", "S10z"},
+    {FIGURE(sha), "m2", "Sha"}, {FIGURE(sda), "m2", "Sda"},
+    {0},
+};
+/* clang-format on */
+
 enum rc_status
 rc_features(const struct rc_shape *shape, const double *h, const struct rc_surface_options *options,
             struct rc_features *a, struct rc_err *err)

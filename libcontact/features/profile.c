@@ -194,6 +194,17 @@ measure_elements(const double *z, size_t n, double mean, double step, struct rc_
     p->elements = e.n;
 }
 
+#define FIGURE(member) RC_FIGURE(struct rc_profile, member)
+/* clang-format off */
+const struct rc_figure rc_figures_profile[] = {
+    {FIGURE(ra), "m", "Ra"}, {FIGURE(rq), "m", "Rq"}, {FIGURE(rsk), NULL, "Rsk"}, {FIGURE(rku), NULL, "Rku"},
+    {FIGURE(rp), "m", "Rp"}, {FIGURE(rv), "m", "Rv"}, {FIGURE(rz), "m", "Rz"}, {FIGURE(rpt), "m", "Rpt"},
+    {FIGURE(rvt), "m", "Rvt"}, {FIGURE(rt), "m", "Rt"}, {FIGURE(rsm), "m", "Rsm"}, {FIGURE(rc), "m", "Rc"},
+    {FIGURE(rdq), NULL, "Rdq"},
+    {0},
+};
+/* clang-format on */
+
 enum rc_status
 rc_profile_measure(size_t n, double step, const double *z, size_t sections, struct rc_profile *p,
                    struct rc_err *err)

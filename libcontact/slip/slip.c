@@ -258,6 +258,7 @@ rc_slip_result(struct rc_slip *s, struct rc_slip_figures *f)
                                   .slip_nodes = d->slipping,
                                   .stick_area = (double)d->stick * s->cell,
                                   .slip_area = (double)d->slipping * s->cell,
+                                  .stick_fraction = NAN,
                                   .dissipated = dissipated(s),
                                   .largest_slip = d->slip * s->unit,
                                   .slip_error = d->residual * s->unit,
@@ -272,6 +273,8 @@ rc_slip_result(struct rc_slip *s, struct rc_slip_figures *f)
         f->force[c] = rc_total_value(&sum) * s->cell;
         f->displacement[c] = d->delta[c] * s->unit;
     }
+    if (d->stick + d->slipping > 0)
+        f->stick_fraction = f->stick_area / (f->stick_area + f->slip_area);
     f->stiffness = hypot(f->force[0], f->force[1]) / hypot(f->displacement[0], f->displacement[1]);
     /* a force that is all rounding has none */
     if (!isfinite(f->stiffness) || hypot(f->force[0], f->force[1]) <= 1e-12 * f->limit)
@@ -310,6 +313,35 @@ rc_slip_normal(struct rc_slip *s, double *uz)
     for (size_t k = 0; k < s->n; k++)
         uz[k] *= s->unit;
 }
+
+#define FIGURE(member) RC_FIGURE(struct rc_joint_figures, member)
+#define AS(column, member) RC_FIGURE_AS(column, struct rc_joint_figures, member)
+const struct rc_figure rc_figures_slip[] = {
+    {AS("load", slip.load), "N", "Load", .says = "sum of the pressure"},
+    {AS("limit", slip.limit), "N", "Largest tangential force", .says = "that friction carries"},
+    {AS("tangential_x", slip.force[0]), "N", "Force along x"},
+    {AS("tangential_y", slip.force[1]), "N", "Force along y"},
+    {AS("displacement_x", slip.displacement[0]), "m", "Displacement along x"},
+    {AS("displacement_y", slip.displacement[1]), "m", "Displacement along y"},
+    {FIGURE(approach), "m", "Approach", .says = "of the bodies, from first touch"},
+    {AS("stick_nodes", slip.stick_nodes), NULL, "Nodes that stick"},
+    {AS("slip_nodes", slip.slip_nodes), NULL, "Nodes that slip"},
+    {AS("stick_area", slip.stick_area), "m2", "Area that sticks"},
+    {AS("slip_area", slip.slip_area), "m2", "Area that slips"},
+    {AS("stick_fraction", slip.stick_fraction), NULL, "Part of the contact that sticks"},
+    {AS("largest_slip", slip.largest_slip), "m", "Largest slip", .says = "of the last increment"},
+    {AS("tangential_stiffness", slip.stiffness), "N/m", "Tangential stiffness"},
+    {AS("dissipated_energy", slip.dissipated), "J", "Dissipated energy"},
+    {FIGURE(passes), NULL, "Passes", .role = RC_FIGURE_COST},
+    {FIGURE(convolutions), NULL, "Convolutions", .role = RC_FIGURE_COST},
+    {AS("iteration_error_estimate", traction_error), NULL, "Error of the iteration",
+     .role = RC_FIGURE_ERROR, .by = "tol"},
+    {AS("inherited_error_estimate", inherited_error), NULL, "Error of earlier loads",
+     .says = "of the increments before", .role = RC_FIGURE_ERROR, .by = "tol"},
+    {AS("contact_error_estimate", contact_error), NULL, "Error of the contacts",
+     .role = RC_FIGURE_ERROR, .by = "tol"},
+    {0},
+};
 
 double
 rc_slip_beta(const struct rc_slip *s)

@@ -280,6 +280,20 @@ measure_slopes(const struct rc_relief *r, struct slopes *row, struct rc_areal *a
 
 /* ---- all parameters ---- */
 
+#define FIGURE(member) RC_FIGURE(struct rc_areal, member)
+/* clang-format off */
+const struct rc_figure rc_figures_areal[] = {
+    {FIGURE(sq), "m", "Sq"}, {FIGURE(sa), "m", "Sa"}, {FIGURE(ssk), NULL, "Ssk"}, {FIGURE(sku), NULL, "Sku"},
+    {FIGURE(sp), "m", "Sp"}, {FIGURE(sv), "m", "Sv"}, {FIGURE(sz), "m", "Sz"}, {FIGURE(sdq), NULL, "Sdq"},
+    {FIGURE(sdr), NULL, "Sdr"}, {FIGURE(sal), "m", "Sal"}, {FIGURE(str), NULL, "Str"},
+    {FIGURE(std), "deg", "Std"}, {FIGURE(sk), "m", "Sk"}, {FIGURE(spk), "m", "Spk"},
+    {FIGURE(svk), "m", "Svk"}, {FIGURE(smr1), NULL, "Smr1"}, {FIGURE(smr2), NULL, "Smr2"},
+    {FIGURE(vmp), "m", "Vmp"}, {FIGURE(vmc), "m", "Vmc"}, {FIGURE(vvc), "m", "Vvc"},
+    {FIGURE(vvv), "m", "Vvv"}, {FIGURE(sxp), "m", "Sxp"}, {FIGURE(rms_curvature), "1/m", "RMS curvature"},
+    {0},
+};
+/* clang-format on */
+
 enum rc_status
 rc_areal(const struct rc_shape *shape, const double *h, const struct rc_surface_options *options,
          struct rc_areal *a, struct rc_err *err)

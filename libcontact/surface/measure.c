@@ -172,6 +172,16 @@ take_slopes(struct slope *restrict to, const double *v, const double *right, con
 
 /* ---- all figures ---- */
 
+#define FIGURE(member) RC_FIGURE(struct rc_statistics, member)
+/* clang-format off */
+const struct rc_figure rc_figures_statistics[] = {
+    {FIGURE(minimum), NULL, "Minimum"}, {FIGURE(maximum), NULL, "Maximum"}, {FIGURE(mean), NULL, "Mean"},
+    {FIGURE(rms), NULL, "RMS"}, {FIGURE(rms_slope), NULL, "RMS slope"}, {FIGURE(sum), NULL, "Sum"},
+    {FIGURE(missing), NULL, "Missing values"}, {FIGURE(infinite), NULL, "Infinite values"},
+    {0},
+};
+/* clang-format on */
+
 void
 rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *result)
 {

@@ -480,6 +480,16 @@ find_parts(const struct rc_rows *rows, const struct field *f, bool wraps, int th
     return status;
 }
 
+#define FIGURE(member) RC_FIGURE(struct rc_patches, member)
+const struct rc_figure rc_figures_patches[] = {
+    {RC_FIGURE_AS("patches", struct rc_patches, count), NULL, "Patches"},
+    {FIGURE(contact_nodes), NULL, "Nodes in contact"},
+    {FIGURE(contact_area), "m2", "Contact area"},
+    {FIGURE(contact_area_corrected), "m2", "Contact area, corrected"},
+    {FIGURE(perimeter), "m", "Perimeter"},
+    {0},
+};
+
 enum rc_status
 rc_patches_find(const struct rc_shape *shape, const double *p,
                 const struct rc_patch_options *options, struct rc_patches *patches,

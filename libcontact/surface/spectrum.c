@@ -537,6 +537,15 @@ make(const struct rc_shape *s, const double *h, const struct rc_psd_options *opt
     return status;
 }
 
+#define FIGURE(member) RC_FIGURE(struct rc_psd, member)
+const struct rc_figure rc_figures_psd[] = {
+    {FIGURE(hurst), NULL, "Hurst exponent"},
+    {FIGURE(hurst_error), NULL, "Standard error of the Hurst exponent"},
+    {RC_FIGURE_AS("psd_sum", struct rc_psd, sum), "m2", "Sum of the spectrum"},
+    {FIGURE(mean_square), "m2", "Mean square of the heights"},
+    {0},
+};
+
 struct rc_psd *
 rc_psd_new(const struct rc_shape *shape, const double *h, const struct rc_psd_options *options,
            struct rc_err *err)

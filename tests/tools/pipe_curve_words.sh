@@ -152,4 +152,11 @@ refuses 2 'the text is not UTF-8' "a legend that is no text" "$draw --curve x:y 
 refuses 1 'more than 63 curves in one picture' "a curve a row" "perl -e 'print \"x\ty\tk\n\"; print \"\$_\t1\t\$_\n\" for 1 .. 80' | $draw --curve x:y --by k"
 claim "none of these left a picture behind" bash -c '[ ! -e out.svg ] && [ -z "$(ls out.svg.* 2>/dev/null)" ]'
 
+# ---- titles of figures ----
+
+printf 'sa/m\tsq/m\tlimit/N\tstick_fraction\n1\t2\t3\t4\n2\t3\t4\t5\n' >figures.tsv
+claim "parameters of a surface have the names of their standard" eval 'rc-render --curve sa:sq -o t.svg figures.tsv && shows t.svg ">Sq against Sa<"'
+claim "  and figures of friction their titles" eval 'rc-render --curve limit:stick_fraction -o t.svg figures.tsv &&
+    shows t.svg ">Part of the contact that sticks against largest tangential force<"'
+
 finish

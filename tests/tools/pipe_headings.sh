@@ -26,6 +26,7 @@ report() {
     keys lines.json | lines >keys.txt
     claim "  its columns" diff <(recorded "$1: table") table.txt
     claim "  its keys" diff <(recorded "$1: keys") keys.txt
+    tr ' ' '\n' <keys.txt >>"${1%%[ ,]*}.keys"
     if [ -n "${RC_RECORD-}" ]; then # a file that becomes headings.txt
         { echo "== $1: table"; cat table.txt; echo "== $1: keys"; cat keys.txt; } >>"$RC_RECORD"
     fi
@@ -47,5 +48,29 @@ fi
 report rc-info "rc-info --areal --psd --profile rows --report \$r rough.rcg"
 report "rc-info --patches" "rc-info --areal --patches --report \$r one.rcg"
 report rc-cost "rc-cost --load 1mN --estar 100GPa --kernel fft --limit 2s --threads 1 --quiet --report \$r rough.rcg"
+
+# The list of a page has every column, and nothing else but those of several processes.
+page_words() { # PAGE SECTION PATTERN: words of the lines that match
+    awk -v section="$2" -v pattern="$3" '
+        /^\.S[hs] / { on = substr($0, 5) == section }
+        on && $0 ~ pattern { for (k = 2; k <= NF; k++) if ($k ~ /^[a-z][a-z0-9_]*$/) print $k }' "$RC_SOURCE/man/$1.1"
+}
+shared='ranks exchanges messages bytes_exchanged other_bytes exchange_seconds'
+listed() { # PAGE SECTION
+    claim "$1(1): its list has every column" test -z \
+        "$(grep -v '\.' "$1.keys" | sort -u | comm -23 - <(page_words "$1" "$2" '^\.(It )?Cm ' | sort -u))"
+    claim "  and nothing but columns" test -z \
+        "$(page_words "$1" "$2" '^\.It Cm ' | sort -u | comm -23 - <(tr ' ' '\n' <<<"$shared" | sed 's/.*\.//' - "$1.keys" | sort -u))"
+}
+listed rc-slip REPORT
+if with_leak; then
+    listed rc-leak REPORT
+fi
+listed rc-stress "THE REPORT"
+listed rc-solve "THE REPORT"
+page_words rc-info OPTIONS '^\.Cm ' >info.words
+page_words rc-info "JSON FIELDS" '^\.(It )?Cm ' >>info.words
+claim "rc-info(1): its lists have every column" test -z \
+    "$(sed '/^[a-z]*_deviation$/d' rc-info.keys | sort -u | comm -23 - <(sort -u info.words))"
 
 finish

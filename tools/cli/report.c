@@ -375,6 +375,62 @@ report_named(struct report *r, const struct figures *from, const char *names)
         put_figures(r, f, n);
 }
 
+static const struct rc_figure own[] = {
+    {.name = "nodes_per_patch", .title = "Nodes per patch"},
+    {.name = "contact_area_inside", .unit = "m2", .title = "Contact area inside the taper"},
+    {.name = "contact_fraction_inside", .title = "Contact fraction inside the taper"},
+    {.name = "flow_rate", .unit = "m3/s", .title = "Flow rate"},
+    {.name = "critical_flow", .unit = "m3/s", .title = "Flow of the critical constriction"},
+    {.name = "dissipated_total", .unit = "J", .title = "Dissipated energy"},
+    {.name = "peak_memory", .unit = "B", .title = "Memory"},
+    {.name = "estar", .unit = "Pa", .title = "E*"},
+    {.name = "hardness", .unit = "Pa", .title = "Hardness"},
+    {.name = "radius", .unit = "m", .title = "Radius"},
+    {.name = "depth", .unit = "m", .title = "Depth"},
+    {.name = "q", .unit = "rad/m", .title = "Wavenumber"},
+    {.name = "c", .unit = "m4", .title = "Power spectral density"},
+};
+
+const struct rc_figure *
+report_figure(const char *name)
+{
+    const struct rc_figure *f = rc_figure_find(name);
+
+    for (size_t k = 0; f == NULL && k < sizeof own / sizeof *own; k++)
+        f = strcmp(own[k].name, name) == 0 ? &own[k] : NULL;
+    return f;
+}
+
+void
+report_value(struct report *r, const char *name, double value)
+{
+    const struct rc_figure *f = report_figure(name);
+
+    assert(f != NULL);
+    report_number(r, name, value, f->unit);
+}
+
+void
+report_map(struct report *r, const struct rc_grid *g, size_t number)
+{
+    report_count(r, "case", number, NULL);
+    report_text(r, "source", rc_grid_get(g, "source"));
+    report_count(r, "nx", g->nx, NULL);
+    report_count(r, "ny", g->ny, NULL);
+    report_number(r, "dx", g->dx, "m");
+    report_number(r, "dy", g->dy, "m");
+}
+
+void
+report_memory(struct report *r)
+{
+    const double peak = ranks_most(r->tool, (double)tool_peak_memory());
+    const double counted = ranks_most(r->tool, (double)tool_counted_memory(r->tool));
+
+    report_count(r, "peak_memory", (size_t)peak, "B");
+    report_count(r, "memory_estimate", (size_t)counted, "B");
+}
+
 void
 report_ranks(struct report *r, const struct tool *t)
 {

@@ -48,6 +48,8 @@ bool report_wanted(const struct report *report);
 void report_begin(struct report *report);
 void report_number(struct report *report, const char *name, double value, const char *unit);
 void report_count(struct report *report, const char *name, size_t value, const char *unit);
+/* A number whose unit report_figure knows. */
+void report_value(struct report *report, const char *name, double value);
 void report_text(struct report *report, const char *name, const char *value); /* NULL: unknown */
 void report_bool(struct report *report, const char *name, bool value);
 /* A column of the table that this row has nothing for; not in JSON. */
@@ -69,6 +71,12 @@ struct figures {
     const void *data;
 };
 void report_named(struct report *report, const struct figures *from, const char *names);
+/* The row of a column, in the library's tables or, of numbers that only tools know, in one of this file: its
+ * title and unit. NULL: there is none. */
+const struct rc_figure *report_figure(const char *name);
+/* Columns that many reports have: a map of this case number, and the memory. */
+void report_map(struct report *report, const struct rc_grid *g, size_t number);
+void report_memory(struct report *report);
 /* What several processes that share the maps have sent to each other so far; nothing where there is one. */
 void report_ranks(struct report *report, const struct tool *tool);
 /* Writes the row; ends the tool when that fails. */

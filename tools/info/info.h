@@ -14,24 +14,6 @@ enum {
     INFO_HEIGHTS = 8 /* of --smr */
 };
 
-enum info_kind {
-    INFO_LENGTH,
-    INFO_NUMBER,
-    INFO_FRACTION, /* shown in per cent */
-    INFO_ANGLE,
-    INFO_DENSITY,
-    INFO_AREA,
-    INFO_CURVATURE
-};
-
-/* A double of a struct of libcontact. */
-struct info_parameter {
-    const char *key;             /* NULL: past the last                                        */
-    size_t at;                   /* offset                                                     */
-    const char *areal, *profile; /* names in the standards; NULL where it has none */
-    enum info_kind kind;
-};
-
 /* Which profiles of a map. */
 struct info_line_wanted {
     const char *along; /* as on the line; NULL: none           */
@@ -91,15 +73,12 @@ void info_free(struct info_figures *figures);
 /* After the last frame: ends the tool where the channel of what is wanted never came. */
 void info_end(struct info_wanted *wanted, struct tool *tool);
 
-void info_json(const struct info_wanted *wanted, const struct info_figures *figures,
-               struct json *json);
 void info_text(const struct info_wanted *wanted, const struct info_figures *figures, FILE *out);
 
 /* parameters.c */
-extern const struct info_parameter info_areal[], info_features[], info_line[];
-double info_value(const void *figures, const struct info_parameter *parameter);
-const char *info_unit(enum info_kind kind); /* SI, NULL: a plain number */
-const char *info_shown(char text[SHOWN_NUMBER], double value, enum info_kind kind);
+/* What ISO 21920-2 calls a parameter of the table of rc_areal; NULL: it has none. */
+const char *info_profile_name(const struct rc_figure *areal);
+const char *info_shown(char text[SHOWN_NUMBER], double value, const struct rc_figure *figure);
 
 /* line.c: reads --profile, NULL for none; ends the tool where it is no line, or where it cannot
  * be measured. */
@@ -108,9 +87,11 @@ void info_line_measure(struct tool *tool, const struct rc_grid *grid,
                        const struct info_line_wanted *wanted, size_t sections,
                        struct info_profile *profile);
 
-/* report.c */
+/* report.c: a row of --report, and what --json adds to a frame. */
 void info_report(struct report *report, const struct info_wanted *wanted,
                  const struct info_figures *figures, const struct rc_statistics *statistics);
+void info_json(struct report *json, const struct info_wanted *wanted,
+               const struct info_figures *figures);
 
 /* map_file.c: frames of spectra, in a file that appears whole or not at all. */
 struct info_file;

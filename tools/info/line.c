@@ -91,7 +91,7 @@ is_within(const struct rc_shape *s, struct rc_place p)
 /* ---- parameters of several lines ---- */
 
 static double *
-field(struct rc_profile *p, const struct info_parameter *which)
+field(struct rc_profile *p, const struct rc_figure *which)
 {
     return (double *)(void *)((char *)p + which->at);
 }
@@ -100,18 +100,18 @@ field(struct rc_profile *p, const struct info_parameter *which)
 static void
 average(const struct rc_profile *line, size_t lines, struct info_profile *to)
 {
-    for (const struct info_parameter *p = info_line; p->key != NULL; p++) {
+    for (const struct rc_figure *p = rc_figures("profile"); p->name != NULL; p++) {
         double sum = 0, squares = 0, n = 0, mean;
 
         for (size_t k = 0; k < lines; k++)
-            if (!isnan(info_value(&line[k], p))) {
-                sum += info_value(&line[k], p);
+            if (!isnan(rc_figure_number(p, &line[k]))) {
+                sum += rc_figure_number(p, &line[k]);
                 n++;
             }
         mean = sum / n;
         for (size_t k = 0; k < lines; k++)
-            if (!isnan(info_value(&line[k], p)))
-                squares += pow(info_value(&line[k], p) - mean, 2);
+            if (!isnan(rc_figure_number(p, &line[k])))
+                squares += pow(rc_figure_number(p, &line[k]) - mean, 2);
         *field(&to->mean, p) = mean;
         *field(&to->deviation, p) = n > 1 ? sqrt(squares / (n - 1)) : NAN;
     }

@@ -1,68 +1,59 @@
 /*
- * What --report writes: a row a frame, flat, so that the parameters of many scans are one table.
- * What a frame does not have is unknown: all rows have the columns of what was asked for.
+ * Rows of figures. Those of --report are flat, so that the parameters of many scans are one table: what a
+ * frame does not have is unknown, and all rows have the columns of what was asked for. In --json the figures of
+ * each option are an object.
  */
 #include "info.h"
 
 #include <math.h>
 
 static void
-put_parameters(struct report *r, const void *figures, const struct info_parameter *p)
+put_list(struct report *r, const char *name, const double *v, size_t n)
 {
-    for (; p->key != NULL; p++)
-        report_number(r, p->key, figures == NULL ? NAN : info_value(figures, p),
-                      info_unit(p->kind));
+    report_array(r, name);
+    for (size_t k = 0; k < n; k++)
+        report_number(r, NULL, v[k], NULL);
+    report_end(r);
 }
 
 static void
-put_smr(struct report *r, const struct info_wanted *w, const struct info_figures *f)
+put_counts(struct report *r, const char *name, const size_t *v, size_t n)
 {
-    for (size_t k = 0; k < w->smr.n; k++)
-        report_number(r, w->smr_name[k], f->areal == NULL ? NAN : f->smr[k], NULL);
+    report_array(r, name);
+    for (size_t k = 0; k < n; k++)
+        report_count(r, NULL, v[k], NULL);
+    report_end(r);
 }
+
+static double
+largest(const struct rc_patches *p)
+{
+    return p == NULL ? NAN : p->count > 0 ? p->patch[0].area : 0;
+}
+
+/* ---- a row ---- */
 
 static void
 put_profile(struct report *r, const struct info_profile *p)
 {
-    static const struct rc_profile none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN,
-                                           NAN, NAN, NAN, NAN, NAN, NAN, 0};
-    static const char *const deviation[] = {
-        "ra_deviation",  "rq_deviation", "rsk_deviation", "rku_deviation", "rp_deviation",
-        "rv_deviation",  "rz_deviation", "rpt_deviation", "rvt_deviation", "rt_deviation",
-        "rsm_deviation", "rc_deviation", "rdq_deviation"};
+    static char deviation[16][24];
+    const struct rc_figure *line = rc_figures("profile");
 
-    put_parameters(r, p == NULL ? &none : &p->mean, info_line);
-    for (size_t k = 0; info_line[k].key != NULL; k++)
-        report_number(r, deviation[k], info_value(p == NULL ? &none : &p->deviation, &info_line[k]),
-                      info_unit(info_line[k].kind));
+    report_table(r, line, p == NULL ? NULL : &p->mean);
+    for (size_t k = 0; line[k].name != NULL; k++) {
+        snprintf(deviation[k], sizeof *deviation, "%s_deviation", line[k].name);
+        report_number(r, deviation[k], rc_figure_number(&line[k], p == NULL ? NULL : &p->deviation),
+                      line[k].unit);
+    }
     report_number(r, "profiles", p == NULL ? NAN : (double)p->lines, NULL);
     report_number(r, "elements", p == NULL ? NAN : (double)p->elements, NULL);
-}
-
-static void
-put_psd(struct report *r, const struct rc_psd *p)
-{
-    report_number(r, "hurst", p == NULL ? NAN : p->hurst, NULL);
-    report_number(r, "hurst_error", p == NULL ? NAN : p->hurst_error, NULL);
-    report_number(r, "psd_sum", p == NULL ? NAN : p->sum, "m2");
-    report_number(r, "mean_square", p == NULL ? NAN : p->mean_square, "m2");
-}
-
-static void
-put_patches(struct report *r, const struct rc_patches *p)
-{
-    report_number(r, "patches", p == NULL ? NAN : (double)p->count, NULL);
-    report_number(r, "contact_nodes", p == NULL ? NAN : (double)p->contact_nodes, NULL);
-    report_number(r, "contact_area", p == NULL ? NAN : p->contact_area, "m2");
-    report_number(r, "contact_area_corrected", p == NULL ? NAN : p->contact_area_corrected, "m2");
-    report_number(r, "perimeter", p == NULL ? NAN : p->perimeter, "m");
-    report_number(r, "largest_area", p == NULL ? NAN : p->count > 0 ? p->patch[0].area : 0, "m2");
 }
 
 void
 info_report(struct report *r, const struct info_wanted *w, const struct info_figures *f,
             const struct rc_statistics *s)
 {
+    const struct figures from[] = {{rc_figures("statistics"), s}, {NULL, NULL}};
     const struct rc_grid *g = f->grid;
     bool any = w->areal || w->psd || w->patches || w->line.along != NULL;
 
@@ -78,21 +69,107 @@ info_report(struct report *r, const struct info_wanted *w, const struct info_fig
     report_count(r, "ny", g->ny, NULL);
     report_number(r, "dx", g->dx, rc_grid_dunit(g));
     report_number(r, "dy", g->dy, rc_grid_dunit(g));
-    report_number(r, "minimum", s->minimum, NULL);
-    report_number(r, "maximum", s->maximum, NULL);
-    report_number(r, "mean", s->mean, NULL);
-    report_number(r, "rms", s->rms, NULL);
-    report_count(r, "missing", s->missing, NULL);
+    report_named(r, from, "minimum maximum mean rms missing");
     if (w->areal) {
-        put_parameters(r, f->areal, info_areal);
-        put_parameters(r, f->features, info_features);
-        put_smr(r, w, f);
+        report_table(r, rc_figures("areal"), f->areal);
+        report_table(r, rc_figures("features"), f->features);
+        for (size_t k = 0; k < w->smr.n; k++)
+            report_number(r, w->smr_name[k], f->areal == NULL ? NAN : f->smr[k], NULL);
     }
     if (w->line.along != NULL)
         put_profile(r, f->profile);
     if (w->psd)
-        put_psd(r, f->psd);
-    if (w->patches)
-        put_patches(r, f->patches);
+        report_table(r, rc_figures("psd"), f->psd);
+    if (w->patches) {
+        report_table(r, rc_figures("patches"), f->patches);
+        report_number(r, "largest_area", largest(f->patches), "m2");
+    }
     report_finish_row(r);
+}
+
+/* ---- an object for each option ---- */
+
+static void
+table_json(struct report *r, const char *name, const struct rc_figure *table, const void *figures)
+{
+    report_object(r, name);
+    report_table(r, table, figures);
+    report_end(r);
+}
+
+static void
+profile_json(struct report *r, const struct info_profile *p, const struct info_wanted *w)
+{
+    report_object(r, "profile");
+    report_text(r, "along", w->line.along);
+    report_count(r, "profiles", p->lines, NULL);
+    report_count(r, "points", p->points, NULL);
+    report_number(r, "length", p->length, "m");
+    report_count(r, "sections", p->sections, NULL);
+    report_count(r, "elements", p->elements, NULL);
+    report_table(r, rc_figures("profile"), &p->mean);
+    table_json(r, "deviation", rc_figures("profile"), &p->deviation);
+    report_end(r);
+}
+
+static void
+psd_json(struct report *r, const struct rc_psd *p)
+{
+    const struct figures from[] = {{rc_figures("psd"), p}, {NULL, NULL}};
+
+    report_object(r, "psd");
+    put_list(r, "q", p->q, p->rings);
+    put_list(r, "c", p->c, p->rings);
+    put_counts(r, "modes", p->modes, p->rings);
+    report_text(r, "window", p->window);
+    report_number(r, "sum", p->sum, "m2");
+    report_named(r, from, "mean_square hurst hurst_error");
+    put_list(r, "fit", (const double[]){p->shortest, p->longest}, 2);
+    report_end(r);
+}
+
+static void
+patches_json(struct report *r, const struct info_figures *f)
+{
+    const struct rc_patches *p = f->patches;
+    const struct figures from[] = {{rc_figures("patches"), p}, {NULL, NULL}};
+
+    report_object(r, "patches");
+    report_count(r, "count", p->count, NULL);
+    report_named(r, from, "contact_nodes contact_area contact_area_corrected perimeter");
+    report_number(r, "largest_area", largest(p), "m2");
+    report_array(r, "areas");
+    for (size_t k = 0; k < p->count; k++)
+        report_number(r, NULL, p->patch[k].area, "m2");
+    report_end(r);
+    report_array(r, "perimeters");
+    for (size_t k = 0; k < p->count; k++)
+        report_number(r, NULL, p->patch[k].perimeter, "m");
+    report_end(r);
+    report_object(r, "pressure_histogram");
+    put_list(r, "edges", f->edges, f->edges == NULL ? 0 : INFO_BINS + 1);
+    put_counts(r, "counts", f->counts, f->counts == NULL ? 0 : INFO_BINS);
+    report_end(r);
+    report_end(r);
+}
+
+void
+info_json(struct report *r, const struct info_wanted *w, const struct info_figures *f)
+{
+    if (f->areal != NULL)
+        table_json(r, "areal", rc_figures("areal"), f->areal);
+    if (f->features != NULL)
+        table_json(r, "features", rc_figures("features"), f->features);
+    if (f->areal != NULL && w->smr.n > 0) {
+        report_object(r, "smr");
+        put_list(r, "height", w->smr.v, w->smr.n);
+        put_list(r, "ratio", f->smr, w->smr.n);
+        report_end(r);
+    }
+    if (f->profile != NULL)
+        profile_json(r, f->profile, w);
+    if (f->psd != NULL)
+        psd_json(r, f->psd);
+    if (f->patches != NULL)
+        patches_json(r, f);
 }

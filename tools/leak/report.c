@@ -25,35 +25,29 @@ leak_report(struct report *r, const struct leak_case *c)
     if (!report_wanted(r))
         return;
     report_begin(r);
-    report_count(r, "case", rc_grid_case(g), NULL);
-    report_text(r, "source", rc_grid_get(g, "source"));
-    report_count(r, "nx", g->nx, NULL);
-    report_count(r, "ny", g->ny, NULL);
-    report_number(r, "dx", g->dx, "m");
-    report_number(r, "dy", g->dy, "m");
+    report_map(r, g, rc_grid_case(g));
     report_text(r, "boundary", rc_grid_get(g, "boundary"));
     report_text(r, "direction", direction);
     report_text(r, "sides", c->around ? "periodic" : "closed");
     report_count(r, "threads", r->tool->threads, NULL);
-    report_number(r, "load", rc_grid_number(g, "load", &load) ? load : NAN, "N");
-    report_number(r, "mean_pressure", c->mean, "Pa");
-    report_number(r, "contact_fraction", c->contact, NULL);
+    report_value(r, "load", rc_grid_number(g, "load", &load) ? load : NAN);
+    report_value(r, "mean_pressure", c->mean);
+    report_value(r, "contact_fraction", c->contact);
     report_number(r, "viscosity", c->viscosity, "Pas");
     report_number(r, "pressure_drop", c->drop, "Pa");
-    report_number(r, "flow_rate", c->rate * f->conductance, "m3/s");
+    report_value(r, "flow_rate", c->rate * f->conductance);
     report_named(r, from,
                  "flow_conductance flow_conductance_linear conductance_lower conductance_upper "
                  "discretization_error_estimate flow_factor mean_gap gap_slope percolates "
                  "percolates_diagonal critical_gap critical_x critical_y");
-    report_number(r, "critical_flow", c->rate * critical_conductance(c), "m3/s");
+    report_value(r, "critical_flow", c->rate * critical_conductance(c));
     report_named(r, from, "throat_nodes fluid_nodes dead_nodes unknowns");
     report_object(r, "seconds");
     report_number(r, "setup", c->setup, "s");
     report_number(r, "solve", c->solve, "s");
     report_number(r, "total", c->setup + c->solve, "s");
     report_end(r);
-    report_count(r, "peak_memory", tool_peak_memory(), "B");
-    report_count(r, "memory_estimate", tool_counted_memory(r->tool), "B");
+    report_memory(r);
     report_finish_row(r);
 }
 

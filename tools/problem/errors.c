@@ -4,25 +4,24 @@
 #include <math.h>
 #include <stddef.h>
 
-static const struct kind {
-    size_t at; /* in struct error_parts */
-    const char *key, *lowered_by;
-} kinds[] = {
-    {offsetof(struct error_parts, increment), "increment_error_estimate", "increments"},
-    {offsetof(struct error_parts, inherited), "inherited_error_estimate", "history"},
-    {offsetof(struct error_parts, iteration), "iteration_error_estimate", "tolerance"},
-    {offsetof(struct error_parts, contact), "contact_error_estimate", "tolerance"},
-    {offsetof(struct error_parts, image), "image_error_estimate", "map"},
+#define PART(member) RC_FIGURE_AS(#member "_error_estimate", struct error_parts, member)
+static const struct rc_figure kinds[] = {
+    {PART(increment), .by = "increments"},
+    {PART(inherited), .by = "history"},
+    {PART(iteration), .by = "tolerance"},
+    {PART(contact), .by = "tolerance"},
+    {PART(image), .by = "map"},
+    {0},
 };
 
 enum {
-    KINDS = sizeof kinds / sizeof *kinds
+    KINDS = sizeof kinds / sizeof *kinds - 1
 };
 
 static double
 part(const struct error_parts *parts, size_t k)
 {
-    return *(const double *)((const char *)parts + kinds[k].at);
+    return rc_figure_number(&kinds[k], parts);
 }
 
 double
@@ -45,13 +44,12 @@ errors_limited_by(const struct error_parts *parts)
     for (size_t k = 1; k < KINDS; k++)
         if (part(parts, k) > part(parts, most))
             most = k;
-    return part(parts, most) > 0 ? kinds[most].lowered_by : NULL;
+    return part(parts, most) > 0 ? kinds[most].by : NULL;
 }
 
 void
 errors_report(struct report *r, const struct error_parts *parts)
 {
-    for (size_t k = 0; k < KINDS; k++)
-        report_number(r, kinds[k].key, parts->told ? part(parts, k) : NAN, NULL);
+    report_table(r, kinds, parts->told ? parts : NULL);
     report_text(r, "error_limited_by", parts->told ? errors_limited_by(parts) : NULL);
 }

@@ -17,37 +17,6 @@ enum {
     SAMPLES = 200 /* of a law */
 };
 
-/* Titles of columns that are no figures of the library, and their unit where the table is JSON, which names
- * none. */
-static const struct quantity {
-    const char *name, *title, *unit;
-} quantities[] = {
-    {"nodes_per_patch", "Nodes per patch", "1"},
-    {"contact_area_corrected", "Contact area, corrected", "m2"},
-    {"contact_area_inside", "Contact area inside the taper", "m2"},
-    {"contact_fraction_inside", "Contact fraction inside the taper", "1"},
-    {"flow_rate", "Flow rate", "m3/s"},
-    {"critical_flow", "Flow of the critical constriction", "m3/s"},
-    {"tangential_x", "Force along x", "N"},
-    {"tangential_y", "Force along y", "N"},
-    {"displacement_x", "Displacement along x", "m"},
-    {"displacement_y", "Displacement along y", "m"},
-    {"tangential_stiffness", "Tangential stiffness", "N/m"},
-    {"stick_area", "Area that sticks", "m2"},
-    {"slip_area", "Area that slips", "m2"},
-    {"stick_fraction", "Part of the contact that sticks", "1"},
-    {"dissipated_energy", "Dissipated energy", "J"},
-    {"dissipated_total", "Dissipated energy", "J"},
-    {"peak_memory", "Memory", "B"},
-    {"estar", "E*", "Pa"},
-    {"hardness", "Hardness", "Pa"},
-    {"radius", "Radius", "m"},
-    {"rms_slope", "RMS slope", "1"},
-    {"depth", "Depth", "m"},
-    {"q", "Wavenumber", "rad/m"},
-    {"c", "Power spectral density", "m4"},
-};
-
 /* Columns that every table is asked for, after those of the curves. */
 enum helper {
     NX,
@@ -106,24 +75,33 @@ last_part(const char *name)
     return point == NULL ? name : point + 1;
 }
 
-/* The title and the unit of a column; NULL: it has none. Figures of the library have their own table. */
-static struct quantity
-quantity_of(const char *name)
+/* The title and the unit of a column; NULL: it has none. */
+static const char *
+title_known(const char *name)
 {
-    const struct rc_figure *f = rc_figure_find(last_part(name));
+    const struct rc_figure *f = report_figure(last_part(name));
 
-    if (f != NULL)
-        return (struct quantity){f->name, f->title, f->unit};
-    for (size_t k = 0; k < sizeof quantities / sizeof *quantities; k++)
-        if (strcmp(quantities[k].name, last_part(name)) == 0)
-            return quantities[k];
-    return (struct quantity){NULL, NULL, NULL};
+    return f == NULL ? NULL : f->title;
 }
 
-/* In the middle of a sentence; E* and RMS stay. */
+static const char *
+unit_known(const char *name)
+{
+    const struct rc_figure *f = report_figure(last_part(name));
+
+    return f == NULL ? NULL : f->unit;
+}
+
+/* In the middle of a sentence; E*, RMS and the names of parameters, as Sq, stay. */
 static void
 begin_small(char *title)
 {
+    static const char *const named[] = {"areal", "features", "profile"};
+
+    for (size_t t = 0; t < sizeof named / sizeof *named; t++)
+        for (const struct rc_figure *f = rc_figures(named[t]); f->name != NULL; f++)
+            if (strcmp(f->title, title) == 0)
+                return;
     if (islower((unsigned char)title[1]))
         title[0] = (char)tolower((unsigned char)title[0]);
 }
@@ -135,7 +113,7 @@ title_of(const struct curves *c, size_t k)
 
     if (c->history && strcmp(name, helper_name[APPROACH]) == 0)
         name = helper_name[INDENTATION];
-    return quantity_of(name).title == NULL ? name : quantity_of(name).title;
+    return title_known(name) == NULL ? name : title_known(name);
 }
 
 /* A spectrum of a profile has a unit of its own. */
@@ -143,14 +121,14 @@ static const char *
 unit_of(const struct table *table, size_t c)
 {
     const struct column *column = &table->column[c];
-    const struct quantity q = quantity_of(column->name);
+    const char *unit = unit_known(column->name);
     const double *ny = table->column[table->columns - HELPERS + NY].v;
 
     if (column->unit[0] != '\0')
         return column->unit;
     if (strcmp(last_part(column->name), "c") == 0 && ny[0] == 1)
         return "m3";
-    return q.unit == NULL ? "1" : q.unit;
+    return unit == NULL ? "1" : unit;
 }
 
 static const char *
@@ -399,12 +377,12 @@ static void
 say_label(const struct table *table, size_t k, size_t row, char text[NAME])
 {
     const struct column *column = &table->column[k];
-    const struct quantity q = quantity_of(column->name);
-    const char *word = word_of(table, k, row), *unit = unit_of(table, k), *end;
+    const char *known = title_known(column->name), *unit = unit_of(table, k), *end;
+    const char *word = word_of(table, k, row);
     char title[NAME], value[TICKS_TEXT];
     double number;
 
-    snprintf(title, sizeof title, "%s", q.title == NULL ? last_part(column->name) : q.title);
+    snprintf(title, sizeof title, "%s", known == NULL ? last_part(column->name) : known);
     begin_small(title);
     end = word == NULL ? NULL : rc_number_read(word, true, &number);
     if (word != NULL && strcmp(last_part(column->name), helper_name[SOURCE]) == 0)
@@ -859,13 +837,13 @@ describe(struct curves *c)
         size_t n = strlen(c->axis);
 
         add_word(c->axis, title_of(c, k));
-        if (k > 1 && quantity_of(c->column[k]).title != NULL)
+        if (k > 1 && title_known(c->column[k]) != NULL)
             begin_small(c->axis + n + 2);
     }
     snprintf(c->title, NAME, "%.150s against ", c->axis);
     x += strlen(x);
     snprintf(x, NAME - (size_t)(x - c->title), "%.90s", title_of(c, 0));
-    if (quantity_of(c->column[0]).title != NULL)
+    if (title_known(c->column[0]) != NULL)
         begin_small(x);
 }
 

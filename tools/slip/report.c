@@ -12,57 +12,52 @@ coupling_of(const struct slip_run *run)
                                                   : "none";
 }
 
+/* What has been found on the way to a corner, as figures of the last increment. */
+static struct rc_joint_figures
+figures_of(const struct slip_state *s)
+{
+    struct rc_joint_figures f = s->figures;
+
+    if (f.slip.stick_nodes + f.slip.slip_nodes == 0)
+        f.slip.displacement[0] = f.slip.displacement[1] = NAN;
+    f.approach = s->approach;
+    f.slip.dissipated = s->dissipated;
+    f.passes = s->passes;
+    f.convolutions = s->convolutions;
+    return f;
+}
+
 void
 slip_report(struct slip_run *run, const struct slip_state *s)
 {
     struct report *r = &run->report;
-    const struct rc_slip_figures *f = &s->figures.slip;
-    const struct rc_grid *g = run->p;
-    double area = f->stick_area + f->slip_area;
-    bool apart = f->stick_nodes + f->slip_nodes == 0;
+    const struct rc_joint_figures f = figures_of(s);
+    const struct figures from[] = {{rc_figures("slip"), &f}, {NULL, NULL}};
 
     if (!report_wanted(r))
         return;
     report_begin(r);
-    report_count(r, "case", run->number, NULL);
-    report_text(r, "source", rc_grid_get(g, "source"));
-    report_count(r, "nx", g->nx, NULL);
-    report_count(r, "ny", g->ny, NULL);
-    report_number(r, "dx", g->dx, "m");
-    report_number(r, "dy", g->dy, "m");
+    report_map(r, run->p, run->number);
     report_text(r, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free");
     report_count(r, "threads", run->t.threads, NULL);
     report_number(r, "mu", run->args->mu, NULL);
     report_number(r, "tau_max", run->args->tau_max, "Pa");
     report_number(r, "beta", run->bodies.beta, NULL);
     report_text(r, "coupling", coupling_of(run));
-    report_number(r, "load", f->load, "N");
-    report_number(r, "limit", f->limit, "N");
-    report_number(r, "tangential_x", f->force[0], "N");
-    report_number(r, "tangential_y", f->force[1], "N");
-    report_number(r, "displacement_x", apart ? NAN : f->displacement[0], "m");
-    report_number(r, "displacement_y", apart ? NAN : f->displacement[1], "m");
-    report_number(r, "approach", s->approach, "m");
-    report_count(r, "stick_nodes", f->stick_nodes, NULL);
-    report_count(r, "slip_nodes", f->slip_nodes, NULL);
-    report_number(r, "stick_area", f->stick_area, "m2");
-    report_number(r, "slip_area", f->slip_area, "m2");
-    report_number(r, "stick_fraction", area > 0 ? f->stick_area / area : NAN, NULL);
-    report_number(r, "largest_slip", f->largest_slip, "m");
-    report_number(r, "tangential_stiffness", f->stiffness, "N/m");
-    report_number(r, "dissipated_energy", s->dissipated, "J");
-    report_number(r, "dissipated_total", s->dissipated_total, "J");
+    report_named(r, from,
+                 "load limit tangential_x tangential_y displacement_x displacement_y approach "
+                 "stick_nodes slip_nodes stick_area slip_area stick_fraction largest_slip "
+                 "tangential_stiffness dissipated_energy");
+    report_value(r, "dissipated_total", s->dissipated_total);
     report_count(r, "increments", s->corner->increments, NULL);
-    report_count(r, "passes", s->passes, NULL);
-    report_number(r, "convolutions", s->convolutions, NULL);
+    report_named(r, from, "passes convolutions");
     report_number(r, "traction_error_estimate", s->traction_error, NULL);
     errors_report(r, &s->errors);
     report_bool(r, "converged", s->converged);
     report_object(r, "seconds");
     report_number(r, "total", s->seconds, "s");
     report_end(r);
-    report_count(r, "peak_memory", tool_peak_memory(), "B");
-    report_count(r, "memory_estimate", tool_counted_memory(&run->t), "B");
+    report_memory(r);
     report_finish_row(r);
 }
 

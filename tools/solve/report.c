@@ -287,12 +287,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     if (!report_wanted(r))
         return;
     report_begin(r);
-    report_count(r, "case", run->number, NULL);
-    report_text(r, "source", rc_grid_get(g, "source"));
-    report_count(r, "nx", g->nx, NULL);
-    report_count(r, "ny", g->ny, NULL);
-    report_number(r, "dx", g->dx, "m");
-    report_number(r, "dy", g->dy, "m");
+    report_map(r, g, run->number);
     report_text(r, "boundary", run->args->physics.periodic ? "periodic" : "free");
     report_text(r, "kernel", solver == NULL ? NULL : rc_solver_engine(solver));
     report_text(r, "method",
@@ -312,9 +307,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "result", run->result, "s");
     report_number(r, "total", run->done - run->began, "s");
     report_end(r);
-    report_count(r, "peak_memory", (size_t)ranks_most(&run->t, (double)tool_peak_memory()), "B");
-    report_count(r, "memory_estimate",
-                 (size_t)ranks_most(&run->t, (double)tool_counted_memory(&run->t)), "B");
+    report_memory(r);
     report_ranks(r, &run->t);
     report_number(r, "hardness_min", run->hardness_min, "Pa"); /* columns keep their places */
     report_number(r, "hardness_max", run->hardness_max, "Pa");

@@ -239,25 +239,6 @@ write_extremes(const struct stress_report *r, struct report *out, enum stress_en
     report_end(out);
 }
 
-static void
-write_counts(struct report *out, const struct rc_stress_counts *c)
-{
-    report_object(out, "counts");
-    report_count(out, "depths", c->depths, NULL);
-    report_count(out, "coarse_depths", c->coarse_depths, NULL);
-    report_count(out, "normal_kernels", c->normal_kernels, NULL);
-    report_count(out, "shear_kernels", c->shear_kernels, NULL);
-    report_count(out, "coefficients", c->coefficients, NULL);
-    report_count(out, "source_transforms", c->source_transforms, NULL);
-    report_count(out, "kernel_transforms", c->kernel_transforms, NULL);
-    report_count(out, "field_transforms", c->field_transforms, NULL);
-    report_count(out, "line_transforms", c->line_transforms, NULL);
-    report_count(out, "engine_sums", c->engine_sums, NULL);
-    report_count(out, "strain_transforms", c->strain_transforms, NULL);
-    report_count(out, "strain_field_transforms", c->strain_field_transforms, NULL);
-    report_end(out);
-}
-
 void
 stress_report_write(struct stress_report *r, struct report *out, const struct rc_stress *stress)
 {
@@ -266,12 +247,7 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     const char section[2] = {o->section, '\0'};
 
     report_begin(out);
-    report_count(out, "case", rc_grid_case(r->p), NULL);
-    report_text(out, "source", rc_grid_get(r->p, "source"));
-    report_count(out, "nx", r->p->nx, NULL);
-    report_count(out, "ny", r->p->ny, NULL);
-    report_number(out, "dx", r->p->dx, "m");
-    report_number(out, "dy", r->p->dy, "m");
+    report_map(out, r->p, rc_grid_case(r->p));
     report_text(out, "boundary", o->boundary == RC_PERIODIC ? "periodic" : "free");
     report_text(out, "kernel", rc_stress_engine(stress));
     report_count(out, "threads", o->threads, NULL);
@@ -301,16 +277,13 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     for (int c = 0; c < RC_STRESSES; c++)
         report_text(out, rc_component_names[c], component_effect(o, c));
     report_end(out);
-    write_counts(out, rc_stress_counted(stress));
+    report_table(out, rc_figures("stress"), rc_stress_counted(stress));
     report_object(out, "seconds");
     report_number(out, "setup", r->setup, "s");
     report_number(out, "slices", r->slices, "s");
     report_number(out, "total", tool_now() - r->began, "s");
     report_end(out);
-    report_count(out, "peak_memory", (size_t)ranks_most(out->tool, (double)tool_peak_memory()),
-                 "B");
-    report_count(out, "memory_estimate",
-                 (size_t)ranks_most(out->tool, (double)tool_counted_memory(out->tool)), "B");
+    report_memory(out);
     report_ranks(out, out->tool);
     report_finish_row(out);
 }
