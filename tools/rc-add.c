@@ -1,4 +1,4 @@
-/* rc-add: two surfaces face to face, as one that is pressed against a flat. */
+/* rc-add: the sum of two facing surfaces, as one surface pressed against a flat. */
 #include "tools/cli/cli.h"
 
 #include <math.h>
@@ -31,17 +31,17 @@ static const struct tool_info info = {
 };
 
 enum {
-    HISTORY = 4096 /* bytes of B's history that go into that of the sum */
+    HISTORY = 4096 /* bytes of B's history in that of the sum */
 };
 
 /* ---- the two streams ---- */
 
-/* B is read by a second struct tool, which reports under the name of the first, and whose failure
- * ends the output of the first. */
+/* B is read by a second struct tool, which reports under the name of the first; its failure also ends the
+ * output of the first. */
 struct second {
     struct tool t;
-    struct rc_grid *g; /* of the case that A is in */
-    size_t n;          /* surfaces read so far     */
+    struct rc_grid *g; /* of the same case as A */
+    size_t n;          /* surfaces read so far  */
 };
 
 static struct rc_grid *
@@ -56,7 +56,7 @@ read_second(struct tool *t, struct second *b)
     return g;
 }
 
-/* The surface of B for the next one of A: one goes with all of A, several go one by one. */
+/* The surface of B for the next one of A: a single one for all of A, or several one by one. */
 static void
 next_second(struct tool *t, struct second *b, const struct rc_grid *a)
 {
@@ -85,7 +85,7 @@ demand_end(struct tool *t, struct second *b, size_t first)
                  t->operand[1], first, t->operand[0]);
 }
 
-/* ---- demands ---- */
+/* ---- checks ---- */
 
 static void
 demand_heights(struct tool *t, const struct rc_grid *g)
@@ -108,8 +108,8 @@ demand_heights(struct tool *t, const struct rc_grid *g)
                     count, first % g->nx, first / g->nx);
 }
 
-/* Where one map is finer than the other, the advice is to average its nodes, rather than to
- * interpolate coarse ones. */
+/* If one map is finer than the other, suggests averaging its nodes rather than interpolating the coarser
+ * one. */
 static _Noreturn void
 refuse_spacings(struct tool *t, const struct rc_grid *a, const struct rc_grid *b)
 {
@@ -153,7 +153,7 @@ set_periodic(struct tool *t, struct rc_grid *a, const struct rc_grid *b, bool cu
                                                        : RC_FAIL;
 }
 
-/* A shape that was added to either is in the sum; the same one in both is not in the difference. */
+/* A shape that was added to either is in the sum; the same shape in both is not in the difference. */
 static enum rc_status
 set_form(struct rc_grid *a, const struct rc_grid *b, struct rc_err *err)
 {
@@ -177,7 +177,7 @@ set_form(struct rc_grid *a, const struct rc_grid *b, struct rc_err *err)
     return status;
 }
 
-/* What a surface came from: its source, or the file's own name without folders. */
+/* The origin of a surface: its source, or the name of the file without folders. */
 static const char *
 name_of(const struct rc_grid *g, const char *operand)
 {
@@ -186,8 +186,7 @@ name_of(const struct rc_grid *g, const char *operand)
     return source != NULL ? source : slash != NULL ? slash + 1 : operand;
 }
 
-/* Appends text, the steps of a history parted by semicolons, up to `room` bytes of it and to a
- * whole character. */
+/* Appends the steps of a history, separated by semicolons: up to `room` bytes, and whole characters. */
 static void
 append_history(char *to, const char *text, size_t room)
 {
@@ -208,8 +207,8 @@ append_history(char *to, const char *text, size_t room)
     strcpy(to + n, *text == '\0' ? "" : "...");
 }
 
-/* "rc-add 0.1.0 a.x3p b.x3p (b.x3p: rc-import 0.1.0; rc-detrend 0.1.0 --plane)": the history of A
- * goes on, that of B stands in it. */
+/* "rc-add 0.1.0 a.x3p b.x3p (b.x3p: rc-import 0.1.0; rc-detrend 0.1.0 --plane)": continues the history of A,
+ * with that of B in it. */
 static enum rc_status
 add_history(struct tool *t, struct rc_grid *a, const struct rc_grid *b, struct rc_err *err)
 {
@@ -234,7 +233,7 @@ add_history(struct tool *t, struct rc_grid *a, const struct rc_grid *b, struct r
 
 /* ---- the sum ---- */
 
-/* In the place of A, whose keys it has. */
+/* Replaces A by the sum, which keeps A's keys. */
 static void
 add(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
 {

@@ -1,4 +1,4 @@
-/* What accuracy costs in time: one contact solved in many ways, beside one that is right. */
+/* The cost of accuracy in time: one contact solved in many ways, compared with an accurate solution. */
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -87,7 +87,7 @@ choosing(void)
     return !isnan(args.budget) || !isnan(args.error);
 }
 
-/* What is tried of bodies that yield or attract each other. */
+/* Checks the options for bodies that yield or attract each other. */
 static void
 check_effects(struct tool *t)
 {
@@ -132,7 +132,7 @@ check_arguments(struct costs *run)
     report_open(&run->report, t, args.report);
 }
 
-/* Said where somebody watches: on a terminal, or where progress is asked for. */
+/* Prints if somebody watches: on a terminal, or with --progress. */
 static void
 tell(struct costs *run, const char *text)
 {
@@ -140,7 +140,7 @@ tell(struct costs *run, const char *text)
         fprintf(stderr, "%s: %s\n", info.name, text);
 }
 
-/* ---- what is to come ---- */
+/* ---- expected times ---- */
 
 static void
 plan(struct costs *run, struct cost_case *c)
@@ -230,7 +230,7 @@ tell_results(struct costs *run, struct cost_case *c)
 
 /* ---- the run ---- */
 
-/* The case as the programs read it. */
+/* Writes the case to a file for the programs. */
 static int
 write_map(struct costs *run, const struct rc_grid *g, const struct rc_grid *hardness)
 {

@@ -45,7 +45,7 @@ static const struct tool_info info = {
     .shares = true,
 };
 
-/* A pressure solved on one boundary has no displacement on the other. */
+/* A pressure solved for one boundary has no displacement for the other. */
 static enum rc_boundary
 boundary(struct tool *t, const struct rc_grid *p)
 {
@@ -57,7 +57,7 @@ boundary(struct tool *t, const struct rc_grid *p)
     return periodic ? RC_PERIODIC : RC_FREE;
 }
 
-/* The bodies that the pressure was solved for; of bare ones --estar says what they are, if it is given. */
+/* The bodies that the pressure was solved for; for uniform ones --estar overrides them. */
 static struct rc_pair
 pair_of(struct tool *t, const struct rc_grid *p, struct layers *layers)
 {
@@ -89,14 +89,14 @@ struct demand {
     const struct rc_conv_options *options;
 };
 
-/* Bytes of code and plans of the sums by this engine: of transforms, in single precision too. */
+/* Bytes of code and plans of an engine: of transforms, in single precision too. */
 static size_t
 code_for(const char *engine, const struct rc_conv_options *options)
 {
     const struct rc_engine_info *e;
 
     for (size_t k = 0; (e = rc_engine_info(k)) != NULL; k++)
-        if (strcmp(e->name, engine) == 0 && e->periodic) /* by transforms */
+        if (strcmp(e->name, engine) == 0 && e->periodic) /* an engine with transforms */
             return (options->tol > 0 && !e->precise ? 2 : 1) * (size_t)TOOL_TRANSFORMS;
     return 0;
 }
@@ -116,7 +116,7 @@ memory_by(const void *ctx, const char *engine)
            rc_conv_memory(&shape, &options);
 }
 
-/* Where the map would fit with another engine, that is said. */
+/* If the map would fit into the memory with another engine, the message says so. */
 static void
 demand_memory(struct tool *t, const struct rc_grid *p, const struct rc_conv_options *options)
 {

@@ -13,14 +13,15 @@ static struct args {
     bool robust;
 } args;
 
-/* What an option does to each map, at its place in the line. */
+/* The step of an option, applied to each map in the order of the command line. */
 struct work {
     enum rc_status (*run)(struct tool *t, struct rc_grid *g, double value, struct rc_err *err);
-    bool fits; /* --robust bears on it */
+    bool fits; /* a fit: --robust applies to it */
 };
 
-static const double filled_much = 0.05;   /* part of the points beyond which filling is warned of */
-static const double outliers_much = 0.05; /* and beyond which outliers are */
+/* fraction of filled points above which a warning is given */
+static const double filled_much = 0.05;
+static const double outliers_much = 0.05; /* the same for outliers */
 
 static bool
 is_periodic(const struct rc_grid *g)
@@ -30,7 +31,7 @@ is_periodic(const struct rc_grid *g)
     return periodic != NULL && strcmp(periodic, "yes") == 0;
 }
 
-/* A form that is taken off a periodic surface opens a step where the periods meet. */
+/* Removing a form from a periodic surface opens a step between the periods. */
 static enum rc_status
 end_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
 {
@@ -78,7 +79,7 @@ poly(struct tool *t, struct rc_grid *g, double degree, struct rc_err *err)
     return remove_form(t, g, (struct rc_form){.degree = (size_t)degree}, err);
 }
 
-/* Rows have levels of their own, and so meet as before; with slopes of their own their ends do not. */
+/* Levelling rows keeps a period along x; removing slopes of rows does not. */
 static enum rc_status
 rows(struct tool *t, struct rc_grid *g, double degree, struct rc_err *err)
 {
@@ -128,7 +129,7 @@ highpass(struct tool *t, struct rc_grid *g, double cutoff, struct rc_err *err)
     return filter(t, g, cutoff, true, err);
 }
 
-/* Adds to a key that counts what all steps have done, those of earlier commands included. */
+/* Adds to a key that counts over all steps, including those of earlier commands. */
 static enum rc_status
 add_to_key(struct rc_grid *g, const char *key, size_t count, struct rc_err *err)
 {
@@ -159,7 +160,7 @@ outliers(struct tool *t, struct rc_grid *g, double times, struct rc_err *err)
     return add_to_key(g, "outliers", count, err);
 }
 
-/* A frame at the mean height carries load in a large contact. */
+/* With its edges at the mean height a map carries load there in a large contact. */
 static enum rc_status
 taper(struct tool *t, struct rc_grid *g, double width, struct rc_err *err)
 {
@@ -189,7 +190,7 @@ taper(struct tool *t, struct rc_grid *g, double width, struct rc_err *err)
     return rc_grid_set(g, "periodic", "yes", err);
 }
 
-/* Points that were counted are there so many times. */
+/* Multiplies a count of points, because they are repeated. */
 static enum rc_status
 multiply_key(struct rc_grid *g, const char *key, double times, struct rc_err *err)
 {
@@ -241,7 +242,7 @@ count_missing(const struct rc_grid *g)
     return n;
 }
 
-/* Warns when a good part of the surface is made up. */
+/* Warns when a large part of the surface is interpolated. */
 static enum rc_status
 warn_of_holes(struct tool *t, const struct rc_grid *g, size_t missing, struct rc_err *err)
 {
@@ -280,7 +281,7 @@ fill(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
     return add_to_key(g, "filled", filled, err);
 }
 
-/* Ends the tool for a step that failed: a length beyond the map may lack its unit. */
+/* Ends the tool for a failed step: a length beyond the map may lack its unit. */
 static _Noreturn void
 failed(struct tool *t, const struct rc_grid *g, const struct step *step, const struct rc_err *err)
 {
@@ -311,7 +312,7 @@ detrend(struct tool *t, struct rc_grid *g)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* What stands beside the heights, such as a map of hardness, is mirrored with them. */
+/* Frames beside the heights, such as a map of hardness, are mirrored with them. */
 static void
 passing(struct tool *t, struct rc_grid *g)
 {

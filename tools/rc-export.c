@@ -10,7 +10,7 @@
 #include "libcontact/contact.h"
 
 enum {
-    EVEN_ROWS = 4096 /* that --even makes at the most */
+    EVEN_ROWS = 4096 /* largest number of rows made by --even */
 };
 
 static struct args {
@@ -133,7 +133,7 @@ settle_relief(struct tool *t)
                  format->name);
 }
 
-/* Formats that must bear a date get today's, or the one that reproducible builds agree on. */
+/* Formats that require a date get today's, or SOURCE_DATE_EPOCH, for reproducible builds. */
 static void
 settle_time(struct tool *t)
 {
@@ -180,7 +180,7 @@ settle(struct tool *t)
 
 /* ---- sections: rows are depths ---- */
 
-/* Depths that are decimal numbers have decimal ones between them: 6e-06, not 6.000000000000001e-06. */
+/* Between decimal depths the interpolated ones are decimal: 6e-06, not 6.000000000000001e-06. */
 static double
 decimal(double x)
 {
@@ -224,7 +224,7 @@ with_rows_of(struct tool *t, const struct rc_grid *g, const struct rc_shape *sha
     return to;
 }
 
-/* Rows of `to`, step apart from the first depth on, between those of `from` at the depths `at`. */
+/* Interpolates rows of `to`, at equal steps from the first depth, from those of `from` at the depths `at`. */
 static void
 interpolate(const struct rc_grid *from, const double *at, struct rc_grid *to, double step)
 {
@@ -239,14 +239,14 @@ interpolate(const struct rc_grid *from, const double *at, struct rc_grid *to, do
         part = (z - at[k]) / (at[k + 1] - at[k]);
         a = from->v + k * nx;
         b = a + nx;
-        for (size_t i = 0; i < nx; i++) /* a row that is met stays as it is, even beside NaN */
+        for (size_t i = 0; i < nx; i++) /* a row at the same depth is copied, even beside NaN */
             to->v[j * nx + i] = part <= 0   ? a[i]
                                 : part >= 1 ? b[i]
                                             : (1 - part) * a[i] + part * b[i];
     }
 }
 
-/* Rows that depths `at` need in steps of the smallest one, or as many as there may be. */
+/* Number of rows at steps of the smallest depth difference, up to the limit. */
 static size_t
 rows_needed(struct tool *t, const struct rc_grid *g, const double *at)
 {
@@ -262,7 +262,7 @@ rows_needed(struct tool *t, const struct rc_grid *g, const double *at)
     return EVEN_ROWS;
 }
 
-/* The frame, or if it is a section with uneven depths one with even ones in its place. */
+/* The frame itself or, for a section with uneven depths, one with even depths. */
 static struct rc_grid *
 even_rows(struct tool *t, struct rc_grid *g)
 {
@@ -317,7 +317,7 @@ check_frame(struct tool *t, const struct rc_grid *first, const struct rc_grid *g
                     format->name, g->unit);
 }
 
-/* All frames that are wanted, which main frees. */
+/* All selected frames, which main frees. */
 static struct rc_grid **
 read_frames(struct tool *t, size_t *frames)
 {
@@ -350,7 +350,7 @@ demand_memory(struct tool *t, struct rc_grid *const *frame, size_t frames)
     tool_demand_memory(t, frame[0], bytes);
 }
 
-/* Says how large the result will be, where that is not what the frame is. */
+/* Prints the size of the result if it differs from that of the frame. */
 static void
 foretell(struct tool *t, const struct rc_grid *g)
 {

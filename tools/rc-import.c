@@ -1,4 +1,4 @@
-/* Instrument and exchange files -> a stream of height maps, a case each. */
+/* Instrument and exchange files -> a stream of height maps, one case each. */
 #include "tools/cli/cli.h"
 
 #include <math.h>
@@ -86,9 +86,9 @@ static const struct tool_info info = {
     .writes = WRITES_STREAM,
 };
 
-/* ---- what the user says beside the file ---- */
+/* ---- options that supplement the file ---- */
 
-/* The metres of --NAME, whose text becomes a number of them: history is in SI. */
+/* The value in metres of --NAME; its text becomes this number, because the history is in SI. */
 static double
 wish_unit(struct tool *t, const char *name, const char **text, char si[RC_NUMBER_SIZE])
 {
@@ -161,11 +161,11 @@ make_wish(struct tool *t)
 
 /* ---- files ---- */
 
-/* A file that has been read, and what is in it. */
+/* A file that has been read, and its contents. */
 struct source {
     unsigned char *data;
-    struct rc_file file; /* of data; its name is without .gz where it was packed */
-    const char *name;    /* as it came, without its folder */
+    struct rc_file file; /* describes data; its name is without .gz if it was packed */
+    const char *name;    /* as given, without its folder */
     char inner[256];
     const struct rc_format *format;
     struct rc_channel channel[CHANNELS_MOST];
@@ -183,7 +183,7 @@ refuse_stream(const char *name, struct rc_err *err)
                       piped ? "... | rc-info" : "rc-info ", piped ? "" : name);
 }
 
-/* Puts what was packed with gzip in place of the file. --memory bounds all that the process holds. */
+/* Replaces a gzip file by its contents. --memory limits all that the process holds. */
 static enum rc_status
 unpack(const struct tool *t, struct source *s, struct rc_err *err)
 {
@@ -207,8 +207,8 @@ unpack(const struct tool *t, struct source *s, struct rc_err *err)
     return RC_OK;
 }
 
-/* Puts the only file of a ZIP archive, or array of an NPZ, in its place; archives of several stay what they
- * are. */
+/* Replaces a ZIP archive with a single file, or an NPZ with a single array, by it; archives of several files
+ * stay unchanged. */
 static enum rc_status
 unzip(const struct tool *t, struct source *s, struct rc_err *err)
 {
@@ -225,7 +225,7 @@ unzip(const struct tool *t, struct source *s, struct rc_err *err)
         name = rc_zip_read_name(archive, first);
         slash = strrchr(name, '/');
         name = slash == NULL ? name : slash + 1;
-        if (strcmp(name, "main.xml") != 0) { /* of an X3P */
+        if (strcmp(name, "main.xml") != 0) { /* the main file of an X3P */
             data = rc_zip_read_bytes(archive, first, most, &size, NULL, err);
             status = data == NULL ? RC_FAIL : RC_OK;
             snprintf(s->inner, sizeof s->inner, "%s", name);
@@ -240,7 +240,7 @@ unzip(const struct tool *t, struct source *s, struct rc_err *err)
     return status;
 }
 
-/* Reads a file and finds out what is in it; source_close frees it in either case. */
+/* Reads a file and determines its contents; source_close frees it in either case. */
 static enum rc_status
 source_open(struct tool *t, const char *name, const struct rc_wish *wish, struct source *s,
             struct rc_err *err)
@@ -301,8 +301,8 @@ number_or_dash(char text[RC_NUMBER_SIZE], double value)
     return text;
 }
 
-/* Least and greatest value of a channel, in its unit or, where the file gives none, as it stands
- * there; false, after a message, when it cannot be read. */
+/* Smallest and largest value of a channel, in its unit or, if the file gives none, as stored; false, after a
+ * message, when it cannot be read. */
 static bool
 range_of(struct tool *t, const struct source *s, const struct rc_wish *wish, size_t index,
          double range[2])
@@ -330,7 +330,7 @@ range_of(struct tool *t, const struct source *s, const struct rc_wish *wish, siz
     return range[0] <= range[1];
 }
 
-/* A star marks the channel that is read. */
+/* A star marks the channel that would be read. */
 static void
 print_list(struct tool *t, const struct source *s, const struct rc_wish *wish)
 {
@@ -356,7 +356,7 @@ print_list(struct tool *t, const struct source *s, const struct rc_wish *wish)
     }
 }
 
-/* After a file that cannot be listed the next ones still are. */
+/* After a file that cannot be listed the next ones are still listed. */
 static void
 list_file(struct tool *t, const char *name, const struct rc_wish *wish)
 {
@@ -366,7 +366,7 @@ list_file(struct tool *t, const char *name, const struct rc_wish *wish)
     if (source_open(t, name, wish, &s, &err) == RC_OK) {
         print_list(t, &s, wish);
     } else {
-        fflush(t->out); /* so that what a terminal shows stays in the order of the files */
+        fflush(t->out); /* so that messages and list appear in order on a terminal */
         tool_fail(t, "%s: %s", t->source, err.text);
     }
     source_close(&s);
@@ -375,11 +375,11 @@ list_file(struct tool *t, const char *name, const struct rc_wish *wish)
 /* ---- heights ---- */
 
 enum {
-    CHILD = 1 << 19 /* bytes that a process that reads a file takes beside the map */
+    CHILD = 1 << 19 /* bytes that a reading process needs besides the map */
 };
 
-/* The file is in memory already; what is packed in it takes more beside the map. A map that a process of
- * its own reads is there twice while it is handed over. */
+/* The file is in memory already; unpacking needs more besides the map. A map that a child process reads
+ * exists twice during its transfer. */
 static enum rc_status
 check_memory(struct tool *t, const struct source *s, const struct rc_channel *channel,
              struct rc_err *err)
@@ -397,7 +397,7 @@ check_memory(struct tool *t, const struct source *s, const struct rc_channel *ch
     return tool_ask_memory(t, &shape, bytes, "the file itself takes memory too", err);
 }
 
-/* How far the extremes of a profile are from those of its nodes. */
+/* Prints by how much the extremes of a profile exceed those of its nodes. */
 static void
 say_extremes(struct tool *t, const struct rc_notes *notes)
 {
@@ -409,7 +409,7 @@ say_extremes(struct tool *t, const struct rc_notes *notes)
                   t->source, notes->above, notes->below);
 }
 
-/* Brings any profile to the step that --even gives, and says where it is not known, and what is lost. */
+/* Resamples a profile to the step of --even, and says where it is unknown and what is lost. */
 static enum rc_status
 even_out(struct tool *t, const struct source *s, const struct rc_wish *wish, struct rc_grid *g,
          struct rc_notes *notes, struct rc_err *err)
@@ -426,12 +426,12 @@ even_out(struct tool *t, const struct source *s, const struct rc_wish *wish, str
                   "%s: %zu of %zu nodes are missing: the points next to them are, or are more than "
                   "%d steps apart",
                   t->source, missing, g->nx, RC_EVEN_GAP);
-    /* history holds the step, unless --dx does */
+    /* the history records the step, unless --dx does */
     args.even = wish->even_step > 0 ? wish->even_step : g->ny == 1 && isnan(wish->dx) ? g->dx : NAN;
     return RC_OK;
 }
 
-/* The keys that an import adds to what its reader found. */
+/* The keys that an import adds to those of the reader. */
 static enum rc_status
 add_keys(struct tool *t, const struct source *s, size_t number, struct rc_grid *g,
          struct rc_err *err)
@@ -444,8 +444,8 @@ add_keys(struct tool *t, const struct source *s, size_t number, struct rc_grid *
     return rc_grid_history(g, tool_history(t), err);
 }
 
-/* Makes values missing that are the number of --missing in the file, which is text no more: `unit` is what one
- * is in the grid's. */
+/* Sets values equal to the number of --missing in the file, which is not text any more, to missing: `unit` is
+ * the value of 1 of the file in the grid's unit. */
 static void
 take_missing(const char *missing, struct rc_grid *g, double unit)
 {
@@ -497,7 +497,7 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
     return RC_OK;
 }
 
-/* With --keep-going a file that cannot be read leaves its number of a case unused. */
+/* With --keep-going a file that cannot be read leaves its case number unused. */
 static bool
 import_file(struct tool *t, const char *name, const struct rc_wish *wish, size_t number)
 {
@@ -522,7 +522,7 @@ main(int argc, char **argv)
     struct tool t;
 
     tool_start(&t, &info, argc, argv, &args);
-    t.missing = t.infinite = true; /* as they stand in the file */
+    t.missing = t.infinite = true; /* as in the file */
     wish = make_wish(&t);
     if (args.formats) {
         print_formats(&t);

@@ -67,7 +67,7 @@ is_height(const struct rc_grid *g)
     return strcmp(g->channel, "height") == 0 && in_metres(g);
 }
 
-/* ---- results: what a pressure says ---- */
+/* ---- results: figures of a pressure ---- */
 
 struct result {
     double load, contact_area, contact_fraction, max_pressure; /* NAN: unknown, here and below */
@@ -82,8 +82,8 @@ is_pressure(const struct rc_grid *g)
     return strcmp(g->channel, "pressure") == 0 && strcmp(g->unit, "Pa") == 0 && in_metres(g);
 }
 
-/* Load and contact are computed from the values, so they hold whichever program wrote these. `touch` tells the
- * contact; NULL: nothing does. */
+/* Load and contact are computed from the values, so that they are right for any program that wrote them.
+ * `touch` gives the contact; NULL: unknown. */
 static void
 result_of(const struct rc_grid *g, const struct rc_grid *touch, const struct rc_statistics *s,
           struct result *r)
@@ -95,7 +95,7 @@ result_of(const struct rc_grid *g, const struct rc_grid *touch, const struct rc_
     *r = (struct result){NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0, 0, NULL};
     rc_grid_number(g, "approach", &r->approach);
     rc_grid_number(g, "hardness", &r->hardness);
-    /* values in single precision cannot reach it any nearer */
+    /* single precision cannot reach it more closely */
     most = g->type == RC_F32 ? (double)(float)r->hardness : r->hardness;
     for (size_t k = 0; whole && k < g->nx * g->ny; k++) {
         r->contact_nodes += touch != NULL && rc_in_contact(touch->v[k]) ? 1 : 0;
@@ -175,7 +175,7 @@ show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
 
 /* ---- text ---- */
 
-/* A line of text that came with the data. */
+/* Prints a line of text from the data. */
 static void
 put_text(FILE *out, const char *text, size_t n)
 {
@@ -228,7 +228,7 @@ put_result(FILE *out, const struct rc_grid *g, const struct result *r)
                 strcmp(r->converged, "yes") == 0 ? "yes" : "no: it stopped short of its accuracy");
 }
 
-/* The unit came with the data. */
+/* The unit is text from the data. */
 static void
 put_length(FILE *out, const char *number, const char *unit)
 {
@@ -273,7 +273,7 @@ put_statistics(FILE *out, const struct rc_grid *g, const struct rc_statistics *s
                 100 * (double)s->infinite / nodes);
 }
 
-/* One step a line. */
+/* One step per line. */
 static void
 put_history(FILE *out, const char *history)
 {
@@ -323,8 +323,8 @@ show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     put_keys(t->out, g);
 }
 
-/* The frame `contact` that has come, and the last case whose pressure was shown without one, 0: none, with so many
- * nodes in contact. */
+/* The last frame `contact`, and the last case whose pressure was shown without one (0: none), with its number
+ * of nodes in contact. */
 struct beside {
     struct rc_grid *contact;
     size_t without, nodes;
@@ -340,8 +340,8 @@ count_contact(const struct rc_grid *touch)
     return nodes;
 }
 
-/* What tells the contact of this frame: `contact` that stands before it in its case, or a pressure itself. NULL:
- * nothing does, or it is no pressure. */
+/* The frame that defines the contact of this one: `contact` earlier in its case, or the pressure itself.
+ * NULL: unknown, or it is no pressure. */
 static const struct rc_grid *
 touching(struct tool *t, const struct rc_grid *g, struct beside *b)
 {
@@ -368,7 +368,7 @@ touching(struct tool *t, const struct rc_grid *g, struct beside *b)
     return touch;
 }
 
-/* Frees a frame that has been shown, but for one that a pressure behind it may need. */
+/* Frees a frame that has been shown, unless a later pressure may need it. */
 static void
 let_go(struct rc_grid *g, struct beside *beside)
 {

@@ -1,4 +1,4 @@
-/* What flows through the gap that the contact leaves, from one edge of the map to the opposite one. */
+/* Flow through the gap of a contact, from one edge of the map to the opposite one. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -76,7 +76,7 @@ struct run {
 
 /* ---- a case ---- */
 
-/* Whether the edges along the flow meet. */
+/* Whether the edges along the flow join. */
 static bool
 sides_meet(struct run *run, const struct rc_grid *g)
 {
@@ -94,7 +94,7 @@ sides_meet(struct run *run, const struct rc_grid *g)
     return true;
 }
 
-/* What touches, and the mean of the pressure. NULL: the stream does not tell. */
+/* The frame that defines the contact, and the mean pressure. NULL: the stream does not say. */
 static const struct rc_grid *
 look_at_contact(struct run *run, struct leak_case *c)
 {
@@ -147,7 +147,7 @@ write_frame(struct run *run, const struct leak_case *c, const struct rc_leak *le
     frames[kind].get(leak, g->v);
     for (size_t k = 0; k < rc_grid_nodes(g) && scale != 1; k++)
         g->v[k] *= scale;
-    run->t.missing = kind == PRESSURE || kind == FLUX; /* there is none in contact */
+    run->t.missing = kind == PRESSURE || kind == FLUX; /* contact has none */
     tool_write(&run->t, g);
     rc_grid_free(g);
 }
@@ -159,7 +159,7 @@ solve(struct run *run, const struct leak_case *c, struct rc_leak *leak)
     struct rc_err err;
 
     tool_demand_memory(&run->t, c->gap,
-                       rc_grid_nodes(c->gap) * sizeof(double)); /* a frame, after it */
+                       rc_grid_nodes(c->gap) * sizeof(double)); /* one more frame after it */
     tool_progress(&run->t, "flow through %zu nodes", c->figures->unknowns);
     while ((status = rc_leak_step(leak, &err)) == RC_MORE)
         continue;
@@ -206,7 +206,7 @@ do_case(struct run *run, const struct rc_grid *gap)
 
 /* ---- start ---- */
 
-/* Keeps what tells the contact. */
+/* Keeps the frame that defines the contact. */
 static bool
 take(void *ctx, struct tool *t, const struct rc_grid *gap, struct rc_grid *g)
 {

@@ -1,4 +1,4 @@
-/* rc-pick: some frames of a stream, parts of their maps, and what their headers say. */
+/* rc-pick: selects frames of a stream, cuts and resamples their maps, and changes their headers. */
 #include "tools/cli/cli.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 static struct args {
     struct wanted wanted;
     struct steps steps;
-    char *made[TOOL_STEPS]; /* the texts of --set, kept to the end */
+    char *made[TOOL_STEPS]; /* the texts of --set, kept until the end */
 } args;
 
 #define STEP(word, argument, what)                                                                 \
@@ -52,8 +52,7 @@ static const struct tool_info info = {
 
 /* ---- --set KEY=VALUE ---- */
 
-/* Lines of the header that --set refuses: those that describe the grid, and those that order the
- * stream. */
+/* Header lines that --set refuses: those that describe the grid, and those that order the stream. */
 static const struct {
     const char *key, *why;
 } kept[] = {
@@ -77,8 +76,7 @@ is_field(const char *key)
     return is_spacing(key) || strcmp(key, "channel") == 0 || strcmp(key, "unit") == 0;
 }
 
-/* Splits the text of the step into key and value, which last; lengths become SI, as history has
- * them. */
+/* Splits the text of the step into key and value, which stay valid; lengths become SI, as in the history. */
 static void
 settle_set(struct tool *t, struct step *step)
 {
@@ -118,7 +116,7 @@ settle_set(struct tool *t, struct step *step)
     step->text = text;
 }
 
-/* Whether the steps make another surface of a height. */
+/* Whether the steps change a height to another surface. */
 static bool
 changes_heights(void)
 {
@@ -172,12 +170,12 @@ settle(struct tool *t)
 
 /* ---- frame by frame ---- */
 
-/* Ends the tool when a channel's new name would be given twice in a case. */
+/* Ends the tool when two frames of a case would get the same channel. */
 static void
 demand_one_channel(struct tool *t, const struct rc_grid *g)
 {
     static char first[256];
-    static size_t number; /* of the case that it is of; 0: none yet */
+    static size_t number; /* number of its case; 0: none yet */
 
     if (rc_grid_case(g) != number) {
         number = rc_grid_case(g);
@@ -205,7 +203,7 @@ change(struct tool *t, struct rc_grid *g)
     if (changes_heights())
         results_demand_none(t, g);
     if (args.wanted.channel != NULL || args.wanted.depth.n > 0)
-        status = rc_grid_set(g, "frames", NULL, &err); /* there may be fewer now */
+        status = rc_grid_set(g, "frames", NULL, &err); /* their number may be smaller now */
     for (size_t k = 0; k < args.steps.n && status == RC_OK; k++)
         if (pick_geometry(&args.steps.step[k]))
             pick_geometry_do(t, g, &args.steps.step[k]);

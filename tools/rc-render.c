@@ -180,8 +180,8 @@ next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
     return RC_OK;
 }
 
-/* Writes the picture, without a canvas as a pixel for each node, and into it how it was made.
- * Without a grid the source is the figure's subtitle. */
+/* Writes the picture, without a canvas one pixel per node, and stores in it how it was made. Without a grid
+ * the source is the figure's subtitle. */
 static void
 write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, struct canvas *c)
 {
@@ -214,7 +214,7 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, s
     free(made);
 }
 
-/* Fontconfig always finds some font: whether it is the one wanted shows by its name. */
+/* Fontconfig always finds some font; its name shows whether it is the requested one. */
 static void
 warn_of_family(struct tool *t, const char *wanted, const char *found)
 {
@@ -241,7 +241,7 @@ warn_of_text(struct tool *t, const struct args *a, struct canvas *c)
         warn_of_family(t, a->style.family, canvas_set_family(c, a->style.family));
 }
 
-/* A cross at the value of the largest size, when its node is drawn. */
+/* A cross at the largest magnitude, if its node is drawn. */
 static void
 mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, struct figure *f,
              struct words *w)
@@ -256,7 +256,7 @@ mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, st
     free(depth);
 }
 
-/* What is drawn needs the map no longer, but for its keys. */
+/* Frees the values of the map, which the drawing no longer needs, and keeps its keys. */
 static void
 drop_values(struct rc_grid *g)
 {
@@ -419,8 +419,8 @@ render(struct tool *t, struct args *a, struct rc_grid *g, const struct beside *b
 
 /* ---- sheets ---- */
 
-/* The panels, and what their legend says of all; gives the maps that are drawn for sections, NULL
- * for others, which the caller frees. */
+/* The panels and their common legend; returns the maps that are drawn for sections (NULL for others), which
+ * the caller frees. */
 static void
 set_panels(struct tool *t, const struct args *a, const struct frames *frames,
            const struct window *window, struct figure *f, struct panel *panel,

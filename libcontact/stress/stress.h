@@ -34,7 +34,8 @@ struct rc_stress_task {
     const double *depth;
     size_t depths, loaded;
 };
-/* Whether there is a load; the largest traction over the pressure, or 1 if it has maps of its own. */
+/* Whether there is a load; the weight of traction relative to pressure: |mu| plus the number of traction
+ * maps. */
 static inline bool
 rc_stress_has(const struct rc_stress_task *task, int load)
 {

@@ -1,4 +1,4 @@
-/* What a trial takes, and how far its pressures or stresses are from those of the reference. */
+/* Measures the cost of a trial, and the error of its pressures or stresses against the reference. */
 #include "cost.h"
 
 #include <fcntl.h>
@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A command line: words, and the texts that they need. */
+/* A command line: words, and the texts to which they point. */
 struct line {
     const char *word[COST_WORDS];
     size_t n;
@@ -65,7 +65,7 @@ solve_line(struct cost_case *c, const struct cost_trial *m, struct line *l)
     l->n = cost_trial_words(m, l->word, l->n);
 }
 
-/* ---- beforehand ---- */
+/* ---- before the run ---- */
 
 static void
 leave_out(struct cost_trial *m, const char *why)
@@ -74,8 +74,8 @@ leave_out(struct cost_trial *m, const char *why)
     snprintf(m->why, sizeof m->why, "left out: %.240s", why);
 }
 
-/* Applications of the volume operator, two an increment and some at the end, each some convolutions a slab, in
- * times of the elastic solution. */
+/* Applications of the volume operator: two per increment and some at the end, each of some convolutions per
+ * slab; relative to the elastic solution. */
 static double
 yielding_work(const struct cost_trial *m, double elastic)
 {
@@ -85,7 +85,7 @@ yielding_work(const struct cost_trial *m, double elastic)
            elastic;
 }
 
-/* What rc-solve warns of in the reference concerns all trials. */
+/* Warnings of rc-solve for the reference apply to all trials. */
 static void
 repeat_warnings(struct cost_case *c)
 {
@@ -101,7 +101,7 @@ void
 cost_plan(struct cost_case *c, struct cost_trial *m)
 {
     enum {
-        SMALLEST = 8 /* nodes along a side from which a coarser grid is worth a look */
+        SMALLEST = 8 /* nodes along a side; smaller coarse grids are not tried */
     };
     const size_t least = m->shape.nx < m->shape.ny ? m->shape.nx : m->shape.ny;
     const char *at;
@@ -139,7 +139,7 @@ cost_plan(struct cost_case *c, struct cost_trial *m)
 
 /* ---- pressures ---- */
 
-/* The last pressure of the output, on the map's own grid, which the caller frees; NULL where there is none. */
+/* The last pressure of the output, on the map's own grid, which the caller frees; NULL: none. */
 static double *
 pressure_of(struct cost_case *c, const struct cost_trial *m)
 {
@@ -176,12 +176,12 @@ distance(size_t n, const double *p, const double *truth)
 
     for (size_t k = 0; k < n; k++) {
         sum += fabs(p[k] - truth[k]);
-        all += fabs(truth[k]); /* bodies that attract each other: net pressures */
+        all += fabs(truth[k]); /* with adhesion: net pressures */
     }
     return sum / all;
 }
 
-/* The figures that a report holds. */
+/* Takes the figures from a report. */
 static void
 take(const struct cost_case *c, struct cost_trial *m, const char *report, bool leak)
 {
@@ -200,7 +200,7 @@ take(const struct cost_case *c, struct cost_trial *m, const char *report, bool l
     }
 }
 
-/* From heights to pressure; of all loads of a history. */
+/* Seconds from heights to pressure, of all loads of a history. */
 static double
 seconds_of(char *said)
 {
@@ -221,7 +221,7 @@ static void
 stop(struct cost_trial *m, enum cost_end end, double allowed, const char *message)
 {
     if (m->figure[COST_RUNS] > 0)
-        return; /* there is a time already */
+        return; /* the time is known already */
     m->state = COST_STOPPED;
     if (end == COST_LATE)
         snprintf(m->why, sizeof m->why, "stopped after %.2g s, all that was left of --limit",
@@ -234,7 +234,7 @@ stop(struct cost_trial *m, enum cost_end end, double allowed, const char *messag
         snprintf(m->why, sizeof m->why, "it failed: %.240s", message);
 }
 
-/* The flow through the gap of the solution that ran last. */
+/* Computes the leakage through the gap of the last solution. */
 static enum cost_end
 leak(struct cost_case *c, struct cost_trial *m, double allowed, const char *name)
 {
@@ -252,7 +252,7 @@ leak(struct cost_case *c, struct cost_trial *m, double allowed, const char *name
     return end;
 }
 
-/* False where the tool has reported nothing. */
+/* Keeps the report; false if the tool wrote none. */
 static bool
 keep(struct cost_case *c, struct cost_trial *m)
 {
@@ -320,7 +320,7 @@ run_pressure(struct cost_case *c, struct cost_trial *m, double allowed)
 
 /* ---- the reference ---- */
 
-/* Slabs of a body that yields: as many as rc-solve takes by itself, known from a run in few increments. */
+/* Finds the default number of slabs of rc-solve by a run with few increments. */
 static void
 find_slabs(struct cost_case *c)
 {
@@ -345,7 +345,7 @@ find_slabs(struct cost_case *c)
     c->reference.figure[COST_SLABS] = ceil(c->base_slabs * c->reference.stack);
 }
 
-/* Memory of the largest process, and of the maps of this one: the reference, the pressure that comes back, and
+/* Memory of the largest process, and of the maps of this one: the reference, the pressure of the trial, and
  * the same on the map's grid. */
 static size_t
 memory_for(const struct cost_case *c)
@@ -397,8 +397,8 @@ stress_line(struct cost_case *c, const struct cost_trial *m, struct line *l,
     put(l, "--quiet", NULL);
 }
 
-/* Frame by frame: the largest error and the sum of squares, of how many values; the largest Mises stress, and
- * the exact one. */
+/* Over all frames: the largest error, the sum of squares and the number of values; the largest Mises stress,
+ * and the exact one. */
 struct errors {
     double worst, squares, n, mises, exact;
 };
@@ -419,7 +419,7 @@ compare(const struct rc_grid *g, const struct rc_grid *exact, struct errors *e)
     e->n += (double)rc_grid_nodes(g);
 }
 
-/* The trial and the exact one at once, so that no more than two frames are held. False: they did not end. */
+/* Compares both frame by frame, so that at most two frames are in memory. False: a process did not end. */
 static bool
 compare_stresses(struct cost_case *c, const struct cost_trial *m, double until, struct errors *e)
 {
@@ -435,7 +435,7 @@ compare_stresses(struct cost_case *c, const struct cost_trial *m, double until, 
     int child[2], in;
 
     snprintf(name, sizeof name, "/dev/fd/%d",
-             c->solution); /* opened anew it has a place of its own */
+             c->solution); /* a new descriptor has its own position */
 
     for (int k = 0; k < 2; k++) {
         stress_line(c, k == 0 ? m : &exact, &l[k], tol[k]);

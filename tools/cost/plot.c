@@ -1,6 +1,5 @@
 /*
- * Error against time: one picture of the pressures, and, where there are stresses, one below of
- * them.
+ * Error against time: a graph of the pressures and, if there are stresses, one below for them.
  */
 #define _GNU_SOURCE /* open_memstream, in POSIX since 2008 */
 #include "cost.h"
@@ -16,7 +15,7 @@ enum {
     POINTS = 64
 };
 
-/* A graph, and what its pointers lead to. */
+/* A graph and the data to which it points. */
 struct drawing {
     struct graph graph;
     struct graph_series series[SERIES];
@@ -25,7 +24,7 @@ struct drawing {
     char name[SERIES][64], subtitle[400];
 };
 
-/* Of a stress over the largest pressure, on maps of some million nodes. */
+/* Error of a stress relative to the largest pressure, on maps of some million nodes. */
 static const double rounding = 1e-14;
 
 static void
@@ -65,7 +64,7 @@ describe(const struct cost_case *c, struct drawing *d, bool stress)
         .floor_text = stress ? "rounding" : "below the reference's own error"};
 }
 
-/* The place for another point of the series of that name; SERIES: there are too many to be drawn. */
+/* The entry for a further point of the series of that name; SERIES: too many series to draw. */
 static size_t
 series_of(struct drawing *d, const char *name, size_t place)
 {
@@ -91,7 +90,7 @@ stretch(struct graph_axis *a, double value)
     a->hi = fmax(a->hi, value);
 }
 
-/* Trials from one place to another; the exact stresses, which are the first of them, last. */
+/* Trials from `from` to `to`; the exact stresses, which are the first, come last. */
 static void
 draw_trials(const struct cost_case *c, struct drawing *d, size_t from, size_t to)
 {
@@ -118,10 +117,10 @@ draw_trials(const struct cost_case *c, struct drawing *d, size_t from, size_t to
         stretch(&d->graph.x, d->x[s][n]);
         stretch(&d->graph.y, d->y[s][n]);
     }
-    if (d->graph.n == 0) { /* nothing was measured */
+    if (d->graph.n == 0) { /* no measurements */
         d->graph.x.lo = d->graph.y.lo = 0.1;
         d->graph.x.hi = d->graph.y.hi = 1;
-    } else { /* room for labels; whole decades */
+    } else { /* with margins for labels; whole decades */
         d->graph.x.lo /= 1.3;
         d->graph.x.hi *= 1.2;
         d->graph.y.lo = pow(10, floor(log10(d->graph.y.lo) - 0.1));

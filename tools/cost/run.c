@@ -1,4 +1,4 @@
-/* The programs that rc-cost runs: found, started, waited for, and what they say. */
+/* The programs that rc-cost runs: finds, starts and awaits them, and reads their messages. */
 #define _GNU_SOURCE /* of Linux: prctl */
 #include "cost.h"
 
@@ -47,7 +47,7 @@ cost_file_read(struct tool *t, int file)
 
 /* ---- processes ---- */
 
-/* The tool of that name beside this one; else its name alone, for PATH. */
+/* The path of the tool of that name in the folder of this one; else its name alone, for PATH. */
 static const char *
 beside(const char *name, char path[4096])
 {
@@ -82,7 +82,7 @@ start(const char *const word[], int in, int out, int said)
     pid_t child;
 
     lseek(in, 0, SEEK_SET);
-    fflush(NULL); /* what waits in a buffer is the parent's to write */
+    fflush(NULL); /* so that the child does not write the parent's buffers */
     if ((child = fork()) == 0)
         become(word, in, out, said);
     return child;
@@ -106,7 +106,7 @@ make_pipe(struct tool *t, int end[2])
     fcntl(end[1], F_SETFD, FD_CLOEXEC);
 }
 
-/* Reads what the process says until it ends, or has to. */
+/* Reads the output of the process until it ends or must be stopped. */
 static enum cost_end
 listen_to(struct cost_case *c, int from, double until, const char *doing)
 {
@@ -168,7 +168,7 @@ cost_run(struct cost_case *c, const char *const word[], int in, int out, double 
     }
     while (waitpid(child, &how, 0) < 0 && errno == EINTR)
         ;
-    if (tool_interrupted() != 0) /* Ctrl-C reaches both */
+    if (tool_interrupted() != 0) /* Ctrl-C reaches both processes */
         return COST_INTERRUPTED;
     if (!WIFEXITED(how))
         return COST_DIED;
@@ -190,7 +190,7 @@ cost_start(struct tool *t, const char *const word[], int in, FILE **out)
     return child;
 }
 
-/* ---- what they say ---- */
+/* ---- their reports and messages ---- */
 
 double
 cost_number(const char *report, const char *key)

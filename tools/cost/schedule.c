@@ -1,7 +1,7 @@
 /*
- * Which trials are run, in what order, and how often; and how long each will take: what rc-solve expects,
- * corrected by what trials that have been run on this map took instead. A machine may be several times off,
- * and a surface may need fewer convolutions or more.
+ * Selection, order and repetition of the trials; and the expected time of each: rc-solve's, corrected by the
+ * measured times of earlier trials on this map. A machine may differ by several times, and a surface may need
+ * fewer or more convolutions.
  */
 #include "cost.h"
 
@@ -10,8 +10,8 @@
 
 /* ---- expected times ---- */
 
-/* The trial with the nearest tolerance that was run on the map's own grid, with the same engine and, where
- * there is one, the same method; else the reference. */
+/* The measured trial on the map's own grid with the nearest tolerance, the same engine and, if there is one,
+ * the same method; else the reference. */
 static const struct cost_trial *
 nearest(const struct cost_case *c, const struct cost_trial *t)
 {
@@ -31,9 +31,9 @@ nearest(const struct cost_case *c, const struct cost_trial *t)
     return near;
 }
 
-/* Sums that a depth takes, in times of one of displacements: by the transforms of the first engine, whose plan
- * all components share, and by other engines, component by component. The error takes the exact stresses, and
- * the trial's once more. */
+/* Convolutions per depth, in units of one for displacements: with the transforms of the first engine all
+ * components share a plan; with other engines they do not. The error needs the exact stresses, and those of
+ * the trial once more. */
 static double
 expect_stress(const struct cost_case *c, const struct cost_trial *t)
 {
@@ -82,9 +82,9 @@ cost_is_near(const struct cost_case *c, const struct cost_trial *m)
     return error + c->reference.figure[COST_ESTIMATE] <= c->error;
 }
 
-/* Seconds beyond which a trial need not be run to make the choice: three times those of the
- * quickest that is good enough, or of the budget, once anything has been measured. Expectations may
- * be that far off. */
+/* Seconds beyond which a trial is not needed for the choice: three times those of the fastest trial that is
+ * accurate enough, or of the budget, once something has been measured. Expectations may be wrong by this
+ * factor. */
 static double
 too_slow(const struct cost_case *c)
 {
@@ -127,12 +127,12 @@ left(const struct cost_case *c)
     return c->limit - (tool_now() - c->began);
 }
 
-/* Part of the limit: trials that are expected to take more come last, because they may use up the
- * time. Before them the quick ones are repeated and the stresses are run. */
+/* Fraction of the limit: trials with a longer expected time come last, because they may use up the time.
+ * Before them fast trials are repeated and the stresses are computed. */
 static const double slow = 1 / 30.0;
 
-/* Whether it took longer than a trial that does the same work and more: then other programs took
- * part of its time. */
+/* Whether the trial took longer than one that does the same work and more: then other programs took part of
+ * its time. */
 static bool
 disturbed(const struct cost_case *c, const struct cost_trial *m)
 {
@@ -165,7 +165,7 @@ again(const struct cost_case *c, const struct cost_trial *m)
            (runs < 5 && disturbed(c, m));
 }
 
-/* In turns, so that a disturbance does not fall on one trial alone. */
+/* Repeats trials in turns, so that a disturbance does not affect one trial alone. */
 static void
 repeat(struct cost_case *c)
 {
@@ -181,7 +181,7 @@ repeat(struct cost_case *c)
     }
 }
 
-/* In half of the time that is left. */
+/* Runs the stresses in half of the remaining time. */
 static void
 run_stresses(struct cost_case *c)
 {
@@ -197,7 +197,7 @@ run_stresses(struct cost_case *c)
     }
 }
 
-/* The quickest that is still to be run. */
+/* The fastest trial that has not been run. */
 static struct cost_trial *
 next(struct cost_case *c)
 {

@@ -1,4 +1,4 @@
-/* What was measured: as a table, as a report, and as the one command line for a time or an accuracy. */
+/* The results as a table, as a report, and as the one command for a time or an accuracy. */
 #include "cost.h"
 
 #include <math.h>
@@ -31,7 +31,7 @@ const struct cost_column cost_columns[COST_FIGURES] = {
 };
 /* clang-format on */
 
-/* Figures that are settings, which the table shows last and the report first. */
+/* Figures that are settings: last in the table, first in the report. */
 static bool
 is_setting(size_t figure)
 {
@@ -40,7 +40,7 @@ is_setting(size_t figure)
 
 /* ---- marks ---- */
 
-/* Errors below that of the reference count as equal; that of the exact stresses is taken as rounding. */
+/* Errors below that of the reference count as equal; the error of the exact stresses counts as rounding. */
 static double
 error_of(const struct cost_case *c, const struct cost_trial *t)
 {
@@ -142,7 +142,7 @@ put_head(const struct cost_case *c, FILE *out)
                  "grid\n");
 }
 
-/* The depths of the stresses, as the report of the exact ones has them. */
+/* The depths of the stresses, from the report of the exact ones. */
 static size_t
 depths(const struct cost_case *c, double *first, double *last)
 {
@@ -187,13 +187,13 @@ note(const struct cost_trial *m)
     return text[0] == '\0' ? "-" : text + 1;
 }
 
-/* The cells of a trial, NULL: the heads of their columns. */
+/* Prints the cells of a trial; NULL: the headings. */
 static void
 put_cells(unsigned about, const struct cost_trial *m, bool settings, FILE *out)
 {
     for (size_t k = 0; k < COST_FIGURES; k++) {
         const struct cost_column *col = &cost_columns[k];
-        /* what leaks stands last */
+        /* leakage is the last column */
         if (col->head == NULL || !(col->of & about) ||
             (is_setting(k) || col->of == COST_LEAK) != settings)
             continue;
@@ -328,7 +328,7 @@ cost_report(const struct cost_case *c, struct report *out)
 
 /* ---- the command ---- */
 
-/* A word as a shell reads it. */
+/* Prints a word quoted for a shell. */
 static void
 put_word(FILE *out, const char *word)
 {
@@ -356,12 +356,12 @@ put_files(const struct tool *t, FILE *out)
     for (size_t k = 0; k < t->operands; k++) {
         const char *word = t->operand[k];
         snprintf(name, sizeof name, "./%s", word);
-        put_word(out, word[0] == '-' && word[1] != '\0' ? name : word); /* a name, no option */
+        put_word(out, word[0] == '-' && word[1] != '\0' ? name : word); /* a name, not an option */
     }
 }
 
-/* On a coarser grid rc-pick makes the means of the cells first; a sphere that rc-solve adds is on any grid
- * what its means are, but for a constant. */
+/* On a coarser grid rc-pick averages the cells first. A sphere that rc-solve adds equals its cell means on
+ * any grid, but for a constant. */
 static void
 put_command(const struct cost_case *c, const struct cost_trial *m, FILE *out)
 {
@@ -404,7 +404,7 @@ cost_command(const struct cost_case *c, FILE *out)
 {
     const struct cost_trial *best = NULL, *nearest = NULL;
     const bool timed = !isnan(c->budget);
-    char name[128], own[32] = "none"; /* of few increments */
+    char name[128], own[32] = "none"; /* from few increments */
 
     for (size_t k = 0; k < c->pressures; k++) {
         const struct cost_trial *m = &c->trial[k];

@@ -1,9 +1,8 @@
 /*
- * Which trials there are, in the order in which the table shows them: every method with every engine of
- * libcontact's tables. The first of each, which "auto" takes, are tried in small steps of the tolerance and on
- * coarser grids, the others in larger steps, to compare with. Of a body that yields inside every stack of
- * slabs in every number of increments; of bodies that attract each other the one method that there is. Then
- * the stresses, by every engine.
+ * The trials in the order of the table: every method with every engine of libcontact's tables. The first of
+ * each, which "auto" uses, are tried in small steps of the tolerance and on coarser grids, the others in
+ * larger steps for comparison. For a body that yields: every number of slabs with every number of increments.
+ * For bodies that attract each other: the only method. Then the stresses, with every engine.
  */
 #include "cost.h"
 
@@ -11,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Tolerances 1e-from, 1e-(from + step), ..., 1e-to; step 0: there are none. */
+/* Tolerances 1e-from, 1e-(from + step), ..., 1e-to; step 0: none. */
 struct range {
     int from, to, step;
 };
@@ -24,28 +23,27 @@ range_of(size_t method, size_t engine)
     bool sums = e->order > 1;
 
     if ((e->precise && !m->mixed) || (method > 0 && sums))
-        return (struct range){0, 0, 0}; /* of the first kind the row before is the same */
+        return (struct range){0, 0, 0}; /* for the first kind the row before is the same */
     if (method == 0)
         return (struct range){2, 10, sums ? 4 : engine == 0 ? 1 : 2};
     return (struct range){2, engine == 0 ? 8 : 4, 2};
 }
 
-/* On coarser grids the discretization error soon hides what a tolerance changes. Bodies that attract each
- * other: farther off than 1e-3 a state may be another, and on a coarser grid the cohesive length has fewer
- * nodes. */
+/* On coarser grids the discretization error soon exceeds the effect of the tolerance. With adhesion an error
+ * above 1e-3 may belong to another state, and a coarser grid has fewer nodes per cohesive length. */
 static const struct {
     unsigned coarse;
     struct range range;
 } coarser[] = {{8, {2, 2, 1}}, {4, {2, 2, 1}}, {2, {2, 3, 1}}},
   attracting[] = {{4, {3, 3, 1}}, {2, {3, 4, 1}}, {1, {3, 6, 1}}, {1, {8, 8, 1}}};
 
-/* Half as many slabs, as many as rc-solve takes, twice as many. */
+/* Half of rc-solve's slabs, as many, and twice as many. */
 static const double stacks[] = {0.5, 1, 2};
 static const size_t increments[] = {4, 8, 16, 32, 64};
-static const double contact_tol = 1e-4; /* of each contact, as rc-solve has it */
+static const double contact_tol = 1e-4; /* of each contact, as in rc-solve */
 
-/* Stresses: the first engine is exact, and is quicker with a tolerance, by coarser grids for deep slices. Of
- * the others those whose time grows with the square of the nodes take no tolerance. */
+/* Stresses: the first engine is exact; with a tolerance it is faster, because deep slices use coarser grids.
+ * Other engines whose time grows with the square of the nodes take no tolerance. */
 static const double first_tols[] = {0, 1e-2, 1e-3, 1e-4, 1e-6}, other_tols[] = {1e-2, 1e-4, 1e-6},
                     rounding[] = {0};
 
@@ -65,7 +63,8 @@ add(struct cost_case *c, struct cost_trial t)
     t.planned = t.mebibytes = NAN;
     t.goal = !(t.about & COST_YIELD) || t.reference ? t.tol : isnan(c->error) ? 0 : c->error;
     t.shape = c->shape;
-    for (size_t side = 0; side < 2 && t.coarse > 1; side++) { /* of the same area */
+    /* so that both grids have the same area */
+    for (size_t side = 0; side < 2 && t.coarse > 1; side++) {
         size_t *n = side == 0 ? &t.shape.nx : &t.shape.ny, nodes = *n;
         double *d = side == 0 ? &t.shape.dx : &t.shape.dy;
         *n = (nodes + t.coarse / 2) / t.coarse > 0 ? (nodes + t.coarse / 2) / t.coarse : 1;
@@ -144,7 +143,7 @@ add_stresses(struct cost_case *c)
         size_t n = k == 0 ? COUNT(first_tols) : e->order == 1 ? COUNT(other_tols) : 1;
 
         if (e->precise || (c->periodic && !e->periodic))
-            continue; /* stresses are in double precision anyway */
+            continue; /* stresses are always in double precision */
         for (size_t i = 0; i < n; i++)
             add(c, (struct cost_trial){.about = COST_STRESS,
                                        .kernel = e->name,
@@ -154,7 +153,7 @@ add_stresses(struct cost_case *c)
     }
 }
 
-/* Double precision throughout, to 1e-12; of a body that yields, more increments than any trial and the finest
+/* Double precision throughout, to 1e-12; for a body that yields, more increments than any trial and the most
  * slabs. */
 static struct cost_trial
 reference_of(const struct cost_case *c)
@@ -222,7 +221,7 @@ cost_series(const struct cost_trial *t)
     return 0;
 }
 
-/* "12 slabs", before they are known "1 x the slabs". */
+/* "12 slabs"; before the number is known "1 x the slabs". */
 static const char *
 slabs_of(char text[32], const struct cost_trial *t)
 {
@@ -285,7 +284,8 @@ cost_trial_words(const struct cost_trial *t, const char *word[], size_t n)
         word[n++] = "--method";
         word[n++] = t->method;
     }
-    if (!(t->about & (COST_YIELD | COST_ADHESION))) { /* there is one method, with one kernel */
+    /* yield and adhesion have only one method and kernel */
+    if (!(t->about & (COST_YIELD | COST_ADHESION))) {
         word[n++] = "--kernel";
         word[n++] = t->kernel;
     }

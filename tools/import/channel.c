@@ -1,4 +1,4 @@
-/* Which channel of a file is read. */
+/* Selects the channel of a file. */
 #include "import.h"
 
 #include <math.h>
@@ -11,7 +11,8 @@ begins(const char *name, const char *start)
     return rc_piece_begins((struct rc_piece){name, strlen(name)}, start);
 }
 
-/* "1 'Phase' in deg, 2 'Current' in A" of those that begin so, but for one; "..." stands for the rest. */
+/* "1 'Phase' in deg, 2 'Current' in A" for the channels whose names begin so, except one; "..." replaces the
+ * rest. */
 static const char *
 list_names(const struct rc_channel *channel, size_t n, size_t except, const char *start,
            char names[IMPORT_NAMES])
@@ -58,7 +59,7 @@ pick_topography(const struct rc_channel *channel, size_t n, bool any_unit, struc
     struct rc_topography t = rc_format_topography(channel, n, "m");
     char names[IMPORT_NAMES];
 
-    if (t.index == n) /* its reader says what it lacks */
+    if (t.index == n) /* the reader says what is missing */
         t = rc_format_topography(channel, n, any_unit ? NULL : "");
     if (t.index == n)
         return rc_err_set(err,
@@ -78,7 +79,7 @@ pick_topography(const struct rc_channel *channel, size_t n, bool any_unit, struc
     return RC_OK;
 }
 
-/* The channels of exactly that name, in either case or not: their number, and the first. */
+/* The channels of exactly that name, with or without regard to case: their number, and the first. */
 static size_t
 named(const struct rc_channel *channel, size_t n, const char *wanted, bool either_case,
       size_t *first)

@@ -1,4 +1,4 @@
-/* Profiles on another step. */
+/* Resamples profiles to another step. */
 #include "import.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ import_even(const struct rc_file *file, const struct rc_wish *wish, struct rc_gr
                           g->ny);
     if (g->nx < 2)
         return rc_err_set(err, "--even STEP resamples profiles, and this is a single point");
-    if (fabs(g->dx - wish->even_step) <= 1e-9 * wish->even_step) { /* its reader did that */
+    if (fabs(g->dx - wish->even_step) <= 1e-9 * wish->even_step) { /* the reader already did it */
         g->dx = g->dy = wish->even_step;
         return RC_OK;
     }

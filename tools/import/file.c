@@ -14,7 +14,7 @@ import_source(const char *name)
     return strcmp(name, "-") == 0 ? "standard input" : name;
 }
 
-/* Bytes to begin with: the whole of a file, when it says how large it is. */
+/* Initial size of the buffer: the size of the file, if it is known. */
 static size_t
 first_size(FILE *in)
 {
@@ -26,7 +26,7 @@ first_size(FILE *in)
     return 1 << 16;
 }
 
-/* All that `in` holds, or NULL. */
+/* All bytes of `in`, or NULL. */
 static unsigned char *
 whole(struct tool *t, FILE *in, size_t *n, struct rc_err *err)
 {
@@ -82,7 +82,7 @@ enum rc_status
 import_skip(struct rc_file *file, unsigned char *data, size_t lines, struct rc_err *err)
 {
     size_t wide = rc_file_is_utf16(file) ? 2 : 1, at = wide == 2 ? 2 : 0, done = 0;
-    size_t low = wide == 2 && data[0] == 0xfe ? 1 : 0; /* place of the byte that counts */
+    size_t low = wide == 2 && data[0] == 0xfe ? 1 : 0; /* position of the significant byte */
 
     while (done < lines && at + wide <= file->size) {
         unsigned c = data[at + low] + (wide == 2 ? 256U * data[at + 1 - low] : 0U);
@@ -95,7 +95,7 @@ import_skip(struct rc_file *file, unsigned char *data, size_t lines, struct rc_e
     }
     if (done < lines || at >= file->size)
         return rc_err_set(err, "--skip %zu leaves nothing of the file", lines);
-    if (wide == 2) { /* its mark stays in front */
+    if (wide == 2) { /* the byte order mark stays at the start */
         at -= 2;
         memmove(data + at, data, 2);
     }

@@ -1,4 +1,4 @@
-/* Sizes that hardly any surface has: most often a unit that is not the one its file should have. */
+/* Warns of sizes that surfaces hardly ever have: most often the file has a wrong unit. */
 #include "import.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 static const double longest = 1, shortest = 10e-9; /* m, of a side */
 
-/* Largest less least height. */
+/* Range of the heights. */
 static double
 span_of(const struct rc_grid *g)
 {
@@ -45,7 +45,7 @@ import_judge(struct tool *t, const struct rc_grid *g, const struct rc_wish *wish
 
 /* ---- marks of missing points ---- */
 
-/* A value at one end of the range, how many nodes have it, and what the others are. */
+/* A value at one end of the range, its number of nodes, and the next value. */
 struct end {
     double value, next; /* next: the nearest other value */
     size_t n;
@@ -73,7 +73,7 @@ find_end(const struct rc_grid *g, bool least, struct end *end)
     }
 }
 
-/* Whether programs write the number for a missing point: nines, or a power of two less one, or huge. */
+/* Whether programs use the number for missing points: nines, a power of two less one, or very large. */
 static bool
 is_usual_mark(double value)
 {

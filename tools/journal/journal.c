@@ -8,8 +8,9 @@
 
 static const char end_line[] = "RCGEND 1\n";
 
-/* NULL and errno where it cannot be opened so. Of several processes the first opens it so, the others what it
- * has found or made: each by itself could find what the first has just made. All get NULL, or none. */
+/* NULL and errno where the file cannot be opened in this mode. With several processes the first opens it in
+ * this mode, the others open the file that the first has found or created; otherwise they could find what the
+ * first has just created. All get NULL, or none. */
 static FILE *
 open_file(const struct journal *j, const char *mode)
 {
@@ -28,10 +29,10 @@ open_file(const struct journal *j, const char *mode)
     return problem == 0 ? file : NULL;
 }
 
-/* Two runs that add to one file would spoil it. The lock ends with the process, also when it is killed; a
- * file system without locks does without. It belongs to the open file where there are such locks: one that
- * belongs to the process ends when the process closes the file anywhere, as MPI-IO does after each frame.
- * And it is on a byte behind all data: MPI-IO locks what it writes itself. */
+/* Locks the file, because two runs that add to one file would damage it. The lock ends with the process, also
+ * when it is killed; on a file system without locks there is none. Where the system has them, locks of the
+ * open file are used: a lock of the process would end when the process closes the file anywhere, as MPI-IO
+ * does after each frame. The lock is on a byte beyond all data, because MPI-IO locks what it writes. */
 static void
 lock(const struct journal *j)
 {
@@ -44,7 +45,7 @@ lock(const struct journal *j)
         .l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};
     bool taken = false;
 
-    if (ranks_speak(j->t)) /* of several processes that write it together the first */
+    if (ranks_speak(j->t)) /* of several processes that write together only the first speaks */
         taken = fcntl(fileno(j->file), set, &behind) != 0 && (errno == EACCES || errno == EAGAIN);
     ranks_share(j->t, 0, &taken, sizeof taken);
     if (taken)
@@ -136,8 +137,8 @@ journal_read(const struct journal *j, off_t at)
     return g;
 }
 
-/* A stream of one frame behind what is there; of several processes, by all of them: where one fails none has
- * done it. */
+/* Writes a stream of one frame at the end of the file; all processes take part: if one fails, none has
+ * written. */
 static enum rc_status
 put(struct journal *j, const struct rc_grid *g, off_t at, struct rc_err *err)
 {
@@ -159,7 +160,7 @@ put(struct journal *j, const struct rc_grid *g, off_t at, struct rc_err *err)
     return status;
 }
 
-/* Where the next frame goes; false: nowhere. */
+/* The position of the next frame; false: unknown. */
 static bool
 find_end(const struct journal *j, off_t *at)
 {

@@ -1,6 +1,6 @@
 /*
- * The face of this folder: what the operating system gives a tool: memory, pipes, and files that
- * appear whole or not at all. Nothing here knows a tool.
+ * The interface of this folder: services of the operating system: memory, pipes, and files that appear whole
+ * or not at all. Nothing here depends on a tool.
  */
 #ifndef RC_MACHINE_H
 #define RC_MACHINE_H

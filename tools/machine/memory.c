@@ -19,11 +19,11 @@ enum {
     LINE_SIZE = 2 * PATH_SIZE
 };
 
-/* ---- files of the kernel, read without the heap: a report on memory must not take any ---- */
+/* ---- files of the kernel, read without the heap, because a report on memory must not allocate ---- */
 
 struct text {
     int fd;
-    size_t at, n; /* of the bytes read, how many are done, and all */
+    size_t at, n; /* bytes of the buffer: processed, and read */
     char bytes[PATH_SIZE];
 };
 
@@ -55,7 +55,7 @@ next_byte(struct text *text, char *byte)
     return true;
 }
 
-/* As fgets: the next line, or as much of it as there is room for; false: no more. */
+/* As fgets: the next line, or as much of it as fits; false: no more lines. */
 static bool
 next_line(struct text *text, char *line, size_t size)
 {
@@ -68,8 +68,8 @@ next_line(struct text *text, char *line, size_t size)
     return n > 0;
 }
 
-/* The number that follows `key` in a file of "key number" lines, times `unit`; NAN: none. Without a
- * key the first number of the file; "max" is none. */
+/* The number after `key` in a file of "key number" lines, times `unit`; NAN: none. Without a key the first
+ * number of the file; "max" is none. */
 static double
 number_in(const char *root, const char *folder, const char *name, const char *key, double unit)
 {
@@ -145,7 +145,7 @@ memory_give_back(void)
 #endif
 }
 
-/* ---- what bounds it ---- */
+/* ---- limits ---- */
 
 static void
 lower(struct memory_room *room, double bytes, const char *why)
@@ -182,10 +182,10 @@ look_at_limits(struct memory_room *room)
     }
 }
 
-/* Names of the files of a group, by the version of the interface. */
+/* Names of the files of a control group, by version of the interface. */
 static const struct version {
-    const char *type; /* of file system */
-    bool named;       /* by the controller "memory" */
+    const char *type; /* of the file system */
+    bool named;       /* the controller has the name "memory" */
     const char *bound[2], *usage, *cached;
 } versions[] = {
     {"cgroup2", false, {"/memory.max", "/memory.high"}, "/memory.current", "inactive_file "},
@@ -196,14 +196,14 @@ static const struct version {
      "total_inactive_file "},
 };
 
-/* A soft limit of version 1 bounds nothing by itself. */
+/* Soft limits of version 1 are ignored, because they do not limit anything by themselves. */
 static size_t
 bounds_of(const struct version *v)
 {
     return v->named ? 1 : 2;
 }
 
-/* One group: its bound less its use; the use leaves out pages of files, which are dropped first. */
+/* One group: its limit less its use, without cached pages of files, which the kernel drops first. */
 static void
 look_at_group(const char *root, const char *folder, const struct version *v,
               struct memory_room *room)
@@ -232,7 +232,7 @@ has_word(const char *list, const char *word)
     return false;
 }
 
-/* Of /proc/self/cgroup: where in the tree of this version the process is. */
+/* From /proc/self/cgroup: the path of the process in the tree of this version. */
 static bool
 group_path(const char *root, const struct version *v, char *path)
 {
@@ -257,7 +257,7 @@ group_path(const char *root, const struct version *v, char *path)
     return found;
 }
 
-/* Of /proc/self/mountinfo: where that tree is mounted, and which part of it. */
+/* From /proc/self/mountinfo: where that tree is mounted, and which part of it. */
 static bool
 group_mount(const char *root, const struct version *v, char *part, char *mount)
 {
@@ -277,15 +277,15 @@ group_mount(const char *root, const struct version *v, char *part, char *mount)
     return found;
 }
 
-/* Whether the path is that of the group, given by its first n bytes, or of one inside. */
+/* Whether the path is that of the group, given by its first n bytes, or inside it. */
 static bool
 is_inside(const char *path, const char *group, size_t n)
 {
     return strncmp(path, group, n) == 0 && (path[n] == '/' || path[n] == '\0');
 }
 
-/* From the process's own group to the outermost that can be seen. In a container only the inner part
- * of the tree is mounted: what lies outside is not in the path. */
+/* From the process's own group to the outermost visible one. In a container only the inner part of the tree
+ * is mounted; the path does not show what lies outside. */
 static void
 look_at_groups(const char *root, const struct version *v, struct memory_room *room)
 {

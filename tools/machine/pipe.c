@@ -1,4 +1,4 @@
-/* A file of its own: _GNU_SOURCE would change what signal() does in output.c. */
+/* A separate file, because _GNU_SOURCE would change signal() in output.c. */
 #define _GNU_SOURCE /* F_SETPIPE_SZ */
 #include "pipe.h"
 

@@ -6,11 +6,10 @@
 
 #include <stdbool.h>
 
-/* Where fd is a pipe and the system lets us say so, it holds 1 MiB: fewer turns between this
- * tool and the next. */
+/* If fd is a pipe and the system permits it, sets its capacity to 1 MiB: fewer switches between this tool and
+ * the next. */
 void pipe_widen(int fd);
-/* Whether what is written to fd, or read from it, goes through a pipe or a socket: to or from
- * another program that runs now. */
+/* Whether fd is a pipe or a socket: connected to another program that runs now. */
 bool pipe_is(int fd);
 
 #endif

@@ -11,7 +11,7 @@ enum {
     SLOTS = 4
 };
 
-/* Names of what is half-written; empty: none. A signal handler reads them. */
+/* Names of half-written files; empty: none. A signal handler reads them. */
 static char half[SLOTS][WHOLE_PATH];
 
 void
@@ -24,7 +24,7 @@ whole_files_remove(void)
     }
 }
 
-/* Copies text; false, with errno, where there is no room for it and the letters of a half-written name. */
+/* Copies text; false, with errno, if text and the suffix of a half-written name do not fit. */
 static bool
 keep(char place[WHOLE_PATH], const char *text)
 {
@@ -36,8 +36,7 @@ keep(char place[WHOLE_PATH], const char *text)
     return true;
 }
 
-/* Replaces the name of a link by the name that it holds; false: it is no link, or that name is too
- * long. */
+/* Replaces the name of a link by its target; false: not a link, or the target's name is too long. */
 static bool
 follow(char place[WHOLE_PATH])
 {
@@ -61,7 +60,7 @@ whole_file_place(const char *name, char place[WHOLE_PATH])
 
     if (!keep(place, name))
         return false;
-    do { /* a link to what is not there yet: links in a circle are ELOOP */
+    do { /* a link whose target does not exist yet; a cycle of links is ELOOP */
         if ((real = realpath(place, NULL)) != NULL) {
             fits = keep(place, real);
             free(real);
@@ -84,7 +83,7 @@ free_slot(void)
     return slot < SLOTS ? slot : -1;
 }
 
-/* Makes the file and notes its name, with no signal in between. */
+/* Creates the file and notes its name while signals are blocked. */
 static int
 make(struct whole_file *w)
 {
@@ -166,13 +165,13 @@ file_settle(FILE *file)
     return result == 0 || errno == EINVAL || errno == EROFS || errno == ENOSYS || errno == ENOTSUP;
 }
 
-/* Without file_settle the new name may reach the disk before what is in the file: a power failure then
- * leaves an empty one in the place of the old. */
+/* Without file_settle the new name may reach the disk before the data: after a power failure an empty file
+ * would then replace the old one. */
 static bool
 close_written(FILE *file, bool settle)
 {
     bool fine;
-    int why = EIO; /* of a write that failed long ago */
+    int why = EIO; /* of an earlier failed write */
 
     if ((fine = !ferror(file)) && !(fine = settle ? file_settle(file) : fflush(file) == 0))
         why = errno;

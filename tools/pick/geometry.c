@@ -1,4 +1,4 @@
-/* Parts of maps, other spacings, mirrors and quarter turns. */
+/* Cuts, resamples, mirrors and rotates maps. */
 #include "pick.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #include "libcontact/contact.h"
 
-/* What an argument asks for: nodes, or lengths in metres. */
+/* An argument: nodes, or lengths in metres. */
 struct request {
     bool lengths;
     double v[4];
@@ -18,7 +18,7 @@ struct request {
 struct geometry {
     const char *option;
     bool turns;
-    /* RC_FAIL for words that are no request. */
+    /* RC_FAIL for an invalid argument. */
     enum rc_status (*read)(const char *text, struct request *r, struct rc_err *err);
     enum rc_status (*apply)(struct tool *t, struct rc_grid *g, const struct request *r,
                             struct rc_err *err);
@@ -26,7 +26,7 @@ struct geometry {
 
 /* ---- arguments ---- */
 
-/* The numbers between commas, at most four, and which of them carry a unit. */
+/* Reads the numbers between commas, at most four, and which of them have a unit. */
 static enum rc_status
 read_numbers(const char *text, struct request *r, bool with_unit[4], struct rc_err *err)
 {
@@ -73,7 +73,7 @@ read_crop(const char *text, struct request *r, struct rc_err *err)
     return RC_OK;
 }
 
-/* Digits up to `end`, as a count of nodes. */
+/* Reads the digits up to `end` as a number of nodes. */
 static bool
 read_count(const char *text, const char *end, double *count)
 {
@@ -145,7 +145,7 @@ new_map(const struct rc_grid *g, const struct rc_shape *shape, struct rc_grid **
     return *to == NULL ? RC_FAIL : RC_OK;
 }
 
-/* Gives g the grid and the values of `to`, which goes. */
+/* Moves the grid and values of `to` into g, and frees `to`. */
 static void
 replace(struct rc_grid *g, struct rc_grid *to)
 {
@@ -180,7 +180,7 @@ remove_keys(struct rc_grid *g, const char *const *name, struct rc_err *err)
     return status;
 }
 
-/* Keys that count points do not hold for the new points. */
+/* Removes keys that count points, because the points are new. */
 static enum rc_status
 forget_counts(struct rc_grid *g, struct rc_err *err)
 {
@@ -204,7 +204,7 @@ forget_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
 
 /* ---- steps ---- */
 
-/* Nodes between two places on a side, lengths from its edge: those whose middles lie there. */
+/* Nodes whose middles lie between two positions, lengths from the edge of a side. */
 static enum rc_status
 nodes_between(double from, double length, size_t n, double d, size_t *first, size_t *count,
               struct rc_err *err)
@@ -259,11 +259,11 @@ new_shape(const struct rc_shape *from, const struct request *r, struct rc_shape 
                             .dx = from->dx * ((double)from->nx / r->v[0]),
                             .dy = from->dy * ((double)from->ny / r->v[1])};
     if (from->ny == 1 && to->ny == 1 && from->dy == from->dx)
-        to->dy = to->dx; /* a profile is as wide as its nodes are apart */
+        to->dy = to->dx; /* the width of a profile equals its spacing */
     return rc_shape_check(to, err);
 }
 
-/* Where means over cells cover the whole map, the load stays. */
+/* If means over cells cover the whole map, the load is preserved. */
 static enum rc_status
 resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
 {
@@ -284,7 +284,7 @@ resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_e
         return RC_FAIL;
     }
     for (size_t k = 0; strcmp(g->channel, CONTACT_CHANNEL) == 0 && k < to.nx * to.ny; k++)
-        map->v[k] = map->v[k] < 0.5 ? 0 : 1; /* most of the cell touches, or does not */
+        map->v[k] = map->v[k] < 0.5 ? 0 : 1; /* 1 if most of the cell is in contact */
     replace(g, map);
     if ((!covers && forget_period(t, g, err) != RC_OK) || (!same && forget_counts(g, err) != RC_OK))
         return RC_FAIL;

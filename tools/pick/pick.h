@@ -1,4 +1,4 @@
-/* The face of this folder: the steps of rc-pick that cut, resample and turn maps. */
+/* The interface of this folder: the steps of rc-pick that cut, resample and rotate maps. */
 #ifndef RC_PICK_H
 #define RC_PICK_H
 
@@ -6,11 +6,11 @@
 
 /* Whether a step is one of them. */
 bool pick_geometry(const struct step *step);
-/* Ends the tool when the step's argument makes no sense; lengths in it are in metres from here on,
- * as history has them. */
+/* Ends the tool when the step's argument is invalid; its lengths are in metres afterwards, as in the
+ * history. */
 void pick_geometry_settle(struct tool *tool, struct step *step);
-/* Does it to a frame, and to the keys that tell of the whole map. Ends the tool where it cannot be
- * done to this frame. */
+/* Applies the step to a frame and to the keys that describe the whole map. Ends the tool where the step
+ * cannot be applied. */
 void pick_geometry_do(struct tool *tool, struct rc_grid *grid, const struct step *step);
 
 #endif

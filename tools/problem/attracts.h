@@ -1,5 +1,5 @@
 /*
- * Bodies that attract each other, as the tools that solve them are told.
+ * Bodies that attract each other: the option --adhesion for the tools that solve them.
  */
 #ifndef RC_TOOL_ATTRACTS_H
 #define RC_TOOL_ATTRACTS_H
@@ -7,7 +7,7 @@
 #include "libcontact/contact.h"
 
 struct attraction {
-    struct rc_adhesion_problem problem; /* but for the contact; its law points to `name` */
+    struct rc_adhesion_problem problem; /* without the contact; its law points to `name` */
     char name[64];
 };
 

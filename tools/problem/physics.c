@@ -48,7 +48,7 @@ name_of_steps(const struct physics *a)
     return a->load.n > 0 ? "load" : a->mean_pressure.n > 0 ? "mean-pressure" : "approach";
 }
 
-/* Loads of 0 take bodies apart, which means nothing unless they have been together before. */
+/* A load of 0 separates the bodies, which makes sense only after another load. */
 static void
 check_steps(struct tool *t, const struct physics *a)
 {
@@ -110,7 +110,7 @@ check_elasticity(struct tool *t, struct physics *a)
     a->surface_estar = 1 / (plane_compliance(a->e1, a->nu1) + plane_compliance(a->e2, a->nu2));
 }
 
-/* No residual stress of use is below a millionth of the modulus, and none is above it. */
+/* Useful residual stresses lie between a millionth of the modulus and the modulus. */
 static void
 warn_of_residual(struct tool *t, const char *layer, double stress, double e)
 {
@@ -125,7 +125,7 @@ warn_of_residual(struct tool *t, const char *layer, double stress, double e)
                   fabs(stress) > e ? "above the modulus" : "below a millionth of the modulus");
 }
 
-/* The layers lie on body 1. History has them in SI. */
+/* The layers lie on body 1. The history lists them in SI. */
 static void
 check_layers(struct tool *t, struct physics *a)
 {
@@ -207,7 +207,8 @@ add_sphere(struct tool *t, const struct physics *a, struct rc_grid *g)
     if (row == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "out of memory");
     column = row + g->nx;
-    rc_synth_sphere(&along, a->radius, row); /* a parabola is the sum of two */
+    /* the sum of two spheres of revolution along x and y, that is of two parabolas */
+    rc_synth_sphere(&along, a->radius, row);
     rc_synth_sphere(&across, a->radius, column);
     for (size_t j = 0; j < g->ny - g->elsewhere; j++)
         for (size_t i = 0; i < g->nx; i++)
@@ -215,7 +216,7 @@ add_sphere(struct tool *t, const struct physics *a, struct rc_grid *g)
     free(row);
 }
 
-/* A sphere that is added is named in the heights, so that it is not added twice. */
+/* An added sphere is named in the header, so that it is not added twice. */
 static void
 add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
@@ -232,8 +233,7 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* A map that is no period of anything has a step where its edges meet, and that is where the pressure
- * goes. */
+/* A map that is not a period has a step where its opposite edges meet, which would carry much of the load. */
 static void
 warn_of_seam(struct tool *t, const struct rc_grid *g)
 {
@@ -257,7 +257,7 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
                 g->nx > 1 && g->ny > 1 ? "4 times" : "twice");
 }
 
-/* Of the one row or column of a profile, on which a force acts. */
+/* Width of the single row or column of a profile, on which a force acts. */
 static double
 width_of(const struct rc_grid *g)
 {
@@ -286,7 +286,7 @@ check_profile(struct tool *t, const struct physics *a, const struct rc_grid *g)
                   where, width);
 }
 
-/* A plain number is in metres: one that was meant in micrometres or millimetres dwarfs the map. */
+/* Plain numbers are in metres: warns where micrometres or millimetres were probably meant. */
 static void
 warn_of_metres(struct tool *t, const struct physics *a, const struct rc_grid *g, const char *where)
 {
@@ -339,7 +339,7 @@ physics_heights(struct tool *t, const struct physics *a, struct rc_grid *g)
         add_form(t, a, g);
     for (size_t k = 0; k < rc_grid_nodes(g); k++)
         zero += 0 * g->v[k];
-    if (ranks_most(t, isnan(zero)) > 0) /* the slow way finds the first */
+    if (ranks_most(t, isnan(zero)) > 0) /* a slower search finds the first such node */
         tool_demand_finite(t, g, "fill them with rc-detrend --fill");
     check_profile(t, a, g);
     warn(t, a, g);

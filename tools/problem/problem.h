@@ -1,6 +1,6 @@
 /*
- * The face of this folder: a contact as the tools that solve it are told, load, bodies and boundary, what goes
- * with --yield and --adhesion, and the parts of an estimated error.
+ * The interface of this folder: a contact as the tools that solve it read it (load, bodies, boundary), the
+ * options --yield and --adhesion, and the parts of an estimated error.
  */
 #ifndef RC_TOOL_PROBLEM_H
 #define RC_TOOL_PROBLEM_H

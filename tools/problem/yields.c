@@ -1,6 +1,5 @@
 /*
- * --yield: the law by which body 1 yields inside, what it does not go with, and the slabs that it is
- * looked at in.
+ * --yield: the yield law of body 1, the options that exclude it, and its slabs.
  */
 #include "yields.h"
 
@@ -10,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether the word begins as no number does, nan among them. */
+/* Whether the word cannot begin a number; "nan" counts as a word. */
 static bool
 is_word(const char *text)
 {
@@ -20,7 +19,7 @@ is_word(const char *text)
     return end == text;
 }
 
-/* A point of the table after those that there are. */
+/* Checks a point of the table against the points before it. */
 static enum rc_status
 check_point(const struct yield_law *y, size_t n, double strain, double stress, struct rc_err *err)
 {
@@ -38,7 +37,7 @@ check_point(const struct yield_law *y, size_t n, double strain, double stress, s
     return RC_OK;
 }
 
-/* "strain stress" in lines; '#' begins a comment, and a line of words at the top is a heading. */
+/* Reads lines of "strain stress"; '#' begins a comment, and a line of words at the top is a heading. */
 static enum rc_status
 read_table(struct yield_law *y, const char *name, struct rc_err *err)
 {
@@ -128,7 +127,7 @@ yield_law_refuse(struct tool *t, bool given, const char *what, const char *why)
         tool_die(t, EXIT_USAGE, "--yield: not with %s: %s", what, why);
 }
 
-/* No solid yields at less than a millionth of its modulus, nor at more than all of it. */
+/* The yield stress of a solid lies between a millionth of its modulus and the modulus. */
 static void
 check_unit(struct tool *t, double stress, double estar)
 {

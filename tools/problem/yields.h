@@ -1,5 +1,5 @@
 /*
- * A body that yields inside, as the tools that solve it are told.
+ * A body that yields inside: the option --yield for the tools that solve it.
  */
 #ifndef RC_TOOL_YIELDS_H
 #define RC_TOOL_YIELDS_H
@@ -10,16 +10,17 @@
 
 struct yield_law {
     struct rc_yield law;
-    double *table[2]; /* plastic strain, stress; NULL: none given */
+    double *table[2]; /* plastic strain, stress; NULL: no table */
 };
 
 /* "Y", "Y,HM" or a table FILE.tsv. */
 enum rc_status yield_law_read(struct yield_law *law, const char *text, struct rc_err *err);
-/* Where it is given, ends the tool: it does not go with --yield. */
+/* Ends the tool if an option that excludes --yield is given. */
 void yield_law_refuse(struct tool *tool, bool given, const char *what, const char *why);
-/* The same for all of the physics that does not, and for a yield stress whose unit was forgotten. */
+/* The same for all options of struct physics that exclude --yield; warns if the yield stress seems to lack
+ * its unit. */
 void yield_law_check(struct tool *tool, const struct yield_law *law, const struct physics *physics);
-/* Pa: growth of the yield stress at first, per equivalent plastic strain. */
+/* Pa: initial slope of the yield stress over the equivalent plastic strain. */
 double yield_law_hardening(const struct rc_yield *law);
 
 #endif

@@ -1,4 +1,4 @@
-/* Shapes: what their options have to be, how they are made, and the table of them. */
+/* Shapes: checks of their options, their functions, and the table of them. */
 #include "synth.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ fits(size_t n, double d, double wavelength)
            (waves > 0.5 && fabs(waves - round(waves)) <= 1e-9 * waves);
 }
 
-/* A side of the grid that a wave runs along has at least two nodes for each period. */
+/* Along a wave the grid has at least two nodes per period. */
 static void
 check_wave(struct tool *t, const struct synth_args *a, const struct rc_shape *shape)
 {
@@ -49,7 +49,7 @@ make_wave(const struct synth_args *a, const struct rc_shape *shape, double *h, b
 
 /* ---- indenters ---- */
 
-/* In the library 0 stands for a value that was not given. */
+/* In the library 0 means not given. */
 static double
 or_default(double value)
 {
@@ -91,7 +91,7 @@ make_sphere(const struct synth_args *a, const struct rc_shape *shape, double *h,
     return RC_OK;
 }
 
-/* Curved across its axis, which lies along y when nothing is said. */
+/* Curved across its axis, which lies along y by default. */
 static enum rc_status
 make_cylinder(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
               struct rc_err *err)

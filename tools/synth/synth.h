@@ -1,11 +1,11 @@
-/* The face of this folder: the shapes of rc-synth. */
+/* The interface of this folder: the shapes of rc-synth. */
 #ifndef RC_SYNTH_SHAPES_H
 #define RC_SYNTH_SHAPES_H
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 
-/* The command line; NAN and n = 0 where nothing was given. */
+/* The command line; NAN and n = 0 if not given. */
 struct synth_args {
     size_t nx, ny;
     double dx, dy;
@@ -20,16 +20,16 @@ struct synth_args {
 
 struct synth_shape {
     const char *name;
-    const char *needs[4], *takes[12]; /* options, ended by NULL                               */
-    size_t maps; /* arrays of the map's size that it takes to make it                         */
-    /* NULL, or ends the tool when options contradict each other or the grid. */
+    const char *needs[4], *takes[12]; /* options, ended by NULL                     */
+    size_t maps;                      /* arrays of the map's size needed to make it */
+    /* NULL, or ends the tool when options contradict each other or do not suit the grid. */
     void (*check)(struct tool *tool, const struct synth_args *args, const struct rc_shape *shape);
-    /* Sets *periodic where the surface goes on when the map is repeated. */
+    /* Sets *periodic if the surface continues across the edges of the map. */
     enum rc_status (*make)(const struct synth_args *args, const struct rc_shape *shape, double *h,
                            bool *periodic, struct rc_err *err);
 };
 
-/* Ended by a row without a name. */
+/* The last row has no name. */
 extern const struct synth_shape synth_shapes[];
 
 #endif

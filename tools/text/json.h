@@ -1,4 +1,4 @@
-/* One JSON object a line, for reports: fields in the order they are given, unknown is null. */
+/* JSON objects for reports, one per line: fields in the order in which they are given; unknown is null. */
 #ifndef RC_JSON_H
 #define RC_JSON_H
 
@@ -8,7 +8,7 @@
 
 struct json {
     FILE *file;
-    bool follows; /* a comma is due before the next field */
+    bool follows; /* a comma must precede the next field */
 };
 
 void json_open(struct json *json, FILE *file);

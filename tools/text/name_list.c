@@ -4,8 +4,8 @@
 #include <string.h>
 
 enum {
-    NAMED = 12,                  /* things that a message names one by one */
-    NAMED_LEFT = NAME_MEANT + 40 /* room for what follows them */
+    NAMED = 12,                  /* names that a message lists */
+    NAMED_LEFT = NAME_MEANT + 40 /* bytes for the end of the text */
 };
 
 void

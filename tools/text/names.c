@@ -20,7 +20,8 @@ enum {
     SPELLINGS = sizeof spellings / sizeof *spellings
 };
 
-/* Writes `name` with `to` for the first `from`; false where there is none or no room. */
+/* Writes `name` with `to` in place of the first `from`; false if `from` does not occur or the text is too
+ * long. */
 static bool
 replace(const char *name, const char *from, const char *to, char text[NAME_SIZE])
 {
@@ -69,8 +70,8 @@ same_letter(char a, char b)
     return tolower((unsigned char)a) == tolower((unsigned char)b);
 }
 
-/* Damerau and Levenshtein's distance, row by row of its table: d[i][j] is that of the first i
- * letters of a from the first j of b. */
+/* Damerau-Levenshtein distance, row by row of its table: d[i][j] is the distance of the first i letters of a
+ * from the first j of b. */
 static size_t
 mistakes(const char *a, size_t n, const char *b, size_t m)
 {
@@ -102,7 +103,7 @@ is_joint(char c)
     return c == '-' || c == '_' || c == '.';
 }
 
-/* Whether `part` stands in the name between hyphens, underscores or points. */
+/* Whether `part` is a whole part of the name, between hyphens, underscores or points. */
 static bool
 is_part(const char *part, size_t n, const char *name)
 {
@@ -112,10 +113,10 @@ is_part(const char *part, size_t n, const char *name)
     return false;
 }
 
-/* How far a typed name is from a name: the number of letters left out, added, changed, or exchanged with their
- * neighbour, without regard to case. If the typed name is a whole part of the name, as "pressure" is of
- * "mean-pressure" and "area" of "contact_area", this is a little more than for the most mistakes that are allowed.
- * SIZE_MAX: it is another name. */
+/* Distance of a typed name from a name: the number of letters left out, added, changed, or exchanged with
+ * their neighbour; upper and lower case are equal. If the typed name is a whole part of the name, as
+ * "pressure" of "mean-pressure" and "area" of "contact_area", the distance is slightly larger than for the
+ * most mistakes allowed. SIZE_MAX: too different. */
 static size_t
 distance(const char *typed, const char *name)
 {

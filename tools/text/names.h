@@ -1,4 +1,4 @@
-/* Names as people type them: in British or American spelling, and with mistakes. */
+/* Names as users type them: in British or American spelling, and with mistakes. */
 #ifndef RC_NAMES_H
 #define RC_NAMES_H
 
@@ -6,17 +6,16 @@
 #include <stddef.h>
 
 enum {
-    NAME_SIZE = 64, /* bytes that a name has at most here, with its end */
+    NAME_SIZE = 64, /* largest size of a name, with its end */
     NAME_MEANT = NAME_SIZE + 24
 };
 
-/* The name in the other spelling, "colourmap" for "colormap" and the reverse; NULL where it has but
- * one. */
+/* The name in the other spelling, "colourmap" for "colormap" and the reverse; NULL if it has only one. */
 const char *name_respelt(const char *name, char text[NAME_SIZE]);
 /* Whether a[0..n) and b[0..m) are the same name in any spelling. */
 bool name_same(const char *a, size_t n, const char *b, size_t m);
 
-/* Puts the name in the place of `nearest`, which starts as "", where it is nearer to what was typed. */
+/* Replaces `nearest`, initially "", by the name if the name is nearer to the typed one. */
 void name_nearer(const char *typed, const char *name, char nearest[NAME_SIZE]);
 /* ": did you mean NAME?" for the end of a message; "" where no name is near. */
 const char *name_meant(const char *nearest, char text[NAME_MEANT]);

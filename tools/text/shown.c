@@ -17,14 +17,14 @@ shown_number(char text[SHOWN_NUMBER], double value, int digits, const char *unit
 {
     bool known = (strcmp(unit, "m") == 0 || strcmp(unit, "Pa") == 0 || strcmp(unit, "N") == 0) &&
                  isfinite(value);
-    int most = strcmp(unit, "m") == 0 ? 0 : 12, power = 0; /* nobody says Mm */
+    int most = strcmp(unit, "m") == 0 ? 0 : 12, power = 0; /* Mm are not usual */
 
     if (known && value != 0) {
         power = 3 * (int)floor(log10(fabs(value)) / 3);
         power = power > most ? most : rc_prefix_of(power) == NULL ? 0 : power;
     }
     snprintf(text, SHOWN_NUMBER, "%.*g", digits, value / pow(10, power));
-    if (known && fabs(atof(text)) >= 1000 && power + 3 <= most) { /* by its rounding */
+    if (known && fabs(atof(text)) >= 1000 && power + 3 <= most) { /* rounding gave 1000 */
         power += 3;
         snprintf(text, SHOWN_NUMBER, "%.*g", digits, value / pow(10, power));
     }
@@ -59,7 +59,7 @@ shown_bytes(char text[SHOWN_NUMBER], double bytes)
     static const char *const name[] = {"bytes", "KiB", "MiB"};
     size_t k = 0;
 
-    while (k + 1 < sizeof name / sizeof *name && round(bytes) >= 1024) { /* as it is printed */
+    while (k + 1 < sizeof name / sizeof *name && round(bytes) >= 1024) { /* rounded as printed */
         bytes /= 1024;
         k++;
     }

@@ -8,16 +8,16 @@ enum {
     SHOWN_NUMBER = 48
 };
 
-/* "1.29 u" of 1.29e-6 and "m": that many digits and the prefix of the unit that brings the number
- * nearest to 1..1000, for the unit to be put behind it. Other units than m, Pa and N get no prefix. */
+/* "1.29 u" for 1.29e-6 and "m": this many digits, and the prefix of the unit that brings the number to
+ * 1..1000; the caller adds the unit. Only m, Pa and N get prefixes. */
 const char *shown_number(char text[SHOWN_NUMBER], double value, int digits, const char *unit);
 /* "1.29 um": six digits and the unit. */
 const char *shown_in_unit(char text[SHOWN_NUMBER], double value, const char *unit);
-/* Words that came with a file, up to n bytes: none that a terminal would obey. */
+/* Text from a file, up to n bytes, without control characters of a terminal. */
 void shown_words(FILE *out, const char *text, size_t n);
-/* "37 MiB": a whole number of the largest unit of which there is at least one. */
+/* "37 MiB": a whole number of the largest unit not above it. */
 const char *shown_bytes(char text[SHOWN_NUMBER], double bytes);
-/* "0.163 mm2", of square metres. */
+/* "0.163 mm2", for square metres. */
 const char *shown_area(char text[SHOWN_NUMBER], double area);
 
 #endif

@@ -1,6 +1,6 @@
 /*
- * The face of this folder: numbers, units and names as people type and read them, and JSON. Nothing
- * here knows a tool.
+ * The interface of this folder: numbers, units and names as users type and read them, and JSON. Nothing here
+ * depends on a tool.
  */
 #ifndef RC_TOOL_TEXT_H
 #define RC_TOOL_TEXT_H

@@ -8,7 +8,7 @@
 #include "formats/core/core.h"
 
 /* clang-format off */
-static const struct word_unit { /* units that do not go by prefixes */
+static const struct word_unit { /* units without prefixes */
     const char *text;
     double size;
 } size_units[] = {
@@ -64,8 +64,8 @@ same(const char *word, const char *text, size_t n)
     return strlen(word) == n && memcmp(word, text, n) == 0;
 }
 
-/* Scales *value, read from digits[0..length), by ten to the power: by way of the decimal text, so
- * that 1.29um is the double nearest to 1.29e-06. */
+/* Multiplies *value, read from digits[0..length), by ten to the power: through the decimal text, so that
+ * 1.29um is the double nearest to 1.29e-06. */
 static bool
 shift(const char *digits, size_t length, int power, double *value)
 {
@@ -101,7 +101,7 @@ unit_power(const char *text, size_t n, enum unit unit, int *power)
     return power_of(text, n, unit_name(unit), power);
 }
 
-/* "HV", "HV10", "HV0.3": the force of the test, in kilograms, may follow. */
+/* "HV", "HV10", "HV0.3": the test force in kilograms-force may follow. */
 static bool
 is_vickers(const char *text, size_t n)
 {
@@ -134,7 +134,7 @@ stress_power(const char *text, size_t n, int *power)
     return true;
 }
 
-/* Units that are a power of ten of the SI unit and do not carry its name: bar, N/mm2, cP. */
+/* Units that are a power of ten of the SI unit but have another name: bar, N/mm2, cP. */
 static bool
 decimal_power(const char *text, size_t n, enum unit unit, int *power)
 {
@@ -196,11 +196,11 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
             return false;
     if (unit != UNIT_M || !rc_length_unit(suffix, n, &metres))
         return false;
-    *value *= metres; /* inches and other words */
+    *value *= metres; /* inches and other units with names */
     return true;
 }
 
-/* The same of a force over a length, "mN/m" or "N/mm". */
+/* The same for a force over a length, "mN/m" or "N/mm". */
 static bool
 apply_force_per_length(const char *digits, size_t length, const char *suffix, size_t n,
                        double *value)
@@ -213,7 +213,7 @@ apply_force_per_length(const char *digits, size_t length, const char *suffix, si
            shift(digits, length, above - below, value);
 }
 
-/* "f p n u m c k M G T": those that can be typed on every keyboard. */
+/* "f p n u m c k M G T": prefixes that every keyboard can type. */
 static const char *
 prefix_list(char *list, size_t size)
 {
@@ -226,13 +226,12 @@ prefix_list(char *list, size_t size)
     return list;
 }
 
-/* What is seen of a number. `per_metre`: before, whether N/m will do for N; after, whether it
- * stands there. */
+/* What a number contained. `per_metre`: before, whether N/m is accepted for N; after, whether it was used. */
 struct seen {
     bool with_unit, per_metre;
 };
 
-/* Why another scale of hardness is no pressure; NULL: it is none of them. */
+/* Why another hardness scale is not a pressure; NULL: it is none of them. */
 static const char *
 other_scale(const char *suffix, size_t n)
 {
@@ -254,7 +253,7 @@ other_scale(const char *suffix, size_t n)
     return NULL;
 }
 
-/* Further units of a quantity, as messages name them. */
+/* Further units of a quantity, for messages. */
 static const char *
 also_units(enum unit unit)
 {
@@ -278,7 +277,7 @@ also_units(enum unit unit)
     }
 }
 
-/* What to expect instead of the unit suffix[0..n). */
+/* Says which units are accepted instead of suffix[0..n). */
 static enum rc_status
 unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struct rc_err *err)
 {
@@ -342,12 +341,12 @@ unit_number(const char *text, enum unit unit, double *value, struct rc_err *err)
 
 /* ---- lists ---- */
 
-/* How a list is read, and what was seen in it. */
+/* How a list is read, and what it contained. */
 struct list_state {
     enum unit unit;
-    bool forces;                   /* N/m will do for N                      */
-    bool with, without;            /* a unit; none, on a number that is not 0 */
-    bool per_metre, not_per_metre; /* with a unit                            */
+    bool forces;                   /* N/m is accepted for N                                     */
+    bool with, without;            /* some number had a unit; some number other than 0 had none */
+    bool per_metre, not_per_metre; /* with a unit                                               */
 };
 
 static enum rc_status
@@ -372,7 +371,7 @@ read_piece(const char *text, size_t n, struct list_state *state, double *value, 
     return RC_OK;
 }
 
-/* Steps between decimal numbers are meant to be decimal: 6e-06, not 5.999999999999999e-06. */
+/* Steps between decimal numbers should be decimal: 6e-06, not 5.999999999999999e-06. */
 static double
 decimal(double x)
 {
@@ -382,7 +381,7 @@ decimal(double x)
     return strtod(text, NULL);
 }
 
-/* Value k of n from a to b, by steps or by ratio. */
+/* Value k of n from a to b, in equal steps or equal ratios. */
 static double
 between(double a, double b, bool by_ratio, size_t k, double n)
 {
@@ -497,16 +496,16 @@ unit_decimal_comma(const char *text)
 
 /* ---- conductivities ---- */
 
-/* Conductivities by what they conduct: "45W/mK", "45 W/(m K)" and "45W/m/K" are one. */
+/* Units of conductivity and what they conduct: "45W/mK", "45 W/(m K)" and "45W/m/K" are the same. */
 static const struct conductivity {
-    const char *above, *below; /* the slash: "W", "K" beside the metre */
+    const char *above, *below; /* the slash: "W" and "K" besides the metre */
     const char *conductance;
 } conductivities[] = {
     {"W", "K", "W/K"},
     {"S", "", "S"},
 };
 
-/* suffix[0..n) after the number digits[0..length); NULL: no such unit. */
+/* Applies suffix[0..n) to the number digits[0..length); NULL: no such unit. */
 static const struct conductivity *
 apply_conductivity(const char *digits, size_t length, const char *suffix, size_t n, double *value)
 {
