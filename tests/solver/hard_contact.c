@@ -144,7 +144,7 @@ ugly_surfaces(void **state)
     size_t n = shape.nx * shape.ny;
     double *h = malloc(n * sizeof *h), area = shape.dx * shape.dy * (double)n;
     uint64_t seed = 3;
-    char what[64];
+    char what[96];
 
     (void)state;
     for (int name = 0; name < SHAPES; name++)
