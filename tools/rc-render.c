@@ -607,8 +607,7 @@ read_several(struct tool *t, struct args *a)
     frames.border = a->contour || a->border;
     frames.demands = a->histogram;
     frames.wanted = (struct wanted){.depth = a->depth, .number = a->number};
-    frames_read(&frames, t); /* frees the lists */
-    a->depth = a->number = (struct numbers){0};
+    frames_read(&frames, t);
     (args_lines(a) ? render_lines : render_sheet)(t, a, &frames);
     frames_free(&frames);
 }

@@ -417,8 +417,6 @@ settle(struct wanted *w, struct tool *t)
         free(w->depths->held);
     }
     free(w->depths);
-    free(w->depth.v);
-    free(w->number.v);
 }
 
 /* ---- both ---- */

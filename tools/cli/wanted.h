@@ -36,9 +36,8 @@ struct wanted {          /* starts as {0}: every frame                          
 
 /* Before the first frame: ends the tool for an empty name and a case that is no whole number. */
 void wanted_check(const struct wanted *wanted, struct tool *tool);
-/* The next frame that is one of them; the caller frees it. NULL after the last one, where the lists
- * are freed. Frames at a depth that a later one may turn out to be nearer to wait here for the end
- * of their case. */
+/* The next frame that is one of them; the caller frees it. NULL after the last one. Frames at a depth that a
+ * later one may turn out to be nearer to wait here for the end of their case. */
 struct rc_grid *wanted_read(struct wanted *wanted, struct tool *tool);
 
 /* Which of n depths is meant by `asked`: the nearest, within half the step to the next one, or

@@ -18,45 +18,6 @@ enum {
     BAND = 64          /* rows of pixels that are in memory as means while a map is painted  */
 };
 
-/* ---- axes ---- */
-
-static void
-draw_marks_across(struct page *p, const struct axis *a, double x, double y, double w)
-{
-    char text[TICKS_TEXT];
-    double u = p->u;
-
-    for (long long k = a->ticks.first; k <= a->ticks.last; k++) {
-        double at = x + page_place(a, ticks_at(&a->ticks, k)) * w;
-
-        canvas_fill(p->c, at - 0.8 * u, y, 1.6 * u, 8 * u, page_ink);
-        canvas_text(p->c, &p->small, at, y + 12 * u + 0.78 * p->small.size, 0.5,
-                    ticks_text(text, &a->ticks, k));
-    }
-    canvas_text(p->c, &p->large, x + 0.5 * w, y + 12 * u + p->small.size + 1.1 * p->large.size, 0.5,
-                a->label);
-}
-
-/* On the left side marks go to the left, on the right side to the right; values rise downwards or
- * upwards. */
-static void
-draw_marks_upright(struct page *p, const struct axis *a, double x, double y, double h, bool left,
-                   bool rises_down)
-{
-    char text[TICKS_TEXT];
-    double u = p->u, label = 14 * u + a->widest + (left ? 10 * u : 1.35 * p->large.size);
-
-    for (long long k = a->ticks.first; k <= a->ticks.last; k++) {
-        double t = page_place(a, ticks_at(&a->ticks, k));
-        double at = y + (rises_down ? t : 1 - t) * h;
-
-        canvas_fill(p->c, left ? x - 8 * u : x, at - 0.8 * u, 8 * u, 1.6 * u, page_ink);
-        canvas_text(p->c, &p->small, left ? x - 13 * u : x + 13 * u + a->widest,
-                    at + 0.36 * p->small.size, 1, ticks_text(text, &a->ticks, k));
-    }
-    canvas_text_upwards(p->c, &p->large, left ? x - label : x + label, y + 0.5 * h, a->label);
-}
-
 static struct rgb
 mix(struct rgb a, double x, struct rgb b, double y)
 {
@@ -310,10 +271,10 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
     enum rc_status status = RC_OK;
 
     canvas_clip(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h);
-    for (long long k = a->ticks.first; k <= a->ticks.last && status == RC_OK; k++) {
-        double level = ticks_at(&a->ticks, k) * a->scale.size;
+    for (size_t k = 0; k < a->marks && status == RC_OK; k++) {
+        double level = a->mark[k].value * a->scale.size;
 
-        if (p->f->border || (p->f->zero_is_none && k == 0))
+        if (p->f->border || !a->mark[k].major || (p->f->zero_is_none && level == 0))
             continue; /* the contact's edge says that better */
         status = raster_contour(r, level, &lines, err);
         stroke_lines(p, &lines, r, p->f->zero_is_none ? border_width(p) : 1.5 * p->u,
@@ -422,11 +383,11 @@ draw_bar(struct page *p)
     }
     paint_bar(p, x, y, w, h);
     point_bar(p, x, y, w, h);
-    for (long long k = a->ticks.first; p->f->contour && !p->f->border && k <= a->ticks.last; k++) {
-        double t = page_place(a, ticks_at(&a->ticks, k));
-        struct rgb colour = line_colour(p->f, ticks_at(&a->ticks, k) * a->scale.size);
+    for (size_t k = 0; p->f->contour && !p->f->border && k < a->marks; k++) {
+        double t = a->mark[k].at;
+        struct rgb colour = line_colour(p->f, a->mark[k].value * a->scale.size);
 
-        if (t < 0.002 || t > 0.998)
+        if (!a->mark[k].major || t < 0.002 || t > 0.998)
             continue; /* the frame is there */
         if (p->bar_below)
             canvas_fill(p->c, x + t * w - 0.75 * u, y, 1.5 * u, h, colour);
@@ -435,9 +396,9 @@ draw_bar(struct page *p)
     }
     canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * u)), page_ink);
     if (p->bar_below)
-        draw_marks_across(p, a, x, y + h, w);
+        axis_across(p, a, x, y + h, w);
     else
-        draw_marks_upright(p, a, x + w, y, h, false, false);
+        axis_upright(p, a, x + w, y, h, false, false);
 }
 
 /* ---- the whole ---- */
@@ -545,9 +506,9 @@ draw(struct page *p, struct rc_err *err)
     if (p->f->largest != NULL)
         draw_cross(p, page_x(p, p->f->largest_x), page_y(p, p->f->largest_y));
     draw_bar(p);
-    draw_marks_upright(p, &p->down, x, y, h, true, true);
+    axis_upright(p, &p->down, x, y, h, true, true);
     canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
-    draw_marks_across(p, &p->across, x, y + h, w);
+    axis_across(p, &p->across, x, y + h, w);
     draw_legend(p);
     return canvas_check(p->c, err);
 }
@@ -583,9 +544,9 @@ page_map(struct page *p, bool left, bool below, struct rc_err *err)
     media_draw(p);
     canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
     if (left)
-        draw_marks_upright(p, &p->down, x, y, h, true, true);
+        axis_upright(p, &p->down, x, y, h, true, true);
     if (below)
-        draw_marks_across(p, &p->across, x, y + h, w);
+        axis_across(p, &p->across, x, y + h, w);
     return RC_OK;
 }
 

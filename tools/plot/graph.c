@@ -21,7 +21,6 @@ static const struct rgb rule = {0xe2, 0xe2, 0xe2}, sand = {0xf3, 0xf1, 0xec},
 static const double nothing = 1e-290; /* as good as 0 on an axis */
 
 enum {
-    MARKS = 256,  /* on an axis                                             */
     CROWDED = 60, /* points of a series that are too many for markers       */
     MARKERS = 4,  /* shapes: circle, square, triangle, diamond              */
     SWATCH = 56,  /* length of a line in the legend, in units of the design */
@@ -32,28 +31,12 @@ struct box {
     double x, y, w, h;
 };
 
-/* An axis settled: a value v lies at `place` between its ends. */
-struct side {
-    const struct graph_axis *axis;
-    struct scale scale;
-    double lo, hi; /* in the unit of the scale; of a logarithmic axis their decimal logarithms */
-    char label[LINE];
-    struct {
-        double at; /* 0 to 1 */
-        char text[TICKS_TEXT];
-        bool major;
-    } mark[MARKS];
-    size_t marks;
-    double widest;
-    bool upwards; /* words too long to stand side by side */
-};
-
 struct graph_page {
     const struct graph *g;
     struct canvas *c;
     struct page page; /* fonts, title, subtitle, stamp */
     struct figure words;
-    struct side x, y;
+    struct axis x, y;
     double left, top, w, h; /* the plot */
     double u;
     size_t lost;              /* points that a logarithmic axis cannot hold */
@@ -103,11 +86,9 @@ choose_scale(struct scale *s, double largest, const char *unit, bool powers)
 }
 
 static double
-place(const struct side *s, double value)
+place(const struct axis *a, double value)
 {
-    double v = value / s->scale.size;
-
-    return ((s->axis->log ? log10(v) : v) - s->lo) / (s->hi - s->lo);
+    return axis_place(a, value / a->scale.size);
 }
 
 static bool
@@ -166,9 +147,8 @@ extremes(const struct graph *g, bool up, double *lo, double *hi)
 
 /* The unit in brackets, unless the text names the one that was asked for itself. */
 static void
-label(struct side *s)
+label(struct axis *s, const struct graph_axis *a)
 {
-    const struct graph_axis *a = s->axis;
     const char *at = a->shown == NULL || *a->shown == '\0' ? NULL : strstr(a->quantity, a->shown);
     size_t n = at == NULL ? 0 : strlen(a->shown);
 
@@ -181,15 +161,21 @@ label(struct side *s)
 
 /* A little air at both ends, but none between the curves and a 0 that they begin at. */
 static enum rc_status
-set_range(struct side *s, const struct graph *g, bool up, struct rc_err *err)
+set_range(struct axis *s, const struct graph *g, bool up, struct rc_err *err)
 {
     const struct graph_axis *a = up ? &g->y : &g->x;
     double lo, hi, air;
 
-    s->axis = a;
+    s->log = a->log;
+    s->minor = true;
     extremes(g, up, &lo, &hi);
     if (a->words > 0 && lo <= hi) {
-        *s = (struct side){.axis = a, .scale.size = 1, .lo = -0.5, .hi = (double)a->words - 0.5};
+        *s = (struct axis){.scale.size = 1,
+                           .minor = true,
+                           .lo = -0.5,
+                           .hi = (double)a->words - 0.5,
+                           .word = a->word,
+                           .words = a->words};
         snprintf(s->label, sizeof s->label, "%s", a->quantity);
         return RC_OK;
     }
@@ -201,7 +187,7 @@ set_range(struct side *s, const struct graph *g, bool up, struct rc_err *err)
     if (a->shown == NULL || !scale_given(&s->scale, a->shown, a->unit))
         choose_scale(&s->scale, fmax(fabs(lo), fabs(hi)), a->unit,
                      a->log && (1 + 2 * AIR) * log10(hi / lo) >= 1);
-    label(s);
+    label(s, a);
     if (!a->log && fmax(fabs(lo), fabs(hi)) < nothing)
         lo = hi = 0;
     lo /= s->scale.size;
@@ -221,122 +207,6 @@ set_range(struct side *s, const struct graph *g, bool up, struct rc_err *err)
     if (!a->log && isnan(a->lo) && lo > 0 && lo < 0.3 * hi)
         s->lo = 0;
     return RC_OK;
-}
-
-static void
-add_mark(struct side *s, double at, bool major, const struct ticks *t, long long k)
-{
-    if (s->marks == MARKS || at < -1e-9 || at > 1 + 1e-9)
-        return;
-    s->mark[s->marks].at = at;
-    s->mark[s->marks].major = major;
-    s->mark[s->marks].text[0] = '\0';
-    if (major && t != NULL)
-        ticks_text(s->mark[s->marks].text, t, k);
-    s->marks++;
-}
-
-/* Steps of 1, 2 or 5; minor marks cut them into 5, 4 and 5. */
-static void
-mark_evenly(struct side *s, double most)
-{
-    struct ticks t;
-    double lo = s->axis->log ? pow(10, s->lo) : s->lo, hi = s->axis->log ? pow(10, s->hi) : s->hi;
-    int parts;
-
-    ticks_choose(&t, lo, hi, most);
-    parts = t.digit == 2 ? 4 : 5;
-    for (long long k = t.first - 1; k <= t.last; k++)
-        for (int m = 0; m < parts; m++) {
-            double v = ticks_at(&t, k) + m * ticks_at(&t, 1) / parts;
-
-            if (v > 0 || !s->axis->log)
-                add_mark(s, place(s, v * s->scale.size), m == 0, &t, k);
-        }
-}
-
-/* Powers of ten, with minor marks at 2 to 9 times each; of few of them 2 and 5 have a number too.
- * Numbers are plain where all of them are short. */
-static void
-mark_decades(struct side *s, double most)
-{
-    int first = (int)floor(s->lo), last = (int)ceil(s->hi);
-    int step = (int)ceil((s->hi - s->lo) / most);
-    bool plain = s->lo > -3.5 && s->hi < 4.5, few = s->hi - s->lo < 2.5;
-
-    for (int k = first; k <= last; k++)
-        for (int d = 1; d < 10; d++) {
-            struct ticks t = {.digit = d, .power = k};
-            double at = place(s, ticks_at(&t, 1) * s->scale.size);
-            bool major = d == 1 ? k % step == 0 : few && plain && (d == 2 || d == 5);
-
-            if (d > 1 && s->hi - s->lo > 12)
-                continue;
-            add_mark(s, at, major, &t, 1);
-            if (major && !plain && s->marks > 0 && at >= -1e-9 && at <= 1 + 1e-9)
-                power_text(s->mark[s->marks - 1].text, k);
-        }
-}
-
-/* Leaves out numbers that would touch the one before them. */
-static void
-thin_marks(struct graph_page *p, struct side *s, double length, bool upright)
-{
-    double end = -INFINITY, gap = 12 * p->u;
-
-    s->widest = 0;
-    for (size_t k = 0; k < s->marks; k++) {
-        double w, half, at = s->mark[k].at * length;
-
-        if (s->mark[k].text[0] == '\0')
-            continue;
-        w = canvas_text_width(p->c, &p->page.small, s->mark[k].text);
-        half = upright ? 0.55 * p->page.small.size : 0.5 * (w + gap);
-        if (at - half < end) {
-            s->mark[k].text[0] = '\0';
-            continue;
-        }
-        end = at + half;
-        s->widest = fmax(s->widest, w);
-    }
-}
-
-/* Words stand side by side where they fit, else they read upwards. */
-static void
-mark_words(struct graph_page *p, struct side *s, double length)
-{
-    const struct canvas_font *font = &p->page.small;
-    double slot = length / (double)s->axis->words - 8 * p->u;
-    char text[LINE];
-
-    s->widest = 0;
-    for (size_t k = 0; k < s->axis->words; k++)
-        s->widest = fmax(s->widest, canvas_text_width(p->c, font, s->axis->word[k]));
-    s->upwards = s->widest > slot;
-    s->widest = fmin(s->widest, s->upwards ? 0.6 * length : slot);
-    for (size_t k = 0; k < s->axis->words; k++) {
-        snprintf(text, sizeof text, "%s", s->axis->word[k]);
-        page_shorten(&p->page, font, s->widest + 1, text);
-        add_mark(s, place(s, (double)k), true, NULL, 0);
-        snprintf(s->mark[k].text, TICKS_TEXT, "%.60s", text);
-    }
-}
-
-static void
-set_marks(struct graph_page *p, struct side *s, double length, bool upright)
-{
-    double most = fmin(9, length / (p->page.small.size * (upright ? 2 : 4.5)));
-
-    s->marks = 0;
-    if (s->axis->words > 0) {
-        mark_words(p, s, length);
-        return;
-    }
-    if (s->axis->log && s->hi - s->lo >= 1)
-        mark_decades(s, most);
-    else
-        mark_evenly(s, most);
-    thin_marks(p, s, length, upright);
 }
 
 /* ---- drawing ---- */
@@ -653,54 +523,6 @@ draw_labels(struct graph_page *p, const struct graph_series *s)
     }
 }
 
-/* What words that read upwards take more below the plot than numbers. */
-static double
-word_room(const struct graph_page *p)
-{
-    return p->x.upwards ? p->x.widest - p->page.small.size : 0;
-}
-
-static void
-draw_across(struct graph_page *p)
-{
-    const struct side *s = &p->x;
-    double u = p->u, y = p->top + p->h, room = word_room(p);
-
-    for (size_t k = 0; k < s->marks; k++) {
-        double at = p->left + s->mark[k].at * p->w, length = (s->mark[k].major ? 9 : 5) * u;
-
-        canvas_fill(p->c, at - 0.8 * u, y, 1.6 * u, length, page_ink);
-        if (s->upwards)
-            canvas_text_upwards(p->c, &p->page.small, at + 0.36 * p->page.small.size,
-                                y + 13 * u +
-                                    0.5 * canvas_text_width(p->c, &p->page.small, s->mark[k].text),
-                                s->mark[k].text);
-        else if (s->mark[k].text[0] != '\0')
-            canvas_text(p->c, &p->page.small, at, y + 13 * u + 0.78 * p->page.small.size, 0.5,
-                        s->mark[k].text);
-    }
-    canvas_text(p->c, &p->page.large, p->left + 0.5 * p->w,
-                y + 13 * u + room + p->page.small.size + 1.1 * p->page.large.size, 0.5, s->label);
-}
-
-static void
-draw_up(struct graph_page *p)
-{
-    const struct side *s = &p->y;
-    double u = p->u, x = p->left;
-
-    for (size_t k = 0; k < s->marks; k++) {
-        double at = p->top + (1 - s->mark[k].at) * p->h, length = (s->mark[k].major ? 9 : 5) * u;
-
-        canvas_fill(p->c, x - length, at - 0.8 * u, length, 1.6 * u, page_ink);
-        if (s->mark[k].text[0] != '\0')
-            canvas_text(p->c, &p->page.small, x - 14 * u, at + 0.36 * p->page.small.size, 1,
-                        s->mark[k].text);
-    }
-    canvas_text_upwards(p->c, &p->page.large, x - 14 * u - s->widest - 12 * u, p->top + 0.5 * p->h,
-                        s->label);
-}
-
 static void
 draw_rules(struct graph_page *p)
 {
@@ -862,15 +684,16 @@ lay_out(struct graph_page *p)
     double u = p->u, width = (double)page->w;
 
     p->h = round(0.56 * width);
-    set_marks(p, &p->y, p->h, true);
+    axis_mark(page, &p->y, p->h, true);
     p->left = round(26 * u + 1.1 * page->large.size + p->y.widest + 28 * u);
     for (int k = 0; k < 2; k++) {
-        p->w = round(width - p->left - 30 * u - (p->x.axis->words > 0 ? 0 : 0.5 * p->x.widest));
-        set_marks(p, &p->x, p->w, false);
+        p->w = round(width - p->left - 30 * u - (p->x.words > 0 ? 0 : 0.5 * p->x.widest));
+        axis_mark(page, &p->x, p->w, false);
     }
     page_words(page, width - 48 * u);
     p->top = round(page_words_height(page) + 22 * u);
-    return p->top + p->h + page_marks(page) + word_room(p) + 14 * u + legend(p, 0, false) + 18 * u;
+    return p->top + p->h + page_marks(page) + axis_word_room(page, &p->x) + 14 * u +
+           legend(p, 0, false) + 18 * u;
 }
 
 static void
@@ -890,9 +713,10 @@ draw(struct graph_page *p)
         draw_markers(p, &p->g->series[s]);
     for (size_t s = 0; s < p->g->n; s++)
         draw_labels(p, &p->g->series[s]);
-    draw_across(p);
-    draw_up(p);
-    legend(p, p->top + p->h + page_marks(&p->page) + word_room(p) + 14 * p->u, true);
+    axis_across(&p->page, &p->x, p->left, p->top + p->h, p->w);
+    axis_upright(&p->page, &p->y, p->left, p->top, p->h, true, false);
+    legend(p, p->top + p->h + page_marks(&p->page) + axis_word_room(&p->page, &p->x) + 14 * p->u,
+           true);
 }
 
 /* Laid out, its height in page.h; NULL when memory is short or an axis has no point. */

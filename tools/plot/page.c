@@ -104,71 +104,30 @@ page_wrap(struct page *p, const struct canvas_font *font, double width, const ch
 
 /* ---- axes ---- */
 
-static double
-widest_mark(struct page *p, const struct ticks *ticks)
-{
-    char text[TICKS_TEXT];
-    double widest = 0;
-
-    for (long long k = ticks->first; k <= ticks->last; k++)
-        widest = fmax(widest, canvas_text_width(p->c, &p->small, ticks_text(text, ticks, k)));
-    return widest;
-}
-
-/* As many marks as fit on `length` pixels without touching each other. */
-static void
-choose_marks(struct page *p, struct axis *a, double length, bool upright)
-{
-    double gap = 14 * p->u, height = 1.05 * p->small.size;
-
-    /* 9 to 1, then halves, all of them exact */
-    /* NOLINTNEXTLINE(cert-flp30-c,clang-analyzer-security.FloatLoopCounter) */
-    for (double most = 9; most > 1e-3; most = most > 1 ? most - 1 : 0.5 * most) {
-        double step;
-
-        if (a->log)
-            ticks_choose_log(&a->ticks, a->lo, a->hi, most);
-        else
-            ticks_choose(&a->ticks, a->lo, a->hi, most);
-        a->widest = widest_mark(p, &a->ticks);
-        if (a->ticks.first >= a->ticks.last)
-            return;
-        step = page_place(a, ticks_at(&a->ticks, a->ticks.last)) -
-               page_place(a, ticks_at(&a->ticks, a->ticks.last - 1));
-        if (step * length >= (upright ? height : a->widest + gap))
-            return;
-    }
-}
-
 static void
 set_axis(struct axis *a, const char *quantity, const char *unit, double lo, double hi,
          double largest)
 {
     scale_choose(&a->scale, largest, unit);
-    a->lo = lo / a->scale.size;
-    a->hi = hi / a->scale.size;
+    a->lo = a->log ? log10(lo / a->scale.size) : lo / a->scale.size;
+    a->hi = a->log ? log10(hi / a->scale.size) : hi / a->scale.size;
     scale_label(a->label, sizeof a->label, quantity, &a->scale);
 }
 
-/* Where both axes of a map have one unit they get one step, unless that leaves one too few marks.
- */
+/* Where both axes of a map have one unit they get one step. */
 static void
-even_steps(struct page *p)
+mark_map(struct page *p)
 {
-    struct axis *coarse = &p->across, *fine = &p->down;
-    struct ticks t;
+    const double w = (double)p->plot_w, h = (double)p->plot_h;
 
-    if (strcmp(coarse->scale.unit, fine->scale.unit) != 0)
+    axis_mark(p, &p->across, w, false);
+    axis_mark(p, &p->down, h, true);
+    if (strcmp(p->across.scale.unit, p->down.scale.unit) != 0)
         return;
-    if (ticks_at(&coarse->ticks, 1) < ticks_at(&fine->ticks, 1)) {
-        coarse = &p->down;
-        fine = &p->across;
-    }
-    ticks_choose(&t, fine->lo, fine->hi, (fine->hi - fine->lo) / ticks_at(&coarse->ticks, 1));
-    if (t.last - t.first < 2)
-        return;
-    fine->ticks = t;
-    fine->widest = widest_mark(p, &t);
+    if (ticks_at(&p->across.ticks, 1) < ticks_at(&p->down.ticks, 1))
+        axis_even_steps(p, &p->down, &p->across, w, false);
+    else
+        axis_even_steps(p, &p->across, &p->down, h, true);
 }
 
 /* Both axes of a map in one unit, unless one of them is too short for it. */
@@ -181,19 +140,10 @@ set_axes(struct page *p)
     const char *unit = f->dunit == NULL ? "m" : f->dunit;
 
     p->values.log = f->log;
-
     set_axis(&p->values, f->quantity, f->unit, f->lo, f->hi, fmax(fabs(f->lo), fabs(f->hi)));
     set_axis(&p->across, f->across, unit, f->left, f->right,
              f->section || x < 0.01 * both ? x : both);
     set_axis(&p->down, f->down, unit, f->top, f->bottom, f->section || y < 0.01 * both ? y : both);
-}
-
-double
-page_place(const struct axis *a, double value)
-{
-    if (a->log)
-        return value > 0 ? log(value / a->lo) / log(a->hi / a->lo) : -INFINITY;
-    return (value - a->lo) / (a->hi - a->lo);
 }
 
 /* ---- layout ---- */
@@ -297,12 +247,10 @@ measure_sides(struct page *p)
 {
     double u = p->u;
 
-    choose_marks(p, &p->across, (double)p->plot_w, false);
-    choose_marks(p, &p->down, (double)p->plot_h, true);
-    even_steps(p);
+    mark_map(p);
     p->left_w = 24 * u + 1.3 * p->large.size + 8 * u + p->down.widest + 14 * u;
     p->gutter = media_gutter(p);
-    choose_marks(p, &p->values, (double)(p->bar_below ? p->plot_w : p->plot_h), !p->bar_below);
+    axis_mark(p, &p->values, (double)(p->bar_below ? p->plot_w : p->plot_h), !p->bar_below);
     p->right_w = page_right(p);
     if (p->bar_below)
         p->right_w =
@@ -526,10 +474,8 @@ void
 page_measure(struct page *p)
 {
     set_axes(p);
-    choose_marks(p, &p->across, (double)p->plot_w, false);
-    choose_marks(p, &p->down, (double)p->plot_h, true);
-    even_steps(p);
-    choose_marks(p, &p->values, (double)p->plot_h, true);
+    mark_map(p);
+    axis_mark(p, &p->values, (double)p->plot_h, true);
     p->gutter = media_gutter(p);
 }
 

@@ -14,16 +14,27 @@ enum {
     LINE = 1024, /* bytes of a line of text */
     LINES = 4,
     NOTES = 16,
+    MARKS = 256,   /* of an axis */
     MEDIA_TOLD = 8 /* numbered, and described in the legend: more are lines only */
 };
 
+/* A value v, in the unit of the scale, lies at axis_place between the ends. */
 struct axis {
     struct scale scale;
-    struct ticks ticks;
-    double lo, hi; /* in the unit of the scale   */
-    double widest; /* mark's text, pixels        */
-    bool log;
+    struct ticks ticks; /* of marks at even steps                                         */
+    double lo, hi;   /* in the unit of the scale; of a logarithmic axis their decimal logarithms */
+    bool log, minor; /* minor: with marks between the numbers                          */
     char label[LINE];
+    struct {
+        double value, at; /* at: 0 to 1 */
+        bool major;
+        char text[TICKS_TEXT]; /* may be empty */
+    } mark[MARKS];
+    size_t marks;
+    double widest;           /* mark's text, pixels                           */
+    const char *const *word; /* of an axis of categories, at 0, 1, ...        */
+    size_t words;            /* 0: of numbers                                 */
+    bool upwards;            /* words too long to stand side by side          */
 };
 
 struct text {
@@ -112,8 +123,21 @@ enum rc_status page_map(struct page *page, bool left, bool below, struct rc_err 
 double page_aspect(const struct figure *figure);
 /* Draws the colour bar beside the plot, and the legend at the foot of the page. */
 void page_bar(struct page *page);
-/* Where a value of the axis lies between its ends, 0 to 1. */
-double page_place(const struct axis *axis, double value);
+/* ---- axis.c ---- */
+
+/* Where a value lies between the ends of the axis, 0 to 1. */
+double axis_place(const struct axis *axis, double value);
+/* Chooses marks for so many pixels, whose numbers do not touch each other. */
+void axis_mark(struct page *page, struct axis *axis, double length, bool upright);
+/* The finer one gets the steps of the coarser one, unless that leaves it too few marks. */
+void axis_even_steps(struct page *page, struct axis *coarse, struct axis *fine, double length,
+                     bool upright);
+/* The height that words which read upwards take below a plot, beyond that of numbers. */
+double axis_word_room(const struct page *page, const struct axis *axis);
+/* Draws marks and label below a plot, or beside it, where values rise downwards or upwards. */
+void axis_across(struct page *page, const struct axis *axis, double x, double y, double w);
+void axis_upright(struct page *page, const struct axis *axis, double x, double y, double h,
+                  bool left, bool rises_down);
 
 /* ---- media.c ---- */
 

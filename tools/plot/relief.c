@@ -468,7 +468,7 @@ draw_side(struct scene *s, const struct side *side)
     ticks_choose(&ticks, a->lo, a->hi,
                  fmin(8, fmax(2, length / ((side->out[1] > 0 ? 3.4 : 1.8) * p->small.size))));
     for (long long k = ticks.first; k <= ticks.last; k++) {
-        double t = page_place(a, ticks_at(&ticks, k)), x, y, part;
+        double t = axis_place(a, ticks_at(&ticks, k)), x, y, part;
 
         t = side->flip ? 1 - t : t;
         x = x0 + t * (x1 - x0);

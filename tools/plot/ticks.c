@@ -196,7 +196,6 @@ ticks_choose(struct ticks *t, double lo, double hi, double most)
     double least = (hi - lo) / most, step;
     int k = 0;
 
-    t->log = t->between = false;
     /* as far as doubles tell numbers apart: a range of one unit in the last place gets a mark too
      */
     least = fmax(least, 1e-15 * fmax(fabs(lo), fabs(hi)));
@@ -213,47 +212,10 @@ ticks_choose(struct ticks *t, double lo, double hi, double most)
     t->last = (long long)floor(hi / step + slack);
 }
 
-void
-ticks_choose_log(struct ticks *t, double lo, double hi, double most)
-{
-    const double slack = 1e-9;
-    double low = log10(lo) - slack, high = log10(hi) + slack, decades = high - low;
-
-    *t = (struct ticks){.digit = 1, .log = true, .between = 3 * decades <= most};
-    if (t->between) {
-        t->first = 3 * (long long)floor(low);
-        t->last = 3 * (long long)ceil(high);
-        while (log10(ticks_at(t, t->first)) < low)
-            t->first++;
-        while (log10(ticks_at(t, t->last)) > high)
-            t->last--;
-    }
-    if (t->between && t->first < t->last)
-        return;
-    if (floor(high) - ceil(low) < 1) { /* less than two powers: marks as on a linear axis */
-        ticks_choose(t, lo, hi, most);
-        return;
-    }
-    t->between = false;
-    t->digit = (int)fmax(1, ceil(decades / most));
-    t->first = (long long)ceil(low / t->digit);
-    t->last = (long long)floor(high / t->digit);
-}
-
 double
 ticks_at(const struct ticks *t, long long k)
 {
-    static const int digits[] = {1, 2, 5};
     double n = (double)k * t->digit;
-    int within = (int)(k % 3 < 0 ? k % 3 + 3 : k % 3);
-
-    if (t->log && t->between) {
-        long long power = (k - within) / 3;
-
-        return digits[within] * pow(10, (double)power);
-    }
-    if (t->log)
-        return pow(10, n);
 
     /* dividing by a whole power of ten is exact where multiplying by 0.1 is not */
     return t->power < 0 ? n / pow(10, -t->power) : n * pow(10, t->power);
@@ -262,14 +224,6 @@ ticks_at(const struct ticks *t, long long k)
 const char *
 ticks_text(char text[TICKS_TEXT], const struct ticks *t, long long k)
 {
-    /* all marks alike: powers where one of them would be too long */
-    if (t->log && (ticks_at(t, t->first) < 0.999e-2 || ticks_at(t, t->last) > 1.001e3) &&
-        !t->between)
-        return power_text(text, (int)k * t->digit);
-    if (t->log) {
-        put_number(text, "%.*g", 3, ticks_at(t, k));
-        return text;
-    }
     put_number(text, "%.*f", t->power < 0 ? -t->power : 0, ticks_at(t, k));
     return text;
 }

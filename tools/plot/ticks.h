@@ -29,18 +29,14 @@ bool scale_given(struct scale *scale, const char *asked, const char *unit);
 /* "Gap (µm)": what an axis is, with the unit in brackets. */
 void scale_label(char *text, size_t size, const char *quantity, const struct scale *scale);
 
-/* Marks at k * step for k from first to last; step is digit * 10^power. Of a logarithmic axis mark
- * k is at 10^(k * step), or, with `between`, at 1, 2 and 5 times powers of ten in turn. */
+/* Marks at k * step for k from first to last; step is digit * 10^power. */
 struct ticks {
     long long first, last;
     int digit, power;
-    bool log, between;
 };
 
 /* The smallest step that cuts lo..hi (lo < hi) into at most `most` parts. */
 void ticks_choose(struct ticks *ticks, double lo, double hi, double most);
-/* The same of a logarithmic axis, 0 < lo < hi. */
-void ticks_choose_log(struct ticks *ticks, double lo, double hi, double most);
 double ticks_at(const struct ticks *ticks, long long k);
 const char *ticks_text(char text[TICKS_TEXT], const struct ticks *ticks, long long k);
 

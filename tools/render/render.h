@@ -324,7 +324,7 @@ struct frames {
 struct beside frames_beside(const struct frames *frames, size_t k);
 
 /* Reads all inputs and keeps the frames that are asked for, of the channel that stands first in the
- * order of struct wish where none is. Ends the tool when there is none. Frees the lists. */
+ * order of struct wish where none is. Ends the tool when there is none. */
 void frames_read(struct frames *frames, struct tool *tool);
 void frames_free(struct frames *frames);
 
