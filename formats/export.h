@@ -49,7 +49,6 @@ struct rc_export {
     bool heights;         /* says metres by its definition: holds heights only                */
     unsigned types;       /* types that it can hold, of the bits above; 0: text */
     unsigned copies; /* copies of all values that it holds in memory, as they lie in the file */
-    size_t library;  /* bytes of library code that it loads */
     bool relief;     /* is for printers: takes a wished relief                               */
     /* NULL, or says into text[0..size) how large what it makes of a frame will be; "" where it refuses. */
     void (*foretell)(const struct rc_grid *frame, const struct rc_export_wish *wish, char *text,

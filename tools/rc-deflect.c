@@ -84,22 +84,9 @@ loaded_fraction(const struct tool *t, const struct rc_grid *p)
 }
 
 struct demand {
-    const struct tool *tool;
     const struct rc_grid *p;
     const struct rc_conv_options *options;
 };
-
-/* Bytes of code and plans of an engine: of transforms, in single precision too. */
-static size_t
-code_for(const char *engine, const struct rc_conv_options *options)
-{
-    const struct rc_engine_info *e;
-
-    for (size_t k = 0; (e = rc_engine_info(k)) != NULL; k++)
-        if (strcmp(e->name, engine) == 0 && e->periodic) /* an engine with transforms */
-            return (options->tol > 0 && !e->precise ? 2 : 1) * (size_t)TOOL_TRANSFORMS;
-    return 0;
-}
 
 static size_t
 memory_by(const void *ctx, const char *engine)
@@ -108,22 +95,20 @@ memory_by(const void *ctx, const char *engine)
     struct rc_shape shape = rc_grid_shape(d->p);
     struct rc_conv_options options = *d->options;
     size_t bytes = rc_grid_nodes(d->p) * sizeof *d->p->v;
-    const char *reason;
 
     options.engine = engine;
-    engine = rc_conv_choice(&shape, &options, &reason);
-    return bytes + tool_code(d->tool, code_for(engine, &options)) +
-           rc_conv_memory(&shape, &options);
+    return bytes + rc_conv_memory(&shape, &options);
 }
 
 /* If the map would fit into the memory with another engine, the message says so. */
 static void
 demand_memory(struct tool *t, const struct rc_grid *p, const struct rc_conv_options *options)
 {
-    const struct demand d = {t, p, options};
+    const struct demand d = {p, options};
 
-    tool_demand_memory_or(t, p, memory_by(&d, options->engine),
-                          tool_leaner_engine(t, options->boundary == RC_PERIODIC, memory_by, &d));
+    t->remedy = tool_leaner_engine(t, options->boundary == RC_PERIODIC, memory_by, &d);
+    tool_demand_memory(t, p, memory_by(&d, options->engine));
+    t->remedy = NULL;
 }
 
 static void
@@ -150,7 +135,6 @@ do_case(struct tool *t, const struct rc_grid *p)
     conv = rc_conv_new(&shape, &pair, &options, &err);
     if (conv == NULL)
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
-    tool_code_there(t, code_for(rc_conv_engine(conv), &options));
     tool_note(t, "summed by %s, because %s; error at most %.1e of the sum of |K| |p|",
               rc_conv_engine(conv), rc_conv_reason(conv), rc_conv_error(conv));
     u = rc_grid_like(p, "displacement", "m", &err);

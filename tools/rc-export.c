@@ -339,10 +339,11 @@ read_frames(struct tool *t, size_t *frames)
     return frame;
 }
 
+/* The libraries that write some formats hold copies that the allocator does not count. */
 static void
 demand_memory(struct tool *t, struct rc_grid *const *frame, size_t frames)
 {
-    size_t bytes = format->library;
+    size_t bytes = 0;
 
     for (size_t k = 0; k < frames && format->copies > 0; k++)
         bytes += format->copies * frame[k]->nx * frame[k]->ny *

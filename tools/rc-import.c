@@ -374,10 +374,6 @@ list_file(struct tool *t, const char *name, const struct rc_wish *wish)
 
 /* ---- heights ---- */
 
-enum {
-    CHILD = 1 << 19 /* bytes that a reading process needs besides the map */
-};
-
 /* The file is in memory already; unpacking needs more besides the map. A map that a child process reads
  * exists twice during its transfer. */
 static enum rc_status
@@ -391,10 +387,10 @@ check_memory(struct tool *t, const struct source *s, const struct rc_channel *ch
         rc_size_mul(nodes, (s->format->sandboxed ? 2 : 1) * sizeof(double), &bytes, err) != RC_OK)
         return RC_FAIL;
     if (s->format->sandboxed)
-        bytes = size_sum(bytes, size_sum(CHILD, s->format->copies ? s->file.size : 0));
+        bytes = size_sum(bytes, s->format->copies ? s->file.size : 0);
     bytes =
         size_sum(bytes, channel->beside < (double)SIZE_MAX ? (size_t)channel->beside : SIZE_MAX);
-    return tool_ask_memory(t, &shape, bytes, "the file itself takes memory too", err);
+    return tool_ask_memory(t, &shape, bytes, err);
 }
 
 /* Prints by how much the extremes of a profile exceed those of its nodes. */
@@ -522,6 +518,7 @@ main(int argc, char **argv)
     struct tool t;
 
     tool_start(&t, &info, argc, argv, &args);
+    t.remedy = "the file itself takes memory too";
     t.missing = t.infinite = true; /* as in the file */
     wish = make_wish(&t);
     if (args.formats) {

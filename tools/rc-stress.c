@@ -452,12 +452,6 @@ loaded_lines(const struct run *run, const struct rc_grid *p)
 }
 
 static size_t
-code_for(const struct run *run)
-{
-    return (run->options.tol > 0 ? 2 : 1) * (size_t)TOOL_TRANSFORMS;
-}
-
-static size_t
 memory_for(const struct run *run, const struct rc_grid *p)
 {
     struct rc_shape shape = rc_grid_shape(p), frame = frame_shape(run, p);
@@ -470,8 +464,7 @@ memory_for(const struct run *run, const struct rc_grid *p)
         frames -= frames < map ? frames : map;
         lines = loaded_lines(run, p);
     }
-    return rc_stress_memory(&shape, o, run->depths.v, run->depths.n, lines) + frames +
-           tool_code(&run->t, code_for(run));
+    return rc_stress_memory(&shape, o, run->depths.v, run->depths.n, lines) + frames;
 }
 
 /* Where a slice is: its depth and, of a coated body, its material. */
@@ -535,7 +528,6 @@ do_case(struct run *run, const struct rc_grid *p)
     stress = rc_stress_new(&shape, p->v, &run->options, &err);
     if (stress == NULL)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
-    tool_code_there(&run->t, code_for(run));
     stress_report_ready(&run->report);
     for (int c = 0; c < RC_STRESSES; c++)
         if (wanted(c))

@@ -245,27 +245,6 @@ wanted_shape(struct tool *t)
     };
 }
 
-/* A random surface takes half a map of complex waves beside it, and FFTW; a distribution other than
- * Gauss's moreover the amplitudes that are wanted, half a map, and the heights in order. */
-static void
-demand_memory(struct tool *t, const struct synth_shape *row, const struct rc_shape *shape)
-{
-    enum {
-        GSL = 1 << 20 /* code of distributions */
-    };
-    bool skewed = !(isnan(args.skewness) && isnan(args.weibull));
-    size_t halves = 2 * row->maps + (skewed ? 3 : 0), nodes, bytes;
-    size_t code = (row->maps > 1 ? (size_t)TOOL_TRANSFORMS : 0) + (skewed ? (size_t)GSL : 0);
-    struct rc_err err;
-
-    if (rc_shape_check(shape, &err) != RC_OK ||
-        rc_size_mul(shape->nx, shape->ny, &nodes, &err) != RC_OK ||
-        rc_size_mul(nodes, halves * sizeof(double) / 2, &bytes, &err) != RC_OK ||
-        tool_ask_memory(t, shape, size_sum(bytes, code), "take fewer nodes: --nx, --ny", &err) !=
-            RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
-}
-
 static void
 add_keys(struct tool *t, const struct synth_shape *row, struct rc_grid *g, bool periodic)
 {
@@ -294,6 +273,7 @@ main(int argc, char **argv)
     struct rc_grid *g;
     struct rc_err err;
     struct tool t;
+    size_t nodes, bytes;
     bool periodic = false;
 
     tool_start(&t, &info, argc, argv, &args);
@@ -303,7 +283,12 @@ main(int argc, char **argv)
     check_place(&t, &shape);
     if (row->check != NULL)
         row->check(&t, &args, &shape);
-    demand_memory(&t, row, &shape);
+    t.remedy = "take fewer nodes: --nx, --ny";
+    if (rc_shape_check(&shape, &err) != RC_OK ||
+        rc_size_mul(shape.nx, shape.ny, &nodes, &err) != RC_OK ||
+        rc_size_mul(nodes, sizeof *g->v, &bytes, &err) != RC_OK ||
+        tool_ask_memory(&t, &shape, bytes, &err) != RC_OK)
+        tool_die(&t, EXIT_IMPOSSIBLE, "%s", err.text);
     g = rc_grid_new(&shape, "height", "m", &err);
     if (g == NULL || row->make(&args, &shape, g->v, &periodic, &err) != RC_OK)
         tool_die(&t, EXIT_IMPOSSIBLE, "%s", err.text);

@@ -297,7 +297,6 @@ const struct rc_export rc_export_hdf5 = {
     .several = true,
     .types = TYPES,
     .copies = 2,
-    .library = (size_t)4 << 20,
     .uneven = true,
     .write = hdf5_write,
 };

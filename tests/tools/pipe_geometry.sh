@@ -135,7 +135,7 @@ refuses 1 'crop 4e-06m,0,5e-06m,1e-06m: a part that begins at 4e-06 m and is 5e-
     "rc-pick --crop 4um,0,5um,1um map.rcg"
 refuses 1 'no node lies in the 2e-07 m from 0 m on: nodes are 2e-06 m apart' "between nodes" "rc-pick --crop 0,0,0.2um,1um map.rcg"
 refuses 1 'columns 0 to 3' "far beyond" "rc-pick --crop 9000000000000000,0,1,1 map.rcg"
-refuses 1 'nodes need about [0-9]{9,} MiB|4294967295 x 3 is more than this machine can address' "more nodes than memory has" \
+refuses 1 'nodes need at least [0-9]{9,} MiB|4294967295 x 3 is more than this machine can address' "more nodes than memory has" \
     "rc-pick --resample 858993459200004x3 map.rcg"
 for bad in 1,2,3 1,2,3,4,5 1,2,3um,4 1.5,2,3,4 1um,1um,2um,3 -1,0,1,1 0,0,0,1 0,0,1um,0 '' 1,,2,3 a,b,c,d 1e16,0,1,1; do
     refuses 2 "rc-pick: --crop $bad: " "--crop $bad" "rc-pick --crop '$bad' map.rcg"
@@ -147,7 +147,7 @@ done
 refuses 2 'spacings DX or DX,DY are expected, or numbers of nodes, NXxNY' "  saying what is meant" "rc-pick --resample 5x map.rcg"
 refuses 1 'a cell of 9e-06 m is wider than the map, 8e-06 m' "cells wider than the map" "rc-pick --resample 9um,1um map.rcg"
 refuses 1 '\-\-resample 999999999999x999999999999: ' "more nodes than there can be" "rc-pick --resample 999999999999x999999999999 map.rcg"
-refuses 1 '4 x 3 nodes need about [0-9]+ MiB, --memory allows 10 KiB' "more memory than is allowed" "rc-pick --memory 10k --resample 1000x1000 map.rcg"
+refuses 1 '4 x 3 nodes need about [0-9]+ [KM]iB, --memory allows 10 KiB' "more memory than is allowed" "rc-pick --memory 10k --resample 1000x1000 map.rcg"
 refuses 2 '--mirror z: it must be x, left to right, or y, top to bottom' "a third axis" "rc-pick --mirror z map.rcg"
 refuses 2 '--rotate 45: it must be 90, 180 or 270 degrees' "half a quarter" "rc-pick --rotate 45 map.rcg"
 refuses 1 'selfaffine-seed-1, case 1, frame 1 \(sxz\): --mirror: stresses would change sign or places: do it to the pressure' "mirrored stresses" \

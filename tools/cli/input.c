@@ -24,10 +24,15 @@ static enum rc_status
 allow(void *tool, const struct rc_shape *shape, size_t bytes, struct rc_err *err)
 {
     struct tool *t = tool;
+    const char *remedy = t->remedy;
+    enum rc_status status;
 
     if (tool_now() > t->budget_at + seconds)
         tool_budget(t);
-    return tool_ask_memory(t, shape, bytes, "use a coarser or smaller map, or raise --memory", err);
+    t->remedy = "use a coarser or smaller map, or raise --memory";
+    status = tool_ask_memory(t, shape, bytes, err);
+    t->remedy = remedy;
+    return status;
 }
 
 /* As of `--load 60 N`, whose last word would be a file. */

@@ -130,15 +130,13 @@ struct tool {
     /* the options of every tool */
     size_t threads;     /* at least 1                                                          */
     size_t memory;      /* bytes; 0: no limit                                                  */
-    size_t beside;      /* bytes of code and stacks, which the allocator does not count           */
+    size_t beside;      /* bytes of code and stacks, which the allocator does not count */
     size_t budget;      /* bytes that the allocator may give                                      */
     const char *bound;  /* what bounds it, as in "--memory allows"                          */
     const char *remedy; /* for the message when memory is short; NULL: a smaller map        */
     double budget_at;   /* s: when the machine was last asked                               */
     size_t beside_memory; /* bytes: the most of tool_memory_beside                       */
     const char *vickers;  /* a hardness that was given so, as it was written; or NULL    */
-    size_t unseen_memory; /* bytes asked for since the machine was last looked at        */
-    size_t code_memory;   /* bytes: the most of tool_code_there                          */
     bool quiet, verbose, progress;
     bool debug;              /* verbose too, and tells of memory */
     enum tool_writes writes; /* info->writes, or text where an option asks for it          */
@@ -262,39 +260,28 @@ void tool_demand_finite(struct tool *tool, const struct rc_grid *grid, const cha
 /* Ends the tool when the file that an option names (NULL: none) cannot be written: said before the
  * work, not after it. */
 void tool_demand_writable(struct tool *tool, const char *option, const char *name);
-enum {
-    TOOL_TRANSFORMS = 9 << 18 /* bytes of code and plans of Fourier transforms in one precision */
-};
-/* The part of so many bytes of code and plans that is not in memory yet. They stay once work has
- * brought them there, so later frames, and later steps of a history, take less than the first. */
-size_t tool_code(const struct tool *tool, size_t bytes);
-/* So many bytes of code and plans are in memory from here on. */
-void tool_code_there(struct tool *tool, size_t bytes);
 /* The budget of the allocator: what --memory allows, or what the machine has, if that is less. */
 void tool_budget(struct tool *tool);
 /* Where the budget refused memory, makes the message "out of memory ..." say how much is needed, what bounds it and
  * what to do; g: NULL, or the map. */
 void tool_add_refusal(const struct tool *tool, const struct rc_grid *g, char *text, size_t size);
-/* What allocations and code took at most so far. */
-size_t tool_counted_memory(const struct tool *tool);
-/* Before long work that will allocate so many bytes after it: ends the tool when they exceed the budget. */
+/* Whether so many bytes more are within the budget; RC_FAIL when they are not, and *err says what needs them (shape
+ * NULL: the work), what bounds them, and tool->remedy. */
+enum rc_status tool_ask_memory(const struct tool *tool, const struct rc_shape *shape, size_t bytes,
+                               struct rc_err *err);
+/* Before long work that will allocate so many bytes: ends the tool when they exceed the budget. */
 void tool_demand_memory(struct tool *tool, const struct rc_grid *grid, size_t bytes);
-/* The same, with a remedy for the message beside that of a smaller map; NULL: none. */
-void tool_demand_memory_or(struct tool *tool, const struct rc_grid *grid, size_t bytes,
-                           const char *remedy);
-/* The same before the map is there, or of curves (shape NULL); RC_FAIL when it is too much, and *err says
- * so. */
-enum rc_status tool_ask_memory(struct tool *tool, const struct rc_shape *shape, size_t bytes,
-                               const char *remedy, struct rc_err *err);
-/* A remedy for tool_demand_memory_or: the first engine that is not slow and whose `bytes` fit;
- * NULL: there is none. Valid until the next call. */
+/* A tool->remedy: the first engine that is not slow and whose `bytes` fit; NULL: there is none. Valid until
+ * the next call. */
 const char *tool_leaner_engine(const struct tool *tool, bool periodic,
                                size_t (*bytes)(const void *ctx, const char *engine),
                                const void *ctx);
-/* Bytes that may still be taken; SIZE_MAX: nothing is known to bound them. */
+/* Bytes that may still be allocated. */
 size_t tool_memory_left(const struct tool *tool);
-/* What the tool will have held at most once it has taken `bytes` more. */
+/* What the tool will hold once it has allocated `bytes` more, with its code. */
 size_t tool_memory_with(size_t bytes);
+/* The most that was allocated so far, with the code. */
+size_t tool_counted_memory(struct tool *tool);
 
 /* Seconds on a clock that only goes forwards. */
 double tool_now(void);

@@ -394,7 +394,6 @@ follow(struct slip_run *run, const struct rc_joint_problem *problem)
     for (int c = 0; c < 2 && run->joints > 1; c++)
         if ((run->lag[c] = calloc(rc_grid_nodes(run->p), sizeof(double))) == NULL)
             tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "out of memory for its tractions");
-    tool_code_there(&run->t, SLIP_CODE);
     for (size_t k = 0; k < run->corners && tool_interrupted() == 0; k++) {
         double began = tool_now();
 
@@ -430,7 +429,7 @@ memory_for(const struct slip_run *run, const struct rc_joint_problem *problem)
 
     return run->joints * rc_joint_memory(&shape, problem, run->solves) +
            (run->joints > 1 ? 3 : 1) * rc_grid_nodes(run->p) * sizeof(double) +
-           slip_checkpoint_memory(run) + tool_code(&run->t, SLIP_CODE);
+           slip_checkpoint_memory(run);
 }
 
 void

@@ -7,8 +7,7 @@
 #include "tools/problem/problem.h"
 
 enum {
-    SLIP_JOINTS = 3,                /* most: of all increments, of half of them, of a quarter */
-    SLIP_CODE = 2 * TOOL_TRANSFORMS /* bytes, of both precisions */
+    SLIP_JOINTS = 3 /* most: of all increments, of half of them, of a quarter */
 };
 
 enum slip_frame { /* in the order of --output's words, and of writing */

@@ -78,7 +78,6 @@ begin(struct run *run, const struct rc_grid *g, struct rc_problem contact)
     if (a->path == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     a->scales = *rc_adhesion_scales(a->path);
-    tool_code_there(&run->t, SOLVE_CODE);
     run->setup = solve_now() - run->began;
 }
 
@@ -474,7 +473,7 @@ adhesion_memory(const struct run *run, const struct rc_grid *g, const struct rc_
 
     return rc_adhesion_memory(&shape, &problem) +
            (run->args->pull_off ? rc_adhesion_pull_off_memory(&shape, &problem) : 0) +
-           2 * rc_grid_nodes(g) * sizeof *g->v + tool_code(&run->t, SOLVE_CODE);
+           2 * rc_grid_nodes(g) * sizeof *g->v;
 }
 
 /* ---- plan and report ---- */

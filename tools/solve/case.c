@@ -447,9 +447,9 @@ demand_memory(struct run *run, const struct rc_grid *g, const struct rc_problem 
 {
     const struct demand d = {run, g, problem};
 
-    tool_demand_memory_or(
-        &run->t, g, solve_memory(run, g, problem),
-        tool_leaner_engine(&run->t, problem->boundary == RC_PERIODIC, memory_by, &d));
+    run->t.remedy = tool_leaner_engine(&run->t, problem->boundary == RC_PERIODIC, memory_by, &d);
+    tool_demand_memory(&run->t, g, solve_memory(run, g, problem));
+    run->t.remedy = NULL;
 }
 
 void
@@ -464,7 +464,6 @@ void
 solve_after_plan(struct run *run)
 {
     tool_catch_signals();
-    tool_code_there(&run->t, SOLVE_CODE);
     run->setup = solve_now() - run->began;
 }
 

@@ -361,8 +361,7 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
         stiffness -= stiffness < left ? stiffness : left;
     bytes += left + stiffness + rc_patches_memory(&shape, NULL, &patches);
     bytes += solve_wanted(run->args, SOLVE_CONTACT) ? nodes * sizeof *g->v : 0;
-    return bytes + (keeps_heights && results ? nodes * sizeof *g->v : 0) +
-           tool_code(&run->t, SOLVE_CODE);
+    return bytes + (keeps_heights && results ? nodes * sizeof *g->v : 0);
 }
 
 void

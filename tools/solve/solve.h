@@ -10,10 +10,6 @@
 #include "tools/cli/cli.h"
 #include "tools/problem/problem.h"
 
-enum {
-    SOLVE_CODE = 2 * TOOL_TRANSFORMS /* bytes, of both precisions */
-};
-
 enum solve_frame { /* in the order of --output's words, and of writing */
     SOLVE_CONTACT, /* before the pressure: who reads frame by frame knows by then what touches */
     SOLVE_PRESSURE,

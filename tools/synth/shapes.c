@@ -180,21 +180,21 @@ make_selfaffine(const struct synth_args *a, const struct rc_shape *shape, double
 
 /* clang-format off */
 const struct synth_shape synth_shapes[] = {
-    {.name = "sphere", .needs = {"radius"}, .takes = {"place"}, .maps = 1, .check = check_radius,
+    {.name = "sphere", .needs = {"radius"}, .takes = {"place"}, .check = check_radius,
      .make = make_sphere},
-    {.name = "cylinder", .needs = {"radius"}, .takes = {"direction", "place"}, .maps = 1,
+    {.name = "cylinder", .needs = {"radius"}, .takes = {"direction", "place"},
      .check = check_radius, .make = make_cylinder},
-    {.name = "paraboloid", .needs = {"radius"}, .takes = {"direction", "place"}, .maps = 1,
+    {.name = "paraboloid", .needs = {"radius"}, .takes = {"direction", "place"},
      .check = check_paraboloid, .make = make_paraboloid},
-    {.name = "cone", .needs = {"slope"}, .takes = {"place"}, .maps = 1, .make = make_cone},
-    {.name = "punch", .needs = {"radius", "height"}, .takes = {"edge", "place"}, .maps = 1,
+    {.name = "cone", .needs = {"slope"}, .takes = {"place"}, .make = make_cone},
+    {.name = "punch", .needs = {"radius", "height"}, .takes = {"edge", "place"},
      .check = check_radius, .make = make_punch},
-    {.name = "wave", .needs = {"amplitude", "wavelength"}, .maps = 1, .check = check_wave,
+    {.name = "wave", .needs = {"amplitude", "wavelength"}, .check = check_wave,
      .make = make_wave},
     {.name = "selfaffine", .needs = {"hurst"},
      .takes = {"rms-slope", "rms-height", "rolloff", "short-cut", "long-cut", "anisotropy",
                "direction", "skewness", "weibull", "seed"},
-     .maps = 2, .check = check_selfaffine, .make = make_selfaffine},
+     .check = check_selfaffine, .make = make_selfaffine},
     {.name = NULL},
 };
 /* clang-format on */

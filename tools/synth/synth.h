@@ -21,7 +21,6 @@ struct synth_args {
 struct synth_shape {
     const char *name;
     const char *needs[4], *takes[12]; /* options, ended by NULL                     */
-    size_t maps;                      /* arrays of the map's size needed to make it */
     /* NULL, or ends the tool when options contradict each other or do not suit the grid. */
     void (*check)(struct tool *tool, const struct synth_args *args, const struct rc_shape *shape);
     /* Sets *periodic if the surface continues across the edges of the map. */
