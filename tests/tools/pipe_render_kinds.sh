@@ -85,6 +85,7 @@ fixed=$(setarch -R true 2>setarch.err && echo setarch -R)
 claim "what drew it is told with the words of its options" bash -c "
     $fixed rc-render --quiet --title Gutenberg --curve load:stiffness --log xy -o told.svg r.tsv && says ' --log xy ' cat told.svg"
 
+claim "a picture of several cases says which" says ' --case 1,2 ' cat cut.svg
 claim "a legend of curves is text" says 'Hertz \(Johnson 1985' cat curve.txt
 claim "what stands over a panel is text" says 'a\) load 1 N +b\) load 2 N' cat sheet.txt
 claim "  whole also where panels are narrow" bash -c \

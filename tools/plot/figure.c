@@ -491,63 +491,60 @@ draw_legend(struct page *p)
     }
 }
 
+/* Over each map of several; smaller where these are narrow. */
+static struct canvas_font
+label_font(const struct page *p, const struct panels *panels)
+{
+    struct canvas_font font = p->small;
+    double widest = 1;
+
+    font.bold = true;
+    for (size_t k = 0; k < panels->n; k++)
+        widest = fmax(widest, canvas_text_width(p->c, &font, panels->panel[k].label));
+    font.size *= fmin(1, fmax(0.6, 0.97 * (double)p->map_w / widest));
+    return font;
+}
+
+/* Axes stand left of the first column and under the lowest map of each. */
 static enum rc_status
-draw(struct page *p, struct rc_err *err)
+draw_panel(const struct page *page, const struct panels *panels, size_t k, struct rc_err *err)
 {
-    double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
-           h = (double)p->plot_h;
+    const struct panel *panel = &panels->panel[k];
+    struct page *p = malloc(sizeof *p);
+    struct canvas_font font = label_font(page, panels);
+    double x, y, w = (double)page->map_w, h = (double)page->map_h;
+    char label[LINE];
+    enum rc_status status;
 
-    page_heading(p);
-    if (draw_map(p, err) != RC_OK)
-        return RC_FAIL;
-    media_draw(p);
-    if (p->f->circle != NULL)
-        draw_circle(p);
-    if (p->f->largest != NULL)
-        draw_cross(p, page_x(p, p->f->largest_x), page_y(p, p->f->largest_y));
-    draw_bar(p);
-    axis_upright(p, &p->down, x, y, h, true, true);
-    canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
-    axis_across(p, &p->across, x, y + h, w);
-    draw_legend(p);
-    return canvas_check(p->c, err);
-}
-
-struct canvas *
-figure_draw(const struct figure *f, const struct rc_grid *g, struct rc_err *err)
-{
-    struct page page = {.f = f, .g = g};
-
-    if ((page.c = page_canvas(&page, 1, 1, err)) == NULL) /* to measure text on */
-        return NULL;
-    page_lay_out(&page);
-    canvas_free(page.c);
-    if ((page.c = page_canvas(&page, page.w, page.h, err)) == NULL)
-        return NULL;
-    if (draw(&page, err) != RC_OK) {
-        canvas_free(page.c);
-        return NULL;
+    if (p == NULL)
+        return rc_err_set(err, "out of memory for a figure");
+    *p = *page;
+    p->f = &panel->figure;
+    p->g = panel->grid;
+    p->plot_x += (size_t)(p->across_step * (double)(k % p->columns));
+    p->plot_y += (size_t)(p->down_step * (double)(k / p->columns));
+    p->plot_w = p->map_w;
+    p->plot_h = p->map_h;
+    x = (double)p->plot_x;
+    y = (double)p->plot_y;
+    snprintf(label, sizeof label, "%s", panel->label);
+    page_shorten(p, &font, w, label);
+    if (*label != '\0')
+        canvas_text(p->c, &font, x, y - 0.45 * p->small.size, 0, label);
+    if ((status = draw_map(p, err)) == RC_OK) {
+        media_draw(p);
+        if (p->f->circle != NULL)
+            draw_circle(p);
+        if (p->f->largest != NULL)
+            draw_cross(p, page_x(p, p->f->largest_x), page_y(p, p->f->largest_y));
+        canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
+        if (k % p->columns == 0)
+            axis_upright(p, &p->down, x, y, h, true, true);
+        if (k + p->columns >= panels->n)
+            axis_across(p, &p->across, x, y + h, w);
     }
-    return page.c;
-}
-
-/* ---- pages of several plots ---- */
-
-enum rc_status
-page_map(struct page *p, bool left, bool below, struct rc_err *err)
-{
-    double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
-           h = (double)p->plot_h;
-
-    if (draw_map(p, err) != RC_OK)
-        return RC_FAIL;
-    media_draw(p);
-    canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
-    if (left)
-        axis_upright(p, &p->down, x, y, h, true, true);
-    if (below)
-        axis_across(p, &p->across, x, y + h, w);
-    return RC_OK;
+    free(p);
+    return status;
 }
 
 void
@@ -555,4 +552,73 @@ page_bar(struct page *p)
 {
     draw_bar(p);
     draw_legend(p);
+}
+
+static enum rc_status
+draw(struct page *p, const struct panels *panels, struct rc_err *err)
+{
+    page_heading(p);
+    for (size_t k = 0; k < panels->n; k++)
+        if (draw_panel(p, panels, k, err) != RC_OK)
+            return RC_FAIL;
+    page_bar(p);
+    return canvas_check(p->c, err);
+}
+
+struct canvas *
+panels_draw(const struct panels *panels, struct rc_err *err)
+{
+    struct page *p = calloc(1, sizeof *p);
+    struct canvas *drawn = NULL;
+    bool laid_out;
+
+    if (p == NULL) {
+        rc_err_set(err, "out of memory for a figure");
+        return NULL;
+    }
+    p->f = panels->figure;
+    p->g = panels->panel[0].grid;
+    p->columns = panels->columns;
+    p->rows = (panels->n + panels->columns - 1) / panels->columns;
+    if ((p->c = page_canvas(p, 1, 1, err)) == NULL) /* to measure text on */
+        goto done;
+    laid_out = page_lay_out(p, err) == RC_OK;
+    canvas_free(p->c);
+    if (!laid_out || (p->c = page_canvas(p, p->w, p->h, err)) == NULL)
+        goto done;
+    if (draw(p, panels, err) == RC_OK)
+        drawn = p->c;
+    else
+        canvas_free(p->c);
+done:
+    free(p);
+    return drawn;
+}
+
+struct canvas *
+figure_draw(const struct figure *f, const struct rc_grid *g, struct rc_err *err)
+{
+    const struct panel panel = {.figure = *f, .grid = g};
+
+    return panels_draw(&(struct panels){f, &panel, 1, 1}, err);
+}
+
+size_t
+panels_columns(size_t n, double aspect)
+{
+    const double page = 1.4; /* width over height */
+    double least = INFINITY;
+    size_t best = 1;
+
+    for (size_t columns = 1; columns <= n; columns++) {
+        size_t rows = (n + columns - 1) / columns;
+        double empty = (double)(columns * rows - n) / (double)n;
+        double cost = fabs(log(aspect * (double)columns / (double)rows / page)) + 2 * empty;
+
+        if (cost < least - 1e-9) {
+            least = cost;
+            best = columns;
+        }
+    }
+    return best;
 }

@@ -210,8 +210,9 @@ natural_side(size_t n, double u)
     return round(nodes / ceil(nodes / most));
 }
 
-double
-page_aspect(const struct figure *f)
+/* Width over height of a map as it is drawn. */
+static double
+aspect_of(const struct figure *f)
 {
     double aspect = (f->right - f->left) / (f->bottom - f->top);
 
@@ -220,28 +221,34 @@ page_aspect(const struct figure *f)
     return fmin(fmax(aspect, 1.0 / FIGURE_ASPECT), FIGURE_ASPECT);
 }
 
+static bool
+is_sheet(const struct page *p)
+{
+    return p->columns * p->rows > 1;
+}
+
+/* Maps of `width` pixels; 0: what suits the nodes of the only one. */
 static void
 set_plot(struct page *p, double width)
 {
-    double x = p->f->right - p->f->left, y = p->f->bottom - p->f->top;
-    double aspect = page_aspect(p->f);
-    double paper = unit_on_paper(p->f), w;
+    double aspect = aspect_of(p->f), paper = unit_on_paper(p->f), w = width;
 
-    p->distorted = aspect != x / y;
-    if (width > 0)
+    p->distorted = aspect != (p->f->right - p->f->left) / (p->f->bottom - p->f->top);
+    if (is_sheet(p))
+        w = floor(width);
+    else if (width > 0)
         w = fmin(width, 0.85 * (double)p->f->width * aspect);
     else
         w = aspect >= 1 ? natural_side(p->g->nx, paper) : natural_side(p->g->ny, paper) * aspect;
     p->plot_w = (size_t)fmax(round(w), 1);
     p->plot_h = (size_t)fmax(round(w / aspect), 1);
-    p->u = paper > 0   ? paper
-           : width > 0 ? fmax((double)p->f->width / 1200, 0.5)
-                       : fmax((double)p->plot_w, (double)p->plot_h) / 900;
-    p->bar_below = (double)p->plot_h < 300 * p->u && p->f->is == NULL;
+    if (width == 0 && paper == 0)
+        p->u = fmax((double)p->plot_w, (double)p->plot_h) / 900;
     page_fonts(p);
+    p->bar_below = (double)p->plot_h < 300 * p->u && p->f->is == NULL && !is_sheet(p);
 }
 
-/* The room that the axes and the bar take to the left and to the right of the plot. */
+/* The room that the axes and the bar take to the left and to the right of the plot, and between maps. */
 static void
 measure_sides(struct page *p)
 {
@@ -255,6 +262,7 @@ measure_sides(struct page *p)
     if (p->bar_below)
         p->right_w =
             24 * u + fmax(fmax(0.5 * p->across.widest, p->gutter), 0.5 * p->values.widest + 14 * u);
+    p->across_step = fmax(22 * u + p->gutter, p->across.widest + 14 * u); /* marks at both edges */
 }
 
 double
@@ -308,8 +316,8 @@ say_scales(const struct figure *f, char *text, size_t size)
 }
 
 /* What the legend says, and where: side by side as many as fit a line. */
-static void
-set_legend(struct page *p, double width)
+void
+page_legend(struct page *p, double width)
 {
     double x = 0, y = 0, line = 1.55 * p->small.size;
     char text[LINE];
@@ -398,48 +406,73 @@ page_words_height(const struct page *p)
            1.4 * p->subheading.size * (double)p->subtitle.n;
 }
 
+double
+page_between_rows(const struct page *p)
+{
+    return 2.1 * p->small.size;
+}
+
+/* Maps become the plot of the page. */
 static void
 set_page(struct page *p)
 {
-    double u = p->u, text_w, marks = page_marks(p), free;
-    double content = p->left_w + (double)p->plot_w + p->right_w, over = overhang(p);
+    double u = p->u, text_w, marks = page_marks(p), free, content, over;
 
-    p->w = p->f->width != 0 ? p->f->width : (size_t)ceil(fmax(content, 680 * u));
+    p->map_w = p->plot_w;
+    p->map_h = p->plot_h;
+    p->across_step += (double)p->map_w;
+    p->down_step = (double)p->map_h + page_between_rows(p);
+    p->plot_w += (size_t)(p->across_step * (double)(p->columns - 1));
+    p->plot_h += (size_t)(p->down_step * (double)(p->rows - 1));
+    content = p->left_w + (double)p->plot_w + p->right_w;
+    over = overhang(p);
+    if (p->f->width == 0 && !is_sheet(p))
+        p->w = (size_t)ceil(fmax(content, 680 * u));
     text_w = (double)p->w - 48 * u;
     page_words(p, text_w);
-    set_legend(p, text_w);
-    p->above = page_words_height(p) + 22 * u + over;
+    page_legend(p, text_w);
+    p->above = page_words_height(p) + (is_sheet(p) ? page_between_rows(p) : 22 * u) + over;
     if (p->bar_below)
         marks = page_bar_below(p) + 28 * u + marks;
     p->below = fmax(marks, over) + p->legend_h + 22 * u;
-    free = fmax(0, (double)p->w - content);
+    free = is_sheet(p) ? 0 : fmax(0, (double)p->w - content);
     p->plot_x = (size_t)round(p->left_w + 0.5 * free);
     p->plot_y = (size_t)round(p->above);
     p->h = (size_t)ceil(p->above + (double)p->plot_h + p->below);
     set_dpi(p);
 }
 
-/* Sizes depend on texts, texts on marks, marks on sizes: with a width that is asked for a few
- * rounds settle that. */
-void
-page_lay_out(struct page *p)
+/* Sizes depend on texts, texts on marks, marks on sizes: with a width that is given a few rounds settle
+ * that. */
+enum rc_status
+page_lay_out(struct page *p, struct rc_err *err)
 {
-    double width = 0.8 * (double)p->f->width;
+    const double least = 40, columns = (double)p->columns; /* pixels of a map of several */
     bool beside = false,
          again = false; /* the bar has been; and then below once more: it stays there */
+    double width;
 
+    page_size(p, is_sheet(p) ? SHEET_WIDTH : 1200);
     set_axes(p);
-    for (int round = 0; round < 6; round++) {
+    width = is_sheet(p) ? ((double)p->w - 260 * p->u) / columns : 0.8 * (double)p->f->width;
+    for (int round = 0; round < (is_sheet(p) ? 4 : 6); round++) {
         set_plot(p, width);
         again = again || (beside && p->bar_below);
         beside = beside || !p->bar_below;
         p->bar_below = p->bar_below || again;
         measure_sides(p);
-        if (p->f->width == 0)
+        if (p->f->width == 0 && !is_sheet(p))
             break;
-        width = fmax((double)p->f->width - p->left_w - p->right_w, 1);
+        width = ((double)p->w - p->left_w - p->right_w - p->across_step * (columns - 1)) / columns;
+        if (is_sheet(p) && width < least)
+            return rc_err_set(err,
+                              "%zu columns on %zu pixels leave %d for each: ask for fewer "
+                              "columns or a larger --width",
+                              p->columns, p->w, width < 0 ? 0 : (int)width);
+        width = fmax(width, 1);
     }
     set_page(p);
+    return RC_OK;
 }
 
 struct canvas *
@@ -477,10 +510,4 @@ page_measure(struct page *p)
     mark_map(p);
     axis_mark(p, &p->values, (double)p->plot_h, true);
     p->gutter = media_gutter(p);
-}
-
-void
-page_legend(struct page *p, double width)
-{
-    set_legend(p, width);
 }

@@ -74,6 +74,9 @@ struct page {
     double stamp_h;                       /* 0 without one */
     double left_w, right_w, above, below; /* around the plot, margins included         */
     double top;                           /* of the page on its canvas                 */
+    size_t columns, rows;                 /* of maps                                   */
+    size_t map_w, map_h;                  /* of each; plot_w and plot_h are of all     */
+    double across_step, down_step;        /* from one to the next, pixels              */
     size_t plot_x, plot_y, plot_w, plot_h, w, h;
     double dpi; /* pixels of the page in an inch of paper */
 };
@@ -82,14 +85,17 @@ extern const struct rgb page_ink, page_faint;
 
 extern const struct rgb page_alarm;
 
-/* Settles everything of a page whose f and g are set, measuring text on c. */
-void page_lay_out(struct page *page);
+/* Settles everything of a page of maps whose f, g, columns and rows are set, measuring text on c. RC_FAIL: the
+ * page is too narrow for so many columns. */
+enum rc_status page_lay_out(struct page *page, struct rc_err *err);
 /* Pixels that the swatch of note k takes, gap included. */
 double page_swatch(const struct page *page, size_t k);
 /* From the plot's right edge to a bar beside it, and from its lower edge to a bar below. */
 double page_bar_right(const struct page *page);
 /* From the plot's right edge to that of the page, with a bar beside it or, of categories, none. */
 double page_right(const struct page *page);
+/* Pixels from one row of maps to the next, beside their height. */
+double page_between_rows(const struct page *page);
 double page_bar_below(const struct page *page);
 /* The height that marks and label take below an axis. */
 double page_marks(const struct page *page);
@@ -117,10 +123,6 @@ void page_heading(struct page *page);
 void page_measure(struct page *page);
 /* Settles what the legend says, and its height. */
 void page_legend(struct page *page, double width);
-/* Draws the map in its frame, with the axes asked for. In figure.c, like the functions below. */
-enum rc_status page_map(struct page *page, bool left, bool below, struct rc_err *err);
-/* Width over height of the plot of a figure. */
-double page_aspect(const struct figure *figure);
 /* Draws the colour bar beside the plot, and the legend at the foot of the page. */
 void page_bar(struct page *page);
 /* ---- axis.c ---- */

@@ -7,7 +7,6 @@
 #include "tools/canvas/canvas.h"
 #include "figure.h"
 #include "graph.h"
-#include "panels.h"
 #include "raster.h"
 #include "relief.h"
 #include "ticks.h"
