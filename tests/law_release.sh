@@ -10,7 +10,7 @@ claim "  it is that of the tools" says " $version\$" rc-info --version
 line() { grep -qxF -- "$2" "$RC_SOURCE/$1"; }
 claim "  of CITATION.cff" line CITATION.cff "version: $version"
 claim "  of the newest section of CHANGELOG.md" test "$(grep -m 1 '^## ' "$RC_SOURCE/CHANGELOG.md")" = "## $version"
-claim "  of rcg.py" line python/rcg.py "__version__ = '$version'"
+claim "  of the Python package" line python/rcg/__init__.py "__version__ = '$version'"
 claim "  of the Debian packages" says "^libcontact \($version-" head -n 1 "$RC_SOURCE/debian/changelog"
 claim "  and the name of the library has its beginning" grep -q "^Package: libcontact${version%%.*}\$" "$RC_SOURCE/debian/control"
 
@@ -28,7 +28,7 @@ claim "  without git, the same is made of what was unpacked" dist "$PWD/libconta
 listed() { tar tzf "$1" | grep -v '/$' | sort; }
 claim "  file by file" diff <(listed "first/$tarball") <(listed "second/$tarball")
 claim "  with all that the build and the tests look for" bash -c '
-    cd "$0" && ls CMakeLists.txt CMakePresets.json LICENSE README.md CHANGELOG.md CITATION.cff .clang-format python/rcg.py \
+    cd "$0" && ls CMakeLists.txt CMakePresets.json LICENSE README.md CHANGELOG.md CITATION.cff .clang-format python/rcg/*.py \
         sample_surfaces/*.x3p tests/*.sh tests/tools/*.sh debian/control' "libcontact-$version"
 claim "  it configures alone" cmake -S "libcontact-$version" -B alone -DCMAKE_C_COMPILER="${CC:-cc}" "-DRC_LEAK=$(with_leak && echo AUTO || echo OFF)"
 # but for those under mpirun, which only a build with MPI has

@@ -62,7 +62,9 @@ done
 
 # ---- for users of numpy ----
 
-claim "rcg.py is there, for pip and to be copied" diff -r -x __pycache__ "$RC_SOURCE/python" "$prefix/share/libcontact/python"
+claim "the Python package is there, for pip" diff -r -x __pycache__ -x tables.json "$RC_SOURCE/python" "$prefix/share/libcontact/python"
+claim "  with the option tables of the tools" bash -c '[ "$(wc -l <"$0")" = "$(ls "$1"/bin/rc-* | grep -vc mpi)" ]' \
+    "$prefix/share/libcontact/python/rcg/tables.json" "$prefix"
 
 # ---- a program of others, by pkg-config ----
 

@@ -1,5 +1,5 @@
-# rcg.py reads and writes streams as the tools do, bit for bit, refuses the streams that they refuse, and runs
-# the tools: the output is that of a shell, and a failure has the tool's words and exit status.
+# The Python package rcg reads and writes streams as the tools do, bit for bit, refuses the streams that they refuse,
+# and runs the tools: the output is that of a shell, and a failure has the tool's message and exit status.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 . "$RC_SOURCE/tests/python.sh"
@@ -64,6 +64,20 @@ claim "options: numbers, lists, flags, letters, files" check options ball.rcg
 claim "a tool that fails: its words and exit status" check fails hole.rcg
 claim "one that stopped short: its best as well" check short
 claim "what a tool warns of is a warning" check warns
+
+# ---- functions ----
+
+claim "functions give what the tools write, from a file, a frame, an array, a result" check functions ball.rcg
+claim "  steps in the order of the keywords" check steps ball.rcg
+claim "  layers, a list of tuples" check layers ball.rcg
+claim "  what is wrong in a call is said before the tool runs" check mistakes ball.rcg
+claim "  one that stopped short, and warnings at the line of the user" check unfinished
+claim "  pictures, curves, files of other programs" check pictures ball.rcg
+claim "their documentation has every option of --help" check documented
+mkdir mutated
+printf '#!/bin/sh\n%s "$@" | sed "s/\"hardness\"/\"hardened\"/"\n' "$RC_BIN/rc-solve" >mutated/rc-solve
+chmod +x mutated/rc-solve
+claim "  from the option table and nothing else" check mutated "$PWD/mutated"
 version=$(rc-info --version | grep -o '[0-9.]*$')
 claim "its version is that of the tools" says "^$version\$" "$python" -c 'import rcg; print(rcg.__version__)'
 

@@ -1,4 +1,4 @@
-"""What pipe_python.sh claims of rcg.py, a function each: python_rcg.py NAME ARGUMENT..."""
+"""The claims of pipe_python.sh about the package rcg, a function each: python_rcg.py NAME ARGUMENT..."""
 import io
 import json
 import math
@@ -327,6 +327,115 @@ def warns():
         assert caught[0].filename == __file__
         rcg.run('rc-solve', wave, load=0.01, estar='1GPa', quiet=True)
         assert len(caught) == 1
+
+
+# ---- functions ----
+
+def raised(kind, call, *arguments, **more):
+    try:
+        call(*arguments, **more)
+    except kind as error:
+        return error
+    raise AssertionError('no %s' % kind.__name__)
+
+
+def functions(name):
+    """The functions give the bytes of the tools, from a file, a frame, an array, a result."""
+    wanted = dict(load=[(0.5, 'N'), '1250mN'], estar='114GPa', output=['pressure', 'gap'], quiet=True)
+    solved = tool('rc-solve', '--load', '0.5N,1250mN', '--estar', '114GPa', '--output', 'pressure,gap', '--quiet',
+                  input=content(name))[1]
+    ball = rcg.open(name)
+    for surface in (name, ball, ball.frames, ball.frames[0]):
+        result = rcg.solve(surface, **wanted)
+        assert rcg.dumps(result.frames) == solved
+    stressed = tool('rc-stress', '--nu', '0.3', '--depths', '0:3um:3', '--components', 'mises,szz', input=solved)[1]
+    untouched = rcg.solve(ball, **wanted)  # whose bytes go on as they came
+    stress = rcg.stress(untouched, nu=0.3, depths='0:3um:3', components=['mises', 'szz'])
+    assert rcg.dumps(stress.frames) == stressed and stress.mises.shape == (6, 47, 33)
+    assert [len(case.frames) for case in stress.cases] == [6, 6]
+    assert rcg.dumps(rcg.synth('sphere', nx=33, ny=47, dx='1.1um', dy='1.29um', radius='2.385mm').frames) == content(name)
+    again = rcg.solve(ball.height, dx=(1.1e-6, 1.29e-6), **wanted)
+    assert (again.pressure == result.pressure).all() and again.pressure.shape == (2, 47, 33)
+    assert numpy.allclose(result.report['load'], [0.5, 1.25], rtol=1e-12) and result.converged
+    assert [case.report['asked_load'] for case in result.cases] == [0.5, 1.25] and result.contact_area[1] > result.contact_area[0]
+    assert result.frame('gap', case=2).keys['load'] == '1.25'
+    result.save('saved.rcg')
+    assert content('saved.rcg') == solved
+    assert rcg.info(ball).report['maximum'] == ball.height.max()
+    assert (rcg.add(ball, ball, subtract=True).height == 0).all()
+
+
+def steps(name):
+    """Options that a tool applies in order keep the order of the keywords; options may repeat."""
+    ball = rcg.open(name)
+    words = ['--set', 'a=1', '--set', 'b=2', '--crop', '0,0,9,9']
+    assert rcg.pick(ball, set=['a=1', 'b=2'], crop='0,0,9,9').command[1:] == words
+    assert rcg.detrend(ball, plane=True, mirror=True).command[1:] == ['--plane', '--mirror']
+    assert rcg.detrend(ball, mirror=True, plane=True).command[1:] == ['--mirror', '--plane']
+
+
+def layers(name):
+    coated = rcg.solve(rcg.open(name), load=1, E1='210GPa', nu1=0.3, E2='rigid', quiet=True,
+                       layer=[('2um', '400GPa', 0.2), (1e-6, 100e9, 0.3)])
+    assert coated.command.count('--layer') == 2 and '2um,400GPa,0.2' in coated.command
+
+
+def mistakes(name):
+    """A wrong keyword, word or value is refused before the tool runs, with the nearest name."""
+    ball = rcg.open(name)
+    assert "did you mean 'load'" in str(raised(TypeError, rcg.solve, ball, lod='60N'))
+    assert "did you mean 'fft'" in str(raised(ValueError, rcg.solve, ball, load=1, kernel='ftt'))
+    assert 'needs a value' in str(raised(TypeError, rcg.solve, ball, load=1, estar=True))
+    assert 'True or False' in str(raised(TypeError, rcg.solve, ball, load=1, periodic=3))
+    assert 'dx=' in str(raised(TypeError, rcg.solve, ball.height, load=1))
+    assert "did you mean 'height'" in str(raised(AttributeError, lambda: ball.heigt))
+    error = raised(rcg.Error, rcg.solve, ball, load='1K', estar='114GPa')
+    assert error.status == 2 and 'unknown unit' in str(error)
+    assert not hasattr(rcg, 'nothing') and set(rcg.tools.FUNCTIONS) <= set(dir(rcg))
+
+
+def unfinished():
+    rough = rcg.synth('selfaffine', nx=64, dx='1um', hurst=0.8, rms_height='100nm', seed=5)
+    error = raised(rcg.NotConverged, rcg.solve, rough, periodic=True, load='0.1N', estar='100GPa', tol=1e-17)
+    assert error.status == 3 and not error.result.converged and error.result.pressure.shape == (64, 64)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter('always')
+        wave = rcg.synth('wave', nx=32, dx='1um', amplitude='1um', wavelength='32um')
+        result = rcg.solve(wave, load=0.01, estar='1GPa')
+    assert caught and all(w.category is rcg.ToolWarning and w.filename == __file__ for w in caught)
+    assert result.warnings == [str(w.message) for w in caught] and caught[0].message.tool == 'rc-solve'
+
+
+def pictures(name):
+    result = rcg.solve(name, load=[0.5, 1, 2], estar='114GPa', quiet=True)
+    assert rcg.render(result, channel='pressure')._repr_png_()[1:4] == b'PNG'
+    rcg.render(result, 'curve.svg', curve='load:contact_area')
+    assert b'<svg' in content('curve.svg')
+    assert 'data:image/png' in result._repr_html_() and 'contact_area' in repr(result.cases[0])
+    rcg.export(result, 'pressure.npy', channel='pressure', case=1)
+    assert (numpy.load('pressure.npy') == result.cases[0].pressure).all()
+
+
+def documented():
+    """Every option of --help is in the documentation and in the signature, and no other."""
+    import inspect
+    for name, command in rcg.tools.FUNCTIONS.items():
+        help_ = tool(command, '--help')[1].decode()
+        shown = {w.strip(' ,')[2:] for line in help_.splitlines() if line.startswith('  -')
+                 for w in line.split()[:2] if w.startswith('--')}
+        rows = rcg.tools.options_of(command)
+        there = {row['name'] for row in rows.values()} | {row['alias'] for row in rows.values() if row['alias']}
+        assert there == shown - rcg.tools.HIDDEN, (command, there ^ (shown - rcg.tools.HIDDEN))
+        function = getattr(rcg, name)
+        assert set(rows) <= set(inspect.signature(function).parameters)
+        for python in rows:
+            assert '\n%s' % python in function.__doc__, (name, python)
+
+
+def mutated(folder):
+    """A change in the option table of a tool changes the documentation."""
+    os.environ['RC_BIN'] = folder
+    assert 'hardened' in rcg.solve.__doc__ and 'hardness' not in rcg.tools.options_of('rc-solve')
 
 
 def drawn(script):

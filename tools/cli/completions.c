@@ -1,10 +1,12 @@
 /*
- * What a shell completes on a command line, made from the option tables: names of options, their
- * words, units behind numbers, files, and the channels of the streams that the line names.
+ * Completions of bash, zsh and fish, made from the option tables: names of options, their words, units after
+ * numbers, files, and the channels of the streams that the line names; and the tables themselves as JSON, from
+ * which the functions of the Python package are made.
  */
 #include "parts.h"
 
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 /* What follows an option. */
@@ -121,20 +123,26 @@ dashes(const char *name)
     return name[1] == '\0' ? "-" : "--";
 }
 
-/* The rows of the tool, -o, and those that every tool has. */
-static void
-walk(const struct tool *t, void (*row)(const struct tool_info *, const struct opt *))
+/* Row k of the tool's own, of -o, and of those that every tool has; NULL past the last. */
+static const struct opt *
+row_at(const struct tool *t, size_t k)
 {
     static const struct opt out = {.name = "o",
                                    .type = OPT_TEXT,
                                    .arg = "FILE",
                                    .help = "write to FILE, which appears whole or not at all"};
+
+    if (k < t->opts)
+        return &t->opt[k];
+    return k == t->opts ? &out : option_common(t->info, k - t->opts - 1);
+}
+
+static void
+walk(const struct tool *t, void (*row)(const struct tool_info *, const struct opt *))
+{
     const struct opt *o;
 
-    for (size_t k = 0; k < t->opts; k++)
-        row(t->info, &t->opt[k]);
-    row(t->info, &out);
-    for (size_t k = 0; (o = option_common(t->info, k)) != NULL; k++)
+    for (size_t k = 0; (o = row_at(t, k)) != NULL; k++)
         row(t->info, o);
 }
 
@@ -441,6 +449,93 @@ fish_print(const struct tool *t)
     walk(t, fish_option);
 }
 
+/* ---- for programs: the table as JSON ---- */
+
+/* The words of a list, separated by blanks or '|', as an array. */
+static void
+json_list(struct json *json, const char *name, const char *words)
+{
+    char word[64];
+
+    json_array(json, name);
+    for (size_t n; *words != '\0'; words += n + (words[n] != '\0')) {
+        n = strcspn(words, " |");
+        snprintf(word, sizeof word, "%.*s", (int)n, words);
+        json_text(json, NULL, word);
+    }
+    json_end(json, ']');
+}
+
+/* The words that an option takes: with .word, that one beside its numbers. */
+static void
+json_words(struct json *json, const struct opt *o)
+{
+    const char *word;
+    char text[64];
+    size_t n;
+
+    json_array(json, "words");
+    if (has_words(o)) {
+        for (size_t k = 0; (word = option_word(o, k, &n)) != NULL; k++) {
+            snprintf(text, sizeof text, "%.*s", (int)n, word);
+            json_text(json, NULL, text);
+        }
+    } else if (o->word != NULL) {
+        json_text(json, NULL, o->word);
+    }
+    json_end(json, ']');
+}
+
+static void
+json_option(struct json *json, const struct opt *o)
+{
+    static const char *const types[] = {
+        [OPT_FLAG] = "flag",   [OPT_NUMBER] = "number",   [OPT_COUNT] = "count",
+        [OPT_TEXT] = "text",   [OPT_REPORT] = "report",   [OPT_CHOICE] = "choice",
+        [OPT_WORDS] = "words", [OPT_NUMBERS] = "numbers", [OPT_STEP] = "step",
+        [OPT_TEXTS] = "texts"};
+
+    json_object(json, NULL);
+    json_text(json, "name", o->name);
+    json_text(json, "alias", o->alias);
+    json_text(json, "type", types[o->type]);
+    json_text(json, "argument", o->arg);
+    json_text(json, "unit", unit_name(o->unit));
+    json_list(json, "units", unit_usual(o->unit));
+    json_number(json, "least", o->min < o->max ? o->min : NAN);
+    json_number(json, "most", o->min < o->max ? o->max : NAN);
+    json_bool(json, "above_least", o->above);
+    json_words(json, o);
+    json_bool(json, "only_words", o->type == OPT_CHOICE || o->type == OPT_WORDS);
+    json_bool(json, "optional", o->optional);
+    json_bool(json, "repeats", o->type == OPT_TEXTS || o->type == OPT_STEP);
+    json_text(json, "help", o->help);
+    json_end(json, '}');
+}
+
+static void
+table_print(const struct tool *t)
+{
+    static const char *const reads[] = {"nothing", "stream", "files"}, *const writes[] = {"stream",
+                                                                                          "bytes",
+                                                                                          "text"};
+    const struct opt *o;
+    struct json json;
+
+    json_open(&json, stdout);
+    json_text(&json, "tool", t->info->name);
+    json_text(&json, "summary", t->info->summary);
+    json_text(&json, "operands", t->info->operands);
+    json_list(&json, "operand_words", operand_words(t->info) == NULL ? "" : t->info->operands);
+    json_text(&json, "reads", reads[t->info->reads]);
+    json_text(&json, "writes", writes[t->info->writes]);
+    json_array(&json, "options");
+    for (size_t k = 0; (o = row_at(t, k)) != NULL; k++)
+        json_option(&json, o);
+    json_end(&json, ']');
+    json_close(&json);
+}
+
 /* ---- all of them ---- */
 
 bool
@@ -449,7 +544,8 @@ completions_print(const struct tool *t, const char *shell)
     static const struct shell {
         const char *name;
         void (*print)(const struct tool *t);
-    } shells[] = {{"bash", bash_print}, {"zsh", zsh_print}, {"fish", fish_print}};
+    } shells[] = {
+        {"bash", bash_print}, {"zsh", zsh_print}, {"fish", fish_print}, {"json", table_print}};
 
     for (size_t k = 0; k < sizeof shells / sizeof *shells; k++)
         if (strcmp(shells[k].name, shell) == 0) {

@@ -16,8 +16,7 @@ enum {
 const char *option_word(const struct opt *option, size_t k, size_t *length);
 /* Row k of those that every tool has; NULL past the last one that this one has. */
 const struct opt *option_common(const struct tool_info *info, size_t k);
-/* Prints what bash, zsh or fish is to complete on the tool's command line; false: it is none of
- * them. */
+/* Prints the completions of bash, zsh or fish, or the option table as json; false: another word. */
 bool completions_print(const struct tool *tool, const char *shell);
 /* Reads the command line into tool->args and the options of every tool. */
 void options_read(struct tool *tool, int argc, char **argv);

@@ -1,0 +1,32 @@
+"""Contact of rough surfaces: the rc-* tools as functions on numpy arrays.
+
+    import rcg
+    surface = rcg.open('rough-steel.x3p')                          # an instrument file, or a grid stream
+    surface = rcg.detrend(surface, poly=2, outliers=5, fill=True)  # steps in the order written
+    result = rcg.solve(surface, radius='3.75mm', load='60N', estar='114GPa', hardness='6GPa')
+    result.pressure                                                # 2-D array, pascals
+    result.report['contact_area']                                  # square metres
+    rcg.render(result, channel='pressure', border=True)            # a picture
+
+Each tool is one function: add cost deflect detrend export info leak open (rc-import) pick render slip
+solve stress synth. help(rcg.solve) lists its options. frame, read, write, loads and dumps handle the
+grid stream, run and report call a tool by its name.
+"""
+from .stream import Error, Frame, dumps, frame, loads, read, write
+from .tools import FUNCTIONS, NotConverged, Picture, Result, ToolWarning, function, report, run
+
+__version__ = '0.1.0'
+__all__ = ['Error', 'Frame', 'NotConverged', 'Picture', 'Result', 'ToolWarning', 'frame', 'loads', 'read', 'dumps',
+           'write', 'run', 'report'] + sorted(FUNCTIONS)
+
+
+def __getattr__(name):
+    """The function of a tool, made from its option table when it is first used."""
+    if name not in FUNCTIONS:
+        raise AttributeError('module %r has no attribute %r' % (__name__, name))
+    globals()[name] = made = function(name)
+    return made
+
+
+def __dir__():
+    return sorted(set(globals()) | set(__all__))

@@ -1,0 +1,633 @@
+"""The rc-* tools as functions, made from the option tables of the tools, so that both agree.
+
+Tables come from the file tables.json beside this module, which the build makes, or from the tools
+themselves (`rc-solve --completions json`).
+"""
+import json
+import keyword
+import os
+import subprocess
+import tempfile
+import threading
+import warnings
+
+import numpy
+
+from . import stream
+from .stream import Error, Frame
+
+# The functions and their tools. An import of files is `open`: import is a word of Python.
+FUNCTIONS = {name: 'rc-' + name for name in
+             'add cost deflect detrend export info leak pick render slip solve stress synth'.split()}
+FUNCTIONS['open'] = 'rc-import'
+# Options that the functions set themselves, or that print text for people at a terminal.
+HIDDEN = {'o', 'report', 'json', 'help', 'version', 'verbose', 'debug', 'progress', 'formats', 'list', 'dry-run'}
+PIPE_BYTES = 1 << 20
+
+
+class ToolWarning(UserWarning):
+    """A warning of a tool that did its work; `tool` is its name."""
+
+    def __init__(self, text, tool):
+        super().__init__(text)
+        self.tool = tool
+
+
+class NotConverged(Error):
+    """A tool stopped short of the requested accuracy: `result` holds the best result it found."""
+
+    def __init__(self, text, result):
+        super().__init__(text, 3, result.frames, result.lines)
+        self.result = result
+
+
+# ---- where the tools and their tables are ----
+
+_found, _tables = {}, {}
+
+
+def place(tool):
+    """The path of an rc-* tool: the folder RC_BIN, else beside this package as pip installed both, else PATH."""
+    if os.sep in tool or not tool.startswith('rc-'):
+        return tool
+    if 'RC_BIN' in os.environ:
+        return os.path.join(os.environ['RC_BIN'], tool)
+    if not _found:
+        _found.update(_installed())
+    return _found.get(tool, tool)
+
+
+def _installed():
+    from importlib import metadata
+    found = {'': ''}
+    try:
+        for file in metadata.files('rough-contact') or ():
+            if file.name.startswith('rc-') and file.parent.name == 'bin':
+                found[file.name] = os.path.realpath(file.locate())
+    except metadata.PackageNotFoundError:
+        pass
+    return found
+
+
+def table(tool):
+    """The option table of a tool, as its --completions json prints it."""
+    if not _tables:
+        name = os.path.join(os.path.dirname(__file__), 'tables.json')
+        if os.path.exists(name):
+            with open(name, encoding='utf-8') as file:
+                _tables.update((row['tool'], row) for row in map(json.loads, file))
+    if tool not in _tables:
+        status, output, words = execute([tool, '--completions', 'json'])
+        if status != 0:
+            raise Error(words, status)
+        _tables[tool] = json.loads(output)
+    return _tables[tool]
+
+
+def options_of(tool):
+    """{keyword of Python: row of the option table}."""
+    rows = {}
+    for row in table(tool)['options']:
+        for name in (row['name'], row['alias']):
+            if name is not None and row['name'] not in HIDDEN:
+                rows[python_name(name)] = row
+    return rows
+
+
+def python_name(option):
+    """pull-off is pull_off; yield, a word of Python, is yield_."""
+    name = option.replace('-', '_')
+    return name + '_' if keyword.iskeyword(name) else name
+
+
+# ---- one run of a tool ----
+
+def execute(command, data=None, timeout=None):
+    """Runs a command on a sequence of bytes (None: no input): exit status, output, messages."""
+    try:
+        child = subprocess.Popen([place(command[0])] + command[1:], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                 stdin=subprocess.DEVNULL if data is None else subprocess.PIPE)
+    except FileNotFoundError:
+        raise Error('%s: not found: install the tools, or name their folder in PATH or RC_BIN' % command[0], 127) from None
+    messages = []
+    threads = [threading.Thread(target=lambda: messages.append(child.stderr.read()), daemon=True)]
+    if data is not None:
+        threads.append(threading.Thread(target=_feed, args=(child.stdin, data), daemon=True))
+    watch = threading.Timer(timeout, child.terminate) if timeout is not None else None
+    _widen(child.stdout)
+    for thread in threads + [watch] * (watch is not None):
+        thread.start()
+    try:
+        output = child.stdout.read()
+        child.wait()
+    except BaseException:  # Ctrl-C: the tool removes its files when it is asked to end
+        child.terminate()
+        child.wait()
+        raise
+    finally:
+        if watch is not None:
+            watch.cancel()
+        for thread in threads:
+            thread.join()
+        child.stdout.close()
+        child.stderr.close()
+    words = messages[0].decode('utf-8', 'replace').strip()
+    if child.returncode < 0 and not words:
+        words = '%s: ended by signal %d' % (command[0], -child.returncode)
+    return child.returncode, output, words
+
+
+def _widen(pipe):
+    """Fewer and larger transfers where the system allows it (Linux)."""
+    try:
+        import fcntl
+        fcntl.fcntl(pipe.fileno(), getattr(fcntl, 'F_SETPIPE_SZ', 1031), PIPE_BYTES)
+    except (ImportError, OSError):
+        pass
+
+
+def _feed(pipe, data):
+    _widen(pipe)
+    try:
+        for part in data:
+            pipe.write(part)
+        pipe.close()
+    except BrokenPipeError:
+        pass  # the tool ended before it had read everything, and its messages say why
+
+
+def _reported(command, data, has_report, timeout=None):
+    """The same with the lines of the tool's report: exit status, output, messages, list of dicts."""
+    if not has_report:
+        return execute(command, data, timeout) + ([],)
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, 'report.json')
+        found = execute(command + ['--report', name], data, timeout)
+        if not os.path.exists(name):
+            return found + ([],)
+        with open(name, encoding='utf-8') as file:
+            return found + ([json.loads(line) for line in file],)
+
+
+def _frames_of(tool, output):
+    if output and not output.startswith(b'RCG'):
+        raise Error('the output of %s is no grid stream: run it in a shell' % tool)
+    return stream.loads(output) if output else []
+
+
+# ---- arguments ----
+
+def _text(value):
+    """An argument as text: a number in SI, (60, 'N') and quantities of pint and astropy with their unit."""
+    if isinstance(value, tuple) and len(value) == 2 and isinstance(value[1], str) and not isinstance(value[0], str):
+        return stream._text(value[0]) + value[1]
+    if hasattr(value, 'to_base_units') and hasattr(value, 'magnitude'):
+        return stream._text(float(value.to_base_units().magnitude))
+    if hasattr(value, 'si') and hasattr(value.si, 'value'):
+        return stream._text(float(value.si.value))
+    if hasattr(value, '__fspath__'):
+        return os.fspath(value)
+    if isinstance(value, tuple):
+        return ','.join(map(_text, value))
+    return stream._text(value)
+
+
+def _is_list(value):
+    return isinstance(value, (list, range)) or (isinstance(value, numpy.ndarray) and value.ndim > 0)
+
+
+def _arguments(row, keyword_, value):
+    """The words on the command line for one option of the table."""
+    dashed = ('-' if len(row['name']) == 1 else '--') + row['name']
+    if value is None or value is False:
+        return []
+    if value is True:
+        if row['argument'] is None or row['optional'] or row['type'] == 'step':
+            return [dashed]
+        raise TypeError('%s=True: the option needs a value, %s: %s' % (keyword_, row['argument'], _help(row)))
+    if row['type'] == 'flag':
+        raise TypeError('%s=%r: the option is True or False' % (keyword_, value))
+    if row['repeats']:
+        return [word for one in (value if _is_list(value) else [value]) for word in _arguments_of_one(row, dashed, one)]
+    text = ','.join(map(_text, value)) if _is_list(value) else _text(value)
+    for word in text.split(',') if row['type'] == 'words' else [text] if row['type'] == 'choice' else []:
+        if row['only_words'] and row['words'] and word not in row['words']:
+            raise ValueError('%s=%r: %s' % (keyword_, word, _one_of(word, row['words'])))
+    return [dashed, text]
+
+
+def _arguments_of_one(row, dashed, value):
+    return [dashed] if value is True else [dashed, _text(value)]
+
+
+def _one_of(word, known):
+    import difflib
+    near = difflib.get_close_matches(word, known, 1)
+    return 'did you mean %r?' % near[0] if near else 'it must be one of %s' % ', '.join(known)
+
+
+def _help(row):
+    return row['help'].replace('%s', ', '.join(row['words']))
+
+
+def arguments(tool, given):
+    """The command line of these keywords, in their order."""
+    rows, words = options_of(tool), []
+    for name, value in given.items():
+        if name not in rows:
+            raise TypeError('%s has no option %s: %s' % (tool, name, _one_of(name, sorted(rows))))
+        words += _arguments(rows[name], name, value)
+    return words
+
+
+def frames_from(surface, dx=None):
+    """The frames of a Result, a Frame or a list of frames, an array with dx=, a DataArray of xarray, or a file."""
+    if isinstance(surface, Frame):
+        return [surface]
+    if isinstance(surface, Result):
+        return surface.frames
+    if isinstance(surface, str) or hasattr(surface, '__fspath__'):
+        return open_file(surface).frames
+    if hasattr(surface, 'dims') and hasattr(surface, 'coords'):
+        steps = [float(surface.coords[d].values[1] - surface.coords[d].values[0]) for d in surface.dims]
+        return [stream.frame(surface.name or 'height', surface.values, dx=steps[-1], dy=steps[0])]
+    if isinstance(surface, numpy.ndarray):
+        if dx is None:
+            raise TypeError('the array has no spacing: give dx= in metres, or (dx, dy)')
+        return [stream.frame('height', surface, *(dx if isinstance(dx, tuple) else (dx,)))]
+    return list(surface)
+
+
+def _data(surface, dx=None):
+    return surface.stream() if isinstance(surface, Result) else stream.pieces(frames_from(surface, dx))
+
+
+# ---- results ----
+
+class Result:
+    """The frames and the report of one call.
+
+    Channels are attributes: result.pressure is a 2-D array in SI, or a 3-D one where there are several
+    cases or depths. report is a dict in SI, with arrays where there are several cases; its figures are
+    attributes too. cases is a list with a Result for each case.
+    """
+
+    def __init__(self, tool, command, output=b'', frames=None, lines=(), warnings_=()):
+        self.tool, self.command = tool, command
+        self.lines, self.warnings = list(lines), list(warnings_)
+        self._output, self._frames = output, frames
+
+    @property
+    def frames(self):
+        if self._frames is None:
+            self._frames, self._output = _frames_of(self.tool, self._output), None
+        return self._frames
+
+    def stream(self):
+        """The grid stream, for the next tool: as it came, until somebody asks for the frames."""
+        return [self._output] if self._frames is None else stream.pieces(self._frames)
+
+    def save(self, file):
+        """Writes the grid stream to a file; export() writes other formats."""
+        stream.write(file, self.frames)
+
+    def frame(self, channel, **keys):
+        """The first frame of this channel whose header has these keys: frame('mises', case=2)."""
+        for f in self.frames:
+            if f.channel == channel and all(f.keys.get(k) == stream._text(v) for k, v in keys.items()):
+                return f
+        raise KeyError('%s gave no frame %s' % (self.tool, ', '.join([channel] + ['%s=%s' % k for k in keys.items()])))
+
+    @property
+    def channels(self):
+        return list(dict.fromkeys(f.channel for f in self.frames))
+
+    @property
+    def dx(self):
+        return self.frames[0].dx
+
+    @property
+    def dy(self):
+        return self.frames[0].dy
+
+    @property
+    def report(self):
+        if len(self.lines) == 1:
+            return self.lines[0]
+        names = dict.fromkeys(name for line in self.lines for name in line)
+        return {name: _column([line.get(name) for line in self.lines]) for name in names}
+
+    @property
+    def converged(self):
+        return all(line.get('converged', True) is not False for line in self.lines)
+
+    @property
+    def cases(self):
+        numbers = dict.fromkeys([_case(f) for f in self.frames] + [line['case'] for line in self.lines if 'case' in line])
+        return [Result(self.tool, self.command, frames=[f for f in self.frames if _case(f) == n],
+                       lines=[line for line in self.lines if line.get('case') == n], warnings_=self.warnings)
+                for n in sorted(numbers)]
+
+    def __getattr__(self, name):
+        if name.startswith('_'):
+            raise AttributeError(name)
+        maps = [f.values for f in self.frames if f.channel == name or python_name(f.channel) == name]
+        if maps:
+            return maps[0] if len(maps) == 1 else numpy.stack(maps)
+        report = self.report
+        if name in report:
+            return report[name]
+        raise AttributeError('%s gave no %s: %s' % (self.tool, name, _one_of(name, self.channels + list(report))))
+
+    def __dir__(self):
+        return sorted(set(object.__dir__(self)) | set(map(python_name, self.channels)) | set(self.report))
+
+    FIGURES = ('load', 'contact_area', 'contact_fraction', 'max_pressure', 'mean_pressure', 'approach', 'max_mises', 'flow',
+               'pressure_error_estimate')
+
+    def _summary(self):
+        cases = len(self.cases) if self.frames or self.lines else 0
+        head = '%s: %d case%s%s' % (self.tool, cases, '' if cases == 1 else 's', '' if self.converged else ', not converged')
+        rows = []
+        for channel in self.channels:
+            f = self.frame(channel)
+            rows.append((channel, '%d x %d, %.4g to %.4g %s' % (f.values.shape[1], f.values.shape[0],
+                                                                numpy.nanmin(f.values), numpy.nanmax(f.values), f.unit)))
+        if len(self.lines) == 1:
+            rows += [(name, '%.4g' % self.lines[0][name]) for name in self.FIGURES
+                     if isinstance(self.lines[0].get(name), (int, float))]
+        return head, rows
+
+    def __repr__(self):
+        head, rows = self._summary()
+        return '\n'.join(['<' + head] + ['  %-24s %s' % row for row in rows]) + '>'
+
+    def _repr_html_(self):
+        import base64
+        import html
+        head, rows = self._summary()
+        cells = ''.join('<tr><td>%s</td><td>%s</td></tr>' % tuple(map(html.escape, row)) for row in rows)
+        try:
+            picture = '<img alt="map" src="data:image/png;base64,%s">' % base64.b64encode(
+                draw(self, width=480)).decode() if self.frames else ''
+        except Error as e:  # a result without a map that can be drawn is still a table
+            picture = html.escape(str(e))
+        return '<p><b>%s</b></p>%s<table>%s</table>' % (html.escape(head), picture, cells)
+
+    def to_xarray(self):
+        """A Dataset with a variable a channel; dimensions case and depth where there are several."""
+        import xarray
+        parts = {}
+        for f in self.frames:
+            parts.setdefault(f.channel, {})[_case(f), float(f.keys.get('depth', 'nan'))] = f
+        data = {}
+        for channel, found in parts.items():
+            cases = sorted({case for case, _ in found})
+            depths = sorted({depth for _, depth in found if depth == depth})
+            f = next(iter(found.values()))
+            ny, nx = f.values.shape
+            cube = numpy.full((len(cases), max(1, len(depths)), ny, nx), numpy.nan, f.values.dtype)
+            for (case, depth), one in found.items():
+                cube[cases.index(case), depths.index(depth) if depth == depth else 0] = one.values
+            coords = {'case': cases, 'depth': ('depth', depths, {'units': f.dunit}),
+                      'y': ('y', numpy.arange(ny) * f.dy, {'units': f.dunit}),
+                      'x': ('x', numpy.arange(nx) * f.dx, {'units': f.dunit})}
+            dims = [d for d in coords if d in 'yx' or (d == 'depth' and depths) or (d == 'case' and len(cases) > 1)]
+            shape = [len(coords[d] if d == 'case' else coords[d][1]) for d in dims]
+            data[channel] = xarray.DataArray(cube.reshape(shape), {d: coords[d] for d in dims}, dims,
+                                             attrs={'units': f.unit})
+        figures = self.lines[0] if len(self.lines) == 1 else {}
+        attributes = {k: v for k, v in figures.items() if isinstance(v, (float, str)) or type(v) is int}
+        return xarray.Dataset(data, attrs=dict(attributes, command=' '.join(self.command)))
+
+    def to_pandas(self):
+        """A DataFrame with a row a case (rc-info: a row a frame) and a column a figure."""
+        import pandas
+        return pandas.json_normalize(self.lines)
+
+
+def _case(f):
+    return int(f.keys.get('case', '1'))
+
+
+def _column(values):
+    """A column of a report as an array; null is NaN."""
+    if all(v is None or (isinstance(v, (int, float)) and not isinstance(v, bool)) for v in values):
+        return numpy.array([numpy.nan if v is None else v for v in values])
+    return numpy.array(values, dtype=object if any(isinstance(v, (dict, list, type(None))) for v in values) else None)
+
+
+class Picture(bytes):
+    """The bytes of a PNG, SVG or PDF, which notebooks show."""
+
+    def _repr_png_(self):
+        return bytes(self) if self.startswith(b'\x89PNG') else None
+
+    def _repr_svg_(self):
+        return self.decode('utf-8') if self.lstrip().startswith(b'<') else None
+
+    def save(self, file):
+        with open(file, 'wb') as out:
+            out.write(self)
+
+
+# ---- calls ----
+
+def call(tool, surface=None, operands=(), spacing=None, timeout=None, **given):
+    """Runs a tool on a surface (see frames_from; spacing: of an array): a Result.
+
+    Warnings of the tool become ToolWarning; a failure becomes Error with the message of the tool and its exit
+    status; a tool that stops short of the requested accuracy becomes NotConverged.
+    """
+    command = [tool] + arguments(tool, given) + [os.fspath(o) for o in operands]
+    row = table(tool)
+    data = None if surface is None else _data(surface, spacing)
+    has_report = any(o['name'] == 'report' for o in row['options'])
+    status, output, words, lines = _reported(command, data, has_report, timeout)
+    if row['writes'] != 'stream' or not output.startswith(b'RCG'):
+        result = Result(tool, command, frames=[], lines=lines)
+        result.output = output
+    else:
+        result = Result(tool, command, output, lines=lines)
+    return _settled(status, words, result)
+
+
+def _warn(text, tool):
+    """A warning at the line of the user that called this package."""
+    import sys
+    frame, level = sys._getframe(1), 2
+    while frame is not None and frame.f_globals.get('__name__', '').startswith('rcg.'):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(ToolWarning(text, tool), stacklevel=level)
+
+
+def _settled(status, words, result):
+    """The result, unless the tool failed; its warnings become warnings of Python."""
+    said = [w[len(result.tool) + 2:] if w.startswith(result.tool + ': ') else w for w in words.splitlines()]
+    if status not in (0, 3):
+        raise Error(words or '%s ended with status %d' % (result.tool, status), status)
+    result.warnings = said
+    if status == 3:
+        raise NotConverged(words, result)
+    for line in said:
+        _warn(line, result.tool)
+    return result
+
+
+def open_file(path, **given):
+    """A measured surface from an instrument or exchange file (rc-import), or the frames of a grid stream."""
+    with open(path, 'rb') as file:
+        head = file.read(4)
+    if head == b'RCG1' and not given:
+        return Result('rc-import', ['rc-import', os.fspath(path)], frames=stream.read(path))
+    return call('rc-import', None, (path,), **given)
+
+
+def draw(surface, path=None, dx=None, **given):
+    """A picture of a map, or with curve= of the report: the bytes of a PNG, or a file (.png, .svg, .pdf)."""
+    curve = given.get('curve') is not None
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.fspath(path) if path is not None else os.path.join(folder, 'picture.png')
+        command = ['rc-render'] + arguments('rc-render', given) + ['-o', name]
+        if curve and isinstance(surface, Result):
+            report = os.path.join(folder, 'report.json')
+            with open(report, 'w', encoding='utf-8') as file:
+                file.writelines(json.dumps(line) + '\n' for line in surface.lines)
+            command.append(report)
+        status, _, words = execute(command, None if curve else _data(surface, dx))
+        _settled(status, words, Result('rc-render', command, frames=[]))
+        with open(name, 'rb') as file:
+            return Picture(file.read())
+
+
+def save_as(surface, path, dx=None, **given):
+    """Writes the frames as a file of another program; the suffix of the path says which format."""
+    command = ['rc-export'] + arguments('rc-export', given) + ['-o', os.fspath(path)]
+    status, _, words = execute(command, _data(surface, dx))
+    _settled(status, words, Result('rc-export', command, frames=[]))
+
+
+def add_two(a, b, dx=None, **given):
+    """The sum of two surfaces that face each other, or with subtract=True their difference."""
+    with tempfile.TemporaryDirectory() as folder:
+        names = [os.path.join(folder, 'a.rcg'), os.path.join(folder, 'b.rcg')]
+        for name, surface in zip(names, (a, b)):
+            stream.write(name, frames_from(surface, dx))
+        return call('rc-add', None, names, **given)
+
+
+def make(shape, timeout=None, **given):
+    """A synthetic surface; like= takes a surface or a file with the nodes to use."""
+    like = given.get('like')
+    if like is None or isinstance(like, str) or hasattr(like, '__fspath__'):
+        return call('rc-synth', None, (shape,), timeout=timeout, **given)
+    with tempfile.TemporaryDirectory() as folder:
+        given['like'] = os.path.join(folder, 'like.rcg')
+        stream.write(given['like'], frames_from(like))
+        return call('rc-synth', None, (shape,), timeout=timeout, **given)
+
+
+SPECIAL = {'open': open_file, 'render': draw, 'export': save_as, 'add': add_two, 'synth': make}
+
+
+def function(name):
+    """The function of a tool, with signature and documentation from its option table."""
+    import inspect
+    tool, made = FUNCTIONS[name], SPECIAL.get(name)
+    rows = options_of(tool)
+    if made is None:
+        def made(surface, *, dx=None, timeout=None, **given):
+            return call(tool, surface, spacing=dx, timeout=timeout, **given)
+    else:
+        inner = made
+
+        def made(*operands, **given):
+            return inner(*operands, **given)
+    own = list(inspect.signature(SPECIAL.get(name, made)).parameters.values())[:-1]
+    own = [p for p in own if p.name not in rows]
+    positional = [p for p in own if p.name not in ('dx', 'timeout')]
+    named = [inspect.Parameter(python, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation(row))
+             for python, row in rows.items()]
+    named += [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own if p.name in ('dx', 'timeout')]
+    result = {'render': Picture, 'export': None}.get(name, Result)
+    made.__signature__ = inspect.Signature(positional + named, return_annotation=result)
+    made.__name__ = made.__qualname__ = name
+    made.__module__ = 'rcg'
+    made.__doc__ = documentation(name, rows)
+    return made
+
+
+HINTS = {'flag': 'bool', 'number': 'Quantity', 'count': 'int', 'numbers': 'Quantity | list', 'words': 'str | list',
+         'step': 'Quantity | bool | str'}
+
+
+def annotation(row):
+    if row['type'] == 'choice' and row['words'] and not row['optional']:
+        return 'Literal[%s]' % ', '.join(map(repr, row['words']))
+    return HINTS.get(row['type'], 'Any')
+
+
+def documentation(name, rows):
+    tool = FUNCTIONS[name]
+    row = table(tool)
+    text = [row['summary'] + '.', '']
+    if name in SPECIAL:
+        text += [SPECIAL[name].__doc__, '']
+    text += ['Numbers are SI; texts may carry a unit (%s). The manual is %s(1).' % ("'60N', '114GPa'", tool), '']
+    if row['operand_words']:
+        text += ['shape: ' + ', '.join(row['operand_words']), '']
+    for python, o in rows.items():
+        unit = ' [%s]' % o['unit'] if o['unit'] else ''
+        words = ' {%s}' % ', '.join(o['words']) if o['words'] else ''
+        text.append('%s%s%s\n    %s' % (python, unit, words, _help(o)))
+    return '\n'.join(text) + '\n'
+
+
+# ---- calls by the names of the tools ----
+
+def _words_of(args, options):
+    words = [a if isinstance(a, str) else _text(a) for a in args]
+    for name, value in options.items():
+        dashed = ('-' if len(name) == 1 else '--') + name.replace('_', '-')
+        if value is True:
+            words.append(dashed)
+        elif value is not None and value is not False:
+            listed = isinstance(value, (list, tuple, numpy.ndarray))
+            words += [dashed, ','.join(map(stream._text, value)) if listed else _text(value)]
+    return words
+
+
+def _named(tool, frames, args, options, with_report):
+    command = [tool] + _words_of(args, options)
+    data = None if frames is None else _data(frames)
+    if with_report and os.path.basename(tool) == 'rc-info':
+        status, output, words = execute(command + ['--json'], data)
+        lines, output = [json.loads(line) for line in output.decode('utf-8').splitlines()], b''
+    else:
+        status, output, words, lines = _reported(command, data, with_report)
+    if status not in (0, 3):
+        raise Error(words, status)
+    found = _frames_of(tool, output)
+    if status != 0:
+        raise Error(words, status, found, lines)
+    if words:
+        _warn(words, tool)
+    return found, lines
+
+
+def run(tool, frames=None, *args, **options):
+    """Runs a tool on the frames (None: no input) and returns the frames that it writes.
+
+    run('rc-solve', surface, load='60N', estar='114GPa', periodic=True) is
+    rc-solve --load 60N --estar 114GPa --periodic. Numbers are SI, a list is joined by commas, _ in a name is -,
+    one letter is a short option. args stand before the options, unchanged; a tool without input may have them
+    at once: run('rc-synth', 'sphere', nx=64). A warning of the tool becomes a warning of Python.
+    """
+    if isinstance(frames, str):
+        frames, args = None, (frames,) + args
+    return _named(tool, frames, args, options, False)[0]
+
+
+def report(tool, frames, *args, **options):
+    """The same with the lines of the tool's report: the frames and a list of dicts."""
+    return _named(tool, frames, args, options, True)
