@@ -46,7 +46,7 @@ struct rc_format {
      * "height" when its unit is metres. */
     struct rc_grid *(*read)(const struct rc_file *file, const struct rc_wish *wish, size_t index,
                             struct rc_notes *notes, struct rc_err *err);
-    /* `list` and `read` run in a process of their own, which holds the values too until they have been
+    /* Listing and reading run in a process of their own, which holds the values too until they have been
      * handed over. */
     bool sandboxed;
     bool copies;  /* the library of that process holds a copy of the file */

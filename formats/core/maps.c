@@ -118,12 +118,10 @@ rc_map_bound(struct rc_map *map, const struct rc_file *file, double unpacked, st
 }
 
 static enum rc_status
-fill_text(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-          double *v, struct rc_err *err)
+fill_text(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_piece text = {(const char *)file->data + map->at, file->size - map->at};
 
-    (void)wish;
     return rc_flow_read(&text, v, map->nx * map->ny, err);
 }
 

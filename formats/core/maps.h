@@ -36,18 +36,20 @@ struct rc_map {
     /* Instead of raw, at and padding: puts nx*ny raw numbers into v, NAN where missing, in the
      * order that by_columns and so on say. The reader that sets it has to check nx*ny against the
      * file's size. */
-    enum rc_status (*fill)(const struct rc_file *file, const struct rc_wish *wish,
-                           const struct rc_map *map, double *v, struct rc_err *err);
+    enum rc_status (*fill)(const struct rc_file *file, const struct rc_map *map, double *v,
+                           struct rc_err *err);
     size_t more;   /* for fill                                                           */
     double beside; /* bytes that fill takes beside v: set by rc_map_bound                         */
-    struct rc_notes *notes; /* for fill too                                              */
-    const char *doubt;      /* of what the heights mean: noted, unless --z-unit says it  */
+    const struct rc_wish *wish; /* for fill, and the notes                               */
+    struct rc_notes *notes;
+    const char *doubt; /* of what the heights mean: noted, unless --z-unit says it  */
     double step
         [2]; /* the spacing where the file gives it without a unit, and words on it for the refusal: */
     char hint[128];
 };
 
 struct rc_maps {
+    const struct rc_wish *wish; /* of the user, for those whose maps it changes */
     struct rc_map map[RC_MAPS_MOST], spare;
     size_t n;
     struct {
@@ -89,8 +91,8 @@ enum rc_status rc_map_is_text(struct rc_map *map, const struct rc_file *file, si
                               struct rc_err *err);
 
 /* Describes a file; RC_FAIL with the reason. */
-typedef enum rc_status rc_maps_find(const struct rc_file *file, const struct rc_wish *wish,
-                                    struct rc_maps *maps, struct rc_err *err);
+typedef enum rc_status rc_maps_find(const struct rc_file *file, struct rc_maps *maps,
+                                    struct rc_err *err);
 
 size_t rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
                     struct rc_channel *channel, size_t most, struct rc_err *err);

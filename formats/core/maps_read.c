@@ -42,7 +42,8 @@ describe(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *w
          struct rc_maps *maps, struct rc_err *err)
 {
     maps->n = maps->keys = 0;
-    if (find(file, wish, maps, err) != RC_OK)
+    maps->wish = wish;
+    if (find(file, maps, err) != RC_OK)
         return RC_FAIL;
     if (maps->n == 0)
         return rc_err_set(err, "there is no map in the file");
@@ -146,18 +147,17 @@ decode(const struct rc_map *map, const struct rc_file *file, double *v, struct r
 
 /* Calls map->fill, and brings its values from the file's order into that of a grid. */
 static enum rc_status
-fill(const struct rc_map *map, const struct rc_file *file, const struct rc_wish *wish, double *v,
-     struct rc_err *err)
+fill(const struct rc_map *map, const struct rc_file *file, double *v, struct rc_err *err)
 {
     size_t outer = map->by_columns ? map->nx : map->ny;
     size_t inner = map->by_columns ? map->ny : map->nx, n = map->nx * map->ny;
     double *raw;
 
     if (!is_turned(map))
-        return map->fill(file, wish, map, v, err);
+        return map->fill(file, map, v, err);
     if ((raw = malloc(n * sizeof *raw)) == NULL)
         return rc_err_set(err, "out of memory for %zu values", n);
-    if (map->fill(file, wish, map, raw, err) != RC_OK) {
+    if (map->fill(file, map, raw, err) != RC_OK) {
         free(raw);
         return RC_FAIL;
     }
@@ -215,11 +215,11 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
         (g = rc_grid_new(&shape, is_height ? "height" : map->name, is_height ? "m" : map->unit,
                          err)) == NULL)
         return NULL;
+    maps.map[index].wish = wish;
     maps.map[index].notes = notes;
     if (map->doubt != NULL && isnan(wish->z_unit))
         rc_note(notes, "%s", map->doubt);
-    if ((map->fill == NULL ? decode(map, file, g->v, err) : fill(map, file, wish, g->v, err)) !=
-        RC_OK)
+    if ((map->fill == NULL ? decode(map, file, g->v, err) : fill(map, file, g->v, err)) != RC_OK)
         goto failed;
     scale(map, si, g->v);
     if (rc_heights_finite(g, notes, err) != RC_OK ||

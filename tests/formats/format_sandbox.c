@@ -445,7 +445,7 @@ there_is_no_way_out(void **state)
     assert_true(fputs("whole\n", f) >= 0 && fflush(f) == 0 && chmod("victim", 0600) == 0);
     inherited = fileno(f);
     parent = getpid();
-    assert_null(rc_sandbox_read(escaping, &file, &rc_no_wish, 0, &notes, &err));
+    assert_null(rc_sandbox_read(NULL, escaping, &file, &rc_no_wish, 0, &notes, &err));
     assert_string_equal(err.text, "open: ");
     rewind(f);
     assert_non_null(fgets(text, sizeof text, f));
@@ -474,7 +474,7 @@ a_grid_comes_back_whole(void **state)
 {
     struct rc_notes notes = {0};
     struct rc_err err = {""};
-    struct rc_grid *g = rc_sandbox_read(good, &file, &rc_no_wish, 3, &notes, &err);
+    struct rc_grid *g = rc_sandbox_read(NULL, good, &file, &rc_no_wish, 3, &notes, &err);
 
     (void)state;
     if (g == NULL)
@@ -596,7 +596,7 @@ expect(rc_sandboxed_read *read, const char *why)
     struct rc_notes notes = {0};
     struct rc_err err = {""};
 
-    assert_null(rc_sandbox_read(read, &file, &rc_no_wish, 0, &notes, &err));
+    assert_null(rc_sandbox_read(NULL, read, &file, &rc_no_wish, 0, &notes, &err));
     if (strstr(err.text, why) == NULL)
         fail_msg("refused for '%s', not for '%s'", err.text, why);
 }
@@ -639,7 +639,7 @@ memory_is_bounded(void **state)
     const char *said;
 
     (void)state;
-    assert_null(rc_sandbox_read(greedy, &file, &rc_no_wish, 0, &notes, &err));
+    assert_null(rc_sandbox_read(NULL, greedy, &file, &rc_no_wish, 0, &notes, &err));
     printf("%s\n", err.text);
     if ((said = strstr(err.text, "ended after ")) != NULL)
         assert_in_range(strtoul(said + 12, NULL, 10), 32, 64);
@@ -682,13 +682,13 @@ lists_come_back(void **state)
     struct rc_err err = {""};
 
     (void)state;
-    assert_int_equal(rc_sandbox_list(three, &file, &rc_no_wish, channel, 2, &err), 3);
+    assert_int_equal(rc_sandbox_list(NULL, three, &file, &rc_no_wish, channel, 2, &err), 3);
     assert_int_equal(channel[1].nx, 2);
     assert_string_equal(channel[1].name, "c "); /* nothing that a terminal would obey */
     assert_string_equal(channel[1].unit, "  m");
-    assert_int_equal(rc_sandbox_list(none, &file, &rc_no_wish, channel, 2, &err), 0);
+    assert_int_equal(rc_sandbox_list(NULL, none, &file, &rc_no_wish, channel, 2, &err), 0);
     assert_string_equal(err.text, "no channel");
-    assert_int_equal(rc_sandbox_list(crashing_list, &file, &rc_no_wish, channel, 2, &err), 0);
+    assert_int_equal(rc_sandbox_list(NULL, crashing_list, &file, &rc_no_wish, channel, 2, &err), 0);
     assert_non_null(strstr(err.text, "makes its library fail"));
 }
 

@@ -66,8 +66,7 @@ length(double number, struct rc_piece unit)
 }
 
 static enum rc_status
-bcr_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+bcr_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct bcr b = {.width = NAN,
                     .height = NAN,
@@ -82,7 +81,6 @@ bcr_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     double low, high;
     struct rc_lines lines = {.at = header};
 
-    (void)wish;
     if (kind == sizeof kinds / sizeof *kinds)
         return rc_err_set(err, "no BCR file: it does not begin with 'fileformat = bcr'");
     wide = kinds[kind].is_wide ? 2 : 1;

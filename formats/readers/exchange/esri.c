@@ -36,8 +36,7 @@ has_magic(const struct rc_file *file)
 }
 
 static enum rc_status
-esri_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-          struct rc_err *err)
+esri_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     const char *text = (const char *)file->data, *at = text;
     struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
@@ -45,7 +44,6 @@ esri_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     struct rc_map *map = rc_maps_add(maps, "", 0);
     struct rc_piece line, key, value;
 
-    (void)wish;
     if (!has_magic(file))
         return rc_err_set(err, "no ESRI grid: it does not begin with ncols or nrows");
     /* the header ends where a line does not begin with a letter */

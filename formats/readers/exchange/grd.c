@@ -103,12 +103,10 @@ static const struct {
 };
 
 static enum rc_status
-grd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+grd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_map *map = rc_maps_add(maps, "", 0);
 
-    (void)wish;
     map->bottom_first = true;
     map->missing_from = BLANK;
     map->missing_to = INFINITY;

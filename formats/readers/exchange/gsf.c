@@ -25,15 +25,13 @@ static const struct rc_field fields[] = {
 };
 
 static enum rc_status
-gsf_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+gsf_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     const char *text = (const char *)file->data, *nul;
     struct gsf g = {.width = NAN, .height = NAN, .xy = {"", 0}, .z = {"", 0}, .title = {"", 0}};
     struct rc_lines lines = {.at = text + strlen(magic)};
     struct rc_map *map;
 
-    (void)wish;
     if (!rc_file_holds(file, 0, magic, strlen(magic)))
         return rc_err_set(err, "no GSF file: it does not begin with Gwyddion Simple Field 1.0");
     if ((nul = memchr(text, '\0', file->size)) == NULL)

@@ -184,8 +184,7 @@ read_field(const struct rc_file *file, const struct item *from, struct field *f,
 }
 
 static enum rc_status
-fill_masked(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-            double *v, struct rc_err *err)
+fill_masked(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_bytes data = rc_file_bytes(file, false), mask = data;
     size_t n = map->nx * map->ny, masked = 0;
@@ -196,12 +195,12 @@ fill_masked(const struct rc_file *file, const struct rc_wish *wish, const struct
     for (size_t k = 0; k < n; k++)
         if (rc_bytes_at(&mask, map->more + 8 * k, RC_RAW_F64) >= 0.5) {
             masked++;
-            if (!wish->ignore_mask)
+            if (!map->wish->ignore_mask)
                 v[k] = NAN;
         }
     if (masked > 0)
         rc_note(map->notes, "the mask of the file covers %zu of %zu points, which are %s", masked,
-                n, wish->ignore_mask ? "kept" : "missing: --mask ignore keeps them");
+                n, map->wish->ignore_mask ? "kept" : "missing: --mask ignore keeps them");
     return RC_OK;
 }
 
@@ -264,8 +263,7 @@ add_rest(const struct rc_file *file, const struct item *item, const char *what, 
 }
 
 static enum rc_status
-gwy_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+gwy_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     static const char *const parts[] = {"/data", "/data/title", "/mask"};
     struct rc_bytes b = rc_file_bytes(file, false);
@@ -275,7 +273,6 @@ gwy_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     struct rc_piece rest;
     struct item item;
 
-    (void)wish;
     b.at = 4;
     if (!rc_file_holds(file, 0, "GWYP", 4) || (end = enter(&b, file->size, "GwyContainer")) == 0)
         return rc_err_set(err, "no Gwyddion file, or cut: it does not hold GWYP and a whole "

@@ -277,13 +277,12 @@ numbers_of(struct rc_matlab_source *s, const struct rc_matlab_array *a, double *
 }
 
 static enum rc_status
-fill_packed(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-            double *values, struct rc_err *err)
+fill_packed(const struct rc_file *file, const struct rc_map *map, double *values,
+            struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, map->big);
     struct variable v;
 
-    (void)wish;
     b.at = map->more;
     return next_variable(&b, &v, err) == RC_OK ? read_numbers(file, map->big, &v, values, err)
                                                : RC_FAIL;
@@ -321,14 +320,12 @@ has_magic(const struct rc_file *file, bool *big)
 }
 
 static enum rc_status
-mat_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+mat_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct mat m;
     struct rc_matlab_source source = {file, &m, start, next, numbers_of, place};
     bool big;
 
-    (void)wish;
     if (!has_magic(file, &big))
         return rc_err_set(err, "no MAT file of version 5: MATLAB writes one by save -v7, Octave by "
                                "save -7");

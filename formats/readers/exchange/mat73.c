@@ -90,15 +90,13 @@ numbers_of(struct rc_matlab_source *s, const struct rc_matlab_array *a, double *
 }
 
 static enum rc_status
-fill_numbers(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-             double *v, struct rc_err *err)
+fill_numbers(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_hdf *hdf = rc_hdf_new(file, err);
     enum rc_status status = RC_FAIL;
     struct rc_hdf_set set;
     size_t n;
 
-    (void)wish;
     if (hdf == NULL)
         return RC_FAIL;
     if (!rc_hdf_set_at(hdf, map->name, &set) ||
@@ -126,14 +124,12 @@ has_magic(const struct rc_file *file)
 }
 
 static enum rc_status
-mat73_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-           struct rc_err *err)
+mat73_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct mat73 m = {.hdf = NULL};
     struct rc_matlab_source source = {file, &m, start, next, numbers_of, place};
     enum rc_status status = RC_FAIL;
 
-    (void)wish;
     if (!has_magic(file))
         return rc_err_set(err, "no MAT file of version 7.3: its header has no version 2, or no "
                                "HDF5 stands behind it");
@@ -151,28 +147,11 @@ mat73_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_map
     return status;
 }
 
-static size_t
-list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-              size_t most, struct rc_err *err)
-{
-    return rc_maps_list(mat73_find, file, wish, channel, most, err);
-}
-
-static struct rc_grid *
-read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-            struct rc_notes *notes, struct rc_err *err)
-{
-    return rc_maps_read(mat73_find, file, wish, index, notes, err);
-}
-
-/* ---- the entry in formats.list ---- */
-
 const struct rc_format rc_format_mat73 = {
     .name = "mat73",
     .suffixes = ".mat",
     .summary = "MATLAB arrays of two dimensions, MAT version 7.3 (save -v7.3)",
     .is = has_magic,
-    .list = list_channels,
-    .read = read_values,
+    .find = mat73_find,
     .sandboxed = true,
 };

@@ -135,8 +135,7 @@ unpack_array(struct rc_zip_read *archive, const struct rc_file *file, size_t mem
 }
 
 static enum rc_status
-fill_member(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-            double *v, struct rc_err *err)
+fill_member(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_zip_read *archive = rc_zip_read_new(file, err);
     enum rc_status status = RC_FAIL;
@@ -145,7 +144,6 @@ fill_member(const struct rc_file *file, const struct rc_wish *wish, const struct
     unsigned char *data =
         archive == NULL ? NULL : unpack_array(archive, file, map->more, &array, err);
 
-    (void)wish;
     if (data != NULL && read_header(&array, &inner, err) == RC_OK) {
         struct rc_bytes b = rc_file_bytes(&array, inner.big);
         size_t n = map->nx * map->ny, width = rc_raw_width(inner.raw);
@@ -174,14 +172,12 @@ is_array(const char *name)
 
 /* Arrays of one or two dimensions; others are passed over. */
 static enum rc_status
-npz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+npz_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_zip_read *archive = rc_zip_read_new(file, err);
     size_t members = archive == NULL ? 0 : rc_zip_read_members(archive);
     struct rc_err why = {"the archive holds no array (NAME.npy)"};
 
-    (void)wish;
     for (size_t k = 0; k < members; k++) {
         const char *name = rc_zip_read_name(archive, k);
         struct rc_map *map, one = {.si = 1, .scale = 1};
@@ -211,10 +207,9 @@ npz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
 /* ---- the entry in formats.list ---- */
 
 static enum rc_status
-npy_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+npy_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    return rc_file_holds(file, 0, "PK", 2) ? npz_find(file, wish, maps, err)
+    return rc_file_holds(file, 0, "PK", 2) ? npz_find(file, maps, err)
                                            : read_header(file, rc_maps_add(maps, "", 0), err);
 }
 

@@ -240,8 +240,7 @@ is_gzip(const struct nrrd *h)
 }
 
 static enum rc_status
-fill_packed(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-            double *v, struct rc_err *err)
+fill_packed(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_file packed = {file->name, file->data + map->at, file->size - map->at};
     size_t n = map->nx * map->ny, wanted = n * rc_raw_width(map->raw), size;
@@ -249,7 +248,6 @@ fill_packed(const struct rc_file *file, const struct rc_wish *wish, const struct
     unsigned char *bytes;
     enum rc_status status;
 
-    (void)wish;
     if (!rc_file_packed(&packed))
         return rc_err_set(err, "the values are not packed with gzip, as the header says");
     if ((bytes = rc_file_unpack(&packed, wanted, &size, err)) == NULL)
@@ -295,8 +293,7 @@ set_type(const struct nrrd *h, const struct rc_file *file, struct rc_map *map, s
 }
 
 static enum rc_status
-nrrd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-          struct rc_err *err)
+nrrd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_piece x_unit, y_unit;
     struct rc_map *map;
@@ -304,7 +301,6 @@ nrrd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     size_t axis[2];
     double size[2], dx, dy;
 
-    (void)wish;
     if (read_header(file, &h, err) != RC_OK || pick_axes(&h, axis, size, err) != RC_OK)
         return RC_FAIL;
     map = rc_maps_add(maps, h.title.text, h.title.n);

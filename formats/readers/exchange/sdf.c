@@ -125,13 +125,11 @@ find_binary(const struct rc_file *file, struct sdf *s, struct rc_map *map, struc
 /* The numbers of the text, behind which nothing but the end of their part may stand: '*' or that of the
  * file. */
 static enum rc_status
-fill_text(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-          double *v, struct rc_err *err)
+fill_text(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_piece text = {(const char *)file->data + map->at, file->size - map->at};
     char quote[RC_SHOWN];
 
-    (void)wish;
     if (rc_flow_read(&text, v, map->nx * map->ny, err) != RC_OK)
         return RC_FAIL;
     while (text.n > 0 && (*text.text == '\0' || *text.text == '\x1a')) /* some writers' last byte */
@@ -147,14 +145,12 @@ fill_text(const struct rc_file *file, const struct rc_wish *wish, const struct r
 }
 
 static enum rc_status
-sdf_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+sdf_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct sdf s = {.dx = NAN, .dy = NAN, .scale = 1};
     struct rc_map *map = rc_maps_add(maps, "", 0);
     bool is_text = begins(file, 'a');
 
-    (void)wish;
     if (!is_text && !begins(file, 'b'))
         return rc_err_set(err, "no SDF: it begins with neither aISO-, aBCR-, bISO- nor bBCR-");
     if ((is_text ? find_text(file, &s, map, err) : find_binary(file, &s, map, err)) != RC_OK ||

@@ -163,13 +163,11 @@ unpack_plane(const struct rc_file *file, const struct kind *kind, const struct r
 
 /* Rows that were not reached are missing. */
 static enum rc_status
-fill_plane(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-           double *v, struct rc_err *err)
+fill_plane(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     const struct kind *kind = kind_of(file);
     struct createc c;
 
-    (void)wish;
     if (read_header(file, &c, NULL, err) != RC_OK)
         return RC_FAIL;
     if (kind->packed) {
@@ -236,15 +234,13 @@ set_unit(const struct createc *c, struct rc_map *map)
 }
 
 static enum rc_status
-createc_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-             struct rc_err *err)
+createc_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     const struct kind *kind = kind_of(file);
     size_t nx, ny, plane, planes = 1;
     struct createc c;
     char name[32];
 
-    (void)wish;
     if (read_header(file, &c, maps, err) != RC_OK ||
         rc_map_count("columns (Num.X)", c.nx, &nx, err) != RC_OK ||
         rc_map_count("rows (Num.Y)", c.ny, &ny, err) != RC_OK ||

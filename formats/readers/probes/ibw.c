@@ -165,8 +165,7 @@ take_steps(const struct rc_file *file, struct rc_bytes *b, bool profile, struct 
 }
 
 static enum rc_status
-ibw_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+ibw_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
     size_t size[DIMENSIONS], layer, all, channels, labels;
@@ -176,7 +175,6 @@ ibw_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     double sensor;
     bool profile;
 
-    (void)wish;
     if (judge(file, &b, &raw, size, err) != RC_OK)
         return RC_FAIL;
     profile = size[1] == 0;

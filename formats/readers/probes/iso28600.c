@@ -115,15 +115,13 @@ next_word(struct rc_piece *rest, char word[WORD])
 }
 
 static enum rc_status
-fill_channel(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-             double *v, struct rc_err *err)
+fill_channel(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_piece rest = {(const char *)file->data + map->at, file->size - map->at};
     size_t channels = map->more / CHANNELS_MOST, channel = map->more % CHANNELS_MOST;
     char word[WORD], quote[RC_SHOWN];
     double value;
 
-    (void)wish;
     for (size_t k = 0; k < map->nx * map->ny; k++)
         for (size_t c = 0; c < channels; c++) {
             const char *end = next_word(&rest, word) ? rc_number_read(word, true, &value) : NULL;
@@ -144,13 +142,11 @@ says(const struct iso *iso, const char *way)
 }
 
 static enum rc_status
-iso28600_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-              struct rc_err *err)
+iso28600_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct iso iso = {.data = 0};
     size_t channels, nx, ny, least;
 
-    (void)wish;
     if (read_header(file, &iso, err) != RC_OK || judge_mode(&iso, &channels, err) != RC_OK ||
         rc_map_count("columns (line 24)", number_in(&iso, COLUMNS), &nx, err) != RC_OK ||
         rc_map_count("rows (line 25)", number_in(&iso, ROWS), &ny, err) != RC_OK ||

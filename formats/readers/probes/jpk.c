@@ -276,7 +276,7 @@ jpk_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_chann
         rc_err_set(err, "force curves of JPK: only image scans are read");
         return 0;
     }
-    return rc_sandbox_list(list_channels, file, wish, channel, most, err);
+    return rc_sandbox_list(NULL, list_channels, file, wish, channel, most, err);
 }
 
 static struct rc_grid *
@@ -287,7 +287,7 @@ jpk_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
         rc_err_set(err, "force curves of JPK: only image scans are read");
         return NULL;
     }
-    return rc_sandbox_read(read_values, file, wish, index, notes, err);
+    return rc_sandbox_read(NULL, read_values, file, wish, index, notes, err);
 }
 
 const struct rc_format rc_format_jpk = {

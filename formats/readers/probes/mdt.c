@@ -243,13 +243,11 @@ keep_date(struct rc_bytes *b, struct rc_maps *maps)
 }
 
 static enum rc_status
-mdt_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+mdt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
     size_t frames, at = HEADER;
 
-    (void)wish;
     if (!rc_file_holds(file, 0, magic, 4))
         return rc_err_set(err, "no file of NT-MDT: it does not begin with the bytes 01 b0 93 ff");
     frames = (size_t)rc_bytes_at(&b, AT_LAST, RC_RAW_U16) + 1;

@@ -100,8 +100,7 @@ place_buffers(const struct mi *m, size_t at, struct rc_maps *maps, struct rc_err
 }
 
 static enum rc_status
-mi_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-        struct rc_err *err)
+mi_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     const char *text = (const char *)file->data;
     struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
@@ -110,7 +109,6 @@ mi_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *
     struct rc_piece line;
     char quote[RC_SHOWN];
 
-    (void)wish;
     if (!has_magic(file))
         return rc_err_set(err, "no MI file: it does not begin with fileType");
     while (m.storage.n == 0) {

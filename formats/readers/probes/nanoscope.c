@@ -238,8 +238,7 @@ mark_retrace(struct rc_maps *maps, const bool back[RC_MAPS_MOST])
 }
 
 static enum rc_status
-nanoscope_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-               struct rc_err *err)
+nanoscope_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_piece header = header_of(file);
     struct rc_lines lines = rc_piece_lines(header);
@@ -247,7 +246,6 @@ nanoscope_find(const struct rc_file *file, const struct rc_wish *wish, struct rc
     struct rc_piece line, key, value;
     bool more = true, back[RC_MAPS_MOST] = {false};
 
-    (void)wish;
     if (!rc_file_holds(file, 0, "\\*File list", 11) && !rc_file_holds(file, 0, "\\*Ciao", 6))
         return rc_err_set(err, "no NanoScope file: it does not begin with \\*File list");
     if (header.n == 0)

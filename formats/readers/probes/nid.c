@@ -215,8 +215,7 @@ add_all(struct rc_piece header, struct rc_piece table, size_t at, struct rc_maps
 }
 
 static enum rc_status
-nid_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+nid_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     static const struct rc_piece about[] = {
         {"DataSet-Info", 12},
@@ -226,7 +225,6 @@ nid_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     struct rc_piece header = {(const char *)file->data, data_at(file)}, table, section;
     struct rc_piece line, key, value;
 
-    (void)wish;
     if (header.n == 0)
         return rc_err_set(err, "no Nanosurf file: there is no line that begins with #!");
     if (!find_section(header, (struct rc_piece){"DataSet", 7}, &table))

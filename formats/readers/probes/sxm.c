@@ -134,8 +134,7 @@ part_row(struct rc_piece line, struct rc_piece cell[4])
 }
 
 static enum rc_status
-sxm_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+sxm_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct sxm s = {.nx = NAN, .ny = NAN, .width = NAN, .height = NAN, .info = {"", 0}};
     struct rc_piece line, cell[4];
@@ -143,7 +142,6 @@ sxm_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     size_t data, nx, ny, index = 0, bytes;
     char quote[RC_SHOWN];
 
-    (void)wish;
     if (!rc_file_holds(file, 0, magic, strlen(magic)))
         return rc_err_set(err, "no SXM file: it does not begin with %s", magic);
     if (read_header(file, &s, maps, &data, err) != RC_OK ||

@@ -72,8 +72,7 @@ set_scale(const struct rc_file *file, const struct wsxm *w, struct rc_map *map, 
 }
 
 static enum rc_status
-wsxm_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-          struct rc_err *err)
+wsxm_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
     struct wsxm w = {
@@ -82,7 +81,6 @@ wsxm_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     size_t t = 0;
     char quote[RC_SHOWN];
 
-    (void)wish;
     if (!has_magic(file))
         return rc_err_set(err, "no WSxM image: it does not begin with 'WSxM file copyright' and "
                                "'SxM Image file'");

@@ -57,13 +57,11 @@ read_tags(const struct rc_file *file, struct al3d *a, struct rc_err *err)
 }
 
 static enum rc_status
-al3d_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-          struct rc_err *err)
+al3d_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct al3d a = {.dx = NAN, .dy = NAN, .missing = NAN};
     struct rc_map *map = rc_maps_add(maps, "", 0);
 
-    (void)wish;
     if (!rc_file_holds(file, 0, magic, MAGIC))
         return rc_err_set(err, "no AL3D file: it does not begin with AliconaImaging");
     if (read_tags(file, &a, err) != RC_OK)

@@ -75,8 +75,7 @@ read_blocks(const struct rc_file *file, struct frt *f, struct rc_maps *maps, str
 }
 
 static enum rc_status
-frt_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+frt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
     struct rc_map *map = rc_maps_add(maps, "", 0);
@@ -84,7 +83,6 @@ frt_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     char quote[RC_SHOWN];
     double bits;
 
-    (void)wish;
     if (!rc_file_holds(file, 0, magic, MAGIC) || file->size < FIRST)
         return rc_err_set(err, "no FRT file: it does not begin with %s", magic);
     if (!rc_file_holds(file, MAGIC, "1.00", VERSION) &&

@@ -33,8 +33,7 @@ has_magic(const struct rc_file *file)
 }
 
 static enum rc_status
-metropro_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-              struct rc_err *err)
+metropro_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     static const double finenesses[] = {4096, 32768, 131072};
     struct rc_bytes b = rc_file_bytes(file, true);
@@ -42,7 +41,6 @@ metropro_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     struct rc_map *map;
     double header, intensity, fineness, bytes;
 
-    (void)wish;
     if (!has_magic(file))
         return rc_err_set(err, "no MetroPro file: it does not begin 88 1b 03 6f, ...70 or ...71");
     if (file->size < LEAST)

@@ -259,15 +259,13 @@ find_surface(struct part stream, size_t wanted, struct surface *s)
 }
 
 static enum rc_status
-fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-             double *v, struct rc_err *err)
+fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct part stream;
     unsigned char *data = rc_ole_stream(file, stream_name, &stream.n, err);
     enum rc_status status = RC_FAIL;
     struct surface s;
 
-    (void)wish;
     stream.data = data;
     if (data == NULL)
         return RC_FAIL;
@@ -308,8 +306,7 @@ add_surface(const struct rc_file *file, const struct surface *s, size_t number,
 }
 
 static enum rc_status
-mnt_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+mnt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct part stream, rest, object;
     unsigned char *data = rc_ole_stream(file, stream_name, &stream.n, err);
@@ -317,7 +314,6 @@ mnt_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     struct surface s;
     unsigned tag;
 
-    (void)wish;
     if (data == NULL)
         return RC_FAIL;
     stream.data = data;

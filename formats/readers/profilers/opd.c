@@ -115,15 +115,13 @@ read_directory(const struct rc_file *file, struct opd *o, struct rc_maps *maps, 
 }
 
 static enum rc_status
-opd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+opd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct opd o = {.wavelength = NAN, .pixel = NAN, .aspect = 1, .factor = 1};
     struct rc_bytes bytes = rc_file_bytes(file, false);
     struct rc_map *map;
     double size;
 
-    (void)wish;
     if (!has_directory(file) || file->size < START + ENTRY)
         return rc_err_set(err, "no OPD file: it does not begin with a directory");
     if (read_directory(file, &o, maps, err) != RC_OK)

@@ -269,14 +269,12 @@ add_channel(struct opdx *o, const struct channel *c, struct rc_err *err)
 }
 
 static enum rc_status
-opdx_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-          struct rc_err *err)
+opdx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
     struct opdx o = {.file = file, .maps = maps};
     struct rc_piece path[DEEPEST + 1];
 
-    (void)wish;
     if (!rc_file_holds(file, 0, "VCA DATA", 8) || file->size < START)
         return rc_err_set(err, "no OPDx file: it does not begin with VCA DATA");
     b.at = START;

@@ -31,15 +31,13 @@ sizes_agree(const struct rc_file *file)
 }
 
 static enum rc_status
-plu_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+plu_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
     struct rc_map *map = rc_maps_add(maps, "", 0);
     struct rc_piece date;
     double type;
 
-    (void)wish;
     if (!sizes_agree(file))
         return rc_err_set(err, "no PLU map: bytes %d to %d should repeat the sizes at byte %d",
                           AT_ROWS_AGAIN, HEADER - 1, AT_ROWS);
@@ -68,7 +66,6 @@ plu_score(const struct rc_file *file)
 {
     static const char days[] = "MonTueWedThuFriSatSun";
     struct rc_maps maps = {0};
-    struct rc_wish wish = {0};
     bool has_day = false;
 
     if (!sizes_agree(file))
@@ -77,7 +74,7 @@ plu_score(const struct rc_file *file)
         has_day = has_day || rc_file_holds(file, 0, days + 3 * k, 3);
     if (!has_day && !rc_file_named(file, ".plu"))
         return 0;
-    if (plu_find(file, &wish, &maps, NULL) == RC_OK)
+    if (plu_find(file, &maps, NULL) == RC_OK)
         return has_day ? 80 : 40;
     return has_day ? 20 : 0; /* so that the refusal says what it holds */
 }

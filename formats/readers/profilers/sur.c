@@ -97,15 +97,13 @@ unpack_all(const struct rc_file *file, const struct rc_map *map, unsigned char *
 }
 
 static enum rc_status
-fill_packed(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-            double *v, struct rc_err *err)
+fill_packed(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     size_t n = map->nx * map->ny, size = n * rc_raw_width(map->raw);
     struct rc_bytes bytes = {.size = size};
     enum rc_status status = RC_FAIL;
     unsigned char *raw = malloc(size);
 
-    (void)wish;
     if (raw == NULL)
         return rc_err_set(err, "out of memory for %zu bytes of heights", size);
     if (unpack_all(file, map, raw, size, err) == RC_OK) {
@@ -143,8 +141,7 @@ step(const struct rc_file *file, struct rc_bytes *bytes, size_t at, size_t unit_
 }
 
 static enum rc_status
-sur_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+sur_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes bytes = rc_file_bytes(file, false);
     bool is_packed = rc_file_holds(file, 0, packed, MAGIC);
@@ -152,7 +149,6 @@ sur_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     struct rc_map *map;
     double bits, comment_n, private_n, columns, rows;
 
-    (void)wish;
     if (!is_packed && !rc_file_holds(file, 0, plain, MAGIC))
         return rc_err_set(err, "no Digital Surf file: it begins with neither %s nor %s", plain,
                           packed);

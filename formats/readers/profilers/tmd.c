@@ -17,15 +17,13 @@ enum {
 static const char magic[MAGIC + 1] = "Binary TrueMap Data File v2.0\r\n";
 
 static enum rc_status
-tmd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+tmd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
     struct rc_map *map = rc_maps_add(maps, "", 0);
     const unsigned char *comment, *nul;
     size_t at, n;
 
-    (void)wish;
     if (!rc_file_holds(file, 0, magic, MAGIC))
         return rc_err_set(err, "no TrueMap file: it does not begin with 'Binary TrueMap Data File "
                                "v2.0'");

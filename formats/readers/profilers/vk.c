@@ -86,13 +86,11 @@ unpack(const struct rc_file *file, size_t *n, struct rc_err *err)
 }
 
 static enum rc_status
-fill_packed(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-            double *v, struct rc_err *err)
+fill_packed(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_bytes cursor = {.at = map->at};
     unsigned char *bytes = unpack(file, &cursor.size, err);
 
-    (void)wish;
     if (bytes == NULL)
         return RC_FAIL;
     cursor.data = bytes;
@@ -205,10 +203,8 @@ find_packed(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err
 }
 
 static enum rc_status
-vk_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-        struct rc_err *err)
+vk_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    (void)wish;
     return is_packed(file) ? find_packed(file, maps, err) : find_plain(file, maps, err);
 }
 

@@ -239,14 +239,12 @@ apply_marks(const struct zon *z, const struct rc_file *file, const struct rc_map
 }
 
 static enum rc_status
-fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-             double *v, struct rc_err *err)
+fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct zon z = {.archive = open_archive(file, err)};
     enum rc_status status = RC_FAIL;
     struct array a = {0};
 
-    (void)wish;
     if (z.archive != NULL && read_array(&z, file, heights_name, 4, &a, err) == RC_OK) {
         struct rc_bytes b = {.data = a.bytes, .size = a.n};
 
@@ -262,15 +260,13 @@ fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struc
 }
 
 static enum rc_status
-zon_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+zon_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct zon z = {.pixel = NAN, .count = NAN, .maps = maps};
     enum rc_status status = RC_FAIL;
     struct array a = {0};
     struct rc_map *map;
 
-    (void)wish;
     if ((z.archive = open_archive(file, err)) == NULL)
         return RC_FAIL;
     if (read_elements(&z, file, err) == RC_OK &&

@@ -141,25 +141,23 @@ keyence_open(const struct rc_file *file, const struct rc_wish *wish, struct keye
 }
 
 static enum rc_status
-fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-             double *v, struct rc_err *err)
+fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct keyence k;
 
     (void)map;
-    return keyence_open(file, wish, &k, err) != RC_OK ? RC_FAIL
-                                                      : rc_number_table_read(&k.table, v, err);
+    return keyence_open(file, map->wish, &k, err) != RC_OK ? RC_FAIL
+                                                           : rc_number_table_read(&k.table, v, err);
 }
 
 static enum rc_status
-keyence_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-             struct rc_err *err)
+keyence_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_map *map;
     struct keyence k;
     size_t n;
 
-    if (keyence_open(file, wish, &k, err) != RC_OK ||
+    if (keyence_open(file, maps->wish, &k, err) != RC_OK ||
         rc_number_table_size(&k.table, &n, err) != RC_OK)
         return RC_FAIL;
     map = rc_maps_add(maps, k.title.text, k.title.n);

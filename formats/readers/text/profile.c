@@ -195,17 +195,16 @@ lay_nodes(const struct profile *p, const struct rc_file *file, const struct rc_w
 }
 
 static enum rc_status
-fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-             double *v, struct rc_err *err)
+fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     enum rc_status status;
     struct rc_even even;
     struct profile p;
 
-    status = profile_open(&p, file, wish, err);
+    status = profile_open(&p, file, map->wish, err);
     p.z = map->more;
     if (status == RC_OK && p.table.numbers.columns > 1)
-        status = lay_nodes(&p, file, wish, &even, v, map->notes, err);
+        status = lay_nodes(&p, file, map->wish, &even, v, map->notes, err);
     else
         for (size_t k = 0; k < map->nx && status == RC_OK; k++)
             v[k] = height_of(&p, k);
@@ -233,17 +232,16 @@ add_heights(const struct profile *p, size_t c, const struct rc_even *even, struc
 }
 
 static enum rc_status
-profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-             struct rc_err *err)
+profile_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     enum rc_status status;
     struct rc_even even = {0};
     struct profile p;
 
-    status = profile_open(&p, file, wish, err);
+    status = profile_open(&p, file, maps->wish, err);
     even.n = p.table.numbers.rows;
     if (status == RC_OK && p.table.numbers.columns > 1)
-        status = lay_nodes(&p, file, wish, &even, NULL, NULL, err);
+        status = lay_nodes(&p, file, maps->wish, &even, NULL, NULL, err);
     for (size_t k = 0; status == RC_OK && k < p.heights; k++)
         add_heights(&p, p.height[k], &even, maps);
     rc_titled_table_close(&p.table);

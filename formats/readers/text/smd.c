@@ -123,12 +123,10 @@ metres_of(struct rc_piece unit)
 }
 
 static enum rc_status
-fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-             double *v, struct rc_err *err)
+fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_piece text = {(const char *)file->data + map->at, map->more};
 
-    (void)wish;
     if (rc_flow_read(&text, v, map->nx, err) != RC_OK)
         return RC_FAIL;
     return rc_piece_trim(text).n == 0
@@ -139,8 +137,7 @@ fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struc
 }
 
 static enum rc_status
-smd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+smd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct smd s = {.step = NAN, .scale = NAN};
     struct rc_piece rest = rc_file_piece(file), head, other, data, line;
@@ -148,7 +145,6 @@ smd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     struct rc_lines lines;
     char quote[RC_SHOWN];
 
-    (void)wish;
     if (!is_smd(file) || !next_record(&rest, &head) || !next_record(&rest, &other) ||
         !next_record(&rest, &data))
         return rc_err_set(err,

@@ -123,13 +123,11 @@ next_point(struct rc_lines *lines, double point[3], struct rc_err *err)
 }
 
 static enum rc_status
-fill_points(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-            double *v, struct rc_err *err)
+fill_points(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     double point[3], x = NAN;
     struct wyko w;
 
-    (void)wish;
     if (read_header(file, &w, NULL, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < map->nx * map->ny; k++) {
@@ -170,8 +168,7 @@ set_points(struct wyko *w, struct rc_map *map, struct rc_err *err)
 }
 
 static enum rc_status
-wykotext_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-              struct rc_err *err)
+wykotext_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct wyko w = {
         .nx = NAN, .ny = NAN, .wavelength = NAN, .pixel = NAN, .aspect = 1, .factor = 1};
@@ -180,7 +177,6 @@ wykotext_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     struct rc_map *map;
     size_t words;
 
-    (void)wish;
     if (read_header(file, &w, maps, err) != RC_OK)
         return RC_FAIL;
     map = rc_maps_add(maps, "", 0);

@@ -260,21 +260,20 @@ cloud_open(struct cloud *c, const struct rc_file *file, const struct rc_wish *wi
 }
 
 static enum rc_status
-fill_points(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-            double *v, struct rc_err *err)
+fill_points(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     enum rc_status status = RC_FAIL;
     unsigned char *taken = NULL;
     struct cloud c;
 
-    if (cloud_open(&c, file, wish, map->more, err) != RC_OK)
+    if (cloud_open(&c, file, map->wish, map->more, err) != RC_OK)
         goto done;
     rc_titled_table_left_out(&c.table, map->notes);
     if (c.along != NULL) {
         struct rc_even even;
 
-        status =
-            rc_even_new(c.along, c.table.numbers.rows, metres_along(&c), file, wish, &even, err);
+        status = rc_even_new(c.along, c.table.numbers.rows, metres_along(&c), file, map->wish,
+                             &even, err);
         if (status == RC_OK)
             rc_even_heights(&even, c.along, c.z, c.table.numbers.rows, v, map->notes);
         goto done;
@@ -303,17 +302,16 @@ done:
 }
 
 static enum rc_status
-xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-         struct rc_err *err)
+xyz_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_even even = {0};
     enum rc_status status;
     struct cloud c;
 
-    status = cloud_open(&c, file, wish, 0, err);
+    status = cloud_open(&c, file, maps->wish, 0, err);
     if (status == RC_OK && c.along != NULL)
-        status =
-            rc_even_new(c.along, c.table.numbers.rows, metres_along(&c), file, wish, &even, err);
+        status = rc_even_new(c.along, c.table.numbers.rows, metres_along(&c), file, maps->wish,
+                             &even, err);
     for (c.height = 0; status == RC_OK && c.height < c.heights; c.height++) {
         struct rc_piece name = {"", 0};
         struct rc_map *map;

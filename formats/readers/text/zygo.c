@@ -113,14 +113,12 @@ bad_point(const struct rc_lines *lines, struct rc_piece line, struct rc_err *err
 }
 
 static enum rc_status
-fill_points(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-            double *v, struct rc_err *err)
+fill_points(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_piece line, rest;
     struct zygo z;
     bool xyz;
 
-    (void)wish;
     if (read_header(file, &z, &xyz, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < map->nx * map->ny; k++)
@@ -146,14 +144,12 @@ fill_points(const struct rc_file *file, const struct rc_wish *wish, const struct
 }
 
 static enum rc_status
-zygo_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-          struct rc_err *err)
+zygo_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_map *map;
     struct zygo z;
     bool xyz;
 
-    (void)wish;
     if (read_header(file, &z, &xyz, err) != RC_OK)
         return RC_FAIL;
     rc_maps_key(maps, "file.comment", z.comment.text, z.comment.n);
