@@ -66,12 +66,10 @@ other_file(const struct rc_file *file)
     static const struct {
         const char *magic, *what;
     } kinds[] = {
-        {"\x89PNG",
-         "a PNG picture has colours, no heights: the program that it comes from may save "
-         "X3P, SDF or text"},
-        {"\xff\xd8\xff",
-         "a JPEG picture has colours, no heights: the program that it comes from may "
-         "save X3P, SDF or text"},
+        {"\x89PNG", "a PNG picture has colours, no heights: the program that it comes from may "
+                    "save X3P, SDF or text"},
+        {"\xff\xd8\xff", "a JPEG picture has colours, no heights: the program that it comes from "
+                         "may save X3P, SDF or text"},
         {"%PDF", "a PDF document holds no heights that could be read"},
         {"BZh", "the file is packed with bzip2: unpack it first (bunzip2)"},
         {"\xfd"
@@ -111,10 +109,9 @@ rc_format_find(const struct rc_file *file, struct rc_err *err)
     else
         rc_err_set(
             err,
-            "not recognised: it is none of the formats that --formats lists (it "
-            "begins '%s'); --format NAME says which one it is, or the program that it comes from "
-            "may "
-            "save X3P, SDF or text",
+            "not recognised: it is none of the formats that --formats lists (it begins '%s'); "
+            "--format NAME says which one it is, or the program that it comes from may save X3P, "
+            "SDF or text",
             rc_text_shown(first, (const char *)file->data, file->size < 24 ? file->size : 24));
     return NULL;
 }

@@ -206,8 +206,7 @@ rc_hdf_values(struct rc_hdf *h, const struct rc_hdf_set *from, double *v, struct
     if (good)
         return RC_OK;
     return rc_err_set(err,
-                      "the dataset '%s' cannot be unpacked: the file is damaged, needs more "
-                      "memory than it may take, or is packed by a filter that libhdf5 does "
-                      "not have here",
+                      "the dataset '%s' cannot be unpacked: the file is damaged, needs more memory "
+                      "than it may take, or is packed by a filter that libhdf5 does not have here",
                       from->path);
 }

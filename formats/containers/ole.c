@@ -188,10 +188,10 @@ find_stream(const struct ole *o, const char *name, size_t *n, struct rc_err *err
               : *n < cutoff    ? read_small(o, root, first, *n)
                                : read_chain(o, first, *n);
         if (all == NULL)
-            rc_err_set(err,
-                       "the stream '%s' of the compound file is damaged, or there is no memory "
-                       "for it",
-                       name);
+            rc_err_set(
+                err,
+                "the stream '%s' of the compound file is damaged, or there is no memory for it",
+                name);
         return all;
     }
     free(directory);

@@ -99,10 +99,9 @@ rc_tiff_pages(struct rc_tiff *t, size_t *pages, struct rc_err *err)
 {
     for (*pages = 1; !TIFFLastDirectory(t->tiff); ++*pages)
         if (*pages == PAGES_MOST || TIFFReadDirectory(t->tiff) != 1)
-            return rc_err_set(err,
-                              "page %zu (from 0) is damaged or cut off, or there is no end to "
-                              "the pages",
-                              *pages);
+            return rc_err_set(
+                err, "page %zu (from 0) is damaged or cut off, or there is no end to the pages",
+                *pages);
     return rc_tiff_page(t, 0) ? RC_OK : rc_err_set(err, "the first page cannot be read");
 }
 
@@ -314,8 +313,7 @@ rc_tiff_values(struct rc_tiff *t, const struct rc_tiff_shape *shape, double *v, 
     for (size_t j = 0; j < shape->ny; j++) {
         if (TIFFReadScanline(t->tiff, row, (uint32_t)j, 0) != 1) {
             rc_err_set(err,
-                       "row %zu of %zu (from 0) cannot be unpacked: the file is damaged or "
-                       "cut off",
+                       "row %zu of %zu (from 0) cannot be unpacked: the file is damaged or cut off",
                        j, shape->ny);
             goto done;
         }

@@ -117,10 +117,10 @@ on_document_type(void *arg, const xmlChar *name, const xmlChar *external, const 
     (void)name, (void)external, (void)system;
     if (x->stopped)
         return;
-    rc_err_set(&x->err,
-               "%s has a document type declaration, which can hide expanding entities: "
-               "it is not read",
-               x->name);
+    rc_err_set(
+        &x->err,
+        "%s has a document type declaration, which can hide expanding entities: it is not read",
+        x->name);
     stop(x);
 }
 

@@ -113,18 +113,17 @@ rc_zip_read_size(struct rc_zip_read *a, size_t member, uint64_t *size, struct rc
         return rc_err_set(err, "member '%s' of the archive is encrypted", shown);
     if (st.comp_method != ZIP_CM_STORE && st.comp_method != ZIP_CM_DEFLATE)
         return rc_err_set(err,
-                          "member '%s' of the archive is packed by method %u: only stored "
-                          "and deflated ones are read",
+                          "member '%s' of the archive is packed by method %u: only stored and "
+                          "deflated ones are read",
                           shown, (unsigned)st.comp_method);
     if (st.comp_size > a->size)
-        return rc_err_set(err,
-                          "member '%s' of the archive promises %" PRIu64 " packed bytes, the "
-                          "file has %zu",
-                          shown, (uint64_t)st.comp_size, a->size);
+        return rc_err_set(
+            err, "member '%s' of the archive promises %" PRIu64 " packed bytes, the file has %zu",
+            shown, (uint64_t)st.comp_size, a->size);
     if (st.size / DEFLATE_MOST > st.comp_size)
         return rc_err_set(err,
-                          "member '%s' of the archive promises %" PRIu64 " bytes, which its "
-                          "%" PRIu64 " packed ones cannot hold",
+                          "member '%s' of the archive promises %" PRIu64
+                          " bytes, which its %" PRIu64 " packed ones cannot hold",
                           shown, (uint64_t)st.size, (uint64_t)st.comp_size);
     *size = st.size;
     return RC_OK;
@@ -164,8 +163,7 @@ unpack(zip_file_t *f, const char *shown, uint64_t size, unsigned char *chunk, st
         done += (uint64_t)n;
         if (done > size || (n < RC_ZIP_CHUNK && done < size))
             return rc_err_set(err,
-                              "member '%s' of the archive promises %" PRIu64 " bytes and "
-                              "holds %s",
+                              "member '%s' of the archive promises %" PRIu64 " bytes and holds %s",
                               shown, size, done > size ? "more" : "fewer");
         if (md5 != NULL)
             rc_md5_add(md5, chunk, (size_t)n);

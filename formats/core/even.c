@@ -85,9 +85,8 @@ pick_step(const struct rc_wish *wish, double metres, double length, double media
         return RC_OK;
     }
     if (isnan(metres))
-        return rc_err_set(err,
-                          "the positions have no unit, so that --even takes no step here: --even "
-                          "without one resamples, and --dx says how wide its step is");
+        return rc_err_set(err, "the positions have no unit, so that --even takes no step here: "
+                               "--even without one resamples, and --dx says how wide its step is");
     *step = wish->even_step / metres;
     if (*step <= length * (1 + 1e-9))
         return RC_OK;
@@ -192,7 +191,6 @@ rc_axis_step(const char *name, double *x, size_t n, double *step, struct rc_err 
     if (*step > 0 && judge_steps(x, n, NULL) == RC_OK)
         return RC_OK;
     return rc_err_set(err,
-                      "the positions of the axis '%s' are not evenly apart: a map needs even "
-                      "ones",
+                      "the positions of the axis '%s' are not evenly apart: a map needs even ones",
                       rc_word_shown(quote, name));
 }

@@ -86,10 +86,10 @@ rc_map_fits(const struct rc_file *file, size_t nx, size_t ny, struct rc_err *err
         rc_size_mul(n, sizeof(double), &bytes, err) != RC_OK)
         return RC_FAIL;
     if (bytes > limit)
-        return rc_err_set(err,
-                          "%zu x %zu values need %zu MiB, more than the %zu that a file of %zu "
-                          "bytes may take",
-                          nx, ny, bytes >> 20, limit >> 20, file->size);
+        return rc_err_set(
+            err,
+            "%zu x %zu values need %zu MiB, more than the %zu that a file of %zu bytes may take",
+            nx, ny, bytes >> 20, limit >> 20, file->size);
     return RC_OK;
 }
 

@@ -19,8 +19,8 @@ check_map(const struct rc_map *map, const struct rc_file *file, struct rc_err *e
                           map->nx, map->ny);
     if (!isfinite(map->scale) || !isfinite(map->zero) || !isfinite(map->si) || map->scale == 0)
         return rc_err_set(err,
-                          "channel '%s': heights are number * %g + %g in the file: both must "
-                          "be finite and the first not 0",
+                          "channel '%s': heights are number * %g + %g in the file: both must be "
+                          "finite and the first not 0",
                           map->name, map->scale * map->si, map->zero * map->si);
     if (map->fill != NULL)
         return RC_OK;
@@ -31,8 +31,8 @@ check_map(const struct rc_map *map, const struct rc_file *file, struct rc_err *e
     bytes -= map->padding; /* the last line may lack it */
     if (map->at > file->size || bytes > file->size - map->at)
         return rc_err_set(err,
-                          "channel '%s': the header promises %zu x %zu values, %zu bytes from "
-                          "byte %zu on, the file has %zu bytes in all",
+                          "channel '%s': the header promises %zu x %zu values, %zu bytes from byte "
+                          "%zu on, the file has %zu bytes in all",
                           map->name, map->nx, map->ny, bytes, map->at, file->size);
     return RC_OK;
 }

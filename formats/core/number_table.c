@@ -224,16 +224,16 @@ bad_field(const struct rc_number_table *t, size_t line, const char *s, char deci
 
     if (s == NULL)
         return rc_err_set(err,
-                          "line %zu: two values with white space between them, where columns "
-                          "are separated by %s: --separator says what is meant",
+                          "line %zu: two values with white space between them, where columns are "
+                          "separated by %s: --separator says what is meant",
                           line, separator_name(t->separator));
     while (!ends_field(t, end))
         end++;
     rc_text_shown(quote, s, (size_t)(end - s));
     if (decimal != 0 && memchr(s, other, (size_t)(end - s)) != NULL)
         return rc_err_set(err,
-                          "line %zu: '%s' is no number where the decimal mark is '%c': "
-                          "--decimal and --separator say what is meant",
+                          "line %zu: '%s' is no number where the decimal mark is '%c': --decimal "
+                          "and --separator say what is meant",
                           line, quote, decimal);
     return rc_err_set(err,
                       "line %zu: '%s' is no number: --separator says what stands between the "
@@ -372,8 +372,8 @@ find_separator(struct rc_number_table *t, const char *s, size_t line, struct rc_
         t->separator = ' ';
     else
         return rc_err_set(err,
-                          "line %zu: some commas look like decimal marks, others like "
-                          "separators: --decimal and --separator say what is meant",
+                          "line %zu: some commas look like decimal marks, others like separators: "
+                          "--decimal and --separator say what is meant",
                           line);
     return RC_OK;
 }

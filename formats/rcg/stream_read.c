@@ -161,10 +161,9 @@ add_line(struct head *head, char *line, struct rc_err *err)
     if (!rc_key_valid(line))
         return rc_err_set(err, "header key '%.60s' is not of the form [a-z][a-z0-9._-]*", line);
     if (!unescape(equals + 1))
-        return rc_err_set(err,
-                          "the value of header key '%.60s' holds a backslash that is neither "
-                          "\\\\ nor \\n",
-                          line);
+        return rc_err_set(
+            err, "the value of header key '%.60s' holds a backslash that is neither \\\\ nor \\n",
+            line);
     if (!rc_utf8_valid(equals + 1))
         return rc_err_set(err, "the value of header key '%.60s' is not UTF-8", line);
     for (int f = 0; f < FIELDS; f++) {
@@ -412,13 +411,13 @@ read_crc(struct rc_reader *r, struct rc_err *err)
         return cut_off(r, "before the checksum of a frame", err);
     snprintf(wanted, sizeof wanted, "crc32 %08" PRIx32, r->crc);
     if (n < 0 || strncmp(line, "crc32 ", 6) != 0 || strlen(line) != strlen(wanted))
-        return rc_err_set(err, "no crc32 line follows the values: nx, ny or type in the header do "
-                               "not match the data");
+        return rc_err_set(
+            err,
+            "no crc32 line follows the values: nx, ny or type in the header do not match the data");
     if (strcmp(line, wanted) != 0)
-        return rc_err_set(err,
-                          "the checksum is %s, the data's is %s: the stream is damaged; make "
-                          "it again",
-                          line + 6, wanted + 6);
+        return rc_err_set(
+            err, "the checksum is %s, the data's is %s: the stream is damaged; make it again",
+            line + 6, wanted + 6);
     return RC_OK;
 }
 
@@ -563,8 +562,8 @@ rc_reader_head(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
             return read_failure(r, line + 7, err);
         if (strncmp(line, "RCGEND ", 7) != 0)
             return rc_err_set(err,
-                              "'%.40s' stands where a frame or an end line should: this is no "
-                              "grid stream, or a damaged one",
+                              "'%.40s' stands where a frame or an end line should: this is no grid "
+                              "stream, or a damaged one",
                               line);
         if (read_end(r, line + 7, err) != RC_OK)
             return RC_FAIL;

@@ -228,10 +228,10 @@ rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
         put_line(t, g->key[k].name, g->key[k].value);
     put_char(t, '\n');
     if (t->full) {
-        rc_err_set(err,
-                   "the header of a frame would be longer than %d bytes: its keys carry too "
-                   "much text",
-                   RC_HEADER_MAX);
+        rc_err_set(
+            err,
+            "the header of a frame would be longer than %d bytes: its keys carry too much text",
+            RC_HEADER_MAX);
         goto done;
     }
     if (w->share != NULL) {

@@ -117,17 +117,16 @@ finish(const struct child *c, const struct rc_file *file, bool whole, struct rc_
     if (whole)
         return;
     if (got == c->pid && WIFSIGNALED(how) && (WTERMSIG(how) == SIGPROF || WTERMSIG(how) == SIGALRM))
-        rc_err_set(err,
-                   "the file keeps its library busy for more than %.1f s: it is damaged, or "
-                   "made to",
-                   rc_confine_seconds(file));
+        rc_err_set(
+            err, "the file keeps its library busy for more than %.1f s: it is damaged, or made to",
+            rc_confine_seconds(file));
     else if (got == c->pid && WIFSIGNALED(how))
         rc_err_set(err, "the file makes its library fail (%s): it is damaged, or made to",
                    strsignal(WTERMSIG(how)));
     else
         rc_err_set(err,
-                   "the file makes its library fail: it is damaged, or needs more than the "
-                   "%zu MiB that %zu bytes may take",
+                   "the file makes its library fail: it is damaged, or needs more than the %zu MiB "
+                   "that %zu bytes may take",
                    rc_memory_limit(file->size) >> 20, file->size);
 }
 

@@ -161,8 +161,8 @@ rc_range_of(const struct rc_grid *g, struct rc_range *range, struct rc_err *err)
         }
         if (isinf(g->v[k]))
             return rc_err_set(err,
-                              "the value at column %zu, row %zu (from 0) is infinite: this "
-                              "format cannot say that",
+                              "the value at column %zu, row %zu (from 0) is infinite: this format "
+                              "cannot say that",
                               k % g->nx, k / g->nx);
         range->min = fmin(range->min, g->v[k]);
         range->max = fmax(range->max, g->v[k]);

@@ -130,10 +130,10 @@ mat_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
 
     (void)frames;
     if (g->nx > BYTES_MOST / bytes / g->ny)
-        return rc_err_set(err,
-                          "%zu x %zu values are more than the 2 GiB of an array in MAT "
-                          "version 5: write hdf5",
-                          g->nx, g->ny);
+        return rc_err_set(
+            err,
+            "%zu x %zu values are more than the 2 GiB of an array in MAT version 5: write hdf5",
+            g->nx, g->ny);
     bytes *= g->nx * g->ny;
     make_name(name, g->channel);
     rc_buffer_print(&head, "%-*.*s", TEXT_SIZE, TEXT_SIZE, "MATLAB 5.0 MAT-file, by libcontact");

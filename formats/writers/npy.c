@@ -28,8 +28,8 @@ check_stack(const struct rc_stack *s, size_t stacks, struct rc_err *err)
     for (size_t k = 0; k < s->n; k++)
         at[k] = rc_stack_depth(s, k);
     if (!rc_export_even(at, s->n, &step))
-        status = rc_err_set(err, "the depths have uneven steps, which npy cannot say: write vtr or "
-                                 "hdf5");
+        status = rc_err_set(
+            err, "the depths have uneven steps, which npy cannot say: write vtr or hdf5");
     free(at);
     return status;
 }

@@ -137,14 +137,13 @@ start(struct relief *r, const struct rc_grid *g, const struct rc_export_wish *wi
         return RC_FAIL;
     if (range.missing > 0)
         return rc_err_set(err,
-                          "%zu points are missing, and a relief has no holes: rc-detrend "
-                          "--fill gives them heights",
+                          "%zu points are missing, and a relief has no holes: rc-detrend --fill "
+                          "gives them heights",
                           range.missing);
     if (triangles > UINT32_MAX)
-        return rc_err_set(err,
-                          "%.0f triangles are more than STL counts: rc-pick --resample makes "
-                          "fewer nodes",
-                          triangles);
+        return rc_err_set(
+            err, "%.0f triangles are more than STL counts: rc-pick --resample makes fewer nodes",
+            triangles);
     r->across = side / longer;
     r->up = r->across;
     if (wish->relief > 0 && range.max > range.min)
@@ -187,8 +186,8 @@ stl_foretell(const struct rc_grid *g, const struct rc_export_wish *wish, char *t
         double triangles = triangles_of(g);
 
         snprintf(text, size,
-                 "a block of %.4g x %.4g x %.4g mm, %.4g times the map, heights %.4g "
-                 "times; %.0f triangles, %.0f bytes",
+                 "a block of %.4g x %.4g x %.4g mm, %.4g times the map, heights %.4g times; %.0f "
+                 "triangles, %.0f bytes",
                  (double)(g->nx - 1) * g->dx * r.across, (double)(g->ny - 1) * g->dy * r.across,
                  floor_thickness + (range.max - range.min) * r.up, r.across / 1e3, r.up / 1e3,
                  triangles, HEAD + 4 + 50 * triangles);

@@ -27,17 +27,16 @@ check_alike(struct rc_grid *const *frame, size_t frames, struct rc_err *err)
         const char *other = rc_grid_get(b, "section");
 
         if (b->nx != a->nx || b->ny != a->ny || b->dx != a->dx || b->dy != a->dy)
-            return rc_err_set(err,
-                              "frame %zu (%s) has another grid than the first (%s): one file "
-                              "holds one grid",
-                              k + 1, b->channel, a->channel);
+            return rc_err_set(
+                err, "frame %zu (%s) has another grid than the first (%s): one file holds one grid",
+                k + 1, b->channel, a->channel);
         if (depth_of(b, &depth) != deep)
-            return rc_err_set(err, "some frames have a depth and some have none: choose by "
-                                   "--channel");
+            return rc_err_set(err,
+                              "some frames have a depth and some have none: choose by --channel");
         if ((section == NULL) != (other == NULL) ||
             (section != NULL && strcmp(section, other) != 0))
-            return rc_err_set(err, "sections and maps, or sections of two directions, do not fit "
-                                   "into one file");
+            return rc_err_set(
+                err, "sections and maps, or sections of two directions, do not fit into one file");
     }
     return RC_OK;
 }
@@ -75,10 +74,9 @@ check_depths(const struct rc_volume *v, struct rc_err *err)
     for (size_t a = 1; a < v->arrays; a++)
         for (size_t k = 0; k < v->layers; k++)
             if (rc_stack_depth(&v->array[a].stack, k) != rc_stack_depth(first, k))
-                return rc_err_set(err,
-                                  "channels %s and %s have different depths: one file holds "
-                                  "one stack",
-                                  first->layer[0]->channel, v->array[a].stack.layer[0]->channel);
+                return rc_err_set(
+                    err, "channels %s and %s have different depths: one file holds one stack",
+                    first->layer[0]->channel, v->array[a].stack.layer[0]->channel);
     return RC_OK;
 }
 
@@ -172,8 +170,7 @@ rc_vtk_arrays(struct rc_buffer *b, const struct rc_volume *v, uint64_t offset)
         rc_buffer_escaped(b, v->array[a].name);
         rc_buffer_print(b,
                         "\" format=\"appended\" offset=\"%llu\">\n"
-                        "          <InformationKey name=\"UNITS_LABEL\" "
-                        "location=\"vtkDataArray\">",
+                        "          <InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">",
                         (unsigned long long)offset);
         rc_buffer_escaped(b, v->array[a].stack.layer[0]->unit);
         rc_buffer_print(b, "</InformationKey>\n        </DataArray>\n");

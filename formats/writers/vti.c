@@ -10,8 +10,8 @@ make_header(struct rc_buffer *b, const struct rc_volume *v, const struct rc_grid
 
     for (int axis = 0; axis < 3; axis++) {
         if (!rc_export_even(v->at[axis], v->n[axis], &step))
-            return rc_err_set(err, "the depths have uneven steps, an image has even ones: write "
-                                   "vtr");
+            return rc_err_set(err,
+                              "the depths have uneven steps, an image has even ones: write vtr");
         rc_number_text(origin[axis], v->at[axis][0]);
         rc_number_text(spacing[axis], step == 0 ? g->dx : step); /* it must not be 0 */
     }

@@ -68,8 +68,9 @@ axis(struct rc_buffer *b, const char *name, const char *type, const char *data, 
     char a[RC_NUMBER_SIZE], c[RC_NUMBER_SIZE];
 
     rc_buffer_print(b,
-                    "      <%s><AxisType>%s</AxisType><DataType>%s</DataType>"
-                    "<Increment>%s</Increment><Offset>%s</Offset></%s>\n",
+                    "      "
+                    "<%s><AxisType>%s</AxisType><DataType>%s</DataType><Increment>%s</"
+                    "Increment><Offset>%s</Offset></%s>\n",
                     name, type, data, rc_number_text(a, increment), rc_number_text(c, offset),
                     name);
 }
@@ -136,18 +137,20 @@ make_main(struct rc_buffer *b, const struct rc_grid *g, const struct parts *p,
     rc_buffer_print(b, "    </Axes>\n  </Record1>\n");
     provenance(b, g, wish);
     rc_buffer_print(b,
-                    "  <Record3>\n    <MatrixDimension><SizeX>%zu</SizeX><SizeY>%zu</SizeY>"
-                    "<SizeZ>1</SizeZ></MatrixDimension>\n    <DataLink>"
-                    "<PointDataLink>%s</PointDataLink>"
-                    "<MD5ChecksumPointData>%s</MD5ChecksumPointData>",
+                    "  <Record3>\n    "
+                    "<MatrixDimension><SizeX>%zu</SizeX><SizeY>%zu</SizeY><SizeZ>1</SizeZ></"
+                    "MatrixDimension>\n    "
+                    "<DataLink><PointDataLink>%s</PointDataLink><MD5ChecksumPointData>%s</"
+                    "MD5ChecksumPointData>",
                     g->nx, g->ny, data_name, p->data_md5);
     if (p->valid != NULL)
         rc_buffer_print(b,
-                        "<ValidPointsLink>%s</ValidPointsLink>"
-                        "<MD5ChecksumValidPoints>%s</MD5ChecksumValidPoints>",
+                        "<ValidPointsLink>%s</ValidPointsLink><MD5ChecksumValidPoints>%s</"
+                        "MD5ChecksumValidPoints>",
                         valid_name, p->valid_md5);
-    rc_buffer_print(b, "</DataLink>\n  </Record3>\n  <Record4>"
-                       "<ChecksumFile>md5checksum.hex</ChecksumFile></Record4>\n</p:ISO5436_2>\n");
+    rc_buffer_print(
+        b, "</DataLink>\n  </Record3>\n  "
+           "<Record4><ChecksumFile>md5checksum.hex</ChecksumFile></Record4>\n</p:ISO5436_2>\n");
 }
 
 /* ---- the archive ---- */

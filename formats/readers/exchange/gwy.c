@@ -275,8 +275,8 @@ gwy_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 
     b.at = 4;
     if (!rc_file_holds(file, 0, "GWYP", 4) || (end = enter(&b, file->size, "GwyContainer")) == 0)
-        return rc_err_set(err, "no Gwyddion file, or cut: it does not hold GWYP and a whole "
-                               "GwyContainer");
+        return rc_err_set(
+            err, "no Gwyddion file, or cut: it does not hold GWYP and a whole GwyContainer");
     start = b.at;
     for (size_t p = 0; p < sizeof parts / sizeof *parts; p++)
         for (b.at = start; next_item(&b, end, &item, &damaged, err);) {

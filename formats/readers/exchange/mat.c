@@ -203,10 +203,9 @@ read_numbers(const struct rc_file *file, bool big, const struct variable *v, dou
     if (v->whole.type == PACKED) {
         if (v->unpacked > rc_memory_limit(file->size) || v->unpacked < v->numbers.at ||
             v->numbers.n > v->unpacked - v->numbers.at)
-            return rc_err_set(err,
-                              "'%s' promises %zu bytes of numbers in %zu, in a file of %zu: that "
-                              "cannot be",
-                              v->name, v->numbers.n, v->unpacked, file->size);
+            return rc_err_set(
+                err, "'%s' promises %zu bytes of numbers in %zu, in a file of %zu: that cannot be",
+                v->name, v->numbers.n, v->unpacked, file->size);
         if ((all = malloc(v->unpacked)) == NULL)
             return rc_err_set(err, "out of memory for the %zu bytes of '%s'", v->unpacked, v->name);
         if (rc_inflate("numbers", file->data + v->whole.at, v->whole.n, all, v->unpacked, err) !=
@@ -327,8 +326,8 @@ mat_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     bool big;
 
     if (!has_magic(file, &big))
-        return rc_err_set(err, "no MAT file of version 5: MATLAB writes one by save -v7, Octave by "
-                               "save -7");
+        return rc_err_set(
+            err, "no MAT file of version 5: MATLAB writes one by save -v7, Octave by save -7");
     m.b = rc_file_bytes(file, big);
     return rc_matlab_maps(&source, maps, err);
 }

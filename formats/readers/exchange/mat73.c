@@ -131,8 +131,9 @@ mat73_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     enum rc_status status = RC_FAIL;
 
     if (!has_magic(file))
-        return rc_err_set(err, "no MAT file of version 7.3: its header has no version 2, or no "
-                               "HDF5 stands behind it");
+        return rc_err_set(
+            err,
+            "no MAT file of version 7.3: its header has no version 2, or no HDF5 stands behind it");
     if ((m.hdf = rc_hdf_new(file, err)) == NULL)
         return RC_FAIL;
     if ((m.set = calloc(SETS_MOST, sizeof *m.set)) == NULL)

@@ -162,10 +162,9 @@ rc_matlab_maps(struct rc_matlab_source *s, struct rc_maps *maps, struct rc_err *
         survey(s, true, &f, err) != RC_OK)
         return RC_FAIL;
     if (f.maps + f.vectors == 0)
-        return rc_err_set(err,
-                          "the file has no real array of numbers with two dimensions%s: save the "
-                          "map as one",
-                          f.others);
+        return rc_err_set(
+            err, "the file has no real array of numbers with two dimensions%s: save the map as one",
+            f.others);
     s->start(s);
     while ((status = s->next(s, &a, err)) == RC_MORE)
         if (is_channel(&f, &a) && add_map(s, &f, &a, maps, err) != RC_OK)

@@ -167,10 +167,8 @@ step_of(const struct rc_cdf *f, size_t dimension, double metres, double *step, b
         off += 0x1p-23 * fmax(fabs(first), fabs(last));
     for (uint64_t k = 0; k < n; k++)
         if (!(fabs(rc_cdf_value(place(f, v, k, 0), v->type) - first - (double)k * *step) <= off))
-            return rc_err_set(err,
-                              "the coordinate '%s' has uneven steps: only regular grids are "
-                              "read",
-                              quote);
+            return rc_err_set(
+                err, "the coordinate '%s' has uneven steps: only regular grids are read", quote);
     *step = *step * v->factor * metres;
     *periodic = v->period != 0;
     return RC_OK;

@@ -117,11 +117,9 @@ read_header(const struct rc_file *file, struct nrrd *h, struct rc_err *err)
     while (rc_lines_next(&lines, &line.text, &line.n)) {
         if (line.n == 0) {
             h->data = (size_t)(lines.at - (const char *)file->data);
-            return h->file.n == 0
-                       ? RC_OK
-                       : rc_err_set(err,
-                                    "the values are in another file: only NRRD files that hold "
-                                    "them are read");
+            return h->file.n == 0 ? RC_OK
+                                  : rc_err_set(err, "the values are in another file: only NRRD "
+                                                    "files that hold them are read");
         }
         if (*line.text != '#' && rc_piece_part(line, ":", &key, &value) &&
             (value.n == 0 || *value.text != '='))

@@ -137,11 +137,10 @@ fill_text(const struct rc_file *file, const struct rc_map *map, double *v, struc
     text = rc_piece_trim(text);
     if (text.n == 0 || *text.text == '*')
         return RC_OK;
-    return rc_err_set(
-        err,
-        "'%s' follows the last of the %zu x %zu heights that the header promises: there "
-        "are more of them, or checksums among them",
-        rc_text_shown(quote, text.text, text.n < 12 ? text.n : 12), map->nx, map->ny);
+    return rc_err_set(err,
+                      "'%s' follows the last of the %zu x %zu heights that the header promises: "
+                      "there are more of them, or checksums among them",
+                      rc_text_shown(quote, text.text, text.n < 12 ? text.n : 12), map->nx, map->ny);
 }
 
 static enum rc_status
@@ -163,8 +162,7 @@ sdf_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     if (s.check != 0)
         return rc_err_set(
             err,
-            "CheckType is %g: heights with checksums are not read; save the file with "
-            "CheckType 0",
+            "CheckType is %g: heights with checksums are not read; save the file with CheckType 0",
             s.check);
     if (is_text && rc_map_is_text(map, file, map->at, err) != RC_OK)
         return RC_FAIL;

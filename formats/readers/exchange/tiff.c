@@ -72,12 +72,11 @@ read_page(struct rc_tiff *t, const char *description, size_t number, size_t page
     if (rc_tiff_shape(t, &p->shape, err) != RC_OK)
         return RC_FAIL;
     if (!p->shape.floats || p->shape.samples != 1)
-        return rc_err_set(
-            err,
-            "a TIFF with %u sample%s of %u bits a pixel%s: pictures without heights are not "
-            "read, heights are as one float of 32 or 64 bits a pixel",
-            p->shape.samples, p->shape.samples == 1 ? "" : "s", p->shape.bits,
-            p->shape.floats ? "" : ", whole numbers");
+        return rc_err_set(err,
+                          "a TIFF with %u sample%s of %u bits a pixel%s: pictures without heights "
+                          "are not read, heights are as one float of 32 or 64 bits a pixel",
+                          p->shape.samples, p->shape.samples == 1 ? "" : "s", p->shape.bits,
+                          p->shape.floats ? "" : ", whole numbers");
     rc_text_clean(p->z_unit, sizeof p->z_unit, unit.text, unit.n);
     if (strncmp(description, "ImageJ=", 7) == 0 && !isnan(metres) &&
         rc_tiff_resolution(t, &x, &y) && x > 0 && y > 0) {

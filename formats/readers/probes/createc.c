@@ -121,8 +121,9 @@ read_header(const struct rc_file *file, struct createc *c, struct rc_maps *maps,
 
     *c = (struct createc){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     if (kind_of(file) == NULL)
-        return rc_err_set(err, "no DAT file of Createc: it begins with none of [Parameter], "
-                               "[Paramet32], [Paramco32]");
+        return rc_err_set(
+            err,
+            "no DAT file of Createc: it begins with none of [Parameter], [Paramet32], [Paramco32]");
     if (file->size < size)
         return rc_err_set(err, "the header takes %zu bytes, the file has %zu", size, file->size);
     lines.end = lines.at + size;
@@ -253,10 +254,10 @@ createc_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *er
                           PLANES_MOST);
     if (!kind->packed &&
         (file->size < first_byte(kind) || planes > (file->size - first_byte(kind)) / plane))
-        return rc_err_set(err,
-                          "the header promises %zu planes of %zu x %zu numbers, the file has "
-                          "%zu bytes in all",
-                          planes, nx, ny, file->size);
+        return rc_err_set(
+            err,
+            "the header promises %zu planes of %zu x %zu numbers, the file has %zu bytes in all",
+            planes, nx, ny, file->size);
     for (size_t k = 0; k < planes; k++) {
         struct rc_map *map;
 

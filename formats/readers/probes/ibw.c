@@ -186,8 +186,7 @@ ibw_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         return RC_FAIL;
     if (all > file->size - DATA)
         return rc_err_set(err,
-                          "the header promises %zu x %zu x %zu values, %zu bytes, the file "
-                          "has %zu",
+                          "the header promises %zu x %zu x %zu values, %zu bytes, the file has %zu",
                           size[0], size[1], channels, all, file->size - DATA);
     labels = size[2] == 0 ? 0 : labels_at(file, &b, DATA + all, channels);
     sensor = sensor_of(note_of(file, &b, DATA + all));

@@ -154,10 +154,10 @@ iso28600_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
         rc_size_mul(least, channels, &least, err) != RC_OK)
         return RC_FAIL;
     if (least > (file->size - iso.data + 1) / 2) /* a digit and what parts it */
-        return rc_err_set(err,
-                          "the header promises %zu x %zu points of %zu numbers, the file has "
-                          "%zu bytes for them",
-                          nx, ny, channels, file->size - iso.data);
+        return rc_err_set(
+            err,
+            "the header promises %zu x %zu points of %zu numbers, the file has %zu bytes for them",
+            nx, ny, channels, file->size - iso.data);
     for (size_t k = 0; k < channels; k++) {
         bool several = rc_piece_is(iso.line[MODE], "MAP_MC");
         struct rc_piece name = iso.line[several ? CHANNEL + 3 * k : NAME];

@@ -219,10 +219,9 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
     if (scan_open(&s, file, err) != RC_OK || go_to(&s, index, &c, err) != RC_OK)
         goto done;
     if (!c.linear) {
-        rc_err_set(err,
-                   "channel '%s' has no linear scale with a multiplier and an offset: it is "
-                   "not read",
-                   c.name);
+        rc_err_set(
+            err, "channel '%s' has no linear scale with a multiplier and an offset: it is not read",
+            c.name);
         goto done;
     }
     h = heights_of(&s, &c);

@@ -277,10 +277,10 @@ mdt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         at += size;
     }
     if (maps->n == 0)
-        return rc_err_set(err,
-                          "none of the %zu frames in the file is a map: spectra, curves and "
-                          "texts are not read",
-                          frames);
+        return rc_err_set(
+            err,
+            "none of the %zu frames in the file is a map: spectra, curves and texts are not read",
+            frames);
     return RC_OK;
 }
 

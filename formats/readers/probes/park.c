@@ -150,8 +150,7 @@ park_open(struct park *p, const struct rc_file *file, struct rc_err *err)
     rc_tiff_number(p->tiff, VERSION_TAG, &version);
     if (version != VERSION_1 && version != VERSION_2)
         return rc_err_set(err,
-                          "version 0x%08x of Park Systems' TIFF: only 0x%08x and 0x%08x are "
-                          "read",
+                          "version 0x%08x of Park Systems' TIFF: only 0x%08x and 0x%08x are read",
                           (unsigned)version, VERSION_1, VERSION_2);
     if (!rc_tiff_bytes(p->tiff, DATA_TAG, &p->data, &p->size) ||
         !rc_tiff_bytes(p->tiff, HEADER_TAG, &header.data, &header.size))

@@ -167,11 +167,10 @@ sxm_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
                               rc_piece_shown(quote, cell[3]));
         for (int way = 0; way < 1 + both; way++, index++) {
             if (bytes > (file->size - data) / 4 / (index + 1))
-                return rc_err_set(
-                    err,
-                    "the header promises %zu maps of %zu x %zu floats from byte %zu on, the "
-                    "file has %zu in all",
-                    index + 1, nx, ny, data, file->size);
+                return rc_err_set(err,
+                                  "the header promises %zu maps of %zu x %zu floats from byte %zu "
+                                  "on, the file has %zu in all",
+                                  index + 1, nx, ny, data, file->size);
             add_map(&s, cell[1], cell[2], way == 1 || rc_piece_is(cell[3], "backward"), index, data,
                     maps);
         }

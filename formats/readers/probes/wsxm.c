@@ -82,8 +82,9 @@ wsxm_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     char quote[RC_SHOWN];
 
     if (!has_magic(file))
-        return rc_err_set(err, "no WSxM image: it does not begin with 'WSxM file copyright' and "
-                               "'SxM Image file'");
+        return rc_err_set(
+            err,
+            "no WSxM image: it does not begin with 'WSxM file copyright' and 'SxM Image file'");
     if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, ":", "[Header end]", &w,
                        err) != RC_OK)
         return RC_FAIL;

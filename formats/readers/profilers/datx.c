@@ -65,9 +65,8 @@ find_surface(struct rc_hdf *h, struct rc_hdf_set *set, struct rc_err *err)
                 *set = all[k];
                 return RC_OK;
             }
-    return rc_err_set(err,
-                      "an HDF5 file, but no DATX: neither its table MetaData nor /Data/Surface "
-                      "or /Measurement/Surface leads to heights");
+    return rc_err_set(err, "an HDF5 file, but no DATX: neither its table MetaData nor "
+                           "/Data/Surface or /Measurement/Surface leads to heights");
 }
 
 /* ---- what it says of them ---- */

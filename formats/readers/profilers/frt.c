@@ -98,8 +98,7 @@ frt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         return rc_err_set(err, "a height has %g bits: it must have 16 or 32", bits);
     if ((double)f.heights.n < bits / 8 * (double)map->nx * (double)map->ny)
         return rc_err_set(err,
-                          "%zu x %zu heights of %g bits are promised, their block has %zu "
-                          "bytes",
+                          "%zu x %zu heights of %g bits are promised, their block has %zu bytes",
                           map->nx, map->ny, bits, f.heights.n);
     strcpy(map->unit, "m");
     map->raw = bits == 16 ? RC_RAW_U16 : RC_RAW_I32;

@@ -207,8 +207,7 @@ mask_invalid(struct lext *l, struct rc_grid *g, struct rc_notes *notes, struct r
         return rc_err_set(err, "the page INVALID cannot be read");
     if (page.nx != l->shape.nx || page.ny != l->shape.ny) {
         rc_note(notes,
-                "the page INVALID has %zu x %zu pixels and not those of the heights: it is "
-                "ignored",
+                "the page INVALID has %zu x %zu pixels and not those of the heights: it is ignored",
                 page.nx, page.ny);
         return RC_OK;
     }

@@ -60,10 +60,9 @@ metropro_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
         rc_map_count("rows", rc_bytes_at(&b, AT_ROWS, RC_RAW_I16), &map->ny, err) != RC_OK)
         return RC_FAIL;
     if (bytes != 4 * (double)map->nx * (double)map->ny)
-        return rc_err_set(err,
-                          "%zu x %zu phases of 4 bytes do not make the %g bytes that the "
-                          "header promises",
-                          map->nx, map->ny, bytes);
+        return rc_err_set(
+            err, "%zu x %zu phases of 4 bytes do not make the %g bytes that the header promises",
+            map->nx, map->ny, bytes);
     if (fineness != 0 && fineness != 1 && fineness != 2)
         return rc_err_set(err, "the phase resolution is %g: it must be 0, 1 or 2", fineness);
     strcpy(map->unit, "m");

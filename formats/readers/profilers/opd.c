@@ -103,8 +103,7 @@ read_directory(const struct rc_file *file, struct opd *o, struct rc_maps *maps, 
         length = rc_bytes_at(&bytes, entry + NAME + 2, RC_RAW_I32);
         if (length < 0 || length > (double)(file->size - at))
             return rc_err_set(err,
-                              "block '%s' takes %g bytes from byte %zu on, the file has %zu "
-                              "in all",
+                              "block '%s' takes %g bytes from byte %zu on, the file has %zu in all",
                               rc_piece_shown(quote, b.name), length, at, file->size);
         b.n = (size_t)length;
         at += b.n;

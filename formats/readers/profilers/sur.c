@@ -76,8 +76,8 @@ unpack_all(const struct rc_file *file, const struct rc_map *map, unsigned char *
     if (table.past || streams == 0 || streams > STREAMS_MOST ||
         streams > (file->size - table.at) / 8)
         return rc_err_set(err,
-                          "the heights are in %zu compressed streams: there is no room for "
-                          "their table in the file",
+                          "the heights are in %zu compressed streams: there is no room for their "
+                          "table in the file",
                           streams);
     at = table.at + 8 * streams;
     for (size_t k = 0; k < streams; k++) {
@@ -125,8 +125,7 @@ judge_type(int type, double rows, struct rc_err *err)
     for (size_t k = 0; k < sizeof other_types / sizeof *other_types; k++)
         if (other_types[k].type == type)
             return rc_err_set(err,
-                              "the file holds %s (type %d): only surfaces and profiles are "
-                              "read",
+                              "the file holds %s (type %d): only surfaces and profiles are read",
                               other_types[k].name, type);
     return rc_err_set(err, "the file is of type %d: only surfaces (2) and profiles (1) are read",
                       type);

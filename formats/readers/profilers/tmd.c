@@ -25,8 +25,8 @@ tmd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     size_t at, n;
 
     if (!rc_file_holds(file, 0, magic, MAGIC))
-        return rc_err_set(err, "no TrueMap file: it does not begin with 'Binary TrueMap Data File "
-                               "v2.0'");
+        return rc_err_set(
+            err, "no TrueMap file: it does not begin with 'Binary TrueMap Data File v2.0'");
     comment = file->data + MAGIC;
     if ((nul = memchr(comment, 0, file->size - MAGIC)) == NULL)
         return rc_err_set(err, "the comment does not end: there is no NUL behind it");
@@ -38,9 +38,9 @@ tmd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     strcpy(map->unit, "m");
     map->si = n == 0 ? 1e-3 : 1e-6;
     if (n > 0)
-        map->doubt = "the file gives no unit and micrometres are taken; other programs take "
-                     "millimetres: if the "
-                     "map is 1000 times too small, --z-unit mm and --dx are the mend";
+        map->doubt =
+            "the file gives no unit and micrometres are taken; other programs take millimetres: if "
+            "the map is 1000 times too small, --z-unit mm and --dx are the mend";
     map->raw = RC_RAW_F32;
     map->at = at + NUMBERS;
     map->dx = rc_bytes_at(&b, at + 8, RC_RAW_F32) * map->si / (double)map->nx;

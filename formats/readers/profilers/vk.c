@@ -121,14 +121,12 @@ add_heights(const struct rc_file *file, size_t at, size_t conditions, size_t num
         return rc_err_set(err, "the heights are compressed: that is not read");
     promised = rc_bytes_at(&b, at + 16, RC_RAW_U32);
     if (promised != bits / 8 * (double)map->nx * (double)map->ny)
-        return rc_err_set(err,
-                          "%zu x %zu heights of %g bits do not make the %g bytes that the "
-                          "header promises",
-                          map->nx, map->ny, bits, promised);
+        return rc_err_set(
+            err, "%zu x %zu heights of %g bits do not make the %g bytes that the header promises",
+            map->nx, map->ny, bits, promised);
     if (promised > (double)file->size - (double)at - IMAGE)
         return rc_err_set(err,
-                          "the heights take %g bytes from byte %zu on, the file has %zu in "
-                          "all",
+                          "the heights take %g bytes from byte %zu on, the file has %zu in all",
                           promised, at + IMAGE, file->size);
     map->raw = bits == 8 ? RC_RAW_U8 : bits == 16 ? RC_RAW_U16 : RC_RAW_U32;
     map->at = at + IMAGE;
@@ -164,8 +162,7 @@ find_plain(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         return rc_err_set(err, "no VK file: it begins with neither VK3_, VK4_, VK6 nor VK7");
     if (b.past || conditions > file->size || file->size - conditions < CONDITIONS)
         return rc_err_set(err,
-                          "the conditions of the measurement begin at byte %zu of a file of "
-                          "%zu",
+                          "the conditions of the measurement begin at byte %zu of a file of %zu",
                           conditions, file->size);
     for (size_t k = 0; k < HEIGHTS; k++) {
         at = (size_t)rc_bytes_at(&b, HEIGHTS_AT + 4 * k, RC_RAW_U32);

@@ -135,8 +135,7 @@ open_behind_head(struct matrix *m, const struct rc_file *file, const struct rc_w
         return RC_FAIL;
     if ((h->nx != 0 && h->nx != m->table.columns) || (h->ny != 0 && h->ny != m->table.rows))
         return rc_err_set(err,
-                          "the header promises %zu columns and %zu rows, the file has %zu and "
-                          "%zu",
+                          "the header promises %zu columns and %zu rows, the file has %zu and %zu",
                           h->nx == 0 ? m->table.columns : h->nx, h->ny == 0 ? m->table.rows : h->ny,
                           m->table.columns, m->table.rows);
     if (m->table.columns == 1)
@@ -275,9 +274,9 @@ refuse_coordinates(const struct matrix *m, const double *v, struct rc_err *err)
         return rc_err_set(err, "two columns, of which the first rises: that is a profile (x, z), "
                                "no matrix; a header with a width would say otherwise");
     if (m->nx == 3 && (is_raster(v, m->ny, 0, 1) || is_raster(v, m->ny, 1, 0)))
-        return rc_err_set(err, "three columns, of which two run through a raster: that is a list "
-                               "of points (x, y, z), no matrix; a header with a width would say "
-                               "otherwise");
+        return rc_err_set(err,
+                          "three columns, of which two run through a raster: that is a list of "
+                          "points (x, y, z), no matrix; a header with a width would say otherwise");
     return RC_OK;
 }
 
@@ -360,10 +359,10 @@ note_skipped(const struct matrix *m, struct rc_notes *notes)
                 rc_piece_shown(quote, m->titled.first_skipped));
     if (m->is_titled && m->titled.titles == m->table.columns &&
         !rc_titled_table_numbered(&m->titled))
-        rc_note(notes,
-                "the titles, of which the first is '%s', name no axis: the table is read as a "
-                "matrix",
-                rc_piece_shown(quote, rc_titled_table_name(&m->titled, 0)));
+        rc_note(
+            notes,
+            "the titles, of which the first is '%s', name no axis: the table is read as a matrix",
+            rc_piece_shown(quote, rc_titled_table_name(&m->titled, 0)));
     rc_labels_note(&m->labels, notes);
 }
 

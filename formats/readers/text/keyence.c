@@ -96,9 +96,8 @@ read_header(struct rc_lines *lines, struct keyence *k, struct rc_lines *header, 
             return RC_OK;
         }
     }
-    return rc_err_set(
-        err, "the header has no row of a name, a number and a unit of length (XY Calibration) "
-             "and below it a title alone");
+    return rc_err_set(err, "the header has no row of a name, a number and a unit of length (XY "
+                           "Calibration) and below it a title alone");
 }
 
 /* Whether two rows that follow each other are the columns and rows of the table. */
@@ -133,11 +132,10 @@ keyence_open(const struct rc_file *file, const struct rc_wish *wish, struct keye
         return RC_FAIL;
     if (has_size(header, &k->table))
         return RC_OK;
-    return rc_err_set(
-        err,
-        "the file has %zu columns and %zu rows of numbers, its header does not have these two "
-        "sizes in rows one below the other",
-        k->table.columns, k->table.rows);
+    return rc_err_set(err,
+                      "the file has %zu columns and %zu rows of numbers, its header does not have "
+                      "these two sizes in rows one below the other",
+                      k->table.columns, k->table.rows);
 }
 
 static enum rc_status

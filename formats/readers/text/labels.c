@@ -247,12 +247,11 @@ judge_row_alone(const struct edges *e, struct rc_err *err)
 
     if (!e->open || e->columns < 4 || e->rows < 4 || !is_even(e->top + 1, e->columns - 1, &step))
         return RC_OK;
-    return rc_err_set(
-        err,
-        "the first row, behind an empty corner, holds positions or labels, the first "
-        "column (%s, ...) neither rises evenly nor counts: --labels keep, row, column "
-        "or both says which are no heights",
-        rc_number_text(quote, e->left[1]));
+    return rc_err_set(err,
+                      "the first row, behind an empty corner, holds positions or labels, the first "
+                      "column (%s, ...) neither rises evenly nor counts: --labels keep, row, "
+                      "column or both says which are no heights",
+                      rc_number_text(quote, e->left[1]));
 }
 
 static bool
@@ -343,11 +342,10 @@ rc_labels_spacing(const struct rc_labels *l, const struct rc_wish *wish, double 
     rc_number_text(x, l->step[0]);
     rc_number_text(y, l->step[1]);
     if (isnan(unit) && isnan(wish->dx))
-        return rc_err_set(
-            err,
-            "the first row and column are positions, %s and %s apart, without a unit: "
-            "--xy-unit UNIT says it; --labels keep takes them for heights",
-            x, y);
+        return rc_err_set(err,
+                          "the first row and column are positions, %s and %s apart, without a "
+                          "unit: --xy-unit UNIT says it; --labels keep takes them for heights",
+                          x, y);
     if (isnan(unit)) {
         unit = unit_between(l->step[0], wish->dx);
         *dx = wish->dx;
@@ -358,12 +356,12 @@ rc_labels_spacing(const struct rc_labels *l, const struct rc_wish *wish, double 
             return RC_OK;
     }
     if (isnan(unit))
-        return rc_err_set(
-            err,
-            "the first row and column are positions, %s and %s apart, with which --dx "
-            "%s m%s do not agree in any unit: --xy-unit UNIT says theirs, --labels both "
-            "drops them, --labels keep takes them for heights",
-            x, y, rc_number_text(given, wish->dx), isnan(wish->dy) ? "" : " and --dy");
+        return rc_err_set(err,
+                          "the first row and column are positions, %s and %s apart, with which "
+                          "--dx %s m%s do not agree in any unit: --xy-unit UNIT says theirs, "
+                          "--labels both drops them, --labels keep takes them for heights",
+                          x, y, rc_number_text(given, wish->dx),
+                          isnan(wish->dy) ? "" : " and --dy");
     *dx = l->step[0] * unit;
     *dy = l->step[1] * unit;
     return RC_OK;

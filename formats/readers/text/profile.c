@@ -84,8 +84,7 @@ pick_columns(struct profile *p, struct rc_err *err)
     }
     if (columns > 2 && t->titles < 2)
         return rc_err_set(err,
-                          "a table of %zu columns without titles: which are positions and "
-                          "heights?",
+                          "a table of %zu columns without titles: which are positions and heights?",
                           columns);
     if (rc_titled_table_is_matrix(t))
         return rc_err_set(err,

@@ -61,8 +61,7 @@ take_axis(struct smd *s, const struct rc_piece *word, size_t n, struct rc_err *e
         return rc_err_set(err, "the axis %s has no number of points, unit and factor", quote);
     if (!rc_piece_is(word[1], is_x ? "I" : "A"))
         return rc_err_set(
-            err, is_x ? "the positions are not in even steps (axis CX is not I): that is not "
-                        "read"
+            err, is_x ? "the positions are not in even steps (axis CX is not I): that is not read"
                       : "the heights are in steps (axis CZ is not A): that is not read");
     if (is_x && (n < 7 || !rc_piece_number(word[6], &step, NULL)))
         return rc_err_set(err, "the axis %s has no increment", quote);
@@ -147,10 +146,9 @@ smd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 
     if (!is_smd(file) || !next_record(&rest, &head) || !next_record(&rest, &other) ||
         !next_record(&rest, &data))
-        return rc_err_set(err,
-                          "no SMD file: it does not begin with %s, or lacks one of its three "
-                          "records",
-                          magic);
+        return rc_err_set(
+            err, "no SMD file: it does not begin with %s, or lacks one of its three records",
+            magic);
     lines = rc_piece_lines(head);
     while (rc_lines_next(&lines, &line.text, &line.n))
         if (take_line(&s, line, err) != RC_OK)

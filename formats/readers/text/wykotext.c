@@ -188,9 +188,9 @@ wykotext_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
     map->dx = w.pixel * 1e-3;
     map->dy = w.pixel * w.aspect * 1e-3;
     if (w.factor != 1)
-        map->doubt = "Mult is not 1: heights in wavelengths are divided by it, as in OPD files, "
-                     "those in nanometres "
-                     "are not; other programs multiply by it: override with --z-unit";
+        map->doubt =
+            "Mult is not 1: heights in wavelengths are divided by it, as in OPD files, those in "
+            "nanometres are not; other programs multiply by it: override with --z-unit";
     lines = w.heights;
     next_line(&lines, &line);
     words = words_of(line);

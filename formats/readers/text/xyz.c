@@ -64,10 +64,9 @@ find_axis(const double *v, size_t points, char name, struct axis *axis, struct r
     for (size_t k = 0; k < points && status == RC_OK; k++) {
         start = (sorted[k] - axis->first) / axis->step;
         if (!(fabs(start - round(start)) < 0.1))
-            status = rc_err_set(err,
-                                "the points lie on no raster: %zu different %c from %s on, "
-                                "not evenly apart",
-                                axis->n, name, rc_number_text(text, axis->first));
+            status = rc_err_set(
+                err, "the points lie on no raster: %zu different %c from %s on, not evenly apart",
+                axis->n, name, rc_number_text(text, axis->first));
     }
     free(sorted);
     return status;
@@ -191,10 +190,10 @@ pick_columns(struct cloud *c, struct rc_err *err)
     for (size_t k = 0; k < 3; k++)
         of[k] = rc_titled_table_column(t, (enum rc_role)(RC_ROLE_X + k));
     if (columns != 3 && (columns < 3 || of[0] == columns || of[1] == columns))
-        return rc_err_set(err,
-                          "a list of points has 3 columns, this table has %zu and no titles that "
-                          "name x and y",
-                          columns);
+        return rc_err_set(
+            err,
+            "a list of points has 3 columns, this table has %zu and no titles that name x and y",
+            columns);
     for (size_t k = 0; columns == 3 && k < 3; k++) { /* what no title says is in its usual order */
         while (next == of[0] || next == of[1] || next == of[2])
             next++;
@@ -252,10 +251,10 @@ cloud_open(struct cloud *c, const struct rc_file *file, const struct rc_wish *wi
     if (c->y.n > 4 * c->table.numbers.rows / c->x.n && find_line(c))
         return RC_OK;
     if (c->y.n > 4 * c->table.numbers.rows / c->x.n)
-        return rc_err_set(err,
-                          "the points lie on no raster: %zu of them have %zu different x and "
-                          "%zu different y",
-                          c->table.numbers.rows, c->x.n, c->y.n);
+        return rc_err_set(
+            err,
+            "the points lie on no raster: %zu of them have %zu different x and %zu different y",
+            c->table.numbers.rows, c->x.n, c->y.n);
     return RC_OK;
 }
 

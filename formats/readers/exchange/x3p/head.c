@@ -155,10 +155,9 @@ take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
         return RC_OK;
     }
     if (end != NULL && *end == ';')
-        return rc_err_set(err,
-                          "Datum %zu is '%s': lists with coordinates are not read, only "
-                          "matrices of heights",
-                          x->listed + 1, rc_word_shown(quote, text));
+        return rc_err_set(
+            err, "Datum %zu is '%s': lists with coordinates are not read, only matrices of heights",
+            x->listed + 1, rc_word_shown(quote, text));
     if (end == NULL || *end != '\0')
         return rc_err_set(err, "Datum %zu is '%s': that is no number", x->listed + 1,
                           rc_word_shown(quote, text));
@@ -192,8 +191,7 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
     if (!x->old_root && (root != strlen(root_name) || strncmp(path, root_name, root) != 0)) {
         if (path[root] == '\0')
             return rc_err_set(err,
-                              "a ZIP archive, but no X3P: the root of its main.xml is '%s', "
-                              "not %s",
+                              "a ZIP archive, but no X3P: the root of its main.xml is '%s', not %s",
                               rc_word_shown(quote, path), root_name);
         return RC_OK;
     }
@@ -236,8 +234,8 @@ judge_axis(const char *name, const char *type, struct rc_err *err)
     if (type != NULL && strcmp(type, "I") == 0)
         return RC_OK;
     return rc_err_set(err,
-                      "axis %s is of type '%s': only incremental axes (I), a regular grid, "
-                      "are read where main.xml lists the heights",
+                      "axis %s is of type '%s': only incremental axes (I), a regular grid, are "
+                      "read where main.xml lists the heights",
                       name, type == NULL ? "" : rc_word_shown(quote, type));
 }
 

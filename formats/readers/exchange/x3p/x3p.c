@@ -63,8 +63,8 @@ x3p_open(struct rc_x3p *x, const struct rc_file *file, bool wants_list, struct r
         return RC_FAIL;
     if (!find_main(x->archive, &x->main, x->prefix))
         return rc_err_set(err,
-                          "a ZIP archive, but no X3P: it holds no main.xml (the first of its "
-                          "%zu members is '%s')",
+                          "a ZIP archive, but no X3P: it holds no main.xml (the first of its %zu "
+                          "members is '%s')",
                           rc_zip_read_members(x->archive),
                           rc_word_shown(quote, rc_zip_read_name(x->archive, 0)));
     return rc_x3p_head(x, err);
@@ -207,9 +207,8 @@ x3p_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
         goto done;
     rc_x3p_check_main(&x, notes);
     if (x.old_root)
-        rc_note(notes,
-                "the root of its main.xml is ISO5436, where the standard has ISO5436_2: it is "
-                "read as if it were that");
+        rc_note(notes, "the root of its main.xml is ISO5436, where the standard has ISO5436_2: it "
+                       "is read as if it were that");
     if (x.turned)
         rc_note(notes, "the file turns its axes by a rotation matrix: it is not applied");
     if (x.absolute) {

@@ -187,8 +187,8 @@ end_cell(struct reading *r, struct rc_err *err)
 
     if (r->formula && !r->valued)
         return rc_err_set(err,
-                          "a formula in sheet '%s', row %u, column %u, has no value: open and "
-                          "save the file in a program that calculates it",
+                          "a formula in sheet '%s', row %u, column %u, has no value: open and save "
+                          "the file in a program that calculates it",
                           r->sheet->name, r->cell.row, r->cell.column);
     r->cell.number = NAN;
     r->cell.text = r->inline_text;
