@@ -21,100 +21,29 @@ enum {
     OTHER = 1 << 1, /* of something else */
     DERIVED = 1 << 2,
     BACKWARD = 1 << 3,
-    MEASURED = 1 << 4,
-    WORD_MOST = 24
+    MEASURED = 1 << 4
 };
 
 /* Words of a channel's name, in lower case, and what each tells of the channel. */
 static const struct {
-    const char *word;
+    const char *words; /* between them stands '|' */
     unsigned says;
 } words[] = {
-    {"topography", TOPOGRAPHY},
-    {"topographie", TOPOGRAPHY},
-    {"topo", TOPOGRAPHY},
-    {"height", TOPOGRAPHY},
-    {"heights", TOPOGRAPHY},
-    {"hoehe", TOPOGRAPHY},
-    {"h\xc3\xb6he", TOPOGRAPHY},
-    {"z", TOPOGRAPHY},
-    {"zaxis", TOPOGRAPHY},
-    {"depth", TOPOGRAPHY},
-    {"elevation", TOPOGRAPHY},
-    {"relief", TOPOGRAPHY},
-    {"surface", TOPOGRAPHY},
-    {"zsensor", TOPOGRAPHY | MEASURED},
-    {"zsnsr", TOPOGRAPHY | MEASURED},
-    {"sensor", MEASURED},
-    {"detector", MEASURED},
-    {"measured", MEASURED},
-    {"backward", BACKWARD},
-    {"backwards", BACKWARD},
-    {"back", BACKWARD},
-    {"bwd", BACKWARD},
-    {"bw", BACKWARD},
-    {"retrace", BACKWARD},
-    {"reverse", BACKWARD},
-    {"corrected", DERIVED},
-    {"detrended", DERIVED},
-    {"difference", DERIVED},
-    {"diff", DERIVED},
-    {"filled", DERIVED},
-    {"filtered", DERIVED},
-    {"fit", DERIVED},
-    {"fitted", DERIVED},
-    {"flattened", DERIVED},
-    {"interpolated", DERIVED},
-    {"leveled", DERIVED},
-    {"levelled", DERIVED},
-    {"processed", DERIVED},
-    {"residual", DERIVED},
-    {"roughness", DERIVED},
-    {"smoothed", DERIVED},
-    {"waviness", DERIVED},
-    {"adhesion", OTHER},
-    {"amplitude", OTHER},
-    {"bias", OTHER},
-    {"brightness", OTHER},
-    {"capacitance", OTHER},
-    {"color", OTHER},
-    {"colour", OTHER},
-    {"conductance", OTHER},
-    {"confidence", OTHER},
-    {"contrast", OTHER},
-    {"current", OTHER},
-    {"deflection", OTHER},
-    {"deformation", OTHER},
-    {"deviation", OTHER},
-    {"dissipation", OTHER},
-    {"drift", OTHER},
-    {"error", OTHER},
-    {"force", OTHER},
-    {"frequency", OTHER},
-    {"friction", OTHER},
-    {"gradient", OTHER},
-    {"indentation", OTHER},
-    {"input", OTHER},
-    {"intensity", OTHER},
-    {"laser", OTHER},
-    {"lateral", OTHER},
-    {"light", OTHER},
-    {"mask", OTHER},
-    {"modulus", OTHER},
-    {"noise", OTHER},
-    {"oscillation", OTHER},
-    {"phase", OTHER},
-    {"potential", OTHER},
-    {"quality", OTHER},
-    {"resistance", OTHER},
-    {"slope", OTHER},
-    {"stiffness", OTHER},
-    {"temperature", OTHER},
-    {"thickness", OTHER},
-    {"uncertainty", OTHER},
-    {"voltage", OTHER},
-    {"x", OTHER},
-    {"y", OTHER},
+    {"topography|topographie|topo|height|heights|hoehe|h\xc3\xb6he|z|zaxis|depth|elevation|relief|"
+     "surface",
+     TOPOGRAPHY},
+    {"zsensor|zsnsr", TOPOGRAPHY | MEASURED},
+    {"sensor|detector|measured", MEASURED},
+    {"backward|backwards|back|bwd|bw|retrace|reverse", BACKWARD},
+    {"corrected|detrended|difference|diff|filled|filtered|fit|fitted|flattened|interpolated|"
+     "leveled|levelled|processed|residual|roughness|smoothed|waviness",
+     DERIVED},
+    {"adhesion|amplitude|bias|brightness|capacitance|color|colour|conductance|confidence|contrast|"
+     "current|deflection|deformation|deviation|dissipation|drift|error|force|frequency|friction|"
+     "gradient|indentation|input|intensity|laser|lateral|light|mask|modulus|noise|oscillation|"
+     "phase|potential|quality|resistance|slope|stiffness|temperature|thickness|uncertainty|voltage|"
+     "x|y",
+     OTHER},
 };
 
 static bool
@@ -149,15 +78,8 @@ word_length(const char *s)
 static unsigned
 word_says(const char *s, size_t n)
 {
-    char word[WORD_MOST];
-
-    if (n >= sizeof word)
-        return 0;
-    for (size_t k = 0; k < n; k++)
-        word[k] = (char)(is_upper(s[k]) ? s[k] - 'A' + 'a' : s[k]);
-    word[n] = '\0';
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        if (strcmp(words[k].word, word) == 0)
+        if (rc_piece_is((struct rc_piece){s, n}, words[k].words))
             return words[k].says;
     return 0;
 }

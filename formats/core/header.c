@@ -15,23 +15,32 @@ lower(char c)
     return (char)(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
 }
 
-bool
-rc_piece_begins(struct rc_piece piece, const char *word)
+static bool
+same(const char *a, const char *b, size_t n)
 {
-    size_t n = strlen(word);
-
-    if (piece.n < n)
-        return false;
-    for (size_t k = 0; k < n; k++)
-        if (lower(piece.text[k]) != lower(word[k]))
-            return false;
-    return true;
+    while (n > 0 && lower(*a) == lower(*b))
+        a++, b++, n--;
+    return n == 0;
 }
 
 bool
-rc_piece_is(struct rc_piece piece, const char *word)
+rc_piece_begins(struct rc_piece piece, const char *word)
 {
-    return piece.n == strlen(word) && rc_piece_begins(piece, word);
+    return piece.n >= strlen(word) && same(piece.text, word, strlen(word));
+}
+
+bool
+rc_piece_is(struct rc_piece piece, const char *words)
+{
+    size_t n = strcspn(words, "|");
+
+    while (n != piece.n || !same(piece.text, words, n)) {
+        if (words[n] == '\0')
+            return false;
+        words += n + 1;
+        n = strcspn(words, "|");
+    }
+    return true;
 }
 
 const char *
@@ -210,27 +219,12 @@ is_white(char c)
 bool
 rc_piece_infinite(struct rc_piece piece, double *value)
 {
-    static const char *const words[] = {"inf", "infinity", "1.#inf"};
     bool minus = piece.n > 0 && *piece.text == '-';
 
     if (piece.n > 0 && (minus || *piece.text == '+'))
         piece = (struct rc_piece){piece.text + 1, piece.n - 1};
     *value = minus ? -INFINITY : INFINITY;
-    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        if (rc_piece_is(piece, words[k]))
-            return true;
-    return false;
-}
-
-static bool
-is_missing(struct rc_piece word)
-{
-    static const char *const words[] = {"nan", "na", "bad", "--", "---"};
-
-    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        if (rc_piece_is(word, words[k]))
-            return true;
-    return false;
+    return rc_piece_is(piece, "inf|infinity|1.#inf");
 }
 
 enum rc_status
@@ -249,7 +243,7 @@ rc_flow_read(struct rc_piece *text, double *v, size_t n, struct rc_err *err)
         word.n = (size_t)(text->text - word.text);
         if (word.n == 0)
             return rc_err_set(err, "the header promises %zu numbers, the file has %zu", n, k);
-        if (is_missing(word))
+        if (rc_piece_is(word, "nan|na|bad|--|---"))
             v[k] = NAN;
         else if ((!rc_piece_number(word, &v[k], &rest) || rest.n > 0) &&
                  !rc_piece_infinite(word, &v[k]))

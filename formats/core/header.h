@@ -12,8 +12,9 @@ struct rc_piece {
     size_t n;
 };
 
-/* Whether the piece is that word, or begins with it, in either case of ASCII letters. */
-bool rc_piece_is(struct rc_piece piece, const char *word);
+/* Whether the piece is one of the words, between which stands '|', in either case of ASCII letters. */
+bool rc_piece_is(struct rc_piece piece, const char *words);
+/* Whether it begins with the word, in either case. */
 bool rc_piece_begins(struct rc_piece piece, const char *word);
 /* Where the word begins in the piece, or NULL; case counts. */
 const char *rc_piece_find(struct rc_piece piece, const char *word);
@@ -47,7 +48,7 @@ enum rc_field_kind {
 
 /* A key that matters, and where its value goes in a struct. */
 struct rc_field {
-    const char *key; /* in either case */
+    const char *key; /* in either case, or several between '|' */
     enum rc_field_kind kind;
     size_t at;
 };

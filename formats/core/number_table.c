@@ -153,16 +153,10 @@ read_number(const struct rc_number_table *t, const char *s, char decimal, struct
 static bool
 is_missing(const struct rc_number_table *t, const char *s, size_t n)
 {
-    /* the last three are how some C libraries print a NaN */
-    static const char *const words[] = {"nan", "na",   "n/a",     "bad",    "--",
-                                        "---", "-nan", "1.#qnan", "-1.#ind"};
-
     if (t->missing != NULL && strlen(t->missing) == n && memcmp(t->missing, s, n) == 0)
         return true;
-    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        if (rc_piece_is((struct rc_piece){s, n}, words[k]))
-            return true;
-    return false;
+    /* the last three are how some C libraries print a NaN */
+    return rc_piece_is((struct rc_piece){s, n}, "nan|na|n/a|bad|--|---|-nan|1.#qnan|-1.#ind");
 }
 
 /* The value of one field; s is at its first character. *decimal is settled by the first number that

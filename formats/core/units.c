@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "header.h"
+
 const struct rc_prefix rc_prefixes[] = {
     {"f", -15},       {"p", -12}, {"n", -9}, {"u", -6}, {"\xc2\xb5", -6}, /* U+00B5, micro sign */
     {"\xce\xbc", -6},                                                     /* U+03BC, Greek mu   */
@@ -42,96 +44,56 @@ rc_prefix_factor(int power)
     return power < 0 ? 1 / whole : whole;
 }
 
-/* Symbols, whose case counts. */
-static const struct length {
-    const char *name;
+/* Symbols, whose case counts, and words in either case, one or several; between them stands '|'. The micro
+ * sign is U+00B5, Greek mu or a byte of Latin-1, and ~ is NanoScope's way round it; Angstrom has its letter,
+ * its own sign and a byte of Latin-1. */
+static const struct {
     double metres;
-} symbols[] =
-    {
-        {"m", 1},
-        {"nm", 1e-9},
-        {"um", 1e-6},
-        {"\xc2\xb5m", 1e-6}, /* U+00B5, micro sign            */
-        {"\xce\xbcm", 1e-6}, /* U+03BC, Greek mu              */
-        {"\xb5m", 1e-6},     /* the micro sign in Latin-1     */
-        {"~m", 1e-6},        /* NanoScope's way round it      */
-        {"mm", 1e-3},
-        {"cm", 1e-2},
-        {"km", 1e3},
-        {"pm", 1e-12},
-        {"fm", 1e-15},
-        {"\xc3\x85", 1e-10},     /* U+00C5, A with ring    */
-        {"\xe2\x84\xab", 1e-10}, /* U+212B, Angstrom sign  */
-        {"\xc5", 1e-10},         /* Latin-1                */
-        {"AA", 1e-10},
-        {"in", 25.4e-3},
-        {"\"", 25.4e-3},
-        {"uin", 25.4e-9},
-        {"u\"", 25.4e-9},
-        {"\xc2\xb5in", 25.4e-9},
-        {"\xce\xbcin", 25.4e-9},
-        {"\xb5in", 25.4e-9},
-        {"\xc2\xb5\"", 25.4e-9},
-        {"\xce\xbc\"", 25.4e-9},
-        {"\xb5\"", 25.4e-9},
-},
-  words[] = {
-      /* in either case, one or several */
-      {"metre", 1},
-      {"meter", 1},
-      {"millimetre", 1e-3},
-      {"millimeter", 1e-3},
-      {"centimetre", 1e-2},
-      {"centimeter", 1e-2},
-      {"micrometre", 1e-6},
-      {"micrometer", 1e-6},
-      {"mikrometer", 1e-6},
-      {"micron", 1e-6},
-      {"nanometre", 1e-9},
-      {"nanometer", 1e-9},
-      {"picometre", 1e-12},
-      {"picometer", 1e-12},
-      {"ang", 1e-10},
-      {"angstrom", 1e-10},
-      {"\xc3\xa5ngstr\xc3\xb6m", 1e-10}, /* of UTF-8 */
-      {"\xc3\x85ngstr\xc3\xb6m", 1e-10},
-      {"inch", 25.4e-3},
-      {"inche", 25.4e-3}, /* and s */
-      {"mil", 25.4e-6},
-      {"thou", 25.4e-6},
-      {"microinch", 25.4e-9},
-      {"microinche", 25.4e-9},
-      {"uinch", 25.4e-9},
-      {"\xc2\xb5inch", 25.4e-9},
-      {"\xce\xbcinch", 25.4e-9},
-      {"\xb5inch", 25.4e-9},
+    const char *symbols, *words;
+} lengths[] = {
+    {1, "m", "metre|meter"},
+    {1e-9, "nm", "nanometre|nanometer"},
+    {1e-6, "um|\xc2\xb5m|\xce\xbcm|\xb5m|~m", "micrometre|micrometer|mikrometer|micron"},
+    {1e-3, "mm", "millimetre|millimeter"},
+    {1e-2, "cm", "centimetre|centimeter"},
+    {1e3, "km", ""},
+    {1e-12, "pm", "picometre|picometer"},
+    {1e-15, "fm", ""},
+    {1e-10, "\xc3\x85|\xe2\x84\xab|\xc5|AA",
+     "ang|angstrom|\xc3\xa5ngstr\xc3\xb6m|\xc3\x85ngstr\xc3\xb6m"},
+    {25.4e-3, "in|\"", "inch|inche"}, /* and s */
+    {25.4e-6, "", "mil|thou"},
+    {25.4e-9, "uin|u\"|\xc2\xb5in|\xce\xbcin|\xb5in|\xc2\xb5\"|\xce\xbc\"|\xb5\"",
+     "microinch|microinche|uinch|\xc2\xb5inch|\xce\xbcinch|\xb5inch"},
 };
 
 static bool
-same_word(const char *word, const char *text, size_t n)
+is_among(const char *text, size_t n, const char *symbols)
 {
-    for (size_t k = 0; k < n; k++)
-        if (word[k] == '\0' ||
-            word[k] != (char)(text[k] >= 'A' && text[k] <= 'Z' ? text[k] - 'A' + 'a' : text[k]))
+    size_t length = strcspn(symbols, "|");
+
+    while (length != n || memcmp(symbols, text, n) != 0) {
+        if (symbols[length] == '\0')
             return false;
-    return word[n] == '\0';
+        symbols += length + 1;
+        length = strcspn(symbols, "|");
+    }
+    return n > 0;
 }
 
 bool
 rc_length_unit(const char *text, size_t n, double *metres)
 {
-    size_t one = n > 1 && (text[n - 1] == 's' || text[n - 1] == 'S') ? n - 1 : n;
+    struct rc_piece word = {text, n},
+                    one = {text, n > 1 && (text[n - 1] | 0x20) == 's' ? n - 1 : n};
 
-    for (size_t k = 0; k < sizeof symbols / sizeof *symbols; k++)
-        if (strlen(symbols[k].name) == n && memcmp(symbols[k].name, text, n) == 0) {
-            *metres = symbols[k].metres;
-            return true;
-        }
-    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        if (same_word(words[k].name, text, n) || same_word(words[k].name, text, one)) {
-            *metres = words[k].metres;
-            return true;
-        }
+    for (int words = 0; words < 2 && n > 0; words++)
+        for (size_t k = 0; k < sizeof lengths / sizeof *lengths; k++)
+            if (words ? rc_piece_is(word, lengths[k].words) || rc_piece_is(one, lengths[k].words)
+                      : is_among(text, n, lengths[k].symbols)) {
+                *metres = lengths[k].metres;
+                return true;
+            }
     return false;
 }
 

@@ -37,21 +37,14 @@ static const struct rc_field fields[] = {
     {"dimension", RC_FIELD_TEXT, TO(dimension)},
     {"sizes", RC_FIELD_TEXT, TO(sizes)},
     {"spacings", RC_FIELD_TEXT, TO(spacings)},
-    {"axis mins", RC_FIELD_TEXT, TO(mins)},
-    {"axismins", RC_FIELD_TEXT, TO(mins)},
-    {"axis maxs", RC_FIELD_TEXT, TO(maxs)},
-    {"axismaxs", RC_FIELD_TEXT, TO(maxs)},
+    {"axis mins|axismins", RC_FIELD_TEXT, TO(mins)},
+    {"axis maxs|axismaxs", RC_FIELD_TEXT, TO(maxs)},
     {"units", RC_FIELD_TEXT, TO(units)},
-    {"centers", RC_FIELD_TEXT, TO(centers)},
-    {"centerings", RC_FIELD_TEXT, TO(centers)},
-    {"sample units", RC_FIELD_TEXT, TO(unit)},
-    {"sampleunits", RC_FIELD_TEXT, TO(unit)},
-    {"data file", RC_FIELD_TEXT, TO(file)},
-    {"datafile", RC_FIELD_TEXT, TO(file)},
-    {"byte skip", RC_FIELD_TEXT, TO(skip)},
-    {"byteskip", RC_FIELD_TEXT, TO(skip)},
-    {"line skip", RC_FIELD_TEXT, TO(lines)},
-    {"lineskip", RC_FIELD_TEXT, TO(lines)},
+    {"centers|centerings", RC_FIELD_TEXT, TO(centers)},
+    {"sample units|sampleunits", RC_FIELD_TEXT, TO(unit)},
+    {"data file|datafile", RC_FIELD_TEXT, TO(file)},
+    {"byte skip|byteskip", RC_FIELD_TEXT, TO(skip)},
+    {"line skip|lineskip", RC_FIELD_TEXT, TO(lines)},
     {"content", RC_FIELD_TEXT, TO(title)},
     {"space directions", RC_FIELD_TEXT, TO(directions)},
     {"space units", RC_FIELD_TEXT, TO(space_units)},
@@ -59,43 +52,17 @@ static const struct rc_field fields[] = {
 #undef TO
 
 static const struct {
-    const char *name;
+    const char *names;
     enum rc_raw raw;
 } types[] = {
-    {"signed char", RC_RAW_I8},
-    {"int8", RC_RAW_I8},
-    {"int8_t", RC_RAW_I8},
-    {"uchar", RC_RAW_U8},
-    {"unsigned char", RC_RAW_U8},
-    {"uint8", RC_RAW_U8},
-    {"uint8_t", RC_RAW_U8},
-    {"short", RC_RAW_I16},
-    {"short int", RC_RAW_I16},
-    {"signed short", RC_RAW_I16},
-    {"signed short int", RC_RAW_I16},
-    {"int16", RC_RAW_I16},
-    {"int16_t", RC_RAW_I16},
-    {"ushort", RC_RAW_U16},
-    {"unsigned short", RC_RAW_U16},
-    {"unsigned short int", RC_RAW_U16},
-    {"uint16", RC_RAW_U16},
-    {"uint16_t", RC_RAW_U16},
-    {"int", RC_RAW_I32},
-    {"signed int", RC_RAW_I32},
-    {"int32", RC_RAW_I32},
-    {"int32_t", RC_RAW_I32},
-    {"uint", RC_RAW_U32},
-    {"unsigned int", RC_RAW_U32},
-    {"uint32", RC_RAW_U32},
-    {"uint32_t", RC_RAW_U32},
-    {"longlong", RC_RAW_I64},
-    {"long long", RC_RAW_I64},
-    {"int64", RC_RAW_I64},
-    {"int64_t", RC_RAW_I64},
-    {"ulonglong", RC_RAW_U64},
-    {"unsigned long long", RC_RAW_U64},
-    {"uint64", RC_RAW_U64},
-    {"uint64_t", RC_RAW_U64},
+    {"signed char|int8|int8_t", RC_RAW_I8},
+    {"uchar|unsigned char|uint8|uint8_t", RC_RAW_U8},
+    {"short|short int|signed short|signed short int|int16|int16_t", RC_RAW_I16},
+    {"ushort|unsigned short|unsigned short int|uint16|uint16_t", RC_RAW_U16},
+    {"int|signed int|int32|int32_t", RC_RAW_I32},
+    {"uint|unsigned int|uint32|uint32_t", RC_RAW_U32},
+    {"longlong|long long|int64|int64_t", RC_RAW_I64},
+    {"ulonglong|unsigned long long|uint64|uint64_t", RC_RAW_U64},
     {"float", RC_RAW_F32},
     {"double", RC_RAW_F64},
 };
@@ -231,12 +198,6 @@ step_of(const struct nrrd *h, size_t axis, double n)
 
 /* ---- values ---- */
 
-static bool
-is_gzip(const struct nrrd *h)
-{
-    return rc_piece_is(h->encoding, "gzip") || rc_piece_is(h->encoding, "gz");
-}
-
 static enum rc_status
 fill_packed(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
@@ -265,7 +226,7 @@ set_type(const struct nrrd *h, const struct rc_file *file, struct rc_map *map, s
     char quote[RC_SHOWN];
     size_t k = 0;
 
-    while (k < sizeof types / sizeof *types && !rc_piece_is(h->type, types[k].name))
+    while (k < sizeof types / sizeof *types && !rc_piece_is(h->type, types[k].names))
         k++;
     if (k == sizeof types / sizeof *types)
         return rc_err_set(err, "the type is '%s', which is none that is read",
@@ -278,13 +239,12 @@ set_type(const struct nrrd *h, const struct rc_file *file, struct rc_map *map, s
                           "bytes or lines before the values are to be skipped: that is not read");
     if (rc_piece_is(h->encoding, "raw"))
         return RC_OK;
-    if (is_gzip(h)) {
+    if (rc_piece_is(h->encoding, "gzip|gz")) {
         map->fill = fill_packed;
         return rc_map_bound(
             map, file, (double)map->nx * (double)map->ny * (double)rc_raw_width(map->raw), err);
     }
-    if (rc_piece_is(h->encoding, "ascii") || rc_piece_is(h->encoding, "text") ||
-        rc_piece_is(h->encoding, "txt"))
+    if (rc_piece_is(h->encoding, "ascii|text|txt"))
         return rc_map_is_text(map, file, h->data, err);
     return rc_err_set(err, "the encoding is '%s': raw, gzip and ascii are read",
                       rc_piece_shown(quote, h->encoding));

@@ -39,8 +39,7 @@ static const struct {
     const char *name;
     enum rc_raw raw;
 } types[] = {
-    {"short", RC_RAW_I16},
-    {"short data", RC_RAW_I16},
+    {"short|short data", RC_RAW_I16},
     {"float", RC_RAW_F32},
     {"double", RC_RAW_F64},
 };

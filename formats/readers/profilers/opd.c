@@ -26,8 +26,6 @@ struct opd {
     double wavelength, pixel, aspect, factor;
 };
 
-static const char *const height_names[] = {"RAW_DATA", "RAW DATA", "Raw"};
-
 static const struct rc_keep texts[] = {
     {"Title", "file.title"},
     {"Date", "file.date"},
@@ -67,9 +65,8 @@ take_block(const struct rc_file *file, struct block b, struct opd *o, struct rc_
     };
     struct rc_bytes bytes = rc_file_bytes(file, false);
 
-    for (size_t k = 0; k < sizeof height_names / sizeof *height_names; k++)
-        if (rc_piece_is(b.name, height_names[k]) && b.n >= MATRIX && o->heights.n == 0)
-            o->heights = b;
+    if (rc_piece_is(b.name, "RAW_DATA|RAW DATA|Raw") && b.n >= MATRIX && o->heights.n == 0)
+        o->heights = b;
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
         enum rc_raw raw = number_of(&b, numbers[k].raw);
 

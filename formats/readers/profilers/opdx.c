@@ -172,7 +172,7 @@ take_item(struct opdx *o, const struct rc_piece *path, size_t depth, double numb
         {"Operator", "file.operator"},
     };
 
-    if (depth == 3 && (rc_piece_is(path[0], "1D_Data") || rc_piece_is(path[0], "2D_Data")))
+    if (depth == 3 && rc_piece_is(path[0], "1D_Data|2D_Data"))
         take_of_channel(o, path, number, at, n);
     if (depth >= 2 && rc_piece_is(path[0], "MetaData"))
         rc_maps_keep(o->maps, keys, sizeof keys / sizeof *keys, path[depth - 1],

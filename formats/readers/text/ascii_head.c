@@ -22,46 +22,32 @@ enum kind {
 
 #define TO(member) offsetof(struct rc_ascii_head, member)
 static const struct {
-    const char *key; /* in either case */
+    const char *key; /* in either case, or several between '|' */
     enum kind kind;
     size_t to;
     bool anywhere; /* profiles and lists of points have such lines too */
 } keys[] = {
-    {"channel", TEXT, TO(channel), false},
-    {"width", LENGTH, TO(width), false},
-    {"height", LENGTH, TO(height), false},
-    {"value units", VALUE_UNIT, 0, false},
+    {"channel|display", TEXT, TO(channel), false},
+    {"width|x-length|x amplitude", LENGTH, TO(width), false},
+    {"height|y-length|y amplitude", LENGTH, TO(height), false},
+    {"value units|data unit|unit data|exported image units", VALUE_UNIT, 0, false},
     {"pixel size", LENGTH, TO(pixel), false},
-    {"data unit", VALUE_UNIT, 0, false},
     {"height conversion factor (-> m)", NUMBER, TO(factor), false},
-    {"h", COUNT, TO(ny), false},
-    {"w", COUNT, TO(nx), false},
-    {"x-pixels", COUNT, TO(nx), false},
-    {"y-pixels", COUNT, TO(ny), false},
-    {"x-length", LENGTH, TO(width), false},
+    {"h|y-pixels|ny", COUNT, TO(ny), false},
+    {"w|x-pixels|nx", COUNT, TO(nx), false},
     {"x-length", NUMBER, TO(as_given.x_length), false},
-    {"y-length", LENGTH, TO(height), false},
     {"y-length", NUMBER, TO(as_given.y_length), false},
-    {"x-unit", IN_METRES, TO(as_given.x_unit), true},
-    {"y-unit", IN_METRES, TO(as_given.y_unit), true},
+    {"x-unit|unit x", IN_METRES, TO(as_given.x_unit), true},
+    {"y-unit|unit y", IN_METRES, TO(as_given.y_unit), true},
     {"z-unit", VALUE_UNIT, 0, true},
-    {"display", TEXT, TO(channel), false},
     {"bit2nm", NUMBER, TO(as_given.bit), false},
     {"file format", PRESENT, TO(any_line), false},
-    {"nx", COUNT, TO(nx), false},
-    {"ny", COUNT, TO(ny), false},
     {"scale x", NUMBER, TO(as_given.x_step), false},
     {"scale y", NUMBER, TO(as_given.y_step), false},
-    {"unit x", IN_METRES, TO(as_given.x_unit), true},
-    {"unit y", IN_METRES, TO(as_given.y_unit), true},
-    {"unit data", VALUE_UNIT, 0, false},
     {"scale data", NUMBER, TO(as_given.scale), false},
     {"datascaleneeded", UNLESS_NO, TO(as_given.scaled), false},
     {"scan size", SCAN_SIZE, 0, false},
-    {"exported image units", VALUE_UNIT, 0, false},
     {"sep", CHARACTER, TO(separator), true},
-    {"x amplitude", LENGTH, TO(width), false},
-    {"y amplitude", LENGTH, TO(height), false},
     {"z amplitude", RANGE, 0, false},
 };
 #undef TO

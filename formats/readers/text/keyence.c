@@ -65,13 +65,9 @@ cells_of(struct rc_piece line, struct rc_piece *cell, size_t most)
 static double
 metres_of(struct rc_piece unit)
 {
-    static const char *const micrometres[] = {"\x83\xcam", "\xa6\xccm", "\xa5\xecm", "\xa7\xad",
-                                              "\xe3\x8e\x9b" /* U+339B */};
-
-    for (size_t k = 0; k < sizeof micrometres / sizeof *micrometres; k++)
-        if (rc_piece_is(unit, micrometres[k]))
-            return 1e-6;
-    return rc_piece_metres(unit);
+    return rc_piece_is(unit, "\x83\xcam|\xa6\xccm|\xa5\xecm|\xa7\xad|\xe3\x8e\x9b") /* U+339B */
+               ? 1e-6
+               : rc_piece_metres(unit);
 }
 
 /* Takes the rows of the header, and stands behind its last one. */

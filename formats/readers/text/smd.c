@@ -77,15 +77,14 @@ take_line(struct smd *s, struct rc_piece line, struct rc_err *err)
     size_t n = part_words(line, word);
     char quote[RC_SHOWN];
 
-    if (n > 0 && (rc_piece_is(word[0], "CX") || rc_piece_is(word[0], "CZ")))
+    if (n > 0 && rc_piece_is(word[0], "CX|CZ"))
         return take_axis(s, word, n, err);
     if (n > 0 && rc_piece_is(word[0], "PRF")) {
         s->profile = true;
         if (n > 2)
             s->name = (struct rc_piece){word[2].text, (size_t)(line.text + line.n - word[2].text)};
     }
-    if (n > 0 &&
-        (rc_piece_is(word[0], "CY") || rc_piece_is(word[0], "SUR") || rc_piece_is(word[0], "PCL")))
+    if (n > 0 && rc_piece_is(word[0], "CY|SUR|PCL"))
         return rc_err_set(err, "the file holds no single profile (%s): that is not read",
                           rc_piece_shown(quote, word[0]));
     return RC_OK;

@@ -64,10 +64,8 @@ is_row(struct rc_piece line, size_t columns)
     if (line.n == 0 || memchr("0123456789+-.\"", *line.text, 14) == NULL)
         return false;
     for (; next_word(&line, &word); numbers++)
-        if (rc_piece_number(word, &value, &rest)
-                ? rest.n > 0
-                : word.n > 0 && !rc_piece_is(word, "--") && !rc_piece_is(word, "---") &&
-                      !rc_piece_is(word, "BAD"))
+        if (rc_piece_number(word, &value, &rest) ? rest.n > 0
+                                                 : word.n > 0 && !rc_piece_is(word, "--|---|BAD"))
             return false;
     return numbers >= columns;
 }
@@ -217,22 +215,15 @@ rc_titled_table_unit(const struct rc_titled_table *t, size_t column, char axis)
 
 /* The words of a title that say what its column holds; a single letter comes before others. */
 static const struct {
-    const char *word;
+    const char *words;
     enum rc_role role;
 } roles[] = {
-    {"x", RC_ROLE_X},         {"y", RC_ROLE_Y},           {"z", RC_ROLE_Z},
-    {"index", RC_ROLE_INDEX}, {"counter", RC_ROLE_INDEX}, {"count", RC_ROLE_INDEX},
-    {"row", RC_ROLE_INDEX},   {"point", RC_ROLE_INDEX},   {"no", RC_ROLE_INDEX},
-    {"nr", RC_ROLE_INDEX},    {"number", RC_ROLE_INDEX},  {"num", RC_ROLE_INDEX},
-    {"idx", RC_ROLE_INDEX},   {"id", RC_ROLE_INDEX},      {"unnamed", RC_ROLE_INDEX},
-    {"valid", RC_ROLE_VALID}, {"height", RC_ROLE_Z},      {"heights", RC_ROLE_Z},
-    {"altitude", RC_ROLE_Z},  {"elevation", RC_ROLE_Z},   {"topography", RC_ROLE_Z},
-    {"depth", RC_ROLE_Z},     {"hoehe", RC_ROLE_Z},       {"h\xc3\xb6he", RC_ROLE_Z},
-    {"h\xf6he", RC_ROLE_Z},   {"hauteur", RC_ROLE_Z},     {"distance", RC_ROLE_X},
-    {"position", RC_ROLE_X},  {"pos", RC_ROLE_X},         {"lateral", RC_ROLE_X},
-    {"length", RC_ROLE_X},    {"abscissa", RC_ROLE_X},    {"abstand", RC_ROLE_X},
-    {"weg", RC_ROLE_X},       {"strecke", RC_ROLE_X},     {"encoder1", RC_ROLE_X},
-    {"encoder2", RC_ROLE_Y},
+    {"x|distance|position|pos|lateral|length|abscissa|abstand|weg|strecke|encoder1", RC_ROLE_X},
+    {"y|encoder2", RC_ROLE_Y},
+    {"z|height|heights|altitude|elevation|topography|depth|hoehe|h\xc3\xb6he|h\xf6he|hauteur",
+     RC_ROLE_Z},
+    {"index|counter|count|row|point|no|nr|number|num|idx|id|unnamed", RC_ROLE_INDEX},
+    {"valid", RC_ROLE_VALID},
 };
 
 static bool
@@ -270,7 +261,7 @@ role_of_word(struct rc_piece word)
     if (letters == 1)
         word.n = 1;
     for (size_t k = 0; k < sizeof roles / sizeof *roles; k++)
-        if (rc_piece_is(word, roles[k].word))
+        if (rc_piece_is(word, roles[k].words))
             return roles[k].role;
     return RC_ROLE_NONE;
 }

@@ -45,13 +45,6 @@ static const struct rc_keep texts[] = {
     {"Note", "file.comment"},
 };
 
-static bool
-is_heights(struct rc_piece name)
-{
-    return rc_piece_is(name, "RAW_DATA") || rc_piece_is(name, "RAW DATA") ||
-           rc_piece_is(name, "OPD") || rc_piece_is(name, "SAMPLE_DATA");
-}
-
 /* Reads up to the line of the heights; texts are kept where `maps` is not NULL. */
 static enum rc_status
 read_header(const struct rc_file *file, struct wyko *w, struct rc_maps *maps, struct rc_err *err)
@@ -67,7 +60,7 @@ read_header(const struct rc_file *file, struct wyko *w, struct rc_maps *maps, st
     while (rc_lines_next(&lines, &line.text, &line.n)) {
         if (!rc_piece_part(line, "\t", &key, &value))
             continue;
-        if (is_heights(key)) {
+        if (rc_piece_is(key, "RAW_DATA|RAW DATA|OPD|SAMPLE_DATA")) {
             w->heights = lines;
             return RC_OK;
         }
@@ -75,7 +68,7 @@ read_header(const struct rc_file *file, struct wyko *w, struct rc_maps *maps, st
         if (rc_piece_part(value, "\t", &line, &rest) && rc_piece_part(rest, "\t", &line, &value)) {
             if (maps != NULL)
                 rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, key, value);
-        } else if (!rc_piece_is(key, "X Size") && !rc_piece_is(key, "Y Size"))
+        } else if (!rc_piece_is(key, "X Size|Y Size"))
             continue;
         if (rc_field_take(fields, sizeof fields / sizeof *fields, key, value, w, err) != RC_OK)
             return RC_FAIL;
