@@ -1,5 +1,6 @@
 #include "hdf_internal.h"
 
+#include <hdf5_hl.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,92 +8,25 @@
 
 static const unsigned char magic[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
 
-enum {
-    GROWTH = 1 << 16
-};
-
 bool
 rc_hdf_is(const struct rc_file *file)
 {
     return file->size > sizeof magic && rc_file_holds(file, 0, magic, sizeof magic);
 }
 
-/* ---- the bytes as they are, where the library would copy them thrice ---- */
-
-static void *
-image_malloc(size_t size, H5FD_file_image_op_t op, void *image)
-{
-    (void)size, (void)op;
-    return image;
-}
-
-static void *
-image_memcpy(void *to, const void *from, size_t size, H5FD_file_image_op_t op, void *image)
-{
-    (void)op, (void)image;
-    if (to != from)
-        memmove(to, from, size);
-    return to;
-}
-
-static void *
-image_realloc(void *bytes, size_t size, H5FD_file_image_op_t op, void *image)
-{
-    (void)bytes, (void)size, (void)op, (void)image;
-    return NULL; /* a file that is only read does not grow */
-}
-
-static herr_t
-image_free(void *bytes, H5FD_file_image_op_t op, void *image)
-{
-    (void)bytes, (void)op, (void)image;
-    return 0;
-}
-
-static void *
-image_share(void *image)
-{
-    return image;
-}
-
-static herr_t
-image_leave(void *image)
-{
-    (void)image;
-    return 0;
-}
-
-static bool
-set_image(hid_t access, const struct rc_file *file)
-{
-    void *image = (void *)(uintptr_t)file->data; /* opened to be read: nothing is written to it */
-    H5FD_file_image_callbacks_t callbacks = {.image_malloc = image_malloc,
-                                             .image_memcpy = image_memcpy,
-                                             .image_realloc = image_realloc,
-                                             .image_free = image_free,
-                                             .udata_copy = image_share,
-                                             .udata_free = image_leave,
-                                             .udata = image};
-
-    return H5Pset_fapl_core(access, GROWTH, false) >= 0 &&
-           H5Pset_file_image_callbacks(access, &callbacks) >= 0 &&
-           H5Pset_file_image(access, image, file->size) >= 0;
-}
-
 struct rc_hdf *
 rc_hdf_new(const struct rc_file *file, struct rc_err *err)
 {
     struct rc_hdf *h = calloc(1, sizeof *h);
-    hid_t access;
+    const unsigned as_it_is = H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE;
 
     if (h == NULL) {
         rc_err_set(err, "out of memory for reading HDF5");
         return NULL;
     }
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* what matters is said here */
-    access = H5Pcreate(H5P_FILE_ACCESS);
-    h->file = set_image(access, file) ? H5Fopen("file", H5F_ACC_RDONLY, access) : -1;
-    H5Pclose(access);
+    /* opened to be read: nothing is written to the bytes */
+    h->file = H5LTopen_file_image((void *)(uintptr_t)file->data, file->size, as_it_is);
     if (h->file >= 0)
         return h;
     rc_err_set(err, "no HDF5 file, or one that is damaged or cut off");

@@ -131,7 +131,7 @@ on_complaint(void *arg, xmlErrorPtr complaint)
 }
 
 struct rc_xml *
-rc_xml_new(const char *name, rc_element *element, void *arg, struct rc_err *err)
+rc_xml_new(const char *name, bool attributes, rc_element *element, void *arg, struct rc_err *err)
 {
     xmlSAXHandler handlers = {
         .initialized = XML_SAX2_MAGIC,
@@ -146,6 +146,7 @@ rc_xml_new(const char *name, rc_element *element, void *arg, struct rc_err *err)
 
     if (x != NULL) {
         x->name = name;
+        x->attributes = attributes;
         x->element = element;
         x->arg = arg;
         x->parser = xmlCreatePushParserCtxt(&handlers, x, NULL, 0, NULL);
@@ -157,12 +158,6 @@ rc_xml_new(const char *name, rc_element *element, void *arg, struct rc_err *err)
     }
     xmlCtxtUseOptions(x->parser, XML_PARSE_NONET);
     return x;
-}
-
-void
-rc_xml_want_attributes(struct rc_xml *x)
-{
-    x->attributes = true;
 }
 
 static enum rc_status
@@ -203,6 +198,19 @@ rc_xml_free(struct rc_xml *x)
         xmlFreeDoc(x->parser->myDoc);
     xmlFreeParserCtxt(x->parser);
     free(x);
+}
+
+enum rc_status
+rc_xml_read(const char *name, const unsigned char *bytes, size_t n, rc_element *element, void *arg,
+            struct rc_err *err)
+{
+    struct rc_xml *x = rc_xml_new(name, false, element, arg, err);
+    enum rc_status status = RC_FAIL;
+
+    if (x != NULL && rc_xml_feed(x, bytes, n, err) == RC_OK)
+        status = rc_xml_end(x, err);
+    rc_xml_free(x);
+    return status;
 }
 
 /* ---- numbers in it ---- */

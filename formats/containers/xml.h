@@ -19,16 +19,20 @@ struct rc_xml;
 typedef enum rc_status rc_element(void *arg, const char *path, const char *text,
                                   struct rc_err *err);
 
-/* `name` is the document's, for messages. */
-struct rc_xml *rc_xml_new(const char *name, rc_element *element, void *arg, struct rc_err *err);
-/* Call `element` for attributes too, where their element begins: "row/c/@r" and the value. */
-void rc_xml_want_attributes(struct rc_xml *xml);
+/* `name` is the document's, for messages. `attributes`: call `element` for them too, where their element
+ * begins: "row/c/@r" and the value. */
+struct rc_xml *rc_xml_new(const char *name, bool attributes, rc_element *element, void *arg,
+                          struct rc_err *err);
 /* The next n bytes of the document. */
 enum rc_status rc_xml_feed(struct rc_xml *xml, const unsigned char *bytes, size_t n,
                            struct rc_err *err);
 /* There are no more: RC_FAIL when the document is not whole. */
 enum rc_status rc_xml_end(struct rc_xml *xml, struct rc_err *err);
 void rc_xml_free(struct rc_xml *xml); /* NULL is allowed */
+
+/* The whole of a document of n bytes. */
+enum rc_status rc_xml_read(const char *name, const unsigned char *bytes, size_t n,
+                           rc_element *element, void *arg, struct rc_err *err);
 
 /* An element's text that must be a number, "nan" and "inf" among them; RC_FAIL says so. `name` is
  * what the element is called in messages, `document` where it stands. */

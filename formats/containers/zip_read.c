@@ -265,9 +265,10 @@ take_xml(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
 
 enum rc_status
 rc_zip_read_xml(struct rc_zip_read *a, size_t member, uint64_t most, const char *name,
-                rc_element *element, void *arg, char md5[RC_MD5_TEXT], struct rc_err *err)
+                bool attributes, rc_element *element, void *arg, char md5[RC_MD5_TEXT],
+                struct rc_err *err)
 {
-    struct rc_xml *xml = rc_xml_new(name, element, arg, err);
+    struct rc_xml *xml = rc_xml_new(name, attributes, element, arg, err);
     enum rc_status status = RC_FAIL;
 
     if (xml == NULL)

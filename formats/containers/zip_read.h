@@ -54,7 +54,7 @@ unsigned char *rc_zip_read_bytes(struct rc_zip_read *archive, size_t member, uin
 /* Unpacks a member of at most `most` bytes that is an XML document called `name` in messages, with
  * `element` and `arg` as xml.h has them. `md5` as above. */
 enum rc_status rc_zip_read_xml(struct rc_zip_read *archive, size_t member, uint64_t most,
-                               const char *name, rc_element *element, void *arg,
+                               const char *name, bool attributes, rc_element *element, void *arg,
                                char md5[RC_MD5_TEXT], struct rc_err *err);
 
 #endif

@@ -4,7 +4,25 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "encode.h"
 #include "formats/core/core.h"
+#include "stack.h"
+
+/* A value at every node: one frame a layer. */
+struct layers {
+    struct rc_stack stack;
+    char name[RC_LABEL];
+    enum rc_raw raw;
+};
+
+struct volume {
+    size_t n[3];   /* nodes along x, y, z             */
+    double *at[3]; /* n of them: where the nodes are  */
+    size_t layers; /* frames in each stack            */
+    size_t node;   /* values in a layer               */
+    struct layers *array;
+    size_t arrays;
+};
 
 /* ---- which frames belong together ---- */
 
@@ -42,7 +60,7 @@ check_alike(struct rc_grid *const *frame, size_t frames, struct rc_err *err)
 }
 
 static enum rc_status
-stack_frames(struct rc_volume *v, struct rc_grid *const *frame, size_t frames, struct rc_err *err)
+stack_frames(struct volume *v, struct rc_grid *const *frame, size_t frames, struct rc_err *err)
 {
     struct rc_stack *stack;
     enum rc_status status = rc_stacks_make(&stack, &v->arrays, frame, frames, err);
@@ -67,7 +85,7 @@ stack_frames(struct rc_volume *v, struct rc_grid *const *frame, size_t frames, s
 }
 
 static enum rc_status
-check_depths(const struct rc_volume *v, struct rc_err *err)
+check_depths(const struct volume *v, struct rc_err *err)
 {
     const struct rc_stack *first = &v->array[0].stack;
 
@@ -81,7 +99,7 @@ check_depths(const struct rc_volume *v, struct rc_err *err)
 }
 
 static enum rc_status
-name_arrays(struct rc_volume *v, const struct rc_export_wish *wish, struct rc_err *err)
+name_arrays(struct volume *v, const struct rc_export_wish *wish, struct rc_err *err)
 {
     struct rc_grid **first = calloc(v->arrays, sizeof(struct rc_grid *));
 
@@ -100,7 +118,7 @@ name_arrays(struct rc_volume *v, const struct rc_export_wish *wish, struct rc_er
 /* ---- where the nodes are ---- */
 
 static enum rc_status
-place_nodes(struct rc_volume *v, const struct rc_grid *g, struct rc_err *err)
+place_nodes(struct volume *v, const struct rc_grid *g, struct rc_err *err)
 {
     const char *section = rc_grid_get(g, "section");
     bool cut = section != NULL, along_y = cut && strcmp(section, "x") == 0;
@@ -129,19 +147,20 @@ place_nodes(struct rc_volume *v, const struct rc_grid *g, struct rc_err *err)
     return cut ? rc_export_depths(g, v->at[2], err) : RC_OK;
 }
 
-enum rc_status
-rc_volume_make(struct rc_volume *v, struct rc_grid *const *frame, size_t frames,
-               const struct rc_export_wish *wish, struct rc_err *err)
+/* RC_FAIL for frames that do not fit together. Free it in either case. */
+static enum rc_status
+volume_make(struct volume *v, struct rc_grid *const *frame, size_t frames,
+            const struct rc_export_wish *wish, struct rc_err *err)
 {
-    *v = (struct rc_volume){.node = frame[0]->nx * frame[0]->ny};
+    *v = (struct volume){.node = frame[0]->nx * frame[0]->ny};
     if (check_alike(frame, frames, err) != RC_OK || stack_frames(v, frame, frames, err) != RC_OK ||
         place_nodes(v, frame[0], err) != RC_OK || check_depths(v, err) != RC_OK)
         return RC_FAIL;
     return name_arrays(v, wish, err);
 }
 
-void
-rc_volume_free(struct rc_volume *v)
+static void
+volume_free(struct volume *v)
 {
     for (size_t a = 0; a < v->arrays; a++)
         free(v->array[a].stack.layer);
@@ -152,14 +171,17 @@ rc_volume_free(struct rc_volume *v)
 
 /* ---- XML and appended data ---- */
 
-uint64_t
-rc_vtk_bytes(size_t n, enum rc_raw raw)
+/* Bytes that an array of n values takes in the file, with the count before it. */
+static uint64_t
+bytes_of(size_t n, enum rc_raw raw)
 {
     return sizeof(uint64_t) + (uint64_t)n * rc_raw_width(raw);
 }
 
-void
-rc_vtk_arrays(struct rc_buffer *b, const struct rc_volume *v, uint64_t offset)
+/* The attributes and the keys of the arrays as a header: `<PointData>...`, from byte `offset` of
+ * the appended data on. */
+static void
+put_keys(struct rc_buffer *b, const struct volume *v, uint64_t offset)
 {
     rc_buffer_print(b, "      <PointData Scalars=\"");
     rc_buffer_escaped(b, v->array[0].name);
@@ -174,13 +196,14 @@ rc_vtk_arrays(struct rc_buffer *b, const struct rc_volume *v, uint64_t offset)
                         (unsigned long long)offset);
         rc_buffer_escaped(b, v->array[a].stack.layer[0]->unit);
         rc_buffer_print(b, "</InformationKey>\n        </DataArray>\n");
-        offset += rc_vtk_bytes(v->node * v->layers, v->array[a].raw);
+        offset += bytes_of(v->node * v->layers, v->array[a].raw);
     }
     rc_buffer_print(b, "      </PointData>\n");
 }
 
-void
-rc_vtk_history(struct rc_buffer *b, const struct rc_grid *g)
+/* The history of the first frame, as field data. */
+static void
+put_history(struct rc_buffer *b, const struct rc_grid *g)
 {
     const char *history = rc_grid_get(g, "history");
 
@@ -193,30 +216,21 @@ rc_vtk_history(struct rc_buffer *b, const struct rc_grid *g)
     rc_buffer_print(b, " 0\n      </DataArray>\n    </FieldData>\n");
 }
 
+/* The length in bytes of an array of the appended data, which stands before its values. */
 static enum rc_status
 put_length(FILE *out, size_t n, enum rc_raw raw, struct rc_err *err)
 {
     struct rc_buffer b = {0};
     enum rc_status status;
 
-    rc_buffer_u64(&b, rc_vtk_bytes(n, raw) - sizeof(uint64_t));
+    rc_buffer_u64(&b, bytes_of(n, raw) - sizeof(uint64_t));
     status = rc_buffer_write(&b, out, err);
     rc_buffer_free(&b);
     return status;
 }
 
-enum rc_status
-rc_vtk_put(FILE *out, const double *v, size_t n, enum rc_raw raw, struct rc_err *err)
-{
-    const struct rc_code code = {.raw = raw};
-
-    if (put_length(out, n, raw, err) != RC_OK)
-        return RC_FAIL;
-    return rc_encode_file(&code, v, n, out, err);
-}
-
-enum rc_status
-rc_vtk_put_arrays(FILE *out, const struct rc_volume *v, struct rc_err *err)
+static enum rc_status
+put_arrays(FILE *out, const struct volume *v, struct rc_err *err)
 {
     for (size_t a = 0; a < v->arrays; a++) {
         const struct rc_code code = {.raw = v->array[a].raw};
@@ -228,4 +242,92 @@ rc_vtk_put_arrays(FILE *out, const struct rc_volume *v, struct rc_err *err)
                 return RC_FAIL;
     }
     return RC_OK;
+}
+
+/* ---- the file ---- */
+
+/* Even steps, as an image has them, as attributes of its element. */
+static enum rc_status
+put_steps(struct rc_buffer *b, const struct volume *v, const struct rc_grid *g, struct rc_err *err)
+{
+    char origin[3][RC_NUMBER_SIZE], spacing[3][RC_NUMBER_SIZE];
+    double step;
+
+    for (int axis = 0; axis < 3; axis++) {
+        if (!rc_export_even(v->at[axis], v->n[axis], &step))
+            return rc_err_set(err,
+                              "the depths have uneven steps, an image has even ones: write vtr");
+        rc_number_text(origin[axis], v->at[axis][0]);
+        rc_number_text(spacing[axis], step == 0 ? g->dx : step); /* it must not be 0 */
+    }
+    rc_buffer_print(b, " Origin=\"%s %s %s\" Spacing=\"%s %s %s\"", origin[0], origin[1], origin[2],
+                    spacing[0], spacing[1], spacing[2]);
+    return RC_OK;
+}
+
+/* The places of all nodes, the first arrays of the appended data; *offset: the byte behind them. */
+static void
+put_coordinates(struct rc_buffer *b, const struct volume *v, uint64_t *offset)
+{
+    rc_buffer_print(b, "      <Coordinates>\n");
+    for (int k = 0; k < 3; k++) {
+        rc_buffer_print(b,
+                        "        <DataArray type=\"Float64\" Name=\"%c\" format=\"appended\" "
+                        "offset=\"%llu\"/>\n",
+                        "xyz"[k], (unsigned long long)*offset);
+        *offset += bytes_of(v->n[k], RC_RAW_F64);
+    }
+    rc_buffer_print(b, "      </Coordinates>\n");
+}
+
+static enum rc_status
+make_header(struct rc_buffer *b, const struct volume *v, const struct rc_grid *g, bool image,
+            struct rc_err *err)
+{
+    const char *kind = image ? "ImageData" : "RectilinearGrid";
+    char extent[80];
+    uint64_t offset = 0;
+
+    snprintf(extent, sizeof extent, "Extent=\"0 %zu 0 %zu 0 %zu\"", v->n[0] - 1, v->n[1] - 1,
+             v->n[2] - 1);
+    rc_buffer_print(b,
+                    "<?xml version=\"1.0\"?>\n"
+                    "<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                    "header_type=\"UInt64\">\n"
+                    "  <%s Whole%s",
+                    kind, kind, extent);
+    if (image && put_steps(b, v, g, err) != RC_OK)
+        return RC_FAIL;
+    rc_buffer_print(b, ">\n");
+    put_history(b, g);
+    rc_buffer_print(b, "    <Piece %s>\n", extent);
+    if (!image)
+        put_coordinates(b, v, &offset);
+    put_keys(b, v, offset);
+    rc_buffer_print(b, "    </Piece>\n  </%s>\n  <AppendedData encoding=\"raw\">\n   _", kind);
+    return RC_OK;
+}
+
+enum rc_status
+rc_vtk_write(FILE *out, struct rc_grid *const *frame, size_t frames, bool image,
+             const struct rc_export_wish *wish, struct rc_err *err)
+{
+    static const char end[] = "\n  </AppendedData>\n</VTKFile>\n";
+    const struct rc_code place = {.raw = RC_RAW_F64};
+    struct rc_buffer header = {0};
+    struct volume v;
+    enum rc_status status = volume_make(&v, frame, frames, wish, err);
+
+    if (status == RC_OK)
+        status = make_header(&header, &v, frame[0], image, err);
+    if (status == RC_OK)
+        status = rc_buffer_write(&header, out, err);
+    for (int axis = 0; status == RC_OK && !image && axis < 3; axis++)
+        if ((status = put_length(out, v.n[axis], place.raw, err)) == RC_OK)
+            status = rc_encode_file(&place, v.at[axis], v.n[axis], out, err);
+    if (status == RC_OK && (status = put_arrays(out, &v, err)) == RC_OK)
+        status = rc_put(out, end, sizeof end - 1, err);
+    rc_buffer_free(&header);
+    volume_free(&v);
+    return status;
 }

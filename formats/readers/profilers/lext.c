@@ -70,8 +70,6 @@ static enum rc_status
 read_xml(struct lext *l, const char *name, const unsigned char *bytes, size_t n, struct rc_err *err)
 {
     const unsigned char *end = memchr(bytes, '\0', n), *start;
-    struct rc_xml *xml;
-    enum rc_status status = RC_FAIL;
 
     n = end == NULL ? n : (size_t)(end - bytes);
     start = memchr(bytes, '<', n);
@@ -80,12 +78,7 @@ read_xml(struct lext *l, const char *name, const unsigned char *bytes, size_t n,
     n -= (size_t)(start - bytes);
     while (n > 0 && start[n - 1] != '>') /* what follows the document is padding */
         n--;
-    if ((xml = rc_xml_new(name, take_element, l, err)) == NULL)
-        return RC_FAIL;
-    if (rc_xml_feed(xml, start, n, err) == RC_OK)
-        status = rc_xml_end(xml, err);
-    rc_xml_free(xml);
-    return status;
+    return rc_xml_read(name, start, n, take_element, l, err);
 }
 
 static enum rc_status

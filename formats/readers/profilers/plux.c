@@ -108,8 +108,8 @@ plux_open(struct plux *p, const struct rc_file *file, struct rc_err *err)
         return RC_FAIL;
     if (find(p->archive, "index.xml", &member, NULL) != RC_OK)
         return rc_err_set(err, "a ZIP archive, but no PLUX: it holds no index.xml");
-    if (rc_zip_read_xml(p->archive, member, INDEX_MOST, "index.xml", take_element, p, NULL, err) !=
-        RC_OK)
+    if (rc_zip_read_xml(p->archive, member, INDEX_MOST, "index.xml", false, take_element, p, NULL,
+                        err) != RC_OK)
         return RC_FAIL;
     p->dx /= 1e6;
     p->dy /= 1e6;

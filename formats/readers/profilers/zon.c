@@ -183,15 +183,12 @@ read_document(struct zon *z, const struct rc_file *file, size_t member, struct r
 {
     size_t n;
     unsigned char *bytes = member_bytes(z, file, member, "settings", &n, err);
-    struct rc_xml *xml = NULL;
     enum rc_status status = RC_FAIL;
 
     if (bytes != NULL && n > XML_MOST)
         rc_err_set(err, "the settings have %zu bytes: that cannot be", n);
-    else if (bytes != NULL && (xml = rc_xml_new("a document", take_element, z, err)) != NULL &&
-             rc_xml_feed(xml, bytes, n, err) == RC_OK)
-        status = rc_xml_end(xml, err);
-    rc_xml_free(xml);
+    else if (bytes != NULL)
+        status = rc_xml_read("a document", bytes, n, take_element, z, err);
     free(bytes);
     return status;
 }

@@ -216,8 +216,8 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
 static enum rc_status
 read_main(struct rc_x3p *x, struct rc_err *err)
 {
-    if (rc_zip_read_xml(x->archive, x->main, MAIN_MOST, "main.xml", take_element, x, x->md5, err) !=
-        RC_OK)
+    if (rc_zip_read_xml(x->archive, x->main, MAIN_MOST, "main.xml", false, take_element, x, x->md5,
+                        err) != RC_OK)
         return RC_FAIL;
     if (!x->is_x3p)
         return rc_err_set(err, "a ZIP archive, but no X3P: its main.xml holds no %s", root_name);

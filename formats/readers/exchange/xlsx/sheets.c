@@ -267,16 +267,8 @@ take_cell(void *arg, const char *path, const char *text, struct rc_err *err)
 /* ---- the archive ---- */
 
 static enum rc_status
-feed(void *xml, const unsigned char *bytes, size_t n, struct rc_err *err)
-{
-    return rc_xml_feed(xml, bytes, n, err);
-}
-
-static enum rc_status
 read_member(struct reading *r, const char *name, rc_element *element, struct rc_err *err)
 {
-    enum rc_status status = RC_FAIL;
-    struct rc_xml *xml;
     size_t member;
     uint64_t size;
 
@@ -286,13 +278,7 @@ read_member(struct reading *r, const char *name, rc_element *element, struct rc_
     if (size > rc_memory_limit(r->file->size))
         return rc_err_set(err, "%s promises %g MB in a file of %g: that cannot be", name,
                           (double)size / 1e6, (double)r->file->size / 1e6);
-    if ((xml = rc_xml_new(name, element, r, err)) == NULL)
-        return RC_FAIL;
-    rc_xml_want_attributes(xml);
-    if (rc_zip_read_member(r->archive, member, size, feed, xml, NULL, err) == RC_OK)
-        status = rc_xml_end(xml, err);
-    rc_xml_free(xml);
-    return status;
+    return rc_zip_read_xml(r->archive, member, size, name, true, element, r, NULL, err);
 }
 
 static enum rc_status
