@@ -241,6 +241,18 @@ warn_of_text(struct tool *t, const struct args *a, struct canvas *c)
         warn_of_family(t, a->style.family, canvas_set_family(c, a->style.family));
 }
 
+/* Writes the figure on its canvas, of a grid or of tables (NULL), and frees that; NULL: it could not be drawn. */
+static void
+finish(struct tool *t, const struct args *a, const struct rc_grid *g, const struct figure *f,
+       struct canvas *c, const struct rc_err *err)
+{
+    if (c == NULL && err != NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err->text);
+    warn_of_text(t, a, c);
+    write_picture(t, g, f, c);
+    canvas_free(c);
+}
+
 /* A cross at the largest magnitude, if its node is drawn. */
 static void
 mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, struct figure *f,
@@ -327,12 +339,9 @@ draw_profile(struct tool *t, const struct args *a, const struct rc_grid *g, cons
         x[k] = first + ((double)k + 0.5) * step;
     snprintf(gaps, sizeof gaps, "gaps: %s (%zu of %zu nodes)",
              f->missing_is == NULL ? "not measured" : f->missing_is, f->missing, n);
-    if ((c = graph_draw(&graph, &err)) == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    c = graph_draw(&graph, &err);
     free(x);
-    warn_of_text(t, a, c);
-    write_picture(t, g, f, c);
-    canvas_free(c);
+    finish(t, a, g, f, c, &err);
 }
 
 /* ---- reliefs ---- */
@@ -342,7 +351,6 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
             struct subtitle *subtitle)
 {
     struct view view;
-    struct canvas *c;
     struct rc_err err;
 
     view_read(t, a->view, &view);
@@ -353,11 +361,7 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
     view_check(t, g, f);
     view_say(f, subtitle);
     f->missing = 0; /* they are holes */
-    if ((c = relief_draw(f, &view, g, &err)) == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    warn_of_text(t, a, c);
-    write_picture(t, g, f, c);
-    canvas_free(c);
+    finish(t, a, g, f, relief_draw(f, &view, g, &err), &err);
 }
 
 /* Whether the window is that of the contact. */
@@ -534,9 +538,7 @@ render_curves(struct tool *t, struct args *a)
     words = (struct figure){.title = drawn.title,
                             .stamp = drawn.stamp,
                             .subtitle = *drawn.source == '\0' ? NULL : drawn.source};
-    warn_of_text(t, a, c);
-    write_picture(t, NULL, &words, c);
-    canvas_free(c);
+    finish(t, a, NULL, &words, c, NULL);
 }
 
 static struct canvas *
@@ -569,9 +571,7 @@ render_lines(struct tool *t, struct args *a, const struct frames *f)
     a->style.title = a->title;
     a->style.hertz = a->hertz;
     c = draw_lines(t, a, f, &drawn);
-    warn_of_text(t, a, c);
-    write_picture(t, f->grid[0], &(struct figure){.title = drawn.title, .stamp = drawn.stamp}, c);
-    canvas_free(c);
+    finish(t, a, f->grid[0], &(struct figure){.title = drawn.title, .stamp = drawn.stamp}, c, NULL);
 }
 
 /* ---- which picture ---- */

@@ -29,18 +29,6 @@ struct set {
     struct channel channel;
 };
 
-static const char *
-stamp_of(const struct set *s)
-{
-    for (size_t k = 0; k < s->n; k++) {
-        const char *converged = rc_grid_get(s->grid[k], "converged");
-
-        if (converged != NULL && strcmp(converged, "no") == 0)
-            return "not converged";
-    }
-    return NULL;
-}
-
 static _Noreturn void
 no_memory(struct tool *t)
 {
@@ -96,7 +84,9 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
     snprintf(drawn->title, sizeof drawn->title, "%s",
              s->style->title == NULL ? title : s->style->title);
     snprintf(drawn->source, sizeof drawn->source, "%s", source == NULL ? "" : source);
-    drawn->stamp = stamp_of(s);
+    drawn->stamp = NULL;
+    for (size_t k = 0; k < s->n && drawn->stamp == NULL; k++)
+        drawn->stamp = look_stamp(s->grid[k]);
     graph->title = drawn->title;
     graph->subtitle = wording_subtitle(s->style->title, s->style->subtitle, s->subtitle.text);
     graph->stamp = drawn->stamp;
@@ -143,12 +133,10 @@ line_at(const struct line *l, size_t k)
 static void
 set_lines(struct tool *t, const struct rc_grid *g, struct line *across, struct line *down)
 {
-    const char *section = rc_grid_get(g, "section"), *depths = rc_grid_get(g, "depths");
+    const char *section = rc_grid_get(g, "section");
     const char *unit = rc_grid_dunit(g);
     bool waves = strcmp(unit, "rad/m") == 0;
-    struct numbers list = {0};
     double i, j;
-    struct rc_err err;
 
     rc_grid_origin(g, &i, &j);
     *across = (struct line){.name = section != NULL && section[0] == 'x' ? "y" : "x",
@@ -163,15 +151,8 @@ set_lines(struct tool *t, const struct rc_grid *g, struct line *across, struct l
                           .unit = unit};
     across->title = waves ? "qx" : across->name;
     down->title = waves ? "qy" : down->name;
-    if (section == NULL)
-        return;
-    if (depths != NULL && (unit_numbers(depths, UNIT_M, &list, &err) != RC_OK || list.n != g->ny))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths does not hold a depth for each row");
-    down->at = depths != NULL ? list.v : malloc(g->ny * sizeof *down->at);
-    if (down->at == NULL)
-        no_memory(t);
-    for (size_t k = 0; depths == NULL && k < g->ny; k++)
-        down->at[k] = (double)k * g->dy;
+    if (section != NULL)
+        down->at = section_depths(t, g);
 }
 
 /* The node nearest to the place; of two that are as near the later one. */
@@ -434,7 +415,6 @@ histogram_draw(struct tool *t, struct rc_grid *const *grid, const struct rc_grid
     graph.n = n + add_distribution(&s, mean, lo, first + (double)bins * step);
     snprintf(unit, sizeof unit, "1/%.40s", grid[0]->unit);
     snprintf(title, sizeof title, "%s distribution", s.channel.title);
-    /* lower case, after "How the " */
     graph.x.quantity = s.channel.title;
     graph.x.unit = grid[0]->unit;
     graph.y.quantity = "Probability density";
