@@ -204,9 +204,7 @@ slice_row(const struct rc_shape *shape, const double *p, const char *name,
     transforms = RC_COMPONENTS * (least[1] + least[4]);
     printf("  %-24s%8.1f%8.1f%8.1f%8.2f%10.1f%8.1f%8.2f%8.0f\n", name, 6e3 * least[1],
            6e3 * least[4], 1e3 * least[0], least[0] / transforms, 1e3 * least[2], 1e3 * least[3],
-           least[2] / least[0],
-           (double)rc_stress_memory(shape, &o, NULL, 0, 0) / (double)n +
-               (1 + FRAMES) * sizeof(double));
+           least[2] / least[0], (double)rc_memory_held().peak / (double)n);
     fflush(stdout);
     free(kernel.quarter);
     rc_stress_free(slice.stress);

@@ -426,45 +426,31 @@ new_frame(struct run *run, const struct rc_grid *p, int channel)
 
 /* ---- the work ---- */
 
-static bool
-loaded(const struct run *run, const struct rc_grid *p, size_t k)
+/* Bytes that the slices take. */
+static size_t
+frames_memory(const struct run *run, const struct rc_grid *p)
 {
-    const double *const *t = run->options.traction;
+    const struct rc_shape frame = frame_shape(run, p);
 
-    return p->v[k] != 0 || (t[0] != NULL && t[0][k] != 0) || (t[1] != NULL && t[1][k] != 0);
+    return channels() * frame.nx * (run->options.section != 0 ? frame.ny : p->ny - p->elsewhere) *
+           sizeof(double);
 }
 
-/* Lines along the section that carry pressure or traction. */
+/* Bytes a node of a plan, free and periodic, measured with maps of 1024 x 1024 nodes: for the pressure, each map
+ * of tractions and each slab of strain, and for a section. */
 static size_t
-loaded_lines(const struct run *run, const struct rc_grid *p)
+plan_memory(const struct run *run, const struct rc_grid *p)
 {
-    bool across = run->options.section == 'x';
-    size_t rows = p->ny - p->elsewhere, lines = 0;
-    size_t n = across ? p->nx : rows, along = across ? rows : p->nx;
-
-    for (size_t k = 0; k < n; k++) {
-        bool any = false;
-        for (size_t i = 0; i < along && !any; i++)
-            any = loaded(run, p, across ? i * p->nx + k : k * p->nx + i);
-        lines += any;
-    }
-    return lines;
-}
-
-static size_t
-memory_for(const struct run *run, const struct rc_grid *p)
-{
-    struct rc_shape shape = rc_grid_shape(p), frame = frame_shape(run, p);
+    static const double pressure[] = {154, 69}, traction[] = {77, 10}, slab[] = {279, 71};
+    static const double section = 26; /* as many for both */
     const struct rc_stress_options *o = &run->options;
-    size_t rows = o->section != 0 ? frame.ny : p->ny - p->elsewhere;
-    size_t frames = channels() * frame.nx * rows * sizeof(double);
-    size_t map = rc_grid_nodes(p) * sizeof *p->v, lines = 0;
+    const bool periodic = o->boundary == RC_PERIODIC;
+    double bytes = o->section != 0 ? section : pressure[periodic];
 
-    if (o->section != 0) { /* a copy of the map goes before the frames come */
-        frames -= frames < map ? frames : map;
-        lines = loaded_lines(run, p);
-    }
-    return rc_stress_memory(&shape, o, run->depths.v, run->depths.n, lines) + frames;
+    for (int k = 0; k < 2 && o->section == 0; k++)
+        bytes += o->traction[k] != NULL ? traction[periodic] : 0;
+    bytes += o->strain != NULL ? slab[periodic] * (double)o->strain->slabs : 0;
+    return (size_t)(bytes * (double)rc_grid_nodes(p));
 }
 
 /* Where a slice is: its depth and, of a coated body, its material. */
@@ -507,7 +493,8 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
 static void
 plan_case(struct run *run, const struct rc_grid *p)
 {
-    double memory = ranks_most(&run->t, (double)tool_memory_with(memory_for(run, p)));
+    double memory = ranks_most(
+        &run->t, (double)tool_memory_with(size_sum(plan_memory(run, p), frames_memory(run, p))));
     struct rc_err err;
 
     if (stress_report_plan(&run->t, p, &run->options, &run->depths, (size_t)memory, &err) != RC_OK)
@@ -521,7 +508,6 @@ do_case(struct run *run, const struct rc_grid *p)
     struct rc_stress *stress;
     struct rc_err err;
 
-    tool_demand_memory(&run->t, p, memory_for(run, p));
     if (stress_report_begin(&run->report, p, &run->options, &run->depths, report_wanted(&run->out),
                             &err) != RC_OK)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -529,6 +515,7 @@ do_case(struct run *run, const struct rc_grid *p)
     if (stress == NULL)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     stress_report_ready(&run->report);
+    tool_demand_memory(&run->t, p, frames_memory(run, p));
     for (int c = 0; c < RC_STRESSES; c++)
         if (wanted(c))
             run->frame[c] = new_frame(run, p, c);

@@ -58,9 +58,8 @@ struct rc_inside_type {
     bool shares; /* szz of the shear is sxz of the pressure                                */
     /* waves much shorter than the depth do not reach it, so a coarser grid is enough */
     bool coarsens;
-    /* How many numbers describe a wave at a depth, and the bytes of a depth, with or without the shear. */
+    /* How many numbers describe a wave at a depth, with or without the shear. */
     size_t (*numbers)(bool shear);
-    size_t (*memory)(bool shear, enum rc_boundary boundary);
     /* NULL when memory is short or the body is rigid there. */
     struct rc_inside *(*new)(const struct rc_solid *solid, double depth, bool shear,
                              enum rc_boundary boundary, struct rc_err *err);

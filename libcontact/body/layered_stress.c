@@ -421,13 +421,6 @@ line(const struct rc_inside *inside, const struct rc_cell *c, unsigned kernels, 
     add_line(in, c, kernels, step, n, y, out);
 }
 
-static size_t
-memory(bool shear, enum rc_boundary boundary)
-{
-    return sizeof(struct inside) +
-           (boundary == RC_FREE ? rc_radial_memory(shear ? FUNCTIONS : PRESSURE) : 0);
-}
-
 static void
 inside_free(struct rc_inside *inside)
 {
@@ -476,7 +469,6 @@ short_of_memory:
 
 const struct rc_inside_type rc_layered_inside = {
     .numbers = numbers,
-    .memory = memory,
     .new = inside_new,
     .free = inside_free,
     .waves = waves,

@@ -193,14 +193,6 @@ fail:
     return NULL;
 }
 
-size_t
-rc_radial_memory(size_t functions)
-{
-    size_t range = (size_t)(log(farthest / near) * FINER / step) + 2 * POINTS + 1;
-
-    return sizeof(struct rc_radial) + range * functions * sizeof(double);
-}
-
 void
 rc_radial_free(struct rc_radial *f)
 {

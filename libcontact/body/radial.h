@@ -30,8 +30,6 @@ struct rc_radial_source {
 /* NULL when memory is short. */
 struct rc_radial *rc_radial_new(const struct rc_radial_source *source);
 void rc_radial_free(struct rc_radial *radial); /* NULL is allowed */
-/* Bytes of such a table. */
-size_t rc_radial_memory(size_t functions);
 /* f at `points` distances r >= 0, m: out[point * n + function]. */
 void rc_radial_values(const struct rc_radial *radial, size_t points, const double *r, double *out);
 

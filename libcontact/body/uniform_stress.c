@@ -25,13 +25,6 @@ numbers(bool shear)
     return 1; /* exp(-q z) */
 }
 
-static size_t
-memory(bool shear, enum rc_boundary boundary)
-{
-    (void)shear, (void)boundary;
-    return sizeof(struct inside);
-}
-
 static struct rc_inside *
 inside_new(const struct rc_solid *solid, double depth, bool shear, enum rc_boundary boundary,
            struct rc_err *err)
@@ -102,7 +95,6 @@ const struct rc_inside_type rc_uniform_inside = {
     .shares = true,
     .coarsens = true,
     .numbers = numbers,
-    .memory = memory,
     .new = inside_new,
     .free = inside_free,
     .waves = waves,

@@ -97,23 +97,6 @@ sizes(const struct rc_stress_task *t)
     return plan;
 }
 
-static size_t
-memory(const struct rc_stress_task *t)
-{
-    struct plan plan = sizes(t);
-    size_t transposed = t->shape.nx * t->shape.ny * sizeof(double), lines = plan.m;
-    size_t rest =
-        plan.m * sizeof(struct pair) + (size_t)plan.threads * plan.scratch_size * sizeof(double) +
-        PARTS * RC_COMPONENTS * plan.waves * sizeof(double complex) + rc_stress_inside_memory(t);
-
-    /* lines of a free map without pressure are not touched */
-    if (t->options.boundary == RC_FREE && t->loaded > 0 && t->loaded < lines)
-        lines = t->loaded;
-    /* the transposed map is freed before the rest is allocated */
-    return sizeof plan + t->sources * lines * plan.waves * sizeof(double complex) +
-           (transposed > rest ? transposed : rest);
-}
-
 /* A map with its rows along the plane. */
 static void
 transpose(const struct plan *plan, const double *p, double *v)
@@ -467,7 +450,6 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
 }
 
 const struct rc_stress_evaluator rc_stress_section = {
-    .memory = memory,
     .new = plan_new,
     .slice = slice,
     .free = plan_free,

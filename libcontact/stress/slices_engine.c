@@ -52,28 +52,6 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
     return plan;
 }
 
-/* The memory of a plan hardly depends on the body: computed for a uniform body, at a depth of one spacing. 0
- * when memory is short even for this. */
-static size_t
-memory(const struct rc_stress_task *task)
-{
-    const struct rc_body bare = {.nu = 0.3};
-    struct rc_solid *solid = rc_body_type(&bare)->new (&bare, NULL);
-    struct rc_stress_field field = {.kernel = RC_SXX};
-    struct rc_sum sum = sum_of(task, &field);
-    size_t bytes = 0;
-
-    if (solid != NULL && task->engine != NULL)
-        field.inside =
-            solid->type->inside->new (solid, task->shape.dx, false, task->options.boundary, NULL);
-    if (field.inside != NULL)
-        bytes = task->engine->memory(&sum) + task->shape.nx * task->shape.ny * sizeof(double) +
-                rc_stress_inside_memory(task);
-    rc_inside_free((struct rc_inside *)field.inside);
-    rc_solid_free(solid);
-    return bytes;
-}
-
 static void
 add(size_t n, double weight, const double *u, double *s)
 {
@@ -149,7 +127,6 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
 }
 
 const struct rc_stress_evaluator rc_stress_slices_engine = {
-    .memory = memory,
     .new = plan_new,
     .slice = slice,
     .free = plan_free,

@@ -137,23 +137,6 @@ load(struct grid *g, size_t source, const double *map, struct rc_err *err)
     return rc_fft_load(g->fft, source, map, err);
 }
 
-static size_t
-grid_memory(const struct rc_stress_task *task, const struct rc_shape *shape)
-{
-    enum rc_boundary boundary = task->options.boundary;
-    enum rc_precision precision = precision_of(task);
-    size_t ranks = rc_ranks_count(task->options.ranks);
-    size_t spectrum = rc_spectrum_memory(shape, boundary, precision, ranks);
-    size_t quarters = boundary == RC_FREE ? count(task->kernels) : rc_stress_numbers(task);
-
-    /* the transform of a map is as large as four spectra, a quarter as large as one in double */
-    return sizeof(struct grid) + rc_fft_memory(shape, boundary, precision, ranks) +
-           rc_fft_scratch(shape, boundary, precision, task->options.threads) +
-           (count(task->loads) - 1 + 4 * task->sources) * spectrum +
-           quarters * rc_spectrum_memory(shape, boundary, RC_DOUBLE, ranks) +
-           rc_stress_inside_memory(task);
-}
-
 /* ---- kernels ---- */
 
 /* All kernels on a quarter of the padded map. */
@@ -404,9 +387,22 @@ plan_free(void *at)
     free(plan);
 }
 
+/* Whether there is room for the largest coarser grid, which comes with its depth; `fine`: bytes of the map's. */
+static enum rc_status
+reserve(const struct rc_stress_task *task, size_t fine, struct rc_err *err)
+{
+    size_t sx, sy;
+
+    if (!may_be_coarse(task, INFINITY, &sx, &sy) ||
+        rc_memory_ask(fine / ((sx > 1 ? 2U : 1U) * (sy > 1 ? 2U : 1U))))
+        return RC_OK;
+    return rc_err_set(err, "out of memory for a coarser grid");
+}
+
 static void *
 plan_new(const struct rc_stress_task *task, struct rc_err *err)
 {
+    const size_t before = rc_memory_held().held;
     struct plan *plan = calloc(1, sizeof *plan);
 
     if (plan == NULL)
@@ -422,31 +418,12 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
             plan_free(plan);
             return NULL;
         }
+    if (rc_ranks_agree(task->options.ranks, reserve(task, rc_memory_held().held - before, err),
+                       err) != RC_OK) {
+        plan_free(plan);
+        return NULL;
+    }
     return plan;
-}
-
-static size_t
-coarse_memory(const struct rc_stress_task *task, size_t sx, size_t sy)
-{
-    struct rc_shape c = rc_coarse_shape(&task->shape, sx, sy);
-
-    return grid_memory(task, &c) + (c.nx * c.ny + task->shape.ny * c.nx) * sizeof(double);
-}
-
-static size_t
-memory(const struct rc_stress_task *task)
-{
-    size_t coarse = 0, bytes, sx, sy;
-
-    /* only one coarser grid exists at a time; at an unknown depth it may be the largest */
-    if (task->depths == 0 && may_be_coarse(task, INFINITY, &sx, &sy))
-        coarse = coarse_memory(task, sx > 1 ? 2 : 1, sy > 1 ? 2 : 1);
-    for (size_t k = 0; k < task->depths; k++)
-        if (may_be_coarse(task, task->depth[k], &sx, &sy)) {
-            bytes = coarse_memory(task, sx, sy);
-            coarse = bytes > coarse ? bytes : coarse;
-        }
-    return sizeof(struct plan) + grid_memory(task, &task->shape) + coarse;
 }
 
 static enum rc_status
@@ -478,7 +455,6 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
 }
 
 const struct rc_stress_evaluator rc_stress_slices_fft = {
-    .memory = memory,
     .new = plan_new,
     .slice = slice,
     .free = plan_free,

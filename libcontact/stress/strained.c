@@ -51,14 +51,6 @@ slabs_options(const struct rc_stress_options *o)
                                      .ranks = o->ranks};
 }
 
-size_t
-rc_strained_memory(const struct rc_stress_task *task)
-{
-    const struct rc_slabs_options options = slabs_options(&task->options);
-
-    return rc_slabs_memory(&task->shape, &options);
-}
-
 /* ---- strain ---- */
 
 static const double *

@@ -183,12 +183,6 @@ rc_stress_numbers(const struct rc_stress_task *t)
     return t->type->numbers(sheared(t));
 }
 
-size_t
-rc_stress_inside_memory(const struct rc_stress_task *t)
-{
-    return t->type->memory(sheared(t), t->options.boundary);
-}
-
 /* ---- plan ---- */
 
 struct rc_stress *
@@ -243,24 +237,6 @@ rc_stress_free(struct rc_stress *stress)
         free(stress->own[c]);
     rc_solid_free(stress->solid);
     free(stress);
-}
-
-size_t
-rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *o,
-                 const double *depth, size_t depths, size_t loaded)
-{
-    struct rc_stress_task task = task_of(shape, NULL, NULL, o, NULL);
-    size_t own = 0, ranks = rc_ranks_count(o->ranks), values = values_of(shape, o);
-
-    task.depth = depth;
-    task.depths = depths;
-    task.loaded = loaded;
-    if (ranks > 1) /* a section is refused */
-        values = shape->nx * rc_rows_most(shape, ranks);
-    for (int c = 0; c < RC_COMPONENTS; c++)
-        own += (task.components & ~o->wanted) >> c & 1;
-    return sizeof(struct rc_stress) + own * values * sizeof(double) +
-           evaluator_of(&task)->memory(&task) + (o->strain != NULL ? rc_strained_memory(&task) : 0);
 }
 
 /* ---- slices ---- */

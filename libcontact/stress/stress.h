@@ -23,16 +23,13 @@ struct rc_stress_task {
         double weight; /* ... times this weight */
     } load[RC_LOADS];
     const struct rc_inside_type *type;
-    const struct rc_solid *solid; /* NULL in an estimate */
+    const struct rc_solid *solid;
     /* bits of the six: those requested and those needed for derived stresses */
     unsigned components;
     unsigned kernels;               /* bits: the kernels needed, one of each set of equal ones */
     const struct rc_engine *engine; /* requested or chosen; NULL: there is none of that name */
     bool precise;                   /* in double precision throughout, as demanded by its name */
     struct rc_stress_counts *counts;
-    /* In an estimate: the arguments of rc_stress_memory. */
-    const double *depth;
-    size_t depths, loaded;
 };
 /* Whether there is a load; the weight of traction relative to pressure: |mu| plus the number of traction
  * maps. */
@@ -51,15 +48,12 @@ size_t rc_stress_numbers(const struct rc_stress_task *task);
 /* A depth of the body; free it with rc_inside_free. NULL when memory is short or the body is rigid there. */
 struct rc_inside *rc_stress_inside(const struct rc_stress_task *task, double depth,
                                    struct rc_err *err);
-/* Bytes of it. */
-size_t rc_stress_inside_memory(const struct rc_stress_task *task);
 
 /* ---- strained.c: the stress due to plastic strain ---- */
 
 struct rc_strained;
 enum rc_status rc_strained_check(const struct rc_stress_options *options, struct rc_err *err);
 struct rc_strained *rc_strained_new(const struct rc_stress_task *task, struct rc_err *err);
-size_t rc_strained_memory(const struct rc_stress_task *task);
 void rc_strained_free(struct rc_strained *strained); /* NULL is allowed */
 /* Adds it to the components at this depth, a map or a line of each; NULL: not needed. */
 void rc_strained_add(struct rc_strained *strained, double depth, double *const to[RC_COMPONENTS]);
@@ -70,8 +64,6 @@ void rc_strained_count(const struct rc_strained *strained, struct rc_stress_coun
 
 /* Evaluates stresses: slices_fft.c, slices_engine.c and section.c each end in one. */
 struct rc_stress_evaluator {
-    /* Bytes besides p and the results. */
-    size_t (*memory)(const struct rc_stress_task *task);
     void *(*new)(const struct rc_stress_task *task, struct rc_err *err);
     /* The components at one depth, s[c] for each bit: a map each, or a line of a section. */
     enum rc_status (*slice)(void *plan, double depth, double *const s[RC_COMPONENTS],

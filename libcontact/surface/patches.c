@@ -537,33 +537,3 @@ rc_patches_free(struct rc_patches *patches)
 
 /* Nodes of the map per run of a rough contact (a fifth of the map in contact, in runs of three nodes), and
  * per patch of a surface that is smooth over four nodes. */
-enum {
-    NODES_A_RUN = 16,
-    NODES_A_PATCH = 256
-};
-
-/* Memory of a rank besides its rows: two rows of others, places of runs in four rows, and the parts of all
- * ranks, beside its own parts or, of the same size, beside the copy used for sorting. */
-static size_t
-shared_memory(const struct rc_shape *s, size_t runs)
-{
-    size_t parts = s->nx * s->ny / NODES_A_PATCH, more = parts > runs ? parts - runs : 0;
-
-    return 2 * s->nx * sizeof(double) + 4 * (s->nx / 2 + 1) * sizeof(size_t) +
-           (parts + more) * sizeof(struct part);
-}
-
-size_t
-rc_patches_memory(const struct rc_shape *s, const double *p, const struct rc_patch_options *o)
-{
-    size_t ranks = rc_ranks_count(o->ranks), rows = ranks > 1 ? rc_rows_most(s, ranks) : s->ny;
-    size_t runs = s->nx * rows / NODES_A_RUN;
-
-    if (p != NULL && ranks == 1) {
-        runs = 0;
-        for (size_t j = 0; j < s->ny; j++)
-            runs += count_row(p + j * s->nx, s->nx);
-    }
-    return (rows + 1) * sizeof(size_t) + runs * (sizeof(struct run) + sizeof(struct part)) +
-           (ranks > 1 ? shared_memory(s, runs) : 0);
-}

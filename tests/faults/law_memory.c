@@ -754,23 +754,19 @@ plans(double *out, struct rc_err *err)
 {
     static const struct rc_conv_options conv = {.threads = 1};
     static const struct rc_problem problem = {.pair.estar = 1e9, .load = 1e-3, .threads = 1};
-    static const struct rc_stress_options stress = {.body.nu = 0.3, .wanted = 1, .threads = 1};
-    static const struct rc_patch_options patches = {.threads = 1};
     struct rc_expected expected;
     struct rc_contact apart;
     const char *reason;
-    size_t bytes[6];
+    size_t bytes[4];
 
     rc_contact_apart(NULL, &shape, rough, NULL, &apart);
     if (!(apart.mean_gap > 0))
         return rc_err_set(err, "no gap");
     bytes[0] = rc_conv_memory(&shape, &conv);
     bytes[1] = rc_solver_memory(&shape, &problem);
-    bytes[2] = rc_stress_memory(&shape, &stress, NULL, 0, 0);
-    bytes[3] = rc_patches_memory(&shape, pressure, &patches);
-    bytes[4] = rc_solver_stiffness_memory(&shape, &problem);
-    bytes[5] = rc_solver_conductance_memory(&shape, &problem);
-    for (size_t k = 0; k < 6; k++) {
+    bytes[2] = rc_solver_stiffness_memory(&shape, &problem);
+    bytes[3] = rc_solver_conductance_memory(&shape, &problem);
+    for (size_t k = 0; k < 4; k++) {
         out[k] = (double)bytes[k];
         if (bytes[k] == 0)
             return rc_err_set(err, "no plan %zu", k);

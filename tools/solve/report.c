@@ -355,11 +355,10 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
            stiffness = run->conductance ? rc_solver_conductance_memory(&shape, problem)
                        : run->stiffness ? rc_solver_stiffness_memory(&shape, problem)
                                         : 0;
-    const struct rc_patch_options patches = {.ranks = problem->ranks};
 
     if (nodes * sizeof(float) < MEMORY_APART) /* what the stiffness takes lies in the holes */
         stiffness -= stiffness < left ? stiffness : left;
-    bytes += left + stiffness + rc_patches_memory(&shape, NULL, &patches);
+    bytes += left + stiffness + nodes * sizeof(double) /* patches */;
     bytes += solve_wanted(run->args, SOLVE_CONTACT) ? nodes * sizeof *g->v : 0;
     return bytes + (keeps_heights && results ? nodes * sizeof *g->v : 0);
 }
