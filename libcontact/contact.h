@@ -1231,6 +1231,26 @@ RC_API struct rc_slip *rc_joint_slip(struct rc_joint *joint);
 RC_API const double *rc_joint_pressure(const struct rc_joint *joint);
 RC_API void rc_joint_free(struct rc_joint *joint); /* NULL is allowed */
 
+/* ---- friction as a model ---- */
+
+struct rc_friction_problem {
+    struct rc_slip_problem slip; /* `uncoupled` is that of `coupling`                       */
+    enum rc_coupling coupling;
+    size_t increments; /* from point to point, in which all axes change in proportion; 0: 16 */
+    size_t max_passes; /* as in rc_joint_problem                                            */
+};
+/* A model (model.h) of friction over an inner one of the same bodies, which it owns from here on; NULL where that
+ * is NULL. Beside the axes of the inner model it takes two forces or two displacements along the surface. h: the
+ * undeformed heights, copied. Where dissimilar bodies are coupled the inner model must allow other heights, and its
+ * tolerance should be a quarter of that of friction. Error estimates are of the iteration and the contacts; that
+ * of too few increments is not among them: compare with twice as many. */
+RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
+                                        const struct rc_friction_problem *problem,
+                                        struct rc_err *err);
+/* The figures of this model, after rc_model_look: work since the last point kept, slip of the last increment;
+ * NULL: it has no friction. */
+RC_API const struct rc_joint_figures *rc_friction_result(const struct rc_model *model);
+
 /* ---- stress ---- */
 
 enum rc_component {

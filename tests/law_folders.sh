@@ -15,7 +15,7 @@ cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/model    | %base                                    | libcontact libcontact/solver=rc_figures_
 libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/leak=rc_figures_ libcontact/plastic=rc_figures_
-libcontact/model    |                                          | libcontact/slip=rc_figures_ libcontact/stress=rc_figures_ libcontact/surface=rc_figures_ libcontact/features=rc_figures_
+libcontact/model    |                                          | libcontact/slip=rc_figures_ libcontact/slip=rc_model_ libcontact/stress=rc_figures_ libcontact/surface=rc_figures_ libcontact/features=rc_figures_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
 libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
@@ -35,6 +35,7 @@ libcontact/adhesion | %base libcontact/operator/operator.h     | libcontact libc
 libcontact/leak     | %base                                    | libcontact
 libcontact/slip     | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/ranks
 libcontact/slip     | %base libcontact/solver/solver.h         | libcontact libcontact/solver
+libcontact/slip     | libcontact/model/row.h                   | libcontact/model
 libcontact/slip     | libcontact/operator/operator.h           | libcontact/ranks libcontact/operator libcontact/transform libcontact/body
 libcontact/features | %base                                   | libcontact
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks

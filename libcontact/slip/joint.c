@@ -150,29 +150,22 @@ rc_joint_set_displacement(struct rc_joint *j, double load, double dx, double dy,
 
 /* ---- steps ---- */
 
-/* Copies `v`; the change over what there is now, in L1. */
-static void
-take(size_t n, const double *v, double *to, struct rc_total *change, struct rc_total *all)
+double
+rc_slip_take(size_t n, int maps, const double *const v[], double *const to[])
 {
-    for (size_t k = 0; k < n; k++) {
-        rc_total_add(change, fabs(v[k] - to[k]));
-        rc_total_add(all, fabs(v[k]));
-        to[k] = v[k];
-    }
+    struct rc_total change = {0}, all = {0};
+
+    for (int c = 0; c < maps; c++)
+        for (size_t k = 0; k < n; k++) {
+            rc_total_add(&change, fabs(v[c][k] - to[c][k]));
+            rc_total_add(&all, fabs(v[c][k]));
+            to[c][k] = v[c][k];
+        }
+    return rc_total_value(&all) > 0 ? rc_total_value(&change) / rc_total_value(&all) : 0;
 }
 
-static double
-ratio(const struct rc_total *change, const struct rc_total *all)
-{
-    double sum = rc_total_value(all);
-
-    return sum > 0 ? rc_total_value(change) / sum : 0;
-}
-
-/* How far the passes are from their end: c/(1 - c) of the last change where each is c times the one
- * before. */
-static double
-left_over(size_t passes, double change, double before)
+double
+rc_slip_left_over(size_t passes, double change, double before)
 {
     static const double worst = 0.95;
     double c = passes > 2 && before > 0 ? fmin(change / before, worst) : 0.5;
@@ -183,7 +176,7 @@ left_over(size_t passes, double change, double before)
 static enum rc_status
 slide(struct rc_joint *j, struct rc_err *err)
 {
-    struct rc_total change = {0}, all = {0};
+    const double *q[2] = {rc_slip_traction(j->slip, 0), rc_slip_traction(j->slip, 1)};
     enum rc_status status = rc_slip_step(j->slip, err);
     double before = j->traction_change;
 
@@ -195,10 +188,8 @@ slide(struct rc_joint *j, struct rc_err *err)
     j->last = status == RC_OK && j->good ? RC_OK : RC_SHORT;
     if (!j->alternates || j->load == 0)
         return j->last;
-    for (int c = 0; c < 2; c++)
-        take(j->n, rc_slip_traction(j->slip, c), j->before[c], &change, &all);
-    j->traction_change = ratio(&change, &all);
-    j->factor = left_over(j->passes, j->traction_change, before);
+    j->traction_change = rc_slip_take(j->n, 2, q, j->before);
+    j->factor = rc_slip_left_over(j->passes, j->traction_change, before);
     if (j->factor * fmax(j->traction_change, j->pressure_change) <= j->tol / 2)
         return j->last;
     if (j->passes >= j->most)
@@ -222,8 +213,8 @@ meet(struct rc_joint *j, struct rc_err *err)
 static enum rc_status
 step_contact(struct rc_joint *j, struct rc_err *err)
 {
-    struct rc_total change = {0}, all = {0};
     enum rc_status status = rc_solver_step(j->solver);
+    const double *p = rc_solver_pressure(j->solver);
     struct rc_contact contact;
 
     if (status == RC_MORE)
@@ -231,8 +222,7 @@ step_contact(struct rc_joint *j, struct rc_err *err)
     j->good = status == RC_OK;
     rc_solver_result(j->solver, NULL, j->gap, &contact);
     j->convolutions += rc_solver_convolutions(j->solver);
-    take(j->n, rc_solver_pressure(j->solver), j->own, &change, &all);
-    j->pressure_change = ratio(&change, &all);
+    j->pressure_change = rc_slip_take(j->n, 1, &p, &j->own);
     j->pressure_error = contact.pressure_error;
     j->approach = contact.approach + j->lowered; /* from where the bodies touch unmoved */
     j->p = j->own;

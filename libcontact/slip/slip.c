@@ -31,7 +31,7 @@ struct rc_slip {
     /* kept: of the increment before */
     double *origin[2], *old[2], *slip[2], *gap_old;
     unsigned char *touched;
-    double load_old, force_old[2], delta_old[2];
+    double load_old, force_old[2];
     /* of this one */
     double *gap, *pushed[2]; /* C p */
     double load, limit, force[2];
@@ -191,6 +191,34 @@ rc_slip_start(struct rc_slip *s, const double *const q[2])
     s->tried = true;
 }
 
+void
+rc_slip_history(struct rc_slip *s, struct rc_state *state)
+{
+    double *maps[] = {s->origin[0], s->origin[1], s->old[0], s->old[1],
+                      s->slip[0],   s->slip[1],   s->gap_old};
+    size_t has_gap = s->has_gap_old, apart = s->apart;
+
+    rc_state_count(state, &has_gap, 1);
+    rc_state_count(state, &apart, 1);
+    for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
+        rc_state_numbers(state, s->n, maps[k]);
+    for (size_t k = 0; k < s->n; k++) {
+        size_t touched = s->touched[k];
+        rc_state_count(state, &touched, 1);
+        s->touched[k] = (unsigned char)touched;
+    }
+    rc_state_numbers(state, 1, &s->load_old);
+    rc_state_numbers(state, 2, s->force_old);
+    if (!rc_state_reads(state))
+        return;
+    s->has_gap_old = has_gap;
+    s->apart = apart;
+    s->asked = s->begun = s->done = s->tried = false;
+    for (int c = 0; c < 2; c++)
+        memcpy(s->discs->q[c], s->old[c], s->n * sizeof(double));
+    memset(s->discs->face, RC_FACE_OFF, s->n);
+}
+
 /* How far a node has slipped in this increment, in units: what is left where one sticks is an error. */
 static inline double
 slipped(const struct rc_slip *s, int c, size_t k)
@@ -225,7 +253,6 @@ rc_slip_keep(struct rc_slip *s)
         for (size_t k = 0; k < s->n; k++)
             rc_total_add(&sum, d->q[c][k]);
         s->force_old[c] = rc_total_value(&sum);
-        s->delta_old[c] = d->delta[c];
     }
     s->asked = s->begun = s->done = s->tried = false;
 }

@@ -353,6 +353,50 @@ done:
     return status;
 }
 
+/* Dissimilar bodies pressed and moved; on the way to a second point the state goes into another model. */
+static enum rc_status
+friction_model(double *out, struct rc_err *err)
+{
+    const struct rc_problem contact = {.pair = bare, .threads = 1};
+    const struct rc_friction_problem law = {.slip = {.pair = bare, .mu = 0.3, .threads = 1},
+                                            .increments = 2};
+    struct rc_model *m = rc_friction_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough,
+                                         &law, err),
+                    *other = NULL;
+    enum rc_status status = RC_FAIL;
+    struct rc_point to = {0};
+    double *state = NULL;
+    bool going;
+    size_t n;
+
+    rc_point_set(&to, RC_LOAD, 1e-3);
+    rc_point_set(&to, RC_SHIFT_X, 1e-9);
+    rc_point_set(&to, RC_SHIFT_Y, 1e-10);
+    if (m == NULL || rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
+        goto done;
+    rc_point_set(&to, RC_SHIFT_X, 2e-9);
+    if (rc_model_go(m, &to, err) != RC_MORE || rc_model_step(m, err) == RC_FAIL)
+        goto done;
+    n = rc_model_state_size(m);
+    if ((state = malloc(n * sizeof *state)) == NULL) {
+        rc_err_set(err, "out of memory");
+        goto done;
+    }
+    rc_model_state(m, state);
+    other = rc_friction_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
+    if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK ||
+        rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
+        rc_model_frame(other, "traction-x", out, err) != RC_OK)
+        goto done;
+    out[N] = rc_friction_result(other)->slip.force[0];
+    status = RC_OK;
+done:
+    free(state);
+    rc_model_free(m);
+    rc_model_free(other);
+    return status;
+}
+
 /* ---- adhesion ---- */
 
 /* A state by approach, one by load from where another path was, and a retraction. */
@@ -881,6 +925,7 @@ static const struct {
     {.name = "contact, free to tilt", .use = free_to_tilt},
     {.name = "the elastic model", .use = elastic_model},
     {.name = "the yielding model", .use = yielding_model},
+    {.name = "the friction model", .use = friction_model},
     {.name = "plasticity", .use = yields},
     {.name = "plasticity after elasticity", .use = may_yield},
     {.name = "adhesion", .use = adheres},

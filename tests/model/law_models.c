@@ -21,6 +21,7 @@ enum {
     NY = 20,
     N = NX * NY,
     POINTS = 3,
+    AXES = 3, /* most, the load first: further ones are not it */
     FIGURES = 64,
     FEW = 1000 /* steps that a history takes at most */
 };
@@ -56,6 +57,34 @@ elastic(struct rc_err *err)
     return rc_elastic_new(&shape, heights, &problem, &asks, err);
 }
 
+/* Bodies alike by their nu, under forces, on a shape that is dented. */
+static struct rc_model *
+friction(struct rc_err *err)
+{
+    static const struct rc_friction_problem law = {
+        .slip = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.3, .tol = 1e-9, .threads = 1},
+        .increments = 2};
+
+    return rc_friction_new(elastic(err), heights, &law, err);
+}
+
+/* Dissimilar bodies, moved along each other: pressure and tractions are found in turn. */
+static struct rc_model *
+coupled(struct rc_err *err)
+{
+    static const struct rc_problem contact = {
+        .pair.one = {1e9, 0.4}, .pair.two.e = INFINITY, .tol = 1e-10, .threads = 1};
+    static const struct rc_friction_problem law = {.slip = {.pair.one = {1e9, 0.4},
+                                                            .pair.two.e = INFINITY,
+                                                            .mu = 0.3,
+                                                            .tol = 1e-8,
+                                                            .threads = 1},
+                                                   .increments = 2};
+
+    return rc_friction_new(rc_elastic_new(&shape, heights, &contact, NULL, err), heights, &law,
+                           err);
+}
+
 #ifdef RC_TOYS
 static struct rc_model *
 relaxing(struct rc_err *err)
@@ -69,12 +98,22 @@ relaxing(struct rc_err *err)
 static const struct kind {
     const char *name;
     struct rc_model *(*make)(struct rc_err *err);
-    enum rc_axis axis[2];
-    double at[POINTS][2];
+    enum rc_axis axis[AXES];
+    double at[POINTS][AXES];
     double tol; /* to which a restored run finds the same */
 } kinds[] = {
-    {"elastic", elastic, {RC_LOAD, RC_LOAD}, {{2e-3, 2e-3}, {0, 0}, {3e-3, 3e-3}}, 1e-6},
-    {"yielding", yielding, {RC_LOAD, RC_LOAD}, {{2e-3, 2e-3}, {0, 0}, {3e-3, 3e-3}}, 1e-3},
+    {"elastic", elastic, {RC_LOAD}, {{2e-3}, {0}, {3e-3}}, 1e-6},
+    {"yielding", yielding, {RC_LOAD}, {{2e-3}, {0}, {3e-3}}, 1e-3},
+    {"friction",
+     friction,
+     {RC_LOAD, RC_FORCE_X, RC_FORCE_Y},
+     {{2e-3, 4e-4, 1e-4}, {1e-3, -1e-4, 1e-4}, {3e-3, 1e-4, 5e-4}},
+     1e-6},
+    {"friction",
+     coupled,
+     {RC_LOAD, RC_SHIFT_X, RC_SHIFT_Y},
+     {{2e-3, 1e-8, 2e-9}, {1e-3, -1e-8, 5e-9}, {3e-3, 1e-9, 2e-8}},
+     1e-6},
 #ifdef RC_TOYS
     {"relaxing", relaxing, {RC_LOAD, RC_TIME}, {{2e-3, 0.3}, {1e-3, 0.5}, {2e-3, 0.6}}, 1e-6},
 #endif
@@ -85,7 +124,7 @@ point_of(const struct kind *kind, int k)
 {
     struct rc_point p = {0};
 
-    for (int a = 0; a < 2; a++)
+    for (int a = 0; a < AXES && (a == 0 || kind->axis[a] != RC_LOAD); a++)
         rc_point_set(&p, kind->axis[a], kind->at[k][a]);
     return p;
 }

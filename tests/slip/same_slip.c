@@ -347,10 +347,125 @@ test_displacements_of_periodic_maps(void **state)
     assert_true(stuck > 300 && slid > 300);
 }
 
+/* ---- the model of friction and rc_joint, which solves its contacts itself ---- */
+
+enum {
+    SIDE = 20,
+    NODES = SIDE * SIDE,
+    EACH = 3 /* increments from point to point */
+};
+
+/* Largest distance of the tractions at points of a path, relative, under loads, and forces or displacements. */
+static double
+apart_from_joint(const struct rc_joint_problem *o, const double (*at)[3], size_t points, bool moved)
+{
+    const struct rc_shape shape = {SIDE, SIDE, 1e-6, 1e-6};
+    const struct rc_friction_problem law = {
+        .slip = o->slip, .coupling = o->coupling, .increments = EACH};
+    double *h = slip_rough(&shape, 0.1, 4e-6, 3), q[2][NODES], before[3] = {0, 0, 0}, worst = 0;
+    struct rc_err err = {""};
+    struct rc_model *m =
+        rc_friction_new(rc_elastic_new(&shape, h, &o->contact, NULL, &err), h, &law, &err);
+    struct rc_joint *j = rc_joint_new(&shape, h, o, &err);
+
+    assert_true(m != NULL && j != NULL);
+    for (size_t k = 0; k < points; k++) {
+        struct rc_point to = {0};
+        struct rc_joint_figures f;
+        for (int i = 1; i <= EACH; i++) {
+            enum rc_status status = RC_MORE;
+            double v[3];
+            for (int a = 0; a < 3; a++)
+                v[a] = before[a] + (at[k][a] - before[a]) * i / EACH;
+            status = moved ? rc_joint_set_displacement(j, v[0], v[1], v[2], &err)
+                           : rc_joint_set_force(j, v[0], v[1], v[2], &err);
+            for (status = RC_MORE; status == RC_MORE;)
+                status = rc_joint_step(j, &err);
+            assert_int_equal(status, RC_OK);
+            rc_joint_result(j, &f);
+            rc_joint_keep(j);
+        }
+        rc_point_set(&to, RC_LOAD, at[k][0]);
+        rc_point_set(&to, moved ? RC_SHIFT_X : RC_FORCE_X, at[k][1]);
+        rc_point_set(&to, moved ? RC_SHIFT_Y : RC_FORCE_Y, at[k][2]);
+        assert_int_equal(rc_model_run(m, &to, &err), RC_OK);
+        assert_int_equal(rc_model_look(m, NULL, &err), RC_OK);
+        assert_true(rc_model_frame(m, "traction-x", q[0], &err) == RC_OK &&
+                    rc_model_frame(m, "traction-y", q[1], &err) == RC_OK);
+        worst = larger(worst,
+                       slip_distance(NODES, (const double *[2]){q[0], q[1]},
+                                     (const double *[2]){rc_slip_traction(rc_joint_slip(j), 0),
+                                                         rc_slip_traction(rc_joint_slip(j), 1)}));
+        worst = larger(worst, fabs(rc_friction_result(m)->approach / f.approach - 1));
+        worst = larger(worst, fabs(rc_model_number(m, moved ? "tangential_x" : "displacement_x") /
+                                       (moved ? f.slip.force[0] : f.slip.displacement[0]) -
+                                   1));
+        assert_int_equal(rc_model_keep(m, &err), RC_OK);
+        memcpy(before, at[k], sizeof before);
+    }
+    rc_joint_free(j);
+    rc_model_free(m);
+    free(h);
+    return worst;
+}
+
+static void
+test_model(void **state)
+{
+    static const double forces[][3] = {{2e-3, 3e-4, 1e-4}, {3e-3, -2e-4, 4e-4}, {1e-3, 1e-4, 1e-4}};
+    static const double moves[][3] = {{2e-3, 1e-8, 2e-9}, {3e-3, -1e-8, 5e-9}, {1e-3, 3e-8, 1e-9}};
+    struct rc_joint_problem o = {
+        .contact = {.pair.estar = 1e9, .load = 1e-3, .tol = 1e-9, .threads = 1},
+        .slip = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.3, .tol = 1e-8, .threads = 1}};
+
+    (void)state;
+    assert_true(apart_from_joint(&o, forces, 3, false) < 1e-6);
+    assert_true(apart_from_joint(&o, moves, 3, true) < 1e-6);
+    o.contact.pair = o.slip.pair = (struct rc_pair){.one = {1e9, 0.3}, .two.e = INFINITY};
+    o.slip.nu = 0;
+    assert_true(apart_from_joint(&o, moves, 3, true) < 1e-5);
+    o.coupling = RC_COUPLING_GOODMAN;
+    assert_true(apart_from_joint(&o, forces, 3, false) < 1e-6);
+}
+
+/* What a model of friction refuses, in words of the user. */
+static void
+test_model_refuses(void **state)
+{
+    const struct rc_shape shape = {8, 8, 1e-6, 1e-6};
+    const struct rc_friction_problem law = {.slip = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.3}};
+    const struct rc_problem contact = {.pair.estar = 1e9};
+    double *h = slip_sphere(&shape, 1e-4);
+    struct rc_err err = {""};
+    struct rc_model *m =
+        rc_friction_new(rc_elastic_new(&shape, h, &contact, NULL, &err), h, &law, &err);
+    struct rc_point to = {0};
+
+    (void)state;
+    assert_non_null(m);
+    rc_point_set(&to, RC_LOAD, 1e-4);
+    assert_int_equal(rc_model_go(m, &to, &err), RC_FAIL);
+    assert_string_equal(err.text, "a point of the friction model needs the tangential_x");
+    rc_point_set(&to, RC_FORCE_X, 1e-5);
+    rc_point_set(&to, RC_SHIFT_Y, 1e-9);
+    assert_int_equal(rc_model_go(m, &to, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "give two forces or two displacements"));
+    rc_point_set(&to, RC_FORCE_Y, 1e-4); /* more than mu P */
+    assert_int_equal(rc_model_run(m, &to, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "friction carries less than"));
+    rc_point_set(&to, RC_FORCE_Y, 0);
+    assert_int_equal(rc_model_run(m, &to, &err), RC_OK); /* as if it had not failed */
+    rc_model_free(m);
+    assert_null(rc_friction_new(NULL, h, &law, &err));
+    free(h);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_model),
+        cmocka_unit_test(test_model_refuses),
         cmocka_unit_test(test_another_method_finds_the_same),
         cmocka_unit_test(test_displacements_of_periodic_maps),
     };
