@@ -730,14 +730,16 @@ struct rc_elastic_figures {
     const char *kernel, *method; /* NULL: no load so far   */
 };
 /* A model (model.h) of elastic bodies, with or without a hardness. It takes a load or an approach; load 0:
- * the bodies are apart. Keeping a point adds its plastic dents to the shape. `h` is copied; the caller keeps
- * everything that `problem` points to. The load and approach of the problem are ignored. asks NULL: no
- * optional figures. */
+ * the bodies are apart. Keeping a point adds its plastic dents to the shape. The caller keeps `h` until the
+ * first go or restore, and everything that `problem` points to. The load and approach of the problem are
+ * ignored. asks NULL: no optional figures. */
 RC_API struct rc_model *rc_elastic_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem,
                                        const struct rc_elastic_asks *asks, struct rc_err *err);
 /* The figures after a look, of an elastic model or of a model with an elastic inner model; NULL: neither. */
 RC_API const struct rc_elastic_figures *rc_elastic_result(const struct rc_model *model);
+/* The solver of this model, which only the model steps; NULL: not elastic, or no load so far. */
+RC_API struct rc_solver *rc_elastic_solver(const struct rc_model *model);
 
 /* ---- plasticity in the volume ---- */
 
@@ -882,12 +884,15 @@ struct rc_yielding_figures {
     struct rc_plastic_figures plastic; /* all 0: nothing has yielded */
     size_t slabs;
     double max_mises_over_yield, max_mises_depth; /* of the elastic contact; m; NAN: unknown */
+    double indentation, residual_indentation;     /* as in rc_elastic_figures                */
 };
 RC_API struct rc_model *rc_yielding_new(const struct rc_shape *shape, const double *h,
                                         const struct rc_plastic_problem *problem,
                                         struct rc_err *err);
 /* The figures after a look, of a yielding model or of a model with a yielding inner model; NULL: neither. */
 RC_API const struct rc_yielding_figures *rc_yielding_result(const struct rc_model *model);
+/* The press of this model, for its plastic strain; a restore may replace it. NULL: not yielding. */
+RC_API struct rc_press *rc_yielding_press(const struct rc_model *model);
 
 /* ---- adhesion ---- */
 

@@ -180,12 +180,16 @@ struct rc_loops {
     struct rc_loop loop[RC_LOOPS];
     struct rc_shape grid; /* that is iterated, a coarser one at first        */
     double error, tol;    /* of the innermost; NAN before the first estimate */
+    bool worth;           /* a state is worth keeping now: steps soon add much to it */
+    size_t coming;        /* bytes that the next step allocates; 0: none, or few     */
 };
 RC_API void rc_model_progress(const struct rc_model *model, struct rc_loops *loops);
 
 /* ---- states: numbers that a file may keep ---- */
 
-/* After any step. Fewest right after a keep; no heights of the undeformed bodies. */
+/* After any step. Fewest right after a keep; no heights of the undeformed bodies. The first two tell how many
+ * numbers and maps there are; the maps come behind the numbers, each with the nodes of this rank. The numbers
+ * of all ranks are the same. */
 RC_API size_t rc_model_state_size(struct rc_model *model);
 RC_API void rc_model_state(struct rc_model *model, double *state);
 /* Goes on from there in a model that was made in the same way. *going: a point is set and not reached yet,

@@ -71,6 +71,8 @@ tools/cli           | formats/core/core.h                      | formats/core
 tools/cli           | libcontact/contact_mpi.h                 | libcontact/ranks
 tools/problem       | %public tools/cli/cli.h                  | %physics %cli
 tools/journal       | tools/cli/cli.h                          | libcontact formats/rcg %cli
+tools/model         | %public tools/cli/cli.h                  | %physics %cli
+tools/model         | formats/core/core.h tools/journal/journal.h | formats/core formats/rcg tools/journal
 tools/canvas        | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/plot          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/plot          | tools/canvas/canvas.h                    | tools/canvas
@@ -78,7 +80,7 @@ tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli 
 tools/cost          | formats/rcg/rcg.h                        | formats/rcg
 tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/solve         | formats/core/core.h                      | formats/core formats/rcg
-tools/solve         | tools/journal/journal.h tools/problem/problem.h | tools/journal tools/problem
+tools/solve         | tools/model/model.h tools/problem/problem.h | tools/model tools/problem
 tools/slip          | %public tools/cli/cli.h                  | %physics %cli
 tools/slip          | tools/journal/journal.h tools/problem/problem.h | tools/journal tools/problem
 tools/slip          | formats/core/core.h                      | formats/core formats/rcg
@@ -96,7 +98,7 @@ tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tool
 tools               | tools/stress/stress.h tools/render/render.h | tools/stress tools/render
 tools               | tools/leak/leak.h                        | tools/leak
 tools               | tools/info/info.h tools/slip/slip.h      | tools/info tools/slip
-tools               | tools/problem/problem.h                  | tools/problem
+tools               | tools/problem/problem.h tools/model/model.h | tools/problem tools/model
 tools               | tools/import/import.h                    | tools/import
 tools               | tools/pick/pick.h tools/synth/synth.h    | tools/pick tools/synth
 tools               | formats/core/core.h formats/rcg/rcg.h    | formats/core formats/rcg

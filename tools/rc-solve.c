@@ -140,9 +140,10 @@ main(int argc, char **argv)
 
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
+    run.course.t = &run.t;
     report_open(&run.report, &run.t, args.report);
     if (!args.dry_run)
-        run.checkpoint = checkpoint_open(&run, args.checkpoint, args.resume, args.interval);
+        run.checkpoint = checkpoint_open(&run.t, args.checkpoint, args.resume, args.interval);
     tool_catch_signals();
     while (tool_interrupted() == 0 &&
            (g = tool_channel_beside(&run.t, "height", "hardness", &hardness)) != NULL) {

@@ -282,7 +282,7 @@ rc_loops_add(struct rc_loops *s, const char *what, const char *unit, double at, 
 void
 rc_model_progress(const struct rc_model *m, struct rc_loops *s)
 {
-    *s = (struct rc_loops){.grid = m->shape, .error = NAN, .tol = NAN};
+    *s = (struct rc_loops){.grid = m->shape, .error = NAN, .tol = NAN, .worth = true};
     for (; m != NULL; m = m->inner)
         if (m->row->progress != NULL)
             m->row->progress(m, s);

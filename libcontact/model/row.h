@@ -12,11 +12,13 @@ struct rc_state;
 void rc_state_numbers(struct rc_state *s, size_t n, double *v);
 /* A size or a yes/no, at most `most`, as one number. */
 void rc_state_count(struct rc_state *s, size_t *n, size_t most);
+/* A map of n nodes, those of this rank: in a state maps come behind all numbers. */
+void rc_state_map(struct rc_state *s, size_t n, double *v);
 /* While n numbers are read: whether so many are left; else they are refused. */
 bool rc_state_holds(struct rc_state *s, size_t n);
 /* Whether numbers are read, and none of them was refused so far. */
 bool rc_state_reads(const struct rc_state *s);
-/* While numbers are read: they are not those of this model. `why`: a part of a sentence. */
+/* While numbers are read: they are not those of this model. `why`, which is copied: a part of a sentence. */
 void rc_state_refuse(struct rc_state *s, const char *why);
 
 /* Tables of figures, and where in the struct of the model their struct is; the last is NULL. */
@@ -62,7 +64,7 @@ struct rc_model {
     bool moved;               /* since the last keep                    */
     struct {                  /* state at the last keep                 */
         double *v;
-        size_t n;
+        size_t n, numbers, maps; /* values; those before the maps; maps */
     } kept;
 };
 

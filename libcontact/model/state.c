@@ -1,10 +1,11 @@
 /*
  * The state of a model and its inner ones as numbers, for files and for the copy that is taken at each
- * point kept.
+ * point kept: how many numbers and maps there are, the numbers, then the maps.
  */
 #include "row.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,31 +15,35 @@ struct rc_state {
         WRITES,
         READS
     } mode;
-    double *to;         /* WRITES */
-    const double *from; /* READS  */
-    size_t at, n;
-    const char *bad; /* why the numbers were refused; NULL: they were not */
+    double *to;            /* WRITES */
+    const double *from;    /* READS  */
+    size_t at, numbers;    /* place of the next number, and where they end     */
+    size_t map_at, n;      /* place of the next map, and where they end        */
+    size_t maps, all_maps; /* so far, and of the state that is read            */
+    bool bad;              /* the numbers were refused, */
+    char why[256];         /* because of this */
 };
 
 bool
 rc_state_reads(const struct rc_state *s)
 {
-    return s->mode == READS && s->bad == NULL;
+    return s->mode == READS && !s->bad;
 }
 
 void
 rc_state_refuse(struct rc_state *s, const char *why)
 {
-    if (s->bad == NULL)
-        s->bad = why;
+    if (!s->bad)
+        snprintf(s->why, sizeof s->why, "%s", why);
+    s->bad = true;
 }
 
 bool
 rc_state_holds(struct rc_state *s, size_t n)
 {
-    if (s->mode == READS && n > s->n - s->at)
+    if (s->mode == READS && n > s->numbers - s->at)
         rc_state_refuse(s, "numbers are missing");
-    return s->bad == NULL;
+    return !s->bad;
 }
 
 void
@@ -53,6 +58,21 @@ rc_state_numbers(struct rc_state *s, size_t n, double *v)
     else if (s->mode == WRITES)
         memcpy(s->to + s->at, v, n * sizeof *v);
     s->at += n;
+}
+
+void
+rc_state_map(struct rc_state *s, size_t n, double *v)
+{
+    if (s->mode == READS && n > s->n - s->map_at)
+        rc_state_refuse(s, "numbers are missing");
+    if (s->bad)
+        return;
+    if (s->mode == READS)
+        memcpy(v, s->from + s->map_at, n * sizeof *v);
+    else if (s->mode == WRITES)
+        memcpy(s->to + s->map_at, v, n * sizeof *v);
+    s->map_at += n;
+    s->maps++;
 }
 
 void
@@ -105,19 +125,28 @@ exchange_members(struct rc_model *m, struct rc_state *s)
 static void
 exchange_kept(struct rc_model *m, struct rc_state *s)
 {
-    size_t n = m->kept.n;
+    size_t numbers = m->kept.numbers, maps = m->kept.maps;
+    size_t nodes = maps > 0 ? (m->kept.n - numbers) / maps : 0;
     double *v;
 
-    rc_state_count(s, &n, SIZE_MAX / sizeof *v - 1);
-    if (rc_state_holds(s, n) && rc_state_reads(s)) {
-        if ((v = realloc(m->kept.v, (n + 1) * sizeof *v)) == NULL) {
+    rc_state_count(s, &numbers, SIZE_MAX / sizeof *v - 1);
+    rc_state_count(s, &maps, s->mode == READS ? s->all_maps - s->maps : maps);
+    if (!rc_state_holds(s, numbers))
+        return;
+    if (rc_state_reads(s)) {
+        nodes = maps > 0 ? (s->n - s->numbers) / s->all_maps : 0;
+        if ((v = realloc(m->kept.v, (numbers + maps * nodes + 1) * sizeof *v)) == NULL) {
             rc_state_refuse(s, "memory is short");
             return;
         }
         m->kept.v = v;
-        m->kept.n = n;
+        m->kept.n = numbers + maps * nodes;
+        m->kept.numbers = numbers;
+        m->kept.maps = maps;
     }
-    rc_state_numbers(s, n, m->kept.v);
+    rc_state_numbers(s, numbers, m->kept.v);
+    for (size_t k = 0; k < maps; k++)
+        rc_state_map(s, nodes, m->kept.v + numbers + k * nodes);
 }
 
 static void
@@ -138,7 +167,7 @@ exchange(struct rc_model *m, struct rc_state *s)
     m->moved = moved;
     if (m->moved && !m->row->forgets)
         exchange_kept(m, s);
-    if (s->bad == NULL)
+    if (!s->bad)
         exchange_members(m, s);
 }
 
@@ -153,11 +182,13 @@ rc_model_remember(struct rc_model *m, struct rc_err *err)
     if (m->row->forgets)
         return RC_OK;
     exchange_members(m, &s);
-    if ((v = realloc(m->kept.v, (s.at + 1) * sizeof *v)) == NULL)
+    if ((v = realloc(m->kept.v, (s.at + s.map_at + 1) * sizeof *v)) == NULL)
         return rc_err_set(err, "out of memory for the state of the %s model", m->row->name);
     m->kept.v = v;
-    m->kept.n = s.at;
-    s = (struct rc_state){.mode = WRITES, .to = v};
+    m->kept.n = s.at + s.map_at;
+    m->kept.numbers = s.at;
+    m->kept.maps = s.maps;
+    s = (struct rc_state){.mode = WRITES, .to = v, .map_at = s.at};
     exchange_members(m, &s);
     return RC_OK;
 }
@@ -166,48 +197,72 @@ rc_model_remember(struct rc_model *m, struct rc_err *err)
 enum rc_status
 rc_model_recall(struct rc_model *m, struct rc_err *err)
 {
-    struct rc_state s = {.mode = READS, .from = m->kept.v, .n = m->kept.n};
+    struct rc_state s = {.mode = READS,
+                         .from = m->kept.v,
+                         .n = m->kept.n,
+                         .numbers = m->kept.numbers,
+                         .map_at = m->kept.numbers,
+                         .all_maps = m->kept.maps};
 
     if (m->row->forgets)
         return RC_OK;
     exchange_members(m, &s);
-    return s.bad == NULL ? RC_OK
-                         : rc_err_set(err, "the %s model cannot return to the point before: %s",
-                                      m->row->name, s.bad);
+    return !s.bad ? RC_OK
+                  : rc_err_set(err, "the %s model cannot return to the point before: %s",
+                               m->row->name, s.why);
 }
 
 /* ---- for files ---- */
+
+static void
+exchange_all(struct rc_model *m, struct rc_state *s, size_t numbers, size_t maps)
+{
+    const size_t most = SIZE_MAX / sizeof(double);
+
+    rc_state_count(s, &numbers, most);
+    rc_state_count(s, &maps, most);
+    if (rc_state_reads(s) && numbers > s->n)
+        rc_state_refuse(s, "numbers are missing");
+    if (rc_state_reads(s)) {
+        s->numbers = s->map_at = numbers;
+        s->all_maps = maps;
+    }
+    exchange(m, s);
+}
 
 size_t
 rc_model_state_size(struct rc_model *m)
 {
     struct rc_state s = {.mode = COUNTS};
 
-    exchange(m, &s);
-    return s.at;
+    exchange_all(m, &s, 0, 0);
+    return s.at + s.map_at;
 }
 
 void
 rc_model_state(struct rc_model *m, double *state)
 {
-    struct rc_state s = {.mode = WRITES, .to = state};
+    struct rc_state s = {.mode = COUNTS};
+    size_t maps;
 
-    exchange(m, &s);
+    exchange_all(m, &s, 0, 0);
+    maps = s.maps;
+    s = (struct rc_state){.mode = WRITES, .to = state, .map_at = s.at};
+    exchange_all(m, &s, s.map_at, maps);
 }
 
 enum rc_status
 rc_model_restore(struct rc_model *m, const double *state, size_t n, bool *going, struct rc_err *err)
 {
-    struct rc_state s = {.mode = READS, .from = state, .n = n};
+    struct rc_state s = {.mode = READS, .from = state, .n = n, .numbers = n};
 
     for (size_t k = 0; k < n; k++)
         if (isnan(state[k]))
             rc_state_refuse(&s, "it holds NaN");
-    exchange(m, &s);
-    if (s.bad == NULL && s.at != n)
+    exchange_all(m, &s, 0, 0);
+    if (!s.bad && (s.at != s.numbers || s.map_at != n || s.maps != s.all_maps))
         rc_state_refuse(&s, "it has more numbers than the model");
     *going = m->status == RC_MORE;
-    return s.bad == NULL
-               ? RC_OK
-               : rc_err_set(err, "this is no state of the %s model: %s", m->row->name, s.bad);
+    return !s.bad ? RC_OK
+                  : rc_err_set(err, "this is no state of the %s model: %s", m->row->name, s.why);
 }

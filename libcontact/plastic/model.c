@@ -14,7 +14,8 @@ struct yielding {
     struct rc_model base;
     struct rc_plastic_problem problem;
     size_t n;
-    double *h, *shape; /* m: undeformed heights; those that plastic strain leaves */
+    double *h;             /* m: undeformed heights                          */
+    double first_top, top; /* m: their highest; that of those that plastic strain leaves */
     struct rc_press *press;
     bool looked;
     struct rc_yielding_figures figures;
@@ -36,6 +37,10 @@ const struct rc_figure rc_figures_yielding[] = {
     {FIGURE(max_mises_over_yield), NULL, "Mises stress over the yield stress",
      .says = "largest, where nothing has yielded"},
     {FIGURE(max_mises_depth), "m", "Depth of the largest Mises stress"},
+    {FIGURE(indentation), "m", "Indentation",
+     .says = "approach from the first touch of the first shape"},
+    {FIGURE(residual_indentation), "m", "Residual indentation",
+     .says = "first touch of the shape that is left, from that of the first shape"},
     {AS("increment_error_estimate", plastic.increment_error), NULL, "Error of the increments",
      .role = RC_FIGURE_ERROR, .by = "increments"},
     {AS("inherited_error_estimate", plastic.inherited_error), NULL, "Error of earlier loads",
@@ -55,6 +60,7 @@ static const struct rc_figure_set sets[] = {
 };
 
 enum {
+    CONTACT_FRAME,
     PRESSURE,
     GAP,
     DISPLACEMENT,
@@ -62,6 +68,7 @@ enum {
     SHAPE
 };
 static const struct rc_frame_kind frames[] = {
+    [CONTACT_FRAME] = {"contact", "1", "Contact"},
     [PRESSURE] = {"pressure", "Pa", "Pressure"},
     [GAP] = {"gap", "m", "Gap"},
     [DISPLACEMENT] = {"displacement", "m", "Displacement"},
@@ -98,6 +105,40 @@ displace(const struct yielding *y, double factor, double *v)
         v[k] += factor * u[k];
 }
 
+/* The shape that plastic strain leaves. */
+static void
+shape(const struct yielding *y, double *to)
+{
+    memcpy(to, y->h, y->n * sizeof *to);
+    displace(y, -1, to);
+}
+
+/* Figures of bodies that are apart, and the gap (NULL: not wanted). */
+static enum rc_status
+look_apart(const struct yielding *y, double *gap, struct rc_contact *c, struct rc_err *err)
+{
+    double *left = rc_alloc(y->n, sizeof *left);
+
+    if (left == NULL)
+        return rc_err_set(err, "out of memory for the shape that is left");
+    shape(y, left);
+    rc_contact_apart(NULL, &y->base.shape, left, gap, c);
+    free(left);
+    return RC_OK;
+}
+
+static double
+highest(const struct yielding *y)
+{
+    struct rc_plastic *plastic = rc_press_plastic(y->press);
+    const double *u = plastic != NULL ? rc_plastic_residual(plastic) : NULL;
+    double top = -INFINITY;
+
+    for (size_t k = 0; k < y->n; k++)
+        top = fmax(top, u != NULL ? y->h[k] - u[k] : y->h[k]);
+    return top;
+}
+
 static enum rc_status
 look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 {
@@ -107,12 +148,10 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     const struct rc_press_figures *press = rc_press_result(y->press);
     struct rc_plastic *plastic = rc_press_plastic(y->press);
 
-    (void)err;
-    memcpy(y->shape, y->h, y->n * sizeof *y->h);
-    displace(y, -1, y->shape);
-    if (m->to.at[RC_LOAD] == 0)
-        rc_contact_apart(NULL, &m->shape, y->shape, NULL, &f->contact);
-    else
+    y->top = highest(y);
+    if (m->to.at[RC_LOAD] == 0 && look_apart(y, NULL, &f->contact, err) != RC_OK)
+        return RC_FAIL;
+    if (m->to.at[RC_LOAD] > 0)
         rc_solver_result(rc_press_solver(y->press), NULL, NULL, &f->contact);
     f->plastic = plastic != NULL ? *rc_plastic_result(plastic) : none;
     f->slabs = press->slabs;
@@ -123,6 +162,8 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
         f->contact.convolutions = NAN; /* nearly all of the work is in the volume */
         f->contact.converged = m->status == RC_OK && f->plastic.error <= press->goal;
     }
+    f->residual_indentation = y->first_top - y->top;
+    f->indentation = (m->to.at[RC_LOAD] > 0 ? f->contact.approach : 0) + y->first_top - y->top;
     at->at[RC_LOAD] = f->contact.load;
     at->at[RC_APPROACH] = f->contact.approach;
     y->looked = true;
@@ -139,35 +180,42 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
         return rc_err_set(err, "frames are those of a point that was looked at");
     memset(to, 0, y->n * sizeof *to);
     if (frame == SHAPE)
-        memcpy(to, y->shape, y->n * sizeof *to);
+        shape(y, to);
     else if (frame == GAP && m->to.at[RC_LOAD] == 0)
-        rc_contact_apart(NULL, &m->shape, y->shape, to, &again);
-    else if (frame != RESIDUAL && m->to.at[RC_LOAD] > 0 && frame == PRESSURE)
+        return look_apart(y, to, &again, err);
+    else if (m->to.at[RC_LOAD] > 0 && (frame == PRESSURE || frame == CONTACT_FRAME))
         memcpy(to, rc_solver_pressure(rc_press_solver(y->press)), y->n * sizeof *to);
     else if (frame != RESIDUAL && m->to.at[RC_LOAD] > 0)
         rc_solver_result(rc_press_solver(y->press), frame == DISPLACEMENT ? to : NULL,
                          frame == GAP ? to : NULL, &again);
     if (frame == RESIDUAL || frame == DISPLACEMENT)
         displace(y, 1, to);
+    for (size_t k = 0; k < y->n && frame == CONTACT_FRAME; k++)
+        to[k] = rc_in_contact(to[k]) ? 1 : 0;
     return RC_OK;
 }
 
 /* ---- states ---- */
 
-/* The numbers go into a new press, for one that has yielded does not return to a body that has not. */
+/* The numbers go into a new press where this one has yielded and cannot return to a body that has not. */
 static void
 read_press(struct yielding *y, struct rc_state *s, const double *v, size_t n)
 {
-    struct rc_err err;
-    struct rc_press *press = rc_press_new(&y->base.shape, y->h, &y->problem, &err);
+    struct rc_press *press = y->press;
+    struct rc_err err = {""};
 
-    if (press == NULL || rc_press_restore(press, v, n, &err) != RC_OK) {
-        rc_state_refuse(s, "its body cannot be restored");
-        rc_press_free(press);
-        return;
+    if (!rc_press_returns(press, v, n)) {
+        if ((press = rc_press_new(&y->base.shape, y->h, &y->problem, &err)) == NULL) {
+            rc_state_refuse(s, err.text);
+            return;
+        }
+        rc_press_free(y->press);
+        y->press = press;
     }
-    rc_press_free(y->press);
-    y->press = press;
+    if (rc_press_restore(press, v, n, &err) != RC_OK)
+        rc_state_refuse(s, err.text);
+    if (y->base.moved)
+        y->base.status = RC_MORE; /* a step tells whether it is the solution */
     y->looked = false;
 }
 
@@ -203,18 +251,22 @@ progress(const struct rc_model *m, struct rc_loops *l)
     size_t increment, application;
     double load, most;
 
+    l->coming = rc_press_memory(y->press, NULL, 0, true);
     if (plastic != NULL) {
         most = (double)rc_press_result(y->press)->increments;
         rc_plastic_progress(plastic, &load, &increment, &application);
         rc_loops_add(l, "load", "N", load, NAN);
         rc_loops_add(l, "increment", NULL, fmin((double)increment, most), most);
         rc_loops_add(l, "application", NULL, (double)application, NAN);
+        /* between increments a state is smaller; the last may take long */
+        l->worth = application == 0 || (double)increment >= most;
     } else if (solver != NULL) {
         rc_solver_progress(solver, &at);
         rc_loops_add(l, "iteration", NULL, (double)at.iterations, NAN);
         l->grid = at.grid;
         l->error = at.error;
         l->tol = at.tol;
+        l->worth = !at.coarser && at.iterations > 0;
     }
 }
 
@@ -224,7 +276,7 @@ release(struct rc_model *m)
     struct yielding *y = (struct yielding *)m;
 
     rc_press_free(y->press);
-    free(y->h); /* and the shape, which lies behind it */
+    free(y->h);
 }
 
 const struct rc_model_row rc_model_yielding = {
@@ -256,18 +308,26 @@ rc_yielding_new(const struct rc_shape *shape, const double *h,
     y = (struct yielding *)m;
     y->problem = *problem;
     y->n = shape->nx * shape->ny;
-    if ((y->h = rc_alloc(2 * y->n, sizeof *y->h)) == NULL) {
+    if ((y->h = rc_alloc(y->n, sizeof *y->h)) == NULL) {
         rc_err_set(err, "out of memory for the heights");
         rc_model_free(m);
         return NULL;
     }
-    y->shape = y->h + y->n;
     memcpy(y->h, h, y->n * sizeof *h);
     if ((y->press = rc_press_new(shape, h, problem, err)) == NULL) {
         rc_model_free(m);
         return NULL;
     }
+    y->first_top = highest(y);
     return m;
+}
+
+struct rc_press *
+rc_yielding_press(const struct rc_model *m)
+{
+    while (m != NULL && m->row != &rc_model_yielding)
+        m = m->inner;
+    return m != NULL ? ((const struct yielding *)m)->press : NULL;
 }
 
 const struct rc_yielding_figures *

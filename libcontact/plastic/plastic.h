@@ -82,4 +82,6 @@ void rc_plastic_solve_to(struct rc_plastic *plastic, double tol);
 /* The pressure becomes the one that the next is compared with. */
 void rc_plastic_keep_pressure(struct rc_plastic *plastic);
 
+bool rc_press_returns(const struct rc_press *p, const double *state, size_t n);
+
 #endif

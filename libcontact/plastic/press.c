@@ -395,6 +395,13 @@ restore_volume(struct rc_press *p, const double *state, size_t n, struct rc_err 
     return rc_plastic_restore(p->plastic, from + before, n - HEAD - slabs - before, err);
 }
 
+/* Whether a press that has yielded can go on from this state: one of a body that has. */
+bool
+rc_press_returns(const struct rc_press *p, const double *state, size_t n)
+{
+    return p->plastic == NULL || (n >= HEAD && state[SLABS] > 0);
+}
+
 enum rc_status
 rc_press_restore(struct rc_press *p, const double *state, size_t n, struct rc_err *err)
 {

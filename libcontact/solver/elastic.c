@@ -16,9 +16,10 @@ struct elastic {
     struct rc_model base;
     struct rc_problem problem;
     struct rc_elastic_asks asks;
-    size_t n;     /* nodes of this rank                                     */
-    double *h;    /* undeformed heights; freed when the solver has its copy */
-    double *dent; /* heights less the undeformed ones; NULL: none           */
+    size_t n;            /* nodes of this rank                                     */
+    const double *given; /* undeformed heights: those of the caller until the first go, then h */
+    double *h;           /* a copy of them; freed when the solver has its copy */
+    double *dent;        /* heights less the undeformed ones; NULL: none           */
     /* m, N: error of the heights; error of the loads that made the dents */
     double height_error, off;
     double first_top, top;    /* m: highest node of the first shape, and of the present one   */
@@ -75,7 +76,7 @@ highest(const struct elastic *e)
     if (e->solver != NULL)
         return e->solver->posed.top;
     for (size_t k = 0; k < e->n; k++)
-        top = fmax(top, e->h[k]);
+        top = fmax(top, e->given[k]);
     return rc_ranks_most(e->problem.ranks, top);
 }
 
@@ -90,12 +91,25 @@ press(struct elastic *e, double load, double approach, struct rc_err *err)
     problem.load = load;
     problem.approach = approach;
     problem.height_error = e->height_error;
-    e->solver = rc_solver_new(&e->base.shape, e->h, &problem, err);
+    e->solver = rc_solver_new(&e->base.shape, e->given, &problem, err);
     if (e->solver == NULL)
         return RC_FAIL;
     e->solver->posed.dents = e->off;
     free(e->h); /* the solver has a copy */
     e->h = NULL;
+    e->given = NULL;
+    return RC_OK;
+}
+
+/* The model has heights of its own. */
+static enum rc_status
+own_heights(struct elastic *e, const double *h, struct rc_err *err)
+{
+    if (e->h == NULL && (e->h = rc_alloc(e->n, sizeof *e->h)) == NULL)
+        return rc_err_set(err, "out of memory for the heights");
+    if (h != e->h)
+        memcpy(e->h, h, e->n * sizeof *h);
+    e->given = e->h;
     return RC_OK;
 }
 
@@ -104,16 +118,14 @@ static void
 shape(const struct elastic *e, double *to)
 {
     for (size_t k = 0; k < e->n; k++)
-        to[k] = e->solver != NULL ? e->solver->posed.h[k] + e->solver->posed.top : e->h[k];
+        to[k] = e->solver != NULL ? e->solver->posed.h[k] + e->solver->posed.top : e->given[k];
 }
 
 static enum rc_status
 set_shape(struct elastic *e, const double *h, struct rc_err *err)
 {
-    if (e->solver == NULL) {
-        memcpy(e->h, h, e->n * sizeof *h);
-        return RC_OK;
-    }
+    if (e->solver == NULL)
+        return own_heights(e, h, err);
     if (rc_solver_set_heights(e->solver, h, err) != RC_OK)
         return RC_FAIL;
     e->solver->posed.height_error = e->height_error;
@@ -138,7 +150,9 @@ go(struct rc_model *m, struct rc_err *err)
     if (m->from.given == 0)
         e->first_top = highest(e);
     e->top = highest(e);
-    return e->apart ? RC_OK : press(e, by_approach ? 0 : v, by_approach ? v : 0, err);
+    if (e->apart)
+        return e->solver != NULL ? RC_OK : own_heights(e, e->given, err);
+    return press(e, by_approach ? 0 : v, by_approach ? v : 0, err);
 }
 
 static enum rc_status
@@ -179,8 +193,8 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     struct rc_elastic_figures *f = &e->figures;
 
     if (e->apart && !e->looked) {
-        rc_contact_apart(e->problem.ranks, &m->shape, e->solver != NULL ? e->solver->posed.h : e->h,
-                         NULL, &f->contact);
+        rc_contact_apart(e->problem.ranks, &m->shape,
+                         e->solver != NULL ? e->solver->posed.h : e->given, NULL, &f->contact);
         f->stiffness = NAN;
         f->conductance = f->conductance_lower = e->asks.conductivity[0] > 0 ? 0 : NAN;
     } else if (!e->looked) {
@@ -249,6 +263,7 @@ static enum rc_status
 fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 {
     struct elastic *e = (struct elastic *)m;
+    const struct rc_solver *s = e->solver;
     struct rc_contact again;
 
     if (!e->looked)
@@ -258,14 +273,15 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     if (frame == SHAPE)
         shape(e, to);
     else if (e->apart && frame == GAP)
-        rc_contact_apart(e->problem.ranks, &m->shape, e->solver != NULL ? e->solver->posed.h : e->h,
-                         to, &again);
+        rc_contact_apart(e->problem.ranks, &m->shape, s != NULL ? s->posed.h : e->given, to,
+                         &again);
     else if (e->apart)
         memset(to, 0, e->n * sizeof *to);
-    else if (frame == GAP || frame == DISPLACEMENT)
-        rc_solver_result(e->solver, frame == GAP ? NULL : to, frame == GAP ? to : NULL, &again);
+    else if (frame == PRESSURE || frame == CONTACT_FRAME)
+        memcpy(to, rc_solver_pressure(s), e->n * sizeof *to);
     else
-        memcpy(to, rc_solver_pressure(e->solver), e->n * sizeof *to);
+        for (size_t k = 0; k < e->n; k++)
+            to[k] = frame == GAP ? s->it.v[k] - s->it.shift : s->it.v[k] + s->posed.h[k];
     for (size_t k = 0; k < e->n && frame == CONTACT_FRAME; k++)
         to[k] = rc_in_contact(to[k]) ? 1 : 0;
     return RC_OK;
@@ -292,11 +308,12 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 
 /* ---- states ---- */
 
-/* Replaces the dents of the shape by those of the state. */
+/* Replaces the dents of the shape by those of the state, where these are others: heights are rounded once. */
 static void
 read_dent(struct elastic *e, struct rc_state *s, bool some)
 {
     double *now = calloc(e->n + 1, sizeof *now), *h = rc_alloc(e->n, sizeof *h);
+    bool others = false;
     struct rc_err err;
 
     if (now == NULL || h == NULL) {
@@ -304,11 +321,15 @@ read_dent(struct elastic *e, struct rc_state *s, bool some)
         goto done;
     }
     if (some)
-        rc_state_numbers(s, e->n, now);
+        rc_state_map(s, e->n, now);
     shape(e, h);
-    for (size_t k = 0; k < e->n; k++)
-        h[k] += now[k] - (e->dent != NULL ? e->dent[k] : 0);
-    if (rc_state_reads(s) && set_shape(e, h, &err) != RC_OK)
+    for (size_t k = 0; k < e->n; k++) {
+        const double more = now[k] - (e->dent != NULL ? e->dent[k] : 0);
+        others |= more != 0;
+        h[k] += more;
+    }
+    others = rc_ranks_most(e->problem.ranks, others) > 0;
+    if (rc_state_reads(s) && others && set_shape(e, h, &err) != RC_OK)
         rc_state_refuse(s, err.text[0] != '\0' ? "its shape is impossible" : "memory is short");
     free(e->dent);
     e->dent = now;
@@ -331,11 +352,12 @@ read_pressure(struct elastic *e, struct rc_state *s, double load)
         rc_state_refuse(s, "memory is short");
         return;
     }
-    rc_state_numbers(s, e->n, p);
+    rc_state_map(s, e->n, p);
     if (rc_state_reads(s) && (press(e, by_approach ? 0 : to->at[RC_LOAD],
                                     by_approach ? to->at[RC_APPROACH] : 0, &err) != RC_OK ||
                               rc_solver_warm_start(e->solver, load, p, &err) != RC_OK))
         rc_state_refuse(s, "its load or its pressure is impossible");
+    e->base.status = RC_MORE; /* a step tells whether it is the solution */
     free(p);
 }
 
@@ -347,6 +369,7 @@ state(struct rc_model *m, struct rc_state *s)
     size_t dented = e->dent != NULL, apart = e->apart;
     size_t pressed = m->moved && !e->apart && e->solver != NULL;
     double load = e->solver != NULL ? rc_solver_load(e->solver) : 0;
+    struct rc_err err;
 
     rc_state_count(s, &dented, 1);
     rc_state_count(s, &apart, 1);
@@ -357,8 +380,10 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_numbers(s, 1, &e->off);
     rc_state_numbers(s, 1, &load);
     if (!rc_state_reads(s)) { /* writing: the solver's pressure is not changed */
-        rc_state_numbers(s, dented ? e->n : 0, e->dent);
-        rc_state_numbers(s, pressed ? e->n : 0, pressed ? e->solver->it.p : NULL);
+        if (dented)
+            rc_state_map(s, e->n, e->dent);
+        if (pressed)
+            rc_state_map(s, e->n, e->solver->it.p);
         return;
     }
     e->apart = apart;
@@ -367,6 +392,8 @@ state(struct rc_model *m, struct rc_state *s)
         read_dent(e, s, dented);
     if (pressed && rc_state_reads(s))
         read_pressure(e, s, load);
+    if (e->solver == NULL && own_heights(e, e->given, &err) != RC_OK)
+        rc_state_refuse(s, "memory is short");
 }
 
 static void
@@ -382,6 +409,7 @@ progress(const struct rc_model *m, struct rc_loops *s)
     s->grid = at.grid;
     s->error = at.error;
     s->tol = at.tol;
+    s->worth = !at.coarser && at.iterations > 0;
 }
 
 static enum rc_status
@@ -437,21 +465,28 @@ rc_elastic_new(const struct rc_shape *shape, const double *h, const struct rc_pr
     e->asks = asks != NULL ? *asks : (struct rc_elastic_asks){false, {0, 0}};
     e->height_error = problem->height_error;
     e->n = rc_rows_of(problem->ranks, shape).n * shape->nx;
-    if ((e->h = rc_alloc(e->n, sizeof *e->h)) == NULL) {
-        rc_err_set(err, "out of memory for the heights");
-        rc_model_free(m);
-        return NULL;
-    }
-    memcpy(e->h, h, e->n * sizeof *h);
+    e->given = h;
     return m;
+}
+
+static const struct elastic *
+elastic_of(const struct rc_model *m)
+{
+    while (m != NULL && m->row != &rc_model_elastic)
+        m = m->inner;
+    return (const struct elastic *)m;
 }
 
 const struct rc_elastic_figures *
 rc_elastic_result(const struct rc_model *m)
 {
-    while (m != NULL && m->row != &rc_model_elastic)
-        m = m->inner;
-    return m != NULL ? &((const struct elastic *)m)->figures : NULL;
+    return elastic_of(m) != NULL ? &elastic_of(m)->figures : NULL;
+}
+
+struct rc_solver *
+rc_elastic_solver(const struct rc_model *m)
+{
+    return elastic_of(m) != NULL ? elastic_of(m)->solver : NULL;
 }
 
 const struct rc_model_row rc_model_elastic = {

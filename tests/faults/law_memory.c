@@ -316,7 +316,7 @@ elastic_model(double *out, struct rc_err *err)
     out[N] = rc_model_number(other, rc_model_figure(other, 0, &data)->name);
     out[N + 1] = rc_elastic_result(other)->stiffness + (double)loops.n + (double)going;
     out[N + 2] = at.at[RC_LOAD] + (double)rc_model_shape(other).nx + rc_model_name(other)[0];
-    out[N + 3] = rc_axis_info(0)->name[0];
+    out[N + 3] = rc_axis_info(0)->name[0] + rc_solver_load(rc_elastic_solver(other));
     status = RC_OK;
 done:
     free(state);
@@ -346,7 +346,8 @@ yielding_model(double *out, struct rc_err *err)
         rc_model_step(m, err) == RC_FAIL || rc_model_run(m, &to, err) == RC_FAIL ||
         rc_model_look(m, NULL, err) != RC_OK || rc_model_frame(m, "residual", out, err) != RC_OK)
         goto done;
-    out[N] = rc_yielding_result(m)->plastic.depth;
+    out[N] =
+        rc_yielding_result(m)->plastic.depth + (double)rc_press_result(rc_yielding_press(m))->slabs;
     status = RC_OK;
 done:
     rc_model_free(m);

@@ -378,13 +378,13 @@ states_of_others(void **state)
         for (size_t cut = 0; cut < n; cut += 1 + cut / 3)
             refused(kind, v, cut, "numbers are missing");
         refused(kind, v, n + 1, "more numbers");
-        v[0] += 1;
+        v[2] += 1;
         refused(kind, v, n, "another model");
-        v[0] -= 1, v[1] += 1;
+        v[2] -= 1, v[3] += 1;
         refused(kind, v, n, "another map");
-        v[1] -= 1, v[3] = 7;
+        v[3] -= 1, v[5] = 7;
         refused(kind, v, n, "out of range");
-        v[3] = NAN;
+        v[5] = NAN;
         refused(kind, v, n, "NaN");
         free(v);
     }

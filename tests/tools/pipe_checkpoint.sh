@@ -13,14 +13,14 @@ claim "and what would have been learnt from them is left out, with the reason" b
     $solve --load 0.1N:0.5N:3 --checkpoint kept.rcg --resume --discretization --report left.json -o left.rcg rough.rcg &&
     grep -q '\"discretization\": \"left out: resumed' left.json &&
     grep -q '\"discretization_error_estimate\": null' left.json"
-claim "the checkpoint is a grid stream of a frame a case" says '^3$' bash -c "rc-info kept.rcg | grep -c 'frame . (pressure)'"
+claim "the checkpoint is a grid stream of a frame a case" says '^3$' bash -c "rc-info kept.rcg | grep -c 'frame . (state)'"
 
 # 300,000 bytes: the first frame and a part of the second
 claim "cut off while it was written, what was whole in it serves" bash -c "
     head -c 300000 kept.rcg >torn.rcg &&
     $solve --load 0.1N:0.5N:3 --checkpoint torn.rcg --resume --report torn.json -o torn-out.rcg rough.rcg &&
     [ \$(grep -c '\"iterations\": 1,' torn.json) = 1 ] &&
-    says '^3$' bash -c \"rc-info torn.rcg | grep -c 'frame . (pressure)'\""
+    says '^3$' bash -c \"rc-info torn.rcg | grep -c 'frame . (state)'\""
 claim "nothing to resume is a first run" bash -c "
     $solve --load 0.3N --checkpoint fresh.rcg --resume -o fresh-out.rcg rough.rcg && [ -s fresh.rcg ]"
 # K p in double precision, a correction, and, with the whole set, another one: 1 + 0.5 + 0.5
@@ -94,7 +94,7 @@ head -c 500000 kept.rcg >tail.rcg # two frames and a part; a power failure may l
 head -c 100000 /dev/zero >>tail.rcg
 claim "a tail without the end of a frame is cut off" bash -c "
     $solve --load 0.1N:0.5N:3 --checkpoint tail.rcg --resume --report tail.json -o tail-out.rcg rough.rcg &&
-    [ \$(grep -c '\"iterations\": 1,' tail.json) = 2 ] && says '^3$' bash -c \"rc-info tail.rcg | grep -c 'frame . (pressure)'\""
+    [ \$(grep -c '\"iterations\": 1,' tail.json) = 2 ] && says '^3$' bash -c \"rc-info tail.rcg | grep -c 'frame . (state)'\""
 if [ -w /dev/full ]; then
     refuses 1 '--checkpoint /dev/full: there is one already' "nor over a device" \
         "$solve --load 0.1N --checkpoint /dev/full -o x.rcg rough.rcg"

@@ -28,8 +28,7 @@ history="--mean-pressure 150MPa,0,200MPa --yield 2GPa,10GPa"
 $solve $history --report plain.tsv -o plain.rcg rough.rcg
 $solve $history --checkpoint kept.rcg --interval 0 --report whole.tsv -o whole.rcg rough.rcg
 claim "a checkpoint changes nothing" cmp plain.rcg whole.rcg
-claim "it holds the elastic pressure, then states of each load" bash -c "
-    rc-info kept.rcg >info.txt && [ \"\$(grep -c '(pressure)' info.txt)\" -ge 1 ] && [ \"\$(grep -c '(state)' info.txt)\" -gt 20 ]"
+claim "it holds states of each load" bash -c "rc-info kept.rcg >info.txt && [ \"\$(grep -c '(state)' info.txt)\" -gt 20 ]"
 claim "resumed it is the same to the last bit" bash -c "
     cp kept.rcg again.rcg && $solve $history --checkpoint again.rcg --resume --report again.tsv -o again-out.rcg rough.rcg &&
     cmp whole.rcg again-out.rcg && cmp kept.rcg again.rcg"
@@ -113,33 +112,35 @@ refuses 1 'checkpoint.yield was not given, is 2000000000,10000000000' "that of e
 
 # ---- spoilt ----
 
-# lie PLACE VALUE: a number of the last state, or of the values before its end where PLACE is below 0, is another; the
-# checksum is right
+# lie PLACE VALUE: a number of the last state, the count of its slabs, or one of the values before its end where PLACE is
+# below 0, is another; the checksum is right
 lie() {
     perl -MCompress::Zlib -0777 -e '
         my ($place, $value) = splice @ARGV, 0, 2;
         my @s = <> =~ /(RCG1\n.*?RCGEND 1\n)/gs;
         my ($head, $rest) = $s[-1] =~ /^(RCG1\n.*?\n\n)(.*)$/s;
         my $body = substr($rest, 0, length($rest) - 24);
+        # two counts, the head of the model, two points, and the state at the last load, whose length comes before it
+        $place = 37 + 1 + 2 + unpack("d<", substr($body, 8 * 35, 8)) if $place eq "slabs";
         substr($body, ($place < 0 ? length($body) : 0) + 8 * $place, 8) = pack("d<", $value);
         $s[-1] = $head . $body . sprintf("crc32 %08x\n", crc32($head . $body)) . "RCGEND 1\n";
         print @s;' -- "$1" "$2" "$3" >lies.rcg
 }
-lie 2 2 kept.rcg
-refuses 1 'case 3 cannot be gone on with \(it has other slabs' "a state of other slabs" \
+lie slabs 2 kept.rcg
+refuses 1 'case 3 cannot be gone on with \(.*it has other slabs' "a state of other slabs" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 lie -1 nan kept.rcg # strain of the last voxel
-refuses 1 'case 3 cannot be gone on with \(the state is damaged: number [0-9]* of it is not finite' "one that is not finite" \
+refuses 1 'case 3 cannot be gone on with \(.*it holds NaN' "one that is not finite" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 lie -12 1e9 kept.rcg # its place
-refuses 1 'case 3 cannot be gone on with \(the state is damaged at voxel' "one whose strain is nowhere" \
+refuses 1 'case 3 cannot be gone on with \(.*the state is damaged at voxel' "one whose strain is nowhere" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 head -c "$(ends kept.rcg | head -n 10 | tail -n 1)" kept.rcg >begun.rcg # in the first load
-lie 2 1e300 begun.rcg
-refuses 1 'case 1 cannot be gone on with \(its first numbers' "one without slabs" \
+lie slabs 1e300 begun.rcg
+refuses 1 'case 1 cannot be gone on with \(.*its first numbers' "one without slabs" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
-lie 2 2 begun.rcg
-refuses 1 'case 1 cannot be gone on with \(no state' "one with fewer" \
+lie slabs 2 begun.rcg
+refuses 1 'case 1 cannot be gone on with \(.*no state' "one with fewer" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 (head -c 500000 kept.rcg && printf X && tail -c +500002 kept.rcg) >spoilt.rcg
 refuses 1 'frame [0-9]* of it cannot be read .*checksum' "a file with a damaged frame" "$solve $history --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"

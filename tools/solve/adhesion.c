@@ -83,45 +83,47 @@ begin(struct run *run, const struct rc_grid *g, struct rc_problem contact)
 
 /* ---- states in a checkpoint: the approach, then the net pressures ---- */
 
-static void
-fill_state(const void *ctx, double *to)
-{
-    const struct adhering *a = ctx;
-
-    to[0] = rc_adhesion_result(a->path)->approach;
-    rc_adhesion_pressure(a->path, to + 1);
-}
+enum {
+    NUMBERS = 3 /* how many numbers and maps there are, and the approach */
+};
 
 static void
 save(struct run *run, const struct rc_grid *g)
 {
     const struct adhering *a = &run->adhering;
+    const size_t n = rc_grid_nodes(g) + NUMBERS;
+    double *v;
 
-    if (!a->pulling) /* a retraction begins anew */
-        checkpoint_save_state(run->checkpoint, g, rc_grid_nodes(g) + 1, fill_state, a,
-                              rc_adhesion_result(a->path)->load);
+    if (a->pulling || run->checkpoint == NULL) /* a retraction begins anew */
+        return;
+    if ((v = malloc(n * sizeof *v)) == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for a state of --checkpoint");
+    v[0] = NUMBERS;
+    v[1] = 1;
+    v[2] = rc_adhesion_result(a->path)->approach;
+    rc_adhesion_pressure(a->path, v + NUMBERS);
+    checkpoint_save(&run->course, v, n);
+    free(v);
 }
 
 /* The state of this case that the checkpoint holds becomes that of the path. False: it holds none. */
 static bool
 restore(struct run *run, const struct rc_grid *g)
 {
-    struct rc_grid *state = run->adhering.pulling ? NULL : checkpoint_state(run->checkpoint, g);
     struct rc_err err;
+    size_t n;
+    double *v;
 
-    if (state == NULL)
+    run->course.g = g;
+    run->course.checkpoint = run->adhering.pulling ? NULL : run->checkpoint;
+    solve_marks(run);
+    if ((v = checkpoint_load(&run->course, &n)) == NULL)
         return false;
-    if (state->nx != rc_grid_nodes(g) + 1)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
-                    "--checkpoint %s: case %zu has %zu numbers, not those of this map: remove the "
-                    "file to begin anew",
-                    run->args->checkpoint, run->number, state->nx);
-    if (rc_adhesion_start(run->adhering.path, state->v + 1, state->v[0], &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
-                    "--checkpoint %s: case %zu cannot be gone on with (%s): remove the file to "
-                    "begin anew",
-                    run->args->checkpoint, run->number, err.text);
-    rc_grid_free(state);
+    if (n != rc_grid_nodes(g) + NUMBERS)
+        checkpoint_refuse(&run->course, "its numbers are not those of this map");
+    if (rc_adhesion_start(run->adhering.path, v + NUMBERS, v[2], &err) != RC_OK)
+        checkpoint_refuse(&run->course, err.text);
+    free(v);
     return true;
 }
 
@@ -148,8 +150,8 @@ show(struct run *run, const struct rc_grid *g)
     rc_adhesion_progress(run->adhering.path, &at);
     if (!isnan(at.error))
         snprintf(how_far, sizeof how_far, ", error %.1e of %.1e", at.error, at.tol);
-    tool_progress(&run->t, "case %zu, %zu x %zu, %s%zu, load %s, %s %zu%s", run->number, g->nx,
-                  g->ny, "state ", at.state, shown_in_unit(load, at.load, "N"),
+    tool_progress(&run->t, "case %zu, %zu x %zu, %s%zu, load %s, %s %zu%s", run->course.number,
+                  g->nx, g->ny, "state ", at.state, shown_in_unit(load, at.load, "N"),
                   at.eigenvalue ? "stability, step" : "iteration", at.iterations, how_far);
 }
 
@@ -434,19 +436,19 @@ adhesion_case(struct run *run, struct rc_grid *g, struct rc_problem first)
     const size_t states = run->steps->n + run->args->pull_off;
     struct rc_err err;
 
-    run->number = states == 1 ? rc_grid_case(g) - 1 : run->number;
+    run->course.number = states == 1 ? rc_grid_case(g) - 1 : run->course.number;
     run->began = solve_now();
     begin(run, g, first);
     for (size_t k = 0; k < states && (k == 0 || tool_interrupted() == 0); k++) {
         enum rc_status status;
         a->pulling = k == run->steps->n;
         run->step = a->pulling ? k - 1 : k;
-        run->number++;
+        run->course.number++;
         if (k > 0) {
             run->began = solve_now();
             run->setup = 0;
         }
-        run->resumed = restore(run, g);
+        run->course.resumed = restore(run, g);
         if (a->pulling)
             status = rc_adhesion_pull_off(a->path, &err);
         else if (approaches)

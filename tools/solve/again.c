@@ -43,13 +43,13 @@ solve_warn(struct run *run, const char *words, const char *format, ...)
 
     while (a < run->again + SOLVE_WARNINGS && a->words != NULL && strcmp(a->words, words) != 0)
         a++;
-    if (a < run->again + SOLVE_WARNINGS && a->words != NULL && run->number != a->first) {
-        add_case(a, run->number);
+    if (a < run->again + SOLVE_WARNINGS && a->words != NULL && run->course.number != a->first) {
+        add_case(a, run->course.number);
         return;
     }
     if (a < run->again + SOLVE_WARNINGS) {
         a->words = words;
-        a->first = run->number;
+        a->first = run->course.number;
     }
     va_start(ap, format);
     vsnprintf(text, sizeof text, format, ap);

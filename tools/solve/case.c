@@ -1,10 +1,12 @@
 /* A case of rc-solve: its loads one after another, what is found of each, and the frames that are written. */
 #include "solve.h"
 
-#include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "formats/core/core.h"
 
 /* Key of a shape that yield has left: how far off it may be, m. */
 #define HEIGHT_ERROR "height.error"
@@ -52,23 +54,47 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
     return problem;
 }
 
-static void
-solve(struct run *run, const struct rc_grid *g, struct rc_solver *solver)
-{
-    struct rc_progress at;
-    double start;
+/* ---- what a checkpoint must agree in ---- */
 
-    run->resumed = checkpoint_case(run->checkpoint, g, solver);
-    start = solve_now();
-    while (tool_interrupted() == 0 && rc_solver_step(solver) == RC_MORE) {
-        solve_progress(run, solver);
-        checkpoint_pass(run->checkpoint, g, solver);
-    }
-    tool_progress_end(&run->t);
-    run->iterate = solve_now() - start;
-    rc_solver_progress(solver, &at);
-    if (!run->resumed || at.iterations > 1) /* else it is there already */
-        checkpoint_save(run->checkpoint, g, solver);
+static void
+number_mark(struct mark *m, const char *name, double value)
+{
+    m->name = name;
+    rc_number_text(m->value, value);
+}
+
+void
+solve_marks(struct run *run)
+{
+    const struct physics *args = &run->args->physics;
+    struct mark *mark = run->course.mark;
+    size_t n = 6;
+
+    if (run->checkpoint == NULL)
+        return;
+    mark[0].name = "checkpoint.surface";
+    snprintf(mark[0].value, sizeof mark[0].value, "%s", run->crc);
+    mark[1].name = "boundary";
+    snprintf(mark[1].value, sizeof mark[1].value, "%s", args->periodic ? "periodic" : "free");
+    number_mark(&mark[2], "estar", args->estar);
+    number_mark(&mark[3], "checkpoint.hardness", args->hardness);
+    if (run->hardness != NULL)
+        snprintf(mark[3].value, sizeof mark[3].value, "map %s", run->hardness_crc);
+    number_mark(&mark[4],
+                args->load.per_metre        ? "checkpoint.load-per-metre"
+                : args->load.n > 0          ? "checkpoint.load"
+                : args->mean_pressure.n > 0 ? "checkpoint.mean-pressure"
+                                            : "checkpoint.approach",
+                run->steps->v[run->step]);
+    mark[5].name = "checkpoint.history"; /* the loads before, which have left their shape */
+    snprintf(mark[5].value, sizeof mark[5].value, "%08" PRIx32,
+             !args->history ? 0
+                            : rc_crc32_add(0, run->steps->v, run->step * sizeof *run->steps->v));
+    for (int k = 0; k < YIELD_MARKS; k++, n++)
+        mark[n].name = yield_mark(run, k, mark[n].value, sizeof mark[n].value);
+    mark[n].name = "checkpoint.adhesion";
+    adhesion_mark(run, mark[n].value, sizeof mark[n].value);
+    run->course.marks = n + 1;
 }
 
 /* ---- results ---- */
@@ -98,7 +124,7 @@ solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
         rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (run->steps->n > 1 || run->args->pull_off)
-        set_number(run, g, "case", (double)run->number);
+        set_number(run, g, "case", (double)run->course.number);
     /* the load asked for and the one reached are the same but for rounding */
     set_number(run, g, "load",
                run->args->physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);
@@ -108,52 +134,6 @@ solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
     set_number(run, g, "slabs", yields ? (double)run->yielding.found->slabs : NAN);
     set_number(run, g, "yield", yields ? rc_yield_stress(law, 0) : NAN);
     set_number(run, g, "hardening", yields ? yield_law_hardening(law) : NAN);
-}
-
-/* Maps of results are made one after another, as they are written, in one buffer. */
-struct results {
-    struct rc_grid *as; /* shape and keys of the frames */
-    double *buffer;
-    double *displacement; /* where it is; NULL: not yet made     */
-    double *own;          /* memory for it beside the buffer, or NULL */
-};
-
-static void
-results_new(struct run *run, const struct rc_grid *g, struct results *r)
-{
-    struct rc_err err;
-
-    *r = (struct results){.as = rc_grid_like(g, g->channel, g->unit, &err)};
-    if (r->as == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    /* reuse the input map when it is not written; untouched pages of the new map take no memory */
-    r->buffer =
-        solve_wanted(run->args, SOLVE_HEIGHT) || run->args->physics.history ? r->as->v : g->v;
-}
-
-static void
-results_free(struct results *r)
-{
-    rc_grid_free(r->as);
-    free(r->own);
-}
-
-/* Figures, and the first map. To look at a solution twice costs next to nothing, but for one that
- * was broken off, of which gap and displacement are made at once. */
-static void
-find_result(struct run *run, struct results *r, struct rc_solver *solver, struct rc_contact *c)
-{
-    size_t nodes = rc_grid_nodes(r->as);
-    bool gap = solve_wanted(run->args, SOLVE_GAP);
-
-    if (solve_wanted(run->args, SOLVE_DISPLACEMENT) && !gap) {
-        r->displacement = r->buffer;
-    } else if (solve_wanted(run->args, SOLVE_DISPLACEMENT) && tool_interrupted() != 0) {
-        r->displacement = r->own = malloc((nodes + 1) * sizeof *r->own);
-        if (r->own == NULL)
-            tool_die_at(&run->t, r->as, EXIT_IMPOSSIBLE, "out of memory for the displacement");
-    }
-    rc_solver_result(solver, r->displacement, gap ? r->buffer : NULL, c);
 }
 
 void
@@ -170,123 +150,73 @@ solve_put(struct run *run, const struct rc_grid *as, enum solve_frame f, const d
     tool_write(&run->t, &frame);
 }
 
-/* What yields leaves its mark. */
+/* Writes a frame of the model, found in the buffer. */
 static void
-put_plastic(struct run *run, const struct results *r, const double *h, const struct rc_contact *c)
+put(struct run *run, struct rc_model *m, const struct rc_grid *as, enum solve_frame f,
+    double *buffer)
 {
-    if (c->yielded_nodes > 0)
-        set_number(run, r->as, HEIGHT_ERROR, c->shape_error);
-    solve_put(run, r->as, SOLVE_PLASTIC, h);
-}
-
-/* Frames that are no results of the contact itself: the heights, and what is left of them, and inside. solver
- * NULL: bodies that are apart. */
-static void
-put_rest(struct run *run, const struct rc_grid *g, struct results *r, struct rc_solver *solver,
-         const struct rc_contact *c)
-{
-    size_t nodes = rc_grid_nodes(r->as);
     struct rc_err err;
 
-    r->as->type = g->type;
-    solve_put(run, r->as, SOLVE_HEIGHT, g->v);
-    r->as->type = RC_F64;
-    if (run->yielding.plastic != NULL || solver == NULL) {
-        memcpy(r->buffer, g->v, nodes * sizeof *g->v);
-        yield_displace(run, nodes, -1, r->buffer);
-    } else if (solve_wanted(run->args, SOLVE_PLASTIC) &&
-               rc_solver_plastic(solver, r->buffer, &err) != RC_OK) {
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    }
-    put_plastic(run, r, r->buffer, c);
-    memset(r->buffer, 0, nodes * sizeof *r->buffer);
-    yield_displace(run, nodes, 1, r->buffer);
-    if (run->yielding.wanted)
-        solve_put(run, r->as, SOLVE_RESIDUAL, r->buffer);
-    if (run->yielding.wanted && solve_wanted(run->args, SOLVE_STRAIN))
-        yield_put_strain(run, r->as, r->buffer);
-}
-
-/* The buffer may hold the gap by now. */
-static void
-put_contact(struct run *run, const struct results *r, const double *p)
-{
-    size_t nodes = rc_grid_nodes(r->as);
-    double *touch;
-
-    if (!solve_wanted(run->args, SOLVE_CONTACT))
+    if (!solve_wanted(run->args, (int)f))
         return;
-    if ((touch = malloc((nodes + 1) * sizeof *touch)) == NULL)
-        tool_die_at(&run->t, r->as, EXIT_IMPOSSIBLE, "out of memory for a map of the contact");
-    for (size_t k = 0; k < nodes; k++)
-        touch[k] = rc_in_contact(p[k]) ? 1 : 0;
-    solve_put(run, r->as, SOLVE_CONTACT, touch);
-    free(touch);
+    if (rc_model_frame(m, solve_frames[f].name, buffer, &err) != RC_OK)
+        tool_die_at(&run->t, as, EXIT_IMPOSSIBLE, "%s", err.text);
+    solve_put(run, as, f, buffer);
 }
 
 static void
-put_out(struct run *run, const struct rc_grid *g, struct results *r, struct rc_solver *solver,
-        const struct rc_contact *c)
+put_out(struct run *run, const struct rc_grid *g, struct rc_model *m, const struct rc_contact *c)
 {
-    struct rc_contact again;
+    struct rc_err err;
+    struct rc_grid *as = rc_grid_like(g, g->channel, g->unit, &err);
+    /* the input map, when it is not needed; untouched pages of the new map take no memory */
+    const bool last = run->step + 1 == run->steps->n && !run->args->physics.history;
+    double *buffer = as == NULL                                       ? NULL
+                     : solve_wanted(run->args, SOLVE_HEIGHT) || !last ? as->v
+                                                                      : g->v;
 
-    solve_set_keys(run, r->as, c);
-    put_contact(run, r, rc_solver_pressure(solver));
-    solve_put(run, r->as, SOLVE_PRESSURE, rc_solver_pressure(solver));
-    solve_put(run, r->as, SOLVE_GAP, r->buffer);
-    if (r->displacement == NULL && solve_wanted(run->args, SOLVE_DISPLACEMENT)) {
-        r->displacement = r->buffer;
-        rc_solver_result(solver, r->displacement, NULL, &again);
+    if (as == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    solve_set_keys(run, as, c);
+    for (int f = SOLVE_CONTACT; f <= SOLVE_DISPLACEMENT; f++)
+        put(run, m, as, (enum solve_frame)f, buffer);
+    as->type = g->type;
+    solve_put(run, as, SOLVE_HEIGHT, g->v);
+    as->type = RC_F64;
+    if (c->yielded_nodes > 0)
+        set_number(run, as, HEIGHT_ERROR, c->shape_error);
+    if (run->apart && !run->yielding.wanted) /* the shape is that of the heights */
+        solve_put(run, as, SOLVE_PLASTIC, g->v);
+    else
+        put(run, m, as, SOLVE_PLASTIC, buffer);
+    if (run->yielding.wanted) {
+        put(run, m, as, SOLVE_RESIDUAL, buffer);
+        if (solve_wanted(run->args, SOLVE_STRAIN))
+            yield_put_strain(run, as, buffer);
     }
-    if (r->displacement != NULL)
-        yield_displace(run, rc_grid_nodes(r->as), 1, r->displacement);
-    solve_put(run, r->as, SOLVE_DISPLACEMENT, r->displacement);
-    put_rest(run, g, r, solver, c);
+    rc_grid_free(as);
 }
 
 /* ---- loads ---- */
 
-static double
-highest(const struct run *run, const struct rc_grid *g)
-{
-    double top = -INFINITY;
-
-    for (size_t k = 0; k < rc_grid_nodes(g); k++)
-        top = fmax(top, g->v[k]);
-    return ranks_most(&run->t, top);
-}
-
-/* The highest node when the bodies are taken apart from where body 1 has yielded inside. */
-static double
-highest_left(const struct run *run, const struct rc_grid *g)
-{
-    const double *u = rc_plastic_residual(run->yielding.plastic);
-    double top = -INFINITY;
-
-    for (size_t k = 0; k < rc_grid_nodes(g); k++)
-        top = fmax(top, g->v[k] - u[k]);
-    return top;
-}
-
 /* In a history the heights get the shape that the load has left. */
 static void
-keep_shape(struct run *run, struct rc_grid *g, struct rc_solver *solver, struct solution *s)
+keep_shape(struct run *run, struct rc_grid *g, struct rc_model *m, struct solution *s)
 {
     struct rc_err err;
 
     if (!run->args->physics.history)
         return;
-    if (run->yielding.plastic != NULL) /* that approach is counted from the shape that is left */
-        run->top = highest_left(run, g);
-    s->indentation = s->contact.approach + run->first_top - run->top;
     if (s->contact.yielded_nodes > 0) {
-        if (rc_solver_keep_shape(solver, &s->contact, g->v, &err) != RC_OK)
+        if (rc_model_frame(m, "plastic", g->v, &err) != RC_OK)
             tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
         g->type = RC_F64;
         set_number(run, g, HEIGHT_ERROR, s->contact.shape_error);
-        run->top = highest(run, g);
     }
-    s->residual_indentation = run->first_top - run->top;
+    if (run->status != RC_MORE && rc_model_keep(m, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    s->indentation = rc_model_number(m, "indentation");
+    s->residual_indentation = rc_model_number(m, "residual_indentation");
 }
 
 /* Of a tapered map (key `taper`), the contact inside; touch is NULL for bodies that are apart. */
@@ -349,20 +279,29 @@ find_stiffness(struct run *run, const struct rc_grid *g, struct rc_solver *solve
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* What the solver has found of this load. */
+/* What the model has found of this load. */
 static void
-end_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
+end_load(struct run *run, struct rc_grid *g, struct rc_model *m)
 {
     struct solution solution = SOLUTION_NONE, *s = &solution;
-    struct results r;
-    double start = solve_now();
+    const double start = solve_now();
+    const struct rc_elastic_figures *elastic;
+    struct rc_err err;
 
-    if (tool_interrupted() == 0) /* else there may be nothing on this grid yet */
-        solve_look_at_contact(run, g, rc_solver_pressure(solver), s);
-    results_new(run, g, &r);
-    find_result(run, &r, solver, &s->contact);
-    find_stiffness(run, g, solver, s);
-    s->contact.convolutions = rc_solver_convolutions(solver);
+    if (run->apart)
+        look_inside(run, g, NULL, s);
+    else if (tool_interrupted() == 0) /* else there may be nothing on this grid yet */
+        solve_look_at_contact(run, g, rc_solver_pressure(run->solver), s);
+    if (rc_model_look(m, NULL, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    elastic = rc_elastic_result(m);
+    s->contact = elastic != NULL ? elastic->contact : rc_yielding_result(m)->contact;
+    if (run->apart && run->conductance)
+        s->conductance = (struct rc_conductance){NAN, 0, 0};
+    if (!run->apart) {
+        find_stiffness(run, g, run->solver, s);
+        s->contact.convolutions = rc_solver_convolutions(run->solver);
+    }
     if (s->contact.inherited_error > 0)
         s->errors =
             (struct error_parts){.told = true,
@@ -370,59 +309,14 @@ end_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
                                  .contact = s->contact.pressure_error - s->contact.inherited_error};
     yield_look(run, s);
     run->done = solve_now();
-    run->result = run->done - start;
+    run->result = run->apart ? 0 : run->done - start;
     solve_judge(run, g, s);
-    if (!s->contact.converged)
+    if (!s->contact.converged && !run->apart)
         tool_fails_with(&run->t, EXIT_SHORT);
-    put_out(run, g, &r, solver, &s->contact);
-    results_free(&r);
-    keep_shape(run, g, solver, s);
-    solve_report(run, g, solver, s);
+    put_out(run, g, m, &s->contact);
+    keep_shape(run, g, m, s);
+    solve_report(run, g, run->apart ? NULL : run->solver, s);
     rc_patches_free(&s->patches);
-}
-
-/* No load: the bodies are apart. */
-static void
-take_apart(struct run *run, const struct rc_grid *g)
-{
-    size_t nodes = rc_grid_nodes(g);
-    const struct rc_shape shape = rc_grid_shape(g);
-    struct solution s = SOLUTION_NONE;
-    struct results r;
-
-    double *form = g->v, *own = NULL;
-
-    run->result = 0;
-    if (run->yielding.plastic != NULL) {
-        form = own = malloc(nodes * sizeof *own);
-        if (own == NULL)
-            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for the shape that is left");
-        memcpy(own, g->v, nodes * sizeof *own);
-        yield_displace(run, nodes, -1, own);
-        run->top = highest_left(run, g);
-    }
-    rc_contact_apart(ranks_of(&run->t), &shape, form, NULL, &s.contact);
-    yield_look(run, &s);
-    if (run->conductance)
-        s.conductance = (struct rc_conductance){NAN, 0, 0};
-    run->done = solve_now();
-    s.indentation = s.residual_indentation = run->first_top - run->top;
-    look_inside(run, g, NULL, &s);
-    solve_judge(run, g, &s);
-    solve_report(run, g, NULL, &s);
-    results_new(run, g, &r);
-    solve_set_keys(run, r.as, &s.contact);
-    memset(r.buffer, 0, nodes * sizeof *r.buffer);
-    solve_put(run, r.as, SOLVE_CONTACT, r.buffer);
-    solve_put(run, r.as, SOLVE_PRESSURE, r.buffer);
-    rc_contact_apart(ranks_of(&run->t), &shape, form, r.buffer, &s.contact);
-    solve_put(run, r.as, SOLVE_GAP, r.buffer);
-    memset(r.buffer, 0, nodes * sizeof *r.buffer);
-    yield_displace(run, nodes, 1, r.buffer);
-    solve_put(run, r.as, SOLVE_DISPLACEMENT, r.buffer);
-    put_rest(run, g, &r, NULL, &s.contact);
-    results_free(&r);
-    free(own);
 }
 
 struct demand {
@@ -467,24 +361,37 @@ solve_after_plan(struct run *run)
     run->setup = solve_now() - run->began;
 }
 
-/* Solves this load of elastic bodies with a solver that there is, or NULL. The solver that has the solution. */
 static struct rc_solver *
-press(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
+solver_of(const struct run *run, const struct rc_model *m)
+{
+    return run->yielding.wanted ? rc_press_solver(rc_yielding_press(m)) : rc_elastic_solver(m);
+}
+
+/* Leads the model to this load. The first one plans the solver. */
+static void
+press(struct run *run, const struct rc_grid *g, struct rc_model *m,
       const struct rc_problem *problem)
 {
-    const struct rc_shape shape = rc_grid_shape(g);
-    struct rc_err err;
+    const bool plans = !run->apart && solver_of(run, m) == NULL;
+    const bool approach = run->args->physics.approach.n > 0;
+    struct course *c = &run->course;
+    struct rc_point to = {0};
 
-    if (solver == NULL) {
+    rc_point_set(&to, approach ? RC_APPROACH : RC_LOAD,
+                 run->apart ? 0
+                 : approach ? problem->approach
+                            : problem->load);
+    c->g = g;
+    c->checkpoint = run->apart && run->yielding.plastic == NULL ? NULL : run->checkpoint;
+    solve_marks(run);
+    if (plans)
         solve_before_plan(run, g, problem);
-        if ((solver = rc_solver_new(&shape, g->v, problem, &err)) == NULL)
-            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    course_set(c, m, &to);
+    if (plans)
         solve_after_plan(run);
-    } else if (rc_solver_set_load(solver, problem->load, problem->approach, &err) != RC_OK) {
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    }
-    solve(run, g, solver);
-    return solver;
+    run->status = course_run(c, m);
+    run->iterate = c->iterate;
+    run->solver = solver_of(run, m);
 }
 
 /* The loads of a list, each from the solution of the last; in a history, on the shape that it has
@@ -492,31 +399,31 @@ press(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
 static void
 do_loads(struct run *run, struct rc_grid *g)
 {
-    struct rc_solver *solver = NULL;
+    const struct rc_shape shape = rc_grid_shape(g);
+    struct rc_problem problem = problem_of(run, g, 0);
+    struct rc_err err;
+    struct rc_model *m = run->yielding.wanted ? yield_model(run, g, &problem)
+                                              : rc_elastic_new(&shape, g->v, &problem, NULL, &err);
 
-    if (run->args->physics.history)
-        run->first_top = run->top = highest(run, g);
-    run->number = run->steps->n == 1 ? rc_grid_case(g) - 1 : run->number;
+    if (m == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    run->course.number = run->steps->n == 1 ? rc_grid_case(g) - 1 : run->course.number;
     for (run->step = 0; run->step < run->steps->n; run->step++) {
-        struct rc_problem problem = problem_of(run, g, run->step);
-
+        problem = problem_of(run, g, run->step);
         if (run->step > 0 && tool_interrupted() != 0)
             break; /* of the first there is something to write */
         run->began = solve_now();
         run->setup = run->iterate = 0;
-        run->number++;
-        const bool apart = run->steps->v[run->step] == 0;
+        run->course.number++;
+        run->apart = run->steps->v[run->step] == 0;
         if (run->yielding.wanted)
-            solver = yield_press(run, g, &problem, apart ? 0 : problem.load);
-        else if (!apart)
-            solver = press(run, g, solver, &problem);
-        if (apart)
-            take_apart(run, g);
-        else
-            end_load(run, g, solver);
+            yield_plan(run, m, problem.load);
+        press(run, g, m, &problem);
+        if (run->yielding.wanted)
+            yield_found(run, m);
+        end_load(run, g, m);
     }
-    if (!run->yielding.wanted)
-        rc_solver_free(solver);
+    rc_model_free(m);
     yield_free(run);
 }
 
@@ -555,8 +462,10 @@ solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness)
     physics_heights(&run->t, &run->args->physics, g);
     if (!rc_grid_number(g, HEIGHT_ERROR, &run->height_error))
         run->height_error = 0;
-    run->nodes = g->nx * g->ny;
-    checkpoint_surface(run->checkpoint, g, hardness);
+    if (run->checkpoint != NULL)
+        checkpoint_crc(&run->t, g, run->crc);
+    if (run->checkpoint != NULL && hardness != NULL)
+        checkpoint_crc(&run->t, hardness, run->hardness_crc);
     if (run->args->dry_run) {
         struct rc_problem problem = problem_of(run, g, 0);
         solve_plan(run, g, &problem);

@@ -29,7 +29,7 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
         name = "mean pressure";
         unit = "Pa";
     }
-    snprintf(text, size, "%s, case %zu, %s %s", source, run->number, name,
+    snprintf(text, size, "%s, case %zu, %s %s", source, run->course.number, name,
              shown_in_unit(value, run->steps->v[run->step], unit));
     return text;
 }

@@ -127,7 +127,7 @@ discretization_state(const struct scene *s)
 {
     if (!s->run->args->discretization)
         return "left out: no --discretization";
-    return s->run->resumed ? "left out: resumed, no coarser grid was solved" : "on";
+    return s->run->course.resumed ? "left out: resumed, no coarser grid was solved" : "on";
 }
 
 static const struct effect {
@@ -287,7 +287,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     if (!report_wanted(r))
         return;
     report_begin(r);
-    report_map(r, g, run->number);
+    report_map(r, g, run->course.number);
     report_text(r, "boundary", run->args->physics.periodic ? "periodic" : "free");
     report_text(r, "kernel", solver == NULL ? NULL : rc_solver_engine(solver));
     report_text(r, "method",

@@ -8,6 +8,7 @@
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
+#include "tools/model/model.h"
 #include "tools/problem/problem.h"
 
 enum solve_frame { /* in the order of --output's words, and of writing */
@@ -46,12 +47,6 @@ struct solve_args {
 
 extern const struct opt solve_contact_options[]; /* for a struct solve_args */
 
-/* Where the error stood when this grid was begun. */
-struct progress {
-    size_t nodes, iterations;
-    double error, at; /* at: seconds */
-};
-
 /* --yield: body 1 yields inside. */
 struct yielding {
     bool wanted;
@@ -60,13 +55,11 @@ struct yielding {
     size_t asked;               /* increments of a load on the line, 0: auto                     */
     size_t slab_count;          /* on the line, 0: auto                                          */
     struct numbers list;        /* or thicknesses                                                */
-    struct rc_press *press;     /* NULL: no load has been set                                  */
     struct rc_plastic *plastic; /* of it; NULL: nothing has yielded                            */
     const struct rc_press_figures *found;
     size_t worst; /* the case with the largest error of increments, its increments */
     size_t worst_increments;
     double worst_error;
-    enum rc_status status; /* of the load                                                   */
 };
 
 /* --adhesion: the bodies attract each other. */
@@ -96,24 +89,26 @@ struct run {
     struct tool t;
     const struct solve_args *args;
     const struct numbers *steps; /* the list of loads or approaches               */
-    size_t step, number;         /* which of them, from 0; the case that it is    */
+    size_t step;                 /* which of them, from 0                         */
+    bool apart;                  /* it is 0: no load                              */
+    enum rc_status status;       /* of the load                                   */
+    struct course course;        /* and the number of the case                    */
+    struct rc_solver *solver;    /* of the model, which has the solution          */
     bool stiffness, conductance; /* whether they are found                            */
     struct yielding yielding;
     struct adhering adhering;
-    bool tilt;                    /* the counter body is free to                       */
-    double k[2];                  /* conductivities of the bodies, SI                  */
-    const char *conductance_unit; /* W/K or S; NULL: the conductivities have no unit   */
-    bool resumed;                 /* this case, from a checkpoint                      */
-    double rms_slope;             /* of the heights that came in; only for a report */
-    double height_error;          /* m: of the heights that came in */
-    double first_top, top; /* m: the highest node of the first shape, and of that of this load    */
+    bool tilt;                         /* the counter body is free to                       */
+    double k[2];                       /* conductivities of the bodies, SI                  */
+    const char *conductance_unit;      /* W/K or S; NULL: the conductivities have no unit   */
+    double rms_slope;                  /* of the heights that came in; only for a report */
+    double height_error;               /* m: of the heights that came in */
     const struct rc_grid *hardness;    /* a map of it, in the case; NULL: a number or none */
     double hardness_min, hardness_max; /* Pa, of the numbers; no number: INFINITY, -INFINITY */
     struct again again[SOLVE_WARNINGS];
     struct report report;
     struct checkpoint *checkpoint; /* NULL: none */
-    size_t nodes;                  /* of the map */
-    struct progress progress;
+    char crc[16],
+        hardness_crc[16]; /* of the heights, the sphere included, and of the map of hardness */
     double began, setup, iterate, result, done; /* seconds */
 };
 
@@ -175,6 +170,8 @@ void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_proble
 /* Solves the loads of these heights, and writes and reports what is found. hardness: a map of it, or NULL. */
 void solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness);
 
+/* What a checkpoint of this step must agree in becomes run->course.mark. */
+void solve_marks(struct run *run);
 /* Keys of the frames of a solution. */
 void solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c);
 /* Writes a frame, with the keys of `as`, where it is wanted. */
@@ -208,10 +205,12 @@ void adhesion_report(struct report *report, const struct run *run);
 /* Reads --yield, --increments, --slabs, or ends the tool. */
 void yield_read(struct run *run);
 void yield_free(struct run *run);
-/* Presses a body that may yield, from what the checkpoint has of this case on; load 0: N, none. The solver that
- * has the solution. */
-struct rc_solver *yield_press(struct run *run, const struct rc_grid *g,
-                              const struct rc_problem *problem, double load);
+/* The model of a body that may yield. */
+struct rc_model *yield_model(struct run *run, const struct rc_grid *g,
+                             const struct rc_problem *problem);
+/* Before a load, N: the loads that are left; and after it. */
+void yield_plan(struct run *run, const struct rc_model *m, double load);
+void yield_found(struct run *run, const struct rc_model *m);
 /* What a checkpoint of such a body must agree in, k from 0 on: its name, and its value, empty
  * without --yield. */
 enum {
@@ -220,8 +219,6 @@ enum {
 const char *yield_mark(const struct run *run, int k, char *value, size_t size);
 /* Puts the estimated error of the plastic body, and its parts, in place of the contact's. */
 void yield_look(struct run *run, struct solution *solution);
-/* v += factor times the residual displacement. */
-void yield_displace(const struct run *run, size_t n, double factor, double *v);
 /* The plastic strain slab by slab; `like`: the frames' shape and keys; buffer: room for a map. */
 void yield_put_strain(struct run *run, const struct rc_grid *like, double *buffer);
 /* The largest pressure, and its name (NULL: not wanted): of means of 2 x 2 nodes where single nodes
@@ -238,34 +235,4 @@ void yield_report(struct report *report, const struct run *run);
 /* Before a solver of the map is planned, and after: room for it is demanded, and a signal ends the tool. */
 void solve_before_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem);
 void solve_after_plan(struct run *run);
-/* Tells where the solver stands. */
-void solve_progress(struct run *run, const struct rc_solver *solver);
-
-/* ---- checkpoint.c; NULL for a checkpoint is allowed: nothing is done ---- */
-
-/* The file `name` (NULL: none), new or, to resume, as it is. Does not return when it cannot be
- * used. */
-struct checkpoint *checkpoint_open(struct run *run, const char *name, bool resume, double interval);
-void checkpoint_close(struct checkpoint *checkpoint);
-/* These are the heights of the cases that come, and the map of hardness; NULL: there is none. */
-void checkpoint_surface(struct checkpoint *checkpoint, const struct rc_grid *g,
-                        const struct rc_grid *hardness);
-/* A case begins. True when a pressure had been kept for it: the solver starts from that. */
-bool checkpoint_case(struct checkpoint *checkpoint, const struct rc_grid *g,
-                     struct rc_solver *solver);
-/* A case begins, or goes on, in a body that yields inside, or attracts the other: its last state, as
- * checkpoint_save_state was given it, which the caller frees; NULL: there is none. */
-struct rc_grid *checkpoint_state(struct checkpoint *checkpoint, const struct rc_grid *g);
-/* Keeps n numbers, which fill(ctx, ...) writes, under this load, N. */
-typedef void checkpoint_fill(const void *ctx, double *to);
-void checkpoint_save_state(struct checkpoint *checkpoint, const struct rc_grid *g, size_t n,
-                           checkpoint_fill *fill, const void *ctx, double load);
-/* Whether it is time to keep what is reached; then the next time is twice as far. */
-bool checkpoint_due(struct checkpoint *checkpoint);
-/* Keeps the pressure reached; `pass` does so only where it is time for it. */
-void checkpoint_save(struct checkpoint *checkpoint, const struct rc_grid *g,
-                     const struct rc_solver *solver);
-void checkpoint_pass(struct checkpoint *checkpoint, const struct rc_grid *g,
-                     const struct rc_solver *solver);
-
 #endif

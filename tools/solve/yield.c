@@ -82,8 +82,6 @@ yield_free(struct run *run)
 {
     struct yielding *y = &run->yielding;
 
-    rc_press_free(y->press);
-    y->press = NULL;
     y->plastic = NULL;
     y->found = NULL;
 }
@@ -127,167 +125,43 @@ yield_mark(const struct run *run, int k, char *value, size_t size)
 
 /* ---- the loads ---- */
 
-static void
-fill_state(const void *ctx, double *to)
-{
-    (void)rc_press_state(ctx, to);
-}
-
-static void
-save(struct run *run, const struct rc_grid *g, double load)
-{
-    struct rc_press *press = run->yielding.press;
-
-    if (rc_press_plastic(press) != NULL)
-        checkpoint_save_state(run->checkpoint, g, rc_press_state(press, NULL), fill_state, press,
-                              load);
-    else
-        checkpoint_save(run->checkpoint, g, rc_press_solver(press));
-}
-
-/* Shows how far the load is. Whether it is worth to be kept in a checkpoint. */
-static bool
-tell_progress(struct run *run, const struct rc_grid *g)
-{
-    struct rc_press *press = run->yielding.press;
-    size_t increment, application, increments;
-    struct rc_progress contact;
-    double at;
-
-    if (rc_press_plastic(press) == NULL) {
-        solve_progress(run, rc_press_solver(press));
-        rc_solver_progress(rc_press_solver(press), &contact);
-        return !contact.coarser && contact.iterations > 0;
-    }
-    rc_plastic_progress(rc_press_plastic(press), &at, &increment, &application);
-    increments = rc_press_result(press)->increments;
-    tool_progress(&run->t,
-                  "case %zu, %zu x %zu, load %.3g N, increment %zu of %zu, application %zu",
-                  run->number, g->nx, g->ny, at, increment, increments, application);
-    /* between increments less is to be kept; the last may take long */
-    return application == 0 || increment >= increments;
-}
-
-/* To the end of the load that is set, or to a signal. */
-static void
-go(struct run *run, const struct rc_grid *g, double load)
-{
-    struct yielding *y = &run->yielding;
-    double start = solve_now();
-    size_t steps = 0;
-    struct rc_err err;
-
-    y->status = RC_MORE;
-    while (tool_interrupted() == 0 && y->status == RC_MORE) {
-        size_t bytes = rc_press_memory(y->press, NULL, 0, run->checkpoint != NULL);
-
-        if (bytes > 0) {
-            tool_demand_memory(&run->t, g, bytes);
-            save(run, g, load);
-        }
-        y->status = rc_press_step(y->press, &err);
-        steps++;
-        if (y->status == RC_FAIL)
-            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-        if (tell_progress(run, g) && y->status == RC_MORE && checkpoint_due(run->checkpoint))
-            save(run, g, load);
-    }
-    tool_progress_end(&run->t);
-    if (!run->resumed || steps > 2) /* else it is there already */
-        save(run, g, load);
-    run->iterate = solve_now() - start;
-}
-
-/* Goes on from the state that the checkpoint has of this case; false: it has none. */
-static bool
-resume(struct run *run, const struct rc_grid *g)
-{
-    struct yielding *y = &run->yielding;
-    struct rc_grid *state = checkpoint_state(run->checkpoint, g);
-    struct rc_err err;
-    size_t bytes;
-
-    if (state == NULL)
-        return false;
-    bytes = rc_press_memory(y->press, state->v, state->nx, true);
-    if (bytes > 0)
-        tool_demand_memory(&run->t, g, bytes);
-    if (rc_press_restore(y->press, state->v, state->nx, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
-                    "--checkpoint %s: case %zu cannot be gone on with (%s): remove the file to "
-                    "begin anew",
-                    run->args->checkpoint, run->number, err.text);
-    rc_grid_free(state);
-    return true;
-}
-
-static void
-begin(struct run *run, const struct rc_grid *g, struct rc_problem contact)
+struct rc_model *
+yield_model(struct run *run, const struct rc_grid *g, const struct rc_problem *contact)
 {
     struct yielding *y = &run->yielding;
     const struct rc_shape shape = rc_grid_shape(g);
-    const struct rc_plastic_problem problem = {.contact = contact,
+    const struct rc_plastic_problem problem = {.contact = *contact,
                                                .yield = y->law,
                                                .slabs = y->list.n > 0 ? y->list.n : y->slab_count,
                                                .thickness = y->list.n > 0 ? y->list.v : NULL,
                                                .increments = y->asked};
     struct rc_err err;
+    struct rc_model *m = rc_yielding_new(&shape, g->v, &problem, &err);
 
-    if ((y->press = rc_press_new(&shape, g->v, &problem, &err)) == NULL)
+    if (m == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    return m;
 }
 
-/* Tells the loads that are left; those of the list are in a unit of their own. */
-static void
-plan(struct run *run, double load)
+void
+yield_plan(struct run *run, const struct rc_model *m, double load)
 {
-    const double *v = run->steps->v;
+    const double *v = run->steps->v; /* in a unit of their own */
     double most = 0;
 
     for (size_t k = run->step; k < run->steps->n; k++)
         most = fmax(most, v[k]);
-    rc_press_plan(run->yielding.press, run->steps->n - run->step, most * load / v[run->step]);
+    if (run->yielding.plastic == NULL && load > 0)
+        rc_press_plan(rc_yielding_press(m), run->steps->n - run->step, most * load / v[run->step]);
 }
 
-/* Sets the load. The first elastic contact is planned. */
-static void
-set_load(struct run *run, const struct rc_grid *g, const struct rc_problem *problem, double load)
+void
+yield_found(struct run *run, const struct rc_model *m)
 {
-    struct rc_press *press = run->yielding.press;
-    const bool plans = load > 0 && rc_press_solver(press) == NULL;
-    enum rc_status status;
-    struct rc_err err;
+    struct rc_press *press = rc_yielding_press(m);
 
-    if (plans)
-        solve_before_plan(run, g, problem);
-    status = rc_press_set_load(press, load, &err);
-    if (plans)
-        solve_after_plan(run);
-    if (status != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-}
-
-struct rc_solver *
-yield_press(struct run *run, const struct rc_grid *g, const struct rc_problem *problem, double load)
-{
-    struct yielding *y = &run->yielding;
-    const bool apart = load == 0 && y->plastic == NULL;
-
-    if (y->press == NULL)
-        begin(run, g, *problem);
-    if (y->plastic == NULL && load > 0)
-        plan(run, load);
-    run->resumed = !apart && resume(run, g);
-    if (!run->resumed) {
-        set_load(run, g, problem, load);
-        if (y->plastic == NULL && !apart)
-            run->resumed = checkpoint_case(run->checkpoint, g, rc_press_solver(y->press));
-    }
-    if (!apart)
-        go(run, g, load);
-    y->found = rc_press_result(y->press);
-    y->plastic = rc_press_plastic(y->press);
-    return rc_press_solver(y->press);
+    run->yielding.found = rc_press_result(press);
+    run->yielding.plastic = rc_press_plastic(press);
 }
 
 /* ---- what is found ---- */
@@ -320,15 +194,15 @@ yield_look(struct run *run, struct solution *s)
     s->errors = (struct error_parts){
         true,          f->increment_error, f->inherited_error, f->iteration_error, f->contact_error,
         f->image_error};
-    if (y->status == RC_MORE) /* broken off */
+    if (run->status == RC_MORE) /* broken off */
         s->errors.increment = NAN;
     c->pressure_error = errors_sum(&s->errors);
-    c->converged = y->status == RC_OK && c->converged &&
+    c->converged = run->status == RC_OK && c->converged &&
                    (errors_within(c->pressure_error, goal(run)) ||
                     (y->asked > 0 && isnan(c->pressure_error))); /* so few were asked for */
     if (f->increment_error > y->worst_error) {
         y->worst_error = f->increment_error;
-        y->worst = run->number;
+        y->worst = run->course.number;
         y->worst_increments = f->increments;
     }
 }
@@ -345,18 +219,6 @@ yield_peak(const struct run *run, double max_pressure, const char **name)
     if (name != NULL)
         *name = alternates ? "largest pressure over 2 x 2 nodes" : "largest pressure";
     return alternates ? rc_plastic_result(y->plastic)->max_pressure_mean4 : max_pressure;
-}
-
-void
-yield_displace(const struct run *run, size_t n, double factor, double *v)
-{
-    const double *u;
-
-    if (run->yielding.plastic == NULL)
-        return;
-    u = rc_plastic_residual(run->yielding.plastic);
-    for (size_t k = 0; k < n; k++)
-        v[k] += factor * u[k];
 }
 
 /* ---- strain ---- */
@@ -480,7 +342,7 @@ yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
     if (y->plastic == NULL)
         return false;
     rc_plastic_progress(y->plastic, &load, &increment, &application);
-    if (y->status == RC_MORE)
+    if (run->status == RC_MORE)
         tool_warn(&run->t,
                   "%s: interrupted in increment %zu of %zu: what is written is on the way there, "
                   "not a solution: its error is not known",
@@ -490,7 +352,7 @@ yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
                    "%s: nothing is known of its error: a load was reached in fewer than 8 "
                    "increments: give more --increments",
                    where);
-    else if (!s->contact.converged && y->status == RC_OK && s->contact.pressure_error > goal(run))
+    else if (!s->contact.converged && run->status == RC_OK && s->contact.pressure_error > goal(run))
         warn_of_part(run, where, s);
     else
         return false;

@@ -1,0 +1,321 @@
+/*
+ * --checkpoint and --resume: a file of states, from which a run that was cut off goes on.
+ *
+ * A state is a frame for each map, the last of which has the numbers in its header, or, without maps, a frame of
+ * numbers. Frames are only ever added, each a grid stream of its own with its end line, so that the file is
+ * whole but for what was being written when the machine stopped: a case when it is done, what is
+ * reached of one when a signal ends the run, and on the way after 1, 2, 4, 8 ... intervals, so that
+ * at most half of the time spent on a case is lost. Of several states of a case the last counts.
+ * Disk full is no reason to lose the solution: it is said once, and the run goes on.
+ */
+#include "model.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+
+#include "formats/core/core.h"
+#include "tools/journal/journal.h"
+
+enum {
+    FEW = 1024 /* numbers in a header */
+};
+
+struct checkpoint {
+    struct tool *t;
+    struct journal journal;
+    struct saved {          /* a frame */
+        size_t number, map; /* the case; which map of a state, from 0  */
+        bool last;          /* of the state                            */
+        off_t at;           /* where it begins                         */
+    } * saved;
+    size_t count;
+    double began, wait, next; /* seconds: of this case, between states, of the next one */
+};
+
+/* ---- what is there ---- */
+
+static void
+note(struct checkpoint *c, const struct rc_grid *g, off_t at)
+{
+    struct saved *more = realloc(c->saved, (c->count + 1) * sizeof *more);
+    double number, map;
+
+    if (more == NULL)
+        tool_die(c->t, EXIT_IMPOSSIBLE, "out of memory for the cases of --checkpoint");
+    c->saved = more;
+    if (!rc_grid_number(g, "checkpoint.case", &number))
+        tool_die(c->t, EXIT_IMPOSSIBLE,
+                 "--checkpoint %s: a grid stream, but no checkpoint: name another file",
+                 c->journal.name);
+    if (!rc_grid_number(g, "checkpoint.map", &map))
+        tool_die(c->t, EXIT_IMPOSSIBLE,
+                 "--checkpoint %s: another version wrote it: remove the file to begin anew",
+                 c->journal.name);
+    c->saved[c->count++] = (struct saved){(size_t)number, (size_t)map,
+                                          rc_grid_get(g, "checkpoint.numbers") != NULL, at};
+}
+
+/* Whether the first frame, whole or not, is one of a checkpoint. */
+static bool
+is_checkpoint(const struct checkpoint *c)
+{
+    bool begins = true; /* a line may come in several pieces: this is its first */
+    char line[256];
+
+    if (fseeko(c->journal.file, 0, SEEK_SET) != 0 ||
+        fgets(line, sizeof line, c->journal.file) == NULL || strcmp(line, "RCG1\n") != 0)
+        return false;
+    while (fgets(line, sizeof line, c->journal.file) != NULL &&
+           !(begins && strcmp(line, "\n") == 0)) {
+        if (begins && strncmp(line, "checkpoint.case=", 16) == 0)
+            return true;
+        begins = strchr(line, '\n') != NULL;
+    }
+    return false;
+}
+
+/* Finds the frames. What was being written when the run was cut off is cut off here too. */
+static void
+look_through(struct checkpoint *c)
+{
+    struct tool *t = c->t;
+    struct rc_err err;
+    struct rc_reader *reader = rc_reader_new(c->journal.file, 0, t->memory, &err);
+    const struct rc_share *share = ranks_read(t, c->journal.name);
+    struct rc_grid *g;
+    enum rc_status status;
+    off_t end = 0;
+
+    if (reader == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    rc_reader_share(reader, share);
+    while ((status = rc_reader_next(reader, &g, &err)) == RC_MORE) {
+        note(c, g, end);
+        end = journal_frame_end(&c->journal);
+        rc_grid_free(g);
+    }
+    rc_reader_free(reader);
+    ranks_close(t, share);
+    clearerr(c->journal.file);
+    if (fseeko(c->journal.file, 0, SEEK_END) == 0 && ftello(c->journal.file) == 0)
+        return;
+    if (status != RC_OK && c->count == 0 && !is_checkpoint(c))
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "--checkpoint %s: no pressure can be read from it (%s): remove it to begin anew",
+                 c->journal.name, err.text);
+    if (status != RC_OK && !journal_is_cut_off(&c->journal, end))
+        tool_die(
+            t, EXIT_IMPOSSIBLE,
+            "--checkpoint %s: frame %zu of it cannot be read (%s): remove the file to begin anew",
+            c->journal.name, c->count + 1, err.text);
+    ranks_wait(t);         /* all have looked */
+    if (!ranks_speak(t)) { /* the first one cuts it off */
+        ranks_wait(t);
+        return;
+    }
+    if (c->count == 0)
+        tool_warn(t,
+                  "--checkpoint %s: the run stopped while it wrote the first frame: it begins anew",
+                  c->journal.name);
+    journal_cut(&c->journal, c->count, end);
+    ranks_wait(t);
+}
+
+struct checkpoint *
+checkpoint_open(struct tool *t, const char *name, bool resume, double interval)
+{
+    struct checkpoint *c;
+    bool found;
+
+    if (name == NULL)
+        return NULL;
+    if ((c = calloc(1, sizeof *c)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    c->t = t;
+    c->wait = interval;
+    journal_open(&c->journal, t, name, resume, &found);
+    if (found)
+        look_through(c);
+    return c;
+}
+
+void
+checkpoint_close(struct checkpoint *c)
+{
+    if (c == NULL)
+        return;
+    journal_close(&c->journal);
+    free(c->saved);
+    free(c);
+}
+
+void
+checkpoint_crc(struct tool *t, const struct rc_grid *g, char text[16])
+{
+    size_t bytes = rc_grid_nodes(g) * sizeof *g->v;
+
+    snprintf(text, 16, "%08" PRIx32, ranks_crc(t, rc_crc32_add(0, g->v, bytes), bytes));
+}
+
+void
+checkpoint_refuse(const struct course *c, const char *why)
+{
+    tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE,
+                "--checkpoint %s: case %zu cannot be gone on with (%s): remove the file to begin "
+                "anew",
+                c->checkpoint->journal.name, c->number, why);
+}
+
+/* ---- reading ---- */
+
+static void
+compare(const struct course *c, const struct rc_grid *saved, bool map)
+{
+    const struct rc_grid *g = c->g;
+    const char *name = c->checkpoint->journal.name;
+
+    if ((map && (saved->nx != g->nx || saved->ny != g->ny)) || saved->dx != g->dx ||
+        saved->dy != g->dy)
+        tool_die_at(c->t, g, EXIT_IMPOSSIBLE,
+                    "--checkpoint %s: it belongs to another grid, %zu x %zu nodes", name, saved->nx,
+                    saved->ny);
+    for (size_t k = 0; k < c->marks; k++) {
+        const struct mark *mark = &c->mark[k];
+        const char *was = rc_grid_get(saved, mark->name);
+        if (strcmp(was == NULL ? "" : was, mark->value) != 0)
+            tool_die_at(c->t, g, EXIT_IMPOSSIBLE,
+                        "--checkpoint %s: it belongs to another problem: %s was %s, is %s", name,
+                        mark->name, was == NULL ? "not given" : was,
+                        mark->value[0] == '\0' ? "not given" : mark->value);
+    }
+}
+
+/* Numbers from the header; how many. */
+static size_t
+read_numbers(const char *text, double to[FEW])
+{
+    size_t n = 0;
+    char *end;
+
+    for (; n < FEW; n++, text = end) {
+        to[n] = strtod(text, &end);
+        if (end == text)
+            break;
+    }
+    return n;
+}
+
+double *
+checkpoint_load(struct course *course, size_t *n)
+{
+    struct checkpoint *c = course->checkpoint;
+    double numbers[FEW], *v = NULL;
+    struct rc_grid *g;
+    size_t k, maps, nodes = 0, few = 0;
+
+    if (c == NULL)
+        return NULL;
+    c->began = tool_now();
+    c->next = c->wait;
+    for (k = c->count; k > 0 && (c->saved[k - 1].number != course->number || !c->saved[k - 1].last);
+         k--)
+        ;
+    if (k == 0)
+        return NULL;
+    maps = c->saved[k - 1].map + 1;
+    for (size_t j = maps; j-- > 0;) {
+        g = journal_read(&c->journal, c->saved[k - maps + j].at);
+        if (j + 1 == maps) { /* the first that is read */
+            few = read_numbers(rc_grid_get(g, "checkpoint.numbers"), numbers);
+            compare(course, g, few > 0);
+            nodes = rc_grid_nodes(g);
+            *n = few + maps * nodes;
+            if ((v = malloc((*n + 1) * sizeof *v)) == NULL)
+                tool_die_at(c->t, course->g, EXIT_IMPOSSIBLE,
+                            "out of memory for a state of --checkpoint");
+            memcpy(v, numbers, few * sizeof *v);
+        }
+        memcpy(v + few + j * nodes, g->v, nodes * sizeof *v);
+        rc_grid_free(g);
+    }
+    return v;
+}
+
+/* ---- saving ---- */
+
+/* A frame, of one node as yet, with the case and the marks. */
+static struct rc_grid *
+new_frame(const struct course *c, struct rc_err *err)
+{
+    const struct rc_shape one = {1, 1, c->g->dx, c->g->dy};
+    struct rc_grid *out = rc_grid_new(&one, "state", "1", err);
+    bool fine =
+        out != NULL && rc_grid_set_number(out, "checkpoint.case", (double)c->number, err) == RC_OK;
+
+    for (size_t k = 0; k < c->marks && fine; k++)
+        fine = c->mark[k].value[0] == '\0' ||
+               rc_grid_set(out, c->mark[k].name, c->mark[k].value, err) == RC_OK;
+    if (!fine || rc_grid_history(out, tool_history(c->t), err) != RC_OK)
+        tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "%s", err->text);
+    return out;
+}
+
+/* Adds a frame of this shape and these values; numbers: what the header says of them, or NULL. False: it could
+ * not be written. */
+static bool
+add(struct course *course, const struct rc_grid *shape, const double *v, size_t map,
+    const char *numbers)
+{
+    struct checkpoint *c = course->checkpoint;
+    struct rc_err err;
+    struct rc_grid *out = new_frame(course, &err);
+    double *own = out->v;
+    bool done;
+    off_t at;
+
+    if (rc_grid_set_number(out, "checkpoint.map", (double)map, &err) != RC_OK ||
+        (numbers != NULL && rc_grid_set(out, "checkpoint.numbers", numbers, &err) != RC_OK))
+        tool_die_at(c->t, course->g, EXIT_IMPOSSIBLE, "%s", err.text);
+    out->nx = shape->nx;
+    out->ny = shape->ny;
+    out->elsewhere = shape->elsewhere;
+    out->v = (double *)v; /* it is only read */
+    if ((done = journal_add(&c->journal, out, &at)))
+        note(c, out, at);
+    out->v = own;
+    rc_grid_free(out);
+    return done;
+}
+
+void
+checkpoint_save(struct course *c, const double *state, size_t n)
+{
+    const size_t numbers = (size_t)state[0], maps = (size_t)state[1];
+    const struct rc_grid row = {.nx = n, .ny = 1};
+    char text[FEW * RC_NUMBER_SIZE] = "", number[RC_NUMBER_SIZE];
+    size_t length = 0, nodes = rc_grid_nodes(c->g);
+
+    if (c->checkpoint == NULL || c->checkpoint->journal.file == NULL)
+        return;
+    if (maps == 0 || numbers > FEW) {
+        (void)add(c, &row, state, 0, "values");
+        return;
+    }
+    for (size_t k = 0; k < numbers; k++)
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", k > 0 ? " " : "",
+                                   rc_number_text(number, state[k]));
+    for (size_t k = 0; k < maps; k++)
+        if (!add(c, c->g, state + numbers + k * nodes, k, k + 1 == maps ? text : NULL))
+            return;
+}
+
+bool
+checkpoint_due(struct checkpoint *c)
+{
+    if (c == NULL || ranks_most(c->t, tool_now() - c->began) < c->next)
+        return false;
+    c->next *= 2;
+    return true;
+}

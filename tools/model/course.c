@@ -1,0 +1,111 @@
+/* The way of a model to a point. */
+#include "model.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static void
+save(struct course *c, struct rc_model *m)
+{
+    size_t n = rc_model_state_size(m);
+    double *v = malloc((n + 1) * sizeof *v);
+
+    if (v == NULL)
+        tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "out of memory for a state of --checkpoint");
+    rc_model_state(m, v);
+    checkpoint_save(c, v, n);
+    free(v);
+}
+
+void
+course_set(struct course *c, struct rc_model *m, const struct rc_point *to)
+{
+    size_t n;
+    double *v = checkpoint_load(c, &n);
+    struct rc_err err;
+    bool going;
+
+    c->resumed = v != NULL;
+    if (v != NULL && rc_model_restore(m, v, n, &going, &err) != RC_OK)
+        checkpoint_refuse(c, err.text);
+    if (v == NULL && rc_model_go(m, to, &err) == RC_FAIL)
+        tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "%s", err.text);
+    free(v);
+}
+
+/* ---- progress ---- */
+
+/* Seconds until the error is within the tolerance, if it goes on shrinking as it has on this grid; NAN: unknown. */
+static double
+left(struct course *c, const struct rc_loops *l)
+{
+    const size_t nodes = l->grid.nx * l->grid.ny;
+    const double iterations = l->n > 0 ? l->loop[l->n - 1].at : 0, now = tool_now();
+
+    if (nodes != c->since.nodes || iterations <= c->since.iterations || isnan(c->since.error)) {
+        c->since.nodes = nodes; /* another grid, or load */
+        c->since.iterations = iterations;
+        c->since.error = l->error;
+        c->since.at = now;
+        return NAN;
+    }
+    if (!(l->error < c->since.error) || !(l->error > l->tol) || nodes != c->g->nx * c->g->ny)
+        return NAN;
+    return log(l->error / l->tol) / log(c->since.error / l->error) * (now - c->since.at);
+}
+
+/* "case 2, 128 x 128, load 3 N, increment 4 of 16, application 2, error 1e-3 of 1e-4, about 3.1 s left" */
+static void
+show(struct course *c, const struct rc_loops *l)
+{
+    const double seconds = left(c, l);
+    char text[256] = "";
+    size_t at = 0;
+
+    for (size_t k = 0; k < l->n && at < sizeof text; k++) {
+        const struct rc_loop *loop = &l->loop[k];
+        at += (size_t)snprintf(text + at, sizeof text - at, ", %s %.*g%s%s", loop->what,
+                               loop->unit != NULL ? 3 : 15, loop->at, loop->unit != NULL ? " " : "",
+                               loop->unit != NULL ? loop->unit : "");
+        if (!isnan(loop->of) && at < sizeof text)
+            at += (size_t)snprintf(text + at, sizeof text - at, " of %.15g", loop->of);
+    }
+    if (!isnan(l->error) && at < sizeof text)
+        at +=
+            (size_t)snprintf(text + at, sizeof text - at, ", error %.1e of %.1e", l->error, l->tol);
+    if (!isnan(seconds) && at < sizeof text)
+        snprintf(text + at, sizeof text - at, ", about %.*f s left", seconds < 10 ? 1 : 0, seconds);
+    tool_progress(c->t, "case %zu, %zu x %zu%s", c->number, l->grid.nx, l->grid.ny, text);
+}
+
+/* ---- steps ---- */
+
+enum rc_status
+course_run(struct course *c, struct rc_model *m)
+{
+    const double start = tool_now();
+    enum rc_status status = RC_MORE;
+    struct rc_loops loops;
+    size_t steps = 0;
+    struct rc_err err;
+
+    rc_model_progress(m, &loops);
+    while (tool_interrupted() == 0 && status == RC_MORE) {
+        if (loops.coming > 0) {
+            tool_demand_memory(c->t, c->g, loops.coming);
+            save(c, m);
+        }
+        if ((status = rc_model_step(m, &err)) == RC_FAIL)
+            tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "%s", err.text);
+        steps++;
+        rc_model_progress(m, &loops);
+        show(c, &loops);
+        if (status == RC_MORE && loops.worth && checkpoint_due(c->checkpoint))
+            save(c, m);
+    }
+    tool_progress_end(c->t);
+    if (c->checkpoint != NULL && (!c->resumed || steps > 2)) /* else it is there already */
+        save(c, m);
+    c->iterate = tool_now() - start;
+    return status;
+}
