@@ -17,7 +17,10 @@
  *     length that lowers the energy most. If the energy does not fall, a projected gradient step follows,
  *     which lowers it.
  *
- * M applied to the residual also gives the estimate of the error.
+ * M applied to the residual also gives the estimate of the error, together with what M does not know: the
+ * loads of nodes inside their circles and of turns (near sliding all tangents point nearly the same way, and
+ * carry a small load along the force by large turns only), and nodes on their circles that would stick under
+ * another delta.
  */
 #include "discs.h"
 
@@ -37,7 +40,7 @@ enum {
     SUMS = 8,
     TILE = 16
 };
-static const double safety = 1.2; /* of the estimate                      */
+static const double safety = 1.3; /* of the estimate                      */
 static const double early = 20;   /* more of it while the faces are others */
 static const double on_circle = 1e-12;
 static const double clipped = 0.1; /* of a step: the next one keeps nothing of it */
@@ -349,16 +352,27 @@ inside(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
     sum[2] += in;
 }
 
+/* How far a node slips inwards. */
+static inline double
+inwards(const struct rc_discs *d, size_t k)
+{
+    double x = d->q[0][k], y = d->q[1][k], size = hypot(x, y);
+
+    return size > 0 ? (slip_of(d, 0, k) * x + slip_of(d, 1, k) * y) / size : 0;
+}
+
 static void
 find_delta(struct rc_discs *d)
 {
     struct moved m = {.y = d->d, .who = ALL};
     double at[3];
 
+    d->measured = d->given;
     if (d->given)
         return;
     sum_nodes(d, inside, NULL, 3, at);
-    if (at[2] > 0) {
+    d->measured = at[2] > 0;
+    if (d->measured) {
         d->delta[0] = at[0] / at[2];
         d->delta[1] = at[1] / at[2];
         return;
@@ -371,15 +385,6 @@ find_delta(struct rc_discs *d)
     carry(d, &m, d->sum);
     d->delta[0] = m.nu[0] * d->m->self;
     d->delta[1] = m.nu[1] * d->m->self;
-}
-
-/* How far a node slips inwards. */
-static inline double
-inwards(const struct rc_discs *d, size_t k)
-{
-    double x = d->q[0][k], y = d->q[1][k], size = hypot(x, y);
-
-    return size > 0 ? (slip_of(d, 0, k) * x + slip_of(d, 1, k) * y) / size : 0;
 }
 
 static void
@@ -483,41 +488,112 @@ load_of(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
         sum[2 + c] += (double)d->m->n[c][k];
 }
 
+static inline void
+shift_of(const struct rc_discs *d, size_t k, const double mu[2], double v[2])
+{
+    double n[3] = {(double)d->m->n[0][k], (double)d->m->n[1][k], (double)d->m->n[2][k]};
+
+    v[0] = n[0] * mu[0] + n[2] * mu[1];
+    v[1] = n[2] * mu[0] + n[1] * mu[1];
+}
+
+/* How far a slipping node is inside its circle. */
+static inline double
+short_of_circle(const struct rc_discs *d, size_t k, double size)
+{
+    return d->face[k] == SLIP ? fmax(d->g[k] - size, 0) : 0;
+}
+
+/* What M leaves: the load that slipping nodes take with them to their circles, the load that a turn by z costs, to
+ * second order; and the residual, for the motion. */
+static void
+left_by_model(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+{
+    double x = d->q[0][k], y = d->q[1][k], size = hypot(x, y), part, turn[2] = {0, 0}, residual[2];
+    double r[2] = {(double)d->r[0][k], (double)d->r[1][k]};
+
+    (void)with;
+    if (d->face[k] == SLIP && size > 0) {
+        double z[2] = {(double)d->z[0][k], (double)d->z[1][k]};
+        part = short_of_circle(d, k, size) / size;
+        sum[0] += part * x;
+        sum[1] += part * y;
+        part = (z[0] * z[0] + z[1] * z[1]) / (2 * d->g[k] * size);
+        turn[0] = part * x;
+        turn[1] = part * y;
+    }
+    shift_of(d, k, r, residual);
+    for (int c = 0; c < 2; c++) {
+        sum[2 + c] += turn[c];
+        sum[4 + c] -= residual[c];
+    }
+}
+
+/* Shifts that carry the first two, and whether delta is to change. */
+struct remedy {
+    double out[2], turn[2];
+};
+
 static void
 errors(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
 {
-    double size = hypot(d->q[0][k], d->q[1][k]);
+    double x = d->q[0][k], y = d->q[1][k], size = hypot(x, y), out[2], turn[2];
+    const struct remedy *m = with;
 
-    (void)with;
-    sum[0] += hypot((double)d->z[0][k], (double)d->z[1][k]);
-    if (d->face[k] == SLIP)
-        sum[0] += fmax(d->g[k] - size, 0);
+    shift_of(d, k, m->out, out);
+    shift_of(d, k, m->turn, turn);
+    sum[0] += hypot((double)d->z[0][k], (double)d->z[1][k]) + short_of_circle(d, k, size) +
+              hypot(out[0], out[1]) + hypot(turn[0], turn[1]);
     sum[1] += size;
-    sum[2] += d->q[0][k];
-    sum[3] += d->q[1][k];
+    sum[2] += x;
+    sum[3] += y;
+    if (d->face[k] == SLIP && !d->measured && size > 0)
+        sum[4] += fmax(inwards(d, k) - (d->motion[0] * x + d->motion[1] * y) / size, 0);
 }
 
-/* z = M r, of the load 0, and the estimate: |z|_1 and what is missing to the circles, over |q|_1. */
+/* Of the error relative to the exact tractions, of which q, of sum `size` of its absolute values, is `off`: those have
+ * at least what is left of q, and carry the load. */
+static double
+relative(const struct rc_discs *d, double off, double size)
+{
+    static const double least = 1.0 / 16;
+    double part = safety * off / size, load = d->given ? 0 : hypot(d->sum[0], d->sum[1]) / size;
+
+    if (off == 0)
+        return 0;
+    part *= 1 + fmin(early * part, 0.5);
+    return part / fmax(fmax(1 - part, load), least);
+}
+
+/* z = M r, of the load 0, and the estimate: |z|_1, what is missing to the circles, and what M leaves. */
 static void
 precondition(struct rc_discs *d)
 {
-    double at[5], mu[2] = {0, 0};
+    double at[5], mu[2] = {0, 0}, left[6];
+    struct remedy m = {{0, 0}, {0, 0}};
 
     rc_extension_apply(d->m, d->r, d->z);
+    d->motion[0] = d->motion[1] = 0;
     if (!d->given) {
         sum_nodes(d, load_of, d->z, 5, at);
         solve(&at[2], at, mu);
 #pragma omp parallel for num_threads(d->threads) schedule(static)
         for (size_t k = 0; k < d->n; k++) {
-            double n[3] = {(double)d->m->n[0][k], (double)d->m->n[1][k], (double)d->m->n[2][k]};
-            d->z[0][k] -= (float)(n[0] * mu[0] + n[2] * mu[1]);
-            d->z[1][k] -= (float)(n[2] * mu[0] + n[1] * mu[1]);
+            double v[2];
+            shift_of(d, k, mu, v);
+            for (int c = 0; c < 2; c++)
+                d->z[c][k] -= (float)v[c];
         }
+        sum_nodes(d, left_by_model, NULL, 6, left);
+        solve(&at[2], left, m.out);
+        solve(&at[2], left + 2, m.turn);
+        if (!d->measured)
+            solve(&at[2], left + 4, d->motion);
     }
-    sum_nodes(d, errors, NULL, 4, at);
+    sum_nodes(d, errors, &m, 5, at);
     d->carries = d->given || hypot(at[2] - d->sum[0], at[3] - d->sum[1]) <= 1e-9 * d->limit;
-    d->estimate = at[0] == 0 ? 0 : safety * at[0] / at[1];
-    d->estimate *= 1 + fmin(early * d->estimate, 0.5);
+    d->turning = relative(d, at[0], at[1]);
+    d->estimate = relative(d, at[0] + at[4] / d->m->self, at[1]);
 }
 
 /* Of the residual, where a displacement is given; false: rounding. */
@@ -543,8 +619,14 @@ look(struct rc_discs *d, double mean[2])
         if (!rc_extension_set(d->m, d->face, d->q, d->curve, d->given) && has_mean(d, mean))
             return false;
         precondition(d);
-        if (sifted == 0 || d->estimate > d->tol)
+        if (d->estimate > d->tol &&
+            d->turning <= d->tol) { /* only another delta shows who sticks */
+            d->delta[0] += d->motion[0];
+            d->delta[1] += d->motion[1];
+            d->measured = true;
+        } else if (sifted == 0 || d->estimate > d->tol) {
             return true;
+        }
     }
 }
 

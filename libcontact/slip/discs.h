@@ -33,6 +33,9 @@ struct rc_discs {
     struct rc_extension *m;
     double *d[2], *h[2]; /* where it goes, and T of that                               */
     bool carries;        /* q adds up to the load                                          */
+    bool measured;       /* delta: given, or the mean of nodes inside their circles        */
+    double motion[2];    /* else what it is to change by to leave least along the tangents */
+    double turning;      /* estimate without the nodes which would then slip inwards       */
     double limit;        /* sum of g                                                       */
     double reach;        /* how far along the direction the way back begins, 0.5 to 1      */
     double part;         /* that of the last step; 0: nothing of it is kept                */
