@@ -12,8 +12,8 @@ static const double straight = 1e-9;
 enum {
     LATE = 2,    /* increments of a straight way                                              */
     HALVED = 4,  /* so many, and half of them, tell the error                                 */
-    TURNS = 8,   /* of a force that turns by a right angle, or of a load that falls           */
-    PRESSES = 16 /* of a contact that grows                                                   */
+    TURNS = 8,   /* of a force that turns by a right angle                                    */
+    PRESSES = 16 /* of a contact that grows or shrinks                                        */
 };
 /* Of a straight way: a node that slips carries against its whole slip of an increment, and not against how it
  * slips in the end. Most nodes have begun to slip by then, and what is left of the way sets them right. */
@@ -228,10 +228,8 @@ set_increments(const struct slip_run *run, const struct slip_corner *from, struc
     }
     if (run->increments > 0)
         n = run->increments;
-    else if (grows)
+    else if (grows || falls)
         n = PRESSES;
-    else if (falls)
-        n = TURNS;
     else if (angle > straight)
         while (n < TURNS && ((double)n < TURNS * angle * (1 - straight) || n < HALVED))
             n *= 2;
@@ -328,7 +326,8 @@ slip_plan_path(struct slip_run *run)
     }
 }
 
-/* On a straight line. */
+/* On a straight line. Where the load falls, nodes that slip to the end carry against their slip of the last increment,
+ * and many begin to slip late: increments get shorter towards the end. */
 struct slip_corner
 slip_on_the_way(const struct slip_run *run, size_t corner, size_t k, size_t n)
 {
@@ -336,6 +335,8 @@ slip_on_the_way(const struct slip_run *run, size_t corner, size_t k, size_t n)
     struct slip_corner c = *to;
     double part = to->late ? late : (double)k / (double)n;
 
+    if (to->load < from->load * (1 - straight))
+        part = 1 - (1 - part) * (1 - part);
     if (k == n)
         return c;
     c.load = from->load + part * (to->load - from->load);
