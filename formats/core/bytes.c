@@ -47,7 +47,7 @@ rc_raw_width(enum rc_raw raw)
     return width[raw];
 }
 
-/* Byte by byte, which compilers see through: a load, and a swap where the order is not theirs. */
+/* Byte by byte: compilers turn this into a load, and a swap if the byte order differs. */
 static inline uint16_t
 half_at(const unsigned char *s, bool big)
 {
@@ -80,8 +80,8 @@ value_at(const unsigned char *s, enum rc_raw raw, bool big)
     float f32;
     double f64;
 
-    /* memcpy, because a conversion of an unsigned number too large for the signed type is the
-     * compiler's choice */
+    /* memcpy, because converting an unsigned number that is too large for the signed type is
+     * implementation-defined */
     switch (raw) {
     case RC_RAW_U8:
         return *s;
@@ -116,7 +116,7 @@ value_at(const unsigned char *s, enum rc_raw raw, bool big)
     }
 }
 
-/* A loop for each type and byte order, so that neither is tested at every number. */
+/* A loop for each type and byte order, so that neither is tested for every number. */
 #define VALUES(raw, big)                                                                           \
     for (size_t k = 0; k < n; k++)                                                                 \
     v[k] = value_at(s + k * rc_raw_width(raw), raw, big)

@@ -1,8 +1,8 @@
 /*
  * A cursor over bytes that cannot run past their end.
  *
- * Reading past the end gives zeros and sets `past`: a header is read straight through and asked
- * about once. Long runs are asked for first, with rc_bytes_need.
+ * Reading past the end gives zeros and sets `past`, so a header can be read without checks and `past` tested
+ * once. Check long runs first, with rc_bytes_need.
  */
 #ifndef RC_BYTES_H
 #define RC_BYTES_H
@@ -17,14 +17,14 @@ struct rc_bytes {
     const unsigned char *data;
     size_t size, at;
     bool big;  /* most significant byte first */
-    bool past; /* something was read that is not there */
+    bool past; /* a read went past the end */
 };
 
 uint16_t rc_bytes_u16(struct rc_bytes *bytes);
 uint32_t rc_bytes_u32(struct rc_bytes *bytes);
 uint64_t rc_bytes_u64(struct rc_bytes *bytes);
 
-/* How numbers lie in a file. */
+/* Types of numbers in a file. */
 enum rc_raw {
     RC_RAW_U8,
     RC_RAW_U16,
@@ -41,11 +41,11 @@ size_t rc_raw_width(enum rc_raw raw);
 /* The next n numbers, unscaled; zeros past the end. */
 void rc_bytes_values(struct rc_bytes *bytes, enum rc_raw raw, double *v, size_t n);
 
-/* The number at a place; the cursor then stands behind it. */
+/* The number at a position; the cursor is then after it. */
 double rc_bytes_at(struct rc_bytes *bytes, size_t at, enum rc_raw raw);
 
-/* The refusal that every binary format needs: `what` should take `promised` bytes and has `present`
- * ones. RC_OK when they agree. */
+/* The check of sizes of every binary format: `what` needs `promised` bytes and has `present` ones. RC_OK when
+ * they agree. */
 enum rc_status rc_bytes_agree(const char *what, uint64_t promised, uint64_t present,
                               struct rc_err *err);
 

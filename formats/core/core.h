@@ -1,5 +1,6 @@
 /*
- * The face of this folder: bytes, text, numbers in tables, maps of raw numbers, the checksum of a stream.
+ * The interface of this folder: bytes, text, numbers in tables, maps of raw numbers, the checksum of a
+ * stream.
  */
 #ifndef RC_CORE_H
 #define RC_CORE_H

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The place of the last decimal that any position has: 0.01 when they are 0.5, 0.75, 1. */
+/* The unit of the last decimal of any position: 0.01 for 0.5, 0.75, 1. */
 static double
 last_place(const double *x, size_t points)
 {
@@ -19,8 +19,8 @@ last_place(const double *x, size_t points)
     return place;
 }
 
-/* Positions count as even when they are off by their rounding in the file, or by a twentieth of a
- * step: a stylus drifts that much, and so small a shift hardly changes the heights. */
+/* Positions count as even if they deviate by their rounding in the file, or by a twentieth of a step: a
+ * stylus drifts that much, and such a shift hardly changes the heights. */
 static enum rc_status
 judge_steps(const double *x, size_t points, struct rc_err *err)
 {
@@ -114,7 +114,7 @@ rc_even_new(const double *x, size_t points, double metres, const struct rc_file 
         return rc_err_set(err, "%g nodes are too many: --even STEP gives a wider step", nodes);
     even->n = (size_t)nodes;
     even->widest = RC_EVEN_GAP * fmax(median, even->step) * (1 + 1e-9);
-    return rc_map_fits(file, even->n, 4, err); /* a reader holds them more than once */
+    return rc_map_fits(file, even->n, 4, err); /* a reader holds several copies */
 }
 
 static void
@@ -146,7 +146,7 @@ void
 rc_even_heights(const struct rc_even *even, const double *x, const double *z, size_t points,
                 double *v, struct rc_notes *notes)
 {
-    double near = 1e-9 * even->step; /* so far off a node a point counts as on it */
+    double near = 1e-9 * even->step; /* a point this near to a node is on it */
     size_t left = 0;
 
     if (even->widest == 0) {

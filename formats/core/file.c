@@ -72,7 +72,7 @@ rc_file_bytes(const struct rc_file *file, bool big)
 size_t
 rc_memory_limit(size_t file_size)
 {
-    const size_t most = SIZE_MAX / 2; /* so that what the process has already can be added to it */
+    const size_t most = SIZE_MAX / 2; /* so that the memory of the process can be added to it */
 
     return file_size > (most - LEAST) / TIMES_FILE ? most : TIMES_FILE * file_size + LEAST;
 }

@@ -96,7 +96,7 @@ rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *before,
     return false;
 }
 
-/* Puts e for the D of Fortran's exponents: 1.5D+03. */
+/* Replaces the D of Fortran's exponents by e: 1.5D+03. */
 static void
 plain_power(char *s)
 {
@@ -129,7 +129,7 @@ rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest)
         return false;
     n = (size_t)(end - copy);
     if (n == sizeof copy - 1 && n < piece.n)
-        return false; /* too long to be one */
+        return false; /* too long for a number */
     if (rest != NULL)
         *rest = rc_piece_trim((struct rc_piece){piece.text + n, piece.n - n});
     return true;
@@ -155,7 +155,7 @@ rc_piece_keep(struct rc_grid *g, const char *key, struct rc_piece piece, struct 
     return rc_text_keep(g, key, piece.text, piece.n, err);
 }
 
-/* "300 nm" in metres; so is a number without a unit. */
+/* Reads "300 nm" in metres; a number without a unit is in metres. */
 static bool
 read_length(struct rc_piece piece, double *metres)
 {

@@ -65,7 +65,7 @@ rc_map_unit(struct rc_map *map, const char *text, size_t n)
             return;
         }
     }
-    /* the degree sign, or the ordinal one that stands in for it */
+    /* the degree sign, or the ordinal indicator used in its place */
     if (strcmp(map->unit, "\xc2\xb0") == 0 || strcmp(map->unit, "\xc2\xba") == 0)
         strcpy(map->unit, "deg");
 }
@@ -130,7 +130,7 @@ rc_map_is_text(struct rc_map *map, const struct rc_file *file, size_t at, struct
 {
     map->at = at;
     map->fill = fill_text;
-    if (map->ny <= (file->size - at + 1) / 2 / map->nx) /* a digit and what parts it */
+    if (map->ny <= (file->size - at + 1) / 2 / map->nx) /* a digit and a separator */
         return RC_OK;
     return rc_err_set(err, "the header promises %zu x %zu numbers, the file has %zu bytes for them",
                       map->nx, map->ny, file->size - at);

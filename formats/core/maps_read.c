@@ -58,14 +58,14 @@ describe(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *w
             map->dy = map->step[1] * wish->xy_unit;
         }
         if (map->ny == 1)
-            map->dy = map->dx; /* a profile: what its file says of y has no meaning */
+            map->dy = map->dx; /* a profile: the file's y is meaningless */
         if (check_map(map, file, err) != RC_OK)
             return RC_FAIL;
     }
     return RC_OK;
 }
 
-/* Whether values have to go through memory of their own to where they belong. */
+/* Whether values need a buffer before they get to their positions. */
 static bool
 is_turned(const struct rc_map *map)
 {
@@ -87,8 +87,7 @@ rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
         strcpy(channel[k].name, map->name);
         strcpy(channel[k].unit, map->unit);
         channel[k].beside = map->beside;
-        if (map->fill != NULL &&
-            is_turned(map)) /* the map itself is not touched while it is filled */
+        if (map->fill != NULL && is_turned(map)) /* the map itself is not used during filling */
             channel[k].beside = fmax(map->beside, 8 * (double)map->nx * (double)map->ny);
     }
     return maps.n;
@@ -96,7 +95,7 @@ rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
 
 /* ---- values ---- */
 
-/* Puts line `outer` of the file where it belongs. */
+/* Stores line `outer` of the file at its position. */
 static void
 place(const struct rc_map *map, const double *line, size_t outer, double *v)
 {
@@ -145,7 +144,7 @@ decode(const struct rc_map *map, const struct rc_file *file, double *v, struct r
     return RC_OK;
 }
 
-/* Calls map->fill, and brings its values from the file's order into that of a grid. */
+/* Calls map->fill, and reorders its values for a grid. */
 static enum rc_status
 fill(const struct rc_map *map, const struct rc_file *file, double *v, struct rc_err *err)
 {

@@ -2,10 +2,10 @@
  * A table of numbers in text, with as many columns in every row: read in one pass, with a point or
  * a comma as the decimal mark whatever the locale.
  *
- * Columns stand apart by one separator. When it is white space, runs of it count once; otherwise
- * nothing between two separators is a missing value, and a separator at the end of a row ends it.
- * A value may stand in quotes, and its exponent may begin with D. Empty lines and lines that begin with '#' or '%' are skipped. Missing values are NaN, NA, N/A,
- * BAD, -- or --- in either case, and the word that the user gives.
+ * One separator separates columns. Runs of white space count once; with other separators an empty field is a
+ * missing value, and a separator at the end of a row is ignored. A value may be quoted, and its exponent may
+ * begin with D. Empty lines and lines that begin with '#' or '%' are skipped. Missing values are NaN, NA,
+ * N/A, BAD, -- or --- in either case, and the user's word.
  */
 #ifndef RC_NUMBER_TABLE_H
 #define RC_NUMBER_TABLE_H
@@ -23,12 +23,12 @@ struct rc_number_table {
     size_t columns, rows;
 };
 
-/* Finds out what the wish leaves open, and counts columns and rows. RC_FAIL when there is no row,
- * when the first one holds anything but numbers, or where separator and decimal mark cannot be told
- * apart. */
+/* Determines separator and decimal mark unless the wish gives them, and counts columns and rows. RC_FAIL when
+ * there is no row, when the first one holds anything but numbers, or where separator and decimal mark are
+ * ambiguous. */
 enum rc_status rc_number_table_open(struct rc_number_table *table, const struct rc_lines *lines,
                                     const struct rc_wish *wish, struct rc_err *err);
-/* columns * rows; RC_FAIL when the text is too short for so many values. */
+/* columns * rows; RC_FAIL when the text is too short for this number of values. */
 enum rc_status rc_number_table_size(const struct rc_number_table *table, size_t *n,
                                     struct rc_err *err);
 /* All values, row by row, NaN where missing. RC_FAIL names the line that does not fit. */

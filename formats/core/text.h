@@ -1,4 +1,4 @@
-/* Text as foreign files hold it: lines, UTF-8, and what may be kept or shown of it. */
+/* Text of foreign files: lines, UTF-8, and text that is safe to store or show. */
 #ifndef RC_TEXT_H
 #define RC_TEXT_H
 
@@ -18,19 +18,19 @@ bool rc_lines_next(struct rc_lines *lines, const char **line, size_t *n);
 /* Drops white space at both ends. */
 void rc_trim(const char **text, size_t *n);
 
-/* Whether text is UTF-8 as RFC 3629 has it: no overlong forms, no surrogates, up to U+10FFFF. */
+/* Whether text is UTF-8 by RFC 3629: no overlong forms, no surrogates, up to U+10FFFF. */
 bool rc_utf8_valid(const char *text);
-/* Puts the bytes of a code point below U+10000, 1 to 3 without a NUL; gives their number. */
+/* Writes the bytes of a code point below U+10000, 1 to 3 without a NUL; returns their number. */
 size_t rc_utf8_put(char *to, unsigned code);
 
 /* The number of bytes of the control character that text begins with, 0 when it begins with
  * another: 1, or 2 for U+0080 to U+009F in UTF-8, which act on a terminal as well. */
 size_t rc_control_size(const char *text);
-/* Puts `mark` in the place of each byte of a control character. Gives `text`. */
+/* Replaces each byte of a control character by `mark`. Returns `text`. */
 char *rc_text_harmless(char *text, char mark);
 
-/* Copies text[0..n) as UTF-8, cut to what fits: bytes that are not UTF-8 are taken as Latin-1,
- * control characters become spaces, white space at both ends goes. Gives `to`. */
+/* Copies text[0..n) as UTF-8, cut to the size: bytes that are not UTF-8 are read as Latin-1, control
+ * characters become spaces, white space at both ends is removed. Returns `to`. */
 char *rc_text_clean(char *to, size_t size, const char *text, size_t n);
 
 enum {

@@ -1,8 +1,8 @@
 /*
  * The grid stream RCG1: frames of maps through pipes (rcg(5)).
  *
- * A reader needs no seek and no more memory than one frame; it reads streams that stand one after
- * another and numbers their cases on. A writer writes one stream with one end line.
+ * A reader needs no seek and no more memory than one frame; it reads concatenated streams and numbers their
+ * cases consecutively. A writer writes one stream with one end line.
  */
 #ifndef RC_RCG_H
 #define RC_RCG_H
@@ -18,43 +18,43 @@ enum {
     RC_HEADER_MAX = 65536 /* bytes of one frame's header, first to last line feed */
 };
 
-/* Several processes that read or write one file, each the rows that it holds of every map. All of them
- * call the same functions with the same headers; where one fails, all fail. */
+/* Several processes that read or write one file, each the rows that it holds of every map. All call the same
+ * functions with the same headers; if one fails, all fail. */
 struct rc_share {
     void *ctx;
-    bool first; /* this process writes what stands between the values */
+    bool first; /* this process writes everything but the values */
     void (*rows)(void *ctx, const struct rc_shape *shape, size_t *first, size_t *n);
-    /* Reads or writes the bytes of this process at a place of the file. All processes call it, also
-     * with 0 bytes. */
+    /* Reads or writes the bytes of this process at a position of the file. All processes call it, also with 0
+     * bytes. */
     enum rc_status (*read)(void *ctx, uint64_t at, void *to, size_t bytes, struct rc_err *err);
     enum rc_status (*write)(void *ctx, uint64_t at, const void *from, size_t bytes,
                             struct rc_err *err);
-    /* CRC-32 of the parts of all processes, one after another. */
+    /* CRC-32 of the concatenated parts of all processes. */
     uint32_t (*crc)(void *ctx, uint32_t own, size_t bytes);
-    /* RC_OK when every process can go on; else RC_FAIL in all, with the message of one that cannot. */
+    /* RC_OK when every process succeeded; else RC_FAIL in all, with the message of one that failed. */
     enum rc_status (*agree)(void *ctx, enum rc_status status, struct rc_err *err);
 };
 
 struct rc_reader;
 
-/* Reads from `file`, which stays the caller's. `first_case` is added to the case numbers of the
- * first stream in it (0: as they are). A frame whose values need more than `memory` bytes is
- * refused; 0 sets no limit. NULL when memory is short. */
+/* Reads from `file`, which the caller owns. `first_case` is added to the case numbers of the first stream in
+ * it. A frame whose values need more than `memory` bytes is refused; 0 sets no limit. NULL when memory is
+ * short. */
 struct rc_reader *rc_reader_new(FILE *file, size_t first_case, size_t memory, struct rc_err *err);
 
-/* From now on several processes read the values. `share` is the part of this one and has to outlive
- * the reader; `file` is the same file, which every process has opened. */
+/* From now on several processes read the values. `share` is the part of this one and must outlive the reader;
+ * `file` is the same file, which every process has opened. */
 void rc_reader_share(struct rc_reader *reader, const struct rc_share *share);
 
 /* Whether a frame of this shape, whose values take `bytes`, may be read; RC_FAIL, and *err says why. */
 typedef enum rc_status rc_reader_allow(void *ctx, const struct rc_shape *shape, size_t bytes,
                                        struct rc_err *err);
-/* From now on asks before memory is taken for a frame. */
+/* From now on asks `allow` before it allocates a frame. */
 void rc_reader_ask(struct rc_reader *reader, rc_reader_allow *allow, void *ctx);
 /* RC_MORE and the next frame, which the caller frees; RC_OK and NULL after the last end line; or
  * RC_FAIL: damaged, cut off, or ended by RCGFAIL, whose message is repeated. */
 enum rc_status rc_reader_next(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
-/* The same in two steps: the next frame by its head, and, before the head of another, its values. */
+/* The same in two steps: the next frame without values, then, before the next head, its values. */
 enum rc_status rc_reader_head(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
 enum rc_status rc_reader_values(struct rc_reader *reader, struct rc_grid *grid, struct rc_err *err);
 
@@ -62,30 +62,29 @@ enum rc_status rc_reader_values(struct rc_reader *reader, struct rc_grid *grid, 
  * program that wrote it, 1 or 2; NULL when something else was wrong. Valid as long as the reader. */
 const char *rc_reader_failure(const struct rc_reader *reader, int *exit_status);
 
-/* After RC_FAIL: whether the input is no stream at all, from its first byte on. `head` is then how
- * it begins, a few bytes up to the first NUL, or NULL where it is empty. */
+/* After RC_FAIL: whether the input is not a stream at all, from its first byte on. `head` is then its
+ * beginning, a few bytes up to the first NUL, or NULL if it is empty. */
 bool rc_reader_foreign(const struct rc_reader *reader, const char **head);
 
-/* Largest case number seen so far: `first_case` of the reader that goes on with the next file. */
+/* Largest case number so far: `first_case` for the reader of the next file. */
 size_t rc_reader_last_case(const struct rc_reader *reader);
 void rc_reader_free(struct rc_reader *reader);
 
 struct rc_writer;
 
 struct rc_writer *rc_writer_new(FILE *file, struct rc_err *err);
-/* A writer whose file several processes write, from this place on. */
+/* A writer whose file several processes write, from this position on. */
 struct rc_writer *rc_writer_new_shared(const struct rc_share *share, uint64_t at,
                                        struct rc_err *err);
-/* Writes one frame, in grid->type. RC_FAIL when the header grows too long or the device refuses. */
+/* Writes one frame, in grid->type. RC_FAIL when the header is too long or the device fails. */
 enum rc_status rc_writer_put(struct rc_writer *writer, const struct rc_grid *grid,
                              struct rc_err *err);
 /* Writes the end line and flushes. */
 enum rc_status rc_writer_end(struct rc_writer *writer, struct rc_err *err);
 void rc_writer_free(struct rc_writer *writer);
 
-/* Ends a stream, whether begun or not, with RCGFAIL, the message and the exit status that this
- * program will have, 1 or 2: whoever reads the stream fails too. Gives no sign when even that
- * cannot be written. */
+/* Ends a stream, whether begun or not, with RCGFAIL, the message and the exit status of this program, 1 or 2:
+ * the reader of the stream then fails too. Silent when even that cannot be written. */
 void rc_stream_fail(FILE *file, const char *message, int exit_status);
 
 #endif

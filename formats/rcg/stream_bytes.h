@@ -1,4 +1,4 @@
-/* What reading and writing of a stream share: the order of bytes and the checksum over them. */
+/* Shared by reading and writing of a stream: byte order and checksum. */
 #ifndef RC_STREAM_BYTES_H
 #define RC_STREAM_BYTES_H
 
@@ -8,13 +8,13 @@
 #include <string.h>
 
 enum {
-    RC_CHUNK = 8192,  /* values converted at a time where they are not read as they are  */
-    RC_PIECE = 16384, /* values read or written at a time where they are: while they are
-                         summed, they lie in the cache                                   */
-    RC_FAIL_MAX = 399 /* bytes of a message in RCGFAIL, as a reader repeats it */
+    RC_CHUNK = 8192, /* values converted together */
+    /* values read or written together without conversion; they are in the cache for the checksum */
+    RC_PIECE = 16384,
+    RC_FAIL_MAX = 399 /* bytes of a message in RCGFAIL that a reader repeats */
 };
 
-/* Before the exit status in RCGFAIL, where it is not 1; ")" follows it. */
+/* Precedes the exit status in RCGFAIL if it is not 1; ")" follows it. */
 #define RC_FAIL_STATUS " (exit status "
 
 static inline bool

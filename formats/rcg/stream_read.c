@@ -12,19 +12,19 @@
 
 struct rc_reader {
     FILE *file;
-    const struct rc_share *share; /* NULL: all values are read here */
+    const struct rc_share *share; /* NULL: this process reads all values */
     size_t memory;
     rc_reader_allow *allow; /* NULL: none */
     void *allow_ctx;
-    size_t first_case;             /* added to the case numbers of the stream being read     */
-    size_t last_case;              /* the largest one given out                              */
-    size_t frames;                 /* since the last end line                                */
-    bool ended;                    /* an end line was read and nothing since                 */
-    uint32_t crc;                  /* of the frame so far                                    */
-    bool begun;                    /* a line of a stream was read                */
-    bool empty, foreign;           /* there was none                             */
-    char head[16];                 /* the first bytes of something foreign       */
-    char failure[RC_FAIL_MAX + 1]; /* the message of RCGFAIL; empty: none yet    */
+    size_t first_case;             /* added to the case numbers of the stream being read */
+    size_t last_case;              /* the largest one returned                           */
+    size_t frames;                 /* since the last end line                            */
+    bool ended;                    /* an end line was the last line                      */
+    uint32_t crc;                  /* of the frame so far                                */
+    bool begun;                    /* a line of a stream was read                        */
+    bool empty, foreign;           /* the input was empty, or not a stream               */
+    char head[16];                 /* the first bytes of something foreign               */
+    char failure[RC_FAIL_MAX + 1]; /* the message of RCGFAIL; empty: none yet            */
     int failure_status;
     char header[RC_HEADER_MAX];
 };
@@ -77,7 +77,7 @@ rc_reader_last_case(const struct rc_reader *r)
     return r->last_case;
 }
 
-/* The refusal of a stream that ends where more bytes were promised. */
+/* The message for a stream that ends too early. */
 static enum rc_status
 cut_off(struct rc_reader *r, const char *where, struct rc_err *err)
 {
@@ -89,8 +89,8 @@ cut_off(struct rc_reader *r, const char *where, struct rc_err *err)
                       where, r->frames);
 }
 
-/* One line into buffer, without its line feed: its length, -1 at the end of input before any
- * byte, -2 when it has no end within `size` bytes, -3 when input ends inside it or it holds NUL. */
+/* Reads one line without its line feed: returns its length, -1 at the end of input before any byte, -2 when
+ * it has no end within `size` bytes, -3 when input ends inside it or it contains NUL. */
 static long
 read_line(struct rc_reader *r, char *buffer, size_t size)
 {
@@ -276,7 +276,7 @@ set_keys(struct rc_grid *g, const struct head *head, struct rc_err *err)
     return RC_OK;
 }
 
-/* Numbers the frame's case on from the cases of the streams before this one. */
+/* Continues the numbering of cases after earlier streams. */
 static enum rc_status
 number_case(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
 {
@@ -292,7 +292,7 @@ number_case(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
     return RC_OK;
 }
 
-/* The grid that a header promises, values still to come. */
+/* The grid that a header describes, without values. */
 static struct rc_grid *
 grid_of_head(struct rc_reader *r, const struct head *head, struct rc_err *err)
 {
@@ -366,7 +366,7 @@ read_part(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
     size_t width = g->type == RC_F32 ? sizeof(float) : sizeof(double), nodes = rc_grid_nodes(g);
     const struct rc_shape shape = rc_grid_shape(g);
     const off_t at = ftello(r->file);
-    /* values in single precision are read into the second half of the room for double ones */
+    /* values in single precision are read into the second half of the array of doubles */
     char *to = (char *)g->v + nodes * (sizeof *g->v - width);
     size_t first, rows;
     uint32_t crc;
@@ -421,14 +421,14 @@ read_crc(struct rc_reader *r, struct rc_err *err)
     return RC_OK;
 }
 
-/* One of several processes may lack the memory for its rows: then the others must not wait for it. */
+/* If one of several processes lacks the memory for its rows, the others must not wait for it. */
 static enum rc_status
 agree(const struct rc_reader *r, enum rc_status status, struct rc_err *err)
 {
     return r->share == NULL ? status : r->share->agree(r->share->ctx, status, err);
 }
 
-/* A grid whose values are still to be read. */
+/* A grid without values yet. */
 static enum rc_status
 read_frame(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
 {
@@ -476,7 +476,7 @@ read_end(struct rc_reader *r, const char *count, struct rc_err *err)
     return RC_OK;
 }
 
-/* The message after RCGFAIL and the exit status at its end; it is shown to people, on terminals. */
+/* The message after RCGFAIL, safe for terminals, and the exit status at its end. */
 static enum rc_status
 read_failure(struct rc_reader *r, const char *text, struct rc_err *err)
 {
@@ -504,14 +504,14 @@ rc_reader_failure(const struct rc_reader *r, int *exit_status)
     return r->failure[0] == '\0' ? NULL : r->failure;
 }
 
-/* Whether `text` is a beginning of the word, or all of it. */
+/* Whether `text` is the word or a beginning of it. */
 static bool
 begins(const char *word, const char *text)
 {
     return strncmp(word, text, strlen(text)) == 0;
 }
 
-/* Whether the first line, whose length n read_line gave, is that of a stream. */
+/* Whether the first line, of length n (see read_line), is that of a stream. */
 static void
 look_at_first(struct rc_reader *r, const char *line, long n)
 {
@@ -522,7 +522,7 @@ look_at_first(struct rc_reader *r, const char *line, long n)
     if (n >= 0)
         r->foreign = strcmp(line, "RCG1") != 0 && strncmp(line, "RCGFAIL", 7) != 0 &&
                      strncmp(line, "RCGEND ", 7) != 0;
-    else /* "RC" is a line that was cut off */
+    else /* "RC" may be a truncated line */
         r->foreign = r->head[0] == '\0' || !(begins("RCG1", r->head) || begins("RCGEND ", r->head));
     r->begun = !r->foreign;
 }

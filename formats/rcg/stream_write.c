@@ -45,7 +45,7 @@ rc_writer_free(struct rc_writer *w)
     free(w);
 }
 
-/* The header under construction: text[n] is the next free byte; `full` once it did not fit. */
+/* The header in work: text[n] is the next free byte; `full` when it did not fit. */
 struct text {
     char text[RC_HEADER_MAX];
     size_t n;
@@ -133,7 +133,7 @@ write_f32(FILE *file, const double *v, size_t n, uint32_t crc)
 
 /* ---- a file that several write ---- */
 
-/* Writes what stands between values, the same in all processes: the first of them does it. */
+/* Writes the bytes between values, which are the same in all processes: the first process writes them. */
 static enum rc_status
 write_text(struct rc_writer *w, const char *text, size_t n, struct rc_err *err)
 {
@@ -145,7 +145,7 @@ write_text(struct rc_writer *w, const char *text, size_t n, struct rc_err *err)
     return RC_OK;
 }
 
-/* Makes *own the values of this process as they stand in the file, NULL where g->v is that already. */
+/* Sets *own to the values of this process as stored in the file; NULL if g->v can be written directly. */
 static enum rc_status
 as_stored(const struct rc_grid *g, void **own, struct rc_err *err)
 {
@@ -281,7 +281,7 @@ rc_stream_fail(FILE *file, const char *message, int exit_status)
         unsigned char c = (unsigned char)*s;
         text[n++] = c < 0x20 || c == 0x7f ? ' ' : c >= 0x80 && !valid ? '?' : *s;
     }
-    if (valid && n < strlen(message)) /* no part of a character at the end */
+    if (valid && n < strlen(message)) /* no partial character at the end */
         while (n > 0 && ((unsigned char)message[n] & 0xc0) == 0x80)
             n--;
     text[n] = '\0';

@@ -1,8 +1,7 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include "calls.h"
 
-/* Not s390x: there mmap has one argument, a place in memory that holds the others, and no filter
- * can look there. */
+/* Not on s390x, where mmap has one argument, the address of the others, which a filter cannot read. */
 #if defined(__linux__) && defined(__LP64__) &&                                                     \
     (defined(__x86_64__) || defined(__aarch64__) || defined(__riscv) || defined(__powerpc64__)) && \
     __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -15,8 +14,8 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
-/* Allowed whatever their arguments are: they act on this process alone and give nothing away. The calls
- * that block and catch signals are not allowed: with them a child could outlive SIGALRM. */
+/* Allowed with any arguments: they affect this process only and reveal nothing. Calls that block and catch
+ * signals are not allowed: with them a child could survive SIGALRM. */
 static const int harmless[] = {SCMP_SYS(exit_group),
                                SCMP_SYS(exit),
                                SCMP_SYS(brk),
@@ -45,12 +44,11 @@ static const int harmless[] = {SCMP_SYS(exit_group),
 bool
 rc_calls_can_be_filtered(void)
 {
-    /* a filter at no address: EFAULT where the system has filters, EINVAL where it has none */
+    /* a NULL filter: EFAULT if the system has filters, EINVAL if not */
     return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, NULL, 0, 0) != 0 && errno == EFAULT;
 }
 
-/* A call that is allowed where its arguments are as told. Calls of other processors, and those of x32, end the
- * process. */
+/* Allows a call with these arguments. Calls of other processors, and those of x32, end the process. */
 static bool
 allow(scmp_filter_ctx filter, int call, unsigned n, const struct scmp_arg_cmp *arguments)
 {

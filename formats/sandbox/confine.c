@@ -10,7 +10,8 @@
 #include "formats/core/core.h"
 
 static const double seconds_least = 0.8, bytes_a_second = 1e7;
-/* The bound by the clock is so many times larger: a child that only waits uses no processor time. */
+/* The limit of wall-clock time is this many times larger, because a child that waits uses no processor
+ * time. */
 static const double clock_factor = 10;
 
 double
@@ -19,7 +20,7 @@ rc_confine_seconds(const struct rc_file *file)
     return seconds_least + (double)file->size / bytes_a_second;
 }
 
-/* Address space that the process has already; 0 where the system does not tell. */
+/* Address space in use; 0 if the system does not say. */
 static size_t
 space_now(void)
 {
@@ -61,7 +62,7 @@ set_timer(int which, double seconds)
 void
 rc_confine(const struct rc_file *file)
 {
-    /* the parent may catch these, to tidy up or to go on; the child has to die of them */
+    /* the parent may catch these signals; the child must die of them */
     static const int signals[] = {SIGPROF, SIGALRM, SIGINT,  SIGTERM, SIGHUP, SIGPIPE,
                                   SIGSEGV, SIGBUS,  SIGABRT, SIGFPE,  SIGILL, SIGSYS};
     size_t space = space_now();
@@ -73,10 +74,10 @@ rc_confine(const struct rc_file *file)
         signal(signals[k], SIG_DFL);
     set_timer(ITIMER_PROF, rc_confine_seconds(file));
     set_timer(ITIMER_REAL, clock_factor * rc_confine_seconds(file));
-    limit(RLIMIT_CPU, (rlim_t)rc_confine_seconds(file) + 2); /* where the signals are blocked */
+    limit(RLIMIT_CPU, (rlim_t)rc_confine_seconds(file) + 2); /* in case the signals are blocked */
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
-    limit(RLIMIT_NOFILE, 0); /* so that a file cannot have others read by their names */
+    limit(RLIMIT_NOFILE, 0); /* a file cannot make it open others */
     if (space > 0)
         limit(RLIMIT_AS, (rlim_t)(space + rc_memory_limit(file->size)));
 }

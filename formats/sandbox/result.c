@@ -67,7 +67,7 @@ rc_result_send_grid(FILE *to, const struct rc_result *r, struct rc_grid *g)
     return sent;
 }
 
-/* Before memory is taken for it. */
+/* Checked before memory is allocated. */
 static enum rc_status
 fits(void *file, const struct rc_shape *shape, size_t bytes, struct rc_err *err)
 {

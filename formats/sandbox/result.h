@@ -1,5 +1,5 @@
-/* How the child of a sandbox hands its result to the parent: what it notes and says, then the channels or the
- * grid, as a stream RCG1. The parent checks all of it: a file may have got hold of the child. */
+/* Transfers the result of a sandbox's child to the parent: its notes and message, then the channels or the
+ * grid as a stream RCG1. The parent checks all of it, because the file may control the child. */
 #ifndef RC_RESULT_H
 #define RC_RESULT_H
 
@@ -13,14 +13,14 @@ struct rc_result {
     struct rc_err said;
 };
 
-/* All return whether everything went through. Of n channels the first `most` are sent. */
+/* All return whether the transfer was complete. Of n channels the first `most` are sent. */
 bool rc_result_send_list(FILE *to, const struct rc_result *result, const struct rc_channel *channel,
                          size_t most);
 bool rc_result_send_grid(FILE *to, const struct rc_result *result, struct rc_grid *grid);
 bool rc_result_receive(FILE *from, struct rc_result *result);
 bool rc_result_receive_list(FILE *from, const struct rc_result *result, struct rc_channel *channel,
                             size_t most);
-/* A grid of as many nodes as the file may have, or NULL. */
+/* A grid within the limits of the file, or NULL. */
 struct rc_grid *rc_result_receive_grid(FILE *from, const struct rc_file *file);
 
 #endif

@@ -22,13 +22,13 @@ rc_sandbox_bypass(bool bypass)
     bypassed = bypass;
 }
 
-/* A child that is confined, and the parent's end of the pipe that it writes its result to. */
+/* A confined child, and the parent's end of its pipe. */
 struct child {
     pid_t pid; /* 0 in the child itself */
     FILE *result;
 };
 
-/* Makes them. False with the reason when there is no child. */
+/* Starts the child. False with the reason when there is none. */
 static bool
 start(struct child *c, const struct rc_file *file, struct rc_err *err)
 {
@@ -63,8 +63,8 @@ start(struct child *c, const struct rc_file *file, struct rc_err *err)
     return false;
 }
 
-/* The number of kB after `key` at the beginning of a line of /proc/CHILD/NAME; 0: no such line. Takes no
- * memory from the heap, because the next child would inherit it. */
+/* The number of kB after `key` at the beginning of a line of /proc/CHILD/NAME; 0: no such line. Does not
+ * allocate, because the next child would inherit the memory. */
 static size_t
 kilobytes(pid_t child, const char *name, const char *key)
 {
@@ -86,9 +86,9 @@ kilobytes(pid_t child, const char *name, const char *key)
     return at == NULL ? 0 : strtoul(at + strlen(line), NULL, 10);
 }
 
-/* Private memory of a child at its largest, in bytes: what the child holds and shares with no other
- * process, and what it has given back since. 0 where the system does not say, or the child has ended. Code is
- * not counted, because it is memory of a file. */
+/* Largest private memory of a child, in bytes: not shared with other processes, including what it has freed
+ * since. 0 if the system does not say, or the child has ended. Code is excluded, because it is memory of a
+ * file. */
 static size_t
 memory_of(pid_t child)
 {
@@ -104,7 +104,7 @@ leave(const struct child *c, bool sent)
     _exit(fflush(c->result) == 0 && sent ? 0 : 1);
 }
 
-/* Waits for the end of the child; where its result is not whole, *err says how the child ended. */
+/* Waits for the end of the child; if its result is incomplete, *err says how the child ended. */
 static void
 finish(const struct child *c, const struct rc_file *file, bool whole, struct rc_err *err)
 {

@@ -1,9 +1,8 @@
 /*
- * A process of its own for libraries that were not made for hostile files (libhdf5, libtiff). They
- * run in a child with bounded memory and time, which can open no other file and, where the system
- * filters calls, can do nothing but compute. The child hands its result back through a pipe; when it
- * dies, the file is refused and nothing else is harmed. confine.h and calls.h have the bounds. Call
- * from one thread.
+ * A separate process for libraries that are not safe with malicious files (libhdf5, libtiff). They run in a
+ * child with limited memory and time that cannot open files and, where the system can filter calls, can only
+ * compute. The child sends its result through a pipe; if it dies, the file is refused and nothing else is
+ * affected. confine.h and calls.h have the limits. Call from one thread.
  */
 #ifndef RC_SANDBOX_H
 #define RC_SANDBOX_H
@@ -23,8 +22,8 @@ struct rc_grid *rc_sandbox_read(rc_maps_find *find, rc_sandboxed_read *read,
                                 const struct rc_file *file, const struct rc_wish *wish,
                                 size_t index, struct rc_notes *notes, struct rc_err *err);
 
-/* From now on the calls run in this process, without bounds: for fuzzers, whose sanitizers must see
- * them. false: in the sandbox again. */
+/* From now on the functions run in this process, without limits: for fuzzers, whose sanitizers must see them.
+ * false: in the sandbox again. */
 void rc_sandbox_bypass(bool bypass);
 
 #endif

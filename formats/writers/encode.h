@@ -1,4 +1,4 @@
-/* Values on their way out: numbers into little-endian bytes, and a buffer that grows. */
+/* Output of values: numbers as little-endian bytes, and a growing buffer. */
 #ifndef RC_ENCODE_H
 #define RC_ENCODE_H
 
@@ -11,7 +11,7 @@
 
 /* ---- a buffer that grows ---- */
 
-/* Starts as {0}. Once memory was short it stays empty, and rc_buffer_write says so. */
+/* Initialise with {0}. After short memory it stays empty, and rc_buffer_write fails. */
 struct rc_buffer {
     char *bytes; /* n of them, and a NUL */
     size_t n, capacity;
@@ -28,26 +28,26 @@ void rc_buffer_u64(struct rc_buffer *buffer, uint64_t value);
 void rc_buffer_f32(struct rc_buffer *buffer, float value);
 void rc_buffer_f64(struct rc_buffer *buffer, double value);
 void rc_buffer_free(struct rc_buffer *buffer);
-/* RC_FAIL when memory was short or the device refuses. */
+/* RC_FAIL when memory was short or the device fails. */
 enum rc_status rc_buffer_write(const struct rc_buffer *buffer, FILE *out, struct rc_err *err);
 
 /* ---- values ---- */
 
 struct rc_range {
-    double min, max; /* of the values that are there; 0 and 0 when there is none */
+    double min, max; /* of the measured values; 0 and 0 when there are none */
     size_t missing;
 };
 /* RC_FAIL for a value that is infinite. */
 enum rc_status rc_range_of(const struct rc_grid *grid, struct rc_range *range, struct rc_err *err);
 
-/* How values become numbers of a file: value = number * increment + offset. */
+/* The code of values as numbers of a file: value = number * increment + offset. */
 struct rc_code {
     enum rc_raw raw;
     double increment, offset;
     int32_t missing; /* number of a missing point; of the integer types only: NaN in the others */
 };
-/* The finest code for the range with whole numbers from `low` to `high`; floating types hold the
- * values as they are. */
+/* The finest code for the range with whole numbers from `low` to `high`; floating types store the values
+ * unchanged. */
 struct rc_code rc_code_for(enum rc_raw raw, const struct rc_range *range, int32_t low, int32_t high,
                            int32_t missing);
 /* n values into n * rc_raw_width bytes, little-endian. RC_FAIL for a finite value that is too large

@@ -11,7 +11,7 @@
 #include "encode.h"
 #include "formats/export.h"
 
-/* Where bytes go; without a file they are only counted, because an object begins with its size. */
+/* The target of bytes; without a file they are only counted, because an object begins with its size. */
 struct sink {
     FILE *out;
     uint64_t n;
@@ -79,7 +79,7 @@ item_text(struct sink *s, const char *name, const char *value)
 
 typedef void body(struct sink *s, const void *what);
 
-/* Writes name, size and body; the body runs twice, first to be measured. */
+/* Writes name, size and body; the body runs twice, first to measure its size. */
 static void
 object(struct sink *s, const char *name, body *write, const void *what)
 {
@@ -131,7 +131,7 @@ field_head(struct sink *s, const struct rc_grid *g, const char *unit)
     put_word(s, (uint32_t)(g->nx * g->ny));
 }
 
-/* A missing point has to be some number: the middle of those that are there, under the mask. */
+/* A missing point needs some number: the middle of the measured ones, under the mask. */
 static void
 data_body(struct sink *s, const void *what)
 {

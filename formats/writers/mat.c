@@ -25,7 +25,7 @@ enum {
     SINGLE_ARRAY = 7
 };
 
-#define BYTES_MOST UINT32_C(0x7fffffff) /* of an array, as MATLAB takes them */
+#define BYTES_MOST UINT32_C(0x7fffffff) /* of an array, by MATLAB's limit */
 
 static uint32_t
 padded(size_t n)
@@ -41,7 +41,7 @@ put_padding(struct rc_buffer *b, size_t n)
     rc_buffer_add(b, none, padded(n) - n);
 }
 
-/* All of an array up to its numbers, of which there are n bytes. */
+/* Writes an array up to its numbers, of which there are n bytes. */
 static void
 start_array(struct rc_buffer *b, const char *name, uint32_t class, size_t rows, size_t columns,
             uint32_t type, size_t n)
@@ -71,7 +71,7 @@ put_number(struct rc_buffer *b, const char *name, double value)
     rc_buffer_f64(b, value);
 }
 
-/* Units are ASCII but for the few with a sign of their own, which is left out. */
+/* Units are ASCII except a few with special characters, which are omitted. */
 static void
 put_text(struct rc_buffer *b, const char *name, const char *text)
 {

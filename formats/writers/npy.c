@@ -13,7 +13,7 @@ enum {
     ALIGN = 64
 };
 
-/* Refuses uneven depths: an array does not say where its slices are. */
+/* Refuses uneven depths, because an array does not contain the depths. */
 static enum rc_status
 check_stack(const struct rc_stack *s, size_t stacks, struct rc_err *err)
 {

@@ -1,11 +1,12 @@
-/* Frames that are the depths of one thing: of one channel and case, on one grid. */
+/* Frames that are the depths of one stack: one channel and case, on one grid. */
 #ifndef RC_STACK_H
 #define RC_STACK_H
 
 #include "libcontact/grid.h"
 
 struct rc_stack {
-    struct rc_grid **layer; /* n of them, from the shallowest down; one without a depth is alone */
+    /* n of them, from the shallowest down; a frame without a depth is a stack of its own */
+    struct rc_grid **layer;
     size_t n;
 };
 

@@ -14,17 +14,18 @@ enum {
     CORNERS = 3
 };
 
-static const double side = 100, floor_thickness = 2; /* mm */
+/* mm: longer side, thickness below the lowest point */
+static const double side = 100, floor_thickness = 2;
 
 struct relief {
     const struct rc_grid *g;
-    double across, up; /* mm in a metre along the map, and upwards */
+    double across, up; /* mm per metre along the map, and upwards */
     double lowest;     /* m */
     FILE *out;
     struct rc_buffer b;
 };
 
-/* Where node (i, j) is, or the point of the floor under it. */
+/* Position of node (i, j), or of the floor below it. */
 static void
 corner(const struct relief *r, size_t i, size_t j, bool on_floor, float to[CORNERS])
 {
@@ -56,7 +57,7 @@ triangle(struct relief *r, const float a[CORNERS], const float b[CORNERS], const
     rc_buffer_u16(&r->b, 0);
 }
 
-/* The face of the cell whose upper left corner is node (i, j). */
+/* The two triangles of the cell whose upper left corner is node (i, j). */
 static void
 cell(struct relief *r, size_t i, size_t j)
 {
@@ -70,8 +71,8 @@ cell(struct relief *r, size_t i, size_t j)
     triangle(r, a, d, b);
 }
 
-/* The wall under the edge from one node of the border to the next, the outside on the right, and the part
- * of the floor between that and its middle. */
+/* The wall below the edge between two adjacent nodes of the border, with the outside on the right, and the
+ * part of the floor between this edge and the middle. */
 static void
 wall(struct relief *r, size_t i, size_t j, size_t i1, size_t j1)
 {
@@ -175,7 +176,7 @@ stl_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
     return status;
 }
 
-/* Of the file and of the print, for the user. */
+/* Sizes of the file and of the print, for the user. */
 static void
 stl_foretell(const struct rc_grid *g, const struct rc_export_wish *wish, char *text, size_t size)
 {

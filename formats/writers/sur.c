@@ -1,6 +1,6 @@
 /*
- * Digital Surf: a 512-byte header and whole numbers, little-endian, row 0 first. Lengths are in mm,
- * the way its own programs have them; value = number * step + offset.
+ * Digital Surf: a 512-byte header and whole numbers, little-endian, row 0 first. Lengths are in mm, as in
+ * Digital Surf's programs; value = number * step + offset.
  *
  * Readers disagree on whether the smallest number is to be subtracted first, so it is 0 here. Step
  * and offset are floats: they are rounded before the numbers are made, so that the rounding is in
@@ -21,11 +21,11 @@ enum {
 };
 
 struct plan {
-    struct rc_code code; /* in the units of the frame   */
-    const char *unit;    /* of the values in the file   */
-    double worth;        /* what one of them is, in SI  */
-    float step, offset;  /* in that unit                */
-    int32_t most;        /* largest number              */
+    struct rc_code code; /* in the units of the frame */
+    const char *unit;    /* of the values in the file */
+    double worth;        /* SI value of one unit      */
+    float step, offset;  /* in that unit              */
+    int32_t most;        /* largest number            */
     bool missing;
 };
 
@@ -119,7 +119,7 @@ make_header(struct rc_buffer *b, const struct rc_grid *g, const struct plan *p,
         text(b, p->unit, 16);
     }
     for (int k = 0; k < 3; k++)
-        rc_buffer_f32(b, 1); /* one unit is one unit */
+        rc_buffer_f32(b, 1); /* factor between units */
     words(b, 2, (const uint16_t[]){1, 0});
     fill(b, 306);
     date_fields(b, g, wish);

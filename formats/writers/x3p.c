@@ -75,7 +75,7 @@ axis(struct rc_buffer *b, const char *name, const char *type, const char *data, 
                     name);
 }
 
-/* The schema wants each of these, whether anything is known or not. */
+/* The schema requires each of these elements, even if unknown. */
 static void
 word(struct rc_buffer *b, const char *element, const struct rc_grid *g, const char *key,
      const char *otherwise)
@@ -155,7 +155,7 @@ make_main(struct rc_buffer *b, const struct rc_grid *g, const struct parts *p,
 
 /* ---- the archive ---- */
 
-/* Hands the bytes of a buffer over. */
+/* Adds a buffer to the archive, which then owns it. */
 static enum rc_status
 add_buffer(struct rc_zip_write *archive, const char *name, struct rc_buffer *b, struct rc_err *err)
 {

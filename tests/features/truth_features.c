@@ -1,6 +1,6 @@
-/* Feature parameters of ISO 25178-2 are what closed forms say of waves and posts, and on rough
- * maps what Wolf's rule says that is done as it is written: the hill of least height, again and
- * again, joins the one across its highest saddle. */
+/* Feature parameters of ISO 25178-2 equal closed forms for waves and posts, and on rough maps a literal
+ * implementation of Wolf's rule: the hill of least height joins the hill across its highest saddle, again and
+ * again. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

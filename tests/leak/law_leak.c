@@ -1,6 +1,6 @@
-/* What every flow obeys: turned, mirrored, shifted and in other units it is the same; wider gaps let more
- * through; a dense solve of the same network agrees; what flows and what stands, by taking nodes away; the
- * critical gap, by closing what is narrower; proven bounds that meet at any contrast. */
+/* Laws of the flow: rotated, mirrored, shifted and in other units it is the same; wider gaps have more flow;
+ * a dense solution of the same network agrees; flowing and still fluid, by removing nodes; the critical gap,
+ * by closing narrower ones; rigorous bounds that meet at any contrast. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -287,7 +287,8 @@ finds_the_critical_gap(void **state)
 
 /* ---- bounds ---- */
 
-/* At random, and where pools hang on throats in series, by the last of which alone they are held. */
+/* For random networks, and for pools behind constrictions in series, the last of which alone connects
+ * them. */
 static void
 bounds_meet(void **state)
 {

@@ -1,5 +1,6 @@
-/* Flow through the gaps of small rough contacts: the two faces stand on either side of the truth and come to
- * it; little contact leaves ways open, much of it none. Larger ones, and the threshold: tests/long. */
+/* Flow through the gaps of small rough contacts: the two rules for faces err to opposite sides of the truth
+ * and converge to it; little contact leaves paths open, much contact none. Larger ones, and the threshold:
+ * tests/long. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,5 @@
-/* Every engine agrees with the double sum for every kernel, size and spacing; on periodic maps,
- * where it does them, with the sum over all waves. The bodies, whose kernels they are, and the engines are
- * those of the lists, whichever these hold. */
+/* Every engine agrees with the double sum for every kernel, size and spacing; on periodic maps, if it
+ * supports them, with the sum over all waves. Bodies and engines are those of the lists. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -30,8 +29,8 @@ enum {
     TYPES = sizeof types / sizeof *types
 };
 
-/* Bodies of which each row of the list takes one: bare, under three layers of the thickness of a few
- * cells, and a layer on a rigid base. */
+/* Bodies, one for each row of the list: uniform, under three layers of the thickness of a few cells, and a
+ * layer on a rigid base. */
 enum {
     BARE,
     LAYERED,
@@ -84,7 +83,7 @@ quarter(const struct rc_sum *s)
     return k;
 }
 
-/* u = K p as it is written, and the largest sum of |K| |p|, which errors are judged against. */
+/* u = K p as a double sum, and the largest sum of |K| |p|, the reference of errors. */
 static double
 double_sum(const struct rc_sum *s, const double *p, double *u)
 {
@@ -144,8 +143,8 @@ wave_sum(const struct rc_sum *s, const double *p, double *u)
 
 /* ---- the comparison ---- */
 
-/* The allowed distance of an engine from the judge, over the sum of |K| |p|: the error that is
- * asked for, else rounding, of two sums where it interpolates. */
+/* The permitted difference of an engine from the double sum, over the sum of |K| |p|: the asked error, else
+ * rounding, twice that if it interpolates. */
 static double
 allowed(const struct rc_engine *engine, double tol, bool precise)
 {

@@ -172,8 +172,8 @@ one_material(void **state)
     body_case_free(&bare);
 }
 
-/* Bodies face to face give way by the sum of what each gives way alone: two alike twice as much as
- * one on a rigid body, a layered one with a bare one as much as both. */
+/* The displacement of two bodies is the sum of those of each alone: for two equal bodies twice that of one on
+ * a rigid body, for a layered and a uniform one the sum of both. */
 static void
 both_bodies(void **state)
 {
@@ -202,8 +202,8 @@ both_bodies(void **state)
     assert_true(fabs(symbol[3] / (symbol[0] + symbol[2]) - 1) < rounding);
 }
 
-/* From nearly nothing to nearly everything: a coat of a thousandth of a node, one of a thousand maps, in
- * ratios of 1e-4 to 1e4, ends certified, and the thick one is as one material. */
+/* Extreme coatings: one of a thousandth of a node and one of a thousand maps, in ratios of 1e-4 to 1e4, are
+ * solved to the tolerance, and the thick one equals a uniform body. */
 static void
 thin_and_thick(void **state)
 {

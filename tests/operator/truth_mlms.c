@@ -1,4 +1,4 @@
-/* The multi-level sum is as exact as asked, for any pressure, grid, spacing and kernel. */
+/* The multi-level sum has at most the asked error, for any pressure, grid, spacing and kernel. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -300,7 +300,7 @@ as_exact_as_asked(void **state)
     }
 }
 
-/* Nothing asked: rounding. */
+/* Without a tolerance: rounding. */
 static void
 as_exact_as_rounding(void **state)
 {

@@ -219,7 +219,7 @@ strips_and_needles(void **state)
     }
 }
 
-/* Beyond rounding no method can go: it says so, and keeps what it has. */
+/* No method can get below rounding: it says so, and keeps its result. */
 static void
 an_accuracy_out_of_reach(void **state)
 {

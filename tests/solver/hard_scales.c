@@ -21,7 +21,8 @@ crest(struct rc_shape s, size_t k, double a, uint64_t *seed)
         37, 31, 1e-6, 1.2e-6                                                                       \
     }
 
-/* The mean pressure goes with heights: the same contact. And not: from one node to all. */
+/* The mean pressure is in proportion to the heights: the same contact. And not in proportion: from one node
+ * to all. */
 static const struct hard_case units[] = {
     {"heights x 1e-12", MAP, BOTH, hard_noise, 0, 1e-19, 3e-14, 0, 0, NULL, 0},
     {"heights x 1e+12", MAP, BOTH, hard_noise, 0, 1e+5, 3e+10, 0, 0, NULL, 0},

@@ -113,8 +113,7 @@ all_of_them_yield(void **state)
 }
 
 /* Heights far above the displacements, and a hardness a tenth above the mean pressure: a few nodes are
- * elastic, and one of them in the wrong place is most of the error. The truth is what the other method
- * comes to. */
+ * elastic, and a wrong one among them makes most of the error. The reference is the other method. */
 static void
 few_are_elastic(void **state)
 {

@@ -1,6 +1,6 @@
-/* Nothing but bounds.h knows that the lower bound of the pressure is 0. A constant pressure displaces no
- * periodic surface: where both bounds and the mean pressure are higher or lower by the same, so is the
- * pressure everywhere. */
+/* Only bounds.h knows that the lower bound of the pressure is 0. A constant pressure displaces no periodic
+ * surface: if both bounds and the mean pressure increase by the same amount, so does the pressure
+ * everywhere. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -164,7 +164,7 @@ mirror_and_scale(void **state)
     free(mirrored);
 }
 
-/* The engine changes the pressure by less than the tolerance asked for. */
+/* The engine changes the pressure by less than the asked tolerance. */
 static void
 engines_agree(void **state)
 {

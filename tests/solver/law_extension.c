@@ -1,5 +1,5 @@
-/* The preconditioner E' A E is symmetric and positive, no smaller than the exact inverse it
- * stands for, and near enough to it: eigenvalues of E' A E K on given contact sets. */
+/* The preconditioner E' A E is symmetric and positive, at least as large as the exact inverse, and close to
+ * it: eigenvalues of E' A E K on given contact sets. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

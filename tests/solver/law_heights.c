@@ -193,8 +193,8 @@ history(void **state)
     }
 }
 
-/* Pressed again to the same load, after less or at once, a shape that has yielded is at the hardness in the
- * same places: the same nodes are counted, but for one where the tolerance is 1e-4. */
+/* Loaded again to the same load, directly or after a smaller one, a yielded shape is at the hardness in the
+ * same places: the same nodes are counted, except one at a tolerance of 1e-4. */
 static void
 reload_reaches_the_same_nodes(void **state)
 {

@@ -1,6 +1,6 @@
-/* Where the caller cannot wait a solver stops at once, whatever it has done so far: no convolution more
- * but where there is no gap yet, the load is carried, the displacement is that of the pressure to single
- * precision, and no state is called converged that is not. Where nobody is in a hurry nothing changes. */
+/* When the caller cannot wait, a solver stops at once in any state: no further convolution unless there is no
+ * gap yet, the load is carried, the displacement is that of the pressure to single precision, and no state is
+ * wrongly called converged. When the caller can wait, nothing changes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

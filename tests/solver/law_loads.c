@@ -1,5 +1,5 @@
-/* Loads one after another, approaches, stiffness, yield and what the grid leaves out: each
- * against the solution made for itself, Hertz, or its own definition. */
+/* Loads in sequence, approaches, stiffness, yield and discretization error: each against a separate solution,
+ * Hertz, or its own definition. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -122,8 +122,8 @@ approach_is_inverted(void **state)
     }
 }
 
-/* The first loads of a search are roughly solved, and may tell the wrong side of the load that is sought:
- * the approach is met all the same. Small rough maps, pressed to a third and more of full contact. */
+/* The first loads of a search are solved roughly, and may be on the wrong side of the load; the approach is
+ * still met. Small rough maps, pressed to a third and more of full contact. */
 static void
 any_approach_is_met(void **state)
 {
@@ -256,7 +256,7 @@ enum {
     LATER = 4
 };
 
-/* Pressures of loads one after another, each on the shape that is left, and what is told of their errors. */
+/* Pressures of loads in sequence, each on the shape that the last left, with their estimated errors. */
 static void
 history_of(struct rc_shape own, const double *form, struct rc_problem problem, const double *load,
            double *pressures, double *told)
@@ -285,8 +285,8 @@ history_of(struct rc_shape own, const double *form, struct rc_problem problem, c
     free(h);
 }
 
-/* Dents keep what the loads that made them were off: the estimates of later loads are not below that, against the
- * same list solved to 1e-9, and no load is less accurate than was asked. */
+/* The errors of loads stay in their dents: the estimates of later loads are not below them, against the same
+ * list solved to 1e-9, and every load has the asked accuracy. */
 static void
 errors_of_histories_are_known(void **state)
 {
@@ -446,7 +446,7 @@ discretization_is_bounded(void **state)
     free(h);
 }
 
-/* Effects cost what they are: equivalents of a convolution, and nothing where they are left out. */
+/* Each effect costs its own convolutions, and nothing if it is not requested. */
 static void
 only_what_is_called_for(void **state)
 {

@@ -1,6 +1,6 @@
-/* The work on a profile, or on a strip of a few rows, hardly grows, whether it lies as a row or as a column,
- * repeats or ends, bare or under coats: the extension off a line is one of its own, and load that tiles of a
- * step cannot keep stays near. */
+/* The work on a profile, or on a strip of a few rows, hardly grows with its length, as a row or a column,
+ * periodic or free, uniform or coated: a line has its own extension, and load that tiles cannot carry stays
+ * near. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -167,8 +167,8 @@ by_tiles(void **state)
     assert_true(10 * kept >= 8 * all); /* some cannot */
 }
 
-/* The nearest point: no other one of the box with this load is nearer to the step. Its condition is
- * one shift for all nodes that are not at a bound, and the right sign for those that are. */
+/* The nearest point: no other admissible pressure with this load is nearer to the step. Its condition is one
+ * shift for all nodes that are not at a bound, and the right sign for those that are. */
 static void
 by_one_shift(void **state)
 {

@@ -42,7 +42,7 @@ press(const struct rc_shape *shape, const double *h, struct rc_problem problem)
     return s;
 }
 
-/* The load of such a part of what the map can carry; where that is without bound of the mean of its
+/* The load that is this fraction of the map's capacity; if the map has no bound, of the mean of its
  * numbers. */
 static double
 load_of(const struct rc_shape *shape, const double *map, double part)

@@ -1,6 +1,6 @@
-/* The stress of plastic strain in slices: their mean over a slab is what the volume's sweeps, which know no
- * slices, have for that slab, and over a thin slab of its own, for which the others are cut; the stress
- * adds to that of the pressure; a section is a row of a map; and all depths cost one sweep. */
+/* The stress of plastic strain in slices: its mean over a slab equals that of the volume's sweeps, also over
+ * a thin slab for which others are cut; the stress adds to that of the pressure; a section is a row of a map;
+ * and all depths together cost one sweep. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

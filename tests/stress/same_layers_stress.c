@@ -226,8 +226,8 @@ threads_agree(void **state)
     free(b);
 }
 
-/* What a slice costs is the same with layers, but for the kernel that one material has twice (szz of the
- * traction is sxz of the pressure), and without friction nothing of it; coarser grids have no part. */
+/* A slice costs the same with layers, except for the kernel that a uniform body shares (szz of the traction
+ * is sxz of the pressure), and without friction no kernel of it; coarser grids are not used. */
 static void
 only_what_is_asked(void **state)
 {

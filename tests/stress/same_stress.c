@@ -1,5 +1,5 @@
-/* Two ways to the same stress agree, and each computes only what the scene calls for: sections and
- * slices, engines, threads, one at a time and all together; a table of counts. */
+/* Different ways to compute the same stress agree, and each computes only what is needed: sections and
+ * slices, engines, threads, one component or all; a table of counts. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -114,8 +114,8 @@ engines_agree(void **state)
         }
 }
 
-/* fft and the words that ask it for double precision, or leave the choice, are one engine here: no
- * bit differs, on periodic maps neither, and each is told by its own name. */
+/* fft and the names that demand double precision of it, or leave the choice, are one engine here: results are
+ * equal to the last bit, also on periodic maps, and each reports its own name. */
 static void
 transforms_by_any_name(void **state)
 {
@@ -344,8 +344,8 @@ alone_as_in_company(void **state)
     free(s.p);
 }
 
-/* The least and the largest value are the first that no other one is below or above, wherever in a
- * map they are; what is no number is neither. */
+/* rc_extremes returns the first of the smallest and of the largest values, wherever in a map they are; NaN is
+ * neither. */
 static void
 extremes_as_one_by_one(void **state)
 {

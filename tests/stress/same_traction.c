@@ -38,7 +38,7 @@ maps_new(void)
     return m;
 }
 
-/* How it is asked: all combinations that there are. */
+/* All combinations of the options. */
 struct way {
     enum rc_boundary boundary;
     bool coated;
@@ -225,7 +225,7 @@ loads_add(void **state)
         }
 }
 
-/* Alone, a component is what it is beside the others: which spectra are at hand does not matter. */
+/* A component alone equals that computed with the others: it does not depend on which spectra are stored. */
 static void
 alone_as_in_company(void **state)
 {

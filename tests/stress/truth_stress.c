@@ -92,8 +92,8 @@ coefficient(int kernel, double nu, double x, double y, double z, double dx, doub
     return value;
 }
 
-/* What a load of this size at this distance does, but for a factor of about 1: no kernel is larger,
- * and where one passes through 0 its digits are these. */
+/* The stress of a load of this size at this distance, up to a factor of about 1: no kernel is larger; the
+ * error of one that passes through 0 is judged relative to this. */
 static double
 scale_at(double x, double y, double z, double dx, double dy)
 {

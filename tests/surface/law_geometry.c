@@ -244,8 +244,8 @@ other_spacings_are_refused(void **state)
     free(v);
 }
 
-/* Reflected, a map is even about its edges and repeats: what is under it is again a cosine of the whole
- * period where it was one with its crests at the edges, and heights and slopes are as they were. */
+/* A reflected map is even about its edges and periodic: a cosine with its crests at the edges is again a
+ * cosine of the whole period, and heights and slopes are unchanged. */
 static void
 reflections_repeat(void **state)
 {

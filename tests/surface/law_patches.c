@@ -228,7 +228,7 @@ test_percolating(void **state)
     free(p);
 }
 
-/* A map without columns or rows is refused, not looked at for ever. */
+/* A map without columns or rows is refused, without an endless loop. */
 static void
 test_no_map(void **state)
 {

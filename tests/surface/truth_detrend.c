@@ -298,7 +298,7 @@ make_rows(size_t degree, double *h)
         h[NX + i] = NAN; /* a row without a point */
 }
 
-/* A surface of which each row has been shifted, tilted or bent is found again; missing points stay so. */
+/* A surface whose rows have been shifted, tilted or bent is recovered; missing points stay missing. */
 static void
 test_rows_are_levelled(void **state)
 {
@@ -324,8 +324,8 @@ test_rows_are_levelled(void **state)
     assert_non_null(strstr(err.text, "1 infinite heights in row 1"));
 }
 
-/* Spikes in every row: medians and robust fits leave them where they stand; and a row of fewer points than a fit
- * wants is levelled by its median. */
+/* Spikes in every row: medians and robust fits ignore them; a row with too few points for a fit is levelled
+ * by its median. */
 static void
 test_rows_resist(void **state)
 {

@@ -1,6 +1,5 @@
-/* Random surfaces whose heights are not Gaussian have the heights of the distribution and the size
- * that were asked for, and nearly the waves that they would have had without; on another grid they
- * are the same surface. */
+/* Random surfaces with heights that are not Gaussian have the asked distribution and size, and nearly the
+ * waves of the Gaussian surface; on another grid they are the same surface. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
-/* Power spectra: a wave's power stands where it belongs, Parseval's theorem holds to 1e-9 with each
- * window and without, a spectrum that is known is found whatever form is left on the map, and the
- * Hurst exponent is that of the surface to 0.05. */
+/* Power spectra: a wave's power is in the right ring, Parseval's theorem holds to 1e-9 with each window and
+ * without, a known spectrum is found whatever form the map has, and the Hurst exponent is that of the surface
+ * to 0.05. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 #include "libcontact/contact.h"
 
 static const double parseval = 1e-9;
-/* What an exponent may be off: asked for, not derived. */
+/* Permitted error of an exponent; a requirement, not derived. */
 static const double exponent = 0.05;
 
 static void
@@ -167,8 +167,8 @@ seen_through(size_t k, const struct rc_shape *s, const double *h, double *mean, 
     }
 }
 
-/* The sum over all waves is the mean square of what the window sees, over its own: nothing is scaled
- * to Sq^2, which is told beside it. */
+/* The sum over all waves is the mean square in the window, over that of the window: nothing is scaled to
+ * Sq^2, which is a separate figure. */
 static void
 test_parseval(void **state)
 {

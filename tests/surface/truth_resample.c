@@ -203,7 +203,7 @@ small_maps(void **state)
     free(out);
 }
 
-/* Beside its own copies, three by three, a map is as it is when it is periodic. */
+/* In a 3 x 3 array of its own copies a map gives the same result as when it is periodic. */
 static void
 periodic_maps_wrap(void **state)
 {

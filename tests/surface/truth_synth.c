@@ -1,5 +1,5 @@
-/* Made surfaces are what their formulas say: indenters, waves, and random roughness, of which every
- * wave has the asked power, belongs to its seed alone, and adds up to the asked size. */
+/* Synthetic surfaces follow their formulas: indenters, waves, and random roughness, in which every wave has
+ * the asked power, depends on its seed alone, and whose total has the asked size. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -348,8 +348,7 @@ test_cuts(void **state)
     free(h);
 }
 
-/* On a finer, a coarser and an uneven grid over the same lengths the same waves stand in the same
- * places. */
+/* On a finer, a coarser and an uneven grid over the same lengths the same waves have the same positions. */
 static void
 test_seed_gives_the_waves(void **state)
 {

@@ -1,5 +1,6 @@
-/* Two ways to the same slabs agree: threads, precisions, maps turned by a right angle, slabs split
- * in two, a sum of plane waves written down, and what is not wanted is left out without a trace. */
+/* Different ways to compute the same slabs agree: threads, precisions, maps turned by a right angle, slabs
+ * split in two, an explicit sum of plane waves; and components that are not wanted are left out without
+ * effect. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -221,8 +222,8 @@ split(void **state)
     }
 }
 
-/* Slabs that are said to have no strain are not asked for it, and slabs that are not wanted are not
- * handed out; the others do not change by a bit. After `down` there is no strain. */
+/* Slabs marked as without strain are not read, and slabs that are not wanted are not passed on; the others do
+ * not change by a bit. After `down` there is no strain. */
 struct picky {
     struct all *all;
     const bool *strained, *wanted;
