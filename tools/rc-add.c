@@ -14,7 +14,7 @@ static struct args {
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "subtract", .type = OPT_FLAG, .at = offsetof(struct args, subtract), .result = true,
-     .help = "A - B as they lie: what has changed between two measurements"},
+     .help = "A - B, without mirroring B: the change between two measurements"},
     {.name = NULL},
 };
 /* clang-format on */

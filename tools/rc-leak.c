@@ -38,19 +38,19 @@ static struct args {
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "direction", .type = OPT_CHOICE, AT(direction), .result = true, .arg = "x|y",
-     .help = "from the left edge to the right (x) or from the upper to the lower (y); default x"},
+     .help = "flow from the left to the right edge (x) or from top to bottom (y); default x"},
     {.name = "sides", .type = OPT_CHOICE, AT(sides), .result = true, .arg = "periodic|closed",
-     .help = "the edges along the flow meet, or are walls (default: the stream's boundary)"},
+     .help = "the two edges along the flow join or are walls (default: the stream's boundary)"},
     {.name = "viscosity", .type = OPT_NUMBER, .unit = UNIT_PAS, AT(viscosity), .min = 0,
      .max = INFINITY, .above = true, .result = true, .arg = "ETA",
-     .help = "of the fluid; with --pressure-drop it gives a flow rate"},
+     .help = "of the fluid; with --pressure-drop the report has a flow rate"},
     {.name = "pressure-drop", .type = OPT_NUMBER, .unit = UNIT_PA, AT(drop), .min = 0,
      .max = INFINITY, .above = true, .result = true, .arg = "DP",
-     .help = "of the fluid from edge to edge"},
+     .help = "difference of the fluid pressure between the edges"},
     {.name = "output", .type = OPT_WORDS, AT(output), .words = frame_word, .arg = "LIST",
      .help = "frames to write, of %s (default: all)"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
-     .help = "write one JSON object a case, or a row of FILE.tsv or .csv: flow, its bounds, what is narrow"},
+     .help = "write one JSON object per case, or a row of FILE.tsv or .csv: flow, bounds, constriction"},
     {.name = NULL},
 };
 /* clang-format on */

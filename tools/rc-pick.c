@@ -30,7 +30,7 @@ static const struct opt opts[] = {
     STEP("rotate", "90|180|270", "counterclockwise"),
     {.name = "set", .type = OPT_TEXTS, .at = offsetof(struct args, steps), .result = true,
      .arg = "KEY=VALUE",
-     .help = "set a key of every frame, again for each; KEY= removes it"},
+     .help = "set a key of every frame, KEY= removes it; may be repeated"},
     {.name = NULL},
 };
 /* clang-format on */

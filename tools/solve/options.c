@@ -17,7 +17,7 @@ tilt_word(size_t k)
 const struct opt solve_contact_options[] = {
     {.group = physics_options, AT(physics)},
     {.name = "yield", .type = OPT_TEXT, AT(yield), .result = true, .arg = "Y[,HM]|FILE.tsv",
-     .help = "body 1 yields inside, from this stress on, which hardens by HM per plastic strain"},
+     .help = "yield stress of body 1 (in its volume), and its increase per plastic strain, HM"},
     {.name = "adhesion", .type = OPT_TEXT, AT(adhesion), .result = true, .arg = "WORK[,LAW[,RANGE]]",
      .help = "the bodies attract each other: 50mJ/m2, 50mJ/m2,exponential,2nm; a list is a path"},
     {.name = "history", .type = OPT_FLAG, AT(physics.history), .result = true,
@@ -26,7 +26,7 @@ const struct opt solve_contact_options[] = {
      .help = "free: the counter body tilts until the moment is zero (default fixed)"},
     {.name = "at", .type = OPT_NUMBERS, .unit = UNIT_M, AT(at), .min = -INFINITY, .max = INFINITY,
      .result = true, .arg = "X,Y",
-     .help = "where the load acts on a body that is free to tilt (default: the middle)"},
+     .help = "point where the load acts, with --tilt free (default: the middle)"},
     {.name = NULL},
 };
 /* clang-format on */
