@@ -342,10 +342,6 @@ struct rc_patches {
     double contact_area, contact_area_corrected, perimeter; /* m^2, m^2, m */
     struct rc_patch *patch; /* `count` of them, the largest first; NULL if not requested */
 };
-/* Bytes needed besides p. For p NULL, and among ranks, an estimate for a rough contact; among ranks for the
- * rank that needs most, with the patches of the whole map, which every rank holds. */
-RC_API size_t rc_patches_memory(const struct rc_shape *shape, const double *p,
-                                const struct rc_patch_options *options);
 /* RC_FAIL when memory is short. Call rc_patches_free in either case. */
 RC_API enum rc_status rc_patches_find(const struct rc_shape *shape, const double *p,
                                       const struct rc_patch_options *options,
@@ -1329,12 +1325,6 @@ struct rc_stress_counts {
 /* RC_FAIL, and *err says why, when rc_stress_new would refuse these options, except for short memory. */
 RC_API enum rc_status rc_stress_check(const struct rc_shape *shape,
                                       const struct rc_stress_options *options, struct rc_err *err);
-/* Bytes of such a plan besides p and the slices; among ranks of the rank that needs most. `depth`: the depths
- * that will be requested (m; depths 0: any). loaded: for a section the number of lines along it with pressure
- * or traction (0: all). */
-RC_API size_t rc_stress_memory(const struct rc_shape *shape,
-                               const struct rc_stress_options *options, const double *depth,
-                               size_t depths, size_t loaded);
 /* Suitable depths from 0 down for the stresses under this pressure, *n of them in an array that the caller
  * frees: close together near the surface, where short waves matter, farther apart below, down to three
  * contact radii (free) or to where the waves have decayed to 1 % (periodic). Their distance is a quarter of
