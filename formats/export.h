@@ -26,7 +26,8 @@ struct rc_export_wish {
     int64_t time;        /* seconds since 1970, for formats that must bear a date             */
     const char *creator; /* program and version, for those that name it                       */
     const char *missing; /* word for a missing point in text; NULL: the format's own          */
-    double relief;       /* m from the lowest to the highest point of a print; 0: as the map's */
+    /* m: height of a print from its lowest to its highest point; 0: to scale with the map */
+    double relief;
 };
 
 enum {

@@ -51,8 +51,8 @@ lose(double *h, size_t n, int one_in)
 
 /* ---- the forms ---- */
 
-/* A ball of radius |R| whose middle is at (x, y, z): its upper side, or of a hollow (R < 0) the
- * lower one. */
+/* A ball of radius |R| with its centre at (x, y, z): its upper side, or the lower one for a hollow (R <
+ * 0). */
 struct ball {
     double radius, x, y, z;
 };

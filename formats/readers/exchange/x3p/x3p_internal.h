@@ -63,7 +63,7 @@ struct rc_x3p {
 
 /* Reads main.xml and judges it: RC_FAIL for what is no map on a regular grid. */
 enum rc_status rc_x3p_head(struct rc_x3p *x, struct rc_err *err);
-/* The key of the grid that keeps a field from RC_X3P_FIRST_KEY on. */
+/* The key of the grid that stores a field, for fields from RC_X3P_FIRST_KEY on. */
 const char *rc_x3p_key(size_t field);
 
 /* Notes what is wrong with main.xml by its checksum. */
