@@ -160,7 +160,10 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     if (plastic != NULL) {
         f->contact.pressure_error = f->plastic.error;
         f->contact.convolutions = NAN; /* nearly all of the work is in the volume */
-        f->contact.converged = m->status == RC_OK && f->plastic.error <= press->goal;
+        /* the error is unknown where few increments were asked for */
+        f->contact.converged = m->status == RC_OK && f->contact.converged &&
+                               (f->plastic.error <= press->goal ||
+                                (y->problem.increments > 0 && isnan(f->plastic.error)));
     }
     f->residual_indentation = y->first_top - y->top;
     f->indentation = (m->to.at[RC_LOAD] > 0 ? f->contact.approach : 0) + y->first_top - y->top;
