@@ -252,6 +252,54 @@ test_estimate_bounds_the_error(void **state)
     assert_true(most <= 2.5);
 }
 
+/* Two nodes of long cells under a force next to sliding, which turns: on the circles of both, only two pairs of
+ * tractions carry it, and where neither is an answer both nodes must stick before that is found. */
+static void
+test_two_nodes_next_to_sliding(void **state)
+{
+    const struct rc_shape shape = {1, 3, 0.1, 10};
+    const double p[3] = {0.8567, 0, 0.2633}, limit = 0.3 * (p[0] + p[2]);
+    size_t slid = 0, missed = 0;
+
+    (void)state;
+    for (int k = 0; k < 64; k++) {
+        double first = 0.2 * k, angle = 0.7 + 0.35 * (k % 7), part = 0.9 + 0.099 * (k % 5) / 4;
+        struct rc_slip_problem what = {
+            .boundary = RC_PERIODIC, .pair.estar = 1, .nu = 0.45, .mu = 0.3, .tol = 1e-7};
+        struct rc_slip *slip = rc_slip_new(&shape, &what, NULL);
+        struct rc_slip_figures f;
+        double s[2][3];
+
+        rc_slip_set_pressure(slip, p, NULL, NULL);
+        rc_slip_set_force(slip, 0.9 * limit * cos(first), 0.9 * limit * sin(first), NULL);
+        assert_int_equal(slip_solve(slip, &f), RC_OK);
+        rc_slip_keep(slip);
+        for (int c = 0; c < 2; c++)
+            rc_slip_slip(slip, c, s[c]);
+        rc_slip_set_pressure(slip, p, NULL, NULL);
+        rc_slip_set_force(slip, part * limit * cos(angle), part * limit * sin(angle), NULL);
+        if (slip_solve(slip, &f) != RC_OK) { /* some are not found, and said not to be */
+            assert_true(f.traction_error > 0.1);
+            missed++;
+        }
+        for (int i = 0; i < 3 && f.converged; i += 2) {
+            double q[2], more[2], along, across, now[3];
+            for (int c = 0; c < 2; c++) {
+                rc_slip_slip(slip, c, now);
+                q[c] = rc_slip_traction(slip, c)[i];
+                more[c] = now[i] - s[c][i];
+            }
+            along = (q[0] * more[0] + q[1] * more[1]) / (0.3 * p[i]);
+            across = (q[0] * more[1] - q[1] * more[0]) / (0.3 * p[i]);
+            slid += hypot(more[0], more[1]) > 0;
+            assert_true(along <= 1e-4 * f.largest_slip);
+            assert_true(fabs(across) <= 1e-4 * f.largest_slip); /* against its slip */
+        }
+        rc_slip_free(slip);
+    }
+    assert_true(slid > 30 && missed < 6);
+}
+
 /* Convolutions until the true error is below 1e-2, 1e-4, 1e-6, half of what friction can carry, cold: no
  * more than that, and hardly more on a larger map, on the free boundary, on profiles and on stretched cells. */
 static void
@@ -649,6 +697,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_hard_cases),
         cmocka_unit_test(test_estimate_bounds_the_error),
+        cmocka_unit_test(test_two_nodes_next_to_sliding),
         cmocka_unit_test(test_work_does_not_grow),
         cmocka_unit_test(test_nonsense_is_refused),
         cmocka_unit_test(test_periodic_displacement_gives_the_force),
