@@ -75,7 +75,8 @@ near "$(figures_of part.tsv | awk '$1 ~ /^plastic_work/ { print $2 }')" "$(figur
 interrupted() {
     local status
     ${solve/--quiet/} $history --increments 100 --checkpoint signal.rcg --interval 0.01 --report signal.tsv -o signal-out.rcg rough.rcg 2>signal.err &
-    until [ -s signal.rcg ] && grep -aq '^channel=state$' signal.rcg || ! kill -0 $!; do sleep 0.02; done
+    # the first states are those of the elastic solution
+    until [ "$(grep -acs '^channel=state$' signal.rcg)" -ge 6 ] 2>/dev/null || ! kill -0 $!; do sleep 0.02; done
     kill -TERM $!
     wait $!
     status=$?
