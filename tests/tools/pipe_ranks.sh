@@ -149,7 +149,7 @@ refuses 2 "friction is not shared among processes" "friction" \
 rc-synth selfaffine --nx 700 --ny 700 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 |
     rc-pick --set channel=pressure --set unit=Pa -o rough-pressed.rcg
 refuses 1 "cut a part out" "nor is it advised where memory is short" \
-    "$MPIRUN -n 2 rc-deflect --kernel fft64 --estar 1GPa --memory 25M -o no.rcg rough-pressed.rcg"
+    "$MPIRUN -n 2 rc-deflect --kernel fft64 --estar 1GPa --memory 12M -o no.rcg rough-pressed.rcg"
 refuses 1 "a section is computed by one process" "a section" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg wave-pressed.rcg"
 refuses 1 "a section is computed by one process" "  of a large map: not for its memory" \
@@ -180,10 +180,10 @@ refuses 1 '65024 of 65024 values of mises came out larger than single precision 
 claim "  are said once" test "$(grep -c 'came out' refuses.err)" = 1
 # The launcher tells which process gave the message: the first one where all have agreed, else the one that had
 # waited for others.
-refuses 1 '^\[[^]]*,0\]<stderr>: ?rc-solve: small.rcg, frame 1: .* --memory allows 1 MiB' \
+refuses 1 '^\[[^]]*,0\]<stderr>: ?rc-solve: small.rcg, frame 1: .* --memory allows 100 KiB' \
     "a part for which the second process has no memory ends both at once" \
     "$MPIRUN --tag-output -n 1 rc-solve --estar 1GPa --load 1mN -o no.rcg small.rcg : \
-        -n 1 rc-solve --memory 1M --estar 1GPa --load 1mN -o no.rcg small.rcg"
+        -n 1 rc-solve --memory 100K --estar 1GPa --load 1mN -o no.rcg small.rcg"
 claim "  which is said once" test "$(grep -c 'memory allows' refuses.err)" = 1
 refuses 3 'not converged' "short of the accuracy: written, with its exit status" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --tol 1e-30 -o stopped.rcg rough.rcg"

@@ -175,8 +175,10 @@ repeat(struct cost_case *c)
         more = false;
         for (size_t k = 0; k < c->pressures && tool_interrupted() == 0; k++)
             if (again(c, &c->trial[k])) {
-                more = true;
+                const double runs = c->trial[k].figure[COST_RUNS];
+
                 cost_trial_run(c, &c->trial[k], left(c));
+                more = more || c->trial[k].figure[COST_RUNS] > runs; /* not if the repetition failed */
             }
     }
 }
