@@ -165,7 +165,7 @@ again(const struct cost_case *c, const struct cost_trial *m)
            (runs < 5 && disturbed(c, m));
 }
 
-/* Repeats trials in turns, so that a disturbance does not affect one trial alone. */
+/* Repeats trials in turns, so that a disturbance does not affect one trial alone; not while repetitions fail. */
 static void
 repeat(struct cost_case *c)
 {
@@ -178,7 +178,7 @@ repeat(struct cost_case *c)
                 const double runs = c->trial[k].figure[COST_RUNS];
 
                 cost_trial_run(c, &c->trial[k], left(c));
-                more = more || c->trial[k].figure[COST_RUNS] > runs; /* not if the repetition failed */
+                more = more || c->trial[k].figure[COST_RUNS] > runs;
             }
     }
 }
