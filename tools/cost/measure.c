@@ -220,8 +220,8 @@ seconds_of(char *said)
 static void
 stop(struct cost_trial *m, enum cost_end end, double allowed, const char *message)
 {
-    if (m->figure[COST_RUNS] > 0)
-        return; /* the time is known already */
+    if (m->state == COST_DONE)
+        return; /* a repetition: the trial has its result */
     m->state = COST_STOPPED;
     if (end == COST_LATE)
         snprintf(m->why, sizeof m->why, "stopped after %.2g s, all that was left of --limit",
