@@ -1,5 +1,5 @@
 /*
- * What a model is made of, for the files that implement one. The struct of a model begins with struct
+ * The parts of a model, for the files that implement one. The struct of a model begins with struct
  * rc_model, and its file ends in the row. An outer model drives its inner one by the verbs of model.h only.
  */
 #ifndef RC_MODEL_ROW_H
@@ -7,19 +7,35 @@
 
 #include "libcontact/common.h"
 
-/* A state as numbers that are counted, written or read: one function of a row does all three. */
+/* A state is a sequence of numbers. One function of a row counts, writes and reads them. */
 struct rc_state;
 void rc_state_numbers(struct rc_state *s, size_t n, double *v);
 /* A size or a yes/no, at most `most`, as one number. */
 void rc_state_count(struct rc_state *s, size_t *n, size_t most);
-/* A map of n nodes, those of this rank: in a state maps come behind all numbers. */
+/* A map: the n nodes of this rank. In a state all maps follow all numbers. */
 void rc_state_map(struct rc_state *s, size_t n, double *v);
-/* While n numbers are read: whether so many are left; else they are refused. */
+/* Before n numbers are read: whether the state has as many left; if not, the state is refused. */
 bool rc_state_holds(struct rc_state *s, size_t n);
-/* Whether numbers are read, and none of them was refused so far. */
+/* Whether the state is being read and is not refused. */
 bool rc_state_reads(const struct rc_state *s);
-/* While numbers are read: they are not those of this model. `why`, which is copied: a part of a sentence. */
+/* Refuses a state that is being read. `why` is copied: a part of a sentence. */
 void rc_state_refuse(struct rc_state *s, const char *why);
+
+/* The frames that every model of contact has, first in its table. */
+enum {
+    RC_FRAME_CONTACT,
+    RC_FRAME_PRESSURE,
+    RC_FRAME_GAP,
+    RC_FRAME_DISPLACEMENT,
+    RC_CONTACT_FRAMES /* the place of the first frame of its own */
+};
+/* clang-format off */
+#define RC_CONTACT_FRAME_KINDS                                                                     \
+    [RC_FRAME_CONTACT] = {"contact", "1", "Contact"},                                              \
+    [RC_FRAME_PRESSURE] = {"pressure", "Pa", "Pressure"},                                          \
+    [RC_FRAME_GAP] = {"gap", "m", "Gap"},                                                          \
+    [RC_FRAME_DISPLACEMENT] = {"displacement", "m", "Displacement"}
+/* clang-format on */
 
 /* Tables of figures, and where in the struct of the model their struct is; the last is NULL. */
 struct rc_figure_set {
@@ -29,11 +45,10 @@ struct rc_figure_set {
 
 struct rc_model_row {
     const char *name, *summary;
-    unsigned needs,
-        takes; /* axes: each of `needs`, or its partner, must have a value; others than `takes`
-                              are refused                                                          */
-    bool
-        forgets; /* `go` starts from the last point kept by itself; else a copy of the state is kept */
+    /* Axes: each of `needs`, or its partner, must have a value; all but those of `takes` are refused. */
+    unsigned needs, takes;
+    /* `go` starts from the last kept point without help; if false, model.c keeps a copy of the state. */
+    bool forgets;
     const struct rc_figure_set *figures;
     const struct rc_frame_kind *frame; /* the last has no name */
 

@@ -60,18 +60,11 @@ static const struct rc_figure_set sets[] = {
 };
 
 enum {
-    CONTACT_FRAME,
-    PRESSURE,
-    GAP,
-    DISPLACEMENT,
-    RESIDUAL,
+    RESIDUAL = RC_CONTACT_FRAMES,
     SHAPE
 };
 static const struct rc_frame_kind frames[] = {
-    [CONTACT_FRAME] = {"contact", "1", "Contact"},
-    [PRESSURE] = {"pressure", "Pa", "Pressure"},
-    [GAP] = {"gap", "m", "Gap"},
-    [DISPLACEMENT] = {"displacement", "m", "Displacement"},
+    RC_CONTACT_FRAME_KINDS,
     [RESIDUAL] = {"residual", "m", "Residual displacement"},
     [SHAPE] = {"plastic", "m", "Height after yield"},
     {NULL, NULL, NULL},
@@ -184,16 +177,16 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     memset(to, 0, y->n * sizeof *to);
     if (frame == SHAPE)
         shape(y, to);
-    else if (frame == GAP && m->to.at[RC_LOAD] == 0)
+    else if (frame == RC_FRAME_GAP && m->to.at[RC_LOAD] == 0)
         return look_apart(y, to, &again, err);
-    else if (m->to.at[RC_LOAD] > 0 && (frame == PRESSURE || frame == CONTACT_FRAME))
+    else if (m->to.at[RC_LOAD] > 0 && (frame == RC_FRAME_PRESSURE || frame == RC_FRAME_CONTACT))
         memcpy(to, rc_solver_pressure(rc_press_solver(y->press)), y->n * sizeof *to);
     else if (frame != RESIDUAL && m->to.at[RC_LOAD] > 0)
-        rc_solver_result(rc_press_solver(y->press), frame == DISPLACEMENT ? to : NULL,
-                         frame == GAP ? to : NULL, &again);
-    if (frame == RESIDUAL || frame == DISPLACEMENT)
+        rc_solver_result(rc_press_solver(y->press), frame == RC_FRAME_DISPLACEMENT ? to : NULL,
+                         frame == RC_FRAME_GAP ? to : NULL, &again);
+    if (frame == RESIDUAL || frame == RC_FRAME_DISPLACEMENT)
         displace(y, 1, to);
-    for (size_t k = 0; k < y->n && frame == CONTACT_FRAME; k++)
+    for (size_t k = 0; k < y->n && frame == RC_FRAME_CONTACT; k++)
         to[k] = rc_in_contact(to[k]) ? 1 : 0;
     return RC_OK;
 }

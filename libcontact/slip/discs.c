@@ -17,10 +17,10 @@
  *     length that lowers the energy most. If the energy does not fall, a projected gradient step follows,
  *     which lowers it.
  *
- * M applied to the residual also gives the estimate of the error, together with what M does not know: the
- * loads of nodes inside their circles and of turns (near sliding all tangents point nearly the same way, and
- * carry a small load along the force by large turns only), and nodes on their circles that would stick under
- * another delta.
+ * M applied to the residual also gives the estimate of the error, together with three parts that M does
+ * not contain: the load of nodes inside their circles; the load of turns (near sliding all tangents are nearly
+ * parallel, so that only large turns carry a small load along the force); and nodes on their circles that would
+ * stick under another delta.
  */
 #include "discs.h"
 
@@ -504,8 +504,8 @@ short_of_circle(const struct rc_discs *d, size_t k, double size)
     return d->face[k] == SLIP ? fmax(d->g[k] - size, 0) : 0;
 }
 
-/* What M leaves: the load that slipping nodes take with them to their circles, the load that a turn by z costs, to
- * second order; and the residual, for the motion. */
+/* Sums that M does not contain: 0, 1: the load that slipping nodes gain when they are moved out to their circles;
+ * 2, 3: the load that turning them by z costs, to second order; 4, 5: the residual, for the motion. */
 static void
 left_by_model(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
 {
@@ -529,7 +529,7 @@ left_by_model(const struct rc_discs *d, size_t k, const void *with, double sum[S
     }
 }
 
-/* Shifts that carry the first two, and whether delta is to change. */
+/* Shifts whose tractions carry the loads 0, 1 and 2, 3 of left_by_model. */
 struct remedy {
     double out[2], turn[2];
 };
@@ -551,8 +551,8 @@ errors(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
         sum[4] += fmax(inwards(d, k) - (d->motion[0] * x + d->motion[1] * y) / size, 0);
 }
 
-/* Of the error relative to the exact tractions, of which q, of sum `size` of its absolute values, is `off`: those have
- * at least what is left of q, and carry the load. */
+/* The error relative to the exact tractions. `off`: the error of q; `size`: the sum of |q|. The sum over the exact
+ * tractions is at least size - off, and at least the load. */
 static double
 relative(const struct rc_discs *d, double off, double size)
 {
@@ -565,7 +565,7 @@ relative(const struct rc_discs *d, double off, double size)
     return part / fmax(fmax(1 - part, load), least);
 }
 
-/* z = M r, of the load 0, and the estimate: |z|_1, what is missing to the circles, and what M leaves. */
+/* z = M r, without load, and the estimate: |z|_1, the distances to the circles, and the sums of left_by_model. */
 static void
 precondition(struct rc_discs *d)
 {

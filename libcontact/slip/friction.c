@@ -1,8 +1,8 @@
 /*
- * The model of friction: rc_slip over an inner model, whose pressure it follows. From point to point load, force
- * and displacement change in proportion, in increments, for friction depends on the way. Where dissimilar bodies
- * are coupled the heights of the inner model are less by the normal displacement that the tractions make, and
- * pressure and tractions are found in turn, as in joint.c.
+ * The model of friction: rc_slip under the pressure of an inner model. Friction depends on the path, so load, force and
+ * displacement change in proportion from point to point, in increments. Tractions between dissimilar bodies move the
+ * surface along its normal: then the inner model gets heights without this displacement, and pressure and
+ * tractions are found in turn, as in joint.c.
  */
 #include "slip.h"
 
@@ -13,9 +13,9 @@
 
 enum stage {
     REST,     /* an increment is kept                       */
-    PRESSING, /* the inner model is on its way              */
-    SLIDING,  /* friction is, under the pressure in p       */
-    THERE     /* the increment is found                     */
+    PRESSING, /* the inner model steps                      */
+    SLIDING,  /* rc_slip steps, under the pressure p        */
+    THERE     /* the increment is solved                    */
 };
 
 struct friction {
@@ -26,13 +26,13 @@ struct friction {
     bool alternates;
     struct rc_slip *slip;
     double *h, *less, *p, *gap;        /* less: heights of the inner model                      */
-    double *before[2], *slip_start[2]; /* tractions of the pass before; those of a state */
-    struct rc_point reached;           /* the last point kept, axes that were found too         */
+    double *before[2], *slip_start[2]; /* tractions of the previous pass; those of a state */
+    struct rc_point reached;           /* the last kept point, with the found axes too          */
     /* of the way to the point */
     size_t increment, increments;
     double dissipated, inherited[2]; /* J, since the last point kept; Pa, as in joint.c   */
     bool good;                       /* all contacts and increments have converged        */
-    bool again;                      /* after a state: the contact was solved             */
+    bool again;                      /* a state was read: its contact must be solved again */
     /* of the increment */
     size_t stage, passes;
     double pressure_change, traction_change, factor, lowered, pressure_error;
@@ -75,7 +75,7 @@ end_of_increment(const struct friction *f)
     return rc_point_between(&f->reached, &f->base.to, (double)f->increment / (double)f->increments);
 }
 
-/* The heights of the inner model: less by the normal displacement of the tractions that there are. */
+/* Gives the inner model the heights less the normal displacement due to the present tractions. */
 static enum rc_status
 lower_heights(struct friction *f, struct rc_err *err)
 {
@@ -100,7 +100,7 @@ press(struct friction *f, struct rc_err *err)
 
     if (f->alternates && lower_heights(f, err) != RC_OK)
         return RC_FAIL;
-    to.at[RC_APPROACH] -= f->lowered; /* which counts from where the bodies touch unmoved */
+    to.at[RC_APPROACH] -= f->lowered; /* counted from first touch of the heights h */
     f->stage = PRESSING;
     f->again = false;
     return rc_model_go(f->base.inner, &to, err) == RC_MORE ? RC_MORE : RC_FAIL;
@@ -133,7 +133,7 @@ go(struct rc_model *m, struct rc_err *err)
     return begin_increment(f, err) == RC_MORE ? RC_OK : RC_FAIL;
 }
 
-/* Gives friction the pressure and what the bodies are moved by. */
+/* Gives rc_slip the pressure, and the force or displacement at the end of the increment. */
 static enum rc_status
 pose(struct friction *f, struct rc_err *err)
 {
@@ -151,7 +151,7 @@ step_contact(struct friction *f, struct rc_err *err)
 {
     struct rc_model *inner = f->base.inner;
     enum rc_status status = rc_model_step(inner, err);
-    const double *p = f->less; /* made anew where it is needed again */
+    const double *p = f->less; /* a buffer here: lower_heights() fills it again */
     double error;
 
     if (status == RC_MORE || status == RC_FAIL)
@@ -168,8 +168,8 @@ step_contact(struct friction *f, struct rc_err *err)
     return pose(f, err) == RC_OK ? RC_MORE : RC_FAIL;
 }
 
-/* Sums over the map, Pa: of |q|, and of the errors that this increment adds to them, of its iteration and of the
- * pressure that bounds them. */
+/* Returns the sum of |q| over the map, Pa. add: the errors of that sum that this increment adds: error of its
+ * iteration, and error due to the pressure, which limits |q|. */
 static double
 added(const struct friction *f, double error, double limit, double add[2])
 {
@@ -203,7 +203,7 @@ find_figures(struct friction *f)
     to->converged = f->stage == THERE && f->good;
 }
 
-/* The increment becomes history, of the inner model too. Where nothing touches nothing is kept. */
+/* The increment becomes history, also of the inner model. Bodies that are apart inherit no error. */
 static enum rc_status
 keep_increment(struct friction *f, struct rc_err *err)
 {
@@ -259,9 +259,9 @@ step(struct rc_model *m, struct rc_err *err)
     return f->stage == PRESSING ? step_contact(f, err) : slide(f, err);
 }
 
-/* ---- what has been found ---- */
+/* ---- results ---- */
 
-/* A point that had been reached before its state was kept is found again, from its tractions. */
+/* Solves the point of a state again, starting from the tractions of the state. */
 static enum rc_status
 find_again(struct friction *f, struct rc_err *err)
 {
@@ -285,7 +285,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
         return RC_FAIL;
     if (!rc_point_has(&m->to, RC_APPROACH))
         at->at[RC_APPROACH] += f->lowered;
-    if (f->stage != REST) { /* else these are of the point kept */
+    if (f->stage != REST) { /* at rest the figures are those of the kept point */
         find_figures(f);
         to->slip.dissipated += f->dissipated;
         to->approach = at->at[RC_APPROACH];
@@ -329,7 +329,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     return RC_OK;
 }
 
-/* From the next increment on. */
+/* The new heights apply from the next increment on. */
 static enum rc_status
 set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 {
@@ -341,8 +341,8 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 
 /* ---- states ---- */
 
-/* After any step: the tractions; the inner model has the pressure of a contact on its way. One that was solved is
- * solved again after reading, as friction is under it. */
+/* The tractions on the way to a point. The state of the inner model holds the pressure only while that model steps;
+ * afterwards the contact is solved again when the state was read. */
 static void
 exchange_increment(struct friction *f, struct rc_state *s)
 {
@@ -379,7 +379,7 @@ state(struct rc_model *m, struct rc_state *s)
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         rc_state_numbers(s, 1, numbers[k]);
     rc_slip_history(f->slip, s);
-    for (int c = 0; c < 3 && f->alternates; c++) /* of the pass before */
+    for (int c = 0; c < 3 && f->alternates; c++) /* of the previous pass */
         rc_state_numbers(s, f->n, c < 2 ? f->before[c] : f->p);
     f->good = good;
     f->again = false;
@@ -424,7 +424,7 @@ const struct rc_model_row rc_model_friction = {
 
 /* ---- the maker ---- */
 
-/* From bodies that are apart: with the gap before, nodes that touch have moved with their bodies. */
+/* Begins with separated bodies: the gap before contact shows which nodes came into contact later. */
 static enum rc_status
 begin(struct friction *f, struct rc_err *err)
 {

@@ -51,17 +51,10 @@ static const struct rc_figure_set figure_sets[] = {
 };
 
 enum {
-    CONTACT_FRAME,
-    PRESSURE,
-    GAP,
-    DISPLACEMENT,
-    SHAPE
+    SHAPE = RC_CONTACT_FRAMES
 };
 static const struct rc_frame_kind frames[] = {
-    [CONTACT_FRAME] = {"contact", "1", "Contact"},
-    [PRESSURE] = {"pressure", "Pa", "Pressure"},
-    [GAP] = {"gap", "m", "Gap"},
-    [DISPLACEMENT] = {"displacement", "m", "Displacement"},
+    RC_CONTACT_FRAME_KINDS,
     [SHAPE] = {"plastic", "m", "Height after yield"},
     {NULL, NULL, NULL},
 };
@@ -272,17 +265,17 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
         return rc_solver_plastic(e->solver, to, err);
     if (frame == SHAPE)
         shape(e, to);
-    else if (e->apart && frame == GAP)
+    else if (e->apart && frame == RC_FRAME_GAP)
         rc_contact_apart(e->problem.ranks, &m->shape, s != NULL ? s->posed.h : e->given, to,
                          &again);
     else if (e->apart)
         memset(to, 0, e->n * sizeof *to);
-    else if (frame == PRESSURE || frame == CONTACT_FRAME)
+    else if (frame == RC_FRAME_PRESSURE || frame == RC_FRAME_CONTACT)
         memcpy(to, rc_solver_pressure(s), e->n * sizeof *to);
     else
         for (size_t k = 0; k < e->n; k++)
-            to[k] = frame == GAP ? s->it.v[k] - s->it.shift : s->it.v[k] + s->posed.h[k];
-    for (size_t k = 0; k < e->n && frame == CONTACT_FRAME; k++)
+            to[k] = frame == RC_FRAME_GAP ? s->it.v[k] - s->it.shift : s->it.v[k] + s->posed.h[k];
+    for (size_t k = 0; k < e->n && frame == RC_FRAME_CONTACT; k++)
         to[k] = rc_in_contact(to[k]) ? 1 : 0;
     return RC_OK;
 }

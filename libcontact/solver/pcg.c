@@ -145,7 +145,7 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
 
 /* The working set for v. Where nearly all loaded nodes yield, only a few are elastic. Their mean gap then
  * says little about the shift, and with it the nodes that leave their bounds would all move the same way.
- * There the shift is the one at which the load of nodes that join equals that of nodes that leave. */
+ * There the shift makes the load of the joining nodes equal that of the leaving nodes. */
 static void
 settle(struct rc_solver *solver)
 {

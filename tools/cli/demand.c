@@ -29,7 +29,7 @@ tool_budget(struct tool *t)
     t->budget_at = tool_now();
 }
 
-/* What needs more than the budget, how much, and what to do. */
+/* Writes the message: which work exceeds the budget, by how much, and what to do. */
 static void
 refusal(const struct tool *t, const struct rc_shape *shape, const char *need, char *text,
         size_t size)
@@ -82,15 +82,15 @@ tool_memory_left(const struct tool *t)
     return t->budget > held ? t->budget - held : 1;
 }
 
-/* ---- what is told ---- */
+/* ---- memory in reports ---- */
 
-/* What is in memory beside the blocks: code, stacks, plans of other libraries. */
+/* Resident memory without the blocks: code, stacks, plans of other libraries. */
 static size_t
 beside(void)
 {
     size_t held = rc_memory_held().held, resident;
 
-    memory_give_back(); /* freed blocks are no code */
+    memory_give_back(); /* freed blocks would count as code */
     resident = memory_held();
     return resident > held ? resident - held : 0;
 }
@@ -100,7 +100,7 @@ tool_counted_memory(struct tool *t)
 {
     const size_t now = beside();
 
-    if (now > t->beside) /* maps that are not touched hide some */
+    if (now > t->beside) /* untouched maps make the difference too small */
         t->beside = now;
     return rc_memory_held().peak + t->beside;
 }

@@ -55,7 +55,7 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
     if (t->threads == 0)
         t->threads = threads_wanted(t);
     tool_budget(t);
-    (void)tool_counted_memory(t); /* code that is there before any map */
+    (void)tool_counted_memory(t); /* the code before any map is allocated */
     if (info->reads == READS_NOTHING && t->operands > 0)
         tool_die(t, EXIT_USAGE, "'%s': this tool reads no files; see %s --help", t->operand[0],
                  info->name);

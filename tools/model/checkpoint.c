@@ -1,12 +1,11 @@
 /*
- * --checkpoint and --resume: a file of states, from which a run that was cut off goes on.
+ * --checkpoint and --resume: a file of states, from which an interrupted run continues.
  *
- * A state is a frame for each map, the last of which has the numbers in its header, or, without maps, a frame of
- * numbers. Frames are only ever added, each a grid stream of its own with its end line, so that the file is
- * whole but for what was being written when the machine stopped: a case when it is done, what is
- * reached of one when a signal ends the run, and on the way after 1, 2, 4, 8 ... intervals, so that
- * at most half of the time spent on a case is lost. Of several states of a case the last counts.
- * Disk full is no reason to lose the solution: it is said once, and the run goes on.
+ * A state has one frame for each map; the header of the last one holds the numbers. A state without maps is one frame
+ * of numbers. Each frame is a grid stream with its own end line and is only appended, so that a crash damages at most
+ * the last frame. A state is written when a case is done, when a signal ends the run, and on the way after 1, 2,
+ * 4, 8 ... intervals, so that at most half of the time of a case is lost. The last state of a case counts.
+ * If the disk is full, the tool warns once and the run continues.
  */
 #include "model.h"
 
@@ -31,10 +30,10 @@ struct checkpoint {
         off_t at;           /* where it begins                         */
     } * saved;
     size_t count;
-    double began, wait, next; /* seconds: of this case, between states, of the next one */
+    double began, wait, next; /* s: start of this case, interval, time of the next state */
 };
 
-/* ---- what is there ---- */
+/* ---- the file ---- */
 
 static void
 note(struct checkpoint *c, const struct rc_grid *g, off_t at)
@@ -61,7 +60,7 @@ note(struct checkpoint *c, const struct rc_grid *g, off_t at)
 static bool
 is_checkpoint(const struct checkpoint *c)
 {
-    bool begins = true; /* a line may come in several pieces: this is its first */
+    bool begins = true; /* this is the first piece of a line */
     char line[256];
 
     if (fseeko(c->journal.file, 0, SEEK_SET) != 0 ||
@@ -76,7 +75,7 @@ is_checkpoint(const struct checkpoint *c)
     return false;
 }
 
-/* Finds the frames. What was being written when the run was cut off is cut off here too. */
+/* Finds the frames, and removes an incomplete last one. */
 static void
 look_through(struct checkpoint *c)
 {
@@ -110,8 +109,8 @@ look_through(struct checkpoint *c)
             t, EXIT_IMPOSSIBLE,
             "--checkpoint %s: frame %zu of it cannot be read (%s): remove the file to begin anew",
             c->journal.name, c->count + 1, err.text);
-    ranks_wait(t);         /* all have looked */
-    if (!ranks_speak(t)) { /* the first one cuts it off */
+    ranks_wait(t);         /* all ranks have read the file */
+    if (!ranks_speak(t)) { /* the first rank shortens the file */
         ranks_wait(t);
         return;
     }
@@ -163,7 +162,7 @@ void
 checkpoint_refuse(const struct course *c, const char *why)
 {
     tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE,
-                "--checkpoint %s: case %zu cannot be gone on with (%s): remove the file to begin "
+                "--checkpoint %s: case %zu cannot be continued (%s): remove the file to begin "
                 "anew",
                 c->checkpoint->journal.name, c->number, why);
 }
@@ -192,7 +191,7 @@ compare(const struct course *c, const struct rc_grid *saved, bool map)
     }
 }
 
-/* Numbers from the header; how many. */
+/* Reads numbers from the header; returns how many. */
 static size_t
 read_numbers(const char *text, double to[FEW])
 {
@@ -227,7 +226,7 @@ checkpoint_load(struct course *course, size_t *n)
     maps = c->saved[k - 1].map + 1;
     for (size_t j = maps; j-- > 0;) {
         g = journal_read(&c->journal, c->saved[k - maps + j].at);
-        if (j + 1 == maps) { /* the first that is read */
+        if (j + 1 == maps) { /* frames are read from the last one backwards */
             few = read_numbers(rc_grid_get(g, "checkpoint.numbers"), numbers);
             compare(course, g, few > 0);
             nodes = rc_grid_nodes(g);
@@ -245,7 +244,7 @@ checkpoint_load(struct course *course, size_t *n)
 
 /* ---- saving ---- */
 
-/* A frame, of one node as yet, with the case and the marks. */
+/* A frame with the case and the marks; its shape and values follow later. */
 static struct rc_grid *
 new_frame(const struct course *c, struct rc_err *err)
 {
@@ -262,8 +261,8 @@ new_frame(const struct course *c, struct rc_err *err)
     return out;
 }
 
-/* Adds a frame of this shape and these values; numbers: what the header says of them, or NULL. False: it could
- * not be written. */
+/* Appends a frame of this shape with these values; numbers: for the header, or NULL. False if it cannot be
+ * written. */
 static bool
 add(struct course *course, const struct rc_grid *shape, const double *v, size_t map,
     const char *numbers)

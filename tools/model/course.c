@@ -35,7 +35,7 @@ course_set(struct course *c, struct rc_model *m, const struct rc_point *to)
 
 /* ---- progress ---- */
 
-/* Seconds until the error is within the tolerance, if it goes on shrinking as it has on this grid; NAN: unknown. */
+/* Seconds until the error reaches the tolerance at its rate of decrease on this grid; NAN: unknown. */
 static double
 left(struct course *c, const struct rc_loops *l)
 {
@@ -104,7 +104,8 @@ course_run(struct course *c, struct rc_model *m)
             save(c, m);
     }
     tool_progress_end(c->t);
-    if (c->checkpoint != NULL && (!c->resumed || steps > 2)) /* else it is there already */
+    if (c->checkpoint != NULL &&
+        (!c->resumed || steps > 2)) /* otherwise the file has this state already */
         save(c, m);
     c->iterate = tool_now() - start;
     return status;

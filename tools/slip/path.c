@@ -326,8 +326,8 @@ slip_plan_path(struct slip_run *run)
     }
 }
 
-/* On a straight line. Where the load falls, nodes that slip to the end carry against their slip of the last increment,
- * and many begin to slip late: increments get shorter towards the end. */
+/* A point on the straight line. Where the load falls, the increments become shorter towards the end: many nodes begin
+ * to slip late, and the traction of a node points against its slip in the last increment. */
 struct slip_corner
 slip_on_the_way(const struct slip_run *run, size_t corner, size_t k, size_t n)
 {
