@@ -49,9 +49,9 @@ rc_total_value(const struct rc_total *total)
     return isfinite(total->sum) ? total->sum + total->lost : total->sum;
 }
 
-/* Sums over a map that depend neither on the number of threads nor on who takes which row (or block): each row is
- * summed by itself, and the rows are added in their order, with compensation for rounding. A row has `sums` numbers
- * that are added, and behind them `mosts` of which the largest counts. */
+/* Sums over a map that depend neither on the number of threads nor on who takes which row (or block): each
+ * row is summed by itself, and the rows are added in their order, with compensation for rounding. A row has
+ * `sums` numbers that are added, and behind them `mosts` of which the largest counts. */
 enum {
     RC_SUMS_MOST = 16 /* numbers that are added */
 };

@@ -1240,11 +1240,12 @@ struct rc_friction_problem {
     size_t increments; /* from point to point, in which all axes change in proportion; 0: 16 */
     size_t max_passes; /* as in rc_joint_problem                                            */
 };
-/* A model (model.h) of friction over an inner one of the same bodies, which it owns from here on; NULL where that
- * is NULL. Beside the axes of the inner model it takes two forces or two displacements along the surface. h: the
- * undeformed heights, copied. Where dissimilar bodies are coupled the inner model must allow other heights, and its
- * tolerance should be a quarter of that of friction. Error estimates are of the iteration and the contacts; that
- * of too few increments is not among them: compare with twice as many. */
+/* A model (model.h) of friction over an inner one of the same bodies, which it owns from here on; NULL
+ * where that is NULL. Beside the axes of the inner model it takes two forces or two displacements along the
+ * surface. h: the undeformed heights, copied. Where dissimilar bodies are coupled the inner model must
+ * allow other heights, and its tolerance should be a quarter of that of friction. Error estimates are of
+ * the iteration and the contacts; that of too few increments is not among them: compare with twice as
+ * many. */
 RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
                                         const struct rc_friction_problem *problem,
                                         struct rc_err *err);

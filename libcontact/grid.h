@@ -44,8 +44,8 @@ RC_API enum rc_status rc_err_set(struct rc_err *err, const char *format, ...)
 #endif
     ;
 
-/* What the library and the tools have allocated, in bytes. Code, the stacks of threads, arrays of the caller and
- * what other libraries take for themselves do not count. */
+/* What the library and the tools have allocated, in bytes. Code, the stacks of threads, arrays of the
+ * caller and what other libraries take for themselves do not count. */
 struct rc_memory {
     size_t held; /* now                                                                         */
     size_t peak; /* the most so far                                                             */
@@ -148,8 +148,8 @@ RC_API const char *rc_number_read(const char *text, bool special, double *value)
 /* a*b, or RC_FAIL when it does not fit. */
 RC_API enum rc_status rc_size_mul(size_t a, size_t b, size_t *product, struct rc_err *err);
 
-/* Contact has one meaning: the value of a node in the frame `contact` of its case (1 or 0), or, where the case
- * has none, its pressure, is above 0. Tools learn from contact_frame which of the two tells. */
+/* Contact has one meaning: the value of a node in the frame `contact` of its case (1 or 0), or, where the
+ * case has none, its pressure, is above 0. Tools learn from contact_frame which of the two tells. */
 static inline bool
 rc_in_contact(double value)
 {

@@ -28,8 +28,8 @@ void *rc_aligned_alloc(size_t line, size_t bytes);
 void rc_free(void *at);
 
 /* Allocations of this thread between rc_memory_lend and rc_memory_lent do not count: they take the place of
- * pages of larger maps that are still untouched, and are freed before those are touched. rc_memory_lent returns
- * their bytes; pass them to rc_memory_return after freeing. */
+ * pages of larger maps that are still untouched, and are freed before those are touched. rc_memory_lent
+ * returns their bytes; pass them to rc_memory_return after freeing. */
 void rc_memory_lend(void);
 size_t rc_memory_lent(void);
 void rc_memory_return(size_t bytes);

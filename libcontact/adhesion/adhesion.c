@@ -57,8 +57,8 @@ static const double nodes_default =
 static const double eigen_exact =
     0.2;                            /* of the eigenvalue, its bound of error                      */
 static const double loosest = 1e-3; /* tol: farther off, an eigenvalue says nothing of a state */
-/* The error is at most 2 e/sqrt(mu), or, where soft modes have most of it, 1.25 e/mu, which, as all of it is never
- * theirs, is not followed below `soft`. */
+/* The error is at most 2 e/sqrt(mu), or, where soft modes have most of it, 1.25 e/mu, which, as all of it
+ * is never theirs, is not followed below `soft`. */
 static const double safe = 2, safe_soft = 1.25, soft = 0.05;
 /* Of tol: dents are not mended by the states that follow, whose errors add up. */
 static const double yielding_part = 0.05;
@@ -346,8 +346,8 @@ set(struct rc_adhesion *a, enum rc_gap_control control, double given)
     a->held = true;
 }
 
-/* The largest load that there is a state for: at its hardness a node carries that less the traction at gap 0, or,
- * where it is the smaller of the two, is drawn in, and carries nothing as long as it is apart. */
+/* The largest load that there is a state for: at its hardness a node carries that less the traction at gap
+ * 0, or, where it is the smaller of the two, is drawn in, and carries nothing as long as it is apart. */
 static double
 most_load(const struct rc_adhesion *a)
 {
@@ -406,8 +406,8 @@ rc_adhesion_set_approach(struct rc_adhesion *a, double approach, struct rc_err *
     return RC_OK;
 }
 
-/* The smallest eigenvalue, as far as is known: the iteration for it may have come to another mode, whose softer
- * neighbour the way down has most of. */
+/* The smallest eigenvalue, as far as is known: the iteration for it may have come to another mode, whose
+ * softer neighbour the way down has most of. */
 static double
 softest(const struct rc_adhesion *a)
 {
@@ -730,8 +730,8 @@ enum {
     MOST = RC_GAP_MOST
 };
 
-/* Sums of a row: p, sigma, its area, nodes in contact, below 0, the gap. Largest: p, -p, violation, correction of
- * the gap. */
+/* Sums of a row: p, sigma, its area, nodes in contact, below 0, the gap. Largest: p, -p, violation,
+ * correction of the gap. */
 static void
 figures_row(void *ctx, size_t j, double *sums)
 {

@@ -50,7 +50,8 @@ hard_at(const struct rc_gap *g, size_t j, size_t i)
     return g->hards != NULL ? g->hards[j * g->nx + i] : g->hard;
 }
 
-/* Work on all rows of the grid: rows of these take the state, or the state and what they are to do with it. */
+/* Work on all rows of the grid: rows of these take the state, or the state and what they are to do with
+ * it. */
 static void
 rows(const struct rc_gap *g, rc_sums_work *work, void *ctx, double *sums)
 {
@@ -172,8 +173,8 @@ residual_row(void *ctx, size_t j, double *sums)
     sums[1] += (double)(g->px - m);
 }
 
-/* Which nodes are held, and how many are not as they were; r becomes the negative residual of the others, and 0 on
- * these. */
+/* Which nodes are held, and how many are not as they were; r becomes the negative residual of the others,
+ * and 0 on these. */
 static void
 hold_row(void *ctx, size_t j, double *sums)
 {
@@ -768,8 +769,8 @@ drifted(const struct rc_gap *g)
     return g->told.drift > 10 * g->told.change;
 }
 
-/* d'W d, W the inverse of K on the nodes that are not held, from r'z = z'W z and r = W z; NAN where nodes have been
- * held or let go since the last direction. */
+/* d'W d, W the inverse of K on the nodes that are not held, from r'z = z'W z and r = W z; NAN where nodes
+ * have been held or let go since the last direction. */
 static void
 measure_way(struct rc_gap *g, double rz)
 {

@@ -30,8 +30,8 @@ enum {
     RC_GAP_LINE = 512  /* nodes of a row that a law is asked for together, at most */
 };
 
-/* The direction d of the next step, z + beta times the last one. W is that of stability.c, and so is the bound
- * `stiffness` of its smallest eigenvalue; dwd NAN, stiffness INFINITY: not known. */
+/* The direction d of the next step, z + beta times the last one. W is that of stability.c, and so is the
+ * bound `stiffness` of its smallest eigenvalue; dwd NAN, stiffness INFINITY: not known. */
 struct rc_gap_way {
     double rz, beta, rd, dad, dwd; /* r'z, beta, r'd, d'A d, d'W d                         */
     double mean, unit;             /* of d on the grid; its largest number                 */
@@ -135,7 +135,8 @@ rc_gap_on_map(const struct rc_gap *g, size_t j)
 /* V, sigma and D at n <= RC_GAP_LINE gaps of row j from node i on, with the hardness. */
 void rc_gap_law(const struct rc_gap *g, size_t j, size_t i, size_t n, const double *gap, double *v,
                 double *s, double *d);
-/* Down from here along d, whose largest number is way.unit and which is to be a way of less than no curvature. */
+/* Down from here along d, whose largest number is way.unit and which is to be a way of less than no
+ * curvature. */
 void rc_gap_down(struct rc_gap *g, double first);
 
 /* ---- stability.c ---- */

@@ -12,9 +12,9 @@
  *
  * A load begins with elastic trials, which change no strain: the contact at its end, and one sweep down.
  * Where no stress exceeds the yield stress the load is done, as most unloading is. Where little does, as in
- * reloading to the same peak, one increment follows, and all of its flow counts as an error of the increments.
- * Where that is small beside the error of the loads before it stays; else it is undone. Then bisection finds the
- * last load up to which nothing flows, and the increments go from there.
+ * reloading to the same peak, one increment follows, and all of its flow counts as an error of the
+ * increments. Where that is small beside the error of the loads before it stays; else it is undone. Then
+ * bisection finds the last load up to which nothing flows, and the increments go from there.
  *
  * The increments are not converged one by one. Each begins with the last one, is applied twice, and takes
  * the mixture of both that Anderson's method with one step kept would take: what it lags behind is caught
@@ -702,9 +702,9 @@ compare_order(struct rc_plastic *p, struct rc_err *err)
  * volume: their stress, as the modulus times the strain that is spread over the cube of a side, beside the
  * pressure. Measured on balls, whose contact takes 5 to 28 % of the map: 0.4 to 0.47 of this without the
  * factor. Those of the load: the mean pressure of the map with its padding beside the yield stress; half of
- * it is enough on 212 balls, pairs of balls and rough balls, 0.4 on all but one of them. Where few nodes touch,
- * one of them bears most, and what changes its limit the others must bear: times 20, 5 and 3 at 3, 6 and 8
- * nodes, which 1 + (13 / nodes)^2 covers. */
+ * it is enough on 212 balls, pairs of balls and rough balls, 0.4 on all but one of them. Where few nodes
+ * touch, one of them bears most, and what changes its limit the others must bear: times 20, 5 and 3 at 3, 6
+ * and 8 nodes, which 1 + (13 / nodes)^2 covers. */
 static double
 image_error(const struct rc_plastic *p)
 {

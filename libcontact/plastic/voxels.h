@@ -17,7 +17,8 @@ struct rc_voxel {
     double f[RC_DEVIATOR];    /* what the stress under e + x makes of it                        */
     double strain, grown;     /* equivalent strain, and what the last increment added */
     /* Small beside x, so that they lose nothing as it converges: sums of what the order of the integration
-     * adds, over the loads before this one and in this one; what the last trial moved x by; and f - x of it. */
+     * adds, over the loads before this one and in this one; what the last trial moved x by; and f - x of
+     * it. */
     float before[RC_DEVIATOR], missed[RC_DEVIATOR], moved[RC_DEVIATOR], left[RC_DEVIATOR];
 };
 

@@ -18,9 +18,9 @@
  *     which lowers it.
  *
  * M applied to the residual also gives the estimate of the error, together with three parts that M does
- * not contain: the load of nodes inside their circles; the load of turns (near sliding all tangents are nearly
- * parallel, so that only large turns carry a small load along the force); and nodes on their circles that would
- * stick under another delta.
+ * not contain: the load of nodes inside their circles; the load of turns (near sliding all tangents are
+ * nearly parallel, so that only large turns carry a small load along the force); and nodes on their circles
+ * that would stick under another delta.
  */
 #include "discs.h"
 
@@ -50,8 +50,8 @@ static const double short_step = 0.1;
 
 typedef void of_node(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS]);
 
-/* `count` sums over the nodes that carry something. Rows are summed by themselves and added in order: any number of
- * threads gives the same. */
+/* `count` sums over the nodes that carry something. Rows are summed by themselves and added in order: any
+ * number of threads gives the same. */
 static void
 sum_nodes(const struct rc_discs *d, of_node *of, const void *with, size_t count, double *out)
 {
@@ -128,8 +128,8 @@ struct moved {
     double nu[2];
 };
 
-/* What a node carries when y is moved by nu, and how that grows with nu; part 2 to 4: xx yy xy of the growth, 5
- * the function whose gradient the first two are. */
+/* What a node carries when y is moved by nu, and how that grows with nu; part 2 to 4: xx yy xy of the
+ * growth, 5 the function whose gradient the first two are. */
 static void
 carried_by(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
 {
@@ -171,9 +171,10 @@ carried(const struct rc_discs *d, const struct moved *m, double out[SUMS])
                 carried_by(d, k, m, out);
 }
 
-/* nu, so that the nearest tractions on the discs to y + nu carry `load`, but for `near` of it, on the nodes that are
- * moved: the minimum of a convex function, by Newton's method after Levenberg and Marquardt, for tractions that all
- * point one way do not grow that way. `size`: what friction can carry there. False where they cannot. */
+/* nu, so that the nearest tractions on the discs to y + nu carry `load`, but for `near` of it, on the nodes
+ * that are moved: the minimum of a convex function, by Newton's method after Levenberg and Marquardt, for
+ * tractions that all point one way do not grow that way. `size`: what friction can carry there. False where
+ * they cannot. */
 static bool
 find_shift(const struct rc_discs *d, struct moved *m, const double load[2], double size,
            double near)
@@ -257,7 +258,8 @@ project(const struct rc_discs *d, double *const y[2])
     move_all(d, &m);
 }
 
-/* The nodes of a tile that stick: to the nearest tractions on the discs that carry together what they carry in y. */
+/* The nodes of a tile that stick: to the nearest tractions on the discs that carry together what they carry
+ * in y. */
 static void
 keep_tile(const struct rc_discs *d, double *const y[2], const size_t tile[4])
 {
@@ -504,8 +506,9 @@ short_of_circle(const struct rc_discs *d, size_t k, double size)
     return d->face[k] == SLIP ? fmax(d->g[k] - size, 0) : 0;
 }
 
-/* Sums that M does not contain: 0, 1: the load that slipping nodes gain when they are moved out to their circles;
- * 2, 3: the load that turning them by z costs, to second order; 4, 5: the residual, for the motion. */
+/* Sums that M does not contain: 0, 1: the load that slipping nodes gain when they are moved out to their
+ * circles; 2, 3: the load that turning them by z costs, to second order; 4, 5: the residual, for the
+ * motion. */
 static void
 left_by_model(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
 {
@@ -551,8 +554,8 @@ errors(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
         sum[4] += fmax(inwards(d, k) - (d->motion[0] * x + d->motion[1] * y) / size, 0);
 }
 
-/* The error relative to the exact tractions. `off`: the error of q; `size`: the sum of |q|. The sum over the exact
- * tractions is at least size - off, and at least the load. */
+/* The error relative to the exact tractions. `off`: the error of q; `size`: the sum of |q|. The sum over
+ * the exact tractions is at least size - off, and at least the load. */
 static double
 relative(const struct rc_discs *d, double off, double size)
 {
@@ -565,7 +568,8 @@ relative(const struct rc_discs *d, double off, double size)
     return part / fmax(fmax(1 - part, load), least);
 }
 
-/* z = M r, without load, and the estimate: |z|_1, the distances to the circles, and the sums of left_by_model. */
+/* z = M r, without load, and the estimate: |z|_1, the distances to the circles, and the sums of
+ * left_by_model. */
 static void
 precondition(struct rc_discs *d)
 {

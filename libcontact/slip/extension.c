@@ -100,8 +100,8 @@ struct pass {
     float *const *r;
 };
 
-/* Of row j of the grid the row of the map, which *j becomes, and the place of its first node in *to; false: it is off
- * the map. */
+/* Of row j of the grid the row of the map, which *j becomes, and the place of its first node in *to; false:
+ * it is off the map. */
 static bool
 on_map(const struct rc_extension *e, size_t *j, float **to)
 {
@@ -348,8 +348,8 @@ rc_extension_set(struct rc_extension *e, const unsigned char *face, double *cons
 
 /* ---- E' A E ---- */
 
-/* v, fields that z is to have the transpose of, becomes what goes back to the neighbours; `first`: with the ties in z;
- * else a shift of -eta is added. */
+/* v, fields that z is to have the transpose of, becomes what goes back to the neighbours; `first`: with the
+ * ties in z; else a shift of -eta is added. */
 static void
 to_neighbours(struct rc_extension *e, bool first, const double eta[2], float *const z[2])
 {

@@ -14,7 +14,8 @@
  *
  *     v = e + c P (r - e),   e from the pyramid of pairs with W_0 = c P,   c = T0/(T0 + D):
  *
- * c is what is known of v from the residual of a node, T0 what a wave of about 4 nodes makes of tractions. Then
+ * c is what is known of v from the residual of a node, T0 what a wave of about 4 nodes makes of tractions.
+ * Then
  *
  *     z = E' A E r + (1 - c)^2/D P (r - e) and its transpose:
  *

@@ -1,8 +1,8 @@
 /*
- * The model of friction: rc_slip under the pressure of an inner model. Friction depends on the path, so load, force and
- * displacement change in proportion from point to point, in increments. Tractions between dissimilar bodies move the
- * surface along its normal: then the inner model gets heights without this displacement, and pressure and
- * tractions are found in turn, as in joint.c.
+ * The model of friction: rc_slip under the pressure of an inner model. Friction depends on the path, so
+ * load, force and displacement change in proportion from point to point, in increments. Tractions between
+ * dissimilar bodies move the surface along its normal: then the inner model gets heights without this
+ * displacement, and pressure and tractions are found in turn, as in joint.c.
  */
 #include "slip.h"
 
@@ -341,8 +341,8 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 
 /* ---- states ---- */
 
-/* The tractions on the way to a point. The state of the inner model holds the pressure only while that model steps;
- * afterwards the contact is solved again when the state was read. */
+/* The tractions on the way to a point. The state of the inner model holds the pressure only while that
+ * model steps; afterwards the contact is solved again when the state was read. */
 static void
 exchange_increment(struct friction *f, struct rc_state *s)
 {

@@ -125,8 +125,8 @@ rc_tangential_power(const struct rc_tangential *t, double q)
     return isnan(power) ? 1 : power;
 }
 
-/* The inverse of (XX -XY; -XY YY), wave by wave; nothing stands against the mean. The caller's units are such that no
- * decade is lost in single precision. */
+/* The inverse of (XX -XY; -XY YY), wave by wave; nothing stands against the mean. The caller's units are
+ * such that no decade is lost in single precision. */
 static void
 set_inverse(struct rc_tangential *t)
 {
@@ -310,8 +310,8 @@ quarter_of(const struct pass *p, enum rc_shear_which kernel, size_t i)
     return p->t->quarter[kernel] + i * p->t->cy;
 }
 
-/* Real parts and then imaginary ones: a x - b y, b of a kernel that is odd in both directions: its transform is
- * (-i)^2 b. x is the map that is wanted. */
+/* Real parts and then imaginary ones: a x - b y, b of a kernel that is odd in both directions: its
+ * transform is (-i)^2 b. x is the map that is wanted. */
 RC_CLONES static void
 multiply(const struct rc_tangential *t, const double *a, const double *b, const double *x,
          const double *y, double *to)

@@ -39,8 +39,8 @@ size_t rc_tangential_memory(const struct rc_shape *shape, enum rc_boundary bound
 struct rc_frame rc_tangential_frame(const struct rc_shape *shape, enum rc_boundary boundary);
 /* m/Pa: what T makes of waves of wave number q, on average over their directions. */
 double rc_tangential_wave(const struct rc_tangential *t, double q);
-/* The power a with which that falls, T ~ q^-a: 1, and on the free boundary near 0 along a strip. Where the grid has
- * no waves as long, of the longest. */
+/* The power a with which that falls, T ~ q^-a: 1, and on the free boundary near 0 along a strip. Where the
+ * grid has no waves as long, of the longest. */
 double rc_tangential_power(const struct rc_tangential *t, double q);
 /* u = T q, and q = T^-1 u on the map in its frame, of the padded map or the periodic one; u and q may be the
  * same. */

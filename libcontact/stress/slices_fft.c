@@ -387,7 +387,8 @@ plan_free(void *at)
     free(plan);
 }
 
-/* Whether there is room for the largest coarser grid, which comes with its depth; `fine`: bytes of the map's. */
+/* Whether there is room for the largest coarser grid, which comes with its depth; `fine`: bytes of the
+ * map's. */
 static enum rc_status
 reserve(const struct rc_stress_task *task, size_t fine, struct rc_err *err)
 {
