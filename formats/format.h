@@ -35,7 +35,8 @@ struct rc_format {
     } magic[2];
     bool (*is)(const struct rc_file *file);
     int sure;
-    /* Where that does not tell: how sure it is that this is its file, 0 to 100, by content first and name second. */
+    /* Where that does not tell: how sure it is that this is its file, 0 to 100, by content first and name
+     * second. */
     int (*score)(const struct rc_file *file);
     /* Describes the maps of a file (core/maps.h); or, where it is NULL, the two functions below. */
     rc_maps_find *find;

@@ -30,8 +30,8 @@ static const double grid_area = 1;
 /* And of a rigid cone: its apex is blunt by a cell, approach over n. */
 static const double grid_cone = 0.2;
 
-/* The first number in the tests before a release (RC_LONG, tests/CMakeLists.txt), the second in those of every
- * commit: of cases, or of steps from one to the next. */
+/* The first number in the tests before a release (RC_LONG, tests/CMakeLists.txt), the second in those of
+ * every commit: of cases, or of steps from one to the next. */
 static inline size_t
 thorough(size_t release, size_t commit)
 {

@@ -1,6 +1,7 @@
-/* The peak that the allocator counts is within a twentieth of the kernel's figure, and work that needs more than the
- * budget is refused and gives back what it took: solver, stresses, friction, adhesion, plasticity, sums, flow and
- * slabs, each in a process of its own, on maps large enough that code and plans do not count. */
+/* The peak that the allocator counts is within a twentieth of the kernel's figure, and work that needs more
+ * than the budget is refused and gives back what it took: solver, stresses, friction, adhesion, plasticity,
+ * sums, flow and slabs, each in a process of its own, on maps large enough that code and plans do not
+ * count. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

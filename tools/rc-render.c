@@ -241,7 +241,8 @@ warn_of_text(struct tool *t, const struct args *a, struct canvas *c)
         warn_of_family(t, a->style.family, canvas_set_family(c, a->style.family));
 }
 
-/* Writes the figure on its canvas, of a grid or of tables (NULL), and frees that; NULL: it could not be drawn. */
+/* Writes the figure on its canvas, of a grid or of tables (NULL), and frees that; NULL: it could not be
+ * drawn. */
 static void
 finish(struct tool *t, const struct args *a, const struct rc_grid *g, const struct figure *f,
        struct canvas *c, const struct rc_err *err)

@@ -436,8 +436,8 @@ frames_memory(const struct run *run, const struct rc_grid *p)
            sizeof(double);
 }
 
-/* Bytes a node of a plan, free and periodic, measured with maps of 1024 x 1024 nodes: for the pressure, each map
- * of tractions and each slab of strain, and for a section. */
+/* Bytes a node of a plan, free and periodic, measured with maps of 1024 x 1024 nodes: for the pressure,
+ * each map of tractions and each slab of strain, and for a section. */
 static size_t
 plan_memory(const struct run *run, const struct rc_grid *p)
 {

@@ -23,6 +23,9 @@ FUNCTIONS['open'] = 'rc-import'
 # Options that the functions set themselves, or that print text for people at a terminal.
 HIDDEN = {'o', 'report', 'json', 'help', 'version', 'verbose', 'debug', 'progress', 'formats', 'list', 'dry-run'}
 PIPE_BYTES = 1 << 20
+# What repr() shows of a report.
+SHOWN_FIGURES = ('load', 'contact_area', 'contact_fraction', 'max_pressure', 'mean_pressure', 'approach',
+                 'pressure_error_estimate')
 
 
 class ToolWarning(UserWarning):
@@ -157,7 +160,7 @@ def _feed(pipe, data):
 
 
 def _reported(command, data, has_report, timeout=None):
-    """The same with the lines of the tool's report: exit status, output, messages, list of dicts."""
+    """As execute(), with the lines of the tool's report: exit status, output, messages, list of dicts."""
     if not has_report:
         return execute(command, data, timeout) + ([],)
     with tempfile.TemporaryDirectory() as folder:
@@ -208,16 +211,13 @@ def _arguments(row, keyword_, value):
     if row['type'] == 'flag':
         raise TypeError('%s=%r: the option is True or False' % (keyword_, value))
     if row['repeats']:
-        return [word for one in (value if _is_list(value) else [value]) for word in _arguments_of_one(row, dashed, one)]
+        return [word for one in (value if _is_list(value) else [value])
+                for word in ([dashed] if one is True else [dashed, _text(one)])]
     text = ','.join(map(_text, value)) if _is_list(value) else _text(value)
     for word in text.split(',') if row['type'] == 'words' else [text] if row['type'] == 'choice' else []:
         if row['only_words'] and row['words'] and word not in row['words']:
             raise ValueError('%s=%r: %s' % (keyword_, word, _one_of(word, row['words'])))
     return [dashed, text]
-
-
-def _arguments_of_one(row, dashed, value):
-    return [dashed] if value is True else [dashed, _text(value)]
 
 
 def _one_of(word, known):
@@ -284,7 +284,7 @@ class Result:
         return self._frames
 
     def stream(self):
-        """The grid stream, for the next tool: as it came, until somebody asks for the frames."""
+        """The grid stream for the next tool: the bytes of the tool, until the frames are read and may change."""
         return [self._output] if self._frames is None else stream.pieces(self._frames)
 
     def save(self, file):
@@ -342,9 +342,6 @@ class Result:
     def __dir__(self):
         return sorted(set(object.__dir__(self)) | set(map(python_name, self.channels)) | set(self.report))
 
-    FIGURES = ('load', 'contact_area', 'contact_fraction', 'max_pressure', 'mean_pressure', 'approach', 'max_mises', 'flow',
-               'pressure_error_estimate')
-
     def _summary(self):
         cases = len(self.cases) if self.frames or self.lines else 0
         head = '%s: %d case%s%s' % (self.tool, cases, '' if cases == 1 else 's', '' if self.converged else ', not converged')
@@ -354,7 +351,7 @@ class Result:
             rows.append((channel, '%d x %d, %.4g to %.4g %s' % (f.values.shape[1], f.values.shape[0],
                                                                 numpy.nanmin(f.values), numpy.nanmax(f.values), f.unit)))
         if len(self.lines) == 1:
-            rows += [(name, '%.4g' % self.lines[0][name]) for name in self.FIGURES
+            rows += [(name, '%.4g' % self.lines[0][name]) for name in SHOWN_FIGURES
                      if isinstance(self.lines[0].get(name), (int, float))]
         return head, rows
 
@@ -446,7 +443,6 @@ def call(tool, surface=None, operands=(), spacing=None, timeout=None, **given):
     status, output, words, lines = _reported(command, data, has_report, timeout)
     if row['writes'] != 'stream' or not output.startswith(b'RCG'):
         result = Result(tool, command, frames=[], lines=lines)
-        result.output = output
     else:
         result = Result(tool, command, output, lines=lines)
     return _settled(status, words, result)
@@ -533,18 +529,18 @@ SPECIAL = {'open': open_file, 'render': draw, 'export': save_as, 'add': add_two,
 def function(name):
     """The function of a tool, with signature and documentation from its option table."""
     import inspect
-    tool, made = FUNCTIONS[name], SPECIAL.get(name)
+    tool = FUNCTIONS[name]
     rows = options_of(tool)
-    if made is None:
-        def made(surface, *, dx=None, timeout=None, **given):
-            return call(tool, surface, spacing=dx, timeout=timeout, **given)
-    else:
-        inner = made
 
-        def made(*operands, **given):
-            return inner(*operands, **given)
-    own = list(inspect.signature(SPECIAL.get(name, made)).parameters.values())[:-1]
-    own = [p for p in own if p.name not in rows]
+    def solver(surface, *, dx=None, timeout=None, **given):
+        return call(tool, surface, spacing=dx, timeout=timeout, **given)
+
+    inner = SPECIAL.get(name, solver)
+
+    def made(*operands, **given):
+        return inner(*operands, **given)
+
+    own = [p for p in inspect.signature(inner).parameters.values() if p.name not in rows and p.name != 'given']
     positional = [p for p in own if p.name not in ('dx', 'timeout')]
     named = [inspect.Parameter(python, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation(row))
              for python, row in rows.items()]
@@ -629,5 +625,5 @@ def run(tool, frames=None, *args, **options):
 
 
 def report(tool, frames, *args, **options):
-    """The same with the lines of the tool's report: the frames and a list of dicts."""
+    """As run(), with the lines of the tool's report: the frames and a list of dicts."""
     return _named(tool, frames, args, options, True)

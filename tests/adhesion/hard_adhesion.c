@@ -432,8 +432,8 @@ hardness(void **state)
 
 /* ---- no node apart ---- */
 
-/* Rough free maps under a load that closes all of them: the pressures are A h but for the mean, the load is met,
- * in no more steps than it takes elsewhere. */
+/* Rough free maps under a load that closes all of them: the pressures are A h but for the mean, the load is
+ * met, in no more steps than it takes elsewhere. */
 static void
 closed_by_a_load(void **state)
 {
@@ -468,8 +468,8 @@ closed_by_a_load(void **state)
         }
 }
 
-/* Two planes on a periodic map, close enough to have no node apart to begin with: the gap is the one asked for, and
- * the pressure the traction of the law. */
+/* Two planes on a periodic map, close enough to have no node apart to begin with: the gap is the one asked
+ * for, and the pressure the traction of the law. */
 static void
 planes(void **state)
 {

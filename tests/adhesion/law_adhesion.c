@@ -103,8 +103,8 @@ errors_are_known(void **state)
     assert_true(part[n - 1 - n / 20] <= 10);
 }
 
-/* With a hardness a state adds what those before it were off, for that stays in their dents; and where every node of
- * a periodic map is in contact the estimate is that of rounding, not 0. */
+/* With a hardness a state adds what those before it were off, for that stays in their dents; and where
+ * every node of a periodic map is in contact the estimate is that of rounding, not 0. */
 static void
 errors_of_dents_are_known(void **state)
 {
@@ -144,8 +144,8 @@ errors_of_dents_are_known(void **state)
     assert_true(worst >= 0.99);
 }
 
-/* The iteration for the eigenvector may come to another mode than the softest one, at 0.49 where there is one of 0.14,
- * which the last steps show: a profile of 18 nodes, of which nine touch. */
+/* The iteration for the eigenvector may come to another mode than the softest one, at 0.49 where there is
+ * one of 0.14, which the last steps show: a profile of 18 nodes, of which nine touch. */
 static void
 soft_modes_are_seen(void **state)
 {

@@ -636,8 +636,8 @@ done:
     return status;
 }
 
-/* Two loads, of which the first does not yield, with increments that are chosen; from the middle of the second on
- * another goes on. */
+/* Two loads, of which the first does not yield, with increments that are chosen; from the middle of the
+ * second on another goes on. */
 static enum rc_status
 may_yield(double *out, struct rc_err *err)
 {

@@ -164,7 +164,8 @@ reaches_an_end(struct rc_shape s, const double *g, bool around, size_t k, size_t
     return false;
 }
 
-/* Menger: two ways, to inlet and to outlet, that share no node but k, when no single node parts it from both. */
+/* Menger: two ways, to inlet and to outlet, that share no node but k, when no single node parts it from
+ * both. */
 static bool
 flows_by_force(struct rc_shape s, const double *g, bool around, size_t k)
 {

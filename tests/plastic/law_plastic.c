@@ -278,7 +278,8 @@ fully_plastic(void **state)
 
 /* ---- let go ---- */
 
-/* What is left has no force on any plane, is compression below the dent; pressed again, nothing more yields. */
+/* What is left has no force on any plane, is compression below the dent; pressed again, nothing more
+ * yields. */
 static void
 let_go(void **state)
 {
@@ -397,7 +398,8 @@ free_maps(void **state)
     rc_plastic_free(plastic[1]);
 }
 
-/* A ball beside the middle of the nodes, where 3 and 8 of them touch, on a map and on one three times as wide. */
+/* A ball beside the middle of the nodes, where 3 and 8 of them touch, on a map and on one three times as
+ * wide. */
 static void
 free_maps_of_few_nodes(void **state)
 {
@@ -838,8 +840,9 @@ press_new(struct rc_shape shape, const double *h, struct rc_plastic_problem prob
     return press;
 }
 
-/* Under Hertz's ball the stress reaches the yield stress at P = (pi p0)^3 R^2/(6 E*^2), p0 the stress over the
- * largest Mises stress of under_circle. Below that load the elastic contact is the solution, bit for bit. */
+/* Under Hertz's ball the stress reaches the yield stress at P = (pi p0)^3 R^2/(6 E*^2), p0 the stress over
+ * the largest Mises stress of under_circle. Below that load the elastic contact is the solution, bit for
+ * bit. */
 static void
 elastic_first(void **state)
 {
@@ -936,9 +939,9 @@ try_loads(struct rc_press *press, const double *loads, size_t first, bool under_
     return TRIED;
 }
 
-/* With increments that are chosen for each load: the estimate is at most what is asked for and no less than the
- * error against many increments, tries that had too few leave nothing behind, and a state from anywhere on the
- * way, elastic or not, is gone on with. */
+/* With increments that are chosen for each load: the estimate is at most what is asked for and no less than
+ * the error against many increments, tries that had too few leave nothing behind, and a state from anywhere
+ * on the way, elastic or not, is gone on with. */
 static void
 chooses(void **state)
 {

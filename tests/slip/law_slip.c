@@ -252,8 +252,8 @@ test_estimate_bounds_the_error(void **state)
     assert_true(most <= 2.5);
 }
 
-/* Two nodes of long cells under a force next to sliding, which turns: on the circles of both, only two pairs of
- * tractions carry it, and where neither is an answer both nodes must stick before that is found. */
+/* Two nodes of long cells under a force next to sliding, which turns: on the circles of both, only two
+ * pairs of tractions carry it, and where neither is an answer both nodes must stick before that is found. */
 static void
 test_two_nodes_next_to_sliding(void **state)
 {
@@ -301,7 +301,8 @@ test_two_nodes_next_to_sliding(void **state)
 }
 
 /* Convolutions until the true error is below 1e-2, 1e-4, 1e-6, half of what friction can carry, cold: no
- * more than that, and hardly more on a larger map, on the free boundary, on profiles and on stretched cells. */
+ * more than that, and hardly more on a larger map, on the free boundary, on profiles and on stretched
+ * cells. */
 static void
 test_work_does_not_grow(void **state)
 {
@@ -440,8 +441,8 @@ test_nonsense_is_refused(void **state)
     rc_slip_free(slip);
 }
 
-/* On a periodic map: the displacement that a force was found to make, given, makes that force; contact that is
- * complete carries what it can, wherever it is moved, and no more. */
+/* On a periodic map: the displacement that a force was found to make, given, makes that force; contact that
+ * is complete carries what it can, wherever it is moved, and no more. */
 static void
 test_periodic_displacement_gives_the_force(void **state)
 {
@@ -501,8 +502,8 @@ test_periodic_displacement_gives_the_force(void **state)
     free(even);
 }
 
-/* What the iterations of a path leave adds up: with a coarse tolerance the sum is not below the error, on paths
- * that turn, at any increment; the last increment alone is. Bodies that come apart drop it. */
+/* What the iterations of a path leave adds up: with a coarse tolerance the sum is not below the error, on
+ * paths that turn, at any increment; the last increment alone is. Bodies that come apart drop it. */
 static void
 test_errors_of_a_path_add_up(void **state)
 {

@@ -355,7 +355,8 @@ enum {
     EACH = 3 /* increments from point to point */
 };
 
-/* Largest distance of the tractions at points of a path, relative, under loads, and forces or displacements. */
+/* Largest distance of the tractions at points of a path, relative, under loads, and forces or
+ * displacements. */
 static double
 apart_from_joint(const struct rc_joint_problem *o, const double (*at)[3], size_t points, bool moved)
 {

@@ -187,7 +187,8 @@ test_loop_of_a_ball(void **state)
     pressed_free(&b.c);
 }
 
-/* On a strip, q = mu (p(P) - p(P - F/mu)), along it and across it, whatever nu is (Ciavarella 1998, Jaeger 1998). */
+/* On a strip, q = mu (p(P) - p(P - F/mu)), along it and across it, whatever nu is (Ciavarella 1998, Jaeger
+ * 1998). */
 static void
 test_strip_by_superposition(void **state)
 {

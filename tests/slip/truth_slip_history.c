@@ -20,7 +20,8 @@ struct corner {
     double load, fx, fy; /* load over that at the end, forces over mu times that */
 };
 
-/* Along straight legs between corners, each in so many increments, from where the bodies touch under the load of the first. */
+/* Along straight legs between corners, each in so many increments, from where the bodies touch under the
+ * load of the first. */
 static void
 follow(struct rc_solver *solver, const double *h, double load, size_t corners,
        const struct corner *at, size_t increments, double *const q[2], double *dissipated)

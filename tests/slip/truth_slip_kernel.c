@@ -297,8 +297,8 @@ test_free_sums_are_double_sums(void **state)
 
 /* ---- in single precision ---- */
 
-/* The inverse takes T q back to q, less its mean, in single precision; of a periodic map, and of one without waves of
- * two nodes. */
+/* The inverse takes T q back to q, less its mean, in single precision; of a periodic map, and of one
+ * without waves of two nodes. */
 static void
 test_the_inverse_in_single_precision(void **state)
 {
@@ -336,8 +336,9 @@ test_the_inverse_in_single_precision(void **state)
     assert_true(tried > 0 && worst < in_floats);
 }
 
-/* What T makes of waves of a free plane is (2 + kap)/(q E*), and 0.84 of that at 1.5 over the spacing what a node makes
- * of its own traction; along a strip it hardly falls with q: as a logarithm, by 2/pi for each e. */
+/* What T makes of waves of a free plane is (2 + kap)/(q E*), and 0.84 of that at 1.5 over the spacing what
+ * a node makes of its own traction; along a strip it hardly falls with q: as a logarithm, by 2/pi for each
+ * e. */
 static void
 test_waves_of_planes_and_strips(void **state)
 {

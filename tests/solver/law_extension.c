@@ -249,9 +249,9 @@ extremes(const gsl_matrix *k, const gsl_matrix *b, double *least, double *most)
 
 /* All eigenvalues at least 1 is the claim r'z >= r' (K_WW)^-1 r, under which the error estimate is no
  * underestimate in the energy norm. The largest: 1.28 on one material (free, what touches of a rough
- * surface), 1.61, 2.52 and 1.23 under these coats on repeating maps. On the free boundary A of a stiff coat is
- * itself not exact, since its padded kernel may be negative: on this small map, whose frame is as narrow as
- * the coats bend, 0.98 to 13. */
+ * surface), 1.61, 2.52 and 1.23 under these coats on repeating maps. On the free boundary A of a stiff coat
+ * is itself not exact, since its padded kernel may be negative: on this small map, whose frame is as narrow
+ * as the coats bend, 0.98 to 13. */
 static void
 spectrum(void **state)
 {

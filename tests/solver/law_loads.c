@@ -178,8 +178,8 @@ impossible_is_refused(void **state)
     free(h);
 }
 
-/* The approach from which every node of these heights carries its hardness: the last one is that for which K H - h
- * is largest. */
+/* The approach from which every node of these heights carries its hardness: the last one is that for which
+ * K H - h is largest. */
 static double
 every_node_yields(struct rc_shape own, const double *h, const struct rc_problem *problem)
 {

@@ -273,9 +273,9 @@ resumed(void **state)
     free(h);
 }
 
-/* The estimate stands on the stiffness of the contact that the search ends with: not on none, where the face has not
- * been turned on this grid, and not on that of a contact before it, where few nodes are elastic. Against the same
- * contact solved tightly. */
+/* The estimate stands on the stiffness of the contact that the search ends with: not on none, where the
+ * face has not been turned on this grid, and not on that of a contact before it, where few nodes are
+ * elastic. Against the same contact solved tightly. */
 static void
 ends_with_its_stiffness(void **state)
 {

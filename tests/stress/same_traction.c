@@ -251,7 +251,8 @@ alone_as_in_company(void **state)
 static void
 nothing_is_done_unasked(void **state)
 {
-    /* quarters of the padded map; of 6 kernels a load szz is one of the pressure's, and sxz along y is syz along x */
+    /* quarters of the padded map; of 6 kernels a load szz is one of the pressure's, and sxz along y is syz
+     * along x */
     static const struct {
         const char *what;
         int maps; /* bits: along x, along y */

@@ -31,7 +31,8 @@ enum rc_status layer_read(const char *text, struct rc_layer *layer, double *resi
  * do not say it. */
 enum rc_status bodies_read(const struct rc_grid *grid, const struct layers *layers,
                            struct rc_pair *pair, struct rc_err *err);
-/* Sets all these keys, and takes away those of other bodies; residual stresses of the layers, Pa: NULL is none. */
+/* Sets all these keys, and takes away those of other bodies; residual stresses of the layers, Pa: NULL is
+ * none. */
 enum rc_status bodies_set(struct rc_grid *grid, const struct rc_pair *pair, const double *residual,
                           struct rc_err *err);
 

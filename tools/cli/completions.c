@@ -1,7 +1,7 @@
 /*
  * Completions of bash, zsh and fish, made from the option tables: names of options, their words, units after
- * numbers, files, and the channels of the streams that the line names; and the tables themselves as JSON, from
- * which the functions of the Python package are made.
+ * numbers, files, and the channels of the streams that the line names; and the tables themselves as JSON,
+ * from which the functions of the Python package are made.
  */
 #include "parts.h"
 

@@ -1,6 +1,7 @@
 /*
- * What touches. A pressure tells it, but for the net pressure of bodies that attract each other: that is not 0
- * nearly everywhere, and may be negative where the gap is closed. rc-solve writes the frame `contact` beside it.
+ * What touches. A pressure tells it, but for the net pressure of bodies that attract each other: that is
+ * not 0 nearly everywhere, and may be negative where the gap is closed. rc-solve writes the frame `contact`
+ * beside it.
  */
 #include "contact.h"
 

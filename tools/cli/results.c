@@ -7,7 +7,8 @@
 
 #include "libcontact/contact.h"
 
-/* Whether frames of this channel are computed from a height: what rc-solve, rc-deflect and rc-stress write. */
+/* Whether frames of this channel are computed from a height: what rc-solve, rc-deflect and rc-stress
+ * write. */
 static bool
 computed(const char *channel)
 {

@@ -262,11 +262,11 @@ void tool_demand_finite(struct tool *tool, const struct rc_grid *grid, const cha
 void tool_demand_writable(struct tool *tool, const char *option, const char *name);
 /* The budget of the allocator: what --memory allows, or what the machine has, if that is less. */
 void tool_budget(struct tool *tool);
-/* Where the budget refused memory, makes the message "out of memory ..." say how much is needed, what bounds it and
- * what to do; g: NULL, or the map. */
+/* Where the budget refused memory, makes the message "out of memory ..." say how much is needed, what
+ * bounds it and what to do; g: NULL, or the map. */
 void tool_add_refusal(const struct tool *tool, const struct rc_grid *g, char *text, size_t size);
-/* Whether so many bytes more are within the budget; RC_FAIL when they are not, and *err says what needs them (shape
- * NULL: the work), what bounds them, and tool->remedy. */
+/* Whether so many bytes more are within the budget; RC_FAIL when they are not, and *err says what needs
+ * them (shape NULL: the work), what bounds them, and tool->remedy. */
 enum rc_status tool_ask_memory(const struct tool *tool, const struct rc_shape *shape, size_t bytes,
                                struct rc_err *err);
 /* Before long work that will allocate so many bytes: ends the tool when they exceed the budget. */

@@ -165,7 +165,8 @@ again(const struct cost_case *c, const struct cost_trial *m)
            (runs < 5 && disturbed(c, m));
 }
 
-/* Repeats trials in turns, so that a disturbance does not affect one trial alone; not while repetitions fail. */
+/* Repeats trials in turns, so that a disturbance does not affect one trial alone; not while repetitions
+ * fail. */
 static void
 repeat(struct cost_case *c)
 {

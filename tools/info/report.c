@@ -1,7 +1,7 @@
 /*
  * Rows of figures. Those of --report are flat, so that the parameters of many scans are one table: what a
- * frame does not have is unknown, and all rows have the columns of what was asked for. In --json the figures of
- * each option are an object.
+ * frame does not have is unknown, and all rows have the columns of what was asked for. In --json the
+ * figures of each option are an object.
  */
 #include "info.h"
 

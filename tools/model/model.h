@@ -1,6 +1,6 @@
 /*
- * The interface of this folder: a tool drives a model (libcontact/model.h) through the points of a history, with a
- * progress line, signals, and --checkpoint with --resume.
+ * The interface of this folder: a tool drives a model (libcontact/model.h) through the points of a history,
+ * with a progress line, signals, and --checkpoint with --resume.
  */
 #ifndef RC_TOOL_MODEL_H
 #define RC_TOOL_MODEL_H
@@ -40,13 +40,14 @@ enum rc_status course_run(struct course *c, struct rc_model *m);
 
 /* ---- checkpoint.c ---- */
 
-/* Opens the file `name` (NULL: none); resume: the file may exist. Does not return if the file cannot be used. */
+/* Opens the file `name` (NULL: none); resume: the file may exist. Does not return if the file cannot be
+ * used. */
 struct checkpoint *checkpoint_open(struct tool *t, const char *name, bool resume, double interval);
 void checkpoint_close(struct checkpoint *checkpoint);
 /* CRC-32 of a map, of all ranks, for a mark. */
 void checkpoint_crc(struct tool *t, const struct rc_grid *g, char text[16]);
-/* Begins a case, or a point of a case. Returns its last state, as rc_model_state wrote it, which the caller frees;
- * NULL: none. */
+/* Begins a case, or a point of a case. Returns its last state, as rc_model_state wrote it, which the caller
+ * frees; NULL: none. */
 double *checkpoint_load(struct course *c, size_t *n);
 /* Appends a state of n numbers. */
 void checkpoint_save(struct course *c, const double *state, size_t n);

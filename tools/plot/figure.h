@@ -1,6 +1,7 @@
 /*
- * Figures as people publish them: a map with axes, colour bar, title and legend. Lengths on the two axes of a map have the same scale unless that
- * would leave a strip too thin to see (FIGURE_ASPECT); the figure then says so.
+ * Figures as people publish them: a map with axes, colour bar, title and legend. Lengths on the two axes of
+ * a map have the same scale unless that would leave a strip too thin to see (FIGURE_ASPECT); the figure
+ * then says so.
  */
 #ifndef RC_FIGURE_H
 #define RC_FIGURE_H

@@ -257,8 +257,8 @@ is_hollow(const struct graph_series *s, size_t k)
     return s->point != NULL && s->point[k].hollow;
 }
 
-/* Of the points from k on that share its column of pixels, in a series of many points, the extremes and the last
- * are drawn. Returns the last. */
+/* Of the points from k on that share its column of pixels, in a series of many points, the extremes and the
+ * last are drawn. Returns the last. */
 static size_t
 draw_column(struct graph_page *p, const struct graph_series *s, size_t k)
 {

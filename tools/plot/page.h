@@ -85,8 +85,8 @@ extern const struct rgb page_ink, page_faint;
 
 extern const struct rgb page_alarm;
 
-/* Settles everything of a page of maps whose f, g, columns and rows are set, measuring text on c. RC_FAIL: the
- * page is too narrow for so many columns. */
+/* Settles everything of a page of maps whose f, g, columns and rows are set, measuring text on c. RC_FAIL:
+ * the page is too narrow for so many columns. */
 enum rc_status page_lay_out(struct page *page, struct rc_err *err);
 /* Pixels that the swatch of note k takes, gap included. */
 double page_swatch(const struct page *page, size_t k);

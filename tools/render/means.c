@@ -1,7 +1,8 @@
 /*
- * Means of the pressure on a body that yields inside. Without hardening it alternates from node to node by some
- * percent, which the volume does not feel: waves of two nodes have no part in it. Means over 2 x 2 nodes have none
- * of that. A node is drawn with the mean of the four of them that it belongs to, where it is in contact.
+ * Means of the pressure on a body that yields inside. Without hardening it alternates from node to node by
+ * some percent, which the volume does not feel: waves of two nodes have no part in it. Means over 2 x 2
+ * nodes have none of that. A node is drawn with the mean of the four of them that it belongs to, where it
+ * is in contact.
  */
 #include "render.h"
 

@@ -71,7 +71,8 @@ value_of(uint64_t bits)
     return v;
 }
 
-/* How many values whose bits above the lowest `shift + PART` are those of `above` have each of the PART next ones. */
+/* How many values whose bits above the lowest `shift + PART` are those of `above` have each of the PART
+ * next ones. */
 static void
 count_parts(const struct frames_of *f, uint64_t above, int shift, size_t count[PARTS])
 {
@@ -238,8 +239,8 @@ range_text(const struct range *r)
     return si;
 }
 
-/* Warns where hardly anything is left to be told apart, as where a unit was forgotten: the range lies beside the
- * values, or one of both fills less than a thousandth of the other. */
+/* Warns where hardly anything is left to be told apart, as where a unit was forgotten: the range lies
+ * beside the values, or one of both fills less than a thousandth of the other. */
 void
 range_doubt(struct tool *t, const char *text, const char *unit, const struct survey *s,
             const struct range *r)

@@ -17,7 +17,8 @@ struct wish {
     bool contact;        /* the pressure of its case is kept too                      */
 };
 
-/* What stands beside a frame that is drawn, of its case and on its grid; NULL: nothing, or it is that frame. */
+/* What stands beside a frame that is drawn, of its case and on its grid; NULL: nothing, or it is that
+ * frame. */
 struct beside {
     struct rc_grid *pressure, *contact;
 };
@@ -67,8 +68,8 @@ struct window {
 };
 
 /* Cuts the map, and what stands beside it, to the window of `text`: X0:X1,Y0:Y1, contact, all, or NULL: about
- * the contact where that is a speck of the map of a pressure, unless each node is to be a pixel (`raw`). `touch`
- * tells what touches (NULL: nothing does). The values move to the front of the grids. */
+ * the contact where that is a speck of the map of a pressure, unless each node is to be a pixel (`raw`).
+ * `touch` tells what touches (NULL: nothing does). The values move to the front of the grids. */
 void window_cut(struct tool *tool, const char *text, bool raw, struct rc_grid *grid,
                 const struct beside *beside, const struct rc_grid *touch, struct window *window);
 
@@ -132,9 +133,9 @@ void range_read(struct tool *tool, const char *text, const struct rc_grid *grid,
                 struct range *range);
 /* "LO:HI" in SI, valid until the next call. */
 const char *range_text(const struct range *range);
-/* The ends of the colours of n frames, whose values are taken together; an end that was given stays. A percentile is the value that so many per cent of the finite
- * values are below, linear between two values; of a pressure only values in contact count, which touch[k] tells
- * (NULL: all count). */
+/* The ends of the colours of n frames, whose values are taken together; an end that was given stays. A
+ * percentile is the value that so many per cent of the finite values are below, linear between two values;
+ * of a pressure only values in contact count, which touch[k] tells (NULL: all count). */
 void range_choose(struct rc_grid *const *grid, const struct rc_grid *const *touch, size_t n,
                   const struct survey *survey, const struct colormap *map,
                   const struct channel *what, struct range *range);

@@ -220,8 +220,8 @@ increment(struct slip_run *run, struct rc_joint *joint, struct rc_joint *near, s
     rc_joint_keep(joint);
 }
 
-/* To a corner, in all increments and in fewer ones, each of which starts from what all have found there; stops
- * where the tool is interrupted. */
+/* To a corner, in all increments and in fewer ones, each of which starts from what all have found there;
+ * stops where the tool is interrupted. */
 static void
 go_to(struct slip_run *run, struct rc_joint *const joint[SLIP_JOINTS], size_t corner,
       struct slip_state *s)
@@ -285,10 +285,10 @@ distance(const struct slip_run *run, struct rc_joint *a, struct rc_joint *b, dou
     return sum;
 }
 
-/* What the increments leave, Pa, summed over the map; `before` at the corner before, which stays, also where D and
- * D2 fall because they cancel. Half of the increments are off by D more and a quarter by D2 more again, which tells
- * how fast that falls. On a way of two increments D grows by what the way adds. `doubt`: D's own, of the
- * iteration. The factors are those of random paths. */
+/* What the increments leave, Pa, summed over the map; `before` at the corner before, which stays, also
+ * where D and D2 fall because they cancel. Half of the increments are off by D more and a quarter by D2
+ * more again, which tells how fast that falls. On a way of two increments D grows by what the way adds.
+ * `doubt`: D's own, of the iteration. The factors are those of random paths. */
 static double
 increment_error(const struct slip_run *run, struct rc_joint *const joint[SLIP_JOINTS],
                 const struct slip_corner *to, double before, double doubt)

@@ -202,8 +202,8 @@ exact(const struct slip_run *run, const struct slip_corner *from, const struct s
            (!grows || !(to->moved || capped)) && (from->told == SLIP_EXACT || from->load == 0);
 }
 
-/* Increments, and what will be known of them: one where that is exact, two where load and line of the force stay,
- * more where the force turns or the load changes. */
+/* Increments, and what will be known of them: one where that is exact, two where load and line of the force
+ * stay, more where the force turns or the load changes. */
 static void
 set_increments(const struct slip_run *run, const struct slip_corner *from, struct slip_corner *to)
 {
@@ -326,8 +326,8 @@ slip_plan_path(struct slip_run *run)
     }
 }
 
-/* A point on the straight line. Where the load falls, the increments become shorter towards the end: many nodes begin
- * to slip late, and the traction of a node points against its slip in the last increment. */
+/* A point on the straight line. Where the load falls, the increments become shorter towards the end: many
+ * nodes begin to slip late, and the traction of a node points against its slip in the last increment. */
 struct slip_corner
 slip_on_the_way(const struct slip_run *run, size_t corner, size_t k, size_t n)
 {

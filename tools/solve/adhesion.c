@@ -291,7 +291,8 @@ tabor(const struct run *run)
     return cbrt(p->radius * w * w) / run->adhering.scales.range;
 }
 
-/* The law named jkr has the shortest range that the grid resolves: JKR's limit is that of Tabor's number 3 and more. */
+/* The law named jkr has the shortest range that the grid resolves: JKR's limit is that of Tabor's number 3
+ * and more. */
 static void
 warn_of_jkr(struct run *run, const struct rc_grid *g, const char *where)
 {

@@ -13,8 +13,8 @@
 
 /* ---- one case ---- */
 
-/* Of the tolerance: what a load in which nodes yield may be off, so that with those after it, which may be smaller,
- * it is not more than the tolerance. 0: no load leaves a trace. */
+/* Of the tolerance: what a load in which nodes yield may be off, so that with those after it, which may be
+ * smaller, it is not more than the tolerance. 0: no load leaves a trace. */
 static double
 history_part(const struct run *run)
 {

@@ -225,7 +225,8 @@ void yield_put_strain(struct run *run, const struct rc_grid *like, double *buffe
  * alternate. */
 double yield_peak(const struct run *run, double max_pressure, const char **name);
 void yield_judge(struct run *run, const char *where, const struct solution *solution);
-/* Warns of a load whose error is larger than asked for, or unknown. False: there is nothing to say of that. */
+/* Warns of a load whose error is larger than asked for, or unknown. False: there is nothing to say of
+ * that. */
 bool yield_warn_of_end(struct run *run, const char *where, const struct solution *solution);
 /* What the solution took, in words. */
 void yield_tell(const struct run *run, const struct rc_contact *contact, char *text, size_t size);

@@ -1,6 +1,6 @@
 /*
- * The plastic strain that stands in a case behind its pressure, as rc-solve --yield writes it: of each slab, from the
- * surface down, exx eyy exy exz eyz, and peeq, which has no stress of its own.
+ * The plastic strain that stands in a case behind its pressure, as rc-solve --yield writes it: of each
+ * slab, from the surface down, exx eyy exy exz eyz, and peeq, which has no stress of its own.
  */
 #include "stress.h"
 

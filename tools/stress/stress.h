@@ -65,10 +65,12 @@ struct stress_strain {
     double *thickness;
     size_t slabs, maps;
 };
-/* Takes a frame that follows the pressure p in its case; false: it is none of these. `strain` is 0 before the first. */
+/* Takes a frame that follows the pressure p in its case; false: it is none of these. `strain` is 0 before
+ * the first. */
 bool stress_strain_take(struct tool *tool, const struct rc_grid *p, struct rc_grid *g,
                         struct stress_strain *strain);
-/* After the case. False: the body has not yielded, or not all of the strain was in the stream, which is warned of. */
+/* After the case. False: the body has not yielded, or not all of the strain was in the stream, which is
+ * warned of. */
 bool stress_strain_whole(struct tool *tool, const struct rc_grid *p, struct stress_strain *strain);
 void stress_strain_free(struct stress_strain *strain);
 /* Depths to look at, *n of them, which the caller frees; NULL when memory is short. */

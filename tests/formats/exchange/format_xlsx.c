@@ -92,8 +92,8 @@ blocks_are_read(void **state)
     drop(&b);
 }
 
-/* A profile of SurfTest: the cut-off has the unit of its positions, the first roughness that of its heights; no
- * titles, and shorter columns beside it. */
+/* A profile of SurfTest: the cut-off has the unit of its positions, the first roughness that of its
+ * heights; no titles, and shorter columns beside it. */
 static void
 surftest(void **state)
 {
