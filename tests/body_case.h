@@ -1,4 +1,4 @@
-/* A kernel of some bodies, with all that it is of. */
+/* A kernel of some bodies, together with these bodies. */
 #ifndef BODY_CASE_H
 #define BODY_CASE_H
 

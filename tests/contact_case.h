@@ -1,4 +1,4 @@
-/* What the contact tests share: solve a problem to its end. */
+/* Shared by the tests of contact: solves a problem completely. */
 #ifndef CONTACT_CASE_H
 #define CONTACT_CASE_H
 
@@ -16,8 +16,8 @@ struct solved {
     struct rc_err err;
 };
 
-/* Every method of the library is put to the same tests: main runs its group once for each, or for
- * the one that RC_METHOD in the environment names. */
+/* Every method of the library passes the same tests: main runs its group once for each method, or for the one
+ * that RC_METHOD in the environment names. */
 static const char *contact_method = "pcg";
 
 static inline bool
@@ -40,15 +40,15 @@ contact_take(size_t m)
         failed += ran_ == 0;                                                                       \
     }
 
-/* What the estimated error may be over the true one: below estimate_small, elastic or with an
- * active hardness, and before. It is never less than 1. */
+/* The largest permitted ratio of estimated and true error: below estimate_small, for elastic contacts or with
+ * an active hardness, and above it. The smallest permitted ratio is 1. */
 static const double estimate_small = 1e-3;
 static const double estimate_elastic = 1.5, estimate_plastic = 1.6, estimate_early = 4;
 
 #ifdef CONTACT_RANKS /* the same tests under mpirun: the processes share every map that can be shared */
 #include "contact_ranks.h"
 #else
-struct contact_part { /* the part of the map held here: all of it */
+struct contact_part { /* the part of the map in this process: all of it */
     const double *h;
     double *p, *gap, *u;
 };
@@ -102,7 +102,7 @@ solve(struct rc_shape shape, const double *h, struct rc_problem problem)
     return s;
 }
 
-/* Steps to the end, which is within the tolerance. */
+/* Steps until the solution is within the tolerance. */
 static inline struct rc_contact
 finish(struct rc_solver *solver)
 {
@@ -159,15 +159,15 @@ node_r(struct rc_shape s, size_t k)
     return hypot(node_x(s, k), node_y(s, k));
 }
 
-/* On a grid of an even number of nodes each way none stands on the apex of a sphere in its middle:
- * the four next to it are so much lower, and approaches count from them. */
+/* If the numbers of columns and rows are even, no node lies at the apex of a sphere in the middle: the four
+ * nearest nodes are lower by this depth, and the approach counts from them. */
 static inline double
 below_apex(struct rc_shape s, double radius)
 {
     return (s.dx * s.dx + s.dy * s.dy) / (8 * radius);
 }
 
-/* Numbers of a fixed sequence in (-1/2, 1/2). */
+/* The next number of a fixed pseudo-random sequence in (-1/2, 1/2). */
 static inline double
 random_number(uint64_t *seed)
 {

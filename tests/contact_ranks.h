@@ -1,5 +1,5 @@
-/* Contact tests under mpirun: every process runs the whole test, but the processes share the
- * contacts that are solved. The results are gathered, and each process judges all of them. */
+/* Contact tests under mpirun: every process runs the whole test, but the processes share the solution of each
+ * contact. The results are gathered, and each process checks all of them. */
 #ifndef CONTACT_RANKS_H
 #define CONTACT_RANKS_H
 
@@ -30,7 +30,7 @@ struct contact_part {
     double *p, *gap, *u;
 };
 
-/* Other engines than the transforms need the whole map: those are solved by each process alone. */
+/* Engines without transforms need the whole map: each process solves these contacts alone. */
 static inline struct contact_part
 contact_share(struct rc_shape shape, const double *h, struct rc_problem *problem, struct solved *s)
 {

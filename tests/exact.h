@@ -1,4 +1,4 @@
-/* Exact solutions, with their sources and nothing else. SI; tension positive; z into the body. */
+/* Exact solutions with their sources. SI units; tension positive; z into the body. */
 #ifndef EXACT_H
 #define EXACT_H
 
@@ -10,28 +10,32 @@
 
 static const double exact_pi = 3.14159265358979323846;
 
-/* The ladder of tolerances, all relative: a test names the rung it stands on, or says where its
- * bound comes from. The scripts know these names too (pipe.sh). */
-static const double same = 0;            /* the same number, or a decimal that is read back as it */
-static const double converted = 1e-15;   /* read from text, and its unit applied                */
-static const double of_sum = 1e-14;      /* rounding of a sum, over that of absolute values     */
+/* Relative tolerances by name: a test uses one of these names or explains its own bound. pipe.sh gives the
+ * same names to the scripts. */
+static const double same = 0; /* the same number, or a decimal that reads back as this number */
+static const double converted =
+    1e-15; /* read from text and multiplied by its unit                                         */
+static const double of_sum =
+    1e-14; /* rounding of a sum, relative to the sum of absolute values                         */
 static const double rounding = 1e-13;    /* a few operations in double precision                */
 static const double summed = 1e-12;      /* sums over a map                                     */
 static const double six_digits = 5e-6;   /* half a unit of the last of six printed digits       */
 static const double three_digits = 5e-3; /* and of three                                        */
-static const double coarse_grid = 0.01;  /* beside a closed form, tens of nodes in the contact  */
+static const double coarse_grid =
+    0.01; /* compared with a closed form, with tens of nodes in the contact                     */
 
-/* What a pressure that is constant in its cells may be off from Hertz's, with n nodes in the radius
- * of the contact: approach and peak this over n^2, area over n (its edge is a line of nodes). Some
- * five times what numerics find elsewhere: 2e-5 and 5e-5 with 21.5 nodes in the radius. */
+/* Permitted error of a solution with constant pressure in each cell against Hertz's, with n nodes in the
+ * radius of the contact: this constant over n^2 for approach and peak, over n for the area (its edge is a
+ * line of nodes). About five times the published numerical errors: 2e-5 and 5e-5 with 21.5 nodes in the
+ * radius. */
 static const double grid_approach = 0.1;
 static const double grid_peak = 0.5;
 static const double grid_area = 1;
-/* And of a rigid cone: its apex is blunt by a cell, approach over n. */
+/* The same for a rigid cone: a cell blunts its apex; approach over n. */
 static const double grid_cone = 0.2;
 
-/* The first number in the tests before a release (RC_LONG, tests/CMakeLists.txt), the second in those of
- * every commit: of cases, or of steps from one to the next. */
+/* Gives the first number in the tests before a release (RC_LONG, tests/CMakeLists.txt), the second one in the
+ * tests of every commit: numbers of cases, or steps from one case to the next. */
 static inline size_t
 thorough(size_t release, size_t commit)
 {
@@ -172,7 +176,7 @@ point_stress(bool shear, double nu, double x, double y, double z, double s[6])
         s[4] = -3 * x * x * z / R5;
         s[5] = -3 * x * y * z / R5;
     } else {
-        /* (1 - z/R) / r^2 and what goes with it, without r in the denominator */
+        /* (1 - z/R) / r^2 and related terms, without r in the denominator */
         double d = 1 / (R * b), e = (2 * R + z) / (R3 * b2);
         s[0] = c * (z / R3 - d + x * x * e) - 3 * z * x * x / R5;
         s[1] = c * (z / R3 - d + y * y * e) - 3 * z * y * y / R5;
@@ -350,13 +354,13 @@ maugis(double lambda, double a)
                            .approach = a * a - 4 * lambda * a * s / 3};
 }
 
-/* The one that carries this load, on the branch that a retraction comes along. */
+/* The contact that carries this load, on the branch that a retraction follows. */
 static inline struct maugis
 maugis_of_load(double lambda, double load)
 {
     double low = 1e-3, high = 10, lowest = INFINITY;
 
-    for (int k = 0; k <= 2000; k++) { /* the lowest load begins that branch */
+    for (int k = 0; k <= 2000; k++) { /* that branch begins at the lowest load */
         double a = 10 - (10 - 1e-3) * k / 2000, is = maugis(lambda, a).load;
         if (is < lowest) {
             lowest = is;
@@ -378,7 +382,7 @@ maugis_pull_off(double lambda)
 {
     double low = 1e-4, high = 3;
 
-    for (int k = 0; k < 200; k++) { /* load has one minimum */
+    for (int k = 0; k < 200; k++) { /* the load has one minimum */
         double b = low + (high - low) / 3, c = high - (high - low) / 3;
         if (maugis(lambda, b).load < maugis(lambda, c).load)
             high = c;

@@ -1,5 +1,5 @@
-/* Adhesion where it is hard: requests that make no sense, saddles, bodies that part, jumps, thin and odd
- * maps, unequal spacings, bounds of the pressure, coatings. */
+/* Hard cases of adhesion: invalid requests, saddle points, separating bodies, jumps, thin and odd maps,
+ * unequal spacings, a hardness, coatings. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -72,7 +72,7 @@ requests(void **state)
     bad.law = "dugdale";
     bad.range = 1e-8;
     refused(shape, bad, "within a node");
-    bad.range = 0; /* the one that it names */
+    bad.range = 0; /* the message names this field */
     assert_int_equal(rc_adhesion_check(&shape, &bad, &(struct rc_adhesion_scales){0}, &err), RC_OK);
 
     a = adhesion_new(shape, h, good);
@@ -95,13 +95,13 @@ requests(void **state)
     assert_non_null(strstr(err.text, "mean gap"));
     rc_adhesion_free(a);
     bad = good;
-    bad.contact.hardness = 1e6; /* of which the traction leaves 1e6 - 0.05/3e-7 Pa */
+    bad.contact.hardness = 1e6; /* at this gap the traction is 1e6 - 0.05/3e-7 Pa */
     a = adhesion_new(shape, h, bad);
     assert_int_equal(rc_adhesion_set_load(a, 0.9 * 1e6 * 1024e-12, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "no solution exists"));
     assert_int_equal(rc_adhesion_set_load(a, 0.8 * 1e6 * 1024e-12, &err), RC_OK);
     rc_adhesion_free(a);
-    bad.contact.hardness = 1; /* a node that yields is drawn in */
+    bad.contact.hardness = 1; /* the attraction pulls a yielding node in */
     a = adhesion_new(shape, h, bad);
     assert_int_equal(rc_adhesion_set_load(a, 1e-20, &err), RC_FAIL);
     assert_int_equal(rc_adhesion_set_load(a, -1e-6, &err), RC_OK);
@@ -142,8 +142,9 @@ sphere_of(size_t n, double tabor)
     return s;
 }
 
-/* Out by approach: no jump until the bodies part, and one then. Under their loads the states that hold less
- * than the most are saddles, which a residual does not tell from the others: they are left. */
+/* Retraction by approach: no jump until the bodies separate, and one jump then. Under the same loads the
+ * states beyond pull-off are saddle points. A residual does not distinguish them from minima, but the solver
+ * must leave them. */
 static void
 saddles(void **state)
 {
@@ -173,7 +174,7 @@ saddles(void **state)
             b = adhesion_new(s.shape, h, s.problem);
             assert_int_equal(rc_adhesion_start(b, p, f->approach, &adhesion_err), RC_OK);
             f = adhesion_to_load(b, load);
-            if (load > last + 0.01 * s.load) { /* on the way to less: no place to stay */
+            if (load > last + 0.01 * s.load) { /* beyond the lowest load there is no stable state */
                 assert_true(f->jumps > 0);
                 assert_true(f->separated || f->stable);
                 assert_int_equal(rc_adhesion_step(b, &adhesion_err),
@@ -195,7 +196,7 @@ saddles(void **state)
     rc_adhesion_free(a);
 }
 
-/* A load below what holds parts the bodies, and it is said; above it they hold. */
+/* A load below pull-off separates the bodies, and the figures say so; above it they stay in contact. */
 static void
 parting(void **state)
 {
@@ -219,13 +220,13 @@ parting(void **state)
     assert_int_equal(adhesion_run(a), RC_SHORT);
     f = rc_adhesion_result(a);
     assert_true(f->separated && !f->converged && f->contact_nodes == 0);
-    /* and it goes on from there */
+    /* and the path continues from there */
     f = adhesion_to_load(a, 0.1 * s.load);
     assert_true(f->converged && f->contact_nodes > 0);
     rc_adhesion_free(a);
 }
 
-/* From 6 steps or from 25 the lowest load is the same. */
+/* The lowest load is the same from 6 steps as from 25. */
 static void
 pull_off_by_hand(void **state)
 {
@@ -244,9 +245,9 @@ pull_off_by_hand(void **state)
     rc_adhesion_free(a);
 }
 
-/* A rough ball lets go spot by spot: its load over the approach has several lowest places and leaps between
- * them. The search finds the lowest of all, as a path in two hundred steps does, and what it is off is
- * told. */
+/* A rough ball separates spot by spot: its load against approach has several local minima, with jumps between
+ * them. The search must find the lowest one, as a path of two hundred steps does, and its error must be
+ * within the reported spread. */
 static void
 pull_off_of_rough(void **state)
 {
@@ -287,13 +288,13 @@ pull_off_of_rough(void **state)
         }
         print_message("in small steps %.3f\n", lowest * 1e6);
         assert_true(is <= lowest + 1e-3 * fabs(lowest));
-        assert_true(is >= lowest * 1.03); /* between two steps it may be lower */
+        assert_true(is >= lowest * 1.03); /* between two steps the load may be lower */
         assert_true(spread >= 0 && spread <= 2e-3 * fabs(is));
         rc_adhesion_free(a);
     }
 }
 
-/* Drawn back from where the load rises already, it is lowest at once. */
+/* A retraction that starts where the load already rises has its lowest load in the first state. */
 static void
 pull_off_at_start(void **state)
 {
@@ -368,8 +369,9 @@ maps(void **state)
 
 /* ---- hardness ---- */
 
-/* p + sigma stays within the hardness, gaps are negative only where it is reached, and there it is; taken
- * apart, what has yielded is gone and the same load does not yield again. */
+/* p + sigma is at most the hardness; gaps are negative only at nodes that reach it, and such nodes exist.
+ * After separation the overlap has been removed from the heights, and the same load causes no further
+ * yielding. */
 static void
 hardness(void **state)
 {
@@ -412,7 +414,7 @@ hardness(void **state)
     assert_true(f->converged && f->pull_off_load < 0);
     rc_adhesion_free(a);
 
-    /* a bound that is never reached, as a number or as a map, changes nothing */
+    /* a hardness that is never reached, as a number or as a map, changes nothing */
     memcpy(h, before, sizeof before);
     for (size_t k = 0; k < N * N; k++)
         sigma[k] = k % 2 ? NAN : 1e6 * hard;
@@ -432,8 +434,8 @@ hardness(void **state)
 
 /* ---- no node apart ---- */
 
-/* Rough free maps under a load that closes all of them: the pressures are A h but for the mean, the load is
- * met, in no more steps than it takes elsewhere. */
+/* Rough free maps under a load that closes the gap everywhere: the pressures are A h plus a constant, they
+ * carry the load, and the number of steps is as usual. */
 static void
 closed_by_a_load(void **state)
 {
@@ -461,15 +463,15 @@ closed_by_a_load(void **state)
             assert_true(fabs(f->load / (load[k] * area) - 1) < 1e-5);
             c = f->approach;
             again = adhesion_new(shape, h, problem);
-            f = adhesion_to_approach(again, c); /* which it asks for */
+            f = adhesion_to_approach(again, c); /* which the error message asks for */
             assert_true(f->converged && fabs(f->load / (load[k] * area) - 1) < 1e-5);
             rc_adhesion_free(a);
             rc_adhesion_free(again);
         }
 }
 
-/* Two planes on a periodic map, close enough to have no node apart to begin with: the gap is the one asked
- * for, and the pressure the traction of the law. */
+/* Two planes on a periodic map, so close that all nodes touch at the start: the gap must be the requested
+ * one, and the pressure the traction of the law. */
 static void
 planes(void **state)
 {
@@ -498,8 +500,8 @@ planes(void **state)
 
 /* ---- coatings ---- */
 
-/* A layer of the same material is none; one that is stiffer or softer has a state that obeys the same laws,
- * with the K that deflection has for it. */
+/* A layer of the substrate's material has no effect. With a stiffer or softer layer the state obeys the same
+ * laws, where K is the displacement of rc_conv for this body. */
 static void
 coatings(void **state)
 {

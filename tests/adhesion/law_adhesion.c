@@ -1,6 +1,6 @@
-/* What every state of adhesion obeys: its error is known, it is stable, it costs what it is said to cost,
- * units and mirrors change nothing else, loads and sums agree, and a path is what it is whatever the
- * threads. */
+/* Laws of every adhesive state: its error is within the estimate, it is stable, its cost is within the
+ * documented one, other units and mirrored maps give the corresponding state, loads equal sums of pressures,
+ * and the number of threads does not change a path. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,8 @@ enum {
 };
 static double h[MOST], p[MOST], exact[MOST];
 
-/* Rough, of slope 0.1, waves from 8 nodes up; on the free boundary on a dome. Lengths in nodes. */
+/* A rough map with slope 0.1 and waves from 8 nodes up; on the free boundary it lies on a dome. Lengths are
+ * in nodes. */
 static struct rc_shape
 rough(size_t n, uint64_t seed, bool dome)
 {
@@ -32,7 +33,7 @@ rough(size_t n, uint64_t seed, bool dome)
     return shape;
 }
 
-/* How deep the surface is below its top, on average. */
+/* The mean depth of the surface below its highest node. */
 static double
 depth(size_t n)
 {
@@ -103,8 +104,8 @@ errors_are_known(void **state)
     assert_true(part[n - 1 - n / 20] <= 10);
 }
 
-/* With a hardness a state adds what those before it were off, for that stays in their dents; and where
- * every node of a periodic map is in contact the estimate is that of rounding, not 0. */
+/* With a hardness the estimate of a state includes the errors of earlier states, which remain in their dents.
+ * If every node of a periodic map is in contact the estimate is the rounding error, not 0. */
 static void
 errors_of_dents_are_known(void **state)
 {
@@ -144,8 +145,9 @@ errors_of_dents_are_known(void **state)
     assert_true(worst >= 0.99);
 }
 
-/* The iteration for the eigenvector may come to another mode than the softest one, at 0.49 where there is
- * one of 0.14, which the last steps show: a profile of 18 nodes, of which nine touch. */
+/* The iteration for the eigenvector may converge to another mode than the softest one: here, a profile of 18
+ * nodes of which nine touch, to 0.49 although the smallest eigenvalue is 0.14. The last steps of the descent
+ * show the smaller one. */
 static void
 soft_modes_are_seen(void **state)
 {
@@ -191,7 +193,7 @@ complete_contact_has_rounding(void **state)
     assert_true(f->converged && f->contact_nodes == 1024);
     rc_adhesion_pressure(a, p);
     assert_non_null(s);
-    while (rc_solver_step(s) == RC_MORE) /* where nothing pulls off, as without adhesion */
+    while (rc_solver_step(s) == RC_MORE) /* where no pull-off exists, as without adhesion */
         ;
     assert_true(f->pressure_error > 0 && f->pressure_error < 1e-6);
     assert_true(adhesion_distance(1024, p, rc_solver_pressure(s)) <= 1e-10 + f->pressure_error);
@@ -201,8 +203,8 @@ complete_contact_has_rounding(void **state)
 
 /* ---- laws ---- */
 
-/* V' = sigma, D = -sigma', V(0) = -w, all by differences; sigma(0), the largest D and the reach are what
- * they are said to be, and a range that is sought for a cohesive length has it. */
+/* By differences: V' = sigma, D = -sigma', V(0) = -w. The reported sigma(0), largest D and reach are right,
+ * and a range that is computed from a cohesive length gives this length. */
 static void
 laws_are_whole(void **state)
 {
@@ -233,7 +235,7 @@ laws_are_whole(void **state)
                 assert_true(fabs(s[i] - a.strength) <= rounding * a.strength && d[i] == 0);
             assert_true(fabs((v[i + 1] - v[i - 1]) / (2 * step) - s[i]) <=
                         a.steepest * step + rounding * a.strength);
-            if (i > 33) /* within what the largest slope can change */
+            if (i > 33) /* within the change that the largest slope allows */
                 assert_true(fabs(s[i - 1] - s[i] - (d[i - 1] + d[i]) / 2 * step) <=
                             0.51 * a.steepest * step);
             most = fmax(most, d[i]);
@@ -253,7 +255,8 @@ laws_are_whole(void **state)
 
 /* ---- stability ---- */
 
-/* In and out again by approach, on ten surfaces: every state is stable, or it is not said to be found. */
+/* Loading and retraction by approach, on ten surfaces: every state is stable, or it is not reported as
+ * converged. */
 static void
 paths_are_stable(void **state)
 {
@@ -283,8 +286,8 @@ paths_are_stable(void **state)
     assert_true(jumps > 0);
 }
 
-/* The eigenvalue against that of the whole matrix (A - D) K_FF, by inverse iteration on small maps: here the
- * dense matrices are made by pressing one node at a time. */
+/* The eigenvalue compared with that of the dense matrix (A - D) K_FF, by inverse iteration on small maps;
+ * unit pressures on one node after another give the matrices. */
 static void
 eigenvalues_are_right(void **state)
 {
@@ -327,7 +330,7 @@ eigenvalues_are_right(void **state)
                 K[i][j] = u[j];
         }
         rc_conv_free(conv);
-        /* A = (K + 11')^-1 - 11'/N^2, by Gauss and Jordan; K kills the mean */
+        /* A = (K + 11')^-1 - 11'/N^2, by Gauss-Jordan elimination; K of a constant is 0 */
         for (size_t i = 0; i < NODES; i++)
             for (size_t j = 0; j < NODES; j++) {
                 M[i][j] = K[i][j] + 1.0;
@@ -361,8 +364,8 @@ eigenvalues_are_right(void **state)
         for (size_t i = 0; i < NODES; i++)
             for (size_t j = 0; j < NODES; j++)
                 A[i][j] -= 1.0 / NODES / NODES;
-        /* the smallest eigenvalue of P K P (A - D) P, P taking off the mean, by powers of 1 less part of
-         * it */
+        /* the smallest eigenvalue of P K P (A - D) P by power iteration of 1 minus a multiple of it; P
+         * removes the mean */
         static double x[NODES], y[NODES], z[NODES];
         double norm = 0, is = 0;
         for (size_t i = 0; i < n; i++)
@@ -396,7 +399,7 @@ eigenvalues_are_right(void **state)
                 high += y[i] * x[i]; /* mu x'W x   */
             }
             is = low / high;
-            /* eigenvalues of K A on a part of the nodes are at most some 10 */
+            /* the eigenvalues of K A on a subset of the nodes are at most about 10 */
             for (size_t i = 0; i < n; i++) {
                 x[i] = x[i] - z[i] / 6;
                 norm += x[i] * x[i];
@@ -405,7 +408,7 @@ eigenvalues_are_right(void **state)
                 x[i] /= sqrt(norm);
         }
         print_message("%zu nodes apart: %.4f, dense %.4f\n", n, f->stability, is);
-        /* from above, and told when its bound of error is below a fifth */
+        /* an upper bound, reported when its error bound is below a fifth */
         assert_true(f->stability > is - 1e-4 && 0.8 * f->stability < is + 1e-4);
         rc_adhesion_free(a);
     }
@@ -413,8 +416,8 @@ eigenvalues_are_right(void **state)
 
 /* ---- what it costs ---- */
 
-/* Convolutions from undeformed bodies to true errors of 1e-2, 1e-4 and 1e-6, at most 1.2 times those that
- * were measured with another program: periodic, mean gap given, and a sphere. */
+/* Convolutions from undeformed bodies to true errors of 1e-2, 1e-4 and 1e-6 are at most 1.2 times those of an
+ * independent program: periodic maps with a given mean gap, and a sphere. */
 static const struct {
     size_t n;
     double strength, ell, contact, counts[3];
@@ -457,7 +460,8 @@ convolutions_to_levels(struct rc_shape shape, struct rc_adhesion_problem problem
     rc_adhesion_free(a);
 }
 
-/* A sphere on the free boundary, where it just touches: radius of JKR's contact at no load 0.3 of the map. */
+/* A sphere on the free boundary at first touch; the radius of the JKR contact at zero load is 0.3 of the
+ * map. */
 static const struct {
     double tabor, counts[3];
 } free_costs[] = {{0.3, {8, 14, 18}}, {1, {12, 18, 24}}, {2, {15, 20, 24}}, {4, {38, 46, 54}}};
@@ -567,7 +571,7 @@ sums_agree(void **state)
                     summed * f->attractive_load);
         assert_true(fabs(repulsive - f->repulsive_load) <= 1e-7 * f->attractive_load);
         load = f->load;
-        /* the same state by its load, where it is stable under that too */
+        /* the same state by its load, if it is stable under this load too */
         memcpy(exact, p, sizeof p);
         f = adhesion_to_load(a, load);
         rc_adhesion_pressure(a, p);
@@ -578,7 +582,7 @@ sums_agree(void **state)
     }
 }
 
-/* Twelve decades of units, and a mirror. */
+/* Units over twelve decades, and a mirrored map. */
 static void
 units_and_mirrors(void **state)
 {
@@ -617,9 +621,9 @@ units_and_mirrors(void **state)
     }
 }
 
-/* A path that goes on from its pressure and approach goes on as it would have. */
-/* Pressed together far enough there is one state: with heights that are set on the way it is that of a new
- * path, before the first state and after one; heights that make no sense leave all as it was. */
+/* A path that is restored from its pressure and approach continues as if it had not been interrupted. */
+/* At a large approach only one state exists. With heights that are replaced before the first state, or after
+ * one, it equals the state of a new path. Invalid heights are refused without effect. */
 static void
 heights_change(void **state)
 {
@@ -632,7 +636,7 @@ heights_change(void **state)
         struct rc_adhesion_problem problem = law_of(dome ? RC_FREE : RC_PERIODIC, 0.1, 3, 1e-8);
         double deep = dome ? 0.8 : 0.7 * depth(n);
         double top = depth(n) + rc_sum(h, n * n) / (double)(n * n);
-        for (size_t k = 0; k < n * n; k++) /* worn where it is highest */
+        for (size_t k = 0; k < n * n; k++) /* the highest parts are worn off */
             other[k] = fmin(h[k], top - 0.05 * depth(n)) + 0.01 * depth(n) * sin((double)k);
         for (int begun = 0; begun < 2; begun++) {
             struct rc_adhesion *a = adhesion_new(shape, h, problem),

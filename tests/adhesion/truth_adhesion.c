@@ -1,5 +1,5 @@
 /* Adhesion against closed forms: Maugis' sphere, the limits of JKR and DMT, Bradley's rigid sphere,
- * Johnson's wave; and against Newton's method for the pressures of a small map, with an influence matrix of
+ * Johnson's wave; and against Newton's method for the pressures of a small map, with an influence matrix from
  * closed forms. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,8 +14,8 @@
 
 static const double radius = 2.385e-3, estar = 3.1e6;
 
-/* With so many nodes in the radius that JKR's contact has at no load; its apex stands nowhere special on the
- * grid, for errors of the grid are largest, of either sign, where the sphere is symmetric about nodes. */
+/* `nodes` is the number of nodes in the radius of the JKR contact at zero load. The apex lies at no symmetric
+ * point of the grid, because there the errors of the grid are largest, with either sign. */
 struct sphere {
     struct rc_shape shape;
     double work, load, length, approach; /* J/m2; Maugis' units */
@@ -39,9 +39,9 @@ sphere_of(size_t n, double nodes)
     return s;
 }
 
-/* Bounds: of the load where it is none, over pi w R; of the lowest load, relative. They are what the grid
- * leaves. Where the ring that attracts is 4, 1.6 and 0.6 nodes wide the load over the approach is a saw,
- * whose lowest tooth, in 200 states, is 0.2, 0.26 and 0.71 % below Maugis' lowest load. */
+/* Bounds: of the load that should be 0, over pi w R; of the lowest load, relative. They are errors of the
+ * grid. If the attracting ring is 4, 1.6 or 0.6 nodes wide, load against approach is a saw-tooth curve; its
+ * lowest tooth, in 200 states, is 0.2, 0.26 or 0.71 % below Maugis' lowest load. */
 static const struct {
     double lambda, nodes;
     size_t n;
@@ -91,15 +91,15 @@ sphere_of_maugis(void **state)
     }
 }
 
-/* On a grid that hardly holds the law the load is a saw, with teeth where the apex puts them: what the
- * search finds is off the lowest tooth that small steps find by no more than the spread that it tells, and
- * the spread is of the size of the teeth. */
+/* On a grid that hardly resolves the law the load is a saw-tooth curve, whose teeth depend on the position of
+ * the apex. The result of the search differs from the lowest tooth of a path with small steps by at most the
+ * reported spread, and the spread is of the size of the teeth. */
 static void
 spread_holds_the_saw(void **state)
 {
     static const struct {
         size_t row;
-        double apex; /* of a node along x */
+        double apex; /* position of the apex in the cell, in spacings along x */
     } cases[] = {{2, 0.05}, {3, 0.5}, {4, 0.5}};
 
     (void)state;
@@ -136,8 +136,9 @@ spread_holds_the_saw(void **state)
     }
 }
 
-/* Where only the work matters the lowest load is 3/2 pi w R (Johnson, Kendall and Roberts 1971), from above
- * as the range shrinks: Maugis has 1.2 % more at Tabor's number 5. */
+/* If only the work of adhesion matters the lowest load is -3/2 pi w R (Johnson, Kendall and Roberts 1971).
+ * Its size approaches this limit from above as the range decreases: in Maugis' theory it is 1.2 % larger at
+ * Tabor's number 5. */
 static void
 sphere_of_jkr(void **state)
 {
@@ -164,7 +165,7 @@ sphere_of_jkr(void **state)
     assert_true(last < (thorough(true, false) ? 0.05 : 0.06));
 }
 
-/* Nothing bends: the load at a clearance d is -2 pi w R (1 - d/gc)^3 (Bradley 1932, of this law). */
+/* Rigid bodies: the load at a clearance d is -2 pi w R (1 - d/gc)^3 (Bradley 1932, for this law). */
 static void
 sphere_of_bradley(void **state)
 {
@@ -187,7 +188,7 @@ sphere_of_bradley(void **state)
     path = adhesion_new(shape, h, problem);
     for (int k = 4; k >= 0; k--) {
         double d = k * range / 5, exact = -2 * exact_pi * work * radius * pow(1 - k / 5.0, 3);
-        double lift = 0; /* of the highest node below the apex */
+        double lift = 0; /* depth of the highest node below the apex */
         for (size_t i = 0; i < n * n; i++)
             lift = i == 0 ? h[i] : fmax(lift, h[i]);
         const struct rc_adhesion_figures *f = adhesion_to_approach(path, -d + lift);
@@ -261,13 +262,14 @@ wave_of_johnson(void **state)
 
 /* ---- another formulation ---- */
 
-/* min(g, p + sigma) = 0, g = K p - h - c, for the pressures, by Newton's method: where the gap is the smaller
- * its row is that of K, else of 1 - D K. Factors of a matrix without symmetry, with pivots. */
+/* Solves min(g, p + sigma) = 0, g = K p - h - c, for the pressures by Newton's method: a node with the
+ * smaller gap has the row of K, the others that of 1 - D K. The matrix is not symmetric; the elimination has
+ * pivots. */
 enum {
     NX = 12,
     NY = 11,
     NODES = NX * NY,
-    PARTS = 6 /* of Newton's way from one approach to the next */
+    PARTS = 6 /* largest number of Newton's steps from one approach to the next */
 };
 static struct dense dense;
 static double jacobian[NODES][NODES];
@@ -304,7 +306,7 @@ eliminate(size_t n, double *x)
     }
 }
 
-/* The exponential and the compact law, written once more. */
+/* The exponential and the compact law, independent of the library. */
 static double
 traction(bool compact, double work, double range, double g, double *slope)
 {
@@ -318,7 +320,7 @@ traction(bool compact, double work, double range, double g, double *slope)
     return x > 0 ? 3 * work / range * x * x : 0;
 }
 
-/* Pressures at the shift c, from those there are; false: it did not converge. */
+/* Finds the pressures at the shift c, starting from the present ones; false: it did not converge. */
 static bool
 newton(const double *h, bool compact, double work, double range, double c, double *p)
 {
@@ -332,7 +334,7 @@ newton(const double *h, bool compact, double work, double range, double c, doubl
             for (size_t j = 0; j < NODES; j++)
                 g[i] += dense.K[i][j] * p[j];
             s = traction(compact, work, range, fmax(g[i], 0), &slope);
-            /* both in units of their own */
+            /* both in their own units */
             if (g[i] / range < (p[i] + s) / scale) {
                 x[i] = -g[i] / range;
                 for (size_t j = 0; j < NODES; j++)
@@ -354,7 +356,7 @@ newton(const double *h, bool compact, double work, double range, double c, doubl
     return false;
 }
 
-/* In from afar and out again: the state after each approach, from the last. */
+/* Approach from far away and retraction: the state after each approach starts from the last one. */
 static void
 same_as_newton(enum rc_boundary boundary, bool compact, double ell)
 {
@@ -384,7 +386,7 @@ same_as_newton(enum rc_boundary boundary, bool compact, double ell)
         sum += dense.K[0][j] / NODES;
     for (size_t i = 0; i < NODES && boundary == RC_PERIODIC; i++)
         for (size_t j = 0; j < NODES; j++)
-            dense.K[i][j] -= sum; /* the mean moves nothing */
+            dense.K[i][j] -= sum; /* a mean pressure causes no displacement */
     work = 0.15;                  /* J/m2 */
     unit = sqrt(work * ell * 1.1e-6 / estar);
     range = compact ? sqrt(6) * unit : unit;

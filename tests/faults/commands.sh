@@ -1,10 +1,10 @@
-# Sourced by the tests of this folder, after pipe.sh: small inputs, and a command line of every kind of work
-# of every tool, each of which writes `out` or standard output and nothing else. Before each stands how many times coarser
-# than others its allocations are tried.
+# Sourced by the tests of this folder, after pipe.sh: small inputs, and command lines for every kind of work
+# of every tool. Each writes only `out` or standard output. The number before a command line multiplies the
+# step from one failing allocation to the next.
 
-# What can be tried is tried in one thread: which allocation or call is number n must not depend on luck.
+# All commands use one thread, so that the n-th allocation or call is always the same one.
 export RC_THREADS=1
-# Formats that bear a date bear this one.
+# The date in formats that contain one.
 export SOURCE_DATE_EPOCH=1700000000
 
 make_inputs() {
@@ -24,7 +24,7 @@ make_inputs() {
     rc-import --dx 1um --z-unit nm hole.txt -o hole.rcg
 }
 
-# Lines: how many times as coarsely as the others it is swept; the command.
+# Each line: the factor of the step between faults; the command.
 commands=$(
     cat <<'LIST'
 1 rc-synth selfaffine --nx 16 --dx 1um --hurst 0.8 --rms-slope 0.1 --weibull 2 -o out
@@ -92,12 +92,12 @@ with_leak && commands="$commands
 1 rc-leak --quiet --viscosity 1mPas --pressure-drop 1kPa --report /dev/null c.rcg -o out
 1 rc-leak --quiet --direction y --output channel c.rcg"
 
-# written COMMAND: the file that it writes; nothing: standard output.
+# written COMMAND: prints the file that the command writes, nothing for standard output.
 written() {
     case $1 in *' -o '*) echo "${1##* -o }" ;; esac
 }
 
-# What a command writes beside it is whole, or not there; a checkpoint can be gone on from.
+# A further file of a command is complete or absent, and a checkpoint can be resumed.
 whole_beside() {
     [ ! -e map ] || rc-info --quiet map >/dev/null 2>&1 || return 1
     [ ! -e plot.png ] || [ "$(tail -c 8 plot.png | head -c 4)" = IEND ] || return 1
@@ -105,7 +105,7 @@ whole_beside() {
     rm -f map kept plot.png
 }
 
-# What is there beside what a run may leave.
+# Lists files that a run must not leave behind.
 others() {
     local f
     for f in * .[!.]*; do
@@ -113,19 +113,19 @@ others() {
     done
 }
 
-# costs_of FILE: of a table of rc-cost what does not depend on the moment, as times and memory do: settings and
-# errors. Nothing of any other file.
+# costs_of FILE: prints settings and errors of a table of rc-cost, without times and memory, which change from
+# run to run; prints nothing for other files.
 costs_of() {
     awk '$1 ~ /^(pcg|pk99)$/ { print $1, $2, $3, $4, $5, $8, $10, $11, $12, $13, $14 }
         $1 ~ /^(fft|mlms|direct)$/ { print $1, $2, $5, $7, $8, $9 }' "$1" 2>/dev/null
 }
 
-# without_result FILE: trials that have none, with the reason.
+# without_result FILE: the trials without a result, with the reason.
 without_result() {
     grep -acE '^# .*: (its process died|it failed|left out|stopped)' "$1"
 }
 
-# same_costs A B: but for what A says could not be run.
+# same_costs A B: equal, except for trials that A reports as impossible.
 same_costs() {
     local extra missing
     extra=$(comm -23 <(costs_of "$1" | sort) <(costs_of "$2" | sort) | wc -l)
@@ -133,8 +133,8 @@ same_costs() {
     [ -n "$(costs_of "$1")" ] && [ "$extra" = 0 ] && [ "$missing" = $(($(without_result "$1") - $(without_result "$2"))) ]
 }
 
-# same_work A B: equal files, or streams with the same headers and values that are equal to rounding: where
-# the C library has no memory to sort in it sorts in another way, and sums come in another order.
+# same_work A B: equal files, or streams with equal headers and values equal to rounding: without memory for
+# sorting the C library uses another algorithm, and the order of sums changes.
 same_work() {
     cmp -s "$1" "$2" || same_costs "$1" "$2" || perl -e '
         sub frames {
@@ -157,14 +157,15 @@ same_work() {
         }' "$1" "$2"
 }
 
-# same_said FILE FILE: standard output, but for the mebibytes of a plan: they count what the process holds, and with it what
-# makes its allocations fail. law_memory holds that they need no memory themselves.
+# same_said FILE FILE: equal standard output, except for the mebibytes of a plan: they include the memory of
+# the process, and with it that of the preloaded library. law_memory tests that the plan itself needs no
+# memory.
 same_said() {
     cmp -s "$1" "$2" || cmp -s <(sed -E 's/, [0-9]+ MiB(,|$)/, MiB\1/' "$1") <(sed -E 's/, [0-9]+ MiB(,|$)/, MiB\1/' "$2")
 }
 
-# judge STATUS OUT WHERE: a run that was disturbed has either done all of its work or has failed cleanly.
-# Says what is wrong; fails then.
+# judge STATUS OUT WHERE: checks that a disturbed run has either done all of its work or has failed cleanly;
+# otherwise prints the reason and fails.
 judge() {
     local status=$1 out=$2 where=$3 tool=${4%% *}
     whole_beside || {

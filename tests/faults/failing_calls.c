@@ -1,8 +1,8 @@
 /*
- * failing_calls [-n NUMBER] [-f FAULT] [-c COUNT] COMMAND...: runs the command, and lets its call number
- * NUMBER to the system, of those that FAULT concerns, fail: 1 is the first, 0 none. With -c the number of
- * such calls is written to the file COUNT. The exit status is that of the command, 128 and the signal
- * where one ended it, 77 where the system does not let calls be watched.
+ * failing_calls [-n NUMBER] [-f FAULT] [-c COUNT] COMMAND...: runs the command and makes its system call
+ * number NUMBER fail, counted among the calls that FAULT affects: 1 is the first, 0 none. With -c the number
+ * of such calls is written to the file COUNT. The exit status is that of the command, 128 plus the signal
+ * that ended it, or 77 if the system does not allow calls to be watched.
  *
  *     enospc eio    write, fsync, ftruncate, close, rename and open fail so
  *     fsync nosync  fsync alone fails: of a broken disk (EIO), of a file system without the call (EINVAL)
@@ -55,7 +55,7 @@ enum kind {
     WRITE = 2,
     OPEN = 4,
     CLOSE = 8,
-    SETTLE = 16, /* ftruncate, rename: what a full or broken disk refuses as well */
+    SETTLE = 16, /* ftruncate, rename: a full or broken disk refuses these too */
     MAKE = 32,   /* pipe, socketpair, fork */
     MAP = 64,
     SYNC = 128,
@@ -66,7 +66,7 @@ enum kind {
 static const struct call {
     int number;
     enum kind kind;
-    int fd, path; /* which argument is a descriptor, which one a path; -1: none */
+    int fd, path; /* the index of the argument that is a descriptor, and of the path; -1: none */
 } calls[] = {
     {__NR_read, READ, 0, -1},        {__NR_write, WRITE, 0, -1},
     {__NR_readv, READ, 0, -1},       {__NR_writev, WRITE, 0, -1},
@@ -91,9 +91,9 @@ enum {
 static const struct fault {
     const char *name;
     int kinds;
-    int error;  /* that the call gives; 0: none            */
+    int error;  /* the error that the call returns; 0: none */
     bool less;  /* it does half                            */
-    int signal; /* that the process gets instead; 0: none  */
+    int signal; /* the signal that the process gets instead; 0: none */
 } faults[] = {
     {"none", 0, 0, false, 0},
     {"enospc", WRITE | SETTLE | SYNC | CLOSE | OPEN, ENOSPC, false, 0},
@@ -139,8 +139,8 @@ filter_calls(void)
                         &program);
 }
 
-/* Tells the number of the descriptor through which the kernel asks, shared[0] - 1, and waits until the
- * parent has it: the command is not to. No call that is watched may come before. */
+/* Passes the descriptor of the kernel's notifications to the parent as shared[0] - 1, and waits until the
+ * parent has it, because the command must not inherit it. No watched call may come before. */
 static _Noreturn void
 start_command(char **command, volatile int *shared)
 {
@@ -173,7 +173,7 @@ read_memory(pid_t who, uint64_t at, void *to, size_t n, size_t *got)
     return done > 0;
 }
 
-/* Whether a name is one of the command's own files. */
+/* True for the name of one of the command's own files. */
 static bool
 is_own(const char *name)
 {
@@ -198,21 +198,22 @@ concerns(const struct seccomp_notif *ask, const struct call *call)
     if (call->fd >= 0) {
         ssize_t n;
 
-        if ((int)ask->data.args[call->fd] == STDERR_FILENO) /* it is to say what went wrong */
+        if ((int)ask->data.args[call->fd] ==
+            STDERR_FILENO) /* the command must be able to print its message */
             return false;
         snprintf(shown, sizeof shown, "/proc/%d/fd/%d", (int)ask->pid,
                  (int)ask->data.args[call->fd]);
-        /* path is what it shows: NOLINTNEXTLINE(readability-suspicious-call-argument) */
+        /* path receives the target of the link: NOLINTNEXTLINE(readability-suspicious-call-argument) */
         n = readlink(shown, path, sizeof path - 1);
         path[n < 0 ? 0 : n] = '\0';
-        return n > 0 && is_own(path); /* pipe:[123], socket:[123] are, too */
+        return n > 0 && is_own(path); /* pipe:[123] and socket:[123] count too */
     }
-    if (call->number == __NR_clone) /* a process, and not a thread */
+    if (call->number == __NR_clone) /* a process, not a thread */
         return (ask->data.args[0] & 0x10000 /* CLONE_THREAD */) == 0;
     return true;
 }
 
-/* Half of a read or a write, done for the command. */
+/* Does half of a read or a write for the command. */
 static long
 do_half(const struct seccomp_notif *ask, const struct call *call)
 {
@@ -250,8 +251,9 @@ send_answer(int listener, const struct seccomp_notif_resp *say)
         perror("failing_calls: answer");
 }
 
-/* A read of a pipe may have to wait until a child of the command has written, which asks here too: so it is
- * done in a thread of its own. There is one at most, as one call at most is number -n. */
+/* A read from a pipe may wait until a child of the command has written, and the calls of the child are
+ * answered here too: therefore the read runs in a separate thread. There is at most one such thread, because
+ * only one call has the number -n. */
 static struct half {
     int listener;
     struct seccomp_notif ask;

@@ -1,16 +1,15 @@
 /*
  * Allocation number n fails: malloc, calloc, realloc, posix_memalign, aligned_alloc and FFTW's own.
  *
- * Which are counted: those of the program itself, and those that libraries make for it which promise to
- * survive: the C library, GSL with its handler off, zlib, libdeflate, libpng, libzip, libmd. Not those of
- * libraries that end the process when memory is short (GLib, and with it Pango; OpenMP; FFTW's planner):
- * they have no answer that a program could test. Nor those of libxml2, libhdf5 and libtiff, which promise
- * nothing: the last two run in a process of their own (formats/sandbox). Who allocates is known by the
- * address that the call returns to; where that is in a library that survives, by who called it.
- *
- * Preloaded, it obeys the environment: RC_FAULT_AT=n, 0 for none; RC_FAULT_STAY=1: all after it fail too;
- * RC_FAULT_COUNT=FILE, to which the number of allocations is written when the process exits. Children have
- * none of it. The address sanitizer stays behind it (ASAN_OPTIONS=verify_asan_link_order=0).
+ * Counted are the allocations of the program itself, and those of libraries that handle a failure: the C
+ * library, GSL with its handler off, zlib, libdeflate, libpng, libzip, libmd. Not counted are those of
+ * libraries that end the process when memory is short (GLib, and with it Pango; OpenMP; FFTW's planner),
+ * because a program cannot handle that, and those of libxml2, libhdf5 and libtiff, which guarantee nothing;
+ * the last two run in a separate process (formats/sandbox). The return address of the call shows who
+ * allocates; if it lies in a library that handles failures, the caller of the library decides. As a preloaded
+ * library it reads the environment: RC_FAULT_AT=n, 0 for none; RC_FAULT_STAY=1: all later allocations fail
+ * too; RC_FAULT_COUNT=FILE: the number of allocations is written there when the process exits. Child
+ * processes are not affected. The address sanitizer comes after it (ASAN_OPTIONS=verify_asan_link_order=0).
  */
 #define _GNU_SOURCE /* dl_iterate_phdr, RTLD_NEXT */
 #include "failing_malloc.h"
@@ -36,13 +35,13 @@ void *reallocarray(void *old, size_t n, size_t size);
 enum whose {
     NOBODYS, /* does not count                             */
     COUNTED,
-    PASSED_ON /* as the caller of the library counts */
+    PASSED_ON /* the caller of the library decides */
 };
 
 enum {
     OBJECTS = 512,
     DEPTH = 24,
-    HELD = 1 << 16 /* slots for blocks that are held */
+    HELD = 1 << 16 /* slots for held blocks */
 };
 
 static struct object {
@@ -100,7 +99,7 @@ whose_code(const void *place)
     for (size_t k = 0; k < objects; k++)
         if (at >= object[k].begin && at < object[k].end)
             return object[k].whose;
-    return NOBODYS; /* loaded later: a plug-in of a library */
+    return NOBODYS; /* a library that was loaded later: a plug-in */
 }
 
 static bool
@@ -113,7 +112,7 @@ is_counted(const void *caller)
     if (whose != PASSED_ON)
         return whose == COUNTED;
     depth = backtrace(frame, DEPTH);
-    for (int k = 0; k < depth; k++) /* up to the C library, and on to its caller */
+    for (int k = 0; k < depth; k++) /* up the stack to the C library, and on to its caller */
         if (frame[k] == caller) {
             for (; k < depth; k++)
                 if ((whose = whose_code(frame[k])) != PASSED_ON)
@@ -138,7 +137,7 @@ hold(void *at)
     fault.held++;
 }
 
-/* Removes an entry, and moves the entries behind it up as linear probing needs it. */
+/* Removes an entry, and moves later entries forward as linear probing requires. */
 static void
 let_go(const void *at)
 {
@@ -161,7 +160,7 @@ let_go(const void *at)
 
 /* ---- counting ---- */
 
-/* Whether this allocation is to fail. */
+/* True if this allocation must fail. */
 static bool
 fails(const void *caller, bool *counted)
 {
@@ -209,9 +208,10 @@ forget(const void *at)
 
 /* ---- in place of the C library's ---- */
 
-/* While a function behind these is looked for, which itself may allocate and free, memory comes from a
- * small store that is never given back. */
-static _Thread_local volatile bool looking; /* volatile: dlsym is said never to call back */
+/* The search for the real functions may itself allocate and free; meanwhile memory comes from a small buffer
+ * that is never freed. */
+static _Thread_local volatile bool
+    looking; /* volatile: dlsym is declared as a function that never calls back */
 static _Alignas(16) char store[1 << 14];
 static size_t stored;
 
@@ -244,7 +244,7 @@ find(const char *name)
     return at;
 }
 
-/* The function behind this one. */
+/* The real function of this name. */
 #define REAL(name)                                                                                 \
     static __typeof__(name) *real;                                                                 \
     if (real == NULL)                                                                              \
@@ -265,7 +265,7 @@ void *
 calloc(size_t n, size_t size)
 {
     if (looking)
-        return from_store(n * size); /* zeros, as it is used once */
+        return from_store(n * size); /* zeros, because the buffer is used only once */
     REAL(calloc);
     bool counted;
 
@@ -354,7 +354,7 @@ fftwf_malloc(size_t n)
     return fails(__builtin_return_address(0), &counted) ? NULL : kept(real(n), counted);
 }
 
-/* They free with the C library's, which forgets the block. */
+/* These call free of the C library, which is replaced above and removes the block from the list. */
 
 /* ---- from the program, from the environment ---- */
 
@@ -366,7 +366,7 @@ look_around(void)
     busy = true;
     objects = 0;
     dl_iterate_phdr(note_object, NULL);
-    backtrace(frame, 2); /* loads what it needs */
+    backtrace(frame, 2); /* loads the libraries that it needs */
     busy = false;
 }
 

@@ -1,6 +1,6 @@
-/* Whichever allocation fails in a public function of libcontact, alone or with all after it: the answer is
- * right all the same, or it is a failure with its reason, what is in place is as it was, and nothing is
- * held. Which functions those are is read from the headers; one that is tried nowhere is a failure. */
+/* Each allocation in a public function of libcontact fails, alone or with all later ones: the result must
+ * still be right, or the function fails with a reason, leaves its arguments unchanged and holds no memory.
+ * The list of functions is read from the headers; a function without a test is an error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,7 +24,7 @@ enum {
     NX = 16,
     NY = 18,
     N = NX * NY,
-    OUT = 4 * N + 4 /* numbers that a use may give: four maps and four figures */
+    OUT = 4 * N + 4 /* most numbers that a use returns: four maps and four figures */
 };
 
 static const struct rc_shape shape = {NX, NY, 1.1e-6, 1e-6};
@@ -32,7 +32,7 @@ static const struct rc_layer layer = {2e-6, 2e9, 0.3};
 static const struct rc_pair layered = {.one = {1e9, 0.3, 1, &layer}};
 static double rough[N], holed[N], pressure[N], hardness[N];
 
-/* A map that is changed in place is unchanged after a failure. */
+/* A function that changes a map in place leaves it unchanged after a failure. */
 static enum rc_status
 or_as_before(enum rc_status status, const double *map, const double *before)
 {
@@ -277,7 +277,8 @@ CONTACT(to_an_approach, bare, .approach = 1e-7, .discretization = true)
 CONTACT(coated_contact, layered, .load = 1e-3)
 CONTACT(free_to_tilt, bare, .load = 1e-3, .tilt_free = true)
 
-/* A model to two points, the second from a state of the first in another model; the figures and a frame. */
+/* Takes a model to two points, the second one in another model that is restored from the first state; reads
+ * figures and a frame. */
 static enum rc_status
 elastic_model(double *out, struct rc_err *err)
 {
@@ -325,7 +326,7 @@ done:
     return status;
 }
 
-/* The model that yields: a load, one on its way that is forgotten, and a larger one. */
+/* The yielding model: a load, a second load that is discarded half-way, and a larger one. */
 static enum rc_status
 yielding_model(double *out, struct rc_err *err)
 {
@@ -354,7 +355,8 @@ done:
     return status;
 }
 
-/* Dissimilar bodies pressed and moved; on the way to a second point the state goes into another model. */
+/* Dissimilar bodies are pressed and moved; half-way to a second point the state is restored in another
+ * model. */
 static enum rc_status
 friction_model(double *out, struct rc_err *err)
 {
@@ -400,7 +402,7 @@ done:
 
 /* ---- adhesion ---- */
 
-/* A state by approach, one by load from where another path was, and a retraction. */
+/* A state by approach, one by load that starts from the state of another path, and a retraction. */
 static enum rc_status
 adheres(double *out, struct rc_err *err)
 {
@@ -454,7 +456,7 @@ done:
 /* ---- leakage ---- */
 
 #ifdef RC_LEAK
-/* Contact in strips, with a gap through them, a dead end and fluid that is shut in. */
+/* Strips of contact with an open channel, a dead end and enclosed fluid. */
 static enum rc_status
 leaks(double *out, struct rc_err *err)
 {
@@ -528,7 +530,7 @@ done:
     return status;
 }
 
-/* The same bodies pressed and moved, a force and then a displacement, then under a pressure that is known. */
+/* The same bodies pressed and moved: a force, then a displacement, then a known pressure. */
 static enum rc_status
 joins(double *out, struct rc_err *err)
 {
@@ -547,7 +549,7 @@ joins(double *out, struct rc_err *err)
                 return RC_FAIL;
             rc_joint_know(joint, 1e-3, out, NULL);
         }
-        if (q == 1) /* from where the last has ended, as it would by itself */
+        if (q == 1) /* from the end of the last increment, as by default */
             rc_joint_start(joint,
                            (const double *[2]){rc_slip_traction(rc_joint_slip(joint), 0),
                                                rc_slip_traction(rc_joint_slip(joint), 1)},
@@ -573,7 +575,7 @@ joins(double *out, struct rc_err *err)
 
 /* ---- stresses ---- */
 
-/* Goes on from its own state, as another would. */
+/* Continues from its own state, as another object would. */
 static enum rc_status
 over_again(struct rc_plastic *plastic, struct rc_err *err)
 {
@@ -589,7 +591,7 @@ over_again(struct rc_plastic *plastic, struct rc_err *err)
     return status;
 }
 
-/* A load that yields inside, and none. */
+/* A load that causes yielding in the volume, then load 0. */
 static enum rc_status
 yields(double *out, struct rc_err *err)
 {
@@ -636,8 +638,8 @@ done:
     return status;
 }
 
-/* Two loads, of which the first does not yield, with increments that are chosen; from the middle of the
- * second on another goes on. */
+/* Two loads, the first without yielding, with automatic increments; half-way through the second load another
+ * object continues. */
 static enum rc_status
 may_yield(double *out, struct rc_err *err)
 {
@@ -699,7 +701,7 @@ STRESS(coated_stress, layered, .mu = 0)
 STRESS(traction_stress, bare, .traction = {pressure, rough})
 STRESS(traction_section, bare, .traction = {NULL, pressure}, .section = 'x')
 
-/* Of a slab that has yielded. */
+/* The stress of a slab with plastic strain. */
 static enum rc_status
 strained_stress(double *out, struct rc_err *err)
 {
@@ -755,7 +757,7 @@ some_stress(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
         memcpy(out + (slab + 1) * N + j * NX, s[RC_SXZ], NX * sizeof *out);
 }
 
-/* In these digits, with or without all six stresses. */
+/* With this precision, with or without all six stresses. */
 static enum rc_status
 strained(enum rc_precision precision, bool whole, double *out, struct rc_err *err)
 {
@@ -793,7 +795,7 @@ slabs_single(double *out, struct rc_err *err)
 
 /* ---- what answers without failing ---- */
 
-/* Figures of a plan, which allocate nothing either. */
+/* Figures of a plan; they allocate nothing either. */
 static enum rc_status
 plans(double *out, struct rc_err *err)
 {
@@ -885,7 +887,7 @@ without(double *out, struct rc_err *err)
     return rc_key_valid("note") && rc_err_set(NULL, "%s", "x") == RC_FAIL ? RC_OK : RC_FAIL;
 }
 
-/* Of a plan or a solution that there is, these only tell: rc_conv_engine( rc_conv_reason(
+/* These functions only read an existing plan or solution: rc_conv_engine( rc_conv_reason(
  * rc_solver_progress( rc_solver_convolutions( rc_solver_load( rc_solver_engine(
  * rc_solver_engine_reason( rc_solver_method( rc_stress_values( rc_stress_engine(
  * rc_stress_counted( rc_grid_shape( rc_grid_case( */
@@ -951,7 +953,7 @@ static const struct {
     {.name = "what allocates nothing", .use = without, .without = true},
 };
 
-/* Equal, but for the order of sums: without memory to sort in the C library sorts in another way. */
+/* Equal, except for the order of sums: without memory for sorting the C library uses another algorithm. */
 static bool
 same_numbers(const double *a, const double *b)
 {
@@ -966,8 +968,8 @@ same_numbers(const double *a, const double *b)
     return true;
 }
 
-/* GSL loses what it had begun with when it finds no more: the head of a matrix without its block, the
- * working space of its tridiagonal solver (2.7). */
+/* GSL does not free its first blocks if a later allocation fails: the head of a matrix without its block, the
+ * work space of its tridiagonal solver (2.7). */
 static const size_t lost_by_gsl = 3;
 
 static size_t tried, refused;
@@ -1006,7 +1008,7 @@ every_allocation_fails(void **state)
         size_t last;
 
         memset(right, 0, sizeof right);
-        uses[k].use(warm, &err); /* what FFTW and GSL keep, they keep from now on */
+        uses[k].use(warm, &err); /* from here on FFTW and GSL hold no further memory */
         fault_arm(0, false);
         if (uses[k].use(right, &err) != RC_OK)
             fail_msg("%s: %s", uses[k].name, err.text);
@@ -1025,7 +1027,7 @@ every_allocation_fails(void **state)
     assert_true(refused > 0);
 }
 
-/* A process can measure what it holds, and what it may still take, without allocating. */
+/* A process can read its memory and its remaining limit without allocating. */
 static void
 memory_is_told_without_memory(void **state)
 {
@@ -1064,7 +1066,7 @@ text_of(const char *file)
     return text;
 }
 
-/* How many there are in a header; each must stand in one of the sources. */
+/* Counts the functions of a header; each name must occur in one of the sources. */
 static size_t
 functions_of(const char *header, const char *const source[2])
 {
@@ -1104,8 +1106,8 @@ every_function_is_tried(void **state)
     free(shared);
 }
 
-/* Other heights, and the shape that a load leaves, take nothing: nothing is planned, and no kernel evaluated,
- * for which there would be no room. */
+/* Setting other heights, or the shape after a load, allocates nothing: nothing is planned and no kernel is
+ * evaluated. */
 static void
 other_heights_take_nothing(void **state)
 {
@@ -1137,7 +1139,8 @@ other_heights_take_nothing(void **state)
     rc_solver_free(solver);
 }
 
-/* A map of hardness is one array of the solver's, and none where all nodes have the same or none at all. */
+/* The solver allocates one array for a map of hardness, and none if all nodes have the same hardness or
+ * none. */
 static void
 hardness_takes_an_array(void **state)
 {
@@ -1162,7 +1165,7 @@ hardness_takes_an_array(void **state)
         assert_non_null(solver);
         fault_arm(0, false);
         assert_int_equal(finish_load(solver, &err), RC_OK);
-        if (m > 0) /* once what all share has been planned */
+        if (m > 0) /* after the shared plans have been made */
             assert_int_equal(fault_disarm(), 0);
         rc_solver_free(solver);
     }

@@ -1,9 +1,7 @@
-/* Whichever allocation fails in libcontact on one of the processes that share a map, alone or with all
- * after it: all of them give the same answer, the right one or one failure with its reason, none waits
- * for another, and nothing is held.
- *
- * RC_STRIDE in the environment tries one allocation of so many, 1 each; without it few enough for the
- * default set. */
+/* Each allocation in libcontact on one of the processes that share a map fails, alone or with all later ones:
+ * all processes must return the same, either the right result or one failure with its reason; none may wait
+ * for another, and no memory may be held. RC_STRIDE in the environment is the step from one failing
+ * allocation to the next; by default it is large enough for the default set of tests. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -23,25 +21,25 @@
 #include "uses.h"
 
 enum {
-    NX = 96, /* of two, one has 32 rows and the other 64 */
+    NX = 96, /* of two processes one has 32 rows and the other 64 */
     NY = 96,
     N = NX * NY,
     FIELDS = 4,
     PATIENCE = 60, /* seconds for one use */
-    TRIES = 4      /* of a use, on each process and in either way, without RC_STRIDE */
+    TRIES = 4      /* failures in a use, on each process and in both modes, without RC_STRIDE */
 };
 
 static const struct rc_shape shape = {NX, NY, 1.1e-6, 1e-6};
 static const struct rc_layer layer = {4e-6, 2e9, 0.3};
 static const struct rc_pair layered = {.one = {1e9, 0.3, 1, &layer}};
-/* Of two, whose coarser grid is shared too. */
+/* A map for two processes, whose coarser grid is shared too. */
 static const struct rc_shape large = {384, 352, 1.1e-6, 1e-6};
 static double rough[N], pressure[N], hardness[N], large_rough[384 * 352];
 static struct rc_ranks *ranks;
 static int own, processes;
 static size_t first, here; /* nodes */
 
-/* What a use gives: fields of the nodes held here, zeros before. */
+/* The results of a use: fields at the nodes of this process, zeros before. */
 static double given[FIELDS][N];
 
 /* ---- uses ---- */
@@ -104,7 +102,7 @@ CONTACT(to_an_approach, bare, .approach = 3e-7, .discretization = true)
 CONTACT(coated_contact, layered, .load = 0.02)
 CONTACT(free_to_tilt, bare, .load = 0.02, .tilt_free = true)
 
-/* As far as the first step on the grid itself, which depends on how it began. */
+/* Up to the first step on the full grid, because this step depends on the starting value. */
 static enum rc_status
 large_start(double *out, struct rc_err *err)
 {
@@ -190,7 +188,7 @@ measured(double *out, struct rc_err *err)
 static const struct {
     const char *name;
     use *use;
-    double tol;   /* of what it gives, over the largest number of a field           */
+    double tol;   /* error of a result, relative to the largest number of its field */
     size_t tries; /* 0: TRIES                                                       */
     bool without; /* it allocates nothing                                           */
 } uses[] = {
@@ -200,7 +198,7 @@ static const struct {
     {.name = "convolution, periodic", .use = periodic_conv},
     {.name = "convolution, coated", .use = coated_conv},
     {.name = "convolution, coated and periodic", .use = coated_periodic_conv},
-    /* coarser grids, from which it starts, are gone without */
+    /* without memory the solver starts without coarser grids */
     {.name = "contact", .use = free_contact, .tol = 1e-3},
     {.name = "contact, periodic with a hardness", .use = hard_contact, .tol = 1e-3},
     {.name = "contact, a map of hardness", .use = two_phases, .tol = 1e-3},
@@ -221,7 +219,7 @@ static const struct {
 
 /* ---- one failure ---- */
 
-/* A process that waits for ever is reported, and ends all. */
+/* A process that waits for ever is reported and ends all processes. */
 static char waiting[256];
 
 static void
@@ -232,7 +230,7 @@ end_waiting(int number)
     _exit(1);
 }
 
-/* GSL loses what it had begun with when it finds no more (law_memory.c). */
+/* GSL does not free its first blocks if a later allocation fails (law_memory.c). */
 static const size_t lost_by_gsl = 3;
 static double right[FIELDS][N];
 static size_t tried, refused;
@@ -251,7 +249,7 @@ same_numbers(double tol)
     return true;
 }
 
-/* What is wrong here with an answer; NULL: nothing. */
+/* The fault of a result on this process; NULL: none. */
 static const char *
 wrong(size_t k, enum rc_status status, const struct rc_err *err)
 {
@@ -275,7 +273,7 @@ wrong(size_t k, enum rc_status status, const struct rc_err *err)
     return fault_held() > (fault_in_library() ? lost_by_gsl : 0) ? "blocks are held" : NULL;
 }
 
-/* Allocation n of process `victim` fails, and with `stay` all after it. */
+/* Makes allocation n of process `victim` fail, and with `stay` all later ones. */
 static void
 try_one(size_t k, int victim, size_t n, bool stay)
 {
@@ -321,7 +319,7 @@ every_allocation_fails(void **state)
         struct rc_err err = {""};
         size_t last[8], mine;
 
-        uses[k].use(&given[0][0], &err); /* what FFTW and GSL keep, they keep from now on */
+        uses[k].use(&given[0][0], &err); /* from here on FFTW and GSL hold no further memory */
         memset(given, 0, sizeof given);
         fault_arm(0, false);
         if (uses[k].use(&given[0][0], &err) != RC_OK)

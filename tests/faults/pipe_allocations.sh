@@ -1,8 +1,7 @@
-# Every allocation of every tool failing in turn, n = 1, 2, ... to the last, alone and with all that come
-# after it: the work is done all the same, or exit status 1 with a message, the old file untouched and
-# nothing else left. failing_malloc.c says which allocations those are.
-#
-# RC_STRIDE in the environment tries one allocation of so many, where it is not 1 of every other command.
+# Every allocation of every tool fails in turn, n = 1, 2, ... to the last, alone and with all later ones: the
+# tool must still do its work, or exit with status 1 and a message, leave the old file unchanged and leave no
+# other file. failing_malloc.c defines which allocations are counted. RC_STRIDE in the environment is the step
+# from one failing allocation to the next; above 1 only every second command is tested.
 . "$RC_SOURCE/tests/pipe.sh"
 . "$RC_SOURCE/tests/faults/commands.sh"
 
@@ -10,7 +9,7 @@ stride=${RC_STRIDE:-1}
 make_inputs
 export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
 
-# run N STAY COMMAND: its exit status, with that allocation failing (0: none).
+# run N STAY COMMAND: prints its exit status when that allocation fails (0: none).
 run() {
     [ -z "$out" ] || echo old >"$out"
     # shellcheck disable=SC2086

@@ -1,15 +1,12 @@
-# Every call to the system that concerns a file failing in turn, n = 1, 2, ... to the last, in every tool: a
-# full disk, a broken one, an interruption, no descriptors left. The work is done all the same, or exit
-# status 1 with a message, the old file untouched and nothing else left. Where reads and writes do half of
-# what they were asked, the work is done. failing_calls.c says which calls those are.
-#
-# A file that -o names is on the disk (fsync) before it takes its place; where the disk refuses, the old one stays;
-# where a file system knows nothing of that, the work is done.
-#
-# And signals that come at each of these calls: SIGTERM and SIGINT leave nothing, the old file untouched or the
-# new one whole; after SIGKILL no file of a final name is anything else.
-#
-# RC_STRIDE in the environment tries one call of so many, where it is not 1 by one command in four.
+# Every system call on a file fails in turn, n = 1, 2, ... to the last, in every tool: full disk, broken disk,
+# interruption, no descriptors left. The tool must still do its work, or exit with status 1 and a message,
+# leave the old file unchanged and leave no other file. If reads and writes do half of the requested bytes,
+# the work must be done. failing_calls.c defines the calls. The file of -o is on the disk (fsync) before it
+# replaces the old one; if the disk refuses, the old file remains; if the file system does not support fsync,
+# the work is done. Signals also arrive at each of these calls: after SIGTERM and SIGINT there is the
+# unchanged old file or the complete new one and nothing else; after SIGKILL the same holds for every file
+# with a final name. RC_STRIDE in the environment is the step from one failing call to the next; above 1 only
+# every fourth command is tested.
 . "$RC_SOURCE/tests/pipe.sh"
 . "$RC_SOURCE/tests/faults/commands.sh"
 
@@ -18,23 +15,23 @@ make_inputs
 "$RC_FAILING_CALLS" -f none true
 [ $? = 77 ] && echo "the calls of a command cannot be watched here" && exit 77
 
-# Where a sanitizer looks for leaks at the end it makes a process of its own, which is no call of the tool's.
+# The leak check of a sanitizer starts a process at the end, which is not a call of the tool.
 export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 
-# run FAULT N COMMAND: its exit status.
+# run FAULT N COMMAND: prints its exit status.
 run() {
     [ -z "$out" ] || echo old >"$out"
     # shellcheck disable=SC2086
     timeout -s KILL 60 "$RC_FAILING_CALLS" -f "$1" -n "$2" -c count $3 >run.out 2>run.err </dev/null
 }
 
-# whole FILE: it is the new one; of a solution that a signal has stopped also what was reached, which says so,
-# or of a list of loads those that were done.
+# whole FILE: the file is the complete new one. After a signal it may also be the marked intermediate
+# solution, or hold the finished loads of a list.
 whole() {
     same_work "$1" clean && return
     case $command in
     rc-solve*) ;;
-    rc-cost*) # or of its table the first rows
+    rc-cost*) # or the first rows of its table
         [ "$(tail -c 1 "$1" | od -An -c | tr -d ' ')" = '\n' ] && [ -z "$(comm -23 <(costs_of "$1" | sort) <(costs_of clean | sort))" ]
         return
         ;;
@@ -71,7 +68,7 @@ judge_fault() { # FAULT STATUS WHERE
     case $1 in
     term | int) judge_signal "$@" ;;
     kill)
-        judge_signal "$@" && rm -f out.?????? plot.png.?????? out.png.?????? out.pdf.?????? # what was being made stays
+        judge_signal "$@" && rm -f out.?????? plot.png.?????? out.png.?????? out.pdf.?????? # the file under its temporary name stays
         ;;
     short | nosync)
         [ "$2" = 0 ] || {
@@ -88,7 +85,7 @@ tried=0
 bad=0
 sweep() { # FAULT COMMAND
     local fault=$1 command=$2 out n last wrong=0 before after step=$stride
-    case $command in rc-cost*) step=$((40 * stride)) ;; esac # most calls are those of the tools that it runs
+    case $command in rc-cost*) step=$((40 * stride)) ;; esac # most calls are made by the tools that it runs
     out=$(written "$command")
     rm -f clean
     run "$fault" 0 "$command" || {
@@ -124,7 +121,7 @@ turn=0
 for fault in enospc eio fsync nosync eintr short emfile term int kill; do
     turn=$((turn + 1))
     while read -r _ command; do
-        # coarsely: one command in four, others with each fault
+        # with a stride: every fourth command, others for each fault
         [ "$stride" = 1 ] || [ $((++turn % 4)) = 0 ] || continue
         sweep "$fault" "$command"
     done <<<"$commands"

@@ -1,8 +1,7 @@
-# rc-solve killed at random moments, with --checkpoint and --resume each time: in the end the same pressure, and
-# no file of a final name that is not whole. And what stands beside -o - maps, pictures, checkpoints - under
-# signals and on a full disk.
-#
-# RC_KILLS in the environment is the number of kills (3), RC_SEED what their moments come from.
+# rc-solve is killed at random moments and restarted with --checkpoint and --resume: the final pressure is the
+# same, and every file with a final name is complete. The test also checks files beside that of -o (maps,
+# pictures, checkpoints) under signals and on a full disk. RC_KILLS in the environment is the number of kills
+# (3), RC_SEED the seed of their moments.
 . "$RC_SOURCE/tests/pipe.sh"
 
 kills=${RC_KILLS:-3}
@@ -15,7 +14,7 @@ began=$(date +%s%N)
 claim "the solution that nobody disturbs" $solve -o right.rcg rough.rcg
 milliseconds=$((($(date +%s%N) - began) / 1000000))
 
-# distance A B: relative L1 distance of the values of their frames, the largest of all cases.
+# distance A B: the relative L1 distance of the frames of two streams, the largest of all cases.
 distance() {
     perl -e '
         sub frames {
@@ -37,7 +36,7 @@ distance() {
         print $worst' "$1" "$2"
 }
 
-# Every file but the checkpoint and what was being made is whole: a stream that reads to its end.
+# Every file except the checkpoint and temporary files is complete: a stream that can be read to its end.
 whole_files() {
     local f
     for f in out.rcg; do [ ! -e $f ] || rc-info --quiet $f >/dev/null || return 1; done
@@ -61,7 +60,7 @@ while [ $killed -lt "$kills" ] && [ $starts -lt $((20 * kills)) ]; do
         wait $pid || wrong=$((wrong + 1))
     fi
     whole_files || wrong=$((wrong + 1))
-    if [ -e out.rcg ]; then # it was done: another one from the beginning
+    if [ -e out.rcg ]; then # the run was complete: another one starts from the beginning
         finished=$((finished + 1))
         awk -v d="$(distance out.rcg right.rcg)" -v t=$tolerance 'BEGIN { exit !(d != "" && d <= 2 * t) }' ||
             wrong=$((wrong + 1))
@@ -73,14 +72,14 @@ claim "$killed kills in $starts runs, $finished of which came to their end: noth
 claim "and at last it goes on to its end" $solve --quiet --checkpoint kept.rcg --resume -o out.rcg rough.rcg
 between 0 "$(distance out.rcg right.rcg)" "$(awk -v t=$tolerance 'BEGIN { print 2 * t }')" "to the same pressure"
 
-# two: a run that would add to the checkpoint of one that is under way.
+# two: starts a run that would write to the checkpoint of a running one.
 two() {
     local n=0 pid status
     rm -f two.rcg
     $solve --quiet --tol 1e-13 --checkpoint two.rcg --interval 0.01 -o one.rcg rough.rcg &
     pid=$!
     until [ -s two.rcg ] || [ $((n += 1)) -gt 500 ]; do sleep 0.005; done
-    kill -STOP $pid # perhaps inside its first frame
+    kill -STOP $pid # the kill may have come inside the first frame
     $solve --quiet --checkpoint two.rcg --resume -o other.rcg rough.rcg 2>two.err
     status=$?
     kill -KILL $pid
@@ -93,7 +92,7 @@ claim "two runs do not add to one checkpoint; after the first has been killed th
 # ---- beside -o ----
 
 rc-synth selfaffine --nx 700 --ny 700 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 -o large.rcg
-# maps SIGNAL: rc-info --psd-map, stopped while the map is being made.
+# maps SIGNAL: stops rc-info --psd-map while it writes the map.
 maps() {
     local n=0
     rm -f map.rcg*
@@ -106,7 +105,7 @@ maps() {
 for signal in TERM HUP; do # in a background job of a shell SIGINT is ignored
     claim "rc-info --psd-map: $signal leaves nothing of the map" maps $signal
 done
-# costs: rc-cost with its trials in other processes, stopped at random moments.
+# costs: stops rc-cost, whose trials are other processes, at random moments.
 costs() {
     local k wrong=0
     rc-synth wave --nx 16 --dx 1um --amplitude 10nm --wavelength 8um -o wave.rcg

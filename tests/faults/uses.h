@@ -1,5 +1,5 @@
-/* Uses of libcontact whose allocations are made to fail, by one process (law_memory.c) and by several
- * that share a map (law_memory_ranks.c). */
+/* Calls of libcontact whose allocations fail in the tests, in one process (law_memory.c) and in several that
+ * share a map (law_memory_ranks.c). */
 #ifndef USES_H
 #define USES_H
 
@@ -8,11 +8,11 @@
 
 #include "libcontact/contact.h"
 
-/* A use of some functions: writes their results to the front of out, which holds zeros before. */
+/* A use calls some functions and writes their results to the front of out, which holds zeros before. */
 typedef enum rc_status use(double *out, struct rc_err *err);
 
-/* Uses of convolved, solved or stressed, which each test has for its own maps, with these options: of two
- * bodies, bare or layered, or of the first of them. */
+/* Uses of the functions convolved, solved or stressed, which each test defines for its own maps, with these
+ * options: for two bodies, bare or layered, or for the first body only. */
 #define CONVOLUTION(name, bodies, ...)                                                             \
     static enum rc_status name(double *out, struct rc_err *err)                                    \
     {                                                                                              \
@@ -50,9 +50,9 @@ finish_load(struct rc_solver *solver, struct rc_err *err)
                            : rc_err_set(err, "the solution stops short: status %d", (int)status);
 }
 
-/* Solves a contact and, from its solution, one under a load a tenth higher, whose shape is kept. The
- * fields, of n nodes each: the pressure of the second; gap, displacement and yielded shape of the
- * first. */
+/* Solves a contact and, starting from its solution, one under a load that is a tenth higher, whose shape is
+ * kept. Returns fields of n nodes each: the pressure of the second contact; gap, displacement and yielded
+ * shape of the first. */
 static enum rc_status
 solve_twice(const struct rc_shape *shape, const double *heights, const struct rc_problem *problem,
             size_t n, double *const field[4], double *stiffness, struct rc_err *err)
@@ -72,7 +72,8 @@ solve_twice(const struct rc_shape *shape, const double *heights, const struct rc
         rc_solver_warm_start(solver, contact.load, rc_solver_pressure(solver), err) != RC_OK ||
         finish_load(solver, err) != RC_OK)
         goto done;
-    *stiffness += isnan(conducts.value) ? 0 : conducts.value; /* of coated bodies there is none */
+    *stiffness +=
+        isnan(conducts.value) ? 0 : conducts.value; /* coated bodies have no conductance */
     memcpy(field[0], rc_solver_pressure(solver), n * sizeof *field[0]);
     rc_solver_result(solver, NULL, NULL, &contact);
     if (rc_solver_set_heights(solver, field[3], err) == RC_OK &&
@@ -85,7 +86,7 @@ done:
     return status;
 }
 
-/* Four stresses at two depths, of which the second remain. */
+/* Four stresses at two depths; those of the second depth remain in the arrays. */
 static enum rc_status
 two_slices(const struct rc_shape *shape, const double *pressure,
            const struct rc_stress_options *options, double *const field[4], struct rc_err *err)

@@ -37,8 +37,8 @@ measured(const struct rc_shape *shape, const double *h, enum rc_boundary boundar
 
 /* ---- closed forms ---- */
 
-/* A cos(qx x) cos(qy y): two crests and two troughs in each of its cells, all alike. The
- * curvature of differences is 2 A (1 - cos(q dx))/dx^2 along each side. */
+/* A cos(qx x) cos(qy y): two equal crests and two equal troughs in each of its cells. The curvature by
+ * differences is 2 A (1 - cos(q dx))/dx^2 along each side. */
 static void
 test_wave(void **state)
 {
@@ -68,8 +68,8 @@ test_wave(void **state)
     assert_near(a, sda, Lx * Ly / 2, rounding);
 }
 
-/* Posts of 3 x 3 nodes, flat on top, 5 apart: one peak each although no node is above its
- * neighbours, and no curvature that differs; the floor is one pit without an end. */
+/* Posts of 3 x 3 nodes with flat tops, 5 nodes apart: each has one peak although no node is above its
+ * neighbours, and all have the same curvature; the floor is one unbounded pit. */
 static void
 test_posts(void **state)
 {
@@ -91,8 +91,8 @@ test_posts(void **state)
     assert_true(isnan(a.s5v) && isnan(a.s10z));
 }
 
-/* A cap, and beside it a small one whose saddle is so much below its peak: at 4.9 % of Sz it is
- * no hill of its own, at 5.1 % it is. */
+/* A cap, and beside it a small one with its saddle at a given depth below its peak: at 4.9 % of Sz it belongs
+ * to the other hill, at 5.1 % it is a separate hill. */
 static void
 test_threshold(void **state)
 {
@@ -111,7 +111,7 @@ test_threshold(void **state)
 
             h[k] = 1e-6 * fmax(0, 1 - r / 18);
         }
-        /* the saddle of a needle on the cone's flank is the highest of its neighbours that leads up */
+        /* the saddle of a needle on the cone's flank is its highest neighbour from which the surface rises */
         h[20 * N + 30] = h[20 * N + 29] + (turn == 0 ? 0.049e-6 : 0.051e-6);
         a = measured(&s, h, RC_FREE);
         assert_near(a, spd, (turn == 0 ? 1 : 2) / (N * N * s.dx * s.dy), rounding);
@@ -143,7 +143,7 @@ enum {
 struct plain {
     double h[N];
     bool wraps;
-    int hill[N]; /* peak of the hill that the node belongs to, -1: not measured */
+    int hill[N]; /* the peak of the hill of this node; -1: not measured */
 };
 
 /* Neighbour of k by (di, dj), or -1. */
@@ -241,7 +241,7 @@ falling(const void *a, const void *b)
     return (*(const double *)a < *(const double *)b) - (*(const double *)a > *(const double *)b);
 }
 
-/* Density, curvature, the five highest and the mean area, in that order. */
+/* Density, curvature, height of the five highest, and mean area, in that order. */
 static void
 plain_hills(const struct rc_shape *s, struct plain *p, double out[4])
 {

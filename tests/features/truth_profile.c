@@ -1,6 +1,6 @@
-/* Parameters of ISO 21920-2 are what closed forms say of waves, triangles and steps, with
- * ripples that count as elements and ripples that do not; along a line of a map cubics reproduce
- * second-degree surfaces, and nodes themselves. */
+/* Parameters of ISO 21920-2 equal closed forms for waves, triangles and steps, with ripples above and below
+ * the limit for elements; along a line of a map cubic interpolation reproduces second-degree surfaces and the
+ * values at nodes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -34,7 +34,7 @@ measured(size_t n, const double *z, size_t sections)
     return p;
 }
 
-/* Ten periods of 40 steps, crests on nodes. */
+/* Ten periods of 40 steps, with crests at nodes. */
 static void
 test_wave(void **state)
 {
@@ -64,10 +64,10 @@ test_wave(void **state)
     assert_near(p, rv, A, summed);
     assert_near(p, rsm, 40 * dx, summed);
     assert_near(p, rc, 2 * A, summed);
-    assert_int_equal(p.elements, 9); /* the first rising crossing begins the first one */
+    assert_int_equal(p.elements, 9); /* the first element begins at the first rising crossing */
     assert_near(p, rdq, sqrt(gradient), summed);
     assert_near(p, rdq, A * q / dx / sqrt(2),
-                coarse_grid); /* of the wave itself, over some 10 periods */
+                coarse_grid); /* of the wave itself, over about 10 periods */
 }
 
 /* Saw teeth of 10 steps up and 10 down, from -1 to 1 um; one peak and one pit in a flat. */
@@ -85,7 +85,8 @@ test_sections(void **state)
         z[k] = 1e-6 * (fabs((double)(k % 20) - 10) / 5 - 1);
     p = measured(N, z, 5);
     assert_near(p, ra, 0.5e-6, summed);
-    /* of 20 nodes two at 1, 0.8, 0.6, 0.4, 0.2 um of either sign, but one at each end, and two at 0 */
+    /* among 20 nodes two each at 1, 0.8, 0.6, 0.4, 0.2 um with either sign, but only one at each extreme, and
+     * two at 0 */
     assert_near(p, rq, 1e-6 * sqrt((2 * 1 + 4 * (0.64 + 0.36 + 0.16 + 0.04)) / 20), summed);
     assert_near(p, rz, 2e-6, summed);
     for (size_t k = 0; k < N; k++)
@@ -95,13 +96,13 @@ test_sections(void **state)
     p = measured(N, z, 5);
     assert_near(p, rt, 8e-6, summed);
     assert_near(p, rz, 8e-6 / 5, summed);
-    /* about a mean of 2/200 um: 5 um less that in one section, and that below 0 in the four others */
+    /* about the mean of 2/200 um: 5 um less the mean in one section, and minus the mean in the other four */
     assert_near(p, rp, (5e-6 - 5 * 2e-6 / N) / 5, summed);
     p = measured(N, z, 1);
     assert_near(p, rz, 8e-6, summed);
 }
 
-/* A ripple of 4 % of Rz makes crossings of the mean line, but no elements; one of 30 % does. */
+/* A ripple of 4 % of Rz crosses the mean line but is not an element; a ripple of 30 % is. */
 static void
 test_discrimination(void **state)
 {
@@ -122,7 +123,7 @@ test_discrimination(void **state)
             rising += k > 0 && z[k - 1] < 0 && z[k] >= 0;
         }
         p = measured(N, z, 5);
-        assert_true(rising > 15); /* more than the waves */
+        assert_true(rising > 15); /* more elements than waves */
         if (turn == 0)
             assert_near(p, rsm, 200 * dx, 1e-3);
         else
@@ -176,7 +177,7 @@ test_along(void **state)
         near_at("along", z[k],
                 second_degree(from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)), summed);
     }
-    h[7 * NX + 3] = NAN; /* a row beside what was not measured is whole */
+    h[7 * NX + 3] = NAN; /* a row beside missing points is complete */
     rc_profile_along(&s, h, (struct rc_place){-14.5 * s.dx, -1.5 * s.dy},
                      (struct rc_place){14.5 * s.dx, -1.5 * s.dy}, NX, z);
     for (size_t i = 0; i < NX; i++)
