@@ -1,16 +1,15 @@
-# The folders point one way. A file includes, of other folders, only the header that a folder below
-# its own offers; it calls nothing that is defined above; the solver, the stresses, the surfaces
-# and the tools know no engine by name, and nobody outside libcontact/body a row of its list.
+# The dependencies of the folders have one direction. From other folders a file includes only the public
+# header of a lower folder; it calls no function of a higher folder; solver, stress, surface and tools do not
+# name an engine, and no file outside libcontact/body names a row of its list.
 . "$(dirname "$0")/pipe.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
 # ---- what is allowed ----
 
-# A folder or a file of it
-# the headers that it may include beside those of its own folder
-# the folders whose functions and data it may use. X=rc_y_: of X only the names that begin with rc_y_, the rows
-# of a list. %base: shared by all folders of libcontact; %public: seen by other folders of the project;
-# %physics: the folders that define those; %reader, %formats: the same for what reads files.
+# Columns: a folder, or one of its files; the headers that it may include beside those of its own folder; the
+# folders whose functions and data it may use. X=rc_y_: from X only names that begin with rc_y_, the rows of a
+# list. %base: shared by all folders of libcontact; %public: headers for other folders of the project;
+# %physics: the folders that define them; %reader, %formats: the same for readers of files.
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/model    | %base                                    | libcontact libcontact/solver=rc_figures_
@@ -139,7 +138,7 @@ include_faults() {
         }' arrows.txt - | sort
 }
 
-# symbols BUILD: "D source name" for what is defined, "U source name" for what is used.
+# symbols BUILD: "D source name" for each definition, "U source name" for each use.
 symbols() {
     objects "$1" libcontact formats tools >sources.txt
     cut -d ' ' -f 1 sources.txt | xargs nm -gA | awk '
@@ -166,8 +165,8 @@ call_faults() {
         }' arrows.txt "$1" | sort -u
 }
 
-# private_faults SYMBOLS: what formats and tools use of libcontact although its public headers do
-# not declare it.
+# private_faults SYMBOLS: names of libcontact that formats and tools use although the public headers do not
+# declare them.
 private_faults() {
     declared "$RC_SOURCE/libcontact/contact.h" >public.txt
     if with_mpi; then
@@ -180,7 +179,8 @@ private_faults() {
         public.txt "$1" | sort -u
 }
 
-# names TREE: how often files name an engine or a body in code, by its row, or an engine as a word in quotes.
+# names TREE: counts how often each file names an engine or a body in code, by its row, or an engine as a
+# quoted word.
 names() {
     local words bodies
     words=$(cd "$1" && sed -n 's/.*\.name = "\([a-z0-9_]*\)".*/\1/p' libcontact/operator/engine_*.c libcontact/operator/real_space/engine_*.c |
@@ -198,7 +198,7 @@ names() {
         done
 }
 
-# none FAULTS: there are no faults; otherwise they are shown.
+# none FAULTS: succeeds without faults; otherwise prints them.
 none() {
     ! grep . "$1" >&2
 }
@@ -212,8 +212,8 @@ claim "  and every header of the table is there" bash -c '
     cut -d "|" -f 2 arrows.txt | tr " " "\n" | grep / | sort -u | while read -r header; do
         [ -f "$RC_SOURCE/$header" ] || { echo "$header" >&2; exit 1; }
     done'
-# The map in CONTRIBUTING.md: each folder has a row in the table of its tree; a folder below it is named there. Every
-# folder with a row in the map exists.
+# The map in CONTRIBUTING.md: each folder has a row in the table of its tree, which names its subfolders.
+# Every folder with a row in the map exists.
 mapped() {
     awk '/^## The map/ { on = 1; next } /^## / { on = 0 } on && /^\| [a-z]*\/ / { tree = $2 } on && /^\| `/ { print tree $0 }' \
         "$RC_SOURCE/CONTRIBUTING.md" >map.txt

@@ -1,7 +1,6 @@
-/* The peak that the allocator counts is within a twentieth of the kernel's figure, and work that needs more
- * than the budget is refused and gives back what it took: solver, stresses, friction, adhesion, plasticity,
- * sums, flow and slabs, each in a process of its own, on maps large enough that code and plans do not
- * count. */
+/* The peak that the allocator counts agrees with the kernel's figure to a twentieth, and work that needs more
+ * than the budget is refused and frees its memory: solver, stresses, friction, adhesion, plasticity, sums,
+ * flow and slabs, each in a separate process, on maps so large that code and plans are negligible. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +19,7 @@
 #include "tests/exact.h"
 #include "tools/machine/memory.h"
 
-/* The second for what takes few bytes a node, the third for what takes long. */
+/* The second size is for work with few bytes per node, the third for slow work. */
 static const struct rc_shape map = {701, 500, 1e-6, 1.1e-6}, large = {701, 4000, 1e-6, 1.1e-6},
                              small = {351, 250, 1e-6, 1.1e-6};
 static const double twentieth = 0.05;
@@ -70,7 +69,7 @@ solve(const struct work *w, const double *h, const double *p)
     return solve_with(w, h, NULL);
 }
 
-/* The map of hardness is kept beside the caller's. */
+/* The solver keeps its own copy of the map of hardness. */
 static bool
 solve_mapped(const struct work *w, const double *h, const double *p)
 {
@@ -139,7 +138,7 @@ stress_dragged(const struct work *w, const double *h, const double *p)
     return stress_of(w, p, NULL, p);
 }
 
-/* Beside that of the pressure the stress of strain in a few slabs. */
+/* The stress of the pressure and of plastic strain in a few slabs. */
 static bool
 stress_strained(const struct work *w, const double *h, const double *p)
 {
@@ -183,7 +182,7 @@ psd(const struct work *w, const double *h, const double *p)
 }
 
 #ifdef RC_LEAK
-/* The heights as a gap, open everywhere: the most that there can be. */
+/* The heights as a gap that is open everywhere, which needs the most memory. */
 static bool
 leak(const struct work *w, const double *h, const double *p)
 {
@@ -214,7 +213,7 @@ slab_stress(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
     (void)ctx, (void)slab, (void)j, (void)s;
 }
 
-/* Slabs of strain, up and down. */
+/* Slabs of plastic strain: sweeps up and down. */
 static bool
 slabs_in(const struct work *w, enum rc_precision precision, const double *h, const double *p)
 {
@@ -246,7 +245,7 @@ slabs_single(const struct work *w, const double *h, const double *p)
     return slabs_in(w, RC_SINGLE, h, p);
 }
 
-/* Of dissimilar bodies, to a tenth. */
+/* Dissimilar bodies, to an error of a tenth. */
 static bool
 friction(const struct work *w, const double *h, const double *p)
 {
@@ -275,7 +274,7 @@ states_of(const struct rc_adhesion *a)
     return progress.state;
 }
 
-/* A state to its end, with its eigenvalue, and four of a retraction. */
+/* A state with its eigenvalue, and four states of a retraction. */
 static bool
 adhesion(const struct work *w, const double *h, const double *p)
 {
@@ -299,7 +298,7 @@ adhesion(const struct work *w, const double *h, const double *p)
     return status != RC_FAIL;
 }
 
-/* And the contact with it. */
+/* Friction together with the contact. */
 static bool
 friction_found(const struct work *w, const double *h, const double *p)
 {
@@ -321,7 +320,7 @@ friction_found(const struct work *w, const double *h, const double *p)
     return status == RC_OK;
 }
 
-/* A tenth of the voxels yields at least. */
+/* At least a tenth of the voxels yields. */
 static bool
 yielding(const struct work *w, const double *h, const double *p)
 {
@@ -356,7 +355,7 @@ yielding(const struct work *w, const double *h, const double *p)
     return enough;
 }
 
-/* What is to be found in a child, as an exit status: 0. */
+/* The result of a child process as its exit status; 0: as expected. */
 static int
 refused(const struct work *w, const double *h, const double *p, size_t peak)
 {
@@ -365,7 +364,7 @@ refused(const struct work *w, const double *h, const double *p, size_t peak)
     rc_memory_budget(before + peak / 2);
     if (w->run(w, h, p) || rc_memory_held().refused <= before + peak / 2)
         return 4;
-    return rc_memory_held().held < before + peak / 50 ? 0 : 5; /* plans stay with FFTW */
+    return rc_memory_held().held < before + peak / 50 ? 0 : 5; /* FFTW keeps its plans */
 }
 
 static int
@@ -377,7 +376,8 @@ measured(const struct work *w)
     memory_keep_maps_apart();
     if (h == NULL || p == NULL)
         return 2;
-    for (size_t k = 0; k < n; k++) { /* waves a few nodes long, and pressure in strips of a fifth */
+    for (size_t k = 0; k < n;
+         k++) { /* waves of a few nodes, and pressure in strips on a fifth of the map */
         size_t i = k % w->shape->nx, j = k / w->shape->nx;
         h[k] = 1e-7 * (2 + sin(0.31 * (double)i) + cos(0.23 * (double)j) +
                        0.1 * (double)(k * 7919 % 97) / 97);
@@ -444,12 +444,12 @@ holds(void **state)
             fprintf(stderr, "%s: status %d\n", works[k].name, status);
         missed += status != 0;
     }
-#ifndef __SANITIZE_ADDRESS__ /* it takes memory of its own */
+#ifndef __SANITIZE_ADDRESS__ /* it takes additional memory */
     assert_int_equal(missed, 0);
 #endif
 }
 
-/* Blocks count as long as they are held, however they were made. */
+/* Each block counts until it is freed, whichever function allocated it. */
 static void
 counts(void **state)
 {

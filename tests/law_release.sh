@@ -1,12 +1,12 @@
-# What is released has one version wherever it is written, is whole without git, and its manual as web pages
-# leads nowhere into the void.
+# A release has the same version in all files, is complete without git, and all links of its manual as web
+# pages have a target.
 . "$(dirname "$0")/pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 
 version=$(sed -n 's/^project(libcontact VERSION \([0-9.]*\).*/\1/p' "$RC_SOURCE/CMakeLists.txt")
 claim "the version is one" bash -c "[[ '$version' =~ ^[0-9]+\.[0-9]+\.[0-9]+\$ ]]"
 claim "  it is that of the tools" says " $version\$" rc-info --version
-# line FILE "text": it stands in the file as a line, whole.
+# line FILE "text": the file contains this complete line.
 line() { grep -qxF -- "$2" "$RC_SOURCE/$1"; }
 claim "  of CITATION.cff" line CITATION.cff "version: $version"
 claim "  of the newest section of CHANGELOG.md" test "$(grep -m 1 '^## ' "$RC_SOURCE/CHANGELOG.md")" = "## $version"
@@ -16,7 +16,7 @@ claim "  and the name of the library has its beginning" grep -q "^Package: libco
 
 # ---- a tarball ----
 
-# dist SOURCE OUT: the tarball of this tree, there.
+# dist SOURCE OUT: writes the tarball of this tree to OUT.
 dist() {
     mkdir -p "$2" && cmake -D SOURCE="$1" -D OUT="$2" -D NAME="libcontact-$version" -P "$1/cmake/dist.cmake"
 }
@@ -31,11 +31,11 @@ claim "  with all that the build and the tests look for" bash -c '
     cd "$0" && ls CMakeLists.txt CMakePresets.json LICENSE README.md CHANGELOG.md CITATION.cff .clang-format python/rcg/*.py \
         sample_surfaces/*.x3p tests/*.sh tests/tools/*.sh debian/control' "libcontact-$version"
 claim "  it configures alone" cmake -S "libcontact-$version" -B alone -DCMAKE_C_COMPILER="${CC:-cc}" "-DRC_LEAK=$(with_leak && echo AUTO || echo OFF)"
-# but for those under mpirun, which only a build with MPI has
+# without those under mpirun, which only a build with MPI has
 tests_in() { sed -n 's/^add_test(\[*=*\[*\([a-z_0-9]*\).*/\1/p' "$1/tests/CTestTestfile.cmake" | grep -v _ranks | sort; }
 claim "  with every test" diff <(tests_in "$(dirname "$RC_BIN")") <(tests_in alone)
 claim "  of which there are many" test "$(tests_in alone | wc -l)" -gt 50
-# The files of pkg-config, without that of cmocka.
+# The files of pkg-config without cmocka.pc.
 mkdir modules
 pkg-config --variable pc_path pkg-config | tr : '\n' | while read -r folder; do
     find "$folder" -name '*.pc' ! -name cmocka.pc -exec ln -sf -t modules {} + 2>find.err
@@ -60,7 +60,7 @@ fi
 if command -v mandoc >/dev/null; then
     claim "the manual becomes web pages" \
         cmake -D SOURCE="$RC_SOURCE" -D OUT="$PWD/html" -D VERSION="$version" -P "$RC_SOURCE/cmake/html.cmake"
-    # leads_on FILE: each of its links that stays here leads to a file, and to a place in it.
+    # leads_on FILE: each of its local links leads to an existing file and anchor.
     leads_on() {
         grep -o 'href="[^"]*"' "$1" | sed 's/^href="//; s/"$//' | grep -v '^https://' | sort -u | while read -r link; do
             file=${link%%#*}

@@ -1,5 +1,4 @@
-/* Text matrices are read alike however they are written, and other text is refused with the number
- * of the line. */
+/* Text matrices give the same map in every notation; other text is refused with the number of the line. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -16,10 +15,10 @@
 
 extern const struct rc_format rc_format_ascii;
 
-/* for what has no header */
+/* options for files without a header */
 static const struct rc_wish plain_wish = {.dx = 1.1e-6, .dy = 1.29e-6, .z_unit = 1};
 
-/* The bytes stand at the very end of a block of memory, so that a step too far is seen. */
+/* The bytes lie at the end of a block of memory, so that the sanitizer sees a read beyond them. */
 static struct rc_grid *
 read_bytes(const char *text, size_t n, const struct rc_wish *wish, struct rc_notes *notes,
            struct rc_err *err)
@@ -125,13 +124,13 @@ headers(void **state)
         {"\\*File list\n\\Version: 0x05120130\n\\*Ciao image list\n\\Scan Size: 6 5 um\n"
          "\\*File list end\n\\Exported image units: nm\n@",
          2e-6, 2.5e-6, 1e-9, NULL},
-        /* lengths in nanometres whatever the unit of the heights */
+        /* lengths are in nanometres for any unit of the heights */
         {"# x-pixels = 3\n# y-pixels = 2\n# x-length = 600\n# y-length = 500\n# z-unit = um\n@",
          2e-7, 2.5e-7, 1e-6, NULL},
         {"# x-pixels = 3\n# y-pixels = 2\n# x-length = 6 um\n# y-length = 500 [nm]\n"
          "# z-unit = [nm]\n# Bit2nm = 2\n@",
          2e-6, 2.5e-7, 1e-9, NULL},
-        /* Daisy of attocube, whose units stand on lines of their own */
+        /* Daisy of attocube, with the units in separate lines */
         {"# Daisy frame view snapshot\n# 2009-07-14T10:12:34\n# x-pixels: 3\n# y-pixels: 2\n"
          "# x-length: 6\n# y-length: 500\n# x-offset: 0\n# y-offset: 0\n# x-unit: um\n"
          "# y-unit: nm\n# z-unit: nm\n# scanspeed: 2\n# display: Topography\n# Start of Data:\n@",
@@ -198,7 +197,7 @@ headers_that_are_refused(void **state)
         {"h=3 w=3\npixel size=1 m\ndata unit=m\n1 2 3\n4 5 6\n", "promises 3 columns and 3 rows"},
         {"h=2 w=4\npixel size=1 m\ndata unit=m\n1 2 3\n4 5 6\n", "promises 4 columns and 2 rows"},
         {"h=2 w=4294967299\npixel size=1 m\ndata unit=m\n1 2 3\n4 5 6\n",
-         "promises 42949672"}, /* whatever the size of addresses */
+         "promises 42949672"}, /* for any size of addresses */
         {"h=2 w=3\npixel size=nan m\ndata unit=m\n1 2 3\n4 5 6\n", "--dx LENGTH"},
         {"# Channel: a\n# Width: 6 um\n", "no numbers in the file"},
         {"\xff\xfe"
@@ -269,7 +268,7 @@ images(void **state)
         assert_true(channel[k].nx == g->nx && channel[k].ny == g->ny && channel[k].dx == g->dx);
         rc_grid_free(g);
     }
-    wish.z_unit = 1e-3; /* what is no length may be taken for heights */
+    wish.z_unit = 1e-3; /* values in another unit may be read as heights */
     if ((g = read_image(text, &wish, 0, &err)) == NULL)
         fail_msg("%s", err.text);
     check("Phase as heights", g, 3, 2, wished);
@@ -277,12 +276,12 @@ images(void **state)
     rc_grid_free(g);
     assert_null(read_image(text, &rc_no_wish, 3, &err));
     assert_non_null(strstr(err.text, "no channel 4: the file has 3"));
-    /* a comment that is no header parts nothing */
+    /* a comment that is not a header does not begin another image */
     g = read_image(BLOCK("a", "6 um", "5 um", "m") "1 2 3\n# Date: today\n4 5 6\n", &rc_no_wish, 0,
                    &err);
     check("a comment", g, 3, 2, all);
     rc_grid_free(g);
-    /* nor are numbers of another width lost in another image */
+    /* and rows of another width are refused, not moved to another image */
     assert_null(read_image(BLOCK("a", "6 um", "5 um", "m") "1 2 3\n4 5\n", &rc_no_wish, 0, &err));
 }
 
@@ -295,7 +294,7 @@ separators_and_decimal_marks(void **state)
     static const char *const texts[] = {
         "0 1.5 -2.25\n3 4e-3 5000\n",
         "0\t1.5\t-2.25\n3\t4e-3\t5000\n",
-        "0\t1.5\t-2.25\t\n3\t4e-3\t5000\t\n", /* a separator ends the row */
+        "0\t1.5\t-2.25\t\n3\t4e-3\t5000\t\n", /* a separator is the last character of the row */
         "  0   1.5 -2.25  \r\n\t3 4e-003   +5e3 \r\n",
         "0,1.5,-2.25\n3,.004,5000\n",
         "0, 1.5, -2.25\n3, 4.e-3, 5000\n",
@@ -403,7 +402,7 @@ columns_that_are_refused(void **state)
         refuse_text(cases[k].text, &plain_wish, cases[k].why);
 }
 
-/* In the words of C libraries, and where the unit makes them so. */
+/* Infinite values as C libraries write them, and values that become infinite by their unit. */
 static void
 infinite_heights_are_missing(void **state)
 {
@@ -456,7 +455,7 @@ lists_of_points_are_no_matrices(void **state)
 
 /* ---- numbers ---- */
 
-/* The C library rounds correctly; so must this, to the last bit. */
+/* The C library rounds correctly; this function must give the same to the last bit. */
 static void
 numbers_are_those_of_the_c_library(void **state)
 {
@@ -565,7 +564,7 @@ what_is_no_text_is_not_recognised(void **state)
     }
 }
 
-/* What users hand over instead of heights is named. */
+/* Files that are not heights are refused by what they are. */
 static void
 other_files(void **state)
 {

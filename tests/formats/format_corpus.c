@@ -1,4 +1,4 @@
-/* Every channel of a real file is read as the independent readers of the manifest read it. */
+/* Every channel of a real file is read with the same values as by the independent readers of the manifest. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -39,7 +39,7 @@ enum {
     COLUMNS = 24
 };
 
-/* What the manifest calls the formats that have a reader here; `rows`: of the manifest. */
+/* Names in the manifest of the formats with a reader here; `rows`: their number of rows in the manifest. */
 static struct {
     const char *in_manifest, *here;
     size_t rows;
@@ -49,7 +49,7 @@ static struct {
 #undef CORPUS_FORMAT
 };
 
-/* Rows of which a reader that refuses is right. */
+/* Rows that a reader refuses for a good reason. */
 static const struct {
     const char *file, *refused_for;
 } refused[] = {
@@ -57,21 +57,21 @@ static const struct {
     {"profile-text/SurfaceTopography__xy-3.txt", "the positions are not evenly apart"},
 };
 
-/* Rows whose probes were taken from under the mask that the same row counts as missing. */
+/* Rows with sample values under the mask, at points that the same row counts as missing. */
 static const char probes_under_mask[] = "generated/frt-2.gwy";
 
-/* The row whose true values were computed in single precision, sums too: our heights are rounded to
- * it and are then the same numbers. */
+/* The row whose reference values and sums were computed in single precision: heights rounded to it give the
+ * same numbers. */
 static const char single[] = "truemap-tmd/SurfaceTopography__tmd-1.tmd";
 
-/* The row whose dy is dx: the reader behind it takes x for y. The file has it to eight digits. */
+/* The row whose dy is dx, because its independent reader takes x for y. The file has dy to eight digits. */
 static const char dy_of_x[] = "generated/al3d-1.nrrd";
 
-/* A file that is bad for other readers only: the manifest says what is in it. */
+/* A file that only other readers refuse: the manifest describes its content. */
 static const char in_manifest[] = "";
 
-/* Files of bad.tsv and what they are refused for; NULL: the profile of so many points that ends in
- * ... 3, 2, 1. */
+/* Files of bad.tsv and the reason for which they are refused; NULL: a profile of this number of points whose
+ * last values are ... 3, 2, 1. */
 static const struct {
     const char *file, *refused_for;
     size_t points;
@@ -226,8 +226,8 @@ check_probes(const char *file, const struct rc_grid *g, const char *text)
     return n;
 }
 
-/* Where the manifest gives no spacing, because the steps of x are not even to the last digit, its
- * note has both ends. */
+/* If the manifest has no spacing, because the steps of x differ in the last digit, its note has both ends of
+ * x. */
 static double
 wanted_dx(char *column[COLUMNS])
 {
@@ -245,7 +245,7 @@ check_grid(char *column[COLUMNS], struct rc_grid *g)
     double dx = wanted_dx(column), dy = strtod(column[DY], NULL);
     double mean = strtod(column[Z_MEAN], NULL), rms = strtod(column[Z_RMS], NULL);
     size_t probes, before = faults;
-    double bound = strcmp(file, single) == 0 ? 1e-8 : summed; /* of mean and rms */
+    double bound = strcmp(file, single) == 0 ? 1e-8 : summed; /* tolerance of mean and rms */
     struct summary s;
 
     if (strcmp(g->channel, "height") != 0 || strcmp(g->unit, "m") != 0)
@@ -266,8 +266,8 @@ check_grid(char *column[COLUMNS], struct rc_grid *g)
         fault("%s: %zu missing", file, s.missing);
     check_near(file, "the minimum", s.min, strtod(column[Z_MIN], NULL), rounding * fabs(s.min));
     check_near(file, "the maximum", s.max, strtod(column[Z_MAX], NULL), rounding * fabs(s.max));
-    /* a mean of about zero is as exact as the heights that cancel in it, and the last digit of a
-     * rms height of zero is that of the heights */
+    /* the error of a mean near zero is relative to the heights that cancel in it; the error of an rms height
+     * of zero is the last digit of the heights */
     check_near(file, "the mean", s.mean, mean, bound * fmax(fabs(mean), rms));
     check_near(file, "the rms height", s.rms, rms, fmax(bound * rms, 1e-15 * fabs(mean)));
     probes = check_probes(file, g, column[PROBES]);
@@ -278,7 +278,7 @@ check_grid(char *column[COLUMNS], struct rc_grid *g)
                g->ny, s.missing, probes);
 }
 
-/* The channel that is read when the user names none. */
+/* The default channel. */
 static size_t
 topography_of(const struct rc_format *format, const struct rc_file *file,
               const struct rc_wish *wish)
@@ -291,7 +291,8 @@ topography_of(const struct rc_format *format, const struct rc_file *file,
     return index < n ? index : 0;
 }
 
-/* A file that has steps without a unit is refused by them; they must be those of the manifest. */
+/* A file with steps without a unit is refused; the message gives the steps, which must be those of the
+ * manifest. */
 static void
 check_steps(char *column[COLUMNS], const struct rc_format *format, const struct rc_file *file)
 {
@@ -314,8 +315,8 @@ check_steps(char *column[COLUMNS], const struct rc_format *format, const struct 
     steps_checked++;
 }
 
-/* The channel of the manifest: "Height#6" is the one named Height, or the topography where none has
- * that name. */
+/* The channel of the manifest: "Height#6" is the channel named Height, or the topography if there is no such
+ * name. */
 static size_t
 channel_of(const struct rc_format *format, const struct rc_file *file, const struct rc_wish *wish,
            const char *name)
@@ -340,7 +341,7 @@ check_file(char *column[COLUMNS], const char *reader, const struct rc_file *file
     const char *reason = NULL;
     struct rc_grid *g;
 
-    /* where the file does not say, its user must */
+    /* data that the file lacks come from options */
     if (strcmp(column[LATERAL_UNIT], "unknown") == 0 && strcmp(column[DX], "nan") != 0) {
         wish.dx = strtod(column[DX], NULL);
         wish.dy = strcmp(column[DY], "nan") == 0 ? NAN : strtod(column[DY], NULL);
@@ -452,8 +453,8 @@ rows_of_the_manifest(void **state)
         fail_msg("%zu faults", faults);
 }
 
-/* Reads a row of bad.tsv: repository, commit, path, and further columns. Returns its place in
- * bad[], or BAD. */
+/* Reads a row of bad.tsv: repository, commit, path, and further columns. Returns its index in bad[], or
+ * BAD. */
 static size_t
 check_bad(char *line)
 {

@@ -1,4 +1,4 @@
-/* Every variant of the flat formats is read as its specification has it. */
+/* Every variant of the flat formats is read according to its specification. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -24,7 +24,7 @@ first_height(const struct rc_format *format, const struct rc_file *file, const s
     return 0;
 }
 
-/* The numbers are read exactly; spacing and scale may be kept in single precision by the file. */
+/* The numbers are read exactly; the file may hold spacing and scale in single precision. */
 static void
 check(const struct made_file *f, const struct rc_grid *g)
 {
@@ -66,7 +66,7 @@ variants(void **state)
         struct rc_grid *g;
 
         f->make(&m, f->variant);
-        for (int named = 0; named < 2; named++) { /* the content is enough */
+        for (int named = 0; named < 2; named++) { /* the content alone identifies the format */
             file = (struct rc_file){named ? f->name : "noname", m.data, m.n};
             format = rc_format_find(&file, &err);
             if (format == NULL || strcmp(format->name, f->format) != 0)
@@ -91,7 +91,7 @@ read_made(const char *format, const struct bytes *m, size_t channel, struct rc_e
     return rc_format_read(rc_format_named(format), &file, &wish, channel, NULL, err);
 }
 
-/* Channels that are no heights keep their name and get the SI unit. */
+/* Channels other than heights keep their name and get the SI unit. */
 static void
 other_channels(void **state)
 {
@@ -130,8 +130,8 @@ other_channels(void **state)
     }
 }
 
-/* Rows that a scan of Createc did not reach are missing; where x does not tell what a count is,
- * nothing does. */
+/* Rows beyond the end of a scan of Createc are missing. If x does not determine the factor of a count,
+ * nothing else in the file does. */
 static void
 createc_scans(void **state)
 {
@@ -159,8 +159,8 @@ createc_scans(void **state)
     drop(&m);
 }
 
-/* Reads a made scan of Createc whose header ends in these lines; every height has to be so many nanometres
- * a count, to `most` of it. */
+/* Reads a synthetic scan of Createc whose header ends in these lines; every height must be the given number
+ * of nanometres per count, with a relative error of at most `most`. */
 static void
 createc_counts_are(const char *lines, double count, double most)
 {
@@ -182,9 +182,9 @@ createc_counts_are(const char *lines, double count, double most)
     drop(&m);
 }
 
-/* What is a count of z, in a header that gives it as 0.00038: 20 V over 2^20 counts, amplified 10 times, on a
- * piezo of 20 Angstrom per volt, are 4000 / 2^20 Angstrom. Where the piezo does not fit, the file's figure
- * stays, times the gain. */
+/* A count of z, where the header has the factor 0.00038: 20 V over 2^20 counts, amplified 10 times, on a
+ * piezo of 20 Angstrom per volt, are 4000 / 2^20 Angstrom. If the piezo constant contradicts the factor, the
+ * factor of the file is used, times the gain. */
 static void
 createc_counts(void **state)
 {
@@ -205,15 +205,15 @@ createc_counts(void **state)
                  rows[k].gain, rows[k].piezo);
         createc_counts_are(lines, rows[k].count, last_digit);
     }
-    /* the factor holds the gain already, in Angstrom; there is none */
+    /* the factor includes the gain already, in Angstrom; or the gain is absent */
     createc_counts_are("Delta X / Delta X [Dac]=576755\r\nGainX / GainX=3\r\nGainZ / GainZ=10\r\n"
                        "ZPiezoconst=20\r\nDacto[A]xy=0.01907\r\nDacto[A]z=0.00381\r\n",
                        400 / 1048576.0, last_digit);
     createc_counts_are("GainZ / GainZ=3\r\nZPiezoconst=20\r\n", 120 / 1048576.0, last_digit);
 }
 
-/* The figures of three headers of real files. Z-Res. is what the instrument's own program made of 128 steps
- * of grey, each of Imagegrayfactor counts. Both are given to three or four digits. */
+/* Numbers from the headers of three real files. Z-Res. is the height that the instrument's program computed
+ * for 128 grey levels of Imagegrayfactor counts each. Both have three or four digits. */
 static void
 createc_headers(void **state)
 {
@@ -242,7 +242,7 @@ createc_headers(void **state)
                            k < 3 ? 6e-4 : 2e-3);
 }
 
-/* The wave has one unit for all its channels; labels show which have another. */
+/* The wave has one unit for all its channels; labels show the channels with another unit. */
 static void
 labels_of_waves(void **state)
 {
@@ -274,8 +274,9 @@ labels_of_waves(void **state)
     }
 }
 
-/* Where the note has the settings of an Asylum microscope, which stores all in SI units, labels show the
- * units that a wave of another unit, or of none, does not give. A sensor that is not calibrated has none. */
+/* If the note has the settings of an Asylum microscope, which stores all values in SI units, the labels
+ * determine the units, also if the wave has another unit or none. A sensor that is not calibrated has no
+ * unit. */
 static void
 labels_with_a_note(void **state)
 {
@@ -308,7 +309,7 @@ labels_with_a_note(void **state)
         make_ibw(&m, 2);
         memset(m.data + 212, 0, 4);
         set_text(&m, 212, rows[k].wave);
-        m.n -= 4 + 96; /* the note, of another length, and the labels behind it */
+        m.n -= 4 + 96; /* the note with another length, and the labels after it */
         set_raw(&m, 12, RC_RAW_I32, (double)strlen(rows[k].note));
         add_text(&m, rows[k].note);
         labels = m.n;
@@ -325,7 +326,7 @@ labels_with_a_note(void **state)
     }
 }
 
-/* A scale whose unit has parentheses of its own. */
+/* A scale whose unit contains parentheses. */
 static void
 scale_of_a_logarithm(void **state)
 {
@@ -349,7 +350,7 @@ scale_of_a_logarithm(void **state)
     drop(&m);
 }
 
-/* Where readers disagree on what a number means the user is told, unless --z-unit says it. */
+/* If programs interpret a number differently a message tells the user, unless --z-unit is given. */
 static void
 doubts(void **state)
 {
@@ -357,7 +358,7 @@ doubts(void **state)
         const char *format;
         void (*make)(struct bytes *m, int variant);
         int variant;
-        const char *note; /* NULL: nothing is in doubt */
+        const char *note; /* NULL: the meaning is clear */
     } rows[] = {
         {"tmd", make_tmd, 0, "no unit and micrometres are taken"},
         {"tmd", make_tmd, 1, NULL},
@@ -394,7 +395,7 @@ doubts(void **state)
         }
 }
 
-/* A wave of one dimension. */
+/* A wave with one dimension. */
 static void
 profile_of_a_wave(void **state)
 {
@@ -424,7 +425,7 @@ profile_of_a_wave(void **state)
     drop(&m);
 }
 
-/* Heights in units of a wavelength that the file does not give. */
+/* Heights in wavelengths, in a file without the wavelength. */
 static void
 no_wavelength(void **state)
 {
@@ -451,7 +452,7 @@ no_wavelength(void **state)
     drop(&m);
 }
 
-/* What a file says of itself is kept. */
+/* The metadata of a file become keys. */
 static void
 keys(void **state)
 {
@@ -521,7 +522,7 @@ static const struct {
     {"x_um z_um\n2 1\n1 2\n0 3\n", 3, 1e-6, 3e-6, 1e-6, NULL},
     /* rounded to the last decimal */
     {"x [um],z [um]\n0.0,1\n0.2,2\n0.3,3\n0.5,4\n0.6,5\n", 5, 0.15e-6, 1e-6, 5e-6, NULL},
-    /* a stylus that drifts by a hundredth of its step, and one by six */
+    /* the positions of a stylus drift by a hundredth of a step, and by six hundredths */
     {"x [um] z [um]\n0 1\n1.009 2\n1.995 3\n3 4\n", 4, 1e-6, 1e-6, 4e-6, NULL},
     {"x [um] z [um]\n0 1\n1.00 2\n2.06 3\n3.00 4\n", 0, 0, 0, 0,
      "point 3, at 2.06 where even steps of 1 lead to 2, 0.06 steps away; up to 0.05"},
@@ -537,7 +538,7 @@ static const struct {
     {"x [um] z [um]\n0 1\n1 2\n", 0, 0, 0, 0, "3 points at least"},
     {"0 1 2\n1 2 3\n2 3 4\n", 0, 0, 0, 0, "without titles"},
     {"x [um] z [um]\n0 1\n1 2 3\n2 3\n", 0, 0, 0, 0, "line 3"},
-    /* units on lines of their own, in quotes, after what spreadsheets write first */
+    /* units in separate lines, in quotes, after the first line that spreadsheets write */
     {"# x-unit = um\n# z-unit = nm\n0 1\n0.5 2\n1.0 3\n", 3, 0.5e-6, 1e-9, 3e-9, NULL},
     {"# z-unit: [nm]\n# x-unit: um\n0 1\n0.5 2\n1.0 3\n", 3, 0.5e-6, 1e-9, 3e-9, NULL},
     {"X/mm Z/um\n0 1\n0.5 2\n1.0 3\n", 3, 0.5e-3, 1e-6, 3e-6, NULL},
@@ -553,7 +554,7 @@ static const struct {
     {"words and no more\n", 0, 0, 0, 0, "no table"},
 };
 
-/* In UTF-16 of either order, behind its mark. */
+/* UTF-16 in either byte order, after its mark. */
 static void
 widen(struct bytes *m, const char *from, bool big)
 {
@@ -561,7 +562,7 @@ widen(struct bytes *m, const char *from, bool big)
     m->big = big;
     for (const unsigned char *s = (const unsigned char *)from; *s != '\0'; s++) {
         unsigned c = *s;
-        if (c == 0xc2) /* the only two bytes above are those of U+00B5 */
+        if (c == 0xc2) /* the only two bytes above 127 are those of U+00B5 */
             c = *++s;
         add_raw(m, RC_RAW_U16, c);
     }
@@ -591,7 +592,7 @@ check_profile(size_t row, const struct bytes *m)
     rc_grid_free(g);
 }
 
-/* Cut anywhere, in a block of memory of its own length. */
+/* The file cut at any byte, in a block of memory of exactly its length. */
 static void
 cut_profile(size_t row, const struct bytes *m)
 {
@@ -630,7 +631,7 @@ text_profiles(void **state)
         }
 }
 
-/* Heights alone, for which the user has the spacing. */
+/* Heights without positions; the user gives the spacing. */
 static void
 one_column(void **state)
 {
@@ -689,7 +690,7 @@ points(void **state)
     }
 }
 
-/* What the titles of columns, or lines above them, say of the units. */
+/* Units from the titles of columns, or from lines above them. */
 static void
 units_of_points(void **state)
 {
@@ -708,7 +709,7 @@ units_of_points(void **state)
          3e-10, 1e-9, ' '},
         {"x [um];y;z", 2e-6, 3e-6, NAN, ';'},
         {"x [s];y [s];z [nm]", NAN, NAN, 1e-9, ';'},
-        {"a scan in mm", NAN, NAN, NAN, ' '}, /* no titles: there are four words */
+        {"a scan in mm", NAN, NAN, NAN, ' '}, /* not titles: four words */
     };
 
     (void)state;

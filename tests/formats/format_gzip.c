@@ -1,4 +1,4 @@
-/* Files packed with gzip are unpacked whole or not at all, and a bomb takes no memory. */
+/* Gzip files are unpacked completely or refused, and a decompression bomb takes no memory. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -42,7 +42,7 @@ add_member(struct bytes *b, const void *data, size_t n, size_t times)
     deflateEnd(&z);
 }
 
-/* Bytes that pack about half, from a congruence. */
+/* Bytes that compress to about a half, from a linear congruential generator. */
 static unsigned char *
 some_bytes(void)
 {
@@ -107,7 +107,7 @@ members_are_joined(void **state)
     free(data);
 }
 
-/* Cut anywhere it is refused, but for a cut between members. */
+/* A file that is cut anywhere is refused, except for a cut between members. */
 static void
 every_truncation(void **state)
 {
@@ -132,7 +132,7 @@ every_truncation(void **state)
     free(data);
 }
 
-/* A byte changed in the data or in the sums is never unpacked to something else. */
+/* A changed byte in the data or in the checksums never gives other data. */
 static void
 every_byte_damaged(void **state)
 {
@@ -148,7 +148,7 @@ every_byte_damaged(void **state)
 
         b.data[k] ^= 0x55;
         got = rc_file_unpack(&file, UNPACKED, &size, NULL);
-        if (got != NULL) { /* in the time, the name or the system of the header */
+        if (got != NULL) { /* the changed byte is the time, the name or the system in the header */
             assert_in_range(k, 4, 19);
             assert_int_equal(size, 1000);
             assert_memory_equal(got, data, 1000);
@@ -190,7 +190,8 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_bomb_takes_no_memory), /* first, for its peak */
+        cmocka_unit_test(
+            a_bomb_takes_no_memory), /* the first test, because it measures the peak of memory */
         cmocka_unit_test(members_are_joined),
         cmocka_unit_test(every_truncation),
         cmocka_unit_test(every_byte_damaged),

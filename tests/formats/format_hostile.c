@@ -1,4 +1,4 @@
-/* A flat file that is cut anywhere, or lies anywhere, is refused or is still a sound map. */
+/* A flat file that is cut at any byte, or changed at any byte, is refused or gives a valid map. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -14,11 +14,11 @@
 #include "tests/exact.h"
 
 enum {
-    CHANNELS = 3, /* that are read of a file            */
+    CHANNELS = 3, /* most bytes read of a file */
     LOOKED = 1200 /* bytes at the front that are changed */
 };
 
-/* What is said and shown must not act on a terminal. */
+/* Messages and lists must hold no control characters, which would act on a terminal. */
 static void
 check_words(const struct made_file *f, const char *words)
 {
@@ -29,8 +29,8 @@ check_words(const struct made_file *f, const char *words)
             fail_msg("%s: '%s' holds a control character", f->title, words);
 }
 
-/* Reads all channels; gives the one numbered `wanted`, or NULL. The bytes stand in a block of their
- * own length, so that a step too far is seen. */
+/* Reads all channels; returns number `wanted`, or NULL. The bytes lie in a block of exactly their length, so
+ * that the sanitizer sees a read beyond them. */
 static struct rc_grid *
 read_all(const struct made_file *f, const unsigned char *bytes, size_t n, size_t wanted,
          struct rc_err *err)
@@ -83,7 +83,7 @@ same_values(const struct rc_grid *a, const struct rc_grid *b)
     return true;
 }
 
-/* The channel that is looked at is the last one: those before it need fewer bytes. */
+/* The test compares the last channel, because earlier ones need fewer bytes. */
 static size_t
 last_channel(const struct made_file *f)
 {
@@ -175,7 +175,7 @@ lies_anywhere(void **state)
     printf("%zu lies, of which %zu still make a map\n", told, believed);
 }
 
-/* No reader minds what belongs to another one, forced upon it. */
+/* Every reader, forced with --format, refuses the files of other formats safely. */
 static void
 every_reader_on_every_file(void **state)
 {

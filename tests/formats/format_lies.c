@@ -1,4 +1,4 @@
-/* A made file with one field that lies is refused for it, by name. */
+/* A synthetic file with one false field is refused, and the message names the field. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -11,7 +11,7 @@
 #include "formats/format.h"
 #include "made/made.h"
 
-/* A field of a made file that is given another value, and the refusal that follows. */
+/* A field of a synthetic file that gets another value, and the expected message. */
 static const struct {
     const char *format;
     void (*make)(struct bytes *m, int variant);

@@ -1,5 +1,4 @@
-/* Park files, made here byte by byte, are read by their own rules in both byte orders; damaged
- * ones are refused. */
+/* Park files made by this test are read in both byte orders; damaged ones are refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -107,7 +106,7 @@ park_is_read(void **state)
             b = park_file(&p, big, 0);
             file = file_of(&b, "made");
             assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_park);
-            for (size_t k = 0; k < 6; k++) { /* the lowest row comes first */
+            for (size_t k = 0; k < 6; k++) { /* the bottom row comes first */
                 int value = raw_counts[(k + 3) % 6];
                 v[k] = -12.5 * (0.5 * (p.type == 2 ? value : value % 100000) + 0.25) * 1e-9;
             }
@@ -148,7 +147,7 @@ refuse_park(const struct park *p, size_t less, const char *why)
     drop(&b);
 }
 
-/* In millivolts the numbers are those of metres, a thousandth each. */
+/* In millivolts the values are a thousandth of those in metres. */
 static void
 other_units_stay(void **state)
 {

@@ -1,4 +1,4 @@
-/* SI prefixes mean their powers of ten, in every spelling, and are found from them. */
+/* SI prefixes in every spelling give their powers of ten, and powers of ten give the prefixes. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

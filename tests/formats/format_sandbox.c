@@ -1,4 +1,4 @@
-/* Whatever a reader does in the sandbox, the program gets a result or a reason, in bounded time and
+/* For any behaviour of a reader in the sandbox the program gets a result or a reason, in limited time and
  * memory. */
 #define _DEFAULT_SOURCE /* syscall, MAP_ANONYMOUS */
 #include <stdarg.h>
@@ -29,7 +29,7 @@
 #include "formats/sandbox/result.h"
 #include "formats/sandbox/sandbox.h"
 
-static int inherited; /* a file that the parent has open */
+static int inherited; /* an open file of the parent */
 static pid_t parent;  /* the process that makes the child */
 
 static const struct rc_file file = {.name = "made", .data = (const unsigned char *)"x", .size = 1};
@@ -66,7 +66,7 @@ crashing(const struct rc_file *f, const struct rc_wish *wish, size_t index, stru
     abort();
 }
 
-/* cmocka catches this one: its handler must not run in the child. */
+/* cmocka catches this signal: its handler must not run in the child. */
 static struct rc_grid *
 segfaulting(const struct rc_file *f, const struct rc_wish *wish, size_t index,
             struct rc_notes *notes, struct rc_err *err)
@@ -130,7 +130,7 @@ greedy(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct
     (void)f, (void)wish, (void)index, (void)notes;
     for (void *p; (p = malloc(1 << 20)) != NULL; got++)
         memset(p, 1, 1 << 20);
-    /* it keeps what it took, and is ended: NOLINTNEXTLINE(clang-analyzer-unix.Malloc) */
+    /* it keeps its memory until it is killed: NOLINTNEXTLINE(clang-analyzer-unix.Malloc) */
     rc_err_set(err, "memory ended after %zu MiB", got);
     return NULL;
 }
@@ -148,7 +148,8 @@ nosy(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct r
 
 /* ---- ways out ---- */
 
-/* Each gives a value below 0, with errno, where it is shut. What it would change stands in its folder. */
+/* Each function tries one way out of the sandbox and returns a value below 0, with errno, if it is closed. It
+ * would change only files in the test's folder. */
 static int
 way_open(void)
 {
@@ -405,7 +406,7 @@ static const struct {
     {"what files there are", way_environment},
 };
 
-/* Tries all ways out, and refuses the file with the names of those that were open. */
+/* Tries all ways out, and refuses the file with the names of the open ones. */
 static struct rc_grid *
 escaping(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
          struct rc_err *err)
@@ -485,7 +486,7 @@ a_grid_comes_back_whole(void **state)
     rc_grid_free(g);
 }
 
-/* The bytes by which a child sends the grid of good(); the caller frees them. */
+/* The bytes in which a child sends the grid of good(); the caller frees them. */
 static char *
 sent_result(size_t *n)
 {
@@ -538,7 +539,7 @@ what_is_cut_off_is_refused(void **state)
     free(bytes);
 }
 
-/* A child that a file has got hold of may say anything. */
+/* A child that a hostile file controls may send any bytes. */
 static void
 results_are_not_trusted(void **state)
 {
@@ -572,7 +573,7 @@ results_are_not_trusted(void **state)
     free(bytes);
 }
 
-/* More nodes than the file may have are refused before there is memory for them. */
+/* More nodes than allowed for the file are refused before memory is allocated. */
 static void
 a_grid_of_any_size_is_refused(void **state)
 {
@@ -628,7 +629,8 @@ trouble_stays_in_the_child(void **state)
         expect(stubborn, "makes its library fail (Killed)");
     }
     expect(nosy, "closed");
-    assert_true(now() - before < 0.5); /* the time was not ours */
+    assert_true(now() - before <
+                0.5); /* the limit of time was not exceeded by this project's code */
 }
 
 static void
@@ -643,7 +645,7 @@ memory_is_bounded(void **state)
     printf("%s\n", err.text);
     if ((said = strstr(err.text, "ended after ")) != NULL)
         assert_in_range(strtoul(said + 12, NULL, 10), 32, 64);
-    else /* the address sanitizer may not come back from it */
+    else /* the address sanitizer may not return from it */
         assert_non_null(strstr(err.text, "its library"));
 }
 
@@ -684,7 +686,7 @@ lists_come_back(void **state)
     (void)state;
     assert_int_equal(rc_sandbox_list(NULL, three, &file, &rc_no_wish, channel, 2, &err), 3);
     assert_int_equal(channel[1].nx, 2);
-    assert_string_equal(channel[1].name, "c "); /* nothing that a terminal would obey */
+    assert_string_equal(channel[1].name, "c "); /* no control characters */
     assert_string_equal(channel[1].unit, "  m");
     assert_int_equal(rc_sandbox_list(NULL, none, &file, &rc_no_wish, channel, 2, &err), 0);
     assert_string_equal(err.text, "no channel");

@@ -1,5 +1,5 @@
-/* A grid stream is read back bit by bit, and a damaged one is refused with the reason: never a
- * crash, never a frame that was not written. */
+/* A grid stream is read back bit by bit, and a damaged one is refused with the reason, without a crash and
+ * without a frame that was not written. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,7 +17,7 @@
 #include "formats/rcg/rcg.h"
 #include "made/made.h"
 
-/* With the address sanitizer, memory that cannot be had is still NULL. */
+/* Also with the address sanitizer an impossible allocation returns NULL. */
 const char *__asan_default_options(void);
 const char *
 __asan_default_options(void)
@@ -49,7 +49,7 @@ write_frames(struct rc_grid *const *g, size_t n)
     return b;
 }
 
-/* A stream of one frame made by hand: a header after its RCG1 line, and n zero bytes. */
+/* A stream of one frame made by hand: the header after the line RCG1, and n zero bytes. */
 static struct stream
 by_hand(const char *header, size_t n)
 {
@@ -67,8 +67,8 @@ by_hand(const char *header, size_t n)
     return b;
 }
 
-/* The same with one line of a good 2 x 1 header replaced: `line` takes the place of the line with
- * its key (NULL: that one is left out), or is added. */
+/* The same with a changed line in a valid 2 x 1 header: `line` replaces the line with its key or is added;
+ * NULL removes the line of that key. */
 static struct stream
 with_line(const char *key, const char *line)
 {
@@ -93,7 +93,7 @@ with_line(const char *key, const char *line)
 
 /* ---- reading them ---- */
 
-/* Reads all of it: the last status, the number of frames, and the last frame when wanted. */
+/* Reads the whole stream: returns the last status, the number of frames, and the last frame if requested. */
 static enum rc_status
 read_all(const char *data, size_t size, size_t *frames, struct rc_grid **last, struct rc_err *err)
 {
@@ -195,7 +195,7 @@ test_round_trip_f64(void **state)
     rc_grid_free(back);
 }
 
-/* More values than are converted at a time; values that a float holds come back unchanged. */
+/* More values than are converted at a time; values that a float can hold come back unchanged. */
 static void
 test_round_trip_f32(void **state)
 {
@@ -213,14 +213,14 @@ test_round_trip_f32(void **state)
     back = read_one(write_frames(&g, 1));
     assert_int_equal(back->type, RC_F32);
     assert_true(isnan(back->v[5]) && back->v[6] == -INFINITY && signbit(back->v[7]));
-    assert_true(back->v[331 * 47 - 1] == INFINITY); /* out of its range */
+    assert_true(back->v[331 * 47 - 1] == INFINITY); /* out of the range of a float */
     for (size_t k = 7; k < 331 * 47 - 1; k++)
         assert_true(back->v[k] == g->v[k]);
     rc_grid_free(g);
     rc_grid_free(back);
 }
 
-/* Byte by byte what the manual says. */
+/* The bytes are those of the manual. */
 static void
 test_layout(void **state)
 {
@@ -275,7 +275,8 @@ test_every_truncation(void **state)
     g[1]->type = RC_F32;
     b = write_frames(g, 2);
     for (size_t size = 0; size < b.size; size++) {
-        char *part = malloc(size + 1); /* of its own, so that a reader beyond its end is seen */
+        char *part = malloc(
+            size + 1); /* a separate block, so that the sanitizer sees a read beyond its end */
         memcpy(part, b.data, size);
         if (read_all(part, size, &frames, NULL, &err) != RC_FAIL || err.text[0] == '\0')
             fail_msg("cut off after %zu of %zu bytes, and taken", size, b.size);
@@ -363,7 +364,7 @@ test_failure_is_repeated(void **state)
     check_refused(failed_stream(message), 1, "failed: xxx");
 }
 
-/* The bytes that rc_stream_fail writes where nothing was written before. */
+/* The bytes that rc_stream_fail writes if nothing was written before. */
 static struct stream
 failure(const char *message, int status)
 {
@@ -398,8 +399,8 @@ check_failure(const char *message, int status, const char *expected)
     free(b.data);
 }
 
-/* A stream that fails before it begins: its reader gets the message and the exit status, and of a
- * message that is too long whole characters. */
+/* A stream that fails before its first frame: its reader gets the message and the exit status; a message that
+ * is too long is cut between characters. */
 static void
 test_failure_and_its_status(void **state)
 {
@@ -412,7 +413,7 @@ test_failure_and_its_status(void **state)
     check_failure("one\ttwo\x1b[2J", 2, "one two [2J");
     check_failure("caf\xe9", 1, "caf?");
     check_failure("(exit status 2) of another", 1, "(exit status 2) of another");
-    for (int before = 0; before < 4; before++) { /* the bounds fall on each byte of a character */
+    for (int before = 0; before < 4; before++) { /* the limits lie on each byte of a character */
         size_t n = 0;
         memset(text, 'x', (size_t)before);
         text[before] = '\0';
@@ -486,7 +487,7 @@ test_sizes(void **state)
                   0, "more than this machine can address");
     check_refused(with_line("ny", "ny=4611686018427387904"), 0,
                   "more than this machine can address");
-    /* addressable, and more than there is */
+    /* addressable, but more than the machine has */
     check_refused(with_line("ny", "ny=1000000000000000"), 0,
                   "out of memory for a map of 2 x 1000000000000000 nodes");
 }
@@ -549,7 +550,7 @@ test_nul(void **state)
     check_refused(b, 0, "NUL");
 }
 
-/* A header of exactly `total` bytes, the line RCG1 and the empty one included. */
+/* A header of exactly `total` bytes, including the line RCG1 and the empty line. */
 static struct stream
 long_header(size_t total)
 {
@@ -572,7 +573,7 @@ test_longest_header(void **state)
 {
     struct rc_grid *g = read_one(long_header(RC_HEADER_MAX));
     size_t most = strlen(rc_grid_get(g, "note"));
-    struct stream b = write_frames(&g, 1); /* the writer's limit is the same one */
+    struct stream b = write_frames(&g, 1); /* the writer has the same limit */
     char *longer = calloc(most + 2, 1);
     struct rc_writer *w;
     struct rc_err err;
@@ -594,7 +595,7 @@ test_longest_header(void **state)
     rc_grid_free(g);
 }
 
-/* The most keys that fit: single letters and the like, three or four bytes a line. */
+/* The largest number of keys that fit: names of one or two letters, three or four bytes a line. */
 static void
 test_many_keys(void **state)
 {
@@ -680,7 +681,7 @@ test_cases_number_on(void **state)
     free(b.data);
 }
 
-/* The second of two streams is cut off: the first one does not make up for it. */
+/* The second of two streams is cut off: the end line of the first one does not count for it. */
 static void
 test_second_stream_cut(void **state)
 {
@@ -714,14 +715,14 @@ test_memory(void **state)
     free(b.data);
 }
 
-/* The steps of a history that would be too long: the first one and as many of the last as 32 KiB
- * hold, all whole. */
+/* A history that would be too long keeps the first step and as many of the last ones as fit into 32 KiB, all
+ * complete. */
 static void
 test_long_history(void **state)
 {
     enum {
         MOST = 32 * 1024,
-        STEP = 1000, /* bytes that a step takes, with what separates it */
+        STEP = 1000, /* bytes of a step, with its separator */
         STEPS = 90
     };
     static const char cut[] = "first | ...";
@@ -753,7 +754,8 @@ test_long_history(void **state)
     rc_grid_free(g);
 }
 
-/* A single step that is too long is cut at its end, never inside a character, beside any number of others. */
+/* A single step that is too long is cut at its end, never inside a character, for any number of other
+ * steps. */
 static void
 test_long_step(void **state)
 {

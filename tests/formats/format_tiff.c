@@ -1,5 +1,5 @@
-/* JPK and LEXT files, made here byte by byte, are read by their own rules in both byte orders;
- * damaged ones and those made to take memory or time are refused. */
+/* JPK and LEXT files made by this test are read in both byte orders; damaged files, and files that would take
+ * much memory or time, are refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -24,7 +24,7 @@ enum {
     STRIDE = 0x30
 };
 
-/* A thumbnail with the size of the scan, a channel of lengths and one of volts. */
+/* A thumbnail with the size of the scan, a channel in metres and one in volts. */
 static struct bytes
 jpk_pages(bool big, bool reflected, const char *scaling, double multiply, bool second)
 {
@@ -123,7 +123,7 @@ jpk_volts_stay_volts_or_get_a_unit(void **state)
     g = try_read(&rc_format_jpk, &b, &wish, 1, &err);
     assert_non_null(g);
     for (size_t k = 0; k < 6; k++)
-        v[k] = raw_counts[(k + 3) % 6] * 2e-9; /* this page is not reflected */
+        v[k] = raw_counts[(k + 3) % 6] * 2e-9; /* the grid of this page is not reflected */
     check_map(g, 3, 2, 1.1e-6, 1.1e-6, v);
     rc_grid_free(g);
     assert_null(try_read(&rc_format_jpk, &b, &rc_no_wish, 2, &err));
@@ -154,7 +154,8 @@ jpk_is_refused(void **state)
     refuse(&rc_format_jpk, &b, "0 channels");
     drop(&b);
     b = jpk_pages(true, false, "LinearScaling", 1, false);
-    refuse_cuts(&rc_format_jpk, &b, b.n - 4, 1); /* the last four bytes say that no page follows */
+    refuse_cuts(&rc_format_jpk, &b, b.n - 4,
+                1); /* the last four bytes state that no page follows */
     survive_changes(&rc_format_jpk, &b, 150);
     drop(&b);
 }
@@ -172,7 +173,7 @@ static const char exif_xml[] = "<ExifTagDescData><ImageCommonSettingsInfo>"
                                "<MakerCalibrationValueZ>2000000</MakerCalibrationValueZ>"
                                "</ImageCommonSettingsInfo></ExifTagDescData>";
 
-static size_t height_link; /* where HEIGHT says which page follows */
+static size_t height_link; /* the position of the word in HEIGHT that points to the next page */
 
 static struct bytes
 lext_file(bool big, const char *xml, const char *exif, const char *name)
@@ -182,7 +183,7 @@ lext_file(bool big, const char *xml, const char *exif, const char *name)
     size_t last;
 
     for (size_t k = 0; k < 6; k++)
-        add_number(&pixels, 60000 + k, 2); /* above the largest int16 */
+        add_number(&pixels, 60000 + k, 2); /* above the largest value of int16 */
     tiff_start(&b, big);
     if (exif != NULL) {
         const struct tag settings[] = {{0xa40b, 7, (uint32_t)strlen(exif), exif, 0}, {0}};
@@ -259,7 +260,8 @@ lext_is_refused(void **state)
 
 /* ---- tags that ask for memory ---- */
 
-/* A directory whose every entry is the whole file: 3000 times 12 bytes ask for 3000 copies. */
+/* A directory in which every entry refers to the whole file: 3000 entries of 12 bytes would give 3000
+ * copies. */
 static void
 many_large_tags(void **state)
 {
@@ -288,13 +290,13 @@ many_large_tags(void **state)
     g = try_read(&rc_format_jpk, &b, &rc_no_wish, 0, &err);
     assert_null(g);
     printf("3000 tags of a megabyte each: %s\n", err.text);
-    /* by the library, or by the sandbox where the library takes the memory */
+    /* by the library, or by the sandbox if the library takes the memory */
     assert_true(strstr(err.text, "its first page cannot be read") != NULL ||
                 strstr(err.text, "its library") != NULL);
     drop(&b);
 }
 
-/* A picture is no map, and its refusal says so. */
+/* A picture is not a map, and the message says so. */
 static void
 pictures_are_refused(void **state)
 {
@@ -309,7 +311,7 @@ pictures_are_refused(void **state)
     drop(&b);
 }
 
-/* Directories that lead back to themselves. */
+/* Directories that point back to themselves. */
 static void
 endless_directories(void **state)
 {
@@ -323,8 +325,8 @@ endless_directories(void **state)
     drop(&b);
 }
 
-/* 128 MiB of zeros in a file of a few hundred KiB, packed as TIFF packs them, as a map and as the picture
- * before one. */
+/* 128 MiB of zeros in a file of a few hundred KiB, compressed as in TIFF, as a map and as the thumbnail
+ * before a map. */
 static void
 tiff_bombs(void **state)
 {
@@ -350,7 +352,7 @@ tiff_bombs(void **state)
             assert_null(try_read(&rc_format_lext, &b, &wish, 0, &err));
             printf("a bomb of %zu bytes: %s\n", b.n, err.text);
             assert_non_null(strstr(err.text, "may take"));
-        } else { /* it is not looked at: the map behind it is read */
+        } else { /* the thumbnail is ignored: the map after it is read */
             last = tiff_packed_page(&b, 4, side, side, 16, 1, lext_xml, packed, n, NULL);
             tiff_page(&b, last, 3, 1, 16, 1, "HEIGHT", "\1\0\2\0\3\0", 6, NULL);
             assert_non_null(g = try_read(&rc_format_lext, &b, &wish, 0, &err));

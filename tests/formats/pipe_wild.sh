@@ -1,19 +1,20 @@
-# Files of the kinds that laboratories send, by the table wild.tsv: size, spacing, two heights, the words of standard error, the exit status.
+# Files like those that laboratories send, listed in wild.tsv with size, spacing, two heights, the text on
+# standard error, and the exit status.
 . "$(dirname "$0")/../pipe.sh"
 
 wild=$RC_SOURCE/tests/formats
 
-# What is in out.rcg: nx ny dx dy, first and last value, in $is.
+# Reads out.rcg: puts nx ny dx dy, the first and the last value into $is.
 look() {
     local at
     at=$(grep -abm 1 '^$' out.rcg)
-    # shellcheck disable=SC2207 # words that hold no patterns
+    # shellcheck disable=SC2207 # words without patterns
     is=($(head -c "${at%%:*}" out.rcg | sed -n 's/^\(nx\|ny\|dx\|dy\)=//p')
         $(tail -c "+$((${at%%:*} + 2))" out.rcg | od -An -tf8 -v -w8 -N8)
         $(tail -c 32 out.rcg | head -c 8 | od -An -tf8))
 }
 
-# alike GOT WANTED: both are missing, or equal but for rounding to decimals; "@" is not compared.
+# alike GOT WANTED: both are missing, or equal up to rounding to decimals; "@" is not compared.
 alike() {
     [ "$2" = @ ] || awk -v a="$1" -v b="$2" -v tol="$converted" 'BEGIN {
         if (tolower(a) ~ /nan/ || b == "nan") exit !(tolower(a) ~ /nan/ && b == "nan")
@@ -21,7 +22,7 @@ alike() {
         exit !(d <= (tol > 1e-9 ? tol : 1e-9) * c) }'
 }
 
-# as_wanted EXIT NX NY DX DY FIRST LAST PATTERN: what out.rcg, err and $status are.
+# as_wanted EXIT NX NY DX DY FIRST LAST PATTERN: compares $status, out.rcg and err with these.
 as_wanted() {
     [ "$status" = "$1" ] || { echo "exit status $status"; cat err; return 1; } >&2
     if [ "$8" = none ]; then

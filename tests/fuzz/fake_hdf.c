@@ -1,5 +1,5 @@
-/* In place of hdf.c: results that libhdf5 could return for a hostile file, within the promises of
- * hdf.h. The bytes of the file decide them, one call after another; past its end they are 0. */
+/* Replaces hdf.c: returns results that libhdf5 could return for a hostile file, within the guarantees of
+ * hdf.h. The bytes of the file determine the results of successive calls; after its end they are 0. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,15 +61,14 @@ text(struct rc_hdf *h, char *to, size_t size)
     rc_text_clean(to, size, raw, which);
 }
 
-/* Mostly small, now and then anything; little that is large and might be, which would only take
- * time. */
+/* Mostly small numbers, sometimes any number; few large but possible ones, which would only take time. */
 static size_t
 length(struct rc_hdf *h)
 {
     size_t n = byte(h);
 
     if (n < 240)
-        return n + 1; /* a dataset of no values is none */
+        return n + 1; /* a dataset without values does not exist */
     for (int k = 0; k < 8; k++)
         n = n << 8 | byte(h);
     return n == 0 ? 1 : n < (size_t)1 << 32 ? n % 512 + 1 : n;

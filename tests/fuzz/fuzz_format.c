@@ -1,8 +1,8 @@
-/* Whatever the bytes are, the reader named in RC_FORMAT refuses them with a reason or gives a sound
- * map, in a second and within rc_memory_limit; without RC_FORMAT it is the reader that detection
- * chooses. With RC_FUZZ_BYPASS readers run without their sandbox, in this process, where the
- * sanitizers see them. With RC_FUZZ_BYPASS=library memory is not metered: the library may ask for
- * any amount, and the sanitizer bounds it (max_allocation_size_mb). */
+/* For any bytes the reader named in RC_FORMAT must refuse them with a reason or return a valid map, within a
+ * second and within rc_memory_limit; without RC_FORMAT the content chooses the reader. With RC_FUZZ_BYPASS
+ * readers run without their sandbox in this process, so that the sanitizers see them. With
+ * RC_FUZZ_BYPASS=library memory is not counted: the library may request any amount, and the sanitizer limits
+ * it (max_allocation_size_mb). */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -16,13 +16,13 @@
 #include "meter.h"
 
 enum {
-    CHANNELS = 4 /* that are read of a file */
+    CHANNELS = 4 /* most bytes read of a file */
 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 void watch_judge(void);
 
-/* Called after each file; sandbox_watch.c has another one. */
+/* Called after each file; sandbox_watch.c defines another version. */
 __attribute__((weak)) void
 watch_judge(void)
 {
@@ -46,7 +46,7 @@ check(const struct rc_grid *g, size_t size)
         }
 }
 
-/* What is said and shown must not act on a terminal. */
+/* Messages and lists must hold no control characters, which would act on a terminal. */
 static void
 check_words(const char *words)
 {
@@ -63,7 +63,7 @@ check_words(const char *words)
 static void
 try_file(const uint8_t *data, size_t size)
 {
-    /* half of the files are read with wishes of a user, a quarter resampled */
+    /* half of the files are read with options, a quarter resampled */
     bool wishes = size > 0 && (data[size - 1] & 1) != 0;
     struct rc_wish wish = {.dx = wishes ? 1e-6 : NAN,
                            .dy = NAN,
@@ -107,8 +107,8 @@ try_file(const uint8_t *data, size_t size)
     }
 }
 
-/* The file as it is, or unpacked: with RC_GZIP in the environment the header of a gzip member is
- * put before it, so that mutation need not keep that right. */
+/* The file itself, or unpacked: with RC_GZIP in the environment this function puts the header of a gzip
+ * member before the bytes, so that mutations do not destroy it. */
 static void
 try_packed(const uint8_t *data, size_t size)
 {

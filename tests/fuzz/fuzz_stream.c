@@ -1,8 +1,7 @@
-/* Whatever the bytes are, the reader of grid streams refuses them with a reason or gives sound frames,
- * within a second and the memory of one frame; and what it gives is written and read again as it was.
- *
- * Bytes are changed anywhere, also in values and sizes; then, but for a quarter of the cases, the
- * checksums and the counts of frames are made to fit, so that the fuzzing gets past the first frame. */
+/* For any bytes the reader of grid streams must refuse them with a reason or return valid frames, within a
+ * second and the memory of one frame; the frames, written and read again, must be unchanged. Bytes are
+ * changed anywhere, also in values and sizes; then, in three quarters of the cases, checksums and counts of
+ * frames are corrected, so that the fuzzing gets past the first frame. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
@@ -17,7 +16,7 @@
 enum {
     FRAMES_MOST = 64,
     MEMORY = 1 << 22, /* --memory of the reader */
-    BESIDE = 1 << 20  /* bytes that it holds beside a frame, a quarter of them for keys */
+    BESIDE = 1 << 20  /* bytes that the reader holds beside a frame, a quarter of them for keys */
 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -61,8 +60,8 @@ same(const struct rc_grid *a, const struct rc_grid *b)
     return equal;
 }
 
-/* A frame that is written and read is unchanged. A header may grow past its limit, because its
- * numbers are written in full: that is refused. */
+/* A frame that is written and read is unchanged. The writer refuses a header that exceeds the limit because
+ * its numbers are written with all digits. */
 static void
 round_trip(const struct rc_grid *g)
 {
@@ -131,7 +130,7 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
 /* ---- what is changed ---- */
 
-/* Number of the header line NAME=...; 0: there is none. */
+/* The number in the header line NAME=...; 0 without this line. */
 static size_t
 number_of(const uint8_t *head, size_t n, const char *name)
 {
@@ -148,8 +147,8 @@ number_of(const uint8_t *head, size_t n, const char *name)
     return 0;
 }
 
-/* Corrects the checksum of the frame at data[0..size); returns the end of the frame, or 0 when it
- * has no such line. */
+/* Corrects the checksum of the frame at data[0..size); returns the end of the frame, or 0 if it has no line
+ * with a checksum. */
 static size_t
 seal(uint8_t *data, size_t size)
 {

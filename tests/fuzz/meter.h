@@ -1,12 +1,12 @@
-/* What a run costs: memory that is held at once, and seconds of the processor. */
+/* The cost of a run: the most memory held at a time, and processor seconds. */
 #ifndef METER_H
 #define METER_H
 
 #include <stddef.h>
 
-/* Aborts where more than `most` bytes beyond those now held are held at once; 0: no bound. */
+/* Aborts when the program holds more than `most` bytes beyond those held now; 0: no limit. */
 void meter_start(size_t most);
-/* Aborts when it took longer than a second. */
+/* Aborts if the run took longer than a second. */
 void meter_stop(void);
 
 #endif

@@ -1,22 +1,21 @@
 #!/bin/bash
-# run.sh BUILD SECONDS [FORMAT[:HARNESS]...]: fuzzes each reader for so long, from the files of the
-# tests (RC_TESTS names the folder of the built ones) and the real ones (RC_CORPUS, first 64 KiB of
-# each; whole where the format is a container). Prints executions and findings, which are kept in
-# BUILD/findings; what was found worth keeping on the way stays in BUILD/corpus for the next time.
-#
-# Limits: rc_memory_limit of memory, held at once; a second of the processor, ten by the clock
-# because the machine may be busy; the slowest is named.
+# run.sh BUILD SECONDS [FORMAT[:HARNESS]...]: fuzzes each reader for this time, starting from the files of the
+# tests (RC_TESTS names the folder of the built tests) and real files (RC_CORPUS, the first 64 KiB of each;
+# the whole file if the format is a container). Prints executions and findings, which are kept in
+# BUILD/findings; the corpus that the fuzzer has built up stays in BUILD/corpus for the next run. Limits:
+# rc_memory_limit of memory held at a time; one second of the processor, ten by the clock because the machine
+# may be busy; the slowest file is named.
 #
 #     format   the reader in this process
-#     zip      the same, changing what is in the archive
-#     bypass   a reader that works in the sandbox, without it
-#     sandbox  the same through the sandbox: what dies in the library is counted, not found
+#     zip the same, changing the members of the archive
+#     bypass a reader that needs the sandbox, without the sandbox
+#     sandbox the same in the sandbox: a crash in the library is counted but is not a finding
 #     whole    the same from whole files, up to 4 MiB
-#     hdf      the reader with a fake in place of libhdf5
-#     gzip     no reader: what unpacks files, of any FORMAT (run.sh BUILD SECONDS any:gzip)
-#     stream   that of grid streams (run.sh BUILD SECONDS rcg:stream), from streams of the tools in RC_BIN
+#     hdf the reader with a substitute for libhdf5
+#     gzip not a reader, but the code that unpacks files, for any FORMAT (run.sh BUILD SECONDS any:gzip)
+#     stream the reader of grid streams (run.sh BUILD SECONDS rcg:stream), from streams of the tools in RC_BIN
 #
-# RC_RUNS in the environment ends each after so many executions; SECONDS 0 then sets no time.
+# RC_RUNS in the environment limits the executions of each; SECONDS 0 then sets no time limit.
 set -u
 build=$1 seconds=$2
 shift 2
@@ -40,12 +39,12 @@ harnesses_of() {
     npy) echo format zip ;;
     jpk | park | lext | tiff) echo bypass sandbox whole ;;
     mat73) echo sandbox whole ;;
-    hdf5 | datx) echo hdf sandbox whole ;; # libhdf5 1.10 itself reads past its memory: never bypass
+    hdf5 | datx) echo hdf sandbox whole ;; # libhdf5 1.10 itself reads beyond its memory: never bypass
     *) echo format ;;
     esac
 }
 
-# the reader of what the manifest calls FORMAT; nothing where there is none
+# prints the reader for the FORMAT of the manifest; nothing if no reader exists
 reader_of() {
     sed -n "s/^CORPUS_FORMAT(\"$1\", \"\(.*\)\")$/\1/p" "$here/tests/formats/corpus.list"
 }
@@ -60,8 +59,8 @@ if [ -r "${RC_CORPUS:-}/manifest.tsv" ]; then
     cp "$here"/sample_surfaces/*.x3p "$seeds/x3p"
 fi
 
-# Streams of every tool that writes one: of a map, of cases, of depths, of sections, in either type, several
-# in one file, ended by a failure.
+# Streams of every tool that writes them: maps, cases, depths, sections, both types, several streams in one
+# file, a stream that ends with a failure.
 stream_seeds() (
     set -e
     PATH="$RC_BIN:$PATH"
@@ -90,7 +89,7 @@ fuzz() { # FORMAT HARNESS
     zip) most=524288 ;;
     bypass)
         program=format bypass=(RC_FUZZ_BYPASS=library)
-        asan=$asan:max_allocation_size_mb=128 # as memory ends in the sandbox
+        asan=$asan:max_allocation_size_mb=128 # the same limit of memory as in the sandbox
         ;;
     sandbox) asan=$asan:detect_leaks=0 ;;
     whole) program=sandbox most=4194304 asan=$asan:detect_leaks=0 ;;

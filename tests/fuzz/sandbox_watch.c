@@ -1,10 +1,8 @@
 /*
- * Readers that work in the sandbox, run through it: what the child has covered comes back to the
- * fuzzer, and a child that dies says where.
- *
- * A death in the library is what the sandbox is for, and is counted. A death in code of this
- * project is a finding: the first caller that is neither the C library's nor the sanitizer's
- * decides. A refusal for time or memory is a refusal like any other.
+ * Runs readers in their sandbox: the coverage of the child is passed to the fuzzer, and a child that crashes
+ * reports the place. A crash in the library is counted only, because the sandbox protects against it. A crash
+ * in code of this project is a finding: the first caller outside of the C library and the sanitizer decides.
+ * A refusal for time or memory counts as any other refusal.
  */
 #define _GNU_SOURCE /* dladdr */
 #include <dlfcn.h>
@@ -40,7 +38,7 @@ extern uint8_t counters_start[] __asm__("__start___sancov_cntrs");
 extern uint8_t counters_end[] __asm__("__stop___sancov_cntrs");
 
 static struct shared {
-    int depth; /* 0: no child has died here */
+    int depth; /* 0: no child has crashed here */
     void *frame[DEPTH];
     uint8_t counter[COUNTERS_MOST];
 } * shared;
@@ -94,7 +92,7 @@ on_signal(int signal_number)
     raise(signal_number);
 }
 
-/* As the sanitizer of undefined behaviour reports, in either process. */
+/* Called by the sanitizer of undefined behaviour, in both processes. */
 void
 __ubsan_on_report(void)
 {
@@ -102,7 +100,7 @@ __ubsan_on_report(void)
         tell();
 }
 
-/* Also called where the address sanitizer itself finds no memory: that is no report. */
+/* Also called if the address sanitizer itself finds no memory; that is not a report. */
 static void
 on_report(void)
 {
@@ -118,11 +116,11 @@ in_child(void)
 
     is_child = true;
     if (nothing >= 0)
-        dup2(nothing, 2); /* reports of deaths that are expected */
+        dup2(nothing, 2); /* reports of expected crashes */
     __sanitizer_set_death_callback(on_report);
 }
 
-/* The handlers of the child come after rc_confine, which removes all. */
+/* The child sets its handlers after rc_confine, which removes all handlers. */
 void
 __wrap_rc_confine(const struct rc_file *file)
 {
@@ -156,13 +154,13 @@ LLVMFuzzerInitialize(int *argc, char ***argv)
     shared = mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED || pthread_atfork(NULL, in_parent, in_child) != 0)
         abort();
-    backtrace(frame, 2); /* loads its libraries now, while files can be opened */
+    backtrace(frame, 2); /* this call loads its libraries while files can still be opened */
     atexit(summary);
-    H5open(); /* once, and not in every child */
+    H5open(); /* here once, instead of in every child */
     return 0;
 }
 
-/* Whether the caller at this place is code of this project: 1, of a library: 0, neither: -1. */
+/* 1 if this address is code of the project, 0 if it belongs to a library, -1 otherwise. */
 static int
 belongs(void *pc)
 {
@@ -185,7 +183,7 @@ belongs(void *pc)
     __sanitizer_symbolize_pc(pc, "%f", name, sizeof name);
     if (strncmp(name, "__", 2) == 0 || strstr(name, "::") != NULL)
         return -1;
-    if (dlsym(RTLD_NEXT, name) != NULL) /* the sanitizer's own malloc, memmove, ... */
+    if (dlsym(RTLD_NEXT, name) != NULL) /* malloc, memmove, ... of the sanitizer */
         return -1;
     for (size_t k = 0; k < sizeof own / sizeof *own; k++)
         if (strcmp(name, own[k]) == 0)

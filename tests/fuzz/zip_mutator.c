@@ -1,6 +1,6 @@
-/* Changes files inside ZIP archives: three times in four a member is unpacked, changed and packed
- * again, so that the fuzzing gets past the archive; else the bytes as they stand. In half of the
- * cases the MD5 checksums in other members are made to fit the member that was changed. */
+/* Changes files inside ZIP archives: in three of four cases it unpacks a member, changes it and packs it
+ * again, so that the fuzzing gets past the archive; else it changes the bytes of the file. In half of the
+ * cases it corrects the MD5 checksums in other members. */
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned
 
 struct member {
     char name[256];
-    uint8_t *bytes; /* n of them, and space for GROWTH more */
+    uint8_t *bytes; /* n bytes, and space for GROWTH more */
     size_t n;
 };
 
@@ -43,7 +43,7 @@ unpack_member(zip_t *zip, size_t index, struct member *m)
     return good;
 }
 
-/* The members of an archive, or 0 when one of them cannot be unpacked. */
+/* The number of members of an archive, or 0 if one of them cannot be unpacked. */
 static size_t
 unpack(const uint8_t *data, size_t size, struct member member[MEMBERS_MOST])
 {
@@ -63,7 +63,7 @@ unpack(const uint8_t *data, size_t size, struct member member[MEMBERS_MOST])
     return k == n ? n : 0;
 }
 
-/* Bytes of an archive in `to`; 0 when they are more than `most`. */
+/* Writes an archive to `to` and returns its bytes; 0 if they exceed `most`. */
 static size_t
 pack(const struct member *member, size_t n, bool deflate, uint8_t *to, size_t most)
 {
@@ -113,7 +113,7 @@ LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed)
     size_t n, front = 0, packed = 0;
 
     while (front + 4 <= size && memcmp(data + front, "PK\3\4", 4) != 0)
-        front++; /* a picture may stand before the archive */
+        front++; /* a picture may come before the archive */
     n = seed % 4 == 0 || front + 4 > size ? 0 : unpack(data + front, size - front, member);
     if (n > 0) {
         struct member *m = &member[seed / 4 % n];

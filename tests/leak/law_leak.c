@@ -1,6 +1,7 @@
-/* Laws of the flow: rotated, mirrored, shifted and in other units it is the same; wider gaps have more flow;
- * a dense solution of the same network agrees; flowing and still fluid, by removing nodes; the critical gap,
- * by closing narrower ones; rigorous bounds that meet at any contrast. */
+/* Laws of the flow: rotation, mirroring, shifts and other units do not change it; wider gaps have more flow;
+ * it equals a dense solution of the same network; flowing and stagnant fluid are those found by removing
+ * nodes; the critical gap is that found by closing narrower nodes; the proven bounds agree at any
+ * contrast. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +14,7 @@ enum {
     MOST = 24
 };
 
-/* Gaps over so many decades, some nodes in contact, other than in the corners. */
+/* Gaps over this number of decades; some nodes, but no corners, are in contact. */
 static void
 random_gap(struct rc_shape s, double decades, double contact, uint64_t *seed, double *g)
 {
@@ -23,7 +24,8 @@ random_gap(struct rc_shape s, double decades, double contact, uint64_t *seed, do
 
 /* ---- a dense solve ---- */
 
-/* The network once more: the conductance between neighbours of gaps a and b, by the rule's mean of 1/g^3. */
+/* An independent network: the conductance between neighbours with gaps a and b, from the mean of 1/g^3 of the
+ * rule. */
 static double
 joined(double a, double b, bool linear)
 {
@@ -32,7 +34,8 @@ joined(double a, double b, bool linear)
     return linear ? 2 * a * a * b * b / (a + b) : 2 / (pow(a, -3) + pow(b, -3));
 }
 
-/* Gauss, without an order, on all nodes that reach an edge of flow; from x edge to x edge. */
+/* Gaussian elimination without reordering, on all nodes connected to the inlet or the outlet; flow from x
+ * edge to x edge. */
 static double
 dense_conductance(struct rc_shape s, const double *g, bool around, bool linear)
 {
@@ -44,7 +47,7 @@ dense_conductance(struct rc_shape s, const double *g, bool around, bool linear)
 
     for (size_t k = 0; k < n; k++)
         wet[k] = g[k] > 0 && (k % s.nx == 0 || k % s.nx == s.nx - 1);
-    while (more) { /* shut in fluid has no pressure */
+    while (more) { /* the pressure of enclosed fluid is undetermined */
         more = false;
         for (size_t k = 0; k < n; k++) {
             size_t on = k % s.nx < s.nx - 1 ? k + 1 : k;
@@ -77,7 +80,8 @@ dense_conductance(struct rc_shape s, const double *g, bool around, bool linear)
             m[k][n] = k % s.nx == 0 ? end : 0;
         }
     }
-    for (size_t k = 0; k < n; k++) /* diagonal 1: contrasts that are not in series do no harm */
+    for (size_t k = 0; k < n;
+         k++) /* diagonal 1: contrasts that are not in series cause no loss of digits */
         diagonal[k] = sqrt(m[k][k]);
     for (size_t k = 0; k < n; k++)
         for (size_t l = 0; l <= n; l++)
@@ -93,7 +97,7 @@ dense_conductance(struct rc_shape s, const double *g, bool around, bool linear)
             m[k][n] -= m[k][l] * m[l][n];
         m[k][n] /= m[k][k];
     }
-    for (size_t k = s.nx - 1; k < n; k += s.nx) /* out at the other edge */
+    for (size_t k = s.nx - 1; k < n; k += s.nx) /* the outlet at the other edge */
         flow += wet[k] ? 2 * g[k] * g[k] * g[k] * aspect * m[k][n] / diagonal[k] : 0;
     return flow;
 }
@@ -137,8 +141,8 @@ agrees_with_dense(void **state)
 
 /* ---- what stands, by taking nodes away ---- */
 
-/* Whether inlet (from column 0) or outlet is reached from node k when `gone` is taken away: n inlet, n + 1
- * outlet. */
+/* True if the inlet (node n, at column 0) or the outlet (node n + 1) can be reached from node k without
+ * passing `gone`. */
 static bool
 reaches_an_end(struct rc_shape s, const double *g, bool around, size_t k, size_t gone)
 {
@@ -164,8 +168,8 @@ reaches_an_end(struct rc_shape s, const double *g, bool around, size_t k, size_t
     return false;
 }
 
-/* Menger: two ways, to inlet and to outlet, that share no node but k, when no single node parts it from
- * both. */
+/* Menger's theorem: two paths from k, to inlet and outlet, that share only k exist if no single node
+ * separates k from both. */
 static bool
 flows_by_force(struct rc_shape s, const double *g, bool around, size_t k)
 {
@@ -288,8 +292,8 @@ finds_the_critical_gap(void **state)
 
 /* ---- bounds ---- */
 
-/* For random networks, and for pools behind constrictions in series, the last of which alone connects
- * them. */
+/* For random networks, and for pools behind constrictions in series, where only the last one connects inlet
+ * and outlet. */
 static void
 bounds_meet(void **state)
 {
@@ -408,8 +412,8 @@ is_symmetric(void **state)
     }
 }
 
-/* Gaps by s, conductance by s^3; lengths in the plane by s, the same conductance. Every wider gap lets more
- * through (Rayleigh), and the two faces are ordered. */
+/* Gaps times s give the conductance times s^3; lengths in the plane times s do not change it. A wider gap
+ * anywhere increases the flow (Rayleigh), and the conductances of the two rules keep their order. */
 static void
 scales_and_grows(void **state)
 {
@@ -442,7 +446,8 @@ scales_and_grows(void **state)
     }
 }
 
-/* Another gap in a solver that is there, before and after its steps: the very numbers of a new one. */
+/* Another gap in an existing solver, before and after its steps, gives exactly the numbers of a new
+ * solver. */
 static void
 takes_another_gap(void **state)
 {
@@ -460,7 +465,7 @@ takes_another_gap(void **state)
     assert_non_null(l);
     for (int k = 0; k < 4; k++) {
         struct rc_leak_figures fresh;
-        random_gap(s, 0.7, k == 2 ? 0.8 : 0.25, &seed, g); /* that of k = 2 is closed */
+        random_gap(s, 0.7, k == 2 ? 0.8 : 0.25, &seed, g); /* the one of k = 2 is closed */
         p[40 * k] = 1;
         memcpy(bad, g, sizeof g);
         bad[77] = NAN;
@@ -505,7 +510,7 @@ refuses(void **state)
     options.direction = 'z';
     assert_null(rc_leak_new(&s, NULL, good, &options, &err));
     assert_non_null(strstr(err.text, "x or y, not 'z'"));
-    options.direction = 'y'; /* all in contact is no fault */
+    options.direction = 'y'; /* contact everywhere is not an error */
     assert_false(leak_figures(s, NULL, good, 'y', true).percolates);
 }
 

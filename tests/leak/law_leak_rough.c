@@ -1,6 +1,6 @@
-/* Flow through the gaps of small rough contacts: the two rules for faces err to opposite sides of the truth
- * and converge to it; little contact leaves paths open, much contact none. Larger ones, and the threshold:
- * tests/long. */
+/* Flow through the gaps of small rough contacts: the errors of the two rules for faces have opposite signs
+ * and converge to 0; little contact leaves paths open, much contact closes all. Larger contacts and the
+ * threshold are in tests/long. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 
 #include "rough_case.h"
 
-/* Waves of 4 and 12 nodes are not yet where the order is 2. */
+/* With waves of 4 and 12 nodes the order of convergence is not yet 2. */
 static void
 converges_from_both_sides(void **state)
 {
@@ -21,7 +21,7 @@ converges_from_both_sides(void **state)
     assert_true(grid.between < grid.coarse[0] && grid.between < grid.coarse[1]);
 }
 
-/* At contact of some 0.3 and 0.6: the threshold is 0.42. */
+/* At contact fractions of about 0.3 and 0.6; the threshold is 0.42. */
 static void
 closes(void **state)
 {

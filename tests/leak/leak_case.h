@@ -1,4 +1,4 @@
-/* What the tests of leakage share: a flow to its end, with its maps. */
+/* Shared by the tests of leakage: a complete solution of a flow, with its maps. */
 #ifndef LEAK_CASE_H
 #define LEAK_CASE_H
 

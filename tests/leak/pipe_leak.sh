@@ -1,8 +1,9 @@
-# rc-leak: gaps that are solved on paper, given as frames; rates and units; a list of loads; what is warned of
-# and what is refused, a sentence each.
+# rc-leak: gaps with closed-form solutions, given as frames; rates and units; a list of loads; warnings and
+# refusals, one sentence each.
 . "$(dirname "$0")/../pipe.sh"
 
-# made KEYS NX NY DX DY CHANNEL EXPRESSION...: a stream of one case, values by perl from $i, $j; KEYS as lines of a header.
+# made KEYS NX NY DX DY CHANNEL EXPRESSION...: writes a stream of one case, with values computed by perl from
+# $i, $j; KEYS are header lines.
 cat >made.pl <<'END'
 use Compress::Zlib;
 my ($keys, $nx, $ny, $dx, $dy, @frames) = @ARGV;
@@ -22,7 +23,7 @@ column() { # NAME ROW FILE
 
 # ---- known flows ----
 
-# 12 columns of a gap of 2 um over 3 rows of 4, a wall of contact in the fourth: 3 g^3 dy/(12 dx)
+# 12 columns with a gap of 2 um in 3 of 4 rows and a wall of contact in the fourth: 3 g^3 dy/(12 dx)
 made 'boundary=free
 load=3' 12 4 2e-6 1e-6 gap '$j < 3 ? 2e-6 : 1e-12' pressure '$j < 3 ? 0 : 8e7' >channel.rcg
 rc-leak --viscosity 2mPas --pressure-drop 100kPa --report channel.json channel.rcg -o flow.rcg 2>flow.err
@@ -59,7 +60,7 @@ rc-leak --quiet --direction y --report across.json channel.rcg -o across.rcg
 claim "across the wall nothing flows" grep -q '"flow_conductance": 0, .*"percolates": false, .*"critical_gap": 0, "critical_x": null' across.json
 claim "  and no place is marked" bash -c 'rc-info across.rcg >across.txt && ! grep -q throat_x across.txt'
 
-# a gap of waves across the flow: (1 - A^2)^(5/2)/(1 + A^2/2), A = 0.5
+# a gap that varies along the flow: (1 - A^2)^(5/2)/(1 + A^2/2), A = 0.5
 made periodic=yes 32 4 1e-6 1e-6 gap '1e-6 * (1 + 0.5 * cos(2 * 3.14159265358979 * ($i + 0.5) / 32))' >wave.rcg
 rc-leak --report wave.json wave.rcg -o wave-flow.rcg 2>wave.err
 near "$(field flow_factor wave.json)" "$(awk 'BEGIN { print 0.75 ^ 2.5 / 1.125 }')" "$six_digits" "a wave across the flow"
@@ -85,12 +86,12 @@ for row in 1 2 3; do
 done
 claim "through pipes too, with every frame of a case" bash -c '
     rc-solve --quiet --periodic --estar 1GPa --mean-pressure 3MPa rough.rcg | rc-leak --quiet | rc-info --json >piped.json && test "$(wc -l <piped.json)" = 3'
-# the fluid that stands carries no flow: channel 1 exactly where the flux is 0 and there is no contact
+# stagnant fluid has no flow: channel is 1 exactly at nodes without contact whose flux is 0
 claim "the flux is 0 where fluid stands, and there is none in contact" bash -c '
     paste -d " " <(rc-pick --case 3 --channel channel leak.rcg | rc-export --format xyz | grep -v "^#" | awk "{ print \$3 }") \
         <(rc-pick --case 3 --channel flux leak.rcg | rc-export --format xyz | grep -v "^#" | awk "{ print \$3 }") |
         awk "{ n[\$1]++; if (\$1 == 0 ? tolower(\$2) != \"nan\" : (\$1 == 1) != (\$2 == 0)) exit 1 } END { exit !(n[0] > 100 && n[1] > 10 && n[2] > 1000) }"'
-# turned by a quarter, the other direction
+# rotated by a quarter turn, with the other direction
 rc-pick --case 2 --rotate 90 pressed.rcg >turned.rcg
 rc-leak --quiet --direction y --report turned.json turned.rcg -o turned-flow.rcg
 near "$(field flow_conductance turned.json)" "$(column flow_conductance 2 loads.tsv)" "$summed" "turned, the same along y"
@@ -99,7 +100,7 @@ claim "threads change no bit" cmp threads1.rcg threads2.rcg
 
 # ---- pictures ----
 
-# legend FILE: the words of an SVG, in one line.
+# legend FILE: prints the words of an SVG in one line.
 legend() { sed 's/<[^>]*>/ /g' "$1" | tr -s ' \n' '  '; }
 claim "the flux by colour of its logarithm" rc-render --case 3 --channel flux --log leak.rcg -o flux.svg
 claim "  what is not flowing has two signs of its own" says 'fluid that stands .*contact \([0-9]+ of 16384 nodes\)' legend flux.svg

@@ -1,4 +1,4 @@
-/* Rough elastic contacts, the flow through their gaps, and what grids of it find. */
+/* Rough elastic contacts, the flow through their gaps, and its values on coarser grids. */
 #ifndef ROUGH_CASE_H
 #define ROUGH_CASE_H
 
@@ -7,7 +7,7 @@
 
 static const double rough_estar = 1e9, rough_slope = 0.1;
 
-/* Waves from a quarter of the map down to so many nodes. */
+/* Waves from a quarter of the map down to this number of nodes. */
 static inline double *
 rough(struct rc_shape s, size_t shortest, uint64_t seed)
 {
@@ -22,7 +22,7 @@ rough(struct rc_shape s, size_t shortest, uint64_t seed)
     return h;
 }
 
-/* Under a mean pressure in units of E* times the slope. */
+/* The mean pressure is in units of E* times the slope. */
 static inline struct solved
 rough_press(struct rc_shape s, const double *h, double pressure)
 {
@@ -45,7 +45,8 @@ rough_contact(struct rc_shape s, const struct solved *c)
 
 /* ---- the grid ---- */
 
-/* The flow where only each step-th node of an n x n map is known, step odd: cells about the same middles. */
+/* The flow on a grid of every step-th node of an n x n map; step is odd, so that the coarse cells have the
+ * same centres. */
 static inline struct rc_leak_figures
 rough_sampled(const struct solved *s, size_t fine, size_t step, char direction)
 {
@@ -68,7 +69,8 @@ rough_sampled(const struct solved *s, size_t fine, size_t step, char direction)
 struct rough_grid {
     double coarse[2], middle[2]; /* mean relative errors, of harmonic and linear faces     */
     double order[2];
-    double estimate, between; /* on the coarse grid; of 0.4 harmonic + 0.6 linear        */
+    double estimate,
+        between; /* the same on the coarse grid; the error of 0.4 harmonic + 0.6 linear    */
     size_t bracketed, covered;
 };
 
@@ -99,9 +101,9 @@ rough_beside(struct rough_grid *grid, const struct solved *c, size_t fine, size_
     grid->estimate += f[0].error * weight;
 }
 
-/* Grids of each 9th and each 3rd node beside the whole one, which second order takes to the limit: of
- * harmonic faces by itself, so that the other does not stand beside its own. In both directions, at contact
- * of 0.11 to 0.23. */
+/* Compares grids of every 9th and every 3rd node with the full grid, extrapolated to the limit at second
+ * order with harmonic faces only, so that the reference does not depend on linear faces. Both directions,
+ * contact fractions of 0.11 to 0.23. */
 static inline struct rough_grid
 rough_converges(size_t fine, size_t shortest, uint64_t seed, size_t seeds)
 {
@@ -144,7 +146,7 @@ rough_open(struct rc_shape s, const struct solved *c, char direction)
     return through;
 }
 
-/* Shut, and exactly so. */
+/* Closed: the flow is exactly 0. */
 static inline void
 rough_is_shut(struct rc_shape s, const struct solved *c, char direction)
 {

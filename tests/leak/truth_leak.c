@@ -1,5 +1,5 @@
-/* Flow through gaps that are solved on paper: waves along and across, channels side by side, narrow
- * throats, discs far apart, the checkerboard; with the order at which the grid finds them. */
+/* Flow through gaps with closed-form solutions: waves along and across, parallel channels, narrow
+ * constrictions, distant discs, the checkerboard; with the order of convergence of the grid. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -40,16 +40,16 @@ waves(void **state)
         print_message("across: harmonic %.1e, linear %.1e\n", error,
                       f.conductance_linear / f.conductance * f.flow_factor / across - 1);
         assert_true(fabs(error) < 6e-5);
-        /* whose errors the estimate is made of */
+        /* the estimate is half of the difference between these two */
         assert_true(f.conductance_linear / f.conductance * f.flow_factor / across - 1 < 0.075);
         assert_true(f.error > 0.03 && f.error < 0.04);
-        /* a wave of 32 nodes: its lowest place is one of them */
+        /* a wave of 32 nodes, whose lowest point is a node */
         assert_true(fabs(f.critical_gap / (g0 * (1 - amplitude)) - 1) < rounding);
     }
 }
 
-/* Channels between walls of contact, each of a gap of its own, side by side; sides closed. Walls have a tiny
- * gap, where only the pressure tells that they touch. */
+/* Parallel channels with different gaps between walls of contact; sides closed. The walls have a tiny gap,
+ * and only the pressure shows that they touch. */
 static void
 channels(void **state)
 {
@@ -86,7 +86,7 @@ channels(void **state)
                             fabs(flow.flux[k] / (g[k] * g[k] * g[k] / (NX * s.dx)) - 1) < rounding);
         }
         leak_flow_free(&flow);
-        /* across the walls nothing flows, and no number is left of it */
+        /* no fluid flows across the walls: the flow is exactly 0 */
         flow = leak_flow(s, p, g, 'y', around != 0);
         assert_true(!flow.f.percolates && flow.f.conductance == 0 && flow.f.flow_factor == 0);
         assert_true(flow.f.conductance_linear == 0 && flow.f.upper == 0 && flow.f.lower == 0);
@@ -105,8 +105,8 @@ channels(void **state)
     }
 }
 
-/* Gap (1 - (2y/w)^2)^(3/2) at the edges of contact, as between elastic bodies; w in cells, wherever its
- * middle lies between nodes: the integral of (1 - t^2)^(9/2) from -1 to 1 is 63 pi/256. */
+/* A channel with the gap (1 - (2y/w)^2)^(3/2), as at contact edges of elastic bodies; w in cells, for any
+ * position of its middle between nodes: the integral of (1 - t^2)^(9/2) from -1 to 1 is 63 pi/256. */
 static double
 throat_error(double cells)
 {
@@ -138,12 +138,12 @@ throats(void **state)
     assert_true(throat_error(3) < 2e-2);
     assert_true(throat_error(2) < 0.3);
     assert_true(throat_error(2) >
-                0.1); /* which is why a throat of fewer than 3 nodes is warned of */
+                0.1); /* therefore a constriction of fewer than 3 nodes gets a warning */
 }
 
-/* Impermeable discs in a square array, a tenth of the area, in a constant gap: (1 - f)/(1 + f), beside
- * which the array makes 1e-4 (Rayleigh 1892). The gap jumps at their rims, so the order is the first; how
- * many nodes a disc has depends on where its middle lies between them, over which the mean is taken. */
+/* Impermeable discs in a square array, a tenth of the area, in a constant gap: (1 - f)/(1 + f); the array
+ * changes this by 1e-4 (Rayleigh 1892). The gap jumps at their rims, so the order is the first; the number of
+ * nodes in a disc depends on its position between them, so the mean over positions is compared. */
 static void
 discs(void **state)
 {
@@ -176,7 +176,8 @@ discs(void **state)
     }
 }
 
-/* Squares of g^3 1 and c, with lines of symmetry for edges: sqrt(c) (Keller 1964, Dykhne 1971). */
+/* A checkerboard of squares with g^3 = 1 and c, with edges along lines of symmetry: sqrt(c) (Keller 1964,
+ * Dykhne 1971). */
 static void
 checkerboard(void **state)
 {

@@ -91,7 +91,7 @@ slip_sphere(const struct rc_shape *shape, double radius)
     return h;
 }
 
-/* To the end of an increment. */
+/* Steps to the end of an increment. */
 static inline enum rc_status
 slip_solve(struct rc_slip *slip, struct rc_slip_figures *figures)
 {

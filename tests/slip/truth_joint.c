@@ -1,6 +1,6 @@
-/* Contact and friction together: a punch that sticks is as much stiffer as Mossakovskii found; pressure and
- * tractions that have been found in turn are those of each other; passes contract; where bodies are alike
- * nothing is solved twice. */
+/* Contact and friction together: a sticking punch is stiffer by Mossakovskii's factor; pressure and tractions
+ * after the alternating passes are consistent; the change decreases from pass to pass; for identical
+ * materials nothing is solved twice. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,8 +33,8 @@ finish(struct rc_joint *joint, struct rc_joint_figures *f)
 
 /* ---- a flat punch ---- */
 
-/* Approach under a unit load of a punch of radius a, nodes, on a body of Poisson's ratio nu, one of both
- * rigid. */
+/* The approach of a punch of radius a (in nodes) under a unit load; one body is rigid, the other has
+ * Poisson's ratio nu. */
 static double
 press_punch(double a, double nu, enum rc_coupling coupling, double *sticks)
 {
@@ -61,8 +61,9 @@ press_punch(double a, double nu, enum rc_coupling coupling, double *sticks)
     return f.approach;
 }
 
-/* (1 - nu) ln(3 - 4 nu)/(1 - 2 nu): the stiffness of a punch that sticks over that of one that does not
- * (Mossakovskii 1954; Spence 1968). At this mu all of it sticks but a ring at the edge that no grid sees. */
+/* (1 - nu) ln(3 - 4 nu)/(1 - 2 nu): the stiffness of a sticking punch over that of a frictionless one
+ * (Mossakovskii 1954; Spence 1968). At this mu all of it sticks, except a ring at the edge that is narrower
+ * than a node. */
 static void
 test_a_punch_that_sticks(void **state)
 {
@@ -99,7 +100,7 @@ rough_problem(double mu, double nu, double load, enum rc_coupling coupling)
                                      .coupling = coupling};
 }
 
-/* What the contact is under these tractions, and the tractions under this pressure, each from nothing. */
+/* Solves the contact under these tractions, and the tractions under this pressure, each from zero. */
 static void
 check_each_other(struct rc_joint *joint, const double *h, const struct rc_joint_problem *what,
                  const struct rc_joint_figures *f)
@@ -129,7 +130,7 @@ check_each_other(struct rc_joint *joint, const double *h, const struct rc_joint_
     alone.tol = 1e-7;
     slip = rc_slip_new(&shape, &alone, NULL);
     assert_non_null(slip);
-    rc_contact_apart(NULL, &shape, h, less, &apart); /* from bodies that are apart, as the joint */
+    rc_contact_apart(NULL, &shape, h, less, &apart); /* from separated bodies, like the joint */
     assert_int_equal(rc_slip_set_pressure(slip, NULL, less, NULL), RC_OK);
     assert_int_equal(rc_slip_set_force(slip, 0, 0, NULL), RC_OK);
     assert_int_equal(slip_solve(slip, &figures), RC_OK);
@@ -152,7 +153,7 @@ test_pressure_and_tractions_know_each_other(void **state)
 {
     static const struct {
         double mu, nu; /* beta (1 - 2 nu)/(2 (1 - nu)) */
-        size_t passes; /* to 1e-4, found elsewhere, and two */
+        size_t passes; /* passes to 1e-4 of an independent program, plus two */
     } cases[] = {{0.2, 0.3, 7}, {0.5, 0.3, 8}, {1, 0.3, 9}, {0.5, 0.1, 9}};
     double load = 0.016 * NODES;
 
@@ -220,7 +221,7 @@ test_alike_nothing_is_solved_twice(void **state)
         rc_slip_keep(slip);
     }
     assert_true(moved[0] == 0 && moved[1] > 0);
-    /* half the load: with heights a contact is solved, without them that is said */
+    /* half the load: with heights a contact is solved, without heights it is refused */
     assert_int_equal(rc_joint_set_force(without, load / 2, 0.1 * load, 0, NULL), RC_FAIL);
     assert_int_equal(rc_joint_set_force(with, load / 2, 0.1 * load, 0, NULL), RC_OK);
     assert_int_equal(finish(with, &f), RC_OK);
@@ -246,7 +247,7 @@ test_what_is_refused(void **state)
     struct rc_err err;
 
     (void)state;
-    assert_null(joint); /* pressures feel tractions: heights are needed */
+    assert_null(joint); /* tractions change the pressure: heights are needed */
     what.slip.mu = 0;
     assert_null(rc_joint_new(&shape, h, &what, NULL));
     assert_int_equal(rc_joint_memory(&shape, &what, true), 0);

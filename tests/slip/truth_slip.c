@@ -1,5 +1,5 @@
-/* Friction is what is known of it on paper: Mindlin's stiffness, Cattaneo's and Mindlin's partial slip,
- * Mindlin's and Deresiewicz's loop, Ciavarella's and Jaeger's superposition. */
+/* Friction agrees with closed forms: Mindlin's stiffness, partial slip of Cattaneo and Mindlin, the loop of
+ * Mindlin and Deresiewicz, the superposition of Ciavarella and Jaeger. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +16,7 @@ kap_of(double nu)
     return nu / (1 - nu);
 }
 
-/* A smooth ball of so many nodes in the radius of the contact, 3/4 of half of the map. */
+/* A smooth ball; the radius of the contact has the given number of nodes and is 3/4 of half the map. */
 struct ball {
     struct rc_shape shape;
     struct pressed c;
@@ -49,8 +49,8 @@ slip_on(const struct rc_shape *shape, enum rc_boundary boundary, double nu, doub
     return slip;
 }
 
-/* Bodies that stick on a disc of radius a: force over displacement is 4 a E* over 2 + kap, or 8 a G*
- * (Mindlin 1949); the grid is stiffer or softer by a part of a node in a. */
+/* Bodies that stick on a disc of radius a: force over displacement is 4 a E* / (2 + kap), or 8 a G* (Mindlin
+ * 1949); on the grid the radius a is uncertain by a fraction of a node. */
 static void
 test_stiffness_of_a_disc(void **state)
 {
@@ -80,7 +80,7 @@ test_stiffness_of_a_disc(void **state)
         }
 }
 
-/* How far a ball has moved, over 3 mu P (2 + kap) over 8 a E* (Mindlin 1949; Johnson 1985, eq. 7.42). */
+/* The displacement of a ball, divided by 3 mu P (2 + kap)/(8 a E*) (Mindlin 1949; Johnson 1985, eq. 7.42). */
 static double
 moved(double part)
 {
@@ -128,7 +128,7 @@ test_partial_slip_of_a_ball(void **state)
                           sqrt((double)f.stick_nodes / (double)(f.stick_nodes + f.slip_nodes)),
                           slip_distance(b.c.n, found, (const double *[2]){q[0], q[1]}),
                           f.displacement[0] / (unit * moved(0.5)), y / x);
-            /* the closed form neglects what nu makes across: 0.02 and 0.04 of q */
+            /* the closed form neglects the tractions across the force, which nu causes: 0.02 and 0.04 of q */
             assert_true(fabs(f.displacement[0] / (unit * moved(0.5)) - 1) < of_nu[k]);
             assert_true(fabs(f.displacement[1]) < 1e-6 * unit);
             assert_true(y / x < across[k]);
@@ -149,7 +149,7 @@ test_partial_slip_of_a_ball(void **state)
 }
 
 /* A cycle between forces +-F* dissipates 4 F* d(F*) - 8 integral of d dF to F* (Mindlin and Deresiewicz
- * 1953): of the displacement d above. The second cycle is the first again. */
+ * 1953): with the displacement d above. The second cycle repeats the first. */
 static void
 test_loop_of_a_ball(void **state)
 {
@@ -187,7 +187,7 @@ test_loop_of_a_ball(void **state)
     pressed_free(&b.c);
 }
 
-/* On a strip, q = mu (p(P) - p(P - F/mu)), along it and across it, whatever nu is (Ciavarella 1998, Jaeger
+/* On a strip, q = mu (p(P) - p(P - F/mu)), along it and across it, for any nu (Ciavarella 1998, Jaeger
  * 1998). */
 static void
 test_strip_by_superposition(void **state)
@@ -232,9 +232,9 @@ test_strip_by_superposition(void **state)
         }
 }
 
-/* Rough bodies at nu = 0 whose force grows in proportion to the load carry q = (F/P) p: one increment from
- * where they are apart, and two, the second on growing contact (Jaeger 1998; Ciavarella 1998). Without the
- * gap it would be far off. */
+/* Rough bodies at nu = 0 under a force that grows in proportion to the load carry q = (F/P) p: in one
+ * increment from separated bodies, and in two, the second on growing contact (Jaeger 1998; Ciavarella 1998).
+ * Without the gap the second result would be far off. */
 static void
 test_oblique_loading_in_one_step(void **state)
 {

@@ -1,5 +1,5 @@
-/* Histories: growing contact, falling loads and turning forces converge with their increments, and bodies
- * that are not alike stick under a load alone as Spence found. */
+/* Histories: growing contact, falling loads and turning forces converge with the number of increments, and
+ * dissimilar bodies under a normal load have Spence's stick radius. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,11 +17,11 @@ enum {
 };
 
 struct corner {
-    double load, fx, fy; /* load over that at the end, forces over mu times that */
+    double load, fx, fy; /* load over the final load, forces over mu times the final load */
 };
 
-/* Along straight legs between corners, each in so many increments, from where the bodies touch under the
- * load of the first. */
+/* Follows straight lines between corners, each in the given number of increments; the first touch is under
+ * the load of the first corner. */
 static void
 follow(struct rc_solver *solver, const double *h, double load, size_t corners,
        const struct corner *at, size_t increments, double *const q[2], double *dissipated)
@@ -70,8 +70,7 @@ test_increments_converge(void **state)
         size_t corners;
         struct corner at[4];
         double most
-            [3]; /* error of q with 1, 2, 4 increments a leg: what has been found elsewhere, and a
-                           fifth */
+            [3]; /* error of q with 1, 2, 4 increments per line: from an independent program, plus a fifth */
     } paths[] = {
         {"P constant, F to 0.7", 2, {{1, 0, 0}, {1, 0.7, 0}}, {6e-3, 6e-3, 4e-3}},
         {"and back to 0", 3, {{1, 0, 0}, {1, 0.7, 0}, {1, 0, 0}}, {1.3e-2, 1.3e-2, 9e-3}},
@@ -115,8 +114,8 @@ test_increments_converge(void **state)
 
 /* ---- dissimilar bodies ---- */
 
-/* A ball on a flat, one of them rigid, pressed in increments of equal radius of contact. Goodman: pressure
- * does not feel tractions. c/a, the stick radius by areas. */
+/* A ball on a flat, one of them rigid, pressed in equal increments of the contact radius. Goodman: tractions
+ * do not change the pressure. Returns c/a, the stick radius from the areas. */
 static double
 press_ball(double mu, size_t increments, bool goodman, size_t *passes, double *lighter)
 {
@@ -177,8 +176,8 @@ press_ball(double mu, size_t increments, bool goodman, size_t *passes, double *l
     return sqrt((double)f.stick_nodes / gone);
 }
 
-/* Spence's stick radius (J. Elast. 5, 1975) with Goodman's neglect: (a/2c) ln((a + c)/(a - c)) = (mu/beta)
- * K(k'), k' = sqrt(1 - c^2/a^2). */
+/* Spence's stick radius (J. Elast. 5, 1975) with Goodman's simplification: (a/2c) ln((a + c)/(a - c)) =
+ * (mu/beta) K(k'), k' = sqrt(1 - c^2/a^2). */
 static double
 spence(double mu, double beta)
 {
@@ -212,7 +211,7 @@ test_a_load_alone_sticks_inside(void **state)
             "of %.3f\n",
             mus[k], coarse, fine, 2 * fine - coarse, exact, full, whole, shrunk, area);
         assert_true(fabs(2 * fine - coarse - exact) < 0.01);
-        /* coupled in full: what has been found elsewhere */
+        /* full coupling: from an independent program */
         assert_true(fabs(full - (k == 0 ? 0.46 : 0.83)) < 0.03);
         assert_true(shrunk / area > 0.96 && shrunk / area < 0.995);
     }

@@ -1,5 +1,6 @@
-/* Coefficients of shear are the integrals of Cerruti's and Boussinesq's solutions over a cell, their waves
- * those of plane and antiplane strain, and sums by transforms plain double sums. */
+/* Influence coefficients of shear equal the integrals of Cerruti's and Boussinesq's solutions over a cell;
+ * responses to waves equal those of plane and antiplane strain; sums by transforms equal plain double
+ * sums. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,8 +28,8 @@ enum {
 
 /* ---- a force on a body ---- */
 
-/* What unit forces along x on body 1 and along -x on body 2 do at (x, y): Johnson 1985, eq. 3.77, z into
- * each body; along x: body 1 less body 2; along z: both together. */
+/* Displacements at (x, y) by unit forces along x on body 1 and along -x on body 2: Johnson 1985, eq. 3.77, z
+ * into each body; along x: body 1 minus body 2; along z: the sum of both. */
 struct force {
     const struct rc_pair *pair;
     int kernel;
@@ -89,7 +90,7 @@ along_x(double t, void *ctx)
     return point(f, t, f->u);
 }
 
-/* Breaks at the singularity where the cell is over the point. */
+/* Divides the interval at the singularity if the cell contains the point. */
 static double
 along_y(double t, void *ctx)
 {
@@ -140,13 +141,13 @@ test_coefficients_are_integrals(void **state)
                                   lattice.dy / 2,
                                   0};
                 double *row = malloc((i + 1) * sizeof *row), truth = cell(f), size;
-                /* of the kernel without its angle, for where it crosses zero */
+                /* of the kernel without its angular factor, because the kernel crosses zero */
                 size = (1 + shear.kap) / (exact_pi * shear.estar) * 4 * f.a * f.b /
                        fmax(hypot(f.x, f.y), f.a);
                 if (k >= RC_SHEAR_XZ)
                     size = fabs(shear.beta) / (1 + shear.kap) * size;
                 kernel.rows(kernel.of, &lattice, i + 1, j, j + 1, row);
-                if (size == 0) /* nothing couples: equal bodies */
+                if (size == 0) /* no coupling: equal bodies */
                     assert_true(row[i] == 0);
                 else
                     worst = larger(worst, fabs(row[i] - truth) / size);
@@ -297,7 +298,7 @@ test_free_sums_are_double_sums(void **state)
 
 /* ---- in single precision ---- */
 
-/* The inverse takes T q back to q, less its mean, in single precision; of a periodic map, and of one
+/* The inverse applied to T q gives q minus its mean, in single precision; on a periodic map, also on one
  * without waves of two nodes. */
 static void
 test_the_inverse_in_single_precision(void **state)
@@ -336,9 +337,9 @@ test_the_inverse_in_single_precision(void **state)
     assert_true(tried > 0 && worst < in_floats);
 }
 
-/* What T makes of waves of a free plane is (2 + kap)/(q E*), and 0.84 of that at 1.5 over the spacing what
- * a node makes of its own traction; along a strip it hardly falls with q: as a logarithm, by 2/pi for each
- * e. */
+/* The response of T to waves on a free plane is (2 + kap)/(q E*), and 0.84 of that at q = 1.5/dx is the
+ * displacement of a node under its own traction. Along a strip the response decreases slowly with q, like a
+ * logarithm: by 2/pi for each factor of e. */
 static void
 test_waves_of_planes_and_strips(void **state)
 {
@@ -374,8 +375,9 @@ test_waves_of_planes_and_strips(void **state)
 
 /* ---- waves ---- */
 
-/* Plane strain, and antiplane, of a wave k along s: a traction along s moves the surface by (1 - nu)/(G k)
- * of it along s and (1 - 2 nu)/(2 G k) of it along z, a quarter of a wave later; one across s by 1/(G k). */
+/* Plane strain, and antiplane, of a wave k along s: a unit traction along s displaces the surface by (1 -
+ * nu)/(G k) along s and by (1 - 2 nu)/(2 G k) along z, a quarter of a wave later; a unit traction across s
+ * displaces it by 1/(G k). */
 static void
 test_waves_are_plane_and_antiplane(void **state)
 {
@@ -475,7 +477,7 @@ test_loads_and_displacements_are_reciprocal(void **state)
     assert_true(worst < of_sum);
 }
 
-/* Equal bodies do not couple, and a single one on a rigid body does by (1 - 2 nu)/(2 (1 - nu)). */
+/* Equal bodies have no coupling; a body on a rigid one has (1 - 2 nu)/(2 (1 - nu)). */
 static void
 test_bodies_in_two_numbers(void **state)
 {

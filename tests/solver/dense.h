@@ -1,5 +1,5 @@
-/* The contact of a small map as a dense quadratic program: the influence matrix from closed forms, active
- * sets, Cholesky's factor. It shares nothing with the library. */
+/* The contact of a small map as a dense quadratic program: an influence matrix from closed forms, an
+ * active-set method, Cholesky's factorisation. It shares no code with the library. */
 #ifndef DENSE_H
 #define DENSE_H
 
@@ -12,15 +12,17 @@ enum {
 
 struct dense {
     size_t n, sums;
-    double sum[DENSE_SUMS][DENSE_NODES]; /* sum_k sum[c][k] p[k] = value[c]; the first: of 1 */
+    double
+        sum[DENSE_SUMS]
+           [DENSE_NODES]; /* sum_k sum[c][k] p[k] = value[c]; in the first one all factors are 1 */
     double value[DENSE_SUMS];
     double K[DENSE_NODES][DENSE_NODES];
 };
 
 static double dense_factor[DENSE_NODES][DENSE_NODES];
 
-/* The displacement at so many nodes away from a unit pressure on one cell: Love's rectangle, or the
- * sum of the waves that the grid holds, and the mean of one cell, which only changes the shift and
+/* The displacement i columns and j rows away from a unit pressure on one cell: Love's rectangle or, on a
+ * periodic map, the sum of the waves of the grid plus the mean of one cell, which only changes the shift and
  * makes K definite. */
 static inline double
 dense_influence(const struct rc_shape *s, enum rc_boundary boundary, double estar, size_t i,
@@ -45,8 +47,7 @@ dense_influence(const struct rc_shape *s, enum rc_boundary boundary, double esta
     return u;
 }
 
-/* The matrix of this influence of the cell in the corner, and the constraint of a sum of all
- * pressures. */
+/* The matrix for this influence of the corner cell, and the constraint on the sum of all pressures. */
 static inline void
 dense_of(struct dense *d, const struct rc_shape *s, const double *at)
 {
@@ -62,7 +63,7 @@ dense_of(struct dense *d, const struct rc_shape *s, const double *at)
     }
 }
 
-/* That of a half-space. */
+/* The same for a half-space. */
 static inline void
 dense_fill(struct dense *d, const struct rc_shape *s, enum rc_boundary boundary, double estar)
 {
@@ -85,8 +86,8 @@ dense_displacement(const struct dense *d, const double *p, size_t k)
     return u;
 }
 
-/* Solves for the part of K that belongs to these nodes; x: right-hand sides, one after another, and
- * solutions. */
+/* Solves the equations of the part of K with these nodes; x: right-hand sides, one after another, replaced by
+ * the solutions. */
 static inline void
 dense_part(const struct dense *d, size_t n, const size_t *node, size_t sides,
            double (*x)[DENSE_NODES])
@@ -113,7 +114,7 @@ dense_part(const struct dense *d, size_t n, const size_t *node, size_t sides,
     }
 }
 
-/* a x = b of a few unknowns, by elimination with pivots; b becomes x. */
+/* Solves a x = b for a few unknowns, by elimination with pivots; b becomes x. */
 static inline void
 dense_few(size_t n, double (*a)[DENSE_SUMS], double *b)
 {
@@ -148,7 +149,8 @@ enum dense_side {
     DENSE_HIGH
 };
 
-/* With the nodes given that are at a bound: (K p)_E = h_E + sum_c shift_c sum_c,E and the constraints. */
+/* Solves (K p)_E = h_E + sum_c shift_c sum_c,E and the constraints for given sets of elastic nodes E and
+ * nodes at a bound. */
 static inline void
 dense_equilibrium(const struct dense *d, const double *h, const double *most,
                   const enum dense_side *side, double *p, double *shift)
@@ -190,8 +192,8 @@ dense_equilibrium(const struct dense *d, const double *h, const double *most,
     }
 }
 
-/* Active sets until all signs are right, which only the solution has; they begin with those of p.
- * `shift` gets the multipliers of the constraints. */
+/* Changes the active sets until all signs are right, which holds only for the solution; the first sets are
+ * those of p. `shift` receives the multipliers of the constraints. */
 static inline void
 dense_solve(const struct dense *d, const double *h, const double *most, double *p, double *shift)
 {
@@ -217,7 +219,7 @@ dense_solve(const struct dense *d, const double *h, const double *most, double *
             else if (was == DENSE_LOW ? gap < 0 : gap > 0)
                 side[k] = DENSE_ELASTIC;
             wrong += side[k] != was;
-            /* where all change together they can go round: then one at a time */
+            /* changing all nodes together may cycle: then one at a time */
             if (side[k] != was && !all)
                 break;
         }

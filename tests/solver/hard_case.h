@@ -1,5 +1,5 @@
-/* Hard contacts as tables: a row is a contact, one checker solves them all and holds them to the
- * same bounds, and to the answer where one is known. */
+/* Hard contacts as tables: each row is a contact; one function solves all of them and checks them against the
+ * same bounds and, if it is known, the exact answer. */
 #ifndef HARD_CASE_H
 #define HARD_CASE_H
 
@@ -18,22 +18,21 @@ struct hard_case {
     const char *name;
     struct rc_shape shape;
     unsigned boundaries;
-    /* of node k, in units of `unit` */
+    /* height of node k, in units of `unit` */
     double (*height)(struct rc_shape shape, size_t k, double a, uint64_t *seed);
-    double a;        /* what that wants to know                       */
+    double a;        /* parameter of this function                    */
     double unit;     /* m                                             */
     double mean;     /* mean pressure over E*                         */
     double hardness; /* over the mean pressure; 0: none               */
     double estar;    /* Pa; 0: 114 GPa                                */
-    /* The distance of the answer from the known one, over the allowed distance; NULL: none is
-     * known. */
+    /* The error against the known answer, over the permitted error; NULL: the answer is unknown. */
     double (*truth)(const struct hard_case *c, const struct rc_problem *problem, const double *h,
                     const struct solved *s);
-    double tol; /* asked for; 0: hard_tol                        */
+    double tol; /* requested accuracy; 0: hard_tol */
 };
 
-/* The bounds of every case, and the accuracy asked for: where the roughness is small beside the
- * displacement, a pressure to 1e-8 is not yet a gap to 1e-9 of it. */
+/* The bounds of every case, and the requested accuracy. If the roughness is small compared with the
+ * displacement, a pressure accurate to 1e-8 may not give a gap accurate to 1e-9 of the displacement. */
 static const double hard_error = 1e-8, hard_kkt = 1e-9, hard_tol = 1e-12;
 
 static inline double *
@@ -49,7 +48,7 @@ hard_heights(const struct hard_case *c)
     return h;
 }
 
-/* What the bodies of all cases are, if that has layers; else E* is that of the case. */
+/* The bodies of all cases if they have layers; else each case has its own E*. */
 static struct rc_pair hard_pair = {.estar = 0};
 
 static inline void
@@ -62,7 +61,7 @@ hard_bodies(struct rc_solids *bodies)
         assert_int_equal(rc_solids_new(bodies, &hard_pair, NULL, &err), RC_OK);
 }
 
-/* E* as a wave of wave number q feels it. */
+/* The effective E* for a wave of wave number q. */
 static inline double
 hard_modulus(const struct hard_case *c, const struct rc_solids *bodies, double q)
 {
@@ -84,7 +83,7 @@ hard_problem(const struct hard_case *c, enum rc_boundary boundary)
         .pair = hard_pair.one.layers > 0 ? hard_pair : (struct rc_pair){.estar = estar},
         .load = mean * c->shape.dx * c->shape.dy * (double)(c->shape.nx * c->shape.ny),
         .hardness = c->hardness > 0 ? c->hardness * mean : INFINITY,
-        /* where most nodes yield, the few others carry little: their gaps need more */
+        /* if most nodes yield the few others carry little load: their gaps need a higher accuracy */
         .tol = c->tol > 0        ? c->tol
                : c->hardness > 0 ? 0.3 * hard_tol
                                  : hard_tol,
@@ -92,8 +91,8 @@ hard_problem(const struct hard_case *c, enum rc_boundary boundary)
     };
 }
 
-/* u = K p by ways of its own: the direct sum on small free maps, on periodic ones 2 / (E* |q|)
- * with a transform that the solver does not use. */
+/* u = K p by independent methods: the direct sum on small free maps, on periodic maps 2 / (E* |q|) with a
+ * transform that the solver does not use. */
 static inline void
 hard_displace(const struct hard_case *c, const struct rc_problem *problem, const double *p,
               double *u)
@@ -128,8 +127,8 @@ hard_displace(const struct hard_case *c, const struct rc_problem *problem, const
     free(f);
 }
 
-/* What a uniform pressure displaces: in the middle of a free map (Love), as a wave of the map's
- * length on a periodic one. */
+/* The displacement by a uniform pressure: in the middle of a free map (Love); on a periodic map that of a
+ * wave of the map's length. */
 static inline double
 hard_depth(const struct hard_case *c, const struct rc_problem *problem)
 {
@@ -145,9 +144,9 @@ hard_depth(const struct hard_case *c, const struct rc_problem *problem)
                                         : mean * fmax(a, b) / (exact_pi * estar);
 }
 
-/* The bound of the KKT residual: where the heights spread less than 1e-7 of the displacement,
- * rounding of the displacement is more than 1e-9 of that, and no solver can do better. Ours is
- * held to 200 units of it. */
+/* The bound of the KKT residual: if the heights differ by less than 1e-7 of the displacement, the rounding
+ * error of the displacement exceeds 1e-9 of this difference, and no solver can do better. The bound is then
+ * 200 units of rounding. */
 static inline double
 hard_bound(const struct hard_case *c, const struct rc_problem *problem, const double *h)
 {
@@ -195,7 +194,8 @@ hard_violation(const struct hard_case *c, const struct rc_problem *problem, cons
         worst = larger(worst, p[k] <= 0 ? -g : p[k] >= problem->hardness ? g : fabs(g));
     }
     scale = sqrt(larger(spread_u, spread_h) / (double)n);
-    if (spread_h == 0) /* all heights are one: relative to the displacement by the mean pressure */
+    if (spread_h ==
+        0) /* all heights are equal: relative to the displacement by the mean pressure */
         scale = hard_depth(c, problem);
     free(u);
     return worst == 0 ? 0 : worst / scale;
@@ -265,7 +265,7 @@ hard_run(const struct hard_case *cases, size_t n)
 
 #define HARD_RUN(cases) hard_run(cases, sizeof cases / sizeof *cases)
 
-/* Uniform noise, for more than one table. */
+/* Uniform noise, used by several tables. */
 static inline double
 hard_noise(struct rc_shape shape, size_t k, double a, uint64_t *seed)
 {

@@ -1,5 +1,5 @@
-/* The solver stays stable where contact is hard: one node, saturation, infeasible loads, sharp
- * edges, strips, twelve decades of scale. */
+/* The solver stays stable in hard cases: one node, saturation, infeasible loads, sharp edges, strips, twelve
+ * decades of scale. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -48,7 +48,7 @@ one_node_carries_all(void **state)
     solved_free(&s);
 }
 
-/* The four highest nodes of a ball carry loads that move nothing else, each a quarter. */
+/* The four highest nodes of a ball each carry a quarter of a small load. */
 static void
 hardly_any_load(void **state)
 {
@@ -61,7 +61,7 @@ hardly_any_load(void **state)
         struct rc_problem problem = {.pair.estar = estar,
                                      .load = load,
                                      .tol = 1e-6,
-                                     .method = "pcg"}; /* which starts on coarser grids */
+                                     .method = "pcg"}; /* the solver starts on coarser grids */
         struct solved s = solve(shape, h, problem);
 
         assert_int_equal(s.status, RC_OK);
@@ -165,7 +165,7 @@ ugly_surfaces(void **state)
     free(h);
 }
 
-/* Heights and moduli over many decades: the numbers follow. */
+/* Heights and moduli over many decades: the results scale with them. */
 static void
 scales(void **state)
 {
@@ -219,7 +219,7 @@ strips_and_needles(void **state)
     }
 }
 
-/* No method can get below rounding: it says so, and keeps its result. */
+/* No method can reach an error below rounding: it reports this and keeps its result. */
 static void
 an_accuracy_out_of_reach(void **state)
 {
@@ -240,7 +240,7 @@ an_accuracy_out_of_reach(void **state)
     solved_free(&s);
 }
 
-/* A fault in one field of an otherwise possible problem, and the refusal that names it. */
+/* An invalid field in an otherwise valid problem, and the message that names it. */
 #define FIELD(name) #name, offsetof(struct rc_problem, name)
 /* clang-format off */
 static const struct {
@@ -300,7 +300,7 @@ let_pass(struct rc_shape shape, const double *h, const struct rc_problem *proble
     if (!refused)
         print_error("%s: '%s' and '%s' expected: %s\n", field, words, rule,
                     solver == NULL ? err.text : "no refusal");
-    if (strcmp(field, "h") == 0) /* which a plan does not know */
+    if (strcmp(field, "h") == 0) /* a plan does not check this field */
         return !refused;
     if (rc_solver_expect(&shape, problem, &expected, &of_plan) != RC_FAIL ||
         strcmp(of_plan.text, err.text) != 0) {

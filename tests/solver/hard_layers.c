@@ -1,6 +1,5 @@
-/* Contact of coated bodies is solved to 1e-8, from coats of a thousandth of a node to those of a
- * thousand maps, a ten-thousandth to ten thousand times as stiff as the material below, elastic and
- * hard. */
+/* Contact of coated bodies is solved to 1e-8, for coats from a thousandth of a node to a thousand maps thick,
+ * 1e-4 to 1e4 times as stiff as the material below, elastic and with a hardness. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,7 +16,7 @@ enum {
 static const double thickness[] = {1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 37e-3};
 static const double ratio[] = {1e-4, 1e-2, 1e2, 1e4};
 
-/* The mean pressure is a hundredth of E* as waves of eight nodes feel it. */
+/* The mean pressure is a hundredth of the effective E* for waves of eight nodes. */
 static size_t
 sweep(unsigned boundaries, double hardness)
 {
@@ -56,7 +55,7 @@ hard(void **state)
     assert_int_equal(sweep(BOTH, 2), 0);
 }
 
-/* Nets of stiff films in soft matter, a graded coat, and no give below. */
+/* Stiff films in soft material, a graded coat, and a rigid base. */
 static void
 stacks(void **state)
 {

@@ -1,6 +1,6 @@
-/* Contacts drawn at random: sizes from one node up, thin maps, cells of any aspect, heights from
- * white noise to steps, loads over three decades, bounds that nearly every node reaches. Two methods
- * that share no step, pcg and the paper's, come to the same pressure, and pcg soon. */
+/* Random contacts: sizes from one node up, thin maps, cells of any aspect ratio, heights from white noise to
+ * steps, loads over three decades, a hardness that nearly every node reaches. Two independent methods, pcg
+ * and pk99, give the same pressure, and pcg takes few steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,7 @@
 
 enum {
     PROBLEMS = 200,
-    STEPS = 40 /* 17 were the most of 600 */
+    STEPS = 40 /* the largest of 600 cases was 17 */
 };
 
 static double

@@ -1,5 +1,5 @@
-/* Where the hardness is: from a load at which all but a few nodes yield to a hardness that is
- * just not reached; and waves on the way to full contact. */
+/* Contacts with a hardness, from a load at which nearly all nodes yield to a hardness that is just not
+ * reached; and waves that approach full contact. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +16,7 @@ sphere(struct rc_shape s, size_t k, double a, uint64_t *seed)
     return -(x * x + y * y) + a * random_number(seed);
 }
 
-/* Smooth and rough: a few waves with phases of their own. */
+/* Smooth and rough surfaces: a few waves with different phases. */
 static double
 waves(struct rc_shape s, size_t k, double a, uint64_t *seed)
 {
@@ -33,8 +33,8 @@ waves(struct rc_shape s, size_t k, double a, uint64_t *seed)
 
 /* ---- hardness ---- */
 
-/* Every node carries at most H: so many at least touch, and the plastic ones carry no more than
- * the load. */
+/* Every node carries at most H, which gives the smallest number of touching nodes; the plastic nodes carry at
+ * most the load. */
 static double
 counts(const struct hard_case *c, const struct rc_problem *problem, const double *h,
        const struct solved *s)
@@ -78,7 +78,7 @@ from_the_mean_pressure_up(void **state)
     assert_int_equal(failed, 0);
 }
 
-/* At and about the largest elastic pressure: above, it changes nothing and costs nothing. */
+/* A hardness at and near the largest elastic pressure: above this pressure it has no effect and no cost. */
 static void
 about_the_elastic_maximum(void **state)
 {
@@ -110,7 +110,7 @@ about_the_elastic_maximum(void **state)
                         apart += fabs(s.p[i] - elastic.p[i]);
                     assert_int_equal(s.status, RC_OK);
                     assert_true(apart <=
-                                2 * hard_tol * mean * (double)n); /* each to its tolerance */
+                                2 * hard_tol * mean * (double)n); /* each within its tolerance */
                     assert_int_equal(s.c.plastic_nodes, 0);
                     solved_free(&s);
                 }
@@ -136,9 +136,9 @@ crossed(struct rc_shape s, size_t k, double a, uint64_t *seed)
     return cosine(s, k, a, seed) * cos(2 * exact_pi * node_y(s, k) / (s.dy * (double)s.ny));
 }
 
-/* Westergaard: the fraction to a node at either edge, the largest pressure, the pressure in the
- * mean. A node's width over that of the contact or of the gap, whichever is smaller, is what a
- * grid can tell. */
+/* Westergaard: the contact fraction to a node at each edge, the largest pressure, the mean error of the
+ * pressure. The resolution of the grid is the width of a node over that of the contact or of the gap,
+ * whichever is smaller. */
 static double
 westergaard(const struct hard_case *c, const struct rc_problem *problem, const double *h,
             const struct solved *s)

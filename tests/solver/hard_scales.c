@@ -1,5 +1,5 @@
-/* Contact is solved to 1e-8 whatever the units, the shape of the cells and of the map; and the
- * numbers follow the units. */
+/* Contact is solved to 1e-8 for all units, shapes of cells and shapes of maps; results scale with the
+ * units. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,8 +21,8 @@ crest(struct rc_shape s, size_t k, double a, uint64_t *seed)
         37, 31, 1e-6, 1.2e-6                                                                       \
     }
 
-/* The mean pressure is in proportion to the heights: the same contact. And not in proportion: from one node
- * to all. */
+/* With a mean pressure in proportion to the heights the contact is the same; otherwise it ranges from one
+ * node to all nodes. */
 static const struct hard_case units[] = {
     {"heights x 1e-12", MAP, BOTH, hard_noise, 0, 1e-19, 3e-14, 0, 0, NULL, 0},
     {"heights x 1e+12", MAP, BOTH, hard_noise, 0, 1e+5, 3e+10, 0, 0, NULL, 0},
@@ -83,7 +83,7 @@ numbers_follow(void **state)
             }
             print_message("x %g, E* x %g: %.1e apart, %zu plastic\n", scales[k][0], scales[k][1],
                           apart / size, s.c.plastic_nodes);
-            assert_true(apart <= 2 * hard_tol * size); /* each to its tolerance */
+            assert_true(apart <= 2 * hard_tol * size); /* each within its tolerance */
             assert_true(s.c.plastic_nodes > 0);
             solved_free(&s);
             free(h);

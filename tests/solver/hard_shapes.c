@@ -1,5 +1,5 @@
-/* Contact of sharp, flat, lonely and random shapes is solved to 1e-8, and to the known answer
- * where there is one. */
+/* Contact of sharp, flat, single and random shapes is solved to 1e-8, and agrees with the exact answer if it
+ * is known. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -51,8 +51,7 @@ two_peaks(struct rc_shape s, size_t k, double a, uint64_t *seed)
     return -(x * x + y * y) / (2 * a);
 }
 
-/* Punches stand out by 1 over a disc of radius a m, a square of 2 a nodes a side, a strip of 2 a
- * nodes. */
+/* Punches of height 1: a disc of radius a m, a square of 2 a nodes a side, a strip of 2 a nodes. */
 static double
 disc(struct rc_shape s, size_t k, double a, uint64_t *seed)
 {
@@ -89,7 +88,7 @@ cauchy(struct rc_shape s, size_t k, double a, uint64_t *seed)
     return tan(exact_pi * random_number(seed));
 }
 
-/* Blocks of a x a nodes, each flat at a height of its own: plateaus and ties. */
+/* Blocks of a x a nodes, each flat, with different heights: plateaus and equal heights. */
 static double
 blocks(struct rc_shape s, size_t k, double a, uint64_t *seed)
 {
@@ -109,8 +108,7 @@ relative(double value, double truth, double allowed)
     return fabs(value / truth - 1) / allowed;
 }
 
-/* The only node that touches carries everything, and sinks by Love's displacement of its own
- * cell. */
+/* The only touching node carries the whole load, and sinks by Love's displacement of its own cell. */
 static double
 one_node(const struct hard_case *c, const struct rc_problem *problem, const double *h,
          const struct solved *s)
@@ -156,7 +154,8 @@ cone_answer(const struct hard_case *c, const struct rc_problem *problem, const d
                   relative(s->c.contact_area, exact_pi * a * a, grid_area / nodes));
 }
 
-/* The disc is a staircase, the pressure at its edge singular: half a node of its radius. */
+/* The edge of the disc is a staircase and the pressure there is singular: an error of half a node in the
+ * radius. */
 static double
 disc_answer(const struct hard_case *c, const struct rc_problem *problem, const double *h,
             const struct solved *s)
@@ -166,8 +165,8 @@ disc_answer(const struct hard_case *c, const struct rc_problem *problem, const d
                     0.5 * c->shape.dx / c->a);
 }
 
-/* A rigid square punch is the charged square plate: capacity 0.36679 of its side, where the disc
- * has 2/pi of its radius (Read 1997; Hwang and Mascagni 2004). */
+/* A rigid square punch is analogous to a charged square plate: its capacity is 0.36679 times the side; that
+ * of a disc is 2/pi times the radius (Read 1997; Hwang and Mascagni 2004). */
 static double
 square_answer(const struct hard_case *c, const struct rc_problem *problem, const double *h,
               const struct solved *s)
@@ -183,7 +182,7 @@ square_answer(const struct hard_case *c, const struct rc_problem *problem, const
 
 /* Rigid flat strips of width 2 w, one in each period L, at a mean pressure m: p = m cos(pi x /
  * L) / sqrt(sin^2(pi w / L) - sin^2(pi x / L)) (Johnson 1985, section 13.2: the periodic form of
- * the flat punch). In the middle of the strip, to a node of its width. */
+ * the flat punch). Compared in the middle of the strip, with an error of a node in its width. */
 static double
 strips_answer(const struct hard_case *c, const struct rc_problem *problem, const double *h,
               const struct solved *s)

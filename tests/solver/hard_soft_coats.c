@@ -1,6 +1,6 @@
-/* Soft coats, from a thirtieth of a cell to five cells thick, compressible or not: the pressure is that of a
- * dense quadratic program with the influence of one cell as the engines have it, and the estimate of its
- * error is not below the error. */
+/* Soft coats, from a thirtieth of a cell to five cells thick, compressible or not: the pressure equals that
+ * of a dense quadratic program with the influence coefficients of the engines, and the estimated error is not
+ * below the error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -31,7 +31,7 @@ fill(struct dense *d, const struct rc_shape *s, const struct rc_problem *problem
     assert_non_null(conv);
     p[0] = 1;
     rc_conv_apply(conv, p, u);
-    if (problem->boundary == RC_PERIODIC) /* their mean is 0: any other makes K definite */
+    if (problem->boundary == RC_PERIODIC) /* their mean is 0: any other mean makes K definite */
         for (size_t k = 0; k < s->nx * s->ny; k++)
             u[k] += p[0] * cell / base;
     dense_of(d, s, u);

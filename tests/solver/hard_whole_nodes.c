@@ -1,6 +1,6 @@
-/* A load of a whole number of nodes times the hardness: where that many nodes yield and no other carries
- * anything, they are at the hardness exactly, are counted, and the solution is known to be one. All
- * others are as a dense quadratic program has them. */
+/* A load equal to the hardness times a whole number of nodes: if this number of nodes yields and no other
+ * node carries pressure, they are exactly at the hardness, they are counted, and the solution is recognised
+ * as such. All other cases agree with a dense quadratic program. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +32,7 @@ make_heights(const struct rc_shape *s, uint64_t *seed, double *h)
         h[k] = round(4 * h[k]) / 4;
 }
 
-/* Every node that carries anything is at the hardness, and no gap under one is larger than any beside. */
+/* Every loaded node is at the hardness, and its gap is at most that of any unloaded node. */
 static void
 saturated_is_right(const struct dense *d, const double *h, double hardness, const struct solved *s)
 {
@@ -113,7 +113,7 @@ all_of_them_yield(void **state)
 }
 
 /* Heights far above the displacements, and a hardness a tenth above the mean pressure: a few nodes are
- * elastic, and a wrong one among them makes most of the error. The reference is the other method. */
+ * elastic, and a wrong one among them causes most of the error. The reference is the other method. */
 static void
 few_are_elastic(void **state)
 {

@@ -1,5 +1,5 @@
-/* What every contact solution obeys: load, bounds, complementarity, symmetry, and an error estimate
- * that is not below the true error. */
+/* Laws of every contact solution: load, bounds, complementarity, symmetry, and an error estimate that is not
+ * below the true error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,8 +10,8 @@
 
 static const double estar = 114e9;
 
-/* The paper's section 4.2: 483 x 412 nodes, composite radius 7.5 mm, 240 N; Hertz's maximum is
- * 2.2 GPa; the roughness brings it over a hardness of 6 GPa. */
+/* The paper's section 4.2: 483 x 412 nodes, composite radius 7.5 mm, 240 N; Hertz's maximum is 2.2 GPa; with
+ * the roughness the pressure reaches a hardness of 6 GPa. */
 static double *
 paper_surface(struct rc_shape shape, double radius)
 {
@@ -90,13 +90,15 @@ the_papers_rough_sphere(void **state)
     free(h);
 }
 
-/* Compared with the same problem solved to 1e-10, whose own error may be a thousandth of the
+/* Compared with the same problem solved to 1e-10; the error of this reference may be a thousandth of the
  * difference. */
 static void
 the_estimate_does_not_flatter(void **state)
 {
     static const double hardnesses[] = {INFINITY, 9e9, 5e9};
-    struct rc_shape shape = {121, 103, 1.1e-6, 1.29e-6}; /* the paper's, a quarter each way */
+    struct rc_shape shape = {
+        121, 103, 1.1e-6,
+        1.29e-6}; /* the grid of the paper with a quarter of the nodes along each side */
     double *h = paper_surface(shape, 7.5e-3 / 4), load = 240.0 / 16;
 
     (void)state;
@@ -133,8 +135,8 @@ the_estimate_does_not_flatter(void **state)
     free(h);
 }
 
-/* A mirrored surface has the mirrored pressure; twice the load is not twice the pressure, but twice
- * load, modulus and hardness are. */
+/* A mirrored surface has the mirrored pressure; twice the load alone does not double the pressure, but twice
+ * the load, modulus and hardness do. */
 static void
 mirror_and_scale(void **state)
 {

@@ -1,5 +1,5 @@
-/* MPI counts in ints: a size that one rank cannot count is refused, on all ranks alike, and one
- * that can be sent in pieces is sent. No map is made for it: messages are noted, not sent. */
+/* MPI counts in ints: a size that one rank cannot count is refused on all ranks, and a size that can be sent
+ * in pieces is sent. The test allocates no map: it records messages instead of sending them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,8 +20,8 @@ static struct rc_ranks *ranks;
 static struct {
     bool noting;
     size_t calls, sent, received; /* bytes, or things */
-    const char *next;             /* of what is sent, where no part was left out or came twice */
-    bool wrong;                   /* a count or a place is negative, or a gap is left          */
+    const char *next;             /* bytes sent, where no part was omitted or sent twice */
+    bool wrong;                   /* a count or an offset is negative, or a gap remains */
 } note;
 
 static void
@@ -81,7 +81,7 @@ begin_noting(void)
 
 /* ---- exchanges ---- */
 
-/* Of so many columns the last rank has one more than the others, with which it alone has too many. */
+/* With this number of columns the last rank has one more than the others, and only this rank has too many. */
 static void
 fullest_rank_decides(void **state)
 {
@@ -100,7 +100,7 @@ fullest_rank_decides(void **state)
     assert_null(strstr(err.text, "memory"));
 }
 
-/* Rows are dealt out in units: a rank without any gets the same result as the one with all. */
+/* Rows are distributed in units: a rank without rows gets the same result as the rank with all rows. */
 static void
 rows_count_too(void **state)
 {
@@ -151,7 +151,7 @@ long_rows_beside(void **state)
     }
 }
 
-/* Rank r has `each` things and r more; all of them, or as many of everybody's, are wanted. */
+/* Rank r holds `each` + r items; the receiver wants all of them, or the same number from every rank. */
 static void
 long_lists(void **state)
 {
@@ -186,7 +186,7 @@ long_lists(void **state)
     free(from);
 }
 
-/* What is sent arrives where it belongs. */
+/* Each item arrives at its place. */
 static void
 lists_arrive(void **state)
 {

@@ -1,6 +1,5 @@
-/* The error estimate is never below the true error, at no iteration, and not far above it: once
- * it is under 1e-3, and where a solve ends, at most 1.5 times, with an active hardness 1.6 times,
- * before some 4 times. */
+/* The error estimate is never below the true error, in any iteration, and not far above it: below 1e-3 and at
+ * the end of a solve at most 1.5 times, with an active hardness 1.6 times, before about 4 times. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,9 +19,8 @@ struct row {
     bool scattered;    /* hardly any node is elastic                                            */
 };
 
-/* There a gap that is far from that of the solution leaves many nodes that want to change their
- * bound, and the estimate counts each of them: 33 times the error before the first step, 2.6 at
- * 1e-3. */
+/* A gap far from that of the solution leaves many nodes that would leave their bound, and the estimate counts
+ * each of them: 33 times the error before the first step, 2.6 times at 1e-3. */
 static const double scattered_early = 40, scattered_small = 3;
 
 /* clang-format off */
@@ -38,8 +36,8 @@ static const struct row rows[] = {
     {RC_FREE, 0, 0.1, 0.8, 8, 0.01, 2, 0, false},
     {RC_PERIODIC, 0, 0.1, 0.8, 2, 9e-4, 1 / 0.9, 0, true},
     {RC_FREE, 0, 0.1, 0.8, 2, 1.5e-3, 1 / 0.3, 0, true},
-    {RC_FREE, 0.00625, 0.005, 0.8, 8, 8.3e-4, 8, 512, false}, /* what is not in the working set counts too */
-    {RC_PERIODIC, 0, 0.1, 0.8, 2, 0.055, 0, 256, false}, /* many nodes that would only be pushed back */
+    {RC_FREE, 0.00625, 0.005, 0.8, 8, 8.3e-4, 8, 512, false}, /* nodes outside of the working set count too */
+    {RC_PERIODIC, 0, 0.1, 0.8, 2, 0.055, 0, 256, false}, /* many nodes would only return to their bound */
 };
 /* clang-format on */
 
@@ -62,14 +60,14 @@ heights(const struct row *row, struct rc_shape s)
     return h;
 }
 
-/* Estimates over true errors. */
+/* Ratios of estimate and true error. */
 struct ratios {
-    double least, most; /* most: of those that are small */
-    double early;       /* the most of the others       */
+    double least, most; /* most: the largest ratio of small errors */
+    double early;       /* the largest ratio of the others */
     size_t judged;      /* steps                        */
 };
 
-/* Where a solve ends its estimate is made with the whole working set. */
+/* At the end of a solve the estimate uses the whole working set. */
 static void
 ends(struct rc_shape s, const double *h, struct rc_problem problem, const double *exact,
      struct ratios *r)
@@ -89,7 +87,7 @@ ends(struct rc_shape s, const double *h, struct rc_problem problem, const double
     }
 }
 
-/* The paper's method comes to the same pressure, another way. */
+/* The method of the paper finds the same pressure independently. */
 static void
 another_says_so(struct rc_shape s, const double *h, struct rc_problem problem, const double *exact)
 {
@@ -103,7 +101,7 @@ another_says_so(struct rc_shape s, const double *h, struct rc_problem problem, c
     solved_free(&a);
 }
 
-/* Of each step down to a tolerance: its estimate is that of the pressure before it. */
+/* Records each step down to a tolerance: the estimate of a step refers to the pressure before it. */
 static enum rc_status
 steps(struct rc_shape s, const double *h, struct rc_problem problem, const double *exact,
       struct ratios *r)
@@ -128,7 +126,8 @@ steps(struct rc_shape s, const double *h, struct rc_problem problem, const doubl
         if (at.coarser || isnan(at.error) || error < problem.tol)
             continue;
         r->judged++;
-        r->least = fmin(r->least, ratio); /* a number: neither estimate nor error is NaN, or 0 */
+        r->least =
+            fmin(r->least, ratio); /* a valid ratio: neither estimate nor error is NaN or 0 */
         if (at.error < estimate_small)
             r->most = fmax(r->most, ratio);
         else
@@ -139,8 +138,8 @@ steps(struct rc_shape s, const double *h, struct rc_problem problem, const doubl
     return status;
 }
 
-/* The truth is the same method at 1e-12, whose KKT residual says that it is one; the ratio is
- * taken down to 1e-9. */
+/* The reference is the same method at 1e-12, verified by its KKT residual; ratios are taken down to errors of
+ * 1e-9. */
 static void
 never_below_never_far_above(void **state)
 {
@@ -190,14 +189,14 @@ never_below_never_far_above(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* Few waves carry the error on a profile, and those may cancel. Of coats E is given, over that of the base;
- * 0: none. */
+/* On a profile few waves carry the error, and they may cancel. E of a coat is given over that of the base; 0:
+ * no coat. */
 static void
 on_profiles(enum rc_boundary boundary, double coat)
 {
     const size_t profiles = 200, step = thorough(1, 7);
     const struct rc_layer layer = {3e-6, coat * 1e9, 0.3};
-    const double exact_tol = coat > 10 ? 1e-11 : 1e-12; /* rounding allows no less */
+    const double exact_tol = coat > 10 ? 1e-11 : 1e-12; /* the limit of rounding */
     double least = INFINITY, most = 0;
     size_t judged = 0;
 
@@ -225,7 +224,7 @@ on_profiles(enum rc_boundary boundary, double coat)
         a = solve(s, h, problem);
         assert_true(exact.status == RC_OK && a.status == RC_OK);
         error = distance(n, a.p, exact.p);
-        if (error > 100 * exact_tol) { /* else the start was the solution */
+        if (error > 100 * exact_tol) { /* otherwise the starting pressure was the solution */
             ratio = a.c.pressure_error / error;
             least = fmin(least, ratio);
             most = fmax(most, ratio);

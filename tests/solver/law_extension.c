@@ -15,14 +15,14 @@
 enum set_name {
     RANDOM,
     DISC,
-    ROUGH, /* what touches of a rough surface */
+    ROUGH, /* the contact of a rough surface */
     ALMOST_ALL,
     STRIP,
     SETS
 };
 static const char *const set_names[] = {"random", "disc", "rough", "almost all", "strip"};
 
-/* Fills w, returns how many are on. */
+/* Fills w and returns the number of nodes in the set. */
 static size_t
 choose(struct rc_shape s, enum rc_boundary boundary, enum set_name name, unsigned char *w)
 {
@@ -92,7 +92,7 @@ enum {
     SHAPES = sizeof shapes / sizeof *shapes
 };
 
-/* a'(E'AE b) = b'(E'AE a) in single precision, beside the lengths of both; a'(E'AE a) > 0. */
+/* a'(E'AE b) = b'(E'AE a) in single precision, relative to the norms of both; a'(E'AE a) > 0. */
 static void
 symmetric_and_positive(void **state)
 {
@@ -122,7 +122,7 @@ symmetric_and_positive(void **state)
             random_vector(n, w, count, &seed, a);
             random_vector(n, w, count, &seed, b);
             if (round ==
-                4) /* after the set has changed the weights are stale: the map has to stay symmetric */
+                4) /* after a change of the set the weights are old: the operator must stay symmetric */
                 for (size_t k = 0; k < n; k += 31)
                     if (w[k]) {
                         w[k] = 0;
@@ -226,8 +226,8 @@ projected(const gsl_matrix *m, const gsl_matrix *q)
     return c;
 }
 
-/* On vectors of zero mean, as the solver has them: the least and the largest eigenvalue of B K. K = L L', and
- * L' B L has the same. */
+/* On vectors of zero mean, as in the solver: the smallest and the largest eigenvalue of B K. With K = L L',
+ * the matrix L' B L has the same eigenvalues. */
 static void
 extremes(const gsl_matrix *k, const gsl_matrix *b, double *least, double *most)
 {
@@ -247,11 +247,11 @@ extremes(const gsl_matrix *k, const gsl_matrix *b, double *least, double *most)
     gsl_matrix_free(z);
 }
 
-/* All eigenvalues at least 1 is the claim r'z >= r' (K_WW)^-1 r, under which the error estimate is no
- * underestimate in the energy norm. The largest: 1.28 on one material (free, what touches of a rough
- * surface), 1.61, 2.52 and 1.23 under these coats on repeating maps. On the free boundary A of a stiff coat
- * is itself not exact, since its padded kernel may be negative: on this small map, whose frame is as narrow
- * as the coats bend, 0.98 to 13. */
+/* If all eigenvalues are at least 1, r'z >= r' (K_WW)^-1 r holds, and the error estimate is not below the
+ * error in the energy norm. The largest eigenvalue is 1.28 on one material (free, contact of a rough
+ * surface), and 1.61, 2.52 and 1.23 under these coats on periodic maps. On the free boundary A of a stiff
+ * coat is not exact, because its padded kernel may be negative: on this small map, whose margin is as narrow
+ * as the bending length of the coats, the eigenvalues are 0.98 to 13. */
 static void
 spectrum(void **state)
 {

@@ -1,5 +1,5 @@
-/* Other heights on the same plan: the result is that of a new solver, whatever the heights were before; and
- * a loading history by the library is the one that is made of new solvers, step by step. */
+/* Other heights in the same solver: the result is that of a new solver, whatever the heights before; and a
+ * loading history in one solver equals the same history in new solvers, step by step. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -36,8 +36,8 @@ problem_of(int boundary, bool plastic)
                                .method = contact_method};
 }
 
-/* Of another shape, a thousand times as high or low, and far from 0; before the first step, in the middle,
- * and after the last. */
+/* Heights of another shape, a thousand times as high or low, and far from 0; set before the first step, in
+ * the middle, and after the last one. */
 static void
 as_a_new_solver(void **state)
 {
@@ -54,7 +54,7 @@ as_a_new_solver(void **state)
                 struct rc_solver *s, *t;
                 struct rc_contact c, d;
 
-                if (way & 4) { /* the load is sought */
+                if (way & 4) { /* the load is searched for */
                     problem.load = 0;
                     problem.approach = 1e-7 * fmin(rows[r].times, 1);
                     if (rows[r].times > 1)
@@ -85,7 +85,7 @@ as_a_new_solver(void **state)
             }
 }
 
-/* The figures of a coarser grid are those of these heights and this load, or none. */
+/* The figures from a coarser grid are those of these heights and this load, or there are none. */
 static void
 grid_error_is_its_own(void **state)
 {
@@ -126,14 +126,15 @@ refused(void **state)
     h[77] = NAN;
     assert_int_equal(rc_solver_set_heights(s, h, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "height 77 is not a finite number"));
-    (void)finish(s); /* it is as it was */
+    (void)finish(s); /* it is unchanged */
     assert_true(distance(N, rc_solver_pressure(s), p) < 2 * problem.tol);
     assert_int_equal(rc_solver_set_load(s, 0, 1e-3, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "approach 0.001 m: contact is complete at "));
     rc_solver_free(s);
 }
 
-/* Touch, load, apart, load more, less, and again: by keep_shape, and by new solvers from the shapes. */
+/* Touch, load, separation, a higher load, a lower one, and again: by keep_shape, and by new solvers with the
+ * kept shapes. */
 static void
 history(void **state)
 {
@@ -148,7 +149,8 @@ history(void **state)
         size_t yielded = 0;
 
         problem.load = loads[0];
-        problem.history_part = 0.1 * 0.3 / 0.8; /* later loads have to stay within the tolerance */
+        problem.history_part =
+            0.1 * 0.3 / 0.8; /* the errors of later loads must stay within the tolerance */
         s = rc_solver_new(&shape, first, &problem, NULL);
         memcpy(h, first, sizeof h);
         memcpy(g, first, sizeof g);
@@ -194,7 +196,7 @@ history(void **state)
 }
 
 /* Loaded again to the same load, directly or after a smaller one, a yielded shape is at the hardness in the
- * same places: the same nodes are counted, except one at a tolerance of 1e-4. */
+ * same places: the same nodes are counted; at a tolerance of 1e-4 one node may differ. */
 static void
 reload_reaches_the_same_nodes(void **state)
 {

@@ -1,6 +1,6 @@
-/* When the caller cannot wait, a solver stops at once in any state: no further convolution unless there is no
- * gap yet, the load is carried, the displacement is that of the pressure to single precision, and no state is
- * wrongly called converged. When the caller can wait, nothing changes. */
+/* If the caller sets the flag `hurry`, a solver stops at once in any state: it does no further convolution
+ * unless no gap exists yet, carries the load, gives the displacement of the pressure to single precision, and
+ * never reports a wrong convergence. Without the flag nothing changes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,7 +33,7 @@ rough(enum rc_boundary boundary, double *h)
                                .method = contact_method};
 }
 
-/* Whether u is K p, summed directly or transformed in double precision, but for this part of the largest
+/* True if u equals K p, summed directly or transformed in double precision, to this fraction of the largest
  * u. */
 static bool
 displaced(double within, enum rc_boundary boundary, const double *p, const double *u)
@@ -53,11 +53,11 @@ displaced(double within, enum rc_boundary boundary, const double *p, const doubl
     }
     rc_conv_free(conv);
     free(right);
-    /* 10 nm: a level pressure displaces nothing on a period */
+    /* 10 nm: on a periodic map a uniform pressure causes no displacement */
     return most <= within * fmax(largest, 1e-8);
 }
 
-/* Hurried after so many steps: whether the solution had been found before. */
+/* Sets the flag after the given number of steps; true if the solution had been found before. */
 static bool
 stopped_after(size_t steps, enum rc_boundary boundary, const double *h, struct rc_problem problem)
 {
@@ -87,7 +87,7 @@ stopped_after(size_t steps, enum rc_boundary boundary, const double *h, struct r
         sum += rc_solver_pressure(solver)[k];
     assert_true(fabs(sum * shape.dx * shape.dy - problem.load) <= 1e-9 * problem.load);
     assert_true(c.converged == (status == RC_OK));
-    /* the first gap of a grid, in single precision, where there is none yet */
+    /* the first gap of a grid, in single precision, if there is none yet */
     if (status == RC_MORE)
         assert_true(rc_solver_convolutions(solver) - convolutions <= 0.5 + 1e-9);
     assert_true(displaced(status == RC_OK ? 1e-12 : 3e-6, boundary, rc_solver_pressure(solver), u));
@@ -113,7 +113,7 @@ stops(void **state)
     free(h);
 }
 
-/* A flag that stays 0 is as none. */
+/* A flag that stays 0 has no effect. */
 static void
 waits(void **state)
 {

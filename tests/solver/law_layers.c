@@ -1,5 +1,5 @@
-/* On coated bodies as on one material: the estimate of the error is not below the error, load and bounds
- * are kept, pressures are mirrored with the surface, and a layer cut in two is the same layer. */
+/* For coated bodies as for one material: the estimated error is not below the error, load and bounds hold, a
+ * mirrored surface has mirrored pressures, and a layer divided in two gives the same result. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -26,8 +26,8 @@ make_surface(double *h)
     assert_int_equal(rc_synth_selfaffine(&shape, &what, h, &err), RC_OK);
 }
 
-/* The bound of the estimate over the error: 1.42 is the most here where the coat is at most twice
- * as stiff as the material below, 2.5 at 10 times; it is never below 1. */
+/* The bound of the ratio of estimate and error: the largest here is 1.42 if the coat is at most twice as
+ * stiff as the material below, and 2.5 at 10 times; the ratio is never below 1. */
 static const double over_soft = 1.6, over_stiff = 3;
 
 static void
@@ -76,7 +76,7 @@ estimates(void **state)
 }
 
 /* Stiff coats, rough down to the grid: convolutions to 1e-4, and the estimate, which is not below the error.
- * With the extension of one material they take 64, 66 and 149. */
+ * With the extension for one material the convolutions would be 64, 66 and 149. */
 static void
 stiff(void **state)
 {

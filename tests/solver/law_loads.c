@@ -1,5 +1,5 @@
-/* Loads in sequence, approaches, stiffness, yield and discretization error: each against a separate solution,
- * Hertz, or its own definition. */
+/* Loads in sequence, approaches, stiffness, yielding and discretization error: each compared with a separate
+ * solution, Hertz, or its definition. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -59,7 +59,8 @@ start(const double *h, struct rc_problem problem)
     return s;
 }
 
-/* A load after others is the first loading to it: up, down, far up, with and without yield. */
+/* A load after other loads gives the result of a first loading: higher, lower, much higher, with and without
+ * yielding. */
 static void
 loads_are_independent(void **state)
 {
@@ -93,8 +94,9 @@ loads_are_independent(void **state)
         }
 }
 
-/* The load that an approach asks for is the one that makes it: both solved to their tolerance, and
- * the approach between them to a tenth of it, with a load that grows as less than its square. */
+/* The load found for an approach gives this approach when it is prescribed. Both solutions are within their
+ * tolerance, and the approach is met to a tenth of it; the load grows more slowly than the square of the
+ * approach. */
 static void
 approach_is_inverted(void **state)
 {
@@ -122,8 +124,8 @@ approach_is_inverted(void **state)
     }
 }
 
-/* The first loads of a search are solved roughly, and may be on the wrong side of the load; the approach is
- * still met. Small rough maps, pressed to a third and more of full contact. */
+/* The first loads of a search are solved roughly and may be on the wrong side of the load; the approach must
+ * still be met. Small rough maps, pressed to a third of full contact and more. */
 static void
 any_approach_is_met(void **state)
 {
@@ -153,8 +155,8 @@ any_approach_is_met(void **state)
     }
 }
 
-/* A periodic surface comes no nearer than complete contact; a load can be more than the hardness
- * carries. The refusals name the value that was asked for. */
+/* The approach of a periodic surface is limited by complete contact, and the load by the hardness. The
+ * messages name the requested value. */
 static void
 impossible_is_refused(void **state)
 {
@@ -203,9 +205,9 @@ every_node_yields(struct rc_shape own, const double *h, const struct rc_problem 
     return last;
 }
 
-/* Maps that are soft beside their heights have few elastic nodes, or none, and then one load for a range of
- * approaches. The approach is met, with a gap that suits it, up to where every node yields; from there it
- * is refused. */
+/* Maps with a low hardness relative to their heights have few elastic nodes or none, and then one load
+ * belongs to a range of approaches. The approach is met, with the corresponding gap, up to the approach at
+ * which every node yields; above, it is refused. */
 static void
 approach_is_met_where_nodes_yield(void **state)
 {
@@ -256,7 +258,7 @@ enum {
     LATER = 4
 };
 
-/* Pressures of loads in sequence, each on the shape that the last left, with their estimated errors. */
+/* Pressures of loads in sequence, each on the shape after the load before, with their estimated errors. */
 static void
 history_of(struct rc_shape own, const double *form, struct rc_problem problem, const double *load,
            double *pressures, double *told)
@@ -285,8 +287,8 @@ history_of(struct rc_shape own, const double *form, struct rc_problem problem, c
     free(h);
 }
 
-/* The errors of loads stay in their dents: the estimates of later loads are not below them, against the same
- * list solved to 1e-9, and every load has the asked accuracy. */
+/* The errors of loads remain in their dents: compared with the same list solved to 1e-9, the estimates of
+ * later loads are not below the errors, and every load has the requested accuracy. */
 static void
 errors_of_histories_are_known(void **state)
 {
@@ -353,7 +355,7 @@ stiffness_is_the_slope(void **state)
             s = start(h, problem);
             (void)finish(s);
             assert_int_equal(rc_solver_stiffness(s, &k, &err), RC_OK);
-            /* the radius, of 16 nodes, is right to a part of one */
+            /* the radius, of 16 nodes, is accurate to a fraction of a node */
             assert_true(fabs(k / (2 * estar * radius) - 1) < coarse_grid);
             rc_solver_free(s);
         }
@@ -366,7 +368,7 @@ stiffness_is_the_slope(void **state)
 static void
 yielded_shape_holds(void **state)
 {
-    static const double flattened = 1e-9; /* m: less would be no yield to speak of */
+    static const double flattened = 1e-9; /* m: smaller depths would be negligible */
 
     (void)state;
     for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
@@ -385,17 +387,17 @@ yielded_shape_holds(void **state)
             top = larger(top, fabs(h[k]));
         assert_int_equal(rc_solver_plastic(s, flat, &err), RC_OK);
         for (size_t k = 0; k < shape.nx * shape.ny; k++) {
-            /* a datum was taken off and put on again */
+            /* a datum was subtracted and added again */
             assert_true(flat[k] <= h[k] + of_sum * top);
             most = larger(most, h[k] - flat[k]);
         }
         assert_true(most > flattened);
         t = start(flat, problem);
         second = finish(t);
-        /* both to the tolerance, and the shape as well as the first */
+        /* both within the tolerance, and the error of the shape is that of the first */
         assert_true(distance(shape.nx * shape.ny, rc_solver_pressure(t), rc_solver_pressure(s)) <
                     4 * problem.tol);
-        /* of a thousand nodes one may change sides */
+        /* one of a thousand nodes may change its state */
         assert_true(fabs((double)second.contact_nodes / (double)first.contact_nodes - 1) < 1e-3);
         memcpy(h, flat, shape.nx * shape.ny * sizeof *h);
         assert_int_equal(rc_solver_plastic(t, flat, &err), RC_OK);
@@ -414,7 +416,7 @@ yielded_shape_holds(void **state)
     }
 }
 
-/* Estimated errors of the grid against Hertz. */
+/* Estimated errors of the grid, compared with Hertz. */
 static void
 discretization_is_bounded(void **state)
 {
@@ -438,7 +440,7 @@ discretization_is_bounded(void **state)
     assert_true(fabs(c.approach / near - 1) <= c.discretization.approach);
     assert_true(fabs(c.contact_area / (acos(-1) * radius * radius) - 1) <=
                 c.discretization.contact_area);
-    /* and of use: some times what they bound */
+    /* and useful: a few times the error that they bound */
     assert_true(c.discretization.max_pressure < 2 * coarse_grid &&
                 c.discretization.approach < 2 * coarse_grid &&
                 c.discretization.contact_area < 20 * coarse_grid);
@@ -460,7 +462,7 @@ only_what_is_called_for(void **state)
     c = finish(s);
     plain = rc_solver_convolutions(s);
     print_message("%s: elastic                 %6.1f\n", contact_method, plain);
-    /* the paper's scheme overshoots on its way */
+    /* the scheme of the paper overshoots */
     problem.hardness = (strcmp(contact_method, "pcg") == 0 ? 1.001 : 10) * c.max_pressure;
     rc_solver_free(s);
     s = start(h, problem);
@@ -468,7 +470,7 @@ only_what_is_called_for(void **state)
     with = rc_solver_convolutions(s);
     print_message("%s: hardness, not reached   %6.1f\n", contact_method, with);
     assert_true(with == plain);
-    /* asked for again, figures and frames cost nothing */
+    /* a second request for figures and frames costs nothing */
     {
         double *u = malloc(shape.nx * shape.ny * sizeof *u);
         rc_solver_result(s, u, NULL, &c);

@@ -1,6 +1,6 @@
 /* The work on a profile, or on a strip of a few rows, hardly grows with its length, as a row or a column,
- * periodic or free, uniform or coated: a line has its own extension, and load that tiles cannot carry stays
- * near. */
+ * periodic or free, uniform or coated: a line has its own extension, and load that a tile cannot carry is
+ * shared with nearby tiles. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -38,7 +38,7 @@ roughen(struct rc_shape s, bool walk, uint64_t seed, double *h)
         h[k] -= at * (double)k / (double)n;
 }
 
-/* What is pressed: a coat has E over that of its base, and a thickness in nodes; 0: none. */
+/* The bodies: E of a coat is relative to that of its base, its thickness is in nodes; 0: no coat. */
 struct kind {
     bool column;
     size_t across; /* nodes */
@@ -46,7 +46,7 @@ struct kind {
     double coat, thick;
 };
 
-/* Equivalents of a convolution to this error, under this mean pressure. */
+/* The number of equivalent convolutions to this error, under this mean pressure. */
 static double
 work_of(const struct kind *kind, struct rc_shape s, const double *h, double mean, double tol,
         struct rc_contact *c)
@@ -74,7 +74,7 @@ work_of(const struct kind *kind, struct rc_shape s, const double *h, double mean
     return work;
 }
 
-/* The mean pressure under which this part of the map touches. */
+/* The mean pressure at which this fraction of the map touches. */
 static double
 pressure_for(const struct kind *kind, struct rc_shape s, const double *h, double part)
 {
@@ -91,8 +91,8 @@ pressure_for(const struct kind *kind, struct rc_shape s, const double *h, double
     return mean;
 }
 
-/* At most so many equivalents from 1024 nodes on, and, from there to 16384 or, of a random walk, `most`, at
- * most `growth` times as many. With every commit a part that touches, to 4096 nodes. */
+/* The work is limited from 1024 nodes on, and from there to 16384 nodes (to `most` for a random walk) it
+ * grows at most by the factor `growth`. Tests of every commit use one contact fraction, up to 4096 nodes. */
 static void
 works(const struct kind *kind, size_t most, double most_work, double growth)
 {

@@ -1,5 +1,5 @@
-/* A solver is made without iterating; its first steps run on coarser grids, where it can be
- * stopped; with a given start it leaves them out; calls in the wrong order are refused. */
+/* Making a solver does not iterate; its first steps run on coarser grids, where it can be stopped; with a
+ * given start it omits them; calls in the wrong order are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -92,8 +92,8 @@ coarse_grids_pass_in_steps(void **state)
     free(h);
 }
 
-/* Wherever a solver is stopped, its pressures keep the load and the bounds, and it is not called
- * converged. */
+/* A solver that is stopped at any step has pressures that carry the load within the bounds, and does not
+ * report convergence. */
 static void
 a_result_at_any_step(void **state)
 {
@@ -140,7 +140,7 @@ a_given_start_does_without(void **state)
     free(h);
 }
 
-/* Another load before the first step: the coarser grids are passed at that one. */
+/* Another load before the first step: the coarser grids are solved for this load. */
 static void
 another_load_before_the_first_step(void **state)
 {

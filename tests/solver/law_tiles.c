@@ -1,6 +1,6 @@
-/* Moves of the working set, in any direction: the load stays, pressures stay within the bounds,
- * nodes off the set stay where they are, and the report of the move is true. Tile by tile, each
- * tile keeps the load that the step would have given it, where it can. */
+/* Moves of the working set in any direction: the load does not change, pressures stay within the bounds,
+ * nodes outside of the set do not change, and the report of the move is true. With tiles, each tile keeps the
+ * load of the unclipped step if it can carry it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,8 +17,8 @@ enum {
 struct row {
     size_t nx, ny;
     double hardness; /* over the mean pressure; INFINITY: none */
-    double part;     /* of the nodes that are pressed          */
-    double size;     /* of the step, over the mean pressure    */
+    double part;     /* fraction of the nodes that are loaded */
+    double size;     /* size of the step, over the mean pressure */
 };
 
 static double
@@ -42,8 +42,8 @@ struct set_up {
     double alpha, mean;
 };
 
-/* A pressure of the load, a working set that is all that is elastic and half of the rest, and a
- * direction on it. */
+/* A pressure with the load, a working set of all elastic nodes and half of the others, and a direction on
+ * it. */
 static struct set_up
 set_up(const struct row *row)
 {
@@ -96,7 +96,7 @@ take_down(struct set_up *s)
     free(s->tiles);
 }
 
-/* What every move keeps. */
+/* Checks that hold after every move. */
 static void
 lawful(const struct set_up *s, const struct rc_move *m)
 {
@@ -130,7 +130,7 @@ move_of(const struct set_up *s)
                             .line = &alone};
 }
 
-/* Without clipping nothing but the step is made; with it tiles keep their sums. */
+/* Without clipping the move is exactly the step; with clipping tiles keep their sums. */
 static void
 by_tiles(void **state)
 {
@@ -167,8 +167,8 @@ by_tiles(void **state)
     assert_true(10 * kept >= 8 * all); /* some cannot */
 }
 
-/* The nearest point: no other admissible pressure with this load is nearer to the step. Its condition is one
- * shift for all nodes that are not at a bound, and the right sign for those that are. */
+/* The projection: no other admissible pressure with this load is nearer to the step. The condition is a
+ * common shift of all nodes that are not at a bound, and the right sign at the nodes at a bound. */
 static void
 by_one_shift(void **state)
 {

@@ -1,5 +1,5 @@
 /* The work of the method pcg does not grow with the grid: convolutions to 1e-4 on surfaces with
- * ever more, and ever shorter, waves. That of the paper's method goes as the number of nodes a
+ * ever more, and ever shorter, waves. The work of the method pk99 is proportional to the number of nodes a
  * side. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -71,13 +71,13 @@ does_not_grow(void **state)
         print_message("%s, mean %.4f, hardness %.0f: %.1f convolutions at 128, %.1f at 512\n",
                       rows[k].boundary == RC_FREE ? "free" : "periodic", rows[k].mean,
                       rows[k].hardness, small, large);
-        /* sixteen times the nodes: by the paper's method it would be four times */
+        /* sixteen times the nodes: with pk99 the work would be four times as large */
         assert_true(large <= 1.3 * small);
         assert_true(large <= rows[k].most);
     }
 }
 
-/* Otherwise the surfaces would be too easy to show anything. */
+/* Otherwise the surfaces would be too easy for this test. */
 static void
 grows_by_the_paper(void **state)
 {

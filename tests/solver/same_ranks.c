@@ -1,5 +1,5 @@
 /* Processes that share a map get the same results as one process, bit for bit: displacements,
- * contact, stresses. Each rank also solves the whole by itself. */
+ * contact, stresses. Each rank also solves the whole map alone. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 
 static struct rc_ranks *ranks;
 
-/* Rows held here of a map. */
+/* The rows of a map on this rank. */
 struct part {
     size_t first, n; /* nodes */
 };
@@ -26,7 +26,7 @@ part_of(struct rc_shape s)
     return (struct part){first * s.nx, n * s.nx};
 }
 
-/* On all ranks, to the last bit; of what differs, how far off the worst of it is is said. */
+/* Equal to the last bit on all ranks; otherwise prints the largest difference. */
 static void
 assert_same(size_t n, const double *a, const double *b, const char *what)
 {
@@ -47,7 +47,7 @@ assert_same(size_t n, const double *a, const double *b, const char *what)
     assert_true(worst[0] == 0);
 }
 
-/* A rough map: waves of any length, of random phase. */
+/* A rough map: waves of all lengths with random phases. */
 static double *
 rough(struct rc_shape s, uint64_t seed)
 {
@@ -74,7 +74,7 @@ rough(struct rc_shape s, uint64_t seed)
 enum {
     SHAPES = 8
 };
-/* Before a release, and with every commit: of the same kinds, with fewer nodes. */
+/* The cases before a release, and those of every commit, which are of the same kinds with fewer nodes. */
 static const struct rc_shape large[SHAPES] = {
     {1000, 37, 1e-6, 1.1e-6}, {37, 1000, 1.3e-6, 1e-6}, {513, 511, 1e-6, 1e-6},
     {256, 256, 1e-6, 1e-6},   {5, 16, 1e-6, 1e-6},      {300, 1, 1e-6, 1e-6},
@@ -152,7 +152,7 @@ struct outcome {
     struct rc_patches patches;
 };
 
-/* Several loads one after another, the last one's outcome. */
+/* Several loads one after another; returns the result of the last one. */
 static struct outcome
 contact(struct rc_shape s, size_t n, const double *h, struct rc_problem problem, size_t loads)
 {
@@ -258,7 +258,7 @@ contacts(void **state)
     }
 }
 
-/* Of some nodes, and up to what all carry, where nodes join by their gap. */
+/* Loads of some nodes, and up to the capacity of all nodes, where nodes join in the order of their gaps. */
 static void
 hardness_maps(void **state)
 {
@@ -303,7 +303,7 @@ approaches(void **state)
     compare(s, problem, 2, "approach, periodic");
 }
 
-/* Near saturation nodes join by their gap, and some methods need the safeguard. */
+/* Near saturation nodes join in the order of their gaps, and some methods need the safeguard. */
 static void
 saturation(void **state)
 {
@@ -326,7 +326,7 @@ saturation(void **state)
     }
 }
 
-/* The face turns by sums over all ranks, and the first touch is sought among them. */
+/* The tilt follows from sums over all ranks, and the first touch is searched for on all of them. */
 static void
 tilts(void **state)
 {
@@ -348,7 +348,7 @@ tilts(void **state)
     compare(s, problem, 1, "tilt of a strip");
 }
 
-/* In double precision rows of two maps are kept, those held here only. */
+/* In double precision rows of two maps are kept, only those of this rank. */
 static void
 memory(void **state)
 {

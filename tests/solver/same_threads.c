@@ -1,5 +1,5 @@
-/* Threads that use the library at the same time, in a program that plans transforms with FFTW for
- * itself, get the same results as one thread. */
+/* Threads that use the library at the same time, in a program that plans its own transforms with FFTW, get
+ * the same results as one thread. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,9 +14,9 @@
 
 enum {
     WORKERS = 12,
-    PIECES = 60, /* of work: each worker does all of them */
+    PIECES = 60, /* kinds of work: each worker does all of them */
     ROUNDS = 4,  /* so many times                         */
-    N = 48 * 48  /* values that a piece of work may give  */
+    N = 48 * 48  /* most values that a piece of work returns */
 };
 
 /* Piece k of the work of one kind: writes its results to the front of out. */
@@ -120,7 +120,7 @@ struct worker {
     work *run;
     size_t number;
     double (*got)[N]; /* of each piece */
-    size_t differ;    /* later rounds that gave something else */
+    size_t differ;    /* number of later rounds with another result */
 };
 
 static void *
@@ -135,14 +135,14 @@ worker_run(void *at)
         if (k < PIECES)
             memcpy(w->got[piece], out, sizeof out);
         else
-            /* bits are meant, not values */
+            /* compares bits, not values */
             /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison,cert-exp42-c,cert-flp37-c) */
             w->differ += memcmp(out, w->got[piece], sizeof out) != 0;
     }
     return NULL;
 }
 
-/* All at once, and only then one after the other: the library's first plans are made while others
+/* First all at once, then one after another, so that the library makes its first plans while other threads
  * plan. */
 static void
 beside_each_other(work *const *kinds, size_t n)
@@ -179,13 +179,12 @@ beside_another_user_of_fftw(void **state)
     beside_each_other(kinds, 6);
 }
 
-/* Functions of FFTW that none of its headers declares: they are called before and after each use of
- * its planner. */
+/* Functions of FFTW that its headers do not declare; FFTW calls the installed hooks before and after each use
+ * of its planner. */
 extern void fftw_set_planner_hooks(void (*before)(void), void (*after)(void));
 extern void fftwf_set_planner_hooks(void (*before)(void), void (*after)(void));
 
-/* Without FFTW's lock, too, as it is when a program has brought in libfftw3_omp, whose lock does
- * nothing. */
+/* Also without FFTW's lock, as in a program that links libfftw3_omp, whose lock does nothing. */
 static void
 beside_themselves(void **state)
 {

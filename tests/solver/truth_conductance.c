@@ -1,5 +1,5 @@
-/* The conductance of a contact: a circle, several circles, a circle in a periodic cell and Hertz's
- * have closed forms; and for any contact, yielding or not, a dense system of equations has it. */
+/* The conductance of a contact: closed forms for a circle, several circles, a circle in a periodic cell and
+ * Hertz's contact; a dense system of equations for any contact, yielding or not. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,7 +10,7 @@
 
 static const double estar = 71.3e9, k1 = 52, k2 = 16.3;
 
-/* What the two bodies put in the way. */
+/* The conductivities of the two bodies. */
 static double
 resistivity(void)
 {
@@ -42,7 +42,7 @@ conducts(struct rc_shape shape, const double *h, struct rc_problem problem)
     assert_int_equal(rc_solver_conductance(s, k1, k2, &f.g, &err), RC_OK);
     memcpy(f.p, rc_solver_pressure(s), n * sizeof *f.p);
     rc_solver_free(s);
-    /* what the definition says, and that the bound is one */
+    /* the definition, and that the lower bound is a bound */
     assert_true(fabs(f.g.value * estar * resistivity() / (2 * f.g.stiffness) - 1) < 1e-6);
     assert_true(f.g.lower <= f.g.value && f.g.lower > (1 - 1e-6) * f.g.value);
     return f;
@@ -108,8 +108,8 @@ dense_stiffness(struct rc_shape shape, enum rc_boundary boundary, const double *
     return sum * shape.dx * shape.dy;
 }
 
-/* Rough contacts of 10 to 23 nodes, elastic and with a part at its hardness, free and periodic.
- * What the conjugate gradients stop at is 1e-8 of the sum, and single precision adds to it. */
+/* Rough contacts of 10 to 23 nodes, elastic and with some nodes at the hardness, free and periodic. The
+ * conjugate gradients stop at 1e-8 of the sum, and single precision adds an error. */
 static void
 any_contact(void **state)
 {
@@ -139,7 +139,7 @@ any_contact(void **state)
         assert_true((f.c.plastic_nodes > 0) == (k > 1 && (k & 2) != 0));
         assert_true(fabs(f.g.value / dense - 1) < 3e-7);
         assert_true(f.g.lower <= dense * (1 + rounding));
-        if (f.c.plastic_nodes > 0) /* those at the hardness carry no more load, but they conduct */
+        if (f.c.plastic_nodes > 0) /* nodes at the hardness carry no more load, but they conduct */
             assert_true(f.stiffness < 0.99 * f.g.stiffness);
         else
             assert_true(f.stiffness == f.g.stiffness);
@@ -159,7 +159,7 @@ struct circles {
     double x[CIRCLES], y[CIRCLES]; /* of the middles, in spacings */
 };
 
-/* Flat ends of so many spacings radius, pressed on. */
+/* Flat punches with this radius in spacings, under load. */
 static struct found
 circles_conduct(struct rc_shape shape, const struct circles *c, double radius,
                 enum rc_boundary boundary)
@@ -183,20 +183,20 @@ circles_conduct(struct rc_shape shape, const struct circles *c, double radius,
     return f;
 }
 
-/* Radius of the circle of their area, spacings. */
+/* Radius of the circle with their area, in spacings. */
 static double
 radius_of(const struct found *f, const struct circles *c)
 {
     return sqrt((double)f->c.contact_nodes / ((double)c->n * exact_pi));
 }
 
-/* What a circle of square cells is smaller by than the circle of their area, in spacings: the
- * pressure is constant in a cell, and its edge is infinite. Dense systems of 45 to 716 cells have
- * 0.09 to 0.13. */
+/* The difference, in spacings, between the radius of the circle with the area of the cells and the radius
+ * with their conductance: the pressure is constant in each cell and cannot follow the infinite pressure at
+ * the edge. Dense systems of 45 to 716 cells give 0.09 to 0.13. */
 static const double edge = 0.117, edge_scatter = 0.02;
 
-/* One circle: 4 a/(1/k1 + 1/k2), with a less that edge. Returns the radius that its cells have, by
- * a dense system, in spacings. */
+/* One circle: 4 a/(1/k1 + 1/k2), with a reduced by that difference. Returns the radius with the conductance
+ * of the cells, by a dense system, in spacings. */
 static double
 circle(double radius)
 {
@@ -223,9 +223,9 @@ one_circle(void **state)
         (void)circle(radius);
 }
 
-/* 1/S of equal circles that share one potential: of its own each has 1/(2 a), of another one at s
- * 1/(pi s), if that is a point (Greenwood 1966), or else asin(a/s)/(pi a), its potential on the
- * middle. */
+/* 1/S of equal circles with a common potential: each contributes 1/(2 a) to itself, and to another circle at
+ * the distance s 1/(pi s), if it is treated as a point (Greenwood 1966), or asin(a/s)/(pi a), its potential
+ * at the centre of the other. */
 static double
 circles_resist(const struct circles *c, double a, double spacing, bool points)
 {
@@ -276,7 +276,7 @@ several_circles(void **state)
     static const struct {
         struct circles c;
         struct rc_shape shape;
-        double equal, point, smooth; /* bounds of what the forms leave out */
+        double equal, point, smooth; /* bounds of the error of the closed forms */
     } cases[] = {
         {{2, {-20, 20}, {0, 0}}, {61, 21, 1e-6, 1e-6}, 2e-3, 2e-3, 1e-3},
         {{2, {-40, 40}, {0, 0}}, {101, 21, 1e-6, 1e-6}, 3e-4, 3e-4, 2e-4},
@@ -308,17 +308,17 @@ several_circles(void **state)
         assert_true(fabs(equal) < cases[k].equal);
         assert_true(fabs(point) < cases[k].point);
         assert_true(fabs(smooth) < cases[k].smooth);
-        assert_true(r > 1.05 * alone); /* what the form is about */
+        assert_true(r > 1.05 * alone); /* the closed form is approximate */
         free(f.p);
     }
 }
 
 /* A circle in each square cell of side L: to the mean plane 1/S = 1/(2 a) - M/(pi L) + N a^2/(3 pi
- * L^3). M is the lattice sum of 1/r less what it is of a uniform charge, -4 zeta(1/2) beta(1/2),
- * and N that of 1/r^3, 4 zeta(3/2) beta(3/2): the potential of the others is (-M/L + N r^2/(4
- * L^3))/pi, and r^2 is 2 a^2/3 in the mean over a circle's charge, on either side. What is left out
- * goes as (a/L)^5. The waves that the nodes can show have an edge of their own, some hundredth of a
- * spacing off. */
+ * L^3). M is the lattice sum of 1/r minus that of a uniform charge, -4 zeta(1/2) beta(1/2),
+ * and N is the lattice sum of 1/r^3, 4 zeta(3/2) beta(3/2): the potential of the other circles is (-M/L + N
+ * r^2/(4 L^3))/pi, and the mean of r^2 over the charge of a circle is 2 a^2/3, for source and field. The
+ * neglected terms are of the order (a/L)^5. The waves that the nodes can represent have an edge that differs
+ * by a hundredth of a spacing. */
 static void
 periodic_cell(void **state)
 {
@@ -342,9 +342,8 @@ periodic_cell(void **state)
     }
 }
 
-/* Hertz: a sphere conducts as the circle of his radius, wherever its middle lies among the nodes,
- * and no correction of the edge of the area is wanted: that the area comes out too large makes up
- * for the edge. */
+/* Hertz: a sphere conducts like a circle of Hertz's radius, for any position of its centre between the nodes,
+ * without a correction of the area: the excess of the computed area compensates the error at the edge. */
 static void
 sphere(void **state)
 {
@@ -405,7 +404,7 @@ nothing_to_say(void **state)
         assert_int_equal(rc_solver_conductance(s, 1, 2, &g, &err), RC_OK);
         if (layers > 0) {
             assert_true(isnan(g.value) && isnan(g.lower) && isnan(g.stiffness));
-        } else { /* of two bodies with all their numbers */
+        } else { /* two bodies with all moduli */
             double one = 1 / ((1 - 0.09) / 100e9 + (1 - 0.04) / 70e9);
             assert_true(fabs(g.value * one * 1.5 / (2 * g.stiffness) - 1) < 1e-6);
         }
@@ -414,7 +413,7 @@ nothing_to_say(void **state)
         assert_int_equal(rc_solver_conductance(s, 1, INFINITY, &g, &err), RC_FAIL);
         rc_solver_free(s);
     }
-    /* complete contact of a periodic map: the mean planes are in contact, nothing is in the way */
+    /* complete contact of a periodic map: the mean planes are in contact, without resistance */
     for (size_t k = 0; k < 256; k++)
         h[k] = 0;
     problem = (struct rc_problem){.boundary = RC_PERIODIC, .pair.estar = estar, .load = 1};

@@ -1,6 +1,6 @@
-/* A map of hardness: the pressure is that of a dense quadratic program with a bound of its own for
- * each node, and obeys the laws of contact where it is hard: two phases, equal heights, saturation,
- * bounds that are missing. */
+/* A map of hardness: the pressure is that of a dense quadratic program with an individual bound for each
+ * node, and obeys the laws of contact in hard cases: two phases, equal heights, saturation, nodes without a
+ * hardness. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -42,8 +42,8 @@ press(const struct rc_shape *shape, const double *h, struct rc_problem problem)
     return s;
 }
 
-/* The load that is this fraction of the map's capacity; if the map has no bound, of the mean of its
- * numbers. */
+/* The load that is this fraction of the map's capacity; if a node has no hardness, a fraction of the mean of
+ * the finite values. */
 static double
 load_of(const struct rc_shape *shape, const double *map, double part)
 {
@@ -57,7 +57,7 @@ load_of(const struct rc_shape *shape, const double *map, double part)
     return part * sum / count * (double)(shape->nx * shape->ny) * shape->dx * shape->dy;
 }
 
-/* 0 <= p <= H, the load, and gaps that fit; nodes at their hardness are counted. */
+/* Checks 0 <= p <= H, the load, the signs of the gaps, and the count of nodes at their hardness. */
 static size_t
 lawful(const struct rc_shape *shape, const double *map, double load, const struct solved *a)
 {
@@ -165,7 +165,7 @@ one_number_is_that_number(void **state)
     free(map);
 }
 
-/* A map of nearly one number takes the steps of that number, and gives its pressure. */
+/* A map of nearly one value takes the same steps as that number, and gives the same pressure. */
 static void
 as_quick_as_a_number(void **state)
 {
@@ -191,7 +191,8 @@ as_quick_as_a_number(void **state)
         a = press(&shape, h, number);
         b = press(&shape, h, mapped);
         assert_true(distance(n, b.p, a.p) < 2 * number.tol);
-        assert_true(b.c.iterations <= a.c.iterations + 1); /* a bound more or less may be met */
+        assert_true(b.c.iterations <=
+                    a.c.iterations + 1); /* the number of nodes at a bound may differ by one */
         assert_true(a.c.plastic_nodes > 1000);
         solved_free(&a);
         solved_free(&b);
@@ -200,7 +201,7 @@ as_quick_as_a_number(void **state)
     }
 }
 
-/* A bound that no node reaches is none, whatever its values. */
+/* A hardness that no node reaches has no effect, whatever its values. */
 static void
 far_away_is_elastic(void **state)
 {
@@ -227,7 +228,7 @@ far_away_is_elastic(void **state)
 
 /* ---- hard cases ---- */
 
-/* Flats of equal height and patches of equal hardness, loads up to what all can carry. */
+/* Flats of equal height and patches of equal hardness; loads up to the capacity of all nodes. */
 static void
 ties_and_saturation(void **state)
 {
@@ -249,7 +250,7 @@ ties_and_saturation(void **state)
                 bool soft = (k % shape.nx / 8 + k / shape.nx / 8) % 2 == 0;
                 h[k] = way & 2 ? 1e-9 * (double)(k % 3) : 0;
                 if (way & 4)
-                    h[k] += k % shape.nx < 11 ? 1e-3 : 0; /* a step that nothing flattens */
+                    h[k] += k % shape.nx < 11 ? 1e-3 : 0; /* a step that no pressure flattens */
                 map[k] = soft ? 1e8 : 3e8;
             }
             problem.load = load = load_of(&shape, map, parts[r]);
@@ -262,7 +263,7 @@ ties_and_saturation(void **state)
     free(map);
 }
 
-/* All load that the others cannot carry is on one node without bound. */
+/* One node without a hardness carries all the load that the others cannot carry. */
 static void
 one_node_without(void **state)
 {
@@ -293,7 +294,7 @@ one_node_without(void **state)
     free(map);
 }
 
-/* Two phases in stripes and spots, and coarser grids on which their edges lie within nodes. */
+/* Two phases in stripes and spots, and coarser grids on which their edges lie inside cells. */
 static void
 two_phases(void **state)
 {
@@ -374,7 +375,7 @@ mirrored(void **state)
     free(other);
 }
 
-/* An approach, a history, a start from a kept pressure: as with one number. */
+/* An approach, a history, and a start from a saved pressure give the same as with one number. */
 static void
 other_ways(void **state)
 {

@@ -1,5 +1,5 @@
-/* A sphere on a half-space is Hertz's contact: radius, pressure, approach, displacement, and the
- * stresses under it; the errors fall with the grid. */
+/* A sphere on a half-space agrees with Hertz's contact: radius, pressure, approach, displacement, and the
+ * stresses below; the errors decrease with finer grids. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -73,7 +73,8 @@ radius_pressure_and_approach(void **state)
     for (int k = 0; k < 3; k++) {
         double m = (double)(64 << k), nodes = m / 3;
         e[k] = errors_at((size_t)m);
-        /* the radius moves by whole nodes: under 1/M, the paper's bound, and erratic below it */
+        /* the radius changes by whole nodes: its error is below 1/M, the bound of the paper, and erratic
+         * below that */
         assert_true(e[k].radius < 1 / m);
         assert_true(e[k].peak < grid_peak / (nodes * nodes));
         assert_true(e[k].approach < grid_approach / (nodes * nodes));
@@ -87,7 +88,7 @@ radius_pressure_and_approach(void **state)
         assert_true(e[k].pressure < e[k - 1].pressure / 2);
         assert_true(e[k].displacement < e[k - 1].displacement);
     }
-    /* what numerics find elsewhere with a quarter of the nodes */
+    /* published numerical errors with a quarter of the nodes */
     assert_true(e[2].peak < 5e-5 && e[2].approach < 2e-5);
 }
 
@@ -123,8 +124,8 @@ stress_under_the_contact(void **state)
                 largest = mises[k];
                 place = z;
             }
-        /* Next to the axis, half a diagonal of a cell away from it: r^2 / a^2 is 7e-5. The cells'
-         * own error dies away over the first depths. */
+        /* Near the axis, at a distance of half a diagonal of a cell: r^2 / a^2 is 7e-5. The error of the
+         * stepped pressure decays over the first depths. */
         if (d > 2) {
             const double off = 1e-3 * exact.p0;
             size_t middle = (M / 2) * M + M / 2;
@@ -142,7 +143,7 @@ stress_under_the_contact(void **state)
     solved_free(&solved);
 }
 
-/* The numbers follow the units: metres, micrometres, and a datum added to the heights. */
+/* Results scale with the units: metres, micrometres, and a datum added to the heights. */
 static void
 units_and_datum(void **state)
 {

@@ -1,6 +1,6 @@
-/* Contact of coated bodies, beside the solutions of the dual integral equations of a stack: paraboloids,
+/* Contact of coated bodies compared with solutions of the dual integral equations of layers: paraboloids,
  * flat punches and waves on hard, soft and incompressible coats, thin and thick, on elastic and rigid
- * bases; on grids that get finer the error falls. */
+ * bases; the error decreases with finer grids. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -26,7 +26,7 @@ struct off {
     double approach, middle;
 };
 
-/* How far the solution is from the answer, on m by m nodes that reach 1.2 times as far as the contact. */
+/* The error of the solution, on m by m nodes over 1.2 times the contact. */
 static struct off
 paraboloid(const struct rc_pair *c, const struct answer *known, double modulus, size_t m)
 {
@@ -110,7 +110,7 @@ paraboloid_on_one(size_t k, size_t m)
     return paraboloid(&coating, &paraboloids[k].known, estar, m);
 }
 
-/* 38 nodes in the radius are enough: all are better than what 193 nodes were to give. */
+/* 38 nodes in the radius are enough: all errors are below those expected for 193 nodes. */
 static void
 one_layer(void **state)
 {
@@ -150,8 +150,8 @@ three_layers_and_elastic_ball(void **state)
     assert_true(fabs(off.approach) < 1e-4 && fabs(off.middle) < 4e-4);
 }
 
-/* The error is that of a pressure constant in cells, of second order; on single grids it depends on where
- * the edge of the contact lies among the nodes, so it is that of four bodies. */
+/* The error of a pressure that is constant in cells is of second order. On one grid it depends on the
+ * position of the contact edge between the nodes, so the sum over four bodies is compared. */
 static void
 second_order(void **state)
 {
@@ -183,12 +183,12 @@ second_order(void **state)
 
 /* ---- flat punches ---- */
 
-/* A punch on m by m nodes, 1.1 times as far as its radius a each way. */
+/* A punch on m by m nodes over 1.1 times its radius a along each side. */
 struct disc {
     struct rc_shape shape;
-    double *h;     /* 0 under it, far below elsewhere */
+    double *h;     /* 0 under the punch, far below elsewhere */
     size_t under;  /* nodes                           */
-    double radius; /* of a circle as large as those   */
+    double radius; /* radius of the circle with the area of these nodes */
 };
 
 static struct disc
@@ -223,8 +223,8 @@ punch(const struct rc_pair *c, double over, size_t m)
     return load;
 }
 
-/* The same of a punch that is glued on: under it the displacement is 1 m, whatever the sign of the
- * pressure. By plain conjugate gradients. */
+/* The same for a bonded punch: under it the displacement is 1 m, and pressures may have any sign. By plain
+ * conjugate gradients. */
 static double
 glued_punch(const struct rc_pair *c, double over, size_t m)
 {
@@ -266,12 +266,12 @@ glued_punch(const struct rc_pair *c, double over, size_t m)
     return load;
 }
 
-/* The pressure is singular at the edge, so the error is of first order, half a node of the radius at
- * most, and two grids together have a fourth of that left. Stiff coats lose contact in the middle of the
- * punch, which the integral equations do not know: for them it is glued. */
+/* The pressure is singular at the edge, so the error is of first order, at most half a node in the radius;
+ * extrapolation from two grids leaves a fourth of it. Under stiff coats the middle of the punch separates,
+ * which the integral equations do not include: there the punch is bonded. */
 static const double half_a_node = 0.5 * 2.2;
 
-/* Adds their sizes to sum. */
+/* Adds their absolute values to sum. */
 static void
 check_punch(double coarse, double fine, double sum[2])
 {
@@ -306,8 +306,8 @@ punches(void **state)
     assert_true(sum[1] < 0.6 * sum[0]);
 }
 
-/* Hayes, Keer, Herrmann and Mockros 1972: P (1 - nu)/(4 G a approach) on a layer on a rigid base, here
- * with more digits than they give. */
+/* Hayes, Keer, Herrmann and Mockros 1972: P (1 - nu)/(4 G a approach) on a layer on a rigid base, here with
+ * more digits than in the paper. */
 static void
 punches_on_rigid_base(void **state)
 {
@@ -331,10 +331,9 @@ punches_on_rigid_base(void **state)
 
 /* ---- limits ---- */
 
-/* A thin layer on a rigid base is a bed of springs when it is compressible, p = M u/t, and has to be
- * squeezed out sideways when it is not: P over pi M a^4/4Rt and pi G a^6/32Rt^3, approach over a^2/2R and
- * a^2/4R, both to 1 as t goes to 0. `off`: where t is 2.4 cells and nothing is compressible, they are
- * coarse. */
+/* A thin compressible layer on a rigid base is an elastic foundation, p = M u/t; an incompressible one must
+ * flow sideways. P over pi M a^4/4Rt or pi G a^6/32Rt^3, and the approach over a^2/2R or a^2/4R, tend to 1 as
+ * t goes to 0. `off`: the grid is coarse where t is 2.4 cells and the layer is incompressible. */
 static void
 thin_on_rigid(void **state)
 {
@@ -366,7 +365,7 @@ thin_on_rigid(void **state)
     }
 }
 
-/* Pressure and approach of a ball on a coat of that thickness, beside those on one material on the same
+/* Pressure and approach of a ball on a coat of this thickness, compared with one material on the same
  * grid. */
 static struct off
 beside_one(const struct solved *bare, struct rc_problem problem, const double *h,
@@ -388,8 +387,9 @@ beside_one(const struct solved *bare, struct rc_problem problem, const double *h
     return off;
 }
 
-/* What a thin coat changes goes with its thickness. What a thick one does goes with a/t, as the whole coat
- * sinks, but for the shape of what sinks, which goes with the third power. */
+/* The effect of a thin coat is proportional to its thickness. The effect of the substrate below a thick coat
+ * is proportional to a/t, because the whole coat sinks; the change of the shape is proportional to the third
+ * power. */
 static void
 thick_and_thin(void **state)
 {
@@ -424,7 +424,7 @@ thick_and_thin(void **state)
 
 /* ---- complete contact ---- */
 
-/* A wave that is pressed flat: the amplitude of pressure over that of height is q/(2 g(q)), g by Airy's
+/* A flattened wave: the amplitude of pressure over that of height is q/(2 g(q)), g by Airy's
  * functions with 50 digits, E_s = 1. */
 static void
 waves_pressed_flat(void **state)

@@ -35,7 +35,7 @@ cone(void **state)
     free(h);
 }
 
-/* A plastic cone carries H over a circle: load = H pi a^2 where the elastic rim is thin. */
+/* A plastic cone carries H over a circle: load = H pi a^2 if the elastic rim is thin. */
 static void
 plastic_cone(void **state)
 {
@@ -59,7 +59,7 @@ plastic_cone(void **state)
     assert_true(fabs(s.c.load / load - 1) < summed);
     assert_true(s.c.plastic_area * hardness <= load);
     assert_true(s.c.plastic_area * hardness >
-                0.9 * load); /* the rim: a node of 54, and what bends */
+                0.9 * load); /* the rim: one node of 54, and the elastic deformation */
     assert_true(s.c.contact_area * hardness >= load);
     solved_free(&s);
     free(h);
@@ -85,7 +85,7 @@ punch_error(size_t m)
     return fabs(error);
 }
 
-/* The edge pressure is singular and the edge a staircase: first order at best. */
+/* The pressure at the edge is singular and the edge is a staircase: the order is at most the first. */
 static void
 flat_punch(void **state)
 {
@@ -96,8 +96,8 @@ flat_punch(void **state)
     assert_true(fine < coarse);
 }
 
-/* Two equal peaks far apart carry half the load each, and each sinks a little more than alone: by
- * the other's displacement, load / 2 pi E* distance. */
+/* Two equal distant peaks carry half the load each, and each sinks further by the displacement of the other,
+ * load / (2 pi E* distance). */
 static void
 two_peaks(void **state)
 {

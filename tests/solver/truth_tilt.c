@@ -1,5 +1,5 @@
-/* A counter body that is free to tilt, against a dense quadratic program with the two moments as further
- * constraints, and where it first touches against all triangles of nodes. */
+/* A counter body that is free to tilt, compared with a dense quadratic program with two further constraints
+ * for the moments; its first touch is compared with a search over all triangles of nodes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -25,8 +25,8 @@ arm(const struct dense *d, size_t c, size_t k)
     return d->sum[1 + c][k];
 }
 
-/* Height at which a rigid face rests above the point of the force: the highest that any nodes around that
- * point hold there. */
+/* The height of a resting rigid face above the point of the force: the largest height that any triangle of
+ * nodes around this point gives. */
 static double
 rests_at(const struct dense *d, const double *h)
 {
@@ -94,7 +94,7 @@ one(uint64_t seed, struct tally *t)
     pose(&d, &s, &problem);
     a = solve(s, h, problem);
     assert_int_equal(a.status, RC_OK);
-    if (bounded) { /* once more, and the highest pressures are too high */
+    if (bounded) { /* repeated, and the highest pressures are too high */
         double least = 2 * problem.load / (double)n;
         problem.hardness = fmax((0.3 + 0.6 * uniform(&seed)) * a.c.max_pressure, least);
         solved_free(&a);
@@ -150,8 +150,8 @@ dense_program(void **state)
     assert_true(t.judged > PROBLEMS / 2 && t.few < PROBLEMS / 20);
 }
 
-/* Under a force beside its top a ball rolls until it touches there: a parabola and a plane are the same
- * parabola, moved. */
+/* Under a force beside its apex a ball rolls until it touches there: a parabola plus a plane is the same
+ * parabola at another position. */
 static void
 a_ball_rolls(void **state)
 {
@@ -201,8 +201,8 @@ approach_at(struct rc_solver *s, double load, double *stiffness)
     return c.approach;
 }
 
-/* A load that grows turns the face too: the stiffness is that of all of it. And at an approach that is asked
- * for stands the load that has it; heights that are set again are those of another solver. */
+/* A growing load tilts the face too, and the stiffness includes this. A requested approach gives the load
+ * that has this approach; after setting other heights the result is that of a new solver. */
 static void
 load_and_approach(void **state)
 {
@@ -228,7 +228,7 @@ load_and_approach(void **state)
     low = approach_at(solver, load * (1 - step), &some);
     high = approach_at(solver, load * (1 + step), &some);
     (void)approach_at(solver, load, &stiffness);
-    /* nodes that change sides in between: the difference is that of the middle to the second order */
+    /* nodes change their state within the step: the central difference is of second order */
     assert_true(fabs(2 * step * load / (high - low) / stiffness - 1) < 5e-3);
     assert_int_equal(rc_solver_set_load(solver, 0, high, &err), RC_OK);
     c = finish(solver);
@@ -245,7 +245,7 @@ load_and_approach(void **state)
     free(h);
 }
 
-/* Goes on from a pressure that was kept. */
+/* The solution continues from a saved pressure. */
 static void
 resumed(void **state)
 {
@@ -273,9 +273,9 @@ resumed(void **state)
     free(h);
 }
 
-/* The estimate stands on the stiffness of the contact that the search ends with: not on none, where the
- * face has not been turned on this grid, and not on that of a contact before it, where few nodes are
- * elastic. Against the same contact solved tightly. */
+/* The estimate uses the stiffness of the contact at the end of the search: also if the face was not tilted on
+ * this grid, and not that of an earlier contact, which may have few elastic nodes. Compared with the same
+ * contact at a low tolerance. */
 static void
 ends_with_its_stiffness(void **state)
 {

@@ -1,5 +1,5 @@
-/* Waves pressed flat on a periodic map: Westergaard's area and pressure from a tenth to all of the
- * load of full contact, and the two-dimensional wave of Johnson, Greenwood and Higginson. */
+/* Flattened waves on a periodic map: Westergaard's area and pressure from a tenth of the load of full contact
+ * to the full one, and the two-dimensional wave of Johnson, Greenwood and Higginson. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -50,7 +50,7 @@ westergaard(void **state)
         print_message("%.3f of full: fraction %.5f (%.5f), L1(p) %.1e, %zu iterations\n", loads[k],
                       s.c.contact_fraction, wave_fraction(mean, full), above / below,
                       s.c.iterations);
-        /* a node at either edge, where the pressure ends as a square root: order 3/2 */
+        /* an error of a node at each edge, where the pressure falls like a square root: order 3/2 */
         nodes = 1024 * wave_fraction(mean, full);
         assert_true(fabs(s.c.contact_fraction - wave_fraction(mean, full)) <= 2.0 / 1024);
         assert_true(above / below < 1 / pow(nodes, 1.5));
@@ -59,7 +59,7 @@ westergaard(void **state)
     }
 }
 
-/* Beyond full contact the pressure is mean + full cos, and nothing is out of contact. */
+/* Beyond full contact the pressure is mean + full cos, and all nodes are in contact. */
 static void
 full_contact(void **state)
 {
@@ -72,7 +72,7 @@ full_contact(void **state)
     assert_int_equal(s.c.contact_nodes, 64 * 48);
     for (size_t k = 0; k < 64 * 48; k++) {
         double p = 1.7 * full + full * cos(2 * exact_pi * node_x(shape, k) / lx);
-        assert_true(fabs(s.p[k] - p) < 10 * tol * full); /* one node, not the mean over all */
+        assert_true(fabs(s.p[k] - p) < 10 * tol * full); /* of one node, not a mean */
     }
     assert_true(s.c.pressure_error < tol);
     /* p u / 2 with u = amplitude cos: full amplitude / 4 over the area; the mean pressure adds none */
@@ -112,7 +112,7 @@ two_dimensional_wave(void **state)
     }
 }
 
-/* A map of two periods has twice the solution of one; shifted heights have the shifted pressure. */
+/* A map of two periods has the solution of one period twice; shifted heights have the shifted pressure. */
 static void
 periods_and_shifts(void **state)
 {
@@ -143,7 +143,7 @@ periods_and_shifts(void **state)
     print_message("%zu nodes at the hardness, worst difference %.1e\n", a.c.plastic_nodes,
                   worst / a.c.max_pressure);
     assert_true(a.c.plastic_nodes > 0);
-    assert_true(worst < 100 * problem.tol * a.c.max_pressure); /* one node, not the mean over all */
+    assert_true(worst < 100 * problem.tol * a.c.max_pressure); /* of one node, not a mean */
     assert_true(fabs(a.c.approach / b.c.approach - 1) < 2 * problem.tol);
     solved_free(&a);
     solved_free(&b);

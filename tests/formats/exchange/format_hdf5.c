@@ -1,4 +1,5 @@
-/* HDF5 files, made here, are read; what leads out of the file or was made to burst is refused. */
+/* HDF5 files made by this test are read; files with links to other files, and decompression bombs, are
+ * refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -56,7 +57,7 @@ hdf5_is_read(void **state)
         }
 }
 
-/* A small file cannot make the reader open another one, whose contents would come out as heights. */
+/* A small file cannot make the reader open another file and return its content as heights. */
 static void
 hdf5_stays_in_its_file(void **state)
 {
@@ -81,10 +82,9 @@ hdf5_stays_in_its_file(void **state)
     drop(&b);
 }
 
-/* Changed at random and read without the sandbox, HDF5 files make libhdf5 1.10.8 itself read past
- * its memory (RC_FUZZ=10 RC_FUZZ_BYPASS=1): that is what the sandbox is for.
- *
- * 128 MiB of zeros in a file of a few hundred KiB: as a map, and as one piece of a tiny map. */
+/* Randomly changed HDF5 files, read without the sandbox, make libhdf5 1.10.8 read beyond its memory
+ * (RC_FUZZ=10 RC_FUZZ_BYPASS=1): the sandbox protects against this. A file of a few hundred KiB holds 128 MiB
+ * of zeros: as a map, and as one chunk of a tiny map. */
 static void
 hdf5_bombs(void **state)
 {
@@ -116,7 +116,8 @@ hdf5_bombs(void **state)
     }
 }
 
-/* Sizes have 64 bits in a file and may have 32 in memory: rows that are 2 by the lower half are not 2. */
+/* Sizes have 64 bits in a file and may have 32 bits in memory: a number of rows whose lower half is 2 must
+ * not count as 2. */
 static void
 hdf5_sizes_are_whole(void **state)
 {
@@ -128,7 +129,7 @@ hdf5_sizes_are_whole(void **state)
     struct bytes b;
 
     (void)state;
-    H5Pset_chunk(options, 2, chunk); /* of which none is in the file: all values are 0 */
+    H5Pset_chunk(options, 2, chunk); /* the file holds no chunk: all values are 0 */
     set = H5Dcreate2(file, "z", H5T_IEEE_F64LE, space, H5P_DEFAULT, options, H5P_DEFAULT);
     assert_true(set >= 0);
     H5Dclose(set);

@@ -1,4 +1,4 @@
-/* Which arrays of a MAT file are channels, what is refused, and what damaged files do. */
+/* The channels of a MAT file, refused files, and damaged files. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -43,7 +43,8 @@ add_rising(struct bytes *m, const char *name, unsigned flags, size_t rows, size_
     drop(&b);
 }
 
-/* Several arrays are several channels, numbers among them are none; the unit is of neither. */
+/* Several arrays are several channels; single numbers are no channels; the unit then applies to none of
+ * them. */
 static void
 several_arrays(void **state)
 {
@@ -71,7 +72,7 @@ several_arrays(void **state)
     drop(&m);
 }
 
-/* A vector is a profile where there is no map; x alone is one too. */
+/* A vector is a profile if the file has no map, also if x is the only vector. */
 static void
 vectors(void **state)
 {
@@ -131,7 +132,7 @@ refusals(void **state)
     refuse(&rc_format_mat, &m, "'one' is one number or none");
     m.n = 128;
     add_rising(&m, "h", DOUBLE, 3, 4, 1);
-    refuse(&rc_format_mat, &m, "--dx LENGTH"); /* and the unit is asked for at once */
+    refuse(&rc_format_mat, &m, "--dx LENGTH"); /* and the message asks for the unit too */
     mat_number(&m, "dx", 0.5);
     refuse(&rc_format_mat, &m, "its steps are 0.5 and 0.5 of a unit not given");
     m.n = 128;
@@ -149,7 +150,7 @@ refusals(void **state)
     drop(&m);
 }
 
-/* What zlib's own checksum finds is refused. */
+/* A file with a wrong checksum of zlib is refused. */
 static void
 damaged_packing(void **state)
 {
@@ -206,11 +207,11 @@ hdf_behind_header(hid_t file)
     return b;
 }
 
-/* Arrays are turned, fields of structs are no variables, and there must be an array. */
+/* Arrays are transposed, fields of structs are no variables, and a file without an array is refused. */
 static void
 version_7_3(void **state)
 {
-    /* column after column, as MATLAB holds it */
+    /* column after column, as in MATLAB */
     static const double v[] = {1, 4, 2, NAN, 3, 6}, steps[] = {2, 3}, um[] = {'u', 'm'};
     static const double nm[] = {'n', 'm'}, wanted[] = {1e-9, 2e-9, 3e-9, 4e-9, NAN, 6e-9};
     struct rc_channel channel[4];

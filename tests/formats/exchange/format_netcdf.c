@@ -1,5 +1,5 @@
-/* NetCDF files, made here byte by byte, are read in all versions and types; what is damaged or
- * lies of its size is refused. */
+/* NetCDF files made by this test are read in all versions and types; damaged files and files with wrong sizes
+ * are refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -82,7 +82,7 @@ cdf_value(struct bytes *b, unsigned type, double value)
         add_number(b, (uint64_t)(int64_t)value, width[type]);
 }
 
-/* One variable: its place is set by the second of two runs. */
+/* Writes one variable; the second of two passes sets its position. */
 static void
 cdf_variable(struct bytes *b, const struct cdf *c, const char *name, size_t rank, unsigned first,
              const char *unit, unsigned type, uint64_t size, uint64_t at)
@@ -150,7 +150,7 @@ cdf_file(const struct cdf *c)
     bool records = c->rows == 0;
     size_t rows = (size_t)(records ? 2 : c->rows), columns = (size_t)c->columns;
 
-    if (rows * columns != 6 || rows > 6) { /* a header that lies */
+    if (rows * columns != 6 || rows > 6) { /* a header with a false size */
         rows = 2;
         columns = 3;
     }
@@ -257,7 +257,8 @@ other_units_stay(void **state)
     g = read_well(&rc_format_netcdf, &b, 0);
     assert_string_equal(g->unit, "K");
     assert_string_equal(g->channel, rc_grid_get(g, "file.channel"));
-    for (size_t k = 0; k < g->nx * g->ny; k++) /* the numbers that are nanometres in the other */
+    for (size_t k = 0; k < g->nx * g->ny;
+         k++) /* the same numbers as in the other file, whose unit is nm */
         assert_true(isnan(of->v[k]) ? isnan(g->v[k])
                                     : fabs(of->v[k] - 1e-9 * g->v[k]) <= rounding * fabs(of->v[k]));
     rc_grid_free(g);
@@ -268,8 +269,8 @@ other_units_stay(void **state)
 
 /* ---- scans of GXSM ---- */
 
-/* A file as GXSM writes it: the field over (time, value, dimy, dimx), 2 rows of 3, dz, where its
- * points are, and a log of another two dimensions before it. */
+/* A file as GXSM writes it: the field over (time, value, dimy, dimx) with 2 rows of 3 nodes, dz, the
+ * coordinates, and before these a log over two other dimensions. */
 struct gxsm {
     uint64_t times;
     unsigned field_type;
@@ -371,7 +372,8 @@ scans_of_gxsm(void **state)
         g.field_type = variant == 1 ? 3 : 5;
         g.records = variant == 2;
         g.step_y = variant == 3 ? -500 : 500;
-        g.unit = variant == 4 ? "\xc3\x85" : "nm"; /* whatever it displays, it is Angstroms */
+        g.unit = variant == 4 ? "\xc3\x85"
+                              : "nm"; /* the lengths are in Angstrom, whatever the display unit */
         b = gxsm_file(&g);
         file = file_of(&b, "scan.nc");
         assert_int_equal(rc_format_list(&rc_format_netcdf, &file, &wish, channel, 4, NULL), 1);
@@ -404,11 +406,11 @@ other_scans_of_gxsm(void **state)
     assert_true(map->v[3] == 25);
     rc_grid_free(map);
     drop(&b);
-    g.unit = "mV"; /* the prefix is that of the display: the file does not say */
+    g.unit = "mV"; /* the prefix belongs to the display: the unit of the values is unknown */
     b = gxsm_file(&g);
     refuse(&rc_format_netcdf, &b, "does not give the unit of its heights");
     drop(&b);
-    /* two layers are no map, and the log is none either */
+    /* neither the two layers nor the log are maps */
     g.times = 2;
     b = gxsm_file(&g);
     file = file_of(&b, "scan.nc");
@@ -417,7 +419,7 @@ other_scans_of_gxsm(void **state)
     drop(&b);
 }
 
-/* A coordinate that falls turns the map. */
+/* A falling coordinate reverses the map. */
 static void
 falling_axes(void **state)
 {

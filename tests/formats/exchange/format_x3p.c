@@ -1,4 +1,4 @@
-/* X3P files are read by their own rules. */
+/* X3P files: types, missing points, positions and checksums. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -13,8 +13,8 @@
 #include "formats/containers/containers.h"
 #include "tests/formats/made/made.h"
 
-/* Six numbers in each type, as bytes spelt out and as text: with increment 1/4 and offset -2 every
- * height is exact. */
+/* Six numbers in each type, as explicit bytes and as text; with increment 1/4 and offset -2 every height is
+ * exact. */
 static const struct {
     const char *type;
     unsigned char bytes[48];
@@ -169,7 +169,7 @@ valid_points(void **state)
     drop_file(&file);
 }
 
-/* The checksums here are by md5sum(1). */
+/* These checksums were computed by md5sum(1). */
 static const char plain_md5[] = "50DA13748603A71B2A148AB7B8EE9DC2"; /* of the bytes of 1.0 to 6.0 */
 static const char main_md5[] = "a6dfd3c456eb1c49b3391fa8dc64551d";  /* of main.xml around them */
 
@@ -201,7 +201,7 @@ checksums(void **state)
     free(xml);
 }
 
-/* 480,000 bytes, the doubles 0 to 59999: more than are unpacked at a time. */
+/* 480,000 bytes, the doubles 0 to 59999: more than the reader unpacks at a time. */
 static void
 checksum_over_several_chunks(void **state)
 {
@@ -309,7 +309,7 @@ words_become_keys(void **state)
     assert_null(rc_grid_get(g, "file.calibrated"));
     rc_grid_free(g);
     drop_file(&file);
-    /* another encoding, control characters, and more than a header should carry */
+    /* another encoding, control characters, and a text that is too long for a header */
     xml = binary_xml("D", "");
     alter(&xml, "UTF-8", "ISO-8859-1");
     alter(&xml, "A. \xc3\x85ngstr\xc3\xb6m", "\xc5ngstr\xf6m");
@@ -353,8 +353,8 @@ profiles(void **state)
     free(xml);
 }
 
-/* A map of the six heights whose points bear x (32 bits, nm) or y (floats, um) or both; places from the far
- * end where they fall, `off` at the last point. */
+/* A map of the six heights whose points have x (32 bits, nm), y (floats, um) or both; falling positions start
+ * at the far end; the last position is wrong by `off`. */
 static struct rc_file
 placed_map(bool has_x, bool has_y, bool falls, double off)
 {
@@ -433,7 +433,7 @@ positions_off_a_grid(void **state)
     }
 }
 
-/* main.xml of a profile of 5 points whose x (and y) come with them, x in nanometres. */
+/* main.xml of a profile of 5 points with x, or x and y, of each point; x in nanometres. */
 static char *
 profile_xml(const char *data, const char *y_axis)
 {
@@ -451,7 +451,7 @@ profile_xml(const char *data, const char *y_axis)
     return xml;
 }
 
-/* Points at 0, 1, 2, 4 and 5 um on a straight line of numbers 1, 2, 3, 5, 6 lie at even nodes on
+/* Heights 1, 2, 3, 5, 6 at 0, 1, 2, 4 and 5 um lie on a straight line; resampled at even nodes they stay on
  * it. */
 static void
 check_resampled(char *xml, const struct bytes *data)
@@ -470,7 +470,7 @@ check_resampled(char *xml, const struct bytes *data)
     assert_int_equal(g->nx, 6);
     assert_int_equal(g->ny, 1);
     assert_true(fabs(g->dx - 1e-6) <= rounding * 7e-3 &&
-                g->dy == g->dx); /* as far as 7 mm + 1 um is */
+                g->dy == g->dx); /* to the rounding of 7 mm + 1 um */
     for (size_t k = 0; k < 6; k++)
         assert_true(fabs(g->v[k] - (-1.75 + 0.25 * (double)k)) <= rounding * 7e-3 / 1e-6);
     rc_grid_free(g);
@@ -547,7 +547,7 @@ positions_that_are_refused(void **state)
     }
 }
 
-/* As numbers of both lengths, as a datum, and by the increment. */
+/* As numbers of both lengths, as a datum, and as multiples of the increment. */
 static void
 infinite_heights_are_missing(void **state)
 {

@@ -1,4 +1,4 @@
-/* Whatever is wrong with an X3P file is refused by name. */
+/* Every defect of an X3P file is refused with a message that names it. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -107,7 +107,7 @@ other_archives(void **state)
     drop_file(&file);
 }
 
-/* A billion laughs by way of parameter entities and of general ones. */
+/* Nested entities that expand without limit (billion laughs), as parameter entities and as general ones. */
 static void
 entity_bomb(void **state)
 {
@@ -156,7 +156,7 @@ patch(struct rc_file *file, const char *name, size_t offset, uint32_t word)
 }
 
 enum {
-    PACKED_SIZE = 20, /* places in a directory entry of a ZIP archive */
+    PACKED_SIZE = 20, /* offsets in a directory entry of a ZIP archive */
     SIZE = 24
 };
 
@@ -175,13 +175,13 @@ lying_sizes(void **state)
     patch(&file, "bindata/data.bin", PACKED_SIZE, 0x7ffffff0U);
     refuse_file(&file, "promises 2147483632 packed bytes");
     drop_file(&file);
-    /* the header believes the lie: six more heights than there are */
+    /* the header agrees with the false size: six more heights than the file holds */
     alter(&xml, "<SizeX>3", "<SizeX>6");
     file = pack(xml, plain_bytes, sizeof plain_bytes);
     patch(&file, "bindata/data.bin", SIZE, 96);
     refuse_file(&file, "bindata/data.bin");
     drop_file(&file);
-    /* and fewer than there are */
+    /* and fewer than the file holds */
     alter(&xml, "<SizeX>6", "<SizeX>2");
     file = pack(xml, plain_bytes, sizeof plain_bytes);
     patch(&file, "bindata/data.bin", SIZE, 32);
@@ -190,8 +190,8 @@ lying_sizes(void **state)
     free(xml);
 }
 
-/* Reads the file in every way, in a block of memory of exactly its size: it is refused with a
- * reason or read as it was, and nothing beside the block is touched. Returns whether it was read. */
+/* Reads the file in every way, in a block of memory of exactly its size: it is refused with a reason or gives
+ * the original map, and no byte outside the block is accessed. Returns true if it was read. */
 static bool
 survives(const unsigned char *data, size_t n)
 {
@@ -248,7 +248,7 @@ every_byte_damaged(void **state)
     drop_file(&file);
 }
 
-/* Damage with checksums that fit: the archive is whole, its contents are not. */
+/* Damage with matching checksums: the archive is valid, its content is not. */
 static void
 every_byte_of_the_header_damaged(void **state)
 {
@@ -278,7 +278,7 @@ every_byte_of_the_header_damaged(void **state)
         }
         xml[k] = good;
     }
-    assert_true(refused > n); /* most of its bytes matter */
+    assert_true(refused > n); /* most of its bytes have a meaning */
     free(xml);
 }
 

@@ -1,4 +1,5 @@
-/* Workbooks, made here: blocks of numbers in sheets are profiles and maps; what has no value is refused. */
+/* Workbooks made by this test: blocks of numbers in sheets are profiles and maps; formulas without a value
+ * are refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -24,7 +25,7 @@ static const char strings[] =
     "<sst><si><t>x</t></si><si><r><t>he</t></r><r><t>ight (nm)</t></r></si>"
     "<si><t>\xc2\xb5m</t></si></sst>";
 
-/* A profile under titles, one of which has its unit in a row of its own; a formula with a value. */
+/* A profile with titles, one of them with its unit in a separate row; a formula with a value. */
 static const char profile_sheet[] =
     "<worksheet><sheetData>"
     "<row r=\"1\"><c r=\"B1\" t=\"s\"><v>0</v></c></row>"
@@ -34,7 +35,7 @@ static const char profile_sheet[] =
     "<row r=\"5\"><c r=\"B5\"><v>3</v></c><c r=\"C5\" t=\"e\"><v>#N/A</v></c></row>"
     "<row r=\"6\"><c><v>7</v></c><c r=\"B6\"><v>4.5</v></c><c r=\"C6\"><v>40</v></c></row>"
     "</sheetData></worksheet>";
-/* A matrix of which a corner is empty; a text beside it is none of it. */
+/* A matrix with an empty corner; the text beside it does not belong to it. */
 static const char map_sheet[] =
     "<worksheet><sheetData>"
     "<row><c t=\"inlineStr\"><is><t>a map</t></is></c></row>"
@@ -92,8 +93,8 @@ blocks_are_read(void **state)
     drop(&b);
 }
 
-/* A profile of SurfTest: the cut-off has the unit of its positions, the first roughness that of its
- * heights; no titles, and shorter columns beside it. */
+/* A profile of SurfTest: its positions have the unit of the cut-off, its heights that of the first roughness;
+ * it has no titles, and shorter columns are beside it. */
 static void
 surftest(void **state)
 {
@@ -124,7 +125,7 @@ surftest(void **state)
     drop(&b);
 }
 
-/* Numbers above a map, in its columns but behind an empty row or beside a text, are none of it. */
+/* Numbers above a map, in its columns but separated by an empty row or beside a text, do not belong to it. */
 static void
 numbers_above(void **state)
 {

@@ -13,7 +13,7 @@
 
 struct map {
     size_t nx, ny;
-    double dx, dy; /* NAN where the format does not say */
+    double dx, dy; /* NAN if the format does not define it */
     double *v;
 };
 
@@ -73,7 +73,7 @@ new_values(const struct map *m)
     return v;
 }
 
-/* What stands behind `key` in text, as a number. */
+/* The number that follows `key` in the text. */
 static double
 after(const char *text, const char *key)
 {
@@ -147,7 +147,7 @@ decode_gsf(const struct written *made)
     return m;
 }
 
-/* The value of the item `name` of type `type` between two places. */
+/* The value of the item `name` of type `type` between two offsets. */
 static const char *
 gwy_item(const char *at, const char *end, const char *name, int type)
 {
@@ -260,7 +260,7 @@ decode_xyz(const struct written *made)
         first_y = k == 0 ? y : first_y;
         m.nx += y == first_y;
         if (k == 0)
-            m.dx = -x; /* of the first of the middle's two sides */
+            m.dx = -x; /* of the first two sides in the middle */
         assert_int_equal(*at++, '\n');
     }
     assert_true(m.nx > 0);
@@ -283,13 +283,13 @@ decode_sur(const struct written *made)
 
     assert_memory_equal(h, "DIGITAL SURF", 12);
     assert_int_equal(bits(h + 18, 2), 2);
-    assert_int_equal(bits(h + 334, 4), 0); /* no comment, no private zone */
+    assert_int_equal(bits(h + 334, 4), 0); /* without comment and private zone */
     assert_int_equal(bits(h + 116, 4), m.nx * m.ny);
     assert_string_equal(h + 180, "mm");
     assert_string_equal(h + 196, "mm");
     assert_string_equal(h + 212, "mm");
     assert_int_equal(made->n, 512 + width * m.nx * m.ny);
-    assert_true(low == 0); /* so that subtracting it or not is the same */
+    assert_true(low == 0); /* so that the result does not depend on subtracting it */
     m.v = new_values(&m);
     for (size_t k = 0; k < m.nx * m.ny; k++) {
         double raw = whole(h + 512 + width * k, width);
@@ -300,7 +300,7 @@ decode_sur(const struct written *made)
     return m;
 }
 
-/* Where the appended data of the array `name` begin, after their length. */
+/* The start of the appended data of the array `name`, after their length. */
 static const char *
 appended(const struct written *made, const char *name, size_t *bytes)
 {
@@ -405,7 +405,7 @@ decode_hdf5(const struct written *made)
     return m;
 }
 
-/* The variable of that name in a MAT file that is not packed: where its numbers are. */
+/* The position of the numbers of a variable in an uncompressed MAT file. */
 static const char *
 mat_variable(const struct written *made, const char *name, int class, size_t *rows, size_t *columns)
 {
@@ -444,7 +444,7 @@ decode_mat(const struct written *made)
     m.dy = f64(mat_variable(made, "dy", 6, &one, &n));
     at = mat_variable(made, "unit", 4, &one, &n);
     assert_true(one == 1 && n == 1 && at[0] == 'm' && at[1] == '\0');
-    at = made->bytes + 128 + 4 * 72; /* behind these, of a class of singles or of doubles */
+    at = made->bytes + 128 + 4 * 72; /* after these, in the class single or double */
     single = bits(at + 16, 1) == 7;
     at = mat_variable(made, "height", single ? 7 : 6, &m.ny, &m.nx);
     assert_int_equal(count(at - 4, 4), m.nx * m.ny * (single ? 4 : 8));

@@ -1,5 +1,5 @@
-/* What is written holds the numbers that were given, by a decoder of each format that shares no
- * code with its writer, and by our own reader where there is one. */
+/* Written files hold the given numbers: checked by a decoder of each format that shares no code with the
+ * writer, and by the project's reader if one exists. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -14,8 +14,8 @@
 #include "decoders.h"
 #include "formats/format.h"
 
-/* How far a number may be off: `step` of the range, `part` of the largest; how far a spacing may
- * be, and from how many nodes along an axis on the file tells it. */
+/* Permitted errors: of a number `step` times the range and `part` times the largest; of a spacing; and the
+ * smallest number of nodes of an axis whose spacing the file holds. */
 /* clang-format off */
 static const struct {
     const char *name;
@@ -47,7 +47,7 @@ static const struct {
     {"hdf5", RC_RAW_F64, 0, 0, 0, 1, decode_hdf5, "hdf5"},
     {"mat", RC_RAW_F32, 0, float_rounding, 0, 1, decode_mat, "mat"},
     {"mat", RC_RAW_F64, 0, 0, 0, 1, decode_mat, "mat"},
-    /* the offset is rounded to a float below, and widens the range by that */
+    /* the offset is rounded down to a float, which widens the range */
     {"sur", RC_RAW_I16, 0.501 / 32767, 1e-11, float_rounding, 1, decode_sur, "sur"},
     {"sur", RC_RAW_I32, 0.501 / 2147483647.0, last_digit, float_rounding, 1, decode_sur, "sur"},
 };
@@ -84,7 +84,7 @@ compare(size_t f, const char *by, const struct rc_grid *g, const struct map *m)
                  formats[f].type, g->nx, g->ny, worst, within);
 }
 
-/* Our own reader, with the wishes for all that the format does not give. */
+/* The project's reader, with options for the data that the format lacks. */
 static void
 compare_reader(size_t f, const struct rc_grid *g, const struct written *made)
 {
@@ -112,9 +112,9 @@ compare_reader(size_t f, const struct rc_grid *g, const struct written *made)
     rc_grid_free(back);
 }
 
-/* The readers of text leave some cases to their user: a matrix of one column could be a profile,
- * three points could be a list, and one line is no raster. In MATLAB a column is a profile
- * too, and one number is no map. */
+/* The readers of text ask the user in some cases: a matrix of one column could be a profile, three points
+ * could be a list, and one line is no raster. In MATLAB a column is a profile too, and one number is no
+ * map. */
 static bool
 reader_takes(size_t f, const struct rc_grid *g)
 {
@@ -168,7 +168,7 @@ every_format_is_tried(void **state)
         size_t f = 0;
 
         if (strcmp((*e)->name, "stl") == 0)
-            continue; /* no map any more: format_stl.c */
+            continue; /* not a map: see format_stl.c */
         while (f < sizeof formats / sizeof *formats && strcmp((*e)->name, formats[f].name) != 0)
             f++;
         if (f == sizeof formats / sizeof *formats)
@@ -193,7 +193,7 @@ equal_heights(void **state)
 
             if (formats[f].decode != NULL) {
                 m = formats[f].decode(&made);
-                /* the sur offset rounds down to a float, and the step takes up the rest */
+                /* the offset of SUR is rounded down to a float, and the step is larger by the rest */
                 compare(f, "decoded", g, &m);
                 free(m.v);
             } else {
@@ -225,7 +225,7 @@ same_frames_same_bytes(void **state)
     rc_grid_free(whole);
 }
 
-/* Numbers have a point in every locale. */
+/* Numbers have a decimal point in every locale. */
 static void
 comma_locale(void **state)
 {

@@ -1,5 +1,5 @@
-/* Written files hold more than numbers: parts and checksums, several frames; and refuse frames that
- * the format cannot hold. */
+/* Other content of written files: members and checksums, several frames; frames that a format cannot hold are
+ * refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -41,7 +41,7 @@ member(zip_t *zip, const char *name, char *to, size_t size)
     zip_fclose(f);
 }
 
-/* Points 1 and 9 of ten are missing: 1111 1101, 01 by the standard, lowest bit first. */
+/* Points 1 and 9 of ten are missing: by the standard, lowest bit first, the bytes are 1111 1101 and 01. */
 static void
 x3p_parts(void **state)
 {
@@ -65,7 +65,7 @@ x3p_parts(void **state)
     assert_non_null(strstr(xml, "<ValidPointsLink>bindata/valid.bin</ValidPointsLink>"));
     member(zip, "bindata/valid.bin", bytes, sizeof bytes);
     assert_memory_equal(bytes, "\xfd\x01", 3);
-    /* of those two bytes, by md5sum(1) */
+    /* the checksum of those two bytes by md5sum(1) */
     assert_non_null(strstr(xml, "<MD5ChecksumValidPoints>6e21d8e0df90323085b1dd30ef380d95<"));
     member(zip, "bindata/data.bin", bytes, sizeof bytes);
     rc_md5_of(bytes, 8 * 10, md5);
@@ -88,7 +88,7 @@ x3p_parts(void **state)
     rc_grid_free(g);
 }
 
-/* Noise in all of its bits would not shrink, and is stored; a slope is compressed. */
+/* Noise in all bits would not become smaller and is stored; a slope is compressed. */
 static void
 x3p_compresses_what_shrinks(void **state)
 {
@@ -120,7 +120,7 @@ enum {
     STACK = 6
 };
 
-/* mises and szz at three depths, in the order of a stream; the value tells where it stands. */
+/* mises and szz at three depths, in the order of a stream; each value encodes its position. */
 static void
 make_stack(struct rc_grid *frame[STACK], const double depth[3])
 {
@@ -197,7 +197,7 @@ depths_make_a_stack(void **state)
     drop_stack(frame);
 }
 
-/* The header as NumPy's format description has it, then mises slice by slice. */
+/* The header according to NumPy's description of the format, then mises slice by slice. */
 static void
 depths_make_an_array(void **state)
 {
@@ -217,7 +217,7 @@ depths_make_an_array(void **state)
     for (size_t k = 0; k < 18; k++)
         assert_true(f64(made.bytes + 128 + 8 * k) == 10.0 * (double)(k / 6) + (double)(k % 6));
     free(made.bytes);
-    made = export("npy", deepest, 1, &plain_export); /* one depth is a map */
+    made = export("npy", deepest, 1, &plain_export); /* a single depth is a map */
     assert_non_null(strstr(made.bytes + 10, "'shape': (2, 3), }"));
     assert_true(made.n == 128 + 8 * 6 && f64(made.bytes + 128 + 8) == 21);
     free(made.bytes);
@@ -271,8 +271,8 @@ hdf5_values(hid_t set, int rank, hsize_t *size)
     return v;
 }
 
-/* The scale of the first axis leads to these depths: by the attribute DIMENSION_LIST, whose entries
- * are lists of references, as the dimension scale specification has it. Gives its name. */
+/* The scale of the first axis is the dataset of these depths, found by the attribute DIMENSION_LIST, whose
+ * entries are lists of references (specification of dimension scales). Returns its name. */
 static void
 check_scale(hid_t set, int rank, const double *depth, size_t n, char *name, size_t size)
 {
@@ -333,7 +333,7 @@ hdf5_stacks_know_their_depths(void **state)
         free(v);
         check_scale(set, 3, uneven, 3, scale[a], sizeof scale[a]);
         assert_true(hdf5_number(set, "dx") == 1e-6 && hdf5_number(set, "dy") == 2e-6);
-        assert_int_equal(H5Aexists(set, "depth"), 0); /* no depth is that of all slices */
+        assert_int_equal(H5Aexists(set, "depth"), 0); /* no single depth holds for all slices */
         H5Dclose(set);
     }
     assert_string_equal(scale[0], "/depth");
@@ -344,7 +344,7 @@ hdf5_stacks_know_their_depths(void **state)
     assert_memory_equal(made.bytes, again.bytes, made.n);
     free(again.bytes);
     free(made.bytes);
-    made = export("hdf5", frame, 1, &plain_export); /* one depth is a map that knows it */
+    made = export("hdf5", frame, 1, &plain_export); /* a single depth is a map with the key depth */
     file = open_hdf5(&made);
     set = H5Dopen2(file, "mises_z0", H5P_DEFAULT);
     free(hdf5_values(set, 2, size));
@@ -354,7 +354,7 @@ hdf5_stacks_know_their_depths(void **state)
     drop_stack(frame);
 }
 
-/* A channel may be called depth, and its depths be others than those of the next. */
+/* A channel may have the name depth, and its depths may differ from those of the next channel. */
 static void
 hdf5_scales_have_names_of_their_own(void **state)
 {
@@ -514,7 +514,7 @@ frames_have_names_of_their_own(void **state)
     free(made.bytes);
     frame[0]->dx *= 2;
     refuse_export("vti", frame, 3, &plain_export, "another grid");
-    made = export("hdf5", frame, 3, &plain_export); /* each has a grid of its own there */
+    made = export("hdf5", frame, 3, &plain_export); /* there each frame has its own grid */
     free(made.bytes);
     for (size_t k = 0; k < 3; k++)
         rc_grid_free(frame[k]);

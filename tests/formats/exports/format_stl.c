@@ -1,5 +1,5 @@
-/* A relief is a closed block: every edge is met once in each direction, its volume is that of what lies under
- * the map, and its upper face is the map to scale. */
+/* A relief is a closed block: every edge occurs once in each direction, its volume is the volume under the
+ * map, and its upper face is the map to scale. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -33,7 +33,7 @@ edge_of(const float *a, const float *b)
     return e;
 }
 
-/* Edges of n triangles; each must have its reverse, and there must be none twice. */
+/* Edges of n triangles; each must occur once, and so must its reverse. */
 static void
 check_closed(const float (*corner)[3][3], size_t n)
 {
@@ -53,7 +53,7 @@ check_closed(const float (*corner)[3][3], size_t n)
     free(edge);
 }
 
-/* By the divergence theorem, a sixth of a . (b x c) summed. */
+/* The volume by the divergence theorem: a sixth of the sum of a . (b x c). */
 static double
 volume(const float (*corner)[3][3], size_t n)
 {
@@ -69,8 +69,8 @@ volume(const float (*corner)[3][3], size_t n)
     return sum;
 }
 
-/* Of the block under the triangles of the cells: the prism over a triangle has the mean of its corners'
- * heights. The diagonal goes from the upper left to the lower right. */
+/* The volume under the triangles of the cells: the height of a prism is the mean of its three corners. The
+ * diagonal runs from the upper left to the lower right. */
 static double
 volume_wanted(const struct rc_grid *g, double across, double up, double lowest)
 {
@@ -106,7 +106,7 @@ check_relief(size_t nx, size_t ny, double relief)
     n = count(made.bytes + 80, 4);
     assert_int_equal(n, 2 * (nx - 1) * (ny - 1) + 6 * (nx + ny - 2));
     assert_int_equal(made.n, 84 + 50 * n);
-    assert_memory_not_equal(made.bytes, "solid", 5); /* that is how text begins */
+    assert_memory_not_equal(made.bytes, "solid", 5); /* a text file begins like this */
     corner = calloc(n, sizeof *corner);
     assert_non_null(corner);
     for (size_t t = 0; t < n; t++) {
@@ -122,7 +122,7 @@ check_relief(size_t nx, size_t ny, double relief)
         for (int k = 0; k < 3; k++)
             along += f32(at + 4 * k) *
                      (u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]);
-        assert_true(along > 0); /* the normal points where the corners say */
+        assert_true(along > 0); /* the normal agrees with the order of the corners */
         assert_int_equal(bits(at + 48, 2), 0);
     }
     check_closed((const float(*)[3][3])corner, n);
@@ -130,7 +130,7 @@ check_relief(size_t nx, size_t ny, double relief)
           1e-5))
         fail_msg("%zu x %zu: the volume is %g mm3, not %g", nx, ny,
                  volume((const float(*)[3][3])corner, n), volume_wanted(g, across, up, low));
-    for (size_t k = 0; k < nx * ny; k++) { /* each node is a corner at its place and height */
+    for (size_t k = 0; k < nx * ny; k++) { /* each node is a corner at its position and height */
         double x = (double)(k % nx) * g->dx * across,
                y = (double)(ny - 1 - k / nx) * g->dy * across;
         double z = 2 + (g->v[k] - low) * up;

@@ -1,4 +1,4 @@
-/* Files of arrays, as programs for numbers write them. */
+/* Files of arrays as NumPy, MATLAB and other programs write them. */
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
@@ -21,7 +21,7 @@ add_padding(struct bytes *m, size_t from, size_t to)
     add_zeros(m, (to - (m->n - from) % to) % to);
 }
 
-/* An element of few bytes in the short form, of more in the long one. */
+/* An element of at most four bytes in the short form, a longer one in the long form. */
 static void
 add_element(struct bytes *m, unsigned type, const void *bytes, size_t n)
 {

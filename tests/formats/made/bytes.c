@@ -1,4 +1,4 @@
-/* Bytes that grow, and the numbers of the maps that files made by hand hold. */
+/* A growing buffer of bytes, and the numbers in the maps of files made by hand. */
 #include "made.h"
 
 #include <stdlib.h>

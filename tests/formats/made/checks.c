@@ -1,4 +1,4 @@
-/* What every reader does, and every map that is read must be. */
+/* Checks that every reader, and every map that it returns, must pass. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -44,8 +44,8 @@ try_read(const struct rc_format *format, const struct bytes *b, const struct rc_
     return rc_format_read(format, &file, wish, index, &notes, err);
 }
 
-/* Keeps a file in the folder FOLDER/FORMAT when RC_SEEDS=FOLDER is in the environment: to fuzz
- * from. */
+/* Saves a file in the folder FOLDER/FORMAT if RC_SEEDS=FOLDER is in the environment, as a seed for
+ * fuzzing. */
 static void
 keep_seed(const struct rc_format *format, const struct bytes *b)
 {
@@ -109,7 +109,7 @@ refuse_cuts(const struct rc_format *format, const struct bytes *b, size_t least,
         struct rc_err err;
         struct rc_grid *g;
 
-        memcpy(cut.data, b->data, n); /* of its own size, for the sanitizer */
+        memcpy(cut.data, b->data, n); /* a block of exactly its size, for the sanitizer */
         g = try_read(format, &cut, &rc_no_wish, 0, &err);
         if (g != NULL || err.text[0] == '\0')
             fail_msg("%s: cut after %zu of %zu bytes: %s", format->name, n, b->n,

@@ -1,4 +1,4 @@
-/* Frames to be written, and files of them in memory. */
+/* Frames for the writers, and their files in memory. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

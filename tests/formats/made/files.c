@@ -1,6 +1,6 @@
 /*
- * Small files of every flat format, byte by byte as its specification has them and not by a writer
- * of ours: 3 columns, 2 rows, and every variant that the readers know.
+ * Small files of every flat format, byte by byte according to its specification, without the project's
+ * writers: 3 columns, 2 rows, and every variant that the readers support.
  */
 #include "made.h"
 

@@ -1,4 +1,4 @@
-/* A locale with a decimal comma, for the tests that numbers in files have a point in every one. */
+/* A locale with a decimal comma, to test that numbers in files have a point in every locale. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -35,7 +35,7 @@ set_comma_locale(void)
     if (mkdtemp(locale_folder) == NULL)
         return false;
     atexit(remove_locale);
-    /* its exit status tells of warnings too: whether it worked shows by setlocale */
+    /* its exit status is not 0 after warnings too; setlocale shows whether it worked */
     snprintf(
         command, sizeof command,
         "cd %s && printf 'LC_NUMERIC\\ndecimal_point \",\"\\nthousands_sep \"\"\\ngrouping -1\\n"

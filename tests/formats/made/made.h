@@ -1,6 +1,6 @@
 /*
- * Files made in memory for the tests of formats, byte by byte and not by a writer of ours, and what
- * every reader has to do with them. Made once, as the library `made`, of this folder.
+ * Files made in memory for the tests of formats, byte by byte without the project's writers, and the checks
+ * that every reader must pass. This folder is built once as the library `made`.
  */
 #ifndef MADE_H
 #define MADE_H
@@ -20,9 +20,8 @@
 struct bytes {
     unsigned char *data;
     size_t n;
-    bool big; /* most significant byte first            */
-    size_t
-        room; /* bytes there: for the address sanitizer those after n + 1 are not to be touched */
+    bool big;    /* most significant byte first */
+    size_t room; /* allocated bytes: the address sanitizer forbids access after byte n + 1 */
 };
 
 void add(struct bytes *b, const void *from, size_t n);
@@ -31,20 +30,18 @@ void add_zeros(struct bytes *b, size_t n);
 void add_number(struct bytes *b, uint64_t value, size_t n);
 void add_f64(struct bytes *b, double value);
 void add_f32(struct bytes *b, double value);
-/* The number in that type and the byte order of b, behind the others or in the place of some. */
+/* Writes the number in this type and the byte order of b, at the end or over existing bytes. */
 void add_raw(struct bytes *b, enum rc_raw raw, double value);
 void set_raw(struct bytes *b, size_t at, enum rc_raw raw, double value);
 void set_text(struct bytes *b, size_t at, const char *s);
-/* Puts the length of what follows `at` there, the length of four bytes. */
+/* Writes the length of the bytes after `at` there, as a number of four bytes. */
 void close_object(struct bytes *b, size_t at);
 void drop(struct bytes *b);
 struct rc_file file_of(const struct bytes *b, const char *name);
 
 /*
- * The numbers of the maps in made_files are
- *
- *      10  20  30      and -20, -60 instead where the type has a sign;
- *      40  50  60      50 is missing where the format can say so
+ * The numbers of the maps in made_files are 10 20 30 with -20 and -60 instead if the type has a sign; 40 50
+ * 60 50 is missing if the format can mark it
  */
 enum {
     NX = 3,
@@ -59,18 +56,18 @@ enum order {
     BOTTOM = 2,
     RIGHT = 4
 };
-/* The six numbers; `missing` stands for the missing one (pass 50 for none). */
+/* The six numbers; `missing` replaces the missing one (pass 50 for none). */
 void add_map(struct bytes *b, enum rc_raw raw, int order, double missing, size_t padding);
 
 /* ---- files.c: a file of every flat format and variant ---- */
 
 enum {
-    NO_SPACING = 1, /* the file lacks the spacing: 1.1e-6 and 1.29e-6 are wished */
-    NO_UNIT = 2,    /* the file lacks the unit: nanometres are wished            */
+    NO_SPACING = 1, /* the file lacks the spacing: the options give 1.1e-6 and 1.29e-6 */
+    NO_UNIT = 2,    /* the file lacks the unit: the options give nanometres */
     HAS_MISSING = 4,
     PLAIN = 8,   /* the type has no sign */
     SQUARE = 16, /* dy = dx = 1.1e-6     */
-    IS_TEXT = 32 /* cut at its end it may still be a file */
+    IS_TEXT = 32 /* without its last bytes it may still be valid */
 };
 
 typedef void made_maker(struct bytes *b, int variant);
@@ -85,7 +82,7 @@ struct made_file {
 extern const struct made_file made_files[];
 extern const size_t made_files_n;
 
-/* What the user says beside such a file. */
+/* The options for such a file. */
 struct rc_wish wish_for(int flags);
 
 /* profilers.c */
@@ -99,8 +96,9 @@ made_maker make_bcr, make_frt, make_tmd, make_grd, make_esri, make_npy, make_opd
 
 /* arrays.c */
 made_maker make_mat, make_nrrd;
-/* The header of a MAT file, whose byte order m then has; a variable, with class and flags as the format has
- * them; the same of one number and of text; and what was added from `at` on as a packed variable. */
+/* These functions add to a MAT file: the header, which sets the byte order of m; a variable with class and
+ * flags of the format; a variable of one number; a text; and a compressed variable in place of the bytes from
+ * `at` on. */
 void mat_header(struct bytes *m, bool big);
 void mat_array(struct bytes *m, const char *name, unsigned flags, size_t rows, size_t columns,
                unsigned type, const void *numbers, size_t n);
@@ -110,7 +108,7 @@ void mat_pack(struct bytes *m, size_t at);
 
 /* ole.c */
 made_maker make_mnt;
-/* A compound file of that stream. */
+/* A compound file with this stream. */
 void ole_file(struct bytes *b, const char *name, const struct bytes *stream);
 
 /* texts.c */
@@ -118,15 +116,15 @@ made_maker make_keyence, make_wykotext, make_zygo;
 
 /* ---- checks.c: what every reader does ---- */
 
-/* Steps of accuracy that files bring with them, relative. */
-static const double last_digit = 4e-16;    /* a rounding or two of a double */
+/* Relative tolerances for numbers from files. */
+static const double last_digit = 4e-16;    /* one or two roundings of a double */
 static const double float_rounding = 6e-8; /* one rounding to a float: 2^-24 */
 
-/* Whether a refusal gives the reason that it should. Where addresses have 32 bits, a size that lies may
- * be refused earlier, as more than there can be. */
+/* True if a message gives the expected reason. With addresses of 32 bits a false size may be refused earlier,
+ * because it exceeds the address space. */
 bool gives_reason(const char *text, const char *why);
-/* Positive, finite spacings, no infinite value, and no more values than a file of that size may
- * have. */
+/* Checks that spacings are positive and finite, that no value is infinite, and that a file of this size may
+ * have so many values. */
 void check_sound(const char *what, const struct rc_grid *g, size_t file_size);
 /* Fails the test unless the map has this size, these spacings and values, and is a height in
  * metres. */
@@ -137,11 +135,11 @@ struct rc_grid *try_read(const struct rc_format *format, const struct bytes *b,
                          const struct rc_wish *wish, size_t index, struct rc_err *err);
 struct rc_grid *read_well(const struct rc_format *format, const struct bytes *b, size_t index);
 void refuse(const struct rc_format *format, const struct bytes *b, const char *why);
-/* A file cut anywhere is refused with a reason, but for cuts in its last bytes that are no data. */
+/* A file that is cut anywhere is refused with a reason, except for cuts in the bytes after its data. */
 void refuse_cuts(const struct rc_format *format, const struct bytes *b, size_t least, size_t step);
-/* Bytes changed at random: some files are read as sound maps, the others refused with a reason.
- * RC_FUZZ in the environment multiplies how often; RC_FUZZ_BYPASS reads without the sandbox, so
- * that the sanitizers see what happens there. */
+/* Bytes are changed at random: each file is refused with a reason or gives a valid map. RC_FUZZ in the
+ * environment multiplies the number of files; RC_FUZZ_BYPASS reads without the sandbox, so that the
+ * sanitizers see the reader. */
 void survive_changes(const struct rc_format *format, const struct bytes *b, size_t times);
 
 /* ---- zip.c ---- */
@@ -154,17 +152,17 @@ struct member {
 struct bytes archive(const struct member *member, size_t members);
 /* text with the first `from` replaced by `to`; the caller frees it. */
 char *with(const char *text, const char *from, const char *to);
-/* The same in place of a text that was made before. */
+/* The same; frees the previous text at this pointer. */
 void alter(char **text, const char *from, const char *to);
 
 /* ---- x3p.c ---- */
 
 extern const struct rc_format rc_format_x3p;
 
-/* main.xml with @TYPE@ and @DATA@ to be replaced, and such data, with @MORE@. */
+/* Templates of main.xml with @TYPE@ and @DATA@, and of its data, with @MORE@. */
 extern const char main_xml[], binary_link[];
 extern const double plain_heights[6];
-/* The same as they lie in a file, the lowest byte first on every machine. */
+/* The same in the order of a file, the lowest byte first on every machine. */
 extern const unsigned char plain_bytes[48];
 
 struct rc_file archive_file(const struct member *member, size_t members);
@@ -195,14 +193,14 @@ extern const int raw_counts[6];
 struct tag text_tag(unsigned tag, const char *text);
 struct tag number_tag(unsigned tag, unsigned type, double number);
 void tiff_start(struct bytes *b, bool big);
-/* One directory with its data before it; gives its place. The list ends with tag 0. */
+/* One directory with its data before it; returns its offset. The list ends with tag 0. */
 size_t tiff_directory(struct bytes *b, const struct tag *tag);
-/* A page of nx x ny pixels in one strip, with further tags, which must be above 339; `last` is the
- * place of the word that is to point to the page. Returns the place of the next such word. */
+/* A page of nx x ny pixels in one strip, with further tags, which must be above 339; `last` is the offset of
+ * the word that points to this page. Returns the offset of the word for the next page. */
 size_t tiff_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits,
                  unsigned samples, const char *description, const void *pixels, size_t n,
                  const struct tag *more);
-/* Of pixels that zlib has packed. */
+/* A page with pixels compressed by zlib. */
 size_t tiff_packed_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits,
                         unsigned samples, const char *description, const void *pixels, size_t n,
                         const struct tag *more);
@@ -216,7 +214,7 @@ hid_t hdf_start(void);
 struct bytes hdf_end(hid_t file);
 void hdf_number(hid_t set, const char *name, double value);
 void hdf_text(hid_t set, const char *name, const char *text, bool variable);
-/* A dataset of the six counts; with `chunk` packed in pieces. */
+/* A dataset of the six counts; with `chunk` compressed in chunks. */
 hid_t hdf_set(hid_t in, const char *name, hid_t type, int rank, const hsize_t *size,
               const hsize_t *chunk);
 struct bytes hdf_plain(void);
@@ -229,7 +227,7 @@ struct written {
 };
 extern const struct rc_export_wish plain_export;
 
-/* Heights about 3.3 um, a share of them missing. */
+/* Heights of about 3.3 um, a fraction of them missing. */
 struct rc_grid *random_grid(size_t nx, size_t ny, double missing);
 struct rc_export_wish typed(enum rc_raw raw);
 struct written export(const char *name, struct rc_grid *const *frame, size_t frames,
@@ -239,10 +237,10 @@ void refuse_export(const char *name, struct rc_grid *const *frame, size_t frames
 
 /* ---- locale.c: a locale with a decimal comma ---- */
 
-/* Makes the locale by localedef(1), so that none needs to be installed, and sets it for numbers.
- * False where the system has no such program. */
+/* Makes the locale with localedef(1), so that none needs to be installed, and sets it for numbers. False if
+ * the system has no localedef. */
 bool set_comma_locale(void);
-/* The first of the tests that run under it. */
+/* The first test that runs under this locale. */
 void the_locale_has_a_comma(void **state);
 
 #endif

@@ -12,8 +12,8 @@ enum {
     FIRST = 0xffff
 };
 
-/* An entry of the directory, which is a tree: names on the right of an entry come after it, and the root's
- * child is the top of it. */
+/* An entry of the directory, which is a binary tree: names to the right of an entry come after it in the
+ * order, and the child of the root entry is the top of the tree. */
 static void
 ole_entry(struct bytes *b, const char *name, int type, unsigned right, unsigned child,
           unsigned start, size_t size)
@@ -34,7 +34,7 @@ ole_entry(struct bytes *b, const char *name, int type, unsigned right, unsigned 
     add_raw(b, RC_RAW_U64, (double)size);
 }
 
-/* Links of the n sectors from `first` on, then of none up to the end of a sector. */
+/* Links of the n sectors from `first` on, then unused links up to the end of a sector. */
 static void
 ole_chain(struct bytes *b, size_t start, unsigned first, size_t n)
 {
@@ -44,8 +44,8 @@ ole_chain(struct bytes *b, size_t start, unsigned first, size_t n)
         add_raw(b, RC_RAW_U32, 0xffffffff);
 }
 
-/* Sectors: 0 the table, 1 the directory, 2 the table of small sectors, 3 on the stream, or the
- * root's, of small sectors, in which the stream is. */
+/* Sectors: 0 is the table, 1 the directory, 2 the table of small sectors; from 3 on the stream, or the root's
+ * stream of small sectors that contains it. */
 void
 ole_file(struct bytes *b, const char *name, const struct bytes *stream)
 {
@@ -60,7 +60,7 @@ ole_file(struct bytes *b, const char *name, const struct bytes *stream)
     add_raw(b, RC_RAW_U16, 9);
     add_raw(b, RC_RAW_U16, 6);
     add_zeros(b, 44 - b->n);
-    add_raw(b, RC_RAW_U32, 1); /* sector of the table */
+    add_raw(b, RC_RAW_U32, 1); /* first sector of the table */
     add_raw(b, RC_RAW_U32, 1);
     add_zeros(b, 4);
     add_raw(b, RC_RAW_U32, CUTOFF);
@@ -90,7 +90,7 @@ ole_file(struct bytes *b, const char *name, const struct bytes *stream)
 
 /* ---- entries of a document ---- */
 
-/* An entry whose length `close` sets; before entries of a list comes another length. */
+/* An entry whose length `close` sets; an entry of a list has another length before it. */
 static size_t
 open_entry(struct bytes *b, unsigned tag, bool listed)
 {
@@ -247,7 +247,8 @@ surface_entry(struct bytes *b, int variant)
     close_entry(b, object);
 }
 
-/* 0: 32 bits and a mask, in small sectors; 1: 16 bits, behind so much else that they are in large ones */
+/* 0: 32 bits and a mask, in small sectors; 1: 16 bits, after so many other bytes that they are in large
+ * sectors */
 void
 make_mnt(struct bytes *m, int variant)
 {

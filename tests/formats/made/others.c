@@ -183,7 +183,7 @@ opdx_quantity(struct bytes *m, const char *name, double value, const char *unit)
     add_text(m, unit);
 }
 
-/* 0: a map in Matrix, 1: the same in the kind without a name of its own */
+/* 0: a map in Matrix, 1: the same in the variant without a name */
 void
 make_opdx(struct bytes *m, int variant)
 {
@@ -250,7 +250,7 @@ make_vk4(struct bytes *m, int variant)
     add_map(m, raw, ROWS, 50, 0);
 }
 
-/* Where these four bytes stand last. */
+/* The last position of these four bytes. */
 static size_t
 last_of(const struct bytes *m, const char *bytes)
 {
@@ -261,8 +261,8 @@ last_of(const struct bytes *m, const char *bytes)
     return at;
 }
 
-/* VK6 (variant 0) and VK7: a picture, in which PK 3 4 stands too, and an archive. In the second one
- * the archive counts from the start of the file. */
+/* VK6 (variant 0) and VK7: a picture that contains the bytes PK 3 4 too, and an archive. In VK7 the offsets
+ * of the archive count from the start of the file. */
 void
 make_vk6(struct bytes *m, int variant)
 {
@@ -297,7 +297,7 @@ make_vk6(struct bytes *m, int variant)
     drop(&inner);
 }
 
-/* In two orders, with commas and a header, and one of the points left out. */
+/* Points in two orders, with commas and a header, and without one of the points. */
 void
 make_xyz(struct bytes *m, int variant)
 {

@@ -1,4 +1,4 @@
-/* Files of scanning probes and of the programs that show them, made by hand. */
+/* Files of scanning probe microscopes and of their programs, made by hand. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include "made.h"
 
-/* 0: 16 bits; 1: 32 bits that the header calls 2 bytes, mV; 2: no sensitivity but nm, one size */
+/* 0: 16 bits; 1: 32 bits although the header has 2 bytes, mV; 2: nm without a sensitivity, one size */
 void
 make_nanoscope(struct bytes *m, int variant)
 {
@@ -34,7 +34,7 @@ make_nanoscope(struct bytes *m, int variant)
     add_map(m, variant == 1 ? RC_RAW_I32 : RC_RAW_I16, BOTTOM, 50, 0);
 }
 
-/* 0: 16 bits; 1: 32; 2: unsigned; 3: most significant byte first. A curve and another map before.
+/* 0: 16 bits; 1: 32; 2: unsigned; 3: most significant byte first. A curve and another map come before.
  */
 void
 make_nid(struct bytes *m, int variant)
@@ -121,7 +121,7 @@ gwy_field(struct bytes *m, const char *name, const char *unit, bool is_mask)
     close_object(m, field);
 }
 
-/* A mask and a title before their field, another channel and items of every kind between. */
+/* A mask and a title before their field, with another channel and items of every type between. */
 void
 make_gwy(struct bytes *m, int variant)
 {
@@ -144,7 +144,7 @@ make_gwy(struct bytes *m, int variant)
     close_object(m, top);
 }
 
-/* Titles of which each leaves another number of NUL before the data */
+/* Titles of different lengths, which give different numbers of NUL bytes before the data */
 void
 make_gsf(struct bytes *m, int variant)
 {
@@ -194,7 +194,7 @@ make_ibw(struct bytes *m, int variant)
     set_text(m, 220, "um");
     set_raw(m, 4, RC_RAW_I32, 320 + (double)(NX * NY * rc_raw_width(raws[variant])));
     set_raw(m, 76, RC_RAW_I32, NX * NY * (variant == 2 ? 2 : 1));
-    set_raw(m, 2, RC_RAW_I16, -igor_sum(m)); /* so that all 16-bit numbers sum up to 0 */
+    set_raw(m, 2, RC_RAW_I16, -igor_sum(m)); /* so that the sum of all 16-bit numbers is 0 */
     if (variant == 2)
         add_zeros(m, 12);
     add_map(m, raws[variant], BOTTOM, variant == 2 ? 50 : NAN, 0);
@@ -239,8 +239,8 @@ make_wsxm(struct bytes *m, int variant)
     add_map(m, raws[variant], BOTTOM | RIGHT, 50, 0);
 }
 
-/* 0: a scan that went up, the second of two channels, after its way back; 1: one that went down, and in
- * the other byte order */
+/* 0: an upward scan, the second of two channels, after its backward scan; 1: a downward scan in the other
+ * byte order */
 void
 make_sxm(struct bytes *m, int variant)
 {
@@ -268,7 +268,7 @@ make_sxm(struct bytes *m, int variant)
     m->big = false;
 }
 
-/* One axis or value of an array of NT-MDT; the unit as text, or by the code of SI. */
+/* One axis or value of an array of NT-MDT; the unit is a text or the code of an SI unit. */
 static void
 mdt_calibration(struct bytes *m, const char *unit, unsigned code, double bias, double scale,
                 size_t n, int type)
@@ -278,7 +278,7 @@ mdt_calibration(struct bytes *m, const char *unit, unsigned code, double bias, d
     add_raw(m, RC_RAW_U32, 0);
     add_raw(m, RC_RAW_U32, 76);
     add_raw(m, RC_RAW_U32, 2); /* bytes of the name */
-    add_raw(m, RC_RAW_U32, 1); /* and of a comment */
+    add_raw(m, RC_RAW_U32, 1); /* bytes of the comment */
     add_raw(m, RC_RAW_U32, (double)strlen(unit));
     add_raw(m, RC_RAW_U64, code);
     add_f64(m, 0);
@@ -310,7 +310,7 @@ mdt_frame(struct bytes *m, unsigned type, unsigned variables)
     return at;
 }
 
-/* A scan of the phase in degrees, or of the height behind points of spectra. */
+/* A scan of the phase in degrees, or of the height after points of spectra. */
 static void
 mdt_scan(struct bytes *m, bool height)
 {
@@ -335,7 +335,8 @@ mdt_scan(struct bytes *m, bool height)
     set_raw(m, at, RC_RAW_U32, (double)(m->n - at));
 }
 
-/* 0: a scan, after one of something else and a text; 1: an array, of 16 bits; 2: of floats, units by code */
+/* 0: a scan, after a scan of another quantity and a text; 1: an array of 16 bits; 2: an array of floats, with
+ * units by code */
 void
 make_mdt(struct bytes *m, int variant)
 {
@@ -374,11 +375,12 @@ make_mdt(struct bytes *m, int variant)
         add_map(m, variant == 1 ? RC_RAW_I16 : RC_RAW_F32, BOTTOM, 50, 0);
         set_raw(m, at, RC_RAW_U32, (double)(m->n - at));
     }
-    set_raw(m, 4, RC_RAW_U32, (double)(m->n - 33)); /* without this other programs refuse it */
+    set_raw(m, 4, RC_RAW_U32,
+            (double)(m->n - 33)); /* without this byte other programs refuse the file */
 }
 
-/* 0: 16 bits; 1: floats, counts in nanometres that call themselves Angstrom; 2: packed, Angstrom. A plane of
- * something else behind. */
+/* 0: 16 bits; 1: floats, where counts in nanometres are labelled Angstrom; 2: compressed, Angstrom. A plane
+ * of another quantity follows. */
 void
 make_createc(struct bytes *m, int variant)
 {

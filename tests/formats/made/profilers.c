@@ -106,7 +106,7 @@ opd_entry(struct bytes *m, const char *name, int type, double length)
     set_raw(m, at + 22, RC_RAW_U16, 0xffff);
 }
 
-/* 0: floats in RAW_DATA, 1: 16 bits in "RAW DATA", 2: floats in Raw, and numbers of other types than usual */
+/* 0: floats in RAW_DATA, 1: 16 bits in "RAW DATA", 2: floats in Raw, and header numbers of unusual types */
 void
 make_opd(struct bytes *m, int variant)
 {

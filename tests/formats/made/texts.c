@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-/* Number k of the map in this form, or the word where it is missing. */
+/* Number k of the map in this format, or the word for a missing point. */
 static void
 add_word(struct bytes *m, size_t k, const char *form, const char *missing)
 {
@@ -54,8 +54,8 @@ make_keyence(struct bytes *m, int variant)
     }
 }
 
-/* 0: in units of a wavelength, 1: in nanometres, 2: points in nanometres, 3: those from the upper right down,
- * where the header says wavelengths */
+/* 0: in units of a wavelength, 1: in nanometres, 2: points in nanometres, 3: points in nanometres from the
+ * upper right downwards, although the header says wavelengths */
 void
 make_wykotext(struct bytes *m, int variant)
 {
@@ -81,7 +81,7 @@ make_wykotext(struct bytes *m, int variant)
         }
 }
 
-/* 0: XYZ, in micrometres, a point left out; 1 to 3: ASCII, by phase resolution 0 to 2 */
+/* 0: XYZ in micrometres, without one point; 1 to 3: ASCII with phase resolution 0 to 2 */
 void
 make_zygo(struct bytes *m, int variant)
 {

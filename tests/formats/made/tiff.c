@@ -50,7 +50,7 @@ tiff_directory(struct bytes *b, const struct tag *tag)
             add(b, "\0\0\0", 4 - width[t->type]);
         }
     }
-    add_number(b, 0, 4); /* the next one: set by tiff_page */
+    add_number(b, 0, 4); /* the next page: set by tiff_page */
     return at;
 }
 
@@ -63,7 +63,7 @@ tiff_start(struct bytes *b, bool big)
     add_number(b, 0, 4);
 }
 
-/* A page as tiff_page makes it, packed as `compression` says (tag 259). */
+/* A page like that of tiff_page, compressed by the method `compression` (tag 259). */
 static size_t
 tiff_any_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits, unsigned samples,
               const char *description, const void *pixels, size_t n, const struct tag *more,

@@ -1,4 +1,4 @@
-/* X3P files made in memory, with parts to be replaced. */
+/* X3P files made in memory, whose parts a test can replace. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-/* ZIP archives made in memory, for the readers of what is in them. */
+/* ZIP archives made in memory, for the readers of their members. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

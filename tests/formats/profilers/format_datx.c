@@ -1,5 +1,5 @@
-/* DATX files, made here, are read with the table that leads to their heights and without it; other
- * HDF5 files, damaged ones and heights in an unknown unit are refused. */
+/* DATX files made by this test are read with and without the table that names their heights; other HDF5
+ * files, damaged files and heights in an unknown unit are refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -82,7 +82,7 @@ datx_file(bool table, const char *unit, bool fixed, double dx)
     data = H5Gcreate2(file, "Data", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     surface = H5Gcreate2(data, "Surface", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     datx_table(file, rows, table ? 4 : 2);
-    if (table) /* a first dataset that the table does not name */
+    if (table) /* the first dataset, which the table does not name */
         H5Dclose(hdf_set(surface, "a", H5T_STD_I8LE, 2, size, NULL));
     set = hdf_set(surface, "{3}", H5T_IEEE_F64LE, 2, size, NULL);
     hdf_text(set, "Unit", unit, true);
@@ -99,7 +99,7 @@ datx_file(bool table, const char *unit, bool fixed, double dx)
     return hdf_end(file);
 }
 
-/* Files that have nothing but /Measurement/Surface. */
+/* Files that contain only /Measurement/Surface. */
 static void
 measurement_alone(void **state)
 {

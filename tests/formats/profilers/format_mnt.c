@@ -1,5 +1,5 @@
-/* Documents of Mountains: what is no surface as measured is refused, and so are tables and blocks
- * that lie. */
+/* Documents of Mountains: data other than measured surfaces are refused, and so are false tables and
+ * blocks. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -13,7 +13,7 @@
 
 extern const struct rc_format rc_format_mnt;
 
-/* Puts a number in the place of those bytes, wherever they are first found. */
+/* Replaces the first occurrence of these bytes by a number. */
 static void
 replace(struct bytes *b, const void *from, size_t n, uint32_t to)
 {
@@ -58,7 +58,7 @@ refusals(void **state)
     drop(&none);
 }
 
-/* A chain that leads back to itself ends with the bytes of its stream. */
+/* A cyclic chain of sectors ends after the bytes of its stream. */
 static void
 chains(void **state)
 {

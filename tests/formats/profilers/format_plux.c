@@ -1,5 +1,5 @@
-/* PLUX files, made here, are read by their own rules; what is damaged, lies of its size or was
- * made to burst is refused. */
+/* PLUX files made by this test are read; damaged files, files with wrong sizes and decompression bombs are
+ * refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -133,7 +133,7 @@ plux_infinite(void **state)
     drop(&b);
 }
 
-/* 64 MiB of zeros pack into 64 KiB, and would be 128 MiB of heights. */
+/* 64 MiB of zeros compress to 64 KiB, and would give 128 MiB of heights. */
 static void
 zip_bombs(void **state)
 {

@@ -1,4 +1,5 @@
-/* Keyence ZON, made here: an archive behind a picture, with marks of what was not measured. */
+/* Keyence ZON files made by this test: an archive after a picture, with marks for points that were not
+ * measured. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -24,7 +25,8 @@ static const char device[] = "<Device><DeviceModelName>VR-3200</DeviceModelName>
 
 static const char scan[] = "<Scan><ScanDateTime>2024-02-29T10:00:00</ScanDateTime></Scan>";
 
-/* An array of NX x NY, each row with `padding` bytes behind it; of marks: 1, 2 and 0x80 at places 1 to 3. */
+/* An array of NX x NY, each row followed by `padding` bytes; an array of marks has 1, 2 and 0x80 at points 1
+ * to 3. */
 static struct bytes
 array(size_t width, size_t padding)
 {
@@ -46,7 +48,7 @@ array(size_t width, size_t padding)
     return b;
 }
 
-/* A frame of zstd in one block that is not packed, with or without its size before it (RFC 8878). */
+/* A zstd frame in one uncompressed block, with or without its size before it (RFC 8878). */
 static struct bytes
 frame(const void *bytes, size_t n, bool sized)
 {
@@ -63,7 +65,7 @@ frame(const void *bytes, size_t n, bool sized)
     return b;
 }
 
-/* The same as zon_file makes, of this kind (KPK0 or KPK1), the first `frames` members packed. */
+/* The file of zon_file in this variant (KPK0 or KPK1), with the first `frames` members compressed. */
 static struct bytes
 packed_file(const char *kind, const struct bytes *heights, const struct bytes *marks, int frames,
             bool sized)
@@ -176,7 +178,7 @@ packed_by_zstd(void **state)
     drop(&marks);
 }
 
-/* Frames that promise too much, end early, or are none. */
+/* Frames that announce too many bytes, end early, or are not zstd frames. */
 static void
 frames_that_lie(void **state)
 {
