@@ -154,6 +154,11 @@ RC_API enum rc_status rc_model_keep(struct rc_model *model, struct rc_err *err);
  * surfaces. */
 RC_API enum rc_status rc_model_set_heights(struct rc_model *model, const double *h,
                                            struct rc_err *err);
+/* A compliance c >= 0, m/Pa, of every node for itself, from the next go on: under a pressure p the surface
+ * moves by c p more, as a film would that is worn off or crushed. The answer is that of bodies with the
+ * heights h - c p: its gap is K p + c p - h - shift, and its displacement K p, of the elastic bodies alone.
+ * The approach is counted from the highest node of h. RC_FAIL where the model cannot. */
+RC_API enum rc_status rc_model_set_compliance(struct rc_model *model, double c, struct rc_err *err);
 RC_API struct rc_shape rc_model_shape(const struct rc_model *model);
 RC_API const char *rc_model_name(const struct rc_model *model);
 /* With its inner models; NULL is allowed. */

@@ -178,6 +178,16 @@ rc_model_set_heights(struct rc_model *m, const double *h, struct rc_err *err)
                : rc_err_set(err, "the heights of the %s model cannot change", m->row->name);
 }
 
+enum rc_status
+rc_model_set_compliance(struct rc_model *m, double c, struct rc_err *err)
+{
+    if (!(c >= 0) || isinf(c))
+        return rc_err_set(err, "compliance %g m/Pa: it must be at least 0 and finite", c);
+    return m->row->compliance != NULL
+               ? m->row->compliance(m, c, err)
+               : rc_err_set(err, "the %s model has no compliance of its nodes", m->row->name);
+}
+
 struct rc_shape
 rc_model_shape(const struct rc_model *m)
 {

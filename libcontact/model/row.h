@@ -59,12 +59,14 @@ struct rc_model_row {
     enum rc_status (*look)(struct rc_model *m, struct rc_point *at, struct rc_err *err);
     enum rc_status (*fill)(struct rc_model *m, size_t frame, double *to, struct rc_err *err);
     /* The members that a next step depends on. The heights of the undeformed bodies are not among them: an
-     * outer model that sets them sets them here while it reads, before its inner model reads. */
+     * outer model that sets them, or the compliance, sets them here while it reads, before its inner model
+     * reads. */
     void (*state)(struct rc_model *m, struct rc_state *s);
     void (*free)(struct rc_model *m);
     /* These may be NULL. */
     enum rc_status (*keep)(struct rc_model *m, struct rc_err *err);
     enum rc_status (*heights)(struct rc_model *m, const double *h, struct rc_err *err);
+    enum rc_status (*compliance)(struct rc_model *m, double c, struct rc_err *err);
     void (*progress)(const struct rc_model *m, struct rc_loops *loops);
     enum rc_status (*plan)(const struct rc_model *m, const struct rc_point *most,
                            struct rc_expected *expected, struct rc_err *err);

@@ -53,9 +53,11 @@ struct rc_spectrum {
     size_t columns; /* columns from this one on are zero                                      */
     double total;   /* at wave number 0                                                       */
     void *values;   /* the columns held here, of cy numbers in the order of fft.h, over px py */
-    /* 0: these numbers; else `over` divided by these numbers, which another spectrum owns */
-    double over;
+    bool lent;      /* these numbers are those of another spectrum */
+    struct rc_ratio ratio; /* of these numbers: the factor of a chain */
 };
+
+static const struct rc_ratio numbers_themselves = {0, 1, 1, 0};
 
 /* ---- layout ---- */
 
@@ -342,8 +344,10 @@ rc_spectrum_new(const struct rc_fft *f, struct rc_err *err)
 
     if (k != NULL)
         k->values = rc_alloc(l->columns * l->cy, f->ops->real_size);
-    if (k != NULL)
+    if (k != NULL) {
         k->columns = l->cx;
+        k->ratio = numbers_themselves;
+    }
     if (k == NULL || k->values == NULL)
         rc_err_set(err, "out of memory for a kernel's spectrum of %zu x %zu numbers", l->cx, l->cy);
     if (rc_ranks_agree(ranks_of(f), k == NULL || k->values == NULL ? RC_FAIL : RC_OK, err) !=
@@ -359,7 +363,7 @@ rc_spectrum_free(struct rc_spectrum *k)
 {
     if (k == NULL)
         return;
-    if (k->over == 0)
+    if (!k->lent)
         free(k->values);
     free(k);
 }
@@ -643,9 +647,25 @@ rc_spectrum_new_reciprocal(const struct rc_fft *f, const struct rc_spectrum *of,
         return NULL;
     }
     *k = *of;
-    k->over = 1 / (size * size); /* both are divided by size */
+    k->lent = true;
+    k->ratio = (struct rc_ratio){1 / (size * size), 0, 0, 1}; /* both are divided by size */
     k->total = of->total == 0 ? 0 : 1 / of->total;
     return k;
+}
+
+/* Stored numbers s are K/N or A/N, N = px py: K + D is s + D/N, 1/(K + D) is N^-2/(s + D/N) of a lent K, and
+ * A/(1 + D A) is s/(1 + D N s). */
+void
+rc_spectrum_add(struct rc_spectrum *k, const struct rc_fft *f, bool inverse, double plus)
+{
+    const double size = (double)f->layout.px * (double)f->layout.py;
+
+    if (!inverse)
+        k->ratio.a = plus / size;
+    else if (k->lent)
+        k->ratio.c = plus / size;
+    else
+        k->ratio.d = plus * size;
 }
 
 /* ---- use ---- */
@@ -653,7 +673,7 @@ rc_spectrum_new_reciprocal(const struct rc_fft *f, const struct rc_spectrum *of,
 static struct rc_factor
 factor_of(const struct rc_spectrum *k)
 {
-    return (struct rc_factor){k->values, k->parity, k->over};
+    return (struct rc_factor){k->values, k->parity, k->ratio};
 }
 
 void

@@ -79,6 +79,10 @@ int rc_fft_threads(const struct rc_fft *fft);
  * when memory is short. */
 struct rc_spectrum *rc_spectrum_new_reciprocal(const struct rc_fft *fft,
                                                const struct rc_spectrum *of, struct rc_err *err);
+/* From now on of K + plus I in chains: the spectrum of a kernel K or, with `inverse`, of K^-1. plus 0: that of
+ * K again. */
+void rc_spectrum_add(struct rc_spectrum *spectrum, const struct rc_fft *fft, bool inverse,
+                     double plus);
 /* The transform of the kernel's values on either boundary; on the periodic one each offset counts once, by
  * the shortest way around the map. */
 enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct rc_fft *fft,
@@ -174,11 +178,15 @@ rc_layout_rows(const struct rc_layout *l)
     return l->ny * l->wide + (l->turn == NULL ? 0 : l->rows * l->stride);
 }
 
-/* The factor of a transform: a spectrum, stored as above, or `over` divided by it. */
+/* (a + b s) / (c + d s) of the numbers s of a spectrum; 0 where c + d s is 0. */
+struct rc_ratio {
+    double a, b, c, d;
+};
+/* The factor of a transform: this ratio of a spectrum, stored as above. */
 struct rc_factor {
     const void *spectrum;
     unsigned parity;
-    double over; /* 0: the spectrum itself */
+    struct rc_ratio ratio;
 };
 /* A row function, and the factor of its row's transform. */
 struct rc_link {

@@ -488,12 +488,14 @@ multiply(const struct rc_layout *l, const REAL *s, unsigned parity, size_t r, co
     }
 }
 
-/* n numbers `over` / s; 0 where s is 0. */
+/* The ratio of n numbers. */
 RC_CLONES static void
-reciprocal(size_t n, const REAL *restrict s, REAL over, REAL *restrict to)
+divide(size_t n, const REAL *restrict s, const struct rc_ratio *of, REAL *restrict to)
 {
+    const REAL a = (REAL)of->a, b = (REAL)of->b, c = (REAL)of->c, d = (REAL)of->d;
+
     for (size_t k = 0; k < n; k++)
-        to[k] = s[k] == 0 ? 0 : over / s[k];
+        to[k] = c + d * s[k] == 0 ? 0 : (a + b * s[k]) / (c + d * s[k]);
 }
 
 /* Columns: transformed, multiplied, transformed back. */
@@ -501,19 +503,20 @@ static void
 convolve_columns(struct plan *f, const struct rc_factor *factor)
 {
     const struct rc_layout *l = &f->l;
+    const bool itself = factor->ratio.a == 0 && factor->ratio.d == 0;
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t c = 0; c < l->columns; c += LINE) {
         size_t n = l->columns - c < LINE ? l->columns - c : LINE;
         COMPLEX *y = scratch_of(f), *z = y + LINE * f->column;
-        REAL *over = (REAL *)(row_of(f, y)) + 2 * whole_lines(l->px / 2 + 1);
+        REAL *ratio = (REAL *)(row_of(f, y)) + 2 * whole_lines(l->px / 2 + 1);
 
         gather(f, c, y);
         for (size_t b = 0; b < n; b++) {
             const REAL *s = (const REAL *)factor->spectrum + (c + b) * l->cy;
-            if (factor->over != 0) {
-                reciprocal(l->cy, s, (REAL)factor->over, over);
-                s = over;
+            if (!itself) {
+                divide(l->cy, s, &factor->ratio, ratio);
+                s = ratio;
             }
             for (size_t r = 0; r < l->radix; r++) {
                 COMPLEX *one = y + b * f->column + r * piece(f);

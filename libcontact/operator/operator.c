@@ -18,6 +18,7 @@ enum {
 /* Sums over wave numbers from end exp(-k step) to end, 1/Pa; end = 0: the map is no strip. */
 struct strip {
     double end, step, sum[STRIP_STEPS];
+    double width; /* of the map, m */
 };
 
 struct own {
@@ -32,6 +33,9 @@ struct own {
     struct rc_fft *framed;          /* the same with the frame; NULL: no frame              */
     struct rc_spectrum *kernel, *inverse;
     struct strip strip;
+    struct {
+        double norm, diagonal;
+    } bare;        /* of K without its diagonal term */
     double *p, *u; /* scratch for engines without single precision: maps */
     float *row;    /* and a row for each thread; else NULL */
     int row_threads;
@@ -50,7 +54,7 @@ conv_options(const struct rc_operator_options *o)
 
 /* ---- figures ---- */
 
-/* On the free boundary the largest row sum of K: the displacement in the middle of a rectangle a x b under
+/* Of K without its diagonal term. On the free boundary the largest row sum of K: the displacement in the middle of a rectangle a x b under
  * uniform pressure, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love 1929; Johnson 1985, eq. 3.25). On a
  * periodic map the eigenvalues are known, and the longest wave has the largest, 2 / (E* q), q = 2 pi / L. E*
  * is the least E*(q) of the bodies. */
@@ -78,29 +82,41 @@ diagonal(const struct own *s)
     return self;
 }
 
-/* The mean of |q| / 2 E*(q) / E* cos(i qx dx) cos(j qy dy), E* that of the roughness, over the wave numbers
- * of the grid, |qx| <= pi/dx and |qy| <= pi/dy, lengths in units of sqrt(dx dy): a sum over the middles of
- * cells. For i = j = 0 the mean of |q| has a closed form, the mean distance of a rectangle's points from its
- * middle, and only the difference is summed. */
+static struct rc_shape
+unit_of(const struct rc_shape *s)
+{
+    double unit = sqrt(s->dx) * sqrt(s->dy);
+
+    return (struct rc_shape){s->nx, s->ny, s->dx / unit, s->dy / unit};
+}
+
+/* The mean of A / (1 + D A) cos(i qx dx) cos(j qy dy), A = |q| / 2 E*(q) / E*, E* that of the roughness, over
+ * the wave numbers of the grid, |qx| <= pi/dx and |qy| <= pi/dy, lengths in units of sqrt(dx dy): a sum over
+ * the middles of cells. For i = j = 0 the mean of |q| has a closed form, the mean distance of a rectangle's
+ * points from its middle, and where D is 0 only the difference is summed. */
 static void
-set_inverse_near(struct own *s, const struct rc_shape *unit, double length)
+set_inverse_near(struct own *s)
 {
     enum {
         CELLS = 64
     };
+    const struct rc_shape nodes = unit_of(&s->op.whole), *unit = &nodes;
+    const double length = sqrt(s->op.whole.dx) * sqrt(s->op.whole.dy);
+    const double plus = s->op.plus / s->op.unit;
     double a = RC_PI / unit->dx, b = RC_PI / unit->dy, d = hypot(a, b), sum[2][2] = {{0}};
 
     for (int l = 0; l < CELLS; l++)
         for (int k = 0; k < CELLS; k++) {
             double x = (k + 0.5) / CELLS, y = (l + 0.5) / CELLS, q = hypot(a * x, b * y);
             double stiff = rc_solids_modulus(s->bodies, q / length) / s->estar;
-            double w = q / 2 / (CELLS * CELLS);
-            sum[0][0] += w * (stiff - 1);
+            double w = q / 2 / (1 + plus * stiff * q / 2) / (CELLS * CELLS);
+            sum[0][0] += w * (plus > 0 ? stiff : stiff - 1);
             sum[0][1] += w * stiff * cos(RC_PI * x);
             sum[1][0] += w * stiff * cos(RC_PI * y);
             sum[1][1] += w * stiff * cos(RC_PI * x) * cos(RC_PI * y);
         }
-    sum[0][0] += (2 * d + a * a / b * asinh(b / a) + b * b / a * asinh(a / b)) / 12;
+    if (plus == 0)
+        sum[0][0] += (2 * d + a * a / b * asinh(b / a) + b * b / a * asinh(a / b)) / 12;
     for (int j = 0; j < 3; j++)
         for (int i = 0; i < 3; i++)
             s->op.inverse_near[j][i] = sum[j != 1][i != 1];
@@ -133,14 +149,6 @@ static const size_t strip = 8;
  * 400, 16 nodes thick, 1024 x 200 nodes, three loads: 38 to 68 equivalents with an eighth of the sides, 14 to
  * 16 with this. */
 static const double frame_bends = 3;
-
-static struct rc_shape
-unit_of(const struct rc_shape *s)
-{
-    double unit = sqrt(s->dx) * sqrt(s->dy);
-
-    return (struct rc_shape){s->nx, s->ny, s->dx / unit, s->dy / unit};
-}
 
 static double
 longest_side(const struct rc_shape *s)
@@ -210,6 +218,7 @@ set_strip(struct own *s)
         return;
     s->strip.end = end;
     s->strip.step = step;
+    s->strip.width = fmin(a, b);
     for (int k = 0; k < STRIP_STEPS; k++) {
         s->strip.sum[k] = sum;
         sum += step / rc_solids_modulus(s->bodies, end * exp(-(k + 0.5) * step));
@@ -403,10 +412,10 @@ plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_optio
                                  .edges = !s->positive && o->boundary == RC_FREE,
                                  .mean_free = o->boundary == RC_PERIODIC};
     s->op.shape = rc_rows_shape(&s->op.rows, shape);
-    s->op.norm = norm(s);
-    s->op.diagonal = diagonal(s);
+    s->op.norm = s->bare.norm = norm(s);
+    s->op.diagonal = s->bare.diagonal = diagonal(s);
     set_strip(s);
-    set_inverse_near(s, &unit, length);
+    set_inverse_near(s);
     set_neighbours(&s->op, &unit);
     s->op.frame = frame_around(shape, o->boundary, s->bends);
     if (s->op.frame.x + s->op.frame.y > 0) {
@@ -488,6 +497,8 @@ rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
     s->bends = fine->bends;
     if (plan(s, shape, &o, err) == RC_OK) {
         s->op.estar = op->estar;
+        if (op->plus > 0)
+            rc_operator_set_diagonal(&s->op, op->plus);
         return &s->op;
     }
     rc_operator_free(&s->op);
@@ -546,12 +557,38 @@ rc_operator_seconds(const struct rc_shape *shape, const struct rc_operator_optio
     return rc_conv_seconds(shape, &options);
 }
 
+/* ---- the diagonal term ---- */
+
+void
+rc_operator_set_diagonal(struct rc_operator *op, double plus)
+{
+    struct own *s = (struct own *)op;
+
+    op->plus = plus;
+    op->norm = s->bare.norm + plus;
+    op->diagonal = s->bare.diagonal + plus;
+    op->mean_free = op->boundary == RC_PERIODIC && plus == 0;
+    op->edges = plus > 0 || (op->boundary == RC_FREE && !s->positive);
+    rc_spectrum_add(s->kernel, s->fft, false, plus / op->unit);
+    rc_spectrum_add(s->inverse, s->fft, true, plus / op->unit);
+    set_inverse_near(s);
+}
+
 /* ---- use ---- */
 
 void
 rc_operator_apply(struct rc_operator *op, const double *p, double *u)
 {
-    rc_conv_apply(((struct own *)op)->conv, p, u);
+    struct own *s = (struct own *)op;
+    const size_t n = op->shape.nx * op->shape.ny;
+    const double plus = op->plus;
+
+    rc_conv_apply(s->conv, p, u);
+    if (plus == 0)
+        return;
+#pragma omp parallel for num_threads(rc_useful_threads(&op->shape, op->threads)) schedule(static)
+    for (size_t k = 0; k < n; k++)
+        u[k] += plus * p[k];
 }
 
 /* Gathers rows into a map, sums, and passes the rows of the result. */
@@ -567,7 +604,7 @@ apply_by_map(struct own *s, rc_row *in, rc_row *out, void *ctx)
         for (size_t i = 0; i < nx; i++)
             s->p[j * nx + i] = any ? (double)row[i] : 0;
     }
-    rc_conv_apply(s->conv, s->p, s->u);
+    rc_operator_apply(&s->op, s->p, s->u);
 #pragma omp parallel for num_threads(s->row_threads) schedule(static)
     for (size_t j = 0; j < ny; j++) {
         float *row = s->row + (size_t)omp_get_thread_num() * nx;
@@ -621,9 +658,15 @@ double
 rc_operator_power(const struct rc_operator *op, double q)
 {
     const struct own *s = (const struct own *)op;
+    double a, inverse; /* A = 1/K(q), Pa/m */
 
     q /= sqrt(op->whole.dx) * sqrt(op->whole.dy);
-    if (!is_along_strip(s, q))
-        return of_plane(s, q);
-    return 1 / (rc_solids_modulus(s->bodies, q) * strip_sum(s, q));
+    if (is_along_strip(s, q)) {
+        a = 1 / (rc_solids_modulus(s->bodies, q) * strip_sum(s, q));
+        inverse = RC_PI / (2 * s->strip.width * strip_sum(s, q));
+    } else {
+        a = of_plane(s, q);
+        inverse = rc_solids_modulus(s->bodies, q) * q / 2;
+    }
+    return a / (1 + op->plus * inverse);
 }

@@ -23,6 +23,7 @@ struct rc_operator {
     size_t threads;
     double unit;     /* m/Pa                                                             */
     double estar;    /* Pa, if it is the same for all waves; NAN: it is not              */
+    double plus;     /* m/Pa: D of the diagonal term; K below is K + D I                 */
     double norm;     /* m/Pa: a bound of the largest eigenvalue                          */
     double diagonal; /* m/Pa: displacement of a node under unit pressure on its own cell */
     /* Of the inverse, in the units of rows: the pressures on a node and its eight neighbours that move this
@@ -73,6 +74,10 @@ const char *rc_operator_engine(const struct rc_shape *shape,
                                const struct rc_operator_options *options, const char **reason);
 /* Seconds of one K p within a solve, as rc_conv_seconds. */
 double rc_operator_seconds(const struct rc_shape *shape, const struct rc_operator_options *options);
+
+/* Adds D I to K, in place of the last D: a layer without lateral stiffness, displaced by D p, D >= 0 in m/Pa.
+ * It applies to everything above and below. 0: none. Keeps the bytes of a K without it. */
+void rc_operator_set_diagonal(struct rc_operator *op, double plus);
 
 /* u = K p, in m and Pa, in double precision; only where op->exact. */
 void rc_operator_apply(struct rc_operator *op, const double *p, double *u);

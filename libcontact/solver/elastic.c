@@ -20,6 +20,7 @@ struct elastic {
     const double *given; /* undeformed heights: those of the caller until the first go, then h */
     double *h;           /* a copy of them; freed when the solver has its copy */
     double *dent;        /* heights less the undeformed ones; NULL: none           */
+    double compliance;   /* m/Pa, of every node for itself                         */
     /* m, N: error of the heights; error of the loads that made the dents */
     double height_error, off;
     double first_top, top;    /* m: highest node of the first shape, and of the present one   */
@@ -87,6 +88,7 @@ press(struct elastic *e, double load, double approach, struct rc_err *err)
     e->solver = rc_solver_new(&e->base.shape, e->given, &problem, err);
     if (e->solver == NULL)
         return RC_FAIL;
+    rc_solver_set_diagonal(e->solver, e->compliance);
     e->solver->posed.dents = e->off;
     free(e->h); /* the solver has a copy */
     e->h = NULL;
@@ -274,7 +276,8 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
         memcpy(to, rc_solver_pressure(s), e->n * sizeof *to);
     else
         for (size_t k = 0; k < e->n; k++)
-            to[k] = frame == RC_FRAME_GAP ? s->it.v[k] - s->it.shift : s->it.v[k] + s->posed.h[k];
+            to[k] = frame == RC_FRAME_GAP ? s->it.v[k] - s->it.shift
+                                          : s->it.v[k] + s->posed.h[k] - s->op->plus * s->it.p[k];
     for (size_t k = 0; k < e->n && frame == RC_FRAME_CONTACT; k++)
         to[k] = rc_in_contact(to[k]) ? 1 : 0;
     return RC_OK;
@@ -297,6 +300,20 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
     status = set_shape(e, dented, err);
     free(dented);
     return status;
+}
+
+static enum rc_status
+set_compliance(struct rc_model *m, double c, struct rc_err *err)
+{
+    struct elastic *e = (struct elastic *)m;
+
+    if (c > 0 && (e->problem.tilt_free || e->asks.stiffness || e->asks.conductivity[0] > 0))
+        return rc_err_set(err, "a compliance of the nodes beside a free tilt, the stiffness or the "
+                               "conductance is not implemented");
+    e->compliance = c;
+    if (e->solver != NULL)
+        rc_solver_set_diagonal(e->solver, c);
+    return RC_OK;
 }
 
 /* ---- states ---- */
@@ -498,6 +515,7 @@ const struct rc_model_row rc_model_elastic = {
     .free = release,
     .keep = keep,
     .heights = set_heights,
+    .compliance = set_compliance,
     .progress = progress,
     .plan = plan,
 };

@@ -298,7 +298,7 @@ start_from_springs(struct rc_solver *solver)
         least = fmin(least, solver->posed.h[k]);
     least = -rc_ranks_most(solver->posed.rows.ranks, -least);
     stiffness =
-        fmin(1 / solver->op->unit,
+        fmin(1 / (solver->op->unit + solver->op->plus),
              longest * fmin(rc_reach(&solver->posed.bounds, solver->load.sum), solver->load.sum) /
                  -least);
     for (size_t k = 0; k < solver->posed.n; k++)
@@ -685,7 +685,7 @@ step(struct rc_solver *solver, void *at)
 {
     struct pcg *s = at;
     struct rc_found found = {0};
-    double mean = 0, alpha;
+    double mean = 0, alpha, short_wave = solver->op->unit + solver->op->plus;
     bool still;
 
     if (!solver->it.known)
@@ -714,7 +714,7 @@ step(struct rc_solver *solver, void *at)
     else if ((found.change = advance(solver, s, alpha, mean, true)) == 0)
         found.change = gradient_step(
             solver, s,
-            1 / (still && solver->it.iterations % 2 == 0 ? solver->op->unit : solver->op->norm));
+            1 / (still && solver->it.iterations % 2 == 0 ? short_wave : solver->op->norm));
     return found;
 }
 

@@ -23,7 +23,6 @@ struct state {
     double G;     /* (22) of the last step                           */
     double delta; /* 0: the next direction is steepest descent       */
     double tau;   /* last step length, 0 before the first            */
-    double first; /* a safe length where (26) is 0/0                 */
     struct rc_safeguard safeguard;
 };
 
@@ -63,7 +62,6 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
     }
     s->G = 1;
     s->safeguard.energy = INFINITY;
-    s->first = 1 / solver->op->diagonal;
     return s;
 }
 
@@ -176,7 +174,8 @@ move_block(void *at, size_t first, size_t n, double *sums)
 static void
 move(struct rc_solver *solver, struct state *s)
 {
-    struct pass c = {.solver = solver, .s = s, .number = s->tau > 0 ? s->tau : s->first};
+    const double safe = 1 / solver->op->diagonal; /* a step length where (26) is 0/0 */
+    struct pass c = {.solver = solver, .s = s, .number = s->tau > 0 ? s->tau : safe};
     double total[RC_SUMS];
 
     rc_reduce_blocks(solver, move_block, &c, total);

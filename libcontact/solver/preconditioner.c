@@ -215,6 +215,12 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
 }
 
 void
+rc_preconditioner_tune(struct rc_preconditioner *e)
+{
+    rc_pyramid_tune(e->pyramid, power, e->op);
+}
+
+void
 rc_preconditioner_free(struct rc_preconditioner *e)
 {
     if (e == NULL)

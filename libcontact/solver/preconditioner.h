@@ -16,6 +16,8 @@ struct rc_preconditioner;
 
 /* The caller owns `op`, which outlives the preconditioner. NULL when memory is short. */
 struct rc_preconditioner *rc_preconditioner_new(struct rc_operator *op, struct rc_err *err);
+/* The diagonal of the operator was changed: applies from the next set on. */
+void rc_preconditioner_tune(struct rc_preconditioner *e);
 void rc_preconditioner_free(struct rc_preconditioner *e);
 size_t rc_preconditioner_memory(const struct rc_shape *shape,
                                 const struct rc_operator_options *options);

@@ -286,7 +286,6 @@ rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power, const voi
         fine = p->scratch != NULL;
     }
     for (struct level *l; fine && coarser(base, &g, l = &p->level[p->levels + 1]); p->levels++) {
-        set_factors(l, g.spacing, power, of);
         fine = level_new(p, l) && (!l->parts || l->shared || room_of_ranks(p, l));
     }
     if (!fine)
@@ -298,7 +297,18 @@ rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power, const voi
     }
     if (p->dealt != NULL)
         deal(p);
+    rc_pyramid_tune(p, power, of);
     return p;
+}
+
+void
+rc_pyramid_tune(struct rc_pyramid *p, rc_power_at *power, const void *of)
+{
+    struct grid g = finest(&p->base);
+    struct level same;
+
+    for (size_t m = 1; coarser(&p->base, &g, &same); m++)
+        set_factors(&p->level[m], g.spacing, power, of);
 }
 
 void

@@ -47,6 +47,8 @@ typedef double rc_power_at(const void *of, double q);
 /* NULL when memory is short on any rank. */
 struct rc_pyramid *rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power,
                                   const void *of, struct rc_err *err);
+/* Another power, from the next set on. */
+void rc_pyramid_tune(struct rc_pyramid *pyramid, rc_power_at *power, const void *of);
 void rc_pyramid_free(struct rc_pyramid *pyramid);
 /* Bytes of a pyramid on a rank that holds base->n rows; `ranks` is ignored. */
 size_t rc_pyramid_memory(const struct rc_pyramid_base *base);

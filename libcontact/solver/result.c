@@ -106,9 +106,11 @@ spread_block(void *at, size_t first, size_t n, double *sums)
     const struct figures *f = at;
     const struct rc_solver *s = f->s;
     const struct rc_box box = rc_box(s, 0);
+    const double plus = s->op->plus;
 
     for (size_t k = first; k < first + n; k++) {
-        double g = s->it.v[k] - s->it.shift, u = s->it.v[k] + s->posed.h[k], p = s->it.p[k], worst;
+        double g = s->it.v[k] - s->it.shift, p = s->it.p[k], worst;
+        double u = s->it.v[k] + s->posed.h[k] - plus * p;
         double h = s->posed.h[k] - f->mean_h, around = u - f->mean_u;
 
         sums[SPREAD_H] += h * h;
@@ -238,7 +240,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     for (size_t a = 0; a < 2; a++)
         c->tilt[a] = rc_tilt_slope(s, a);
     f.mean_h = total[HEIGHT] / n;
-    f.mean_u = (total[V] + total[HEIGHT]) / n;
+    f.mean_u = (total[V] + total[HEIGHT] - s->op->plus * total[PRESSURE]) / n;
     rc_reduce_blocks(s, spread_block, &f, total);
     scale = sqrt(fmax(total[SPREAD_H], total[SPREAD_U]) / n);
     if (total[SPREAD_H] == 0) /* all heights are equal: both figures would be only error */

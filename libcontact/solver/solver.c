@@ -431,6 +431,16 @@ rc_solver_set_load(struct rc_solver *s, double load, double approach, struct rc_
 }
 
 void
+rc_solver_set_diagonal(struct rc_solver *s, double plus)
+{
+    if (plus == s->op->plus)
+        return;
+    rc_operator_set_diagonal(s->op, plus);
+    rc_preconditioner_tune(s->preconditioner);
+    rc_solver_restart(s);
+}
+
+void
 rc_solver_set_tol(struct rc_solver *s, double tol)
 {
     s->posed.tol = tol;

@@ -280,6 +280,8 @@ void rc_working_set_forget(struct rc_solver *solver);
 void rc_solver_restart(struct rc_solver *solver);
 /* Whether the caller cannot wait. */
 bool rc_solver_hurried(const struct rc_solver *solver);
+/* Adds D I to the operator from the next load or heights on: D >= 0, m/Pa. A solver without a free tilt. */
+void rc_solver_set_diagonal(struct rc_solver *solver, double plus);
 /* A solver of the same contact on a coarser grid, for a nested start; its operator is not exact. */
 struct rc_solver *rc_solver_coarse(const struct rc_solver *fine, const struct rc_shape *shape,
                                    const double *h, const struct rc_problem *problem,

@@ -518,7 +518,8 @@ size_block(void *at, size_t first, size_t n, double *sums)
  * of z was 0.982 to 2.2 of the error, for 512 free ones 0.96 to 1.11; under coatings, with five elastic
  * nodes, 0.74. Where nearly all loaded nodes yield, there are as few waves as elastic nodes, and one of those
  * may be wrong: for 955 such contacts with 1 to 13 elastic nodes the norm of z was 0.63 (one elastic node),
- * 0.89 (three) to 33 of the error. */
+ * 0.89 (three) to 33 of the error. With a diagonal term E' A E is nearly exact: for 1200 small maps the norm
+ * was 0.9998 to 1.8 of the error, half of them below 1.02. */
 static double
 caution(const struct rc_solver *s)
 {
@@ -526,7 +527,9 @@ caution(const struct rc_solver *s)
 
     if (rc_bounded(&s->posed.bounds) && s->it.elastic < FEW)
         return 1 + 1 / fmax((double)s->it.elastic, 1);
-    return line ? 1.05 + 2 / fmax((double)s->it.elastic, 1) : 1;
+    if (line)
+        return 1.05 + 2 / fmax((double)s->it.elastic, 1);
+    return s->op->plus > 0 ? 1.01 : 1;
 }
 
 double

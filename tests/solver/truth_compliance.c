@@ -1,0 +1,305 @@
+/* A compliance c of every node for itself adds c to the diagonal of K: the pressure is that of a dense quadratic
+ * program with K + c I, and that of a thin layer without Poisson's ratio, bare and over coats, on both
+ * boundaries and by each engine; the estimate of its error is not below the error; gap and displacement are
+ * those of the elastic bodies; and c = 0 is the contact without it, to the last bit. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "dense.h"
+
+enum {
+    PROBLEMS = 120, /* of random small maps */
+    SIDE = 64,
+    NODES = SIDE * SIDE
+};
+static const double cell = 1e-6,
+                    base = 1e9;      /* dx, E of the base and E*: c is in units of dx / E* */
+static const double reported = 1e-9; /* errors of the pressure are told down to here       */
+
+static double
+uniform(uint64_t *seed)
+{
+    return random_number(seed) + 0.5;
+}
+
+/* The influence of the cell in the corner on all others, with c on itself. */
+static void
+fill(struct dense *d, const struct rc_shape *s, const struct rc_problem *problem, double c)
+{
+    struct rc_conv_options options = {.boundary = problem->boundary};
+    struct rc_conv *conv = rc_conv_new(s, &problem->pair, &options, NULL);
+    double *p = calloc(s->nx * s->ny, sizeof *p), *u = calloc(s->nx * s->ny, sizeof *u);
+
+    assert_non_null(conv);
+    p[0] = 1;
+    rc_conv_apply(conv, p, u);
+    u[0] += c;
+    if (problem->boundary == RC_PERIODIC) /* any mean changes only the shift */
+        for (size_t k = 0; k < s->nx * s->ny; k++)
+            u[k] += cell / base;
+    dense_of(d, s, u);
+    rc_conv_free(conv);
+    free(p);
+    free(u);
+}
+
+/* The contact of these heights under a load, with a compliance. */
+static struct rc_model *
+contact(const struct rc_shape *s, const double *h, const struct rc_problem *problem, double c)
+{
+    struct rc_err err = {""};
+    struct rc_model *m = rc_elastic_new(s, h, problem, NULL, &err);
+    struct rc_point to = {0};
+
+    if (m == NULL || rc_model_set_compliance(m, c, &err) != RC_OK)
+        fail_msg("%s", err.text);
+    rc_point_set(&to, RC_LOAD, problem->load);
+    if (rc_model_run(m, &to, &err) != RC_OK || rc_model_look(m, NULL, &err) != RC_OK)
+        fail_msg("compliance %g dx/E*: %s", c * base / cell, err.text);
+    return m;
+}
+
+static void
+frame(struct rc_model *m, const char *name, double *to)
+{
+    struct rc_err err = {""};
+
+    if (rc_model_frame(m, name, to, &err) != RC_OK)
+        fail_msg("%s", err.text);
+}
+
+static void
+rough(uint64_t *seed, const struct rc_shape *s, double *h)
+{
+    const double phase[] = {6 * uniform(seed), 6 * uniform(seed), 6 * uniform(seed)};
+
+    for (size_t k = 0; k < s->nx * s->ny; k++) {
+        double x = (double)(k % s->nx) / (double)s->nx, y = (double)(k / s->nx) / (double)s->ny;
+        h[k] = cell * (0.4 * sin(2 * exact_pi * x + phase[0]) +
+                       0.3 * cos(2 * exact_pi * (2 * x - y) + phase[1]) +
+                       0.2 * sin(6 * exact_pi * y + phase[2]) + 0.1 * random_number(seed));
+    }
+}
+
+static void
+estimates_are_not_below(void **state)
+{
+    static struct dense d;
+    static double most[DENSE_NODES], p[DENSE_NODES], h[DENSE_NODES], found[DENSE_NODES];
+    double high = 0;
+
+    (void)state;
+    for (size_t q = 0; q < PROBLEMS; q++) {
+        uint64_t seed = 1 + q;
+        struct rc_shape s = {12 + (size_t)(13 * uniform(&seed)), 10 + (size_t)(12 * uniform(&seed)),
+                             cell, (0.8 + 0.4 * uniform(&seed)) * cell};
+        struct rc_layer coat = {cell, base * pow(10, 1 - 2 * uniform(&seed)), 0.3};
+        struct rc_problem problem = {.boundary = q % 2 == 0 ? RC_FREE : RC_PERIODIC,
+                                     .tol = pow(10, -2 - 4 * uniform(&seed)),
+                                     .threads = 1};
+        const double c = pow(10, -2 + 6 * uniform(&seed)) * cell / base;
+        const size_t n = s.nx * s.ny;
+        double error = 0, estimate, shift[DENSE_SUMS], sum = 0;
+        struct rc_model *m;
+
+        problem.pair.estar = base;
+        if (q % 3 == 0)
+            problem.pair = (struct rc_pair){.one = {base, 0.3, 1, &coat}, .two.e = INFINITY};
+        problem.load = pow(10, 7 + uniform(&seed)) * (double)n * s.dx * s.dy;
+        problem.hardness = q % 5 == 0 ? 3 * problem.load / ((double)n * s.dx * s.dy) : 0;
+        rough(&seed, &s, h);
+        m = contact(&s, h, &problem, c);
+        frame(m, "pressure", found);
+        estimate = rc_model_number(m, "pressure_error_estimate");
+        fill(&d, &s, &problem, c);
+        d.value[0] = problem.load / (s.dx * s.dy);
+        for (size_t k = 0; k < n; k++) {
+            most[k] = problem.hardness > 0 ? problem.hardness : INFINITY;
+            p[k] = found[k];
+        }
+        dense_solve(&d, h, most, p, shift);
+        for (size_t k = 0; k < n; k++) {
+            error += fabs(p[k] - found[k]);
+            sum += p[k];
+        }
+        error /= sum;
+        if (error > estimate + reported || estimate > problem.tol)
+            fail_msg("%zu: %zu x %zu nodes, compliance %.3g dx/E*: error %.3g, estimated %.3g, tol "
+                     "%.2g\n",
+                     q, s.nx, s.ny, c * base / cell, error, estimate, problem.tol);
+        high = error > reported ? fmax(high, estimate / error) : high;
+        rc_model_free(m);
+    }
+    print_message("largest estimate: %.2g of the error\n", high);
+}
+
+/* ---- a thin layer ---- */
+
+static double
+differ(size_t n, const double *a, const double *b)
+{
+    double off = 0, size = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        off += fabs(a[k] - b[k]);
+        size += fabs(b[k]);
+    }
+    return off / size;
+}
+
+/* E = thickness / c and no Poisson's ratio: each column of the layer is a spring. What its thickness of 1e-4
+ * nodes spreads to the sides, and the tolerance, are within `alike`. */
+static void
+a_thin_layer_is_the_same(void **state)
+{
+    static const double alike = 2e-6, thickness = 1e-4;
+    static const struct rc_shape s = {SIDE, SIDE, 1e-6, 1.1e-6};
+    static double h[NODES], p[NODES], want[NODES];
+    const char *engines[] = {"fft", "fft64", "direct", "mlms"};
+    uint64_t seed = 7;
+
+    (void)state;
+    rough(&seed, &s, h);
+    for (int q = 0; q < 10; q++) {
+        const double c = (q % 2 == 0 ? 0.3 : 30) * cell / base;
+        struct rc_layer layers[2] = {{thickness * cell, thickness * cell / c, 0},
+                                     {2 * cell, 4 * base, 0.3}};
+        struct rc_problem problem = {.pair.one = {base, 0.3, q < 6 ? 0 : 1, layers + 1},
+                                     .pair.two.e = INFINITY,
+                                     .boundary = q < 4 || q > 7 ? RC_FREE : RC_PERIODIC,
+                                     .engine = q < 4 ? engines[q] : NULL,
+                                     .load = 4e-3,
+                                     .tol = 1e-7,
+                                     .threads = 1};
+        struct rc_model *m = contact(&s, h, &problem, c), *thin;
+
+        problem.pair.one.layers++;
+        problem.pair.one.layer = layers;
+        problem.engine = NULL;
+        thin = contact(&s, h, &problem, 0);
+        frame(m, "pressure", p);
+        frame(thin, "pressure", want);
+        if (!(differ(NODES, p, want) <= alike))
+            fail_msg("compliance %g dx/E*, %s engine, case %d: the pressures differ by %.2e of the "
+                     "layer's",
+                     c * base / cell, problem.engine, q, differ(NODES, p, want));
+        rc_model_free(m);
+        rc_model_free(thin);
+    }
+}
+
+/* ---- what the answer is ---- */
+
+/* The displacement is K p; the gap, with the displaced film, that of heights less c p: those heights have the
+ * same pressure without a compliance. */
+static void
+figures_are_those_of_the_bodies(void **state)
+{
+    static const struct rc_shape s = {SIDE, SIDE, 1e-6, 1e-6};
+    static double h[NODES], p[NODES], u[NODES], g[NODES], want[NODES], again[NODES];
+    const double c = 3 * cell / base;
+    const struct rc_problem problem = {
+        .pair.estar = base, .load = 5e-3, .tol = 1e-9, .boundary = RC_PERIODIC, .threads = 1};
+    const struct rc_conv_options options = {.boundary = RC_PERIODIC};
+    struct rc_conv *conv = rc_conv_new(&s, &problem.pair, &options, NULL);
+    uint64_t seed = 3;
+    double energy = 0, shift = NAN, top = -INFINITY;
+    struct rc_model *m, *bare;
+    struct rc_point at;
+
+    (void)state;
+    rough(&seed, &s, h);
+    m = contact(&s, h, &problem, c);
+    assert_int_equal(rc_model_look(m, &at, NULL), RC_OK);
+    frame(m, "pressure", p);
+    frame(m, "displacement", u);
+    frame(m, "gap", g);
+    rc_conv_apply(conv, p, want);
+    assert_true(differ(NODES, u, want) < 1e-8);
+    for (size_t k = 0; k < NODES; k++) {
+        top = fmax(top, h[k]);
+        energy += p[k] * want[k] / 2 * s.dx * s.dy;
+        h[k] -= c * p[k];
+    }
+    shift = at.at[RC_APPROACH] - top;
+    for (size_t k = 0; k < NODES; k++)
+        assert_true(fabs(g[k] - (want[k] - h[k] - shift)) < 1e-8 * cell);
+    assert_true(fabs(rc_model_number(m, "elastic_energy") / energy - 1) < 1e-8);
+    bare = contact(&s, h, &problem, 0);
+    frame(bare, "pressure", again);
+    assert_true(differ(NODES, again, p) < 4 * problem.tol);
+    rc_model_free(m);
+    rc_model_free(bare);
+    rc_conv_free(conv);
+}
+
+/* Set to 0 again, and never set: the same bytes and as many convolutions. */
+static void
+none_is_the_contact_without(void **state)
+{
+    static const struct rc_shape s = {SIDE, SIDE, 1e-6, 1e-6};
+    static double h[NODES], p[2][NODES];
+    struct rc_problem problem = {.pair.estar = base, .load = 5e-3, .threads = 1};
+    struct rc_err err = {""};
+    double cost[2];
+    uint64_t seed = 3;
+
+    (void)state;
+    rough(&seed, &s, h);
+    for (int q = 0; q < 4; q++) {
+        problem.boundary = q % 2 == 0 ? RC_FREE : RC_PERIODIC;
+        for (int k = 0; k < 2; k++) {
+            struct rc_model *m = rc_elastic_new(&s, h, &problem, NULL, &err);
+            struct rc_point to = {0};
+            rc_point_set(&to, RC_LOAD, problem.load);
+            assert_int_equal(rc_model_go(m, &to, &err), RC_MORE);
+            if (k > 0) {
+                assert_int_equal(rc_model_set_compliance(m, 1e-14, &err), RC_OK);
+                assert_int_equal(rc_model_set_compliance(m, 0, &err), RC_OK);
+            }
+            assert_int_equal(rc_model_run(m, &to, &err), RC_OK);
+            frame(m, "pressure", (rc_model_look(m, NULL, &err), p[k]));
+            cost[k] = rc_model_number(m, "convolutions");
+            rc_model_free(m);
+        }
+        assert_memory_equal(p[0], p[1], sizeof p[0]);
+        assert_true(cost[0] == cost[1]);
+    }
+}
+
+static void
+nonsense_is_refused(void **state)
+{
+    static const struct rc_shape s = {4, 4, 1e-6, 1e-6};
+    static const double h[16] = {0};
+    const struct rc_problem problem = {.pair.estar = base, .tilt_free = true},
+                            plain = {.pair.estar = base};
+    struct rc_err err = {""};
+    struct rc_model *m = rc_elastic_new(&s, h, &plain, NULL, &err);
+
+    (void)state;
+    for (const double *c = (const double[]){-1e-15, NAN, INFINITY, 0}; *c != 0; c++)
+        assert_int_equal(rc_model_set_compliance(m, *c, &err), RC_FAIL);
+    rc_model_free(m);
+    m = rc_elastic_new(&s, h, &problem, NULL, &err);
+    assert_int_equal(rc_model_set_compliance(m, 1e-15, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "tilt"));
+    rc_model_free(m);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(estimates_are_not_below),
+        cmocka_unit_test(a_thin_layer_is_the_same),
+        cmocka_unit_test(figures_are_those_of_the_bodies),
+        cmocka_unit_test(none_is_the_contact_without),
+        cmocka_unit_test(nonsense_is_refused),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
