@@ -1026,6 +1026,19 @@ RC_API void rc_adhesion_traction(const struct rc_adhesion *a, double *traction);
 RC_API void rc_adhesion_keep_shape(struct rc_adhesion *a, double *h);
 RC_API void rc_adhesion_free(struct rc_adhesion *a); /* NULL is allowed */
 
+/* The model (model.h) of such bodies. It takes a load or an approach; the approach -INFINITY, which is no first
+ * point, is a retraction as rc_adhesion_pull_off. Keeping a point adds its plastic dents to the shape. The
+ * caller keeps everything that `problem` points to. */
+struct rc_adhesive_figures {
+    struct rc_contact contact; /* the figures that all contacts have */
+    struct rc_adhesion_figures adhesion;
+};
+RC_API struct rc_model *rc_adhesive_new(const struct rc_shape *shape, const double *h,
+                                        const struct rc_adhesion_problem *problem,
+                                        struct rc_err *err);
+/* The figures after a look, of an adhesive model or of a model with an adhesive inner model; NULL: neither. */
+RC_API const struct rc_adhesive_figures *rc_adhesive_result(const struct rc_model *model);
+
 /* ---- leakage ---- */
 
 struct rc_leak_options {

@@ -13,7 +13,7 @@
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/model    | %base                                    | libcontact libcontact/solver=rc_figures_
-libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/leak=rc_figures_ libcontact/plastic=rc_figures_
+libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/adhesion=rc_model_ libcontact/leak=rc_figures_ libcontact/plastic=rc_figures_
 libcontact/model    |                                          | libcontact/slip=rc_figures_ libcontact/slip=rc_model_ libcontact/stress=rc_figures_ libcontact/surface=rc_figures_ libcontact/features=rc_figures_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
 libcontact/transform | %base                                   | libcontact
@@ -31,6 +31,7 @@ libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libc
 libcontact/plastic  | libcontact/model/row.h                   | libcontact/model
 libcontact/plastic  | %base libcontact/volume/volume.h         | libcontact libcontact/volume libcontact/solver libcontact/stress
 libcontact/adhesion | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/body
+libcontact/adhesion | libcontact/model/row.h                   | libcontact/model libcontact/solver=rc_figures_
 libcontact/leak     | %base                                    | libcontact
 libcontact/slip     | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/ranks
 libcontact/slip     | %base libcontact/solver/solver.h         | libcontact libcontact/solver

@@ -92,8 +92,7 @@ struct rc_adhesion {
     double tol;
     size_t max_iterations;
     enum stage stage;
-    bool begun; /* there has been a state */
-    bool held;  /* no control is set yet */
+    bool held; /* no control is set yet */
     enum rc_gap_control control;
     double given;
     size_t below; /* steps in a row with an error below tol */
@@ -101,9 +100,8 @@ struct rc_adhesion {
     bool unstable; /* the last step began where there was no stiffness */
     double mu[3];  /* of the last state of each control, 0: none */
     double way;    /* the least stiffness of a way down, near where the state ends */
-    double dents,
-        dents_load; /* errors of earlier states in which nodes have yielded; times their |p| */
-    double judged;  /* the error when the eigenvalue was found; 0: it has not been */
+    struct rc_adhesion_past past;
+    double judged; /* the error when the eigenvalue was found; 0: it has not been */
     bool converged;
     bool separated;
     bool fresh; /* figures are those of the state */
@@ -233,14 +231,15 @@ check_heights(const struct rc_adhesion *a, const double *h, struct rc_err *err)
     return RC_OK;
 }
 
+/* h: with the dents (NULL: none); approaches count from first touch without them. */
 static void
-take_heights(struct rc_adhesion *a, const double *h)
+take_heights(struct rc_adhesion *a, const double *h, const double *dent)
 {
     size_t n = a->shape.nx * a->shape.ny;
     double top = -INFINITY;
 
     for (size_t k = 0; k < n; k++)
-        top = fmax(top, h[k]);
+        top = fmax(top, dent != NULL ? h[k] - dent[k] : h[k]);
     for (size_t k = 0; k < n; k++)
         a->h[k] = (h[k] - top) / a->whole->length;
     a->mean_h = rc_sum(a->h, n) / (double)n;
@@ -255,7 +254,7 @@ make_heights(struct rc_adhesion *a, const double *h, struct rc_err *err)
                           a->shape.ny);
     if (check_heights(a, h, err) != RC_OK)
         return RC_FAIL;
-    take_heights(a, h);
+    take_heights(a, h, NULL);
     return RC_OK;
 }
 
@@ -427,7 +426,8 @@ own_error(const struct rc_adhesion *a)
 static double
 inherited_error(const struct rc_adhesion *a)
 {
-    return a->gap.told.size > 0 ? fmax(a->dents, a->dents_load / a->gap.told.size) : a->dents;
+    return a->gap.told.size > 0 ? fmax(a->past.dents[0], a->past.dents[1] / a->gap.told.size)
+                                : a->past.dents[0];
 }
 
 static double
@@ -447,9 +447,9 @@ finish(struct rc_adhesion *a, bool converged)
 {
     a->stage = STAGE_DONE;
     a->converged = converged;
-    if (a->begun && a->jumps == 0 && !a->separated)
+    if (a->past.begun && a->jumps == 0 && !a->separated)
         a->jumps = rc_gap_jumped(&a->gap);
-    a->begun = true;
+    a->past.begun = true;
     a->mu[a->control] = a->judged > 0 ? fmax(softest(a), single) : 0;
     return converged ? RC_OK : RC_SHORT;
 }
@@ -472,7 +472,7 @@ move(struct rc_adhesion *a)
     if (a->gap.told.error <= loosest)
         a->way = fmin(a->way, a->gap.way.stiffness);
     a->unstable = a->gap.negative;
-    a->jumps += a->begun && a->unstable && !before;
+    a->jumps += a->past.begun && a->unstable && !before;
 }
 
 static enum rc_status
@@ -590,7 +590,7 @@ rc_adhesion_pull_off(struct rc_adhesion *a, struct rc_err *err)
 {
     struct retraction *p = &a->pull;
 
-    if (!a->begun)
+    if (!a->past.begun)
         return rc_err_set(err, "there is no state to begin a retraction with");
     for (size_t k = 0; k < RC_RETRACTION_KEPT; k++) {
         double *kept = p->kept[k] != NULL ? p->kept[k] : rc_alloc(a->gap.n, sizeof *kept);
@@ -887,6 +887,29 @@ rc_adhesion_progress(const struct rc_adhesion *a, struct rc_adhesion_progress *p
 
 /* ---- from an earlier path ---- */
 
+/* The state has this shift and the pressure `au`; the next one must be set. */
+static void
+hold(struct rc_adhesion *a, double c)
+{
+    set_shift(a, c);
+    a->gap.control = a->control;
+    a->gap.given = a->given;
+    a->gap.level = 0;
+    a->held = false;
+}
+
+double
+rc_adhesion_approach(const struct rc_adhesion *a)
+{
+    return rc_gap_shift(&a->gap) * a->whole->length;
+}
+
+struct rc_adhesion_past *
+rc_adhesion_past(struct rc_adhesion *a)
+{
+    return &a->past;
+}
+
 enum rc_status
 rc_adhesion_start(struct rc_adhesion *a, const double *pressure, double approach,
                   struct rc_err *err)
@@ -915,42 +938,46 @@ rc_adhesion_start(struct rc_adhesion *a, const double *pressure, double approach
             if ((*x < 0 && !g->yields) || (fabs(*x) < 1e-6 * g->law.range && p > -g->law.strength))
                 *x = 0;
         }
-    set_shift(a, c);
-    g->control = a->control;
-    g->given = a->given;
-    a->held = false;
-    a->begun = true;
+    memcpy(g->au, g->d, g->n * sizeof *g->au);
+    hold(a, c);
+    a->past.begun = true;
     return RC_OK;
 }
 
 /* The displacement stays, and with it the pressure: the gap changes by what the heights do. */
 enum rc_status
-rc_adhesion_set_heights(struct rc_adhesion *a, const double *h, struct rc_err *err)
+rc_adhesion_set_dented(struct rc_adhesion *a, const double *h, const double *dent,
+                       struct rc_err *err)
 {
     struct rc_gap *g = &a->gap;
-    const double c = a->begun ? rc_gap_shift(g) : 0;
+    const double c = a->past.begun ? rc_gap_shift(g) : 0;
 
     if (check_heights(a, h, err) != RC_OK)
         return RC_FAIL;
     for (size_t j = 0; j < g->ny; j++)
         for (size_t i = 0; i < g->nx; i++)
             g->x[j * g->px + i] += a->h[j * g->nx + i];
-    take_heights(a, h);
-    a->dents = a->dents_load = 0;
+    take_heights(a, h, dent);
+    a->past.dents[0] = a->past.dents[1] = 0;
     a->pull.on = false;
     for (size_t j = 0; j < g->ny; j++)
         for (size_t i = 0; i < g->nx; i++) {
             double *x = g->x + j * g->px + i;
             *x = fmax(*x - a->h[j * g->nx + i], 0);
         }
-    if (!a->begun)
+    if (!a->past.begun)
         rc_gap_apart(g, 0);
-    set_shift(a, c);
-    g->control = a->control;
-    g->given = a->given;
+    for (size_t k = 0; k < g->n; k++)
+        g->au[k] = rc_gap_pressure_at(g, k);
+    hold(a, c);
     g->mode.known = false;
-    a->held = false;
     return RC_OK;
+}
+
+enum rc_status
+rc_adhesion_set_heights(struct rc_adhesion *a, const double *h, struct rc_err *err)
+{
+    return rc_adhesion_set_dented(a, h, NULL, err);
 }
 
 void
@@ -972,8 +999,8 @@ rc_adhesion_keep_shape(struct rc_adhesion *a, double *h)
             *x = 0;
         }
     if (dented && !isinf(g->told.error)) {
-        a->dents += own_error(a);
-        a->dents_load += own_error(a) * g->told.size;
+        a->past.dents[0] += own_error(a);
+        a->past.dents[1] += own_error(a) * g->told.size;
     }
 }
 

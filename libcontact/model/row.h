@@ -12,8 +12,9 @@ struct rc_state;
 void rc_state_numbers(struct rc_state *s, size_t n, double *v);
 /* A size or a yes/no, at most `most`, as one number. */
 void rc_state_count(struct rc_state *s, size_t *n, size_t most);
-/* A map: the n nodes of this rank. In a state all maps follow all numbers. */
-void rc_state_map(struct rc_state *s, size_t n, double *v);
+/* A map: the n nodes of this rank. In a state all maps follow all numbers. Returns the place of the map in a
+ * state that is being written, else NULL; v NULL: the caller writes to that place. */
+double *rc_state_map(struct rc_state *s, size_t n, double *v);
 /* Before n numbers are read: whether the state has as many left; if not, the state is refused. */
 bool rc_state_holds(struct rc_state *s, size_t n);
 /* Whether the state is being read and is not refused. */

@@ -60,19 +60,20 @@ rc_state_numbers(struct rc_state *s, size_t n, double *v)
     s->at += n;
 }
 
-void
+double *
 rc_state_map(struct rc_state *s, size_t n, double *v)
 {
     if (s->mode == READS && n > s->n - s->map_at)
         rc_state_refuse(s, "numbers are missing");
     if (s->bad)
-        return;
+        return NULL;
     if (s->mode == READS)
         memcpy(v, s->from + s->map_at, n * sizeof *v);
-    else if (s->mode == WRITES)
+    else if (s->mode == WRITES && v != NULL)
         memcpy(s->to + s->map_at, v, n * sizeof *v);
     s->map_at += n;
     s->maps++;
+    return s->mode == WRITES ? s->to + s->map_at - n : NULL;
 }
 
 void

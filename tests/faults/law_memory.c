@@ -454,6 +454,47 @@ done:
     rc_adhesion_free(b);
     return status;
 }
+
+/* The adhesive model: a load that dents; on the way to a second point the state goes into another model. */
+static enum rc_status
+adhesive_model(double *out, struct rc_err *err)
+{
+    const struct rc_adhesion_problem problem = {
+        .contact = {.pair = bare, .tol = 1e-3, .threads = 1, .hardness_map = hardness},
+        .work = 1e-3};
+    struct rc_model *m = rc_adhesive_new(&shape, rough, &problem, err), *other = NULL;
+    enum rc_status status = RC_FAIL;
+    struct rc_point to = {0};
+    double *state = NULL;
+    bool going;
+    size_t n;
+
+    rc_point_set(&to, RC_LOAD, 1e-3);
+    if (m == NULL || rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
+        goto done;
+    rc_point_set(&to, RC_APPROACH, 0);
+    if (rc_model_go(m, &to, err) != RC_MORE || rc_model_step(m, err) == RC_FAIL)
+        goto done;
+    n = rc_model_state_size(m);
+    if ((state = malloc(n * sizeof *state)) == NULL) {
+        rc_err_set(err, "out of memory");
+        goto done;
+    }
+    rc_model_state(m, state);
+    other = rc_adhesive_new(&shape, rough, &problem, err);
+    if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK ||
+        rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
+        rc_model_frame(other, "adhesion", out, err) != RC_OK)
+        goto done;
+    out[N] = rc_adhesive_result(other)->adhesion.load;
+    status = RC_OK;
+done:
+    free(state);
+    rc_model_free(m);
+    rc_model_free(other);
+    return status;
+}
+
 /* ---- leakage ---- */
 
 #ifdef RC_LEAK
@@ -933,6 +974,7 @@ static const struct {
     {.name = "plasticity", .use = yields},
     {.name = "plasticity after elasticity", .use = may_yield},
     {.name = "adhesion", .use = adheres},
+    {.name = "the adhesive model", .use = adhesive_model},
 #ifdef RC_LEAK
     {.name = "leakage", .use = leaks},
 #endif

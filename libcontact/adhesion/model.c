@@ -1,0 +1,398 @@
+/*
+ * The adhesive model: rc_adhesion along a history of loads or approaches; the approach -INFINITY is a
+ * retraction to the pull-off load. Keeping a point adds its plastic dents to the shape.
+ */
+#include "adhesion.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+#include "libcontact/model/row.h"
+
+struct adhesive {
+    struct rc_model base;
+    struct rc_adhesion_problem problem;
+    size_t n;
+    double *h;                /* m: present heights                                               */
+    double *dent;             /* m: these less the undeformed heights; NULL: none                 */
+    struct rc_adhesion *path; /* NULL: no point so far                                            */
+    bool started;             /* the path was stepped: its pressure is that of a state            */
+    bool pulls;               /* the point is a retraction                                        */
+    bool again;               /* a state was read: the next step sets the point                   */
+    bool returns;             /* the state at the last kept point is being read                   */
+    bool looked;
+    struct rc_adhesive_figures figures;
+};
+
+static const struct rc_figure_set sets[] = {
+    {rc_figures_contact, offsetof(struct adhesive, figures.contact)},
+    {rc_figures_adhesion, offsetof(struct adhesive, figures.adhesion)},
+    {NULL, 0},
+};
+
+enum {
+    TRACTION = RC_CONTACT_FRAMES,
+    SHAPE
+};
+static const struct rc_frame_kind frames[] = {
+    RC_CONTACT_FRAME_KINDS,
+    [TRACTION] = {"adhesion", "Pa", "Attraction"},
+    [SHAPE] = {"plastic", "m", "Height after yield"},
+    {NULL, NULL, NULL},
+};
+
+/* ---- verbs ---- */
+
+/* The path takes the present heights. Errors of the dents stay. */
+static enum rc_status
+pass_heights(struct adhesive *a, struct rc_err *err)
+{
+    struct rc_adhesion_past past;
+
+    if (a->path == NULL)
+        return RC_OK;
+    past = *rc_adhesion_past(a->path);
+    if (rc_adhesion_set_dented(a->path, a->h, a->dent, err) != RC_OK)
+        return RC_FAIL;
+    *rc_adhesion_past(a->path) = past;
+    return RC_OK;
+}
+
+static enum rc_status
+make_path(struct adhesive *a, struct rc_err *err)
+{
+    if (a->path != NULL)
+        return RC_OK;
+    if ((a->path = rc_adhesion_new(&a->base.shape, a->h, &a->problem, err)) == NULL)
+        return RC_FAIL;
+    return a->dent != NULL ? pass_heights(a, err) : RC_OK;
+}
+
+static enum rc_status
+set_point(struct adhesive *a, struct rc_err *err)
+{
+    const struct rc_point *to = &a->base.to;
+
+    a->again = false;
+    if (make_path(a, err) != RC_OK)
+        return RC_FAIL;
+    a->pulls = rc_point_has(to, RC_APPROACH) && isinf(to->at[RC_APPROACH]);
+    return a->pulls ? rc_adhesion_pull_off(a->path, err)
+           : rc_point_has(to, RC_APPROACH)
+               ? rc_adhesion_set_approach(a->path, to->at[RC_APPROACH], err)
+               : rc_adhesion_set_load(a->path, to->at[RC_LOAD], err);
+}
+
+static enum rc_status
+go(struct rc_model *m, struct rc_err *err)
+{
+    struct adhesive *a = (struct adhesive *)m;
+
+    a->looked = false;
+    return set_point(a, err);
+}
+
+static enum rc_status
+step(struct rc_model *m, struct rc_err *err)
+{
+    struct adhesive *a = (struct adhesive *)m;
+
+    if (a->again && set_point(a, err) != RC_OK)
+        return RC_FAIL;
+    a->started = true;
+    a->looked = false;
+    return rc_adhesion_step(a->path, err);
+}
+
+static enum rc_status
+look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
+{
+    struct adhesive *a = (struct adhesive *)m;
+    struct rc_adhesion_figures *f = &a->figures.adhesion;
+
+    if (a->path == NULL)
+        return rc_err_set(err, "there is no point to look at");
+    *f = *rc_adhesion_result(a->path);
+    a->figures.contact = (struct rc_contact){.load = f->load,
+                                             .mean_pressure = f->mean_pressure,
+                                             .max_pressure = f->max_pressure,
+                                             .contact_nodes = f->contact_nodes,
+                                             .contact_area = f->contact_area,
+                                             .contact_fraction = f->contact_fraction,
+                                             .plastic_nodes = f->plastic_nodes,
+                                             .plastic_area = f->plastic_area,
+                                             .yielded_nodes = f->plastic_nodes,
+                                             .yielded_area = f->plastic_area,
+                                             .hardness_active = f->plastic_nodes > 0,
+                                             .edge_load_fraction = NAN,
+                                             .elastic_energy = NAN,
+                                             .approach = f->approach,
+                                             .mean_gap = f->mean_gap,
+                                             .gap_error = f->gap_error,
+                                             .shape_error = f->gap_error,
+                                             .kkt_residual = f->kkt_residual,
+                                             .pressure_error = f->pressure_error,
+                                             .inherited_error = f->inherited_error,
+                                             .iterations = f->iterations,
+                                             .convolutions = f->convolutions,
+                                             .discretization = {NAN, NAN, NAN},
+                                             .converged = f->converged};
+    at->at[RC_LOAD] = f->load;
+    at->at[RC_APPROACH] = f->approach;
+    a->looked = true;
+    return RC_OK;
+}
+
+static enum rc_status
+keep(struct rc_model *m, struct rc_err *err)
+{
+    struct adhesive *a = (struct adhesive *)m;
+
+    if (rc_model_look(m, NULL, err) != RC_OK)
+        return RC_FAIL;
+    a->pulls = false;
+    if (a->figures.adhesion.plastic_nodes == 0)
+        return RC_OK;
+    if (a->dent == NULL && (a->dent = calloc(a->n, sizeof *a->dent)) == NULL)
+        return rc_err_set(err, "out of memory for the shape that is left");
+    for (size_t k = 0; k < a->n; k++)
+        a->dent[k] -= a->h[k];
+    rc_adhesion_keep_shape(a->path, a->h);
+    for (size_t k = 0; k < a->n; k++)
+        a->dent[k] += a->h[k];
+    return RC_OK;
+}
+
+static enum rc_status
+fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
+{
+    struct adhesive *a = (struct adhesive *)m;
+
+    if (!a->looked)
+        return rc_err_set(err, "frames are those of a point that was looked at");
+    if (frame == RC_FRAME_PRESSURE)
+        rc_adhesion_pressure(a->path, to);
+    else if (frame == RC_FRAME_DISPLACEMENT)
+        rc_adhesion_displacement(a->path, to);
+    else if (frame == TRACTION)
+        rc_adhesion_traction(a->path, to);
+    else
+        rc_adhesion_gap(a->path, to);
+    for (size_t k = 0; k < a->n && frame == RC_FRAME_CONTACT; k++)
+        to[k] = to[k] > 0 ? 0 : 1; /* the net pressure does not tell */
+    for (size_t k = 0; k < a->n && frame == SHAPE; k++)
+        to[k] = a->h[k] + fmin(to[k], 0);
+    return RC_OK;
+}
+
+/* The dents are added to the new heights. */
+static enum rc_status
+set_heights(struct rc_model *m, const double *h, struct rc_err *err)
+{
+    struct adhesive *a = (struct adhesive *)m;
+
+    for (size_t k = 0; k < a->n; k++)
+        a->h[k] = h[k] + (a->dent != NULL ? a->dent[k] : 0);
+    return pass_heights(a, err);
+}
+
+/* ---- states ---- */
+
+/* Replaces the dents of the shape by those of the state, if these differ. */
+static void
+read_dent(struct adhesive *a, struct rc_state *s, bool some)
+{
+    double *now = calloc(a->n, sizeof *now);
+    bool differ = false;
+    struct rc_err err;
+
+    if (now == NULL) {
+        rc_state_refuse(s, "memory is short");
+        return;
+    }
+    if (some)
+        rc_state_map(s, a->n, now);
+    for (size_t k = 0; k < a->n; k++) {
+        const double more = now[k] - (a->dent != NULL ? a->dent[k] : 0);
+        differ |= more != 0;
+        a->h[k] += more;
+    }
+    free(a->dent);
+    a->dent = now;
+    if (rc_state_reads(s) && differ && pass_heights(a, &err) != RC_OK)
+        rc_state_refuse(s, "its shape is impossible");
+}
+
+/* The path starts from this net pressure and approach. */
+static void
+read_path(struct adhesive *a, struct rc_state *s, double approach,
+          const struct rc_adhesion_past *past)
+{
+    double *p = rc_alloc(a->n, sizeof *p);
+    struct rc_err err = {"memory is short"};
+
+    if (p != NULL)
+        rc_state_map(s, a->n, p);
+    if (p == NULL)
+        rc_state_refuse(s, err.text);
+    else if (rc_state_reads(s) && (make_path(a, &err) != RC_OK ||
+                                   rc_adhesion_start(a->path, p, approach, &err) != RC_OK))
+        rc_state_refuse(s, err.text);
+    else if (rc_state_reads(s))
+        *rc_adhesion_past(a->path) = *past;
+    free(p);
+}
+
+/* The state at the last kept point: from there a retraction, or a separation, is gone through again. */
+static void
+read_start(struct adhesive *a, struct rc_state *s)
+{
+    struct rc_err err = {"its start is missing"};
+
+    if (a->returns) {
+        rc_state_refuse(s, err.text);
+        return;
+    }
+    a->returns = true;
+    if (rc_model_recall(&a->base, &err) != RC_OK)
+        rc_state_refuse(s, err.text);
+    a->returns = false;
+}
+
+/* A state holds the dents, the approach and the net pressure. On a retraction, and where the bodies have
+ * separated, it is the state at the last kept point. */
+static void
+state(struct rc_model *m, struct rc_state *s)
+{
+    struct adhesive *a = (struct adhesive *)m;
+    struct rc_adhesion_past past = {{0, 0}, false};
+    size_t started = a->started, dented = a->dent != NULL, begun,
+           anew = m->moved && started && (a->pulls || rc_adhesion_result(a->path)->separated);
+    double approach = started ? rc_adhesion_approach(a->path) : 0, *to;
+
+    if (started)
+        past = *rc_adhesion_past(a->path);
+    begun = past.begun;
+    rc_state_count(s, &anew, 1);
+    if (rc_state_reads(s) && m->moved && m->status != RC_FAIL)
+        m->status = RC_MORE; /* a step tells whether it is the solution */
+    if (anew) {
+        if (rc_state_reads(s))
+            read_start(a, s);
+        return;
+    }
+    rc_state_count(s, &started, 1);
+    rc_state_count(s, &begun, 1);
+    rc_state_count(s, &dented, 1);
+    rc_state_numbers(s, 1, &approach);
+    rc_state_numbers(s, 2, past.dents);
+    past.begun = begun;
+    if (!rc_state_reads(s)) {
+        if (dented)
+            rc_state_map(s, a->n, a->dent);
+        if (started && (to = rc_state_map(s, a->n, NULL)) != NULL)
+            rc_adhesion_pressure(a->path, to);
+        return;
+    }
+    a->looked = a->pulls = false;
+    if (dented || a->dent != NULL)
+        read_dent(a, s, dented);
+    if (started) {
+        read_path(a, s, approach, &past);
+    } else {
+        rc_adhesion_free(a->path);
+        a->path = NULL;
+    }
+    a->started = started;
+    a->again = true;
+}
+
+static void
+progress(const struct rc_model *m, struct rc_loops *l)
+{
+    const struct adhesive *a = (const struct adhesive *)m;
+    struct rc_adhesion_progress at;
+
+    if (a->path == NULL)
+        return;
+    rc_adhesion_progress(a->path, &at);
+    if (a->pulls)
+        rc_loops_add(l, "state", NULL, (double)at.state, NAN);
+    if (isnan(at.load))
+        rc_loops_add(l, "approach", "m", at.approach, NAN);
+    else
+        rc_loops_add(l, "load", "N", at.load, NAN);
+    rc_loops_add(l, at.eigenvalue ? "stability, step" : "iteration", NULL, (double)at.iterations,
+                 NAN);
+    l->error = at.error;
+    l->tol = at.tol;
+}
+
+static enum rc_status
+plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
+     struct rc_err *err)
+{
+    (void)most;
+    return rc_adhesion_expect(&m->shape, &((const struct adhesive *)m)->problem, expected, err);
+}
+
+static void
+release(struct rc_model *m)
+{
+    struct adhesive *a = (struct adhesive *)m;
+
+    rc_adhesion_free(a->path);
+    free(a->h);
+    free(a->dent);
+}
+
+const struct rc_model_row rc_model_adhesive = {
+    .name = "adhesive",
+    .summary = "bodies that attract each other, with a hardness",
+    .needs = 1u << RC_LOAD,
+    .takes = 1u << RC_LOAD | 1u << RC_APPROACH,
+    .figures = sets,
+    .frame = frames,
+    .go = go,
+    .step = step,
+    .look = look,
+    .fill = fill,
+    .state = state,
+    .free = release,
+    .keep = keep,
+    .heights = set_heights,
+    .progress = progress,
+    .plan = plan,
+};
+
+struct rc_model *
+rc_adhesive_new(const struct rc_shape *shape, const double *h,
+                const struct rc_adhesion_problem *problem, struct rc_err *err)
+{
+    struct rc_adhesion_scales scales;
+    struct rc_model *m;
+    struct adhesive *a;
+
+    if (rc_adhesion_check(shape, problem, &scales, err) != RC_OK ||
+        (m = rc_model_make(&rc_model_adhesive, sizeof *a, shape, err)) == NULL)
+        return NULL;
+    a = (struct adhesive *)m;
+    a->problem = *problem;
+    a->n = shape->nx * shape->ny;
+    if ((a->h = rc_alloc(a->n, sizeof *a->h)) == NULL) {
+        rc_err_set(err, "out of memory for the heights");
+        rc_model_free(m);
+        return NULL;
+    }
+    memcpy(a->h, h, a->n * sizeof *h);
+    return m;
+}
+
+const struct rc_adhesive_figures *
+rc_adhesive_result(const struct rc_model *m)
+{
+    while (m != NULL && m->row != &rc_model_adhesive)
+        m = m->inner;
+    return m != NULL ? &((const struct adhesive *)m)->figures : NULL;
+}
