@@ -1,9 +1,10 @@
-# Sourced by the tests of the manual, after pipe.sh: takes out of a page what a test runs or compares, and asks
-# --help for its words.
+# Sourced by the tests of the manual, after pipe.sh: functions that extract commands and outputs from a page,
+# and words from --help.
 pages=$RC_SOURCE/man
 
-# blocks PAGE SECTION FOLDER: the literal displays of a section, or of all with '', as files 1, 2, ... in FOLDER. After the
-# comment "prints" a display is what the one before it prints: 1.prints; after "not run: why" it is left out.
+# blocks PAGE SECTION FOLDER: writes the literal displays of a section, or of all sections with '', as files
+# 1, 2, ... in FOLDER. After the comment "prints" a display is the output of the one before it: 1.prints;
+# after the comment "not run: why" it is omitted.
 blocks() {
     mkdir -p "$3"
     awk -v section="$2" -v folder="$3" '
@@ -21,7 +22,7 @@ blocks() {
         }' "$1"
 }
 
-# program PAGE NAME [WORD]: the first C program that stands in a page, or the first with this word, as NAME.
+# program PAGE NAME [WORD]: writes the first C program of a page, or the first one with this word, to NAME.
 program() {
     local block
     blocks "$1" EXAMPLES "$2.blocks"
@@ -35,7 +36,7 @@ program() {
     return 1
 }
 
-# pictures PAGE: the files of the pictures that it shows.
+# pictures PAGE: prints the files of its pictures.
 pictures() {
     sed -n 's/^\.Lk \([^ ]*\.png\) .*/\1/p' "$1"
 }
@@ -46,14 +47,14 @@ help_options() {
     "$1" --help | grep -oE '^  --?[A-Za-z0-9-]+(, --[A-Za-z0-9-]+)*' | tr ',' '\n' | tr -d ' ' | sort
 }
 
-page_options() { # -h stands beside --help and is not listed
+page_options() { # -h is another name of --help and is not listed
     awk '/^\.It Fl/ {
         for (i = 3; i <= NF && $i !~ /^(Ar|Cm|Ns|Op|Oo)$/; i++)
             if ($i != "," && $i != "|" && $i != "h" && $i != "Fl") print "-" $i
     }' "$1" | sort
 }
 
-# The words that an option takes: "--method auto|pcg|pk99", or "..., of pcg,pk99 (default".
+# Prints the words that an option takes: "--method auto|pcg|pk99", or "..., of pcg,pk99 (default".
 help_words() {
     "$1" --help | awk '
         /^  --/ { name = $1; sub(/,$/, "", name) }
@@ -68,7 +69,7 @@ help_words() {
         }' | sort -u
 }
 
-# The words that the manual gives for the same options, and all others that it marks in their paragraphs.
+# Prints the words that the manual gives for the same options, and all other marked words of their paragraphs.
 page_words() {
     awk '
         /^\.It/ || /^\.E[ld]/ || /^\.S[hs]/ { name = "" }

@@ -1,9 +1,8 @@
-# Sourced by every pipe_*.sh and law_*.sh: the built tools on PATH, a scratch folder, ways to claim, and
-# the tolerances of tests/exact.h by their names ($rounding, ...).
-#
-# A pipeline fails where any of its commands does, here and in every bash that a claim starts. So grep -q
-# and head, which may end before they have read all, stand at no end of a pipeline in a claim: `says` and
-# `warns` look at what a command said when it has ended.
+# Sourced by every pipe_*.sh and law_*.sh: puts the built tools on PATH, makes a temporary folder, and defines
+# claims and the tolerances of tests/exact.h by their names ($rounding, ...). A pipeline fails if any of its
+# commands fails, here and in every bash that a claim starts. Therefore grep -q and head, which may stop
+# reading early, must not end a pipeline in a claim: `says` and `warns` check the output after the command has
+# ended.
 set -u -o pipefail
 export SHELLOPTS
 PATH="$RC_BIN:$PATH"
@@ -15,7 +14,7 @@ cd "$scratch" || exit 1
 claims=0
 failures=0
 
-# before_release: whether all cases are tried (RC_LONG, tests/CMakeLists.txt), not only those of every commit.
+# before_release: true if all cases run (RC_LONG, tests/CMakeLists.txt), not only those of every commit.
 before_release() {
     [ -n "${RC_LONG-}" ]
 }
@@ -34,8 +33,8 @@ claim() {
     fi
 }
 
-# refuses STATUS "pattern" "sentence" 'shell command': it exits with STATUS, and its standard error
-# holds the pattern (grep -E).
+# refuses STATUS "pattern" "sentence" 'shell command': it exits with STATUS, and its standard error matches
+# the pattern (grep -E).
 refuses() {
     local status=$1 pattern=$2 sentence=$3 command=$4 got
     claims=$((claims + 1))
@@ -50,7 +49,7 @@ refuses() {
     fi
 }
 
-# says "pattern" command...: it succeeds, and its standard output holds the pattern (grep -E).
+# says "pattern" command...: it succeeds, and its standard output matches the pattern (grep -E).
 says() {
     local pattern=$1
     shift
@@ -61,7 +60,7 @@ says() {
     }
 }
 
-# warns "pattern" command...: the same of its standard error.
+# warns "pattern" command...: the same for its standard error.
 warns() {
     local pattern=$1
     shift
@@ -71,12 +70,12 @@ warns() {
     [ "$status" = 0 ] && grep -aqE -- "$pattern" warns.err
 }
 
-# lacks "pattern" FILE: it is there, it is not empty, and the pattern is not in it.
+# lacks "pattern" FILE: the file exists, is not empty, and does not match the pattern.
 lacks() {
     [ -s "$2" ] && ! grep -aqE -- "$1" "$2"
 }
 
-# reseal: a stream of one frame that was changed on its way gets the checksum of what it holds now.
+# reseal: corrects the checksum of a changed stream of one frame.
 reseal() {
     perl -MCompress::Zlib -0777 -pe \
         's/(RCG1.*)crc32 [0-9a-f]{8}\n/$1 . sprintf("crc32 %08x\n", crc32($1))/se'
@@ -110,12 +109,12 @@ between() {
     fi
 }
 
-# field NAME FILE: a number or word of a one-line JSON report.
+# field NAME FILE: prints a number or word of a one-line JSON report.
 field() {
     grep -o "\"$1\": [^,}]*" "$2" | head -n 1 | sed 's/^[^:]*: //; s/"//g'
 }
 
-# skip_with_address_sanitizer "why": ends a test that its memory would disturb.
+# skip_with_address_sanitizer "why": ends a test that the memory of the sanitizer would disturb.
 skip_with_address_sanitizer() {
     nm -D "$(command -v rc-solve)" >symbols.txt 2>/dev/null
     if grep -q __asan symbols.txt; then
@@ -124,13 +123,13 @@ skip_with_address_sanitizer() {
     fi
 }
 
-# with_leak: whether this build knows flow through gaps, for which it needs AMD of SuiteSparse.
+# with_leak: true if this build has rc-leak, which needs AMD of SuiteSparse.
 with_leak() {
     grep -qs '^AMD_LIBRARY:[A-Z]*=.*amd' "$(dirname "$RC_BIN")/CMakeCache.txt" &&
         ! grep -qs '^RC_LEAK:[A-Z]*=OFF' "$(dirname "$RC_BIN")/CMakeCache.txt"
 }
 
-# tool_sources: the mains of the tools that are built, one a line.
+# tool_sources: prints the main source files of the built tools, one per line.
 tool_sources() {
     for main in "$RC_SOURCE"/tools/rc-*.c; do
         [ "${main##*/}" = rc-leak.c ] && ! with_leak || echo "$main"
@@ -142,8 +141,8 @@ finish() {
     [ "$claims" -gt 0 ] && [ "$failures" = 0 ]
 }
 
-# energy_of STREAM CELL OPTIONS: half the sum of the first pressure times the displacement that rc-deflect finds for it, times
-# the area of a cell, m2.
+# energy_of STREAM CELL OPTIONS: half the sum of the first pressure times its displacement by rc-deflect,
+# times the area CELL of a cell in m2.
 energy_of() {
     rc-pick --channel pressure --case 1 "$1" >energy-p.rcg
     rc-deflect --quiet "${@:3}" -o energy-u.rcg energy-p.rcg

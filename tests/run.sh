@@ -6,7 +6,7 @@ top=$(cd "$(dirname "$0")/.." && pwd)
 cd "$top"
 . cmake/packages.sh
 
-# phase WHAT: how long it took.
+# phase WHAT: prints its time.
 phase() {
     echo "== $1: $((SECONDS - began)) s"
     began=$SECONDS
@@ -16,12 +16,13 @@ began=$SECONDS
 # shellcheck disable=SC2086
 need_packages $build_packages $test_packages
 
-# Most sources are the same to the compiler with MPI and without, and in the library with the rows of tests/toys.
+# Most sources give the same preprocessed text with and without MPI, and in the library with the rows of
+# tests/toys.
 if [ -z "${CMAKE_C_COMPILER_LAUNCHER-}" ] && command -v ccache >/dev/null; then
     export CMAKE_C_COMPILER_LAUNCHER=ccache
 fi
 
-# The style is what clang-format 14 makes of .clang-format: other versions differ in details.
+# The style is that of clang-format 14 with .clang-format: other versions differ in details.
 if clang-format --version 2>/dev/null | grep -q 'version 14\.'; then
     find libcontact formats tools tests bench -name '*.[ch]' -exec clang-format --dry-run -Werror {} +
 else
@@ -44,7 +45,7 @@ build() {
     phase "$preset, build"
 }
 
-# try PRESET [OPTIONS]: the tests, side by side: none of them measures time closely.
+# try PRESET [OPTIONS]: builds, and runs the tests in parallel, because none of them measures time closely.
 try() {
     local preset=$1
     shift
@@ -58,8 +59,8 @@ if [ "${CI-}" = true ]; then
 fi
 build ci
 
-# The difference that MPI makes: the tools and the tests that use it, on two processes, and the installed files.
-# They mostly wait for launchers, so the tests without MPI run meanwhile.
+# With MPI only the tests that it affects run: tools and tests on two processes, and the installed files. They
+# mostly wait for launchers, so the tests without MPI run at the same time.
 build mpi --target mpi_tested
 try mpi -R '_ranks|law_folders|pipe_(installed|library(_page)?|solve)$' >build-mpi/tests.log 2>&1 &
 shared=$!

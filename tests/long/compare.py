@@ -1,7 +1,6 @@
-"""compare.py OUT REFERENCE < TABLE: results of pipelines beside those of the reference.
-
-Each line of the table begins with the name of a result and how it is compared (pipelines.sh). Prints for each kind of
-comparison what differs most; names every result that is further off than it may be, and fails then.
+"""compare.py OUT REFERENCE < TABLE: compares results of pipelines with those of the reference. Each line of
+the table begins with the name of a result and the kind of comparison (pipelines.sh). Prints the largest
+difference for each kind of comparison; names every result whose difference is too large, and then fails.
 """
 import json
 import math
@@ -17,7 +16,7 @@ ALLOWED = {'exact': 0.0, 'close': 1e-12, 'sums': 1e-10, 'solved': 2e-9}
 
 
 def difference(a, b, how):
-    """Of two arrays, relative to the second; infinite where one of them has a number and the other none."""
+    """The difference of two arrays, relative to the second; infinite if only one of them has a number at a place."""
     if a.shape != b.shape or (numpy.isfinite(a) != numpy.isfinite(b)).any():
         return math.inf
     a, b = a[numpy.isfinite(a)], b[numpy.isfinite(b)]
@@ -29,7 +28,7 @@ def difference(a, b, how):
 
 
 def of_words(a, b):
-    """Of two values of a header: numbers that were computed, or words that must be equal."""
+    """The difference of two values of a header: computed numbers, or words that must be equal."""
     if a == b:
         return 0.0
     try:
@@ -39,7 +38,7 @@ def of_words(a, b):
 
 
 def of_json(a, b):
-    """Of two values of a report: numbers, lists relative to their largest, objects member by member."""
+    """The difference of two values of a report: numbers, lists relative to their largest number, objects member by member."""
     if isinstance(a, dict) and isinstance(b, dict) and a.keys() == b.keys():
         return max([of_json(a[k], b[k]) for k in a], default=0.0)
     if isinstance(a, list) and isinstance(b, list) and len(a) == len(b):

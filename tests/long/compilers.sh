@@ -1,12 +1,9 @@
 #!/usr/bin/env bash
-# Results do not depend on who compiled, for which processor, and how many threads there are:
-#
-#     tests/long/compilers.sh [FOLDER]
-#
-# Builds the tools by gcc and clang, each with -O3 and -O0, in FOLDER (else one that is removed at the end), runs the
-# pipelines of pipelines.sh and compares. The processors without AVX-512 and without AVX2 are those of qemu, on which
-# the same program takes its other paths, and so do FFTW and the C library. The same build and number of threads must
-# give the same bytes twice.
+# Results do not depend on the compiler, the processor and the number of threads: tests/long/compilers.sh
+# [FOLDER] Builds the tools with gcc and clang, each with -O3 and -O0, in FOLDER (by default a temporary one),
+# runs the pipelines of pipelines.sh and compares. qemu emulates the processors without AVX-512 and without
+# AVX2; there the program, FFTW and the C library use other code paths. The same build with the same number of
+# threads must give the same bytes twice.
 set -uo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
@@ -29,7 +26,7 @@ fi
 failed=0
 tools=$(sed -n 's/^set(tools \(.*\))/\1/p' "$source/tools/CMakeLists.txt")
 
-# build NAME COMPILER FLAGS: the tools in $work/NAME; no warning is allowed.
+# build NAME COMPILER FLAGS: builds the tools in $work/NAME; warnings are errors.
 build() {
     cmake -S "$source" -B "$work/$1" -DCMAKE_BUILD_TYPE=None -DCMAKE_C_COMPILER="$2" -DCMAKE_C_FLAGS="$3" \
         -DRC_WERROR=ON -DRC_TESTS=OFF >"$work/$1.log" 2>&1 &&
@@ -40,7 +37,7 @@ build() {
     }
 }
 
-# beside NAME PATH THREADS: the pipelines with the tools of PATH beside the reference.
+# beside NAME PATH THREADS: runs the pipelines with the tools of PATH and compares them with the reference.
 beside() {
     local began=$SECONDS
     if ! PATH="$2:$PATH" RC_THREADS=$3 run_pipelines "$work/out/$1" "$work/out/reference"; then
@@ -52,7 +49,7 @@ beside() {
     echo "    ($((SECONDS - began)) s)"
 }
 
-# twice NAME PATH THREADS: and not a byte differs when it is run again.
+# twice NAME PATH THREADS: the same, and a second run gives the same bytes.
 twice() {
     beside "$@"
     if PATH="$2:$PATH" RC_THREADS=$3 run_pipelines "$work/out/again" "$work/out/reference" &&
@@ -78,7 +75,7 @@ twice "clang -O3, 1 thread" "$work/clang-O3/tools" 1
 twice "clang -O3, 7 threads" "$work/clang-O3/tools" 7
 build clang-O0 clang -O0
 beside "clang -O0, 2 threads" "$work/clang-O0/tools" 2
-# Processors of qemu: what the first has, the second has not.
+# Processors of qemu: the first has the named extension, the second has not.
 emulated "$work/avx2" "$work/gcc-O3/tools" qemu-x86_64-static -cpu Haswell
 emulated "$work/sse" "$work/gcc-O3/tools" qemu-x86_64-static -cpu Nehalem
 beside "gcc -O3, AVX2, no AVX-512" "$work/avx2" 1

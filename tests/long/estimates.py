@@ -1,4 +1,4 @@
-"""estimates.py hist|adhesion|tilt|maps SEED COUNT BIN: told error of the pressure against the true one, of random contacts.
+"""estimates.py hist|adhesion|tilt|maps SEED COUNT BIN: compares estimated and true error of the pressure for random contacts.
 
 hist      lists of loads with a hardness and --history         truth: the same list with --tol 1e-8
 adhesion  paths of approaches or loads with --adhesion         truth: the same path with --tol 1e-8
@@ -26,7 +26,7 @@ STEP = 1e-6    # m
 
 
 class Case:
-    """A surface, the options of rc-solve for it, and those that make the truth of it."""
+    """A surface, the options of rc-solve for it, and the options for its reference solution."""
 
     def __init__(self, surface, options, tight, wide=None, tol=()):
         self.surface, self.options, self.tight, self.tol = surface, options, tight, list(tol)
@@ -93,7 +93,7 @@ def tilted(r):
 
 
 def wide_map(r):
-    """A ball, two of them or a rough one, on the middle of a map that is two or three times as wide."""
+    """A ball, two balls or a rough ball, in the middle of a map that is two or three times as wide."""
     n, times = r.choice([16, 20, 24, 28, 32]), r.choice([2, 3])
     side = n * times
     random_of = numpy.random.default_rng(r.randrange(10 ** 9))
@@ -139,7 +139,7 @@ def middle(values, shape):
 
 
 def states(case, kind, table):
-    """(error, report, report of the truth) of each state of a case."""
+    """Yields (error, report, report of the reference) for each state of a case."""
     ours = solve(case.surface, case.options + case.tol, table)
     truth = ours and solve(case.wide, case.options + case.tight, table)
     for (report, p), (theirs, q) in zip(ours or [], truth or []):
@@ -148,10 +148,10 @@ def states(case, kind, table):
         if kind == 'adhesion' and 'yes' in (report.get('separated'), theirs.get('separated')):
             return
         whole = abs(q).sum()
-        # what the wider map carries beside the other one is off as well
+        # pressure on the wider map outside of the other map is an error too
         error = (abs(p - middle(q, p.shape)).sum() + whole - abs(middle(q, p.shape)).sum()) / whole if whole > 0 else 0
         if kind == 'adhesion' and error > 0.02:
-            return  # another valley, and all after it
+            return  # another minimum, and all later states
         yield error, report, theirs
 
 

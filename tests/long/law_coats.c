@@ -1,5 +1,5 @@
-/* Iterations on coated bodies: coats from a hundredth of what they lie on to a hundred times as stiff, from
- * one to 64 nodes thick, 2 and 40 % contact of a periodic surface of 512 x 512. */
+/* Iterations on coated bodies: coats 0.01 to 100 times as stiff as their substrate, from one to 64 nodes
+ * thick, 2 and 40 % contact of a periodic surface of 512 x 512 nodes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,14 +13,15 @@ enum {
     N = M * M
 };
 static const struct rc_shape shape = {M, M, 1e-6, 1e-6};
-static const double wanted = 1e-4, nearly = 0.05 /* of a row's contact */;
+static const double wanted = 1e-4, nearly = 0.05 /* conditions of the contact of a row */;
 
 struct row {
     double ratio, thickness; /* E_1/E_s; nodes                                        */
-    double contact, mean;    /* fraction; the pressure over E_s that makes it         */
+    double contact, mean;    /* fraction; the pressure over E_s that gives it         */
     size_t most;             /* iterations on the finest grid to a true error of 1e-4 */
 };
-/* What a prototype took at most; of E_1/E_s = 0.1, t/dx = 4, 2 % contact it took 4, one less than here. */
+/* The largest iterations of a prototype; for E_1/E_s = 0.1, t/dx = 4, 2 % contact it took 4, one less than
+ * here. */
 /* clang-format off */
 static const struct row rows[] = {
     {0.01, 1, 0.02, 8.077e-05, 3}, {0.01, 4, 0.02, 2.589e-05, 5},
@@ -60,7 +61,7 @@ make(double *h)
     assert_int_equal(rc_synth_selfaffine(&shape, &what, h, &err), RC_OK);
 }
 
-/* Iterations until the pressure is that near to `exact`. */
+/* Iterations until the pressure is this near to `exact`. */
 static size_t
 iterations_to(const struct rc_problem *problem, const double *h, const double *exact,
               double *convolutions)

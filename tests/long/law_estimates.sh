@@ -1,5 +1,6 @@
-# What is told of errors is hardly ever less than they are: random problems beside their tight solutions. Lists of loads
-# on a body that yields, histories with a hardness, adhesive paths, tilted contacts, free maps.
+# Estimated errors are almost never below the true errors: random problems compared with solutions of low
+# tolerance. Lists of loads on a body that yields, histories with a hardness, adhesive paths, tilted contacts,
+# free maps.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/python.sh"
 if ! python=$(python_with numpy 2>why.txt); then

@@ -1,5 +1,5 @@
-/* Flow through the gaps of rough contacts: the order at which the grid finds it, with the two faces on either
- * side of the truth in 18 of 20 cases at least; and the contact at which the last way closes. */
+/* Flow through the gaps of rough contacts: the order of convergence, with the true flow between those of the
+ * two rules in at least 18 of 20 cases; and the contact fraction at which the last path closes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

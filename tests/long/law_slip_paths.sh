@@ -1,5 +1,6 @@
-# rc-slip: what it says of its error against paths of 192 increments, on random maps and paths of both boundaries: loads that stay,
-# grow and fall, forces that turn, go back and begin with the load, displacements. About 8 minutes: SECONDS_MOST=60 is enough for a look.
+# rc-slip: its estimated errors, compared with paths of 192 increments, on random maps and paths with both
+# boundaries: constant, growing and falling loads, forces that turn, reverse or grow with the load,
+# displacements. It takes about 8 minutes; SECONDS_MOST=60 limits it for a first impression.
 . "$(dirname "$0")/../pipe.sh"
 command -v python3 >/dev/null || exit 77
 

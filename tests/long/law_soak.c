@@ -1,5 +1,5 @@
-/* A thousand solves of different sizes in one process leave its memory as it was, and two solvers in
- * two threads at a time give what each gives alone, to the last bit. */
+/* A thousand solves of different sizes in one process leave its memory unchanged, and two solvers in two
+ * threads at a time give the same results as alone, to the last bit. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,14 +14,14 @@
 
 enum {
     SOLVES = 1000,
-    WARM = 200,  /* after so many FFTW and the allocator have all that they keep */
-    SIDE = 97,   /* nodes along a side, at most */
-    PAIRS = 200, /* solves that each of two threads does */
+    WARM = 200,  /* after this number FFTW and the allocator hold all their permanent memory */
+    SIDE = 97,   /* largest number of nodes along a side */
+    PAIRS = 200, /* number of solves of each of two threads */
     N = SIDE * SIDE
 };
 
-/* What a run may keep that the run before it had not, MiB: fragments, not maps (of which a leaked one
- * a solve would be 12 MiB by the end). */
+/* The memory, in MiB, that a run may hold more than the run before: fragments, not maps (one leaked map per
+ * solve would be 12 MiB at the end). */
 static const double growth_most = 4;
 
 static size_t
@@ -42,12 +42,12 @@ static double
 mib_held(void)
 {
 #ifdef __GLIBC__
-    malloc_trim(0); /* free memory that was not given back is no leak */
+    malloc_trim(0); /* free memory that was not returned to the system is not a leak */
 #endif
     return (double)pages_held() * (double)sysconf(_SC_PAGESIZE) / (1 << 20);
 }
 
-/* Problem k: sizes, boundaries, engines, methods and materials in turn. */
+/* Problem k: cycles through sizes, boundaries, engines, methods and materials. */
 static void
 make(size_t k, struct rc_shape *shape, struct rc_problem *problem, double *h)
 {
@@ -114,7 +114,7 @@ a_thousand_solves(void **state)
     assert_int_equal(solved, WARM + SOLVES);
     assert_true(before > 0);
     (void)growth_most;
-#if !defined(__SANITIZE_ADDRESS__) /* which keeps what is freed */
+#if !defined(__SANITIZE_ADDRESS__) /* which holds freed memory */
     assert_true(after - before < growth_most);
 #endif
 }

@@ -1,5 +1,5 @@
 /* A hundred thousand frames take no more memory than a thousand, in every tool that passes frames on; and a
- * profile of 2^31 + 9 nodes goes through them with every node in its place: no index has 32 bits. */
+ * profile of 2^31 + 9 nodes passes through them with every node at its place: no index has 32 bits. */
 #define _DEFAULT_SOURCE /* wait4 */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,19 +23,19 @@
 enum {
     FEW = 1000,
     MANY = 100000,
-    OUTPUT = 1 << 16 /* bytes that are kept of a tool's output */
+    OUTPUT = 1 << 16 /* number of bytes of a tool's output that are kept */
 };
 
-/* MiB that a tool may take more for a hundred times as many frames. */
+/* The additional memory, in MiB, permitted for a hundred times as many frames. */
 static const double growth_most = 1;
 
 /* ---- a tool that reads what a function writes ---- */
 
 struct ran {
     int status;
-    double mib; /* the most it had held */
+    double mib; /* the peak of its memory */
     char said[OUTPUT];
-    size_t n; /* bytes of all that it said */
+    size_t n; /* bytes of its messages */
 };
 
 typedef void producer(FILE *out, size_t n);
@@ -55,7 +55,7 @@ start_producer(producer *produce, size_t n, int to[2])
     _exit(fclose(out) == 0 ? 0 : 1);
 }
 
-/* Where memory runs short after all, this process is the one to end, and no other of the machine. */
+/* If memory becomes short the system must end this process, and no other process of the machine. */
 static void
 offer_to_kernel(void)
 {
@@ -151,8 +151,7 @@ frames_take_no_memory(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof tools / sizeof *tools; k++) {
-        size_t most =
-            strcmp(tools[k].tool, "rc-solve") == 0 ? MANY / 10 : MANY; /* it takes its time */
+        size_t most = strcmp(tools[k].tool, "rc-solve") == 0 ? MANY / 10 : MANY; /* slow */
 
         run(&few, write_frames, FEW, tools[k].tool, tools[k].arguments);
         run(&many, write_frames, most, tools[k].tool, tools[k].arguments);
@@ -162,7 +161,7 @@ frames_take_no_memory(void **state)
         assert_int_equal(many.status, 0);
         assert_true(many.n > most / FEW * 9 / 10 * few.n);
         (void)growth_most;
-#if !defined(__SANITIZE_ADDRESS__) /* which keeps what is freed */
+#if !defined(__SANITIZE_ADDRESS__) /* which holds freed memory */
         assert_true(many.mib < few.mib + growth_most);
 #endif
     }
@@ -170,7 +169,7 @@ frames_take_no_memory(void **state)
 
 /* ---- 2^31 + 9 nodes ---- */
 
-/* Zeros, but for the last nine nodes, which are 1e-9, 2e-9, ... 9e-9 m; in f32. */
+/* Zeros, except the last nine nodes, which are 1e-9, 2e-9, ... 9e-9 m; in f32. */
 static void
 write_profile(FILE *out, size_t n)
 {
@@ -223,7 +222,7 @@ figure(const char *said, const char *name)
     return at == NULL ? NAN : strtod(at + strlen(name), NULL);
 }
 
-static bool too_small; /* this machine, for one of the tests */
+static bool too_small; /* whether this machine is large enough for one of the tests */
 
 static void
 no_index_has_32_bits(void **state)
@@ -271,5 +270,6 @@ main(void)
 
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
 
-    return failed == 0 && too_small ? 77 : failed; /* ctest's word for a test that was skipped */
+    return failed == 0 && too_small ? 77
+                                    : failed; /* the exit status that ctest counts as skipped */
 }

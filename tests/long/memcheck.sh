@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# valgrind's memcheck over the tests that are short enough for it (ctest's own times tell), and over the tools:
+# Runs valgrind's memcheck over the short tests, by the times of ctest, and over the tools:
 #
 #     tests/long/memcheck.sh BUILD [SECONDS]
 #
-# BUILD is a built tree whose tests have been run; those that took at most SECONDS there (else 0.3) are run again. An
-# invalid access, a jump on what was never set or a block that is lost is a finding. The sanitizers run all tests
-# (tests/run.sh); valgrind sees what FFTW, GSL, libpng and the others do with our memory too.
+# BUILD is a built tree whose tests have been run; tests that took at most SECONDS there (default 0.3) run
+# again. Findings are invalid accesses, jumps that depend on uninitialised values, and lost blocks. The
+# sanitizers run all tests (tests/run.sh); valgrind also sees accesses by FFTW, GSL, libpng and other
+# libraries.
 set -uo pipefail
 [ $# -ge 1 ] && [ -r "$1/Testing/Temporary/CTestCostData.txt" ] || {
     echo "memcheck.sh: which build, with its tests run before? memcheck.sh BUILD [SECONDS]" >&2
@@ -27,7 +28,7 @@ memcheck="valgrind --quiet --error-exitcode=99 --leak-check=full --errors-for-le
 ran=0 failed=0
 
 while read -r test _ seconds; do
-    case $test in format_export*|format_hdf5|format_datx) continue ;; esac # the sandbox bounds memory, of which valgrind takes more
+    case $test in format_export*|format_hdf5|format_datx) continue ;; esac # the sandbox limits memory, and valgrind needs more
     [ -x "$build/tests/$test" ] && awk "BEGIN { exit !($seconds <= $most) }" || continue
     ran=$((ran + 1))
     (cd "$work" && $memcheck "$build/tests/$test" >"$work/out" 2>"$work/err") || {

@@ -3,16 +3,15 @@
 #
 #     tests/long/other_machines.sh [--keep FOLDER] ARCH...
 #
-# ARCH is what Debian calls it: s390x (the highest byte first), arm64, i386 (32 bits). For each, a root of its
-# libraries is made by mmdebstrap, with packages from MIRROR where the environment names one; everything is
-# built by Debian's cross compiler with warnings as errors; the tests run, foreign ones under qemu's user
-# emulation; and the results of the pipelines of pipelines.sh are those of this machine, each of which reads what the
-# other has written. FOLDER keeps root, build and logs for the next time. No root is needed where mmdebstrap needs
-# none (user namespaces).
-#
-# What is left out, and why, is the table below, and is said. What takes longer than 9000 s (RC_LIMIT: another number of
-# seconds) is named and counts as a failure; RC_TESTS_OF, a regular expression, chooses tests. Emulated, all of them
-# take two cores some three hours.
+# ARCH is Debian's name: s390x (most significant byte first), arm64, i386 (32 bits). For each, mmdebstrap
+# makes a root with its libraries, with packages from the environment's MIRROR if it is set; Debian's cross
+# compiler builds everything with warnings as errors; the tests run, foreign ones under qemu's user emulation;
+# and the results of the pipelines of pipelines.sh must equal those of this machine, where each machine reads
+# the files of the other. FOLDER keeps root, build and logs for the next run. The script needs no privileges
+# if mmdebstrap needs none (user namespaces). The table below lists the omitted tests with the reason, and the
+# script prints them. A test that takes longer than 9000 s (or RC_LIMIT seconds) is named and counts as a
+# failure; RC_TESTS_OF, a regular expression, selects tests. Under emulation all tests take about three hours
+# on two cores.
 set -uo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
@@ -23,7 +22,7 @@ surfaces=$source/sample_surfaces
 suite=${SUITE:-bookworm}
 limit=${RC_LIMIT:-9000}
 
-# What is left out: `all`, or only under emulation; a regular expression of whole names; why.
+# Omitted tests: `all`, or only under emulation; a regular expression of whole names; the reason.
 left_out() {
     cat <<'END'
 all       pipe_installed    pkg-config and find_package would find the libraries of this machine
@@ -57,24 +56,25 @@ else
     trap 'rm -rf --one-file-system "$work"' EXIT
 fi
 
-# The name of its tools, the folder of its libraries, its emulator, compiler flags; the tests that are left out.
+# The prefix of its tools, the folder of its libraries, its emulator, compiler flags; the omitted tests.
 describe() {
     emulator='' flags=''
     case $1 in
     s390x) triplet=s390x-linux-gnu libraries=$triplet emulator=qemu-s390x-static ;;
     arm64) triplet=aarch64-linux-gnu libraries=$triplet emulator=qemu-aarch64-static ;;
-    # SSE2, because the 80 bits of the x87 round twice
+    # SSE2, because the x87 with its 80 bits rounds twice
     i386) triplet=i686-linux-gnu libraries=i386-linux-gnu flags='-msse2 -mfpmath=sse' ;;
     *) status=2 fail "$1: one of s390x, arm64, i386" ;;
     esac
     without=$(left_out | awk -v emulated="$emulator" '$1 == "all" || emulated != "" { print $2 }' | paste -sd '|')
 }
 
-# A folder of the packages of another machine, unpacked and never run: what links point to is made relative to it.
+# A folder with the unpacked packages of another machine, whose programs are not run: links are made relative
+# to the folder.
 make_root() {
     local arch=$1 root=$2 link packages
     [ -e "$root/made" ] && return
-    rm -rf --one-file-system "$root" # what an earlier attempt has left
+    rm -rf --one-file-system "$root" # the rest of an earlier attempt
     packages=$(printf '%s\n' $build_packages libcmocka-dev libgomp1 | grep -E '^lib.*|zlib' | paste -sd ,)
     mmdebstrap --variant=extract --arch="$arch" --include="$packages" "$suite" "$root" ${MIRROR:+"$MIRROR"} \
         >"$work/$arch.root.log" 2>&1 || {
@@ -84,18 +84,19 @@ make_root() {
     find "$root" -type l -lname '/*' | while read -r link; do
         ln -sfn "$(realpath -sm --relative-to="$(dirname "$link")" "$root$(readlink "$link")")" "$link"
     done
-    # what its packages' scripts would have made
+    # links that the scripts of the packages would have made
     ln -sf hdf5-serial.pc "$root/usr/lib/$libraries/pkgconfig/hdf5.pc"
     touch "$root/made"
 }
 
-# With the loader and the libraries of its root in the programs themselves where no emulator can be told of them.
+# Without an emulator, which would take the path of the root as an option, the programs contain the paths of
+# loader and libraries.
 make_build() {
-    local root=$1 build=$2 log=$3 runner="$emulator;-L;$root" # what CMake starts the programs by
+    local root=$1 build=$2 log=$3 runner="$emulator;-L;$root" # the command by which CMake starts the programs
     linker=
     [ -n "$emulator" ] ||
         runner=env linker="-Wl,--disable-new-dtags,-rpath,$root/usr/lib/$libraries:$root/lib/$libraries,--dynamic-linker,$root/lib/ld-linux.so.2"
-    # The tools of a build before this one are put back: it would link over the scripts.
+    # The tools of an earlier build are put back, because the linker would write over the scripts.
     [ ! -d "$build/elf" ] || { cp -p "$build"/elf/rc-* "$build/tools/" && rm -r "$build/elf"; }
     PKG_CONFIG_LIBDIR=$root/usr/lib/$libraries/pkgconfig:$root/usr/share/pkgconfig PKG_CONFIG_SYSROOT_DIR=$root \
         cmake -S "$source" -B "$build" -DRC_WERROR=ON -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR="${triplet%%-*}" \
@@ -107,7 +108,7 @@ make_build() {
         cmake --build "$build" --parallel "$(nproc)" >>"$log" 2>&1
 }
 
-# The tests start the tools by their names: these become scripts that start the emulator.
+# The tests start the tools by their names: scripts with these names start the emulator.
 wrap_tools() {
     local root=$1 build=$2
     [ -n "$emulator" ] || return 0
@@ -117,9 +118,9 @@ wrap_tools() {
 
 run_tests() {
     local arch=$1 root=$2 build=$3 status
-    # Emulation is some thirty times slower: what has not ended by then is named, not waited for.
+    # Emulation is about thirty times slower: tests that have not ended by then are named and stopped.
     find "$build/tests" -name CTestTestfile.cmake -exec sed -i -E "s/TIMEOUT \"[36]00\"/TIMEOUT \"$limit\"/" {} +
-    # What a test compiles and starts is for this machine, where no emulator stands between.
+    # Programs that a test compiles and starts run without an emulator.
     if [ -z "$emulator" ]; then
         printf '#!/bin/sh\nexec %s "$@" %s\n' "$triplet-gcc --sysroot=$root $flags" "$linker" >"$work/$arch.cc"
         chmod +x "$work/$arch.cc"

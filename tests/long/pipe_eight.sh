@@ -1,5 +1,5 @@
-# Pipelines of solve and stress that run eight at a time on whatever cores there are all finish, each with
-# what it gives when it runs alone.
+# Eight pipelines of rc-solve and rc-stress that run at the same time, on any number of cores, all finish with
+# the same results as alone.
 . "$RC_SOURCE/tests/pipe.sh"
 
 rounds=25
@@ -8,7 +8,7 @@ for k in $(seq 8); do
         --short-cut 8um --seed "$k" -o "rough$k.rcg"
 done
 
-# pipeline K NAME: stresses of surface K into NAME, by two threads.
+# pipeline K NAME: writes the stresses of surface K to NAME, with two threads.
 pipeline() {
     rc-solve --threads 2 --load 0.$1N --estar 1GPa --output pressure "rough$1.rcg" |
         rc-stress --threads 2 --nu 0.3 --depths 1um,4um --components mises,szz -o "$2"
@@ -19,7 +19,7 @@ for k in $(seq 8); do
     claim "pipeline $k alone" pipeline "$k" "alone$k.rcg"
 done
 
-# eight: all at once; fails when one of them does.
+# eight: runs all at once; fails if one of them fails.
 eight() {
     local k pids="" status=0
     for k in $(seq 8); do

@@ -1,11 +1,11 @@
-# The table of estimates against what was taken, every tool and engine from 256 x 256 to 4096 x 4096
-# nodes, odd sides, both boundaries, coated, yielding, with lists and estimates: within a tenth. Sizes may
-# be named: pipe_memory_table.sh 517x389 2048x2048.
+# Estimated memory agrees with the measured memory to a tenth: every tool and engine from 256 x 256 to 4096 x
+# 4096 nodes, odd sides, both boundaries, coated, yielding, with lists and error estimates. Arguments select
+# sizes: pipe_memory_table.sh 517x389 2048x2048.
 . "$(dirname "$0")/../pipe.sh"
 
 skip_with_address_sanitizer "it takes memory of its own"
 
-# row "what" 'shell command': a line of the table; its last tool is told --verbose.
+# row "what" 'shell command': a line of the table; the last tool gets --verbose.
 row() {
     local expected taken
     bash -c "${2//--verbose/--debug}" 2>&1 >/dev/null | grep 'memory: ' | tail -n 1 >memory.txt

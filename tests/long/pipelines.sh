@@ -1,12 +1,11 @@
-# Sourced by compilers.sh and other_machines.sh: pipelines that reach every part of the tools, and how far their
-# results may lie apart when another compiler, processor or number of threads computes them.
-#
-# A pipeline a line: name of what it writes, how results are compared, commands. What it reads are the results of the
-# reference in $from, so that a difference is that of this step and not of those before it.
+# Sourced by compilers.sh and other_machines.sh: pipelines that use every part of the tools, and the permitted
+# differences of their results with another compiler, processor or number of threads. One pipeline per line:
+# the name of its result, the kind of comparison, the commands. A pipeline reads the results of the reference
+# in $from, so that a difference comes from this step only.
 #
 #   exact   the same bytes
 #   close   |a - b| <= 1e-12 max |b|: sums over a map in another order
-#   sums    the same of what is small beside what is summed for it: 1e-10
+#   sums the same, for results that are small compared with the terms of their sums: 1e-10
 #   solved  the sum of |a - b| <= 2e-9 times that of |b|: two solutions, each of --tol 1e-9
 table() {
     cat <<'END'
@@ -41,7 +40,8 @@ section.rcg     close   rc-stress --quiet --nu 0.3 --section y=0 --depths 0:20um
 END
 }
 
-# run_pipelines OUT FROM: every pipeline with the tools on PATH, results into OUT. A tool that fails is the end.
+# run_pipelines OUT FROM: runs every pipeline with the tools on PATH, results into OUT. It stops if a tool
+# fails.
 run_pipelines() {
     local out=$1 from=$2 name how command
     mkdir -p "$out"
@@ -53,17 +53,17 @@ run_pipelines() {
     done < <(table)
 }
 
-# compare OUT REFERENCE: each result beside that of the reference, one line of what differs most.
+# compare OUT REFERENCE: compares each result with the reference; prints a line with the largest difference.
 compare() {
     table | "$python" "$here/compare.py" "$1" "$2"
 }
 
-# same_bytes OUT AGAIN: not a byte differs.
+# same_bytes OUT AGAIN: all files have the same bytes.
 same_bytes() {
     diff -rq "$1" "$2"
 }
 
-# emulated FOLDER TOOLS COMMAND...: in FOLDER a script for each of the TOOLS that runs it by COMMAND.
+# emulated FOLDER TOOLS COMMAND...: writes to FOLDER a script for each of the TOOLS, which runs it by COMMAND.
 emulated() {
     local folder=$1 tools=$2 tool
     shift 2

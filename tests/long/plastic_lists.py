@@ -4,8 +4,9 @@ Seeds FIRST, FIRST + 1, ...: a self-affine or curved map of 3 x 5 to 64 x 64 nod
 a yield stress and a hardening modulus; and one load, up-0-up, up-down-higher or three loads up. Each list is solved in
 INCREMENTS (16) and against it in 512 (192 from 48 x 48 on), with contacts to 1e-6, by the rc-solve TRUTH (default: the one
 in the path). Prints a line for each load, and at the end the share of estimates below 0.99 of the error, their median and
-their 90 % point, and the applications. Fails where more than 2.5 % of the estimates of errors above 1e-5 are below.
-Of a free map the estimate is compared without the part of the images, which both runs have alike.
+their 90 % point, and the applications. Fails if more than 2.5 % of the estimates of errors above 1e-5 are
+below the error. On a free map the estimate is compared without the part for the edge of the map, which both
+runs have in common.
 """
 import json
 import os
@@ -41,7 +42,7 @@ def surface(random, seed, shape, path):
 
 
 def pressures(tool, surface_file, options, where):
-    """Reports and pressures of the cases; None where the tool refuses the problem."""
+    """Reports and pressures of the cases; None if the tool refuses the problem."""
     report, out = os.path.join(where, 'report.json'), os.path.join(where, 'out.rcg')
     done = subprocess.run([tool, '--quiet', *options, '--output', 'pressure', '--report', report, '-o', out, surface_file],
                           capture_output=True, text=True)

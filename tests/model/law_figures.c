@@ -1,4 +1,4 @@
-/* Tables of figures: names, units and titles are fit for columns and axes, a name means one thing in all
+/* Tables of figures: names, units and titles are valid for columns and axes, a name has one meaning in all
  * tables, and values are those of the members. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -30,7 +30,7 @@ check_row(const struct rc_figure *f)
     assert_true(f->role != RC_FIGURE_ERROR || f->by != NULL);
     assert_int_equal(f->limit != 0, f->warning != NULL);
     assert_true(f->kind == RC_NUMBER || f->unit == NULL);
-    /* the first of that name, which means the same; its unit may be known at run time only */
+    /* the first figure of that name, which has the same meaning; its unit may be known at run time only */
     assert_string_equal(found->title, f->title);
     assert_true(found->unit == NULL || (f->unit != NULL && strcmp(found->unit, f->unit) == 0));
 }

@@ -1,7 +1,7 @@
-/* Whatever a model is: a run that is stopped after any step and goes on from its state in another model
- * ends where a run without a stop does; what was not kept is forgotten; a state of anything else is
- * refused; figures and frames have names. Every row of models.list is tried, in the library with a toy in
- * it too. */
+/* Laws of every model: a run that is stopped after any step and continued from its state in another model
+ * gives the same result as a run without a stop; points that were not kept have no effect; other data are
+ * refused as a state; figures and frames have names. The test runs for every row of models.list, and also
+ * with the model of tests/toys. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,9 +21,9 @@ enum {
     NY = 20,
     N = NX * NY,
     POINTS = 3,
-    AXES = 3, /* most, the load first: further ones are not it */
+    AXES = 3, /* at most these axes, the load first; others are not the load */
     FIGURES = 64,
-    FEW = 1000 /* steps that a history takes at most */
+    FEW = 1000 /* largest number of steps of a history */
 };
 
 static const struct rc_shape shape = {NX, NY, 1e-6, 1e-6};
@@ -53,11 +53,11 @@ elastic(struct rc_err *err)
 {
     static const struct rc_elastic_asks asks = {.stiffness = true, .conductivity = {45, 16}};
 
-    problem.hardness = 4e7; /* the first load yields */
+    problem.hardness = 4e7; /* the first load causes yielding */
     return rc_elastic_new(&shape, heights, &problem, &asks, err);
 }
 
-/* Bodies alike by their nu, under forces, on a shape that is dented. */
+/* Bodies with the same nu, under forces, on a dented shape. */
 static struct rc_model *
 friction(struct rc_err *err)
 {
@@ -68,7 +68,7 @@ friction(struct rc_err *err)
     return rc_friction_new(elastic(err), heights, &law, err);
 }
 
-/* Dissimilar bodies, moved along each other: pressure and tractions are found in turn. */
+/* Dissimilar bodies, moved along each other: pressure and tractions are solved alternately. */
 static struct rc_model *
 coupled(struct rc_err *err)
 {
@@ -122,7 +122,7 @@ static const struct kind {
     struct rc_model *(*make)(struct rc_err *err);
     enum rc_axis axis[AXES];
     double at[POINTS][AXES];
-    double tol; /* to which a restored run finds the same */
+    double tol; /* relative difference that is allowed after a restore */
 } kinds[] = {
     {"elastic", elastic, {RC_LOAD}, {{2e-3}, {0}, {3e-3}}, 1e-6},
     {"yielding", yielding, {RC_LOAD}, {{2e-3}, {0}, {3e-3}}, 1e-3},
@@ -198,7 +198,7 @@ look(struct rc_model *m, struct found *found)
         }
 }
 
-/* Steps of a run before it stops; the progress of every step makes sense. */
+/* Counts the steps of a run before it stops, and checks the progress of every step. */
 static enum rc_status
 steps(struct rc_model *m, size_t *left, struct rc_err *err)
 {
@@ -218,8 +218,8 @@ steps(struct rc_model *m, size_t *left, struct rc_err *err)
     return s;
 }
 
-/* The points from k on, `going`: k is set already. With `left` 0 the run stops, and k is the point then on
- * its way. */
+/* Goes through the points from k on; `going`: point k is set already. When `left` is 0 the run stops, and k
+ * is the unfinished point. */
 static enum rc_status
 run(const struct kind *kind, struct rc_model *m, int *k, bool going, size_t *left,
     struct found found[POINTS])
@@ -274,7 +274,7 @@ same(const char *what, const struct found *a, const struct found *b)
 
 static struct found whole[POINTS], again[POINTS];
 
-/* Stops after `stop` steps, and goes on in another model; false when the run ends before. */
+/* Stops after `stop` steps and continues in another model; false if the run ends before. */
 static bool
 resumed(const struct kind *kind, size_t stop)
 {
@@ -335,8 +335,8 @@ stops(void **state)
     }
 }
 
-/* On the way to the last point the model is sent to the second, as if it had gone there at once: by itself,
- * and after its state on that way went into another model. */
+/* Half-way to the last point the model is sent to the second point, with the result of going there directly:
+ * in the same model, and in another one that was restored from the state half-way. */
 static void
 forgets(void **state)
 {
@@ -440,7 +440,7 @@ points(void **state)
     assert_int_equal(rc_model_step(m, &err), RC_FAIL);
     rc_point_set(&p, RC_LOAD, NAN);
     assert_int_equal(rc_model_go(m, &p, &err), RC_FAIL);
-    rc_point_set(&p, RC_APPROACH, 1e-8); /* and the load is none */
+    rc_point_set(&p, RC_APPROACH, 1e-8); /* and the load is not among them */
     assert_true(p.given == 1u << RC_APPROACH);
     assert_int_equal(rc_model_plan(m, &p, &expected, &err), RC_OK);
     assert_true(expected.memory > N && expected.convolutions > 12);
@@ -448,7 +448,7 @@ points(void **state)
     assert_int_equal(rc_model_go(m, &p, &err), RC_FAIL);
     assert_string_equal(err.text, "a point gives the time, which the elastic model does not have");
     assert_int_equal(rc_model_frame(m, "nothing", map, &err), RC_FAIL);
-    assert_int_equal(rc_model_frame(m, "pressure", map, &err), RC_FAIL); /* no look so far */
+    assert_int_equal(rc_model_frame(m, "pressure", map, &err), RC_FAIL); /* before the first look */
     assert_true(isnan(rc_model_number(m, "nothing")));
     rc_model_free(m);
     for (size_t k = 0; k < RC_AXES; k++)
@@ -485,9 +485,8 @@ all_rows(void **state)
 }
 
 #ifdef RC_TOYS
-/* Flat bodies in full contact: p = F/A, and the bed settles as s = c p (1 - exp(-t/tau)), exactly in any
- * steps. At the end of all relaxation every node has settled by c times its own pressure, whatever the
- * surface. */
+/* Flat bodies in full contact: p = F/A, and the springs settle by s = c p (1 - exp(-t/tau)), exactly for any
+ * steps. After complete relaxation every node has settled by c times its own pressure, for any surface. */
 static void
 relaxation(void **state)
 {

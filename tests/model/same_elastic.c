@@ -1,6 +1,6 @@
-/* The elastic model finds what rc_solver finds, to the last bit: for loads and approaches, with a hardness
- * in a history, a counter body that tilts, layers, the stiffness and the conductance; and on an undeformed
- * map that is set later. */
+/* The elastic model gives the results of rc_solver to the last bit: for loads and approaches, a history with
+ * a hardness, a counter body that tilts, layers, stiffness and conductance; and for heights that are set
+ * later. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -49,7 +49,7 @@ static const struct sample samples[] = {
 };
 static const double k1 = 45, k2 = 16;
 
-/* Point k by the solver; c is filled, and the shape after it goes to `left`. */
+/* Solves point k with the solver; fills c, and writes the shape after it to `left`. */
 static void
 by_solver(const struct sample *s, struct rc_solver **solver, int k, struct rc_contact *c,
           double *stiffness, struct rc_conductance *conductance)
@@ -119,7 +119,7 @@ one(const struct sample *s)
         rc_point_set(&to, s->by_approach ? RC_APPROACH : RC_LOAD, s->at[k]);
         assert_int_equal(rc_model_run(m, &to, &err), RC_OK);
         assert_int_equal(rc_model_look(m, &at, &err), RC_OK);
-        if (s->at[k] == 0) { /* apart, on the shape that was left */
+        if (s->at[k] == 0) { /* separated, on the deformed shape */
             rc_contact_apart(NULL, &shape, left, want, &c);
             assert_true(fabs(rc_elastic_result(m)->contact.mean_gap - c.mean_gap) <
                         1e-12 * c.mean_gap);
@@ -160,7 +160,7 @@ all(void **state)
         one(&samples[k]);
 }
 
-/* The yielding model finds what rc_press finds, to the last bit. */
+/* The yielding model gives the results of rc_press to the last bit. */
 static void
 yielding(void **state)
 {
@@ -201,7 +201,8 @@ yielding(void **state)
     rc_model_free(m);
 }
 
-/* Other heights, before the first load and after one: the contact is theirs, and the dents stay. */
+/* Other heights, before the first load and after one: the contact is that of the new heights, and the dents
+ * remain. */
 static void
 other_heights(void **state)
 {

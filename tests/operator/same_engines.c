@@ -50,8 +50,8 @@ body_of(int which, double spacing)
                               : (struct rc_body){INFINITY, 0.3, 1, layers + 2};
 }
 
-/* The displacement, then the twelve stresses; a stress of a layered body is slow to find, and is compared in
- * tests/stress/same_layers_stress.c. */
+/* The displacement, then the twelve stresses; the kernels of stress in a layered body are slow, and
+ * tests/stress/same_layers_stress.c compares them. */
 static size_t
 kernels_of(int which)
 {
@@ -72,7 +72,7 @@ kernel_case(struct body_case *c, int which, size_t kernel, struct rc_shape shape
 
 /* ---- the judges: no line of theirs is an engine's ---- */
 
-/* The quarter of the kernel that its parity makes whole: nx ny values. */
+/* The quarter of the kernel from which its parity gives the rest: nx ny values. */
 static double *
 quarter(const struct rc_sum *s)
 {
@@ -143,15 +143,15 @@ wave_sum(const struct rc_sum *s, const double *p, double *u)
 
 /* ---- the comparison ---- */
 
-/* The permitted difference of an engine from the double sum, over the sum of |K| |p|: the asked error, else
- * rounding, twice that if it interpolates. */
+/* The permitted difference between an engine and the double sum, over the sum of |K| |p|: the requested
+ * error, else rounding, and twice this for an engine that interpolates. */
 static double
 allowed(const struct rc_engine *engine, double tol, bool precise)
 {
     return tol > 0 && !precise ? tol : engine == &rc_engine_mlms ? 2 * of_sum : of_sum;
 }
 
-/* Largest difference of u from what `engine` makes of p. */
+/* Largest difference between u and the result of `engine` for p. */
 static double
 off(const struct rc_sum *sum, const struct rc_engine *engine, const double *p, const double *u)
 {
@@ -215,7 +215,7 @@ compare(struct rc_shape shape, enum rc_boundary boundary, int body, size_t kerne
     return failed;
 }
 
-/* Each row of the list is chosen for one of the bodies above, and no other row for the same. */
+/* Each row of the list is selected for exactly one of the bodies above. */
 static void
 every_body(void **state)
 {
@@ -263,7 +263,7 @@ every_wave(void **state)
     assert_int_equal(failed, 0);
 }
 
-/* Loading once and asking for fields gives what one-by-one application gives. */
+/* Fields that are computed after one common load equal those of separate applications. */
 static void
 one_transform_serves_all_kernels(void **state)
 {

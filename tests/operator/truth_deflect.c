@@ -1,5 +1,5 @@
 /* Displacements have closed forms: Love's loaded rectangle on the free boundary, waves on the
- * periodic one; and they are the same bits for any number of threads. */
+ * periodic one; and their bits are the same for any number of threads. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -53,9 +53,11 @@ loves_rectangle(void **state)
             }
             print_message("%s, tol %g: %.1e, own bound %.1e\n", rc_conv_engine(c), tols[t], worst,
                           rc_conv_error(c));
-            /* the error asked for is relative to the largest sum: 1e-6 is seen for 1e-4 */
+            /* the requested error is relative to the largest sum: for 1e-4 the actual error is 1e-6 */
             assert_true(worst <= (tols[t] == 0 ? of_sum : tols[t] / 10));
-            assert_true(worst <= 30 * rc_conv_error(c)); /* a bound on the sum, not on each u */
+            assert_true(
+                worst <=
+                30 * rc_conv_error(c)); /* it is a bound relative to the sum, not to each u */
             rc_conv_free(c);
         }
     free(p);
@@ -122,8 +124,8 @@ what_an_engine_cannot_do_is_said(void **state)
     assert_non_null(strstr(err.text, "dx=-1 dy=1 m: both must be positive"));
 }
 
-/* "auto": small grids directly, sparse maps where accuracy allows and maps that do not fit by MLMS,
- * the rest, and all that is periodic, by transforms. */
+/* "auto" chooses the direct sum for small grids; mlms for sparse maps if the accuracy allows it, and for maps
+ * that do not fit into memory; transforms for the others and for all periodic maps. */
 static void
 the_choice_and_its_reason(void **state)
 {
@@ -153,7 +155,7 @@ the_choice_and_its_reason(void **state)
     }
 }
 
-/* Large enough that threads are used: the same bits for 1, 2 and 5, and from plan to plan. */
+/* A map large enough to use threads: the same bits for 1, 2 and 5 threads, and from plan to plan. */
 static void
 threads_change_no_bit(void **state)
 {

@@ -11,16 +11,16 @@
 #include "libcontact/operator/operator.h"
 #include "tests/body_case.h"
 
-/* What a unit force at the origin does at (x, y, z): Boussinesq (Johnson 1985, eqs. 3.19, 3.22). */
+/* The field at (x, y, z) of a unit force at the origin: Boussinesq (Johnson 1985, eqs. 3.19, 3.22). */
 enum field {
     DISPLACEMENT = -1
 }; /* else an enum rc_component */
 
 struct where {
     int field;
-    double x, y, z, nu; /* the point seen from the middle of the cell */
+    double x, y, z, nu; /* the point relative to the centre of the cell */
     double a, b;        /* half sides */
-    double u;           /* where the outer integral stands */
+    double u;           /* the position of the outer integral */
 };
 
 static double
@@ -128,7 +128,7 @@ displacement_is_the_integral(void **state)
                               .b = dy / 2};
             double truth = quadrature(w);
             double value = coefficient(DISPLACEMENT, 0.3, 0, dx, dy, at[k][0], at[k][1]);
-            /* the quadrature's own error is a part of it */
+            /* includes the error of the quadrature */
             if (!(fabs(value - truth) <= 2 * rounding * truth))
                 print_error("sides %g %g at %zu %zu: %.17g, quadrature %.17g\n", dx, dy, at[k][0],
                             at[k][1], value, truth);
@@ -136,7 +136,7 @@ displacement_is_the_integral(void **state)
         }
 }
 
-/* Love's value at the middle of a unit square: 4 ln(1 + sqrt 2) / pi E*. */
+/* Love's value at the centre of a unit square: 4 ln(1 + sqrt 2) / pi E*. */
 static void
 displacement_of_a_cell_on_itself(void **state)
 {
@@ -176,7 +176,7 @@ stresses_are_the_integrals(void **state)
                         print_error("%s nu %g z %g at %zu %zu: %.17g, quadrature %.17g\n",
                                     rc_component_names[c], w.nu, w.z, at[k][0], at[k][1], value,
                                     truth);
-                    assert_true(fabs(value - truth) <= of_sum); /* of the unit pressure */
+                    assert_true(fabs(value - truth) <= of_sum); /* relative to the unit pressure */
                 }
 }
 
@@ -189,8 +189,7 @@ stresses_under_a_square(void **state)
                                       {1, -0.7008859, -0.0828904},
                                       {2, -0.3361076, 0.0014088},
                                       {5, -0.0716135, 0.0039679}};
-    const double digits =
-        6e-8; /* seven decimals: half a unit of the last, and what else is in it */
+    const double digits = 6e-8; /* seven decimals: half a unit of the last one, and its rounding */
 
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
@@ -215,14 +214,13 @@ stresses_at_the_surface(void **state)
     }
 }
 
-/* A coarser lattice of the same cell holds the same numbers at its nodes, for blocks of rows
- * too. */
+/* A coarser lattice of the same cell has the same values at its nodes, also in blocks of rows. */
 static void
 a_coarser_lattice_is_a_sample(void **state)
 {
     struct rc_lattice fine = {1.1, 0.9, 1, 1}, coarse = {1.1, 0.9, 2, 3};
     double all[13][13], some[4][5];
-    const double last_bits = 1e-15; /* of a unit pressure, by another rule of Gauss */
+    const double last_bits = 1e-15; /* relative to a unit pressure, by another Gauss rule */
 
     (void)state;
     for (int field = DISPLACEMENT; field < RC_COMPONENTS; field++) {
@@ -249,7 +247,7 @@ main(void)
         cmocka_unit_test(a_coarser_lattice_is_a_sample),
     };
 
-    gsl_set_error_handler_off(); /* rounding below the asked 1e-15 is reported, and expected */
+    gsl_set_error_handler_off(); /* GSL reports that rounding prevents the requested 1e-15, as expected */
     inner_space = gsl_integration_workspace_alloc(400);
     outer_space = gsl_integration_workspace_alloc(400);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
-/* What a coated body does to its surface: the response to waves and the coefficients of cells, beside
- * known answers that were found another way; from films to coats of a thousand maps. */
+/* Displacements of coated bodies: responses to waves and influence coefficients of cells, compared with
+ * independent solutions; from thin films to coats a thousand maps thick. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,9 +10,10 @@
 #include "libcontact/body/stack.h"
 #include "tests/body_case.h"
 
-/* Known figures have twelve digits, coefficients eleven. */
+/* Known responses have twelve digits, known coefficients eleven. */
 static const double twelve_digits = 1e-11, eleven_digits = 1e-10;
-/* What a coat of a thousand maps differs from one material: its thickness over the map. */
+/* The difference between a coat a thousand maps thick and one material: of the order of map over
+ * thickness. */
 static const double of_thick_coat = 1e-3;
 
 static struct rc_stack *
@@ -56,8 +57,9 @@ response(void **state)
     }
 }
 
-/* Long waves feel the substrate, short ones the top, and the ends are where they are said to be, for
- * ratios of 1e-6 to 1e6; one material is 1/E* for all. */
+/* The response to long waves is that of the substrate, to short ones that of the top layer, and the limits of
+ * these ranges are right for ratios of stiffness of 1e-6 to 1e6; for one material it is 1/E* for all
+ * waves. */
 static void
 ends(void **state)
 {
@@ -81,8 +83,8 @@ ends(void **state)
     }
 }
 
-/* The table of symbols against the recursion, over 16 decades of wave numbers and coats a thousand
- * times as stiff and as soft as the material below. */
+/* The table of symbols compared with the recursion, over 16 decades of wave numbers, for coats a thousand
+ * times stiffer and softer than the material below. */
 static void
 table(void **state)
 {
@@ -100,7 +102,7 @@ table(void **state)
 }
 
 /* Displacements at nodes (0,0), (1,0), (0,1), (2,1), (10,7), (100,30) of a cell dx = 1 under unit
- * pressure; by brute force in the wave number. */
+ * pressure; by direct integration over the wave number. */
 static void
 coefficients(void **state)
 {
@@ -152,7 +154,7 @@ coefficients(void **state)
     }
 }
 
-/* Layers of the substrate's own material are no layers. */
+/* Layers of the substrate's material have no effect. */
 static void
 one_material(void **state)
 {
@@ -172,8 +174,8 @@ one_material(void **state)
     body_case_free(&bare);
 }
 
-/* The displacement of two bodies is the sum of those of each alone: for two equal bodies twice that of one on
- * a rigid body, for a layered and a uniform one the sum of both. */
+/* The displacement of two bodies is the sum of their separate displacements: for two equal bodies twice that
+ * of one against a rigid body, for a layered and a uniform body the sum of both. */
 static void
 both_bodies(void **state)
 {
@@ -202,8 +204,8 @@ both_bodies(void **state)
     assert_true(fabs(symbol[3] / (symbol[0] + symbol[2]) - 1) < rounding);
 }
 
-/* Extreme coatings: one of a thousandth of a node and one of a thousand maps, in ratios of 1e-4 to 1e4, are
- * solved to the tolerance, and the thick one equals a uniform body. */
+/* Extreme coatings: contacts with coats of a thousandth of a node and of a thousand maps, with ratios of
+ * stiffness of 1e-4 to 1e4, are solved to the tolerance, and a thick coat equals a uniform body. */
 static void
 thin_and_thick(void **state)
 {
@@ -238,8 +240,8 @@ thin_and_thick(void **state)
                 assert_int_equal(a.status, RC_OK);
                 for (size_t i = 0; i < N * N; i++)
                     off += fabs(a.p[i] - b.p[i]);
-                /* a soft coat of a thousandth of a node still gives as much as nodes do, and a stiff one
-                 * holds the surface along itself: only the thick one is one material */
+                /* a soft coat of a thousandth of a node deforms as much as the nodes, and a stiff one
+                 * prevents displacements along the surface: only the thick coat equals one material */
                 if (k == 1)
                     assert_true(off * 1e-12 / on.load < of_thick_coat);
                 solved_free(&a);

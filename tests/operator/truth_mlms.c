@@ -1,4 +1,5 @@
-/* The multi-level sum has at most the asked error, for any pressure, grid, spacing and kernel. */
+/* The error of the multi-level sum is at most the requested one, for any pressure, grid, spacing and
+ * kernel. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +12,7 @@
 #include "libcontact/operator/real_space/mlms.h"
 #include "tests/body_case.h"
 
-/* One sum by one engine, judged by another. */
+/* A sum by one engine, compared with another engine. */
 /* K = 1/r of a point: E* = 1/pi. */
 static struct body_case point;
 
@@ -58,8 +59,8 @@ trial_free(struct trial *t)
     free(t->k);
 }
 
-/* Largest sum of |K| |p| over the map. Of a kernel that changes sign, only a bound below it: that
- * at a loaded node, and that about the middle of the map. */
+/* Largest sum of |K| |p| over the map. For a kernel that changes sign only a lower bound: the sums at a
+ * loaded node and near the middle of the map. */
 static double
 magnitude(struct trial *t)
 {
@@ -145,7 +146,7 @@ single_node(struct trial *t)
     return largest;
 }
 
-/* The worst that these pressures do: Table 1's, random, of alternating sign, single nodes. */
+/* The largest error for these pressures: that of Table 1, random ones, alternating signs, single nodes. */
 static double
 usual_pressures(struct trial *t)
 {
@@ -154,7 +155,7 @@ usual_pressures(struct trial *t)
 
     hertz_map(&t->sum.shape, t->p);
     for (size_t i = 0; t->n < 50 && i < t->n; i++)
-        t->p[i] = 1; /* too few nodes for a contact inside the map */
+        t->p[i] = 1; /* a map with too few nodes has no contact inside */
     largest = worst(t);
     for (size_t i = 0; i < t->n; i++)
         t->p[i] = random_number(&seed);
@@ -249,7 +250,7 @@ table_1(void **state)
 
 /* ---- accuracy ---- */
 
-/* Pressures of the signs of the error that a node makes, beyond a fraction of its largest. */
+/* Pressures with the signs of the error at one node, where it exceeds a fraction of the largest. */
 static double
 contrived_pressures(struct trial *t)
 {
@@ -295,7 +296,7 @@ as_exact_as_asked(void **state)
                         contrived);
         assert_true(t.error <= tol);
         assert_true(usual <= t.error && contrived <= t.error);
-        assert_true(usual >= tol / 300); /* nor much work for what nobody asked */
+        assert_true(usual >= tol / 300); /* and little work for values that were not requested */
         trial_free(&t);
     }
 }
@@ -312,7 +313,7 @@ as_exact_as_rounding(void **state)
     trial_free(&t);
 }
 
-/* Any order with the correction region that (18) gives it: stable, and never worse than said. */
+/* Any order with the correction region of (18) is stable, and its error is never above the stated one. */
 static void
 any_order(void **state)
 {
@@ -338,7 +339,7 @@ any_order(void **state)
         }
 }
 
-/* Long grids, long cells, odd and prime sizes, profiles: all as exact as a square. */
+/* Long grids, long cells, odd and prime sizes, profiles: all as accurate as a square. */
 static void
 any_shape(void **state)
 {
@@ -413,7 +414,7 @@ reciprocal(void **state)
     rc_engine_mlms.apply(t.mlms, t.p, t.u);
     for (size_t i = 0; i < t.n; i++)
         ykx += t.v[i] * t.u[i];
-    all = ykx; /* nothing is negative: also the sum of |K| |x| |y| */
+    all = ykx; /* no term is negative: this is also the sum of |K| |x| |y| */
     rc_engine_mlms.apply(t.mlms, t.v, t.u);
     for (size_t i = 0; i < t.n; i++)
         xky += t.p[i] * t.u[i];
@@ -421,7 +422,7 @@ reciprocal(void **state)
     trial_free(&t);
 }
 
-/* A map with an empty part, a sparse part and a full one. */
+/* A map with an empty part, a sparsely loaded part and a fully loaded part. */
 static void
 fill_unevenly(const struct rc_shape *s, double *p)
 {
@@ -469,7 +470,8 @@ threads_change_nothing(void **state)
         plan = rc_engine_mlms.new(&sum, &err);
         assert_non_null(plan);
         rc_engine_mlms.apply(plan, t.p, t.v);
-        rc_engine_mlms.apply(plan, t.p, t.v); /* nor does what a plan has done before */
+        rc_engine_mlms.apply(plan, t.p,
+                             t.v); /* earlier applications of a plan do not change the result */
         assert_memory_equal(t.u, t.v, t.n * sizeof *t.u);
         rc_engine_mlms.free(plan);
     }

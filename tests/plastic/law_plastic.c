@@ -1,6 +1,6 @@
-/* What is known of bodies that yield inside: where and when they begin to, how hard they are when all of the
- * contact flows, what is left when they are taken apart, and when rolling shakes down. And that the estimate
- * of the error is one. */
+/* Known results for bodies that yield in their volume: the place and the load of first yielding, the hardness
+ * in the fully plastic state, residual stresses after unloading, and the limit of shakedown under rolling.
+ * Also: the estimated error is not below the error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -43,7 +43,8 @@ pressed(struct rc_plastic *plastic, double load)
 
 /* ---- onset ---- */
 
-/* Mises' stress over p0 on the axis under Hertz's circle, at depths over its radius (Johnson 1985, 3.45). */
+/* Mises' stress over p0 on the axis under a circular Hertz contact, at depths over its radius (Johnson 1985,
+ * 3.45). */
 static double
 under_circle(double z, double nu)
 {
@@ -52,7 +53,7 @@ under_circle(double z, double nu)
     return fabs(radial + 1 / (1 + z * z));
 }
 
-/* Under Hertz's strip (4.49), in plane strain. */
+/* The same under Hertz's line contact (4.49), in plane strain. */
 static double
 under_strip(double z, double nu)
 {
@@ -62,7 +63,7 @@ under_strip(double z, double nu)
     return sqrt(((x - y) * (x - y) + (y - out) * (y - out) + (out - x) * (out - x)) / 2);
 }
 
-/* The largest, and where. */
+/* The largest value and its depth. */
 static double
 largest(double (*under)(double, double), double nu, double *at)
 {
@@ -77,8 +78,8 @@ largest(double (*under)(double, double), double nu, double *at)
     return most;
 }
 
-/* Presses a ball or a cylinder to a radius of contact of `a` nodes, with a yield stress that is this part
- * of the p0 at which it would yield first: the number of voxels that yield, and their mean depth over a. */
+/* Presses a ball or a cylinder to a contact radius of `a` nodes, with a yield stress that is `part` of the
+ * one at which yielding begins. Returns the number of yielding voxels and their mean depth over a. */
 static size_t
 begins(bool ball, size_t n, double a, double nu, double part, double *depth)
 {
@@ -135,7 +136,7 @@ onset(void **state)
     (void)state;
     for (size_t q = 0; q < 3; q += thorough(1, 2))
         for (int ball = 0; ball < 2; ball++) {
-            /* of a cylinder with a low Poisson's ratio the surface yields almost as early */
+            /* on a cylinder with a low Poisson's ratio the surface yields at almost the same load */
             size_t n = ball ? 192 : 1536;
             double a = ball ? 12 : 24, nu = nus[q] + (ball ? 0 : 0.05);
             double most = largest(ball ? under_circle : under_strip, nu, &at);
@@ -189,7 +190,7 @@ mean_in_contact(struct rc_plastic *plastic, size_t nodes, size_t *count)
     return sum / (double)*count;
 }
 
-/* A value between points of a table, linear in the logarithm. */
+/* Interpolates in a table, linearly in the logarithm. */
 static double
 between(const double *x, const double *y, size_t n, double at)
 {
@@ -200,8 +201,8 @@ between(const double *x, const double *y, size_t n, double at)
     return y[k] + (y[k + 1] - y[k]) * log(at / x[k]) / log(x[k + 1] / x[k]);
 }
 
-/* Mean pressure over Y against E* a/(Y R): finite elements of Kogut and Etsion (J. Appl. Mech. 69 (2002)
- * 657), to 10 %, and of Jackson and Green (J. Tribol. 127 (2005) 343), to 12 %. */
+/* Mean pressure over Y against E* a/(Y R): agrees with finite elements of Kogut and Etsion (J. Appl. Mech. 69
+ * (2002) 657), to 10 %, and of Jackson and Green (J. Tribol. 127 (2005) 343), to 12 %. */
 static void
 ball_hardness(void **state)
 {
@@ -230,9 +231,9 @@ ball_hardness(void **state)
     }
 }
 
-/* Where all of the contact flows it carries 2.8 to 3.2 Y on average; and the means of 2 x 2 nodes are
- * smooth, an even polynomial of the radius but for 1 % (RMS, within 0.75 a), which the pressure itself is
- * not. */
+/* In the fully plastic state the mean pressure is 2.8 to 3.2 Y; and the means of 2 x 2 nodes are smooth: an
+ * even polynomial of the radius fits them to 1 % (RMS, within 0.75 a), in contrast to the single
+ * pressures. */
 static void
 fully_plastic(void **state)
 {
@@ -249,7 +250,7 @@ fully_plastic(void **state)
     (void)pressed(plastic, exact_pi * a * a * 3 * yield);
     mean = mean_in_contact(plastic, n * n, &count) / yield;
     p = rc_solver_pressure(rc_plastic_solver(plastic));
-    for (int pass = 0; pass < 2; pass++) { /* fitted, then what is left */
+    for (int pass = 0; pass < 2; pass++) { /* fitted values, then the residuals */
         for (size_t k = 0; k < n * n; k++) {
             double x = node_x(shape, k) + 0.5, y = node_y(shape, k) + 0.5;
             double r = (x * x + y * y) / (a * a), row[3] = {1, r, r * r}, four;
@@ -278,8 +279,8 @@ fully_plastic(void **state)
 
 /* ---- let go ---- */
 
-/* What is left has no force on any plane, is compression below the dent; pressed again, nothing more
- * yields. */
+/* The residual stress has no force on any plane and is compressive below the dent; when the body is pressed
+ * again, nothing more yields. */
 static void
 let_go(void **state)
 {
@@ -340,7 +341,7 @@ let_go(void **state)
 
 /* ---- a map that does not repeat ---- */
 
-/* The same ball on maps of two sizes: what the larger one has there. */
+/* The same ball on maps of two sizes: the part of the larger map. */
 static void
 free_maps(void **state)
 {
@@ -381,7 +382,7 @@ free_maps(void **state)
             double v = rc_plastic_residual(plastic[1])[there];
             off += fabs(p - q);
             all += q;
-            /* the mean of either is that of nothing */
+            /* the mean stress of both is that of an unloaded body */
             bend = fmax(bend,
                         fabs(u - v - rc_plastic_residual(plastic[0])[0] +
                              rc_plastic_residual(plastic[1])[(LARGE - SMALL) / 2 * (LARGE + 1)]));
@@ -398,8 +399,8 @@ free_maps(void **state)
     rc_plastic_free(plastic[1]);
 }
 
-/* A ball beside the middle of the nodes, where 3 and 8 of them touch, on a map and on one three times as
- * wide. */
+/* A ball whose apex is not at a symmetric place between the nodes, with 3 and 8 touching nodes, on a map and
+ * on one three times as wide. */
 static void
 free_maps_of_few_nodes(void **state)
 {
@@ -450,8 +451,8 @@ free_maps_of_few_nodes(void **state)
 
 /* ---- rolling ---- */
 
-/* A cylinder rolls over a body without hardening, round and round a period: what the equivalent strain, where
- * it is largest, gains in the last of some passes, over Y/E, and in the second. */
+/* A cylinder rolls repeatedly over one period of a body without hardening. Returns the increase of the
+ * largest equivalent strain in the last pass and in the second one, over Y/E. */
 static void
 roll(double p0_over_k, double gained[2])
 {
@@ -583,8 +584,8 @@ estimate(void **state)
     free(h);
 }
 
-/* The error that a load leaves is that of the loads after it too: of lists in 16 increments no estimate is
- * below the error, and what unloads or comes to the same peak again takes few applications. */
+/* Later loads inherit the error of a load: in lists with 16 increments no estimate is below the error, and
+ * unloading or reloading to the same peak takes few applications. */
 static void
 inherits(void **state)
 {
@@ -652,7 +653,7 @@ enum {
     KEPT_LOADS = 3
 };
 
-/* All that is found of a history: pressure, residual displacement, equivalent strain. */
+/* The results of a history: pressure, residual displacement, equivalent strain. */
 struct found {
     double p[KEPT * KEPT], u[KEPT * KEPT], strain[KEPT_SLABS][KEPT * KEPT];
     struct rc_plastic_figures figures;
@@ -690,8 +691,8 @@ kept_new(size_t slabs, size_t increments)
     return plastic_new(shape, h, problem);
 }
 
-/* Goes through the loads from `first` on, whose first is under way where a state has been taken over.
- * `steps`: where to stop, and how many have been made; NULL: at the end. */
+/* Goes through the loads from `first` on; after a restored state the first load is already set. `steps`: the
+ * step at which to stop, and on return the number of steps; NULL: to the end. */
 static void
 go_through(struct rc_plastic *plastic, size_t first, bool under_way, struct found *found,
            size_t *steps)
@@ -718,7 +719,8 @@ go_through(struct rc_plastic *plastic, size_t first, bool under_way, struct foun
         *steps = KEPT_LOADS;
 }
 
-/* From the state after each step of a history all that follows is found again, in as many applications. */
+/* From the state after each step the rest of a history is reproduced, with the same number of
+ * applications. */
 static void
 goes_on(void **state)
 {
@@ -749,7 +751,7 @@ goes_on(void **state)
         kept = malloc(n * sizeof *kept);
         rc_plastic_state(plastic, kept);
         rc_plastic_free(plastic);
-        /* into one that has been used for something else */
+        /* into an object that has solved another problem */
         if (step % 2 == 0)
             (void)pressed(other, 10);
         assert_int_equal(rc_plastic_restore(other, kept, n, &err), RC_OK);
@@ -763,7 +765,7 @@ goes_on(void **state)
             exact++;
         for (size_t q = load; q < KEPT_LOADS; q++) {
             const struct rc_plastic_figures *f = &whole[q].figures, *g = &again[q].figures;
-            if (q != 1) /* that has no pressure */
+            if (q != 1) /* load 0 has no pressure */
                 pressure = fmax(pressure, distance(KEPT * KEPT, again[q].p, whole[q].p));
             strain = fmax(
                 strain, distance(KEPT_SLABS * KEPT * KEPT, again[q].strain[0], whole[q].strain[0]));
@@ -778,7 +780,7 @@ goes_on(void **state)
     assert_true(step > 30 && exact >= thorough(KEPT_LOADS, 1) && pressure < 1e-7 && strain < 1e-6);
 }
 
-/* Numbers that are no state of this problem are refused, and the body stays what it was. */
+/* Numbers that are not a state of this problem are refused, and the body does not change. */
 static void
 refuses_states(void **state)
 {
@@ -806,12 +808,12 @@ refuses_states(void **state)
     }
     assert_int_equal(refused, tried);
     memcpy(spoilt, kept, n * sizeof *kept);
-    spoilt[n - 1 - (size_t)kept[5]] = 1e12; /* the place of the last voxel, of so many numbers */
+    spoilt[n - 1 - (size_t)kept[5]] = 1e12; /* the position of the last voxel in the state */
     assert_int_equal(rc_plastic_restore(plastic, spoilt, n, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "damaged at voxel"));
     go_through(plastic, steps, true, before, NULL);
     assert_int_equal(rc_plastic_restore(more, kept, n, &err), RC_FAIL);
-    finer = kept_new(KEPT_SLABS, 6); /* the increments are those of the state */
+    finer = kept_new(KEPT_SLABS, 6); /* the state determines the increments */
     assert_int_equal(rc_plastic_restore(finer, kept, n, &err), RC_OK);
     go_through(finer, steps, true, after, NULL);
     assert_true(distance(KEPT * KEPT, after[2].p, before[2].p) < 1e-7);
@@ -840,9 +842,9 @@ press_new(struct rc_shape shape, const double *h, struct rc_plastic_problem prob
     return press;
 }
 
-/* Under Hertz's ball the stress reaches the yield stress at P = (pi p0)^3 R^2/(6 E*^2), p0 the stress over
- * the largest Mises stress of under_circle. Below that load the elastic contact is the solution, bit for
- * bit. */
+/* Under Hertz's ball the stress reaches the yield stress at P = (pi p0)^3 R^2/(6 E*^2), where p0 is the yield
+ * stress over the largest Mises stress of under_circle. Below that load the solution is the elastic contact,
+ * bit for bit. */
 static void
 elastic_first(void **state)
 {
@@ -908,10 +910,10 @@ enum {
 };
 
 struct walk {
-    size_t made, increments; /* steps; increments of a load, at most */
+    size_t made, increments; /* limits of steps and of increments of a load */
 };
 
-/* Steps through the loads from `first` on. After `stop` steps in all returns the load that it is at; else
+/* Steps through the loads from `first` on. After `stop` steps in all it returns the current load; else
  * TRIED. */
 static size_t
 try_loads(struct rc_press *press, const double *loads, size_t first, bool under_way, size_t stop,
@@ -939,9 +941,9 @@ try_loads(struct rc_press *press, const double *loads, size_t first, bool under_
     return TRIED;
 }
 
-/* With increments that are chosen for each load: the estimate is at most what is asked for and no less than
- * the error against many increments, tries that had too few leave nothing behind, and a state from anywhere
- * on the way, elastic or not, is gone on with. */
+/* With automatic increments: the estimate is at most the requested error and not below the error against many
+ * increments; trials with too few increments have no effect on the result; and a run continues from a state
+ * of any step, elastic or not. */
 static void
 chooses(void **state)
 {
@@ -1000,7 +1002,7 @@ chooses(void **state)
         assert_true(off < 5e-4);
         rc_press_free(other);
         other = press_new(shape, h, problem, TRIED, loads[2]);
-        for (size_t k = 0; k < 7; k++) { /* the head, number by number */
+        for (size_t k = 0; k < 7; k++) { /* the head of the state, number by number */
             const double was = kept[k];
             kept[k] = -1;
             assert_int_equal(rc_press_restore(other, kept, count, &err), RC_FAIL);
@@ -1015,7 +1017,7 @@ chooses(void **state)
     rc_press_free(press);
 }
 
-/* As law_memory_budget finds it to be: of a map whose voxels have yielded by three tenths, in 12 slabs. */
+/* As in law_memory_budget: a map with three tenths of its voxels yielding, in 12 slabs. */
 static void
 is_lean(void **state)
 {

@@ -1,9 +1,9 @@
-/* What is left when a body that has yielded inside is let go is in equilibrium: nothing accelerates, the
- * surface is free, no plane carries a force, and no face between slabs a jump of traction. The stresses are
- * asked for at Chebyshev's points of each slab, in which they are smooth (exponentials times polynomials),
- * and derived there: along z by the polynomial through these points, along x and y by that of the waves
- * through the nodes. Waves of two nodes in a direction have no derivative at the nodes and are taken out
- * first; strain makes its local stress of them, no more. */
+/* The residual stress of an unloaded body that has yielded in its volume is in equilibrium: its divergence is
+ * 0, the surface is free, no plane carries a force, and tractions do not jump between slabs. The stresses are
+ * computed at Chebyshev points of each slab, where they are smooth functions (exponentials times
+ * polynomials), and differentiated there: along z by the polynomial through these points, along x and y by
+ * the waves through the nodes. Waves of two nodes along a direction have no derivative at the nodes and are
+ * removed first; they cause only the local stress of their strain. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,19 +17,19 @@
 
 enum {
     SLABS = 9,
-    BELOW = 2,   /* intervals below the slabs */
+    BELOW = 2,   /* number of intervals below the slabs */
     POINTS = 32, /* of an interval            */
     NODES = 1200 /* at most                   */
 };
 static const double poisson = 0.3;
 
-/* Stresses at the points of one interval. */
+/* Stresses at the points of an interval. */
 static double s[POINTS][RC_COMPONENTS][NODES];
 
 /* ---- derivatives ---- */
 
-/* Of the values at the points, per unit of half an interval; and weights that carry them to its upper and
- * its lower end. Chebyshev's points of the first kind, by barycentric weights (Berrut and Trefethen, SIAM
+/* Matrix of the derivative at the points, per half an interval, and weights that extrapolate to the upper and
+ * the lower end. Chebyshev points of the first kind, with barycentric weights (Berrut and Trefethen, SIAM
  * Rev. 46, 2004, 501). */
 struct along {
     double at[POINTS], by[POINTS][POINTS], end[2][POINTS];
@@ -64,7 +64,7 @@ along_z(void)
     return z;
 }
 
-/* Derivative, at node i, of waves through n nodes, of what is 1 at node k and 0 at the others. */
+/* The derivative at node i of the sum of waves through n nodes that is 1 at node k and 0 at the others. */
 static double
 wave_derivative(size_t n, double d, size_t i, size_t k)
 {
@@ -184,7 +184,7 @@ slice(const struct body *b, double depth, double (*to)[NODES])
 static const enum rc_component row_of[3][3] = {
     {RC_SXX, RC_SXY, RC_SXZ}, {RC_SXY, RC_SYY, RC_SYZ}, {RC_SXZ, RC_SYZ, RC_SZZ}};
 
-/* What is found wrong, over the yield stress: of the divergence times dx, ... */
+/* The errors over the yield stress: of the divergence times dx, ... */
 struct wrong {
     double divergence, surface, plane, face;
 };

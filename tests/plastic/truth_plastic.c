@@ -1,5 +1,6 @@
-/* Plasticity in the volume against a minimiser of the same convex energy by another method, with a dense
- * quadratic program for the contact; and the return to the yield surface against its closed form. */
+/* Plasticity in the volume, compared with a minimum of the same convex energy that another method finds, with
+ * a dense quadratic program for the contact; and the return to the yield surface, compared with its closed
+ * form. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,8 +25,7 @@ struct state {
     struct dense d;
     struct rc_slabs *v;
     double yield, modulus, *h, *p;
-    struct voxels e, x, y,
-        f; /* strain; its increment: the last two iterates, and the new one      */
+    struct voxels e, x, y, f; /* strain; its increment: the last two iterates and the new one */
     struct voxels all, s;
     double *strain; /* equivalent */
 };
@@ -86,7 +86,7 @@ descend(struct state *t)
         }
 }
 
-/* Nesterov's accelerated descent, which begins anew where it overshoots, to the end. */
+/* Nesterov's accelerated descent, which restarts when it overshoots, until convergence. */
 static void
 minimise(struct state *t, double load)
 {
@@ -113,7 +113,7 @@ minimise(struct state *t, double load)
     }
     assert_true(change <= 1e-13);
     for (size_t k = 0; k < SLABS; k++)
-        for (size_t i = 0; i < NODES; i++) /* mises() of a strain is 3/2 of its equivalent */
+        for (size_t i = 0; i < NODES; i++) /* mises() of a strain is 3/2 of its equivalent strain */
             t->strain[k * NODES + i] += 2 * mises(&t->x, k, i) / 3;
     sum_of(&t->e, &t->x, 1, &t->e);
     memset(t->y.v, 0, NODES * SLABS * RC_COMPONENTS * sizeof(double));
@@ -151,7 +151,7 @@ compare(struct rc_plastic *plastic, const struct state *t, double load)
     print_message("\n");
 }
 
-/* Pressed, pressed harder, let go by half, taken apart, pressed again: each load in one increment. */
+/* A load, a higher one, unloading by half, separation, and loading again, each in one increment. */
 static void
 convex_minimum(void **state)
 {
@@ -233,7 +233,8 @@ returns(void **state)
     assert_true(rc_yield_stress(&table, 7) == 170);
     assert_true(fabs(rc_yield_work(&table, 0.05) - (1.25 + 3.2 + 3.4)) < 1e-12);
     assert_true(fabs(rc_yield_work(&line, 0.2) - (20 + 0.8)) < 1e-12);
-    for (int q = 0; q < 1000; q++) { /* what is left is on the curve, whichever part that is */
+    for (int q = 0; q < 1000;
+         q++) { /* the stress after the return is on the curve, on any of its segments */
         double from = 0.12 * (random_number(&seed) + 0.5);
         double mises = rc_yield_stress(&table, from) + 300 * (random_number(&seed) + 0.5);
         double grown = rc_yield_return(&table, stiffness, from, mises);

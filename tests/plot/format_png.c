@@ -1,5 +1,5 @@
-/* A picture's pixels are the values of the map in the colours promised, and its chunks say how it
- * was made: decoded by libpng, judged by colour tables from the literature. */
+/* The pixels of a picture are the values of the map in the documented colours, and its chunks describe how it
+ * was made: decoded by libpng, compared with colour tables from the literature. */
 #include <math.h>
 #include <png.h>
 #include <setjmp.h>
@@ -74,7 +74,7 @@ read_png(void)
     return p;
 }
 
-/* Runs rc-render on the stream that was put and reads its picture. */
+/* Runs rc-render on the written stream and reads its picture. */
 static struct png
 render(const char *options)
 {
@@ -110,7 +110,7 @@ is_colour(const unsigned char *rgb, unsigned colour, int within)
 static void
 raw_is_one_pixel_a_node(void **state)
 {
-    /* a grey level a micron */
+    /* one grey level per micrometre */
     static const double v[] = {0, 51e-6, 102e-6, 153e-6, 204e-6, 255e-6};
     struct png p;
 
@@ -124,8 +124,8 @@ raw_is_one_pixel_a_node(void **state)
     free(p.rgb);
 }
 
-/* As others draw it: where the file says that the map is, each node has the colour of its value, its
- * whole cell but for the very edge. */
+/* Checks a picture drawn by another program: in the area of the map, each cell except its edge has the colour
+ * of its value. */
 static void
 an_svg_has_the_nodes_at_their_places(void **state)
 {
@@ -189,8 +189,8 @@ range_is_kept_and_passed_with_the_end_colours(void **state)
     }
 }
 
-/* 1000 values 0 to 999 um in an order of their own: node k holds 7 k modulo 1000 (7 and 1000 have
- * no common factor). */
+/* The values 0 to 999 um in a mixed order: node k holds 7 k modulo 1000 (7 and 1000 have no common
+ * factor). */
 static void
 put_thousand(double first)
 {
@@ -203,7 +203,7 @@ put_thousand(double first)
     put_stream(grid_of("height", "m", 40, 25, v));
 }
 
-/* Whether node k is as grey as its place between lo and hi says. */
+/* True if the grey of node k corresponds to its value between lo and hi. */
 static void
 is_between(const struct png *p, size_t k, double value, double lo, double hi)
 {
@@ -221,7 +221,8 @@ percentiles_are_ranks(void **state)
     (void)state;
     put_thousand(0);
     p = render("--raw --colormap grey --range 10%:90%");
-    for (size_t k = 0; k < 1000; k++) /* place 0.1 * 999 among 0, 1, 2, ... is 99.9 */
+    for (size_t k = 0; k < 1000;
+         k++) /* the percentile of rank 0.1 * 999 among 0, 1, 2, ... is 99.9 */
         is_between(&p, k, (double)(7 * k % 1000), 99.9, 899.1);
     free(p.rgb);
     p = render("--raw --colormap grey --clip");
@@ -234,7 +235,7 @@ percentiles_are_ranks(void **state)
     free(p.rgb);
 }
 
-/* One value far from those about it does not take the colours of the others; many do. */
+/* One value far from its neighbours does not compress the colours of the others; many such values do. */
 static void
 an_outlier_is_left_beyond_the_colours(void **state)
 {
@@ -244,7 +245,7 @@ an_outlier_is_left_beyond_the_colours(void **state)
     (void)state;
     put_thousand(5e-3); /* 999 of 1 to 999 um, and one of 5000 */
     p = render("--raw --colormap grey");
-    for (size_t k = 1; k < 1000; k++) /* ranks count from the least, which is 1 */
+    for (size_t k = 1; k < 1000; k++) /* ranks count from the smallest value, which is 1 */
         is_between(&p, k, (double)(7 * k % 1000), 1 + 4.995, 1 + 994.005);
     is_colour(pixel(&p, 0, 0), 0xffffff, 0);
     free(p.rgb);
@@ -252,7 +253,7 @@ an_outlier_is_left_beyond_the_colours(void **state)
     for (size_t k = 1; k < 1000; k++)
         is_between(&p, k, (double)(7 * k % 1000), 1, 5000);
     free(p.rgb);
-    for (int k = 0; k < 900; k++) /* a peak that its neighbours lead up to is none */
+    for (int k = 0; k < 900; k++) /* a peak with gradually rising neighbours is not a spike */
         v[k] = exp(-0.05 * (pow(k % 30 - 12.0, 2) + pow(floor(k / 30.0) - 9, 2)));
     put_stream(grid_of("height", "m", 30, 30, v));
     p = render("--raw --colormap grey");
@@ -280,7 +281,7 @@ logarithms_give_equal_steps_to_equal_ratios(void **state)
     free(p.rgb);
 }
 
-/* magma's ends, as published, which values on one side of 0 get */
+/* the published ends of magma, which serves for values of one sign */
 static void
 one_signed_stresses_end_at_zero(void **state)
 {
@@ -324,7 +325,7 @@ channels_get_their_colours(void **state)
     is_colour(pixel(&p, 1, 0), 0xb73779, 2);
     is_colour(pixel(&p, 2, 0), 0xfcfdbf, 2);
     free(p.rgb);
-    put_stream(grid_of("szz", "Pa", 3, 1, s)); /* zero in the middle, whatever the extremes are */
+    put_stream(grid_of("szz", "Pa", 3, 1, s)); /* zero in the middle, for any extremes */
     p = render("--raw");
     assert_true(pixel(&p, 0, 0)[2] > 100 && pixel(&p, 0, 0)[0] < 60);  /* blue: compression */
     assert_true(abs(pixel(&p, 1, 0)[0] - pixel(&p, 1, 0)[2]) <= 1);    /* neither           */
@@ -332,8 +333,8 @@ channels_get_their_colours(void **state)
     free(p.rgb);
 }
 
-/* Each has a colour of its own, and a pixel of many nodes that of none other: half no contact (0), half
- * slip (2) is not stick (1). */
+/* Each category has its own colour, and a pixel of many nodes never gets the colour of a category that is not
+ * there: half no contact (0) and half slip (2) is not stick (1). */
 static void
 categories_are_three_colours(void **state)
 {
@@ -395,7 +396,7 @@ missing_and_no_contact_are_no_values(void **state)
 
 /* ---- colours ---- */
 
-/* What rounding to 8 bits does to L* at most, where colours are dark. */
+/* The largest change of L* by rounding dark colours to 8 bits. */
 static const double eight_bits = 0.35;
 
 /* CIE 1976 lightness of an sRGB colour (IEC 61966-2-1). */
@@ -462,7 +463,7 @@ lightness_rises_and_evenly(void **state)
 
 static const struct {
     const char *name;
-    double of[3][3]; /* on linear red, green, blue */
+    double of[3][3]; /* acts on linear red, green, blue */
 } eyes[] = {
     {"all cones", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
     /* Machado, Oliveira and Fernandes 2009, severity 1 */
@@ -486,7 +487,7 @@ cube_root(double t)
     return t > 216.0 / 24389 ? cbrt(t) : (t * 24389 / 27 + 16) / 116;
 }
 
-/* CIELAB of a colour seen by those eyes (IEC 61966-2-1, D65). */
+/* CIELAB of a colour as seen with this colour blindness (IEC 61966-2-1, D65). */
 static void
 seen(struct rgb c, size_t by, double lab[3])
 {
@@ -526,8 +527,8 @@ difference(const struct colormap *map, double s, double t, size_t by)
     return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
 }
 
-/* Lightness rises or falls all along a map of colours, or along each half of one about 0, and
- * colours a tenth of the range apart look different: 5 is twice what is just noticed. */
+/* The lightness rises or falls monotonically along a colour map, or along each half of a diverging one, and
+ * colours at a distance of a tenth of the range look different: 5 is twice the just noticeable difference. */
 static void
 other_eyes_tell_values_apart(void **state)
 {
@@ -593,7 +594,7 @@ cells_are_means_of_what_they_cover(void **state)
     assert_true(fabs(r->v[1] - 2) <= 2 * rounding && r->none[1] == 0.75F);
     assert_true(fabs(r->v[2] - 7) <= 7 * rounding && r->missing[2] == 0.5F);
     raster_free(r);
-    r = raster_new(g, true, 6 * 5, 2 * 3, NULL); /* enlarged: every node a block of its own */
+    r = raster_new(g, true, 6 * 5, 2 * 3, NULL); /* enlarged: every node is a block */
     assert_non_null(r);
     for (size_t j = 0; j < r->h; j++)
         for (size_t i = 0; i < r->w; i++) {
@@ -671,12 +672,12 @@ numbers_read_as_people_write_them(void **state)
 /* ---- text ---- */
 
 enum {
-    SIDE = 200 /* pixels of a canvas to write on */
+    SIDE = 200 /* pixels of a canvas for text */
 };
 
 static const struct canvas_font font = {.size = 40};
 
-/* Where there is ink: rows and columns from the first to behind the last; sum: how much. */
+/* The extent of the ink: rows and columns from the first to after the last; sum: its amount. */
 struct ink {
     size_t left, right, top, bottom;
     unsigned long sum;
@@ -703,7 +704,7 @@ ink_on(struct canvas *c)
     return ink;
 }
 
-/* Draws the text in the middle, upwards or to the right, and tells its width. */
+/* Draws the text in the middle, upwards or to the right, and returns its width. */
 static struct ink
 ink_of(const char *text, bool upwards, double *width)
 {
@@ -768,7 +769,7 @@ raised_digits_are_smaller_and_higher(void **state)
 static void
 what_no_font_has_is_a_question_mark_and_told(void **state)
 {
-    const char *private = "\xf4\x8f\xbf\xbd"; /* U+10FFFD: the last of the private characters */
+    const char *private = "\xf4\x8f\xbf\xbd"; /* U+10FFFD: the last private character */
     struct canvas *c = canvas_new(SIDE, SIDE, NULL), *d = canvas_new(SIDE, SIDE, NULL);
     char text[64], told[64];
 
@@ -783,7 +784,7 @@ what_no_font_has_is_a_question_mark_and_told(void **state)
     canvas_text(d, &font, 100, 60, 0.5, "Ωж²");
     canvas_text(d, &font, 100, 120, 0.5, "a?b?");
     assert_int_equal(ink_on(c).sum, ink_on(d).sum);
-    canvas_text(d, &font, 100, 180, 0.5, "\xff\xfe"); /* no text, and no end of the program */
+    canvas_text(d, &font, 100, 180, 0.5, "\xff\xfe"); /* no text, and the program continues */
     assert_int_equal(canvas_check(d, NULL), RC_OK);
     canvas_free(c);
     canvas_free(d);

@@ -1,4 +1,4 @@
-/* Reads pictures of rc-render for the tests: pixels, and the places of parts of a graph. */
+/* Reads pictures of rc-render for the tests: pixels, and positions of the parts of a graph. */
 #ifndef RC_TEST_PICTURES_H
 #define RC_TEST_PICTURES_H
 
@@ -19,7 +19,7 @@
 #include "formats/rcg/rcg.h"
 #include "libcontact/grid.h"
 
-/* |a - b| <= most, said where it is not so. */
+/* Checks |a - b| <= most; prints the values otherwise. */
 #define assert_near(a, b, most) check_near((a), (b), (most), __FILE__, __LINE__)
 static inline void
 check_near(double a, double b, double most, const char *file, int line)
@@ -30,7 +30,7 @@ check_near(double a, double b, double most, const char *file, int line)
     _fail(file, line);
 }
 
-/* Where the tests of a program draw, from set-up to tear-down of their group. */
+/* The folder in which the tests of a program draw, from set-up to tear-down of their group. */
 static char folder[] = "/tmp/rc_pictures.XXXXXX";
 
 static inline int
@@ -68,7 +68,7 @@ put_file(const char *name, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-/* Writes frames, which it frees, as a stream. */
+/* Writes frames as a stream and frees them. */
 static inline void
 put_stream(const char *name, struct rc_grid **grid, size_t n)
 {
@@ -118,7 +118,7 @@ pixel(const struct picture *p, size_t x, size_t y)
     return (unsigned)at[0] << 16 | (unsigned)at[1] << 8 | at[2];
 }
 
-/* Ink is 0x222222: dark and grey. */
+/* The ink has the colour 0x222222: dark grey. */
 static inline int
 is_dark(const struct picture *p, size_t x, size_t y)
 {
@@ -128,7 +128,7 @@ is_dark(const struct picture *p, size_t x, size_t y)
            (c >> 16) == (c & 0xff);
 }
 
-/* The longest dark run of a row, and where it begins. */
+/* The longest dark run of a row, and its start. */
 static inline size_t
 longest_run(const struct picture *p, size_t y, size_t *start)
 {
@@ -144,8 +144,7 @@ longest_run(const struct picture *p, size_t y, size_t *start)
     return longest;
 }
 
-/* The frame of the plot: the first and the last of the long dark rows, which a mark of an axis can
- * lengthen. */
+/* The frame of the plot: the first and the last of the long dark rows, which an axis mark may lengthen. */
 struct frame {
     size_t left, right, top, bottom; /* of the ink */
 };
@@ -170,7 +169,7 @@ find_frame(const struct picture *p)
     return f;
 }
 
-/* Middles of the dark runs of a row from x on, or of a column from y on; gives their number. */
+/* Finds the middles of the dark runs of a row from x on, or of a column from y on; returns their number. */
 static inline size_t
 find_marks(const struct picture *p, int across, size_t line, size_t from, size_t to, double *at,
            size_t most)

@@ -1,5 +1,5 @@
-/* Points of a curve lie where their numbers say between the marks of the axes, linear and
- * logarithmic, and laws pass where closed forms of their own books say. */
+/* Points of a curve lie at the right positions between the marks of the axes, linear and logarithmic, and
+ * laws follow their published closed forms. */
 #include <gsl/gsl_integration.h>
 
 #include "pictures.h"
@@ -27,7 +27,7 @@ marks_of_decades(void **state)
     for (size_t k = 1; k + 1 < n; k++)
         assert_near(major[k + 1] - major[k], major[k] - major[k - 1], 1.1);
     n = find_marks(&p, 1, f.bottom + 4, f.left, f.right, mark, 64);
-    assert_true(n > 36); /* 2 to 9 of four decades, and those that stick out */
+    assert_true(n > 36); /* 2 to 9 of four decades, and the marks beyond the ends */
     for (size_t k = 0, found = 0; k < n; k++) {
         for (int d = 2; d < 10; d++)
             found += fabs(mark[k] - major[1] - log10(d) * (major[2] - major[1])) < 1;
@@ -36,7 +36,7 @@ marks_of_decades(void **state)
     free(p.rgb);
 }
 
-/* Where x lies by two marks of which the numbers are known. */
+/* The position of x, from two marks with known numbers. */
 static void
 points_of_two_files(void **state)
 {
@@ -71,7 +71,7 @@ points_of_two_files(void **state)
     free(p.rgb);
 }
 
-/* Rows of arrays are curves; a point at 0 of a logarithmic axis is left out. */
+/* Rows of arrays are curves; a point at 0 is omitted on a logarithmic axis. */
 static void
 arrays_of_json(void **state)
 {
@@ -90,8 +90,8 @@ arrays_of_json(void **state)
     free(p.rgb);
 }
 
-/* Hertz: the approach goes as the load to the power 2/3, so the law is a straight line on
- * logarithmic axes, and both points, worked out by hand, lie on it. */
+/* Hertz: the approach is proportional to the load to the power 2/3, so the law is a straight line on
+ * logarithmic axes, and both points, calculated by hand, lie on it. */
 static void
 law_is_drawn_through(void **state)
 {
@@ -140,7 +140,7 @@ new_grid(const char *channel, const char *unit, size_t nx, size_t ny)
     return g;
 }
 
-/* The line runs through the nodes of the row that is meant: one of them stands out. */
+/* The line passes through the nodes of the selected row, one of which is higher. */
 static void
 cut_of_a_map(void **state)
 {
@@ -159,7 +159,7 @@ cut_of_a_map(void **state)
     f = find_frame(&p);
     n = find_marks(&p, 1, f.bottom + 8, f.left, f.right, major, 16);
     assert_int_equal(n, 9);                           /* -20 ... 20 um */
-    for (size_t j = f.bottom - 2; j > f.top + 2; j--) /* the row where it is highest */
+    for (size_t j = f.bottom - 2; j > f.top + 2; j--) /* the row with the highest node */
         for (size_t i = f.left + 2; i < f.right - 1; i++)
             if (pixel(&p, i, j) == blue) {
                 top = i;
@@ -169,7 +169,7 @@ cut_of_a_map(void **state)
     free(p.rgb);
 }
 
-/* Heights whose share above v is 1 - sqrt(v): the curve is the parabola v = (1 - share)^2. */
+/* Heights whose fraction above v is 1 - sqrt(v): the curve is the parabola v = (1 - fraction)^2. */
 static void
 material_ratio_of_a_parabola(void **state)
 {
@@ -180,7 +180,7 @@ material_ratio_of_a_parabola(void **state)
     size_t found = 0, n;
 
     (void)state;
-    for (size_t k = 0; k < 10000; k++) /* in an order that is none */
+    for (size_t k = 0; k < 10000; k++) /* in a mixed order */
         g->v[k] = pow(((double)(k * 7919 % 10000) + 0.5) / 10000, 2) * 1e-6;
     put_stream("g.rcg", &g, 1);
     p = draw("rc-render --material-ratio -o out.png g.rcg");
@@ -205,7 +205,7 @@ material_ratio_of_a_parabola(void **state)
     free(p.rgb);
 }
 
-/* Three nodes in one bin stand three times as high as one in another. */
+/* A bin with three nodes is three times as high as a bin with one. */
 static void
 histogram_of_few(void **state)
 {
@@ -273,7 +273,7 @@ moment(double p, void *mean)
     return p * density(p, mean);
 }
 
-/* The pressures of the whole map: as many as touch, and as large as the load asks for. */
+/* The histogram of the whole map: its area is the contact fraction, its first moment the mean pressure. */
 static void
 persson_adds_up(void **state)
 {

@@ -1,13 +1,13 @@
-/* In a relief higher parts hide the parts behind them, the map turns as the viewer walks around it,
- * and heights are drawn as many times higher as the figure says. In a hillshade the slopes that
- * face the upper left are bright. */
+/* In a relief higher parts hide the parts behind them, the map rotates with the azimuth of the viewer, and
+ * heights are exaggerated by the factor in the figure. In a hillshade the slopes that face the upper left are
+ * bright. */
 #include "pictures.h"
 
 enum {
     N = 200
 };
 
-/* A map of N by N nodes, a micrometre apart; `height` in micrometres. */
+/* A map of N by N nodes with a spacing of 1 um; `height` in micrometres. */
 static void
 put_map(const char *channel, const char *unit, double size, double (*height)(size_t i, size_t j))
 {
@@ -61,7 +61,7 @@ is_blue(const struct picture *p, size_t x, size_t y)
 
 /* ---- what is hidden ---- */
 
-/* A ridge along x at the front, and a ditch right behind it. */
+/* A ridge along x at the front, and a ditch directly behind it. */
 static double
 ridge_and_ditch(size_t i, size_t j)
 {
@@ -87,7 +87,7 @@ ditch_is_hidden(void **state)
     p = draw("rc-render --colormap bluered --view 0,90 -o out.png m.rcg");
     assert_true(find_spot(&p, false).n > 10 * back / 2);
     free(p.rgb);
-    assert_true(back > 1000); /* over the far bank the ditch is seen */
+    assert_true(back > 1000); /* from the other side the ditch is visible */
     assert_int_equal(front, 0);
 }
 
@@ -103,8 +103,8 @@ upper_left(size_t i, size_t j)
 static void
 map_turns(void **state)
 {
-    /* from above: where the hill stands, from the middle of the picture of the map: over 200 nodes
-     * it is 60.5 left of the middle, 50.5 above */
+    /* from above: the position of the hill from the middle of the map: of 200 nodes it is 60.5 to the left
+     * and 50.5 upwards */
     static const struct {
         const char *view;
         double right, down;
@@ -127,7 +127,7 @@ map_turns(void **state)
                  seen[k].view);
         p = draw(command);
         hill = find_spot(&p, true);
-        f = find_frame(&p); /* the edge of the floor, of which the lowest is an axis */
+        f = find_frame(&p); /* the edge of the floor; its lowest line is an axis */
         node = (double)(f.right - f.left) / N;
         assert_true(hill.n > 1000);
         assert_near((double)hill.right - (double)hill.left, 40 * node, 2 * node);
@@ -147,8 +147,8 @@ step(size_t i, size_t j)
     return i < N / 2 ? 1 : -1;
 }
 
-/* 2 um over a map of 200 um: at most 0.4 of its side gives 40 times, of which 20 is drawn: 40 um,
- * seen at 30 degrees, a fifth of the width times cos 30. */
+/* 2 um over a map of 200 um: a height of 0.4 times the side would be an exaggeration of 40, of which the next
+ * lower round number is 20. The height of 40 um, seen at 30 degrees, is a fifth of the width times cos 30. */
 static void
 heights_are_exaggerated(void **state)
 {
@@ -170,7 +170,7 @@ heights_are_exaggerated(void **state)
     free(p.rgb);
 }
 
-/* The largest of the nodes that a piece of a large map covers is drawn, of a pressure. */
+/* In a reduced pressure map each piece shows the largest value of its nodes. */
 static double
 spike(size_t i, size_t j)
 {
@@ -207,8 +207,7 @@ pyramid(size_t i, size_t j)
     return 100 - (x > y ? x : y);
 }
 
-/* Of the four faces of a pyramid those to the left and above are lit alike, and brighter than the
- * others. */
+/* The left and the upper face of a pyramid are equally bright, and brighter than the others. */
 static void
 upper_left_is_bright(void **state)
 {
@@ -230,8 +229,8 @@ upper_left_is_bright(void **state)
     }
     assert_near(bright[0], bright[1], 2); /* heights differ by a node */
     assert_near(bright[2], bright[3], 2);
-    /* slopes of 0.7, light at 45 degrees: cosines (0.71 + 0.35) / 1.22 and (0.71 - 0.35) / 1.22,
-     * over that of a flat map; a grey of 127.5 to 140 */
+    /* slopes of 0.7, light at 45 degrees: cosines (0.71 + 0.35) / 1.22 and (0.71 - 0.35) / 1.22, relative to
+     * that of a flat map; a grey of 127.5 to 140 */
     assert_near((double)bright[0] / bright[2],
                 (0.35 + 0.65 * 1.4950 / 1.2207) / (0.35 + 0.65 * 0.5050 / 1.2207), 0.05);
     free(p.rgb);
@@ -245,7 +244,7 @@ hilly(size_t i, size_t j)
     return i > 120 && j > 130 && i < 150 && j < 170 ? NAN : 20 * exp(-(x * x + y * y) / 1500);
 }
 
-/* Letters and lines have other edges there. */
+/* The edges of letters and lines differ there. */
 static void
 svg_is_the_same(void **state)
 {

@@ -1,4 +1,4 @@
-/* The panels of a sheet are of one size, in the order of the stream, row by row, and share their
+/* The panels of a sheet have one size, are in the order of the stream, row by row, and share their
  * colours. */
 #include "pictures.h"
 
@@ -7,7 +7,7 @@
 static const double value[] = {1, 2, 3}; /* GPa; 0 is black, 4 GPa white */
 static const unsigned shade[] = {0x404040, 0x808080, 0xbfbfbf};
 
-/* Stresses at three depths, each the same everywhere, of 20 by 10 nodes. */
+/* Stresses at three depths, uniform at each depth, on 20 by 10 nodes. */
 static int
 make_depths(void **state)
 {
@@ -31,7 +31,8 @@ struct box {
     size_t left, right, top, bottom, n;
 };
 
-/* Where the panel of a colour is: the bar has some pixels of it too, but no row of 50. */
+/* The position of the panel with a colour: the bar has pixels of this colour too, but no run of 50 in a
+ * row. */
 static struct box
 find_box(const struct picture *p, unsigned colour)
 {
@@ -98,7 +99,8 @@ row_by_row(void **state)
     assert_true(b[2].left == b[0].left && b[2].top > b[0].bottom);
 }
 
-/* Without a range the colours span all panels: from 0, as the stress does, to the largest. */
+/* Without a range the colours span all panels: from 0, because the stress is not negative, to the largest
+ * value. */
 static void
 colours_of_all(void **state)
 {
@@ -117,7 +119,7 @@ middle(const struct picture *p, const struct box *b)
     return pixel(p, (b->left + b->right) / 2, (b->top + b->bottom) / 2);
 }
 
-/* The grey of a panel whose value lies at t between the ends of the colours. */
+/* The grey of a panel whose value is the fraction t of the range of colours. */
 static void
 assert_greys(const char *options, const double t[3])
 {
@@ -148,7 +150,7 @@ percentiles_of_all(void **state)
     assert_greys("--range 40%:100%", (const double[]){0, 0, 1});
 }
 
-/* From the least of all values, or from the lower end of a range. */
+/* The colours start at the smallest of all values, or at the lower end of a range. */
 static void
 logarithm_of_all(void **state)
 {
@@ -157,7 +159,7 @@ logarithm_of_all(void **state)
     assert_greys("--log --range 0.5GPa:8GPa", (const double[]){0.25, 0.5, log(6) / log(16)});
 }
 
-/* 20 by 10 nodes of 1 um: from -5 to 5 um there are 10, from -2 to 2 um 4 of them. */
+/* 20 by 10 nodes of 1 um: 10 columns lie between -5 and 5 um, 4 between -2 and 2 um. */
 static void
 window_of_all(void **state)
 {

@@ -1,5 +1,6 @@
-/* Whatever the contact, tractions keep their bounds and the load, slip is against them, and the error is
- * what is said of it; the work does not grow with the map; and what makes no sense is refused. */
+/* Laws of every contact with friction: tractions are within their bounds and carry the force, slip is
+ * opposite to them, and the error is within the estimate; the work does not grow with the map; invalid
+ * requests are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,8 +9,8 @@
 
 #include "slip_case.h"
 
-/* Of a problem: q'.s <= 0 and |q| <= g at every node, s = 0 where |q| < g, the load; all from a fresh
- * sum that this file does not make: slip comes from the library, and what it is worth from the figures. */
+/* Checks a solution: q'.s <= 0 and |q| <= g at every node, s = 0 where |q| < g, and the force. Slip is that
+ * of the library, and its accuracy that of the figures. */
 struct problem {
     struct rc_shape shape;
     enum rc_boundary boundary;
@@ -54,7 +55,7 @@ violation(const struct problem *w, struct rc_slip *slip, const struct rc_slip_fi
     for (size_t k = 0; k < n; k++)
         most = fmax(most, hypot(s[0][k], s[1][k]));
     most =
-        fmax(most, hypot(f->displacement[0], f->displacement[1])); /* where next to nothing slips */
+        fmax(most, hypot(f->displacement[0], f->displacement[1])); /* where almost nothing slips */
     for (size_t k = 0; k < n; k++) {
         double x = rc_slip_traction(slip, 0)[k], y = rc_slip_traction(slip, 1)[k], q = hypot(x, y);
         double g = fmin(w->mu * w->p[k], w->tau_max > 0 ? w->tau_max : INFINITY);
@@ -176,9 +177,9 @@ test_hard_cases(void **state)
     free(rough);
 }
 
-/* 50 problems, at every step that is left by more than a part in a million: the estimate is never less than
- * the error, and below 1e-2 no more than 2.5 times it. The truth is where the same steps end, at 1e-11:
- * same_slip has it from another method. */
+/* 50 problems, at every step with an error above 1e-6: the estimate is never below the error, and below 1e-2
+ * at most 2.5 times the error. The reference is the end of the same iteration, at 1e-11; same_slip compares
+ * it with another method. */
 static void
 test_estimate_bounds_the_error(void **state)
 {
@@ -252,8 +253,8 @@ test_estimate_bounds_the_error(void **state)
     assert_true(most <= 2.5);
 }
 
-/* Two nodes of long cells under a force next to sliding, which turns: on the circles of both, only two
- * pairs of tractions carry it, and where neither is an answer both nodes must stick before that is found. */
+/* Two nodes with long cells under a turning force near sliding: if both nodes slip only two pairs of
+ * tractions carry the force; if neither pair is a solution the method must first let both nodes stick. */
 static void
 test_two_nodes_next_to_sliding(void **state)
 {
@@ -278,7 +279,8 @@ test_two_nodes_next_to_sliding(void **state)
             rc_slip_slip(slip, c, s[c]);
         rc_slip_set_pressure(slip, p, NULL, NULL);
         rc_slip_set_force(slip, part * limit * cos(angle), part * limit * sin(angle), NULL);
-        if (slip_solve(slip, &f) != RC_OK) { /* some are not found, and said not to be */
+        if (slip_solve(slip, &f) !=
+            RC_OK) { /* some solutions are not found, and reported as not converged */
             assert_true(f.traction_error > 0.1);
             missed++;
         }
@@ -300,9 +302,9 @@ test_two_nodes_next_to_sliding(void **state)
     assert_true(slid > 30 && missed < 6);
 }
 
-/* Convolutions until the true error is below 1e-2, 1e-4, 1e-6, half of what friction can carry, cold: no
- * more than that, and hardly more on a larger map, on the free boundary, on profiles and on stretched
- * cells. */
+/* Convolutions until the true error is below 1e-2, 1e-4, 1e-6, at half of the friction limit, without a
+ * starting value: at most these numbers, and hardly more on larger maps, on the free boundary, on profiles
+ * and on long cells. */
 static void
 test_work_does_not_grow(void **state)
 {
@@ -431,7 +433,7 @@ test_nonsense_is_refused(void **state)
     assert_int_equal(rc_slip_set_force(slip, 0, load * 0.15, &err), RC_OK);
     assert_int_equal(slip_solve(slip, &f), RC_OK);
     assert_true(fabs(f.force[1] / (load * 0.15) - 1) < summed && f.stick_nodes == 1);
-    /* bodies that are taken apart carry nothing */
+    /* separated bodies carry no traction */
     rc_slip_keep(slip);
     assert_int_equal(rc_slip_set_pressure(slip, NULL, NULL, &err), RC_OK);
     assert_int_equal(rc_slip_set_force(slip, 1e-9, 0, &err), RC_FAIL);
@@ -441,8 +443,8 @@ test_nonsense_is_refused(void **state)
     rc_slip_free(slip);
 }
 
-/* On a periodic map: the displacement that a force was found to make, given, makes that force; contact that
- * is complete carries what it can, wherever it is moved, and no more. */
+/* On a periodic map: prescribing the displacement found for a force gives this force; complete contact
+ * carries the friction limit under any displacement and direction. */
 static void
 test_periodic_displacement_gives_the_force(void **state)
 {
@@ -481,7 +483,7 @@ test_periodic_displacement_gives_the_force(void **state)
     }
     for (int k = 0; k < 8; k++) {
         double size = pow(10, 3 - k),
-               angle = k; /* over E*, of cells of 1: complete contact slides */
+               angle = k; /* over E*, with cells of 1: complete contact slides */
         struct rc_slip *slip = rc_slip_new(&shape, &what, NULL);
         uint64_t seed = 9;
         for (size_t i = 0; i < n; i++)
@@ -491,7 +493,7 @@ test_periodic_displacement_gives_the_force(void **state)
         assert_int_equal(slip_solve(slip, &f), RC_OK);
         print_message("moved by %g: %.9f of mu P, %zu steps, %zu stick\n", size,
                       hypot(f.force[0], f.force[1]) / f.limit, f.steps, f.stick_nodes);
-        if (k % 2 == 0 || size >= 1) { /* else some of it sticks for now */
+        if (k % 2 == 0 || size >= 1) { /* otherwise a part still sticks */
             assert_true(fabs(hypot(f.force[0], f.force[1]) / f.limit - 1) < 1e-3);
             assert_int_equal(f.stick_nodes, 0);
         }
@@ -502,8 +504,9 @@ test_periodic_displacement_gives_the_force(void **state)
     free(even);
 }
 
-/* What the iterations of a path leave adds up: with a coarse tolerance the sum is not below the error, on
- * paths that turn, at any increment; the last increment alone is. Bodies that come apart drop it. */
+/* The errors of the iterations accumulate along a path: with a coarse tolerance their sum is not below the
+ * error, at any increment of a turning path, although the part of the last increment alone is. When the
+ * bodies separate the sum becomes 0. */
 static void
 test_errors_of_a_path_add_up(void **state)
 {
@@ -535,7 +538,7 @@ test_errors_of_a_path_add_up(void **state)
             struct rc_joint_figures f[2];
             const double *q[2][2];
             double error;
-            for (int c = 0; c < 2; c++) /* on a square of 0.06 to 0.26 of what is carried */
+            for (int c = 0; c < 2; c++) /* on a square of 0.06 to 0.26 of the friction limit */
                 force[c] += (slip_noise(&seed) - 0.5) * 0.15 * load;
             for (int c = 0; c < 2; c++)
                 force[c] = fmax(-0.18 * load, fmin(0.18 * load, force[c]));
@@ -578,8 +581,8 @@ test_errors_of_a_path_add_up(void **state)
     assert_true(alone > 30);
 }
 
-/* Bodies that came apart begin anew: displacement, slip, stiffness and tractions of what follows are those of
- * bodies that have never touched. */
+/* Separated bodies start again from 0: displacement, slip, stiffness and tractions are then those of bodies
+ * that have never touched. */
 static void
 test_bodies_apart_forget(void **state)
 {
@@ -595,7 +598,7 @@ test_bodies_apart_forget(void **state)
     for (size_t k = 0; k < n; k++)
         limit += what.mu * p[k];
     for (int moved = 0; moved < 2; moved++) {
-        for (int k = 0; k < 2; k++) { /* the first one touches, slips and comes apart before */
+        for (int k = 0; k < 2; k++) { /* the first path touches, slips and separates before */
             for (int step = k == 0 ? 0 : 3; step < 5; step++) {
                 double to = step == 1 ? -0.8 * limit : step == 2 ? 0 : step == 4 ? 0.5 * limit : 0;
                 rc_slip_set_pressure(slip[k], step == 2 ? NULL : p, NULL, NULL);
@@ -634,7 +637,8 @@ test_bodies_apart_forget(void **state)
     free(p);
 }
 
-/* Units change and numbers follow; so do axes, and the direction of the force; and threads change nothing. */
+/* Results scale with the units, transform with the axes and with the direction of the force, and do not
+ * depend on the threads. */
 static void
 test_units_axes_and_threads(void **state)
 {

@@ -1,6 +1,7 @@
-/* Tractions of least energy are those that another method finds: node after node on its disc, exactly,
- * until nothing changes, and the displacement by Newton's method on the load; dense matrices, up to 24
- * nodes, with a history; displacements under periodic maps too, on which contact may be complete. */
+/* Tractions of minimal energy equal those of another method: one node after another is minimised exactly on
+ * its disc until nothing changes, and Newton's method finds the displacement for the force; dense matrices,
+ * up to 24 nodes, with a history; also given displacements on periodic maps, where the contact may be
+ * complete. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,13 +19,12 @@ static const double bound = 1e-9;
 
 struct dense {
     size_t n;
-    double t[2 * MOST][2 * MOST]; /* u = T q, x of all nodes and then y */
+    double t[2 * MOST][2 * MOST]; /* u = T q, first the x components of all nodes, then y */
     double g[MOST], w[2 * MOST];
 };
 
-/* The columns of T by the point loads' integrals are tried elsewhere (truth_slip_kernel): here they come
- * from a uniform rectangle's closed form in this file, E* = 1 (Love 1929, as in Johnson 1985, section
- * 3.5). */
+/* The columns of T from the closed form for a uniform rectangle, E* = 1 (Love 1929, as in Johnson 1985,
+ * section 3.5); truth_slip_kernel compares them with integrals of point loads. */
 static double
 corner(int kind, double x, double y)
 {
@@ -57,8 +57,8 @@ dense_matrix(struct dense *d, const struct rc_shape *s, double kap)
         }
 }
 
-/* Of a periodic map, from the response to a wave: 2/k along it and 2(1 + kap)/k across it; none to the mean,
- * and none across at waves of two nodes. */
+/* The same on a periodic map, from the response to a wave: 2/k along it and 2(1 + kap)/k across it; 0 for the
+ * mean, and 0 across for waves of two nodes. */
 static void
 periodic_matrix(struct dense *d, const struct rc_shape *s, double kap)
 {
@@ -86,8 +86,8 @@ periodic_matrix(struct dense *d, const struct rc_shape *s, double kap)
     }
 }
 
-/* min q'A q/2 - b'q over |q| <= g, A 2 x 2: (A + m)q = b, with the m >= 0 that puts it on the circle, by
- * bisection to the last bit. */
+/* min q'A q/2 - b'q over |q| <= g, A 2 x 2: (A + m)q = b, with the m >= 0 that puts it on the circle, m is
+ * found by bisection to the last bit. */
 static void
 on_disc(const double a[3], const double b[2], double g, double q[2])
 {
@@ -148,8 +148,8 @@ sum_of(const struct dense *d, const double *q, double sum[2])
     }
 }
 
-/* The displacement under which the tractions carry `load`: what they carry grows with it, as the gradient
- * of a convex function, and Newton's method is damped until it does not overshoot. */
+/* The displacement under which the tractions carry `load`. Their sum is the gradient of a convex function of
+ * the displacement; Newton's method is damped until it does not overshoot. */
 static void
 carry(const struct dense *d, const double load[2], double delta[2], double *q)
 {
@@ -175,7 +175,7 @@ carry(const struct dense *d, const double load[2], double delta[2], double *q)
             for (int r = 0; r < 2; r++)
                 j[r][c] = (there[r] - load[r] - f[r]) / step_size;
         }
-        /* where all slide one way more of it changes nothing: a little is added */
+        /* if all nodes slide in one direction the derivative is 0: a small number is added */
         for (int c = 0; c < 2; c++)
             j[c][c] += 1e-6;
         det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
@@ -259,7 +259,8 @@ test_another_method_finds_the_same(void **state)
             stuck += figures.stick_nodes;
             slid += figures.slip_nodes;
             worst = larger(worst, far / size);
-            if (figures.stick_nodes > 0) /* else delta is nearly free where all slide one way */
+            if (figures.stick_nodes >
+                0) /* otherwise delta is nearly undetermined if all nodes slide in one direction */
                 for (int c = 0; c < 2; c++)
                     moved = larger(moved, fabs(figures.displacement[c] - delta[c]) /
                                               hypot(delta[0], delta[1]));
@@ -278,8 +279,8 @@ test_another_method_finds_the_same(void **state)
     assert_true(stuck > 100 && slid > 100);
 }
 
-/* A periodic map moved by a displacement, small or large, thrice: pressures of partial and of complete
- * contact. Where all nodes stick nothing resists the mean, and a motion that goes on finds them sliding. */
+/* A periodic map moved by three displacements, small or large, for partial and complete contact. If all nodes
+ * stick nothing resists the mean motion, and with continuing motion they slide. */
 static void
 test_displacements_of_periodic_maps(void **state)
 {
@@ -355,7 +356,7 @@ enum {
     EACH = 3 /* increments from point to point */
 };
 
-/* Largest distance of the tractions at points of a path, relative, under loads, and forces or
+/* Largest relative difference of the tractions at the points of a path of loads and forces or
  * displacements. */
 static double
 apart_from_joint(const struct rc_joint_problem *o, const double (*at)[3], size_t points, bool moved)
@@ -429,7 +430,7 @@ test_model(void **state)
     assert_true(apart_from_joint(&o, forces, 3, false) < 1e-6);
 }
 
-/* What a model of friction refuses, in words of the user. */
+/* Requests that a model of friction refuses, with their messages. */
 static void
 test_model_refuses(void **state)
 {
@@ -455,7 +456,7 @@ test_model_refuses(void **state)
     assert_int_equal(rc_model_run(m, &to, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "friction carries less than"));
     rc_point_set(&to, RC_FORCE_Y, 0);
-    assert_int_equal(rc_model_run(m, &to, &err), RC_OK); /* as if it had not failed */
+    assert_int_equal(rc_model_run(m, &to, &err), RC_OK); /* as without the failure */
     rc_model_free(m);
     assert_null(rc_friction_new(NULL, h, &law, &err));
     free(h);
