@@ -1,5 +1,5 @@
-/* What every stress field in a coated body obeys: equilibrium, Hooke's law, bonds, the load, and the sum
- * of waves. */
+/* Laws of every stress field in a coated body: equilibrium, Hooke's law, continuity at interfaces, the load,
+ * and the sum of waves. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -30,8 +30,8 @@ stack(void)
     return s;
 }
 
-/* Stresses of one load and displacements along the wave and down, times 2 G q: from Hooke's law in plane
- * strain, and from the shear along the wave, dU/d(qz) - W = T/G. */
+/* Stresses of one load, and displacements along the wave and downwards, times 2 G q: from Hooke's law in
+ * plane strain, and from the shear along the wave, dU/d(qz) - W = T/G. */
 struct wave {
     double s, t, l, n, u, w, r, v;
 };
@@ -46,7 +46,7 @@ displacement(const struct rc_stack *s, size_t medium, double z, double q, int lo
     return ((1 - nu) * from[RC_P_L] - nu * from[RC_P_S]);
 }
 
-/* The wave at a depth of a medium whose sides are at `top` and `bottom`: differences of sixth order stay
+/* The wave at a depth in a medium from `top` to `bottom`: the points of the differences of sixth order stay
  * inside. */
 static struct wave
 wave_at(const struct rc_stack *s, size_t medium, double z, double q, int load, bool from_above)
@@ -147,12 +147,12 @@ wave_in_equilibrium(void **state)
             off = larger(off, fabs(slope(v[RC_T_V], step) + v[RC_T_R][3]));
         }
     print_message("differences are off by %.1e of the load\n", off);
-    assert_true(off <= 1e-9); /* rounding over the square of the step, times tens */
+    assert_true(off <= 1e-9); /* rounding over the square of the step, times some tens */
     rc_stack_free(s);
 }
 
-/* All of it for layers a million times thinner, stiffer or softer than each other: finite, and the load
- * whole at small wave numbers. */
+/* The same for layers a million times thinner, stiffer or softer than others: all values are finite, and at
+ * small wave numbers every depth carries the load. */
 static void
 extreme_stacks(void **state)
 {
@@ -216,10 +216,10 @@ bump_mean(double x, double w, double d)
     return (a * exp(-a * a / (2 * w * w)) - b * exp(-b * b / (2 * w * w))) / d;
 }
 
-/* Free: each cell carries the value of a smooth pressure at its middle. Periodic: band-limited, so the
- * same field is that of the means over cells, of a much larger map: the pressure has no moments below the
- * fourth, and its images are felt as the sixth power of the width over their distance. At depths of
- * some cells no wave beyond the grid's is left. */
+/* Free boundary: each cell carries the value of a smooth pressure at its centre. Periodic boundary: the
+ * pressure is band-limited; the same field results from the means over cells on a much larger map, because
+ * the pressure has no moments below the fourth, so that the effect of its images falls as the sixth power of
+ * width over distance. At depths of a few cells waves shorter than those of the grid have decayed. */
 static void
 free_is_periodic_far_apart(void **state)
 {
@@ -277,7 +277,7 @@ rough(struct rc_shape shape, double radius, double *p)
 
 /* In each medium d sxj/dx + d syj/dy + d szj/dz = 0 and the sum of the normal stresses is harmonic, by
  * differences in the slice and between seven slices, with friction, away from the edges of a map. Sources are
- * eight nodes away or more: differences of sixth order leave 1e-4 of the terms. */
+ * at least eight nodes away: differences of sixth order have an error of 1e-4 of the terms. */
 static void
 maps_in_equilibrium(void **state)
 {
@@ -340,8 +340,8 @@ maps_in_equilibrium(void **state)
     free(s);
 }
 
-/* The sum of szz over a plane is the load, less the part beyond the map, which falls as the third
- * power of its size: a map twice as large leaves out an eighth of it. */
+/* The sum of szz over a plane is the load less the part outside of the map, which falls as the third power of
+ * the size: on a map twice as large it is an eighth. */
 static void
 every_depth_carries_the_load(void **state)
 {
@@ -366,8 +366,8 @@ every_depth_carries_the_load(void **state)
     }
 }
 
-/* In maps too: tractions and strains along the surface are the same on both sides of an interface, and the
- * rest jumps. */
+/* The same in maps: tractions and in-plane strains are equal on both sides of an interface, and the other
+ * components jump. */
 static void
 maps_bonded(void **state)
 {
@@ -406,7 +406,7 @@ maps_bonded(void **state)
             }
             print_message("interface %d: tractions %.1e, strains %.1e, sxx jumps by %.1e\n", k + 1,
                           traction / 1e9, strain / 1e9, jump / 1e9);
-            assert_true(traction <= 1e-10 * 1e9); /* of the depths between them */
+            assert_true(traction <= 1e-10 * 1e9); /* largest at the depths between them */
             assert_true(strain <= 1e-10 * 1e9);
             assert_true(jump >= 0.01 * 1e9);
         }
@@ -425,8 +425,8 @@ largest_of(size_t n, const double *v)
     return v[largest];
 }
 
-/* Depths that are chosen: they rise, both sides of each interface are there, each layer has its share, and
- * the largest Mises stress found is that of a close scan. */
+/* Automatic depths: they rise, include both sides of each interface and several depths in each layer, and the
+ * largest Mises stress on them is that of a dense scan. */
 static void
 chosen_depths(void **state)
 {
@@ -477,7 +477,7 @@ chosen_depths(void **state)
     free(m);
 }
 
-/* A rigid substrate has no stresses, its face has. What makes no sense is refused. */
+/* There are no stresses inside a rigid substrate, but on its face. Invalid options are refused. */
 static void
 refused(void **state)
 {

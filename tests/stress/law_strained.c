@@ -1,6 +1,6 @@
-/* The stress of plastic strain in slices: its mean over a slab equals that of the volume's sweeps, also over
- * a thin slab for which others are cut; the stress adds to that of the pressure; a section is a row of a map;
- * and all depths together cost one sweep. */
+/* The stress of plastic strain in slices: its mean over a slab equals that of the sweeps through the volume,
+ * also over a thin slab cut out of another; it adds to the stress of the pressure; a section is a row of a
+ * map; and all depths together cost one sweep. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -34,7 +34,7 @@ make(struct strained *s)
     uint64_t seed = 11;
 
     s->e = voxels_new(shape, SLABS);
-    voxels_random(&s->e, 0x17b, &seed); /* two of them have none */
+    voxels_random(&s->e, 0x17b, &seed); /* two of the slabs have no strain */
     for (size_t k = 0; k < SLABS; k++)
         for (size_t c = 0; c < STRAINS; c++)
             s->map[k * STRAINS + c] = k == 2 || k == 7 ? NULL : voxels_map(&s->e, k, strains[c]);
@@ -53,7 +53,7 @@ options_of(const struct strained *s, bool strain, unsigned wanted)
                                       .strain = strain ? &s->strain : NULL};
 }
 
-/* All six, and Mises, of a depth. */
+/* All six components and Mises' stress at a depth. */
 static void
 slice(const struct strained *s, const double *p, bool strain, double depth, double (*to)[NODES])
 {
@@ -130,8 +130,8 @@ slices_average_to_slabs(void **state)
     free(s.e.v);
 }
 
-/* The mean over a thin piece about a depth, from *first to *last, of a stack of its own: of slabs, one of
- * which is cut in three, or with another two below. */
+/* The mean over a thin slab about a depth, from *first to *last, in a separate stack: one slab is divided in
+ * three, or two slabs are added below. */
 static void
 piece(const struct strained *s, bool padded, double depth, struct voxels *to, double *first,
       double *last)
@@ -185,7 +185,8 @@ piece(const struct strained *s, bool padded, double depth, struct voxels *to, do
     free(all.v);
 }
 
-/* In no order, several times the same plan: faces between slabs, the first slab and the last, and below. */
+/* Depths in any order, and several with the same plan: faces between slabs, the first and the last slab, and
+ * below. */
 static void
 slices_are_pieces(void **state)
 {
@@ -234,8 +235,7 @@ costs_one_sweep(void **state)
 
     (void)state;
     make(&s);
-    for (int q = 0; q < 4;
-         q++) { /* one component, five, six for what is derived of them, no strain */
+    for (int q = 0; q < 4; q++) { /* one component, five, six for derived stresses, no strain */
         static const unsigned wanted[] = {1U << RC_SXZ, 0x2f, 1U << RC_MISES, 1U << RC_MISES};
         static const size_t components[] = {1, 5, 6, 0};
         struct rc_stress_options o = options_of(&s, q < 3, wanted[q]);
@@ -285,7 +285,7 @@ adds_to_the_pressure(void **state)
                               2 +
                           3 * shear) -
                      both[RC_MISES][i]) < 1);
-            if (q == 0) /* nothing pulls at the surface but the pressure */
+            if (q == 0) /* the surface carries only the pressure */
                 assert_true(fabs(alone[RC_SZZ][i]) < 1e-12 * 1e-3 * e);
         }
     }

@@ -1,4 +1,4 @@
-/* What every stress field obeys: equilibrium, compatibility, the load, mirrors and sums. */
+/* Laws of every stress field: equilibrium, compatibility, the load, mirror images and sums. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -83,7 +83,7 @@ slope(const double *v, ptrdiff_t step, double d)
            (60 * d);
 }
 
-/* The same of the second derivative. */
+/* The same for the second derivative. */
 static double
 curvature(double a3, double a2, double a1, double v, double b1, double b2, double b3, double d)
 {
@@ -91,8 +91,8 @@ curvature(double a3, double a2, double a1, double v, double b1, double b2, doubl
 }
 
 /* d sxj/dx + d syj/dy + d szj/dz = 0, by differences in the slice and between seven slices, and the
- * sum of the normal stresses is harmonic, away from the edges of a map. Sources some 8 nodes away
- * leave differences of sixth order 1e-4 of the terms. */
+ * sum of the normal stresses is harmonic, away from the edges of a map. With sources about 8 nodes away the
+ * differences of sixth order have an error of 1e-4 of the terms. */
 static void
 in_equilibrium(void **state)
 {
@@ -172,7 +172,7 @@ sum_follows_poisson(void **state)
 
 /* ---- the load ---- */
 
-/* Periodic: every layer carries the load and the friction. */
+/* Periodic boundary: every plane carries the load and the friction. */
 static void
 every_layer_carries_the_load(void **state)
 {
@@ -192,9 +192,9 @@ every_layer_carries_the_load(void **state)
     free(p);
 }
 
-/* Free: what passes through the window below the map. A coefficient is the mean of the point load's
- * field over a cell, so the sum of a slice is the integral of point loads at the nodes over all
- * cells: by reciprocity Love's rectangle of the whole map, seen from each node. */
+/* Free boundary: the force on the part of a plane below the map. A coefficient is the mean of the point
+ * load's field over a cell, so the sum over a slice is the integral of the fields of point loads at the nodes
+ * over the map: by reciprocity this is Love's rectangle of the whole map, evaluated at each node. */
 static void
 the_window_catches_the_load(void **state)
 {
@@ -210,7 +210,7 @@ the_window_catches_the_load(void **state)
         for (int c = 0; c < RC_COMPONENTS; c++)
             for (size_t k = 0; k < N; k++)
                 if (p[k] != 0) {
-                    /* the field of a force at x seen at x' is that of one at -x' seen at -x */
+                    /* the field at x' of a force at x is the field at -x of a force at -x' */
                     caught[c] += p[k] * rectangle_stress(false, c, 0.3, -node_x(shape, k),
                                                          -node_y(shape, k), z, a, b);
                     sheared[c] += p[k] * rectangle_stress(true, c, 0.3, -node_x(shape, k),
@@ -228,7 +228,7 @@ the_window_catches_the_load(void **state)
 
 /* ---- the surface ---- */
 
-/* Both boundaries: at depth 0 the tractions are the given ones. */
+/* Both boundaries: at depth 0 the tractions are those prescribed. */
 static void
 tractions_at_the_surface(void **state)
 {
@@ -284,7 +284,7 @@ uniform_and_plane(void **state)
     }
 }
 
-/* A wave of pressure on a periodic map: exp(-qz) (1 + qz) and what goes with it (Johnson 1985,
+/* A wave of pressure on a periodic map: exp(-qz) (1 + qz) and the other components (Johnson 1985,
  * section 13.2, from Airy's stress function in plane strain). */
 static void
 one_wave(void **state)
@@ -320,8 +320,8 @@ one_wave(void **state)
 
 /* ---- symmetry ---- */
 
-/* The mirror image of a pressure has the mirror image of the stresses; the friction turns with it,
- * and is a stress field of its own, mu times. */
+/* The mirror image of a pressure has the mirrored stresses; with friction the traction is mirrored too, and
+ * its stresses are mu times a field that is added. */
 static void
 mirrors_and_sums(void **state)
 {
@@ -363,9 +363,9 @@ mirrors_and_sums(void **state)
     free(m);
 }
 
-/* A contact in the middle of ever larger periodic maps becomes the free one, with its mean too.
- * Cells hold the mean of a smooth pressure about a node, which is what the waves are given: the
- * pressure and d^2/24 of its Laplacian. */
+/* The stresses of a contact in the middle of growing periodic maps converge to those of the free boundary,
+ * including their mean. A cell holds the mean of a smooth pressure, and the waves receive the same: the
+ * pressure plus d^2/24 of its Laplacian. */
 static void
 far_walls_do_not_matter(void **state)
 {
@@ -398,11 +398,11 @@ far_walls_do_not_matter(void **state)
         free(p);
     }
     print_message("free against periodic: %.1e %.1e %.1e\n", off[0], off[1], off[2]);
-    /* what the images leave falls with the area of the map */
+    /* the effect of the images falls with the area of the map */
     assert_true(off[1] < off[0] / 3.5 && off[2] < off[1] / 3.5 && off[2] < 2e-4);
 }
 
-/* Stresses that make no sense are refused, and the refusal names the value. */
+/* Invalid requests are refused, and the message names the value. */
 static void
 refused(void **state)
 {

@@ -1,5 +1,5 @@
-/* Two ways to the same stress of a coated body agree: engines, sections and slices, threads; and without
- * layers nothing of them is computed. */
+/* Two ways to compute a stress in a coated body agree: engines, sections and slices, threads; and without
+ * layers nothing is computed for them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -52,7 +52,7 @@ pressure(double *largest)
     return p;
 }
 
-/* Six components of `values` each at a depth. */
+/* Six components at a depth, of `values` numbers each. */
 static size_t
 compute(const double *p, struct rc_stress_options o, double z, double *s,
         struct rc_stress_counts *counts)
@@ -95,7 +95,7 @@ size_of(size_t n, const double *a)
     return most;
 }
 
-/* Rounding is that of the largest stress, which in a stiff coat is several times the pressure. */
+/* Rounding is relative to the largest stress, which in a stiff coat is several times the pressure. */
 static void
 engines_agree(void **state)
 {
@@ -126,7 +126,7 @@ engines_agree(void **state)
     free(b);
 }
 
-/* A section along a row or a column of nodes is that line of the slice. */
+/* A section along a row or a column of nodes equals this line of the slice. */
 static void
 sections_are_lines(void **state)
 {
@@ -163,7 +163,7 @@ sections_are_lines(void **state)
     free(b);
 }
 
-/* A pressure that is turned by a quarter and a section across it: x and y change places. */
+/* A pressure that is rotated by a quarter turn, and the section across it: x and y are exchanged. */
 static void
 sections_across(void **state)
 {
@@ -200,7 +200,7 @@ sections_across(void **state)
     free(p);
 }
 
-/* No bit depends on the threads. */
+/* The result does not depend on the threads to the last bit. */
 static void
 threads_agree(void **state)
 {
@@ -226,8 +226,9 @@ threads_agree(void **state)
     free(b);
 }
 
-/* A slice costs the same with layers, except for the kernel that a uniform body shares (szz of the traction
- * is sxz of the pressure), and without friction no kernel of it; coarser grids are not used. */
+/* A slice costs the same with layers, except for one kernel that is shared in a uniform body (szz of the
+ * traction is sxz of the pressure), and without friction no kernels of traction are computed; coarser grids
+ * are not used. */
 static void
 only_what_is_asked(void **state)
 {

@@ -114,8 +114,8 @@ engines_agree(void **state)
         }
 }
 
-/* fft and the names that demand double precision of it, or leave the choice, are one engine here: results are
- * equal to the last bit, also on periodic maps, and each reports its own name. */
+/* fft, fft64 and auto use the same code here: results are equal to the last bit, also on periodic maps, and
+ * each reports its own name. */
 static void
 transforms_by_any_name(void **state)
 {
@@ -164,9 +164,9 @@ engines_refused(void **state)
 
 /* ---- tolerances ---- */
 
-/* With a tolerance slices are summed in single precision where it allows that, the deep ones of free
- * maps on coarser grids, and err by no more than it, for pressures of the worst signs too. Where it
- * does not, or where the engine's name asks for double precision, no bit differs. */
+/* With a sufficient tolerance slices are summed in single precision, deep ones of free maps on coarser grids,
+ * with an error of at most the tolerance, also for pressures with the worst signs. With a smaller tolerance,
+ * or with fft64, no bit differs. */
 static void
 within_tolerance(void **state)
 {
@@ -242,7 +242,7 @@ sections_are_lines_of_slices(void **state)
                                               .threads = 2};
                 size_t nx = s.shape.nx, ny = s.shape.ny, along = across ? ny : nx;
                 double *map[RC_STRESSES], *line[RC_STRESSES];
-                /* the last depths are those that some and almost all waves do not reach */
+                /* some waves do not reach the last but one depth, and almost none reach the last */
                 for (double z = 0; z < 1e-4; z += z < 4e-6 ? 1.3e-6 : 3 * z) {
                     o.section = 0;
                     compute(&s, o, z, map, NULL);
@@ -264,8 +264,8 @@ sections_are_lines_of_slices(void **state)
             }
 }
 
-/* Between the rows: the plane y = 0 of an even map is the row in the middle of the same pressure on
- * rows of half the distance. */
+/* Between the rows: the plane y = 0 of a map with an even number of rows equals the middle row of the same
+ * pressure on a map with half the spacing of rows. */
 static void
 sections_between_rows(void **state)
 {
@@ -282,7 +282,7 @@ sections_between_rows(void **state)
             o.at = at;
             compute(&s, o, z, a, NULL);
             compute(&fine, o, z, b, NULL);
-            /* at the surface logarithms are cut off at a part of the cell: sxx, syy, sxy differ */
+            /* at the surface logarithms are cut off at a fraction of the cell: sxx, syy, sxy differ */
             for (int c = 0; c < RC_COMPONENTS; c++)
                 for (size_t k = 0; k < 24; k++)
                     if (z > 0 || c == RC_SZZ || c == RC_SXZ || c == RC_SYZ)
@@ -344,8 +344,8 @@ alone_as_in_company(void **state)
     free(s.p);
 }
 
-/* rc_extremes returns the first of the smallest and of the largest values, wherever in a map they are; NaN is
- * neither. */
+/* rc_extremes returns the first of the smallest and of the largest values, anywhere in a map; NaN is
+ * ignored. */
 static void
 extremes_as_one_by_one(void **state)
 {
@@ -356,8 +356,8 @@ extremes_as_one_by_one(void **state)
     for (size_t n = 1; n <= sizeof v / sizeof *v; n = n * 5 / 2 + 1) {
         size_t first[2] = {0, 0}, least, largest;
         for (size_t k = 0; k < n; k++)
-            v[k] =
-                floor(1000 * random_number(&seed)) + (n % 2 ? -2000 : 1000); /* so many are equal */
+            v[k] = floor(1000 * random_number(&seed)) +
+                   (n % 2 ? -2000 : 1000); /* number of equal values */
         for (size_t k = 1; k < n; k++) {
             first[0] = v[k] < v[first[0]] ? k : first[0];
             first[1] = v[k] > v[first[1]] ? k : first[1];
@@ -379,7 +379,7 @@ extremes_as_one_by_one(void **state)
 enum {
     NX = 50,
     NY = 40,
-    QUARTER = (100 / 2 + 1) * (80 / 2 + 1), /* of the map padded to 100 x 80 */
+    QUARTER = (100 / 2 + 1) * (80 / 2 + 1), /* for the map padded to 100 x 80 */
     WAVES = (NX / 2 + 1) * (NY / 2 + 1)
 };
 

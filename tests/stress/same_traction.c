@@ -1,7 +1,7 @@
-/* Maps of traction by several ways: mu times the pressure in one of them is friction; one along y is one
- * along x of the map with x and y exchanged; all loads together are the sum of each alone; and each costs
- * what it needs, nothing where there is none. Bare and coated bodies, free and periodic, maps and sections,
- * all engines. */
+/* Maps of traction in several ways: a traction of mu times the pressure equals friction; a traction along y
+ * equals one along x on the map with x and y exchanged; all loads together give the sum of their fields; and
+ * each load costs only what it needs. Bare and coated bodies, free and periodic, maps and sections, all
+ * engines. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -44,7 +44,7 @@ struct way {
     bool coated;
     char section;
     const char *engine;
-    double tol; /* of the result, over the largest pressure */
+    double tol; /* tolerance of the result, over the largest pressure */
 };
 static const struct way ways[] = {
     {RC_FREE, false, 0, NULL, 0},        {RC_FREE, true, 0, NULL, 0},
@@ -81,7 +81,7 @@ options_of(const struct way *w)
     return o;
 }
 
-/* What is allowed between two results. */
+/* The permitted difference of two results. */
 static double
 apart_by(const struct way *w)
 {
@@ -225,7 +225,8 @@ loads_add(void **state)
         }
 }
 
-/* A component alone equals that computed with the others: it does not depend on which spectra are stored. */
+/* A component alone equals the same component computed with others: it does not depend on the stored
+ * spectra. */
 static void
 alone_as_in_company(void **state)
 {
@@ -251,8 +252,8 @@ alone_as_in_company(void **state)
 static void
 nothing_is_done_unasked(void **state)
 {
-    /* quarters of the padded map; of 6 kernels a load szz is one of the pressure's, and sxz along y is syz
-     * along x */
+    /* quarters of the padded map; of the 6 kernels of each traction, szz is a kernel of the pressure, and sxz
+     * along y is syz along x */
     static const struct {
         const char *what;
         int maps; /* bits: along x, along y */

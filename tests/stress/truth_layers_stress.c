@@ -1,5 +1,5 @@
-/* Stresses in a coated body are those of the integral equations of its contact, and, where all layers
- * are of one material, those of a half-space. */
+/* Stresses in a coated body equal those of the integral equations of its contact and, if all layers have one
+ * material, those of a half-space. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,11 +17,11 @@
 
 enum {
     NODES = 64, /* of chi on (0, a)              */
-    PANEL = 20  /* points of a panel of wave numbers */
+    PANEL = 20  /* points in a panel of wave numbers */
 };
 
-/* A rigid paraboloid on a layer of the thickness 1 and the modulus E_1 on a substrate of the modulus 1,
- * both with nu = 0.3; a = 1. With p(q) = integral over 0..a of chi(t) cos(q t) dt, and u = 2 g p/q,
+/* A rigid paraboloid on a layer of thickness 1 and modulus E_1 on a substrate of modulus 1, both with nu =
+ * 0.3; a = 1. With p(q) = integral over 0..a of chi(t) cos(q t) dt, and u = 2 g p/q,
  *
  *     pi g(infinity) chi(x) + integral of chi(t) (k(x - t) + k(x + t)) dt = delta - x^2/R,
  *     k(y) = integral of (g - g(infinity)) cos(q y) dq, chi(a) = 0. */
@@ -74,7 +74,7 @@ pair_of(const struct rc_stack *s, double x, double t)
     return kernel(s, x - t) + kernel(s, x + t);
 }
 
-/* chi of the right side 1 and of x^2/R, R = 1; delta such that it is 0 at a. */
+/* Solves for chi with the right-hand sides 1 and x^2/R, R = 1; delta makes chi(a) = 0. */
 static struct cap
 cap_new(double e, double p0)
 {
@@ -152,8 +152,8 @@ on_axis(const struct cap *c, double z, size_t medium, bool radial)
     return each_panel(40 / z, 0.5, axis_wave, &a) / p0;
 }
 
-/* Published with nine decimals, szz and srr over p(0) at z/t = .25, .5, .9, 1-, 1+, 1.5, 3: dual integral
- * equations, solved elsewhere. */
+/* Published with nine decimals, szz and srr over p(0) at z/t = .25, .5, .9, 1-, 1+, 1.5, 3: an independent
+ * solution of the dual integral equations. */
 static const double depth[] = {.25, .5, .9, 1, 1, 1.5, 3};
 static const struct {
     double e, p0, szz[7], srr[7];
@@ -182,7 +182,7 @@ static const struct {
       -0.068408768},
      {-0.739185908, -0.155614337, 0.687851023, 0.948545444, 0.000667359, 0.003734690, 0.003585409}},
 };
-/* Half of the ninth decimal, and what p(0) leaves in its tenth. */
+/* Half of the ninth decimal, and the rounding of p(0) in the tenth. */
 static const double nine_decimals = 0.6e-9;
 
 static void
@@ -275,7 +275,7 @@ one_material_free(void **state)
     free(s);
 }
 
-/* Against the symbols of one material, which have tests of their own; a profile too. */
+/* Compared with the symbols of one material, which have separate tests; also for a profile. */
 static void
 one_material_periodic(void **state)
 {
@@ -303,8 +303,9 @@ one_material_periodic(void **state)
 
 /* ---- the mean pressure of a periodic map ---- */
 
-/* A uniform pressure on the whole: the layer's strains along the surface are the substrate's, which is
- * that of a patch without end: sxx = -(1 + 2 nu_s) p/2 in it. On a profile nothing gives along y. */
+/* A uniform pressure everywhere: the in-plane strains of the layer are those of the substrate, which is under
+ * an unbounded loaded patch: sxx = -(1 + 2 nu_s) p/2 in the substrate. On a profile the strain along y is
+ * 0. */
 static void
 uniform_pressure(void **state)
 {
@@ -353,8 +354,8 @@ uniform_pressure(void **state)
 
 /* ---- coefficients of a cell ---- */
 
-/* The integral over all waves of the response to a unit load on the cell dx x dy: polar, by panels
- * in q, by even steps of the angle, which converge very fast. In the top layer without the part of
+/* The integral over all waves of the response to a unit load on the cell dx x dy, in polar coordinates:
+ * panels in q, and even steps of the angle, which converge very fast. In the top layer without the part of
  * one material. */
 struct wave_sum {
     const struct rc_stack *stack;
@@ -368,8 +369,8 @@ sinc(double x)
     return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
 }
 
-/* Stresses of a wave exp(i(qx x + qy y)) of pressure, and of traction along x, from those along it and
- * across it: a traction along x is its part c along the wave and -s across. */
+/* Stresses of a wave exp(i(qx x + qy y)) of pressure, and of traction along x, which has the component c
+ * along the wave and -s across it. */
 static void
 stresses_of_wave(double c, double s, const double *f, double complex out[12])
 {
@@ -399,7 +400,7 @@ sum_waves(const struct wave_sum *w, double sum[12])
     gsl_integration_glfixed_table *g = gsl_integration_glfixed_table_alloc(PANEL);
     double reach = hypot(w->x, w->y) + hypot(w->dx, w->dy), last = 40 / w->scale;
     double most = fmin(8 / reach, last / 20),
-           width = 1e-3; /* a coat is felt from 1/(t E_1/E_s) on */
+           width = 1e-3; /* a coat has an effect from 1/(t E_1/E_s) on */
 
     for (int k = 0; k < 12; k++)
         sum[k] = 0;
@@ -431,8 +432,8 @@ sum_waves(const struct wave_sum *w, double sum[12])
     gsl_integration_glfixed_table_free(g);
 }
 
-/* Cells from many times the top layer's thickness to a part of it, on stiff, soft and several layers, on
- * both sides of interfaces. */
+/* Cells from many times to a fraction of the thickness of the top layer, on stiff, soft and several layers,
+ * on both sides of interfaces. */
 static void
 coefficients(void **state)
 {
@@ -490,7 +491,8 @@ coefficients(void **state)
     }
 }
 
-/* A line of nodes has the values of its places; from 80 cells on it takes them from the nodes. */
+/* Values along a line equal those at its single points; from 80 cells on they are interpolated between
+ * nodes. */
 static void
 lines_are_places(void **state)
 {
@@ -531,8 +533,8 @@ lines_are_places(void **state)
 
 /* ---- a solved contact ---- */
 
-/* The same paraboloid by the solver, with some 25 nodes in the radius of the contact, and the slices
- * below the node in its middle. */
+/* The same paraboloid by the solver, with about 25 nodes in the contact radius, and the slices below its
+ * middle node. */
 static void
 axis_of_a_solution(void **state)
 {

@@ -1,5 +1,5 @@
-/* Stresses agree with those known on paper: coefficients are integrals of point loads, a loaded
- * rectangle is Love's at every depth, a sliding sphere is Hamilton's. */
+/* Stresses agree with closed forms: coefficients are integrals of point loads, a loaded rectangle agrees with
+ * Love's at every depth, a sliding sphere with Hamilton's. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +21,7 @@ struct where {
     double x, y, z, nu, a, b, u;
 };
 
-/* A traction along y is one along x to whom x and y are exchanged. */
+/* A traction along y is a traction along x with x and y exchanged. */
 static const int exchanged[RC_COMPONENTS] = {RC_SYY, RC_SXX, RC_SZZ, RC_SXY, RC_SYZ, RC_SXZ};
 
 static double
@@ -92,8 +92,8 @@ coefficient(int kernel, double nu, double x, double y, double z, double dx, doub
     return value;
 }
 
-/* The stress of a load of this size at this distance, up to a factor of about 1: no kernel is larger; the
- * error of one that passes through 0 is judged relative to this. */
+/* The largest stress of a load of this size at this distance, up to a factor of about 1; the error of a
+ * kernel that passes through 0 is relative to this. */
 static double
 scale_at(double x, double y, double z, double dx, double dy)
 {
@@ -128,7 +128,8 @@ coefficients_are_integrals(void **state)
                                       .a = dx / 2,
                                       .b = dy / 2};
                     double truth, value, off, scale;
-                    /* at the very surface the integrals inside a cell are too singular for this */
+                    /* at the surface itself the integrals inside a cell are too singular for this
+                     * quadrature */
                     if (w.z < 0.02 && r < 3)
                         continue;
                     truth = quadrature(w);
@@ -145,8 +146,7 @@ coefficients_are_integrals(void **state)
     print_message("worst error %.1e of what a load does at that distance\n", worst);
 }
 
-/* Close above the surface, next to the cell and far from it: the small components keep their
- * size. */
+/* Close below the surface, beside the cell and far from it: the small components keep their digits. */
 static void
 coefficients_near_the_surface(void **state)
 {
@@ -167,9 +167,9 @@ coefficients_near_the_surface(void **state)
                 double truth = quadrature(w);
                 double value = coefficient(k, 0.3, w.x, w.y, w.z, 1, 1);
                 double by = fabs(value - truth);
-                /* Beyond the neighbours of the cell relative to itself; only sxx and sxy, which
-                 * change their sign there, and syy, whose usual forms cancel, relative to what they
-                 * are elsewhere. */
+                /* Beyond the neighbours of the cell the error is relative to the value itself; only for sxx
+                 * and sxy, which change their sign there, and syy, whose usual forms cancel, it is relative
+                 * to their size elsewhere. */
                 bool crosses = k % 6 == RC_SXX || k % 6 == RC_SXY || k % 6 == RC_SYY;
                 double allowed = p < 2     ? 1e-15
                                  : crosses ? 1e-13 * scale_at(w.x, w.y, w.z, 1, 1)
@@ -181,7 +181,7 @@ coefficients_near_the_surface(void **state)
             }
 }
 
-/* The two ways to compute them agree where one hands over to the other, on either side. */
+/* The two formulas agree on both sides of the point where the code changes from one to the other. */
 static void
 coefficients_have_no_steps(void **state)
 {
@@ -196,8 +196,8 @@ coefficients_have_no_steps(void **state)
             }
 }
 
-/* A line of places holds what single places hold, also far off, where neighbouring cells share
- * their points, and in steps of several cells. */
+/* Values along a line of cells equal those of single cells, also far away, where neighbouring cells share
+ * quadrature points, and in steps of several cells. */
 static void
 lines_are_places(void **state)
 {
@@ -227,12 +227,13 @@ lines_are_places(void **state)
         }
 }
 
-/* z = 0: -1 inside the cell, the mean of all sides on its edges and corners, 0 outside; everything
- * is finite, and what has a limit is near it. */
+/* z = 0: -1 inside the cell, the mean of all sides on its edges and corners, 0 outside; all values are
+ * finite, and close to their limit if it exists. */
 static void
 coefficients_at_the_surface(void **state)
 {
-    static const int pressed[] = {RC_SZZ, RC_COMPONENTS + RC_SXZ, /* of p, and of the shears */
+    static const int pressed[] = {RC_SZZ,
+                                  RC_COMPONENTS + RC_SXZ, /* kernels of p, and of the shears */
                                   2 * RC_COMPONENTS + RC_SYZ};
 
     (void)state;
@@ -281,8 +282,7 @@ rectangle_is_the_integral(void **state)
 
 /* ---- a rectangle ---- */
 
-/* Uniform pressure, with friction, on 21 x 14 nodes of a map, from 1e-6 to 1e3 of its sides
- * deep. */
+/* Uniform pressure with friction on 21 x 14 nodes of a map, at depths from 1e-6 to 1e3 of its sides. */
 static void
 rectangle_at_every_depth(void **state)
 {
@@ -347,7 +347,7 @@ around(double phi, void *at)
     return n[d->component] + mu_h * t[d->component];
 }
 
-/* r = a sin(theta) takes the root out of the pressure. */
+/* The substitution r = a sin(theta) removes the square root. */
 static double
 outwards(double theta, void *at)
 {
@@ -361,8 +361,8 @@ outwards(double theta, void *at)
     return result * a_h * a_h * cos(theta) * cos(theta) * sin(theta);
 }
 
-/* Hamilton's solution is the integral of point loads over the disc, and the values that others have
- * published of it (Hamilton 1983; Johnson 1985, section 4.2). */
+/* Hamilton's solution equals the integral of point loads over the disc, and published values (Hamilton 1983;
+ * Johnson 1985, section 4.2). */
 static void
 sliding_sphere_is_the_integral(void **state)
 {
@@ -395,8 +395,8 @@ sliding_sphere_is_the_integral(void **state)
     }
 }
 
-/* The paper's Fig. 1: the relative error of Mises' stress in the slice at that depth, after solving
- * for the pressure, is at most M^-2 (theirs: 2 M^-2). bench-paper fig1 goes on to M = 1024. */
+/* Fig. 1 of the paper: the relative error of Mises' stress in the slice at that depth, after solving for the
+ * pressure, is at most M^-2 (2 M^-2 in the paper). bench-paper fig1 continues to M = 1024. */
 static void
 paper_figure_1(void **state)
 {
@@ -453,9 +453,9 @@ largest_mises(struct rc_stress *stress, double depth, double *s[RC_STRESSES])
     return s[RC_MISES][largest];
 }
 
-/* Depths chosen from the pressure find the largest Mises stress of Hertz's contact (0.620041 p0)
- * within 1 %, and under a rough ball within 2 % of a scan twenty times as dense; few of them,
- * closer near the surface where it is rough. */
+/* Automatic depths find the largest Mises stress of Hertz's contact (0.620041 p0) within 1 %, and under a
+ * rough ball within 2 % of a scan twenty times as dense; there are few, and they are closer near a rough
+ * surface. */
 static void
 chosen_depths(void **state)
 {
@@ -586,7 +586,7 @@ main(void)
         cmocka_unit_test(principal_stresses),
     };
 
-    gsl_set_error_handler_off(); /* that rounding keeps it from the asked 1e-13 is reported */
+    gsl_set_error_handler_off(); /* GSL reports that rounding prevents the requested 1e-13 */
     inner_space = gsl_integration_workspace_alloc(400);
     outer_space = gsl_integration_workspace_alloc(400);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
-/* Stresses under maps of traction agree with those known on paper: partial slip of a sphere is the integral
- * of Cerruti's point loads, a wave of traction in any direction is in plane and antiplane strain, a mean
- * shears all depths alike. */
+/* Stresses under maps of traction agree with closed forms: partial slip of a sphere with the integral of
+ * Cerruti's point loads, a wave of traction in any direction with plane and antiplane strain, a mean traction
+ * with a uniform shear at all depths. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 
 static const double poisson = 0.3;
 
-/* All six at one depth, `out` a map each. */
+/* All six components at one depth; `out` holds a map for each. */
 static void
 slice(struct rc_shape shape, enum rc_boundary boundary, const double *p, const double *tx,
       const double *ty, double z, double *const out[RC_COMPONENTS])
@@ -36,8 +36,8 @@ slice(struct rc_shape shape, enum rc_boundary boundary, const double *p, const d
 
 /* ---- Cattaneo and Mindlin ---- */
 
-/* A sphere pressed with p0 sqrt(1 - r^2/a^2) carries, once it is pulled in the direction phi, the traction
- * mu p where it slips, less mu p0 c/a sqrt(1 - r^2/c^2) where it sticks, r < c (Johnson 1985, 7.2). */
+/* A sphere with the pressure p0 sqrt(1 - r^2/a^2), pulled in the direction phi, carries the traction mu p
+ * where it slips, and this less mu p0 c/a sqrt(1 - r^2/c^2) where it sticks, r < c (Johnson 1985, 7.2). */
 static const double contact = 1, stick = 0.6, friction = 0.4, direction = 0.7;
 
 struct disc {
@@ -63,7 +63,7 @@ around(double phi, void *at)
     return cos(direction) * s[d->component] + sin(direction) * t[exchanged[d->component]];
 }
 
-/* r = radius sin(theta) takes the root out of the load. */
+/* The substitution r = radius sin(theta) removes the square root. */
 static double
 outwards(double theta, void *at)
 {
@@ -77,7 +77,7 @@ outwards(double theta, void *at)
     return result * d->radius * d->radius * cos(theta) * cos(theta) * sin(theta);
 }
 
-/* Of a unit load sqrt(1 - r^2/radius^2). */
+/* The stresses of a load sqrt(1 - r^2/radius^2). */
 static double
 of_disc(bool pressure, int component, double radius, double x, double y, double z,
         gsl_integration_workspace *space[2])
@@ -97,7 +97,7 @@ of_disc(bool pressure, int component, double radius, double x, double y, double 
     return result;
 }
 
-/* What a cell carries: the mean of 8 x 8 points of it. */
+/* The traction of a cell: the mean over 8 x 8 of its points. */
 static double
 cell_mean(struct rc_shape shape, size_t k, double radius)
 {
@@ -163,8 +163,9 @@ partial_slip(void **state)
 
 /* ---- a wave ---- */
 
-/* Of the traction cos(q s) along s, its direction, and across it, t: in plane strain from Airy's function
- * z exp(-q z) sin(q s)/q, and antiplane. With exp(-q z) taken out, in the axes s, t, z. */
+/* Stresses of the traction cos(q s) along the direction s of the wave, in plane strain from Airy's function z
+ * exp(-q z) sin(q s)/q, and across it, along t, in antiplane strain. Divided by exp(-q z), in the axes s, t,
+ * z. */
 static void
 wave_stress(bool across, double qs, double qz, double s[3][3])
 {

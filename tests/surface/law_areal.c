@@ -1,5 +1,5 @@
-/* What a surface is like does not depend on where it lies, which way it is turned, in which units it
- * is given, or how many threads look at it. */
+/* Surface parameters do not depend on the position of the surface, its orientation, its units, or the number
+ * of threads. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,12 +24,12 @@ static const char *const names[FIGURES] = {
     "sq", "sa",  "ssk", "sku",  "sp",   "sv",  "sz",  "sdq", "sdr", "sal", "str",          "std",
     "sk", "spk", "svk", "smr1", "smr2", "vmp", "vmc", "vvc", "vvv", "sxp", "rms_curvature"};
 
-/* Power of the unit of height that a figure carries, and of lengths. */
+/* The powers of height and of length in the unit of a parameter. */
 static const int of_height[FIGURES] = {1, 1, 0, 0, 1, 1, 1, 1, 2, 0, 0, 0,
                                        1, 1, 1, 0, 0, 1, 1, 1, 1, 1, 1};
 static const int of_length[FIGURES] = {[7] = -1, [8] = -2, [9] = 1, [22] = -2};
 
-/* Heights of a seed, some of them missing; slopes of 1e-4, so that Sdr is half their square. */
+/* Random heights, some of them missing; slopes of 1e-4, so that Sdr is half their square. */
 static void
 make(double h[NX * NY], bool holes)
 {
@@ -63,7 +63,7 @@ figure(const struct rc_areal *a, size_t k)
     return v;
 }
 
-/* Each figure of b is that of a, times heights and lengths to their powers. */
+/* Each parameter of b is that of a, times the factors of height and length to their powers. */
 static void
 check(const struct rc_areal *a, const struct rc_areal *b, double heights, double lengths,
       double tolerance)
@@ -110,16 +110,17 @@ test_units_and_datum(void **state)
         for (size_t k = 0; k < NX * NY; k++)
             g[k] = 8 * h[k];
         b = measured(&wide, g, boundary, 2);
-        check(&a, &b, 8, 1e3, 1e-6); /* Sdr: next to half the square of a slope, its fourth power */
+        check(&a, &b, 8, 1e3,
+              1e-6); /* Sdr: relative to half the square of a slope, its fourth power */
         for (size_t k = 0; k < NX * NY; k++)
             g[k] = h[k] + 1e-6;
         b = measured(&shape, g, boundary, 2);
-        check(&a, &b, 1, 1, 1e-9); /* digits that the datum takes */
+        check(&a, &b, 1, 1, 1e-9); /* digits lost by the datum */
     }
 }
 
-/* Turned by 180 degrees nothing changes; mirrored left to right the direction is that to the other
- * side of y; with x and y exchanged, to the other side of the diagonal down the picture. */
+/* A rotation by 180 degrees changes nothing; mirroring left to right reflects the direction about y;
+ * exchanging x and y reflects it about the diagonal of the picture. */
 static void
 test_turned(void **state)
 {
@@ -149,7 +150,7 @@ test_turned(void **state)
     }
 }
 
-/* Turned over, peaks and pits change places. */
+/* If the sign of the heights changes, peaks and pits are exchanged. */
 static void
 test_turned_over(void **state)
 {

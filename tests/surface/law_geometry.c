@@ -1,6 +1,5 @@
-/* Turned and mirrored maps obey the laws of turning and mirroring, bit for bit; a part of a map is
- * the part; a surface closes on its own replica, and it is all the same which of two surfaces is
- * called the first. */
+/* Rotated and mirrored maps obey the laws of rotation and reflection, bit for bit; a cropped map equals the
+ * part; the sum of a surface and its replica is flat, and the order of two surfaces does not matter. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +20,7 @@ enum {
 
 static const struct rc_shape map = {NX, NY, 1.1e-6, 1e-6};
 
-/* Values that differ, some of them missing. */
+/* Different values, some of them missing. */
 static double *
 new_map(size_t n)
 {
@@ -42,7 +41,7 @@ copy_of(const double *v, size_t n)
     return memcpy(w, v, n * sizeof *w);
 }
 
-/* v turned, in its place; the shape that comes out. */
+/* Rotates v in place; returns the new shape. */
 static struct rc_shape
 turn(struct rc_shape shape, double *v, size_t quarters)
 {
@@ -83,7 +82,7 @@ four_quarters_are_none(void **state)
     (void)state;
     for (size_t k = 0; k < 4; k++) {
         shape = turn(shape, w, 1);
-        /* bits are meant, not values */
+        /* compares bits, not values */
         /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison,cert-exp42-c,cert-flp37-c) */
         assert_int_equal(memcmp(v, w, N * sizeof *v) == 0, k == 3);
     }
@@ -113,7 +112,7 @@ mirrors_turn(void **state)
     rc_mirror(&map, 'x', a);
     rc_mirror(&map, 'y', a);
     assert_memory_equal(a, v, N * sizeof *v);
-    /* mirrored and turned is turned back and mirrored */
+    /* mirroring, then rotating is rotating back, then mirroring */
     memcpy(b, v, N * sizeof *v);
     rc_mirror(&map, 'x', a);
     turn(map, a, 1);
@@ -150,7 +149,7 @@ a_part_is_the_part(void **state)
 
 /* ---- face to face ---- */
 
-/* What is cut on each side of each axis, by hand: na nodes beside nb. */
+/* The numbers of nodes cut on each side of each axis, by hand: maps of na and of nb nodes. */
 static void
 check_sum(struct rc_shape a, struct rc_shape b)
 {
@@ -190,7 +189,7 @@ check_sum(struct rc_shape a, struct rc_shape b)
 
         assert_true(isnan(x) || isnan(y) ? isnan(back[k]) : back[k] == x - y);
     }
-    assert_int_equal(rc_add(&a, ha, &b, hb, ha, &err), RC_OK); /* in the place of a */
+    assert_int_equal(rc_add(&a, ha, &b, hb, ha, &err), RC_OK); /* in place of a */
     for (size_t k = 0; k < sum.nx * sum.ny; k++)
         assert_true(isnan(out[k]) ? isnan(ha[k]) : out[k] == ha[k]);
     free(ha);

@@ -1,5 +1,5 @@
-/* Threads that use GSL by way of the library at the same time leave the caller's own error handler
- * of GSL in its place, and never call it. */
+/* Threads that call GSL through the library at the same time never call the error handler that the caller has
+ * set, and it is still set afterwards. */
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <pthread.h>
@@ -25,7 +25,7 @@ callers_own(const char *reason, const char *file, int line, int number)
     called++;
 }
 
-/* Points of one row determine no plane, and GSL reports that their equations are singular. */
+/* Points in one row do not determine a plane, and GSL reports that the equations are singular. */
 static void *
 detrend(void *unused)
 {
@@ -53,7 +53,7 @@ synthesise(void *unused)
     return NULL;
 }
 
-/* In rounds: what one leaves behind shows when its threads have ended. */
+/* In rounds: the handler is checked when the threads of a round have ended. */
 static void
 test_handler_stays_and_is_not_called(void **state)
 {

@@ -1,5 +1,5 @@
-/* Patches are those of a plain flood fill: count, areas and perimeters of each, on free maps and
- * across the edges of periodic ones, for any number of threads; and they are found quickly. */
+/* Patches equal those of a plain flood fill: count, area and perimeter of each, on free maps and across the
+ * edges of periodic ones, for any number of threads; and the search is fast. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,7 +27,7 @@ struct fill {
     size_t *stack, n;
 };
 
-/* The neighbour of node k to that side; false where the map ends. */
+/* The neighbour of node k on that side; false at the end of the map. */
 static bool
 beside(const struct fill *f, size_t k, int side, size_t *at)
 {
@@ -150,7 +150,7 @@ check(const struct rc_shape *s, const double *p, bool wraps, size_t threads)
     free(filled);
 }
 
-/* dx = dy, so that patches of one size are in the order of their edges on both sides. */
+/* dx = dy, so that both methods sort patches of one size by their perimeters. */
 static void
 test_flood_fill(void **state)
 {
@@ -172,8 +172,8 @@ test_flood_fill(void **state)
             }
 }
 
-/* A frame around the map is one patch when it wraps, and one when it does not; four corners are one
- * or four; a cross whose arms leave the map joins itself; two spirals stay two. */
+/* A frame around the map is one patch, periodic or not; four corners are one patch if the map is periodic,
+ * else four; the arms of a cross join across the edges; two spirals remain two patches. */
 static void
 test_edges(void **state)
 {
@@ -187,7 +187,7 @@ test_edges(void **state)
     p[0] = p[11] = p[108] = p[119] = 1;
     assert_int_equal(rc_patches_find(&s, p, &free_map, &found, NULL), RC_OK);
     assert_int_equal(found.count, 4);
-    assert_near(found.perimeter, 4 * 3e-6); /* the border of the map is none */
+    assert_near(found.perimeter, 4 * 3e-6); /* the border of the map does not count */
     rc_patches_free(&found);
     assert_int_equal(rc_patches_find(&s, p, &periodic, &found, NULL), RC_OK);
     assert_int_equal(found.count, 1);
@@ -202,8 +202,8 @@ test_edges(void **state)
     rc_patches_free(&found);
 }
 
-/* Half the nodes at random and neighbours of which many belong together: the largest patch spans the
- * map. Processor time, so that other programs do not count. */
+/* Half of the nodes at random, correlated with their neighbours: the largest patch spans the map. Processor
+ * time is measured, so that other programs do not count. */
 static void
 test_percolating(void **state)
 {

@@ -1,6 +1,6 @@
-/* Means over the cells of another grid keep the integral; where the sizes divide, they also keep a
- * plane. The way back is the transpose of the way there: for sizes that divide and that do not, to
- * coarser and to finer grids. */
+/* Means over the cells of another grid keep the integral; if one size is a multiple of the other, they also
+ * keep a plane. The transfer back is the transpose of the transfer: for any sizes, to coarser and to finer
+ * grids. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 /* clang-format off */
 static const struct {
     struct rc_shape map;
-    size_t nx, ny; /* of the other grid */
+    size_t nx, ny; /* shape of the other grid */
 } cases[] = {
     {{96, 64, 1.1e-6, 1.29e-6}, 24, 16}, {{97, 61, 1e-6, 3e-6}, 24, 15}, {{66, 62, 2, 1}, 8, 8},
     {{33, 47, 1.1, 1}, 17, 24},          {{512, 1, 1, 1}, 64, 1},        {{3, 3, 1, 1}, 1, 1},
@@ -87,8 +87,8 @@ integrals_are_kept_and_the_way_back_is_the_transpose(void **state)
     }
 }
 
-/* Where the sizes divide, the mean of a plane over a block is the plane at its middle; a
- * constant stays one anywhere. */
+/* If one size is a multiple of the other, the mean of a plane over a block is its value at the centre of the
+ * block; a constant is kept for all sizes. */
 static void
 planes_and_constants_stay_what_they_are(void **state)
 {
@@ -113,7 +113,7 @@ planes_and_constants_stay_what_they_are(void **state)
     }
 }
 
-/* One value alone: each cell of the other grid gets the part of it that lies there, by the
+/* A single value: each cell of the other grid receives the fraction of the cell that lies in it, by the
  * lengths in metres. */
 static void
 a_cell_gets_what_lies_in_it(void **state)

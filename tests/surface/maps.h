@@ -1,4 +1,4 @@
-/* Maps that the tests of surfaces are made of. */
+/* Maps for the tests of surfaces. */
 #ifndef MAPS_H
 #define MAPS_H
 
@@ -19,7 +19,7 @@ chance(void)
     return 2.0 * rand() / RAND_MAX - 1;
 }
 
-/* Of that shape, its heights not set; the caller frees it. */
+/* A map of this shape without values; the caller frees it. */
 static inline double *
 new_map(const struct rc_shape *s)
 {

@@ -1,5 +1,5 @@
-/* The parameters of ISO 25178-2 are what closed forms say of waves, ramps, chequerboards, posts,
- * caps, grooves and given height distributions, and what plain double sums say of holes. */
+/* The parameters of ISO 25178-2 equal closed forms for waves, ramps, chequerboards, posts, caps, grooves and
+ * given height distributions, and plain double sums for maps with holes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,9 +14,9 @@
 #include "tests/exact.h"
 #include "libcontact/contact.h"
 
-/* Closed forms of continuous surfaces, beside n nodes in a length, where |h| has a kink or the
- * correlation is a straight line between nodes: this over n^2. Of |cos| at n nodes in a period it is
- * pi^2/3. */
+/* Tolerance against closed forms of continuous surfaces, with n nodes in a length, where |h| has a kink or
+ * the correlation is a straight line between nodes: this constant over n^2. For |cos| with n nodes in a
+ * period the constant is pi^2/3. */
 static const double node_square = 4;
 
 static void
@@ -76,7 +76,7 @@ test_wave(void **state)
     assert_near(a, sku, 9.0 / 4, summed);
     assert_near(a, sp, A, 10 * grid); /* two half steps beside a crest */
     assert_near(a, sv, A, 10 * grid);
-    /* less than a period of pairs is left out at the edges, of 4 or 5 */
+    /* pairs of less than one period, of 4 or 5, are omitted at the edges */
     assert_near(a, sdq, q * A / sqrt(2), coarse_grid);
     assert_near(a, sdr, q * q * A * A / 4, 2 * coarse_grid); /* slopes of 1e-4: half their square */
     /* second differences of a cosine: -q^2 becomes -2 (1 - cos q dx) / dx^2, exactly */
@@ -119,7 +119,7 @@ test_ridges(void **state)
     assert_near(a, sku, 1.5, summed);
     assert_near(a, sa, 6e-9 / exact_pi, node_square / (40.0 * 40));
     assert_near(a, sal, acos(0.2) / q, node_square / (40.0 * 40));
-    assert_true(isnan(a.str)); /* along the ridges it never falls */
+    assert_true(isnan(a.str)); /* along the ridges the correlation does not fall */
     assert_zero(a.std, 1);
     a = oblique(&s, 0, 5, RC_PERIODIC);
     assert_near(a, std, 90, rounding);
@@ -130,7 +130,7 @@ test_ridges(void **state)
     assert_near(a, std, 180 - atan2(5 / Ly, 6 / Lx) * 180 / exact_pi, summed);
     assert_true(isnan(a.str));
     assert_near(a, sal, acos(0.2) / (2 * exact_pi * hypot(5 / Ly, 6 / Lx)), coarse_grid);
-    /* through a window, and no whole number of periods on the map */
+    /* with a window, and not a whole number of periods on the map */
     a = oblique(&s, 20.4, 13.7, RC_FREE);
     assert_near(a, std, 180 - atan2(13.7 / Ly, 20.4 / Lx) * 180 / exact_pi, coarse_grid);
     assert_near(a, sal, acos(0.2) / (2 * exact_pi * hypot(13.7 / Ly, 20.4 / Lx)), 3 * coarse_grid);
@@ -152,7 +152,7 @@ test_ramp(void **state)
             h[j * 33 + i] = 5e-3 + gx * (double)i * s.dx + gy * (double)j * s.dy;
     a = measured(&s, h, RC_FREE);
     spread = pow(gx * s.dx, 2) * (33 * 33 - 1.0) / 12 + pow(gy * s.dy, 2) * (47 * 47 - 1.0) / 12;
-    near_at("sq", a.sq, sqrt(spread), six_digits); /* the datum takes the other digits */
+    near_at("sq", a.sq, sqrt(spread), six_digits); /* the other digits are lost by the datum */
     assert_near(a, sdq, hypot(gx, gy), 1e-9);
     assert_near(a, sdr, sqrt(1 + gx * gx + gy * gy) - 1, 1e-9);
     free(h);
@@ -176,7 +176,7 @@ test_chequerboard(void **state)
     assert_near(a, sku, 1, rounding);
     assert_near(a, sdq, hypot(gx, gy), rounding);
     assert_near(a, sdr, sqrt(1 + gx * gx + gy * gy) - 1, rounding);
-    /* the flattest 40 % are its upper level: nothing stands out, and half the map is pit */
+    /* the flattest 40 % are the upper level: there are no peaks, and half of the map is a pit */
     assert_true(a.sk == 0 && a.spk == 0 && a.smr1 == 0);
     assert_near(a, smr2, 0.5, rounding);
     assert_near(a, svk, 4 * A, rounding);
@@ -219,7 +219,7 @@ test_posts(void **state)
     free(h);
 }
 
-/* A paraboloid on a disc, nothing around it: heights are distributed evenly. */
+/* A paraboloid on a disc with missing points around it: heights are uniformly distributed. */
 static void
 test_cap(void **state)
 {
@@ -277,7 +277,8 @@ test_grooves(void **state)
     assert_true(a.sk == 0 && a.spk == 0 && a.smr1 == 0 && a.vmp == 0);
     assert_near(a, smr2, 0.7, rounding);
     assert_near(a, svk, D, node_square / WIDE);
-    /* at 80 % the grooves are D/3 deep: what is below has two thirds of their width and depth */
+    /* at 80 % the height is D/3 below the plateau: the rest of a groove has two thirds of its width and
+     * depth */
     assert_near(a, vvv, 0.2 * (2 * D / 3) / 2, node_square / WIDE);
     assert_near(a, vvc, 0.15 * D - a.vvv, node_square / WIDE);
     assert_near(a, vmc, 0.7 * D / 3 + 0.1 * D / 6, node_square / WIDE);
@@ -293,7 +294,7 @@ enum {
 };
 static const struct rc_shape square = {SIDE, SIDE, 1e-6, 1e-6};
 
-/* quantile(p), 0 < p < 1, at equal steps of p, mixed. */
+/* Heights quantile(p), 0 < p < 1, at equal steps of p, in a mixed order. */
 static double *
 distributed(double (*quantile)(double))
 {
@@ -312,8 +313,8 @@ of_square(double p)
     return 1e-6 * p * p;
 }
 
-/* Heights u^2, u even between 0 and 1: flattest over u < 0.4, where the line of least squares is 0.4 u -
- * 0.4^2/6. */
+/* Heights u^2 with u uniform between 0 and 1: the flattest 40 % are u < 0.4, with the least-squares line 0.4
+ * u - 0.4^2/6. */
 static void
 test_square_distribution(void **state)
 {
@@ -346,8 +347,8 @@ of_gauss(double p)
     return 2e-9 * gsl_cdf_ugaussian_Pinv(p);
 }
 
-/* Gaussian: flattest over the middle 40 %, whose line of least squares follows from the integral of t
- * Phi(t) phi(t). */
+/* Gaussian heights: the flattest 40 % are the middle ones, whose least-squares line follows from the integral
+ * of t Phi(t) phi(t). */
 static void
 test_gaussian(void **state)
 {
@@ -381,7 +382,7 @@ test_gaussian(void **state)
 
 /* ---- correlations by plain sums ---- */
 
-/* Mean product of pairs (x, y) nodes apart over Sq^2, y >= 0. */
+/* The mean product of pairs at the offset (x, y), in nodes, over Sq^2; y >= 0. */
 static double
 correlation(const struct rc_shape *s, const double *h, bool wraps, long x, size_t y)
 {
@@ -411,7 +412,7 @@ correlation(const struct rc_shape *s, const double *h, bool wraps, long x, size_
     return sum / pairs / (square_sum / n);
 }
 
-/* Where it first falls to 0.2 along a column of offsets, a line of whole nodes. */
+/* The offset at which it first falls to 0.2 along a column of whole nodes. */
 static double
 fall(const struct rc_shape *s, const double *h, bool wraps, long x, size_t y)
 {
@@ -451,7 +452,7 @@ test_correlation_of_a_profile(void **state)
     }
 }
 
-/* A bump of two scales falls soonest along y and latest along x. */
+/* The correlation of a bump with two scales falls fastest along y and slowest along x. */
 static void
 test_correlation_of_a_map(void **state)
 {
@@ -469,7 +470,7 @@ test_correlation_of_a_map(void **state)
                 h[k] = NAN;
         }
         a = measured(&s, h, wraps ? RC_PERIODIC : RC_FREE);
-        /* holes may let it fall a little sooner beside the axis */
+        /* with holes it may fall slightly faster beside the axis */
         assert_true(a.sal <= fall(&s, h, wraps, 0, 1) * (1 + summed));
         assert_near(a, sal, fall(&s, h, wraps, 0, 1), holes ? three_digits : summed);
         assert_near(a, str, fall(&s, h, wraps, 0, 1) / fall(&s, h, wraps, 1, 0),

@@ -1,5 +1,5 @@
-/* The rest after the polynomial of least squares is orthogonal to every polynomial of its degree over the
- * points that are there, and is 0 where the surface was such a polynomial. */
+/* The residual of the least-squares polynomial is orthogonal to every polynomial of its degree over the
+ * measured points, and is 0 if the surface was such a polynomial. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit.h>
 #include <math.h>
@@ -16,7 +16,7 @@ enum {
 };
 static const struct rc_shape shape = {.nx = NX, .ny = NY, .dx = 1.1e-6, .dy = 1e-6};
 
-/* Coordinates in -1..1, so that powers stay tame. */
+/* Coordinates in -1..1, so that powers do not become large. */
 static double
 along(size_t i, size_t n)
 {
@@ -93,7 +93,7 @@ test_polynomials_vanish(void **state)
     free(h);
 }
 
-/* Heights on a datum a million times their size keep the digits that they have. */
+/* Heights on a datum a million times their size keep their remaining digits. */
 static void
 test_far_datum(void **state)
 {
@@ -199,7 +199,7 @@ test_profiles(void **state)
     check_removed(&point, 3, &one, 0);
 }
 
-/* As many points as coefficients: the polynomial goes through them. */
+/* As many points as coefficients: the polynomial passes through them. */
 static void
 test_just_enough_points(void **state)
 {
@@ -249,7 +249,7 @@ test_refusals(void **state)
         h[k] = k / NX == 5 ? 1 : NAN; /* one row */
     check_refused(shape, 1, h, "do not determine");
     for (size_t k = 0; k < N; k++)
-        h[k] = k % NX < 3 ? 1 : NAN; /* three columns hold no cubic */
+        h[k] = k % NX < 3 ? 1 : NAN; /* three columns do not determine a cubic */
     check_removed(&shape, 2, h, rounding);
     check_refused(shape, 3, h, "do not determine");
     h[1] = -INFINITY;
@@ -258,7 +258,7 @@ test_refusals(void **state)
     free(h);
 }
 
-/* Of a row of n nodes: orthogonal to all parabolas over them (Gram 1883), at most 1. */
+/* A row of n values that is orthogonal to all parabolas on them (Gram 1883), at most 1 in size. */
 static double
 gram_three(size_t i, size_t n)
 {
@@ -268,8 +268,8 @@ gram_three(size_t i, size_t n)
     return s * (s * s - square) / (m * (m * m - square));
 }
 
-/* What a level of row j of this degree leaves as it is: of degree 0 what has the median 0. Rows with missing
- * points have nothing of it. */
+/* A profile that levelling of row j with this degree leaves unchanged: for degree 0 one with the median 0. It
+ * is 0 in rows with missing points. */
 static double
 kept_of(size_t degree, size_t i, size_t j)
 {

@@ -1,6 +1,6 @@
 /* rc_filter is the Gaussian regression filter of order 0: its weighting function and its
- * transmission are the formulas of ISO 16610-61; with missing points, at edges and reweighted it
- * agrees with sums written out. */
+ * transmission are the formulas of ISO 16610-61; with missing points, at edges and with robust weights it
+ * agrees with explicit sums. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,8 +47,8 @@ filter(const struct rc_shape *s, struct rc_filter what, double *h)
 
 /* ---- the sums written out ---- */
 
-/* The factor of the weighting function along one side, for a distance of `steps` nodes; on a
- * periodic map that of all its repetitions within reach. */
+/* The factor of the weighting function along one side at a distance of `steps` nodes; on a periodic map the
+ * sum over all repetitions within its range. */
 static double
 factor(long steps, double d, size_t n, double cutoff, bool periodic)
 {
@@ -62,7 +62,7 @@ factor(long steps, double d, size_t n, double cutoff, bool periodic)
     return w;
 }
 
-/* Low-pass of h with weights m (NULL: 1), at every point that is there. */
+/* The low-pass of h with weights m (NULL: 1), at every measured point. */
 static double *
 dense(const struct rc_shape *s, double cutoff, bool periodic, const double *h, const double *m)
 {
@@ -103,7 +103,7 @@ compare(const struct rc_shape *s, const double *found, const double *expected, d
     }
 }
 
-/* Short and long cut-offs, up to the map's length; the sums go by coarser nodes from 30 on. */
+/* Short and long cut-offs up to the length of the map; from 30 nodes on the filter sums on coarser nodes. */
 static void
 check_dense(const struct rc_shape *s, double cutoff, bool periodic)
 {
@@ -208,8 +208,8 @@ test_transmission(void **state)
         }
 }
 
-/* A millimetre added to micrometre heights costs the last digit of a millimetre, and no more; and a
- * flat stays flat. */
+/* A datum of one millimetre added to micrometre heights costs only the last digit of a millimetre; a flat
+ * stays flat. */
 static void
 test_datum(void **state)
 {
@@ -310,7 +310,8 @@ test_robust_is_reweighting(void **state)
     }
 }
 
-/* Spikes of ten micrometres that would lift the surface by one lift it by less than the noise. */
+/* Spikes of ten micrometres, which would raise the filtered surface by one, raise it by less than the
+ * noise. */
 static void
 test_spikes_are_left_out(void **state)
 {
@@ -338,7 +339,7 @@ test_spikes_are_left_out(void **state)
     free(plain);
 }
 
-/* More than half of the points exactly on a plane of one height, the others far off. */
+/* More than half of the points have exactly the same height, the others are far away. */
 static void
 test_exact_ground(void **state)
 {

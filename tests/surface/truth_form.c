@@ -1,5 +1,5 @@
-/* What rc_detrend_form takes off is the form that was put there: polynomials, spheres and cylinders
- * of every sign, place and tilt, with points missing, with noise, and with spikes. */
+/* rc_detrend_form removes exactly the added form: polynomials, spheres and cylinders of either sign, any
+ * position and tilt, with missing points, noise and spikes. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 static const struct rc_shape shape = {.nx = 61, .ny = 47, .dx = 1.1e-6, .dy = 1e-6};
 
-/* Of the form's height: what may be left of it. */
+/* The permitted rest, relative to the height of the form. */
 static const double left_of_form = 1e-7;
 
 static double
@@ -70,9 +70,8 @@ make_ball(const struct rc_shape *s, struct ball b, double *h)
     }
 }
 
-/* A cylinder whose axis goes through (x, y, z) along `direction` (rad, from x towards y) and rises
- * by `rise`. A point of it is where the distance from the axis is |R|: a quadratic equation in
- * z. */
+/* A cylinder whose axis passes through (x, y, z) along `direction` (rad, from x towards y) and rises
+ * by `rise`. A point on it has the distance |R| from the axis: a quadratic equation in z. */
 struct rod {
     double radius, direction, rise, x, y, z;
 };
@@ -109,7 +108,7 @@ take_off(const struct rc_shape *s, struct rc_form form, double *h)
     return radius;
 }
 
-/* Nothing is left of a form of the radius R. */
+/* Checks that nothing remains of a form of radius R. */
 static void
 check_gone(const struct rc_shape *s, struct rc_form form, double *h, double expected)
 {
@@ -160,7 +159,7 @@ test_cylinders(void **state)
     for (size_t k = 0; k < 5 * 5 * 4; k++) {
         double r = radii[k % 5];
         struct rod rod = {r, directions[k / 5 % 5], rises[k / 25], 5e-6, -9e-6, 2e-6 - r};
-        if (k % 2 == 1) /* beside the axis, where it slopes across too */
+        if (k % 2 == 1) /* beside the axis, where it also slopes across */
             rod.y += 0.2 * r * (fabs(r) < 1e-4 ? 0.3 : 1);
         make_rod(&shape, rod, h);
         lose(h, shape.nx * shape.ny, 5);
@@ -188,7 +187,7 @@ test_profiles(void **state)
         }
 }
 
-/* As many points as unknowns: the form goes through them. */
+/* As many points as unknowns: the form passes through them. */
 static void
 test_just_enough_points(void **state)
 {
@@ -206,7 +205,7 @@ test_just_enough_points(void **state)
     free(h);
 }
 
-/* A power of x and y of total degree 10 on a long map with every third point missing. */
+/* A polynomial of total degree 10 on a long map with every third point missing. */
 static void
 test_polynomials(void **state)
 {
@@ -287,7 +286,7 @@ ball_through(const double *z, const size_t points[4])
                          .z = (double)(m[2][4] / 2e6L)};
 }
 
-/* What is left is orthogonal to all small changes of the sphere: of its middle, of its radius. */
+/* The residual is orthogonal to all small changes of the sphere: of its centre and of its radius. */
 static void
 test_noisy_sphere_is_least_squares(void **state)
 {
@@ -325,7 +324,7 @@ test_noisy_sphere_is_least_squares(void **state)
     free(z);
 }
 
-/* No other cylinder nearby leaves less. */
+/* No similar cylinder has a smaller residual. */
 static void
 test_noisy_cylinder_is_least_squares(void **state)
 {
@@ -369,8 +368,8 @@ test_noisy_cylinder_is_least_squares(void **state)
 
 /* ---- spikes ---- */
 
-/* Every form again, with noise and with spikes at one point in ten: what was taken off is the form
- * to half of the noise, and without --robust it is not. */
+/* Every form again, with noise and with spikes at every tenth point: the robust fit finds the form to half of
+ * the noise, the other fit does not. */
 static void
 check_spikes(struct rc_form form, const double *made, double noise, double spike)
 {
@@ -422,7 +421,7 @@ test_spikes(void **state)
     free(made);
 }
 
-/* Spikes on a form without any noise: it is found exactly. */
+/* Spikes on a form without noise: the form is found exactly. */
 static void
 test_spikes_alone(void **state)
 {
@@ -523,7 +522,7 @@ test_refusals(void **state)
     check_refused(sphere, h, "no curvature");
     h[7] = INFINITY;
     check_refused(sphere, h, "1 infinite heights: no sphere fits them");
-    /* a ball that is narrower than the map, on a flat: weights leave the flat out */
+    /* a ball that is narrower than the map, on a flat: the weights exclude the flat */
     for (size_t k = 0; k < n; k++) {
         double x = place(k % shape.nx, shape.nx, shape.dx),
                y = place(k / shape.nx, shape.ny, shape.dy);
@@ -534,7 +533,7 @@ test_refusals(void **state)
         if (h[k] < 0 && k % 37 != 0)
             h[k] = NAN;
     check_refused((struct rc_form){.kind = RC_SPHERE, .robust = true}, h, "points lie beside");
-    /* more than half on a step, the others strewn: those that keep weight are flat */
+    /* more than half of the points on a step, the others scattered: the points with weight are flat */
     srand(50);
     for (size_t k = 0; k < n; k++)
         h[k] = rand() % 3 == 0 ? 1e-5 * chance() : 1e-6;

@@ -1,5 +1,5 @@
-/* Random surfaces with heights that are not Gaussian have the asked distribution and size, and nearly the
- * waves of the Gaussian surface; on another grid they are the same surface. */
+/* Random surfaces with non-Gaussian heights have the requested distribution and size, and nearly the waves of
+ * the Gaussian surface; on another grid they are the same surface. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,8 +18,8 @@
 static const struct rc_selfaffine rough = {
     .hurst = 0.8, .rms_height = 0.42e-6, .rolloff = 32e-6, .short_cut = 4e-6, .seed = 3};
 
-/* The distributions, and the most that the waves may be off: 1.1 to 2 times what was found on 128 x
- * 128 nodes. rc-synth(1) gives these numbers. */
+/* The distributions, and the permitted errors of the waves: 1.1 to 2 times those measured on 128 x 128 nodes.
+ * rc-synth(1) gives these numbers. */
 static const struct {
     double skewness, weibull, misfit;
 } all[] = {
@@ -52,7 +52,7 @@ distributed(size_t k)
     return what;
 }
 
-/* Mean of the n-th power, over that of the second to the power n/2. */
+/* The mean n-th power over the mean square to the power n/2. */
 static double
 moment(const double *h, size_t n, int power)
 {
@@ -95,7 +95,7 @@ by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Fraction of the distribution below x RMS heights over its mean. */
+/* Fraction of the distribution below x RMS heights above its mean. */
 static double
 below(size_t k, double x)
 {
@@ -109,9 +109,9 @@ below(size_t k, double x)
     return gsl_cdf_gamma_Q(fmax(mean - rms * x, 0), 4 / (s * s), 1);
 }
 
-/* The part of the tails that the heights of a finite map leave out: some per cent of the fourth
- * power where they are long; some thousandths of mean and RMS, which are put right. A height may be
- * so far from the one that has as much below it in the distribution itself. */
+/* The part of the tails that a finite map does not contain: a few per cent of the fourth moment if the tails
+ * are long; a few thousandths of mean and RMS, which are corrected. A height may differ by this from the same
+ * quantile of the distribution. */
 static void
 check_heights(const struct rc_shape *s, size_t k)
 {
@@ -233,8 +233,8 @@ waves_stay_nearly_what_they_are(void **state)
     free(gauss);
 }
 
-/* With six nodes in the shortest wave: a bend that two grids see differently is a part of what the
- * mapping makes of it. Each node of the coarse grid stands on a third one of the fine grid. */
+/* With six nodes in the shortest wave the two grids differ slightly, because the mapping of the heights bends
+ * the waves between nodes. Each node of the coarse grid is every third one of the fine grid. */
 static void
 another_grid_has_the_same_surface(void **state)
 {
@@ -260,7 +260,8 @@ another_grid_has_the_same_surface(void **state)
     }
 }
 
-/* The same seed gives the same bytes, another one another surface; no skewness, a Gaussian one. */
+/* The same seed gives the same bytes, another seed another surface; without skewness the surface is
+ * Gaussian. */
 static void
 the_seed_decides(void **state)
 {

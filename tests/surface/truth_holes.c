@@ -1,4 +1,4 @@
-/* The width of the widest hole agrees with a search through every pair of nodes, and with a ruler. */
+/* The width of the widest hole agrees with a search over all pairs of nodes, and with known sizes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@ enum {
     NODES = 400 * 400
 };
 
-/* Twice the largest of all least distances. */
+/* Twice the largest of the distances to the nearest measured point. */
 static double
 brute_force(const struct rc_shape *s, const double *h)
 {
@@ -56,7 +56,8 @@ check(const struct rc_shape *s, const double *h, double expected)
         fail_msg("%zu x %zu nodes: %.17g, expected %.17g", s->nx, s->ny, width, expected);
 }
 
-/* Few and many missing, clumped and scattered, spacings equal and not, lines among the shapes. */
+/* Few and many missing points, in clusters and scattered, with equal and unequal spacings; also maps of one
+ * line. */
 static void
 every_pair_of_nodes(void **state)
 {
@@ -79,7 +80,7 @@ every_pair_of_nodes(void **state)
             if (trial % 3 == 2) /* a block of them */
                 for (size_t m = n / 5; m < n / 2; m++)
                     h[m] = NAN;
-            if (trial == 10) /* a single one is measured */
+            if (trial == 10) /* a single point is measured */
                 for (size_t m = 0; m < n; m++)
                     h[m] = m == n / 3 ? 0 : NAN;
             for (size_t m = 0; m < n; m++)
@@ -89,8 +90,8 @@ every_pair_of_nodes(void **state)
         }
 }
 
-/* A disc of radius 120.3 dx: the middle is a node, the nearest measured one 121 steps away along an
- * axis, or nearer aslant; no node lies between the radius and a cell more. */
+/* A disc of radius 120.3 dx about a node: the nearest measured node is 121 steps away along an axis, or
+ * nearer in other directions, but at most a cell beyond the radius. */
 static void
 a_disc(void **state)
 {

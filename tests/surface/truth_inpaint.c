@@ -1,5 +1,5 @@
-/* Inpainted points solve Laplace's equation: discretely harmonic surfaces come back exactly, and
- * small maps agree with a dense solution. */
+/* Inpainted points solve Laplace's equation: discrete harmonic surfaces are restored exactly, and small maps
+ * agree with a dense solution. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,8 @@
 #include "tests/exact.h"
 #include "libcontact/contact.h"
 
-static const double solved = 1e-10; /* of the equations, relative to the map's height */
+static const double solved =
+    1e-10; /* residual of the equations, relative to the range of heights */
 
 typedef double (*surface)(const struct rc_shape *s, size_t i, size_t j);
 
@@ -34,8 +35,8 @@ saddle(const struct rc_shape *s, size_t i, size_t j)
     return 1e3 * (x * x - y * y + x * y);
 }
 
-/* cosh(a i) cos(m pi (j + 1/2) / ny), a such that the five-point stencil gives 0. No flux crosses
- * the first and last row: both lie half a cell inside an extremum. */
+/* cosh(a i) cos(m pi (j + 1/2) / ny), a such that the five-point stencil gives 0. The normal slope is 0 at
+ * the upper and lower edges, half a cell outside of the first and last row. */
 static double
 membrane(const struct rc_shape *s, size_t i, size_t j)
 {
@@ -56,7 +57,7 @@ make(const struct rc_shape *s, surface f)
     return h;
 }
 
-/* Inpaints h, whose holes were cut out of `whole`, and compares. */
+/* Inpaints h, which is `whole` with holes, and compares. */
 static void
 check_restored(const struct rc_shape *s, double *h, const double *whole)
 {
@@ -76,7 +77,7 @@ check_restored(const struct rc_shape *s, double *h, const double *whole)
             fail_msg("node %zu: %.17g instead of %.17g", k, h[k], whole[k]);
 }
 
-/* Holes of all forms, none at the edge. */
+/* Holes of all shapes, none at the edge. */
 static void
 cut_inside(const struct rc_shape *s, double *h)
 {
@@ -132,7 +133,7 @@ test_hole_across_the_map(void **state)
     free(h);
 }
 
-/* In a profile: a straight line between two points, level beyond the last one. */
+/* In a profile: a straight line between two points, constant beyond the last one. */
 static void
 check_profile(struct rc_shape s)
 {
@@ -167,7 +168,7 @@ test_one_point_measured(void **state)
     }
 }
 
-/* The equations of one node, written down for Gauss elimination. */
+/* The equations of one node for the Gaussian elimination. */
 static void
 put_equation(const struct rc_shape *s, const double *h, size_t k, gsl_matrix *a, gsl_vector *b)
 {
@@ -245,7 +246,7 @@ test_large_hole_is_quick(void **state)
             h[j * s.nx + i] = NAN;
     begin = clock();
     check_restored(&s, h, whole);
-    /* about half a second; the bound is there to notice another order of growth */
+    /* about half a second; the bound detects another order of growth */
     assert_true((double)(clock() - begin) / CLOCKS_PER_SEC < 30);
     free(whole);
     free(h);

@@ -1,5 +1,5 @@
-/* Sums, moments and slopes of maps agree with closed forms and sums in long double, whatever the
- * datum and the missing points. */
+/* Sums, moments and slopes of maps agree with closed forms and sums in long double, for any datum and missing
+ * points. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -91,7 +91,7 @@ test_plane(void **state)
     check_plane(3, -2, -7);
 }
 
-/* Small whole numbers are exact on top of 1e6: no digit of the roughness may go. */
+/* Small whole numbers added to 1e6 are exact: no digit of the roughness may be lost. */
 static void
 test_far_datum(void **state)
 {
@@ -99,7 +99,7 @@ test_far_datum(void **state)
     check_plane(0x1p-20, 0x3p-21, 1e6);
 }
 
-/* What is there, measured again with long double and no cleverness. */
+/* Plain sums over the valid points in long double. */
 static void
 test_holes(void **state)
 {

@@ -1,5 +1,5 @@
-/* rc_outliers takes out the same points as sorting all neighbourhoods does, with missing points, at
- * the edges and around them; rc_taper multiplies the heights above the mean by a raised cosine. */
+/* rc_outliers removes the same points as a method that sorts every neighbourhood, also at edges and beside
+ * missing points; rc_taper multiplies the heights above the mean by a raised cosine. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +15,7 @@ by_size(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Of what is there; v is sorted. */
+/* The median of valid values; sorts v. */
 static double
 median(double *v, size_t n)
 {
@@ -46,7 +46,7 @@ difference(const struct rc_shape *s, bool periodic, const double *h, long i, lon
     return h[j * nx + i] - median(around, n);
 }
 
-/* Makes the outliers of h missing, by sorting; how many they are. */
+/* Removes the outliers of h by sorting; returns their number. */
 static size_t
 by_sorting(const struct rc_shape *s, double times, bool periodic, double *h)
 {
@@ -114,8 +114,7 @@ test_as_by_sorting(void **state)
             }
 }
 
-/* Gaussian noise has 0.27 % of its points beyond three standard deviations, spikes are all
- * found. */
+/* In Gaussian noise 0.27 % of the points are beyond three standard deviations; all spikes are found. */
 static void
 test_share_of_noise(void **state)
 {
@@ -131,7 +130,7 @@ test_share_of_noise(void **state)
         h[k] = 1e-7 * sqrt(-2 * log(u)) * cos(2 * exact_pi * v);
     }
     assert_int_equal(rc_outliers(&s, 3, false, 0, h, &count, &err), RC_OK);
-    /* counts scatter by their root; the median of 24 others adds its own scatter to both */
+    /* counts scatter by their square root; the median of 24 neighbours adds its own scatter */
     assert_true(fabs((double)count - 0.0027 * (double)n) < 4 * sqrt(0.0027 * (double)n));
     for (size_t k = 0; k < n; k++)
         h[k] = 1e-5 * cos((double)(k % s.nx) / 40) + 1e-7 * chance() + (k % 97 == 3 ? 1e-5 : 0);
@@ -165,7 +164,8 @@ test_taper(void **state)
     assert_int_equal(columns, 7); /* 6.5 * 1.1 um is below 7.3 um, 7.5 * 1.1 um is not */
     assert_int_equal(rows, 7);    /* 6.5 um is, 7.5 um is not */
     rc_taper_frame(&(struct rc_shape){40, 1, 1.1e-6, 1.1e-6}, 1, &columns, &rows);
-    assert_true(columns == 20 && rows == 0); /* no more than half, and none of a profile's row */
+    assert_true(columns == 20 &&
+                rows == 0); /* at most half, and none along the single row of a profile */
     for (size_t k = 0; k < 40 * 33; k++) {
         double x = ((double)(k % 40) + 0.5) * s.dx, y = ((double)(k / 40) + 0.5) * s.dy, w = 1;
         x = fmin(x, 40 * s.dx - x);
@@ -183,7 +183,7 @@ test_taper(void **state)
     free(before);
 }
 
-/* A profile has two ends only. */
+/* A profile has only two ends. */
 static void
 test_taper_of_a_profile(void **state)
 {

@@ -1,5 +1,5 @@
-/* The corrected area of a contact is nearer to Hertz's than the area of its nodes, by more than half
- * over twelve places of the sphere between the nodes. */
+/* The corrected area of a contact is nearer to Hertz's than the area of its nodes, by more than half on
+ * average over twelve positions of the sphere between the nodes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,8 @@
 
 static const double radius = 7.5e-3, estar = 113.93e9, load = 240;
 
-/* Areas of nodes and corrected, relative to Hertz's, of a sphere (x, y) nodes off the middle. */
+/* The area of the nodes and the corrected area, relative to Hertz's, for a sphere whose apex is (x, y) nodes
+ * from the middle. */
 static void
 areas(size_t n, double x, double y, double *plain, double *corrected)
 {

@@ -1,6 +1,6 @@
-/* Power spectra: a wave's power is in the right ring, Parseval's theorem holds to 1e-9 with each window and
- * without, a known spectrum is found whatever form the map has, and the Hurst exponent is that of the surface
- * to 0.05. */
+/* Power spectra: the power of a wave is in the right ring, Parseval's theorem holds to 1e-9 with each window
+ * and without, a known spectrum is recovered for any shape of the map, and the Hurst exponent is that of the
+ * surface to 0.05. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -48,7 +48,7 @@ total(const struct rc_psd *psd)
 
 /* ---- where power stands ---- */
 
-/* A cos(2 pi (m i/nx + n j/ny)): |FFT|^2 = (A nx ny/2)^2 of two waves, so c = A^2 Lx Ly / 4. */
+/* A cos(2 pi (m i/nx + n j/ny)): |FFT|^2 = (A nx ny/2)^2 for two waves, so c = A^2 Lx Ly / 4. */
 static void
 check_wave(size_t nx, size_t ny, long m, long n)
 {
@@ -102,7 +102,7 @@ test_wave(void **state)
 
 /* ---- windows ---- */
 
-/* Weights of node i of n, as the handbooks have them (Harris 1978, Proc. IEEE 66, 51), of its middle. */
+/* Weights of node i of n from the literature (Harris 1978, Proc. IEEE 66, 51), at the centre of its cell. */
 static double
 none(double t)
 {
@@ -146,7 +146,7 @@ weight(size_t k, const struct rc_shape *s, size_t node)
     return (s->nx == 1 ? 1 : windows[k].at(x)) * (s->ny == 1 ? 1 : windows[k].at(y));
 }
 
-/* Of heights under window k: their mean, the mean square about it, and the mean square of the window. */
+/* For heights under window k: their mean, the mean square about it, and the mean square of the window. */
 static void
 seen_through(size_t k, const struct rc_shape *s, const double *h, double *mean, double *square,
              double *power)
@@ -167,8 +167,8 @@ seen_through(size_t k, const struct rc_shape *s, const double *h, double *mean, 
     }
 }
 
-/* The sum over all waves is the mean square in the window, over that of the window: nothing is scaled to
- * Sq^2, which is a separate figure. */
+/* The sum over all waves is the mean square under the window divided by that of the window; it is not scaled
+ * to Sq^2, which is a separate figure. */
 static void
 test_parseval(void **state)
 {
@@ -205,7 +205,7 @@ test_parseval(void **state)
     }
 }
 
-/* Each window by plain sums: the wave (m, n) of (h - mean) w, where mean is that under w. */
+/* Each window by plain sums: the wave (m, n) of (h - mean) w, where the mean is weighted by w. */
 static void
 test_window(void **state)
 {
@@ -242,8 +242,8 @@ test_window(void **state)
     }
 }
 
-/* A wave of whole periods under Hann's window: A^2/2 in all, of which (mean w)^2/mean(w^2) = 4/9 at its
- * own wave number, and the rest at the neighbours. */
+/* A wave of whole periods under a Hann window: A^2/2 in total, of which (mean w)^2/mean(w^2) = 4/9 is at its
+ * own wave number and the rest at the neighbours. */
 static void
 test_wave_under_hann(void **state)
 {
@@ -266,10 +266,9 @@ test_wave_under_hann(void **state)
 /* ---- a spectrum that is known ---- */
 
 /* A quarter of a periodic surface with c = C0 up to the wave number of the roll-off and C0 (q/q0)^(-2-2H)
- * beyond, on which a bow is left: its curved middle is most of what a window sees, or little of it,
- * and neither changes the waves. Over the rings from twice the roll-off up to half the shortest wave,
- * mean squares of heights and of slopes are the known ones, to what 8 surfaces scatter: of the
- * heights some 1200 independent waves, 3 %. */
+ * beyond, with a remaining bow, large or small, which must not change the waves. Over the rings from twice
+ * the roll-off up to half the shortest wave, the mean squares of heights and of slopes are the known ones,
+ * within the scatter of 8 surfaces: about 1200 independent waves of the heights, 3 %. */
 static void
 test_known(void **state)
 {
@@ -332,8 +331,8 @@ struct made {
     double rolloff, short_cut; /* in nodes; 0: none */
 };
 
-/* Told: the range is given; else it is to be found. Over seeds, the largest error. What is not periodic
- * is a quarter of a map that is. */
+/* told: the range of the fit is given, otherwise it is found automatically. The largest error over seeds. A
+ * map that is not periodic is a quarter of a periodic one. */
 static double
 worst(const struct made *made, double hurst, enum rc_boundary boundary, bool told)
 {
@@ -364,12 +363,12 @@ worst(const struct made *made, double hurst, enum rc_boundary boundary, bool tol
             print_message("H %g: %g, from %g to %g m, seed %u\n", hurst, psd->hurst, psd->shortest,
                           psd->longest, (unsigned)seed);
         most = larger(fabs(psd->hurst - hurst), most);
-        /* the standard error says as much, of some fifty surfaces; most of it is what no surface of a
-         * formula is off its power law */
+        /* the standard error agrees, for about fifty surfaces; most of it allows for deviations of real
+         * surfaces from a power law, which these have not */
         assert_true(fabs(psd->hurst - hurst) <= 3 * psd->hurst_error);
         assert_true(psd->hurst_error < exponent);
-        /* the range that is found lies in the true one, give or take the waves that show where it
-         * ends, and holds half of it */
+        /* the automatic range lies in the true one, except for some waves at its ends, and covers at least
+         * half of it */
         assert_true(psd->shortest >= 0.9 * shortest && psd->longest <= 2 * longest);
         assert_true(psd->longest / psd->shortest >= sqrt(longest / shortest));
         rc_psd_free(psd);
@@ -395,7 +394,7 @@ test_hurst(void **state)
         }
 }
 
-/* Under a window a quarter of the waves are left that are independent. */
+/* Under a window a quarter of the waves are independent. */
 static void
 test_hurst_windowed(void **state)
 {
@@ -439,7 +438,7 @@ test_hurst_of_profiles(void **state)
     free(h);
 }
 
-/* What follows no power law has no exponent: noise, a wave, a flat. */
+/* Surfaces without a power law have no exponent: noise, a wave, a flat. */
 static void
 test_no_power_law(void **state)
 {
@@ -463,7 +462,7 @@ test_no_power_law(void **state)
     free(h);
 }
 
-/* The number of threads changes no digit. */
+/* The number of threads does not change a digit. */
 static void
 test_threads(void **state)
 {

@@ -1,6 +1,6 @@
-/* On finer grids cubic polynomials stay the same inside, parabolas up to the edge, and periodic
- * maps when repeated; on coarser grids each cell gets the mean of the points measured in it, and is
- * missing where they are less than half. */
+/* On finer grids cubic polynomials are reproduced inside, parabolas up to the edge, and periodic maps like
+ * their repetitions; on coarser grids each cell gets the mean of its measured points, and is missing if less
+ * than half of it was measured. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -129,8 +129,8 @@ power(double x, int n)
     return n == 0 ? 1 : x * power(x, n - 1);
 }
 
-/* The monomials x^m y^n on the old grid and on the new one, over their largest values; `edge` counts
- * the old nodes at the edges where the new ones are not looked at. */
+/* The monomials x^m y^n on the old and the new grid, over their largest values; nodes within `edge` old nodes
+ * of the edges are not compared. */
 static void
 check_monomial(struct rc_shape from, double dx, double dy, int m, int n, size_t edge)
 {
@@ -174,7 +174,7 @@ cubics_inside_parabolas_everywhere(void **state)
             }
 }
 
-/* Two nodes carry a plane on, one only itself. */
+/* Two nodes continue a plane, one node a constant. */
 static void
 small_maps(void **state)
 {
@@ -203,7 +203,7 @@ small_maps(void **state)
     free(out);
 }
 
-/* In a 3 x 3 array of its own copies a map gives the same result as when it is periodic. */
+/* A map in a 3 x 3 array of its copies gives the same result as a periodic map. */
 static void
 periodic_maps_wrap(void **state)
 {
@@ -259,8 +259,8 @@ the_error_is_of_the_fourth_order(void **state)
     assert_true(log2(coarse / fine) > 3.8 && log2(coarse / fine) < 4.2);
 }
 
-/* A plane with holes: new nodes in a missing cell are missing, all others are on the plane, but for
- * those with a missing one among their four neighbours, which have the value of their old cell. */
+/* A plane with holes: new nodes in a missing cell are missing, all others are on the plane, except nodes with
+ * a missing one among their four old neighbours, which get the value of their old cell. */
 static void
 holes_stay_what_they_are(void **state)
 {
@@ -302,7 +302,7 @@ overlap(double a, double b, double c, double d)
     return fmax(0, fmin(b, d) - fmax(a, c));
 }
 
-/* Every new cell against the sum over all old ones, by lengths in metres. */
+/* Every new cell, compared with the sum over all old cells by lengths in metres. */
 static void
 check_means(struct rc_shape from, double dx, double dy, double part_missing)
 {
@@ -390,8 +390,8 @@ whole_maps_keep_their_integral(void **state)
     free(v);
 }
 
-/* One axis coarser, one finer: the plane stays where cells divide, and the order of the axes does
- * not matter for what depends on one of them alone. */
+/* One axis coarser, one finer: a plane is kept if the sizes are multiples, and functions of one coordinate do
+ * not depend on the order of the axes. */
 static void
 one_axis_each_way(void **state)
 {

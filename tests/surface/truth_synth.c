@@ -1,5 +1,5 @@
 /* Synthetic surfaces follow their formulas: indenters, waves, and random roughness, in which every wave has
- * the asked power, depends on its seed alone, and whose total has the asked size. */
+ * the requested power and depends only on the seed, and whose RMS is the requested one. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -71,8 +71,8 @@ test_wave(void **state)
 static const struct rc_shape oblong = {33, 47, 1.1e-6, 1e-6};
 static const struct rc_place off = {2.3e-6, -5.7e-6};
 
-/* Where node k is from the apex: along a direction that leads counterclockwise from x in a picture
- * whose rows go down, and across it. */
+/* The position of node k from the apex, along and across a direction that is counterclockwise from x in a
+ * picture whose rows run downwards. */
 static void
 from_apex(size_t k, double degrees, double *along, double *across)
 {
@@ -106,7 +106,7 @@ test_paraboloid(void **state)
             assert_true((angles[a] != 0 && angles[a] != 180) || h[k] == h[k - k % 33]);
         }
     }
-    rc_synth_paraboloid(&oblong, off, r1, r1, 77, h); /* a sphere looks the same all round */
+    rc_synth_paraboloid(&oblong, off, r1, r1, 77, h); /* a sphere is the same in all directions */
     for (size_t k = 0; k < 33 * 47; k++) {
         from_apex(k, 0, &along, &across);
         assert_near(h[k], -(along * along + across * across) / (2 * r1), rounding);
@@ -148,7 +148,7 @@ test_punch(void **state)
             assert_true(fabs(h[k] + (depth < height ? depth : height)) <= rounding * height);
         }
     }
-    /* nodes on the rim belong to the end: of lattice points with i^2 + j^2 <= 25 there are 81 */
+    /* nodes on the rim belong to the flat end: 81 lattice points have i^2 + j^2 <= 25 */
     rc_synth_punch(&s, (struct rc_place){0, 0}, 5 * 0.1e-6, 0, height, h);
     for (size_t k = 0; k < 441; k++)
         end += h[k] == 0 ? 1 : 0;
@@ -167,7 +167,8 @@ turn(long k, size_t i, size_t n, bool from_middle)
 }
 
 /* Waves -m..m along x and -n..n along y of h, row by row and then down the columns; c[] has
- * (2m+1)(2n+1) numbers. Amplitudes are mean values; `from_middle` puts the origin there. */
+ * (2m+1)(2n+1) numbers. Amplitudes are mean values; with `from_middle` the origin is the middle of the
+ * map. */
 static void
 waves(const struct rc_shape *s, const double *h, long m, long n, bool from_middle,
       double complex *c)
@@ -279,7 +280,7 @@ test_height_is_exact(void **state)
     check_height(97, 89, 1e-9, 1e-9);
 }
 
-/* The gradient's mean square, from the waves that are in the heights. */
+/* The mean square of the gradient, from the waves of the heights. */
 static void
 check_slope(struct rc_shape s)
 {
@@ -313,7 +314,7 @@ test_slope_is_exact(void **state)
     check_slope((struct rc_shape){64, 1, 1e-6, 1e-6});
 }
 
-/* Nothing is outside the cut-offs, nothing at two nodes, and something everywhere in between. */
+/* No wave is outside of the cut-offs or has two nodes, and every other wave is present. */
 static void
 test_cuts(void **state)
 {
@@ -335,7 +336,7 @@ test_cuts(void **state)
             assert_true(inside ? a > 1e-6 : a < rounding);
         }
     free(h);
-    what.long_cut = what.short_cut = 0; /* all but the waves of two nodes */
+    what.long_cut = what.short_cut = 0; /* all except the waves of two nodes */
     h = make(&s, &what);
     waves(&s, h, 16, 23, true, c);
     for (long ky = -23; ky <= 23; ky++)
@@ -348,7 +349,8 @@ test_cuts(void **state)
     free(h);
 }
 
-/* On a finer, a coarser and an uneven grid over the same lengths the same waves have the same positions. */
+/* On a finer grid, a coarser one and one with unequal spacings, over the same lengths, the waves are the
+ * same. */
 static void
 test_seed_gives_the_waves(void **state)
 {
@@ -380,7 +382,7 @@ test_seeds_differ(void **state)
 
     (void)state;
     assert_memory_equal(a, again, 64 * 64 * sizeof *a);
-    /* white, so that the correlation of two seeds has 4000 waves to average over */
+    /* white, so that the correlation of two seeds is an average over 4000 waves */
     what.rolloff = what.short_cut = 2e-6;
     free(a);
     a = make(&s, &what);
@@ -401,10 +403,10 @@ enum {
     SEEDS = 400
 };
 
-/* Mean square and mean fourth power of each wave over the seeds. Each surface is first measured by
- * its waves with law[k] > 0, whose power should be that: they undo the fixed RMS of the surface,
- * which the strong waves decide. The inverse of a mean of n exponential variates is n / (n - 1) on
- * average; a wave and its conjugate count once. */
+/* Mean square and mean fourth power of each wave over the seeds. Each surface is first normalised by its
+ * waves with law[k] > 0, whose power should be law[k], because the fixed RMS of the surface depends on the
+ * strong waves. The inverse of a mean of n exponential variates is n / (n - 1) on average; a wave and its
+ * conjugate count once. */
 static void
 ensemble(const struct rc_shape *s, struct rc_selfaffine what, long m, long n, const double *law,
          double *square, double *fourth)
@@ -522,7 +524,8 @@ test_power_law_of_profiles(void **state)
     assert_law(low, 38);
 }
 
-/* With a lay the power is that of the wave whose number along it is so many times as large. */
+/* With a lay the power is that of the isotropic surface at a wave number whose component along the lay is
+ * larger by the ratio. */
 static void
 check_lay(double anisotropy, double degrees)
 {
