@@ -136,7 +136,7 @@ check_arguments(struct costs *run)
 static void
 tell(struct costs *run, const char *text)
 {
-    if (!run->t.quiet && (run->t.progress || run->t.verbose || isatty(STDERR_FILENO)))
+    if (!run->t.quiet && (run->t.progress != NULL || run->t.verbose || isatty(STDERR_FILENO)))
         fprintf(stderr, "%s: %s\n", info.name, text);
 }
 

@@ -160,7 +160,7 @@ solve(struct run *run, const struct leak_case *c, struct rc_leak *leak)
 
     tool_demand_memory(&run->t, c->gap,
                        rc_grid_nodes(c->gap) * sizeof(double)); /* one more frame after it */
-    tool_progress(&run->t, "flow through %zu nodes", c->figures->unknowns);
+    tool_progress(&run->t, NAN, "flow through %zu nodes", c->figures->unknowns);
     while ((status = rc_leak_step(leak, &err)) == RC_MORE)
         continue;
     tool_progress_end(&run->t);

@@ -175,7 +175,7 @@ next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
     const struct drawing *d = ctx;
 
     (void)err;
-    tool_progress(d->tool, "row %zu of %zu", y, d->grid->ny);
+    tool_progress(d->tool, (double)y / (double)d->grid->ny, "row %zu of %zu", y, d->grid->ny);
     raw_row(d->grid, d->figure, &d->colours, y, rgb);
     return RC_OK;
 }

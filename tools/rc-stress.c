@@ -473,7 +473,8 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
     bool plane = run->options.section != 0;
     struct rc_err err;
 
-    tool_progress(&run->t, "depth %zu of %zu", k + 1, run->depths.n);
+    tool_progress(&run->t, (double)k / (double)run->depths.n, "depth %zu of %zu", k + 1,
+                  run->depths.n);
     for (int c = 0; c < RC_STRESSES; c++)
         if (wanted(c))
             s[c] = run->frame[c]->v + (plane ? k * run->frame[c]->nx : 0);

@@ -5,6 +5,7 @@
 
 #include <stdarg.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "formats/core/core.h"
@@ -63,22 +64,38 @@ tool_note(struct tool *t, const char *format, ...)
     say(t, text);
 }
 
+/* For programs, which know the line by its first key. */
+static void
+put_progress(const struct tool *t, double done, const char *text)
+{
+    struct json json;
+
+    json_open(&json, stderr);
+    json_number(&json, "progress", done);
+    json_text(&json, "tool", t->info->name);
+    json_text(&json, "text", text);
+    json_close(&json);
+}
+
 void
-tool_progress(struct tool *t, const char *format, ...)
+tool_progress(struct tool *t, double done, const char *format, ...)
 {
     bool terminal = isatty(STDERR_FILENO);
+    char text[512];
     va_list ap;
 
-    if (t->quiet || !ranks_speak(t) || !(terminal || t->progress) ||
+    if (t->quiet || !ranks_speak(t) || !(terminal || t->progress != NULL) ||
         tool_now() - t->progress_at < 0.1)
         return;
     t->progress_at = tool_now();
-    fprintf(stderr, terminal ? "\r\033[K%s: " : "%s: ", t->info->name);
     va_start(ap, format);
-    vfprintf(stderr, format, ap);
+    vsnprintf(text, sizeof text, format, ap);
     va_end(ap);
-    if (!terminal)
-        fputc('\n', stderr);
+    if (t->progress != NULL && strcmp(t->progress, "json") == 0) {
+        put_progress(t, done, text);
+        return;
+    }
+    fprintf(stderr, terminal ? "\r\033[K%s: %s" : "%s: %s\n", t->info->name, text);
     fflush(stderr);
     t->progress_shown = terminal;
 }

@@ -27,8 +27,8 @@ static const struct opt common[] = {
      .help = "print what is done"},
     {.name = "debug", .type = OPT_FLAG, .at = offsetof(struct tool, debug),
      .help = "the same, and at the end the memory used"},
-    {.name = "progress", .type = OPT_FLAG, .at = offsetof(struct tool, progress),
-     .help = "show progress even when standard error is no terminal"},
+    {.name = "progress", .type = OPT_CHOICE, .at = offsetof(struct tool, progress), .optional = true,
+     .arg = "line|json", .help = "show progress even when standard error is no terminal; json: for programs"},
     {.name = "help", .type = OPT_FLAG, .help = "print this and exit"},
     {.name = "version", .type = OPT_FLAG, .help = "print the version and exit"},
     {.name = NULL},
@@ -381,6 +381,14 @@ add_name(struct getopt_rows *rows, const char *name, int has_arg, int val)
         rows->row[rows->n++] = (struct option){.name = name, .has_arg = has_arg, .val = val};
 }
 
+static int
+argument_kind(const struct opt *o)
+{
+    if (o->optional)
+        return optional_argument;
+    return o->arg == NULL && o->words == NULL ? no_argument : required_argument;
+}
+
 /* Rows for getopt: aliases have one of their own, with the value of the option. They last as long
  * as the tool, for its messages. */
 static const struct option *
@@ -393,17 +401,13 @@ getopt_table(const struct tool *t)
         return NULL;
     for (size_t k = 0; k < t->opts; k++) {
         const struct opt *o = &t->opt[k];
-        int has_arg = o->optional                          ? optional_argument
-                      : o->arg == NULL && o->words == NULL ? no_argument
-                                                           : required_argument;
 
-        add_name(&rows, o->name, has_arg, OWN + (int)k);
+        add_name(&rows, o->name, argument_kind(o), OWN + (int)k);
         if (o->alias != NULL)
-            add_name(&rows, o->alias, has_arg, OWN + (int)k);
+            add_name(&rows, o->alias, argument_kind(o), OWN + (int)k);
     }
     for (size_t k = 0; common[k].name != NULL; k++)
-        add_name(&rows, common[k].name, common[k].arg == NULL ? no_argument : required_argument,
-                 COMMON + (int)k);
+        add_name(&rows, common[k].name, argument_kind(&common[k]), COMMON + (int)k);
     return rows.row;
 }
 
@@ -572,7 +576,8 @@ options_read(struct tool *t, int argc, char **argv)
         if (what == 'o') {
             t->out_name = strcmp(optarg, "-") == 0 ? NULL : optarg;
         } else if (what >= COMMON) {
-            set_common(t, &common[what - COMMON], optarg);
+            set_common(t, &common[what - COMMON],
+                       optional_argument_of(&common[what - COMMON], argc, argv));
         } else if (what >= OWN) {
             twice[what - OWN] = t->given[what - OWN];
             t->given[what - OWN] = true;

@@ -137,7 +137,8 @@ struct tool {
     double budget_at;   /* s: when the machine was last asked                               */
     size_t beside_memory; /* bytes: the most of tool_memory_beside                       */
     const char *vickers;  /* a hardness that was given so, as it was written; or NULL    */
-    bool quiet, verbose, progress;
+    bool quiet, verbose;
+    const char *progress;    /* NULL: where a person watches; "", line, json: always            */
     bool debug;              /* verbose too, and tells of memory */
     enum tool_writes writes; /* info->writes, or text where an option asks for it          */
     const char *out_name;    /* NULL: standard output                                         */
@@ -233,10 +234,10 @@ void tool_fail(struct tool *tool, const char *format, ...) __attribute__((format
 void tool_warn(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Only with --verbose. */
 void tool_note(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* One line that replaces the last one, at most ten times a second, only where it is wanted. Ended
- * by tool_progress_end. */
-void tool_progress(struct tool *tool, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+/* One line that replaces the last one, at most ten times a second, only where it is wanted; `done`: the share of the
+ * case that is done, NAN: unknown. Ended by tool_progress_end. */
+void tool_progress(struct tool *tool, double done, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 void tool_progress_end(struct tool *tool);
 
 /* Ctrl-C and SIGTERM remove what is half-written and end the tool; after this call the first one only

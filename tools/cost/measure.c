@@ -454,7 +454,7 @@ compare_stresses(struct cost_case *c, const struct cost_trial *m, double until, 
         rc_grid_free(g[0]);
         rc_grid_free(g[1]);
         g[0] = g[1] = NULL;
-        tool_progress(c->tool, "stresses by %s: errors", m->kernel);
+        tool_progress(c->tool, NAN, "stresses by %s: errors", m->kernel);
     }
     for (int k = 0; k < 2; k++) {
         rc_reader_free(reader[k]);

@@ -120,7 +120,7 @@ listen_to(struct cost_case *c, int from, double until, const char *doing)
             return COST_INTERRUPTED;
         if (tool_now() > until)
             return COST_LATE;
-        tool_progress(c->tool, "%s", doing);
+        tool_progress(c->tool, NAN, "%s", doing);
         if (poll(&at, 1, 50) <= 0)
             continue;
         if (n + 4096 > room) {

@@ -54,6 +54,21 @@ left(struct course *c, const struct rc_loops *l)
     return log(l->error / l->tol) / log(c->since.error / l->error) * (now - c->since.at);
 }
 
+/* The share of the case that is done: on the map's own grid as the logarithm of the error falls, within the
+ * increments; NAN: unknown. */
+static double
+share_done(const struct course *c, const struct rc_loops *l)
+{
+    double done = NAN;
+
+    if (l->grid.nx * l->grid.ny == c->g->nx * c->g->ny && c->since.error > l->tol)
+        done = fmin(fmax(log(c->since.error / l->error) / log(c->since.error / l->tol), 0), 1);
+    for (size_t k = l->n; k-- > 0;)
+        if (l->loop[k].of > 0)
+            done = (l->loop[k].at - 1 + (isnan(done) ? 0 : done)) / l->loop[k].of;
+    return done;
+}
+
 /* "case 2, 128 x 128, load 3 N, increment 4 of 16, application 2, error 1e-3 of 1e-4, about 3.1 s left" */
 static void
 show(struct course *c, const struct rc_loops *l)
@@ -75,7 +90,8 @@ show(struct course *c, const struct rc_loops *l)
             (size_t)snprintf(text + at, sizeof text - at, ", error %.1e of %.1e", l->error, l->tol);
     if (!isnan(seconds) && at < sizeof text)
         snprintf(text + at, sizeof text - at, ", about %.*f s left", seconds < 10 ? 1 : 0, seconds);
-    tool_progress(c->t, "case %zu, %zu x %zu%s", c->number, l->grid.nx, l->grid.ny, text);
+    tool_progress(c->t, share_done(c, l), "case %zu, %zu x %zu%s", c->number, l->grid.nx,
+                  l->grid.ny, text);
 }
 
 /* ---- steps ---- */

@@ -201,7 +201,8 @@ increment(struct slip_run *run, struct rc_joint *joint, struct rc_joint *near, s
     if (status == RC_OK)
         status = RC_MORE;
     while (status == RC_MORE && tool_interrupted() == 0) {
-        tool_progress(&run->t, "case %zu, %zu x %zu, increment %zu of %zu", run->number, run->p->nx,
+        tool_progress(&run->t, (double)(k - 1) / (double)n,
+                      "case %zu, %zu x %zu, increment %zu of %zu", run->number, run->p->nx,
                       run->p->ny, k, n);
         status = rc_joint_step(joint, &err);
     }

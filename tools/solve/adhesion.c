@@ -150,7 +150,7 @@ show(struct run *run, const struct rc_grid *g)
     rc_adhesion_progress(run->adhering.path, &at);
     if (!isnan(at.error))
         snprintf(how_far, sizeof how_far, ", error %.1e of %.1e", at.error, at.tol);
-    tool_progress(&run->t, "case %zu, %zu x %zu, %s%zu, load %s, %s %zu%s", run->course.number,
+    tool_progress(&run->t, NAN, "case %zu, %zu x %zu, %s%zu, load %s, %s %zu%s", run->course.number,
                   g->nx, g->ny, "state ", at.state, shown_in_unit(load, at.load, "N"),
                   at.eigenvalue ? "stability, step" : "iteration", at.iterations, how_far);
 }
