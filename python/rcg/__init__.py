@@ -10,14 +10,15 @@
 
 Each tool is one function: add cost deflect detrend export info leak open (rc-import) pick render slip
 solve stress synth. help(rcg.solve) lists its options. frame, read, write, loads and dumps handle the
-grid stream, run and report call a tool by its name.
+grid stream, run and report call a tool by its name. sample('rough-steel.x3p') is the path of a
+sample surface. Long runs show their progress in terminals and notebooks.
 """
 from .stream import Error, Frame, dumps, frame, loads, read, write
-from .tools import FUNCTIONS, NotConverged, Picture, Result, ToolWarning, function, report, run
+from .tools import FUNCTIONS, NotConverged, Picture, Result, ToolWarning, function, report, run, sample
 
 __version__ = '0.1.0'
 __all__ = ['Error', 'Frame', 'NotConverged', 'Picture', 'Result', 'ToolWarning', 'frame', 'loads', 'read', 'dumps',
-           'write', 'run', 'report'] + sorted(FUNCTIONS)
+           'write', 'run', 'report', 'sample'] + sorted(FUNCTIONS)
 
 
 def __getattr__(name):

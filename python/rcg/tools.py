@@ -7,8 +7,10 @@ import json
 import keyword
 import os
 import subprocess
+import sys
 import tempfile
 import threading
+import time
 import warnings
 
 import numpy
@@ -23,6 +25,7 @@ FUNCTIONS['open'] = 'rc-import'
 # Options that the functions set themselves, or that print text for people at a terminal.
 HIDDEN = {'o', 'report', 'json', 'help', 'version', 'verbose', 'debug', 'progress', 'formats', 'list', 'dry-run'}
 PIPE_BYTES = 1 << 20
+PROGRESS_AFTER = 2.0  # seconds without progress, so that short runs show none
 # What repr() shows of a report.
 SHOWN_FIGURES = ('load', 'contact_area', 'contact_fraction', 'max_pressure', 'mean_pressure', 'approach',
                  'pressure_error_estimate')
@@ -105,15 +108,21 @@ def python_name(option):
 
 # ---- one run of a tool ----
 
-def execute(command, data=None, timeout=None):
-    """Runs a command on a sequence of bytes (None: no input): exit status, output, messages."""
+def execute(command, data=None, timeout=None, progress=False):
+    """Runs a command on a sequence of bytes (None: no input): exit status, output, messages.
+
+    progress: False; None shows it where a person watches; True always; or a function of a dict with the keys
+    progress (the share of the case that is done, or None), tool and text.
+    """
+    shown = _progress_of(progress)
     try:
-        child = subprocess.Popen([place(command[0])] + command[1:], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        child = subprocess.Popen([place(command[0])] + command[1:] + ['--progress=json'] * (shown is not None),
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                  stdin=subprocess.DEVNULL if data is None else subprocess.PIPE)
     except FileNotFoundError:
         raise Error('%s: not found: install the tools, or name their folder in PATH or RC_BIN' % command[0], 127) from None
     messages = []
-    threads = [threading.Thread(target=lambda: messages.append(child.stderr.read()), daemon=True)]
+    threads = [threading.Thread(target=_listen, args=(child.stderr, messages, shown), daemon=True)]
     if data is not None:
         threads.append(threading.Thread(target=_feed, args=(child.stdin, data), daemon=True))
     watch = threading.Timer(timeout, child.terminate) if timeout is not None else None
@@ -134,10 +143,50 @@ def execute(command, data=None, timeout=None):
             thread.join()
         child.stdout.close()
         child.stderr.close()
-    words = messages[0].decode('utf-8', 'replace').strip()
+        if hasattr(shown, 'end'):
+            shown.end()
+    words = b''.join(messages).decode('utf-8', 'replace').strip()
     if child.returncode < 0 and not words:
         words = '%s: ended by signal %d' % (command[0], -child.returncode)
     return child.returncode, output, words
+
+
+def _listen(pipe, messages, shown):
+    """Lines of progress go to `shown`, all others are messages."""
+    for line in pipe:
+        if shown is not None and line.startswith(b'{"progress": '):
+            shown(json.loads(line))
+        else:
+            messages.append(line)
+
+
+class _Line:
+    """Progress as one line of a terminal or notebook, which the next replaces and the end removes."""
+
+    def __init__(self):
+        self.began, self.width = time.monotonic(), 0
+
+    def __call__(self, said):
+        if time.monotonic() - self.began < PROGRESS_AFTER:
+            return
+        done = '' if said['progress'] is None else '%3.0f %%  ' % (100 * said['progress'])
+        text = '%s: %s%s' % (said['tool'], done, said['text'])
+        sys.stderr.write('\r' + text.ljust(self.width))
+        sys.stderr.flush()
+        self.width = len(text)
+
+    def end(self):
+        if self.width > 0:
+            sys.stderr.write('\r' + ' ' * self.width + '\r')
+            sys.stderr.flush()
+
+
+def _progress_of(wanted):
+    """The function that progress goes to, or None."""
+    if callable(wanted):
+        return wanted
+    watched = sys.stderr is not None and (sys.stderr.isatty() or 'ipykernel' in sys.modules)
+    return _Line() if wanted or (wanted is None and watched) else None
 
 
 def _widen(pipe):
@@ -159,13 +208,13 @@ def _feed(pipe, data):
         pass  # the tool ended before it had read everything, and its messages say why
 
 
-def _reported(command, data, has_report, timeout=None):
+def _reported(command, data, has_report, timeout=None, progress=False):
     """As execute(), with the lines of the tool's report: exit status, output, messages, list of dicts."""
     if not has_report:
-        return execute(command, data, timeout) + ([],)
+        return execute(command, data, timeout, progress) + ([],)
     with tempfile.TemporaryDirectory() as folder:
         name = os.path.join(folder, 'report.json')
-        found = execute(command + ['--report', name], data, timeout)
+        found = execute(command + ['--report', name], data, timeout, progress)
         if not os.path.exists(name):
             return found + ([],)
         with open(name, encoding='utf-8') as file:
@@ -430,8 +479,8 @@ class Picture(bytes):
 
 # ---- calls ----
 
-def call(tool, surface=None, operands=(), spacing=None, timeout=None, **given):
-    """Runs a tool on a surface (see frames_from; spacing: of an array): a Result.
+def call(tool, surface=None, operands=(), spacing=None, timeout=None, progress=None, **given):
+    """Runs a tool on a surface (see frames_from; spacing: of an array): a Result. See execute for timeout and progress.
 
     Warnings of the tool become ToolWarning; a failure becomes Error with the message of the tool and its exit
     status; a tool that stops short of the requested accuracy becomes NotConverged.
@@ -440,7 +489,7 @@ def call(tool, surface=None, operands=(), spacing=None, timeout=None, **given):
     row = table(tool)
     data = None if surface is None else _data(surface, spacing)
     has_report = any(o['name'] == 'report' for o in row['options'])
-    status, output, words, lines = _reported(command, data, has_report, timeout)
+    status, output, words, lines = _reported(command, data, has_report, timeout, progress)
     if row['writes'] != 'stream' or not output.startswith(b'RCG'):
         result = Result(tool, command, frames=[], lines=lines)
     else:
@@ -450,7 +499,6 @@ def call(tool, surface=None, operands=(), spacing=None, timeout=None, **given):
 
 def _warn(text, tool):
     """A warning at the line of the user that called this package."""
-    import sys
     frame, level = sys._getframe(1), 2
     while frame is not None and frame.f_globals.get('__name__', '').startswith('rcg.'):
         frame, level = frame.f_back, level + 1
@@ -477,6 +525,16 @@ def open_file(path, **given):
     if head == b'RCG1' and not given:
         return Result('rc-import', ['rc-import', os.fspath(path)], frames=stream.read(path))
     return call('rc-import', None, (path,), **given)
+
+
+def sample(name='rough-steel.x3p'):
+    """The path of a sample surface: rough-steel.x3p, rough-sphere.x3p or turned-brass.txt."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    folders = [os.path.join(here, 'samples'), os.path.join(here, '..', '..', 'sample_surfaces')]
+    for folder in folders:
+        if os.path.exists(os.path.join(folder, name)):
+            return os.path.join(folder, name)
+    raise FileNotFoundError('no sample %s in %s' % (name, folders[0]))
 
 
 def draw(surface, path=None, dx=None, **given):
@@ -512,15 +570,15 @@ def add_two(a, b, dx=None, **given):
         return call('rc-add', None, names, **given)
 
 
-def make(shape, timeout=None, **given):
+def make(shape, **given):
     """A synthetic surface; like= takes a surface or a file with the nodes to use."""
     like = given.get('like')
     if like is None or isinstance(like, str) or hasattr(like, '__fspath__'):
-        return call('rc-synth', None, (shape,), timeout=timeout, **given)
+        return call('rc-synth', None, (shape,), **given)
     with tempfile.TemporaryDirectory() as folder:
         given['like'] = os.path.join(folder, 'like.rcg')
         stream.write(given['like'], frames_from(like))
-        return call('rc-synth', None, (shape,), timeout=timeout, **given)
+        return call('rc-synth', None, (shape,), **given)
 
 
 SPECIAL = {'open': open_file, 'render': draw, 'export': save_as, 'add': add_two, 'synth': make}
@@ -532,35 +590,44 @@ def function(name):
     tool = FUNCTIONS[name]
     rows = options_of(tool)
 
-    def solver(surface, *, dx=None, timeout=None, **given):
-        return call(tool, surface, spacing=dx, timeout=timeout, **given)
+    def solver(surface, *, dx=None, timeout=None, progress=None, **given):
+        return call(tool, surface, spacing=dx, timeout=timeout, progress=progress, **given)
 
     inner = SPECIAL.get(name, solver)
 
     def made(*operands, **given):
         return inner(*operands, **given)
 
-    own = [p for p in inspect.signature(inner).parameters.values() if p.name not in rows and p.name != 'given']
-    positional = [p for p in own if p.name not in ('dx', 'timeout')]
-    named = [inspect.Parameter(python, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation(row))
+    own = [p.replace(annotation=_Hint(OWN_HINTS[p.name] + (' | None' if p.default is None else '')))
+           for p in inspect.signature(inner).parameters.values() if p.name not in rows and p.name != 'given']
+    positional = [p for p in own if p.name not in ('dx', 'timeout', 'progress')]
+    named = [inspect.Parameter(python, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=_Hint(annotation(row) + ' | None'))
              for python, row in rows.items()]
-    named += [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own if p.name in ('dx', 'timeout')]
-    result = {'render': Picture, 'export': None}.get(name, Result)
-    made.__signature__ = inspect.Signature(positional + named, return_annotation=result)
+    named += [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own if p not in positional]
+    result = {'render': 'Picture', 'export': 'None'}.get(name, 'Result')
+    made.__signature__ = inspect.Signature(positional + named, return_annotation=_Hint(result))
     made.__name__ = made.__qualname__ = name
     made.__module__ = 'rcg'
     made.__doc__ = documentation(name, rows)
     return made
 
 
-HINTS = {'flag': 'bool', 'number': 'Quantity', 'count': 'int', 'numbers': 'Quantity | list', 'words': 'str | list',
-         'step': 'Quantity | bool | str'}
+class _Hint(str):
+    """A type hint that help() and the stub show without quotation marks."""
+    __repr__ = str.__str__
+
+
+# Type hints by the type of an option; those of other parameters. stubs.py explains the names.
+HINTS = {'flag': 'bool', 'number': 'Quantity', 'count': 'int', 'numbers': 'Quantity | list[Quantity]', 'words': 'str | list[str]',
+         'step': 'bool | Quantity | list[Quantity | bool]'}
+OWN_HINTS = {'surface': 'Surface', 'a': 'Surface', 'b': 'Surface', 'path': 'Path', 'shape': 'str',
+             'dx': 'float | tuple[float, float]', 'timeout': 'float', 'progress': 'bool | Callable[[dict[str, Any]], object]'}
 
 
 def annotation(row):
-    if row['type'] == 'choice' and row['words'] and not row['optional']:
-        return 'Literal[%s]' % ', '.join(map(repr, row['words']))
-    return HINTS.get(row['type'], 'Any')
+    if row['type'] == 'choice' and row['words']:
+        return 'Literal[%s]' % ', '.join(map(repr, row['words'])) + ' | bool' * row['optional']
+    return HINTS.get(row['type'], 'Any') + ' | bool' * row['optional']
 
 
 def documentation(name, rows):
@@ -569,6 +636,9 @@ def documentation(name, rows):
     text = [row['summary'] + '.', '']
     if name in SPECIAL:
         text += [SPECIAL[name].__doc__, '']
+    else:
+        text += ['timeout: seconds, after which the tool stops. progress: True, False, or a function of a dict (default: progress',
+                 'appears where a person watches).', '']
     text += ['Numbers are SI; texts may carry a unit (%s). The manual is %s(1).' % ("'60N', '114GPa'", tool), '']
     if row['operand_words']:
         text += ['shape: ' + ', '.join(row['operand_words']), '']

@@ -62,9 +62,10 @@ done
 
 # ---- for users of numpy ----
 
-claim "the Python package is there, for pip" diff -r -x __pycache__ -x tables.json "$RC_SOURCE/python" "$prefix/share/libcontact/python"
+claim "the Python package is there" diff -r -x __pycache__ -x tables.json -x '*.pyi' -x samples "$RC_SOURCE/python" "$prefix/share/libcontact/python"
 claim "  with the option tables of the tools" bash -c '[ "$(wc -l <"$0")" = "$(ls "$1"/bin/rc-* | grep -vc mpi)" ]' \
     "$prefix/share/libcontact/python/rcg/tables.json" "$prefix"
+claim "  and the sample surfaces" cmp "$RC_SOURCE/sample_surfaces/rough-steel.x3p" "$prefix/share/libcontact/python/rcg/samples/rough-steel.x3p"
 
 # ---- a program of others, by pkg-config ----
 

@@ -78,6 +78,13 @@ mkdir mutated
 printf '#!/bin/sh\n%s "$@" | sed "s/\"hardness\"/\"hardened\"/"\n' "$RC_BIN/rc-solve" >mutated/rc-solve
 chmod +x mutated/rc-solve
 claim "  from the option table and nothing else" check mutated "$PWD/mutated"
+build=$(dirname "$RC_BIN")
+if [ -e "$build/tools/completions/__init__.pyi" ]; then
+    claim "type hints have the options of the tables" check hints "$build/tools/completions/__init__.pyi" "$build/tools/completions/tables.json"
+else
+    echo "not tried: type hints, which this build does not have: no Python had numpy"
+fi
+claim "progress, for a function and as a line" check progress
 version=$(rc-info --version | grep -o '[0-9.]*$')
 claim "its version is that of the tools" says "^$version\$" "$python" -c 'import rcg; print(rcg.__version__)'
 

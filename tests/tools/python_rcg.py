@@ -438,6 +438,69 @@ def mutated(folder):
     assert 'hardened' in rcg.solve.__doc__ and 'hardness' not in rcg.tools.options_of('rc-solve')
 
 
+def keywords(stub):
+    """{function: names of its keywords} of the functions in a stub that take a surface or files."""
+    import ast
+    return {node.name: [a.arg for a in node.args.kwonlyargs] for node in ast.parse(stub).body
+            if isinstance(node, ast.FunctionDef)}
+
+
+def hints(stub, tables):
+    """The stub has every function with the options of its tool, which come from the tables and nothing else."""
+    text, rows = content(stub).decode(), content(tables).decode()
+    there = keywords(text)
+    assert set(there) == set(rcg.tools.FUNCTIONS)
+    for name, command in rcg.tools.FUNCTIONS.items():
+        assert set(there[name]) - {'dx', 'timeout', 'progress'} == set(rcg.tools.options_of(command)) - {'dx'}, name
+    assert "kernel: Literal['auto', 'fft'," in text
+    with open('tables.json', 'w') as file:
+        file.write(rows.replace('"name": "hardness"', '"name": "hardened"'))
+    changed = subprocess.run([sys.executable, '-m', 'rcg.stubs', 'tables.json'], stdout=subprocess.PIPE, check=True).stdout
+    assert 'hardened' in keywords(changed)['solve'] and 'hardness' not in keywords(changed)['solve']
+
+
+def progress():
+    """The tool's lines for programs, which rise to 1 and are no warnings; a function gets them, a terminal sees one line."""
+    rough = rcg.synth('selfaffine', nx=256, dx='1um', hurst=0.8, rms_slope=0.05, seed=3)
+    wanted = dict(periodic=True, mean_pressure='100MPa', estar='100GPa', output='pressure', quiet=False)
+    said = []
+    result = rcg.solve(rough, progress=said.append, tol=1e-10, **wanted)
+    assert said and not result.warnings and all(s['tool'] == 'rc-solve' and s['text'].startswith('case 1, ') for s in said)
+    shares = [s['progress'] for s in said if s['progress'] is not None]
+    assert shares == sorted(shares) and all(0 <= s <= 1 for s in shares), shares
+    done = subprocess.run(['rc-solve', '--progress', '--periodic', '--mean-pressure', '100MPa', '--estar', '100GPa'],
+                          input=rcg.dumps(rough.frames), stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=True)
+    assert done.stderr.startswith(b'rc-solve: case 1, ')
+    assert tool('rc-solve', '--progress=bar')[0] == 2
+    rcg.tools.PROGRESS_AFTER, sys.stderr = 0, io.StringIO()
+    rcg.solve(rough, tol=1e-10, **wanted)
+    silent = sys.stderr.getvalue()
+    rcg.solve(rough, tol=1e-10, progress=True, **wanted)
+    lines, sys.stderr = sys.stderr.getvalue().split('\r'), sys.__stderr__
+    assert silent == '' and lines[1].startswith('rc-solve: ') and lines[-1] == '' and not lines[-2].strip(), lines
+
+
+def data_sets(name):
+    """to_xarray and to_pandas: the values, names, units and places of the frames."""
+    ball = rcg.open(name)
+    solved = rcg.solve(ball, load=[0.5, 1], estar='114GPa', quiet=True)
+    cube = solved.to_xarray()
+    assert cube.pressure.dims == ('case', 'y', 'x') and cube.pressure.attrs['units'] == 'Pa'
+    assert (cube.pressure.values == solved.pressure).all() and list(cube.case) == [1, 2]
+    assert abs(float(cube.x[1] - cube.x[0]) / ball.dx - 1) < 1e-9 and abs(float(cube.y[1] - cube.y[0]) / ball.dy - 1) < 1e-9
+    stress = rcg.stress(solved, nu=0.3, depths='1um,3um', components=['mises', 'szz'])
+    deep = stress.to_xarray()
+    assert deep.mises.dims == ('case', 'depth', 'y', 'x') and numpy.allclose(deep.depth, [1e-6, 3e-6])
+    assert (deep.szz.sel(case=2, depth=3e-6, method='nearest').values == stress.cases[1].szz[1]).all()
+    one = solved.cases[0].to_xarray()
+    assert one.pressure.dims == ('y', 'x') and one.attrs['load'] == solved.cases[0].load
+    back = rcg.solve(ball.to_xarray().height, load=[0.5, 1], estar='114GPa', quiet=True)
+    assert numpy.allclose(back.pressure, solved.pressure, rtol=1e-6, atol=1e3)
+    table = solved.to_pandas()
+    assert list(table.load) == list(solved.load) and len(table) == 2 and table.converged.all()
+    assert list(table['contact_area']) == [case.contact_area for case in solved.cases]
+
+
 def drawn(script):
     """The page's script, and what its lists hold: areas that grow as the load to 2/3."""
     names = {}

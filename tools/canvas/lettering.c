@@ -16,6 +16,35 @@ struct lettering {
     bool no_font;
 };
 
+#ifdef RC_OWN_FONTS
+#include <fontconfig/fontconfig.h>
+#include <unistd.h>
+
+/* Fonts that come with the program, for machines without any: the settings of the system, where it has some, and the
+ * files in the folder RC_OWN_FONTS, which starts at the folder of the program. */
+static void
+own_fonts(void)
+{
+    char path[4096];
+    ssize_t n = readlink("/proc/self/exe", path, sizeof path - sizeof "/" RC_OWN_FONTS);
+    bool system = getenv("FONTCONFIG_FILE") != NULL || access("/etc/fonts/fonts.conf", R_OK) == 0;
+    FcConfig *config = system ? FcInitLoadConfig() : FcConfigCreate();
+
+    if (n <= 0 || config == NULL)
+        return;
+    path[n] = '\0';
+    strcpy(strrchr(path, '/'), "/" RC_OWN_FONTS);
+    if (!system) {
+        static const char none[] = "<fontconfig><dir>/usr/share/fonts</dir><cachedir "
+                                   "prefix='xdg'>fontconfig</cachedir></fontconfig>";
+        FcConfigParseAndLoadFromMemory(config, (const FcChar8 *)none, FcTrue);
+    }
+    FcConfigAppFontAddDir(config, (const FcChar8 *)path);
+    FcConfigBuildFonts(config);
+    FcConfigSetCurrent(config);
+}
+#endif
+
 /* Shades of grey and unrounded widths: text looks the same whatever the screen of the machine. */
 static PangoLayout *
 new_layout(cairo_t *cairo)
@@ -41,6 +70,9 @@ lettering_new(void)
 
     if (l == NULL)
         return NULL;
+#ifdef RC_OWN_FONTS
+    own_fonts();
+#endif
     l->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, 1, 1);
     l->cairo = cairo_create(l->surface);
     l->layout = new_layout(l->cairo);

@@ -1,0 +1,13 @@
+# Results of the Python package as a data set of xarray and a table of pandas.
+. "$(dirname "$0")/../pipe.sh"
+. "$RC_SOURCE/tests/python.sh"
+
+if ! python=$(python_with numpy xarray pandas 2>why.txt); then
+    echo "not tried: $(cat why.txt)"
+    exit 77
+fi
+export PYTHONPATH="$RC_SOURCE/python" PYTHONDONTWRITEBYTECODE=1
+rc-synth sphere --nx 33 --ny 47 --dx 1.1um --dy 1.29um --radius 2.385mm -o ball.rcg
+claim "values, names, units and places" "$python" "$RC_SOURCE/tests/tools/python_rcg.py" data_sets ball.rcg
+
+finish
