@@ -1,6 +1,6 @@
-# Sourced by the tests that look at the build and at names which the linker sees, after pipe.sh.
+# Sourced after pipe.sh by the tests that inspect the build and the symbols of the linker.
 
-# declared HEADER...: functions and objects rc_... that the headers declare, one a line.
+# declared HEADER...: prints the functions and objects rc_... that the headers declare, one per line.
 declared() {
     local header
     for header; do
@@ -19,8 +19,8 @@ declared() {
         }' | sort -u
 }
 
-# objects BUILD FOLDER...: the object files of these folders of a build with their sources, as "object source";
-# not of sources that are gone.
+# objects BUILD FOLDER...: prints the object files of these folders of a build, as "object source", without
+# those of removed sources.
 objects() {
     local build=$1 object source
     shift
@@ -30,8 +30,8 @@ objects() {
         done
 }
 
-# sanitizers LIBRARY: the options of the compiler that the archive was made with, and programs that use
-# it have to be.
+# sanitizers LIBRARY: prints the sanitizer options with which the archive was compiled, which programs with it
+# need too.
 sanitizers() {
     nm "$1" 2>nm.err >nm.txt || cat nm.err >&2
     if grep -q __asan_init nm.txt; then
@@ -39,7 +39,7 @@ sanitizers() {
     fi
 }
 
-# with_mpi: whether this build knows MPI.
+# with_mpi: true if this build has MPI.
 with_mpi() {
     grep -qs '^RC_MPI:BOOL=ON' "$(dirname "$RC_BIN")/CMakeCache.txt"
 }

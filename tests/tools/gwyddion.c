@@ -1,4 +1,4 @@
-/* Opens FILE by Gwyddion's own libraries and compares its first channel with the array of an NPY
+/* Opens FILE with Gwyddion's libraries and compares its first channel with the array of an NPY
  * file: gwyddion FILE NPY DX DY PART, where heights may differ by PART of the largest. Built by
  * pipe_gwyddion.sh. */
 #include <math.h>

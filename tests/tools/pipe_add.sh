@@ -1,11 +1,11 @@
-# rc-add lays two surfaces face to face: a surface closes on its own replica, two balls touch as one of
-# the composite radius, and what does not go together is refused with what mends it.
+# rc-add adds two facing surfaces: the sum of a surface and its replica is flat, two balls are equivalent to
+# one with the composite radius, and maps that do not match are refused with the command that helps.
 . "$(dirname "$0")/../pipe.sh"
 
 info() {
     "$@" | rc-info --json >info.json
 }
-# values FILE: all values of a stream of f64 frames, as they lie.
+# values FILE: prints all values of a stream of f64 frames in their order.
 values() {
     perl -0777 -ne 'while (/\GRCG1\n(.*?)\n\n/gcs) { my %k = map { split /=/, $_, 2 } split /\n/, $1;
         my $n = $k{nx} * $k{ny} * ($k{type} eq "f64" ? 8 : 4); /\G(.{$n})crc32 \w{8}\n/gcs or die; print $1 }' "$1"
@@ -18,7 +18,7 @@ $rough --nx 66 --ny 47 --seed 4 -o b.rcg
 
 # ---- the sum ----
 
-# A surface less itself is flat; a surface added to a flat one is mirrored; a flat one less that is the replica.
+# A surface minus itself is flat; a surface added to a flat one is mirrored; a flat minus this is the replica.
 rc-add --subtract a.rcg a.rcg -o flat.rcg
 rc-add flat.rcg a.rcg -o mirrored.rcg
 rc-add --subtract flat.rcg mirrored.rcg -o replica.rcg

@@ -1,4 +1,4 @@
-# rc-solve --checkpoint and --resume: a run that is cut off goes on, to the answer that it would have had.
+# rc-solve --checkpoint and --resume: an interrupted run continues, with the result of an uninterrupted one.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 200 --ny 150 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --rolloff 40um \
@@ -15,7 +15,7 @@ claim "and what would have been learnt from them is left out, with the reason" b
     grep -q '\"discretization_error_estimate\": null' left.json"
 claim "the checkpoint is a grid stream of a frame a case" says '^3$' bash -c "rc-info kept.rcg | grep -c 'frame . (state)'"
 
-# 300,000 bytes: the first frame and a part of the second
+# 300,000 bytes contain the first frame and a part of the second
 claim "cut off while it was written, what was whole in it serves" bash -c "
     head -c 300000 kept.rcg >torn.rcg &&
     $solve --load 0.1N:0.5N:3 --checkpoint torn.rcg --resume --report torn.json -o torn-out.rcg rough.rcg &&
@@ -23,12 +23,12 @@ claim "cut off while it was written, what was whole in it serves" bash -c "
     says '^3$' bash -c \"rc-info torn.rcg | grep -c 'frame . (state)'\""
 claim "nothing to resume is a first run" bash -c "
     $solve --load 0.3N --checkpoint fresh.rcg --resume -o fresh-out.rcg rough.rcg && [ -s fresh.rcg ]"
-# K p in double precision, a correction, and, with the whole set, another one: 1 + 0.5 + 0.5
+# K p in double precision, a correction, and another correction with the whole working set: 1 + 0.5 + 0.5
 claim "and resumed does no work on coarser grids" bash -c "
     $solve --load 0.3N --checkpoint fresh.rcg --resume --report fresh.json -o fresh-out.rcg rough.rcg"
 near "$(field convolutions fresh.json)" 2 1e-15 "but what tells that it is done"
 
-# The scheme of the paper takes hundreds of steps; the signal comes when the first frames are there.
+# pk99 takes hundreds of steps; the signal is sent when the first frames exist.
 interrupted() {
     local status
     $solve --load 0.3N --method pk99 --tol 1e-12 --checkpoint cut.rcg --interval 0.02 --report cut.json -o cut-out.rcg rough.rcg &
@@ -42,7 +42,7 @@ claim "a signal leaves the pressure reached" interrupted
 claim "and from that it goes on" bash -c "
     $solve --load 0.3N --method pk99 --tol 1e-12 --checkpoint cut.rcg --resume --report on.json -o on.rcg rough.rcg &&
     $solve --load 0.3N --method pk99 --tol 1e-12 --report straight.json -o straight.rcg rough.rcg"
-# Both to 1e-12 in the mean over the map; a single pressure may be off by some more.
+# Both to 1e-12 in the mean over the map; a single pressure may have a larger error.
 near "$(field max_pressure on.json)" "$(field max_pressure straight.json)" 1e-10 "to the same largest pressure"
 claim "in fewer steps than from the start" test "$(field iterations on.json)" -lt "$(field iterations straight.json)"
 claim "an approach goes on from the load it had found" bash -c "
@@ -70,7 +70,7 @@ refuses 1 'no pressure can be read from it \(.notes of a user. stands where a fr
     "$solve --load 0.1N --checkpoint notes.txt --resume -o x.rcg rough.rcg"
 claim "which stays as it is" grep -qx "notes of a user" notes.txt
 refuses 2 '--resume and --interval need --checkpoint' "--resume alone" "$solve --load 0.1N --resume -o x.rcg rough.rcg"
-# killed inside the first frame: nothing is lost by beginning anew
+# killed inside the first frame: starting again loses nothing
 head -c 5000 kept.rcg >first.rcg
 claim "one cut off in its first frame is begun anew" \
     warns 'first.rcg: the run stopped while it wrote the first frame: it begins anew' \
@@ -78,7 +78,7 @@ claim "one cut off in its first frame is begun anew" \
 claim "to a checkpoint like any other" bash -c "rc-info --quiet first.rcg >/dev/null &&
     $solve --load 0.1N --checkpoint first.rcg --resume --report first.json -o again.rcg rough.rcg"
 claim "from which the next one goes on" test "$(field iterations first.json)" -le 1
-# a line as long as one piece that is read, so that its line feed alone is no end of the header
+# a line as long as one block of the reader, so that its line feed is not taken for the end of the header
 rc-pick --set "note=$(printf '%0250d' 0)" rough.rcg -o noted.rcg
 $solve --load 0.1N --checkpoint noted-kept.rcg --quiet -o x.rcg noted.rcg && rm x.rcg
 head -c 5000 noted-kept.rcg >noted-first.rcg
@@ -90,7 +90,7 @@ cp spoilt.rcg as-it-was.rcg
 refuses 1 'frame 1 of it cannot be read .*checksum' "one that is spoilt, not cut off, is refused" \
     "$solve --load 0.1N --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"
 claim "and left as it is" cmp spoilt.rcg as-it-was.rcg
-head -c 500000 kept.rcg >tail.rcg # two frames and a part; a power failure may leave zeros behind
+head -c 500000 kept.rcg >tail.rcg # two frames and a part of the third; a power failure may append zeros
 head -c 100000 /dev/zero >>tail.rcg
 claim "a tail without the end of a frame is cut off" bash -c "
     $solve --load 0.1N:0.5N:3 --checkpoint tail.rcg --resume --report tail.json -o tail-out.rcg rough.rcg &&

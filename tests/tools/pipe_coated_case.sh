@@ -1,8 +1,8 @@
-# The worked case of coated bodies, a hard film on steel under a rough ball, runs as rc-solve(1) and
-# rc-stress(1) print it, and gives the figures that they tell.
+# The example of coated bodies, a hard film on steel under a rough ball, runs as printed in rc-solve(1) and
+# rc-stress(1), and gives the figures in these pages.
 . "$(dirname "$0")/../pipe.sh"
 
-# block PAGE 'first words': the literal block that begins so, as it is typed
+# block PAGE 'first words': prints the literal block that begins with these words, as a user types it
 block() {
     awk -v first="$2" '
         /^\.Bd -literal/ { inside = 1; text = ""; next }

@@ -1,5 +1,6 @@
-# What bash, zsh and fish complete is what --help and the manual say: every option of every tool and every
-# word that an option takes; and units behind a number, files, and the channels of the file on the line.
+# bash, zsh and fish complete the options and words of --help and of the manual: every option of every tool
+# and every word that an option takes; also units after a number, files, and the channels of the file on the
+# line.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 completions=$RC_BIN/completions
@@ -12,7 +13,7 @@ done
 
 # ---- what each shell completes ----
 
-# in_bash TOOL WORD...: what bash offers for the last word of this line, which may be empty.
+# in_bash TOOL WORD...: prints the completions of bash for the last word of this line, which may be empty.
 in_bash() {
     bash -c '. "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); "_${1//-/_}"
         [ ${#COMPREPLY[@]} = 0 ] || printf "%s\n" "${COMPREPLY[@]}"' "$completions/bash/$1" "$@"
@@ -22,12 +23,12 @@ options_in_bash() { in_bash "$1" - | sort; }
 words_in_bash() {
     options_in_bash "$1" | while read -r option; do
         (cd empty && in_bash "$1" "$option" '') >after.txt
-        # where an option takes none, an operand may follow
+        # an operand may follow an option without a value
         (cd empty && in_bash "$1" '') | cmp -s - after.txt || sed "s/^/$option /" after.txt
     done
 }
 
-# zsh and fish, by what their files say.
+# zsh and fish, from the content of their files.
 options_in_zsh() { sed -n "s/^    '\*\(--*[A-Za-z0-9-]*\)[+=]*\[.*/\1/p" "$completions/zsh/_$1" | sort; }
 words_in_zsh() {
     sed -n "s/^    '\*\(--*[A-Za-z0-9-]*\)[+=]*\[.*\]:[^:]*:\(.*\)'\$/\1 \2/p" "$completions/zsh/_$1" |
@@ -54,18 +55,18 @@ same_options() {
     help_options "$1" >help.txt && "options_in_$2" "$1" >there.txt && diff help.txt there.txt >&2
 }
 
-# Those of --format stand in a table of the tool's own.
+# The words of --format are in a separate table of the tool.
 format_words() {
     if says "^--formats\$" help_options "$1"; then
         "$1" --formats | awk 'NR > 1 || !/^(name|format)/ { print "--format", $1 }'
     fi
 }
-# The words of --help are completed, and what is completed is in the manual.
+# The words of --help are completed, and completed words are in the manual.
 same_words() {
     "words_in_$2" "$1" | sort -u >there.txt
     help_words "$1" | comm -23 - there.txt >missing.txt
     { page_words "$pages/$1.1" && format_words "$1"; } | sort -u >known.txt
-    # another name of an option takes the same words
+    # the second name of an option takes the same words
     "$1" --help | sed -n 's/^  \(--[A-Za-z0-9-]*\), \(--[A-Za-z0-9-]*\).*/\2 \1/p' >alias.txt
     awk 'FILENAME == "alias.txt" { of[$1] = $2; next } { print ($1 in of ? of[$1] : $1), $2 }' alias.txt there.txt |
         sort -u | comm -23 - known.txt >>missing.txt
@@ -98,7 +99,8 @@ rc-synth sphere --nx 9 --dx 1um --radius 1mm -o 'one ball.rcg'
 rc-solve --quiet --load 1 --estar 1GPa -o two.rcg 'one ball.rcg'
 cd ..
 
-# at_work SHELL: offers "LINE" WORD... is claimed of it; complete_SHELL prints what it offers.
+# at_work SHELL: makes the claims `offers "LINE" WORD...` for this shell; complete_SHELL prints its
+# completions.
 offers() {
     local line=$1 words=$2
     (cd streams && "complete_$shell" "$line") | sort | tr '\n' ' ' >offered.txt
@@ -143,7 +145,7 @@ else
 fi
 
 if command -v zsh >/dev/null; then
-    # A shell on a terminal of its own, which notes what it is about to offer.
+    # A shell on a pseudo-terminal, which records its completions.
     mkdir zsh
     cat >zsh/.zshrc <<'END'
 PROMPT= RPS1=

@@ -1,5 +1,6 @@
-# Contact has one meaning in all tools: the frame `contact` where a case has one, else a pressure above 0. Of bodies that attract each other
-# it agrees with the gap, which is exactly 0 where they touch; where a stream does not tell, that is said.
+# Contact has one meaning in all tools: the frame `contact` if a case has one, else a pressure above 0. For
+# bodies that attract each other it agrees with the gap, which is exactly 0 in contact; if a stream does not
+# determine the contact, the tools say so.
 . "$(dirname "$0")/../pipe.sh"
 
 frames="perl $RC_SOURCE/tests/tools/frames.pl"
@@ -41,7 +42,7 @@ near "$(rc-info --json --patches a.rcg | grep -o '"patches": {"count": [0-9]*' |
 out=$(awk -v n="$nodes" 'BEGIN { printf "%.4g", 100 * (1 - n / 4096) }')
 claim "rc-render --histogram leaves out the rest" warns "out of contact: $out %" rc-render --verbose --histogram -o h.svg a.rcg
 claim "--clip counts the contact" bash -c 'rc-render --clip -o k.svg a.rcg && grep -q "99.5 % of the contact" k.svg'
-# The border of the contact alone tells the frame: that of a stream whose pressure is the frame itself is drawn alike.
+# The drawn border is that of the frame: a stream whose pressure is the frame itself gives the same picture.
 $frames a.rcg:gap a.rcg:contact=pressure >border.rcg
 rc-render --channel gap --border --title t --subtitle t -o b1.svg a.rcg
 rc-render --channel gap --border --title t --subtitle t -o b2.svg border.rcg

@@ -1,20 +1,22 @@
-# rc-cost's errors are those of the pressures that rc-solve gives with the same settings, found here by other
-# arithmetic; its reference is Hertz's and Westergaard's; and the command that it proposes does what it says.
+# The errors of rc-cost are those of the pressures of rc-solve with the same settings, computed here
+# independently; its reference agrees with Hertz and Westergaard; and the proposed command has the stated
+# error.
 . "$(dirname "$0")/../pipe.sh"
 
-# Values of a stream of one f64 frame, one a line: before its end stand its checksum and its end line.
+# Prints the values of a stream of one f64 frame, one per line, without the checksum and the end line after
+# them.
 values() {
     head -c -24 "$1" | tail -c "$((8 * $2))" | od -An -v -w8 -t f8
 }
 
-# off A B N [KEY]: relative L1 distance of the N values of two streams.
+# off A B N [KEY]: prints the relative L1 distance of the N values of two streams.
 off() {
     values "$1" "$3" >a.txt
     values "$2" "$3" >b.txt
     paste a.txt b.txt | awk '{ d = $1 - $2; s += d < 0 ? -d : d; t += $2 } END { printf "%.12g\n", s / t }'
 }
 
-# rows FILE: lines of the pressures' table.
+# rows FILE: prints the lines of the table of pressures.
 rows() {
     awk '/^$/ { exit } !/^#/ && $1 != "method"' "$1"
 }
@@ -28,7 +30,7 @@ contact="--periodic --mean-pressure 2GPa --estar 114GPa"
 rc-cost $contact -o cost.txt --report cost.json --plot cost.png rough.rcg
 rc-solve $contact --tol 1e-12 --kernel fft64 --output pressure --quiet -o truth.rcg rough.rcg
 
-# Figures of three digits, and what else is in the last of them.
+# Tolerance of figures with three digits, with the rounding of the last one.
 three_and=$(awk -v t="$three_digits" 'BEGIN { print 1.2 * t }')
 
 every_error() {
@@ -47,7 +49,7 @@ every_error() {
 claim "every true error on the map's own grid is that of rc-solve with these settings" every_error
 claim "pcg's true errors are at most the tolerances asked for" bash -c "
     awk '!/^#/ && \$1 == \"pcg\" && \$5 == \"66x62\" { n++; if (\$11 > \$4) bad = 1 } END { exit bad || n != 14 }' cost.txt"
-# Figures have three digits, and below 1e-11 the reference's own error is felt.
+# Figures have three digits, and below 1e-11 the error of the reference matters.
 claim "its estimates are not below them, nor above 1.5 times them" bash -c "
     awk '!/^#/ && \$1 == \"pcg\" && \$5 == \"66x62\" && \$11 > 1e-11 {
         n++; if (\$10 < (1 - $three_digits) * \$11 || \$10 > 1.5 * \$11) { bad = 1; print >\"/dev/stderr\" }
@@ -56,8 +58,8 @@ claim "its estimates are not below them, nor above 1.5 times them" bash -c "
 claim "the coarser grids have 1/8, 1/4 and 1/2 of the nodes a side, rounded" bash -c '
     awk "\$1 == \"pcg\" && \$5 != \"66x62\" { print \$5 }" cost.txt | uniq | tr "\n" " " | grep -qx "8x8 17x16 33x31 "'
 
-# No method is better in both time and error than a marked one, and all others are beaten. Below the error of
-# the reference all errors count as equal.
+# No trial is better in both time and error than a marked one, and each other trial is worse in both than some
+# marked one. Below the error of the reference all errors count as equal.
 front_again() {
     perl -MJSON::PP -e '
         my ($floor, @trial);
@@ -147,7 +149,7 @@ interrupted() {
     local tool status children
     rc-cost --load 20N --estar 114GPa --quiet --limit 5min --kernel fft,direct large.rcg >cut.txt &
     tool=$!
-    # it measures in a process of its own
+    # it measures in a separate process
     for _ in 1 2 3; do
         sleep 0.5
         children="${children-} $(pgrep -P "$tool")"
@@ -199,12 +201,12 @@ rc-cost --load 20N --estar 114GPa --method pcg --kernel fft,mlms -o hertz.txt ba
 figure() {
     sed -n "s/^# reference:.*$1 \([0-9.e+-]*\) $2.*/\1/p" hertz.txt
 }
-# 20 nodes in the radius: the edge, off by a third of a node, is 3 % of the area
+# 20 nodes in the radius: an error of a third of a node at the edge is 3 % of the area
 near "$(figure 'contact area' m2)" 3.113974e-08 0.03 "the reference's contact area is Hertz's, to the order of the grid"
 near "$(figure 'largest pressure' Pa)" 9.633992e+08 "$coarse_grid" "its largest pressure is Hertz's"
 near "$(figure approach m)" 1.321612e-06 "$coarse_grid" "its approach is Hertz's"
 
-# Block means of a paraboloid are that paraboloid on the coarse nodes, but for a constant.
+# Block means of a paraboloid are the same paraboloid at the coarse nodes, plus a constant.
 coarse_sphere() {
     rc-synth sphere --nx 48 --dx 10um --radius 7.5mm |
         rc-solve --load 20N --estar 114GPa --tol 1e-3 --output pressure --quiet -o half.rcg &&
@@ -217,7 +219,8 @@ coarse_sphere() {
 claim "a sphere on half the nodes can be solved apart" coarse_sphere
 near "$(awk '$5 == "48x48" && $4 == "1e-03" { print $11 }' hertz.txt)" "$(cat coarse.txt)" "$three_and" \
     "the error of a coarser grid is that of the same sphere on fewer nodes, spread over its cells"
-# The same ball, 480 um, on 512 x 512 nodes: an eighth of them a side does for 20 %, in a fiftieth of the time.
+# The same ball, 480 um, on 512 x 512 nodes: an eighth of the nodes a side gives an error of 20 % in a
+# fiftieth of the time.
 rc-synth sphere --nx 512 --dx 0.9375um --radius 7.5mm -o large.rcg
 rc-cost --load 20N --estar 114GPa --method pcg --kernel fft --error 0.2 -o coarser large.rcg
 claim "where the error allows it a coarser grid is proposed" \

@@ -1,13 +1,15 @@
-# rc-cost --adhesion: its errors are those of the net pressures that rc-solve gives with these tolerances and grids, found here by other
-# arithmetic; the command that it proposes does what it says; the cohesive length in nodes is that of each grid.
+# rc-cost --adhesion: its errors are those of the net pressures of rc-solve with these tolerances and grids,
+# computed here independently; the proposed command has the stated error; the cohesive length in nodes is that
+# of each grid.
 . "$(dirname "$0")/../pipe.sh"
 
-# Values of a stream of one f64 frame, one a line: before its end stand its checksum and its end line.
+# Prints the values of a stream of one f64 frame, one per line, without the checksum and the end line after
+# them.
 values() {
     head -c -24 "$1" | tail -c "$((8 * $2))" | od -An -v -w8 -t f8
 }
 
-# off A B N: relative L1 distance of the N values of two streams.
+# off A B N: prints the relative L1 distance of the N values of two streams.
 off() {
     values "$1" "$3" >a.txt
     values "$2" "$3" >b.txt

@@ -1,13 +1,14 @@
-# rc-cost --yield: its errors are those of the pressures that rc-solve gives with these increments and slabs, found here
-# by other arithmetic, and the command that it proposes does what it says.
+# rc-cost --yield: its errors are those of the pressures of rc-solve with these increments and slabs, computed
+# here independently, and the proposed command has the stated error.
 . "$(dirname "$0")/../pipe.sh"
 
-# Values of a stream of one f64 frame, one a line: before its end stand its checksum and its end line.
+# Prints the values of a stream of one f64 frame, one per line, without the checksum and the end line after
+# them.
 values() {
     head -c -24 "$1" | tail -c "$((8 * $2))" | od -An -v -w8 -t f8
 }
 
-# off A B N: relative L1 distance of the N values of two streams.
+# off A B N: prints the relative L1 distance of the N values of two streams.
 off() {
     values "$1" "$3" >a.txt
     values "$2" "$3" >b.txt
@@ -31,7 +32,7 @@ read -r increments slabs < <(sed -n 's/^# it yields: the reference has \([0-9]*\
 near "$slabs" "$((2 * $(field slabs auto.json)))" 0 "the reference has the finest stack"
 claim "  and twice the increments" test "$increments" = 128
 
-# The truth by rc-solve: the contacts to 1e-6.
+# The reference by rc-solve, with contacts solved to 1e-6.
 rc-solve $contact --increments "$increments" --slabs "$slabs" --tol 1e-6 --quiet --output pressure --report truth.json -o truth.rcg rough.rcg
 every_error() {
     while read -r method kernel _ _ _ _ _ _ _ _ error area _ _ k n applications _; do

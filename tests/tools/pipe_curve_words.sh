@@ -1,12 +1,12 @@
-# Curves as a figure in a journal has them: points that are means with their bars, in the units and words that are
-# asked for, groups of rows told apart by what they are. Points are read off the SVG by the marks of its axes, and
-# compared with means and deviations that are known.
+# Curves for a journal: means with error bars, requested units and labels, and groups of rows as separate
+# curves with names. The test reads points from the SVG by the marks of its axes, and compares them with known
+# means and deviations.
 . "$(dirname "$0")/../pipe.sh"
 
 points() {
     perl "$RC_SOURCE/tests/tools/points.pl" <"$1"
 }
-# near FILE KIND NUMBER...: one of its paths of that kind has these numbers, to a thousandth of the largest.
+# near FILE KIND NUMBER...: a path of this kind in the file has these numbers, to a thousandth of the largest.
 near() {
     points "$1" | awk -v kind="$2" -v want="${*:3}" '
         BEGIN { n = split(want, w); for (k in w) most = (w[k] > most ? w[k] : most) }
@@ -118,7 +118,7 @@ claim "  and has a power of ten where no marks have" eval 'printf "load/N\tflow_
 claim "other columns have points there" eval 'sed s/flow_rate/y/ seal.tsv | rc-render --log --curve mean_pressure:y -o z.svg && shows z.svg ">2 points at or below 0<"'
 claim "a note too long for its line goes on in the next" eval 'sed "1s/x/pressure_over_the_whole_map/" few.tsv | rc-render --curve pressure_over_the_whole_map:y --spread --width 85mm -o n.svg && ! grep -q "…</text>" n.svg && shows n.svg " each\\)</text>"'
 printf 'mat\ty/N\nsteel\t1\nrubber\t3\nsteel\t2\nPTFE, filled with bronze\t2\n' >words.tsv
-# Where markers stand across the plot, 0 to 1.
+# Prints the positions of the markers across the plot, 0 to 1.
 across() {
     perl -0777 -ne 'my ($x, $w) = /<clipPath id="\w+"><rect x="([\d.]+)" y="[\d.]+" width="([\d.]+)"/ or die;
         printf "%.3f ", ($1 - $x) / $w while /<path d="M([\d.]+) ([\d.]+)L\1 \2"/g' "$1"

@@ -1,5 +1,5 @@
-# Tables and reports become curves: rc-render reads what rc-solve writes, in both forms, and refuses
-# what is no table, lacks a column, or is no curve, with the right status and no picture left behind.
+# Tables and reports become curves: rc-render reads the reports of rc-solve in both forms, and refuses other
+# files, missing columns and tables without a curve, with the right exit status and without a picture.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 65 --dx 10um --radius 7.5mm -o ball.rcg

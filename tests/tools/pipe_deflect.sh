@@ -1,5 +1,4 @@
-# rc-deflect gives the displacement that the solver found, by every engine, and refuses what it cannot
-# do.
+# rc-deflect gives the displacement of the solver, with every engine, and refuses impossible requests.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 97 --ny 64 --dx 5um --dy 6um --radius 7.5mm |
@@ -9,7 +8,8 @@ for name in maximum minimum mean; do
     eval "$name=$(statistic $name solved.rcg)"
 done
 
-# mlms: the error that is asked for is relative to the sum of |K| |p|, which is u itself: all is positive
+# mlms: the requested error is relative to the sum of |K| |p|, which is u itself because all terms are
+# positive
 while read -r within kernel; do
     claim "--kernel $kernel works" bash -c "rc-deflect --kernel $kernel solved.rcg -o u.rcg"
     near "$(statistic maximum u.rcg)" "$maximum" "$within" "  with the solver's largest displacement"
@@ -29,7 +29,7 @@ near "$(statistic maximum soft.rcg)" "$(awk -v m="$maximum" 'BEGIN { printf "%.1
 claim "--verbose says which engine and why" \
     warns 'summed by fft, because the fastest of those that are exact' rc-deflect --verbose solved.rcg -o u.rcg
 
-# a pressure that no rc-solve made: no boundary, no modulus
+# a pressure that rc-solve has not written: no boundary, no modulus
 rc-synth sphere --nx 40 --dx 1um --radius 1mm | sed 's/^channel=height/channel=pressure/; s/^unit=m/unit=Pa/' | reseal >bare.rcg
 claim "a pressure without keys is free, and needs the modulus" says 'boundary=free' bash -c '
     rc-deflect --estar 1GPa bare.rcg | rc-info'

@@ -1,8 +1,8 @@
-# rc-info --areal, --psd and --patches: the figures of waves, random surfaces and contacts, as JSON and
-# as text, and what is refused.
+# rc-info --areal, --psd and --patches: the figures of waves, random surfaces and contacts, as JSON and as
+# text, and refusals.
 . "$(dirname "$0")/../pipe.sh"
 
-# ask FILE 'perl expression of $_': of the first line of JSON.
+# ask FILE 'perl expression of $_': prints a value from the first line of JSON.
 ask() {
     perl -MJSON::PP -MList::Util=sum,max -e '
         open my $f, "<", $ARGV[0] or die; $_ = decode_json(scalar <$f>);
@@ -80,8 +80,8 @@ rc-info --json --psd --fit 2um,30um rough.rcg >told.json
 claim "  a range that is told is the range" test "$(ask told.json '$_->{psd}{fit}')" = '[2e-06,3e-05]'
 near_to told.json '$_->{psd}{hurst}' 0.7 0.0714 "  and its exponent"
 claim "  --fit alone asks for it" says '^  Hurst +0\.[67][0-9]+ \+- 0\.0[0-9]+ \(wavelengths from 2 um to 30 um\)$' rc-info --fit 2um,30um rough.rcg
-# of a bow as high as the roughness a window sees little, and still the slope by the spectrum is that of the
-# waves: 0.14 was asked for; all waves counted but the lowest rings, where the bow is
+# a bow as high as the roughness has little effect under a window, and the slope from the spectrum is still
+# the requested 0.14; all waves are counted except the lowest rings, which contain the bow
 rc-synth selfaffine --nx 256 --dx 0.5um --hurst 0.8 --rms-slope 0.14 --rolloff 20um --short-cut 2um --seed 3 -o steep.rcg
 rc-synth sphere --nx 256 --dx 0.5um --radius 2mm -o bow.rcg
 rc-add --quiet steep.rcg bow.rcg | rc-pick --set periodic=no -o bowed.rcg
@@ -119,7 +119,7 @@ claim "  both in the row of qy = 0" test "$(cut -d' ' -f2 two.txt | tr '\n' ' ')
 claim "csv" says '^# Width: 6283185\.30717958[0-9]* rad/m$' rc-export --format csv ridge.rcg
 rc-export -o ridge.gsf ridge.rcg
 claim "gsf: the unit" says '^XYUnits = rad/m$' head -c 300 ridge.gsf
-# the left edge is half a cell left of column 0, which is 32 columns left of 0
+# the left edge is half a cell left of column 0, which is 32 columns left of wave number 0
 near "$(sed -n 's/^XOffset = //p' ridge.gsf)" -3190680.03880 1e-9 "  and where wave number 0 is"
 near "$(sed -n 's/^YOffset = //p' ridge.gsf)" -3207042.50050 1e-9 "  along y too"
 claim "  of heights in m, without an offset" bash -c 'rc-export --format gsf rough.rcg -o rough.gsf; head -c 200 rough.gsf | grep -a "^XYUnits = m$" && ! head -c 300 rough.gsf | grep -aq XOffset'
@@ -135,7 +135,7 @@ claim "a map of it has words and its units" bash -c 'rc-render --log -o ridge.sv
 claim "  a cut too" bash -c 'rc-render --cut y=0 -o cut.svg ridge.rcg && says "along qy = 0" cat cut.svg && lacks "km|Mm" cut.svg'
 claim "  through the node that is nearest: one step up" bash -c 'rc-render --cut x=1e5 -o cut.svg ridge.rcg && says "along qx = 98\\.17" cat cut.svg'
 refuses 2 'cut y=3um: .*a plain number without a unit is expected' "a cut at a length" "rc-render --cut y=3um -o cut.svg ridge.rcg"
-# from -4.5 to 4.5 steps there are nine columns, the waves in the outermost
+# from -4.5 to 4.5 steps there are nine columns, with the waves in the outermost ones
 rc-render --raw --window=-441786:441786,-65000:65000 -o part.png ridge.rcg
 claim "  a window: nine nodes of one row" bash -c 'perl -e "undef \$/; open F, q(part.png); print join q( ), unpack(q(x16 N N), <F>)" | grep -qx "9 1"'
 claim "an odd number of nodes: wave number 0 in the middle" bash -c '
@@ -149,14 +149,14 @@ claim "patches of a contact" bash -c 'rc-info --json --patches ball.rcg >ball.js
 claim "  one disc" test "$(ask ball.json '$_->{patches}{count}')" = 1
 claim "  the object has these keys" test "$(ask ball.json 'join " ", sort keys %{$_->{patches}}')" = \
     "areas contact_area contact_area_corrected contact_nodes count largest_area perimeter perimeters pressure_histogram"
-# pi a^2, a = (3 F R / 4 E*)^(1/3); and of a disc's steps the perimeter is 8 a
+# pi a^2, a = (3 F R / 4 E*)^(1/3); the perimeter of a disc along cell edges is 8 a
 near_to ball.json '$_->{patches}{contact_area}' 1.6305158e-7 0.02 "  its area is Hertz's but for nodes at the edge"
 near_to ball.json '$_->{patches}{contact_area_corrected}' 1.6305158e-7 5e-3 "  corrected it is nearer"
 near_to ball.json '$_->{patches}{perimeter}' 1.8225547e-3 0.05 "  the perimeter in steps is 8 radii"
 near_to ball.json '$_->{patches}{contact_nodes} * 64e-12' "$(ask ball.json '$_->{patches}{contact_area}')" "$rounding" "  nodes and area are the same"
 near_to ball.json 'sum @{$_->{patches}{pressure_histogram}{counts}}' "$(ask ball.json '$_->{patches}{contact_nodes}')" "$same" "  the histogram counts the nodes in contact"
 near_to ball.json '$_->{patches}{pressure_histogram}{edges}[-1]' "$(ask ball.json '$_->{maximum}')" "$rounding" "  up to the largest pressure"
-# under Hertz half of the contact carries more than sqrt(1/2) of the peak
+# in Hertz's contact half of the area carries more than sqrt(1/2) of the peak
 near_to ball.json 'sum(@{$_->{patches}{pressure_histogram}{counts}}[0..34]) / $_->{patches}{contact_nodes}' 0.51 0.05 \
     "  49 % of it carry more than 0.7 of the largest"
 claim "  other channels have none" test "$(rc-info --json --patches ball.rcg | grep -c patches)" = 1
@@ -194,7 +194,7 @@ claim "what fails leaves no map behind" bash -c '
 
 # ---- the manual ----
 
-# The example that rc-info(1) explains, line by line.
+# The example in rc-info(1), line by line.
 claim "the manual's worked example is what comes out" bash -c '
     rc-import "$RC_SOURCE/sample_surfaces/rough-steel.x3p" | rc-detrend --fill --poly 2 |
         rc-info --areal --psd --fit 10um,90um >example.out

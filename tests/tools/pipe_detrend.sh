@@ -1,13 +1,13 @@
-# rc-detrend does its steps in the order given, on the height of every case; it passes on all other frames and
-# says what it did.
+# rc-detrend does its steps in the given order on the height of every case; it passes on all other frames and
+# records the steps.
 . "$(dirname "$0")/../pipe.sh"
 
-# figure NAME FILE: of the first frame.
+# figure NAME FILE: prints this figure of the first frame.
 figure() {
     rc-info --json "$2" | sed -n "1s/.*\"$1\": \([^,]*\),.*/\1/p"
 }
 
-# nothing VALUE SIZE "sentence": it is 0 but for the rounding of numbers of this size.
+# nothing VALUE SIZE "sentence": the value is 0 up to the rounding of numbers of this size.
 nothing() {
     between "$(awk -v s="$2" -v r="$rounding" 'BEGIN { print -r * s }')" "$1" \
         "$(awk -v s="$2" -v r="$rounding" 'BEGIN { print r * s }')" "$3"
@@ -15,7 +15,7 @@ nothing() {
 
 # ---- what the steps do ----
 
-# heights 7 + 5 i - 3 j nm, and 40 nm more in the middle, which is then lost
+# heights 7 + 5 i - 3 j nm, and 40 nm more at the middle node, which then becomes missing
 awk 'BEGIN { for (j = 0; j < 11; j++) { s = ""
     for (i = 0; i < 13; i++) s = s " " (i > 4 && i < 8 && j > 3 && j < 7 ? "NaN" : 7 + 5 * i - 3 * j)
     print s } }' >plane.txt
@@ -25,7 +25,7 @@ claim "a plane is taken off" rc-detrend --plane plane.rcg -o flat.rcg
 rc-info --json flat.rcg >flat.json
 nothing "$(field rms flat.json)" 1e-8 "and nothing of it is left"
 near "$(field missing flat.json)" 9 "$same" "what was missing is missing still"
-# the last 1000 bytes of the values, without the checksum of the header and them
+# the last 1000 bytes of the values, before the checksum
 claim "--poly 1 is the same plane" bash -c '
     rc-detrend --poly 1 plane.rcg | tail -c 1024 | head -c 1000 >one &&
     tail -c 1024 flat.rcg | head -c 1000 | cmp - one'
@@ -47,7 +47,7 @@ nothing "$(figure rms profile.rcg)" 1e-5 "  with as many points as coefficients 
 
 # ---- rows ----
 
-# rows 0 1 -1 2 -2 (nm), each 100 j higher, one with a point missing and one that a spike bends
+# rows 0 1 -1 2 -2 (nm), row j higher by 100 j, one with a missing point and one with a spike
 awk 'BEGIN { for (j = 0; j < 6; j++) print 0 + 100 * j, 1 + 100 * j, (j == 2 ? "NaN" : -1 + 100 * j), (j == 2 ? "NaN" : 2 + 100 * j), -2 + 100 * j }' >lines.txt
 rc-import --dx 1um --z-unit nm lines.txt -o lines.rcg
 rows() { rc-export --format csv "$1" | grep -v '^#' | awk -F '[,;	 ]+' '/^[-0-9n]/ { s = ""; for (i = 1; i <= NF; i++) s = s sprintf("%.3g ", 1e9 * $i); print s }' | head -n "${2:-3}" | tail -n 1; }
@@ -67,13 +67,13 @@ refuses 2 '--rows offst: it must be one of offset|tilt|bow' "no such level" "rc-
 
 # ---- their order ----
 
-# one column far off: levelled by the points that are there, or by those that were filled in
+# one column far away: levelled by the measured points, or by the filled ones too
 printf '0 0 9 NaN NaN\n0 0 9 NaN NaN\n0 0 9 NaN NaN\n' | rc-import --dx 1um --z-unit nm - -o step.rcg
 claim "the order of the steps counts" bash -c '
     rc-detrend --plane --fill step.rcg -o a.rcg && rc-detrend --fill --plane step.rcg -o b.rcg &&
     says "rc-detrend [0-9.]* --plane --fill" rc-info a.rcg &&
     says "rc-detrend [0-9.]* --fill --plane" rc-info b.rcg'
-# first: 0 0 9 less 4.5 i - 1.5 is 1.5 -3 1.5, and 1.5 twice more: mean 0.6 nm
+# first: 0 0 9 minus 4.5 i - 1.5 is 1.5 -3 1.5, and twice 1.5: the mean is 0.6 nm
 near "$(figure mean a.rcg)" 0.6e-9 "$summed" "plane first"
 nothing "$(figure mean b.rcg)" 1e-9 "fill first: the mean is 0"
 claim "history has steps with their values, in order" \
@@ -83,7 +83,7 @@ claim "history has steps with their values, in order" \
 # ---- other frames and cases ----
 
 sed 's/^channel=height/channel=weight/' step.rcg | reseal >weight.rcg
-# one case of two frames: the end line of the first taken off
+# one case of two frames: without the end line of the first
 { head -c -9 weight.rcg; head -c -9 plane.rcg; printf 'RCGEND 2\n'; } >both.rcg
 claim "another channel of the case passes untouched" bash -c '
     rc-detrend --plane both.rcg -o out.rcg && [ "$(rc-info --json out.rcg | wc -l)" = 2 ] &&
@@ -116,7 +116,7 @@ refuses 1 'frame 1 \(height\): .* 10 coefficients, and only 9 points are there: 
 printf 'NaN NaN\nNaN NaN\n' | rc-import --dx 1um --z-unit nm - -o nothing.rcg
 refuses 1 'all 4 values are missing: nothing to fill them from' "nothing measured, to fill from" "rc-detrend --fill nothing.rcg"
 refuses 1 '3 coefficients, and only 0 points are there' "nothing measured, to level" "rc-detrend --plane nothing.rcg"
-# the first value made infinite: its sign and exponent are the last two bytes of it
+# makes the first value infinite: its last two bytes are sign and exponent
 perl -0777 -pe 's/(\n\n).{8}/$1\0\0\0\0\0\0\xf0\x7f/s' plane.rcg | reseal >infinite.rcg
 refuses 1 '1 heights are infinite, the first at column 0, row 0' "an infinite height" \
     "rc-detrend --plane infinite.rcg"

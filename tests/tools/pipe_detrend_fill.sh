@@ -1,7 +1,7 @@
 # rc-detrend warns when it fills more than a twentieth of a surface, and gives the width of the widest hole.
 . "$(dirname "$0")/../pipe.sh"
 
-# map NX NY 'awk condition of i and j': missing where it holds.
+# map NX NY 'awk condition of i and j': makes a map whose points are missing where the condition holds.
 map() {
     awk "BEGIN { for (j = 0; j < $2; j++) { s = \"\"
         for (i = 0; i < $1; i++) s = s \" \" (($3) ? \"NaN\" : i + j)
@@ -11,7 +11,7 @@ map() {
 map 20 20 'i >= 5 && i < 9 && j >= 5 && j < 10' >twentieth.rcg
 claim "a twentieth is filled without a word" bash -c 'rc-detrend --fill twentieth.rcg -o out.rcg 2>said; [ ! -s said ]'
 map 20 20 'i >= 5 && i < 12 && j >= 5 && j < 8' >more.rcg
-# 7 columns of 1 um, 3 rows of 2 um: the middle is 4 um from the rims on all sides
+# 7 columns of 1 um, 3 rows of 2 um: the middle is 4 um from the rim on all sides
 claim "more is told, with how much and how wide" \
     warns 'rc-detrend: .*, case 1, frame 1 \(height\): 5\.25 % of the points were missing \(21 of 400\).* widest hole is 8 um wide' \
     rc-detrend --fill more.rcg -o out.rcg

@@ -1,4 +1,5 @@
-# A height is not changed where results that were computed from it stand beside it, before it or behind it.
+# rc-detrend does not change a height if its case contains results computed from it, before or after the
+# height.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm --seed 2 -o surface.rcg
@@ -12,7 +13,7 @@ refuses 1 'case 1, frame 4 \(height\): .* \(pressure, gap, displacement\).*: tak
 claim "  and nothing is left behind" test ! -e out.rcg
 refuses 1 "case holds a height" "  and a reader fails too" "rc-detrend --plane result.rcg 2>/dev/null | rc-info --verbose - >none"
 
-# one case of three frames, the height first: the end lines taken off
+# one case of three frames, the height first: without the inner end lines
 $solve --output pressure,gap surface.rcg -o two.rcg
 { head -c -9 surface.rcg; head -c -9 two.rcg; printf 'RCGEND 3\n'; } >first.rcg
 refuses 1 'case 1, frame 2 \(pressure\): .* \(pressure, gap\)' "results behind it, all named" "rc-detrend --fill first.rcg"

@@ -1,4 +1,5 @@
-# rc-export writes the frames that were asked for, whole or not at all, and says what a format cannot hold.
+# rc-export writes the selected frames, completely or not at all, and refuses frames that a format cannot
+# hold.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth wave --wavelength 16um --amplitude 1um --nx 32 --ny 24 --dx 1um --dy 1.5um -o one.rcg
@@ -35,7 +36,7 @@ claim "a stream comes from a pipe" bash -c 'rc-export --format npy <one.rcg | cm
 if command -v script >/dev/null; then
     claim "text may go to a terminal" \
         says Channel script -qec "rc-export --format csv one.rcg" /dev/null
-    # a message for the terminal comes out of script's standard output, as the written numbers would
+    # a message for the terminal appears on the standard output of script, as written numbers would
     claim "binary never does" bash -c '
         script -qec "rc-export --format npy one.rcg" /dev/null </dev/null >terminal.txt
         [ $? = 1 ] && grep -q "standard output is a terminal" terminal.txt && lacks NUMPY terminal.txt'
@@ -86,7 +87,7 @@ refuses 2 "--relief: csv keeps the heights" "other formats are none" 'rc-export 
 
 # ---- there and back ----
 
-back() { # FILE: its heights as rc-import reads them, bit for bit those of one.rcg
+back() { # FILE: its heights, read by rc-import, equal those of one.rcg bit for bit
     rc-import "$1" | rc-export --format npy | cmp - by.npy
 }
 claim "X3P comes back bit for bit" back by.x3p

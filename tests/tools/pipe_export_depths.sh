@@ -1,18 +1,17 @@
-# rc-export takes one case and some depths of a stream, and the depths of one stress are one block of
-# numbers.
+# rc-export selects one case and some depths of a stream, and writes the depths of a stress as one array.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 16 --ny 12 --dx 1um --hurst 0.8 --rms-height 10nm --seed 2 |
     rc-solve --quiet --load 10mN,20mN --estar 100GPa --output pressure -o result.rcg
 rc-stress --nu 0.3 --depths 0:10um:3 --components mises,szz result.rcg -o stress.rcg
 
-# slices LIST...: the values of the frames, each taken by rc-pick, one behind the other.
+# slices LIST...: prints the values of the frames, each selected by rc-pick, one after another.
 slices() {
     for depth in "$@"; do
         rc-pick --channel szz --case 2 --depth "$depth" stress.rcg | rc-export --format npy | tail -c $((16 * 12 * 8))
     done
 }
-# head FILE: the dictionary of an NPY file.
+# head FILE: prints the header dictionary of an NPY file.
 head_of() {
     head -c 128 "$1" | tail -c +11
 }

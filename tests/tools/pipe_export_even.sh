@@ -1,8 +1,9 @@
-# A section whose depths have uneven steps is not passed off as an even map: it is refused, told where its
-# rows are, or resampled when that is asked for.
+# A section with uneven depths is not written as an even map: it is refused, written with its depths, or
+# resampled on request.
 . "$(dirname "$0")/../pipe.sh"
 
-# rows at 0, 1, 3, 10 um, of the value 2 + z/um + 100 i, but for the last: a straight line down to 10
+# rows at 0, 1, 3, 10 um with the value 2 + z/um + 100 i, except in the last column: a straight line down to
+# 10 um
 printf '2 102 202\n3 103 203\n5 105 205\n12 112 NaN\n' | rc-import --dx 1um --z-unit m - |
     sed 's/^channel=height/channel=height\nsection=y\nat=0\ndepths=0,1e-06,3e-06,1e-05/; s/^dy=.*/dy=3.3333333333333333e-06/' |
     reseal >uneven.rcg

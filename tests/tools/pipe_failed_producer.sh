@@ -6,8 +6,8 @@ rc-synth sphere --nx 17 --dx 5um --radius 7.5mm -o ball.rcg
 rc-solve --load 1 --estar 114GPa --quiet -o pressed.rcg ball.rcg
 press='rc-solve --load 1 --estar 114GPa --quiet'
 
-# fails "STATUS..." "pattern" "sentence" 'pipe': its commands end with these, and one line on standard error, which
-# has the pattern, is all that is said.
+# fails "STATUS..." "pattern" "sentence" 'pipe': its commands end with these statuses, and standard error is a
+# single line that matches the pattern.
 fails() {
     claims=$((claims + 1))
     local got
@@ -51,7 +51,7 @@ claim "--verbose repeats it, with the name of who said it" bash -c '
 
 # ---- what stands in the stream ----
 
-# after "sentence" EXPECTED 'command': what its standard output, a pipe, is in the end.
+# after "sentence" EXPECTED 'command': compares its complete standard output, which is a pipe.
 after() {
     claims=$((claims + 1))
     bash -c "set +o pipefail; { $3; } 2>/dev/null </dev/null | cat >after.out"
@@ -70,7 +70,7 @@ after "the status stands at the end of a long message too" 'RCGFAIL rc-solve: x{
     "rc-solve --load \$(printf 'x%.0s' {1..2000}) ball.rcg"
 claim "  which has its bounds" test "$(tail -n 1 after.out | wc -c)" = 408
 
-# Nothing where no stream is expected: the output is a file, or text.
+# No such line if the output is a file or text.
 nothing() {
     "$@" >nothing.out 2>/dev/null
     [ $? = 2 ] && [ ! -s nothing.out ]

@@ -1,13 +1,13 @@
-# rc-detrend removes spheres and cylinders and gives their radius, filters, drops outliers and tapers, in the
-# order given, and says what it did.
+# rc-detrend removes spheres and cylinders and gives their radius, filters, removes outliers and tapers, in
+# the given order, and records the steps.
 . "$(dirname "$0")/../pipe.sh"
 
-# figure NAME FILE: of the first frame.
+# figure NAME FILE: prints this figure of the first frame.
 figure() {
     rc-info --json "$2" | sed -n "1s/.*\"$1\": \"\{0,1\}\([^\",]*\).*/\1/p"
 }
 
-# map NX NY 'expression in x, y (um) and k' FILE: heights in um on a grid of 1.1 um by 1 um.
+# map NX NY 'expression in x, y (um) and k' FILE: writes heights in um on a grid of 1.1 um by 1 um.
 map() {
     awk -v nx="$1" -v ny="$2" "BEGIN { for (j = 0; j < ny; j++) { s = \"\"
         for (i = 0; i < nx; i++) { x = (i - (nx - 1) / 2) * 1.1; y = j - (ny - 1) / 2; k = j * nx + i
@@ -17,7 +17,7 @@ map() {
 
 # ---- forms ----
 
-# a ball of 2.385 mm whose apex is off the map, one of 150 um as a hollow, a tilted rod of 80 um
+# a ball of 2.385 mm with its apex outside of the map, a hollow of 150 um, a tilted rod of 80 um
 map 33 47 'sqrt(2385^2 - (x - 900)^2 - (y + 400)^2) - 2100' ball.rcg
 map 33 47 '-sqrt(150^2 - (x - 9)^2 - (y + 4)^2)' hollow.rcg
 map 33 47 '0.1 * (0.8 * y - 0.6 * x) + sqrt(80^2 - (0.8 * x + 0.6 * y)^2 * 1.01) ' rod.rcg
@@ -31,8 +31,8 @@ for form in ball hollow; do
         near "$radius" -150e-6 1e-7 "  its radius, negative"
     fi
 done
-# across a rod that rises by s the section at z = const is an ellipse: with r^2 (1 + s^2) in place of
-# r^2 it is a circle of the radius 80 um / sqrt(1.01)
+# the horizontal section of a rod with the slope s is an ellipse; across the rod the profile is a circle of
+# radius 80 um / sqrt(1.01) with r^2 (1 + s^2) in place of r^2
 claim "--cylinder takes a tilted rod off" rc-detrend --cylinder rod.rcg -o left.rcg
 between 0 "$(figure rms left.rcg)" 1e-12 "  nothing is left"
 near "$(figure form.radius left.rcg)" "$(awk 'BEGIN { print 80e-6 / sqrt(1.01) }')" 1e-6 "  its radius"
@@ -55,7 +55,7 @@ near "$(figure maximum a.rcg)" 5e-6 1e-6 "  and a spike is what it was"
 
 # ---- filters ----
 
-# root PART: the root mean square of so much of a wave of 1 um.
+# root PART: prints the root mean square of this fraction of a wave of 1 um.
 root() {
     awk "BEGIN { printf \"%.12g\", 1e-6 / sqrt(2) * ($1) }"
 }
@@ -109,7 +109,7 @@ near "$(figure taper a.rcg)" 5e-6 "$rounding" "  the key taper has its width"
 claim "  the widest of several" bash -c 'rc-detrend --quiet --taper 3um a.rcg | rc-info | grep -q "taper=5e-06"'
 claim "  a part is not tapered" bash -c 'rc-pick --quiet --crop 0,0,20,20 a.rcg | rc-info >b.out && ! grep -q "taper=" b.out'
 
-# beside A B: the frames of both as one case
+# beside A B: writes the frames of both as one case
 beside() { perl -0777 -ne 's/RCGEND 1\n\z//; print; END { print "RCGEND 2\n" }' "$1" "$2"; }
 export -f beside
 claim "a mirror makes a surface periodic" bash -c '

@@ -1,21 +1,20 @@
-# rc-pick cuts, resamples, mirrors and turns maps, every frame of a case alike, in the order of the command
-# line. It drops keys that describe the whole map once they are no longer true, and refuses options that make no
-# sense.
+# rc-pick crops, resamples, mirrors and rotates all frames of a case in the same way, in the order of the
+# command line. It removes keys that are no longer true for the map, and refuses invalid options.
 . "$(dirname "$0")/../pipe.sh"
 
-# values FILE: all values of a stream of f64 frames, as they lie.
+# values FILE: prints all values of a stream of f64 frames in their order.
 values() {
     perl -0777 -ne 'while (/\GRCG1\n(.*?)\n\n/gcs) { my %k = map { split /=/, $_, 2 } split /\n/, $1;
         my $n = $k{nx} * $k{ny} * ($k{type} eq "f64" ? 8 : 4); /\G(.{$n})crc32 \w{8}\n/gcs or die; print $1 }' "$1"
 }
-# heights FILE: the rows of a small map in micrometres.
+# heights FILE: prints the rows of a small map in micrometres.
 heights() {
     rc-export --format csv "$1" | grep -v '^[#"]' | tr ',\n' '  ' | tr -s ' '
 }
 export -f values heights
 
 printf '1 2 3 4\n5 6 7 8\n9 10 11 12\n' | rc-import --dx 2um --dy 1um --z-unit m -o map.rcg -
-map() { # map EXPECTED OPTION...: the rows that come out of map.rcg
+map() { # map EXPECTED OPTION...: compares the rows of map.rcg after these options
     local expected=$1
     shift
     rc-pick --quiet "$@" map.rcg -o out.rcg && values out.rcg | perl -e '
@@ -46,7 +45,7 @@ claim "turned, a periodic surface is periodic" says '^periodic=yes' cat four.rcg
 claim "history has the steps in their order" says 'rc-pick [0-9.]* --rotate 90 --mirror x --crop 1,2,30,20 --resample 2e-06m,2e-06m --resample 20x10$' bash -c '
     rc-pick --quiet --rotate 90 --mirror x --crop 1,2,30,20 --resample 2um --resample 20x10 rough.rcg | grep -a ^history'
 
-# A turned surface gives the same contact, turned.
+# A rotated surface gives the rotated contact.
 rc-solve --quiet --tol 1e-9 --load 0.1N --estar 100GPa --output pressure,height rough.rcg -o solved.rcg
 rc-pick --rotate 90 rough.rcg | rc-solve --quiet --tol 1e-9 --load 0.1N --estar 100GPa --output pressure -o turned.rcg
 claim "the solution of a turned surface is the turned solution" bash -c '
@@ -105,7 +104,7 @@ near "$(field nx info.json)" 400 "$same" "400 nodes"
 near "$(field ny info.json)" 1 "$same" "in a row"
 near "$(field dy info.json)" 5e-7 "$same" "of half the width"
 near "$(field dy info2.json)" 5e-7 "$same" "  by numbers too"
-# four nodes in 25 um: cubics are off by 1e-6 and less
+# four nodes in 25 um: the error of the cubics is at most 1e-6
 near "$(field rms info.json)" 7.0710678118654755e-07 1e-5 "the wave is still one"
 claim "the load stays with means over the whole map" bash -c 'rc-pick --resample 33x47 solved.rcg -o part.rcg && grep -aq ^load= part.rcg'
 claim "  and not with others" bash -c 'rc-pick --resample 132x47 solved.rcg -o part.rcg && lacks ^load= part.rcg'
@@ -120,7 +119,7 @@ claim "what rc-add asks for mends it" bash -c '
     command=$(sed -n "s/.*bring them together by //p" err.txt) &&
     [ "$command" = "rc-pick --resample 2e-06,2e-06 rough.rcg" ] && $command --quiet | rc-add - cone.rcg -o sum.rcg'
 
-# The apex of an indenter on the highest node of a surface, as rc-synth(1) has it.
+# The example of rc-synth(1): the apex of an indenter on the highest node of a surface.
 rc-synth cone --slope 1 --place highest --like rough.rcg | rc-pick --mirror x | rc-add --quiet rough.rcg - -o cone.rcg
 highest() {
     rc-export --format xyz "$1" | grep -v '^#' | sort -g -k 3,3 | tail -n 1 | cut -d ' ' -f 1-3

@@ -1,6 +1,5 @@
-# What rc-export writes opens in Gwyddion with the same numbers.
-#
-# Gwyddion brings the whole of GTK 2 along, so it is not among the packages that the tests install:
+# Gwyddion reads the files of rc-export with the same numbers. It depends on GTK 2, so it is not among the
+# packages that the tests install:
 #     apt-get install gwyddion libgwyddion20-dev libgtk2.0-dev libgtkglext1-dev xvfb
 . "$(dirname "$0")/../pipe.sh"
 
@@ -13,12 +12,12 @@ cc -w -O1 "$RC_SOURCE/tests/tools/gwyddion.c" -o gwyddion $(pkg-config --cflags 
 
 rc-synth selfaffine --nx 61 --ny 37 --dx 1.1um --dy 0.7um --hurst 0.8 --rms-height 0.4um --seed 5 \
     -o whole.rcg
-# some points missing, in text, because nothing else makes them
+# some missing points, made by a text file
 rc-export --format csv whole.rcg | awk -F, -v OFS=, '/^#/ { print; next }
     { for (i = 1; i <= NF; i++) if ((NR * 31 + i * 17) % 11 == 0) $i = "NaN"; print }' >holes.csv
 rc-import holes.csv -o holes.rcg
 
-# opens STREAM FORMAT PART [OPTION...]: heights within PART of the largest.
+# opens STREAM FORMAT PART [OPTION...]: Gwyddion reads heights that differ by at most PART of the largest.
 opens() {
     local stream=$1 format=$2 part=$3
     shift 3
@@ -46,7 +45,7 @@ for stream in whole holes; do
     check $stream gwy 0
     check $stream xyz 0
 done
-# Gwyddion does not mind the flag for missing points of this format
+# Gwyddion ignores the flag for missing points of this format
 check whole sur 1e-9 --type i32
 check whole sur 4e-5 --type i16
 finish

@@ -1,9 +1,9 @@
-# Scripts read reports by their headings and keys. headings.txt holds them: of each command below the first line of
-# its table, and all keys of its JSON lines in alphabetical order, each after those around it. A new column is added
-# there, at the end of its list; none changes its name, its unit or its place.
+# Scripts read reports by their headings and keys, which headings.txt records: for each command below the
+# first line of its table, and all keys of its JSON lines in alphabetical order, an outer key before the inner
+# ones. Add a new column at the end of its list; no column changes its name, unit or position.
 . "$(dirname "$0")/../pipe.sh"
 
-# keys FILE.json: "a", "a.b", ... of all objects of the lines, each once.
+# keys FILE.json: prints the keys "a", "a.b", ... of all objects of the lines, each once.
 keys() {
     perl -MJSON::PP -ne '
         sub walk { my ($at, $v) = @_;
@@ -13,13 +13,13 @@ keys() {
         END { print "$_\n" for sort @all }' "$1"
 }
 
-# lines: words in lines of some length.
+# lines: breaks words into lines.
 lines() { tr '\t\n' '  ' | sed 's/ $//' | fold -s -w 110 | sed 's/ $//'; echo; }
-# recorded NAME: its part of headings.txt.
+# recorded NAME: prints its part of headings.txt.
 recorded() {
     awk -v head="== $1" '/^== / { on = $0 == head; next } on' "$RC_SOURCE/tests/tools/headings.txt"
 }
-# report NAME 'command with --report $r': its table and its keys are those recorded.
+# report NAME 'command with --report $r': its table and its keys equal the recorded ones.
 report() {
     claim "$1 writes a table and lines" bash -c "r=table.tsv; $2 && r=lines.json && $2"
     head -n 1 table.tsv | lines >table.txt
@@ -49,8 +49,8 @@ report rc-info "rc-info --areal --psd --profile rows --report \$r rough.rcg"
 report "rc-info --patches" "rc-info --areal --patches --report \$r one.rcg"
 report rc-cost "rc-cost --load 1mN --estar 100GPa --kernel fft --limit 2s --threads 1 --quiet --report \$r rough.rcg"
 
-# The list of a page has every column, and nothing else but those of several processes.
-page_words() { # PAGE SECTION PATTERN: words of the lines that match
+# The list in a page has every column, and otherwise only those of several processes.
+page_words() { # PAGE SECTION PATTERN: prints the words of matching lines
     awk -v section="$2" -v pattern="$3" '
         /^\.S[hs] / { on = substr($0, 5) == section }
         on && $0 ~ pattern { for (k = 2; k <= NF; k++) if ($k ~ /^[a-z][a-z0-9_]*$/) print $k }' "$RC_SOURCE/man/$1.1"

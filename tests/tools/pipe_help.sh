@@ -1,5 +1,5 @@
-# The manual says what the tools do: every option of --help and no other, clean mdoc, no reference
-# into the void, and examples that run as they are printed.
+# The manual agrees with the tools: it has every option of --help and no other, correct mdoc, references to
+# existing pages only, and examples that run as printed.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 
@@ -36,8 +36,8 @@ claim "rc-solve: the options that take words are found in --help" takes_words rc
 
 rc-synth sphere --nx 33 --dx 5um --radius 7.5mm -o ball.rcg
 rc-solve --load 2N --estar 114GPa --quiet -o pressed.rcg ball.rcg
-# same_by ENGINES COMMAND...: the command gives the same result with --engine as with --kernel, and by default
-# another.
+# same_by ENGINES COMMAND...: the command gives the same result with --engine as with --kernel, and another
+# one by default.
 same_by() {
     local engines=$1
     shift
@@ -47,7 +47,7 @@ same_by() {
 claim "rc-solve: --engine is --kernel" same_by mlms rc-solve --load 2N --estar 114GPa --quiet ball.rcg
 claim "rc-stress: --engine is --kernel" same_by mlms rc-stress --tol 1e-2 --nu 0.3 --depths 5um pressed.rcg
 claim "rc-deflect: --engine is --kernel" same_by mlms rc-deflect --tol 1e-2 pressed.rcg
-plan_of_cost() { rc-cost --load 2N --estar 114GPa --dry-run ball.rcg "$@" | sed 's/, [0-9]* MiB//'; } # what a process holds
+plan_of_cost() { rc-cost --load 2N --estar 114GPa --dry-run ball.rcg "$@" | sed 's/, [0-9]* MiB//'; } # memory of the process
 claim "rc-cost: --engine is --kernel" same_by fft,direct plan_of_cost
 refuses 2 'must be one of auto\|fft\|fft64\|mlms\|direct' "an engine that is none, naming those there are" \
     "rc-solve --load 2N --estar 114GPa --engine fast ball.rcg"
@@ -83,13 +83,13 @@ for page in "$pages"/*.[1-9]; do
     *) claim "$name: NAME, SYNOPSIS, EXAMPLES" has_sections "$page" NAME SYNOPSIS EXAMPLES ;;
     esac
     claim "$name: its references lead to pages" references_exist "$page"
-    # groff takes it for the macro, and ends the page there
+    # groff takes the word for a macro and ends the page there
     claim "$name: no title of a paper begins with the name of a macro" refuses_lines '^[.]%[A-Z] ([A-Z][a-z]) ' "$page"
     if command -v mandoc >/dev/null; then
         claim "$name: mandoc finds no fault" bash -c "mandoc -Tlint -Wwarning '$page' >&2"
     fi
 done
-# The overview says of each tool what it does, and where to read on.
+# The overview describes each tool and refers to its page.
 overview() {
     for tool in $tools; do
         for line in ".It Xr $tool 1" ".Xr $tool 1 ,"; do
@@ -109,7 +109,7 @@ fi
 
 # ---- examples ----
 
-# The files that examples name, in a folder of their own.
+# The files of the examples, in a separate folder.
 prepare() {
     mkdir "$1" && cd "$1" || return
     rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 20nm --rolloff 30um \
@@ -127,7 +127,7 @@ run_in() {
     (cd "$1" && bash -e -u -o pipefail "$2" </dev/null)
 }
 
-# Those of contact.7, a tutorial, are run by pipe_tutorial.
+# pipe_tutorial runs the examples of contact(7), the tutorial.
 for page in "$pages"/*.[15] "$pages/contact-mpi.7"; do
     name=$(basename "$page")
     [ "$name" = rc-leak.1 ] && ! with_leak && continue

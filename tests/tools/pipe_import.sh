@@ -1,12 +1,12 @@
-# rc-import turns real files into height streams, and leaves no half of one where it refuses a file.
+# rc-import converts real files to height streams, and leaves no incomplete stream if it refuses a file.
 . "$(dirname "$0")/../pipe.sh"
 
-# header NAME FILE: a line of the first frame's header.
+# header NAME FILE: prints a line of the first frame's header.
 header() {
     head -c 4096 "$2" | grep -a "^$1=" | head -n 1 | sed "s/^$1=//"
 }
 
-# first_value FILE: the first value of the stream's first frame, of type f64.
+# first_value FILE: prints the first value of the first frame, of type f64.
 first_value() {
     local start
     start=$(sed -n '/^$/q; p' "$1" | wc -c)
@@ -88,7 +88,7 @@ claim "--channel takes a number" says '^nx=3$' rc-import --channel 1 map.txt
 claim "--channel takes a name" says '^nx=3$' rc-import --channel Topo map.txt
 if command -v script >/dev/null; then
     claim "--list writes even to a terminal" says Topo script -qec "rc-import --list map.txt" /dev/null
-    # a message for the terminal comes out of script's standard output, as a stream would
+    # a message for the terminal appears on the standard output of script, as a stream would
     claim "a stream does not" bash -c '
         script -qec "rc-import map.txt" /dev/null </dev/null >terminal.txt
         [ $? = 1 ] && grep -q "standard output is a terminal" terminal.txt && lacks RCG1 terminal.txt'
@@ -132,12 +132,12 @@ claim "nothing is left behind" bash -c '! ls half2.rcg* 2>/dev/null'
 
 corpus="${RC_CORPUS:-}/corpus"
 if [ -d "$corpus" ]; then
-    # file, format, nx, ny, dx, dy and the probe at the first point, as the manifest has them
-    # with the unit of x and z in the file: the others are read by tests/formats/format_corpus.c
+    # file, format, nx, ny, dx, dy and the value at the first point from the manifest, with the units of x and
+    # z in the file; tests/formats/format_corpus.c reads the other files
     awk -F '\t' '$2 ~ /^(x3p|ascii-matrix|sdf-ascii|digitalsurf-sur|wyko-opd|metropro-dat|alicona-al3d|sensofar-plu|nanoscope|nanosurf-nid|gsf|igor-ibw|mi-picoview|wsxm-stp|wsxm-top|bcrf|frt)$/ &&
         $11 == "m" && $13 == "m" && $1 !~ / / { print $1, $7, $8, $9, $10, $19 }' \
         "$RC_CORPUS/manifest.tsv" >rows.txt
-    manifest=1e-12 # digits that the manifest gives
+    manifest=1e-12 # digits in the manifest
     heights=0
     while read -r file nx ny dx dy probes; do
         rc-import "$corpus/$file" >real.rcg 2>real.err

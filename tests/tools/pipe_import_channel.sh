@@ -1,7 +1,9 @@
-# Without --channel the topography is read, by name and unit, and another one by the beginning of its name.
+# Without --channel rc-import reads the topography, recognised by name and unit; --channel accepts the
+# beginning of a name.
 . "$(dirname "$0")/../pipe.sh"
 
-# nid FILE "NAME|FRAME|UNIT"...: a NanoSurf file of 2 x 2 maps; every value of the k-th is k of its unit.
+# nid FILE "NAME|FRAME|UNIT"...: writes a Nanosurf file of 2 x 2 maps; every value of the k-th map is k in its
+# unit.
 nid() {
     local file=$1 k=0 name frame unit
     shift
@@ -27,7 +29,7 @@ nid() {
     } >"$file"
 }
 
-# reads NUMBER "sentence" CHANNEL...: of these channels, that one is read by default.
+# reads NUMBER "sentence" CHANNEL...: from these channels rc-import reads this one by default.
 reads() {
     local number=$1 sentence=$2
     shift 2

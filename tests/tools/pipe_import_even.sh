@@ -1,11 +1,11 @@
-# A profile whose points are not evenly apart is refused with the name of --even, which resamples it.
+# A profile with uneven positions is refused with a message that names --even, which resamples it.
 . "$(dirname "$0")/../pipe.sh"
 
 header() {
     sed '/^$/q' "$2" | grep -a "^$1=" | sed "s/^$1=//"
 }
 
-# heights FILE: the values of a stream of one frame, one a line.
+# heights FILE: prints the values of a stream of one frame, one per line.
 heights() {
     local start n
     start=$(sed -n '/^$/q; p' "$1" | wc -c)
@@ -13,8 +13,8 @@ heights() {
     tail -c +$((start + 2)) "$1" | head -c $((8 * n)) | od -An -v -w8 -t fD | tr -d ' '
 }
 
-# resampled STEP GAP FILE: the same, found by looking through all pairs of neighbours; STEP and GAP in the unit
-# of the file, heights in nm
+# resampled STEP GAP FILE: prints the expected values, by a search through all pairs of neighbours; STEP and
+# GAP in the unit of the file, heights in nm
 resampled() {
     awk -v step="$1" -v gap="$2" 'BEGIN { n = 0 } NR > 1 { x[n] = $1; z[n++] = $2 }
         END {
@@ -31,7 +31,7 @@ resampled() {
         }' "$3"
 }
 
-# same_heights A B: to the rounding of the heights, and missing in the same places
+# same_heights A B: equal to the rounding of the heights, and missing at the same points
 same_heights() {
     paste "$1" "$2" | awk '{
         if (NF != 2) { print NR, $0; bad = 1 }
@@ -44,7 +44,7 @@ same_heights() {
 
 # ---- a profile ----
 
-# spacings of 0.7 to 1.3 um in no order, one gap of 4.9 and one of 6 um, a missing height
+# random spacings of 0.7 to 1.3 um, gaps of 4.9 and 6 um, a missing height
 awk 'BEGIN { print "x [um] z [nm]"
     for (k = 0; k < 60; k++) {
         printf "%.4f %s\n", x, k == 40 ? "nan" : sprintf("%.3f", 1000 * sin(k / 5) + k)
@@ -98,7 +98,7 @@ heights line.rcg | awk '{ d = $1 - (3 * (NR - 1) * 0.31 - 20) * 1e-9; if (d < 0)
     END { exit bad || NR != 159 }' >&2
 claim "a straight profile stays the same line" test $? = 0
 
-# a peak and a pit between the nodes: 10 at 1.5 and -4 at 4.5 among heights that reach from 0 to 2, of a span of 14
+# a peak and a pit between the nodes: 10 at 1.5 and -4 at 4.5, among heights from 0 to 2; the span is 14
 printf 'x [um] z [nm]\n0 0\n1 0\n1.5 10\n1.9 2\n2 2\n3 1\n4 1\n4.5 -4\n4.8 0\n5 0\n6 0\n' >peak.txt
 claim "what lies between the nodes is told of" \
     warns 'peak.txt: between the nodes the file has a point 0.57 of its span of heights above the highest node and one 0.29 below the lowest: a finer --even STEP' \

@@ -1,10 +1,10 @@
-# A file packed with gzip is unpacked in flight, whatever its format, and a bomb takes no memory.
+# A gzip file of any format is unpacked while it is read, and a decompression bomb takes no memory.
 . "$(dirname "$0")/../pipe.sh"
 
 printf '# Channel: Topo\n# Width: 6 um\n# Height: 5 um\n# Value units: nm\n1 2 3\n4 5 NaN\n' >map.txt
 rc-synth sphere --nx 33 --ny 47 --dx 1.1um --dy 1um --radius 1mm -o ball.rcg
 
-# same_as PLAIN PACKED: both give the same stream but for the name of the source.
+# same_as PLAIN PACKED: both give the same stream except for the name of the source.
 same_as() {
     rc-import --dx 1um --z-unit nm --quiet "$1" | sed 's/^source=.*//; s/crc32 [0-9a-f]*$//' >plain.out &&
         rc-import --dx 1um --z-unit nm --quiet "$2" | sed 's/^source=.*//; s/crc32 [0-9a-f]*$//' >packed.out &&
@@ -23,7 +23,7 @@ claim "the source is the name of the file that is there" says '^source=map.txt.g
 claim "the suffix is not needed" bash -c 'cp map.txt.gz packed && rc-import packed | grep -a ^nx=3'
 claim "--list names it and what it is" says '^map.txt.gz: ascii$' rc-import --list map.txt.gz
 
-# a column of two is a profile or a list of points by its name alone
+# two columns are a profile or a list of points only by the name of the file
 printf '0 0 1\n1 0 2\n2 0 3\n' >line.xyz
 gzip -k line.xyz
 cp line.xyz.gz line.gz

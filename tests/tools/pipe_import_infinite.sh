@@ -1,7 +1,7 @@
 # Infinite heights are missing points, counted in a warning, in X3P and elsewhere; a root ISO5436 is read.
 . "$(dirname "$0")/../pipe.sh"
 
-# x3p FILE ROOT HEIGHT...: a map of 3 rows with these heights in main.xml, and its checksum.
+# x3p FILE ROOT HEIGHT...: writes a map of 3 rows with these heights in main.xml, and its checksum.
 x3p() {
     local file=$1 root=$2
     shift 2

@@ -1,8 +1,9 @@
-# rc-import reads lengths as the file has them, and warns of a map that hardly can be: a side above 1 m or below
-# 10 nm, heights that span more than the map is long.
+# rc-import reads the lengths of the file, and warns of implausible maps: a side above 1 m or below 10 nm,
+# heights that span more than the longer side.
 . "$(dirname "$0")/../pipe.sh"
 
-# a file of X3P whose writer took micrometres for the metres of the standard: 300 x 200 points 7.8 "m" apart
+# an X3P file whose writer used micrometres instead of the metres of the standard: 300 x 200 points with a
+# spacing of 7.8 "m"
 rc-synth wave --nx 300 --ny 200 --dx 7.8m --amplitude 1.5m --wavelength 780m | rc-export -o um.x3p
 claim "a map of kilometres is read as the standard says" says '^dx=7[.]8$' rc-import um.x3p
 claim "and warned of, with the options that mend it" \
@@ -18,7 +19,7 @@ near "$(sed 's/.*"maximum": \([^,}]*\).*/\1/' mended.json)" \
     "$(awk 'BEGIN { printf "%.17g", 1.5e-6 * cos(atan2(0, -1) / 100) }')" "$six_digits" "so are its heights" # beside the crest
 claim "and nothing is implausible" bash -c '! grep -q implausible mended.err'
 
-matrix() { # WIDTH HEIGHT UNIT: 4 x 3 heights of 1 to 12
+matrix() { # WIDTH HEIGHT UNIT: writes 4 x 3 heights of 1 to 12
     printf '# Width: %s\n# Height: %s\n# Value units: %s\n1 2 3 4\n5 6 7 8\n9 10 11 12\n' "$@"
 }
 matrix '0.9 m' '0.9 m' nm >large.txt
@@ -40,7 +41,7 @@ printf 'x [m] z [um]\n0 1\n1 2\n2 3\n' >long.txt
 claim "a profile has one length" warns 'long.txt: the profile is 3 m long, which is implausible: .* --dx gives the spacing$' \
     rc-import long.txt
 
-# whatever the file is, the map is judged
+# the check applies to the map of any file
 rc-synth wave --nx 30 --ny 20 --dx 7.8m --amplitude 1.5m --wavelength 78m -o wide.rcg
 for format in x3p sdf sdf-binary gsf gwy csv hdf5 sur mat; do
     rc-export --format $format wide.rcg >"wide.$format"

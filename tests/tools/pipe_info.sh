@@ -18,7 +18,7 @@ near "$(field maximum map.json)" 8e-9 "$converted" "maximum"
 near "$(field mean map.json)" 3.6e-9 "$of_sum" "mean"
 near "$(field sum map.json)" 18e-9 "$of_sum" "sum"
 near "$(field rms map.json)" 2.4166091947189146e-9 "$rounding" "rms: sqrt(29.2 / 5) nm"
-# one node has both neighbours: sqrt((1/1.1)^2 + (2/1)^2) nm/um
+# only one node has both neighbours: sqrt((1/1.1)^2 + (2/1)^2) nm/um
 near "$(field rms_slope map.json)" 2.196917449744468e-3 "$rounding" "rms slope"
 near "$(field missing map.json)" 1 "$same" "missing"
 near "$(field infinite map.json)" 0 "$same" "infinite"

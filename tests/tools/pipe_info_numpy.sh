@@ -1,4 +1,5 @@
-# Parameters of features and profiles of a sample surface, and of one that is rough down to its nodes, are those that numpy finds by the words of the standards.
+# Feature and profile parameters of a sample surface, and of a surface that is rough down to its nodes, equal
+# those of a numpy program written from the standards.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/python.sh"
 

@@ -1,15 +1,15 @@
-# rc-info makes one table of many scans: a row a frame, the same columns in all; profiles along rows, columns and lines at any
-# angle, and the share of material at heights that are asked for, are what closed forms say of waves.
+# rc-info makes one table of many scans: one row per frame, the same columns in all; profiles along rows,
+# columns and oblique lines, and the material ratio at given heights, equal closed forms for waves.
 . "$(dirname "$0")/../pipe.sh"
 
-# ridges along y of 24 nodes a wave, 10 of them; and crests and troughs of 24 x 20 nodes
+# 10 ridges along y with 24 nodes per wave; and crests and troughs of 24 x 20 nodes
 rc-synth wave --nx 240 --ny 200 --dx 1um --amplitude 1um --wavelength 24um -o ridges.rcg
 perl -e 'print "# Width: 240 um\n# Height: 200 um\n# Value units: um\n"; for $j (0 .. 199) {
     print join(" ", map { cos(2 * 3.14159265358979 * $_ / 24) * cos(2 * 3.14159265358979 * $j / 20) } 0 .. 239), "\n" }' >egg.txt
 rc-import --quiet egg.txt | rc-pick --set periodic=yes -o egg.rcg
 rc-solve --quiet --periodic --load 5N --estar 100GPa --output pressure -o p.rcg egg.rcg
 
-# cell FILE ROW COLUMN: of a table; columns by their names without units
+# cell FILE ROW COLUMN: prints a cell of a table; columns are named without units
 cell() {
     awk -F '\t' -v row="$2" -v name="$3" '
         NR == 1 { for (c = 1; c <= NF; c++) { n = $c; sub(/\/.*/, "", n); if (n == name) at = c } }

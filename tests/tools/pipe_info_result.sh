@@ -1,8 +1,8 @@
-# rc-info gives the figures of a solution that people ask for first: load, contact, largest pressure, approach,
-# the area that yields, and whether it converged; it leaves out figures that are not known.
+# rc-info prints the main figures of a solution: load, contact, largest pressure, approach, yielding area, and
+# convergence; it omits unknown figures.
 . "$(dirname "$0")/../pipe.sh"
 
-# pressure "KEY=VALUE..." <text: a frame of it, in Pa on cells of 1 um by 2 um.
+# pressure "KEY=VALUE..." <text: makes a frame of pressures in Pa on cells of 1 um by 2 um.
 pressure() {
     local keys
     keys=$(printf '%s' "$1" | sed 's/ /\\n/g')
@@ -60,7 +60,7 @@ rc-info --json result.rcg | head -n 1 >info.json
 for name in load contact_nodes contact_area contact_fraction max_pressure approach plastic_area; do
     near "$(field $name info.json)" "$(field $name report.json)" "$summed" "$name is that of the solver's report"
 done
-# float holds no 300,000,007: its nearest is 300,000,000
+# a float cannot hold 300,000,007: the nearest one is 300,000,000
 rc-solve --quiet --load 100mN --hardness 300000007 --estar 100GPa --type f32 --report report.json rough.rcg -o single.rcg
 rc-info --json single.rcg | head -n 1 >info.json
 near "$(field plastic_area info.json)" "$(field plastic_area report.json)" "$summed" "single precision reaches the hardness too"

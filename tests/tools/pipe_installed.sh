@@ -1,6 +1,6 @@
-# What is installed works where it stands, moved since and under a name with a blank: tools run, man finds
-# the pages, and programs of others are built against the library, shared and static, by pkg-config
-# and by find_package.
+# An installation works in its folder, after it was moved, and under a name with a blank: tools run, man finds
+# the pages, and other programs are built with the library, shared and static, by pkg-config and by
+# find_package.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 . "$RC_SOURCE/tests/symbols.sh"
@@ -12,7 +12,7 @@ shared_parts=$sanitizers
 with_mpi && shared_parts="$sanitizers mpi"
 unset PKG_CONFIG_PATH PKG_CONFIG_LIBDIR PKG_CONFIG_SYSROOT_DIR CMAKE_PREFIX_PATH DESTDIR LD_LIBRARY_PATH MANPATH
 
-# Folders that no prefix moves are the machine's: there a test does not install.
+# Absolute folders outside of the prefix belong to the system: the test does not install there.
 if grep -E '^CMAKE_INSTALL_(BIN|LIB|INCLUDE|DATAROOT|MAN)DIR:[A-Z]*=/' "$build/CMakeCache.txt"; then
     echo "not tried: this build is installed in folders of its own, whatever the prefix"
     exit 77
@@ -29,13 +29,13 @@ for source in $(tool_sources); do
     claim "$tool runs" says "^$tool .*[0-9]\.[0-9]" "$prefix/bin/$tool" --version
 done
 
-# found_by READER... SECTION NAME: man finds this page, and no other of the name.
+# found_by READER... SECTION NAME: man finds this page, and no other page of this name.
 found_by() {
     local page
     page=$(PATH="$prefix/bin:$PATH" "$@") && [ "${page%.gz}" -ef "$prefix/share/man/man${*: -2:1}/${*: -1}.${*: -2:1}" ]
 }
 if says '^man [0-9]' man --version 2>man.err; then
-    reader=(man -w) # looks beside the tools
+    reader=(man -w) # searches beside the tools
 elif command -v mman >/dev/null; then
     reader=(mman -M "$prefix/share/man" -w)
 else
@@ -49,7 +49,7 @@ done
 
 # ---- what shells complete ----
 
-# has_completions TOOL: where bash, zsh and fish look by themselves.
+# has_completions TOOL: completions are in the folders that bash, zsh and fish search by default.
 has_completions() {
     for file in "bash-completion/completions/$1" "zsh/site-functions/_$1" "fish/vendor_completions.d/$1.fish"; do
         [ -s "$prefix/share/$file" ] && grep -q -e "$1" "$prefix/share/$file" || return
@@ -70,15 +70,16 @@ claim "  and the sample surfaces" cmp "$RC_SOURCE/sample_surfaces/rough-steel.x3
 # ---- a program of others, by pkg-config ----
 
 claim "the manual has a program" program "$pages/libcontact.3" hertz.c
-# finds_hertz PROGRAM [LIBDIR]: it runs, and finds Hertz's pressure as well as 129 nodes for three radii can.
+# finds_hertz PROGRAM [LIBDIR]: it runs, and finds Hertz's pressure to the accuracy of 129 nodes over three
+# radii.
 finds_hertz() {
     LD_LIBRARY_PATH=${2-} "$1" >hertz.txt && awk -v order="$grid_peak" '
         /^pressure/ { off = $2 / 2.20563e9 - 1; most = order / (129 / 3) ^ 2; found = off <= most && -off <= most }
         END { exit !found }' hertz.txt
 }
 
-# compiled PC PROGRAM OPTION...: by what pkg-config tells of the library whose file this is, in words for
-# a shell. A sanitizer's runtime is shared, and MPI often has no other library: what uses them is not wholly static.
+# compiled PC PROGRAM OPTION...: compiles with the options of pkg-config for this file. The runtime of a
+# sanitizer, and often MPI, is only available as a shared library: programs with them are not fully static.
 compiled() {
     local words program=$2 kind=${3-}
     words=$(PKG_CONFIG_PATH=$(dirname "$1") pkg-config --cflags --libs "${@:3}" libcontact) || return
@@ -107,7 +108,7 @@ foreach(library IN LISTS LIBRARIES)
     target_link_libraries(with_${library} PRIVATE libcontact::${library} m)
 endforeach()
 END
-# project FOLDER KINDS LIBRARIES OPTION...: configured and built there.
+# project FOLDER KINDS LIBRARIES OPTION...: configures and builds a project there.
 project() {
     cmake -S outside -B "$1" -DCMAKE_C_COMPILER="${CC:-cc}" -DCMAKE_C_FLAGS="$sanitizers" -DKINDS="$2" -DLIBRARIES="$3" \
         "${@:4}" && cmake --build "$1"
@@ -189,7 +190,7 @@ fi
 
 # ---- other layouts ----
 
-# layout PREFIX OPTION...: the library of this build, installed there as another configuration would.
+# layout PREFIX OPTION...: installs the library of this build there, as another configuration would.
 layout() {
     cmake -S "$RC_SOURCE" -B other -DCMAKE_C_COMPILER="${CC:-cc}" -DRC_TESTS=OFF "${@:2}" &&
         cp -P "$build"/libcontact/libcontact.{a,so*} other/libcontact &&
@@ -212,7 +213,7 @@ claim "  it runs" finds_hertz ./apart "their own"
 claim "  find_package" project found_apart '' contact -DCMAKE_PREFIX_PATH="$scratch/beside it"
 claim "  it runs" finds_hertz found_apart/with_contact
 
-# names_none FOLDER...: what finds the library holds no path but those it was told.
+# names_none FOLDER...: the files that find the library contain no paths except the given ones.
 names_none() {
     find "$@" \( -name '*.pc' -o -name '*.cmake' \) -exec cat {} + >finders.txt &&
         [ -s finders.txt ] && ! grep -nF -e "$build" -e "$RC_SOURCE" -e /usr/local -e "$scratch/first" finders.txt >&2

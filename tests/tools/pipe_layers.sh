@@ -1,5 +1,5 @@
-# rc-solve --layer: the body travels in the stream, rc-deflect and rc-stress take it from there, and
-# nonsense is refused.
+# rc-solve --layer: the stream holds the body, rc-deflect and rc-stress read it there, and invalid layers are
+# refused.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 97 --ny 95 --dx 24um --radius 100mm -o ball.rcg
@@ -15,7 +15,7 @@ claim "  and no key" bash -c 'rc-info bare.rcg >bare.txt && lacks layers= bare.t
 claim "a hard layer leaves a smaller contact" awk -v a="$(field contact_area hard.json)" -v b="$(field contact_area bare.json)" \
     'BEGIN { exit !(a < 0.5 * b) }'
 
-# layers of the substrate's own material are no layers
+# layers of the substrate's material have no effect
 solve --tol 1e-9 --layer 30um,100GPa,0.3 --layer 0.2mm,100GPa,0.3 --report same.json --output pressure ball.rcg -o same.rcg
 solve --tol 1e-9 --report bare.json --output pressure ball.rcg -o bare.rcg
 near "$(field max_pressure same.json)" "$(field max_pressure bare.json)" 1e-8 "two layers of the substrate's material are none: pressure"
@@ -34,7 +34,7 @@ claim "  beside the layers, as they are" says 'layers=0.001,1000000000000,0.3;0.
 claim "  in the history and the report" eval 'says "rc-solve .*--layer 0.001,1000000000000,0.3,-3000000000" rc-info pressed.rcg && says "0.001,1000000000000,0.3,-3000000000; 0.0005" cat pressed.json'
 claim "  and changes no pressure" test "$(pressures pressed.rcg)" = "$(pressures free.rcg)"
 extreme() { rc-info --json "$2" | grep "\"channel\": \"$3\"" | sed "s/.*\"$1\": \([^,]*\),.*/\1/"; }
-# in the layer, in the one below, in the substrate
+# in the top layer, in the one below, in the substrate
 for depth in 0.5mm 1.2mm 2mm; do
     for file in pressed free; do rc-stress --depths $depth --components sxx,syy,szz,sxz $file.rcg -o $file-stress.rcg; done
     for c in sxx syy szz sxz; do
@@ -60,7 +60,7 @@ for kernel in direct mlms; do
 done
 refuses 1 'the stream already defines the layers; remove --estar' "  and no modulus beside" "rc-deflect --estar 1GPa hard.rcg"
 
-# body 2 stands in the stream: nobody has to subtract it from E*
+# body 2 is in the stream and need not be derived from E*
 rc-solve --E1 100GPa --nu1 0.3 --E2 70GPa --nu2 0.33 --load 350N --layer 1mm,1000GPa,0.3 ball.rcg -o both.rcg
 claim "an elastic body 2 stands in the stream" bash -c 'rc-info both.rcg >both.txt &&
     says "e1=100000000000$" cat both.txt && says "nu=0.3$" cat both.txt &&

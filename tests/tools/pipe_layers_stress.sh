@@ -1,5 +1,4 @@
-# rc-stress on coated bodies as a command: what it takes from the stream, what it writes and reports, what
-# it refuses.
+# rc-stress on coated bodies as a command: its input from the stream, its output and report, and refusals.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 65 --ny 49 --dx 10um --dy 11um --radius 7.5mm |
@@ -9,7 +8,7 @@ rc-synth wave --nx 40 --ny 30 --dx 1um --amplitude 50nm --wavelength 20um |
     rc-solve --quiet --periodic --mean-pressure 100MPa --estar 100GPa --output pressure -o wave.rcg
 p0=2205240000 # Hertz
 
-# coat STREAM LAYERS: the pressure of the stream on another body
+# coat STREAM LAYERS: writes the pressure of the stream with another body
 coat() { rc-pick --set "layers=$2" "$1"; }
 number() { grep -o "\"$1\": {[^{]*" "$3" | grep -o "\"$2\": [^,]*" | head -n 1 | cut -d' ' -f2; }
 least() { grep -o '"least": {.*' "$3" >least.json && number "$1" "$2" least.json; }
@@ -47,7 +46,7 @@ claim "without layers the report says so" bash -c '
     grep -q "\"layers\": null" b.json && grep -q "\"coating\": \"left out: [^\"]*layers" b.json &&
     grep -q "\"materials\": \[1, 1, 1\]" b.json'
 
-# by_material: the largest, or the least, of by_depth in each
+# by_material: the largest or smallest value of by_depth in each material
 claim "the largest and the least value in each material are of by_depth" bash -c '
     rc-stress --depths 20um,20.1um,30um --components mises --report m.json coated.rcg -o /dev/null
     grep -o "\"by_depth\": \[[^]]*" m.json | sed "s/.*\[//" >depth.txt

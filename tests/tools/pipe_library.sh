@@ -1,5 +1,5 @@
-# The program that libcontact(3) prints compiles against the library as it stands there, and finds
-# what Hertz found; the shared library offers the names that its headers declare and no other.
+# The program in libcontact(3) compiles as printed and agrees with Hertz; the shared library exports the names
+# that its headers declare and no other.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 . "$RC_SOURCE/tests/symbols.sh"
@@ -20,11 +20,11 @@ claim "it runs" bash -c './hertz >hertz.txt'
 near "$(awk '/^approach/ { print $5 }' hertz.txt)" 6.92720e-6 "$six_digits" "approach of Hertz"
 near "$(awk '/^pressure/ { print $5 }' hertz.txt)" 2.20563e9 "$six_digits" "peak pressure of Hertz"
 near "$(awk '/^radius/ { print $5 }' hertz.txt)" 227.934e-6 "$six_digits" "radius of Hertz"
-# 129 nodes are three radii
+# 129 nodes over three radii
 on_grid() { awk -v order="$1" 'BEGIN { print order / (129 / 3) ^ 2 }'; }
 near "$(awk '/^approach/ { print $2 }' hertz.txt)" 6.92720e-6 "$(on_grid "$grid_approach")" "approach"
 near "$(awk '/^pressure/ { print $2 }' hertz.txt)" 2.20563e9 "$(on_grid "$grid_peak")" "pressure in the middle"
-# The area is off by order / n, the radius by half of that.
+# The error of the area is order / n, that of the radius half of it.
 near "$(awk '/^radius/ { print $2 }' hertz.txt)" 227.934e-6 "$(awk -v order="$grid_area" 'BEGIN { print order / (129 / 3) / 2 }')" "radius"
 # shellcheck disable=SC2086
 claim "it compiles against the shared library" ${CC:-cc} -std=c17 -I "$RC_SOURCE" -o shared \
@@ -43,7 +43,7 @@ claim "  no load touches nothing" grep -qx '0 N: 0 nodes in contact, 0 yield' hi
 claim "  the same load again yields no more" grep -Eq '^240 N: [1-9][0-9]* nodes in contact, 0 yield$' history.txt
 claim "  a higher one does" grep -Eq '^300 N: [1-9][0-9]* nodes in contact, [1-9][0-9]* yield$' history.txt
 
-# Names that begin with a line are the compiler's: marks of sanitizers.
+# Names with a leading underscore belong to the compiler: marks of sanitizers.
 offered() {
     local headers=("$RC_SOURCE"/libcontact/{contact,model,grid}.h) CC=${CC-}
     with_mpi && headers+=("$RC_SOURCE/libcontact/contact_mpi.h") CC=mpicc

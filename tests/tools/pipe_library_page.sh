@@ -1,13 +1,14 @@
-# libcontact(3) has what contact.h, contact_mpi.h and grid.h declare, as they declare it: every function with its
-# arguments, every struct with its fields, every constant with its value; and says something of each.
+# libcontact(3) has the declarations of contact.h, contact_mpi.h and grid.h: every function with its
+# arguments, every struct with its fields, every constant with its value; and it describes each of them.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
 page=$pages/libcontact.3
 
-# Of preprocessed C on standard input: "function TYPE NAME(ARGUMENTS)", "object TYPE NAME", "struct NAME:
-# FIELD" of each field, "constant ENUM PLACE: NAME = VALUE"; only what begins with rc_ or RC_.
+# Prints the declarations in preprocessed C from standard input: "function TYPE NAME(ARGUMENTS)", "object TYPE
+# NAME", "struct NAME: FIELD" for each field, "constant ENUM PLACE: NAME = VALUE"; only names that begin with
+# rc_ or RC_.
 cat >declarations.pl <<'END'
 my $round;
 $round = qr/\((?:[^()]++|(??{ $round }))*\)/;
@@ -43,13 +44,13 @@ for (split /;/) {
     elsif (/\bextern\b[^(]*\brc_\w+/) { print "object ", plain($_), "\n" }
 }
 END
-mkdir mpi # of MPI one type: the page is the same of a build without it
+mkdir mpi # one type of MPI: the page is the same for a build without MPI
 echo 'typedef struct mpi_comm *MPI_Comm;' >mpi/mpi.h
 headers() { ${CC:-cc} -E -P -std=c17 -I "$RC_SOURCE" -I mpi "$1"; }
 declarations() { headers "$1" | perl declarations.pl | sort -u; }
 
-# page_code: the page as a header: its displays before EXAMPLES, then a declaration of each .Ft with .Fn,
-# or .Vt.
+# page_code: prints the page as a header: its displays before EXAMPLES, then a declaration of each .Ft with
+# .Fn, or .Vt.
 page_code() {
     printf '#include <std%s.h>\n' bool def int
     blocks "$page" DESCRIPTION described && cat described/*
@@ -64,7 +65,7 @@ declarations "$RC_SOURCE/libcontact/contact_mpi.h" >headers.txt
 page_code >page.h
 declarations page.h >page.txt
 
-# same_of KIND PAGE: it has those of the headers and no others.
+# same_of KIND PAGE: the page has the declarations of the headers and no others.
 same_of() {
     grep "^$1 " headers.txt >kind.headers && grep "^$1 " "$2" >kind.page && diff kind.headers kind.page >&2
 }
@@ -87,7 +88,7 @@ claim "  one of contact_mpi.h" lacking '/rc_ranks_rows(/d' function
 claim "  a value" lacking 's/RC_SHORT = 2/RC_SHORT = 3/' constant
 claim "  one that there is no more" lacking 's/double mu;/double mu, m;/' struct
 
-# What is said of them.
+# The descriptions.
 bare_items() { awk '/^\.It (Ft|Vt)/ { item = $0; next } item != "" { if (/^\.(It|El)/) print item; item = "" }' "$page"; }
 bare_fields() {
     awk '/^struct .*\{/ { inside = 1; next } /^\}/ { inside = 0 } inside && /^    [a-z].*;/ && !/;.*\/\*/' described/*

@@ -1,12 +1,13 @@
-# What the allocator counts, with the code, is the tool's peak within a tenth; a run that needs more than --memory allows, or than the
-# machine grants, is refused before the work; and the peak in a report is the tool's own.
+# The memory that the allocator counts, with the code, is the peak of the tool within a tenth; a run that
+# needs more than --memory allows, or than the machine has, is refused before the work; and the peak in a
+# report is that of the tool itself.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
 skip_with_address_sanitizer "it takes memory of its own"
 
-# estimated "sentence" 'shell command': its last tool, with --verbose, here --debug, takes the memory that is counted,
-# within a tenth or the third word.
+# estimated "sentence" 'shell command': the memory of its last tool agrees with the counted one, within a
+# tenth or the third argument; --verbose is replaced by --debug.
 estimated() {
     local counted taken
     bash -c "${2//--verbose/--debug}" 2>&1 >/dev/null | grep 'memory: ' | tail -n 1 >memory.txt
@@ -57,7 +58,7 @@ estimated "rc-pick" "rc-pick --rotate 90 --resample 0.7um --verbose odd.rcg"
 estimated "rc-add" "rc-add --verbose odd.rcg odd.rcg"
 for format in x3p npy csv hdf5; do
     rc-export --format $format -o odd.$format odd.rcg
-    estimated "rc-export --format $format" "rc-export --format $format --verbose odd.rcg" 0.15 # libraries have blocks of their own
+    estimated "rc-export --format $format" "rc-export --format $format --verbose odd.rcg" 0.15 # libraries allocate blocks too
     estimated "rc-import of that" "rc-import --verbose --dx 1um --z-unit m odd.$format" 0.15
 done
 perl "$RC_SOURCE/tests/tools/made_maps.pl" netcdf 1024 700 >made.netcdf
@@ -87,7 +88,7 @@ near "$(field memory_estimate free.json)" "$(field peak_memory free.json)" 0.1 "
 rc-solve --dry-run $load odd.rcg >plan.txt 2>/dev/null
 near "$(awk -v mib="$(sed -n 's/.*, \([0-9]*\) MiB, .*/\1/p' plan.txt)" 'BEGIN { print mib * 1048576 }')" "$(field peak_memory free.json)" 0.15 "and in the plan, in MiB"
 
-# A process of a gibibyte that starts the tool: of what getrusage says the tool inherits that.
+# A process of one gibibyte starts the tool: getrusage passes its peak on to the tool.
 cat >large.pl <<'P'
 my $held = "x" x (1 << 30);
 my $pid = fork;
@@ -101,7 +102,7 @@ near "$(field peak_memory again.json)" "$(field peak_memory free.json)" 0.1 "its
 # ---- refused ----
 
 more="needs? (about|at least) [0-9.]+ MiB, --memory allows"
-# A tool's own code does not count: a limit below it is enough for a small map.
+# The code of a tool does not count: a limit below its size is enough for a small map.
 claim "10M is enough for a small map" bash -c "rc-import --quiet --memory 10M --dx 1um --z-unit m odd.npy | rc-detrend --memory 10M --plane | rc-info --memory 10M"
 refuses 1 "517 x 389 nodes $more 20 MiB: .*rc-pick" "rc-solve: more than --memory" "rc-solve --quiet --memory 20M $load --kernel fft64 odd.rcg -o never.rcg"
 refuses 1 "$more 4 MiB: .*rc-pick" "  --periodic" "rc-solve --memory 4M --periodic $load odd.rcg -o never.rcg"
@@ -135,7 +136,7 @@ refuses 1 "needs? (about|at least) [0-9.]+ [MG]iB, (the machine has|the group of
 refuses 1 "needs? (about|at least) [0-9.]+ [MG]iB, the limit of address space \(ulimit -v\) leaves [0-9]+ MiB" "more than ulimit -v" \
     "ulimit -v 200000; rc-synth sphere --radius 1m --dx 1um --nx 8000 -o never.rcg"
 
-# A group of our own, where we may make one.
+# A new control group, if the test may make one.
 group_under() {
     local mount=$1 path=$2 bound=$3
     group=$mount$path/rc-memory-$$

@@ -1,5 +1,5 @@
-# What is said helps: a message names the next step, a list of loads is warned of once and names its cases, memory is told of
-# where it is asked for.
+# Messages help: a message names the next step, a warning about a list of loads is printed once with its
+# cases, and the memory is printed on request.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 33 --dx 20um --radius 7.5mm -o ball.rcg
@@ -14,7 +14,8 @@ claim "the first of four cases is warned of in full" says 'selfaffine-seed-3, ca
 claim "  once" test "$(grep -c 'on the outer 2 %' said.txt)" = 1
 claim "  the others in a line" says '^rc-solve: cases 2 to 4 too: the contact reaches the edge of the map$' cat said.txt
 claim "one other case is one case" eval 'press --load 10mN,11mN 2>said.txt; says "^rc-solve: case 2 too: the contact reaches" cat said.txt'
-# of a ball on a fine grid the first and the last load reach the edge, the two between them do not
+# under the first and the last load the contact of the ball reaches the edge, under the two between them it
+# does not
 claim "cases that lie apart" eval 'rc-solve --estar 100GPa --output pressure --load 1500N,1N,1600N,1700N,1N,1800N -o p.rcg ball.rcg 2>said.txt;
     says "^rc-solve: cases 3 to 4, 6 too: the contact reaches the edge" cat said.txt'
 claim "--quiet holds for them" eval '! press --quiet --load 10mN,11mN 2>&1 | grep .'

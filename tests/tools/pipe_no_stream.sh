@@ -1,6 +1,6 @@
-# A tool that is given something else than a grid stream says what it looks like and the command that makes a
-# stream of it; a pipe whose first program wrote nothing is told from that. rc-import, given a stream, says what
-# to do instead, and that works.
+# A tool that gets another file than a grid stream names the kind of file and the command that converts it;
+# the message for a pipe whose first program wrote nothing is different. rc-import, given a stream, names the
+# command to use instead, and that command works.
 . "$(dirname "$0")/../pipe.sh"
 
 # ---- something else, where a stream is read ----

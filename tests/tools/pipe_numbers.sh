@@ -1,8 +1,8 @@
-# NaN and infinity come out of no tool unless they went in: not in frames, not in keys, not in reports,
-# whatever legal numbers go in. A tool that cannot hold what comes out says so and fails.
+# No tool writes NaN or infinity unless its input has them: not in frames, keys or reports, for any valid
+# numbers in the input. A tool whose results overflow reports this and fails.
 . "$(dirname "$0")/../pipe.sh"
 
-# Exits with 1 where a stream or a text holds a number that is not finite, and names it.
+# Exits with 1 if a stream or a text contains a number that is not finite, and prints it.
 cat >finite.pl <<'P'
 my $bad = 0;
 local $/;
@@ -26,8 +26,8 @@ for my $name (@ARGV) {
 exit($bad > 0);
 P
 
-# tried 'shell command': it ends by itself, with an exit status of the tool's own. All numbers in out.rcg,
-# report.json and standard output are finite; where it failed, it says why.
+# tried 'shell command': it ends without a signal, with an exit status of the tool. All numbers in out.rcg,
+# report.json and standard output are finite; if it failed, it printed the reason.
 ran=0
 done_well=0
 tried() {
@@ -91,7 +91,7 @@ for kind in zero constant plain denormal tiny small large huge largest spike mix
 done
 between 19 "$maps" 25 "maps of hostile heights"
 
-# Pressures, and what is synthesised.
+# Pressures and synthetic surfaces.
 for p in 4.9e-324 1e-300 1e150 1e300; do
     rc-synth sphere --nx 12 --dx 1um --radius 1mm | rc-pick --set channel=pressure --set unit=Pa >p.rcg
     perl -0777 -pe 's/(unit=Pa.*?\n\n)(.{1152})/$1 . pack("d<*", (('$p') x 143, 0))/se' p.rcg | reseal >q.rcg
@@ -113,7 +113,7 @@ done
 claim "not all were refused: $done_well of $ran done" [ "$done_well" -gt $((ran / 3)) ]
 claim "and not all done" [ "$done_well" -lt "$ran" ]
 
-# What went in comes out.
+# NaN in the input appears in the output.
 printf '1,2,3\n4,nan,6\n7,8,9\n' >holes.csv
 claim "a missing point stays one" bash -c 'rc-import --dx 1um --z-unit 1um holes.csv | rc-detrend --plane | says "\"missing\": 1" rc-info --json'
 claim "an outlier becomes one" bash -c 'rc-synth selfaffine --nx 16 --dx 1um --hurst 0.8 --rms-height 1um | rc-detrend --outliers 1 | says "\"missing\": [1-9]" rc-info --json'

@@ -1,6 +1,6 @@
-# A list of numbers may go by ratio, a:b:log:n, wherever a list is taken, and --help says so; a word that stands
-# for a number is written into the history as that word. Two whole numbers with a comma between them may be one
-# with a decimal comma: they are taken as a list, with a warning that says what to write instead.
+# Every list of numbers may have equal ratios, a:b:log:n, and --help says so; a word in place of a number is
+# written to the history as this word. Two whole numbers with a comma between them may be one number with a
+# decimal comma: they are read as a list, with a warning that explains how to write the number.
 . "$(dirname "$0")/../pipe.sh"
 
 # ---- by ratio ----
@@ -8,7 +8,7 @@
 rc-synth sphere --nx 17 --dx 5um --radius 7.5mm -o ball.rcg
 rc-synth wave --nx 16 --dx 1um --wavelength 16um --amplitude 10nm -o wave.rcg
 
-# column NAME TABLE: the cells under it, one a line.
+# column NAME TABLE: prints the cells of a column, one per line.
 column() {
     awk -F '\t' -v name="$1" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == name) c = k; next } { print $c }' "$2"
 }
@@ -73,7 +73,7 @@ claim "other lists too" warns 'depths 2,3: two values, 2 m and 3 m: .* 2\.3$' rc
 claim "and plain numbers in metres" warns 'wavelength 2,5: two values' \
     rc-synth wave --nx 8 --dx 1 --wavelength 2,5 --amplitude 1 -o wave.rcg
 
-# silent COMMAND...: it succeeds and speaks of no two values.
+# silent COMMAND...: it succeeds without this warning.
 silent() {
     "$@" 2>silent.err >/dev/null && ! grep 'two values' silent.err >&2
 }

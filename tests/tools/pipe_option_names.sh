@@ -1,13 +1,13 @@
-# A misspelt option is answered with the option that was meant, one that is cut too short with the options that
-# it could be; British and American spelling are both right; and a value out of bounds is never taken for one
-# that was not given.
+# The message for a misspelt option names the intended option, that for an ambiguous abbreviation all matching
+# options; British and American spelling are both accepted; and a value out of bounds never counts as a
+# missing one.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 200 --dx 1um --radius 1mm -o ball.rcg
 
 # ---- mistakes ----
 
-# meant TYPED NAME: the answer to the option is that this one was meant.
+# meant TYPED NAME: the message for the typed option suggests NAME.
 meant() {
     refuses 2 "^rc-solve: unknown option ${1%%=*}: did you mean $2\\?$" "$1 is $2" "rc-solve $1 3"
 }

@@ -1,5 +1,5 @@
-# rc-pick passes on the frames that are asked for, whole, with the keys that are set, and says what there
-# is where something is missing.
+# rc-pick writes the selected frames completely, with the keys that were set, and lists the existing names if
+# a requested one is missing.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm --seed 2 -o surface.rcg
@@ -7,14 +7,14 @@ rc-solve --quiet --tol 1e-9 --load 10mN,20mN --estar 100GPa --hardness 2GPa --ou
     surface.rcg -o result.rcg
 rc-stress --nu 0.3 --depths 0,5um,10um --components mises,szz result.rcg -o stress.rcg
 
-# frames FILE: "case channel depth" of each, a line.
+# frames FILE: prints a line "case channel depth" for each frame.
 frames() {
     rc-info --json "$@" | perl -ne '
         my ($case) = /"case": (\d+)/; my ($channel) = /"channel": "(\w+)"/; my ($depth) = /"depth": "([^"]*)"/;
         print join(" ", $case, $channel, defined $depth ? $depth : ()), "\n"'
 }
 export -f frames
-# values FILE: all values of a stream as they lie, between the headers and the checksums.
+# values FILE: prints all values of a stream in their order, without headers and checksums.
 values() {
     perl -0777 -ne 'while (/\GRCG1\n(.*?)\n\n/gcs) { my %k = map { split /=/, $_, 2 } split /\n/, $1;
         my $n = $k{nx} * $k{ny} * ($k{type} eq "f64" ? 8 : 4); /\G(.{$n})crc32 \w{8}\n/gcs or die; print $1 }' "$1"
@@ -35,7 +35,8 @@ claim "the cases of several files are counted on" bash -c '
     [ "$(rc-pick --case 1,3 surface.rcg result.rcg | frames | cut -d " " -f 1 | uniq | tr "\n" ,)" = "1,3," ]'
 claim "depths, met within a thousandth" bash -c '
     [ "$(rc-pick --depth 0,10.009um --case 1 --channel szz stress.rcg | frames | tr "\n" ,)" = "1 szz 0,1 szz 1e-05," ]'
-# nearest ASKED EXPECTED: of mises in case 1 of stress.rcg, at 0, 5 and 10 um
+# nearest ASKED EXPECTED: compares the selected depth for mises in case 1 of stress.rcg, which has 0, 5 and 10
+# um
 nearest() { [ "$(rc-pick --depth "$1" --case 1 --channel mises stress.rcg 2>told.txt | frames | tr "\n" ,)" = "$2" ]; }
 export -f nearest
 claim "  the nearest where none is there" bash -c 'nearest 7um "1 mises 5e-06," && nearest 8um "1 mises 1e-05,"'
@@ -66,8 +67,8 @@ claim "a plastic shape becomes a height that can be pressed" bash -c '
     rc-solve --quiet --tol 1e-9 --load 20mN --estar 100GPa --hardness 2GPa --output pressure plastic.rcg -o again.rcg'
 rc-info --json again.rcg >again.json
 rc-pick --case 2 --channel pressure result.rcg | rc-info --json >first.json
-# each pressure is right to 1e-9 of its sum, 1024 times the mean of 19.5 MPa; all of it in one node makes
-# 2e-9 1024 19.5 MPa / 32 in the rms
+# the error of a pressure map is 1e-9 of its sum, which is 1024 times the mean of 19.5 MPa; if all of it is at
+# one node, the error of the rms is 2e-9 1024 19.5 MPa / 32
 near "$(field rms again.json)" "$(field rms first.json)" 2e-8 "  and it carries what it carried"
 claim "keys are set, replaced and removed" bash -c '
     rc-pick --channel gap --set load=7 --set colour="blue = sky" --set estar= --set dx=2um --set dy=0.003mm \

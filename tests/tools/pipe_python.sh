@@ -1,5 +1,6 @@
-# The Python package rcg reads and writes streams as the tools do, bit for bit, refuses the streams that they refuse,
-# and runs the tools: the output is that of a shell, and a failure has the tool's message and exit status.
+# The Python package rcg reads and writes streams like the tools, bit for bit, refuses the same streams, and
+# runs the tools: the output is that in a shell, and a failure has the message and the exit status of the
+# tool.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 . "$RC_SOURCE/tests/python.sh"
@@ -11,7 +12,7 @@ fi
 "$python" -c 'import numpy, sys; print("Python", sys.version.split()[0] + ", numpy", numpy.__version__)'
 export PYTHONPATH="$RC_SOURCE/python" PYTHONDONTWRITEBYTECODE=1
 
-# check NAME FILE...: the check of tests/tools/python_rcg.py.
+# check NAME FILE...: runs this check of tests/tools/python_rcg.py.
 check() { "$python" "$RC_SOURCE/tests/tools/python_rcg.py" "$@"; }
 
 # ---- streams ----

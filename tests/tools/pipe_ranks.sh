@@ -1,6 +1,6 @@
-# Under mpirun rc-solve, rc-deflect and rc-stress write what one process writes, byte for byte; they say what they
-# send to each other; where one fails all end, with one message, and nothing half-written is left.
-# RC_RANKS: how many processes besides one, "2" unless it is set.
+# Under mpirun rc-solve, rc-deflect and rc-stress write the same bytes as one process; their report counts the
+# communication; if one process fails all end, with one message and without an incomplete file. RC_RANKS: the
+# numbers of processes to compare with one, by default "2".
 . "$(dirname "$0")/../pipe.sh"
 export RC_THREADS=1
 ranks=${RC_RANKS:-2}
@@ -8,10 +8,10 @@ ranks=${RC_RANKS:-2}
 rc-synth selfaffine --nx 200 --ny 187 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o rough.rcg
 rc-pick --set source=rough.x3p rough.rcg | rc-pick --resample 0.7um -o fine.rcg
 cat rough.rcg fine.rcg >two.rcg
-# A sphere of single values, on a map with more columns than rows.
+# A sphere in single precision, on a map with more columns than rows.
 rc-synth sphere --nx 300 --ny 33 --dx 5um --radius 7.5mm --type f32 -o sphere.rcg
 
-# same NAME "shell command without -o": with 1 process and with each number of them.
+# same NAME "shell command without -o": 1 process and each other number of processes write the same.
 same() {
     local name=$1 command=$2 n
     bash -c "$command -o alone.rcg" || return
@@ -29,7 +29,7 @@ claim "a loading history, bodies taken apart, the plastic shape" same history \
 claim "layers, single values in and out, the scheme of the paper" same layers \
     "rc-solve --E1 2GPa --nu1 0.3 --layer 20um,8GPa,0.2 --E2 rigid --load 0.2N --method pk99 --tol 1e-4 --type f32 --quiet sphere.rcg"
 rc-solve --estar 114GPa --load 20N --quiet sphere.rcg -o pressed.rcg
-# Lines longer than the piece that is fetched from other ranks at a time: the figures are the same too.
+# Lines longer than the block that is fetched from other ranks at a time: the figures are also the same.
 rc-synth selfaffine --nx 2100 --ny 48 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o lines.rcg
 figures() {
     local n
@@ -46,7 +46,7 @@ claim "long lines: the figures of one process" figures
 claim "displacements" same deflect "rc-deflect --kernel fft pressed.rcg"
 claim "stresses at depths given, with friction" same stress \
     "rc-stress --nu 0.3 --mu 0.2 --depths 0,10um,50um --components mises,s1 pressed.rcg"
-pressure() { # as a frame of this channel, the end of the stream left out
+pressure() { # prints a frame of this channel without the end line
     rc-pick --channel pressure pressed.rcg | sed "s/^channel=pressure\$/channel=$1/" | reseal | perl -0777 -pe 's/RCGEND 1\n//'
 }
 { pressure pressure && pressure traction-x && pressure traction-y && echo RCGEND 3; } >dragged.rcg
@@ -60,8 +60,8 @@ rc-synth wave --nx 254 --ny 256 --dx 1um --wavelength 127um --amplitude 1um | rc
 rc-solve --periodic --estar 1GPa --mean-pressure 20MPa --quiet wave.rcg -o wave-pressed.rcg
 claim "what passes between processes" run rc-stress --nu 0.3 --depths 0,1um --components szz \
     --report sent.json -o sent.rcg wave-pressed.rcg
-# contact-mpi(7): 16 bytes a wave, 128 waves a row, 256 rows, half of them for the other; the pressure's columns once,
-# and back for each of two depths: three exchanges, of 2 messages each
+# contact-mpi(7): 16 bytes a wave, 128 waves a row, 256 rows, half of them for the other process; one exchange
+# for the pressure and one for each of two depths: three exchanges of 2 messages each
 near "$(field exchanges sent.json)" 3 1e-15 "exchanges"
 near "$(field messages sent.json)" 6 1e-15 "messages"
 near "$(field bytes_exchanged sent.json)" $((3 * 16 * 128 * 256 / 2)) 1e-15 "bytes"
@@ -71,8 +71,8 @@ claim "a report on standard output is written once" says '^1$' bash -c \
 claim "so is what --debug tells at the end" says '^1$' bash -c \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --debug -o told.rcg rough.rcg 2>&1 | grep -c 'memory: .* counted'"
 
-# What a contact exchanges and holds, as contact-mpi(7) has it: 32 bytes a wave for each equivalent, and up to 5 %
-# for spectra; 83 bytes a node, and 40 MiB at most.
+# Communication and memory of a contact as in contact-mpi(7): 32 bytes a wave for each equivalent convolution,
+# and up to 5 % for spectra; 83 bytes a node, and at most 40 MiB more.
 if [ "$ranks" != 2 ]; then
     rc-synth selfaffine --nx 1024 --ny 1024 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o large.rcg
     for n in $ranks; do
@@ -93,7 +93,7 @@ estimated() {
     near "$(field memory_estimate estimate.json)" "$(field peak_memory estimate.json)" 0.1 "$sentence"
 }
 rough="selfaffine --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 100um --short-cut 6um"
-if ! nm -D "$(command -v rc-solve)" 2>/dev/null | grep -q __asan; then # which takes memory of its own
+if ! nm -D "$(command -v rc-solve)" 2>/dev/null | grep -q __asan; then # which needs additional memory
     rc-synth $rough --nx 1200 --ny 1100 -o even.rcg
     rc-synth $rough --nx 30000 --ny 48 -o wide.rcg # 16 rows of the first rank, 32 of the second
     press="rc-solve --estar 3GPa --mean-pressure 20MPa --tol 1e-2 --output pressure"
@@ -131,7 +131,7 @@ anew() {
     local n
     for n in $(seq $(before_release && echo 8 || echo 2)); do
         rm -f new-kept.rcg
-        # the second one slower, so that it looks when the first has made the file
+        # the second process is slower, so that it checks after the first has made the file
         $MPIRUN -n 1 $solve --load 1mN --checkpoint new-kept.rcg --resume -o new.rcg small.rcg : \
             -n 1 nice -n 19 $solve --load 1mN --checkpoint new-kept.rcg --resume -o new.rcg small.rcg || return
     done
@@ -178,8 +178,8 @@ rc-solve --periodic --estar 1e60Pa --mean-pressure 1e58Pa --tol 1e-3 --output pr
 refuses 1 '65024 of 65024 values of mises came out larger than single precision can hold' "values too large, in the rows of both" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0 --components mises --type f32 -o no.rcg huge.rcg"
 claim "  are said once" test "$(grep -c 'came out' refuses.err)" = 1
-# The launcher tells which process gave the message: the first one where all have agreed, else the one that had
-# waited for others.
+# The output of the launcher shows which process printed the message: the first one if all have agreed, else
+# the one that waited for the others.
 refuses 1 '^\[[^]]*,0\]<stderr>: ?rc-solve: small.rcg, frame 1: .* --memory allows 100 KiB' \
     "a part for which the second process has no memory ends both at once" \
     "$MPIRUN --tag-output -n 1 rc-solve --estar 1GPa --load 1mN -o no.rcg small.rcg : \
@@ -190,7 +190,7 @@ refuses 3 'not converged' "short of the accuracy: written, with its exit status"
 claim "  and whole" bash -c 'rc-info stopped.rcg >/dev/null; test $? = 3'
 claim "nothing of what failed is left" bash -c '! ls no.rcg* 2>/dev/null'
 
-# What ends processes from outside: the file that was there stays, and no part of another is left.
+# If processes are ended from outside, the existing file remains and no part of a new one is left.
 rc-synth selfaffine --nx 1600 --ny 1600 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o long.rcg
 lasting="rc-solve --periodic --estar 1GPa --method pk99 --tol 1e-14 -o killed.rcg long.rcg"
 # begin COMMAND...: starts two processes in the background: $launcher, and $victim the second of them.
@@ -205,7 +205,7 @@ begin() {
     done
     return 1
 }
-# Whether nothing is half-written: of what a signal has stopped the file may be the new one, which says so.
+# True if no file is incomplete: after a signal the file may also be the new, marked solution.
 nothing_half() {
     [ -z "$(ls killed.rcg.* 2>/dev/null)" ] || return
     [ "$(head -c 100 killed.rcg | tr -d '\0')" = old ] && return
@@ -229,7 +229,7 @@ killed_writing() {
     nothing_half killed
 }
 claim "nor does one that is killed when they write" killed_writing
-# Another run would add to the checkpoint of one that is under way, and has a frame in it.
+# Another run tries to write to the checkpoint of a running one, which already has a frame.
 adding() {
     local n=0 status
     begin $lasting --load 12N --checkpoint adding.rcg --interval 0.01 || return
@@ -250,7 +250,7 @@ signalled() {
     cat killed.err >&2
     nothing_half signalled && grep -aq '^rc-solve: .*\(interrupted\|ended by a signal\)' killed.err
 }
-export OMPI_MCA_odls_base_sigkill_timeout=2 # by itself 1 s, which may be too little for words where much else runs
+export OMPI_MCA_odls_base_sigkill_timeout=2 # by default 1 s, which may be too short for the message on a busy machine
 for signal in TERM INT; do
     for seconds in 3 4.2; do
         claim "mpirun is ended after $seconds s by $signal: a message, nothing half-written" signalled $signal $seconds
@@ -259,7 +259,7 @@ done
 patient() {
     begin $lasting --load 12N || return
     sleep 6
-    kill -TERM $(pgrep -P "$launcher" -x rc-solve) # as a launcher does that leaves them time
+    kill -TERM $(pgrep -P "$launcher" -x rc-solve) # like a launcher that gives them more time
     wait "$launcher" && return 1
     rc-info --quiet killed.rcg >/dev/null
     [ $? = 3 ] && [ -z "$(ls killed.rcg.* 2>/dev/null)" ]
@@ -268,9 +268,8 @@ export OMPI_MCA_odls_base_sigkill_timeout=5
 claim "where there is time, what was reached is written" patient
 unset OMPI_MCA_odls_base_sigkill_timeout
 
-# No memory in the second process, for one allocation after the other: the work is done all the same, or all end with
-# exit status 1 and a message, and nothing else is left.
-# short_of N: exit status
+# One allocation after another fails in the second process: the work is done nevertheless, or all end with
+# exit status 1 and a message, and no other file is left. short_of N: prints the exit status.
 short_of() {
     echo old >short.rcg
     timeout -s KILL 60 $MPIRUN --tag-output -n 1 $short_command : -n 1 env LD_PRELOAD="$RC_FAILING_MALLOC" RC_FAULT_AT="$1" RC_FAULT_COUNT="$PWD/count" \

@@ -1,5 +1,5 @@
-# The filter that rcg(5) prints compiles as it stands there and is a good neighbour in a pipe: its output is
-# read by the tools, and it refuses a damaged stream.
+# The filter in rcg(5) compiles as printed and follows the rules for pipes: the tools read its output, and it
+# refuses a damaged stream.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 
@@ -8,7 +8,7 @@ claim "it compiles" ${CC:-cc} -std=c99 -O2 -Wall -Wextra -o rcg-scale rcg-scale.
 PATH="$scratch:$PATH"
 
 figure() { rc-info --json "$2" | head -n 1 | grep -o "\"$1\": [^,]*" | cut -d' ' -f2; }
-# A stream without the parts that the filter changes at a factor of 1.
+# A stream without the parts that the filter changes even with the factor 1.
 bare() { LC_ALL=C sed -e '/^history=/d' -e 's/crc32 [0-9a-f]\{8\}$//' "$1"; }
 
 rc-synth selfaffine --nx 33 --ny 47 --dx 1.1um --dy 1.29um --hurst 0.7 --rms-height 0.4um \
@@ -17,7 +17,7 @@ for type in f64 f32; do
     claim "heights are doubled, $type" bash -c "
         rc-synth sphere --nx 33 --ny 47 --dx 1.1um --radius 2.385mm --type $type -o ball.rcg &&
         rcg-scale 2 <ball.rcg >twice.rcg"
-    # twice a binary number is one
+    # twice a binary number is exact
     for name in minimum maximum mean rms; do
         near "$(figure $name twice.rcg)" "$(awk -v a="$(figure $name ball.rcg)" 'BEGIN { printf "%.17g", 2 * a }')" \
             "$same" "$name is doubled, $type"

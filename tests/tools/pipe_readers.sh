@@ -1,5 +1,5 @@
-# The readers that rcg(5) prints run as they stand there: of every frame of a stream each finds channel,
-# size and largest value as rc-info does, in both types, and each fails where the stream is cut off.
+# The readers in rcg(5) run as printed: for every frame of a stream each prints channel, size and largest
+# value as rc-info does, for both types, and each fails if the stream is cut off.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 . "$RC_SOURCE/tests/python.sh"
@@ -15,11 +15,12 @@ head -c 9000 f64.rcg >inside.rcg
 head -c -30 f64.rcg >checksum.rcg
 sed '/^RCGEND/d' f64.rcg >end.rcg
 
-# expected FILE: channel, columns, rows and largest value of each frame.
+# expected FILE: prints channel, columns, rows and largest value of each frame.
 expected() {
     rc-info --json "$1" | sed 's/.*"channel": "\([^"]*\)".*"nx": \([0-9]*\).*"ny": \([0-9]*\).*"maximum": \([^,}]*\).*/\1 \2 \3 \4/'
 }
-# agrees TOLERANCE FILE READER...: the reader prints that of the file, numbers within a relative tolerance.
+# agrees TOLERANCE FILE READER...: the reader prints the expected lines for the file, with numbers within a
+# relative tolerance.
 agrees() {
     local tolerance=$1 file=$2
     expected "$file" >wanted.txt
@@ -30,7 +31,7 @@ agrees() {
 }
 fails_on() { ! "${@:2}" "$1"; }
 
-# try NAME READER...: the reader gives the right values, and notices a stream that is cut off.
+# try NAME READER...: the reader gives the right values, and detects a stream that is cut off.
 try() {
     claim "$1: every frame of a stream, f64" agrees "$same" f64.rcg "${@:2}"
     claim "$1:   f32" agrees "$six_digits" f32.rcg "${@:2}"
@@ -42,7 +43,7 @@ try() {
 }
 claim "there are frames to read" test "$(expected f64.rcg | awk 'NF == 4 && $4 > 0' | wc -l)" = 8
 
-# what NUMBER NAME: the display of READERS.
+# what NUMBER NAME: saves this display of the section READERS.
 blocks "$pages/rcg.5" READERS readers
 claim "the page prints five readers" test "$(ls readers | wc -l)" = 5
 
@@ -61,7 +62,7 @@ else
     echo "not tried: Python: $(cat why.txt)"
 fi
 
-# on FILE PROGRAM...: a program that reads surface.rcg in its folder.
+# on FILE PROGRAM...: runs a program that reads surface.rcg in its folder.
 on() {
     mkdir -p "run.$1" && cp "$1" "run.$1/surface.rcg" && (cd "run.$1" && "${@:2}")
 }

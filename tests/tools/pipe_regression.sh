@@ -1,10 +1,10 @@
-# The sample surfaces keep their contact: area, peak pressure, approach, plastic area and largest Mises stress of the table, which
-# other engines and methods computed.
+# The contacts of the sample surfaces do not change: area, peak pressure, approach, plastic area and largest
+# Mises stress equal those of the table, which other engines and methods computed.
 . "$(dirname "$0")/../pipe.sh"
 
 grep -v '^#' "$RC_SOURCE/tests/tools/regression.txt" >table.txt
 
-# keeps FILE FIELD VALUE WITHIN: the field of the JSON file is the value within the relative difference.
+# keeps FILE FIELD VALUE WITHIN: the field of the JSON file equals the value within this relative difference.
 keeps() {
     perl -e '
         my ($file, $field, $want, $within) = @ARGV;
@@ -14,9 +14,9 @@ keeps() {
         print STDERR "$field: $got, not $want\n"; exit(1);' "$@"
 }
 
-# The pressure has a relative error of 1e-8 in the mean; a single value, and the figures made of single values,
-# may be off by a hundred times that. Areas are whole nodes: of 10,000 in contact one may change sides, of 1000
-# at the hardness too.
+# The pressure has a mean relative error of 1e-8; a single value, and figures from single values, may have a
+# hundred times that. Areas are whole nodes: one of 10,000 nodes in contact may change its state, and one of
+# 1000 at the hardness.
 beside=1e-6
 of_contact=1e-4
 of_plastic=1e-3

@@ -1,9 +1,9 @@
-# rc-render draws the frame that was meant, from whole streams only, and refuses the rest with the
-# right exit status and no picture left behind.
+# rc-render draws the selected frame, from complete streams only, and otherwise fails with the right exit
+# status and without a picture.
 . "$(dirname "$0")/../pipe.sh"
 
-# stream CHANNEL UNIT NX NY "KEY=VALUE..." 'perl expression of $i, $j' [the same six again]...: a
-# stream of such frames. The expression is a value, "nan" among them.
+# stream CHANNEL UNIT NX NY "KEY=VALUE..." 'perl expression of $i, $j' [the same six again]...: writes a
+# stream of such frames. The expression gives a value, which may be "nan".
 stream() {
     perl -MCompress::Raw::Zlib -e '
         binmode STDOUT;
@@ -19,7 +19,7 @@ stream() {
         print "RCGEND $frames\n";' -- "$@"
 }
 
-# size WIDTH HEIGHT FILE: the size in the header of the PNG; - for a side that does not matter.
+# size WIDTH HEIGHT FILE: checks the size in the header of the PNG; - for any number.
 size() {
     perl -e 'my ($w, $h, $file) = @ARGV; open my $f, "<:raw", $file or die; read $f, my $b, 24;
         die "no PNG" if substr($b, 0, 8) ne "\x89PNG\r\n\x1a\n";
@@ -27,13 +27,13 @@ size() {
         die "it is @is" if ($w ne "-" && $w != $is[0]) || ($h ne "-" && $h != $is[1])' "$@"
 }
 
-# pixels: the PNG without what it says of how it was made.
+# pixels: prints the PNG without its text chunks.
 pixels() {
     perl -0777 -ne 'print unpack("H*", $1) while /IDAT(.*?)....IEND/gs'
 }
 export -f pixels
 
-# describes PATTERN FILE: the uncompressed chunks of the picture hold the text.
+# describes PATTERN FILE: the uncompressed chunks of the picture contain the text.
 describes() {
     LC_ALL=C grep -aqF -- "$1" "$2"
 }
@@ -129,7 +129,7 @@ claim "with its options in SI" bash -c \
 
 # ---- text ----
 
-# A character at the end of Unicode's private use, which no font draws.
+# A character at the end of Unicode's private area, which no font has.
 private=$(printf '\364\217\277\275')
 claim "a character that no font has is told, and the figure is drawn" bash -c \
     "rc-render --title 'No $private here' -o f.png height.rcg 2>warned && grep -q \"no font has the characters '$private'\" warned"

@@ -1,8 +1,8 @@
-# Hertz's contact beside a map and a cut of it, for a ball that rc-synth made as for one that rc-solve added, and Persson's
-# law from the table of rc-solve itself: the curves are what the formulas say.
+# Hertz's contact drawn on a map and on a cut, for a ball of rc-synth and for one added by rc-solve, and
+# Persson's law with the table of rc-solve: the curves follow the formulas.
 . "$(dirname "$0")/../pipe.sh"
 
-# The path of that kind at x: points of the curves of an SVG, between two of them on a line.
+# The value at x of a curve in an SVG: its points, with linear interpolation between them.
 value_at() {
     perl "$RC_SOURCE/tests/tools/points.pl" <"$1" | awk -v kind="$2" -v at="$3" '
         $2 == kind && NF > 6 { for (k = 3; k + 3 <= NF; k += 2) if ($k <= at && $(k + 2) >= at && $(k + 2) > $k) {

@@ -1,6 +1,6 @@
-# A picture is a PNG, SVG or PDF and is called one: another ending is a wrong command line, told before the
-# work. Curves, sheets and reliefs come out as all three like single maps: of the width on paper that was asked
-# for, their words as text, in the font that was asked for.
+# A picture is a PNG, SVG or PDF according to its name: another suffix is a wrong command line, reported
+# before the work. Curves, sheets and reliefs, like single maps, are available in all three, with the
+# requested width on paper, text as text, and the requested font.
 . "$(dirname "$0")/../pipe.sh"
 
 # ---- the ending ----
@@ -37,14 +37,14 @@ claim "and so has a link to a device" rc-render -o nothing sphere.rcg
 rc-synth sphere --nx 65 --dx 10um --radius 7.5mm -o ball.rcg
 rc-solve --quiet --load 1N,2N --estar 114GPa --report r.tsv --output pressure -o p.rcg ball.rcg
 
-# pixels across, and those in an inch, of a PNG
+# prints the width of a PNG in pixels, and its pixels per inch
 png() {
     perl -e 'open my $f, "<:raw", $ARGV[0] or die; local $/; my $b = <$f>;
         my $at = index $b, "pHYs"; die "no pHYs" if $at < 0;
         printf "%d %.2f\n", unpack("N", substr $b, 16), 0.0254 * unpack("N", substr $b, $at + 4)' "$1"
 }
 
-# kind, the words under an axis across, and the options
+# kind, the label of the horizontal axis, and the options
 while read -r kind across options; do
     draw="rc-render --quiet --title Gutenberg --width 120mm $options"
     for ending in png svg pdf; do
@@ -60,7 +60,7 @@ while read -r kind across options; do
     claim "  and its axis" says "$across \(" cat "$kind.txt"
     claim "  the SVG too" says ">Gutenberg</text>" cat "$kind.svg"
     claim "  and its axis" says "<text .*>$across \(" cat "$kind.svg"
-    # 7 points of 300 pixels an inch
+    # 7 points at 300 pixels an inch
     near "$(sed -n 's/.*<text [^>]*font-size="\([0-9.]*\)".*/\1/p' "$kind.svg" | sort -g | head -n 1)" 27.8 0.05 \
         "  and no text of it is smaller than 6.7 points"
     claim "  librsvg draws it" rsvg-convert -o "$kind.from.png" "$kind.svg"
@@ -79,8 +79,8 @@ sheet x --sheet 2x1 --contour p.rcg
 relief x --view 30,35 ball.rcg
 END
 
-# Words are where the command line is, which with 32 bits can be the first half of a number or of none: without
-# addresses at random it is, every time.
+# Words lie at addresses of the command line, which with 32 bits can equal the first half of a number: without
+# address randomisation they always do.
 fixed=$(setarch -R true 2>setarch.err && echo setarch -R)
 claim "what drew it is told with the words of its options" bash -c "
     $fixed rc-render --quiet --title Gutenberg --curve load:stiffness --log xy -o told.svg r.tsv && says ' --log xy ' cat told.svg"
@@ -96,7 +96,7 @@ claim "  and the PNG has the SVG's size" test "$(png relief.png | cut -d ' ' -f 
 # ---- options of maps ----
 
 claim "a sheet of logarithmic colours" bash -c 'rc-render --quiet --sheet auto --log --range 1MPa:100MPa -o out.pdf p.rcg &&
-    pdftotext out.pdf - | says "^5$" cat' # even steps have 20, 40, 60
+    pdftotext out.pdf - | says "^5$" cat' # axis marks with even steps include 20, 40, 60
 # 11 by 11 of 65 by 65 nodes
 claim "a sheet of one window" bash -c 'rc-render --quiet --sheet auto --window -50um:50um,-50um:50um -o out.pdf p.rcg &&
     pdftotext out.pdf - | says "2.9 % of the map" cat'

@@ -1,9 +1,9 @@
-# A section of a coated body shows what it is made of: a line at each interface, to be seen on every
-# colour, the number of each medium beside the plot, what it is in the legend; values jump at interfaces
-# and nowhere else, and slices say in which medium they are.
+# A section of a coated body shows its materials: a line at each interface, visible on every colour, the
+# number of each medium beside the plot, its material in the legend; values jump only at interfaces, and
+# slices name their medium.
 . "$(dirname "$0")/../pipe.sh"
 
-# made DEPTHS LAYERS 'perl expression of the depth $z in um': 21 columns of 2 um
+# made DEPTHS LAYERS 'perl expression of the depth $z in um': writes a section with 21 columns of 2 um
 made() {
     perl -MCompress::Zlib -e 'binmode STDOUT; my ($depths, $layers, $value) = @ARGV; my @z = split /,/, $depths;
         my $f = "RCG1\nchannel=mises\nnx=21\nny=" . @z . "\ndx=2e-06\ndy=1e-06\nunit=Pa\ntype=f64\n";
@@ -17,16 +17,16 @@ plot() {
     sed -nE 's/.*<image x="([0-9.]*)" y="([0-9.]*)" width="([0-9.]*)" height="([0-9.]*)".*/\1 \2 \3 \4/p' "$1" |
         head -n 1
 }
-# lines FILE: heights of the level lines across the plot, those in the colour $2
+# lines FILE COLOUR: prints the heights of the horizontal lines across the plot with this colour
 lines() {
     sed -n 's/.*<path d="M'"$x"' \([0-9.]*\)L[0-9.]* \([0-9.]*\)" .*stroke="'"$2"'".*/\1 \2/p' "$1"
 }
-# numbers FILE: "x y size number" of those beside the plot, in bold
+# numbers FILE: prints "x y size number" of the bold numbers beside the plot
 numbers() {
     local bold='font-weight="bold" fill="#222222"'
     sed -nE "s/<text x=\"([0-9.]*)\" y=\"([0-9.]*)\" font-size=\"([0-9.]*)\" $bold>([0-9])<.*/\1 \2 \3 \4/p" "$1"
 }
-# greys FILE: those of the middle column of a PDF, from the top
+# greys FILE: prints the greys of the middle column of a PDF, from the top
 greys() {
     pdfimages "$1" "$1"
     perl -0777 -ne 's/^P6\s(\d+) (\d+)\s255\s// or die; my @v = unpack "C*", $_;
@@ -71,7 +71,7 @@ claim "  of lines that would be one the lowest is drawn" eval "
         { d = \$1 - y - h * 0.15 / 40; bad += d * d > 0.01 } END { exit !(NR == 1 && bad == 0) }'"
 claim "a rigid substrate is called that" grep -qF '>4: substrate, rigid<' thin.svg
 
-# media that the window of depths leaves out are not named
+# media outside of the window of depths are not named
 rc-render --width 1200 --depth-range 5um:30um -o part.svg coat.rcg
 claim "only media that are seen are told" bash -c '
     lacks ">1: layer" part.svg && grep -q ">2: layer" part.svg && grep -q ">3: substrate" part.svg'
@@ -103,7 +103,7 @@ claim "values are those of their medium up to the interface, whatever is beyond"
     { z = (NR - 0.5) * 40 / 900; want = z < 4 ? 255 : z < 10 ? 64 : 191; off = $1 - want; bad += off > 1 || off < -1 }
     END { exit !(NR == 900 && bad == 0) }' column.txt
 
-# the curve between rows on one side of an interface does not look at those on the other
+# the curve between rows on one side of an interface does not depend on rows on the other side
 made 0,1,2,3,4,4.000004,5,6,8,10 '4e-06,4e11,0.2;inf,2e11,0.3' '$z <= 4 ? 2e6 * $z : 0' >slope.rcg
 rc-render --colormap grey --range 0:8MPa -o slope.pdf slope.rcg
 greys slope.pdf >slope.txt

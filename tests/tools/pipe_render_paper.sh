@@ -1,8 +1,8 @@
-# Pictures for papers: SVG and PDF with text as text, the size on paper that was asked for, the map as
-# it is, and the same bytes whenever they are made.
+# Pictures for papers: SVG and PDF with text as text, the requested size on paper, the unchanged map, and the
+# same bytes at any time.
 . "$(dirname "$0")/../pipe.sh"
 
-# a ramp of 6 by 4 nodes: node (i, j) is i + 6 j um, of 0 to 23
+# a ramp of 6 by 4 nodes: node (i, j) is i + 6 j um, from 0 to 23
 for j in 0 1 2 3; do
     echo "$((6 * j)) $((6 * j + 1)) $((6 * j + 2)) $((6 * j + 3)) $((6 * j + 4)) $((6 * j + 5))"
 done | rc-import --dx 2um --z-unit um - -o ramp.rcg
@@ -11,7 +11,7 @@ rc-synth wave --nx 200 --ny 1 --dx 1um --amplitude 1um --wavelength 50um -o curv
 # ---- text ----
 
 for kind in ramp curve; do
-    unit=µm # of the largest value: 23 um; 998 nm, as no node is on the top of the wave
+    unit=µm # the largest value: 23 um; 998 nm, because no node lies on the crest of the wave
     [ $kind = ramp ] || unit=nm
     for ending in pdf svg; do
         claim "$kind.$ending" rc-render --width 85mm -o "$kind.$ending" "$kind.rcg"
@@ -44,7 +44,7 @@ claim "  with the colours of its values" bash -c '
     rc-render --colormap grey --range 0:23um -o grey.pdf ramp.rcg && pdfimages grey.pdf grey &&
     perl -0777 -ne "s/^P6\s6 4\s255\s// or die q(no map); my @v = unpack q(C*), \$_; @v == 72 or die scalar @v;
         for (0 .. 71) { abs(\$v[\$_] - int(\$_ / 3) * 255 / 23) <= 1 or die qq(value \$_ is \$v[\$_]) }" grey-000.ppm'
-# width, height and pixels an inch of a PNG
+# prints width, height and pixels per inch of a PNG
 png() {
     perl -e 'open my $f, "<:raw", $ARGV[0] or die; local $/; my $b = <$f>;
         my ($w, $h) = unpack "NN", substr $b, 16; my $at = index $b, "pHYs";

@@ -1,8 +1,8 @@
-# The colour bar says where its colours begin and end: marks lie where their values do, what is beyond an
-# end has an arrow there that white paper does not swallow, and gaps begin at 0.
+# The colour bar shows the range of its colours: marks lie at the positions of their values, values beyond an
+# end have an arrow with a dark outline, visible on white paper, and gaps begin at 0.
 . "$(dirname "$0")/../pipe.sh"
 
-# made NX CHANNEL UNIT 'perl expression of $i, $j': a stream of NX by NX nodes
+# made NX CHANNEL UNIT 'perl expression of $i, $j': writes a stream of NX by NX nodes
 made() {
     perl -MCompress::Zlib -e 'binmode STDOUT; my ($n, $channel, $unit, $value) = @ARGV;
         my $f = "RCG1\nchannel=$channel\nnx=$n\nny=$n\ndx=1e-06\ndy=1e-06\nunit=$unit\ntype=f64\n\n";
@@ -11,8 +11,8 @@ made() {
         printf "%scrc32 %08x\nRCGEND 1\n", $f, crc32($f)' "$@"
 }
 
-# bar FILE: "top height" of the colour bar, the image of one column; marks FILE: "number y" of each mark
-# to the right of it; arrows FILE: how many, with "inked" when each has a dark outline.
+# bar FILE: prints "top height" of the colour bar, the image of one column; marks FILE: "number y" of each
+# mark to its right; arrows FILE: the number of arrows, and "inked" if each has a dark outline.
 bar() {
     sed -n 's/.*<image x="[0-9.]*" y="\([0-9.]*\)" width="28" height="\([0-9.]*\)".*/\1 \2/p' "$1"
 }
@@ -24,7 +24,7 @@ arrows() {
     grep -c '<path d="[^"]*Z" fill' "$1"
 }
 
-# marks_lie FILE LO HI LOG "sentence": each within a thousandth of the bar of its place
+# marks_lie FILE LO HI LOG "sentence": each mark is at its position within a thousandth of the bar
 marks_lie() {
     marks "$1" >marks.txt
     claim "$5" awk -v bar="$(bar "$1")" -v lo="$2" -v hi="$3" -v log_axis="$4" '
@@ -45,7 +45,7 @@ claim "  with a dark outline" bash -c 'grep -A 1 "Z\" fill" wide.svg | grep -q "
 claim "symmetric" rc-render --width 1200 --range symmetric -o both.svg ramp.rcg
 marks_lie both.svg -1.9 1.9 0 "is as far to one side of 0 as to the other"
 claim "percentiles" rc-render --width 1200 --range 10%:90% -o part.svg ramp.rcg
-# 900 values, 30 of each column: place 89.9 is between the last of column 2 and the first of 3
+# 900 values, 30 in each column: rank 89.9 is between the last value of column 2 and the first one of column 3
 marks_lie part.svg -0.71 1.61 0 "end where their columns do"
 claim "  with an arrow at each end" test "$(arrows part.svg)" = 2
 claim "  and a word" says 'colours from 10 % to 90 % of the nodes' cat part.svg
@@ -87,7 +87,7 @@ marks_lie pressed.svg -290 0 0 "ends at 0"
 
 # ---- a unit that was forgotten ----
 
-doubted() { # doubted RANGE: as a map and as a cut
+doubted() { # doubted RANGE: a map and a cut with this range give a warning
     warns "range $1 goes from .*, but the values go from 0 Pa to 441 MPa: was a unit forgotten" rc-render --range "$1" -o doubt.png touch.rcg &&
         warns 'was a unit forgotten' rc-render --range "$1" --cut y=0 -o doubt.png touch.rcg
 }

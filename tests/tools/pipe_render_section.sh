@@ -1,8 +1,8 @@
-# A section shows each depth where the axis says, whatever the steps between its rows, without bands; its
-# largest value is marked, with its place.
+# A section shows each depth at its position on the axis, for any steps between its rows, without bands; its
+# largest value is marked, with its position.
 . "$(dirname "$0")/../pipe.sh"
 
-# made DEPTHS 'perl expression of $i and the depth $z in um': 21 columns of 2 um
+# made DEPTHS 'perl expression of $i and the depth $z in um': writes a section with 21 columns of 2 um
 made() {
     perl -MCompress::Zlib -e 'binmode STDOUT; my ($depths, $value) = @ARGV; my @z = split /,/, $depths;
         my $f = "RCG1\nchannel=mises\nnx=21\nny=" . @z . "\ndx=2e-06\ndy=1e-06\nunit=Pa\ntype=f64\nsection=y\nat=0\ndepths=" .
@@ -14,7 +14,7 @@ made() {
 plot() {
     sed -n 's/.*<image x="\([0-9.]*\)" y="\([0-9.]*\)" width="\([0-9.]*\)" height="\([0-9.]*\)".*/\1 \2 \3 \4/p' "$1" | head -n 1
 }
-# column FILE: the greys of the middle column of the map in a PDF, from the top
+# column FILE: prints the greys of the middle column of the map in a PDF, from the top
 column() {
     pdfimages "$1" column
     perl -0777 -ne 's/^P6\s(\d+) (\d+)\s255\s// or die; my @v = unpack "C*", $_;

@@ -1,5 +1,6 @@
-# What a figure is shaped like: reliefs with a choice of exaggeration, strips with the axis downwards stretched, and the border of
-# the contact on maps of other channels, one or a sheet of them; titles are words of a journal. Lengths are measured in the SVG.
+# Shapes of figures: reliefs with a given exaggeration, strips with a stretched vertical axis, and the border
+# of the contact on maps of other channels, single or in a sheet; titles for a journal. Lengths are measured
+# in the SVG.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 60 --ny 45 --dx 1um --dy 2um --hurst 0.8 --rms-height 20nm --rolloff 30um --seed 4 -o rough.rcg
@@ -10,7 +11,7 @@ draw='rc-render --quiet -o out.svg'
 
 # ---- the border of the contact ----
 
-# The border's lines in the SVG, as multiples of a node's sides, by the size of the map's image.
+# Prints the lines of the border in the SVG in units of nodes, from the size of the image of the map.
 border_length() {
     perl -0777 -ne '
         my ($w, $h) = /<image [^>]*?width="([\d.]+)" height="([\d.]+)"/ or die "image";
@@ -67,7 +68,7 @@ claim "  as the figure says" says '>depth is drawn 5 times as large as x<' cat s
 claim "of a map too" rc-render --channel height --aspect 0.5 -o flat.svg rough.rcg
 near "$(shape flat.svg)" "$(awk 'BEGIN { print 60 / 45 }')" "$coarse_grid" "  60 um by 90 um, drawn 60 to 45"
 claim "a sheet of them" eval 'rc-stress --quiet --nu 0.3 --section y=0 --depths 0:5um:6 --components mises two.rcg | rc-render --sheet 1x2 --aspect 5 -o sheet.svg && says ">depth is drawn 5 times" cat sheet.svg'
-for width in 700 800 900 1000 1100; do # where the bar goes below the plot or beside it
+for width in 700 800 900 1000 1100; do # the bar may be below the plot or beside it
     claim "the bar stays on the page, $width pixels wide" eval 'rc-render --aspect 3.4 --width '$width' -o bar.svg strip.rcg &&
         perl -0777 -ne "my (\$w) = /viewBox=\"0 0 (\d+)/; while (/<image [^>]*?x=\"([\d.]+)\"[^>]*?width=\"([\d.]+)\"/g) { exit 1 if \$1 + \$2 > \$w }" bar.svg'
 done

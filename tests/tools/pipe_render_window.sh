@@ -1,8 +1,9 @@
-# A window shows that part of the map and no other, at its own coordinates; a contact that is a speck of
-# its map gets one by itself and the title says so; the lines over a map lie where the contact does.
+# A window shows only this part of the map, with the coordinates of the map; a contact that is small compared
+# with its map gets a window by default, and the title says so; the lines over a map lie at the border of the
+# contact.
 . "$(dirname "$0")/../pipe.sh"
 
-# made NX NY CHANNEL UNIT KEYS 'perl expression of $i, $j': nodes of 1 by 1 um
+# made NX NY CHANNEL UNIT KEYS 'perl expression of $i, $j': writes a frame with nodes of 1 by 1 um
 made() {
     perl -MCompress::Zlib -e 'binmode STDOUT; my ($nx, $ny, $channel, $unit, $keys, $value) = @ARGV;
         my $f = "RCG1\nchannel=$channel\nnx=$nx\nny=$ny\ndx=1e-06\ndy=1e-06\nunit=$unit\ntype=f64\n" .
@@ -11,11 +12,11 @@ made() {
         for my $j (0 .. $ny - 1) { $f .= pack "d<", $get->($_, $j) for 0 .. $nx - 1 }
         printf "%scrc32 %08x\nRCGEND 1\n", $f, crc32($f)' "$@"
 }
-# plot FILE: "x y width height" of the map in an SVG; the image that is no bar comes first
+# plot FILE: prints "x y width height" of the map in an SVG, whose image comes before that of the bar
 plot() {
     sed -n 's/.*<image x="\([0-9.]*\)" y="\([0-9.]*\)" width="\([0-9.]*\)" height="\([0-9.]*\)".*/\1 \2 \3 \4/p' "$1" | head -n 1
 }
-# across FILE: "number x" of the marks under the map; down FILE: "number y" of those to its left
+# across FILE: prints "number x" of the marks under the map; down FILE: "number y" of those to its left
 across() {
     sed -n 's/.*<text x="\([0-9.]*\)" y="[0-9.]*" font-size="21" text-anchor="middle".*>\([−0-9.]*\)<\/text>/\2 \1/p' "$1" | sed 's/−/-/'
 }
@@ -25,7 +26,7 @@ down() {
     sed -n 's/.*<text x="\([0-9.]*\)" y="\([0-9.]*\)" font-size="21" text-anchor="end".*>\([−0-9.]*\)<\/text>/\1 \2 \3/p' "$1" |
         sed 's/−/-/' | awk -v left="$left" '$1 < left { print $3, $2 - 0.36 * 21 }'
 }
-# lies FILE LO HI start length "sentence" <marks: each mark of the axis from LO to HI is at its place
+# lies FILE LO HI start length "sentence" <marks: each mark of the axis from LO to HI is at its position
 lies() {
     awk -v lo="$1" -v hi="$2" -v start="$3" -v length_="$4" '
         { off = $2 - start - ($1 - lo) / (hi - lo) * length_; n++; bad += off > 0.6 || off < -0.6 }
@@ -40,7 +41,7 @@ axes() {
 
 made 41 21 height m '' '$i * 1e-7 + $j * 1e-9' >ramp.rcg
 claim "a window in micrometres" rc-render --width 1200 --window=-10um:5um,-4um:9um -o w.svg ramp.rcg
-# nodes lie at whole micrometres about 0: cells end half a micrometre further
+# nodes lie at whole micrometres about 0: cells extend half a micrometre further
 axes w.svg -10.5 5.5 -4.5 9.5 "its cells are at their places"
 claim "a raw picture of it has its nodes" bash -c '
     rc-render --raw --window=-10um:5um,-4um:9um -o w.png ramp.rcg && [ "$(od -An -j 16 -N 8 -t u1 w.png | tr -s " ")" = " 0 0 0 16 0 0 0 14" ]'
@@ -58,8 +59,8 @@ refuses 1 '--window contact goes by the pressure' "the contact of a height" 'rc-
 
 # ---- contact ----
 
-# touching: columns 60 to 69 and rows 30 to 35 of 200 by 200 nodes, their cells -40..-30 and -70..-64 um.
-# The square about it is half as large again: 15 um, widened to whole nodes.
+# in contact: columns 60 to 69 and rows 30 to 35 of 200 by 200 nodes, whose cells are -40..-30 and -70..-64
+# um. The window is 1.5 times as large: a square of 15 um, enlarged to whole nodes.
 keys='load=1e-3;estar=1e11;hardness=2e9;form=sphere 0.001'
 made 200 200 pressure Pa "$keys" '$i >= 60 && $i < 70 && $j >= 30 && $j < 36 ? ($i < 64 ? 2e9 : 1e8 * ($i - 59)) : 0' >speck.rcg
 claim "a speck of contact" rc-render --width 1200 -o s.svg speck.rcg
@@ -81,14 +82,14 @@ claim "nothing that touches is told" warns 'nothing touches: the whole map is dr
 
 # ---- lines over the map ----
 
-# paths FILE COLOUR: corners "x y" of the lines of that colour, in micrometres of the windowed map
+# paths FILE COLOUR: prints the corners "x y" of the lines of this colour, in micrometres of the map
 paths() {
     read -r x y w h <<<"$(plot "$1")"
     sed -n "s/.*<path d=\"\([^\"]*\)\" fill=\"none\".*stroke=\"$2\".*/\1/p" "$1" | sed -n "$3p" | tr 'ML' '\n\n' |
         awk -v x="$x" -v y="$y" -v w="$w" -v h="$h" -v x0="$4" -v x1="$5" -v y0="$6" -v y1="$7" \
             'NF { print x0 + ($1 - x) / w * (x1 - x0), y0 + ($2 - y) / h * (y1 - y0) }'
 }
-# within X0 X1 Y0 Y1 <corners: they span exactly that, to a fiftieth of a node
+# within X0 X1 Y0 Y1 <corners: they span exactly this range, to a fiftieth of a node
 within() {
     awk -v x0="$1" -v x1="$2" -v y0="$3" -v y1="$4" 'function off(a, b) { return a - b > 0.02 || b - a > 0.02 }
         NR == 1 { a = b = $1; c = d = $2 }
@@ -100,7 +101,7 @@ claim "the yielded nodes have their border" eval "paths k.svg '#009e73' 1 -43 -2
 claim "  and a word" says 'pressure at the hardness' cat k.svg
 claim "the contact has its border" eval \
     "grep -n 'path' k.svg >/dev/null; n=\$(grep -c 'fill=\"none\".*stroke=\"#222222\"' k.svg); for k in \$(seq \$n); do paths k.svg '#222222' \$k -43 -27 -75 -59 | within -40 -30 -70 -64 && break; done"
-# the same lines over the height of the case, which comes behind its pressure
+# the same lines over the height of the case, which comes after its pressure
 { made 200 200 pressure Pa "$keys" '$i >= 60 && $i < 70 && $j >= 30 && $j < 36 ? ($i < 64 ? 2e9 : 1e8 * ($i - 59)) : 0' | sed '/^RCGEND/d'
   made 200 200 height m '' '0' | sed 's/^RCGEND 1/RCGEND 2/'; } >both.rcg
 claim "the height with its contact" rc-render --width 1200 --channel height --window contact --contour -o both.svg both.rcg
@@ -109,7 +110,7 @@ claim "  what yields has its border there too" eval "paths both.svg '#009e73' 1 
 claim "  and the title says what it is" says '>Height about the contact</text>' cat both.svg
 claim "without these options all of it is drawn" rc-render --width 1200 --channel height -o both.svg both.rcg
 axes both.svg -100 100 -100 100 "the whole height"
-# a single node of a map where it is two pixels wide, and lines that are thinner than that
+# a single node of a map that is two pixels wide, and lines thinner than that
 made 400 400 pressure Pa '' '$i == 200 && $j == 100 || $i > 250 ? 1e9 : 0' >node.rcg
 claim "a contact of one node" rc-render --width 1200 --contour -o n.svg node.rcg
 read -r _ _ w _ <<<"$(plot n.svg)"
@@ -134,7 +135,7 @@ for keep in mean max; do
         "$keep-000.ppm" >"$keep.txt"
 done
 claim "the largest value of a pixel is kept" grep -qx '2400 128' max.txt
-# 3000 nodes on 2400 pixels: the node is at most 0.8 of a pixel's width, and all of its height
+# 3000 nodes on 2400 pixels: the node covers at most 0.8 of the width of a pixel, and its whole height
 between 50 "$(cut -d ' ' -f 2 mean.txt)" 103 "or its mean over what the pixel covers"
 
 finish

@@ -1,6 +1,6 @@
-# Words on a figure: long titles break between words, units are printed as people write them, and what no font
-# has is told in every kind of picture. A figure of a solution that stopped short says so itself, beside the
-# data and not over them.
+# Text on a figure: long titles break between words, units have their usual notation, and characters that no
+# font has give a warning for every kind of picture. The figure of an unconverged solution has a stamp beside
+# the data, not over them.
 . "$(dirname "$0")/../pipe.sh"
 
 # ---- titles, units, letters without a glyph ----
@@ -36,12 +36,12 @@ rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 10nm --seed 2 |
     rc-solve --quiet --load 100mN --estar 100GPa --tol 1e-18 --output pressure -o short.rcg
 sed 's/^converged=no/converged=yes/' short.rcg | reseal >whole.rcg
 
-# draw OPTION... NAME: a picture of NAME.rcg, with the exit status that its solution asks for.
+# draw OPTION... NAME: draws NAME.rcg, and checks the exit status for its solution.
 draw() {
     local name=${!#}
     rc-render --quiet "${@:1:$#-1}" -o "$name.png" "$name.rcg" || [ "$name $?" = "short 3" ]
 }
-# Unpacks both pictures into @short and @whole, rows of bytes, for what follows.
+# Unpacks both pictures into @short and @whole, rows of bytes.
 rows='sub rows {
     open my $f, "<:raw", $_[0] or die; local $/; my $b = <$f>; my ($w, $h) = unpack "NN", substr $b, 16;
     my ($z, $at, @rows) = ("", 8);
@@ -66,7 +66,7 @@ pixels() {
 claim "figures of both" eval 'draw --width 400 short && draw --width 400 whole'
 claim "the stamp has its ink" pixels 'red(@short) > 100'
 claim "  which no other figure has" pixels 'red(@whole) == 0'
-# the plot begins at row 80, and without a stamp before row 60
+# the plot begins at row 80, without a stamp before row 60
 claim "  and none of it is on the plot" pixels 'red(@short[80 .. $#short]) == 0'
 claim "the data are as in the other figure, pixel for pixel" pixels \
     'index(join("", @short), join("", @whole[60 .. 300])) > 0 && @short > @whole'

@@ -1,8 +1,8 @@
-# rc-render on the pressure of a body that yields inside without hardening much: means about the nodes, in which what
-# alternates from node to node is nothing, and both largest values are told.
+# rc-render on the pressure of a body that yields in its volume with little hardening: it draws means about
+# the nodes, in which the alternation from node to node cancels, and prints both largest values.
 . "$(dirname "$0")/../pipe.sh"
 
-# stream KEYS 'perl expression of $i, $j': a pressure of 24 x 20 nodes.
+# stream KEYS 'perl expression of $i, $j': writes a pressure of 24 x 20 nodes.
 stream() {
     perl -MCompress::Raw::Zlib -e '
         binmode STDOUT;
@@ -12,16 +12,16 @@ stream() {
         for my $j (0 .. 19) { $f .= pack "d<", $get->($_, $j) for 0 .. 23 }
         print $f, sprintf("crc32 %08x\n", Compress::Raw::Zlib::crc32($f)), "RCGEND 1\n";' -- "$1" "$2"
 }
-# drawn FILE: what is painted, without the words.
+# drawn FILE: prints the drawing without the text.
 drawn() { grep -v '<text\|<metadata\|<desc\|<title\|<dc:\|<!--' "$1" | tr -d '\n' | grep -o '<image.*</svg>' | sha256sum; }
-# words FILE: the line under the title
+# words FILE: prints the line under the title
 words() { sed -n 's/<[^>]*>//g; /max/p' "$1" | head -n 1; }
 export -f drawn words
 
 soft="boundary=free yield=1e9 hardening=9.99e9"
 hard="boundary=free yield=1e9 hardening=1e10"
 ramp='1e9 + 2**24 * (3 * $i + 5 * $j)'
-# waves of two nodes, (-1)^i g(j) + (-1)^j g(i), with the g whose means are 0 too: linear
+# waves of two nodes, (-1)^i g(j) + (-1)^j g(i), with linear g, for which the means are 0
 noise='2**20 * ((-1)**$i * (7 + $j) + (-1)**$j * (11 - $i))'
 stream "$hard" "$ramp" >ramp.rcg
 stream "$soft" "$ramp + $noise" >soft.rcg
@@ -35,7 +35,7 @@ claim "  but where the hardening is ten times the yield stress they are" test "$
 claim "  as on an elastic body" test "$(drawn hard.svg)" = "$(drawn elastic.svg)"
 one=$(awk 'BEGIN { for (i = 0; i < 24; i++) for (j = 0; j < 20; j++) { p = 1e9 + 2^24 * (3 * i + 5 * j) + 2^20 * ((-1)^i * (7 + j) + (-1)^j * (11 - i)); if (p > m) m = p } printf "%.4g", m / 1e9 }')
 rc-render --range 1GPa:4GPa --width 600 -o whole.svg soft.rcg
-# at a border the last nodes stand once more beyond it, and means keep the waves along it
+# at an edge the last nodes are repeated beyond it, and means keep the waves along it
 says_both() { words "$1" | grep -q "max $2 GPa in means of 2 .* 2 nodes, $3 GPa at one node" || { words "$1" >&2; return 1; }; }
 claim "both largest values are told" says_both whole.svg "[34].[0-9]*" "$one"
 claim "of others one is" bash -c 'words hard.svg | grep -q "max [0-9.]* GPa$"'
@@ -44,7 +44,7 @@ stream "boundary=periodic" '2e9' >flat.rcg
 for f in round flat; do rc-render --range 1GPa:4GPa --width 600 -o $f.svg $f.rcg; done
 claim "on a map that repeats means go round" test "$(drawn round.svg)" = "$(drawn flat.svg)"
 claim "  and are told" says_both round.svg 2 2.15
-# what does not touch stays out, what does stays in
+# nodes outside of the contact stay outside, nodes in contact stay in contact
 island='$i > 5 && $i < 15 && $j > 5 && $j < 15'
 stream "boundary=periodic yield=1e9 hardening=0" "$island ? 2e9 : 0" >island.rcg
 stream "boundary=periodic" "$island ? 2e9 : 0" >bare.rcg
@@ -81,7 +81,7 @@ claim "  and of what has not yielded nothing" bash -c '! LC_ALL=C sed "/^$/q" p.
 
 # ---- warnings go by the means ----
 
-# few nodes in contact: of E* = 109.9 GPa the largest node is above a tenth before any mean is
+# few nodes in contact: the largest single node exceeds a tenth of E* = 109.9 GPa, but no mean does
 beyond() {
     local load
     rc-synth sphere --nx 33 --dx 1um --radius 15um -o small.rcg

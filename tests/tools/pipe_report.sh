@@ -1,14 +1,14 @@
-# --report FILE.tsv is a table with the names and units of the columns in its first line, a row for each case,
-# and in its cells the scalars of the JSON lines that --report FILE writes of the same run. --report - is
-# standard output: these lines and nothing else; the stream is written where -o leads it, and never is a file
-# called `-`.
+# --report FILE.tsv writes a table with the names and units of the columns in its first line, a row for each
+# case, and in its cells the scalars of the JSON lines that --report FILE writes for the same run. --report -
+# writes only these lines to standard output; the stream goes to the file of -o, and a file named `-` is never
+# made.
 . "$(dirname "$0")/../pipe.sh"
 
 # ---- --report FILE.tsv ----
 
-# same_cells TABLE LINES [NAME...]: the columns are the scalars of the JSON lines, in the order of the first one,
-# and every cell is what its line says, letter by letter; null, and what only other lines have, is NaN. Of the
-# columns named, which change from run to run, it says that they are filled in.
+# same_cells TABLE LINES [NAME...]: the columns are the scalars of the JSON lines in the order of the first
+# line, and every cell has the text of its line; null, and keys that only other lines have, are NaN. Named
+# columns change from run to run: they must only be filled.
 same_cells() {
     perl -MJSON::PP -e '
         my ($table, $lines, @changing) = @ARGV;
@@ -46,7 +46,7 @@ same_cells() {
         $rows > 0 or die "no rows\n";' "$@"
 }
 
-# cells NAME TABLE: the cells under that name, one a line.
+# cells NAME TABLE: prints the cells of this column, one per line.
 cells() {
     awk -F '\t' -v name="$1" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == name) c = k; next } { print $c }' "$2"
 }
@@ -92,7 +92,7 @@ claim "an estimate that is an object is no column" bash -c "
     $press --load 0.3,0.5 --discretization --report coarse.tsv -o /dev/null rough.rcg && lacks discretization coarse.tsv"
 claim "any other ending is JSON" bash -c "$press --load 0.5 --report tsv -o /dev/null rough.rcg && grep -q '^{' tsv"
 
-# A name that would break lines and cells.
+# A file name with characters that would break lines and cells.
 rc-synth sphere --nx 9 --dx 5um --radius 7.5mm -o ball.rcg
 sed $'/^source=/d; s/^nx=/source=a\tb\\\\nc "d"\\\nnx=/' ball.rcg | reseal >named.rcg
 claim "a source with a tab and a line feed" \
@@ -129,7 +129,7 @@ claim "  nothing else is left behind" test ! -e never.rcg
 rc-synth sphere --nx 33 --dx 5um --radius 7.5mm -o ball.rcg
 press="rc-solve --load 1N,2N --estar 114GPa --quiet ball.rcg"
 
-# only_lines N: N lines on standard input, JSON objects all.
+# only_lines N: standard input has exactly N lines, all of them JSON objects.
 only_lines() {
     tee lines.txt | awk -v n="$1" '!/^\{"case": .*\}$/ { bad = 1 } END { exit bad || NR != n }'
 }

@@ -1,13 +1,13 @@
-# The sample surfaces are what their script makes, and the demo runs on them.
+# Their script reproduces the sample surfaces, and the demo runs on them.
 . "$(dirname "$0")/../pipe.sh"
 
-# Every sample has a row here, and what make.sh makes is nothing else.
+# Every sample has a row here, and make.sh makes no other file.
 samples="rough-steel.x3p rough-sphere.x3p turned-brass.txt"
 claim "make.sh makes the samples again, bit for bit" bash -c '
     mkdir again && bash "$RC_SOURCE/sample_surfaces/make.sh" again &&
     [ "$(ls again | wc -l)" = '"$(wc -w <<<"$samples")"' ] &&
     for sample in '"$samples"'; do cmp "again/$sample" "$RC_SOURCE/sample_surfaces/$sample" || exit 1; done'
-# 0.55 of pi a^2, a^3 = 3 F R / 4 E*; the pressure reaches the hardness exactly, and nowhere more
+# 0.55 of pi a^2, a^3 = 3 F R / 4 E*; the largest pressure is exactly the hardness
 claim "the rough sphere of the paper: contact area 0.55 of that of Hertz, cut at 6 GPa" bash -c '
     rc-import "$RC_SOURCE/sample_surfaces/rough-sphere.x3p" |
         rc-solve --radius 7.5mm --load 240N --estar 113.93GPa --hardness 6GPa --output pressure \

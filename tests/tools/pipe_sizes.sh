@@ -1,8 +1,8 @@
-# Maps of one node, one row or one column go through every tool or are refused with the reason; and where a map
-# of 46,400 x 46,400, more nodes than 32 bits count, does not fit, the refusal gives its right size.
+# Every tool accepts maps of one node, one row or one column or refuses them with the reason; if a map of
+# 46,400 x 46,400 nodes, more than 32 bits count, does not fit into memory, the message gives the right size.
 . "$(dirname "$0")/../pipe.sh"
 
-# answers "sentence" command...: exit status 0, or 1 where the map is too small for the task.
+# answers "sentence" command...: exit status 0, or 1 if the map is too small for the task.
 too_small='a single node has no spectrum|unknowns, and only|coefficients, and only|longer than the map|narrower than a node|do not determine'
 answers() {
     local sentence=$1 status
@@ -54,7 +54,7 @@ done
 
 rc-synth sphere --nx 3 --dx 1um --radius 1mm -o small.rcg
 sed -e '/^nx=/s/.*/nx=46400/' -e '/^ny=/s/.*/ny=46400/' small.rcg >huge.rcg
-# addresses of 32 bits cannot hold it, whatever --memory allows
+# it exceeds an address space of 32 bits, for any --memory
 told='46400 x 46400 nodes need about 164[0-9]{2} MiB, --memory allows 4096 MiB: |2152960000 x 8 is more than this machine can address'
 for tool in "rc-info" "rc-pick --case 1" "rc-detrend --plane" "rc-solve --load 1N --estar 1GPa" "rc-stress --nu 0.3 --depths 1um" \
     "rc-deflect --estar 1GPa" "rc-slip --mu 0.3 --nu 0.3 --tangential 1N" $(with_leak && echo rc-leak) "rc-export --format npy" "rc-add huge.rcg" "rc-render -o x.png" "rc-cost --load 1N --estar 1GPa"; do

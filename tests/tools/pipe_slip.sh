@@ -1,5 +1,5 @@
-# rc-slip: a ball's partial slip, loop and displacement; paths, histories and cases; dissimilar bodies; frames, plan, report,
-# warnings; what is refused.
+# rc-slip: partial slip, loop and displacement of a ball; paths, histories and cases; dissimilar bodies;
+# frames, plan, report, warnings; refusals.
 . "$(dirname "$0")/../pipe.sh"
 
 steel="--E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3"
@@ -23,9 +23,9 @@ near "$(column tangential_x 1 one.tsv)" 36 1e-9 "  under the force that was aske
 near "$(awk -v a="$(column stick_area 1 one.tsv)" -v b="$(column slip_area 1 one.tsv)" 'BEGIN { print sqrt(a / (a + b)) }')" \
     0.7937 "$coarse_grid" "  and sticks inside of Cattaneo's radius"
 claim "  by what it says its iteration is accurate" awk -v e="$(column iteration_error_estimate 1 one.tsv)" 'BEGIN { exit !(e > 0 && e <= 1e-4) }'
-# the first of both increments goes to 0.9 of the way: against as many as will do
+# the first of two increments goes to 0.9 of the path: compared with many increments
 rc-slip --mu 0.3 --path "$(awk 'BEGIN { for (k = 0; k <= 32; k++) printf "240N,%gN,0;", 36 * k / 32 }')" --increments 1 --tol 1e-6 --output traction-x,traction-y --quiet -o many.rcg ball.rcg
-error() { # FILE CASE FILE CASE: relative L1 distance of tractions
+error() { # FILE CASE FILE CASE: prints the relative L1 distance of the tractions
     paste -d ' ' <(values "$1" traction-x "$2" | tr ',' '\n') <(values "$1" traction-y "$2" | tr ',' '\n') \
         <(values "$3" traction-x "$4" | tr ',' '\n') <(values "$3" traction-y "$4" | tr ',' '\n') |
         awk '{ s += sqrt(($1 - $3) ^ 2 + ($2 - $4) ^ 2); t += sqrt($3 ^ 2 + $4 ^ 2) } END { print s / t }'
@@ -55,13 +55,13 @@ claim "--output state: 1 where a node sticks, 2 where it slips, 0 elsewhere" tes
     "0:$((4096 - $(column stick_nodes 1 one.tsv) - $(column slip_nodes 1 one.tsv))) 1:$(column stick_nodes 1 one.tsv) 2:$(column slip_nodes 1 one.tsv) "
 claim "  and no more than was asked for" test "$(rc-info --json state.rcg | grep -c '"channel"')" = 2
 near "$(column approach 1 one.tsv)" "$(rc-info --json ball.rcg | grep -o '"approach": "[^"]*' | head -n 1 | sed 's/.*"//')" "$same" "the approach is that of the stream"
-# tractions are those of the surface that rc-stress finds just below it
+# the tractions agree with the stresses of rc-stress just below the surface
 claim "rc-stress takes them" rc-stress --depths 0 --components sxz -o below.rcg one.rcg
 near "$(values below.rcg sxz | tr ',' '\n' | sort -g | head -n 1)" "-$(values one.rcg traction-x | tr ',' '\n' | sort -g | tail -n 1)" 1e-6 "  and at the surface they are its shear"
 
 # ---- pictures ----
 
-# legend FILE: the words of an SVG, in one line.
+# legend FILE: prints the words of an SVG in one line.
 legend() { sed 's/<[^>]*>/ /g' "$1" | tr -s ' \n' '  '; }
 for channel in traction-x slip-x; do rc-render --channel $channel one.rcg -o $channel.svg; done
 rc-render --channel state state.rcg -o state.svg
@@ -77,7 +77,8 @@ claim "a corner is a case" test "$(rc-info --json loop.rcg | grep -o '"channel":
 near "$(column displacement_x 2 loop.tsv)" "$(exact 43.2)" 2e-3 "the first way is that of a single force"
 near "$(column displacement_x 3 loop.tsv)" "-$(column displacement_x 2 loop.tsv)" 1e-4 "  and the way back leads to the other side, but for what increments leave"
 near "$(column displacement_x 4 loop.tsv)" "$(column displacement_x 2 loop.tsv)" 1e-5 "  and round"
-# 4 F d - 8 int d dF of a loop between +-F, F = 0.6 mu P; half of it each way (Mindlin and Deresiewicz 1953)
+# 4 F d - 8 int d dF for a loop between +-F, F = 0.6 mu P; half of it in each direction (Mindlin and
+# Deresiewicz 1953)
 near "$(column dissipated_energy 4 loop.tsv)" "$(awk 'BEGIN { e = 210e9 / 0.91 / 2; a = (3 * 240 * 7.5e-3 / (4 * e)) ^ (1 / 3)
     u = 3 * 72 * (2 + 3 / 7) / (8 * a * e); print (4 * 43.2 * u * (1 - 0.4 ^ (2 / 3)) - 8 * u * 72 * (0.6 - 0.6 * (1 - 0.4 ^ (5 / 3)))) / 2 }')" \
     "$coarse_grid" "  and dissipates what Mindlin and Deresiewicz found"
@@ -86,7 +87,7 @@ claim "  a loop is drawn" says 'Force along x against displacement along x' lege
 printf 'load fx fy # of a joint\n240N 0 0\n\n240N,43.2N,0\n240N\t-43.2N\t0\n240 43.2 0\n' >loop.txt
 rc-slip --mu 0.3 --history loop.txt --report loop2.tsv -o loop2.rcg ball.rcg
 claim "--history is --path from a file" cmp <(cut -f 1-39 loop.tsv) <(cut -f 1-39 loop2.tsv)
-# 14,000 characters, which the stream's history and a checkpoint keep, to the last corner
+# 14,000 characters, which the history of the stream and a checkpoint keep completely
 rc-synth sphere --nx 4 --dx 10um --radius 1mm | rc-solve --quiet --load 1N $steel -o small.rcg
 awk 'BEGIN { for (k = 0; k < 600; k++) printf "1N %.15fN 0\n", k % 2 * 0.123456789012345 + k * 1e-6 }' >long.txt
 sed '$s/0[.]12/0.02/' long.txt >other.txt
@@ -135,7 +136,8 @@ near "$(column tangential_x 2 full.tsv)" 20 1e-9 "  under the force"
 claim "Goodman's neglect is warned of" warns "coupling is goodman" rc-slip --mu 0.3 --tangential 20N --coupling goodman --report good.tsv -o good.rcg rigid.rcg
 near "$(column displacement_x 2 good.tsv)" "$(column displacement_x 2 full.tsv)" 0.05 "  and is near"
 claim "  in one pass an increment" test "$(column passes 1 good.tsv)" = "$(column increments 1 good.tsv)"
-# pressed alone, with Goodman's neglect: (a/2c) ln((a + c)/(a - c)) = (mu/beta) K(sqrt(1 - c^2/a^2)), c/a = 0.918 (Spence 1975)
+# under a normal load, with Goodman's simplification: (a/2c) ln((a + c)/(a - c)) = (mu/beta) K(sqrt(1 -
+# c^2/a^2)), c/a = 0.918 (Spence 1975)
 for n in 32 64; do rc-slip --quiet --mu 0.3 --tangential 0 --coupling goodman --increments $n --report s$n.tsv -o s.rcg rigid.rcg; done
 near "$(awk -v a="$(column stick_fraction 1 s64.tsv)" 'BEGIN { print sqrt(a) }')" 0.918 "$coarse_grid" "pressed alone it sticks inside of Spence's radius"
 near "$(column increment_error_estimate 1 s64.tsv)" "$(awk -v e="$(column increment_error_estimate 1 s32.tsv)" 'BEGIN { print e / 2 }')" 0.1 \

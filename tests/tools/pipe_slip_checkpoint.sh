@@ -1,4 +1,4 @@
-# rc-slip --checkpoint and --resume: a path that was cut off is gone on with, to the answer that it would have had.
+# rc-slip --checkpoint and --resume: an interrupted path continues, with the result of an uninterrupted one.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 64 --dx 10um --radius 7.5mm -o sphere.rcg
@@ -9,7 +9,7 @@ column() { # NAME ROW FILE
 }
 work() { awk -F '\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "convolutions") c = i } NR > 1 { s += $c } END { print s }' "$1"; }
 values() { rc-pick --channel "$2" --case "$3" "$1" | rc-export --format csv | grep -v '^#' | tr ',' '\n'; }
-# apart FILE FILE CHANNEL CASE: relative L1 distance of a frame in both
+# apart FILE FILE CHANNEL CASE: prints the relative L1 distance of this frame in both files
 apart() { paste -d ' ' <(values "$1" "$3" "$4") <(values "$2" "$3" "$4") | awk '{ d = $1 - $2; s += d < 0 ? -d : d; t += $2 < 0 ? -$2 : $2 } END { print s / t }'; }
 
 # ---- loads and forces that change, bodies alike ----
@@ -26,7 +26,7 @@ frames=$(rc-info kept.rcg | grep -c '(friction-start)')
 # 1, 16, 4 (the force turns) and 16 increments, half of them and a quarter
 claim "the checkpoint has a frame for each increment" test "$frames" = $((1 + 16 + 4 + 16 + 1 + 8 + 2 + 8 + 1 + 4 + 1 + 4))
 
-# a frame takes 98,500 bytes: four, and a part of the next
+# a frame takes 98,500 bytes: this keeps four frames and a part of the fifth
 head -c 450000 kept.rcg >torn.rcg
 claim "cut off while it was written, what was whole in it serves" bash -c "$slip --checkpoint torn.rcg --resume --report torn.tsv -o torn-out.rcg alike.rcg"
 for case in 2 4; do between 0 "$(apart torn-out.rcg whole.rcg traction-x $case)" 1e-4 "  to the same tractions, case $case"; done
@@ -51,7 +51,7 @@ press="rc-slip --quiet --mu 0.3 --tangential 20N --increments 8"
 $press --report straight.tsv -o straight.rcg rigid.rcg
 $press --checkpoint eight.rcg -o x.rcg rigid.rcg
 head -c 800000 eight.rcg >half.rcg # eight of 28
-claim "and from a part of an easier one it goes on" bash -c "$press --checkpoint half.rcg --resume --report on.tsv -o on.rcg rigid.rcg; test \$? = 3" # for eight leave 18 %
+claim "and from a part of an easier one it goes on" bash -c "$press --checkpoint half.rcg --resume --report on.tsv -o on.rcg rigid.rcg; test \$? = 3" # because eight increments have an error of 18 %
 for channel in pressure traction-x; do between 0 "$(apart on.rcg straight.rcg $channel 2)" 3e-4 "  to the same $channel"; done
 near "$(column displacement_x 2 on.tsv)" "$(column displacement_x 2 straight.tsv)" 1e-4 "  and displacement"
 between 1 "$(work on.tsv)" "$(awk -v w="$(work straight.tsv)" 'BEGIN { print 0.85 * w }')" "  in fewer convolutions"

@@ -1,10 +1,10 @@
-# rc-solve obeys a signal while it waits for its input, and drops the keys of an earlier solution.
+# rc-solve reacts to a signal while it waits for its input, and removes the keys of an earlier solution.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
 rc-synth sphere --nx 33 --ny 29 --dx 20um --radius 7.5mm -o ball.rcg
 
-# 143: ended by SIGTERM. The FIFO is held open, so the tool waits for a frame that never comes.
+# 143: ended by SIGTERM. The FIFO stays open, so the tool waits for a frame that never comes.
 waiting() {
     local tool status
     mkfifo fifo
@@ -27,7 +27,7 @@ claim "a solution with a hardness says so in its frames" \
 claim "an elastic solution of the same heights does not" bash -c '
     rc-solve --quiet --load 100N --estar 100GPa --output pressure once.rcg -o twice.rcg &&
     rc-info twice.rcg >twice.txt && lacks hardness= twice.txt'
-# every node at the hardness: nothing is elastic, and there is no approach to speak of
+# all nodes are at the hardness: no node is elastic, and the approach is undefined
 claim "nor does a saturated one keep the approach of an earlier one" bash -c '
     rc-solve --quiet --mean-pressure 1GPa --hardness 1GPa --estar 100GPa --output pressure \
         once.rcg -o full.rcg && rc-info full.rcg >full.txt && lacks approach= full.txt && grep -q load= full.txt'
@@ -74,7 +74,7 @@ claim "the shape after yield is a frame of its own" bash -c '
 refuses 2 'give one of --load, --mean-pressure and --approach' "two ways to say the load" \
     "rc-solve --load 1N --approach 1um --estar 1GPa ball.rcg"
 
-# checksums FILE...: those of their frames, headers included, one a line.
+# checksums FILE...: prints the checksums of their frames, headers included, one per line.
 checksums() { cat "$@" | grep -ao 'crc32 [0-9a-f]\{8\}'; }
 export -f checksums
 claim "frames asked for together, which share their memory, are those asked for one by one, to the last bit" bash -c '

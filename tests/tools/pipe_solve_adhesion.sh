@@ -1,5 +1,5 @@
-# rc-solve --adhesion: a ball that is pressed, pulled and pulled off; balance of loads; paths; frames; the curve; what is warned of and
-# what is refused.
+# rc-solve --adhesion: a ball that is pressed, pulled and pulled off; balance of loads; paths; frames; the
+# curve; warnings and refusals.
 . "$(dirname "$0")/../pipe.sh"
 
 column() { # NAME ROW FILE
@@ -58,7 +58,7 @@ claim "  in words" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --load 
 
 path="--adhesion 50mJ/m2,jkr --approach=-1um,2um,1um,0"
 $soft $path --pull-off --report straight.tsv ball.rcg -o straight.rcg
-$soft --adhesion 50mJ/m2,jkr --approach=-1um,2um --checkpoint half.rcg ball.rcg -o x.rcg # the machine stopped after two states
+$soft --adhesion 50mJ/m2,jkr --approach=-1um,2um --checkpoint half.rcg ball.rcg -o x.rcg # as after a power failure: the file ends after two states
 $soft $path --pull-off --checkpoint half.rcg --resume --report on.tsv ball.rcg -o on.rcg
 for row in 1 2 3 4 5; do
     near "$(column load $row on.tsv)" "$(column load $row straight.tsv)" 2e-3 "gone on with, state $row is the same"

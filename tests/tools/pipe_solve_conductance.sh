@@ -1,13 +1,13 @@
-# rc-solve --conductivity: the conductance of Hertz's contact in both units, with yield, of coated bodies none,
-# and nothing of it where it is not asked for; what is refused.
+# rc-solve --conductivity: the conductance of Hertz's contact in both units, and with yielding; none for
+# coated bodies, and none without the option; refusals.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 129 --dx 5um --radius 7.5mm -o ball.rcg
 press="rc-solve --quiet --estar 113.93GPa --tol 1e-6 --output pressure -o p.rcg"
 a=$(awk 'BEGIN { print (0.75 * 240 * 7.5e-3 / 113.93e9) ^ (1 / 3) }')
-# circle K1 K2: conductance of Hertz's circle
+# circle K1 K2: prints the conductance of Hertz's circle
 circle() { awk -v a="$a" -v k="$1" -v l="$2" 'BEGIN { print 4 * a / (1 / k + 1 / l) }'; }
-within=3e-3 # 46 nodes in the radius: some tenth of a node
+within=3e-3 # 46 nodes in the radius: an error of about a tenth of a node
 
 # ---- Hertz ----
 
@@ -26,11 +26,11 @@ near "$(field convolutions both.json)" "$(field convolutions plain.json)" "$same
 
 # ---- yield ----
 
-# a ball that yields touches on a wide, flat spot: nodes at the hardness conduct, but carry no more load
+# a yielding ball touches on a wide, flat spot: nodes at the hardness conduct, but carry no more load
 $press --load 240N --hardness 1.2GPa --conductivity 45,16.3 --stiffness --report soft.json ball.rcg
 between 0.5 "$(awk -v p="$(field plastic_area soft.json)" -v c="$(field contact_area soft.json)" 'BEGIN { print p / c }')" 1 \
     "with a hardness of 1.2 GPa most of the contact yields"
-# the circle of its area, less the edge of some tenth of a node
+# the circle with its area, reduced by about a tenth of a node at the edge
 near "$(field conductance soft.json)" \
     "$(awk -v c="$(field contact_area soft.json)" 'BEGIN { print 4 * sqrt(c / 3.14159265) / (1 / 45 + 1 / 16.3) }')" "$coarse_grid" \
     "  it conducts as the circle of its area"

@@ -1,6 +1,6 @@
-# The figures that rc-solve gives of a case: --verbose tells the main ones in words, as the report has them;
-# what yields under this load and what is at the hardness are told apart; the mean gap is that between the
-# bodies; what was asked stands beside what came out.
+# The figures of rc-solve for a case: --verbose prints the main figures of the report; nodes that yield under
+# this load differ from nodes at the hardness; the mean gap is that between the bodies; the requested value is
+# in the report beside the result.
 . "$(dirname "$0")/../pipe.sh"
 
 # ---- --verbose ----
@@ -35,7 +35,7 @@ press() { rc-solve --quiet --periodic --load 50mN --estar 3GPa --hardness 100MPa
 export -f press
 press first.json s.rcg -o first.rcg
 between 1e-12 "$(field yielded_area first.json)" "$(field plastic_area first.json)" "some of what is at the hardness yields"
-# half the sum of the pressure times its displacement, which rc-deflect finds
+# half the sum of the pressure times its displacement by rc-deflect
 near "$(field elastic_energy first.json)" "$(energy_of first.rcg 1e-12 --periodic)" 1e-5 "the elastic energy, with nodes at the hardness"
 # the mean of max(gap, 0), from the gaps themselves
 mean=$(rc-export --channel gap --format csv first.rcg | tr ',;\t' '\n\n\n' |
@@ -72,7 +72,8 @@ claim "layers are told, and of what they lie under no E*" says '"estar": null, "
 
 rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 40um --short-cut 6um --seed 5 |
     rc-pick --set periodic=no | rc-detrend --quiet --taper 9.2um -o tapered.rcg
-# nodes whose middles are nearer than 9.2 um to an edge: 9 columns and 9 rows on each side, 78 x 62 are left
+# nodes whose centres are less than 9.2 um from an edge: 9 columns and 9 rows on each side; 78 x 62 nodes
+# remain
 for load in 20mN 600mN; do
     rc-solve --quiet --periodic --estar 3GPa --load $load --output pressure --report r.json tapered.rcg -o p.rcg
     inside=$(rc-pick --quiet --crop 9,9,78,62 p.rcg | rc-info --json | sed -n 's/.*"contact_nodes": \([0-9]*\).*/\1/p')
@@ -90,8 +91,8 @@ claim "  columns of a table, at its end" bash -c '
 
 # ---- a period made by mirror images ----
 
-# Half a wave, from crest to trough, is the whole wave again, whose contact under a mean pressure is Westergaard's
-# (Johnson 1985, 13.7): 2/pi asin(sqrt(p/p*)) of the period, p* = pi E* A/lambda = 3.14 MPa.
+# Half a wave from crest to trough, mirrored, is the whole wave, whose contact under a mean pressure is
+# Westergaard's (Johnson 1985, 13.7): 2/pi asin(sqrt(p/p*)) of the period, p* = pi E* A/lambda = 3.14 MPa.
 rc-synth wave --nx 512 --ny 4 --dx 1um --wavelength 512um --amplitude 0.512um -o whole.rcg
 rc-export --format csv whole.rcg | grep -v '^#' | cut -d, -f1-256 | tr ',' ' ' | rc-import --quiet --dx 1um --z-unit m - -o first.rcg
 rc-export --format csv whole.rcg | grep -v '^#' | cut -d, -f257-512 | tr ',' ' ' | rc-import --quiet --dx 1um --z-unit m - -o second.rcg

@@ -1,8 +1,8 @@
-# rc-solve on a case that holds a map of hardness beside its heights: two phases, spots without a bound.
+# rc-solve on a case with a map of hardness beside the heights: two phases, spots without a hardness.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-height 0.2um --seed 4 -o h.rcg
-# map FILE EXPRESSION: a frame `hardness` on the grid of h.rcg, GPa at column i of row j
+# map FILE EXPRESSION: writes a frame `hardness` on the grid of h.rcg, in GPa at column i of row j
 map() {
     perl -e '
         my ($expr) = @ARGV; my $v = "";
@@ -12,7 +12,7 @@ map() {
     perl -MCompress::Zlib -e 'undef $/; my $b = <>; binmode STDOUT;
         print $b . sprintf("crc32 %08x\n", crc32($b)) . "RCGEND 1\n"' frame.bin >"$1"
 }
-# beside A B: the frames of both as one case
+# beside A B: writes the frames of both as one case
 beside() { perl -0777 -ne 's/RCGEND 1\n\z//; print; END { print "RCGEND 2\n" }' "$1" "$2"; }
 solve() { rc-solve --quiet --periodic --mean-pressure 1GPa --estar 100GPa "$@"; }
 export -f solve

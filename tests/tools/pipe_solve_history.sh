@@ -1,5 +1,5 @@
-# --history: each load acts on the shape that the loads before have left; unloading, and loading again up to the
-# largest load so far, is elastic; and the result is that of the same sequence done by hand.
+# --history: each load acts on the shape after the earlier loads; unloading, and loading again up to the
+# largest load so far, is elastic; and the result equals that of the same sequence in separate runs.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 128 --ny 120 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 40um --short-cut 4um --seed 7 -o s.rcg
@@ -24,13 +24,14 @@ near "$(of_case mean_gap 5)" "$(of_case mean_gap 2)" 1e-5 "  its mean gap"
 near "$(of_case load 4)" 0 0 "no load: no force"
 near "$(of_case contact_nodes 4)" 0 0 "  no contact"
 claim "  and no approach" test "$(of_case approach 4)" = null
-# apart, the mean gap is the highest height over the mean one, of the shape left by then
+# for separated bodies the mean gap is the difference between the highest and the mean height of the current
+# shape
 shape=$(rc-info --json history.rcg 2>/dev/null | grep '"channel": "plastic"' | grep '"case": "*4' | head -n 1)
 echo "$shape" >shape.json
 near "$(of_case mean_gap 4)" "$(awk -v a="$(field maximum shape.json)" -v b="$(field mean shape.json)" 'BEGIN { printf "%.17g", a - b }')" \
     1e-6 "  and a mean gap from first touch"
 
-# By hand: press, take the shape, press that.
+# Separate runs: press, take the plastic shape, press it again.
 cp s.rcg now.rcg
 for k in 0 1 2 4 5 6; do
     # shellcheck disable=SC2086

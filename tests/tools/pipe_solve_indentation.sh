@@ -1,6 +1,6 @@
-# In a --history approaches counted from the first touch of the first shape make one curve of load: no loop of it
-# gains work, elastic reloading runs back along the unloading, unloading ends at the residual indentation, and the
-# first load is Hertz's. This is the approach that curves of rc-render take.
+# In a --history the load against the approach from the first touch of the initial shape is one curve: no loop
+# gains work, elastic reloading follows the unloading curve, unloading ends at the residual indentation, and
+# the first load agrees with Hertz. Curves of rc-render use this approach.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --radius 1mm --nx 112 --ny 104 --dx 0.5um --dy 0.55um -o ball.rcg
@@ -12,7 +12,7 @@ rc-solve --quiet --history --estar 114GPa --hardness 1GPa --tol 1e-6 --load $loa
 cell() {
     awk -F'\t' -v name="$1" -v row="$2" 'NR == 1 { for (c = 1; c <= NF; c++) if ($c == name) k = c } NR == row + 1 { print $k }' ball.tsv
 }
-# work FROM TO: done on the contact from the first of these rows to the last.
+# work FROM TO: prints the work done on the contact from the first of these rows to the last.
 work() {
     awk -F'\t' -v from="$1" -v to="$2" 'NR == 1 { for (c = 1; c <= NF; c++) { if ($c == "load/N") f = c; if ($c == "indentation/m") d = c } }
         NR > from + 1 && NR <= to + 1 { w += (F + $f) / 2 * ($d - D) } { F = $f; D = $d } END { printf "%.9g", w }' ball.tsv
@@ -34,7 +34,7 @@ between 0.01 "$(awk -v w="$(work 1 12)" -v s="$scale" 'BEGIN { print w / s }')" 
 between 0.01 "$(awk -v w="$(work 12 25)" -v s="$scale" 'BEGIN { print w / s }')" 0.5 "  and so does the next loop"
 between -1e-4 "$(awk -v w="$(work 4 20)" -v s="$scale" 'BEGIN { print w / s }')" 1e-4 "an elastic loop takes none and gains none"
 
-# The displacement, the height and the gap say the same, in each case: c is the mean of what is left.
+# Displacement, height and gap give the same in each case: c is the mean of displacement - height - gap.
 rc-info --json result.rcg >maps.json 2>/dev/null
 mean() { grep "\"channel\": \"$1\"" maps.json | sed -n "$2p" | grep -o "\"$3\": [^,}]*" | head -n 1 | sed 's/.*: //'; }
 for k in 2 4 8 15 21 23; do

@@ -1,4 +1,4 @@
-# The force on a profile may be given per width, and says otherwise what width it acts on; a rigid body
+# The force on a profile may be given per unit width; for a plain force the report has the width; a rigid body
 # needs no modulus.
 . "$(dirname "$0")/../pipe.sh"
 

@@ -1,5 +1,5 @@
-# rc-solve --tilt free: a ball rolls to where it is pressed, planes in the heights do not matter, and nothing
-# changes where it is not asked for; --at, checkpoints, lists; what is refused.
+# rc-solve --tilt free: a ball rolls to the point where the load acts, planes in the heights do not matter,
+# and without the option nothing changes; --at, checkpoints, lists; refusals.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth paraboloid --nx 129 --ny 101 --dx 1um --radius 1mm,1mm -o ball.rcg
@@ -8,7 +8,8 @@ press="rc-solve --quiet --estar 100GPa --output pressure"
 
 # ---- a ball ----
 
-# Under a load beside its top it touches there: the face leans by that over its radius, and carries Hertz's peak.
+# Under a load beside its apex it touches there: the tilt is this distance over the radius, and the peak is
+# Hertz's.
 $press --load 1.0666N --tol 1e-5 --tilt free --at 11um,-7um --report rolled.json ball.rcg -o rolled.rcg
 near "$(field tilt_x rolled.json)" -0.011 1e-3 "a ball leans by what its top is beside the load"
 near "$(field tilt_y rolled.json)" 0.007 1e-3 "  along y too"

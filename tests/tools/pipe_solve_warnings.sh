@@ -1,4 +1,4 @@
-# rc-solve does not pass in silence what makes a solution doubtful, and says of which case and load it speaks.
+# rc-solve warns of doubtful solutions, and names the case and the load.
 . "$(dirname "$0")/../pipe.sh"
 
 # ---- a pressure beyond linear elasticity; one above E* names the unit that was probably forgotten ----
@@ -11,7 +11,7 @@ solve() { # ESTAR LOAD [OPTION...]
     rc-solve --periodic --estar "$estar" --load "$load" --output pressure "$@" s.rcg -o p.rcg
 }
 export -f solve
-# The peak of a case, and the load at which the warning has to begin, by bisection of nothing but the report.
+# The peak of a case, and the load at which the warning must begin, by bisection with the report only.
 solve 3GPa 1mN --quiet --report soft.json
 between 0 "$(field max_pressure soft.json)" 3e8 "a light load stays below a tenth of E*"
 claim "and says nothing of it" bash -c 'solve 3GPa 1mN 2>err; ! grep -q "E\*" err'
@@ -50,7 +50,7 @@ rc-synth sphere --nx 65 --dx 5um --radius 10mm -o ball.rcg
 press() { rc-solve --estar 100GPa --output pressure --report r.json "$@" -o p.rcg; }
 export -f press
 
-# a^3 = 3 F R / (4 E*): 1 N: a = 42.2 um, some 223 nodes; 0.01 N: 9.1 um, some 10
+# a^3 = 3 F R / (4 E*): 1 N: a = 42.2 um, about 223 nodes; 0.01 N: 9.1 um, about 10
 claim "a resolved contact: not a word" bash -c 'press --load 1N ball.rcg 2>err && [ ! -s err ]'
 between 200 "$(field contact_nodes r.json)" 250 "  of its some 223 nodes"
 near "$(field nodes_per_patch r.json)" "$(field contact_nodes r.json)" "$same" "  in one patch"
@@ -72,7 +72,7 @@ press() { rc-solve --periodic --load 1N --estar 100GPa --output pressure "$@" -o
 export -f press
 claim "a period: not a word" bash -c 'press period.rcg 2>err && [ ! -s err ]'
 
-# A ramp of 1 um over the map, along x or y: the seam is 127/128 um beside a step of 1/128 um.
+# A ramp of 1 um over the map, along x or y: the step across the edges is 127/128 um, inside 1/128 um.
 ramp() { # AXIS
     rc-export --format xyz period.rcg | LC_ALL=C awk -v axis="$1" '
         $1 ~ /^[-+0-9]/ { print $1, $2, $3 + (axis == "x" ? $1 / 128e-6 : $2 / 96e-6) * 1e-6 }' >ramp.xyz
@@ -146,11 +146,11 @@ interrupted() {
     cat err >&2
     [ "$status" = 130 ] && grep -q 'interrupted after [0-9]* iterations: what is written is the best so far, not a solution' err
 }
-# bash lets a command in the background ignore SIGINT unless it has job control
+# a background command of bash without job control ignores SIGINT
 set -m
 claim "an interrupted one: said" interrupted
 claim "  and in the stream" bash -c 'rc-info cut.rcg 2>/dev/null >cut.txt; grep converged=no cut.txt'
-# While it plans there is nothing to write; whenever it comes there is a whole file or none.
+# During planning there is no result yet; at any time the signal leaves a complete file or none.
 early() {
     local none=0 k
     for k in 1 3 5; do

@@ -1,5 +1,5 @@
-# rc-solve --yield: where nothing yields the elastic solution, to the byte; loads that follow each other; frames, tables of
-# hardening; what is warned of and what is refused.
+# rc-solve --yield: the elastic solution, to the byte, if nothing yields; loads in sequence; frames, tables of
+# hardening; warnings and refusals.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.15um --rolloff 32um --short-cut 10um --seed 4 -o rough.rcg
@@ -19,7 +19,7 @@ claim "  the report says why" grep -q '"yield": "left out: the largest Mises str
 near "$(field convolutions none.json)" "$(field convolutions elastic.json)" "$same" "  and it costs no convolution of the contact"
 claim "without --yield there is nothing of it" bash -c '
     grep -q "\"yield\": \"left out: no --yield\"" elastic.json && grep -q "\"yield\": null, \"hardening\": null, \"increments\": null" elastic.json'
-# rc-stress sees the same stress
+# rc-stress gives the same stress
 near "$(awk -v m="$(field max_mises_over_yield none.json)" 'BEGIN { print m * 1e11 }')" "$(rc-pick --channel pressure elastic.rcg |
     rc-stress --quiet --nu 0.3 --depths "$(field max_mises_depth none.json)" --components mises | rc-info |
     awk '/maximum/ { u["Pa"] = 1; u["kPa"] = 1e3; u["MPa"] = 1e6; u["GPa"] = 1e9; print $2 * u[$3] }')" 2e-3 "  its largest Mises stress is that of rc-stress"
@@ -50,14 +50,14 @@ claim "the shape that is left is the height less the residual displacement" awk 
 
 # ---- what the loads leave for each other ----
 
-# the third load of this list was told to be 1.4e-5 off, and is 6e-3; the truth has 256 increments and tight contacts
+# the error of the third load of this list is 6e-3; the reference has 256 increments and tight contacts
 rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.2um --rolloff 64um --short-cut 16um --seed 4 -o again.rcg
 again="$elastic --mean-pressure 100MPa,0,100MPa --yield 1.5GPa,5GPa --output pressure again.rcg"
 $again --increments 256 --tol 1e-5 -o truth.rcg
 refuses 3 'its increments leave 1.* give --increments' "errors above the goal: what lowers them" \
     "${again/--quiet/} --increments 8 --report eight.json -o eight.rcg"
 claim "auto meets the goal in each load" $again --report auto.json -o auto.rcg
-apart() { # A B CASE: relative L1 distance of two pressures
+apart() { # A B CASE: prints the relative L1 distance of two pressures
     paste <(rc-pick --case "$3" "$1" | rc-export --format csv | grep -v '^#' | tr ',' '\n') \
         <(rc-pick --case "$3" "$2" | rc-export --format csv | grep -v '^#' | tr ',' '\n') |
         awk 'NF == 2 { d = $1 - $2; s += d < 0 ? -d : d; t += $2 } END { printf "%.6g\n", s / t }'
@@ -78,7 +78,7 @@ claim "converged is what --tol asks for" bash -c "test $status = 3 && sed -n 1p 
 
 # ---- stresses ----
 
-# nowhere a tenth above the yield stress that the strain has hardened to: it is the mean over a slab that yields
+# at no node more than a tenth above the hardened yield stress, because the mean over a slab yields
 rc-pick --case 1 y.rcg | rc-stress --quiet --depths auto --components mises --report total.json -o total.rcg
 between 1.9e9 "$(grep -o '"mises": {"value": [^,]*' total.json | head -n 1 | sed 's/.* //')" \
     "$(awk -v s="$(column max_plastic_strain 1 r.tsv)" 'BEGIN { print 1.1 * (2e9 + 1e10 * s) }')" "rc-stress: the stress stays at the yield stress"
@@ -86,7 +86,7 @@ rc-pick --channel pressure --case 1 y.rcg >alone.rcg
 claim "  without its strain it is warned of" warns "yielded inside, and nothing of its strain" rc-stress --depths auto --components mises -o m.rcg alone.rcg
 between 2.3e9 "$(rc-stress --quiet --depths 0:5um:21 --components mises --report - alone.rcg -o m.rcg | grep -o '"mises": {"value": [^,]*' | head -n 1 | sed 's/.* //')" 1e10 \
     "  and would be far above it"
-# what is left without a load is what --residual says beforehand
+# the stress after unloading is that of --residual before
 rc-pick --case 2 y.rcg | rc-stress --quiet --depths 1um --components sxx -o left.rcg
 rc-pick --case 1 y.rcg | rc-stress --quiet --depths 1um --components sxx --residual -o residual.rcg
 between 1e8 "$(rc-info --json left.rcg | grep -o '"maximum": [^,}]*' | sed 's/.* //')" 2e9 "what is left of the stress"
@@ -107,7 +107,8 @@ $elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 8 --slabs 6 --re
 near "$(field slabs six.json)" 6 0 "so many slabs"
 $elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 2 --verbose --report two.json --output pressure rough.rcg -o s.rcg 2>two.err
 claim "of two increments no error is told" bash -c "grep -q '\"pressure_error_estimate\": null' two.json && grep -q 'converged in 2 increments' two.err"
-# all divided alike: the pressure of twice and four times as many comes nearer, by more than half
+# slabs divided evenly: with twice and four times as many the pressure converges, each difference less than
+# half of the one before
 for n in $(($(field slabs line.json) / 2)) $((2 * $(field slabs line.json))) $((4 * $(field slabs line.json))); do
     $elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 8 --slabs $n --output pressure rough.rcg -o slabs-$n.rcg
 done
@@ -153,7 +154,7 @@ refuses 2 'belong to --yield' "increments of nothing" "$base --periodic --increm
 refuses 2 'must be auto or a number' "increments of another kind" "$base --periodic --yield 1GPa --increments many rough.rcg"
 refuses 2 'the yield stress must be above 0' "no yield stress" "$base --periodic --yield 0 rough.rcg"
 refuses 2 'No such file' "no table" "$base --periodic --yield absent.tsv rough.rcg"
-table() { # WORDS CLAIM POINTS: refused on the command line, before anything is solved
+table() { # WORDS CLAIM POINTS: the table is refused as a wrong command line, before anything is solved
     printf "$3" >bad.tsv
     refuses 2 "$1" "$2" "$base --periodic --yield bad.tsv absent.rcg"
 }

@@ -1,23 +1,23 @@
-# rc-solve --yield with --checkpoint and --resume: wherever a history of a body that yields is cut off, it goes on to the
-# answer that it would have had.
+# rc-solve --yield with --checkpoint and --resume: a history of a yielding body that is interrupted at any
+# point continues with the result of an uninterrupted one.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 48 --dx 1um --hurst 0.8 --rms-height 0.15um --rolloff 24um --short-cut 10um --seed 4 -o rough.rcg
 solve="rc-solve --quiet --periodic --E1 210GPa --nu1 0.3 --E2 rigid --output pressure,residual,strain"
-# In every row but the cost: with the loads, what yields, and what is left.
+# All figures of every row except the cost.
 figures='mean_pressure|contact_area|max_pressure|indentation|residual_indentation|plastic_volume|max_plastic_strain|plastic_work|plastic_depth|increments|applications|slabs'
-# figures_of FILE.tsv: a line "name value" for each.
+# figures_of FILE.tsv: prints a line "name value" for each figure.
 figures_of() {
     awk -F '\t' -v want="^($figures)(/|\$)" 'NR == 1 { for (i = 1; i <= NF; i++) { name[i] = $i; is[i] = $i ~ want } }
         NR > 1 { for (i = 1; i <= NF; i++) if (is[i]) print name[i], $i }' "$1"
 }
-# apart A B: the largest relative difference of their figures.
+# apart A B: prints the largest relative difference of their figures.
 apart() {
     paste <(figures_of "$1") <(figures_of "$2") | awk '
         { n++; d = $2 - $4; s = $2; d = d < 0 ? -d : d; s = s < 0 ? -s : s; if ($1 != $3) exit 1; if (d > 0) d /= s; if (d > m) m = d }
         END { if (n < 24) exit 1; printf "%.3g\n", m + 0 }'
 }
-# ends FILE: where its streams end.
+# ends FILE: prints the positions of the ends of its streams.
 ends() {
     perl -0777 -ne 'while (/RCGEND 1\n/g) { print pos, "\n" }' "$1"
 }
@@ -34,12 +34,13 @@ claim "resumed it is the same to the last bit" bash -c "
     cmp whole.rcg again-out.rcg && cmp kept.rcg again.rcg"
 near "$(apart whole.tsv again.tsv)" 0 "$same" "  and so are its figures, the applications that it took included"
 
-# Killed anywhere: behind each frame, and a part of the next. The contacts are solved to 1e-4, and where they go on from
-# a pressure their first step has another length: so what follows agrees within that.
+# Killed anywhere: after each frame, with a part of the next. The contacts are solved to 1e-4, and a contact
+# that continues from a saved pressure has another first step: therefore later results agree within this
+# tolerance.
 cut_off() {
     local end last=0 n=0
     for end in $(ends kept.rcg); do
-        head -c $(((last + 2 * end) / 3)) kept.rcg >cut.rcg # a third of a frame is missing
+        head -c $(((last + 2 * end) / 3)) kept.rcg >cut.rcg # a third of the last frame is missing
         last=$end
         n=$((n + 1))
         [ $((n % 4)) = 0 ] || continue
@@ -87,12 +88,13 @@ claim "  and what is written is said to be on the way" grep -Eq 'interrupted in 
 claim "from which it goes on" bash -c "
     $solve $history --increments 100 --checkpoint signal.rcg --resume --report on.tsv -o on.rcg rough.rcg &&
     $solve $history --increments 100 --report straight.tsv -o straight.rcg rough.rcg"
-# a hundred contacts more, each to 1e-4 in the mean over the map: what stands at one node may be off by some times that
+# a hundred further contacts, each with a mean error of 1e-4 over the map: a single node may have several
+# times that
 between 0 "$(apart straight.tsv on.tsv)" 1e-3 "  to the same figures"
 
 # ---- another problem ----
 
-other() { # WHAT PATTERN OPTIONS: refused
+other() { # WHAT PATTERN OPTIONS: the resumed run is refused
     cp kept.rcg other.rcg
     refuses 1 "another problem: $2" "that of $1" "$3 --checkpoint other.rcg --resume -o x.rcg rough.rcg"
 }
@@ -113,8 +115,8 @@ refuses 1 'checkpoint.yield was not given, is 2000000000,10000000000' "that of e
 
 # ---- spoilt ----
 
-# lie PLACE VALUE: a number of the last state, the count of its slabs, or one of the values before its end where PLACE is
-# below 0, is another; the checksum is right
+# lie PLACE VALUE: changes a number of the last state, counted from its end if PLACE is below 0, and corrects
+# the checksum
 lie() {
     perl -MCompress::Zlib -0777 -e '
         my ($place, $value) = splice @ARGV, 0, 2;
@@ -130,7 +132,7 @@ lie() {
 lie slabs 2 kept.rcg
 refuses 1 'case 3 cannot be continued \(.*it has other slabs' "a state of other slabs" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
-lie -1 nan kept.rcg # strain of the last voxel
+lie -1 nan kept.rcg # plastic strain of the last voxel
 refuses 1 'case 3 cannot be continued \(.*it holds NaN' "one that is not finite" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 lie -12 1e9 kept.rcg # its place

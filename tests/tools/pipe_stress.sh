@@ -1,4 +1,4 @@
-# rc-stress as a command: what it writes, what its report says, what it refuses.
+# rc-stress as a command: frames, report, refusals.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 65 --ny 49 --dx 10um --dy 11um --radius 7.5mm |
@@ -31,7 +31,7 @@ near "$(number mises value a.json)" "$(awk "BEGIN { print 0.620041 * $p0 }")" "$
     "  finds the largest Mises stress"
 near "$(number tresca value a.json)" "$(awk "BEGIN { print 0.620041 * $p0 }")" "$coarse_grid" \
     "  and Tresca's, the same on the axis"
-# the depths are some 0.1 of that apart, and the maximum is flat
+# the depths have steps of about a tenth of this, and the maximum is flat
 near "$(number mises depth a.json)" "$(awk 'BEGIN { print 0.480864 * 228e-6 }')" 0.15 "  at its depth"
 claim "  and history says auto" says '--depths auto' rc-info a.rcg
 claim "  with depths that rise, first 0" bash -c '
@@ -41,7 +41,7 @@ claim "  with depths that rise, first 0" bash -c '
 rc-stress --depths 100um --mu 0.25 --components mises --report f.json ball.rcg -o f.rcg
 near "$(number mises value f.json)" "$(awk "BEGIN { print 0.64759 * $p0 }")" "$coarse_grid" \
     "friction raises the largest Mises stress as in Hamilton's solution"
-# a node is 0.16 of the way that it moves
+# a node spacing is 0.16 of the shift
 near "$(number mises x f.json)" "$(awk 'BEGIN { print 0.270 * 228e-6 }')" 0.2 \
     "  and moves it ahead"
 claim "  the frame says so" says 'mu=0.25$' rc-info f.rcg
@@ -60,11 +60,11 @@ claim "the pressure is transformed once" test "$(count source_transforms c.json)
 rc-synth sphere --nx 200 --ny 200 --dx 4um --radius 7.5mm |
     rc-solve --quiet --load 240N --E1 208GPa --nu1 0.3 --E2 208GPa --nu2 0.3 \
         --output pressure -o large.rcg
-# with sanitizers, freed memory stays for a while, which is made short here
+# sanitizers keep freed memory for a while; this option keeps less
 export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}quarantine_size_mb=1"
 rc-stress --depths 0:20um:2 --report few.json large.rcg >/dev/null
 rc-stress --depths 0:20um:40 --report many.json large.rcg >/dev/null
-# a slice of one component is 2.4 % of it: twenty times the depths may not add two
+# a slice of one component is 2.4 % of the memory: twenty times as many depths must not add two slices
 near "$(field peak_memory many.json)" "$(field peak_memory few.json)" 0.05 \
     "memory does not grow with the number of depths"
 
@@ -85,11 +85,11 @@ rc-stress --section x=20um --depths 100um --components szz --report x.json ball.
 rc-stress --depths 100um --components szz --report xx.json ball.rcg -o xx.rcg
 claim "a section across x has the rows of the map as columns" says '49 x 1 nodes' rc-info x.rcg
 claim "history has its place in SI" says '--section x=2e-05' rc-info x.rcg
-# x = 2 nodes from the middle column: of the map, the value in the same place
-column() { # FILE: the values of one f64 frame of 65 x 49 in column 34
+# x = 2 nodes from the middle column: the map has the same value at this position
+column() { # FILE: prints column 34 of one f64 frame of 65 x 49
     perl -0777 -ne 's/^.*?\n\n//s; my @v = unpack "d<*"; print "$_\n" for map { sprintf "%.9g", $v[65 * $_ + 34] } 0 .. 48' "$1"
 }
-row() { # FILE: the values of one f64 frame of 49 x 1
+row() { # FILE: prints the values of one f64 frame of 49 x 1
     perl -0777 -ne 's/^.*?\n\n//s; my @v = unpack "d<*"; print "$_\n" for map { sprintf "%.9g", $_ } @v[0 .. 48]' "$1"
 }
 column xx.rcg >column.txt
@@ -99,14 +99,15 @@ claim "  49 of them" test "$(wc -l <row.txt)" = 49
 
 # ---- a rough ball: the paper's Fig. 6 ----
 
-# 121 x 103 nodes of its section 4.2, real contact about 0.55 of Hertz's, where Mises is 1.37 GPa at most
+# 121 x 103 nodes as in section 4.2 of the paper; the real contact is about 0.55 of Hertz's, whose largest
+# Mises stress is 1.37 GPa
 ball="--radius 1.88mm --load 15.06N --E1 210GPa --nu1 0.28 --E2 210GPa --nu2 0.28 --hardness 6GPa"
 rc-synth selfaffine --nx 121 --ny 103 --dx 1.1um --dy 1.29um --hurst 0.8 --rms-height 130nm \
     --rolloff 30um --short-cut 5um --seed 7 -o roughness.rcg
 rc-solve --quiet $ball --output pressure --report rough.json roughness.rcg -o rough.rcg
 rc-synth sphere --nx 121 --ny 103 --dx 1.1um --dy 1.29um --radius 1000000 -o flat.rcg
 rc-solve --quiet $ball --output pressure flat.rcg -o smooth.rcg
-# one surface of many: another seed, another area
+# the area depends on the seed of the surface
 near "$(field contact_area rough.json)" "$(awk 'BEGIN { print 0.55 * 3.14159 * 57.1e-6 ^ 2 }')" 0.05 \
     "the rough contact is that of the paper's Fig. 5"
 for surface in rough smooth; do
@@ -115,7 +116,7 @@ done
 between 0 "$(number mises depth rough.json)" 4e-6 "Mises is largest at or near the surface"
 between 2.06e9 "$(number mises value rough.json)" 6e9 "  half as large again as Hertz's, and below the hardness"
 by_depth() { grep -o '"by_depth": \[[^]]*' "$2" | sed 's/.*\[//' | tr ',' '\n' | sed -n "$1p"; }
-# the effect of the roughness on the distribution of the load over the contact has not quite died away at 1.4
+# the roughness changes the distribution of the load over the contact, which still has a small effect at 1.4
 # radii
 near "$(by_depth 41 rough.json)" "$(by_depth 41 smooth.json)" 0.06 \
     "deep below the field is that of the smooth ball"
@@ -141,7 +142,8 @@ refuses 1 'its boundary is periodic, where only fft sums: leave out --kernel mlm
 # ---- engines ----
 
 rc-stress --kernel mlms --tol 1e-4 --depths 100um --mu 0.25 --report m.json ball.rcg -o m.rcg
-# asked for 1e-4 of the largest pressure in each component, seven times that in Mises' stress at most
+# requested: 1e-4 of the largest pressure in each component, which is at most seven times as much in Mises'
+# stress
 near "$(number mises value m.json)" "$(number mises value f.json)" 1e-3 "--kernel mlms agrees"
 claim "  with eleven sums" test "$(count engine_sums m.json)" = 11
 

@@ -1,10 +1,10 @@
-# The report of rc-stress gives the largest and the least value of each component, where they are, over all
-# and in each material, as the closed form of two waves has them; depths far below the map are told.
+# The report of rc-stress gives the largest and the smallest value of each component with its position, over
+# all materials and in each, equal to the closed form for two waves; depths far below the map get a warning.
 . "$(dirname "$0")/../pipe.sh"
 
 # p = cos t + 0.5 cos 2t with t = 2 pi x/L in plane strain, from 1.5 Pa down to -0.75 Pa, on a coat of the
-# substrate's own material: of each wave a of wave number q szz is -a (1 + q z) e^(-q z) cos q x, sxx
-# -a (1 - q z) e^(-q z) cos q x, sxz -a q z e^(-q z) sin q x, syy is nu (sxx + szz).
+# substrate's material: for each wave of amplitude a and wave number q szz is -a (1 + q z) e^(-q z) cos q x,
+# sxx -a (1 - q z) e^(-q z) cos q x, sxz -a q z e^(-q z) sin q x, syy is nu (sxx + szz).
 rc-synth wave --nx 33 --dx 1um --ny 1 --amplitude 1 --wavelength 33um -o a.rcg
 rc-synth wave --nx 33 --dx 1um --ny 1 --amplitude 0.5 --wavelength 16.5um -o b.rcg
 rc-add a.rcg b.rcg | rc-pick --set channel=pressure --set unit=Pa --set boundary=periodic \
@@ -74,11 +74,12 @@ rc-synth sphere --nx 128 --dx 4um --radius 7.5mm |
     rc-solve --quiet --load 240N --E1 208GPa --nu1 0.3 --E2 208GPa --nu2 0.3 --output pressure -o ball.rcg
 rc-stress --depths 0 --components s1 --report ball.json ball.rcg -o ball-stress.rcg
 end() { perl -MJSON::PP -e 'local $/; my $r = decode_json(<>); print "$r->{'"$1"'}{s1}{'"$2"'}\n"' ball.json; }
-# Johnson 1985, section 3.4: (1 - 2 nu) p0/3 at the edge, where 3 % are grid error with 57 cells in the radius
+# Johnson 1985, section 3.4: (1 - 2 nu) p0/3 at the edge; the error of the grid is 3 % with 57 cells in the
+# radius
 near "$(end largest value)" "$(awk 'BEGIN { print 0.4 / 3 * 2.20472e9 }')" 0.03 "the tension around Hertz's contact"
 between 0.99 "$(awk -v x="$(end largest x)" -v y="$(end largest y)" 'BEGIN { print sqrt(x * x + y * y) / 227.98e-6 }')" \
     1.04 "  is at its edge, in radii"
-# in the middle s1 is (sxx =) -(1 + 2 nu) p0/2 of the two
+# in the middle s1 is the larger of sxx = -(1 + 2 nu) p0/2 and szz
 near "$(end least value)" "$(awk 'BEGIN { print -0.8 * 2.20472e9 }')" "$coarse_grid" "  beside the compression in its middle"
 between 0 "$(awk -v x="$(end least x)" -v y="$(end least y)" 'BEGIN { print sqrt(x * x + y * y) }')" 4e-6 "  within a cell"
 

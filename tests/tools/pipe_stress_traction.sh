@@ -1,5 +1,5 @@
-# rc-stress with frames of traction beside the pressure: mu p in one of them is --mu, wherever it stands in the case;
-# what the report says; what is refused.
+# rc-stress with frames of traction beside the pressure: a traction of mu p is equivalent to --mu, at any
+# place in the case; the report; refusals.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 48 --ny 48 --dx 10um --radius 7.5mm |
@@ -9,7 +9,8 @@ rc-synth selfaffine --nx 30 --ny 25 --dx 1um --hurst 0.8 --rms-height 0.1um --ro
 rc-synth sphere --nx 48 --ny 48 --dx 10um --radius 7.5mm |
     rc-solve --quiet --load 120N --layer 30um,400GPa,0.2 --E1 208GPa --nu1 0.3 --E2 rigid --output pressure -o coated.rcg
 
-# traction FILE CHANNEL FACTOR: the frame of FILE by another name, its values times a factor; no end of a stream
+# traction FILE CHANNEL FACTOR: prints the frame of FILE under another name, its values times a factor,
+# without an end line
 traction() {
     perl -MCompress::Zlib -0777 -e '
         my ($channel, $factor) = @ARGV;
@@ -20,12 +21,12 @@ traction() {
         my $frame = "$head\n\n" . pack("d<*", map { $_ * $factor } unpack("d<$n", $rest));
         printf "%scrc32 %08x\n", $frame, crc32($frame);' "$2" "$3" <"$1"
 }
-# frames FILE...: a stream of these frames
+# frames FILE...: prints a stream of these frames
 frames() {
     cat "$@" | perl -0777 -pe 's/RCGEND \d+\n//g'
     echo "RCGEND $#"
 }
-# largest FILE FILE: the largest difference of the values of two streams over the largest value
+# largest FILE FILE: prints the largest difference of the values of two streams over the largest value
 largest() {
     perl -0777 -e '
         sub values_of {
@@ -76,7 +77,7 @@ frames ball.rcg <(traction ball.rcg traction-x 0.3) >x.rcg
 rc-stress --quiet --depths 30um --components syz --report y.json y.rcg -o syz.rcg
 rc-stress --quiet --depths 30um --components sxz --report x.json -o sxz.rcg x.rcg
 least() { grep -o '"least": {.*' "$1" | grep -o '"value": [^,]*' | head -n 1 | cut -d' ' -f2; }
-# the pressure is as symmetric as its solution is accurate
+# the pressure is symmetric to the accuracy of its solution
 near "$(least y.json)" "$(least x.json)" 1e-6 "on a ball a traction along y makes the syz that one along x makes of sxz"
 frames x.rcg ty.part | sed 's/^RCGEND 2$/RCGEND 3/' >both.rcg
 claim "both at once" rc-stress --quiet --depths 30um --report both.json -o both_stress.rcg both.rcg

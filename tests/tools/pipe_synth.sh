@@ -1,7 +1,7 @@
-# rc-synth makes the surface that its options say on the grid that they say, and refuses options that
-# are missing, contradict each other or mean nothing.
+# rc-synth makes the requested surface on the requested grid, and refuses options that are missing, contradict
+# each other or have no meaning.
 . "$(dirname "$0")/../pipe.sh"
-# With the address sanitizer, memory that cannot be had is still NULL.
+# Also with the address sanitizer an impossible allocation returns NULL.
 export ASAN_OPTIONS=allocator_may_return_null=1
 
 info() {
@@ -78,7 +78,7 @@ claim "  which history tells" says 'rc-synth [0-9.]* --radius 0.001 --place -?[0
 
 # ---- waves ----
 
-# 40 nodes are 4 wavelengths of 11 um: the mean square of a cosine is 1/2, of two 1/4
+# 40 nodes are 4 wavelengths of 11 um: the mean square of a cosine is 1/2, that of a product of two is 1/4
 claim "a wave" info rc-synth wave --amplitude 0.3um --wavelength 11um --nx 40 --ny 3 --dx 1.1um
 near "$(field rms info.json)" 2.1213203435596426e-07 "$rounding" "RMS of a cosine"
 claim "it fits the map" grep -q '"periodic": "yes"' info.json
@@ -99,7 +99,7 @@ rough='rc-synth selfaffine --hurst 0.73 --nx 128 --ny 97 --dx 1.1um --dy 1um'
 claim "roughness of a given height" bash -c "$rough --rms-height 0.42um | rc-info --json >info.json"
 near "$(field rms info.json)" 0.42e-6 "$rounding" "its RMS height"
 claim "it is periodic" grep -q '"periodic": "yes"' info.json
-# waves of 20 nodes and more: differences between nodes see all but some per cent of the slope
+# waves of 20 nodes and more: differences between nodes give the slope except for a few per cent
 claim "roughness of a given slope" bash -c \
     "$rough --rms-slope 0.23 --short-cut 20um | rc-info --json >info.json"
 near "$(field rms_slope info.json)" 0.23 0.02 "its RMS slope"
@@ -112,15 +112,15 @@ near "$(field rms info.json)" 0.42e-6 "$rounding" "its RMS height"
 claim "  which history tells" grep -q -- '--direction 30 .*--anisotropy 3 --skewness -1.2 selfaffine' info.json
 claim "heights of Weibull's" bash -c "$rough --rms-height 0.42um --weibull 1.5 | rc-info --json >info.json"
 near "$(field rms info.json)" 0.42e-6 "$rounding" "its RMS height"
-# the lowest of a Weibull distribution is its mean away, Gamma(1 + 1/k) of a standard deviation of
-# sqrt(Gamma(1 + 2/k) - Gamma(1 + 1/k)^2): 1.4723 for k = 1.5
+# the lowest value of a Weibull distribution is below the mean by Gamma(1 + 1/k)/sqrt(Gamma(1 + 2/k) - Gamma(1
+# + 1/k)^2) standard deviations: 1.4723 for k = 1.5
 near "$(field minimum info.json)" -6.18e-07 "$three_digits" "its lowest height"
 claim "the lay lies along y" bash -c "
     $rough --rms-height 0.42um --anisotropy 3 -o a.rcg &&
     $rough --rms-height 0.42um --anisotropy 3 --direction 90 -o b.rcg"
 claim "  by default" cmp <(rc-export --format csv a.rcg) <(rc-export --format csv b.rcg)
 
-# the values alone: before the last two lines, 24 bytes
+# the values only: without the last two lines of 24 bytes
 values() {
     tail -c $((8 * 128 * 97 + 24)) "$1" | head -c $((8 * 128 * 97))
 }
@@ -178,7 +178,7 @@ refuses 2 '--skewness 3.5: it must be at least -3 and at most 3' "more skewness 
 refuses 1 'anisotropy 2: a profile has one direction only' "a profile with a lay" \
     "rc-synth selfaffine --hurst 0.8 --rms-height 1um --anisotropy 2 --ny 1 $grid"
 large="rc-synth selfaffine --hurst 0.8 --rms-height 1um --nx 1000 --dx 1um"
-enough=18 # of 7.6 MiB of heights, as much of waves
+enough=18 # 7.6 MiB of heights, and the same for the waves
 refuses 1 "needs at least [0-9]* MiB, --memory allows $enough MiB" "a distribution takes more memory" \
     "$large --skewness 1 --memory ${enough}M"
 claim "than none" bash -c "$large --memory ${enough}M >/dev/null"
@@ -217,7 +217,7 @@ refuses 1 '1000000000 x 1000000000 (nodes need about [0-9]+ MiB, .* [0-9]+ MiB: 
     "rc-synth sphere --radius 1mm --nx 1000000000 --dx 1um"
 refuses 1 'nodes need about 1 MiB, --memory allows 1 MiB: ' "a byte less than 1 MiB is no 1024 KiB" \
     "rc-synth sphere --radius 1mm --memory 1048575 --nx 362 --dx 1um"
-# bytes of the heights and half maps that all but fill a size; with the code they are more than one
+# heights whose bytes almost fill the unit of the message; with half maps and code they exceed it
 refuses 1 '999999489 x 658812625 nodes need about [0-9]+ MiB, .* [0-9]+ MiB: take fewer|is more than this machine can address' \
     "bytes that are nearly more than can be counted" \
     "rc-synth selfaffine --skewness 1 --hurst 0.8 --rms-height 1nm --nx 999999489 --ny 658812625 --dx 1nm"

@@ -1,20 +1,21 @@
-# The pipeline of README runs, and commands mean the same in bash and in zsh. Before a release the tutorial of
-# contact(7) runs as it is printed: its commands print the text on the page, the figures in its sentences are among
-# that text or are computed here, and its pictures are drawn by its commands.
+# The pipeline of README runs, and commands have the same meaning in bash and in zsh. Before a release the
+# tutorial of contact(7) runs as printed: its commands print the text on the page, the figures in its
+# sentences are in that text or are computed here, and its commands draw its pictures.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 page=$pages/contact.7
 samples=$RC_SOURCE/sample_surfaces
 
-# agrees PAGE OUTPUT: the words are the same, and every number to a step of the last digit that the page shows; "..." is
-# anything. Of a number with more than six digits the first six count: solutions of the default tolerance are the
-# same on all machines to about 1e-7, as sums in another order round otherwise. The page gives no numbers of nodes, steps and seconds.
+# agrees PAGE OUTPUT: the words are the same, and every number agrees to one unit of the last digit on the
+# page; "..." matches anything. In longer numbers the first six digits count: solutions with the default
+# tolerance agree on all machines to about 1e-7, because sums in another order round differently. The page has
+# no numbers of nodes, steps and seconds.
 cat >agrees.pl <<'END'
 use List::Util 'min';
 local $/;
 my $digits = qr/[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?/;
 sub words { open my $f, '<', $_[0] or die "$_[0]: $!\n"; my $text = <$f>; return split ' ', $text }
-sub step { # of the last digit, or of the sixth that is not a leading zero; a count has none
+sub step { # one unit of the last digit, or of the sixth significant one; a count must be equal
     my ($whole, $decimals, $power) = $_[0] =~ /(\d+)(?:\.(\d+))?(?:[eE]([-+]?\d+))?$/;
     return 0 unless defined $decimals || defined $power;
     my $last = 10 ** (($power // 0) - length($decimals // ''));
@@ -68,8 +69,8 @@ differs "prints '\(4 of" "  nor another count" 's/(3/(4/'
 differs "not 'at 4e-06" "  nor another word after what is left out" 's/at 4/of 4/'
 differs "not 'at 4e-06" "  nor what ends too early" 's/ at.*//'
 
-# strangers NUMBERS SENTENCES: numbers of the sentences that are none of these, rounded, in another power of thousand or
-# in per cent; section by section, each after a line "@@ name".
+# strangers NUMBERS SENTENCES: prints the numbers of the sentences that are not among these, rounded, with
+# another SI prefix or in per cent; section by section, each after a line "@@ name".
 cat >strangers.pl <<'END'
 my $number = qr/(?<![\w.])\d+(?:\.\d+)?(?:[eE][-+]?\d+)?/;
 sub sections { # the numbers by the name of the section
@@ -102,15 +103,16 @@ cp "$samples"/*.x3p run
 
 # ---- in bash and in zsh ----
 
-# Commands typed as they are printed mean the same in both shells: stand-ins for the tools write down what they are called
-# with. An interactive zsh knows no comments, and makes one word of an unquoted $variable.
+# Commands typed as printed have the same meaning in both shells: scripts in place of the tools record their
+# arguments. An interactive zsh has no comments, and does not split an unquoted $variable into words.
 mkdir stand_ins
 printf '#!/bin/sh\nline=$(printf " <%%s>" "$@")\necho "${0##*/}$line" >>"$SAID"\n' >stand_ins/mpirun
 chmod +x stand_ins/mpirun
 for main in "$RC_SOURCE"/tools/rc-*.c; do
     cp stand_ins/mpirun "stand_ins/$(basename "$main" .c)"
 done
-# called COMMANDS SHELL...: the calls that these commands make, sorted, for a pipe has no order, and comments taken for commands.
+# called COMMANDS SHELL...: prints the calls that these commands make, sorted because the commands of a pipe
+# have no order, and comments that the shell takes for commands.
 called() {
     rm -f said
     (mkdir -p typed && cd typed && PATH="$scratch/stand_ins:$PATH" SAID=$scratch/said timeout 60 "${@:2}" <"$1" >/dev/null 2>called.err)
@@ -146,7 +148,7 @@ claim "the README's pipeline runs" bash -c 'cd run && rm -f mises.png && bash -e
 claim "  and is that of the tutorial" bash -c \
     'for words in "$@"; do sed "s/ *#.*//" pipeline | tr -s "\\\\ \n" " " | grep -qF -- "$words" || { echo "$words" >&2; exit 1; }; done' - \
     "rc-detrend --poly 2 --outliers 5 --fill" "rc-solve --radius 3.75mm --load 60N --estar 114GPa --hardness 6GPa" "rc-stress --nu 0.28"
-# The page itself takes minutes.
+# The whole page takes minutes.
 before_release || {
     finish
     exit
@@ -170,7 +172,8 @@ claim "  and to compare" test "$(ls blocks | grep -c prints)" -gt 10
 
 # ---- its sentences ----
 
-# The sections with commands, displays apart from sentences: no macros, no years, no equations of books.
+# The sections with commands, with displays and sentences separated, without macros, years and numbers of
+# equations.
 parted() {
     awk -v displays="$1" '
         /^\.Sh / { on = /A MEASURED SURFACE/ ? 1 : /FROM A SCAN|SEE ALSO/ ? 0 : on; if (on) print "@@ " $0 }
@@ -182,8 +185,8 @@ parted() {
 parted 0 >sentences.txt
 parted 1 >known.txt
 
-# derived "sentence" PATTERN VALUE TOLERANCE: the number of the sentence, (N) in the pattern, is VALUE; for
-# numbers that no command printed.
+# derived "sentence" PATTERN VALUE TOLERANCE: the number in the sentence, (N) in the pattern, is VALUE; for
+# numbers that no command prints.
 derived() {
     local pattern=${2/(N)/'([0-9.]*[0-9](?:e-[0-9]+)?)'}
     near "$(perl -0777 -ne "print \$1 if /$pattern/" sentences.txt)" "$3" "$4" "$1"
@@ -234,7 +237,7 @@ derived "the slope that rc-solve warns of" 'exceeds about (N), the' "$(mandoc -T
 claim "sentences quote no other figures than what is printed" test -z "$(strangers known.txt sentences.txt | tee strangers.txt)"
 cat strangers.txt
 
-# The work that contact-theory(7) quotes of the same contact: steps may be one more or less elsewhere.
+# The work in contact-theory(7) for the same contact: on other machines steps may differ by one.
 rc-solve --radius 7.5mm --load 240N --estar 113.93GPa --hardness 6GPa --tol 1e-4 --quiet --report work.json -o /dev/null run/sphere.rcg
 quoted=$(sed -n 's/^it is \([0-9]*\) convolutions in \([0-9]*\) steps.*/\1 \2/p' "$pages/contact-theory.7")
 near "$(field convolutions work.json)" "${quoted% *}" 0.25 "contact-theory(7): the convolutions of the rough sphere"
@@ -244,9 +247,9 @@ rc-solve --radius 7.5mm --load 240N --estar 113.93GPa --hardness 6GPa --tol 1e-4
 quoted=$(sed -n 's/^takes \([0-9]*\) in \([0-9]*\)\.$/\1 \2/p' "$pages/contact-theory.7")
 near "$(field convolutions work.json)" "${quoted% *}" 0.25 "  those of pk99"
 near "$(field iterations work.json)" "${quoted#* }" 0.25 "  and its steps"
-# The same contact on steel, with a film and without, as contact-theory(7) and rc-cost(1) quote it.
+# The same contact on steel, with a film and without, as in contact-theory(7) and rc-cost(1).
 rc-import --quiet "$samples/rough-sphere.x3p" -o steel.rcg
-of_steel() { # of_steel TOL [OPTION]...: the convolutions
+of_steel() { # of_steel TOL [OPTION]...: prints the convolutions
     rc-solve --radius 7.5mm --load 240N --E1 208GPa --nu1 0.3 --E2 208GPa --nu2 0.3 --tol "$@" --quiet --report work.json \
         -o /dev/null steel.rcg && field convolutions work.json
 }
@@ -264,7 +267,7 @@ END
 
 # ---- real files ----
 
-# row STEPS [RESAMPLED]: the surface scan.rcg after these steps, in the columns of the page's table.
+# row STEPS [RESAMPLED]: prints the row of the page's table for the surface scan.rcg after these steps.
 row() {
     { if [ -n "$1" ]; then rc-detrend --quiet $1 scan.rcg; else cat scan.rcg; fi; } |
         { if [ -n "${2-}" ]; then rc-pick $2; else cat; fi; } >fit.rcg
@@ -292,7 +295,7 @@ if [ -d "$RC_CORPUS/corpus" ]; then
     done <table.txt
     claim "  has rows" test "$(wc -l <table.txt)" -gt 10
 
-    # The first section does for a measured file what it does for the sample, but for the figures.
+    # The commands of the first section work for a measured file too, with other figures.
     mkdir real
     cp "$RC_CORPUS/corpus/x3p/bulletxtrctr__Hamby252_Barrel1_Bullet1_Land1.x3p" real/rough-steel.x3p
     for block in 2 3 4 5 6 7 8; do
@@ -305,7 +308,7 @@ fi
 
 # ---- its pictures ----
 
-# drawn FILE: the command that made a picture, without the version of the tools.
+# drawn FILE: prints the command that made a picture, without the version of the tools.
 drawn() {
     perl -0777 -ne 'while (/\G(?:\x89PNG\r\n\x1a\n)?(....)(....)/gs) { my ($n, $type) = (unpack("N", $1), $2);
         my $data = substr $_, pos, $n; pos = pos() + $n + 4;

@@ -106,7 +106,7 @@ ln -s nowhere/made.rcg lost_link
 ln -s circle_b circle_a
 ln -s circle_a circle_b
 cp good.rcg there/old.rcg
-written() { # written LINK TARGET: the link is one still, and the target is what was written
+written() { # written LINK TARGET: the link is still a link, and its target is the written file
     rc-synth wave --wavelength 16um --amplitude 1um --nx 16 --dx 1um -o "$1" && [ -L "$1" ] && [ ! -L "$2" ] &&
         rc-info --quiet "$2" >/dev/null && ! cmp -s "$2" good.rcg && [ -z "$(find . -name '*.rcg.??????')" ]
 }

@@ -1,16 +1,16 @@
-# Words and names of a file do not act on a terminal: no tool lets a control character through, neither in its
-# messages nor in the text that it shows.
+# Texts and names in a file do not act on a terminal: no tool prints a control character, neither in messages
+# nor in its output.
 . "$(dirname "$0")/../pipe.sh"
 
-# plain_words FILE: it holds something, and no control character but line feeds.
+# plain_words FILE: the file is not empty and has no control characters except line feeds.
 plain_words() {
     [ -s "$1" ] && [ "$(LC_ALL=C tr -d '\n' <"$1" | LC_ALL=C tr -dc '\000-\037\177' | wc -c)" = 0 ] &&
         ! LC_ALL=C grep -q "$(printf '\302[\200-\237]')" "$1" && return
     cat -v "$1" >&2
     return 1
 }
-# harmless "sentence" 'shell command': its messages are harmless; shown ...: its standard output is, and it
-# succeeds.
+# harmless "sentence" 'shell command': its messages have no control characters; shown ...: the same for its
+# standard output, and it succeeds.
 harmless() {
     bash -c "$2" >words.out 2>words.err </dev/null
     claim "$1: $(head -n 1 words.err | cut -c1-100 | cat -v)" plain_words words.err

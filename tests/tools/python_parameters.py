@@ -1,8 +1,6 @@
-"""Parameters of ISO 25178-2 and ISO 21920-2 by numpy, as the standards put them, beside those of rc-info: python_parameters.py FILE.
+"""Parameters of ISO 25178-2 and ISO 21920-2 by numpy, programmed from the standards, compared with those of rc-info: python_parameters.py FILE.
 
-Hills by pointers to the steepest of eight neighbours, saddles of all pairs of hills that touch, and Wolf's rule literally: again and
-again the hill of least height joins the one across its highest saddle. Prints each parameter with both values; the worst relative
-difference decides."""
+Hills by pointers to the steepest of eight neighbours, saddles of all pairs of hills that touch, and Wolf's rule literally: repeatedly the lowest hill joins the hill across its highest saddle. Prints each parameter with both values; fails if the largest relative difference is too large."""
 import json
 import subprocess
 import sys
@@ -14,13 +12,13 @@ TOLERANCE = 1e-12
 
 
 def pairs(grid):
-    """Of neighbours, each pair once."""
+    """Every pair of neighbours once."""
     return ((grid[:, :-1], grid[:, 1:]), (grid[:-1], grid[1:]), (grid[:-1, :-1], grid[1:, 1:]),
             (grid[:-1, 1:], grid[1:, :-1]))
 
 
 def ascent(z, dx, dy):
-    """For each node the peak that steepest ascent leads to."""
+    """The peak that steepest ascent reaches from each node."""
     ny, nx = z.shape
     node = np.arange(nx * ny).reshape(ny, nx)
     steepest, to = np.zeros_like(z), node.copy()

@@ -1,4 +1,4 @@
-"""The claims of pipe_python.sh about the package rcg, a function each: python_rcg.py NAME ARGUMENT..."""
+"""The checks of pipe_python.sh for the package rcg, one function each: python_rcg.py NAME ARGUMENT..."""
 import io
 import json
 import math
@@ -48,12 +48,12 @@ def round_trip(*names):
 
 
 def text_is(name, key, text):
-    # older Pythons take an argument for ASCII where the locale says so
+    # older Pythons read arguments as ASCII in an ASCII locale
     assert rcg.read(name)[0].keys[key] == os.fsencode(text).decode('utf-8')
 
 
 def waves(name):
-    """A map of waves says that its spacings are in rad/m, one of places that they are in m."""
+    """The spacings of a spectrum are in rad/m, those of other maps in m."""
     spectrum, = rcg.read(name)
     assert spectrum.dunit == 'rad/m' and 'x 98174.77042468105 rad/m, m4>' in repr(spectrum)
     made = rcg.frame('psd', spectrum.values, spectrum.dx, unit='m4', dunit='rad/m')
@@ -71,7 +71,7 @@ def same_values(name, npy):
     values, expected = rcg.read(name)[0].values, numpy.load(npy)
     assert values.dtype == expected.dtype and values.shape == expected.shape
     assert values.tobytes() == expected.tobytes()
-    values[0, 0] = 1  # an array of one's own
+    values[0, 0] = 1  # a user's array
 
 
 def joined(name, numbered):
@@ -94,7 +94,7 @@ def changed(name):
 
 
 def headers():
-    """Streams that are whole, but for what stands in their headers."""
+    """Streams that are valid except for their headers."""
     good = [b'channel=height', b'nx=2', b'ny=1', b'dx=1e-06', b'dy=1e-06', b'unit=m', b'type=f64']
 
     def stream(lines, values=bytes(16)):
@@ -200,7 +200,7 @@ def no_frames():
 
 
 def hertz(order):
-    """R = 2.385 mm, E* = 114 GPa, 2 N on 129 x 121 nodes: to what cells along a radius can."""
+    """R = 2.385 mm, E* = 114 GPa, 2 N on 129 x 121 nodes: to the accuracy for this number of cells in the radius."""
     radius, estar, load, dx, dy = 2.385e-3, 114e9, 2.0, 1.1e-6, 1.2e-6
     nx, ny = 129, 121
     x, y = (numpy.arange(nx) - (nx - 1) / 2) * dx, (numpy.arange(ny) - (ny - 1) / 2) * dy
@@ -210,7 +210,7 @@ def hertz(order):
     p = frames[0].values
     assert abs(p.max() * 2 * math.pi * a ** 2 / (3 * load) - 1) <= float(order) * (dy / a) ** 2
     assert abs(p.sum() * dx * dy / load - 1) < 1e-9
-    # the disc's area in cells is wrong by less than the cells that its edge crosses
+    # the error of the area is less than the area of the cells that the edge crosses
     crossed = 2 * math.pi * a * math.hypot(dx, dy)
     assert abs((p > 0).sum() * dx * dy - math.pi * a ** 2) < crossed
     assert abs(lines[0]['contact_area'] - (p > 0).sum() * dx * dy) < 1e-6 * dx * dy
@@ -245,7 +245,7 @@ def report(name):
     assert len(lines) == 2 and list(lines[0]) == list(there[0])
     for ours, theirs in zip(lines, there):
         for key in ours:
-            # what differs from run to run, and what a name tells
+            # keys that differ from run to run, or that follow from the file name
             if key not in ('seconds', 'peak_memory', 'memory_estimate', 'source'):
                 assert ours[key] == theirs[key], key
     frames, lines = rcg.report('rc-info', ball)
@@ -295,7 +295,7 @@ def fails(name):
     assert error.status == -9 and str(error) == 'sh: ended by signal 9'
     error = error_of('sh', hole, '-c', 'echo RCGFAIL sh: halfway')
     assert 'sh: halfway' in str(error)
-    big = rcg.frame('height', numpy.zeros((1500, 1500)), 1)  # more than a pipe holds
+    big = rcg.frame('height', numpy.zeros((1500, 1500)), 1)  # more bytes than a pipe can hold
     error = error_of('rc-solve', big, '--nonsense')
     assert error.status == 2
 
@@ -340,7 +340,7 @@ def raised(kind, call, *arguments, **more):
 
 
 def functions(name):
-    """The functions give the bytes of the tools, from a file, a frame, an array, a result."""
+    """The functions give the same bytes as the tools, from a file, a frame, an array or a result."""
     wanted = dict(load=[(0.5, 'N'), '1250mN'], estar='114GPa', output=['pressure', 'gap'], quiet=True)
     solved = tool('rc-solve', '--load', '0.5N,1250mN', '--estar', '114GPa', '--output', 'pressure,gap', '--quiet',
                   input=content(name))[1]
@@ -349,7 +349,7 @@ def functions(name):
         result = rcg.solve(surface, **wanted)
         assert rcg.dumps(result.frames) == solved
     stressed = tool('rc-stress', '--nu', '0.3', '--depths', '0:3um:3', '--components', 'mises,szz', input=solved)[1]
-    untouched = rcg.solve(ball, **wanted)  # whose bytes go on as they came
+    untouched = rcg.solve(ball, **wanted)  # whose bytes are passed on unchanged
     stress = rcg.stress(untouched, nu=0.3, depths='0:3um:3', components=['mises', 'szz'])
     assert rcg.dumps(stress.frames) == stressed and stress.mises.shape == (6, 47, 33)
     assert [len(case.frames) for case in stress.cases] == [6, 6]
@@ -502,7 +502,7 @@ def data_sets(name):
 
 
 def drawn(script):
-    """The page's script, and what its lists hold: areas that grow as the load to 2/3."""
+    """The script of the page and its lists: areas are proportional to the load to the power 2/3."""
     names = {}
     os.environ['MPLBACKEND'] = 'Agg'
     exec(compile(content(script), script, 'exec'), names)

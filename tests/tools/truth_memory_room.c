@@ -1,5 +1,5 @@
-/* The memory that is left is the least of what the machine has, what each group of the process may
- * still take, and its own limits: read from files laid out as the kernel's. */
+/* The free memory is the minimum of that of the machine, the rest of each control group of the process, and
+ * its own limits: read from files like those of the kernel. */
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,7 +21,7 @@
 
 static const double mib = 1 << 20;
 
-/* A root of files of our own. */
+/* A folder with replacements of these files. */
 static char root[] = "/tmp/memory-room-XXXXXX";
 
 static void
@@ -77,7 +77,7 @@ test_machine(void **state)
 
     (void)state;
     room = memory_room(root);
-    assert_true(isinf(room.bytes)); /* no file says anything */
+    assert_true(isinf(room.bytes)); /* there is no file */
     the_machine("2048", "1024");
     room = memory_room(root);
     assert_true(room.bytes == 3 * mib);
@@ -88,8 +88,8 @@ static const char mounts2[] =
     "22 1 8:1 / / rw - ext4 /dev/root rw\n"
     "30 22 0:26 / /sys/fs/cgroup rw,nosuid shared:4 - cgroup2 cgroup2 rw,nsdelegate\n";
 
-/* Own group bounded high, the one around it lower: the nearest to its bound counts, and pages of
- * files that can be dropped are no use. */
+/* The group of the process has a high limit, its parent a lower one: the group nearest to its limit counts,
+ * and cached pages of files do not count as used. */
 static void
 test_version_2(void **state)
 {
@@ -119,7 +119,8 @@ test_version_2(void **state)
     assert_true(memory_room(root).bytes == 33 * mib);
 }
 
-/* The controller's own tree, beside an empty one of version 2; a soft limit bounds nothing. */
+/* The separate tree of the memory controller (version 1), beside an empty tree of version 2; a soft limit has
+ * no effect. */
 static void
 test_version_1(void **state)
 {
@@ -142,7 +143,7 @@ test_version_1(void **state)
     assert_true(memory_room(root).bytes == 12 * mib);
 }
 
-/* In a container the tree is mounted from the container's group down, whatever the path says. */
+/* In a container the tree is mounted from the container's group downwards, and paths do not show this. */
 static void
 test_container(void **state)
 {
@@ -156,14 +157,14 @@ test_container(void **state)
     put("/sys/fs/cgroup/inner/memory.max", "20971520\n");
     put("/sys/fs/cgroup/inner/memory.current", "12582912\n");
     assert_true(memory_room(root).bytes == 8 * mib);
-    put("/proc/self/cgroup", "0::/\n"); /* in a name space of its own */
+    put("/proc/self/cgroup", "0::/\n"); /* in a separate name space */
     assert_true(memory_room(root).bytes == 10 * mib);
     put("/proc/self/cgroup", "0::/docker/4f1c\n");
     assert_true(memory_room(root).bytes == 10 * mib);
 }
 
-/* A group whose name only begins like that of the mounted part lies outside it: then only the
- * bounds of that part can be seen. */
+/* A group whose name only begins like that of the mounted group lies outside of it: then only the limits of
+ * the mounted group are visible. */
 static void
 test_names_that_begin_alike(void **state)
 {
@@ -184,7 +185,7 @@ test_names_that_begin_alike(void **state)
     assert_true(memory_room(root).bytes == 8 * mib);
 }
 
-/* Bounded by itself, in a child, so that the test itself is not. */
+/* Limits of the process, in a child, so that the test itself is not limited. */
 static void
 test_limits(void **state)
 {
@@ -205,12 +206,12 @@ test_limits(void **state)
     }
     assert_true(waitpid(child, &status, 0) == child);
     assert_true(WIFEXITED(status));
-#ifndef __SANITIZE_ADDRESS__ /* it has reserved more address space than that */
+#ifndef __SANITIZE_ADDRESS__ /* the sanitizer has reserved more address space than this */
     assert_int_equal(WEXITSTATUS(status), 0);
 #endif
 }
 
-/* Touched memory is held, memory that was only asked for is not, and the peak stays. */
+/* Memory that was written to counts, memory that was only allocated does not, and the peak remains. */
 static void
 test_held(void **state)
 {
@@ -229,7 +230,8 @@ test_held(void **state)
     assert_true(peak + (1 << 20) >= memory_held());
     munmap(p, n);
     assert_true((double)memory_held() < (double)before + 4 * mib);
-    assert_true(memory_peak() + (1 << 20) >= peak); /* each thread tells the kernel now and then */
+    assert_true(memory_peak() + (1 << 20) >=
+                peak); /* each thread updates the kernel's counters only from time to time */
 }
 
 int

@@ -1,5 +1,4 @@
-/* A number on a command line becomes the SI value of its text, to the last bit, and other text is
- * refused. */
+/* A number on the command line gives the SI value of its text to the last bit; other text is refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -94,7 +93,7 @@ test_numbers(void **state)
     }
 }
 
-/* Every length written in micrometres with three decimals is the double nearest to it in metres. */
+/* Every length in micrometres with three decimals gives the nearest double in metres. */
 static void
 test_micrometres(void **state)
 {
@@ -191,7 +190,7 @@ test_lists(void **state)
     check_list("1:2:2", UNIT_NONE, 2, (double[]){1, 2});
 }
 
-/* Values by ratio are the decimals that they ought to be: powers of ten to the last bit. */
+/* Values with equal ratios are exact decimals where possible: powers of ten to the last bit. */
 static void
 test_ratios(void **state)
 {
@@ -208,7 +207,7 @@ test_ratios(void **state)
     assert_int_equal(unit_numbers("1MPa:1GPa:log:7", UNIT_PA, &list, NULL), RC_OK);
     assert_int_equal(list.n, 7);
     assert_true(list.v[0] == 1e6 && list.v[2] == 1e7 && list.v[4] == 1e8 && list.v[6] == 1e9);
-    for (size_t k = 1; k < 7; k += 2) /* half way: the square root of ten, fourteen digits of it */
+    for (size_t k = 1; k < 7; k += 2) /* half way: the square root of ten to fourteen digits */
         assert_true(fabs(list.v[k] / list.v[k - 1] - sqrt(10)) <= rounding * sqrt(10));
     free(list.v);
     assert_int_equal(unit_numbers("0.1um:0.7um:log:46", UNIT_M, &list, NULL), RC_OK);
@@ -216,7 +215,7 @@ test_ratios(void **state)
     free(list.v);
 }
 
-/* Forces over a length, where they may be that. */
+/* Forces per length, for options that accept them. */
 static void
 test_forces(void **state)
 {
@@ -281,7 +280,7 @@ test_decimal_commas(void **state)
             fail_msg("'%s' is doubted", clear[k]);
 }
 
-/* Both ends of a range are the numbers themselves. */
+/* Both ends of a range are exactly the given numbers. */
 static void
 test_range_ends(void **state)
 {
@@ -349,7 +348,7 @@ test_bad_lists(void **state)
     }
 }
 
-/* The decimal mark is a point wherever one lives. */
+/* The decimal mark is a point in every locale. */
 static void
 test_comma_locale(void **state)
 {
@@ -364,7 +363,7 @@ test_comma_locale(void **state)
     setlocale(LC_ALL, "C");
 }
 
-/* What rounds to a thousand of a unit, or 1024, is one of the next. */
+/* A number that rounds to 1000 or 1024 of a unit is printed as one of the next unit. */
 static void
 test_shown(void **state)
 {

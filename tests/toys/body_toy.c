@@ -1,11 +1,8 @@
 /*
- * A body that is no part of the library, in a file and a row of a list: springs on a rigid base that pull
- * their neighbours along, over a range L. The surface gives way as
- *
- *     K(x, y) = 1/(pi E* L) integral over the cell of exp(-r / L),
- *
- * taken at the middle of the cell. One layer on a rigid half-space is such a body, L its thickness,
- * E* its own.
+ * A body that is not part of the library, in one file and one row of a list: springs on a rigid base, coupled
+ * to their neighbours within a range L. The displacement by a unit pressure on a cell is K(x, y) = 1/(pi E*
+ * L) times the integral of exp(-r / L) over the cell, approximated by its value at the centre. One layer on a
+ * rigid half-space selects this body; L is its thickness, E* its modulus.
  */
 #include "libcontact/body/body.h"
 
@@ -69,7 +66,7 @@ modulus(const struct rc_solid *solid, double q)
     return modulus_of(solid, q * q);
 }
 
-/* At q L = sqrt(1/2). */
+/* The largest value is at q L = sqrt(1/2). */
 static double
 softest(const struct rc_solid *solid)
 {

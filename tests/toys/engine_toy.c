@@ -1,6 +1,6 @@
 /*
- * An engine that is no part of the library: a file and a row of a list. The double sum, with the
- * kernel asked for row by row, in the memory of one row.
+ * An engine that is not part of the library: one file and one row of a list. It is the double sum, with the
+ * kernel computed row by row in the memory of one row.
  */
 #include "libcontact/operator/operator.h"
 
@@ -46,7 +46,7 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
     return plan;
 }
 
-/* What row `from` of p does to row `to` of u, `sign` the kernel's parity in y. */
+/* Adds the displacement of row `to` of u by row `from` of p; `sign` is the kernel's parity in y. */
 static void
 add(const struct plan *plan, double sign, const double *p, double *u)
 {
@@ -78,7 +78,7 @@ apply(void *at, const double *p, double *u)
     }
 }
 
-/* As of the engine direct. */
+/* As for the engine direct. */
 static double
 error(const void *plan)
 {

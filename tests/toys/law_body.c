@@ -1,5 +1,5 @@
-/* A body that is a file and a row of a list is pressed like any other: the solver certifies the contact on
- * it, free and periodic, with yield, and refuses stresses that it cannot know. */
+/* A body from one file and one row of a list works like any other: the solver finds its contact with an error
+ * estimate, free and periodic, with yielding; stresses, which this body does not define, are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -42,7 +42,7 @@ pressed(void **state)
     }
 }
 
-/* One loaded node displaces another as the kernel says. */
+/* The displacement of a node by another loaded node is the value of the kernel. */
 static void
 displaced(void **state)
 {

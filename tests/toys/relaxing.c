@@ -1,11 +1,8 @@
 /*
- * A model that is no part of the library, in a file and a row of a list: under the contact lies a bed of
- * springs, which settles at each node by s towards the compliance c times the pressure,
- *
- *     ds/dt = (c p - s) / tau,
- *
- * while the inner model finds the pressure p of the heights h - s. A step takes the mean of the pressures
- * at its both ends; where they differ too much it is tried again with half the time.
+ * A model that is not part of the library, in one file and one row of a list: under the contact is a layer of
+ * springs, which settles at each node by s towards the compliance c times the pressure, ds/dt = (c p - s) /
+ * tau, while the inner model finds the pressure p for the heights h - s. A step uses the mean of the
+ * pressures at both its ends; if they differ too much it is repeated with half the time.
  */
 #include "relaxing.h"
 
@@ -20,11 +17,11 @@ struct relaxing {
     struct toy_relaxing law;
     size_t n;
     double *h, *s, *settled,
-        *p[2];       /* heights, settlement, that of the step tried, pressures of its ends */
-    double *heights; /* of the inner model                                                 */
+        *p[2];       /* heights, settlement, settlement of the tried step, pressures at its ends */
+    double *heights; /* pressure of the inner model */
     double t, dt;
     bool
-        trying; /* the inner contact is that of the end of a step, else of the settlement reached */
+        trying; /* true: the inner contact is at the end of a step, else at the current settlement */
     struct toy_figures f;
 };
 
@@ -49,7 +46,7 @@ give_heights(struct relaxing *r, const double *s, struct rc_err *err)
     return rc_model_set_heights(r->base.inner, r->heights, err);
 }
 
-/* The last point kept; before it nothing has carried load, which comes at once. */
+/* The last kept point; before the first one the bodies are unloaded, and the first load acts at once. */
 static struct rc_point
 begin(const struct rc_model *m)
 {
@@ -59,7 +56,7 @@ begin(const struct rc_model *m)
     return p;
 }
 
-/* The inner contact of this settlement at this time. */
+/* Starts the inner contact for this settlement at this time. */
 static enum rc_status
 contact(struct relaxing *r, const double *s, double t, struct rc_err *err)
 {
@@ -86,7 +83,8 @@ go(struct rc_model *m, struct rc_err *err)
     return contact(r, r->s, r->t, err);
 }
 
-/* Settles by the mean of the pressures where `both`, else by the first. The sum of what they differ by. */
+/* Settles by the mean of both pressures if `both`, else by the first one. Returns the sum of their
+ * differences. */
 static double
 settle(struct relaxing *r, bool both, double *sum)
 {
@@ -103,7 +101,7 @@ settle(struct relaxing *r, bool both, double *sum)
     return differ;
 }
 
-/* The step is taken, or halved. */
+/* Accepts the step, or halves it. */
 static void
 judge(struct relaxing *r)
 {
@@ -215,7 +213,7 @@ progress(const struct rc_model *m, struct rc_loops *s)
 static void
 release(struct rc_model *m)
 {
-    free(((struct relaxing *)m)->h); /* the others lie behind it */
+    free(((struct relaxing *)m)->h); /* the other maps follow it */
 }
 
 const struct rc_model_row rc_model_relaxing = {

@@ -1,4 +1,4 @@
-/* A model that is no part of the library: a bed of springs that relaxes on one of the bodies. */
+/* A model that is not part of the library: a relaxing layer of springs on one of the bodies. */
 #ifndef TOY_RELAXING_H
 #define TOY_RELAXING_H
 
@@ -7,13 +7,14 @@
 struct toy_relaxing {
     double compliance; /* m/Pa: final settlement over pressure                   */
     double tau;        /* s                                                      */
-    double tol;        /* of a step, relative to the settlement                  */
+    double tol;        /* permitted error of a step, relative to the settlement  */
 };
 struct toy_figures {
     double time, mean_settlement, step_error;
     size_t steps, rejected;
 };
-/* Takes RC_TIME and what `inner` takes, which needs RC_LOAD; h: its heights. It owns the inner model. */
+/* Takes RC_TIME and the axes of `inner`, which must have RC_LOAD; h: the heights of `inner`. It owns the
+ * inner model. */
 struct rc_model *toy_relaxing_new(struct rc_model *inner, const double *h,
                                   const struct toy_relaxing *law, struct rc_err *err);
 

@@ -1,5 +1,6 @@
-/* A method that is no part of the library, in a file and a row of a list: steepest descent in the
- * metric of the preconditioner, each step to the lowest point and from there back into the box. */
+/* A method that is not part of the library, in one file and one row of a list: steepest descent in the metric
+ * of the preconditioner; each step goes to the minimum along its direction and is projected onto the
+ * bounds. */
 #include "libcontact/solver/solver.h"
 
 #include <stdlib.h>

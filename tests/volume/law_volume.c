@@ -1,6 +1,5 @@
-/* What strain in slabs obeys: reciprocity, symmetry, bounds of the stiffness with and without
- * contact, equilibrium, a free surface, a load that every plane carries, and the memory that is
- * foretold. */
+/* Laws of strain in slabs: reciprocity, symmetry, bounds of the stiffness with and without contact,
+ * equilibrium, a free surface, a load that every plane carries, and the predicted memory. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -79,7 +78,7 @@ is_reciprocal(void **state)
     }
 }
 
-/* The five deviators of unit length, strain number m of a voxel: adds `size` of it. */
+/* Adds `size` times unit deviator number m (of five) to the strain of a voxel. */
 static void
 add_unit(const struct voxels *e, size_t slab, size_t i, size_t m, double size)
 {
@@ -106,8 +105,8 @@ along_unit(const struct voxels *s, size_t slab, size_t i, size_t m)
     return sum;
 }
 
-/* Eigenvalues of G, and of G + S K_cc^-1 S' for sets c of nodes in contact, lie between 0 and 2 mu:
- * all voxels of a small stack. c may be any set; K is that of the same body. */
+/* Eigenvalues of G, and of G + S K_cc^-1 S' for sets c of nodes in contact, lie between 0 and 2 mu, for all
+ * voxels of a small stack. c may be any set; K belongs to the same body. */
 static void
 is_bounded(void **state)
 {
@@ -185,7 +184,7 @@ is_bounded(void **state)
             print_message("nu %g, contact %#x: %.1e to 1 %+.1e\n", nus[k], contact[set], low,
                           high - 1);
             assert_true(low > -summed && high < 1 + summed);
-            assert_true(high > 0.9); /* and the bound is no idle one */
+            assert_true(high > 0.9); /* and the bound is nearly reached */
             gsl_matrix_free(sum);
         }
         gsl_eigen_symm_free(work);
@@ -201,7 +200,7 @@ is_bounded(void **state)
 
 /* ---- equilibrium ---- */
 
-/* d/dx of node i of a periodic line of n values, n odd, of all its waves. */
+/* d/dx at node i of a periodic line of n values, n odd, with all its waves. */
 static double
 slope(const double *m, size_t step, size_t n, size_t i, double d)
 {
@@ -216,7 +215,7 @@ slope(const double *m, size_t step, size_t n, size_t i, double d)
     return sum * 2 * exact_pi / ((double)n * d);
 }
 
-/* Mean stresses of equal slabs without strain, between slabs with it, in depth: d sxi/dx + d syi/dy
+/* Mean stresses of equal slabs without strain, between slabs with strain: d sxi/dx + d syi/dy
  * + d szi/dz = 0, by differences of tenth order; and the surface is free, or carries p: a slab of
  * no thickness on top. */
 static void
@@ -271,7 +270,7 @@ in_equilibrium(void **state)
     }
     print_message("traction off by %.1e of sxx\n", loose / large);
     assert_true(loose < 1e-6 * large);  /* 1e-13 m, waves of 2e-6 m */
-    for (size_t k = 0; k < MANY; k++) { /* what every plane carries */
+    for (size_t k = 0; k < MANY; k++) { /* the load of every plane */
         static const enum rc_component across[] = {RC_SZZ, RC_SXZ, RC_SYZ};
         for (size_t c = 0; c < 3; c++) {
             double sum = 0, size = 0;
@@ -288,7 +287,8 @@ in_equilibrium(void **state)
     free(p);
 }
 
-/* Uniform strain moves no surface and makes the stress of slabs held in their plane: on paper. */
+/* Uniform strain does not displace the surface and causes the stress of slabs constrained in their plane, in
+ * closed form. */
 static void
 mean_is_local(void **state)
 {
@@ -322,7 +322,7 @@ mean_is_local(void **state)
     free(s.v);
 }
 
-/* Numbers that make no sense are refused with the number. */
+/* Invalid numbers are refused, and the message has the number. */
 static void
 refuses(void **state)
 {
@@ -349,7 +349,7 @@ refuses(void **state)
         &(struct rc_slabs_options){.slabs = 2, .thickness = h, .shear = 8e10, .nu = 0.3}, NULL));
 }
 
-/* A map that does not repeat is one in the corner of a larger one that does, with nothing around it. */
+/* A free map is computed as the corner of a larger periodic map with zeros around it. */
 static void
 padded(void **state)
 {

@@ -1,6 +1,5 @@
-/* Different ways to compute the same slabs agree: threads, precisions, maps turned by a right angle, slabs
- * split in two, an explicit sum of plane waves; and components that are not wanted are left out without
- * effect. */
+/* Different ways to compute the same slabs agree: threads, precisions, rotated maps, slabs divided in two, an
+ * explicit sum of plane waves; and omitting components does not change the others. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +12,7 @@ static const double h[] = {0.3e-6, 0.5e-6, 0.02e-6, 1.1e-6, 2e-6, 0.7e-6};
 enum {
     SLABS = sizeof h / sizeof *h
 };
-/* Odd, even, prime, profiles, split columns (64 and more), more nodes than one thread takes. */
+/* Odd, even and prime sizes, profiles, split columns (64 and more), more nodes than one thread takes. */
 static const struct rc_shape shapes[] = {
     {12, 9, 1e-6, 0.8e-6}, {13, 7, 1.1e-6, 1e-6},  {1, 23, 1e-6, 0.6e-6},
     {24, 1, 0.6e-6, 1e-6}, {2, 2, 1e-6, 1e-6},     {6, 64, 1e-6, 0.9e-6},
@@ -82,7 +81,7 @@ apart(size_t n, const double *a, const double *b)
     return size > 0 ? most / size : most;
 }
 
-/* Any number of threads gives the same bytes; so does a plan that has been used before. */
+/* Any number of threads gives the same bytes, and so does a plan that was used before. */
 static void
 for_any_threads(void **state)
 {
@@ -104,7 +103,7 @@ for_any_threads(void **state)
     }
 }
 
-/* Single precision: some digits of it. Deviators are those of the whole stress. */
+/* Single precision agrees to its digits. Deviators equal those of the whole stress. */
 static void
 in_single_and_in_part(void **state)
 {
@@ -138,7 +137,7 @@ in_single_and_in_part(void **state)
     }
 }
 
-/* x for y and y for x: other sides of the map are transformed as rows. */
+/* x and y are exchanged: the other side of the map is transformed as rows. */
 static void
 turned(void **state)
 {
@@ -176,8 +175,8 @@ turned(void **state)
     }
 }
 
-/* A slab is its two halves with the same strain, and its stress their mean: from one group of slabs
- * that are swept together to several, and from thick to thin. */
+/* A slab equals two halves with the same strain, and its stress is their mean: for one or several groups of
+ * slabs in a sweep, and for thick and thin slabs. */
 static void
 split(void **state)
 {
@@ -222,8 +221,8 @@ split(void **state)
     }
 }
 
-/* Slabs marked as without strain are not read, and slabs that are not wanted are not passed on; the others do
- * not change by a bit. After `down` there is no strain. */
+/* Slabs marked as without strain are not read, and slabs that are not requested are not returned; the others
+ * do not change by a bit. After `down` there is no strain. */
 struct picky {
     struct all *all;
     const bool *strained, *wanted;
@@ -285,7 +284,7 @@ only_what_is_asked(void **state)
                             apart(n * RC_COMPONENTS, voxels_map(&b.s, i, RC_SXX),
                                   voxels_map(&a.s, i, RC_SXX)) == same);
             memset(none.e.v, 0, n * SLABS * RC_COMPONENTS * sizeof(double));
-            all_run(&none, s, options(1)); /* zero strain, and none */
+            all_run(&none, s, options(1)); /* zero strain, and no strain */
             volume_apply(v, NULL, NULL, b.p, NULL, &b.s);
             assert_true(voxels_apart(&b.s, &none.s) == same);
             rc_slabs_free(v);
@@ -295,13 +294,13 @@ only_what_is_asked(void **state)
         }
 }
 
-/* The displacement as the sum over waves of the closed form of a sheet, over depth by quadrature:
- * u = - exp(-qz) [ss + zz + 2 nu tt + qz (zz - ss - 2 sz)] e dz. */
+/* The displacement as a sum over waves, with the closed form of a sheet of strain integrated over depth by
+ * quadrature: u = - exp(-qz) [ss + zz + 2 nu tt + qz (zz - ss - 2 sz)] e dz. */
 static void
 of_plane_waves(void **state)
 {
     enum {
-        MANY = 400 /* of the midpoint rule, in t with x = t^3 (10 - 15 t + 6 t^2) */
+        MANY = 400 /* points of the midpoint rule in t, with x = t^3 (10 - 15 t + 6 t^2) */
     };
     const double nu = 0.3;
 

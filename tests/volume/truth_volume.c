@@ -1,5 +1,5 @@
-/* Stresses and displacements of strain in slabs and of pressure are those of finite elements in
- * depth, of point stresses averaged by quadrature, and of Eshelby's sphere. */
+/* Stresses and displacements by strain in slabs and by pressure agree with finite elements in depth, with
+ * point stresses averaged by quadrature, and with Eshelby's sphere. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,8 +18,8 @@ enum {
     BAND = 3 * (DEGREE + 1)
 };
 
-/* Displacements u(z) exp(i (qx x + qy y)) of a half-space with eigenstrain in slabs, clamped where
- * nothing of them is left; nothing is rotated, nothing is a plane wave in depth. */
+/* Displacements u(z) exp(i (qx x + qy y)) of a half-space with eigenstrain in slabs, clamped at a depth where
+ * they have decayed. The elements use neither rotated axes nor exponentials in depth. */
 struct beam {
     double qx, qy, nu, shear;
     size_t elements, nodes;
@@ -28,7 +28,7 @@ struct beam {
     long double complex *a, *u; /* band of the stiffness; load, then displacements */
 };
 
-/* Points and weights on [0, 1], by Newton's method on Legendre's polynomial. */
+/* Gauss points and weights on [0, 1], by Newton's method on Legendre's polynomial. */
 static void
 gauss(size_t n, double *x, double *w)
 {
@@ -207,7 +207,7 @@ beam_solve(struct beam *b, size_t slabs, double complex (*e)[6], double complex 
         b->u[i] = 0;
 }
 
-/* Mean stress of a slab, of elastic strain. */
+/* Mean stress of a slab, from the elastic strain. */
 static void
 beam_stress(const struct beam *b, size_t slab, const double complex own[6], double complex mean[6])
 {
@@ -258,8 +258,8 @@ random_complex(uint64_t *seed)
     return CMPLX(re, im);
 }
 
-/* Several waves of strain in slabs of very different thickness, some without strain, more than one
- * group of them, and of pressure. */
+/* Several waves of strain in slabs of very different thickness, some of them without strain, in more than one
+ * group, and waves of pressure. */
 static void
 equals_elements(void **state)
 {
@@ -341,9 +341,9 @@ equals_elements(void **state)
 
 /* ---- pressure ---- */
 
-/* Stresses of pressure are rc_stress's at the points of a quadrature, mean included: on odd and
- * prime maps, on profiles either way, on an even map without waves of two nodes (which act on no
- * slab here). */
+/* Stresses of pressure equal those of rc_stress at quadrature points, including the mean: on odd and prime
+ * maps, on profiles along x and y, on an even map without waves of two nodes (which have no effect on slabs
+ * here). */
 static void
 equals_point_stresses(void **state)
 {
@@ -376,7 +376,7 @@ equals_point_stresses(void **state)
 
         for (size_t i = 0; i < n; i++)
             raw[i] = 1e8 * (1.3 + random_number(&seed));
-        for (size_t i = 0; i < n; i++) { /* 1-2-1 where a side is even */
+        for (size_t i = 0; i < n; i++) { /* smoothed with 1-2-1 along an even side */
             size_t c = i % shape.nx, r = i / shape.nx;
             for (size_t a = 0; a < 3; a++)
                 for (size_t b = 0; b < 3; b++) {
@@ -414,7 +414,7 @@ equals_point_stresses(void **state)
 
 /* ---- a sphere ---- */
 
-/* Mean over the middle of a slab of square maps. */
+/* Mean over the middle of a slab, for square maps. */
 static double
 mean_inside(const struct voxels *s, size_t slab, size_t r, enum rc_component c)
 {
@@ -429,8 +429,8 @@ mean_inside(const struct voxels *s, size_t slab, size_t r, enum rc_component c)
 }
 
 /* Deviator stress in the middle of a sphere with a uniform deviator strain e, deep below the
- * surface, is -2 mu (1 - b) e, b = 2 (4 - 5 nu)/(15 (1 - nu)) (Eshelby 1957): of cubes, 10 in the
- * radius, to 1 %. */
+ * surface, is -2 mu (1 - b) e, b = 2 (4 - 5 nu)/(15 (1 - nu)) (Eshelby 1957): the sphere is made of cubes, 10
+ * in its radius; agreement to 1 %. */
 static void
 equals_sphere(void **state)
 {

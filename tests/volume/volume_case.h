@@ -1,5 +1,4 @@
-/* What the tests of the volume share: strains and stresses of all voxels, and a stack to put them
- * in. */
+/* Shared by the tests of the volume: strains and stresses of all voxels, and a stack of slabs. */
 #ifndef VOLUME_CASE_H
 #define VOLUME_CASE_H
 
@@ -15,7 +14,7 @@ enum {
 };
 static const enum rc_component strains[STRAINS] = {RC_SXX, RC_SYY, RC_SXY, RC_SXZ, RC_SYZ};
 
-/* Numbers of all voxels: of each slab RC_COMPONENTS maps. */
+/* Numbers of all voxels: RC_COMPONENTS maps for each slab. */
 struct voxels {
     size_t nx, n, slabs;
     double *v;
@@ -58,7 +57,7 @@ voxels_stress(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
         if (s[c] == NULL)
             continue;
         memcpy(voxels_map(x, slab, (enum rc_component)c) + j * x->nx, s[c], x->nx * sizeof(double));
-        for (size_t i = 0; i < x->nx; i++) /* it is ours now */
+        for (size_t i = 0; i < x->nx; i++) /* it belongs to this stack now */
             s[c][i] = NAN;
     }
     if (s[RC_SZZ] == NULL) /* of a deviator */
@@ -83,7 +82,7 @@ voxels_product(const struct voxels *a, const struct voxels *b, const double *thi
     return sum;
 }
 
-/* Strains at random in the slabs whose bit is set. */
+/* Random strains in the slabs whose bit is set. */
 static inline void
 voxels_random(struct voxels *x, unsigned slabs, uint64_t *seed)
 {
