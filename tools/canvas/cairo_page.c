@@ -1,5 +1,5 @@
 /*
- * The items of a canvas by cairo: as pixels, or as the pages of a PDF.
+ * Draws the items of a canvas with cairo, as pixels or as the pages of a PDF.
  */
 #include <cairo-pdf.h>
 #include <cairo.h>
@@ -30,9 +30,9 @@ show_text(struct canvas *c, cairo_t *cairo, const struct item *i)
     cairo_restore(cairo);
 }
 
-/* Lines are stroked so many points at a time: what cairo keeps of a stroke that is drawn as pixels
- * grows with its points, and its time faster. Their ends and corners are round, so that the seams do
- * not show; dashes are stroked at once, because each stroke begins with one. */
+/* Lines are stroked in pieces of this number of points, because cairo's memory for a stroke drawn as pixels
+ * grows with its points, and its time grows faster. Ends and corners are round, so that the seams are
+ * invisible; dashed lines are stroked at once, because each stroke begins with a dash. */
 enum {
     STROKE = 100
 };

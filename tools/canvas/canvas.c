@@ -1,5 +1,5 @@
 /*
- * The list of what is on the page; cairo_page.c and svg.c turn it into files.
+ * The list of items on the page; cairo_page.c and svg.c write it to files.
  */
 #include "canvas.h"
 
@@ -55,7 +55,7 @@ canvas_free(struct canvas *c)
     free(c);
 }
 
-/* Takes over what the item owns, also when it fails. */
+/* Takes over the memory that the item owns, also on failure. */
 static void
 add(struct canvas *c, struct item item)
 {
@@ -190,7 +190,7 @@ canvas_draw_to(struct canvas *c, double x, double y)
     add_point(c, x, y, c->points == 0);
 }
 
-/* The path so far becomes an item. */
+/* Makes an item of the current path. */
 static void
 add_path(struct canvas *c, struct item item)
 {

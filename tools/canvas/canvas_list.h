@@ -1,4 +1,4 @@
-/* What is on a canvas, for the files that turn it into pixels, PDF or SVG. */
+/* The items of a canvas, for the files that convert it to pixels, PDF or SVG. */
 #ifndef RC_CANVAS_LIST_H
 #define RC_CANVAS_LIST_H
 
@@ -8,7 +8,7 @@
 enum item_kind {
     ITEM_TEXT,
     ITEM_FILL,
-    ITEM_FRAME, /* the middle of its line is the rectangle */
+    ITEM_FRAME, /* a frame; the middle of its line is the rectangle */
     ITEM_POLYGON,
     ITEM_CLIP,
     ITEM_LINES,
@@ -17,23 +17,23 @@ enum item_kind {
 
 struct item_point {
     double x, y;
-    bool begins; /* a line of its own */
+    bool begins; /* a straight line */
 };
 
 struct item {
     enum item_kind kind;
-    double x, y, w, h; /* rectangles; of a text the place of its part, on the base line   */
+    double x, y, w, h; /* rectangles; for a text the position of its `part` on the base line */
     double width, dash;
     struct rgb colour;
     /* text */
     struct canvas_font font;
     char *text;
-    double part, length; /* length: pixels of the text */
+    double part, length; /* length: width of the text in pixels */
     bool upwards;
     /* lines and polygons */
     struct item_point *point;
     size_t points;
-    /* images; `inked` NULL: all pixels show */
+    /* images; `inked` NULL: all pixels are drawn */
     struct rgb *pixel;
     bool *inked;
     size_t nx, ny;
@@ -54,7 +54,7 @@ struct canvas {
 
 /* ---- cairo_page.c ---- */
 
-/* Draws the items on the page's pixels, once. */
+/* Draws the items on the pixels of the page, once. */
 enum rc_status drawn_update(struct canvas *canvas, struct rc_err *err);
 enum rc_status pdf_write(struct canvas *canvas, const struct picture_text *text, size_t texts,
                          FILE *file, struct rc_err *err);

@@ -1,10 +1,9 @@
 /*
- * Colours for values. A map is a row of colours at even steps, blended in sRGB between them; the
- * rows are dense enough that lightness (CIELAB L*) keeps rising where it should.
- *
- * viridis and magma follow the maps of those names by N. Smith, S. van der Walt and E. Firing
- * (2015, in the public domain). bluered is made for this tool: equal lightness at equal distance
- * from its middle, so that a picture in grey still shows the size of a signed value.
+ * Colours for values. A colour map is a list of colours at even steps, interpolated in sRGB; the steps are
+ * small enough that the lightness (CIELAB L*) is monotonic. viridis and magma follow the maps of these names
+ * by N. Smith, S. van der Walt and E. Firing (2015, in the public domain). bluered was made for this tool: it
+ * has equal lightness at equal distance from its middle, so that a picture in grey still shows the size of a
+ * signed value.
  */
 #include "colormap.h"
 
@@ -40,7 +39,7 @@ static const unsigned grey[] = {0x000000, 0xffffff};
 
 #define POINTS(row) .point = row, .points = sizeof row / sizeof *row
 
-/* none and missing keep clear of the colours that stand for values. */
+/* The colours `none` and `missing` differ from all colours of values. */
 /* clang-format off */
 static const struct colormap maps[] = {
     {.name = "viridis", POINTS(viridis), .none = {0xea, 0xea, 0xea}, .missing = {0xa6, 0xa6, 0xa6}},
@@ -89,8 +88,8 @@ colormap_at(const struct colormap *map, double t)
     return (struct rgb){blend(a, b, 16, place), blend(a, b, 8, place), blend(a, b, 0, place)};
 }
 
-/* From one colour of the list to the next none of the three goes up and down: what both ends of a cell
- * have is that of all its inside. */
+/* Between two colours of the list each component is monotonic: if both ends of a cell have the same colour,
+ * all its inside has it. */
 void
 colormap_tabulate(struct colormap_table *table, const struct colormap *map)
 {

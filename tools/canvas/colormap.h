@@ -11,20 +11,21 @@ struct rgb {
 
 struct colormap {
     const char *name;
-    bool diverging; /* its middle means zero                                     */
+    bool diverging; /* its middle is the value 0                             */
     const unsigned *point;
     size_t points;      /* colours 0xRRGGBB at even steps, at least 2        */
     struct rgb none;    /* pressure 0: no contact                            */
     struct rgb missing; /* NaN: not measured                                 */
 };
 
-/* Name of map k; NULL past the last. */
+/* Name of colour map k; NULL past the last. */
 const char *colormap_name(size_t k);
-/* NULL: there is none of that name. */
+/* NULL for an unknown name. */
 const struct colormap *colormap_find(const char *name);
-/* The colour at t from 0 to 1; what is outside gets the colour of the nearer end. */
+/* The colour at t from 0 to 1; other t get the colour of the nearer end. */
 struct rgb colormap_at(const struct colormap *map, double t);
-/* The same, faster, from a table: of all t of a cell there is one colour, or it is found as above. */
+/* The same, faster, from a table: if all t of a cell have one colour the table holds it, else the colour is
+ * computed as above. */
 enum {
     COLORMAP_CELLS = 1 << 14
 };
@@ -46,10 +47,10 @@ colormap_look_up(const struct colormap_table *table, double t)
     }
     return colormap_at(table->map, t);
 }
-/* Where a value (no NaN) is when the map spans lo to hi, lo < hi; and its colour. */
+/* The position of a value (not NaN) when the map spans lo to hi, lo < hi; and its colour. */
 double colormap_place(double lo, double hi, double value);
 struct rgb colormap_value(const struct colormap *map, double lo, double hi, double value);
-/* Whether a light line stands out better from it than a dark one. */
+/* True if a light line has more contrast to the colour than a dark one. */
 bool colormap_is_dark(struct rgb c);
 
 #endif

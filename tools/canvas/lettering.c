@@ -1,5 +1,5 @@
 /*
- * Beside cairo_page.c the only file that knows cairo, and the only one that knows Pango.
+ * Only this file uses Pango, and only this file and cairo_page.c use cairo.
  */
 #include "lettering.h"
 
@@ -8,7 +8,7 @@
 #include <string.h>
 
 struct lettering {
-    cairo_surface_t *surface; /* nothing is drawn on it: a layout needs one */
+    cairo_surface_t *surface; /* nothing is drawn on it, but a layout needs one */
     cairo_t *cairo;
     PangoLayout *layout;
     char *family, *found;
@@ -45,7 +45,7 @@ own_fonts(void)
 }
 #endif
 
-/* Shades of grey and unrounded widths: text looks the same whatever the screen of the machine. */
+/* Grey antialiasing and unrounded widths: text does not depend on the screen of the machine. */
 static PangoLayout *
 new_layout(cairo_t *cairo)
 {
@@ -137,7 +137,7 @@ lettering_family(struct lettering *l)
 
 /* ---- raised characters ---- */
 
-/* The plain character that stands for a raised one; 0: it is none. */
+/* The plain character of a raised one; 0: it is not raised. */
 static gunichar
 lowered(gunichar raised)
 {
@@ -183,7 +183,7 @@ lettering_piece(const struct lettering *l, const char *text, size_t *at, char **
     }
     *at = (size_t)(s - valid);
     g_free(valid);
-    /* handed over and not copied: a copy for which memory is short would be words left out */
+    /* passed on, not copied: if a copy failed for lack of memory, words would be missing */
     *letters = g_string_free(piece, piece->len == 0);
     return *letters != NULL;
 }
@@ -202,8 +202,8 @@ add_raise(PangoAttrList *list, guint from, guint to, const struct canvas_font *f
     pango_attr_list_insert(list, rise);
 }
 
-/* Puts the text into the layout. Raised digits become plain digits set higher: raised digits of
- * fonts differ in design. A character that no font has becomes a question mark. */
+/* Puts the text into the layout. Raised digits become plain digits set higher, because raised digits of fonts
+ * differ in design. A question mark replaces a character that no font has. */
 static void
 put_text(struct lettering *l, const struct canvas_font *f, const char *text)
 {

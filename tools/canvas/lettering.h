@@ -1,4 +1,4 @@
-/* Text by Pango: how wide it is, how it is drawn, what no font has. */
+/* Text by Pango: its width, its drawing, characters that no font has. */
 #ifndef RC_LETTERING_H
 #define RC_LETTERING_H
 
@@ -11,22 +11,22 @@ struct lettering;
 struct lettering *lettering_new(void);
 void lettering_free(struct lettering *lettering); /* NULL is allowed */
 void lettering_set_family(struct lettering *lettering, const char *family);
-/* The family that text is really set in. */
+/* The family that is really in use. */
 const char *lettering_family(struct lettering *lettering);
 
 double lettering_width(struct lettering *lettering, const struct canvas_font *font,
                        const char *text);
-/* Draws the text on a cairo_t, its base line beginning at the current point. */
+/* Draws the text on a cairo_t; its base line begins at the current point. */
 void lettering_show(struct lettering *lettering, void *cairo, const struct canvas_font *font,
                     const char *text);
 
-/* The characters of texts so far that no font has, each once. */
+/* The characters, each once, of all texts so far that no font has. */
 const char *lettering_unknown(const struct lettering *lettering);
-/* Not even a question mark has a glyph. */
+/* True if no font has even a question mark. */
 bool lettering_has_no_font(const struct lettering *lettering);
 
-/* The text in pieces: of the piece that begins at *at, the letters as they are to be set, and
- * whether they are raised, set at LETTERING_RAISED of the size and LETTERING_RISE of it higher.
+/* Divides the text into raised and other pieces. For the piece that begins at *at it gives the letters, and
+ * whether they are raised: set at LETTERING_RAISED times the size and LETTERING_RISE times the size higher.
  * False at the end. The caller frees `letters` with free(). */
 bool lettering_piece(const struct lettering *lettering, const char *text, size_t *at,
                      char **letters, bool *raised);

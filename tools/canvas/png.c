@@ -9,10 +9,10 @@
 #include <zlib.h>
 
 enum {
-    FAST = 4000000 /* pixels from which on a PNG is written quickly rather than small */
+    FAST = 4000000 /* a PNG with more pixels is compressed fast, a smaller one well */
 };
 
-/* A PNG being written. */
+/* State of a PNG that is being written. */
 struct picture {
     png_structp png;
     png_infop info;
@@ -35,7 +35,7 @@ ignore(png_structp png, png_const_charp why)
     (void)why;
 }
 
-/* libpng's own would say only "Write Error". */
+/* libpng's default function reports only "Write Error". */
 static void
 write_bytes(png_structp png, png_bytep bytes, size_t n)
 {
@@ -46,7 +46,7 @@ write_bytes(png_structp png, png_bytep bytes, size_t n)
 static void
 flush_bytes(png_structp png)
 {
-    (void)png; /* the owner of the file flushes it */
+    (void)png; /* the caller flushes the file */
 }
 
 static bool
@@ -57,8 +57,8 @@ is_ascii(const char *s)
     return *s == '\0';
 }
 
-/* tEXt is Latin-1 by the standard; what is more than ASCII goes into iTXt, which is UTF-8.
- * libpng copies the texts; that its pointers are not to const is its interface. */
+/* tEXt is Latin-1 by the standard; text beyond ASCII goes into iTXt, which is UTF-8. libpng copies the texts,
+ * although its pointers are not to const. */
 static void
 put_texts(struct picture *p, const struct picture_text *text, size_t texts)
 {
@@ -86,7 +86,7 @@ start(struct picture *p, FILE *file, size_t w, size_t h, double dpi,
     png_set_user_limits(p->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_IHDR(p->png, p->info, (png_uint_32)w, (png_uint_32)h, 8, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    if (w > FAST / h) { /* rows of a map are much like the ones above them */
+    if (w > FAST / h) { /* rows of a map are similar to the rows above them */
         png_set_compression_strategy(p->png, Z_RLE);
         png_set_compression_level(p->png, 1);
         png_set_filter(p->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);

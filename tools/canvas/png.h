@@ -1,4 +1,4 @@
-/* Pictures as PNG: 8-bit sRGB, with the words that say how they were made. */
+/* Pictures as PNG: 8-bit sRGB, with texts that describe how they were made. */
 #ifndef RC_PNG_H
 #define RC_PNG_H
 
@@ -12,12 +12,12 @@ struct picture_text {
     const char *text;    /* UTF-8; NULL: left out                                 */
 };
 
-/* Gives row y, from the top, as width times red, green, blue. */
+/* Returns row y, from the top, as width times red, green, blue. */
 typedef enum rc_status picture_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err);
 
-/* Writes a PNG of w by h pixels, dpi of them an inch (0: not said), on `file`, which stays the
- * caller's. No time is written: the same picture is the same bytes. RC_FAIL when the size is more
- * than PNG holds, a row cannot be had, the device refuses or memory is short. */
+/* Writes a PNG of w by h pixels, with dpi pixels per inch (0: unknown), to `file`, which the caller keeps. No
+ * time is written: the same picture gives the same bytes. RC_FAIL when PNG cannot hold the size, a row fails,
+ * writing fails or memory is short. */
 enum rc_status picture_write(FILE *file, size_t w, size_t h, double dpi,
                              const struct picture_text *text, size_t texts, picture_row *row,
                              void *ctx, struct rc_err *err);

@@ -1,8 +1,8 @@
 /*
  * The items of a canvas as SVG 1.1, one element each. Text stays text, in the family that it was
- * measured with; images are PNGs within the file.
+ * measured with; images are PNGs inside the file.
  */
-#define _GNU_SOURCE /* open_memstream, in POSIX since 2008 */
+#define _GNU_SOURCE /* open_memstream is in POSIX since 2008 */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ struct svg {
     bool clipped;
 };
 
-/* Thousandths of a pixel are more than anybody sees. */
+/* Thousandths of a pixel are precise enough. */
 static const char *
 number(char text[RC_NUMBER_SIZE], double value)
 {
@@ -41,7 +41,7 @@ put_colour(struct svg *s, const char *name, struct rgb colour)
     fprintf(s->file, " %s=\"#%02x%02x%02x\"", name, colour.r, colour.g, colour.b);
 }
 
-/* XML has no place for control characters. */
+/* XML does not allow control characters. */
 static void
 put_escaped(struct svg *s, const char *text)
 {
@@ -137,7 +137,7 @@ put_lines(struct svg *s, const struct item *i)
     for (size_t k = 0; k < i->points; k++) {
         const struct item_point *p = &i->point[k];
 
-        /* a line without length is a dot, with the round ends that it has */
+        /* a line of length 0 is a dot because of its round ends */
         fprintf(s->file, "%s%s %s", p->begins ? "M" : "L", number(x, p->x), number(y, p->y));
     }
     if (i->kind == ITEM_POLYGON) {
@@ -189,10 +189,10 @@ put_base64(struct svg *s, const unsigned char *bytes, size_t n)
     }
 }
 
-/* Some viewers blend the pixels of an image into each other whatever the file asks for: pixels that
- * are made of many stay sharp but for their very edge. */
+/* Some viewers smooth images although the file forbids it: if a pixel is enlarged to a block of many, only
+ * its edge is smoothed. */
 enum {
-    SHARP = 1600, /* pixels a side up to which that is done */
+    SHARP = 1600, /* largest number of pixels a side for which this is done */
 };
 
 struct enlarged {
@@ -242,7 +242,7 @@ put_image(struct svg *s, struct item *i, struct rc_err *err)
     return status;
 }
 
-/* An image of which only some pixels were set: a clip path shows these, row by row. */
+/* An image with only some pixels set: a clip path selects these, row by row. */
 static enum rc_status
 put_dots(struct svg *s, struct item *i, struct rc_err *err)
 {

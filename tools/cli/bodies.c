@@ -9,10 +9,10 @@
 #include "tools/text/text.h"
 
 enum {
-    MOST = 1000 /* materials: enough for one that changes gradually */
+    MOST = 1000 /* most materials: enough for a graded one */
 };
 
-/* "t,E,nu" at *text, which goes to what follows it. */
+/* Reads "t,E,nu" at *text and moves *text behind it. */
 static bool
 read_material(const char **text, struct rc_layer *m)
 {
@@ -183,7 +183,7 @@ bodies_read(const struct rc_grid *g, const struct layers *l, struct rc_pair *p, 
             err,
             "its substrate and body 2 (%s) have E* = %.9g Pa, but its estar is %.9g Pa: "
             "the stream does not say what body 2 is; solve it again",
-            p->two.e == 0 ? "rigid, for there is no e2" : "e2, nu2", of_these, estar);
+            p->two.e == 0 ? "rigid, because there is no e2" : "e2, nu2", of_these, estar);
     return RC_OK;
 }
 
@@ -194,7 +194,7 @@ set_number(struct rc_grid *g, const char *name, double value, struct rc_err *err
                                                  : rc_grid_set(g, name, NULL, err);
 }
 
-/* The key `layers` of a layered body. */
+/* Writes the key `layers` of a layered body. */
 static enum rc_status
 set_layers(struct rc_grid *g, const struct rc_body *b, struct rc_err *err)
 {

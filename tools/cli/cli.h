@@ -1,6 +1,6 @@
 /*
- * The face of this folder: options, streams in and out, messages, units, reports, the bodies that a stream
- * has.
+ * The interface of this folder: options, input and output streams, messages, units, reports, the bodies of a
+ * stream.
  */
 #ifndef RC_CLI_H
 #define RC_CLI_H

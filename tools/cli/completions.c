@@ -1,7 +1,7 @@
 /*
  * Completions of bash, zsh and fish, made from the option tables: names of options, their words, units after
- * numbers, files, and the channels of the streams that the line names; and the tables themselves as JSON,
- * from which the functions of the Python package are made.
+ * numbers, files, and the channels of the streams on the command line; and the tables themselves as JSON,
+ * from which the Python package makes its functions.
  */
 #include "parts.h"
 
@@ -9,18 +9,18 @@
 #include <math.h>
 #include <string.h>
 
-/* What follows an option. */
+/* The argument of an option. */
 enum argument {
-    NOTHING,  /* it takes no argument                                */
-    ANYTHING, /* of which nothing is known                           */
+    NOTHING,  /* no argument                                         */
+    ANYTHING, /* an argument without known values                    */
     WORD,     /* one of its words                                    */
-    LIST,     /* some of them, separated by commas                   */
-    NUMBER,   /* numbers with a unit, or the word that may stand for */
+    LIST,     /* some of its words, separated by commas              */
+    NUMBER,   /* numbers with a unit, or the word that may replace them */
     FILE_NAME,
-    CHANNELS, /* of the streams named on the line, separated by commas */
+    CHANNELS, /* channels of the streams on the line, separated by commas */
 };
 
-/* Whether a text is a list of words, "x|y", as an argument and operands may be shown. */
+/* True if a text is a list of words, "x|y"; the texts of arguments and operands may be such lists. */
 static bool
 are_words(const char *text)
 {
@@ -50,7 +50,7 @@ argument_of(const struct tool_info *info, const struct opt *o)
     return strcmp(o->name, "channel") == 0 && info->reads == READS_STREAM ? CHANNELS : ANYTHING;
 }
 
-/* Where operands are words, "sphere|wave", these; else NULL. */
+/* The operands if they are words, "sphere|wave"; else NULL. */
 static const char *
 operand_words(const struct tool_info *info)
 {
@@ -59,7 +59,7 @@ operand_words(const struct tool_info *info)
 
 /* ---- pieces ---- */
 
-/* Text within single quotes; `marks` get a backslash of their own. */
+/* Writes text inside single quotes; each of `marks` gets a backslash. */
 static void
 put_text(const char *text, size_t n, const char *marks, bool fish)
 {
@@ -92,7 +92,7 @@ put_operand_words(const char *words)
         putchar(*words == '|' ? ' ' : *words);
 }
 
-/* The help line; its words, which are completed, are not repeated in it. */
+/* Writes the help line without the words of the option, which are completed. */
 static void
 put_help(const struct opt *o, const char *marks, bool fish)
 {
@@ -107,7 +107,7 @@ put_help(const struct opt *o, const char *marks, bool fish)
     }
 }
 
-/* "rc-solve" as a part of the name of a function. */
+/* "rc-solve" as part of the name of a function. */
 static void
 put_function(const struct tool_info *info, const char *rest)
 {
@@ -123,7 +123,7 @@ dashes(const char *name)
     return name[1] == '\0' ? "-" : "--";
 }
 
-/* Row k of the tool's own, of -o, and of those that every tool has; NULL past the last. */
+/* Row k of the tool's rows, -o, and the common rows; NULL past the last. */
 static const struct opt *
 row_at(const struct tool *t, size_t k)
 {
@@ -146,7 +146,7 @@ walk(const struct tool *t, void (*row)(const struct tool_info *, const struct op
         row(t->info, o);
 }
 
-/* Whether an option of the tool's own takes such an argument. */
+/* True if one of the tool's own options takes such an argument. */
 static bool
 takes(const struct tool *t, enum argument argument)
 {
@@ -156,7 +156,7 @@ takes(const struct tool *t, enum argument argument)
     return false;
 }
 
-/* Of a stream's headers, as far as the first 64 MB hold them. */
+/* Reads the channels in the first 64 MB of a stream. */
 #define FIND_CHANNELS                                                                              \
     "head -c 64000000 \"$file\" | LC_ALL=C sed -n 's/^channel=\\([A-Za-z0-9._-]*\\)$/\\1/p'"
 
@@ -262,7 +262,7 @@ bash_print(const struct tool *t)
 
 /* ---- zsh ---- */
 
-/* A specification for _arguments, where brackets and colons have meanings of their own. */
+/* Writes a specification for _arguments, in which brackets and colons have a special meaning. */
 static void
 zsh_name(const struct tool_info *info, const struct opt *o, const char *name)
 {
@@ -297,7 +297,7 @@ zsh_name(const struct tool_info *info, const struct opt *o, const char *name)
         put_words(o);
         break;
     case NUMBER:
-        putchar(' '); /* or _arguments would put words of its own before these */
+        putchar(' '); /* otherwise _arguments would put its own words before these */
         put_function(info, "_number \"");
         put_words(o);
         printf("\" %s", unit_usual(o->unit));
@@ -451,7 +451,7 @@ fish_print(const struct tool *t)
 
 /* ---- for programs: the table as JSON ---- */
 
-/* The words of a list, separated by blanks or '|', as an array. */
+/* Writes the words of a list, separated by blanks or '|', as an array. */
 static void
 json_list(struct json *json, const char *name, const char *words)
 {
@@ -466,7 +466,7 @@ json_list(struct json *json, const char *name, const char *words)
     json_end(json, ']');
 }
 
-/* The words that an option takes: with .word, that one beside its numbers. */
+/* Writes the words that an option takes: also .word, which may replace numbers. */
 static void
 json_words(struct json *json, const struct opt *o)
 {

@@ -1,7 +1,7 @@
 /*
- * What touches. A pressure tells it, but for the net pressure of bodies that attract each other: that is
- * not 0 nearly everywhere, and may be negative where the gap is closed. rc-solve writes the frame `contact`
- * beside it.
+ * The nodes in contact. A pressure determines them, except the net pressure of bodies that attract each
+ * other: it is not 0 at almost all nodes, and may be negative where the gap is closed. rc-solve writes the
+ * frame `contact` with it.
  */
 #include "contact.h"
 
@@ -10,20 +10,21 @@
 #include "libcontact/contact.h"
 #include "ranks.h"
 
-static const double rounding = 1e-6; /* of the largest pressure: a negative one below is none */
+static const double rounding =
+    1e-6; /* relative to the largest pressure: smaller negative values are rounding */
 
 static const char remedy[] =
     "keep both frames, as in rc-pick --channel pressure,contact, or, if the stream has none, solve "
     "it again with this rc-solve";
 
-/* Of bodies that attract each other, and negative somewhere. */
+/* True for a pressure of bodies that attract each other with negative values. */
 static bool
 is_net(const struct rc_grid *p, double negative)
 {
     return negative > 0 && rc_grid_get(p, "adhesion") != NULL;
 }
 
-/* Nodes whose pressure is negative by more than rounding. */
+/* The number of nodes whose pressure is negative by more than rounding. */
 static double
 count_negative(const struct tool *t, const struct rc_grid *p)
 {

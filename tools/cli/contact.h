@@ -1,5 +1,5 @@
 /*
- * What touches, by the frames of a case: one meaning for all tools.
+ * The nodes in contact from the frames of a case: one definition for all tools.
  */
 #ifndef RC_TOOL_CONTACT_H
 #define RC_TOOL_CONTACT_H
@@ -8,13 +8,14 @@
 
 #define CONTACT_CHANNEL "contact"
 
-/* The frame whose values tell rc_in_contact which nodes touch: `contact`, of the case of the pressure p and
- * on its grid, or where that is NULL p itself; both NULL: NULL. NULL also, with a warning, where p is the
- * net pressure of bodies that attract each other and does not tell. Ends the tool where a value of
- * `contact` is neither 0 nor 1, and warns where the pressure of other bodies is negative. */
+/* The frame from whose values rc_in_contact finds the touching nodes: `contact`, in the case of the pressure
+ * p and on its grid, or p itself if `contact` is NULL; NULL if both are NULL. Also NULL, with a warning, if p
+ * is a net pressure of bodies that attract each other, which does not determine the contact. Ends the tool if
+ * a value of `contact` is neither 0 nor 1, and warns if the pressure of other bodies is negative. */
 const struct rc_grid *contact_frame(struct tool *tool, const struct rc_grid *p,
                                     const struct rc_grid *contact);
-/* The same, but ends the tool where that is NULL: what needs it (a verb, as in "--patches needs to know"). */
+/* The same, but ends the tool instead of returning NULL; `what` needs the contact (with a verb, as in
+ * "--patches needs to know"). */
 const struct rc_grid *contact_demand(struct tool *tool, const struct rc_grid *p,
                                      const struct rc_grid *contact);
 

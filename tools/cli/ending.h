@@ -1,16 +1,16 @@
-/* What the name of a picture has to end in. */
+/* Suffixes of the names of pictures. */
 #ifndef RC_ENDING_H
 #define RC_ENDING_H
 
 #include "tool.h"
 
-/* "png", "svg" or "pdf", whatever the case of the name's own ending: what kind of picture it is. A
- * name with none of them, as devices, FIFOs and folders have it, and NULL are "png". */
+/* The kind of picture from the suffix of its name, in upper or lower case: "png", "svg" or "pdf". Names
+ * without such a suffix, as of devices, FIFOs and folders, and NULL give "png". */
 const char *ending_of(const char *name);
-/* Ends the tool, because the command line is wrong, when the picture that an option names (NULL:
- * none) has none of these endings; devices, FIFOs and folders may have any name. */
+/* Ends the tool with a wrong command line if the picture of an option (NULL: none) has none of these
+ * suffixes; devices, FIFOs and folders may have any name. */
 void ending_demand_picture(struct tool *tool, const char *option, const char *name);
-/* Ends the tool where a stream was to go into a file (NULL: none) that is named as a picture. */
+/* Ends the tool if the file for a stream (NULL: none) has the suffix of a picture. */
 void ending_refuse_picture(struct tool *tool, const char *name);
 
 #endif

@@ -4,8 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Beginnings of files that a tool may get in place of a stream; `readable`: rc-import may read
- * them. */
+/* First bytes of files that a user may pass in place of a stream; `readable`: rc-import may read them. */
 static const struct kind {
     const char *magic, *what;
     bool readable;
@@ -28,7 +27,7 @@ is_text(const char *head)
     return *head != '\0';
 }
 
-/* The name as a shell takes it: in quotes unless all of it is plain. */
+/* The name for a shell: in quotes if it has special characters. */
 static const char *
 shell_name(char *text, size_t size, const char *name)
 {

@@ -1,5 +1,5 @@
 /*
- * A tool's line in a stream's history: its name, the version, and the options that change the
+ * The line of a tool in the history of a stream: its name, the version, and the options that change the
  * result.
  */
 #include "tool.h"
@@ -16,10 +16,10 @@ struct line {
     struct tool *tool;
     char *text;
     size_t n, size;
-    char between; /* words: a blank at the beginning of `a` stands for it */
+    char between; /* for single words: a blank at the beginning of `a` separates them */
 };
 
-/* Lists of loads and paths may be long: the text grows with them. */
+/* Lists of loads and paths may be long: the buffer grows with them. */
 static void
 add(struct line *line, const char *a, const char *b)
 {
@@ -75,7 +75,7 @@ add_value(struct line *line, const struct opt *o, const void *at)
     if (o->type == OPT_NUMBER) {
         double value = *(const double *)at;
         if (o->optional && isnan(value))
-            return; /* the option stands without its number */
+            return; /* the option is written without its number */
         add(line, " ", o->word != NULL && isinf(value) ? o->word : rc_number_text(text, value));
     } else if (o->type == OPT_COUNT) {
         snprintf(text, sizeof text, "%zu", *(const size_t *)at);
@@ -120,7 +120,7 @@ fill(struct tool *t, struct line *line)
         if (!t->given[k] || !o->result)
             continue;
         if (o->type == OPT_STEP ||
-            o->type == OPT_TEXTS) { /* all of them in one list, in the order of the line */
+            o->type == OPT_TEXTS) { /* all of them are in one list, in the order of the line */
             if (!steps_done)
                 add_steps(line, at);
             steps_done = true;
@@ -148,7 +148,7 @@ tool_result_words(struct tool *t, const char *word[], size_t most)
 
     fill(t, &line);
     for (size_t at = 0, k = 0; at < line.n; at += strlen(line.text + at) + 1, k++)
-        if (k >= 2 && n < most) /* name and version stand before */
+        if (k >= 2 && n < most) /* name and version come before */
             word[n++] = line.text + at;
     return n;
 }

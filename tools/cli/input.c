@@ -1,5 +1,5 @@
 /*
- * Input: the frames of all streams, one after another, and what has to hold of them.
+ * Input: the frames of all streams, one after another, and checks of them.
  */
 #include "tool.h"
 
@@ -17,9 +17,11 @@
 #include "ranks.h"
 #include "results.h"
 
-static const double seconds = 0.1; /* for which the machine's memory is known */
+static const double seconds =
+    0.1; /* seconds for which the free memory of the machine is assumed constant */
 
-/* Before a frame is read: other processes may have taken or given back memory since the last one. */
+/* Updates the budget before a frame is read: other processes may have allocated or freed memory since the
+ * last one. */
 static enum rc_status
 allow(void *tool, const struct rc_shape *shape, size_t bytes, struct rc_err *err)
 {
@@ -35,7 +37,7 @@ allow(void *tool, const struct rc_shape *shape, size_t bytes, struct rc_err *err
     return status;
 }
 
-/* As of `--load 60 N`, whose last word would be a file. */
+/* Advice for `--load 60 N`, whose last word is taken for a file. */
 static bool
 is_unit(const char *name)
 {
@@ -150,9 +152,9 @@ not_finite(const struct tool *t, const struct rc_grid *g)
 {
     const double most = g->type == RC_F32 ? (double)FLT_MAX : DBL_MAX;
     struct not_finite n = {0, 0};
-    size_t outside = 0; /* a count in whole numbers goes through vector registers */
+    size_t outside = 0; /* the compiler vectorises a count in whole numbers */
 
-    for (size_t k = 0; k < rc_grid_nodes(g); k++) /* mostly there is none */
+    for (size_t k = 0; k < rc_grid_nodes(g); k++) /* most frames have none */
         outside += fabs(g->v[k]) <= most ? 0 : 1;
     for (size_t k = 0; outside > 0 && k < rc_grid_nodes(g); k++) {
         n.missing += isnan(g->v[k]) ? 1 : 0;
@@ -175,8 +177,8 @@ note_not_finite(struct tool *t, const struct rc_grid *g)
     t->infinite |= n.infinite > 0;
 }
 
-/* The next frame of the input that is open, its values not yet read: ahead. False at its end, where the
- * input is closed. */
+/* Reads the header of the next frame of the open input to `ahead`. False at the end of the input, which is
+ * then closed. */
 static bool
 look_ahead(struct tool *t)
 {
@@ -195,7 +197,7 @@ look_ahead(struct tool *t)
     }
 }
 
-/* The frame ahead with its values. */
+/* Reads the values of the frame `ahead`. */
 static struct rc_grid *
 take_ahead(struct tool *t)
 {
@@ -244,7 +246,7 @@ begin_case(struct tool *t, size_t number)
     t->current.names[0] = '\0';
 }
 
-/* Notes that the case has this frame. */
+/* Records that the case has this frame. */
 static void
 note_frame(struct tool *t, const struct rc_grid *g)
 {

@@ -1,5 +1,5 @@
 /*
- * What a tool says to people: messages, progress, and the last words when it cannot go on.
+ * Output of a tool for people: messages, progress, and the message when it cannot continue.
  */
 #include "tool.h"
 
@@ -12,11 +12,12 @@
 #include "parts.h"
 #include "ranks.h"
 
-/* Messages hold names, keys and words of files, which must not act on a terminal. */
+/* Replaces control characters: messages contain names, keys and words of files, which must not act on a
+ * terminal. */
 static void
 say(struct tool *t, char *text)
 {
-    if (!ranks_speak(t)) /* the first of several processes says it */
+    if (!ranks_speak(t)) /* the first of several processes prints the message */
         return;
     tool_progress_end(t);
     fprintf(stderr, "%s: %s\n", t->info->name, rc_text_harmless(text, '?'));

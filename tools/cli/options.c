@@ -1,5 +1,5 @@
 /*
- * Option tables: how a command line is read by them, and how --help shows them.
+ * Option tables: reading a command line with them, and printing --help.
  */
 #include "tool.h"
 
@@ -13,7 +13,7 @@
 #include "tools/text/text.h"
 #include "parts.h"
 
-/* What every tool has. Offsets point into struct tool itself; `type` is read apart. */
+/* Options of every tool. Their offsets are in struct tool itself; `type` is read separately. */
 /* clang-format off */
 static const struct opt common[] = {
     {.name = "threads", .type = OPT_COUNT, .at = offsetof(struct tool, threads), .min = 1,
@@ -36,13 +36,13 @@ static const struct opt common[] = {
 /* clang-format on */
 
 enum {
-    OWN = 1000,    /* getopt values of the tool's own rows */
+    OWN = 1000,    /* getopt values of the rows of the tool */
     COMMON = 2000, /* getopt values of the common rows     */
-    COLUMN = 28,   /* where help texts start               */
-    LIST = 256,    /* bytes of a list of words             */
+    COLUMN = 28,   /* column at which help texts start     */
+    LIST = 256,    /* most bytes of a list of words        */
 };
 
-static const char letters[] = ":o:h"; /* options of one letter, for getopt */
+static const char letters[] = ":o:h"; /* one-letter options for getopt */
 
 /* ---- the table ---- */
 
@@ -92,7 +92,7 @@ option_word(const struct opt *o, size_t k, size_t *n)
     return word;
 }
 
-/* Place of text[0..n) among the words, or -1. */
+/* Index of text[0..n) among the words, or -1. */
 static int
 word_index(const struct opt *o, const char *text, size_t n)
 {
@@ -118,7 +118,7 @@ word_list(char list[LIST], const struct opt *o, const char *between)
     return list;
 }
 
-/* ": did you mean WORD?", or "" where no word of the option is near. */
+/* ": did you mean WORD?", or "" if no word of the option is similar. */
 static const char *
 word_meant(char text[NAME_MEANT], const struct opt *o, const char *typed, size_t n)
 {
@@ -226,7 +226,7 @@ whole(struct tool *t, const struct opt *o, const char *text)
     return value;
 }
 
-/* As many as the machine can count: where addresses have 32 bits, fewer than numbers may say. */
+/* Converts a number to size_t: with 32-bit addresses the number may be too large. */
 static size_t
 count(struct tool *t, const struct opt *o, const char *text)
 {
@@ -237,7 +237,7 @@ count(struct tool *t, const struct opt *o, const char *text)
     return (size_t)value;
 }
 
-/* The word as the table has it, whatever its spelling on the line. */
+/* Replaces the word by its spelling in the table. */
 static const char *
 choice(struct tool *t, const struct opt *o, const char *text)
 {
@@ -370,7 +370,7 @@ struct getopt_rows {
     size_t n;
 };
 
-/* A row, and one for the other spelling of its name. */
+/* Adds a row, and one for the other spelling of its name. */
 static void
 add_name(struct getopt_rows *rows, const char *name, int has_arg, int val)
 {
@@ -389,8 +389,8 @@ argument_kind(const struct opt *o)
     return o->arg == NULL && o->words == NULL ? no_argument : required_argument;
 }
 
-/* Rows for getopt: aliases have one of their own, with the value of the option. They last as long
- * as the tool, for its messages. */
+/* Rows for getopt: an alias has a separate row with the value of the option. They exist as long as the tool,
+ * for its messages. */
 static const struct option *
 getopt_table(const struct tool *t)
 {
@@ -413,8 +413,7 @@ getopt_table(const struct tool *t)
 
 /* ---- what is wrong with an option ---- */
 
-/* Ends the tool when the beginning of a name, which getopt takes for the option, fits several
- * options. */
+/* Ends the tool if an abbreviated name, which getopt accepts, matches several options. */
 static void
 check_ambiguous(struct tool *t, const struct option *table, const char *typed)
 {
@@ -426,13 +425,13 @@ check_ambiguous(struct tool *t, const struct option *table, const char *typed)
         if (strncmp(o->name, typed, strlen(typed)) == 0 && o->val != last) {
             used +=
                 (size_t)snprintf(list + used, LIST - used, "%s--%s", n++ == 0 ? "" : ", ", o->name);
-            last = o->val; /* names of one option stand together */
+            last = o->val; /* the names of an option are adjacent */
         }
     if (n > 1)
         tool_die(t, EXIT_USAGE, "option --%s is ambiguous: %s", typed, list);
 }
 
-/* `word` as it stands on the line, `hyphens` of it before the name. */
+/* `word` on the command line, with `hyphens` hyphens before the name. */
 static _Noreturn void
 unknown_option(struct tool *t, const struct option *table, const char *word, size_t hyphens)
 {
@@ -459,8 +458,8 @@ could_be_argument(const struct opt *o, const char *word)
     return unit_number(word, o->unit, &value, NULL) == RC_OK;
 }
 
-/* The argument of an option that may have none: behind its "=", or the next word where that is a
- * number, or of a choice one of its words; NULL where there is none. */
+/* The optional argument of an option: after its "=", or the next word if it is a number or, for a choice, one
+ * of its words; NULL without an argument. */
 static const char *
 optional_argument_of(const struct opt *o, int argc, char **argv)
 {
@@ -482,12 +481,12 @@ bad_option(struct tool *t, int what, char **argv, const struct option *table)
     if (optopt == 0)
         unknown_option(t, table, word, 2);
     snprintf(letter, sizeof letter, "-%c", optopt);
-    if (rest != NULL && strncmp(rest, letter, 2) == 0) /* one hyphen, and more letters follow */
+    if (rest != NULL && strncmp(rest, letter, 2) == 0) /* one hyphen, followed by several letters */
         unknown_option(t, table, rest, 1);
     tool_die(t, EXIT_USAGE, "unknown option %s: see %s --help", letter, t->info->name);
 }
 
-/* "--load 1,5" is two loads; somebody may have meant one and a half. */
+/* "--load 1,5" gives two loads; the user may have meant one and a half. */
 static void
 warn_of_commas(struct tool *t)
 {
@@ -506,7 +505,7 @@ warn_of_commas(struct tool *t)
     }
 }
 
-/* Flags, steps and layers may come again; of all others only the last counts. */
+/* Flags, steps and layers may be repeated; of other options only the last one counts. */
 static void
 warn_of_repetition(struct tool *t, const bool *twice)
 {
@@ -516,7 +515,7 @@ warn_of_repetition(struct tool *t, const bool *twice)
             tool_warn(t, "--%s is given twice: only the last one counts", t->opt[k].name);
 }
 
-/* Whether standard output is text once this option is given. */
+/* True if standard output is text because of this option. */
 static bool
 asks_for_text(const struct tool *t, int what, const char *text)
 {
@@ -535,12 +534,11 @@ asks_for_text(const struct tool *t, int what, const char *text)
            (o->type == OPT_REPORT && strcmp(text, "-") == 0);
 }
 
-/* Looks through the whole line for the output first: the reader of a pipe is then told of every
- * error on the line. */
+/* Searches the whole line for the output first, so that the reader of a pipe gets every error of the line. */
 static void
 look_for_output(struct tool *t, int argc, char **argv, const struct option *table)
 {
-    char **copy = malloc(((size_t)argc + 1) * sizeof *copy); /* getopt sorts its words */
+    char **copy = malloc(((size_t)argc + 1) * sizeof *copy); /* because getopt sorts its words */
     int what;
 
     if (copy == NULL)
@@ -551,7 +549,7 @@ look_for_output(struct tool *t, int argc, char **argv, const struct option *tabl
         if (what == 'o' ? strcmp(optarg, "-") != 0 : asks_for_text(t, what, optarg))
             t->stream_expected = false;
     free(copy);
-    optind = 0; /* once more from the start, with nothing remembered */
+    optind = 0; /* starts again without memory of the first pass */
 }
 
 void
@@ -563,7 +561,7 @@ options_read(struct tool *t, int argc, char **argv)
     int what;
 
     add_rows(t, t->info->opts, 0);
-    /* for the build, which installs them: no option, and no part of --help */
+    /* for the build, which installs them; not in the table and not in --help */
     if (argc == 3 && strcmp(argv[1], "--completions") == 0 && completions_print(t, argv[2]))
         exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
     if ((table = getopt_table(t)) == NULL)

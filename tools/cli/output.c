@@ -14,14 +14,14 @@
 #include "tools/machine/machine.h"
 #include "ranks.h"
 
-/* What -o names; a signal handler has to know of it. */
+/* The file of -o, for the signal handler. */
 static struct whole_file output = {.slot = -1};
 
 /* ---- signals ---- */
 
 static volatile sig_atomic_t interrupted;
-static const struct tool *together; /* of several processes that share the maps; NULL: alone */
-static char no_time[256];           /* the message when a launcher is about to kill */
+static const struct tool *together; /* the processes that share the maps; NULL: a single process */
+static char no_time[256];           /* the message before a launcher kills the process */
 static const int signals_handled[] = {SIGINT, SIGTERM, SIGHUP};
 
 static void
@@ -32,8 +32,8 @@ end_by(int number)
     raise(number);
 }
 
-/* Of several processes: the launcher will kill them before the result so far can be written. It
- * hands on the exit status of the process that ends first, so this is one of a tool's own. */
+/* For several processes: the launcher kills them before the current result can be written. It returns the
+ * exit status of the process that ends first, so this is an exit status of the tools. */
 static void
 end_in_time(int number)
 {
@@ -48,9 +48,9 @@ static void
 note_signal(int number)
 {
     if (together != NULL && whole_file_is_half(&output))
-        end_in_time(number); /* one of several may have died */
+        end_in_time(number); /* one of several processes may have died */
     interrupted = number;
-    signal(number, SIG_DFL); /* a second one is final */
+    signal(number, SIG_DFL); /* a second signal ends the tool */
     if (together != NULL)
         ranks_hurry(together);
 }
@@ -67,7 +67,7 @@ void
 tool_catch_signals(void)
 {
     if (interrupted != 0)
-        return; /* the next one is final */
+        return; /* the next signal ends the tool */
     if (together != NULL)
         signal(SIGALRM, end_in_time);
     handle(note_signal);
@@ -103,8 +103,8 @@ output_handle_signals(void)
 
 /* ---- the file or the stream ---- */
 
-/* Ends the tool when several processes have no file that they can share. The file is made when
- * there is something to write, so that none is left behind by a process that is killed before. */
+/* Ends the tool if several processes have no file that they can share. The file is made at the first write,
+ * so that a process that is killed before leaves none. */
 static void
 demand_shared_file(struct tool *t)
 {
@@ -121,7 +121,7 @@ demand_shared_file(struct tool *t)
     tool_demand_writable(t, "-o", t->out_name);
 }
 
-/* The first process makes the file, all open it. */
+/* The first process makes the file, and all open it. */
 static void
 open_shared(struct tool *t)
 {
@@ -136,7 +136,7 @@ open_shared(struct tool *t)
     }
     ranks_share(t, 0, name, sizeof name);
     if (!ranks_speak(t))
-        whole_file_share(&output, name); /* the process that lives longest removes it */
+        whole_file_share(&output, name); /* the last process removes it */
     t->out_share = ranks_write(t, name);
     if ((t->writer = rc_writer_new_shared(t->out_share, 0, &err)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -178,7 +178,7 @@ output_open(struct tool *t)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* Values near the limits of a double can overflow in the work: no output is better than such. */
+/* Values near the limits of a double can overflow in the computation: then there is no output. */
 static void
 demand_no_new(struct tool *t, const struct rc_grid *g)
 {
@@ -231,7 +231,7 @@ output_end(struct tool *t)
         open_shared(t); /* of no frame */
     if (t->writer != NULL && rc_writer_end(t->writer, &err) != RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, err.text);
-    t->ended = true; /* an end line is out: nothing may follow it */
+    t->ended = true; /* an end line was written: nothing may follow it */
     rc_writer_free(t->writer);
     t->writer = NULL;
     if (ranks_settle(t->out_share, &err) != RC_OK)
@@ -239,7 +239,7 @@ output_end(struct tool *t)
     ranks_close(t, t->out_share);
     t->out_share = NULL;
     if (!ranks_speak(t))
-        whole_file_share(&output, ""); /* the first one puts it in its place */
+        whole_file_share(&output, ""); /* the first process renames it */
     if (!whole_file_put(&output, t->out))
         tool_die(t, EXIT_IMPOSSIBLE, "%s: writing failed (%s)", name, strerror(errno));
 }
@@ -251,8 +251,8 @@ output_end_by_signal(void)
         end_by(interrupted);
 }
 
-/* Where RCGFAIL is written; NULL: nowhere. A reader in a pipe waits for a stream even when none has
- * begun; a file without a stream gets none. */
+/* The file for RCGFAIL; NULL: none. A reader in a pipe waits for a stream even before one has begun; a file
+ * without a stream gets no such line. */
 static FILE *
 stream_to_fail(const struct tool *t)
 {
@@ -262,7 +262,7 @@ stream_to_fail(const struct tool *t)
         return NULL;
     if (whole_file_is_half(&output) || t->ended)
         return NULL;
-    if (t->out == NULL) /* the command line is being read */
+    if (t->out == NULL) /* while the command line is read */
         return t->stream_expected && before && pipe_is(STDOUT_FILENO) ? stdout : NULL;
     return t->writer != NULL && (t->began || (before && pipe_is(fileno(t->out)))) ? t->out : NULL;
 }
@@ -273,10 +273,10 @@ output_abandon(struct tool *t, const char *why, int exit_status)
     FILE *stream = stream_to_fail(t);
 
     if (stream != NULL) {
-        signal(SIGPIPE, SIG_IGN); /* a reader that has gone does not change the exit status */
+        signal(SIGPIPE, SIG_IGN); /* a reader that has ended does not change the exit status */
         rc_stream_fail(stream, why, exit_status);
     }
     whole_files_remove();
     if (interrupted != 0)
-        end_by(interrupted); /* the signal broke off a read or a write: it is the reason */
+        end_by(interrupted); /* a signal interrupted a read or a write: it is the reason */
 }

@@ -14,7 +14,7 @@
 #ifdef RC_MPI
 #include "libcontact/contact_mpi.h"
 
-/* What a process has of a file. */
+/* A process's part of a file. */
 struct part {
     uint64_t bytes;
     uint32_t crc, unused;
@@ -22,11 +22,11 @@ struct part {
 
 struct ranks {
     struct rc_ranks *library;
-    MPI_Comm comm; /* for what the tool itself has to say */
-    MPI_Comm last; /* for last messages alone: others may then be in any call */
+    MPI_Comm comm; /* for the calls of the tool */
+    MPI_Comm last; /* only for the last messages: other processes may then be in any call */
     int count, own;
-    struct part *parts;        /* scratch: of each process             */
-    struct itimerval patience; /* that a launcher has; 0: not known   */
+    struct part *parts;        /* work space: one per process */
+    struct itimerval patience; /* time of the launcher; 0: unknown */
 };
 
 /* ---- start and end ---- */
@@ -44,9 +44,9 @@ launched(void)
     return false;
 }
 
-/* How long to wait before the launcher kills. Open MPI's mpirun does so a second after it has sent SIGTERM,
- * or after the time in its option, which it hands on to the processes. Other launchers, such as srun, wait
- * half a minute and more. */
+/* The time before the launcher kills the processes. Open MPI's mpirun does this a second after SIGTERM, or
+ * after the time in its option, which it passes to the processes. Other launchers, such as srun, wait half a
+ * minute or more. */
 static struct itimerval
 patience(void)
 {
@@ -90,7 +90,7 @@ ranks_start(struct tool *t)
     MPI_Comm_dup(MPI_COMM_WORLD, &r.last);
     MPI_Comm_size(r.comm, &r.count);
     MPI_Comm_rank(r.comm, &r.own);
-    if (r.count == 1) { /* one process alone works as without MPI, pipes included */
+    if (r.count == 1) { /* a single process works as without MPI, also with pipes */
         MPI_Comm_free(&r.comm);
         MPI_Comm_free(&r.last);
         MPI_Finalize();
@@ -140,7 +140,7 @@ ranks_die(struct tool *t, int status, const char *text,
         say(t, done ? worst : status, text);
     if (!done)
         MPI_Abort(MPI_COMM_WORLD, status);
-    MPI_Barrier(t->ranks->last); /* the launcher kills the others as soon as the first one ends */
+    MPI_Barrier(t->ranks->last); /* the launcher kills the others when the first one ends */
     exit(worst);
 }
 
@@ -286,10 +286,10 @@ share_crc(void *at, uint32_t crc, size_t bytes)
 }
 
 enum {
-    PIECE = 1 << 26 /* bytes that are read or written at a time: MPI counts in ints */
+    PIECE = 1 << 26 /* largest number of bytes in one read or write: MPI counts in ints */
 };
 
-/* Success on all processes or, where one of them failed, failure on all. */
+/* Success if all processes succeeded, otherwise failure on all. */
 static enum rc_status
 agree(const struct file *f, int result, size_t missing, const char *what, struct rc_err *err)
 {
@@ -409,10 +409,10 @@ ranks_close(struct tool *t, const struct rc_share *share)
     free(f);
 }
 
-#else /* without MPI a process is always alone */
+#else /* without MPI there is always one process */
 
-/* Warns a user of mpirun, who expects that the processes share the work. It goes on: a script may rightly
- * start a process for each case. */
+/* Warns a user of mpirun, who expects that the processes share the work. The tool continues, because a script
+ * may start one process for each case on purpose. */
 void
 ranks_start(struct tool *t)
 {

@@ -57,7 +57,7 @@ report_close(struct report *r)
 
 /* ---- cells of a table ---- */
 
-/* `text` is taken over; NULL: memory was short. */
+/* Takes over `text`; NULL: memory was short. */
 static void
 put_cell(struct report *r, const char *name, const char *unit, char *text)
 {
@@ -71,7 +71,7 @@ put_cell(struct report *r, const char *name, const char *unit, char *text)
     }
     while (k < r->columns && strcmp(r->column[k].name, name) != 0)
         k++;
-    assert(k < r->columns || !r->headed); /* a later row brings no new column */
+    assert(k < r->columns || !r->headed); /* a later row cannot add a column */
     assert(k < REPORT_COLUMNS);
     if (k == r->columns) {
         r->column[k].name = name;
@@ -91,7 +91,7 @@ put_word(struct report *r, const char *name, const char *unit, const char *word)
     put_cell(r, name, unit, text);
 }
 
-/* Cells with commas or quotes stand in quotes (RFC 4180). */
+/* Cells with commas or quotes are written in quotes (RFC 4180). */
 static void
 write_cell(struct report *r, size_t k, const char *text)
 {
@@ -107,7 +107,7 @@ write_cell(struct report *r, size_t k, const char *text)
     putc('"', r->file);
 }
 
-/* The names, with the unit after the first slash. */
+/* Writes the names, with the unit after the first slash. */
 static void
 write_head(struct report *r)
 {
@@ -286,7 +286,7 @@ put_figure(struct report *r, const char *name, const struct figures *f)
         report_bool(r, name, number != 0);
 }
 
-/* Whether both names are of one object: equal up to a dot. */
+/* True if both names belong to one object: equal up to a dot. */
 static bool
 same_object(const char *a, const char *b)
 {
@@ -348,7 +348,7 @@ report_table(struct report *r, const struct rc_figure *table, const void *data)
         put_figures(r, f, n);
 }
 
-/* The figure whose name is the first n characters; the tables end with one that is NULL. */
+/* The figure whose name is the first n characters; the last table is NULL. */
 static struct figures
 named(const struct figures *from, const char *name, size_t n)
 {
@@ -436,7 +436,7 @@ report_ranks(struct report *r, const struct tool *t)
 {
     struct rc_sent sent;
 
-    ranks_sent(t, &sent); /* all together, wanted or not */
+    ranks_sent(t, &sent); /* all processes together, with or without a report */
     if (r->name == NULL || t->ranks == NULL)
         return;
     report_count(r, "ranks", ranks_count(t), NULL);

@@ -1,5 +1,5 @@
 /*
- * Results beside the height that they were computed from.
+ * Results in a case with the height from which they were computed.
  */
 #include "results.h"
 
@@ -7,8 +7,7 @@
 
 #include "libcontact/contact.h"
 
-/* Whether frames of this channel are computed from a height: what rc-solve, rc-deflect and rc-stress
- * write. */
+/* True if frames of this channel are results of rc-solve, rc-deflect or rc-stress, computed from a height. */
 static bool
 computed(const char *channel)
 {
@@ -26,7 +25,7 @@ computed(const char *channel)
     return false;
 }
 
-/* Adds a channel to a list that does not hold it yet. */
+/* Adds a channel to a list unless it is in it already. */
 static void
 add_name(char *list, size_t size, const char *name)
 {
@@ -38,7 +37,7 @@ add_name(char *list, size_t size, const char *name)
     snprintf(list + used, size - used, "%s%s", used == 0 ? "" : ", ", name);
 }
 
-/* Where the height came first, the results that follow it are named too. */
+/* If the height came first, the message names the later results too. */
 static _Noreturn void
 refuse(struct tool *t, const struct rc_grid *g)
 {

@@ -1,5 +1,5 @@
 /*
- * How a tool starts and finishes, and what it demands before the work.
+ * Start and end of a tool, and checks before the work.
  */
 #include "tool.h"
 
@@ -33,7 +33,7 @@ threads_wanted(struct tool *t)
     return (size_t)n;
 }
 
-/* Whether standard output was given to --report. */
+/* True if standard output is used by --report. */
 static bool
 reports_to_output(const struct tool *t)
 {
@@ -55,14 +55,14 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
     if (t->threads == 0)
         t->threads = threads_wanted(t);
     tool_budget(t);
-    (void)tool_counted_memory(t); /* the code before any map is allocated */
+    (void)tool_counted_memory(t); /* the memory before any map is allocated: code */
     if (info->reads == READS_NOTHING && t->operands > 0)
         tool_die(t, EXIT_USAGE, "'%s': this tool reads no files; see %s --help", t->operand[0],
                  info->name);
     if (info->settle != NULL)
         info->settle(t);
     output_handle_signals();
-    if (tool_given(t, "dry-run")) { /* words instead of grids, and no file is touched */
+    if (tool_given(t, "dry-run")) { /* text instead of grids, and no file is made */
         t->writes = WRITES_TEXT;
         t->out_name = NULL;
     } else if (t->out_name == NULL && reports_to_output(t)) {
@@ -95,7 +95,7 @@ tool_finish(struct tool *t)
 
     tool_progress_end(t);
     output_end(t);
-    peak = memory_peak(); /* output may be made at the end */
+    peak = memory_peak(); /* the output may be made only at the end */
     counted = ranks_most(t, (double)tool_counted_memory(t));
     taken = ranks_most(t, (double)(peak > t->beside_memory ? peak : t->beside_memory));
     if (t->debug)
@@ -119,7 +119,7 @@ tool_demand_writable(struct tool *t, const char *option, const char *name)
         return;
     if (stat(name, &st) == 0 && S_ISDIR(st.st_mode))
         tool_die(t, EXIT_IMPOSSIBLE, "%s %s: this is a folder", option, name);
-    if (access(name, F_OK) != 0) { /* not there yet: its folder has to allow writing */
+    if (access(name, F_OK) != 0) { /* it does not exist yet: its folder must be writable */
         if (!whole_file_place(name, place))
             tool_die(t, EXIT_IMPOSSIBLE, "%s %s: %s", option, name, strerror(errno));
         if ((slash = strrchr(place, '/')) != NULL)
@@ -141,7 +141,8 @@ tool_now(void)
     return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
 }
 
-/* Later work of this process, such as a picture of results, does not add to what that one held. */
+/* The other process has ended: later work of this process, such as a picture of results, does not add to its
+ * memory. */
 void
 tool_memory_beside(struct tool *t, size_t bytes)
 {

@@ -13,26 +13,26 @@ struct seen {
     bool taken;
 };
 
-/* Where the input stands, for messages. */
+/* The current place in the input, for messages. */
 struct place {
     const char *source;
     size_t frame;
 };
 
-/* A frame that waits. Sure: it is wanted, whatever frames are to come. */
+/* A waiting frame. sure: it is selected, whatever frames follow. */
 struct held {
     struct rc_grid *grid;
     double depth;
     bool kept, sure;
-    size_t seen; /* its place in wanted->seen */
+    size_t seen; /* its index in wanted->seen */
     struct place place;
 };
 
 struct wanted_depths {
-    size_t number; /* of the case; 0: none yet                                           */
-    double *depth; /* of its frames that only their depth can keep from being wanted     */
+    size_t number; /* number of the case; 0: none yet */
+    double *depth; /* its frames that match except perhaps in depth */
     size_t n, room;
-    bool *met; /* in any case, for each depth that is asked for                            */
+    bool *met; /* in any case, for each requested depth */
     struct held *held;
     size_t waiting, space;
     struct place place;
@@ -107,7 +107,7 @@ wanted_depth(const double *depth, size_t n, double asked)
 {
     double nearest = nearest_of(depth, n, asked), between = INFINITY, beyond = INFINITY;
 
-    for (size_t k = 0; k < n; k++) { /* how far the next ones are: towards `asked`, and away */
+    for (size_t k = 0; k < n; k++) { /* distances to the next depths: towards `asked`, and away */
         double step = fabs(depth[k] - nearest);
         if (step > 0 && (depth[k] > nearest) == (asked > nearest))
             between = fmin(between, step);
@@ -150,7 +150,7 @@ wanted_check(const struct wanted *w, struct tool *t)
             tool_die(t, EXIT_USAGE, "--case %g: it must be a whole number", w->number.v[k]);
 }
 
-/* Room for one more in an array of n. */
+/* Enlarges an array of n elements by one. */
 static void *
 grown(struct tool *t, void *v, size_t n, size_t *room, size_t size)
 {
@@ -194,8 +194,8 @@ begin_depths(struct wanted *w, struct tool *t)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", w->depth.n);
 }
 
-/* Keeps the waiting frames at the depth that is so far the nearest to depth k of the list. They are
- * sure where it is that very depth, or at the `end` of the case. */
+/* Keeps the waiting frames at the depth that is so far the nearest to depth k of the list. They are sure if
+ * the depth is exactly this, or at the `end` of the case. */
 static void
 keep_nearest(struct wanted *w, struct tool *t, size_t k, bool end)
 {
@@ -215,7 +215,7 @@ keep_nearest(struct wanted *w, struct tool *t, size_t k, bool end)
     }
 }
 
-/* Lets go of the frames that wait in vain. */
+/* Frees the waiting frames that are not selected. */
 static void
 sort_out(struct wanted *w, struct tool *t, bool end)
 {
@@ -356,7 +356,7 @@ no_depth(const struct wanted *w, struct tool *t, double depth)
              name_list_end(&l), l.n == 0 ? "" : " m");
 }
 
-/* Ends the tool where no frame has a name of the list, with `wanted` no frame that is wanted. */
+/* Ends the tool if no frame (with `wanted`: no selected frame) has a name of the list. */
 static void
 demand_channels(const struct wanted *w, struct tool *t, bool wanted)
 {
@@ -421,13 +421,13 @@ settle(struct wanted *w, struct tool *t)
 
 /* ---- both ---- */
 
-/* Whether the frame is wanted, when depths are not asked for. */
+/* True if the frame is selected, without regard to depths. */
 static bool
 is_wanted(struct wanted *w, struct tool *t, const struct rc_grid *g)
 {
     struct seen *s;
 
-    if (w->n > 0 && anything_goes(w)) /* no message will name a frame: the first is enough */
+    if (w->n > 0 && anything_goes(w)) /* the message names no frame: the first one is enough */
         return true;
     s = see(w, t, g);
     return s->taken = only_depth(w, s);

@@ -1,6 +1,6 @@
 /*
- * Frames that a command line chooses, by channel, depth and case. Each word and number of the lists has
- * to be met by a frame: one that is not ends the tool, naming what there is.
+ * Frames selected on the command line by channel, depth and case. Each word and number of the lists must
+ * match a frame: otherwise the tool ends with a message that lists the existing ones.
  */
 #ifndef RC_WANTED_H
 #define RC_WANTED_H
@@ -10,14 +10,13 @@
 struct wanted {          /* starts as {0}: every frame                                          */
     const char *channel; /* names separated by commas; NULL: any                                */
     struct numbers depth, number; /* of depths (m) and cases; n = 0: any                        */
-    bool (*other)(void *ctx,
-                  struct rc_grid *
-                      grid); /* takes a frame that is not one of them, and says whether it keeps it;
-                          NULL: none is; not where depths are asked for                       */
+    /* Called for a frame that is not selected; returns true if it keeps the frame; NULL: none is kept; not
+     * with requested depths. */
+    bool (*other)(void *ctx, struct rc_grid *grid);
     void *ctx;
-    struct seen *seen; /* when something is asked for: all frames so far, without values */
+    struct seen *seen; /* with any selection: all frames so far, without values */
     size_t n, capacity;
-    struct wanted_depths *depths; /* of the case that is read; NULL: none are asked for          */
+    struct wanted_depths *depths; /* waiting frames of the current case; NULL: none requested */
 };
 
 /* Rows of an option table whose .at are in `member` of `type`. */
@@ -34,17 +33,16 @@ struct wanted {          /* starts as {0}: every frame                          
      .help = "only the frames of these cases"}
 /* clang-format on */
 
-/* Before the first frame: ends the tool for an empty name and a case that is no whole number. */
+/* Before the first frame: ends the tool for an empty name, or a case that is not a whole number. */
 void wanted_check(const struct wanted *wanted, struct tool *tool);
-/* The next frame that is one of them; the caller frees it. NULL after the last one. Frames at a depth that a
- * later one may turn out to be nearer to wait here for the end of their case. */
+/* The next selected frame; the caller frees it. NULL after the last one. Frames wait here for the end of
+ * their case if a later frame may be nearer to the requested depth. */
 struct rc_grid *wanted_read(struct wanted *wanted, struct tool *tool);
 
-/* Which of n depths is meant by `asked`: the nearest, within half the step to the next one, or
- * within a thousandth; NAN: none. */
+/* The one of n depths that `asked` selects: the nearest, within half the step to the next one, or within a
+ * thousandth; NAN: none. */
 double wanted_depth(const double *depth, size_t n, double asked);
-/* Warns that frames at another depth than the one asked for are taken, where they differ by more
- * than a thousandth. */
+/* Warns if the selected depth differs from the requested one by more than a thousandth. */
 void wanted_tell(struct tool *tool, double asked, double taken);
 
 #endif
