@@ -152,7 +152,7 @@ main(int argc, char **argv)
         rc_grid_free(hardness);
     }
     checkpoint_close(run.checkpoint);
-    solve_warn_at_end(&run);
+    course_warn_at_end(&run.course);
     report_close(&run.report);
     return tool_finish(&run.t);
 }

@@ -170,6 +170,8 @@ exchange(struct rc_model *m, struct rc_state *s)
         exchange_kept(m, s);
     if (!s->bad)
         exchange_members(m, s);
+    if (rc_state_reads(s) && m->moved && m->inner != NULL && m->inner->status == RC_MORE)
+        m->status = RC_MORE; /* the inner model must find its solution again */
 }
 
 /* ---- the copy ---- */

@@ -335,6 +335,40 @@ stops(void **state)
     }
 }
 
+/* The state of a point that is reached, and not kept, goes into another model: there it is found again, and can
+ * be kept. */
+static void
+reached(void **state)
+{
+    (void)state;
+    for (size_t q = 0; q < sizeof kinds / sizeof *kinds; q++) {
+        const struct kind *kind = &kinds[q];
+        const struct rc_point first = point_of(kind, 0);
+        struct rc_model *m = make(kind), *other = make(kind);
+        size_t left = FEW, n;
+        struct rc_err err = {""};
+        struct found one;
+        double *v;
+        bool going;
+        run_whole(kind);
+        assert_int_equal(rc_model_run(m, &first, &err), RC_OK);
+        n = rc_model_state_size(m);
+        v = malloc(n * sizeof *v);
+        assert_non_null(v);
+        rc_model_state(m, v);
+        rc_model_free(m);
+        if (rc_model_restore(other, v, n, &going, &err) != RC_OK)
+            fail_msg("%s: %s", kind->name, err.text);
+        free(v);
+        assert_int_equal(steps(other, &left, &err), RC_OK);
+        look(other, &one);
+        same(kind->name, &whole[0], &one);
+        if (rc_model_keep(other, &err) != RC_OK)
+            fail_msg("%s: %s", kind->name, err.text);
+        rc_model_free(other);
+    }
+}
+
 /* Half-way to the last point the model is sent to the second point, with the result of going there directly:
  * in the same model, and in another one that was restored from the state half-way. */
 static void
@@ -541,8 +575,8 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_rows),   cmocka_unit_test(points),           cmocka_unit_test(stops),
-        cmocka_unit_test(forgets),    cmocka_unit_test(states_of_others),
+        cmocka_unit_test(all_rows),   cmocka_unit_test(points),  cmocka_unit_test(stops),
+        cmocka_unit_test(reached),    cmocka_unit_test(forgets), cmocka_unit_test(states_of_others),
 #ifdef RC_TOYS
         cmocka_unit_test(relaxation),
 #endif

@@ -348,6 +348,28 @@ report_table(struct report *r, const struct rc_figure *table, const void *data)
         put_figures(r, f, n);
 }
 
+void
+report_model(struct report *r, const struct rc_model *m, const struct rc_point *at, unsigned given)
+{
+    struct figures f[REPORT_COLUMNS];
+    size_t n = 0;
+
+    for (size_t k = 0; (f[n].table = rc_model_figure(m, k, &f[n].data)) != NULL; k++) {
+        n += strcmp(f[n].table->name, "converged") != 0;
+        assert(n < REPORT_COLUMNS);
+    }
+    for (size_t a = 0; a < RC_AXES; a++) {
+        const struct rc_axis_info *axis = rc_axis_info(a);
+        size_t k = 0;
+        while (k < n && strcmp(f[k].table->name, axis->name) != 0)
+            k++;
+        if (k == n && (given >> a & 1 || given >> axis->partner & 1))
+            report_number(r, axis->name, at->at[a], axis->unit);
+    }
+    if (report_wanted(r))
+        put_figures(r, f, n);
+}
+
 /* The figure whose name is the first n characters; the last table is NULL. */
 static struct figures
 named(const struct figures *from, const char *name, size_t n)

@@ -1,6 +1,30 @@
 /*
- * The interface of this folder: a tool drives a model (libcontact/model.h) through the points of a history,
- * with a progress line, signals, and --checkpoint with --resume.
+ * The interface of this folder: a tool drives a model (libcontact/model.h) through the points of a history. Its
+ * own parts are its options, the maker of its model and, where it wants them, keys of frames, columns of the
+ * report and advice in warnings:
+ *
+ *     static struct args {
+ *         struct numbers load, time;
+ *         size_t output;
+ *         struct drive_args drive;
+ *     } args = {.output = 3, .drive.interval = 60};
+ *     static const struct opt opts[] = {..., {.group = drive_options, .at = offsetof(struct args, drive)}, ...};
+ *
+ *     static struct drive d = {.args = &args.drive, .word = frame_word, .output = &args.output};
+ *     const struct drive_axis axes[] = {{RC_LOAD, &args.load}, {RC_TIME, &args.time}, {0, NULL}};
+ *     tool_start(&d.t, &info, argc, argv, &args);
+ *     drive_open(&d, axes);                         (the lists become the points of the history)
+ *     while ((g = drive_next(&d)) != NULL) {        (a height map)
+ *         drive_case(&d, g, toy_new(...), &err);    (points, frames, report, warnings; frees the model)
+ *         rc_grid_free(g);
+ *     }
+ *     return drive_close(&d);
+ *
+ * drive_case starts each point from the last one, with a progress line, signals and --checkpoint. It writes
+ * the frames of --output, a row of --report with the figures of the model and its inner ones, and warns of
+ * figures beyond their limits and of errors above the tolerance. With --dry-run it prints what it would do.
+ * tests/toys/rc-toy.c is such a tool. A tool with more to say calls course_set, course_run and course_warn
+ * itself.
  */
 #ifndef RC_TOOL_MODEL_H
 #define RC_TOOL_MODEL_H
@@ -9,13 +33,23 @@
 #include "tools/cli/cli.h"
 
 enum {
-    COURSE_MARKS = 16
+    COURSE_MARKS = 64,
+    COURSE_WARNINGS = 16
 };
 
 /* A key that a frame of --checkpoint and the resumed case must share; empty: neither has the key. */
 struct mark {
     const char *name;
     char value[2 * RC_NUMBER_SIZE];
+};
+
+/* A warning that several cases share. */
+struct again {
+    const char *words; /* NULL: none so far                              */
+    size_t first;      /* the case that was warned of in full            */
+    size_t from, to;   /* the last run of other cases, from 0: none      */
+    char cases[256];   /* the runs before it                             */
+    bool several;
 };
 
 struct course {
@@ -31,12 +65,76 @@ struct course {
         size_t nodes;
         double iterations, error, at;
     } since;
+    struct again again[COURSE_WARNINGS];
 };
 
 /* Starts towards a point, from the state of this case in the checkpoint or from the last kept point. */
 void course_set(struct course *c, struct rc_model *m, const struct rc_point *to);
 /* Steps until the point is reached; RC_MORE: a signal came first. */
 enum rc_status course_run(struct course *c, struct rc_model *m);
+
+/* ---- again.c ---- */
+
+/* Warns in full of the first case. Other cases that are warned of in the same `words` are listed at the end. */
+void course_warn(struct course *c, const char *words, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void course_warn_at_end(struct course *c);
+
+/* ---- drive.c ---- */
+
+/* Options of every tool that drives a model. */
+struct drive_args {
+    const char *report, *checkpoint; /* files, or NULL                          */
+    double interval;                 /* s, to the first state on the way         */
+    bool resume, dry_run;
+};
+extern const struct opt drive_options[];
+
+/* An axis and the list that an option gives for it; the last list is NULL. */
+struct drive_axis {
+    enum rc_axis axis;
+    const struct numbers *list; /* of n = 0: the option was not given */
+};
+/* What to do about a figure beyond its limit, naming options; advice NULL: the limit does not hold. The last
+ * has no name. */
+struct drive_advice {
+    const char *figure, *advice;
+};
+
+struct drive {
+    struct tool t;
+    const struct drive_args *args;
+    const size_t *output;          /* bits of --output                               */
+    const char *(*word)(size_t k); /* its words: names of frames of the model, or "height" */
+    /* of the tool; each may be NULL */
+    const struct drive_advice *advice;
+    void (*keys)(struct drive *d, const struct rc_model *m, struct rc_grid *frame);
+    void (*columns)(struct drive *d, const struct rc_model *m); /* before those of the model */
+    /* set by drive_open and drive_case */
+    struct report report;
+    struct course course;
+    struct checkpoint *checkpoint;
+    const struct drive_axis *axes;
+    struct rc_point *point;
+    size_t points, at; /* at: the point that is reached */
+    enum rc_status status;
+    double began, iterated;
+};
+
+/* Ends the tool where options contradict each other; the lists must have the same length, or one number. */
+void drive_open(struct drive *d, const struct drive_axis *axes);
+/* The next height map; NULL: none, or a signal came. */
+struct rc_grid *drive_next(struct drive *d);
+/* Leads the model, which it frees, through the points. m NULL: ends the tool with the error. */
+void drive_case(struct drive *d, const struct rc_grid *g, struct rc_model *m,
+                const struct rc_err *err);
+/* The exit status of main. */
+int drive_close(struct drive *d);
+/* Ends the tool where --resume or --interval lacks --checkpoint. */
+void drive_check(struct tool *t, const struct drive_args *args);
+/* Warns of figures of the model that are beyond their limits. */
+void drive_judge(struct course *c, const struct rc_model *m, const struct drive_advice *advice,
+                 const char *where);
 
 /* ---- checkpoint.c ---- */
 

@@ -322,10 +322,10 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_figur
                   "carries it: --approach leads past pull-off, --pull-off finds it",
                   where);
     else if (!f->stable && f->converged)
-        solve_warn(run, "the state is not stable", "%s: the state is not stable", where);
+        course_warn(&run->course, "the state is not stable", "%s: the state is not stable", where);
     else if (f->stability < about_to && f->converged)
-        solve_warn(
-            run, "the state is about to jump",
+        course_warn(
+            &run->course, "the state is about to jump",
             "%s: stability %.2g: the state is about to jump, and figures depend on little: a "
             "list of approaches leads through it",
             where, f->stability);
@@ -336,17 +336,17 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_figur
             "bodies are pressed together more",
             where);
     if (f->edge_traction > faint)
-        solve_warn(
-            run, "a traction at the edge of the map",
+        course_warn(
+            &run->course, "a traction at the edge of the map",
             "%s: the traction at the edge of the map is %.2g of the largest: the bodies attract "
             "each other beyond the map too, where nothing is known of them: take a larger map",
             where, f->edge_traction);
     if (run->adhering.scales.strength > too_strong * estar)
-        solve_warn(run, "a traction at which a solid is not linear elastic",
-                   "%s: the largest traction, %s, is %.2g of E*: beyond %g a solid is not linear "
-                   "elastic: is the range right?",
-                   where, shown_in_unit(strength, run->adhering.scales.strength, "Pa"),
-                   run->adhering.scales.strength / estar, too_strong);
+        course_warn(&run->course, "a traction at which a solid is not linear elastic",
+                    "%s: the largest traction, %s, is %.2g of E*: beyond %g a solid is not linear "
+                    "elastic: is the range right?",
+                    where, shown_in_unit(strength, run->adhering.scales.strength, "Pa"),
+                    run->adhering.scales.strength / estar, too_strong);
 }
 
 static void

@@ -50,19 +50,19 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
     shown_in_unit(modulus, estar, "Pa");
     shown_in_unit(mean, s->contact.mean_pressure, "Pa");
     if (estar < no_modulus)
-        solve_warn(run, "the largest pressure is above E*",
-                   "%s: the %s, %s, is above E*, which is %s: was its unit forgotten, as in "
-                   "114GPa?",
-                   where, name, peak, modulus);
+        course_warn(&run->course, "the largest pressure is above E*",
+                    "%s: the %s, %s, is above E*, which is %s: was its unit forgotten, as in "
+                    "114GPa?",
+                    where, name, peak, modulus);
     else if (s->contact.mean_pressure > linear * estar)
-        solve_warn(run, "the largest pressure is above E*",
-                   "%s: the %s, %s, is above E* = %s; on a map of %s by %s the mean is %s: "
-                   "are the load, %s, and E* in their right units?",
-                   where, name, peak, modulus, shown_in_unit(x, width, "m"),
-                   shown_in_unit(y, length, "m"), mean, shown_in_unit(load, s->contact.load, "N"));
+        course_warn(&run->course, "the largest pressure is above E*",
+                    "%s: the %s, %s, is above E* = %s; on a map of %s by %s the mean is %s: "
+                    "are the load, %s, and E* in their right units?",
+                    where, name, peak, modulus, shown_in_unit(x, width, "m"),
+                    shown_in_unit(y, length, "m"), mean, shown_in_unit(load, s->contact.load, "N"));
     else
-        solve_warn(
-            run, "the largest pressure is above E*",
+        course_warn(
+            &run->course, "the largest pressure is above E*",
             "%s: the %s, %s, is above E* = %s, and the RMS slope in contact is %.3g: are heights "
             "and spacings in their right units (rc-import --z-unit, --dx)?",
             where, name, peak, modulus, s->slope);
@@ -80,22 +80,23 @@ solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where
     if (peak > estar)
         suspect_unit(run, g, where, s);
     else if (peak > linear * estar && isfinite(run->hardness_max) && run->hardness_max >= peak)
-        solve_warn(run, "a pressure at which a solid is not linear elastic",
-                   "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic, and "
-                   "the hardness given, %s, is above that: is its unit right?",
-                   where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
-                   shown_in_unit(hardness, run->hardness_max, "Pa"));
+        course_warn(&run->course, "a pressure at which a solid is not linear elastic",
+                    "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic, and "
+                    "the hardness given, %s, is above that: is its unit right?",
+                    where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
+                    shown_in_unit(hardness, run->hardness_max, "Pa"));
     else if (peak > linear * estar)
-        solve_warn(run, "a pressure at which a solid is not linear elastic",
-                   "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic: give "
-                   "%sa smaller load",
-                   where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
-                   run->yielding.wanted ? "" : "its --hardness, or ");
+        course_warn(&run->course, "a pressure at which a solid is not linear elastic",
+                    "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic: give "
+                    "%sa smaller load",
+                    where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
+                    run->yielding.wanted ? "" : "its --hardness, or ");
     if (s->slope > small_slope)
-        solve_warn(run, "slopes beyond the theory of small slopes",
-                   "%s: RMS slope %.2g where the bodies touch is beyond the theory of small slopes "
-                   "(%g): expect pressures that are too high",
-                   where, s->slope, small_slope);
+        course_warn(
+            &run->course, "slopes beyond the theory of small slopes",
+            "%s: RMS slope %.2g where the bodies touch is beyond the theory of small slopes "
+            "(%g): expect pressures that are too high",
+            where, s->slope, small_slope);
 }
 
 /* ---- beyond the grid ---- */
@@ -108,11 +109,11 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where, const 
 
     if (nodes >= fewest_nodes[map] && (double)nodes >= fewest_each * (double)s->patches.count)
         return;
-    solve_warn(run, "the grid does not resolve the contact",
-               "%s: %zu %s in contact, in %zu %s: the grid does not resolve it: area and "
-               "largest pressure may be far off: --discretization estimates by how much",
-               where, nodes, nodes == 1 ? "node" : "nodes", s->patches.count,
-               s->patches.count == 1 ? "patch" : "patches");
+    course_warn(&run->course, "the grid does not resolve the contact",
+                "%s: %zu %s in contact, in %zu %s: the grid does not resolve it: area and "
+                "largest pressure may be far off: --discretization estimates by how much",
+                where, nodes, nodes == 1 ? "node" : "nodes", s->patches.count,
+                s->patches.count == 1 ? "patch" : "patches");
 }
 
 /* ---- not at its end ---- */
@@ -132,21 +133,21 @@ solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *c
                   "solution: %s",
                   where, c->iterations, error);
     else if (run->tilt && c->hardness_active)
-        solve_warn(
-            run, "stopped short",
+        course_warn(
+            &run->course, "stopped short",
             "%s: not converged after %zu iterations: %s: yielding nodes may not be able to balance "
             "the load at this point: move --at nearer to the middle, or raise --hardness",
             where, c->iterations, error);
     else if (c->inherited_error > c->pressure_error / 2)
-        solve_warn(
-            run, "stopped short",
+        course_warn(
+            &run->course, "stopped short",
             "%s: %s, of which %.2g come from the loads before, whose dents carry it: a smaller "
             "--tol solves these better",
             where, error, c->inherited_error);
     else
-        solve_warn(run, "stopped short",
-                   "%s: not converged after %zu iterations: %s: accept it with a larger --tol",
-                   where, c->iterations, error);
+        course_warn(&run->course, "stopped short",
+                    "%s: not converged after %zu iterations: %s: accept it with a larger --tol",
+                    where, c->iterations, error);
 }
 
 /* ---- figures ---- */
@@ -193,8 +194,8 @@ solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
     tell(run, where, s);
     yield_judge(run, where, s);
     if (!run->args->physics.periodic && s->contact.edge_load_fraction > edge_load)
-        solve_warn(
-            run, "the contact reaches the edge of the map",
+        course_warn(
+            &run->course, "the contact reaches the edge of the map",
             "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact reaches its "
             "edge, beyond which there is no material: take a larger map or a smaller load, or "
             "--periodic where the surface goes on alike",

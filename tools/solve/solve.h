@@ -72,19 +72,6 @@ struct adhering {
     enum rc_status status;            /* of the state                                      */
 };
 
-/* A warning that cases of a list share. */
-struct again {
-    const char *words; /* NULL: none of these yet                                 */
-    size_t first;      /* the case of which it was said in full                  */
-    size_t from, to;   /* a run of later ones, 0: none, and those before it as text */
-    char cases[256];
-    bool several;
-};
-
-enum {
-    SOLVE_WARNINGS = 16
-};
-
 struct run {
     struct tool t;
     const struct solve_args *args;
@@ -104,7 +91,6 @@ struct run {
     double height_error;               /* m: of the heights that came in */
     const struct rc_grid *hardness;    /* a map of it, in the case; NULL: a number or none */
     double hardness_min, hardness_max; /* Pa, of the numbers; no number: INFINITY, -INFINITY */
-    struct again again[SOLVE_WARNINGS];
     struct report report;
     struct checkpoint *checkpoint; /* NULL: none */
     char crc[16],
@@ -148,11 +134,6 @@ struct solution {
 
 /* "steel.x3p, case 2, load 3 N": which solution is meant, for messages. */
 const char *solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t size);
-/* Warns, in full of the first case; of others that are warned of in the same words one line
- * tells at the end. */
-void solve_warn(struct run *run, const char *words, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-void solve_warn_at_end(struct run *run);
 /* Warns of a solution that is not what it looks like, and, with --verbose, tells its figures. */
 void solve_judge(struct run *run, const struct rc_grid *g, const struct solution *solution);
 

@@ -279,12 +279,12 @@ warn_of_slabs(struct run *run, const char *where, const struct rc_plastic_figure
         within += above < f->depth;
     }
     if (f->depth > above)
-        solve_warn(run, "the lowest slab yields",
-                   "%s: the lowest slab yields: the stack is too shallow: give more --slabs",
-                   where);
+        course_warn(&run->course, "the lowest slab yields",
+                    "%s: the lowest slab yields: the stack is too shallow: give more --slabs",
+                    where);
     if (within > 0 && within < 4)
-        solve_warn(
-            run, "few slabs in the depth that yields",
+        course_warn(
+            &run->course, "few slabs in the depth that yields",
             "%s: %zu %s in the depth that yields: its stresses are coarse: take a finer grid, or "
             "thinner --slabs",
             where, within, within == 1 ? "slab lies" : "slabs lie");
@@ -322,7 +322,7 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
         snprintf(what, sizeof what,
                  "%.2g %% come from the tolerance of contacts and iteration: give --tol %.0e",
                  100 * (e->iteration + e->contact), asked / 10);
-    solve_warn(run, "errors above what was asked for", "%s: %s: %s", where, first, what);
+    course_warn(&run->course, "errors above what was asked for", "%s: %s: %s", where, first, what);
 }
 
 bool
@@ -348,10 +348,10 @@ yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
                   "not a solution: its error is not known",
                   where, increment, y->found->increments);
     else if (isnan(s->contact.pressure_error))
-        solve_warn(run, "an error that is not known",
-                   "%s: nothing is known of its error: a load was reached in fewer than 8 "
-                   "increments: give more --increments",
-                   where);
+        course_warn(&run->course, "an error that is not known",
+                    "%s: nothing is known of its error: a load was reached in fewer than 8 "
+                    "increments: give more --increments",
+                    where);
     else if (!s->contact.converged && run->status == RC_OK && s->contact.pressure_error > goal(run))
         warn_of_part(run, where, s);
     else
@@ -372,12 +372,12 @@ yield_judge(struct run *run, const char *where, const struct solution *s)
     f = rc_plastic_result(run->yielding.plastic);
     warn_of_slabs(run, where, f);
     if (f->max_strain > large_strain)
-        solve_warn(run, "plastic strain beyond the theory of small strains",
-                   "%s: plastic strain up to %.2g: beyond 0.1 the theory of small strains is left",
-                   where, f->max_strain);
+        course_warn(&run->course, "plastic strain beyond the theory of small strains",
+                    "%s: plastic strain up to %.2g: beyond 0.1 the theory of small strains is left",
+                    where, f->max_strain);
     if (s->patches.count > 0 && s->contact.contact_nodes < SPOT * s->patches.count)
-        solve_warn(
-            run, "what yields under a contact spot is not resolved",
+        course_warn(
+            &run->course, "what yields under a contact spot is not resolved",
             "%s: %.0f nodes in a contact spot: with less than 6 in its radius what yields under "
             "it is not resolved",
             where, (double)s->contact.contact_nodes / (double)s->patches.count);

@@ -1,8 +1,7 @@
 /*
- * Warnings that a list of loads calls for again and again: said in full of the first case, and at
- * the end of all others in one line.
+ * Warnings that several cases share: of the first case in full, of the others in one line at the end.
  */
-#include "solve.h"
+#include "model.h"
 
 #include <stdarg.h>
 #include <string.h>
@@ -35,37 +34,37 @@ add_case(struct again *a, size_t number)
 }
 
 void
-solve_warn(struct run *run, const char *words, const char *format, ...)
+course_warn(struct course *c, const char *words, const char *format, ...)
 {
-    struct again *a = run->again;
+    struct again *a = c->again, *const end = a + COURSE_WARNINGS;
     char text[1024];
     va_list ap;
 
-    while (a < run->again + SOLVE_WARNINGS && a->words != NULL && strcmp(a->words, words) != 0)
+    while (a < end && a->words != NULL && strcmp(a->words, words) != 0)
         a++;
-    if (a < run->again + SOLVE_WARNINGS && a->words != NULL && run->course.number != a->first) {
-        add_case(a, run->course.number);
+    if (a < end && a->words != NULL && c->number != a->first) {
+        add_case(a, c->number);
         return;
     }
-    if (a < run->again + SOLVE_WARNINGS) {
+    if (a < end) {
         a->words = words;
-        a->first = run->course.number;
+        a->first = c->number;
     }
     va_start(ap, format);
     vsnprintf(text, sizeof text, format, ap);
     va_end(ap);
-    tool_warn(&run->t, "%s", text);
+    tool_warn(c->t, "%s", text);
 }
 
 void
-solve_warn_at_end(struct run *run)
+course_warn_at_end(struct course *c)
 {
-    for (struct again *a = run->again; a < run->again + SOLVE_WARNINGS && a->words != NULL; a++) {
-        bool several = a->several || a->from != a->to;
+    for (struct again *a = c->again; a < c->again + COURSE_WARNINGS && a->words != NULL; a++) {
+        const bool several = a->several || a->from != a->to;
 
         if (a->from == 0)
             continue;
         add_range(a);
-        tool_warn(&run->t, "case%s %s too: %s", several ? "s" : "", a->cases, a->words);
+        tool_warn(c->t, "case%s %s too: %s", several ? "s" : "", a->cases, a->words);
     }
 }

@@ -1,0 +1,420 @@
+/* A tool with a model: its points, frames, report, warnings and --dry-run. */
+#include "model.h"
+
+#include <ctype.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+#define AT(field) .at = offsetof(struct drive_args, field)
+/* clang-format off */
+const struct opt drive_options[] = {
+    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
+     .help = "write one JSON object per case, or a row of FILE.tsv or .csv: figures, accuracy, cost"},
+    {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
+     .help = "store the states reached in FILE, to continue an interrupted run"},
+    {.name = "resume", .type = OPT_FLAG, AT(resume),
+     .help = "continue from the --checkpoint of an earlier run"},
+    {.name = "interval", .type = OPT_NUMBER, .unit = UNIT_S, AT(interval), .min = 0, .max = 1e9,
+     .arg = "TIME",
+     .help = "first state of a case in --checkpoint after this time, then after 2, 4 ... times it "
+             "(60)"},
+    {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
+     .help = "print what would be computed, with reasons and cost, and stop"},
+    {.name = NULL},
+};
+/* clang-format on */
+
+void
+drive_check(struct tool *t, const struct drive_args *args)
+{
+    if ((args->resume || tool_given(t, "interval")) && args->checkpoint == NULL)
+        tool_die(t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
+}
+
+/* ---- points ---- */
+
+static const char *
+name_of(const struct drive *d, const struct drive_axis *axis)
+{
+    for (size_t k = 0; k < d->t.opts; k++)
+        if ((const char *)d->t.args + d->t.opt[k].at == (const char *)axis->list)
+            return d->t.opt[k].name;
+    return rc_axis_info(axis->axis)->name;
+}
+
+static void
+make_points(struct drive *d)
+{
+    const struct drive_axis *longest = d->axes;
+
+    for (const struct drive_axis *a = d->axes; a->list != NULL; a++)
+        if (a->list->n > longest->list->n)
+            longest = a;
+    d->points = longest->list->n;
+    if ((d->point = calloc(d->points + 1, sizeof *d->point)) == NULL)
+        tool_die(&d->t, EXIT_IMPOSSIBLE, "out of memory for %zu points", d->points);
+    for (const struct drive_axis *a = d->axes; a->list != NULL; a++) {
+        if (a->list->n > 1 && a->list->n < d->points)
+            tool_die(&d->t, EXIT_USAGE,
+                     "--%s has %zu values and --%s %zu: give lists of equal length, or one number",
+                     name_of(d, a), a->list->n, name_of(d, longest), d->points);
+        for (size_t k = 0; k < d->points && a->list->n > 0; k++)
+            rc_point_set(&d->point[k], a->axis, a->list->v[a->list->n > 1 ? k : 0]);
+    }
+}
+
+void
+drive_open(struct drive *d, const struct drive_axis *axes)
+{
+    d->axes = axes;
+    drive_check(&d->t, d->args);
+    make_points(d);
+    d->course.t = &d->t;
+    report_open(&d->report, &d->t, d->args->report);
+    if (!d->args->dry_run)
+        d->checkpoint =
+            checkpoint_open(&d->t, d->args->checkpoint, d->args->resume, d->args->interval);
+    tool_catch_signals();
+}
+
+struct rc_grid *
+drive_next(struct drive *d)
+{
+    return tool_interrupted() != 0 ? NULL : tool_channel(&d->t, "height", false);
+}
+
+int
+drive_close(struct drive *d)
+{
+    checkpoint_close(d->checkpoint);
+    course_warn_at_end(&d->course);
+    report_close(&d->report);
+    free(d->point);
+    return tool_finish(&d->t);
+}
+
+/* ---- what a state of a checkpoint must agree in ---- */
+
+static struct mark *
+add_mark(struct drive *d, const char *name)
+{
+    struct mark *m = &d->course.mark[d->course.marks++];
+
+    m->name = name;
+    return m;
+}
+
+static void
+set_crc(struct mark *m, uint32_t crc)
+{
+    snprintf(m->value, sizeof m->value, "%08" PRIx32, crc);
+}
+
+static bool
+is_axis(const struct drive *d, const char *option)
+{
+    const struct drive_axis *a = d->axes;
+
+    while (a->list != NULL && strcmp(name_of(d, a), option) != 0)
+        a++;
+    return a->list != NULL;
+}
+
+/* The surface, each option that changes results, and all of them together; the points come by themselves. */
+static void
+mark_case(struct drive *d, const struct rc_grid *g)
+{
+    const char *word[2 * TOOL_OPTIONS];
+    const size_t n = tool_result_words(&d->t, word, 2 * TOOL_OPTIONS);
+    uint32_t all = 0;
+
+    d->course.marks = 0;
+    checkpoint_crc(&d->t, g, add_mark(d, "checkpoint.surface")->value);
+    for (size_t k = 0, end; k < n; k = end) {
+        const char *value = k + 1 < n ? word[k + 1] : "";
+        for (end = k + 1; end < n && strncmp(word[end], "--", 2) != 0; end++)
+            ;
+        if (is_axis(d, word[k] + 2))
+            continue;
+        for (size_t j = k; j < end; j++)
+            all = rc_crc32_add(all, word[j], strlen(word[j]) + 1);
+        if (d->course.marks + 2 < COURSE_MARKS && end == k + 2 &&
+            strlen(value) < sizeof d->course.mark->value)
+            strcpy(add_mark(d, word[k] + 2)->value, value);
+    }
+    set_crc(add_mark(d, "checkpoint.options"), all);
+}
+
+static void
+mark_point(struct drive *d)
+{
+    uint32_t crc = 0;
+
+    if (d->at > 0)
+        d->course.marks--;
+    for (size_t k = 0; k <= d->at; k++) {
+        crc = rc_crc32_add(crc, &d->point[k].given, sizeof d->point[k].given);
+        crc = rc_crc32_add(crc, d->point[k].at, sizeof d->point[k].at);
+    }
+    set_crc(add_mark(d, "checkpoint.points"), crc);
+}
+
+/* ---- frames ---- */
+
+static const struct rc_frame_kind *
+kind_of(const struct rc_model *m, const char *name)
+{
+    const struct rc_frame_kind *kind;
+
+    for (size_t k = 0; (kind = rc_model_frame_kind(m, k)) != NULL; k++)
+        if (strcmp(kind->name, name) == 0)
+            break;
+    return kind;
+}
+
+static void
+set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g, const struct rc_point *at)
+{
+    struct rc_err err;
+    bool fine = rc_grid_set(g, "converged", d->status == RC_OK ? "yes" : "no", &err) == RC_OK &&
+                rc_grid_history(g, tool_history(&d->t), &err) == RC_OK;
+
+    if (d->points > 1)
+        fine = fine && rc_grid_set_number(g, "case", (double)d->course.number, &err) == RC_OK;
+    for (size_t k = 0; k < RC_AXES && fine; k++) {
+        const struct rc_axis_info *axis = rc_axis_info(k);
+        if ((d->point[d->at].given >> k & 1 || d->point[d->at].given >> axis->partner & 1) &&
+            isfinite(at->at[k]))
+            fine = rc_grid_set_number(g, axis->name, at->at[k], &err) == RC_OK;
+    }
+    if (!fine)
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (d->keys != NULL)
+        d->keys(d, m, g);
+}
+
+static void
+put_frames(struct drive *d, struct rc_model *m, const struct rc_grid *g, const struct rc_point *at)
+{
+    struct rc_err err;
+    struct rc_grid *as = rc_grid_like(g, g->channel, g->unit, &err);
+    const char *word;
+
+    if (as == NULL)
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    set_keys(d, m, as, at);
+    for (size_t k = 0; (word = d->word(k)) != NULL; k++) {
+        const struct rc_frame_kind *kind = kind_of(m, word);
+        struct rc_grid frame = *as; /* as the reader of the stream sees it */
+        if (!(*d->output >> k & 1) || (kind == NULL && strcmp(word, "height") != 0))
+            continue;
+        frame.channel = (char *)word; /* these are only read */
+        if (kind == NULL) {           /* the height */
+            frame.type = g->type;
+            frame.v = g->v;
+        } else if (rc_model_frame(m, word, as->v, &err) != RC_OK) {
+            tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        } else {
+            frame.unit = (char *)kind->unit;
+            frame.type = strcmp(word, CONTACT_CHANNEL) == 0 ? RC_F32 : RC_F64; /* of 0 and 1 */
+        }
+        tool_write(&d->t, &frame);
+    }
+    rc_grid_free(as);
+}
+
+/* ---- report ---- */
+
+static void
+put_row(struct drive *d, const struct rc_model *m, const struct rc_grid *g,
+        const struct rc_point *at)
+{
+    struct report *r = &d->report;
+
+    if (!report_wanted(r))
+        return;
+    report_begin(r);
+    report_map(r, g, d->course.number);
+    report_count(r, "threads", d->t.threads, NULL);
+    if (d->columns != NULL)
+        d->columns(d, m);
+    report_model(r, m, at, d->point[d->at].given);
+    report_bool(r, "converged", d->status == RC_OK);
+    report_object(r, "seconds");
+    report_number(r, "iterate", d->course.iterate, "s");
+    report_number(r, "total", tool_now() - d->began, "s");
+    report_end(r);
+    report_memory(r);
+    report_finish_row(r);
+}
+
+/* ---- warnings ---- */
+
+static const char *
+shown(char text[SHOWN_NUMBER], double value, const char *unit)
+{
+    if (unit != NULL)
+        return shown_in_unit(text, value, unit);
+    snprintf(text, SHOWN_NUMBER, "%.3g", value);
+    return text;
+}
+
+/* "surface.rcg, case 2, load 3 N, time 0.1 s" */
+static void
+say_where(const struct drive *d, const struct rc_grid *g, char *text, size_t size)
+{
+    const char *source = rc_grid_get(g, "source");
+    size_t at = (size_t)snprintf(text, size, "%s, case %zu",
+                                 source != NULL        ? source
+                                 : d->t.source != NULL ? d->t.source
+                                                       : "standard input",
+                                 d->course.number);
+    char value[SHOWN_NUMBER];
+
+    for (size_t k = 0; k < RC_AXES && at < size; k++)
+        if (d->point[d->at].given >> k & 1)
+            at += (size_t)snprintf(text + at, size - at, ", %s %s", rc_axis_info(k)->name,
+                                   shown(value, d->point[d->at].at[k], rc_axis_info(k)->unit));
+}
+
+void
+drive_judge(struct course *c, const struct rc_model *m, const struct drive_advice *advice,
+            const char *where)
+{
+    const struct rc_figure *f;
+    const void *data;
+
+    for (size_t k = 0; (f = rc_model_figure(m, k, &data)) != NULL; k++) {
+        const double v = rc_figure_number(f, data);
+        const struct drive_advice *a = advice;
+        char value[SHOWN_NUMBER];
+        while (a != NULL && a->figure != NULL && strcmp(a->figure, f->name) != 0)
+            a++;
+        if (a != NULL && a->figure == NULL)
+            a = NULL;
+        if (f->warning != NULL && (f->least ? v < f->limit : v > f->limit) &&
+            (a == NULL || a->advice != NULL))
+            course_warn(c, f->warning, "%s: %c%s is %s, %s %g: %s%s%s", where,
+                        tolower((unsigned char)f->title[0]), f->title + 1, shown(value, v, f->unit),
+                        f->least ? "below" : "above", f->limit, f->warning, a != NULL ? ": " : "",
+                        a != NULL ? a->advice : "");
+    }
+}
+
+static bool
+has_option(const struct tool *t, const char *name)
+{
+    for (size_t k = 0; name != NULL && k < t->opts; k++)
+        if (strcmp(t->opt[k].name, name) == 0)
+            return true;
+    return false;
+}
+
+/* A point that stopped short: the largest part of its error, and the option that makes it smaller. */
+static void
+judge_end(struct drive *d, const struct rc_model *m, const char *where)
+{
+    const struct rc_figure *f, *largest = NULL;
+    const void *data;
+    double most = 0;
+
+    if (d->status == RC_MORE)
+        tool_warn(&d->t, "%s: interrupted: the frames hold the best state so far, not a solution",
+                  where);
+    if (d->status != RC_SHORT)
+        return;
+    for (size_t k = 0; (f = rc_model_figure(m, k, &data)) != NULL; k++)
+        if (f->role == RC_FIGURE_ERROR && rc_figure_number(f, data) > most) {
+            most = rc_figure_number(f, data);
+            largest = f;
+        }
+    if (largest == NULL)
+        course_warn(&d->course, "stopped short", "%s: stopped short of the asked accuracy", where);
+    else
+        course_warn(&d->course, "stopped short",
+                    "%s: stopped short of the asked accuracy: %c%s is %.2g%s%s", where,
+                    tolower((unsigned char)largest->title[0]), largest->title + 1, most,
+                    has_option(&d->t, largest->by) ? ": change it with --" : "",
+                    has_option(&d->t, largest->by) ? largest->by : "");
+}
+
+/* ---- a case ---- */
+
+static struct rc_expected
+plan_of(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
+{
+    struct rc_expected expected;
+    struct rc_err err;
+
+    if (rc_model_plan(m, &d->point[d->points - 1], &expected, &err) != RC_OK)
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    return expected;
+}
+
+static void
+print_plan(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
+{
+    const struct rc_expected e = plan_of(d, g, m);
+    char where[256];
+
+    fprintf(d->t.out, "%s: %zu x %zu nodes, %zu %s of the %s model\n",
+            tool_where(&d->t, g, where, sizeof where), g->nx, g->ny, d->points,
+            d->points == 1 ? "point" : "points", rc_model_name(m));
+    if (!isnan(e.convolutions))
+        fprintf(d->t.out, "  about %.0f convolutions, %zu MiB, %.2g s a point\n", e.convolutions,
+                (tool_memory_with(e.memory) >> 20) + 1, e.seconds);
+}
+
+/* What the model found at a point; then the point becomes history. */
+static void
+end_point(struct drive *d, const struct rc_grid *g, struct rc_model *m)
+{
+    struct rc_point at;
+    struct rc_err err;
+    char where[512];
+
+    if (rc_model_look(m, &at, &err) != RC_OK)
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    say_where(d, g, where, sizeof where);
+    drive_judge(&d->course, m, d->advice, where);
+    judge_end(d, m, where);
+    if (d->status != RC_OK)
+        tool_fails_with(&d->t, EXIT_SHORT);
+    put_frames(d, m, g, &at);
+    put_row(d, m, g, &at);
+    if (d->status != RC_MORE && rc_model_keep(m, &err) != RC_OK)
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+void
+drive_case(struct drive *d, const struct rc_grid *g, struct rc_model *m, const struct rc_err *err)
+{
+    struct course *c = &d->course;
+
+    if (m == NULL)
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err->text);
+    c->g = g;
+    c->checkpoint = d->checkpoint;
+    if (d->points == 1)
+        c->number = rc_grid_case(g) - 1;
+    if (d->args->dry_run)
+        print_plan(d, g, m);
+    else
+        tool_demand_memory(&d->t, g, plan_of(d, g, m).memory);
+    mark_case(d, g);
+    for (d->at = 0; d->at < d->points && !d->args->dry_run; d->at++) {
+        if (d->at > 0 && tool_interrupted() != 0)
+            break;
+        d->began = tool_now();
+        c->number++;
+        mark_point(d);
+        course_set(c, m, &d->point[d->at]);
+        d->status = course_run(c, m);
+        end_point(d, g, m);
+    }
+    rc_model_free(m);
+}
