@@ -36,11 +36,11 @@ enum {
 
 /* ---- the two streams ---- */
 
-/* B is read by a second struct tool, which reports under the name of the first; its failure also ends the
- * output of the first. */
+/* A second struct tool reads B and reports under the name of the first one; its failure also ends the output
+ * of the first. */
 struct second {
     struct tool t;
-    struct rc_grid *g; /* of the same case as A */
+    struct rc_grid *g; /* from the same case as A */
     size_t n;          /* surfaces read so far  */
 };
 
@@ -56,7 +56,7 @@ read_second(struct tool *t, struct second *b)
     return g;
 }
 
-/* The surface of B for the next one of A: a single one for all of A, or several one by one. */
+/* The surface of B for the next surface of A: a single one for all of A, or one of several. */
 static void
 next_second(struct tool *t, struct second *b, const struct rc_grid *a)
 {
@@ -153,7 +153,7 @@ set_periodic(struct tool *t, struct rc_grid *a, const struct rc_grid *b, bool cu
                                                        : RC_FAIL;
 }
 
-/* A shape that was added to either is in the sum; the same shape in both is not in the difference. */
+/* A shape that was added to one of them is in the sum; the same shape in both cancels in the difference. */
 static enum rc_status
 set_form(struct rc_grid *a, const struct rc_grid *b, struct rc_err *err)
 {

@@ -98,8 +98,8 @@ check_effects(struct tool *t)
     if (tool_given(t, "kernel") || tool_given(t, "method"))
         tool_die(t, EXIT_USAGE, "%s: not with --kernel and --method: %s", effect,
                  args.contact.yield != NULL
-                     ? "increments and slabs are what is tried, by the first of them"
-                     : "there is one way to iterate it");
+                     ? "the trials vary increments and slabs, with pcg and fft"
+                     : "there is only one method");
     if (args.contact.yield != NULL && tool_given(t, "depths"))
         tool_die(t, EXIT_USAGE,
                  "--yield: not with --depths: the stresses of what has yielded are rc-stress's to "
@@ -132,7 +132,7 @@ check_arguments(struct costs *run)
     report_open(&run->report, t, args.report);
 }
 
-/* Prints if somebody watches: on a terminal, or with --progress. */
+/* Prints on a terminal, or with --progress. */
 static void
 tell(struct costs *run, const char *text)
 {

@@ -160,7 +160,7 @@ outliers(struct tool *t, struct rc_grid *g, double times, struct rc_err *err)
     return add_to_key(g, "outliers", count, err);
 }
 
-/* With its edges at the mean height a map carries load there in a large contact. */
+/* In a large contact the tapered edges at the mean height carry load. */
 static enum rc_status
 taper(struct tool *t, struct rc_grid *g, double width, struct rc_err *err)
 {
@@ -312,7 +312,7 @@ detrend(struct tool *t, struct rc_grid *g)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* Frames beside the heights, such as a map of hardness, are mirrored with them. */
+/* Mirrors the other frames of the case, such as a map of hardness, with the heights. */
 static void
 passing(struct tool *t, struct rc_grid *g)
 {

@@ -291,7 +291,7 @@ even_rows(struct tool *t, struct rc_grid *g)
 
 /* ---- frames ---- */
 
-/* Whether the frame is another depth of the first one. */
+/* True if the frame is another depth of the first one. */
 static bool
 is_deeper(const struct rc_grid *first, const struct rc_grid *g)
 {

@@ -297,7 +297,8 @@ number_or_dash(char text[RC_NUMBER_SIZE], double value)
 {
     if (isnan(value))
         return "-";
-    snprintf(text, RC_NUMBER_SIZE, "%.6g", value); /* for people: the stream has all digits */
+    snprintf(text, RC_NUMBER_SIZE, "%.6g", value); /* rounded for people; the stream has all
+                                                      digits */
     return text;
 }
 
@@ -397,7 +398,7 @@ check_memory(struct tool *t, const struct source *s, const struct rc_channel *ch
 static void
 say_extremes(struct tool *t, const struct rc_notes *notes)
 {
-    if (fmax(notes->above, notes->below) > 1e-6) /* as many digits as such heights have */
+    if (fmax(notes->above, notes->below) > 1e-6) /* the usual number of digits of heights */
         tool_warn(t,
                   "%s: between the nodes the file has a point %.2g of its span of heights above "
                   "the highest "

@@ -95,7 +95,7 @@ result_of(const struct rc_grid *g, const struct rc_grid *touch, const struct rc_
     *r = (struct result){NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0, 0, NULL};
     rc_grid_number(g, "approach", &r->approach);
     rc_grid_number(g, "hardness", &r->hardness);
-    /* single precision cannot reach it more closely */
+    /* the resolution of single precision */
     most = g->type == RC_F32 ? (double)(float)r->hardness : r->hardness;
     for (size_t k = 0; whole && k < g->nx * g->ny; k++) {
         r->contact_nodes += touch != NULL && rc_in_contact(touch->v[k]) ? 1 : 0;

@@ -71,12 +71,12 @@ static const struct tool_info info = {
 struct run {
     struct tool t;
     struct report report;
-    struct rc_grid *p, *contact; /* of the case; NULL: none */
+    struct rc_grid *p, *contact; /* pressure of the case; NULL: none */
 };
 
 /* ---- a case ---- */
 
-/* Whether the edges along the flow join. */
+/* True if the edges along the flow join. */
 static bool
 sides_meet(struct run *run, const struct rc_grid *g)
 {
@@ -159,7 +159,7 @@ solve(struct run *run, const struct leak_case *c, struct rc_leak *leak)
     struct rc_err err;
 
     tool_demand_memory(&run->t, c->gap,
-                       rc_grid_nodes(c->gap) * sizeof(double)); /* one more frame after it */
+                       rc_grid_nodes(c->gap) * sizeof(double)); /* another frame follows */
     tool_progress(&run->t, NAN, "flow through %zu nodes", c->figures->unknowns);
     while ((status = rc_leak_step(leak, &err)) == RC_MORE)
         continue;

@@ -59,9 +59,9 @@ static const struct {
     {"nx", "it counts the values of a row"},
     {"ny", "it counts the rows"},
     {"type", "--type says how values are written"},
-    {"crc32", "it is made of what is written"},
+    {"crc32", "it is computed from the written bytes"},
     {"case", "frames of a case belong together, and keep its number"},
-    {"history", "it tells what was done, this step too"},
+    {"history", "it records the steps, including this one"},
 };
 
 static bool
@@ -116,7 +116,7 @@ settle_set(struct tool *t, struct step *step)
     step->text = text;
 }
 
-/* Whether the steps change a height to another surface. */
+/* True if the steps change a height to another surface. */
 static bool
 changes_heights(void)
 {
@@ -175,7 +175,7 @@ static void
 demand_one_channel(struct tool *t, const struct rc_grid *g)
 {
     static char first[256];
-    static size_t number; /* number of its case; 0: none yet */
+    static size_t number; /* number of the current case; 0: none yet */
 
     if (rc_grid_case(g) != number) {
         number = rc_grid_case(g);
@@ -203,7 +203,7 @@ change(struct tool *t, struct rc_grid *g)
     if (changes_heights())
         results_demand_none(t, g);
     if (args.wanted.channel != NULL || args.wanted.depth.n > 0)
-        status = rc_grid_set(g, "frames", NULL, &err); /* their number may be smaller now */
+        status = rc_grid_set(g, "frames", NULL, &err); /* because their number may be smaller now */
     for (size_t k = 0; k < args.steps.n && status == RC_OK; k++)
         if (pick_geometry(&args.steps.step[k]))
             pick_geometry_do(t, g, &args.steps.step[k]);

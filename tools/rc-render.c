@@ -118,7 +118,7 @@ static const struct opt opts[] = {
 };
 /* clang-format on */
 
-/* Checks the ending of -o before a file of that name is made. */
+/* Checks the suffix of -o before a file of that name is made. */
 static void
 settle(struct tool *t)
 {
@@ -180,8 +180,8 @@ next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
     return RC_OK;
 }
 
-/* Writes the picture, without a canvas one pixel per node, and stores in it how it was made. Without a grid
- * the source is the figure's subtitle. */
+/* Writes the picture (without a canvas one pixel per node), with texts that describe how it was made. Without
+ * a grid the source is the subtitle of the figure. */
 static void
 write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, struct canvas *c)
 {
@@ -241,8 +241,8 @@ warn_of_text(struct tool *t, const struct args *a, struct canvas *c)
         warn_of_family(t, a->style.family, canvas_set_family(c, a->style.family));
 }
 
-/* Writes the figure on its canvas, of a grid or of tables (NULL), and frees that; NULL: it could not be
- * drawn. */
+/* Writes the figure on its canvas and frees the canvas; grid NULL: a figure of tables; canvas NULL: it could
+ * not be drawn. */
 static void
 finish(struct tool *t, const struct args *a, const struct rc_grid *g, const struct figure *f,
        struct canvas *c, const struct rc_err *err)
@@ -254,7 +254,7 @@ finish(struct tool *t, const struct args *a, const struct rc_grid *g, const stru
     canvas_free(c);
 }
 
-/* A cross at the largest magnitude, if its node is drawn. */
+/* Marks the largest magnitude with a cross, if its node is drawn. */
 static void
 mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, struct figure *f,
              struct words *w)
@@ -292,7 +292,7 @@ draw_figure(struct tool *t, const struct args *a, struct rc_grid *g, const struc
         even = look_section(t, a, g, f);
         mark_largest(t, g, s, f, &words);
     } else if (look_throat(g, f))
-        f->largest = "the narrowest place of the widest way";
+        f->largest = "the critical constriction";
     if (a->hertz)
         f->circle = words_hertz(t, &words, g, &a->style.given, &f->radius);
     if ((c = figure_draw(f, even == NULL ? g : even, &err)) == NULL)
@@ -309,7 +309,7 @@ draw_figure(struct tool *t, const struct args *a, struct rc_grid *g, const struc
 
 /* ---- profiles ---- */
 
-/* Along the one row or column of a map, from edge to edge. */
+/* A curve along the single row or column of a map, from edge to edge. */
 static void
 draw_profile(struct tool *t, const struct args *a, const struct rc_grid *g, const struct figure *f)
 {
@@ -365,7 +365,7 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
     finish(t, a, g, f, relief_draw(f, &view, g, &err), &err);
 }
 
-/* Whether the window is that of the contact. */
+/* True if the window is that of the contact. */
 static bool
 about_contact(const struct args *a)
 {
@@ -577,7 +577,7 @@ render_lines(struct tool *t, struct args *a, const struct frames *f)
 
 /* ---- which picture ---- */
 
-/* One frame: the best of all. */
+/* Draws one frame: the best of all. */
 static void
 read_one(struct tool *t, struct args *a)
 {

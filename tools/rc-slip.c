@@ -1,4 +1,4 @@
-/* Friction in a contact that rc-solve has found: what sticks, what slips, and what that dissipates. */
+/* Friction in a contact found by rc-solve: stick, slip and dissipated energy. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -82,7 +82,7 @@ static const struct opt opts[] = {
 
 static const struct tool_info info = {
     .name = "rc-slip",
-    .summary = "Friction in a contact: tractions, what sticks and what slips",
+    .summary = "Friction in a contact: tractions, stick and slip",
     .operands = "[FILE...]",
     .examples = "  rc-solve --load 1N --radius 2mm --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 \\\n"
                 "      -o contact.rcg surface.rcg\n"
@@ -133,7 +133,7 @@ check_arguments(struct slip_run *run)
 
 /* ---- main ---- */
 
-/* Keeps what stands beside the pressure. */
+/* Keeps the other frames of the case that are needed. */
 static bool
 take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
 {

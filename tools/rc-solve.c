@@ -114,7 +114,8 @@ check_arguments(struct run *run)
 {
     if ((args.resume || tool_given(&run->t, "interval")) && args.checkpoint == NULL)
         tool_die(&run->t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
-    args.physics.history |= args.yield != NULL || args.adhesion != NULL; /* each from the last */
+    args.physics.history |= args.yield != NULL || args.adhesion != NULL; /* each starts from the
+                                                                            last one */
     args.physics.attracts = args.adhesion != NULL;
     physics_check(&run->t, &args.physics);
     run->args = &args;
@@ -127,7 +128,7 @@ check_arguments(struct run *run)
     if (run->yielding.wanted && !tool_given(&run->t, "output"))
         args.output |= 1 << SOLVE_RESIDUAL;
     if (run->adhering.wanted && (args.output & (1 << SOLVE_PRESSURE | 1 << SOLVE_GAP)))
-        args.output |= 1 << SOLVE_CONTACT; /* the pressure does not tell */
+        args.output |= 1 << SOLVE_CONTACT; /* the pressure does not determine the contact */
 }
 
 /* ---- main ---- */

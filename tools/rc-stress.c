@@ -67,7 +67,7 @@ struct run {
     struct rc_stress_options options; /* of the case */
     struct layers layers;             /* of the case */
     struct stress_strain strain;      /* of the case */
-    struct rc_grid *traction[2];      /* of the case: along x, along y; NULL: none */
+    struct rc_grid *traction[2];      /* tractions of the case: along x, along y; NULL: none */
     struct numbers depths;            /* of the case */
     struct rc_grid *frame[RC_STRESSES];
     struct stress_report report;
@@ -92,7 +92,7 @@ channels(void)
 
 /* ---- the command line ---- */
 
-/* "y=12um" to the axis and the place; what goes into history is in SI. */
+/* Reads the axis and the position from "y=12um"; the history has the position in SI. */
 static void
 read_section(struct run *run)
 {
@@ -112,7 +112,7 @@ read_section(struct run *run)
     args.section = si;
 }
 
-/* Engines that sum periodic maps sum sections too: both are sums of waves. */
+/* Engines for periodic maps also compute sections: both are sums of waves. */
 static bool
 on_free_maps_only(void)
 {
@@ -156,7 +156,7 @@ poisson(struct run *run, const struct rc_grid *p)
     return nu;
 }
 
-/* A pressure solved on one boundary has no stresses on the other. */
+/* Refuses a boundary other than that of the solved pressure. */
 static enum rc_boundary
 boundary(struct run *run, const struct rc_grid *p)
 {
@@ -174,7 +174,7 @@ boundary(struct run *run, const struct rc_grid *p)
     return periodic ? RC_PERIODIC : RC_FREE;
 }
 
-/* A coated body's materials have each their own Poisson's ratio. */
+/* Refuses --nu for a coated body, whose materials have their own Poisson's ratios. */
 static void
 set_material(struct run *run, const struct rc_grid *p)
 {
@@ -192,7 +192,8 @@ set_material(struct run *run, const struct rc_grid *p)
         run->options.body.nu = poisson(run, p);
 }
 
-/* mu times a tension would be friction against the motion of the rest. */
+/* Refuses --mu for a pressure with tension, because mu times a tension would be friction in the wrong
+ * direction. */
 static void
 refuse_adhesion(struct run *run, const struct rc_grid *p)
 {
@@ -209,7 +210,8 @@ refuse_adhesion(struct run *run, const struct rc_grid *p)
             pulled, p->nx * p->ny, args.mu);
 }
 
-/* The solution with plastic strain took no traction: what is added to it may exceed the yield stress. */
+/* The solution with plastic strain did not include tractions: with their stress added, Mises stresses may
+ * exceed the yield stress. */
 static void
 warn_of_yield(struct run *run, const struct rc_grid *p)
 {
@@ -227,7 +229,7 @@ warn_of_yield(struct run *run, const struct rc_grid *p)
               args.mu != 0 ? "--mu" : "the frames of traction");
 }
 
-/* Tractions take the place of a number for friction. */
+/* Frames of traction replace --mu. */
 static void
 set_traction(struct run *run, const struct rc_grid *p)
 {
@@ -283,11 +285,11 @@ set_options(struct run *run, const struct rc_grid *p)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                     "its boundary is periodic, where only %s sums: leave out --kernel %s",
                     words_periodic_engines(list, sizeof list), args.kernel);
-    if (rc_stress_check(&shape, &run->options, &err) != RC_OK) /* before depths are looked for */
+    if (rc_stress_check(&shape, &run->options, &err) != RC_OK) /* before depths are chosen */
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* A rigid substrate has a face, but no stresses inside. */
+/* Refuses depths inside a rigid substrate, where stresses are undefined. */
 static void
 refuse_rigid(struct run *run, const struct rc_grid *p)
 {
@@ -301,12 +303,13 @@ refuse_rigid(struct run *run, const struct rc_grid *p)
                         run->depths.v[k]);
 }
 
-/* A plain number is in metres: one that was meant in micrometres lies far below all contacts. */
+/* A plain number is in metres: a depth that was meant in micrometres is far below all contacts. */
 static void
 warn_of_depths(struct run *run, const struct rc_grid *p)
 {
     enum {
-        FAR = 10 /* widths of the map: there at most 0.5 % of the mean pressure on it is left */
+        FAR = 10 /* depth in widths of the map, at which at most 0.5 % of the mean pressure is
+                    left */
     };
     double width = fmax((double)p->nx * p->dx, (double)p->ny * p->dy), deepest = 0;
     char depth[RC_NUMBER_SIZE], where[256];
@@ -406,7 +409,7 @@ set_keys(struct run *run, const struct rc_grid *p, struct rc_grid *g)
     free(depths);
 }
 
-/* A grid of the keys of p and a shape of its own. */
+/* Makes a grid with the keys of p and another shape. */
 static struct rc_grid *
 new_frame(struct run *run, const struct rc_grid *p, int channel)
 {
@@ -426,7 +429,7 @@ new_frame(struct run *run, const struct rc_grid *p, int channel)
 
 /* ---- the work ---- */
 
-/* Bytes that the slices take. */
+/* Bytes of the slices. */
 static size_t
 frames_memory(const struct run *run, const struct rc_grid *p)
 {
@@ -442,7 +445,7 @@ static size_t
 plan_memory(const struct run *run, const struct rc_grid *p)
 {
     static const double pressure[] = {154, 69}, traction[] = {77, 10}, slab[] = {279, 71};
-    static const double section = 26; /* as many for both */
+    static const double section = 26; /* both need the same */
     const struct rc_stress_options *o = &run->options;
     const bool periodic = o->boundary == RC_PERIODIC;
     double bytes = o->section != 0 ? section : pressure[periodic];
@@ -453,7 +456,7 @@ plan_memory(const struct run *run, const struct rc_grid *p)
     return (size_t)(bytes * (double)rc_grid_nodes(p));
 }
 
-/* Where a slice is: its depth and, of a coated body, its material. */
+/* Sets the keys of a slice: its depth and, for a coated body, its material. */
 static enum rc_status
 set_place(const struct run *run, struct rc_grid *g, double depth, struct rc_err *err)
 {
@@ -537,7 +540,7 @@ do_case(struct run *run, const struct rc_grid *p)
 
 /* ---- start ---- */
 
-/* Keeps what may stand beside the pressure. */
+/* Keeps the frames that may accompany the pressure. */
 static bool
 take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
 {

@@ -131,7 +131,7 @@ find_shape(struct tool *t)
     tool_die(t, EXIT_USAGE, "unknown shape '%s': one of %s", t->operand[0], info.operands);
 }
 
-/* Every option that the shape needs is given, and none that it has no use for. */
+/* Checks that all options of the shape are given, and no others. */
 static void
 check_options(struct tool *t, const struct synth_shape *row)
 {
@@ -144,7 +144,7 @@ check_options(struct tool *t, const struct synth_shape *row)
             tool_die(t, EXIT_USAGE, "--%s has no meaning for %s", o->name, row->name);
 }
 
-/* The first frame of FILE, or with a channel the first one of that. */
+/* The first frame of FILE, or the first one with this channel. */
 static struct rc_grid *
 frame_of_file(struct tool *t, const char *channel)
 {
@@ -177,7 +177,7 @@ frame_of_file(struct tool *t, const char *channel)
     return g;
 }
 
-/* Takes the place of the highest measured node, as if --place had given it. */
+/* Uses the position of the highest measured node for --place. */
 static void
 place_highest(struct tool *t, const struct rc_grid *g)
 {

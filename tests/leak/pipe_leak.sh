@@ -104,7 +104,7 @@ claim "threads change no bit" cmp threads1.rcg threads2.rcg
 legend() { sed 's/<[^>]*>/ /g' "$1" | tr -s ' \n' '  '; }
 claim "the flux by colour of its logarithm" rc-render --case 3 --channel flux --log leak.rcg -o flux.svg
 claim "  what is not flowing has two signs of its own" says 'fluid that stands .*contact \([0-9]+ of 16384 nodes\)' legend flux.svg
-claim "  and the throat a cross" says 'the narrowest place of the widest way' legend flux.svg
+claim "  and the constriction a cross" says 'the critical constriction' legend flux.svg
 claim "  beside the window there is none" rc-render --case 3 --channel flux --log --window "$(awk -v x="$(column critical_x 3 loads.tsv)" \
     'BEGIN { print (x > 0 ? "-60um:-20um,-60um:60um" : "20um:60um,-60um:60um") }')" leak.rcg -o part.svg
 claim "    nor its sign" bash -c '! grep -q "narrowest place" part.svg && test -s part.svg'

@@ -55,7 +55,7 @@ claim "an approach is a load that is found" bash -c '
 refused() {
     refuses 2 "$1" "refused: $2" "rc-cost --periodic --mean-pressure 1MPa --estar 100MPa --adhesion 1J/m2 $2 rough.rcg"
 }
-refused "one way to iterate" "--method pcg"
+refused "only one method" "--method pcg"
 claim "stresses under net pressures, and the flow beside them" bash -c "
     rc-cost $contact --depths 1um --nu 0.3 --leak x --quiet rough.rcg >more.txt && says '^# stresses under the reference' cat more.txt &&
     says ' flow_error ' cat more.txt"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Whether the name begins with these letters, in either case. */
+/* True if the name begins with these letters, in upper or lower case. */
 static bool
 begins(const char *name, const char *start)
 {

@@ -73,7 +73,8 @@ find_end(const struct rc_grid *g, bool least, struct end *end)
     }
 }
 
-/* Whether programs use the number for missing points: nines, a power of two less one, or very large. */
+/* True if programs use the number for missing points: nines, a power of two less one, or a very large
+ * number. */
 static bool
 is_usual_mark(double value)
 {

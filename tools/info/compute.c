@@ -82,7 +82,7 @@ room(struct tool *t, size_t n, size_t size)
     return p;
 }
 
-/* The share of what was measured that is as high, or higher. */
+/* The fraction of the measured points at or above this height. */
 static void
 find_smr(const struct info_wanted *w, const struct rc_grid *g, struct info_figures *f)
 {
@@ -123,7 +123,7 @@ find_areal(const struct info_wanted *w, struct tool *t, const struct rc_grid *g,
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* The spectrum as a frame: spacings are those of wave numbers. */
+/* The spectrum as a frame, whose spacings are steps of wave numbers. */
 static struct rc_grid *
 map_frame(struct info_wanted *w, struct tool *t, const struct rc_grid *g)
 {
@@ -177,7 +177,7 @@ find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct 
     rc_grid_free(map);
 }
 
-/* Nodes in contact by their pressures, in bins of equal width from 0, or the least of them where that is
+/* The histogram of the pressures in contact, in bins of equal width from 0, or the smallest pressure if it is
  * negative, to the largest. */
 static void
 count_pressures(struct tool *t, const struct rc_grid *g, const double *touch,

@@ -65,7 +65,7 @@ info_line_read(struct tool *t, const char *along, struct info_line_wanted *w)
         tool_die(t, EXIT_USAGE, "--profile %s: the line has no length", along);
 }
 
-/* The line through the middle at that angle, as long as the map has nodes. */
+/* The line through the middle at this angle, as long as the map allows. */
 static void
 set_ends(const struct rc_shape *s, struct info_line_wanted *w)
 {
@@ -96,7 +96,7 @@ field(struct rc_profile *p, const struct rc_figure *which)
     return (double *)(void *)((char *)p + which->at);
 }
 
-/* Means over the lines that have a value, and their standard deviations (n - 1). */
+/* Means over the lines with a value, and their standard deviations (n - 1). */
 static void
 average(const struct rc_profile *line, size_t lines, struct info_profile *to)
 {

@@ -1,4 +1,4 @@
-/* Parameters as people read them: their names in the standards, and their units. */
+/* Names of parameters in the standards, and their units. */
 #include "info.h"
 
 #include <string.h>

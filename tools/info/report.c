@@ -1,6 +1,6 @@
 /*
- * Rows of figures. Those of --report are flat, so that the parameters of many scans are one table: what a
- * frame does not have is unknown, and all rows have the columns of what was asked for. In --json the
+ * Rows of figures. Rows of --report are flat, so that the parameters of many scans form one table: all rows
+ * have the columns of the requested options, and figures that a frame lacks are unknown. In --json the
  * figures of each option are an object.
  */
 #include "info.h"

@@ -6,7 +6,7 @@
 
 /* ---- areal parameters ---- */
 
-/* Why a parameter has no value. */
+/* The reason why a parameter has no value. */
 static const char *
 undefined(const struct rc_areal *a, const struct rc_figure *p)
 {
@@ -17,9 +17,9 @@ undefined(const struct rc_areal *a, const struct rc_figure *p)
     if (strcmp(p->name, "str") == 0 && !isnan(a->sal))
         return "ridges run across the map: along them heights are alike over half of it";
     if (strcmp(p->name, "s5p") == 0 || strcmp(p->name, "s5v") == 0 || strcmp(p->name, "s10z") == 0)
-        return "there are less than five peaks, or pits";
+        return "there are fewer than five peaks, or pits";
     if (strcmp(p->name, "sha") == 0 || strcmp(p->name, "sda") == 0)
-        return "all reach the edge, or what was not measured";
+        return "all reach the edge, or missing points";
     return "";
 }
 
@@ -70,7 +70,7 @@ profile_text(const struct info_profile *f, const struct info_wanted *w, FILE *ou
     fprintf(out, "; %zu points, %s, %zu section%s\n", f->points,
             shown_in_unit(text, f->length, "m"), f->sections, f->sections == 1 ? "" : "s");
     if (f->skipped > 0)
-        fprintf(out, "  %-10s %zu that were not measured whole\n", "left out", f->skipped);
+        fprintf(out, "  %-10s %zu with missing points\n", "left out", f->skipped);
     for (const struct rc_figure *p = rc_figures("profile"); p->name != NULL; p++) {
         double value = rc_figure_number(p, &f->mean), spread = rc_figure_number(p, &f->deviation);
 
@@ -85,10 +85,10 @@ profile_text(const struct info_profile *f, const struct info_wanted *w, FILE *ou
 /* ---- spectra ---- */
 
 enum {
-    LINES = 12 /* of a spectrum, for people */
+    LINES = 12 /* rings of a spectrum in text output */
 };
 
-/* The rings that come next after equal steps of log q. */
+/* The first rings after equal steps of log q. */
 static void
 psd_lines(const struct rc_psd *psd, const char *unit, FILE *out)
 {

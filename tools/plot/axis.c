@@ -1,5 +1,5 @@
 /*
- * The axes of maps, bars and graphs: which marks they have, and how they are drawn.
+ * The axes of maps, colour bars and graphs: their marks and their drawing.
  */
 #include <math.h>
 #include <stdio.h>
@@ -30,7 +30,7 @@ add_mark(struct axis *a, double value, bool major, const char *text)
     snprintf(a->mark[a->marks++].text, TICKS_TEXT, "%.60s", text);
 }
 
-/* At steps of 1, 2 or 5, which minor marks cut into 5, 4 and 5. */
+/* Marks at steps of 1, 2 or 5, which minor marks divide into 5, 4 and 5 parts. */
 static void
 mark_steps(struct axis *a)
 {
@@ -45,8 +45,8 @@ mark_steps(struct axis *a)
                      m == 0 ? ticks_text(text, t, k) : "");
 }
 
-/* Powers of ten, with minor marks at 2 to 9 times each; of few of them 2 and 5 have a number too.
- * Numbers are plain where all of them are short. */
+/* Marks at powers of ten, with minor marks at 2 to 9 times each; with few powers 2 and 5 have a number too.
+ * Numbers are written without exponents if all of them are short. */
 static void
 mark_decades(struct axis *a, double most)
 {
@@ -68,7 +68,7 @@ mark_decades(struct axis *a, double most)
         }
 }
 
-/* Leaves out numbers that would touch the one before them. Whether there were any. */
+/* Omits numbers that would touch the one before; true if there were any. */
 static bool
 thin_marks(struct page *p, struct axis *a, double length, bool upright)
 {
@@ -94,7 +94,7 @@ thin_marks(struct page *p, struct axis *a, double length, bool upright)
     return thinned;
 }
 
-/* Words stand side by side where they fit, else they read upwards. */
+/* Words are side by side if they fit, else they read upwards. */
 static void
 mark_words(struct page *p, struct axis *a, double length)
 {
@@ -137,7 +137,7 @@ axis_mark(struct page *p, struct axis *a, double length, bool upright)
     }
 }
 
-/* The two get one step, unless that leaves one too few marks. */
+/* Both axes get one step, unless one of them would then have too few marks. */
 void
 axis_even_steps(struct page *p, struct axis *coarse, struct axis *fine, double length, bool upright)
 {
@@ -153,14 +153,14 @@ axis_even_steps(struct page *p, struct axis *coarse, struct axis *fine, double l
 
 /* ---- drawing ---- */
 
-/* What words that read upwards take more below a plot than numbers. */
+/* The additional height below a plot of words that read upwards. */
 double
 axis_word_room(const struct page *p, const struct axis *a)
 {
     return a->upwards ? a->widest - p->small.size : 0;
 }
 
-/* Pixels of the marks with a number; where there are others too they are a little longer. */
+/* Length in pixels of the marks with a number, slightly longer if there are minor marks. */
 static double
 reach(const struct page *p, const struct axis *a)
 {

@@ -13,9 +13,10 @@ static const struct rgb light = {0xff, 0xff, 0xff}, hard_ink = {0x00, 0x9e, 0x73
                         circle_ink = {0x1f, 0x8f, 0xd1}, edge_on_dark = {0xff, 0x8c, 0x1a};
 
 enum {
-    STEPS = 512,       /* of the colours in the bar                                          */
-    IMAGE_MOST = 2400, /* pixels a side of a map in a PDF or SVG: 600 an inch over 100 mm    */
-    BAND = 64          /* rows of pixels that are in memory as means while a map is painted  */
+    STEPS = 512,       /* pixels of the colours in the bar */
+    IMAGE_MOST = 2400, /* largest number of pixels a side of a map in a PDF or SVG: 600 per inch
+                          over 100 mm */
+    BAND = 64          /* rows of pixels that are in memory at a time as means */
 };
 
 static struct rgb
@@ -41,10 +42,11 @@ figure_colour(const struct figure *f, double value)
 
     if (f->is == NULL)
         return colormap_at(f->map, t);
-    return mix(colormap_at(f->map, 0), 1 - t, colormap_at(f->map, 1), t); /* of a pixel, both */
+    return mix(colormap_at(f->map, 0), 1 - t, colormap_at(f->map, 1),
+               t); /* size in pixels of both */
 }
 
-/* Missing nodes are chequered, so that no colour of any map can be taken for them. */
+/* Missing nodes are chequered, so that they cannot be confused with a colour of a value. */
 static struct rgb
 missing_at(const struct page *p, size_t x, size_t y)
 {
@@ -54,10 +56,10 @@ missing_at(const struct page *p, size_t x, size_t y)
                                           : mix(p->f->map->missing, 0.5, light, 0.5);
 }
 
-/* Light and shadow by nodes, or by cells of the image where there are more nodes than those. */
+/* Light and shadow for each node, or for each cell of the image if there are more nodes. */
 struct shades {
     struct raster *raster;
-    float *bright; /* NULL: none are wanted */
+    float *bright; /* NULL: no shades */
 };
 
 static enum rc_status
@@ -87,7 +89,7 @@ shades_free(struct shades *s)
     free(s->bright);
 }
 
-/* The colour of cell (i, j) of w by h as it is lit. */
+/* The colour of cell (i, j) of w by h with its shade. */
 static struct rgb
 lit(const struct shades *s, struct rgb c, size_t i, size_t j, size_t w, size_t h)
 {
@@ -101,7 +103,7 @@ lit(const struct shades *s, struct rgb c, size_t i, size_t j, size_t w, size_t h
                         (unsigned char)fmin(255, c.b * b + 0.5)};
 }
 
-/* Of cell (i, j) of a raster whose first row is this one of the map. */
+/* The colour of cell (i, j) of a raster whose first row is the given row of the map. */
 static struct rgb
 cell_colour(const struct page *p, const struct raster *r, size_t i, size_t j, size_t first)
 {
@@ -142,7 +144,7 @@ paint_rows(struct page *p, const struct shades *shades, size_t w, size_t h, size
     return RC_OK;
 }
 
-/* The map on w by h pixels, some rows of which are in memory as means at a time. */
+/* The map on w by h pixels; some rows at a time are in memory as means. */
 static enum rc_status
 paint(struct page *p, size_t w, size_t h, struct rc_err *err)
 {
@@ -189,7 +191,7 @@ line_colour(const struct figure *f, double value)
     return colormap_is_dark(figure_colour(f, value)) ? light : page_ink;
 }
 
-/* Thinner than a node: a line must not hide the one that it goes around. */
+/* Thinner than a node: a line around a single node must not hide it. */
 static double
 border_width(const struct page *p)
 {
@@ -198,8 +200,8 @@ border_width(const struct page *p)
     return fmin(1.5 * p->u, fmax(0.35 * node, 0.4 * p->u));
 }
 
-/* The edge of the contact on a map of something else, which can be dark where bodies touch; it
- * is seen on the white page too. */
+/* The edge of the contact on a map of another channel, which may be dark in contact; the colour is also
+ * visible on white. */
 static struct rgb
 edge_ink(const struct page *p)
 {
@@ -216,7 +218,7 @@ edge_ink(const struct page *p)
     return n > 0 && colormap_is_dark(figure_colour(p->f, sum / n)) ? edge_on_dark : page_ink;
 }
 
-/* Where a place of the map, in metres, lies on the page. */
+/* The position on the page of a place on the map in metres. */
 static double
 page_x(const struct page *p, double x)
 {
@@ -248,7 +250,7 @@ draw_circle(struct page *p)
     canvas_clip(p->c, 0, 0, 0, 0);
 }
 
-/* A cross with a light rim, seen on every colour. */
+/* A cross with a light rim, visible on every colour. */
 static void
 draw_cross(struct page *p, double x, double y)
 {
@@ -275,7 +277,7 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
         double level = a->mark[k].value * a->scale.size;
 
         if (p->f->border || !a->mark[k].major || (p->f->zero_is_none && level == 0))
-            continue; /* the contact's edge says that better */
+            continue; /* the edge of the contact shows this better */
         status = raster_contour(r, level, &lines, err);
         stroke_lines(p, &lines, r, p->f->zero_is_none ? border_width(p) : 1.5 * p->u,
                      line_colour(p->f, level));
@@ -293,9 +295,8 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
     return status;
 }
 
-/* In a PDF or SVG a node is a pixel, however large it is drawn; missing nodes are chequered, which
- * takes the pixels of the page. Contours run through the nodes of a map
- * that is enlarged, through the pixels of one that is reduced. */
+/* In a PDF or SVG a node is a pixel of the image at any size; the chequers of missing nodes need the pixels
+ * of the page. Contours pass through the nodes of an enlarged map and through the pixels of a reduced one. */
 static enum rc_status
 draw_map(struct page *p, struct rc_err *err)
 {
@@ -320,7 +321,7 @@ draw_map(struct page *p, struct rc_err *err)
     return status;
 }
 
-/* The colours over the rectangle, along the longer way, low values left or at the bottom. */
+/* The colours over the rectangle, along its longer side, low values left or at the bottom. */
 static void
 paint_bar(struct page *p, double x, double y, double w, double h)
 {
@@ -334,7 +335,7 @@ paint_bar(struct page *p, double x, double y, double w, double h)
     canvas_image(p->c, x, y, w, h, pixel, NULL, p->bar_below ? STEPS : 1, p->bar_below ? 1 : STEPS);
 }
 
-/* Draws a triangle at each end of the bar that some values lie beyond. */
+/* Draws a triangle at each end of the bar beyond which there are values. */
 static void
 point_bar(struct page *p, double x, double y, double w, double h)
 {
@@ -355,7 +356,7 @@ point_bar(struct page *p, double x, double y, double w, double h)
             corner[k][1] = p->bar_below ? y + along * h : (end == 0 ? y + h : y) - out;
         }
         canvas_triangle(p->c, corner, colour);
-        for (int k = 0; k < 4; k++) /* white paper would swallow a pale end */
+        for (int k = 0; k < 4; k++) /* a pale end would be invisible on white paper */
             if (k == 0)
                 canvas_move(p->c, corner[0][0], corner[0][1]);
             else
@@ -388,7 +389,7 @@ draw_bar(struct page *p)
         struct rgb colour = line_colour(p->f, a->mark[k].value * a->scale.size);
 
         if (!a->mark[k].major || t < 0.002 || t > 0.998)
-            continue; /* the frame is there */
+            continue; /* the frame is already drawn */
         if (p->bar_below)
             canvas_fill(p->c, x + t * w - 0.75 * u, y, 1.5 * u, h, colour);
         else
@@ -403,7 +404,7 @@ draw_bar(struct page *p)
 
 /* ---- the whole ---- */
 
-/* Over the plot, where it hides nothing. */
+/* Above the plot, where it covers nothing. */
 static void
 draw_stamp(struct page *p, double middle, double y)
 {
@@ -444,7 +445,7 @@ draw_missing(struct page *p, double x, double y, size_t w, size_t h)
     canvas_image(p->c, x, y, (double)w, (double)h, pixel, NULL, w, h);
 }
 
-/* Across n pixels and a third more, n high. */
+/* n pixels high and a third wider. */
 static void
 draw_swatch(struct page *p, enum swatch swatch, double x, double y, size_t n)
 {
@@ -491,7 +492,7 @@ draw_legend(struct page *p)
     }
 }
 
-/* Over each map of several; smaller where these are narrow. */
+/* Draws the title of each of several maps; smaller if they are narrow. */
 static struct canvas_font
 label_font(const struct page *p, const struct panels *panels)
 {
@@ -505,7 +506,7 @@ label_font(const struct page *p, const struct panels *panels)
     return font;
 }
 
-/* Axes stand left of the first column and under the lowest map of each. */
+/* Axes are left of the first column and under the lowest map of each column. */
 static enum rc_status
 draw_panel(const struct page *page, const struct panels *panels, size_t k, struct rc_err *err)
 {
@@ -580,7 +581,7 @@ panels_draw(const struct panels *panels, struct rc_err *err)
     p->g = panels->panel[0].grid;
     p->columns = panels->columns;
     p->rows = (panels->n + panels->columns - 1) / panels->columns;
-    if ((p->c = page_canvas(p, 1, 1, err)) == NULL) /* to measure text on */
+    if ((p->c = page_canvas(p, 1, 1, err)) == NULL) /* only to measure text */
         goto done;
     laid_out = page_lay_out(p, err) == RC_OK;
     canvas_free(p->c);

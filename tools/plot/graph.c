@@ -9,22 +9,22 @@
 #include "page.h"
 #include "ticks.h"
 
-/* Colours that the colour-blind tell apart (Okabe and Ito 2008). */
+/* Colours that colour-blind readers can distinguish (Okabe and Ito 2008). */
 static const struct rgb palette[GRAPH_COLOURS] = {
     {0x00, 0x72, 0xb2}, {0xd5, 0x5e, 0x00}, {0x00, 0x9e, 0x73}, {0xcc, 0x79, 0xa7},
     {0xe6, 0x9f, 0x00}, {0x56, 0xb4, 0xe9}, {0x22, 0x22, 0x22}};
 static const struct rgb rule = {0xe2, 0xe2, 0xe2}, sand = {0xf3, 0xf1, 0xec},
                         gold = {0xf4, 0xd0, 0x6f}, white = {255, 255, 255};
 
-#define AIR 0.04 /* of an axis, beyond its points at either end */
+#define AIR 0.04 /* fraction of an axis beyond its points at both ends */
 
-static const double nothing = 1e-290; /* as good as 0 on an axis */
+static const double nothing = 1e-290; /* counts as 0 on an axis */
 
 enum {
-    CROWDED = 60, /* points of a series that are too many for markers       */
+    CROWDED = 60, /* a series with more points has no markers               */
     MARKERS = 4,  /* shapes: circle, square, triangle, diamond              */
     SWATCH = 56,  /* length of a line in the legend, in units of the design */
-    LABELS = 64   /* of points of the front                                 */
+    LABELS = 64   /* labels of points of the front                          */
 };
 
 struct box {
@@ -34,21 +34,21 @@ struct box {
 struct graph_page {
     const struct graph *g;
     struct canvas *c;
-    struct page page; /* fonts, title, subtitle, stamp */
+    struct page page; /* with fonts, title, subtitle, stamp */
     struct figure words;
     struct axis x, y;
     double left, top, w, h; /* the plot */
     double u;
-    size_t lost;              /* points that a logarithmic axis cannot hold */
-    size_t sunk;              /* of these, the ones that stand at the foot of the plot */
+    size_t lost;              /* number of points not above 0 on a logarithmic axis */
+    size_t sunk;              /* of these, the number at the foot of the plot */
     struct box taken[LABELS]; /* by labels */
     size_t labels;
 };
 
 /* ---- axes ---- */
 
-/* Square metres get the prefix of a length. A unit without a prefix stays as it is where powers of ten
- * stand at the marks. */
+/* Square metres get the prefix of a length. A unit without a prefix is kept if the marks are powers of
+ * ten. */
 static void
 choose_scale(struct scale *s, double largest, const char *unit, bool powers)
 {
@@ -57,7 +57,7 @@ choose_scale(struct scale *s, double largest, const char *unit, bool powers)
         const char *unit;
     } areas[] = {{1, "m²"}, {1e-6, "mm²"}, {1e-12, "µm²"}, {1e-18, "nm²"}};
 
-    if (largest < nothing) { /* of which no power of ten is left to divide by */
+    if (largest < nothing) { /* no power of ten is left to divide by */
         scale_choose(s, 1, unit);
         return;
     }
@@ -97,7 +97,7 @@ shows(const struct graph_axis *a, double value)
     return isfinite(value) && (value > 0 || !a->log);
 }
 
-/* Whether point k of a series is drawn. */
+/* True if point k of a series is drawn. */
 static bool
 is_point(const struct graph *g, const struct graph_series *s, size_t k)
 {
@@ -110,7 +110,7 @@ has_markers(const struct graph_series *s)
     return s->kind == GRAPH_POINTS || (s->kind == GRAPH_MARKS && s->n <= CROWDED);
 }
 
-/* Whether point k is at or below 0 on a logarithmic axis y: it stands at the foot of the plot. */
+/* True if point k is at or below 0 on a logarithmic axis y: it is drawn at the foot of the plot. */
 static bool
 is_sunk(const struct graph *g, const struct graph_series *s, size_t k)
 {
@@ -118,7 +118,7 @@ is_sunk(const struct graph *g, const struct graph_series *s, size_t k)
            !shows(&g->y, s->y[k]);
 }
 
-/* The least and the largest value of an axis; lo > hi: there is none. Bars stand on 0. */
+/* The smallest and the largest value of an axis; lo > hi: there is none. Bars start at 0. */
 static void
 extremes(const struct graph *g, bool up, double *lo, double *hi)
 {
@@ -145,7 +145,7 @@ extremes(const struct graph *g, bool up, double *lo, double *hi)
     *hi = isnan(a->hi) ? *hi : a->hi;
 }
 
-/* The unit in brackets, unless the text names the one that was asked for itself. */
+/* The unit in brackets, unless the text already contains the requested unit. */
 static void
 label(struct axis *s, const struct graph_axis *a)
 {
@@ -159,7 +159,7 @@ label(struct axis *s, const struct graph_axis *a)
         scale_label(s->label, sizeof s->label, a->quantity, &s->scale);
 }
 
-/* A little air at both ends, but none between the curves and a 0 that they begin at. */
+/* Adds a margin at both ends, but none between the curves and a 0 at which they begin. */
 static enum rc_status
 set_range(struct axis *s, const struct graph *g, bool up, struct rc_err *err)
 {
@@ -257,8 +257,8 @@ is_hollow(const struct graph_series *s, size_t k)
     return s->point != NULL && s->point[k].hollow;
 }
 
-/* Of the points from k on that share its column of pixels, in a series of many points, the extremes and the
- * last are drawn. Returns the last. */
+/* In a series of many points, of the points from k on in one column of pixels only the extremes and the last
+ * are drawn. Returns the last. */
 static size_t
 draw_column(struct graph_page *p, const struct graph_series *s, size_t k)
 {
@@ -279,7 +279,7 @@ draw_column(struct graph_page *p, const struct graph_series *s, size_t k)
     return last;
 }
 
-/* Laws are dashed; points of two kinds are not joined. */
+/* Laws are dashed; points of different kinds are not joined. */
 static void
 draw_line(struct graph_page *p, const struct graph_series *s, struct rgb colour)
 {
@@ -321,7 +321,7 @@ draw_bars(struct graph_page *p, const struct graph_series *s, struct rgb colour)
         double y = y_of(p, s->y[k]);
 
         canvas_fill(p->c, x, y, end - x, fmax(floor_y - y, 0), pale(colour));
-        if (k > 0) { /* no light between two bars */
+        if (k > 0) { /* no gap between two bars */
             y = fmax(y, y_of(p, s->y[k - 1]));
             canvas_fill(p->c, x - 1, y, 2, fmax(floor_y - y, 0), pale(colour));
         }
@@ -393,7 +393,7 @@ draw_series(struct graph_page *p, const struct graph_series *s)
     draw_error_bars(p, s);
 }
 
-/* A triangle whose tip is at (x, y) below it. */
+/* A triangle that points down to (x, y). */
 static void
 draw_sunk(struct graph_page *p, double x, double y, struct rgb colour)
 {
@@ -402,7 +402,7 @@ draw_sunk(struct graph_page *p, double x, double y, struct rgb colour)
     canvas_triangle(p->c, at, colour);
 }
 
-/* Whole also where they stand on the frame. */
+/* They are complete even on the frame. */
 static void
 draw_markers(struct graph_page *p, const struct graph_series *s)
 {
@@ -439,7 +439,7 @@ draw_floor(struct graph_page *p)
         canvas_text(p->c, &font, p->left + p->w - 10 * p->u, foot - 8 * p->u, 1, p->g->floor_text);
 }
 
-/* Joins its points from left to right. */
+/* Joins the points from left to right. */
 static void
 draw_front(struct graph_page *p)
 {
@@ -495,8 +495,8 @@ is_free(const struct graph_page *p, const struct box *b)
     return p->labels < LABELS;
 }
 
-/* A label is put to the lower left of its point, where no other point of the front can lie, or, where that
- * place is taken, at one of the others in turn; where all are taken it is left out. */
+/* A label is at the lower left of its point, where no other point of the front can be; if this place is
+ * taken, the other places are tried in turn; if all are taken the label is omitted. */
 static void
 draw_labels(struct graph_page *p, const struct graph_series *s)
 {
@@ -536,7 +536,7 @@ draw_rules(struct graph_page *p)
                         1.2 * p->u, rule);
 }
 
-/* Dashed lines across the plot, such as those where depths pass from one medium to the next. */
+/* Dashed lines across the plot, for example at the interfaces of media. */
 static void
 draw_uprights(struct graph_page *p)
 {
@@ -584,7 +584,7 @@ say_sunk(const struct graph_page *p, char text[LINE])
              p->g->zero == NULL ? "at or below 0" : p->g->zero);
 }
 
-/* What stands behind the series: sunk points, hollow ones, the front. NULL: there are none. */
+/* The legend entries after the series: points at the foot, hollow points, the front. NULL: there are none. */
 static const char *
 entry(const struct graph_page *p, size_t k, char text[LINE])
 {
@@ -613,8 +613,7 @@ draw_entry(struct graph_page *p, size_t k, double x, double y)
     }
 }
 
-/* Draws the entries from y down, side by side as many as fit, the note last; gives the height that
- * they take. */
+/* Draws the entries from y downwards, as many side by side as fit, the note last; returns their height. */
 static double
 legend(struct graph_page *p, double y, bool draw)
 {
@@ -676,7 +675,7 @@ count_lost(struct graph_page *p)
                            !is_point(g, &g->series[s], k);
 }
 
-/* Gives the height of the picture. */
+/* Returns the height of the picture. */
 static double
 lay_out(struct graph_page *p)
 {
@@ -719,7 +718,7 @@ draw(struct graph_page *p)
            true);
 }
 
-/* Laid out, its height in page.h; NULL when memory is short or an axis has no point. */
+/* The laid out graph, its height in page.h; NULL when memory is short or an axis has no point. */
 static struct graph_page *
 graph_page_new(const struct graph *g, struct rc_err *err)
 {
@@ -742,7 +741,7 @@ graph_page_new(const struct graph *g, struct rc_err *err)
     if (set_range(&p->x, g, false, err) != RC_OK || set_range(&p->y, g, true, err) != RC_OK)
         goto fail;
     count_lost(p);
-    if ((p->c = p->page.c = page_canvas(&p->page, 1, 1, err)) == NULL) /* to measure text on */
+    if ((p->c = p->page.c = page_canvas(&p->page, 1, 1, err)) == NULL) /* only to measure text */
         goto fail;
     p->page.h = (size_t)ceil(lay_out(p));
     canvas_free(p->c);

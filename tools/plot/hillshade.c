@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The value of a cell; without contact it is 0, where it is missing NaN. */
+/* The value of a cell: 0 without contact, NaN if missing. */
 static double
 value_at(const struct raster *r, size_t i, size_t j)
 {
@@ -12,7 +12,7 @@ value_at(const struct raster *r, size_t i, size_t j)
     return isnan(r->v[k]) && r->none[k] > 0 ? 0 : r->v[k];
 }
 
-/* Slopes to the right and down, a cell's width the unit, from the neighbours that are there. */
+/* Slopes to the right and downwards, per width of a cell, from valid neighbours. */
 static void
 slopes(const struct raster *r, double aspect, size_t i, size_t j, double *right, double *down)
 {
@@ -31,7 +31,7 @@ slopes(const struct raster *r, double aspect, size_t i, size_t j, double *right,
 static double
 brightness(double right, double down)
 {
-    const double level = 0.5, above = sqrt(0.5); /* parts of the light: (-1/2, -1/2, 0.71) */
+    const double level = 0.5, above = sqrt(0.5); /* components of the light: (-1/2, -1/2, 0.71) */
     double cosine = (level * right + level * down + above) / sqrt(1 + right * right + down * down);
 
     return fmin(fmax(0.35 + 0.65 * cosine / above, 0.35), 1.4);
@@ -40,7 +40,7 @@ brightness(double right, double down)
 float *
 hillshade_new(const struct raster *r, double aspect, struct rc_err *err)
 {
-    const double steep = 0.7; /* the RMS slope is drawn as this one */
+    const double steep = 0.7; /* the RMS slope is scaled to this value */
     float *shade = malloc(r->w * r->h * sizeof *shade);
     double sum = 0, right, down, factor;
     size_t n = 0;

@@ -1,6 +1,6 @@
 /*
- * The media of a section: a line wherever two of them meet, and beside the plot the number of each,
- * which the legend explains.
+ * The media of a section: a line at each interface, and beside the plot the number of each medium, which the
+ * legend explains.
  */
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 
 static const struct rgb light = {0xff, 0xff, 0xff};
 
-/* Lines nearer to each other than this would be one band, in units of the design. */
+/* Lines at smaller distances would merge, in units of the design. */
 static const double apart = 4;
 
 size_t
@@ -61,7 +61,7 @@ media_gutter(const struct page *p)
     return 24 * p->u + widest;
 }
 
-/* Where a depth lies on the page, within the plot. */
+/* The position of a depth on the page, inside the plot. */
 static double
 place(const struct page *p, double depth)
 {
@@ -71,7 +71,7 @@ place(const struct page *p, double depth)
     return (double)p->plot_y + fmin(fmax(t, 0), 1) * (double)p->plot_h;
 }
 
-/* Dark with a light rim, to be seen on every colour. */
+/* Dark with a light rim, visible on every colour. */
 static void
 draw_line(struct page *p, double y)
 {
@@ -82,8 +82,8 @@ draw_line(struct page *p, double y)
     }
 }
 
-/* The lowest line first, the surface of the substrate, then from the top those that are not too
- * near to a line already drawn. */
+/* Draws the lowest line, the surface of the substrate, first, then from the top the lines that are not too
+ * near to a drawn one. */
 static void
 draw_lines(struct page *p, size_t first, size_t n)
 {
@@ -100,8 +100,7 @@ draw_lines(struct page *p, size_t first, size_t n)
     }
 }
 
-/* Each at the middle of its medium; where that is too thin they move apart, and keep within the
- * plot. */
+/* Each number is at the middle of its medium; for thin media the numbers move apart, inside the plot. */
 static void
 draw_numbers(struct page *p, size_t first, size_t n)
 {

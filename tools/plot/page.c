@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SMALL 21 /* marks, where the unit of the design is 1 */
+#define SMALL 21 /* size of the marks for a design unit of 1 */
 #define BETWEEN " \xc2\xb7 "
 #define CUT "\xe2\x80\xa6"
 
@@ -13,7 +13,7 @@ const struct rgb page_ink = {0x22, 0x22, 0x22}, page_faint = {0x59, 0x59, 0x59};
 
 /* ---- text ---- */
 
-/* Bytes of the longest start of text[0..n) that ends between characters. */
+/* Bytes of the longest beginning of text[0..n) that does not end inside a character. */
 static size_t
 whole_characters(const char *text, size_t n)
 {
@@ -33,7 +33,7 @@ copy_text(char line[LINE], const char *text, size_t n)
     line[n] = '\0';
 }
 
-/* Cut behind a word, unless the first one is too long already. */
+/* Cuts after a word, unless the first word is already too long. */
 void
 page_shorten(struct page *p, const struct canvas_font *font, double width, char line[LINE])
 {
@@ -62,7 +62,7 @@ piece(const char *text, const char *separator)
     return end == NULL ? strlen(text) : (size_t)(end - text);
 }
 
-/* Bytes of as many pieces of the text as fit on a line, but at least one. */
+/* Bytes of the pieces of the text that fit on a line, at least one piece. */
 static size_t
 fit(struct page *p, const struct canvas_font *font, double width, const char *separator,
     const char *text)
@@ -81,8 +81,8 @@ fit(struct page *p, const struct canvas_font *font, double width, const char *se
     return n;
 }
 
-/* Breaks text at the separators into lines that fit, a piece too long for a line between its words;
- * what is too much for the last one is cut. */
+/* Breaks text at the separators into lines; a piece that is too long for a line is broken between words; the
+ * last line is cut if necessary. */
 void
 page_wrap(struct page *p, const struct canvas_font *font, double width, const char *separator,
           const char *text, struct text *t)
@@ -114,7 +114,7 @@ set_axis(struct axis *a, const char *quantity, const char *unit, double lo, doub
     scale_label(a->label, sizeof a->label, quantity, &a->scale);
 }
 
-/* Where both axes of a map have one unit they get one step. */
+/* If both axes of a map have one unit they get one step. */
 static void
 mark_map(struct page *p)
 {
@@ -130,7 +130,7 @@ mark_map(struct page *p)
         axis_even_steps(p, &p->across, &p->down, h, true);
 }
 
-/* Both axes of a map in one unit, unless one of them is too short for it. */
+/* Gives both axes of a map one unit, unless one axis is too short for it. */
 static void
 set_axes(struct page *p)
 {
@@ -184,7 +184,7 @@ page_fonts(struct page *p)
     p->stamp = (struct canvas_font){.size = 24 * p->u, .bold = true, .colour = page_alarm};
 }
 
-/* The unit of the design where text has its size on paper; 0: that is not asked for. */
+/* The unit of the design for text with a size on paper; 0: not requested. */
 static double
 unit_on_paper(const struct figure *f)
 {
@@ -197,8 +197,8 @@ set_dpi(struct page *p)
     p->dpi = p->f->dpi > 0 ? p->f->dpi : 72 * p->small.size / FIGURE_POINTS;
 }
 
-/* Pixels of the longer side of a plot of n nodes: a whole number of them for a node, or of nodes
- * for one, so that all cells look alike. */
+/* Pixels of the longer side of a plot of n nodes: a whole number of pixels per node, or of nodes per pixel,
+ * so that all cells look equal. */
 static double
 natural_side(size_t n, double u)
 {
@@ -210,7 +210,7 @@ natural_side(size_t n, double u)
     return round(nodes / ceil(nodes / most));
 }
 
-/* Width over height of a map as it is drawn. */
+/* Width over height of a drawn map. */
 static double
 aspect_of(const struct figure *f)
 {
@@ -227,7 +227,7 @@ is_sheet(const struct page *p)
     return p->columns * p->rows > 1;
 }
 
-/* Maps of `width` pixels; 0: what suits the nodes of the only one. */
+/* Sizes of maps of `width` pixels; 0: from the nodes of the only map. */
 static void
 set_plot(struct page *p, double width)
 {
@@ -248,7 +248,7 @@ set_plot(struct page *p, double width)
     p->bar_below = (double)p->plot_h < 300 * p->u && p->f->is == NULL && !is_sheet(p);
 }
 
-/* The room that the axes and the bar take to the left and to the right of the plot, and between maps. */
+/* The widths of axes and bar left and right of the plot, and between maps. */
 static void
 measure_sides(struct page *p)
 {
@@ -271,7 +271,7 @@ page_swatch(const struct page *p, size_t k)
     return p->note[k].swatch == SWATCH_NOTHING ? 0 : 38 * p->u;
 }
 
-/* A text too long for the width goes on in a note of its own. */
+/* A text that is too long for the width continues in another note. */
 static void
 add_note(struct page *p, double width, enum swatch swatch, const char *text)
 {
@@ -286,7 +286,7 @@ add_note(struct page *p, double width, enum swatch swatch, const char *text)
     }
 }
 
-/* Their numbers stand beside the plot. */
+/* Their numbers are beside the plot. */
 static void
 add_media(struct page *p, double width)
 {
@@ -315,7 +315,7 @@ say_scales(const struct figure *f, char *text, size_t size)
     return text;
 }
 
-/* What the legend says, and where: side by side as many as fit a line. */
+/* Content and positions of the legend: as many entries side by side as fit in a line. */
 void
 page_legend(struct page *p, double width)
 {
@@ -361,7 +361,7 @@ page_legend(struct page *p, double width)
     p->legend_h = p->notes == 0 ? 0 : y + line + 10 * p->u;
 }
 
-/* A label that reads upwards may be longer than the plot is high: half of what sticks out. */
+/* A vertical label may be longer than the height of the plot: half of the excess. */
 static double
 overhang(struct page *p)
 {
@@ -412,7 +412,7 @@ page_between_rows(const struct page *p)
     return 2.1 * p->small.size;
 }
 
-/* Maps become the plot of the page. */
+/* Arranges the maps as the plot of the page. */
 static void
 set_page(struct page *p)
 {
@@ -442,14 +442,14 @@ set_page(struct page *p)
     set_dpi(p);
 }
 
-/* Sizes depend on texts, texts on marks, marks on sizes: with a width that is given a few rounds settle
- * that. */
+/* Sizes depend on texts, texts on marks, and marks on sizes: for a given width a few iterations find them. */
 enum rc_status
 page_lay_out(struct page *p, struct rc_err *err)
 {
-    const double least = 40, columns = (double)p->columns; /* pixels of a map of several */
+    const double least = 40, columns = (double)p->columns; /* smallest width in pixels of one of
+                                                              several maps */
     bool beside = false,
-         again = false; /* the bar has been; and then below once more: it stays there */
+         again = false; /* the bar was beside the plot, then below it again: it stays below */
     double width;
 
     page_size(p, is_sheet(p) ? SHEET_WIDTH : 1200);

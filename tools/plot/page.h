@@ -1,5 +1,5 @@
-/* What goes where on a figure: sizes, marks and broken lines of text, settled before anything is
- * drawn. All lengths are pixels. */
+/* The layout of a figure: sizes, marks and lines of text, determined before drawing. All lengths are in
+ * pixels. */
 #ifndef RC_PAGE_H
 #define RC_PAGE_H
 
@@ -15,15 +15,15 @@ enum {
     LINES = 4,
     NOTES = 16,
     MARKS = 256,   /* of an axis */
-    MEDIA_TOLD = 8 /* numbered, and described in the legend: more are lines only */
+    MEDIA_TOLD = 8 /* most numbered media in the legend; further media are lines only */
 };
 
-/* A value v, in the unit of the scale, lies at axis_place between the ends. */
+/* axis_place gives the position of a value v, in the unit of the scale, between the ends. */
 struct axis {
     struct scale scale;
-    struct ticks ticks; /* of marks at even steps                                         */
-    double lo, hi;   /* in the unit of the scale; of a logarithmic axis their decimal logarithms */
-    bool log, minor; /* minor: with marks between the numbers                          */
+    struct ticks ticks; /* steps of even marks */
+    double lo, hi;   /* ends in the unit of the scale; decimal logarithms for a logarithmic axis */
+    bool log, minor; /* minor: marks between the numbers too */
     char label[LINE];
     struct {
         double value, at; /* at: 0 to 1 */
@@ -32,9 +32,9 @@ struct axis {
     } mark[MARKS];
     size_t marks;
     double widest;           /* mark's text, pixels                           */
-    const char *const *word; /* of an axis of categories, at 0, 1, ...        */
+    const char *const *word; /* words of an axis of categories, at 0, 1, ...  */
     size_t words;            /* 0: of numbers                                 */
-    bool upwards;            /* words too long to stand side by side          */
+    bool upwards;            /* the words are too long to be side by side     */
 };
 
 struct text {
@@ -59,95 +59,95 @@ struct page {
     const struct rc_grid *g;
     struct canvas *c;
     bool bar_below, distorted;
-    double u; /* the unit of the design: text, gaps and lines grow with the plot       */
+    double u; /* the unit of the design, to which text, gaps and lines are proportional */
     struct canvas_font small, large, heading, subheading, stamp;
     struct axis across, down, values;
     struct text title, subtitle;
     struct {
         enum swatch swatch;
         char text[LINE];
-        double x, y; /* from the left and top of the legend, pixels */
+        double x, y; /* position from the left and top of the legend, pixels */
     } note[NOTES];
     size_t notes;
     double legend_h;
-    double gutter;                        /* right of a plot, for the numbers of media */
+    double gutter;                        /* width right of a plot for the numbers of media */
     double stamp_h;                       /* 0 without one */
-    double left_w, right_w, above, below; /* around the plot, margins included         */
-    double top;                           /* of the page on its canvas                 */
+    double left_w, right_w, above, below; /* space around the plot, margins included   */
+    double top;                           /* position of the page on its canvas        */
     size_t columns, rows;                 /* of maps                                   */
-    size_t map_w, map_h;                  /* of each; plot_w and plot_h are of all     */
-    double across_step, down_step;        /* from one to the next, pixels              */
+    size_t map_w, map_h;                  /* size of each map; plot_w and plot_h are those of all */
+    double across_step, down_step;        /* distance from one to the next, pixels     */
     size_t plot_x, plot_y, plot_w, plot_h, w, h;
-    double dpi; /* pixels of the page in an inch of paper */
+    double dpi; /* pixels of the page per inch of paper */
 };
 
 extern const struct rgb page_ink, page_faint;
 
 extern const struct rgb page_alarm;
 
-/* Settles everything of a page of maps whose f, g, columns and rows are set, measuring text on c. RC_FAIL:
- * the page is too narrow for so many columns. */
+/* Lays out a page of maps, with f, g, columns and rows set, measuring text with c. RC_FAIL: the page is too
+ * narrow for the columns. */
 enum rc_status page_lay_out(struct page *page, struct rc_err *err);
-/* Pixels that the swatch of note k takes, gap included. */
+/* Width of the swatch of note k, gap included. */
 double page_swatch(const struct page *page, size_t k);
-/* From the plot's right edge to a bar beside it, and from its lower edge to a bar below. */
+/* Distance from the plot's right edge to a bar beside it, and from its lower edge to a bar below. */
 double page_bar_right(const struct page *page);
-/* From the plot's right edge to that of the page, with a bar beside it or, of categories, none. */
+/* Distance from the plot's right edge to that of the page, with a bar between them or, for categories,
+ * without. */
 double page_right(const struct page *page);
-/* Pixels from one row of maps to the next, beside their height. */
+/* Pixels between one row of maps and the next. */
 double page_between_rows(const struct page *page);
 double page_bar_below(const struct page *page);
-/* The height that marks and label take below an axis. */
+/* The height of marks and label below an axis. */
 double page_marks(const struct page *page);
-/* Sets width, unit, fonts and dpi as the figure asks for, of a page that is `design` pixels wide
- * where nothing is asked for. */
+/* Sets width, unit, fonts and dpi of the figure, for a page that is `design` pixels wide by default. */
 void page_size(struct page *page, size_t design);
-/* A canvas of that size for the page, with the font and the size on paper that the figure asks for.
- * NULL as canvas_new. */
+/* A canvas of this size for the page, with the font and the size on paper of the figure. NULL as for
+ * canvas_new. */
 struct canvas *page_canvas(const struct page *page, size_t w, size_t h, struct rc_err *err);
 /* Sets the fonts of the page for its u. */
 void page_fonts(struct page *page);
-/* Cuts the end of a line that is wider than `width`. */
+/* Cuts a line to `width`. */
 void page_shorten(struct page *page, const struct canvas_font *font, double width, char line[LINE]);
-/* Breaks text at the separators into lines that fit, a piece too long for a line between its words;
- * what is too much for the last one is cut. */
+/* Breaks text at the separators into lines; a piece that is too long for a line is broken between words; the
+ * last line is cut if necessary. */
 void page_wrap(struct page *page, const struct canvas_font *font, double width,
                const char *separator, const char *text, struct text *lines);
-/* Breaks title and subtitle into lines; a title with a word too long for one gets smaller. */
+/* Breaks title and subtitle into lines; a title with a word that is too long for a line gets smaller. */
 void page_words(struct page *page, double width);
-/* What they and the stamp take above a plot. */
+/* The height of title, subtitle and stamp above a plot. */
 double page_words_height(const struct page *page);
-/* Draws title, subtitle and stamp, over the plot. In figure.c. */
+/* Draws title, subtitle and stamp above the plot. In figure.c. */
 void page_heading(struct page *page);
-/* Chooses the marks of all axes for a plot of plot_w by plot_h pixels, the bar as high as that. */
+/* Chooses the marks of all axes for a plot of plot_w by plot_h pixels and a bar of the same height. */
 void page_measure(struct page *page);
-/* Settles what the legend says, and its height. */
+/* Determines the content of the legend, and its height. */
 void page_legend(struct page *page, double width);
 /* Draws the colour bar beside the plot, and the legend at the foot of the page. */
 void page_bar(struct page *page);
 /* ---- axis.c ---- */
 
-/* Where a value lies between the ends of the axis, 0 to 1. */
+/* The position of a value between the ends of the axis, 0 to 1. */
 double axis_place(const struct axis *axis, double value);
-/* Chooses marks for so many pixels, whose numbers do not touch each other. */
+/* Chooses marks for this number of pixels, whose numbers do not touch each other. */
 void axis_mark(struct page *page, struct axis *axis, double length, bool upright);
-/* The finer one gets the steps of the coarser one, unless that leaves it too few marks. */
+/* The finer axis gets the steps of the coarser one, unless it would have too few marks. */
 void axis_even_steps(struct page *page, struct axis *coarse, struct axis *fine, double length,
                      bool upright);
-/* The height that words which read upwards take below a plot, beyond that of numbers. */
+/* The additional height below a plot of words that read upwards, compared with numbers. */
 double axis_word_room(const struct page *page, const struct axis *axis);
-/* Draws marks and label below a plot, or beside it, where values rise downwards or upwards. */
+/* Draws marks and label below a plot, or beside it, with values that rise downwards or upwards. */
 void axis_across(struct page *page, const struct axis *axis, double x, double y, double w);
 void axis_upright(struct page *page, const struct axis *axis, double x, double y, double h,
                   bool left, bool rises_down);
 
 /* ---- media.c ---- */
 
-/* The media that the figure shows a part of: the first, and how many. */
+/* The media in the figure: the first one, and their number. */
 size_t media_seen(const struct figure *figure, size_t *first);
 /* The width of their numbers right of a plot; 0 without any. */
 double media_gutter(const struct page *page);
-/* Lines where they meet, and right of the plot their numbers, if it has a gutter. */
+/* Draws lines at interfaces and, if there is a gutter right of the plot, the numbers of the media. */
 void media_draw(struct page *page);
 
 #endif

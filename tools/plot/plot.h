@@ -1,5 +1,5 @@
 /*
- * The face of this folder: figures and charts on a canvas. It knows grids and no tool.
+ * The interface of this folder: figures and charts on a canvas. It uses grids, but no tool.
  */
 #ifndef RC_PLOT_H
 #define RC_PLOT_H

@@ -28,9 +28,9 @@ survey_map(const struct rc_grid *g, struct survey *s)
 
 /* ---- reduction and enlargement ---- */
 
-/* Which nodes a cell covers along one axis, and what part of the cell each takes. */
+/* The nodes that a cell covers along one axis, and the fraction of the cell for each. */
 struct spans {
-    size_t *first; /* of each cell; cells + 1 of them index `weight` through `start` */
+    size_t *first; /* first node of each cell; `start` has cells + 1 indices into `weight` */
     size_t *start;
     double *weight;
 };
@@ -43,11 +43,12 @@ spans_free(struct spans *s)
     free(s->weight);
 }
 
-/* spans_free in either case. */
+/* Call spans_free in either case. */
 static enum rc_status
 spans_new(struct spans *s, size_t n, size_t cells, struct rc_err *err)
 {
-    const double sliver = 1e-9; /* a share that is only rounding: it could be the share of a NaN */
+    const double sliver = 1e-9; /* a fraction that is only rounding is omitted, because the node
+                                   could be NaN */
     size_t node = 0, used = 0;
 
     *s = (struct spans){.first = malloc(cells * sizeof *s->first),
@@ -75,7 +76,7 @@ spans_new(struct spans *s, size_t n, size_t cells, struct rc_err *err)
     return RC_OK;
 }
 
-/* Adds the share of one row of nodes to a row of cells; r->v holds sums until they are divided. */
+/* Adds one row of nodes, weighted, to a row of cells; r->v holds sums until they are divided. */
 static void
 add_row(struct raster *r, size_t row, const double *v, const struct spans *x, double share,
         bool zero_is_none, double *weight)
@@ -99,7 +100,7 @@ add_row(struct raster *r, size_t row, const double *v, const struct spans *x, do
     }
 }
 
-/* The rows of the raster from `first` of all of them on. */
+/* The rows of the raster from `first` on. */
 static void
 fill(struct raster *r, size_t first, const struct rc_grid *g, const struct spans *x,
      const struct spans *y, bool zero_is_none, double *weight)
@@ -245,8 +246,8 @@ height_at(const struct raster *r, size_t i, size_t j)
     return isnan(r->v[k]) ? 0 : r->v[k] * (1 - (double)r->none[k] / present);
 }
 
-/* The line through the square of four neighbouring middles. Corners run around the square:
- * 0 upper left, 1 upper right, 2 lower right, 3 lower left; side s goes from corner s to s + 1. */
+/* The line through the square between the centres of four neighbouring cells. Corners are numbered 0 upper
+ * left, 1 upper right, 2 lower right, 3 lower left; side s goes from corner s to s + 1. */
 static enum rc_status
 cross_square(const double z[4], double level, size_t i, size_t j, struct lines *l,
              struct rc_err *err)
@@ -267,7 +268,7 @@ cross_square(const double z[4], double level, size_t i, size_t j, struct lines *
     }
     if (n == 2)
         return add_line(l, at[0], at[1], err);
-    if (n == 4) { /* a saddle: the middle says which opposite corners belong together */
+    if (n == 4) { /* a saddle: the mean decides which opposite corners are joined */
         bool middle = 0.25 * (z[0] + z[1] + z[2] + z[3]) > level;
         int turn = middle == (z[0] > level) ? 0 : 1;
 
@@ -301,7 +302,7 @@ reaches(const struct rc_grid *g, size_t i, size_t j, double level)
     return level > 0 ? v >= level : v > 0;
 }
 
-/* Whether the border along a row of edges, or a column of them, passes here. */
+/* True if the border along a row or column of edges passes here. */
 static bool
 parts(const struct rc_grid *g, size_t i, size_t j, bool below, double level)
 {

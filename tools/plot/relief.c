@@ -9,8 +9,8 @@
 #include "raster.h"
 #include "ticks.h"
 
-/* The box: X to the right and Y up the picture of the map, Z out of it, all over the map's longer
- * side; the middle of the floor is the origin. */
+/* The coordinates of the box: X to the right and Y upwards in the picture of the map, Z towards the viewer of
+ * the map, divided by the longer side of the map; the origin is the middle of the floor. */
 struct vec {
     double x, y, z;
 };
@@ -20,13 +20,13 @@ struct scene {
     const struct view *view;
     struct page page;
     double lx, ly, lz;            /* of the box                                              */
-    struct vec right, up, toward; /* of the picture in the box: toward the viewer            */
-    double scale, ox, oy;         /* pixels a unit, and where the origin is                  */
-    double left, top;             /* of the image, pixels                                    */
+    struct vec right, up, toward; /* direction towards the viewer, in the box                */
+    double scale, ox, oy;         /* pixels per unit, and the position of the origin */
+    double left, top;             /* size of the image, pixels                               */
     size_t nx, ny;                /* corners of the mesh                                     */
-    double *value;                /* of each, NaN: none                                      */
-    size_t w, h, fine;            /* of the image, `fine` samples a side of each pixel        */
-    float *depth;                 /* nearest so far, toward the viewer                       */
+    double *value;                /* value of each corner, NaN: none */
+    size_t w, h, fine;            /* the image, with `fine` samples along each side of a pixel */
+    float *depth;                 /* distance towards the viewer of the nearest surface so far */
     struct rgb *colour;
 };
 
@@ -96,7 +96,7 @@ project(const struct scene *s, struct vec v, double *x, double *y)
     *y = s->oy - s->scale * dot(v, s->up);
 }
 
-/* Corner k of the box: bits say right, back (up the map), top. */
+/* Corner k of the box: its bits mean right, back (up the map), top. */
 static struct vec
 box_corner(const struct scene *s, int k)
 {
@@ -106,7 +106,7 @@ box_corner(const struct scene *s, int k)
 
 /* ---- the mesh ---- */
 
-/* The largest value of the nodes that a piece covers. */
+/* The largest value of the nodes in a piece. */
 static void
 take_peaks(struct scene *s, const struct rc_grid *g)
 {
@@ -151,7 +151,7 @@ node_at(const struct scene *s, size_t i, size_t j)
                         height_of(s, s->value[j * s->nx + i])};
 }
 
-/* Slope of the surface from neighbours that are there, along a row or a column. */
+/* Slope of the surface from valid neighbours, along a row or a column. */
 static double
 slope(const struct scene *s, size_t i, size_t j, bool along)
 {
@@ -169,7 +169,7 @@ slope(const struct scene *s, size_t i, size_t j, bool along)
     return q.y < p.y ? (q.z - p.z) / (q.y - p.y) : 0;
 }
 
-/* Light comes over the viewer's left shoulder. */
+/* The light comes over the left shoulder of the viewer. */
 static double
 light_on(const struct scene *s, struct vec normal)
 {
@@ -180,7 +180,7 @@ light_on(const struct scene *s, struct vec normal)
     return 0.35 + 0.7 * fmax(lit, 0);
 }
 
-/* What lies flat has the colours of the bar. */
+/* Flat parts have the colours of the bar. */
 static double
 shade_of(const struct scene *s, struct vec normal)
 {
@@ -236,8 +236,8 @@ surface_colour(const struct scene *s, double value)
     return colormap_value(s->f->map, s->f->lo, s->f->hi, value);
 }
 
-/* Fills the triangle where it is nearer than what is there; with a colour of its own or, with NULL,
- * that of the values between its corners. */
+/* Fills the triangle where it is nearer than the surface drawn before; with one colour or, with NULL, the
+ * colours of the values between its corners. */
 static void
 triangle(struct scene *s, const struct corner *a, const struct corner *b, const struct corner *c,
          const struct rgb *own)
@@ -264,7 +264,7 @@ triangle(struct scene *s, const struct corner *a, const struct corner *b, const 
         }
 }
 
-/* Two triangles; where one corner is missing, the other one. */
+/* Two triangles; if one corner is missing, only the other one. */
 static void
 quad(struct scene *s, const struct corner *const q[4])
 {
@@ -305,7 +305,7 @@ draw_surface(struct scene *s, struct rc_err *err)
     return RC_OK;
 }
 
-/* From the edge of the surface down to the floor, between two nodes of that edge. */
+/* A wall from the edge of the surface down to the floor, between two nodes of that edge. */
 static void
 draw_wall(struct scene *s, size_t i, size_t j, size_t k, size_t l, struct vec outwards)
 {
@@ -416,8 +416,7 @@ line(struct scene *s, struct vec a, struct vec b, double width, struct rgb colou
     canvas_stroke(s->page.c, width, colour);
 }
 
-/* All edges that end in the nearest corner of the top stay open, so that nothing crosses the
- * surface. */
+/* The edges that end in the nearest corner of the top are omitted, so that no line crosses the surface. */
 static void
 draw_box(struct scene *s)
 {
@@ -434,13 +433,13 @@ draw_box(struct scene *s)
     }
 }
 
-/* An axis from corner a to corner b; marks stick out in the direction of `out` on the picture. */
+/* An axis from corner a to corner b; marks point in the direction `out` of the picture. */
 struct side {
     const struct axis *axis;
     struct vec a, b;
     double out[2];
-    bool flip;     /* values fall from a to b                                   */
-    bool keep_off; /* no number at the corner that is nearest: another axis has one there */
+    bool flip;     /* values decrease from a to b */
+    bool keep_off; /* no number at the nearest corner: another axis has one there */
 };
 
 /* Of all axes. */
@@ -489,7 +488,7 @@ draw_side(struct scene *s, const struct side *side)
     }
     if (fabs(x1 - x0) < 0.02 * length) {
         if (canvas_text_width(p->c, &p->large, a->label) > length - p->small.size)
-            widest = widest_number(p); /* it hangs down beside a mark of the floor */
+            widest = widest_number(p); /* it extends downwards beside a mark of the floor */
         canvas_text_upwards(p->c, &p->large, x0 - widest - 26 * u, 0.5 * (y0 + y1), a->label);
     } else {
         double far = 24 * u + fabs(side->out[0]) * widest + fabs(side->out[1]) * p->small.size;
@@ -501,19 +500,19 @@ draw_side(struct scene *s, const struct side *side)
     }
 }
 
-/* Away from the box on the picture, for an edge of the floor whose outer normal is `n`. */
+/* The direction away from the box in the picture, for an edge of the floor with the outer normal `n`. */
 static void
 set_out(const struct scene *s, struct side *side, struct vec n)
 {
     double x = dot(n, s->right), y = -dot(n, s->up), length;
 
-    y = fmax(y, 0.35); /* below the edge, also where the floor is seen flat */
+    y = fmax(y, 0.35); /* below the edge, also if the floor is seen from the side */
     length = hypot(x, y);
     side->out[0] = x / length;
     side->out[1] = y / length;
 }
 
-/* The edges of the floor that the viewer is nearest to, and the one up the box farthest left. */
+/* The edges of the floor nearest to the viewer, and the leftmost vertical edge of the box. */
 static void
 set_sides(const struct scene *s, struct side side[3])
 {
@@ -535,7 +534,7 @@ set_sides(const struct scene *s, struct side side[3])
     set_out(s, &side[1], (struct vec){fx, 0, 0});
 }
 
-/* The height that marks and labels of the floor's edges take below the box. */
+/* The height of marks and labels of the floor's edges below the box. */
 static double
 below_box(const struct scene *s)
 {
@@ -557,11 +556,11 @@ below_box(const struct scene *s)
 
 /* ---- the whole ---- */
 
-/* The box as large as fits beside the bar. */
+/* Makes the box as large as fits beside the bar. */
 static enum rc_status
 lay_out(struct scene *s, struct rc_err *err)
 {
-    const double least = 150; /* units of the design: on less, marks touch each other */
+    const double least = 150; /* units of the design: on a smaller width marks touch each other */
     struct page *p = &s->page;
     double u = p->u, x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
     double text_w = (double)p->w - 48 * u, above;
@@ -615,7 +614,7 @@ draw(struct scene *s, struct rc_err *err)
     set_sides(s, side);
     for (int k = 0; k < 3; k++)
         draw_side(s, &side[k]);
-    p->plot_w += (size_t)(110 * p->u - page_bar_right(p)); /* room for the marks of an axis */
+    p->plot_w += (size_t)(110 * p->u - page_bar_right(p)); /* space for the marks of an axis */
     page_bar(p);
     p->plot_w = w;
     return canvas_check(p->c, err);

@@ -11,7 +11,7 @@
 
 #define MINUS "\xe2\x88\x92"
 
-/* Prints a number with a real minus sign in place of the hyphen. */
+/* Prints a number with a minus sign in place of the hyphen. */
 static void
 put_number(char text[TICKS_TEXT], const char *format, int digits, double value)
 {
@@ -60,7 +60,7 @@ power_text(char text[TICKS_TEXT], int power)
     return text;
 }
 
-/* As figures have it: a real mu. */
+/* Writes a prefix with the Greek letter mu. */
 static const char *
 prefix_of(int power)
 {
@@ -69,8 +69,8 @@ prefix_of(int power)
     return prefix != NULL && strcmp(prefix, "u") == 0 ? "µ" : prefix;
 }
 
-/* A unit as it is printed: powers raised, a real mu and a real point. A digit is a power where a
- * letter is before it and none behind it: m2, not H2O. */
+/* A unit for print: raised powers, the Greek mu and a raised point. A digit is a power if a letter is before
+ * it and none after it: m2, not H2O. */
 const char *
 unit_text(char text[TICKS_TEXT], const char *unit)
 {
@@ -85,7 +85,7 @@ unit_text(char text[TICKS_TEXT], const char *unit)
         bool power = behind && isdigit((unsigned char)*digit) && !isalnum((unsigned char)digit[1]);
 
         if (power) {
-            /* it is 0 to 9, which the analyzer does not know of isdigit */
+            /* it is 0 to 9; the analyzer does not know this about isdigit */
             /* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) */
             n += (size_t)sprintf(text + n, "%s%s", minus ? "⁻" : "", raised_digits[*digit - '0']);
             s = digit;
@@ -120,7 +120,7 @@ scale_choose(struct scale *scale, double largest, const char *unit)
                  *unit == '\0' ? "" : " ", unit_text(printed, unit));
 }
 
-/* A prefix counts as often as the power of the unit says: mm2 is 1e-6 m2. */
+/* A prefix is raised to the power of the unit: mm2 is 1e-6 m2. */
 bool
 scale_given(struct scale *scale, const char *asked, const char *unit)
 {
@@ -165,7 +165,7 @@ scale_value(char text[TICKS_TEXT], double value, const char *unit)
     struct scale scale;
     size_t n;
 
-    /* rounded first, because that can be what needs the next prefix: 999.96 nm is 1 um */
+    /* rounded first, because the rounded number may need the next prefix: 999.96 nm is 1 um */
     snprintf(text, TICKS_TEXT, "%.3e", value);
     value = strtod(text, NULL);
     scale_choose(&scale, value, unit);
@@ -192,11 +192,11 @@ void
 ticks_choose(struct ticks *t, double lo, double hi, double most)
 {
     static const int digits[] = {1, 2, 5, 10};
-    const double slack = 1e-9; /* a mark at the very end is meant to be there */
+    const double slack = 1e-9; /* a mark exactly at the end is included */
     double least = (hi - lo) / most, step;
     int k = 0;
 
-    /* as far as doubles tell numbers apart: a range of one unit in the last place gets a mark too
+    /* to the resolution of doubles: a range of one unit in the last place gets a mark too
      */
     least = fmax(least, 1e-15 * fmax(fabs(lo), fabs(hi)));
     t->power = (int)floor(log10(least));

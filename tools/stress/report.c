@@ -46,7 +46,7 @@ stress_report_start(struct stress_report *r)
     r->depth_began = tool_now();
 }
 
-/* Value k of a slice or of a line, and where it is. */
+/* Value k of a slice or of a line, and its position. */
 static struct stress_place
 place(const struct stress_report *r, size_t k, double depth, double value)
 {
@@ -86,7 +86,7 @@ stress_report_depth(struct stress_report *r, const struct tool *t, size_t k, siz
         for (int e = 0; e < STRESS_ENDS; e++) {
             const double sign = e == STRESS_LARGEST ? 1 : -1;
             struct stress_extreme *x = &r->extreme[e][c];
-            struct stress_place here = {.value = -sign * INFINITY}; /* where no row is held */
+            struct stress_place here = {.value = -sign * INFINITY}; /* for a process without rows */
             if (n > 0)
                 here = place(r, first + at[e], depth, s[c][at[e]]);
             ranks_share(t, ranks_where_most(t, sign * here.value), &here, sizeof here);
@@ -109,7 +109,7 @@ stress_report_free(struct stress_report *r)
 
 /* ---- effects ---- */
 
-/* Effect by effect what is computed, and why the rest is not. */
+/* Each effect: computed, or the reason why not. */
 static const char *
 component_effect(const struct rc_stress_options *o, int c)
 {
@@ -120,7 +120,7 @@ component_effect(const struct rc_stress_options *o, int c)
     return "left out: not in --components";
 }
 
-/* Whether maps of it stand beside the pressure. */
+/* True if the case has maps of traction. */
 static bool
 traction(const struct rc_stress_options *o)
 {
@@ -153,7 +153,7 @@ section_effect(const struct rc_stress_options *o)
     return o->section != 0 ? "on" : "left out: no --section";
 }
 
-/* "auto" takes the first engine of the table; it alone has coarser grids for deep slices. */
+/* "auto" selects the first engine of the table; only this engine has coarser grids for deep slices. */
 static const char *
 engine_of(const struct rc_stress_options *o)
 {
@@ -291,10 +291,10 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
 /* ---- the plan ---- */
 
 enum {
-    TRIAL = 192 /* nodes a side of the part that is tried */
+    TRIAL = 192 /* nodes a side of the trial part */
 };
 
-/* Seconds that all depths would take, from one of them on a part of the map. */
+/* Expected seconds for all depths, from a trial of one depth on a part of the map. */
 static enum rc_status
 expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_options *options,
        const struct numbers *depths, double *expected, struct rc_err *err)
@@ -320,7 +320,8 @@ expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_opt
         s[c] = v + (size_t)(c + 1) * n;
     if ((stress = rc_stress_new(&part, v, &o, err)) == NULL)
         status = RC_FAIL;
-    if (status == RC_OK && o.strain != NULL) { /* its sweeps, now that transforms are planned */
+    if (status == RC_OK && o.strain != NULL) { /* its sweeps, after the transforms have been
+                                                  planned */
         rc_stress_free(stress);
         start = tool_now();
         if ((stress = rc_stress_new(&part, v, &o, err)) == NULL)
@@ -340,7 +341,7 @@ done:
     return status;
 }
 
-/* The materials of a coated body, and how many of the depths are in each. */
+/* The materials of a coated body, and the number of depths in each. */
 static void
 say_materials(FILE *out, const struct rc_stress_options *o, const struct numbers *depths)
 {

@@ -1,6 +1,6 @@
 /*
- * The plastic strain that stands in a case behind its pressure, as rc-solve --yield writes it: of each
- * slab, from the surface down, exx eyy exy exz eyz, and peeq, which has no stress of its own.
+ * The plastic strain that follows the pressure in a case, as rc-solve --yield writes it: for each slab, from
+ * the surface down, exx eyy exy exz eyz, and peeq, which causes no stress.
  */
 #include "stress.h"
 
@@ -39,7 +39,7 @@ same_grid(const struct rc_grid *a, const struct rc_grid *b)
     return a->nx == b->nx && a->ny == b->ny && a->dx == b->dx && a->dy == b->dy;
 }
 
-/* Makes room as soon as the pressure says that there is strain. */
+/* Allocates the strain when a key of the pressure announces it. */
 static bool
 begin(struct tool *t, const struct rc_grid *p, struct stress_strain *s)
 {
@@ -108,7 +108,7 @@ stress_strain_free(struct stress_strain *s)
     *s = (struct stress_strain){0};
 }
 
-/* The middles of the slabs, and a few depths below, each as much deeper as the slabs grow. */
+/* The middles of the slabs, and a few depths below, with steps that grow like the thickness of the slabs. */
 double *
 stress_strain_depths(const struct stress_strain *s, size_t *n)
 {

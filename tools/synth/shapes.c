@@ -91,7 +91,7 @@ make_sphere(const struct synth_args *a, const struct rc_shape *shape, double *h,
     return RC_OK;
 }
 
-/* Curved across its axis, which lies along y by default. */
+/* A parabola across its axis, which is along y by default. */
 static enum rc_status
 make_cylinder(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
               struct rc_err *err)
