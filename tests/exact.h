@@ -10,19 +10,16 @@
 
 static const double exact_pi = 3.14159265358979323846;
 
-/* Relative tolerances by name: a test uses one of these names or explains its own bound. pipe.sh gives the
- * same names to the scripts. */
-static const double same = 0; /* the same number, or a decimal that reads back as this number */
-static const double converted =
-    1e-15; /* read from text and multiplied by its unit                                         */
-static const double of_sum =
-    1e-14; /* rounding of a sum, relative to the sum of absolute values                         */
+/* Relative tolerances by name: a test uses one of these names or explains its own bound. pipe.sh reads
+ * them from here, a line each. */
+static const double same = 0;            /* the same number, or its decimal read back           */
+static const double converted = 1e-15;   /* read from text and multiplied by its unit           */
+static const double of_sum = 1e-14;      /* rounding of a sum, over the sum of absolute values  */
 static const double rounding = 1e-13;    /* a few operations in double precision                */
 static const double summed = 1e-12;      /* sums over a map                                     */
 static const double six_digits = 5e-6;   /* half a unit of the last of six printed digits       */
 static const double three_digits = 5e-3; /* and of three                                        */
-static const double coarse_grid =
-    0.01; /* compared with a closed form, with tens of nodes in the contact                     */
+static const double coarse_grid = 0.01;  /* against a closed form, tens of nodes in the contact */
 
 /* Permitted error of a solution with constant pressure in each cell against Hertz's, with n nodes in the
  * radius of the contact: this constant over n^2 for approach and peak, over n for the area (its edge is a

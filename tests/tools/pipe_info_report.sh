@@ -76,7 +76,7 @@ claim "as JSON" says '"profile": \{"along": "rows", "profiles": 200, "points": 2
 
 printf '1 2 3\n4 nan 6\n7 8 9\n' >holed.txt
 rc-import --quiet --dx 1um --z-unit um holed.txt -o holed.rcg
-claim "rows with holes are left out" says 'left out   1 that were not measured whole' rc-info --profile rows --sections 1 holed.rcg
+claim "rows with holes are left out" says 'left out   1 with missing points' rc-info --profile rows --sections 1 holed.rcg
 refuses 1 '--profile 0: point 1 of the profile was not measured: fill the map first, with rc-detrend --fill' "a line through a hole" "rc-info --profile 0 --sections 1 holed.rcg"
 refuses 1 'a profile of 3 points has no 5 sections: give fewer --sections' "three points in five sections" "rc-info --profile rows holed.rcg"
 refuses 1 'the line leaves the map, whose nodes reach 2e-05 m by 2e-05 m' "a line beyond the map" "rc-info --profile 0,0:30um,0 plane.rcg"

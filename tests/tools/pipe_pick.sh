@@ -95,9 +95,9 @@ done <<'END'
 nx it counts
 ny it counts
 type --type says
-crc32 it is made of
+crc32 it is computed from
 case frames of a case belong together
-history it tells
+history it records
 END
 for key in channel unit dx dy; do
     refuses 2 "--set $key=: every frame has a $key" "$key is not removed" "rc-pick --set $key= surface.rcg"

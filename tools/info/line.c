@@ -152,7 +152,7 @@ measure_rows(struct tool *t, const struct rc_grid *g, const struct info_line_wan
     if (to->lines == 0)
         tool_die_at(
             t, g, EXIT_IMPOSSIBLE,
-            "--profile %s: none was measured whole: fill them first, with rc-detrend --fill",
+            "--profile %s: all of them have missing points: fill them first, with rc-detrend --fill",
             w->along);
     to->skipped = lines - to->lines;
     to->points = n;
