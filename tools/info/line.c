@@ -150,10 +150,10 @@ measure_rows(struct tool *t, const struct rc_grid *g, const struct info_line_wan
             to->lines++;
     }
     if (to->lines == 0)
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
-            "--profile %s: all of them have missing points: fill them first, with rc-detrend --fill",
-            w->along);
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "--profile %s: all of them have missing points: fill them first, with "
+                    "rc-detrend --fill",
+                    w->along);
     to->skipped = lines - to->lines;
     to->points = n;
     to->length = (double)n * step;
