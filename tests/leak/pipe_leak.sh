@@ -103,19 +103,19 @@ claim "threads change no bit" cmp threads1.rcg threads2.rcg
 # legend FILE: prints the words of an SVG in one line.
 legend() { sed 's/<[^>]*>/ /g' "$1" | tr -s ' \n' '  '; }
 claim "the flux by colour of its logarithm" rc-render --case 3 --channel flux --log leak.rcg -o flux.svg
-claim "  what is not flowing has two signs of its own" says 'fluid that stands .*contact \([0-9]+ of 16384 nodes\)' legend flux.svg
+claim "  what is not flowing has two signs of its own" says 'stagnant fluid .*contact \([0-9]+ of 16384 nodes\)' legend flux.svg
 claim "  and the constriction a cross" says 'the critical constriction' legend flux.svg
 claim "  beside the window there is none" rc-render --case 3 --channel flux --log --window "$(awk -v x="$(column critical_x 3 loads.tsv)" \
     'BEGIN { print (x > 0 ? "-60um:-20um,-60um:60um" : "20um:60um,-60um:60um") }')" leak.rcg -o part.svg
 claim "    nor its sign" bash -c '! grep -q "narrowest place" part.svg && test -s part.svg'
 claim "fluid pressure" rc-render --case 2 --channel fluid-pressure leak.rcg -o pressure.svg
-claim "  says what has none" says 'contact, or fluid that is shut in \([0-9]+ of' legend pressure.svg
+claim "  says what has none" says 'contact, or enclosed fluid \([0-9]+ of' legend pressure.svg
 claim "leakage against load" rc-render --curve mean_pressure:flow_conductance --log y -o curve.svg loads.tsv
 claim "  a load that lets nothing through is told" says "1 load sealed \(no flow\)" legend curve.svg
 claim "  in the unit of a volume" says 'Flow conductance \(m 3 *\)' legend curve.svg
 claim "channels are three colours, and no bar" rc-render --case 3 --channel channel leak.rcg -o channel.svg
-claim "  named in the legend" says 'Flow channels .*contact fluid stands fluid flows' legend channel.svg
-claim "  as of a sheet" bash -c 'rc-render --sheet auto --channel channel leak.rcg -o sheet.svg && grep -q ">fluid stands<" sheet.svg && ! grep -q ">[0-2]\.[05]0*<" sheet.svg'
+claim "  named in the legend" says 'Flow channels .*contact stagnant fluid flowing fluid' legend channel.svg
+claim "  as of a sheet" bash -c 'rc-render --sheet auto --channel channel leak.rcg -o sheet.svg && grep -q ">stagnant fluid<" sheet.svg && ! grep -q ">[0-2]\.[05]0*<" sheet.svg'
 rc-render --channel pressure --case 2 pressed.rcg -o contact.svg
 claim "of other maps the legend is as it was" says 'no contact' legend contact.svg
 

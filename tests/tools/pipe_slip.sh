@@ -65,8 +65,8 @@ near "$(values below.rcg sxz | tr ',' '\n' | sort -g | head -n 1)" "-$(values on
 legend() { sed 's/<[^>]*>/ /g' "$1" | tr -s ' \n' '  '; }
 for channel in traction-x slip-x; do rc-render --channel $channel one.rcg -o $channel.svg; done
 rc-render --channel state state.rcg -o state.svg
-claim "a map of slip tells what sticks from what slips" says 'Slip along x .*no contact, or it sticks' legend slip-x.svg
-claim "  one of traction what carries nothing" says 'Traction along x .*nothing is carried' legend traction-x.svg
+claim "a map of slip tells what sticks from what slips" says 'Slip along x .*no contact, or stick' legend slip-x.svg
+claim "  one of traction what carries nothing" says 'Traction along x .*no traction' legend traction-x.svg
 claim "  and one of states all three" says 'Stick and slip .*no contact sticks slips' legend state.svg
 
 # ---- paths ----

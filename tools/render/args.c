@@ -1,5 +1,5 @@
 /*
- * What was asked for: which options go together, and what they come to.
+ * The options: valid combinations, and their results.
  */
 #include "render.h"
 
@@ -12,7 +12,7 @@ args_lines(const struct args *a)
     return a->cut != NULL || a->histogram || a->material_ratio;
 }
 
-/* Options that go with some kinds of pictures only. */
+/* Options for some kinds of pictures only. */
 static void
 leave_out(struct tool *t, const char *kind, const char *const *option)
 {
@@ -70,7 +70,7 @@ args_several(const struct args *a)
     return a->depth.n > 1 || a->number.n > 1 || a->sheet != NULL;
 }
 
-/* Of lists the one frame that a picture shows, unless it shows several. */
+/* Takes from lists the single frame of a picture, unless it shows several. */
 static void
 check_lists(struct tool *t, struct args *a)
 {
@@ -103,7 +103,7 @@ check_lists(struct tool *t, struct args *a)
         a->wish.number = unit_size(a->number.v[0]);
 }
 
-/* Pixels when plain, or a length on paper. */
+/* A plain number of pixels, or a length on paper. */
 static void
 read_width(struct tool *t, struct args *a)
 {

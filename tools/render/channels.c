@@ -1,5 +1,5 @@
 /*
- * What a channel is called, and in which colours it is drawn.
+ * Names of channels, and their colours.
  */
 #include "render.h"
 
@@ -21,17 +21,17 @@ static const struct channel channels[] = {
     {"residual", "Residual displacement", "bluered", .from_zero = false},
     {"peeq", "Equivalent plastic strain", "magma", .from_zero = true},
     {"fluid-pressure", "Fluid pressure", "viridis", .from_zero = true,
-     .missing = "contact, or fluid that is shut in"},
-    {"flux", "Flow per width", "magma", .from_zero = true, .none = "fluid that stands",
+     .missing = "contact, or enclosed fluid"},
+    {"flux", "Flow per width", "magma", .from_zero = true, .none = "stagnant fluid",
      .missing = "contact"},
     {"channel", "Flow channels", "viridis", .from_zero = true, .none = "contact",
-     .is = {"fluid stands", "fluid flows"}, .axis = "0 contact, 1 fluid stands, 2 fluid flows"},
+     .is = {"stagnant fluid", "flowing fluid"}, .axis = "0 contact, 1 stagnant fluid, 2 flowing fluid"},
     {"contact", "Contact", "viridis", .from_zero = true, .none = "no contact", .is = {"contact"},
      .axis = "0 no contact, 1 contact"},
-    {"traction-x", "Traction along x", "bluered", .none = "nothing is carried"},
-    {"traction-y", "Traction along y", "bluered", .none = "nothing is carried"},
-    {"slip-x", "Slip along x", "bluered", .none = "no contact, or it sticks"},
-    {"slip-y", "Slip along y", "bluered", .none = "no contact, or it sticks"},
+    {"traction-x", "Traction along x", "bluered", .none = "no traction"},
+    {"traction-y", "Traction along y", "bluered", .none = "no traction"},
+    {"slip-x", "Slip along x", "bluered", .none = "no contact, or stick"},
+    {"slip-y", "Slip along y", "bluered", .none = "no contact, or stick"},
     {"state", "Stick and slip", "viridis", .from_zero = true, .none = "no contact",
      .is = {"sticks", "slips"}, .axis = "0 no contact, 1 sticks, 2 slips"},
     {"psd", "Power spectral density", "magma", .from_zero = true},
@@ -48,7 +48,7 @@ static const struct channel channels[] = {
 };
 /* clang-format on */
 
-/* A channel counts as one-sided when values beyond 0 are at most this part of the largest size. */
+/* A channel counts as one-sided if the values beyond 0 are at most this fraction of the largest magnitude. */
 #define ONE_SIDED 1e-3
 
 struct channel
@@ -63,7 +63,7 @@ channel_of(const struct rc_grid *g, const struct survey *s)
         if (strcmp(c.name, g->channel) != 0)
             continue;
         if (strcmp(c.colormap, "bluered") == 0 && !both && size > 0) {
-            c.colormap = "magma"; /* colours about 0 are for what lies on both sides of it */
+            c.colormap = "magma"; /* diverging colours are for values on both sides of 0 */
             c.from_zero = s->max >= -s->min;
             c.to_zero = !c.from_zero;
         } else if (strcmp(c.name, "pressure") == 0 && both) {

@@ -1,5 +1,5 @@
 /*
- * Which frame of a stream is drawn.
+ * Chooses the frame of a stream to draw.
  */
 #include "render.h"
 
@@ -93,7 +93,7 @@ largest(const struct rc_grid *g)
     return size;
 }
 
-/* Whether the frame, seen as *s, is to replace the one kept. */
+/* True if the frame, recorded as *s, replaces the kept one. */
 static bool
 is_better(const struct choice *c, const struct rc_grid *g, const struct seen *s, double size)
 {
@@ -112,7 +112,7 @@ is_better(const struct choice *c, const struct rc_grid *g, const struct seen *s,
     return size > c->size;
 }
 
-/* Where a frame is kept beside the one that is drawn; NULL: nowhere. */
+/* The place in which a further frame is kept; NULL: it is not kept. */
 static struct rc_grid **
 place_beside(struct choice *c, const struct rc_grid *g)
 {
@@ -121,14 +121,14 @@ place_beside(struct choice *c, const struct rc_grid *g)
     return c->wish->contact && strcmp(g->channel, "pressure") == 0 ? &c->beside.pressure : NULL;
 }
 
-/* A frame that is not drawn, or not any more. */
+/* Handles a frame that is not drawn, or no longer. */
 static void
 let_go(struct choice *c, struct rc_grid *g)
 {
     struct rc_grid **to;
     bool same = c->grid != NULL && g != NULL && rc_grid_case(c->grid) == rc_grid_case(g);
 
-    if (g != NULL && c->wish->number != 0) /* the case is known before its frame has come */
+    if (g != NULL && c->wish->number != 0) /* the case is known before its frame was read */
         same = rc_grid_case(g) == c->wish->number;
     if (g == NULL || (to = place_beside(c, g)) == NULL || !(*to == NULL || same)) {
         rc_grid_free(g);
@@ -138,7 +138,7 @@ let_go(struct choice *c, struct rc_grid *g)
     *to = g;
 }
 
-/* The case of the frame that is kept has ended: whether its depth is near enough is known now. */
+/* The case of the kept frame has ended: now it is known whether its depth is near enough. */
 static void
 end_case(struct choice *c, struct tool *t)
 {
@@ -270,7 +270,7 @@ fail(struct choice *c, struct tool *t)
     no_depth(c, t);
 }
 
-/* Frees *p unless its node k is node k of the other. */
+/* Frees *p unless it has the same grid as the other frame. */
 static void
 keep_beside(struct rc_grid **p, const struct rc_grid *g)
 {

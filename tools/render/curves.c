@@ -10,14 +10,14 @@
 #include <string.h>
 
 enum {
-    COLUMNS = 16, /* that one picture draws over another */
+    COLUMNS = 16, /* most columns over one other in a picture */
     SERIES = 64,
-    WORDS = 40, /* categories of an axis */
+    WORDS = 40, /* most categories of an axis */
     NAME = 256,
     SAMPLES = 200 /* of a law */
 };
 
-/* Columns that every table is asked for, after those of the curves. */
+/* Columns that are read from every table, after those of the curves. */
 enum helper {
     NX,
     NY,
@@ -31,7 +31,7 @@ enum helper {
     INDENTATION,
     APPROACH,
     JUMPS,
-    SOURCE, /* these two as words, which tell pieces apart */
+    SOURCE, /* these two are words that distinguish pieces */
     LOAD,
     HELPERS
 };
@@ -42,25 +42,25 @@ static const char *const helper_name[HELPERS] = {
 struct curves {
     struct tool *tool;
     const struct curve_style *style;
-    char *names;                 /* the argument, cut into words */
+    char *names;                 /* the argument, divided into words */
     const char *column[COLUMNS]; /* the first is x               */
     size_t columns;              /* x and y                      */
     char *by_names, *error_names;
     const char *by[GROUP_COLUMNS], *error[COLUMNS];
     size_t bys, errors;
-    size_t asked;        /* all of these: the helpers come after them */
+    size_t asked;        /* all of the requested columns; those above follow them */
     struct table *table; /* one a file                   */
     size_t tables;
     struct law_given given;
     bool short_of;           /* a row is not converged */
-    bool zigzag;             /* a line that turns back has been warned of */
-    bool history;            /* approaches are counted from the first touch of the first shape */
-    const char *word[WORDS]; /* of x, where it is one of categories: that of 0, 1, ... */
+    bool zigzag;             /* a warning about a line that turns back was printed */
+    bool history;            /* approaches count from the first touch of the initial shape */
+    const char *word[WORDS]; /* words of x, if it has categories: for 0, 1, ... */
     size_t words;
     struct graph_series series[SERIES];
     char name[SERIES][NAME], legend[SERIES * NAME], note[NAME];
     double *own[SERIES];    /* points that are means */
-    size_t n, fewest, most; /* rows of such a point */
+    size_t n, fewest, most; /* rows in such a point */
     double law_x[SAMPLES], law_y[SAMPLES];
     char title[NAME], axis[NAME];
 };
@@ -75,7 +75,7 @@ last_part(const char *name)
     return point == NULL ? name : point + 1;
 }
 
-/* The title and the unit of a column; NULL: it has none. */
+/* The title and the unit of a column; NULL for an unknown one. */
 static const char *
 title_known(const char *name)
 {
@@ -92,7 +92,7 @@ unit_known(const char *name)
     return f == NULL ? NULL : f->unit;
 }
 
-/* In the middle of a sentence; E*, RMS and the names of parameters, as Sq, stay. */
+/* The title inside a sentence; E*, RMS and names of parameters, such as Sq, keep their capitals. */
 static void
 begin_small(char *title)
 {
@@ -116,7 +116,7 @@ title_of(const struct curves *c, size_t k)
     return title_known(name) == NULL ? name : title_known(name);
 }
 
-/* A spectrum of a profile has a unit of its own. */
+/* A spectrum of a profile has a different unit. */
 static const char *
 unit_of(const struct table *table, size_t c)
 {
@@ -181,7 +181,7 @@ split_names(struct curves *c, const char *columns)
             tool_die(c->tool, EXIT_USAGE, "--curve %s: %s", columns, wrong);
 }
 
-/* Words of a list with commas, in a copy that the caller frees. */
+/* Divides a list at commas, in a copy that the caller frees. */
 static char *
 split_list(struct curves *c, const char *option, const char *list, const char **word, size_t most,
            size_t *n)
@@ -266,8 +266,8 @@ helper(const struct curves *c, const struct table *table, enum helper which)
     return table->column[c->asked + which].v;
 }
 
-/* In a history each approach is counted from a shape of its own: over these, work would seem to be
- * gained. */
+/* In a history each approach counts from the current shape; in a curve over these approaches work would seem
+ * to be gained. */
 static void
 count_from_one_shape(struct curves *c, struct table *table)
 {
@@ -282,7 +282,7 @@ count_from_one_shape(struct curves *c, struct table *table)
             memcpy(table->column[k].v, from_first, table->rows * sizeof *from_first);
 }
 
-/* All files and all columns over one axis have one unit. */
+/* Checks that all columns of one axis in all files have the same unit. */
 static void
 check_units(struct curves *c)
 {
@@ -316,7 +316,7 @@ check_convergence(struct curves *c)
 
 /* ---- groups of rows ---- */
 
-/* The word of a row in a column of labels; NULL: it has none. */
+/* The word of a row in a column of labels; NULL: none. */
 static const char *
 word_of(const struct table *table, size_t column, size_t row)
 {
@@ -325,8 +325,8 @@ word_of(const struct table *table, size_t column, size_t row)
     return isnan(v) ? NULL : table->column[column].word[(size_t)v];
 }
 
-/* Whether rows of a table come from several sources, each with some rows: a line through all of them
- * would mean nothing. */
+/* True if rows of a table come from several sources with several rows each: a line through all of them would
+ * have no meaning. */
 static bool
 has_sources(const struct curves *c, const struct table *table)
 {
@@ -357,7 +357,7 @@ group_rows(struct curves *c, struct table *table)
         groups_sort(table, c->tool, &source, 1, true);
 }
 
-/* Whether the first rows of all pieces have words in that column, and not all the same. */
+/* True if the first rows of all pieces have words in that column, and these are not all equal. */
 static bool
 tells_pieces(const struct table *table, size_t column)
 {
@@ -414,7 +414,7 @@ say_piece(const struct curves *c, const struct table *table, size_t p, char text
                  isnan(number) ? (double)p + 1 : number);
 }
 
-/* The number of a word among those of all tables, counted from 0. */
+/* The index of a word among those of all tables, from 0. */
 static size_t
 word_number(const struct curves *c, size_t column, const char *word)
 {
@@ -435,7 +435,7 @@ word_number(const struct curves *c, size_t column, const char *word)
     return n;
 }
 
-/* Words of the tables' x are numbered through all tables. */
+/* Words in the x column are numbered across all tables. */
 static void
 take_words(struct curves *c)
 {
@@ -491,14 +491,14 @@ enum stretch {
     STRETCHES
 };
 
-/* Which way bodies move along a path: by the indentation where the report counts one. */
+/* The column whose change gives the direction of a path: the indentation if the report has it. */
 static const double *
 way_of(const struct curves *c, const struct table *table, size_t from)
 {
     return helper(c, table, isfinite(helper(c, table, INDENTATION)[from]) ? INDENTATION : APPROACH);
 }
 
-/* How each row of a path is reached from the row before it. */
+/* The direction from each row of a path to the next. */
 static enum stretch *
 find_steps(struct curves *c, const struct table *table, size_t from, size_t to)
 {
@@ -521,7 +521,8 @@ find_steps(struct curves *c, const struct table *table, size_t from, size_t to)
     return step;
 }
 
-/* Steps of one kind, with gaps between stretches; a row alone between jumps goes with the way to it. */
+/* Divides a path into stretches with one direction, with gaps between them; a single row between jumps
+ * belongs to the stretch before it. */
 static void
 add_stretches(struct curves *c, const double *x, const double *y, const double *at,
               const enum stretch *step, size_t rows, enum stretch what, const char *name)
@@ -559,8 +560,7 @@ add_stretches(struct curves *c, const double *x, const double *y, const double *
     s->n = n;
 }
 
-/* Whether a piece is a path: bodies that attract each other, or loads that follow each other with an
- * unloading among them. */
+/* True if a piece is a path: bodies that attract each other, or loads in sequence with unloading. */
 static bool
 is_path(struct curves *c, const struct table *table, size_t from, size_t to)
 {
@@ -600,7 +600,7 @@ add_path(struct curves *c, const struct table *table, size_t k, size_t from, siz
     free(step);
 }
 
-/* Points as they are, or as means of those that share an x; and their bars. */
+/* The points themselves, or the means of points with the same x, and their bars. */
 static void
 set_points(struct curves *c, const struct table *table, size_t k, size_t from, size_t to,
            struct graph_series *s)
@@ -636,8 +636,8 @@ set_points(struct curves *c, const struct table *table, size_t k, size_t from, s
     }
 }
 
-/* A line through rows whose x goes back and forth, as of several seeds at the same loads, is no
- * curve. Loading and unloading turns once. */
+/* A line through rows whose x goes back and forth, for example from several seeds at the same loads, is not a
+ * curve. Loading and unloading has one reversal. */
 static void
 warn_of_zigzag(struct curves *c, const struct table *table, size_t from, size_t to)
 {
@@ -704,7 +704,7 @@ add_curves(struct curves *c, const struct table *table)
             add_curve(c, table, k, p);
 }
 
-/* What the bars are. */
+/* Describes the bars. */
 static void
 say_bars(struct curves *c)
 {
@@ -726,7 +726,7 @@ say_bars(struct curves *c)
 
 /* ---- laws ---- */
 
-/* A value that the command line does not give, if all tables have the same one; else NAN. */
+/* A value that is missing on the command line, if all rows of the tables have the same one; else NAN. */
 static double
 given_in_tables(struct curves *c, enum helper which, double option)
 {
@@ -786,7 +786,7 @@ settle_given(struct curves *c)
         tool_die(c->tool, EXIT_USAGE, "--law %s needs %s: give it", law, lacks);
 }
 
-/* The law over the x that there are. Dashes tell it from points, its name comes last. */
+/* The law over the range of x. It is dashed, and its name comes last. */
 static void
 add_law(struct curves *c)
 {
@@ -814,7 +814,7 @@ add_law(struct curves *c)
             }
         }
     if (!log)
-        lo = lo > 0 && lo < 0.3 * hi ? 0 : lo; /* where the axis begins */
+        lo = lo > 0 && lo < 0.3 * hi ? 0 : lo; /* the start of the axis */
     for (int k = 0; k < SAMPLES; k++) {
         double t = (double)k / (SAMPLES - 1);
 

@@ -1,5 +1,5 @@
 /*
- * Curves of frames: values along a line, how they spread, and the share of the map above them.
+ * Curves of frames: values along a line, their distribution, and the fraction of the map above a value.
  */
 #include "render.h"
 
@@ -8,8 +8,8 @@
 #include <string.h>
 
 enum {
-    BINS = 60,      /* of a histogram, at most          */
-    SAMPLES = 1000, /* of a long curve                  */
+    BINS = 60,      /* most bins of a histogram         */
+    SAMPLES = 1000, /* points of a long curve           */
     LAW = 300,      /* points of a law                  */
     LABEL = 256
 };
@@ -18,11 +18,11 @@ enum {
 struct set {
     struct tool *tool;
     struct rc_grid *const *grid;
-    const struct rc_grid *const *touch; /* of histograms: what touches in each */
+    const struct rc_grid *const *touch; /* for histograms: the contact of each frame */
     size_t n;
     const struct curve_style *style;
     struct graph_series *series; /* n + 1 */
-    double **x, **y;             /* n + 1 each, of which the series are made */
+    double **x, **y;             /* coordinates of the series, n + 1 each */
     char (*label)[LABEL];
     char legend[4096];
     struct subtitle subtitle;
@@ -58,7 +58,7 @@ set_begin(struct set *s)
     subtitle_common(&s->subtitle, s->grid, s->n);
 }
 
-/* Room for series k, which is named where there are several or a law. */
+/* Adds series k, which has a name if there are several series or a law. */
 static void
 set_series(struct set *s, size_t k, enum graph_kind kind, size_t n)
 {
@@ -119,7 +119,7 @@ struct line {
     const char *name;
     size_t n;
     double step, *at; /* at NULL: even steps          */
-    double origin;    /* node, or between two, of 0   */
+    double origin;    /* index of 0, which may be between two nodes */
     const char *title, *unit;
 };
 
@@ -129,7 +129,7 @@ line_at(const struct line *l, size_t k)
     return l->at != NULL ? l->at[k] : ((double)k - l->origin) * l->step;
 }
 
-/* The two axes of a frame. In a section one of them is the depth, which need not be even. */
+/* The two axes of a frame. In a section one of them is the depth, whose steps may be uneven. */
 static void
 set_lines(struct tool *t, const struct rc_grid *g, struct line *across, struct line *down)
 {
@@ -155,7 +155,7 @@ set_lines(struct tool *t, const struct rc_grid *g, struct line *across, struct l
         down->at = section_depths(t, g);
 }
 
-/* The node nearest to the place; of two that are as near the later one. */
+/* The node nearest to the position; of two at the same distance the later one. */
 static size_t
 nearest(struct tool *t, const struct rc_grid *g, const struct line *l, double place)
 {
@@ -173,7 +173,7 @@ nearest(struct tool *t, const struct rc_grid *g, const struct line *l, double pl
     return best;
 }
 
-/* NAME=PLACE: the axis that is crossed and where; ends the tool where it is neither. */
+/* Reads NAME=PLACE, the axis and the position of the line; ends the tool for another text. */
 static double
 read_cut(struct tool *t, const struct rc_grid *g, const char *cut, const struct line *across,
          const struct line *down, bool *along_x)
@@ -192,7 +192,7 @@ read_cut(struct tool *t, const struct rc_grid *g, const char *cut, const struct 
     return place;
 }
 
-/* Lines at the interfaces, and a note that says what they are; the caller frees their depths. */
+/* Adds lines at the interfaces and a note about them; the caller frees their depths. */
 static double *
 mark_interfaces(const struct rc_grid *g, struct graph *graph, char *note, size_t size)
 {
@@ -211,8 +211,8 @@ mark_interfaces(const struct rc_grid *g, struct graph *graph, char *note, size_t
     return bottom;
 }
 
-/* Hertz's pressure p0 sqrt(1 - r^2/a^2), p0 = 3 F / (2 pi a^2), along the line of nodes at that
- * distance from the origin. */
+/* Hertz's pressure p0 sqrt(1 - r^2/a^2), p0 = 3 F / (2 pi a^2), along a line of nodes at this distance from
+ * the origin. */
 static void
 add_hertz(struct set *s, const struct line *along, double across)
 {
@@ -289,7 +289,7 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
 
 /* ---- how values spread ---- */
 
-/* Whether value i of frame k belongs to the histogram: of a pressure, where the bodies touch. */
+/* True if value i of frame k belongs to the histogram: for a pressure, if the node is in contact. */
 static bool
 counts(const struct set *s, size_t k, size_t i)
 {
@@ -321,7 +321,7 @@ find_range(const struct set *s, double *lo, double *hi)
     }
 }
 
-/* Counts one frame into bins; says in *out which share of its measured nodes is left out. */
+/* Counts the values of a frame in bins; *out is the fraction of its measured nodes that is excluded. */
 static double
 fill_bins(const struct set *s, size_t k, double first, double step, size_t bins, double *density,
           double *mean)
@@ -352,7 +352,7 @@ fill_bins(const struct set *s, size_t k, double first, double step, size_t bins,
     return (double)out / (double)measured;
 }
 
-/* Persson's distribution of the pressures about their mean, where it is asked for. */
+/* Adds Persson's distribution of the pressures for their mean, on request. */
 static bool
 add_distribution(struct set *s, double mean, double lo, double hi)
 {
@@ -437,7 +437,8 @@ sort_values(struct set *s, const struct rc_grid *g, double **values)
 {
     size_t n = 0;
 
-    tool_demand_memory(s->tool, g, 2 * g->nx * g->ny * sizeof **values); /* qsort takes as much */
+    tool_demand_memory(s->tool, g, 2 * g->nx * g->ny * sizeof **values); /* qsort needs the same
+                                                                            memory again */
     if ((*values = malloc(g->nx * g->ny * sizeof **values)) == NULL)
         no_memory(s->tool);
     for (size_t i = 0; i < g->nx * g->ny; i++)

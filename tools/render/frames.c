@@ -1,5 +1,5 @@
 /*
- * The frames that a picture of several shows: of one channel, by lists of depths and cases.
+ * The frames in a picture of several: one channel, selected by lists of depths and cases.
  */
 #include "render.h"
 
@@ -36,7 +36,7 @@ let_go(struct frames *f, struct rc_grid *g)
         rc_grid_free(g);
 }
 
-/* Drops what was kept of a channel that comes after this one in the order of preference. */
+/* Drops the kept frames of a channel with a lower preference than this one. */
 static bool
 prefer(struct frames *f, const struct rc_grid *g)
 {

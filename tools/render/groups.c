@@ -1,5 +1,5 @@
 /*
- * Rows of a table that belong together: by the values of columns, or by the x that they share.
+ * Groups of rows of a table: with the same values in some columns, or with the same x.
  */
 #include "render.h"
 
@@ -16,7 +16,7 @@ no_memory(struct tool *t, const struct table *table)
 /* ---- by column ---- */
 
 struct place {
-    double key[1 + GROUP_COLUMNS]; /* the piece, then the numbers of the words */
+    double key[1 + GROUP_COLUMNS]; /* the piece, then the indices of the words */
     size_t row;
 };
 
@@ -86,7 +86,7 @@ void
 spread_take(struct spread *s, struct tool *t, const struct table *table, const double *x,
             const double *y, size_t n)
 {
-    const double shared = 1e-6; /* of x: loads that were asked for are met to less */
+    const double shared = 1e-6; /* relative, of x: requested loads are met more accurately */
     double(*point)[2] = malloc(n * sizeof *point);
     size_t points = 0, last;
 

@@ -1,5 +1,5 @@
 /*
- * What a figure of frames is like: its words, its colours, what touches, and where it lies.
+ * The properties of a figure of frames: words, colours, contact, and position.
  */
 #include "render.h"
 
@@ -33,7 +33,7 @@ choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid,
              struct look *look, struct figure *f)
 {
     struct range *r = &look->range;
-    bool axis = false; /* that suits the values */
+    bool axis = false; /* range of the values */
 
     *r = (struct range){.kind = a->clip ? RANGE_CLIP : RANGE_AUTO};
     if (a->range != NULL)
@@ -52,7 +52,7 @@ choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid,
     f->note = r->note[0] == '\0' ? NULL : r->note;
 }
 
-/* 1 has the first colour of the map, 2 the last. */
+/* Category 1 has the first colour of the map, 2 the last. */
 static void
 set_categories(struct tool *t, const struct args *a, const struct look *look, struct figure *f)
 {

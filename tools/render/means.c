@@ -1,8 +1,7 @@
 /*
- * Means of the pressure on a body that yields inside. Without hardening it alternates from node to node by
- * some percent, which the volume does not feel: waves of two nodes have no part in it. Means over 2 x 2
- * nodes have none of that. A node is drawn with the mean of the four of them that it belongs to, where it
- * is in contact.
+ * Means of the pressure on a body that yields in its volume. Without hardening the pressure alternates from
+ * node to node by some per cent, because waves of two nodes have no effect in the volume. Means over 2 x 2
+ * nodes do not alternate. A node in contact is drawn with the mean of the four means to which it belongs.
  */
 #include "render.h"
 
@@ -10,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Hardening below so many times the yield stress. */
+/* The limit of the hardening modulus, in yield stresses. */
 static const double soft = 10;
 
-/* Whether the pressures of single nodes alternate, as they do where a body hardens little. */
+/* True if the pressures of single nodes alternate, as with little hardening. */
 static bool
 alternates(const struct rc_grid *g)
 {
@@ -24,7 +23,7 @@ alternates(const struct rc_grid *g)
            hardening < soft * yield;
 }
 
-/* The places beside k of n: round a map that repeats, else the last again. */
+/* The neighbours of index k of n: across the edge on a periodic map, else the last index again. */
 static size_t
 before(size_t k, size_t n, bool round)
 {

@@ -1,5 +1,5 @@
 /*
- * What a section is made of, from the key `layers`: for its lines, its legend and its values.
+ * The materials of a section, from the key `layers`: for its lines, its legend and its values.
  */
 #include "render.h"
 

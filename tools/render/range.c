@@ -1,5 +1,5 @@
 /*
- * From which value to which the colours go.
+ * The range of the colours.
  */
 #include "render.h"
 
@@ -9,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Per cent left beyond each end of the colours where an outlier would take most of them. */
+/* The per cent of the values beyond each end of the colours if an outlier would take most of the range. */
 #define BEYOND 0.5
 
 enum {
-    PART = 16, /* bits of a value that are counted at a time */
+    PART = 16, /* bits of a value in one pass of the selection */
     PARTS = 1 << PART
 };
 
@@ -28,14 +28,14 @@ unit_of(const struct rc_grid *g)
 
 /* ---- percentiles ---- */
 
-/* All frames of a picture count as one. */
+/* All frames of a picture have one range. */
 struct frames_of {
     struct rc_grid *const *grid;
-    const struct rc_grid *const *touch; /* of each; NULL: nothing tells what touches */
+    const struct rc_grid *const *touch; /* contact of each frame; NULL: unknown */
     size_t n;
 };
 
-/* What tells which values of frame m count: of a pressure those in contact. NULL: all do. */
+/* The frame that determines which values of frame m count: for a pressure those in contact. NULL: all. */
 static const double *
 touch_of(const struct frames_of *f, size_t m)
 {
@@ -50,7 +50,7 @@ counts(const double *touch, const struct rc_grid *g, size_t k)
     return isfinite(g->v[k]) && (touch == NULL || rc_in_contact(touch[k]));
 }
 
-/* Bits that are in the order of the values. */
+/* Converts a value to bits that have the order of the values. */
 static uint64_t
 bits_of(double v)
 {
@@ -71,8 +71,7 @@ value_of(uint64_t bits)
     return v;
 }
 
-/* How many values whose bits above the lowest `shift + PART` are those of `above` have each of the PART
- * next ones. */
+/* Histogram of PART bits of the values: of those whose bits above the lowest `shift + PART` equal `above`. */
 static void
 count_parts(const struct frames_of *f, uint64_t above, int shift, size_t count[PARTS])
 {
@@ -89,7 +88,8 @@ count_parts(const struct frames_of *f, uint64_t above, int shift, size_t count[P
     }
 }
 
-/* Value number k, from 0, in order, found without another map in memory: its highest bits first. */
+/* Value number k, from 0, in ascending order, by a radix selection from the highest bits, without another map
+ * in memory. */
 static double
 ranked(const struct frames_of *f, size_t k)
 {
@@ -136,7 +136,7 @@ by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The median of the values about a node. */
+/* The median of the values around a node. */
 static double
 around(const double *touch, const struct rc_grid *g, size_t node)
 {
@@ -151,14 +151,14 @@ around(const double *touch, const struct rc_grid *g, size_t node)
     return near[n / 2];
 }
 
-/* Whether one value of a map takes more than half of the range, and stands alone, far from the
- * values about it: in a solution that its grid resolves none does. */
+/* True if one value of a map takes more than half of the range and is isolated, far from the values around
+ * it, which does not happen in a well resolved solution. */
 static bool
 has_outlier(const struct frames_of *f, const struct survey *s)
 {
     const struct rc_grid *g = f->grid[0];
     const double *touch = touch_of(f, 0);
-    const size_t fewest = 400; /* nodes: of less, half a per cent is none */
+    const size_t fewest = 400; /* nodes: on smaller maps half a per cent is less than a node */
     double half = 0.5 * s->max - 0.5 * s->min;
 
     if (g->nx * g->ny < fewest || g->nx < 3 || g->ny < 3 || !(half > 0) || !isfinite(2 * half))
@@ -239,8 +239,8 @@ range_text(const struct range *r)
     return si;
 }
 
-/* Warns where hardly anything is left to be told apart, as where a unit was forgotten: the range lies
- * beside the values, or one of both fills less than a thousandth of the other. */
+/* Warns of a range in which values cannot be distinguished, for example because a unit was forgotten: it does
+ * not overlap the values, or one of the two is less than a thousandth of the other. */
 void
 range_doubt(struct tool *t, const char *text, const char *unit, const struct survey *s,
             const struct range *r)
@@ -260,15 +260,14 @@ range_doubt(struct tool *t, const char *text, const char *unit, const struct sur
 
 /* ---- the ends ---- */
 
-/* Values this close to 0 are rounding: a hundredth of an atom, or a thousand millionth of the
- * largest. */
+/* Values this close to 0 are rounding: a hundredth of an atom, or 1e-9 of the largest. */
 static double
 rounding(const struct rc_grid *g, double size)
 {
     return unit_of(g) == UNIT_M ? 1e-12 : 1e-9 * size;
 }
 
-/* Colours from 0, to 0, or about it. */
+/* A range from 0, to 0, or symmetric about 0. */
 static void
 anchor(const struct rc_grid *g, const struct colormap *map, const struct channel *what,
        struct range *r)
@@ -285,17 +284,17 @@ anchor(const struct rc_grid *g, const struct colormap *map, const struct channel
     }
 }
 
-/* A range needs some extent. */
+/* Gives the range a width above 0. */
 static void
 widen(const struct rc_grid *g, const struct channel *what, struct range *r)
 {
     double size = fmax(fabs(r->lo), fabs(r->hi));
 
-    if (size < 1e-300) { /* zero everywhere: a nanometre about it, or one of what else it is */
+    if (size < 1e-300) { /* zero everywhere: 1 nm about it, or 1 in another unit */
         size = unit_of(g) == UNIT_M ? 1e-9 : 1;
         r->lo = what->from_zero ? 0 : -size;
         r->hi = size;
-    } else if (0.5 * r->hi - 0.5 * r->lo <= 1e-12 * size) { /* constant, but for rounding */
+    } else if (0.5 * r->hi - 0.5 * r->lo <= 1e-12 * size) { /* constant except for rounding */
         r->lo = fmax(r->lo - 0.1 * size, -DBL_MAX);
         r->hi = fmin(r->hi + 0.1 * size, DBL_MAX);
     }
@@ -369,6 +368,6 @@ range_least(struct rc_grid *const *grid, const struct rc_grid *const *touch, siz
 
     if (strcmp(grid[0]->channel, "pressure") == 0 && s->min == 0)
         return percentile(&(struct frames_of){grid, touch, n},
-                          0); /* what does not touch is not below the range */
+                          0); /* nodes outside of the contact are not below the range */
     return s->min < r->lo && s->min >= r->lo - slack ? r->lo : s->min;
 }

@@ -1,6 +1,6 @@
 /*
- * Sections: the rows of a map at depths of any spacing become even rows, so that each depth is
- * where the axis says. In a coated body stresses jump where two media meet: curves end there.
+ * Sections: rows at any depths are interpolated to even rows, so that each depth is at its position on the
+ * axis. In a coated body stresses jump at interfaces, where the curves end.
  */
 #include "render.h"
 
@@ -9,7 +9,7 @@
 #include <string.h>
 
 enum {
-    ROWS = 900, /* of the even map, and about its columns */
+    ROWS = 900, /* largest number of rows of the even map, and approximate number of columns */
     COLUMNS = 900
 };
 
@@ -40,8 +40,8 @@ section_depths(struct tool *t, const struct rc_grid *g)
 
 /* ---- between rows ---- */
 
-/* The slope at row j of a curve that rises and falls with the values and has no corner (Fritsch and
- * Butland 1984): a weighted harmonic mean of those beside it, 0 at an extreme. */
+/* The slope at row j of a smooth monotonic curve through the values (Fritsch and Butland 1984): a weighted
+ * harmonic mean of the slopes beside it, 0 at an extreme. */
 static double
 slope(const double *z, const double *v, size_t n, size_t j)
 {
@@ -76,7 +76,8 @@ between(const double *z, const double *v, size_t n, size_t j, double at)
 
 /* ---- the even map ---- */
 
-/* Column i of `even`, each `times` columns of it one of the map: straight between their middles. */
+/* Column i of `even`, where `times` columns correspond to one column of the map: linear between the
+ * centres. */
 static double
 across(const struct rc_grid *g, size_t row, size_t i, size_t times)
 {
@@ -94,7 +95,7 @@ across(const struct rc_grid *g, size_t row, size_t i, size_t times)
     return (1 - t) * g->v[row * g->nx + k] + t * g->v[row * g->nx + k + 1];
 }
 
-/* The rows of a section: their depths, and the medium that each is in. */
+/* The rows of a section: their depths and media. */
 struct rows {
     const double *depth;
     const struct layers *layers;
@@ -103,8 +104,8 @@ struct rows {
     size_t n;
 };
 
-/* The value at depth `at`, between rows j and j + 1: on the curve through all rows next to them that are in
- * the same medium, or, where the two are in different ones, that of the row which is in the one of `at`. */
+/* The value at depth `at`, between rows j and j + 1: on the curve through the neighbouring rows in the same
+ * medium or, if the two rows are in different media, the value of the row in the medium of `at`. */
 static double
 value_at(const struct rows *r, size_t j, double at)
 {
@@ -116,7 +117,7 @@ value_at(const struct rows *r, size_t j, double at)
             return at - r->depth[j] < r->depth[j + 1] - at ? r->v[j] : r->v[j + 1];
         return in == r->medium[j] ? r->v[j] : r->v[j + 1];
     }
-    /* two rows on each side are all that slopes look at */
+    /* slopes depend on two rows on each side */
     for (int k = 0; k < 2 && first > 0 && r->medium[first - 1] == r->medium[j]; k++)
         first--;
     for (int k = 0; k < 2 && end + 1 < r->n && r->medium[end + 1] == r->medium[j]; k++)
@@ -178,7 +179,7 @@ section_range(struct tool *t, const char *text, const struct rc_grid *g, const d
 
     *top = first;
     *bottom = last;
-    if (g->ny == 1) { /* a strip about the only depth */
+    if (g->ny == 1) { /* a strip around the only depth */
         *top = fmax(0, first - 0.5 * g->dy);
         *bottom = *top + g->dy;
     }

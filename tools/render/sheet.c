@@ -1,6 +1,5 @@
 /*
- * Several maps in one picture: how many columns and rows, what they have to have in common, what
- * stands over each.
+ * Several maps in one picture: number of columns and rows, common properties, titles of the panels.
  */
 #include "render.h"
 

@@ -1,5 +1,5 @@
 /*
- * The line under the title: the source, the case, the load, the place, and the extremes.
+ * The line under the title: source, case, load, position, and extremes.
  */
 #include "render.h"
 
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define BETWEEN " \xc2\xb7 " /* where a figure breaks the line */
+#define BETWEEN " \xc2\xb7 " /* the figure may break the line here */
 
 void
 subtitle_add(struct subtitle *w, const char *name, const char *value)
@@ -42,7 +42,7 @@ say_where(struct subtitle *w, const struct rc_grid *g, bool largest)
     }
 }
 
-/* What is a millionth of the other extreme is more likely rounding than a value in its own unit. */
+/* A millionth of the other extreme is more likely rounding than a value. */
 static const char *
 extreme(char text[TICKS_TEXT], double value, const struct survey *s, const char *unit)
 {
@@ -111,14 +111,14 @@ subtitle_same(struct rc_grid *const *grid, size_t n, const char *key)
     return true;
 }
 
-/* Names of keys with the units of their numbers; a text has none. */
+/* Names of keys with the units of their numbers; texts have none. */
 static const struct {
     const char *key, *name, *unit;
 } pieces[] = {{"source", "", NULL},
               {"case", "case ", NULL},
               {"load", "load ", "N"},
               {"depth", "depth ", "m"},
-              {"material", "", NULL}}; /* a word of its own */
+              {"material", "", NULL}}; /* a separate word */
 
 enum {
     PIECES = sizeof pieces / sizeof *pieces
@@ -148,7 +148,7 @@ subtitle_common(struct subtitle *w, struct rc_grid *const *grid, size_t n)
             subtitle_add(w, pieces[p].name, piece_text(text, grid[0], p));
 }
 
-/* Where the load says which frame it is, the number of its case is left out. */
+/* If the load identifies the frame, the number of its case is omitted. */
 void
 frame_label(char *text, size_t size, struct rc_grid *const *grid, size_t n, size_t k)
 {

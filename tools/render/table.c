@@ -1,7 +1,7 @@
 /*
- * Columns of numbers out of reports: tables with tabs or commas, whose first line names the columns as
- * `load/N`, and JSON, an object a row. An array of JSON is a column in itself: each object with
- * arrays is then a curve of its own.
+ * Columns of numbers from reports: tables with tabs or commas, whose first line names the columns as
+ * `load/N`, and JSON with one object per row. An array of JSON is a column: each object with arrays is then a
+ * separate curve.
  */
 #include "render.h"
 
@@ -13,24 +13,24 @@
 #include <unistd.h>
 
 enum {
-    INSIDE = 32,  /* objects and arrays of JSON inside one another */
-    PATH = 512,   /* bytes of a name with those that it is inside of */
-    CELLS = 1024, /* columns of a table                              */
+    INSIDE = 32,  /* depth of nested objects and arrays of JSON */
+    PATH = 512,   /* most bytes of a name with those of its outer objects */
+    CELLS = 1024, /* most columns of a table */
 };
 
-static const size_t most_bytes = (size_t)1 << 30; /* of a file, without --memory */
+static const size_t most_bytes = (size_t)1 << 30; /* most bytes of a file, without --memory */
 
 struct reading {
     struct tool *tool;
     struct table *table;
     const char *at, *end;
-    struct name_list there; /* names of what could have been asked for */
+    struct name_list there; /* names of the existing columns */
     size_t line;
-    char separator; /* of the cells of a table */
+    char separator; /* separator of the cells of a table */
     /* of JSON */
     char path[PATH];
     size_t depth;
-    struct { /* what the object holds of each column */
+    struct { /* the values of the current object for each column */
         double *v;
         size_t n, capacity;
         bool array, taken;
@@ -59,7 +59,7 @@ no_memory(struct tool *t, const char *source)
 
 /* ---- the file ---- */
 
-/* The whole of it, ended by a NUL. */
+/* The whole file, terminated by a NUL. */
 static char *
 read_file(struct tool *t, const char *source, FILE *file, size_t *size)
 {
@@ -120,7 +120,7 @@ begin_piece(struct reading *r)
     table->piece[table->pieces++] = table->rows;
 }
 
-/* Notes a name that could have been asked for. */
+/* Records the name of an existing column. */
 static void
 add_name(struct reading *r, const char *name)
 {
@@ -131,7 +131,7 @@ add_name(struct reading *r, const char *name)
 
 /* ---- tables with tabs or commas ---- */
 
-/* A number, or true and false as 1 and 0; NAN of anything else. */
+/* A number, or 1 and 0 for true and false; NAN for other texts. */
 static double
 cell_value(const char *text, size_t n, bool *words)
 {
@@ -154,7 +154,7 @@ cell_value(const char *text, size_t n, bool *words)
     return NAN;
 }
 
-/* The number of a word among those of its column. */
+/* The index of a word among those of its column. */
 static double
 label_value(struct reading *r, struct column *column, const char *text, size_t n)
 {
@@ -163,14 +163,14 @@ label_value(struct reading *r, struct column *column, const char *text, size_t n
 
     snprintf(word, sizeof word, "%.*s", (int)(n < sizeof word ? n : sizeof word - 1), text);
     for (char *two = word; (two = strstr(two, "\"\"")) != NULL && r->separator == ','; two++)
-        memmove(two, two + 1, strlen(two)); /* one quote, inside quotes */
+        memmove(two, two + 1, strlen(two)); /* one quote inside quotes */
     if (*word == '\0' || strcmp(word, "null") == 0 || strcmp(word, "NaN") == 0)
         return NAN;
     while (k < column->word_count && strcmp(column->word[k], word) != 0)
         k++;
     if (k < column->word_count)
         return (double)k;
-    if (k == CELLS) /* more than a picture tells apart: the last stands for all of them */
+    if (k == CELLS) /* more than a picture can distinguish: all others have the last index */
         return CELLS - 1;
     more = realloc(column->word, (k + 1) * sizeof *more);
     if (more == NULL || (column->word = more, more[k] = strdup(word)) == NULL)
@@ -178,7 +178,7 @@ label_value(struct reading *r, struct column *column, const char *text, size_t n
     return (double)column->word_count++;
 }
 
-/* A number, or that of a word as long as no cell of the column is a number. */
+/* A number, or the index of a word as long as no cell of the column is a number. */
 static double
 either_value(struct reading *r, size_t c, const char *text, size_t n, bool quoted)
 {
@@ -205,7 +205,7 @@ line_end(const struct reading *r)
     return end == NULL ? r->end : end;
 }
 
-/* Where the cell that begins at `s` ends: at a separator, but for one between quotes, or at `end`. */
+/* The end of the cell that begins at `s`: a separator outside of quotes, or `end`. */
 static const char *
 cell_end(const struct reading *r, const char *s, const char *end)
 {
@@ -216,7 +216,7 @@ cell_end(const struct reading *r, const char *s, const char *end)
     return s;
 }
 
-/* Cells of the line that ends at `end`, without their quotes; gives their number. */
+/* The cells of the line that ends at `end`, without their quotes; returns their number. */
 static size_t
 split(struct reading *r, const char *end, const char *start[CELLS], size_t length[CELLS])
 {
@@ -238,7 +238,7 @@ split(struct reading *r, const char *end, const char *start[CELLS], size_t lengt
     }
 }
 
-/* Which cell each column is in; CELLS: in none. */
+/* The cell of each column; CELLS: none. */
 static void
 read_heading(struct reading *r, const char *start[CELLS], const size_t length[CELLS], size_t n,
              size_t *where)
@@ -331,7 +331,7 @@ expect(struct reading *r, char c)
     r->at++;
 }
 
-/* Steps over a string; escapes stay as they are. */
+/* Skips a string; escapes are not decoded. */
 static void
 read_string(struct reading *r, const char **start, size_t *n)
 {
@@ -344,7 +344,7 @@ read_string(struct reading *r, const char **start, size_t *n)
     *n = (size_t)(r->at++ - *start);
 }
 
-/* Whether the path of a value is the name of a column, or ends in a point and that name. */
+/* True if the path of a value is the name of a column, or ends in a point and that name. */
 static bool
 is_named(const char *path, const char *name)
 {
@@ -353,7 +353,7 @@ is_named(const char *path, const char *name)
     return p >= n && strcmp(path + p - n, name) == 0 && (p == n || path[p - n - 1] == '.');
 }
 
-/* A value as it stands in the file; `words`: it stands in quotes. */
+/* A value as text in the file; `words`: it is in quotes. */
 static void
 take(struct reading *r, const char *text, size_t length, bool words, bool element)
 {
@@ -478,7 +478,7 @@ read_value(struct reading *r, bool element)
     r->depth--;
 }
 
-/* What one object held becomes a row, or, with arrays, a piece of as many rows as they have. */
+/* Converts an object to a row or, with arrays, to a piece with a row for each element. */
 static void
 add_rows(struct reading *r)
 {

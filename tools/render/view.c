@@ -1,5 +1,5 @@
 /*
- * From where a relief is seen, and what its figure says of that.
+ * The view of a relief, and its notes.
  */
 #include "render.h"
 

@@ -1,5 +1,5 @@
 /*
- * Which part of a map is drawn, and where it lies.
+ * The drawn part of a map, and its position.
  */
 #include "render.h"
 
@@ -21,7 +21,7 @@ place(const struct rc_grid *g, struct window *w)
     w->bottom = ((double)g->ny - j - 0.5) * g->dy;
 }
 
-/* Nodes of a window: first and behind the last, along each axis. */
+/* Nodes of a window: the first, and the one after the last, along each axis. */
 struct box {
     size_t x0, x1, y0, y1;
 };
@@ -54,7 +54,7 @@ cut(struct rc_grid *g, const struct beside *beside, struct window *w, const stru
     w->top += (double)y0 * g->dy;
 }
 
-/* Nodes from first to behind last whose middles lie from lo to hi, of n with the origin at `middle`. */
+/* The nodes, of n with the origin at `middle`, whose centres lie from lo to hi. */
 static bool
 nodes_between(double lo, double hi, double middle, size_t n, double step, size_t *first,
               size_t *last)
@@ -88,7 +88,7 @@ find_contact(const struct rc_grid *g, struct box *b)
     return b->x1 > b->x0;
 }
 
-/* Widens first..last, as a length, to `length` about its middle, within n nodes. */
+/* Widens first..last to `length` about its middle, inside n nodes. */
 static void
 widen(size_t *first, size_t *last, double length, double step, size_t n)
 {
@@ -99,12 +99,12 @@ widen(size_t *first, size_t *last, double length, double step, size_t n)
     *last = (size_t)to > *last ? (size_t)to : *last;
 }
 
-/* A square about what touches, with a quarter of its side as a margin all around; of a profile a
- * length. False: nothing touches. */
+/* A square about the contact, with a margin of a quarter of its side all around; a length for a profile.
+ * False: no contact. */
 static bool
 contact_box(const struct rc_grid *g, struct box *b)
 {
-    const double margin = 0.25, least = 8; /* nodes: of less nobody sees where they are */
+    const double margin = 0.25, least = 8; /* nodes: with fewer their position is not visible */
     double w, h, side;
 
     if (!find_contact(g, b))
@@ -183,7 +183,7 @@ void
 window_cut(struct tool *t, const char *text, bool raw, struct rc_grid *g,
            const struct beside *beside, const struct rc_grid *touch, struct window *w)
 {
-    const double speck = 0.25; /* of the sides of the map */
+    const double speck = 0.25; /* fraction of the sides of the map */
     bool asked;
     struct box b;
 

@@ -1,5 +1,5 @@
 /*
- * Words of a figure that the command line gives in place of its own.
+ * Texts of a figure that the command line replaces.
  */
 #include "render.h"
 
@@ -30,7 +30,7 @@ wording_axis(struct tool *t, const struct curve_style *s, char which, struct gra
                                                                 : "that with a prefix or without");
 }
 
-/* Names that are there; where there is none but one curve, that one can get one. */
+/* The existing names; a single curve without a name can get one. */
 static size_t
 names_there(const struct graph_series *series, size_t n)
 {
