@@ -40,7 +40,6 @@ extern "C" {
 struct rc_conv;     /* displacements under a pressure: one kernel on one grid, u = K p */
 struct rc_solver;   /* elastic contact, with or without a hardness                     */
 struct rc_plastic;  /* contact of a body that yields in its volume                     */
-struct rc_press;    /* contact that is elastic until the first yield                   */
 struct rc_adhesion; /* contact of bodies that attract each other: a path of states     */
 struct rc_leak;     /* flow through a gap                                              */
 struct rc_slip;     /* friction in a contact with a given pressure                     */
@@ -734,8 +733,6 @@ RC_API struct rc_model *rc_elastic_new(const struct rc_shape *shape, const doubl
                                        const struct rc_elastic_asks *asks, struct rc_err *err);
 /* The figures after a look, of an elastic model or of a model with an elastic inner model; NULL: neither. */
 RC_API const struct rc_elastic_figures *rc_elastic_result(const struct rc_model *model);
-/* The solver of this model, which only the model steps; NULL: not elastic, or no load so far. */
-RC_API struct rc_solver *rc_elastic_solver(const struct rc_model *model);
 
 /* ---- plasticity in the volume ---- */
 
@@ -817,78 +814,40 @@ enum {
 /* Plastic strain of a slab, nx ny each; NULL: not needed. */
 RC_API void rc_plastic_strain(const struct rc_plastic *plastic, size_t slab,
                               double *const e[RC_PLASTIC_STRAINS]);
-/* The state after any step, as finite numbers that a file may keep: fewer between two increments than within
- * one, and fewest when a load is reached. */
-RC_API size_t rc_plastic_state_size(const struct rc_plastic *plastic);
-RC_API void rc_plastic_state(const struct rc_plastic *plastic, double *state);
-/* Continues from a state, in an object of the same problem and heights: the next step is the one that would
- * have followed, its contact within the tolerance. If the load had been reached, that step only solves the
- * contact again. RC_FAIL when the n numbers are no state of such a problem (nothing has then changed), and
- * when memory is short; the object can then only be freed. */
-RC_API enum rc_status rc_plastic_restore(struct rc_plastic *plastic, const double *state, size_t n,
-                                         struct rc_err *err);
 RC_API void rc_plastic_free(struct rc_plastic *plastic); /* NULL is allowed */
 
-/* ---- elastic or yielding body: the yielding model starts at the first yield ---- */
+/* ---- the yielding model: elastic until the first yield ---- */
 
-/* As long as nothing yields, the elastic contact is the solution. In the problem thickness NULL lets this
- * many slabs be chosen (0: as many as needed, from half the spacing at the surface, each a quarter thicker
- * than the last); increments 0: their number for each load, so that its estimated error is at most
- * contact.tol (0: 1e-2); lag 0: a value suited to this. */
 enum {
-    RC_PRESS_INCREMENTS = 512 /* of a load, at most */
+    RC_YIELDING_INCREMENTS = 512 /* of a load, at most */
 };
-struct rc_press_figures {
-    double goal; /* asked relative error */
-    /* largest elastic Mises stress over the yield stress; its depth, m; 0: unknown */
-    double most, deepest;
-    size_t slabs;            /* slabs in use; 0: nothing has yielded */
-    const double *thickness; /* m, of each                           */
-    size_t increments;       /* of the load, as tried                */
-};
-/* h: nx ny m, copied. NULL when the problem is invalid, or memory is short. */
-RC_API struct rc_press *rc_press_new(const struct rc_shape *shape, const double *h,
-                                     const struct rc_plastic_problem *problem, struct rc_err *err);
-/* Announces this number of loads, N the largest: slabs are chosen for the largest, and increments also for
- * the loads that inherit their error. Optional. */
-RC_API void rc_press_plan(struct rc_press *press, size_t loads, double largest);
-/* The next load of a history, N; 0 separates the bodies. */
-RC_API enum rc_status rc_press_set_load(struct rc_press *press, double load, struct rc_err *err);
-/* One iteration of the elastic contact, or one rc_plastic_step. RC_MORE until the load is reached. */
-RC_API enum rc_status rc_press_step(struct rc_press *press, struct rc_err *err);
-/* After the last step, also of a load that is given up. */
-RC_API const struct rc_press_figures *rc_press_result(struct rc_press *press);
-/* The contact, elastic or that of rc_plastic_solver; NULL: no load above 0 has been set. */
-RC_API struct rc_solver *rc_press_solver(struct rc_press *press);
-/* The yielding body, for its figures, residual displacement and strain; NULL: nothing has yielded. */
-RC_API struct rc_plastic *rc_press_plastic(struct rc_press *press);
-/* The state after any step; returns the count of its numbers. state NULL: only counts. */
-RC_API size_t rc_press_state(const struct rc_press *press, double *state);
-/* As rc_plastic_restore. After a failure the object can only be freed. */
-RC_API enum rc_status rc_press_restore(struct rc_press *press, const double *state, size_t n,
-                                       struct rc_err *err);
-/* Bytes that the next step needs for the volume, if 0.3 of its voxels yield, and for a state if one is kept;
- * or that restoring n numbers needs. 0: none. */
-RC_API size_t rc_press_memory(const struct rc_press *press, const double *state, size_t n,
-                              bool kept);
-RC_API void rc_press_free(struct rc_press *press); /* NULL is allowed */
-
-/* The model (model.h) of such a body, along a history of loads; its heights cannot change. The problem is
- * that of rc_press_new; the caller keeps everything that it points to. */
 struct rc_yielding_figures {
     struct rc_contact contact;
-    struct rc_plastic_figures plastic; /* all 0: nothing has yielded */
-    size_t slabs;
+    struct rc_plastic_figures plastic; /* all 0: nothing has yielded                             */
+    bool yielded;                      /* else the solution is elastic                           */
+    size_t slabs;                      /* in use; 0: nothing has yielded                         */
+    const double *thickness;           /* m, of each                                             */
+    size_t increment, increments;      /* reached, and of the load, as tried                     */
     double max_mises_over_yield, max_mises_depth; /* of the elastic contact; m; NAN: unknown */
     double indentation, residual_indentation;     /* as in rc_elastic_figures                */
 };
+/* A model (model.h) of a body that may yield, along a history of loads; its heights cannot change. As long as
+ * nothing yields, the elastic contact is the solution. In the problem thickness NULL lets this many slabs be
+ * chosen (0: as many as needed, from half the spacing at the surface, each a quarter thicker than the last);
+ * increments 0: their number for each load, so that its estimated error is at most contact.tol (0: 1e-2); lag
+ * 0: a value suited to this. The heights h (nx ny m) are copied; the caller keeps everything that the problem
+ * points to. NULL when the problem is invalid, or memory is short. */
 RC_API struct rc_model *rc_yielding_new(const struct rc_shape *shape, const double *h,
                                         const struct rc_plastic_problem *problem,
                                         struct rc_err *err);
+/* Announces this number of loads, N the largest: slabs are chosen for the largest, and increments also for
+ * the loads that inherit their error. Optional. */
+RC_API void rc_yielding_plan(struct rc_model *model, size_t loads, double largest);
 /* The figures after a look, of a yielding model or of a model with a yielding inner model; NULL: neither. */
 RC_API const struct rc_yielding_figures *rc_yielding_result(const struct rc_model *model);
-/* The press of this model, for its plastic strain; a restore may replace it. NULL: not yielding. */
-RC_API struct rc_press *rc_yielding_press(const struct rc_model *model);
+/* Plastic strain as rc_plastic_strain finds it; false: nothing has yielded, or there is no such slab. */
+RC_API bool rc_yielding_strain(const struct rc_model *model, size_t slab,
+                               double *const e[RC_PLASTIC_STRAINS]);
 
 /* ---- adhesion ---- */
 

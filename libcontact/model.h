@@ -29,6 +29,7 @@ extern "C" {
 #endif
 
 struct rc_model;
+struct rc_solver;
 
 /* ---- axes: what a history prescribes ---- */
 
@@ -160,6 +161,9 @@ RC_API enum rc_status rc_model_set_heights(struct rc_model *model, const double 
  * The approach is counted from the highest node of h. RC_FAIL where the model cannot. */
 RC_API enum rc_status rc_model_set_compliance(struct rc_model *model, double c, struct rc_err *err);
 RC_API struct rc_shape rc_model_shape(const struct rc_model *model);
+/* The solver of the contact of this model or of its inner one, for its pressure, names and progress; only the
+ * model steps it. NULL: there is none, or no load so far. */
+RC_API struct rc_solver *rc_model_solver(const struct rc_model *model);
 RC_API const char *rc_model_name(const struct rc_model *model);
 /* With its inner models; NULL is allowed. */
 RC_API void rc_model_free(struct rc_model *model);

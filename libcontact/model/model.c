@@ -188,6 +188,15 @@ rc_model_set_compliance(struct rc_model *m, double c, struct rc_err *err)
                : rc_err_set(err, "the %s model has no compliance of its nodes", m->row->name);
 }
 
+struct rc_solver *
+rc_model_solver(const struct rc_model *m)
+{
+    for (; m != NULL; m = m->inner)
+        if (m->row->solver != NULL)
+            return m->row->solver(m);
+    return NULL;
+}
+
 struct rc_shape
 rc_model_shape(const struct rc_model *m)
 {
@@ -335,6 +344,6 @@ rc_model_free(struct rc_model *m)
         return;
     m->row->free(m);
     rc_model_free(m->inner);
-    free(m->kept.v);
+    rc_state_forget(&m->kept);
     free(m);
 }

@@ -10,6 +10,10 @@
 /* A state is a sequence of numbers. One function of a row counts, writes and reads them. */
 struct rc_state;
 void rc_state_numbers(struct rc_state *s, size_t n, double *v);
+/* The same, of numbers that are finite, in single precision too; a state with others is refused. */
+void rc_state_finite(struct rc_state *s, size_t n, double *v);
+/* Such a number, of at least `least`. */
+void rc_state_number(struct rc_state *s, double *v, double least);
 /* A size or a yes/no, at most `most`, as one number. */
 void rc_state_count(struct rc_state *s, size_t *n, size_t most);
 /* A map: the n nodes of this rank. In a state all maps follow all numbers. Returns the place of the map in a
@@ -21,6 +25,21 @@ bool rc_state_holds(struct rc_state *s, size_t n);
 bool rc_state_reads(const struct rc_state *s);
 /* Refuses a state that is being read. `why` is copied: a part of a sentence. */
 void rc_state_refuse(struct rc_state *s, const char *why);
+
+/* A state in memory, of a function that counts, writes and reads; zeroed: none. */
+struct rc_state_copy {
+    double *v;
+    size_t n, numbers, maps; /* values; those before the maps; maps */
+};
+/* RC_FAIL: memory is short. */
+enum rc_status rc_state_save(struct rc_state_copy *copy, void (*part)(void *of, struct rc_state *s),
+                             void *of);
+enum rc_status rc_state_load(const struct rc_state_copy *copy,
+                             void (*part)(void *of, struct rc_state *s), void *of,
+                             struct rc_err *err);
+/* The copy as a part of another state. */
+void rc_state_copy(struct rc_state *s, struct rc_state_copy *copy);
+void rc_state_forget(struct rc_state_copy *copy);
 
 /* The frames that every model of contact has, first in its table. */
 enum {
@@ -71,19 +90,17 @@ struct rc_model_row {
     void (*progress)(const struct rc_model *m, struct rc_loops *loops);
     enum rc_status (*plan)(const struct rc_model *m, const struct rc_point *most,
                            struct rc_expected *expected, struct rc_err *err);
+    struct rc_solver *(*solver)(const struct rc_model *m);
 };
 
 struct rc_model {
     const struct rc_model_row *row;
     struct rc_shape shape;
-    struct rc_model *inner;   /* owned; NULL: none                      */
-    struct rc_point from, to; /* the last point kept, and the next one  */
-    enum rc_status status;    /* RC_MORE: on the way                    */
-    bool moved;               /* since the last keep                    */
-    struct {                  /* state at the last keep                 */
-        double *v;
-        size_t n, numbers, maps; /* values; those before the maps; maps */
-    } kept;
+    struct rc_model *inner;    /* owned; NULL: none                      */
+    struct rc_point from, to;  /* the last point kept, and the next one  */
+    enum rc_status status;     /* RC_MORE: on the way                    */
+    bool moved;                /* since the last keep                    */
+    struct rc_state_copy kept; /* state at the last keep                */
 };
 
 /* For makers: zeroed, of `size` bytes; NULL when memory is short. An outer model owns its inner one from here
@@ -100,7 +117,7 @@ struct rc_point rc_point_between(const struct rc_point *from, const struct rc_po
 bool rc_point_has(const struct rc_point *point, enum rc_axis axis);
 void rc_loops_add(struct rc_loops *s, const char *what, const char *unit, double at, double of);
 
-/* state.c */
+/* The state at the last point kept: copied, and restored, which forgets all later steps (state.c). */
 enum rc_status rc_model_remember(struct rc_model *m, struct rc_err *err);
 enum rc_status rc_model_recall(struct rc_model *m, struct rc_err *err);
 

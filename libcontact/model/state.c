@@ -4,6 +4,7 @@
  */
 #include "row.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -90,6 +91,23 @@ rc_state_count(struct rc_state *s, size_t *n, size_t most)
         rc_state_refuse(s, "a size is out of range");
 }
 
+void
+rc_state_finite(struct rc_state *s, size_t n, double *v)
+{
+    rc_state_numbers(s, n, v);
+    for (size_t k = 0; k < n && rc_state_reads(s); k++)
+        if (!(fabs(v[k]) <= (double)FLT_MAX))
+            rc_state_refuse(s, "a number is not finite");
+}
+
+void
+rc_state_number(struct rc_state *s, double *v, double least)
+{
+    rc_state_finite(s, 1, v);
+    if (rc_state_reads(s) && !(*v >= least))
+        rc_state_refuse(s, "a number is out of range");
+}
+
 /* The name of a model as a number. */
 static double
 mark(const char *name)
@@ -122,12 +140,11 @@ exchange_members(struct rc_model *m, struct rc_state *s)
         exchange(m->inner, s);
 }
 
-/* The copy of the state at the last point kept, without which a restored model could not forget. */
-static void
-exchange_kept(struct rc_model *m, struct rc_state *s)
+void
+rc_state_copy(struct rc_state *s, struct rc_state_copy *c)
 {
-    size_t numbers = m->kept.numbers, maps = m->kept.maps;
-    size_t nodes = maps > 0 ? (m->kept.n - numbers) / maps : 0;
+    size_t numbers = c->numbers, maps = c->maps;
+    size_t nodes = maps > 0 ? (c->n - numbers) / maps : 0;
     double *v;
 
     rc_state_count(s, &numbers, SIZE_MAX / sizeof *v - 1);
@@ -136,18 +153,15 @@ exchange_kept(struct rc_model *m, struct rc_state *s)
         return;
     if (rc_state_reads(s)) {
         nodes = maps > 0 ? (s->n - s->numbers) / s->all_maps : 0;
-        if ((v = realloc(m->kept.v, (numbers + maps * nodes + 1) * sizeof *v)) == NULL) {
+        if ((v = realloc(c->v, (numbers + maps * nodes + 1) * sizeof *v)) == NULL) {
             rc_state_refuse(s, "memory is short");
             return;
         }
-        m->kept.v = v;
-        m->kept.n = numbers + maps * nodes;
-        m->kept.numbers = numbers;
-        m->kept.maps = maps;
+        *c = (struct rc_state_copy){v, numbers + maps * nodes, numbers, maps};
     }
-    rc_state_numbers(s, numbers, m->kept.v);
+    rc_state_numbers(s, numbers, c->v);
     for (size_t k = 0; k < maps; k++)
-        rc_state_map(s, nodes, m->kept.v + numbers + k * nodes);
+        rc_state_map(s, nodes, c->v + numbers + k * nodes);
 }
 
 static void
@@ -167,52 +181,70 @@ exchange(struct rc_model *m, struct rc_state *s)
     m->status = (enum rc_status)((int)status + RC_FAIL);
     m->moved = moved;
     if (m->moved && !m->row->forgets)
-        exchange_kept(m, s);
+        rc_state_copy(s, &m->kept); /* without it a restored model could not forget */
     if (!s->bad)
         exchange_members(m, s);
     if (rc_state_reads(s) && m->moved && m->inner != NULL && m->inner->status == RC_MORE)
         m->status = RC_MORE; /* the inner model must find its solution again */
 }
 
-/* ---- the copy ---- */
+/* ---- copies ---- */
 
 enum rc_status
-rc_model_remember(struct rc_model *m, struct rc_err *err)
+rc_state_save(struct rc_state_copy *c, void (*part)(void *of, struct rc_state *s), void *of)
 {
     struct rc_state s = {.mode = COUNTS};
     double *v;
 
-    if (m->row->forgets)
-        return RC_OK;
-    exchange_members(m, &s);
-    if ((v = realloc(m->kept.v, (s.at + s.map_at + 1) * sizeof *v)) == NULL)
-        return rc_err_set(err, "out of memory for the state of the %s model", m->row->name);
-    m->kept.v = v;
-    m->kept.n = s.at + s.map_at;
-    m->kept.numbers = s.at;
-    m->kept.maps = s.maps;
+    part(of, &s);
+    if ((v = realloc(c->v, (s.at + s.map_at + 1) * sizeof *v)) == NULL)
+        return RC_FAIL;
+    *c = (struct rc_state_copy){v, s.at + s.map_at, s.at, s.maps};
     s = (struct rc_state){.mode = WRITES, .to = v, .map_at = s.at};
-    exchange_members(m, &s);
+    part(of, &s);
     return RC_OK;
 }
 
-/* What was stepped since then is forgotten. */
+enum rc_status
+rc_state_load(const struct rc_state_copy *c, void (*part)(void *of, struct rc_state *s), void *of,
+              struct rc_err *err)
+{
+    struct rc_state s = {.mode = READS,
+                         .from = c->v,
+                         .n = c->n,
+                         .numbers = c->numbers,
+                         .map_at = c->numbers,
+                         .all_maps = c->maps};
+
+    part(of, &s);
+    return !s.bad ? RC_OK : rc_err_set(err, "the point before cannot be restored: %s", s.why);
+}
+
+void
+rc_state_forget(struct rc_state_copy *c)
+{
+    free(c->v);
+    *c = (struct rc_state_copy){0};
+}
+
+static void
+exchange_model(void *m, struct rc_state *s)
+{
+    exchange_members(m, s);
+}
+
+enum rc_status
+rc_model_remember(struct rc_model *m, struct rc_err *err)
+{
+    if (m->row->forgets || rc_state_save(&m->kept, exchange_model, m) == RC_OK)
+        return RC_OK;
+    return rc_err_set(err, "out of memory for the state of the %s model", m->row->name);
+}
+
 enum rc_status
 rc_model_recall(struct rc_model *m, struct rc_err *err)
 {
-    struct rc_state s = {.mode = READS,
-                         .from = m->kept.v,
-                         .n = m->kept.n,
-                         .numbers = m->kept.numbers,
-                         .map_at = m->kept.numbers,
-                         .all_maps = m->kept.maps};
-
-    if (m->row->forgets)
-        return RC_OK;
-    exchange_members(m, &s);
-    return !s.bad ? RC_OK
-                  : rc_err_set(err, "the %s model cannot return to the point before: %s",
-                               m->row->name, s.why);
+    return m->row->forgets ? RC_OK : rc_state_load(&m->kept, exchange_model, m, err);
 }
 
 /* ---- for files ---- */

@@ -1,5 +1,11 @@
 /*
- * The model of a body that may yield in its volume: rc_press along a history of loads.
+ * The model of a body that may yield in its volume, along a history of loads. A load is solved as an elastic
+ * contact first. Where its stresses nowhere reach the yield stress, that is the solution, and no voxel takes
+ * memory. Otherwise the body is pressed from 0 in increments, in slabs as deep as the largest load of the plan
+ * needs, and from then on each load follows the last.
+ *
+ * Where the caller gives no number of increments, a load starts with a few. While their part of the estimated
+ * error is too large, the body returns to the state before the load and takes more increments.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -8,15 +14,48 @@
 #include "plastic.h"
 
 #include "libcontact/memory.h"
-#include "libcontact/model/row.h"
+
+enum {
+    FIRST = 8,       /* increments of the first try of a load, */
+    MOST_AUTO = 128, /* of the last, */
+    TRIES = 3
+};
+static const double deserved = 1e-2;      /* error that the increments are chosen for        */
+static const double contact_most = 1e-4;  /* tolerance of each contact, at most,             */
+static const double contact_least = 1e-6; /* and, for the sake of a smaller goal, at least   */
+static const double contact_share = 0.1;  /* of the goal                                     */
+static const double lag_least = 1e-3;     /* what single precision allows                    */
+static const double for_later = 0.7;      /* share of the goal where loads follow            */
+static const double expected_part = 0.3;  /* of the voxels that yield, for the memory        */
+static const double order = 1.1;          /* power of the error that the increments go by    */
+
+enum stage {
+    APART,   /* no load, and nothing has yielded */
+    ELASTIC, /* the elastic contact */
+    DEPTHS,  /* its stresses */
+    LARGEST, /* the elastic contact under the largest load of the plan */
+    MAKE,    /* the volume comes next */
+    VOLUME
+};
 
 struct yielding {
     struct rc_model base;
-    struct rc_plastic_problem problem;
+    struct rc_plastic_problem
+        problem; /* as given to the maker                                        */
     size_t n;
-    double *h;             /* m: undeformed heights                          */
-    double first_top, top; /* m: their highest; that of those that plastic strain leaves */
-    struct rc_press *press;
+    double *h;             /* m: undeformed heights                                        */
+    double first_top, top; /* m: their highest; that of those that plastic strain leaves   */
+    struct rc_solver *elastic;
+    struct rc_plastic *plastic;  /* NULL: nothing has yielded                                  */
+    double *thickness;           /* of the slabs, m                                            */
+    size_t slabs;                /* 0: the elastic stress nowhere exceeds the yield stress     */
+    double load, largest;        /* N: of the point, and of the plan                           */
+    size_t left, planned;        /* loads of the plan                                          */
+    size_t increments, try;      /* of the present try of the load, and its number, from 0     */
+    struct rc_state_copy before; /* the load; without numbers: there is no further try         */
+    double most, deepest;        /* the largest elastic Mises stress over the yield stress; m  */
+    enum stage stage;
+    enum rc_status reached; /* of the elastic contact                                      */
     bool looked;
     struct rc_yielding_figures figures;
 };
@@ -70,7 +109,176 @@ static const struct rc_frame_kind frames[] = {
     {NULL, NULL, NULL},
 };
 
-/* ---- verbs ---- */
+/* ---- slabs ---- */
+
+/* From the elastic pressure; y->slabs is 0 if nothing yields under it. */
+static enum rc_status
+find_slabs(struct yielding *y, struct rc_err *err)
+{
+    const struct rc_plastic_problem *asked = &y->problem;
+    const double yield = rc_yield_stress(&asked->yield, 0);
+    struct rc_plastic_depths d;
+
+    if (rc_plastic_depths(&y->base.shape, asked->contact.boundary, rc_solver_pressure(y->elastic),
+                          &asked->contact.pair.one, yield, asked->contact.threads, &d,
+                          err) != RC_OK)
+        return RC_FAIL;
+    y->most = d.most / yield;
+    y->deepest = d.deepest;
+    y->slabs = d.slabs == 0 || asked->slabs == 0 ? d.slabs : asked->slabs;
+    free(y->thickness);
+    y->thickness = NULL;
+    if (y->slabs > 0 && (y->thickness = malloc(y->slabs * sizeof *y->thickness)) == NULL)
+        rc_err_set(err, "out of memory for the slabs");
+    else if (y->slabs > 0 && asked->thickness != NULL)
+        memcpy(y->thickness, asked->thickness, y->slabs * sizeof *y->thickness);
+    else if (y->slabs > 0)
+        rc_plastic_stack(&d, y->slabs, y->thickness);
+    free(d.thickness);
+    return y->slabs > 0 && y->thickness == NULL ? RC_FAIL : RC_OK;
+}
+
+/* ---- the volume ---- */
+
+/* The relative error of the pressure that is asked for. */
+static double
+goal(const struct yielding *y)
+{
+    return y->problem.contact.tol > 0 ? y->problem.contact.tol : deserved;
+}
+
+static struct rc_plastic_problem
+problem_of(const struct yielding *y)
+{
+    struct rc_plastic_problem problem = y->problem;
+    const double asked = problem.contact.tol > 0 ? problem.contact.tol : 1;
+
+    problem.contact.tol =
+        fmin(fmin(asked, fmax(contact_share * asked, contact_least)), contact_most);
+    problem.slabs = y->slabs;
+    problem.thickness = y->thickness;
+    if (problem.lag == 0)
+        problem.lag = fmax(2 * fmin(goal(y), deserved), lag_least);
+    return problem;
+}
+
+static enum rc_status
+make(struct yielding *y, struct rc_err *err)
+{
+    const struct rc_plastic_problem problem = problem_of(y);
+
+    if ((y->plastic = rc_plastic_new(&y->base.shape, y->h, &problem, err)) == NULL)
+        return RC_FAIL;
+    rc_solver_free(y->elastic);
+    y->elastic = NULL;
+    y->stage = VOLUME;
+    return RC_OK;
+}
+
+/* Sets the load with the number of increments of the next try. */
+static enum rc_status
+try_load(struct yielding *y, struct rc_err *err)
+{
+    y->plastic->thorough = y->try > 0;
+    rc_plastic_set_increments(y->plastic, y->increments);
+    return rc_plastic_set_load(y->plastic, y->load, err);
+}
+
+/* The first try of a load. */
+static enum rc_status
+begin(struct yielding *y, struct rc_err *err)
+{
+    y->increments = y->problem.increments > 0 ? y->problem.increments : FIRST;
+    y->try = 0;
+    rc_state_forget(&y->before);
+    if (y->problem.increments == 0 &&
+        rc_state_save(&y->before, rc_plastic_exchange, y->plastic) != RC_OK)
+        return rc_err_set(err, "out of memory for the state before a load");
+    return try_load(y, err);
+}
+
+/* Whether more increments lower the error of the load to the goal, and how many. The errors of images and of
+ * earlier loads do not depend on them. */
+static bool
+deserves_more(struct yielding *y)
+{
+    const struct rc_plastic_figures *f = rc_plastic_result(y->plastic);
+    const double wanted = goal(y), own = f->increment_error;
+    const double aim = wanted * (y->left > 0 ? for_later : 1), here = f->error - f->image_error;
+    const size_t most = wanted < deserved ? RC_YIELDING_INCREMENTS : MOST_AUTO;
+    const double more = ceil((double)y->increments * pow(2 * own / wanted, order));
+
+    if (y->before.n == 0 || y->try + 1 == TRIES || y->increments >= most ||
+        own <= wanted / (f->image_error > wanted ? 2 : 4) ||
+        (here <= aim && !(f->error > wanted && own > wanted / 2)))
+        return false;
+    y->increments = more < (double)y->increments + 1 ? y->increments + 1
+                    : more < (double)most            ? (size_t)more
+                                                     : most;
+    y->try++;
+    return true;
+}
+
+static enum rc_status
+press_volume(struct yielding *y, struct rc_err *err)
+{
+    const enum rc_status status = rc_plastic_step(y->plastic, err);
+
+    if (status == RC_MORE || status == RC_FAIL)
+        return status;
+    if (!deserves_more(y)) {
+        rc_state_forget(&y->before);
+        return status;
+    }
+    if (rc_state_load(&y->before, rc_plastic_exchange, y->plastic, err) != RC_OK)
+        return RC_FAIL;
+    return try_load(y, err) == RC_OK ? RC_MORE : RC_FAIL;
+}
+
+/* ---- memory ---- */
+
+/* Bytes that the volume and a state of it take beside the present ones, if it is made in the next step. */
+static size_t
+coming(const struct yielding *y)
+{
+    const struct rc_plastic_problem problem = problem_of(y);
+    size_t bytes;
+
+    if (y->stage != MAKE)
+        return 0;
+    bytes = rc_plastic_memory(&y->base.shape, &problem, expected_part);
+    /* a state takes no more than the voxels, and a pressure */
+    return bytes + bytes - rc_plastic_memory(&y->base.shape, &problem, 0) + y->n * sizeof(double);
+}
+
+/* ---- loads ---- */
+
+static enum rc_status
+set_elastic(struct yielding *y, double load, struct rc_err *err)
+{
+    struct rc_problem contact = y->problem.contact;
+
+    if (y->elastic != NULL)
+        return rc_solver_set_load(y->elastic, load, 0, err);
+    contact.load = load;
+    contact.approach = 0;
+    y->elastic = rc_solver_new(&y->base.shape, y->h, &contact, err);
+    return y->elastic != NULL ? RC_OK : RC_FAIL;
+}
+
+static enum rc_status
+set_load(struct yielding *y, double load, struct rc_err *err)
+{
+    y->load = load;
+    if (y->stage == VOLUME)
+        return begin(y, err);
+    if (!(load >= 0))
+        return rc_err_set(err, "load %g N: it must be finite and not negative", load);
+    y->stage = load > 0 ? ELASTIC : APART;
+    if (load > 0)
+        y->most = y->deepest = 0;
+    return load > 0 ? set_elastic(y, load, err) : RC_OK;
+}
 
 static enum rc_status
 go(struct rc_model *m, struct rc_err *err)
@@ -78,21 +286,71 @@ go(struct rc_model *m, struct rc_err *err)
     struct yielding *y = (struct yielding *)m;
 
     y->looked = false;
-    return rc_press_set_load(y->press, m->to.at[RC_LOAD], err);
+    y->left -= y->left > 0;
+    return set_load(y, m->to.at[RC_LOAD], err);
+}
+
+/* The stresses of the elastic contact: RC_MORE if the body yields under it. */
+static enum rc_status
+look_inside(struct yielding *y, struct rc_err *err)
+{
+    if (find_slabs(y, err) != RC_OK)
+        return RC_FAIL;
+    if (y->slabs == 0)
+        return y->reached;
+    y->stage = y->largest > y->load ? LARGEST : MAKE;
+    return y->stage == LARGEST && set_elastic(y, y->largest, err) != RC_OK ? RC_FAIL : RC_MORE;
+}
+
+/* An iteration of the elastic contact. */
+static enum rc_status
+press_elastic(struct yielding *y, struct rc_err *err)
+{
+    const enum rc_status status = rc_solver_step(y->elastic);
+
+    if (status == RC_MORE)
+        return RC_MORE;
+    if (y->stage == LARGEST && find_slabs(y, err) != RC_OK)
+        return RC_FAIL;
+    y->reached = status;
+    y->stage = y->stage == LARGEST ? MAKE : DEPTHS;
+    return RC_MORE;
 }
 
 static enum rc_status
 step(struct rc_model *m, struct rc_err *err)
 {
-    return rc_press_step(((struct yielding *)m)->press, err);
+    struct yielding *y = (struct yielding *)m;
+
+    switch (y->stage) {
+    case APART:
+        return RC_OK;
+    case VOLUME:
+        return press_volume(y, err);
+    case MAKE:
+        return make(y, err) == RC_OK && begin(y, err) == RC_OK ? RC_MORE : RC_FAIL;
+    case DEPTHS:
+        return look_inside(y, err);
+    default:
+        return press_elastic(y, err);
+    }
 }
 
-/* What plastic strain does to the surface. */
+/* ---- results ---- */
+
+static struct rc_solver *
+solver(const struct rc_model *m)
+{
+    const struct yielding *y = (const struct yielding *)m;
+
+    return y->plastic != NULL ? rc_plastic_solver(y->plastic) : y->elastic;
+}
+
+/* Adds the displacement due to plastic strain. */
 static void
 displace(const struct yielding *y, double factor, double *v)
 {
-    struct rc_plastic *plastic = rc_press_plastic(y->press);
-    const double *u = plastic != NULL ? rc_plastic_residual(plastic) : NULL;
+    const double *u = y->plastic != NULL ? rc_plastic_residual(y->plastic) : NULL;
 
     for (size_t k = 0; k < y->n && u != NULL; k++)
         v[k] += factor * u[k];
@@ -106,7 +364,7 @@ shape(const struct yielding *y, double *to)
     displace(y, -1, to);
 }
 
-/* Figures of bodies that are apart, and the gap (NULL: not wanted). */
+/* Figures of separate bodies, and the gap (NULL: not needed). */
 static enum rc_status
 look_apart(const struct yielding *y, double *gap, struct rc_contact *c, struct rc_err *err)
 {
@@ -123,8 +381,7 @@ look_apart(const struct yielding *y, double *gap, struct rc_contact *c, struct r
 static double
 highest(const struct yielding *y)
 {
-    struct rc_plastic *plastic = rc_press_plastic(y->press);
-    const double *u = plastic != NULL ? rc_plastic_residual(plastic) : NULL;
+    const double *u = y->plastic != NULL ? rc_plastic_residual(y->plastic) : NULL;
     double top = -INFINITY;
 
     for (size_t k = 0; k < y->n; k++)
@@ -132,32 +389,49 @@ highest(const struct yielding *y)
     return top;
 }
 
+static void
+look_at_volume(struct yielding *y)
+{
+    struct rc_yielding_figures *f = &y->figures;
+    double load;
+    size_t application;
+
+    f->plastic = *rc_plastic_result(y->plastic);
+    rc_plastic_progress(y->plastic, &load, &f->increment, &application);
+    f->contact.pressure_error = f->plastic.error;
+    f->contact.convolutions = NAN; /* nearly all of the work is in the volume */
+    /* the error is unknown where few increments were asked for */
+    f->contact.converged =
+        y->base.status == RC_OK && f->contact.converged &&
+        (f->plastic.error <= goal(y) || (y->problem.increments > 0 && isnan(f->plastic.error)));
+}
+
 static enum rc_status
 look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 {
-    static const struct rc_plastic_figures none;
     struct yielding *y = (struct yielding *)m;
     struct rc_yielding_figures *f = &y->figures;
-    const struct rc_press_figures *press = rc_press_result(y->press);
-    struct rc_plastic *plastic = rc_press_plastic(y->press);
+    const bool known = y->plastic == NULL && (y->most > 0 || y->load == 0);
 
+    if (y->stage == LARGEST) { /* the caller stopped on the way: the load is that of the point */
+        if (set_elastic(y, y->load, err) != RC_OK)
+            return RC_FAIL;
+        y->stage = ELASTIC;
+    }
     y->top = highest(y);
     if (m->to.at[RC_LOAD] == 0 && look_apart(y, NULL, &f->contact, err) != RC_OK)
         return RC_FAIL;
     if (m->to.at[RC_LOAD] > 0)
-        rc_solver_result(rc_press_solver(y->press), NULL, NULL, &f->contact);
-    f->plastic = plastic != NULL ? *rc_plastic_result(plastic) : none;
-    f->slabs = press->slabs;
-    f->max_mises_over_yield = plastic == NULL && press->most > 0 ? press->most : NAN;
-    f->max_mises_depth = plastic == NULL && press->most > 0 ? press->deepest : NAN;
-    if (plastic != NULL) {
-        f->contact.pressure_error = f->plastic.error;
-        f->contact.convolutions = NAN; /* nearly all of the work is in the volume */
-        /* the error is unknown where few increments were asked for */
-        f->contact.converged = m->status == RC_OK && f->contact.converged &&
-                               (f->plastic.error <= press->goal ||
-                                (y->problem.increments > 0 && isnan(f->plastic.error)));
-    }
+        rc_solver_result(solver(m), NULL, NULL, &f->contact);
+    f->plastic = (struct rc_plastic_figures){0};
+    f->yielded = y->plastic != NULL;
+    f->slabs = y->slabs;
+    f->thickness = y->thickness;
+    f->increments = y->increments;
+    f->max_mises_over_yield = known ? y->most : NAN;
+    f->max_mises_depth = known ? y->deepest : NAN;
+    if (y->plastic != NULL)
+        look_at_volume(y);
     f->residual_indentation = y->first_top - y->top;
     f->indentation = (m->to.at[RC_LOAD] > 0 ? f->contact.approach : 0) + y->first_top - y->top;
     at->at[RC_LOAD] = f->contact.load;
@@ -180,9 +454,9 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     else if (frame == RC_FRAME_GAP && m->to.at[RC_LOAD] == 0)
         return look_apart(y, to, &again, err);
     else if (m->to.at[RC_LOAD] > 0 && (frame == RC_FRAME_PRESSURE || frame == RC_FRAME_CONTACT))
-        memcpy(to, rc_solver_pressure(rc_press_solver(y->press)), y->n * sizeof *to);
+        memcpy(to, rc_solver_pressure(solver(m)), y->n * sizeof *to);
     else if (frame != RESIDUAL && m->to.at[RC_LOAD] > 0)
-        rc_solver_result(rc_press_solver(y->press), frame == RC_FRAME_DISPLACEMENT ? to : NULL,
+        rc_solver_result(solver(m), frame == RC_FRAME_DISPLACEMENT ? to : NULL,
                          frame == RC_FRAME_GAP ? to : NULL, &again);
     if (frame == RESIDUAL || frame == RC_FRAME_DISPLACEMENT)
         displace(y, 1, to);
@@ -191,73 +465,25 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     return RC_OK;
 }
 
-/* ---- states ---- */
-
-/* The numbers go into a new press where this one has yielded and cannot return to a body that has not. */
-static void
-read_press(struct yielding *y, struct rc_state *s, const double *v, size_t n)
-{
-    struct rc_press *press = y->press;
-    struct rc_err err = {""};
-
-    if (!rc_press_returns(press, v, n)) {
-        if ((press = rc_press_new(&y->base.shape, y->h, &y->problem, &err)) == NULL) {
-            rc_state_refuse(s, err.text);
-            return;
-        }
-        rc_press_free(y->press);
-        y->press = press;
-    }
-    if (rc_press_restore(press, v, n, &err) != RC_OK)
-        rc_state_refuse(s, err.text);
-    if (y->base.moved)
-        y->base.status = RC_MORE; /* a step tells whether it is the solution */
-    y->looked = false;
-}
-
-static void
-state(struct rc_model *m, struct rc_state *s)
-{
-    struct yielding *y = (struct yielding *)m;
-    size_t n = rc_press_state(y->press, NULL);
-    double *v;
-
-    rc_state_count(s, &n, SIZE_MAX / sizeof *v - 1);
-    if (!rc_state_holds(s, n))
-        return;
-    if ((v = malloc((n + 1) * sizeof *v)) == NULL) {
-        rc_state_refuse(s, "memory is short");
-        return;
-    }
-    if (!rc_state_reads(s))
-        (void)rc_press_state(y->press, v);
-    rc_state_numbers(s, n, v);
-    if (rc_state_reads(s))
-        read_press(y, s, v, n);
-    free(v);
-}
-
 static void
 progress(const struct rc_model *m, struct rc_loops *l)
 {
     const struct yielding *y = (const struct yielding *)m;
-    struct rc_plastic *plastic = rc_press_plastic(y->press);
-    struct rc_solver *solver = rc_press_solver(y->press);
+    const double most = (double)y->increments;
     struct rc_progress at;
     size_t increment, application;
-    double load, most;
+    double load;
 
-    l->coming = rc_press_memory(y->press, NULL, 0, true);
-    if (plastic != NULL) {
-        most = (double)rc_press_result(y->press)->increments;
-        rc_plastic_progress(plastic, &load, &increment, &application);
+    l->coming = coming(y);
+    if (y->plastic != NULL) {
+        rc_plastic_progress(y->plastic, &load, &increment, &application);
         rc_loops_add(l, "load", "N", load, NAN);
         rc_loops_add(l, "increment", NULL, fmin((double)increment, most), most);
         rc_loops_add(l, "application", NULL, (double)application, NAN);
         /* between increments a state is smaller; the last may take long */
         l->worth = application == 0 || (double)increment >= most;
-    } else if (solver != NULL) {
-        rc_solver_progress(solver, &at);
+    } else if (y->elastic != NULL) {
+        rc_solver_progress(y->elastic, &at);
         rc_loops_add(l, "iteration", NULL, (double)at.iterations, NAN);
         l->grid = at.grid;
         l->error = at.error;
@@ -266,14 +492,110 @@ progress(const struct rc_model *m, struct rc_loops *l)
     }
 }
 
+/* ---- states: counts and loads; then of an elastic contact its pressure, or of a volume the thicknesses of
+ * its slabs, the state before the load, and its own ---- */
+
+/* Nothing has yielded in the state that is read. */
+static void
+forget_volume(struct yielding *y)
+{
+    rc_plastic_free(y->plastic);
+    free(y->thickness);
+    rc_state_forget(&y->before);
+    y->plastic = NULL;
+    y->thickness = NULL;
+    y->slabs = 0;
+}
+
+/* solved: the load of the stored pressure; 0: none is stored. */
+static void
+exchange_elastic(struct yielding *y, struct rc_state *s, double solved)
+{
+    double *p = NULL;
+    struct rc_err err;
+
+    if (!rc_state_reads(s)) {
+        if (solved > 0) /* a pressure that is written is not changed */
+            rc_state_numbers(s, y->n, (double *)rc_solver_pressure(y->elastic));
+        return;
+    }
+    forget_volume(y);
+    y->stage = APART;
+    if (solved > 0 && (p = rc_alloc(y->n, sizeof *p)) == NULL)
+        rc_state_refuse(s, "memory is short");
+    else if (solved > 0)
+        rc_state_numbers(s, y->n, p);
+    if (rc_state_reads(s) &&
+        (set_load(y, y->load, &err) != RC_OK ||
+         (solved > 0 &&
+          (y->elastic == NULL || rc_solver_warm_start(y->elastic, solved, p, &err) != RC_OK))))
+        rc_state_refuse(s, "its load or its pressure is impossible");
+    free(p);
+}
+
+static void
+exchange_volume(struct yielding *y, struct rc_state *s, size_t slabs)
+{
+    double *thickness = y->thickness;
+    struct rc_err err;
+
+    if (!rc_state_holds(s, slabs))
+        return;
+    if (rc_state_reads(s) && (thickness = malloc(slabs * sizeof *thickness)) == NULL) {
+        rc_state_refuse(s, "memory is short");
+        return;
+    }
+    rc_state_numbers(s, slabs, thickness);
+    if (rc_state_reads(s) && (y->plastic == NULL || slabs != y->slabs ||
+                              memcmp(thickness, y->thickness, slabs * sizeof *thickness) != 0)) {
+        forget_volume(y);
+        y->slabs = slabs;
+        y->thickness = thickness;
+        if (make(y, &err) != RC_OK)
+            rc_state_refuse(s, err.text);
+    }
+    if (thickness != y->thickness)
+        free(thickness);
+    rc_state_copy(s, &y->before);
+    if (y->plastic != NULL)
+        rc_plastic_exchange(y->plastic, s);
+}
+
+static void
+state(struct rc_model *m, struct rc_state *s)
+{
+    struct yielding *y = (struct yielding *)m;
+    size_t slabs = y->plastic != NULL ? y->slabs : 0;
+    double solved = y->plastic == NULL && y->elastic != NULL && y->stage != APART
+                        ? rc_solver_load(y->elastic)
+                        : 0;
+
+    rc_state_count(s, &y->increments, RC_YIELDING_INCREMENTS);
+    rc_state_count(s, &y->try, TRIES - 1);
+    rc_state_count(s, &y->left, SIZE_MAX / 2);
+    rc_state_count(s, &slabs, SIZE_MAX / sizeof(double));
+    rc_state_number(s, &y->load, 0);
+    rc_state_number(s, &solved, 0);
+    if (slabs > 0)
+        exchange_volume(y, s, slabs);
+    else
+        exchange_elastic(y, s, solved);
+    if (rc_state_reads(s) && m->moved)
+        m->status = RC_MORE; /* a step tells whether it is the solution */
+    y->looked &= !rc_state_reads(s);
+}
+
 static void
 release(struct rc_model *m)
 {
     struct yielding *y = (struct yielding *)m;
 
-    rc_press_free(y->press);
+    forget_volume(y);
+    rc_solver_free(y->elastic);
     free(y->h);
 }
+
+/* ---- the maker ---- */
 
 const struct rc_model_row rc_model_yielding = {
     .name = "yielding",
@@ -289,6 +611,7 @@ const struct rc_model_row rc_model_yielding = {
     .state = state,
     .free = release,
     .progress = progress,
+    .solver = solver,
 };
 
 struct rc_model *
@@ -298,7 +621,7 @@ rc_yielding_new(const struct rc_shape *shape, const double *h,
     struct rc_model *m;
     struct yielding *y;
 
-    if (rc_shape_check(shape, err) != RC_OK ||
+    if (rc_shape_check(shape, err) != RC_OK || rc_plastic_check(problem, err) != RC_OK ||
         (m = rc_model_make(&rc_model_yielding, sizeof *y, shape, err)) == NULL)
         return NULL;
     y = (struct yielding *)m;
@@ -310,26 +633,44 @@ rc_yielding_new(const struct rc_shape *shape, const double *h,
         return NULL;
     }
     memcpy(y->h, h, y->n * sizeof *h);
-    if ((y->press = rc_press_new(shape, h, problem, err)) == NULL) {
-        rc_model_free(m);
-        return NULL;
-    }
     y->first_top = highest(y);
     return m;
 }
 
-struct rc_press *
-rc_yielding_press(const struct rc_model *m)
+static struct yielding *
+yielding_of(const struct rc_model *m)
 {
     while (m != NULL && m->row != &rc_model_yielding)
         m = m->inner;
-    return m != NULL ? ((const struct yielding *)m)->press : NULL;
+    return (struct yielding *)m;
+}
+
+void
+rc_yielding_plan(struct rc_model *m, size_t loads, double largest)
+{
+    struct yielding *y = yielding_of(m);
+
+    if (y != NULL) {
+        y->left = y->planned = loads;
+        y->largest = largest;
+    }
 }
 
 const struct rc_yielding_figures *
 rc_yielding_result(const struct rc_model *m)
 {
-    while (m != NULL && m->row != &rc_model_yielding)
-        m = m->inner;
-    return m != NULL ? &((const struct yielding *)m)->figures : NULL;
+    const struct yielding *y = yielding_of(m);
+
+    return y != NULL ? &y->figures : NULL;
+}
+
+bool
+rc_yielding_strain(const struct rc_model *m, size_t slab, double *const e[RC_PLASTIC_STRAINS])
+{
+    const struct yielding *y = yielding_of(m);
+
+    if (y == NULL || y->plastic == NULL || slab >= y->slabs)
+        return false;
+    rc_plastic_strain(y->plastic, slab, e);
+    return true;
 }

@@ -5,6 +5,7 @@
 #define RC_PLASTIC_H
 
 #include "libcontact/contact.h"
+#include "libcontact/model/row.h"
 #include "libcontact/volume/volume.h"
 #include "voxels.h"
 
@@ -82,6 +83,7 @@ void rc_plastic_solve_to(struct rc_plastic *plastic, double tol);
 /* The pressure becomes the one that the next is compared with. */
 void rc_plastic_keep_pressure(struct rc_plastic *plastic);
 
-bool rc_press_returns(const struct rc_press *p, const double *state, size_t n);
+/* Counts, writes or reads the state of a struct rc_plastic after any step. */
+void rc_plastic_exchange(void *plastic, struct rc_state *s);
 
 #endif

@@ -445,6 +445,12 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     return RC_OK;
 }
 
+static struct rc_solver *
+solver(const struct rc_model *m)
+{
+    return ((const struct elastic *)m)->solver;
+}
+
 static void
 release(struct rc_model *m)
 {
@@ -479,24 +485,12 @@ rc_elastic_new(const struct rc_shape *shape, const double *h, const struct rc_pr
     return m;
 }
 
-static const struct elastic *
-elastic_of(const struct rc_model *m)
-{
-    while (m != NULL && m->row != &rc_model_elastic)
-        m = m->inner;
-    return (const struct elastic *)m;
-}
-
 const struct rc_elastic_figures *
 rc_elastic_result(const struct rc_model *m)
 {
-    return elastic_of(m) != NULL ? &elastic_of(m)->figures : NULL;
-}
-
-struct rc_solver *
-rc_elastic_solver(const struct rc_model *m)
-{
-    return elastic_of(m) != NULL ? elastic_of(m)->solver : NULL;
+    while (m != NULL && m->row != &rc_model_elastic)
+        m = m->inner;
+    return m != NULL ? &((const struct elastic *)m)->figures : NULL;
 }
 
 const struct rc_model_row rc_model_elastic = {
@@ -518,4 +512,5 @@ const struct rc_model_row rc_model_elastic = {
     .compliance = set_compliance,
     .progress = progress,
     .plan = plan,
+    .solver = solver,
 };

@@ -318,7 +318,7 @@ elastic_model(double *out, struct rc_err *err)
     out[N] = rc_model_number(other, rc_model_figure(other, 0, &data)->name);
     out[N + 1] = rc_elastic_result(other)->stiffness + (double)loops.n + (double)going;
     out[N + 2] = at.at[RC_LOAD] + (double)rc_model_shape(other).nx + rc_model_name(other)[0];
-    out[N + 3] = rc_axis_info(0)->name[0] + rc_solver_load(rc_elastic_solver(other));
+    out[N + 3] = rc_axis_info(0)->name[0] + rc_solver_load(rc_model_solver(other));
     status = RC_OK;
 done:
     free(state);
@@ -348,8 +348,7 @@ yielding_model(double *out, struct rc_err *err)
         rc_model_step(m, err) == RC_FAIL || rc_model_run(m, &to, err) == RC_FAIL ||
         rc_model_look(m, NULL, err) != RC_OK || rc_model_frame(m, "residual", out, err) != RC_OK)
         goto done;
-    out[N] =
-        rc_yielding_result(m)->plastic.depth + (double)rc_press_result(rc_yielding_press(m))->slabs;
+    out[N] = rc_yielding_result(m)->plastic.depth + (double)rc_yielding_result(m)->slabs;
     status = RC_OK;
 done:
     rc_model_free(m);
@@ -617,23 +616,7 @@ joins(double *out, struct rc_err *err)
 
 /* ---- stresses ---- */
 
-/* Continues from its own state, as another object would. */
-static enum rc_status
-over_again(struct rc_plastic *plastic, struct rc_err *err)
-{
-    size_t n = rc_plastic_state_size(plastic);
-    double *state = malloc(n * sizeof *state);
-    enum rc_status status;
-
-    if (state == NULL)
-        return rc_err_set(err, "out of memory for a state of %zu numbers", n);
-    rc_plastic_state(plastic, state);
-    status = rc_plastic_restore(plastic, state, n, err);
-    free(state);
-    return status;
-}
-
-/* A load that causes yielding in the volume, then load 0. */
+/* A load that yields inside, and none. */
 static enum rc_status
 yields(double *out, struct rc_err *err)
 {
@@ -657,13 +640,8 @@ yields(double *out, struct rc_err *err)
         rc_plastic_set_increments(plastic, 4);
         if ((status = rc_plastic_set_load(plastic, q == 0 ? 1e-3 : 0, err)) != RC_OK)
             goto done;
-        while ((status = rc_plastic_step(plastic, err)) == RC_MORE) {
+        while ((status = rc_plastic_step(plastic, err)) == RC_MORE)
             rc_plastic_progress(plastic, &load, &increment, &application);
-            if (increment == 3 && over_again(plastic, err) != RC_OK) {
-                status = RC_FAIL;
-                break;
-            }
-        }
         if (status != RC_OK)
             goto done;
         if (q == 0)
@@ -680,49 +658,56 @@ done:
     return status;
 }
 
-/* Two loads, the first without yielding, with automatic increments; half-way through the second load another
- * object continues. */
+/* Two loads, of which the first does not yield, with increments that are chosen; in the middle of the second
+ * one the state goes into another model. */
 static enum rc_status
 may_yield(double *out, struct rc_err *err)
 {
     const struct rc_plastic_problem problem = {
         .contact = {.boundary = RC_PERIODIC, .pair = bare, .tol = 0.1, .threads = 1},
         .yield = {.stress = bare.one.e / 100}};
-    struct rc_press *press = rc_press_new(&shape, rough, &problem, err), *other = NULL;
-    enum rc_status status = press != NULL ? RC_OK : RC_FAIL;
+    double *const strain[RC_PLASTIC_STRAINS] = {out + N};
+    struct rc_model *m = rc_yielding_new(&shape, rough, &problem, err), *other = NULL;
+    enum rc_status status = RC_FAIL;
+    struct rc_point to = {0};
     double *state = NULL;
+    size_t n;
+    bool going;
 
-    if (status == RC_OK)
-        rc_press_plan(press, 2, 1e-3);
-    for (int q = 0; q < 2 && status == RC_OK; q++) {
-        if ((status = rc_press_set_load(press, q == 0 ? 1e-7 : 1e-3, err)) != RC_OK)
-            break;
-        for (size_t k = 0; (status = rc_press_step(press, err)) == RC_MORE; k++) {
-            size_t n = rc_press_state(press, NULL);
-            if (rc_press_plastic(press) == NULL || other != NULL)
-                continue;
-            if ((other = rc_press_new(&shape, rough, &problem, err)) == NULL ||
-                (state = malloc(n * sizeof *state)) == NULL) {
-                rc_press_free(other);
-                rc_press_free(press);
-                return rc_err_set(err, "out of memory for another");
-            }
-            (void)rc_press_state(press, state);
-            out[N] = (double)rc_press_memory(other, state, n, true);
-            rc_press_free(press);
-            press = other;
-            if ((status = rc_press_restore(press, state, n, err)) != RC_OK)
-                break;
-        }
-        if (status == RC_SHORT)
-            status = RC_OK;
+    rc_point_set(&to, RC_LOAD, 1e-7);
+    if (m == NULL)
+        return RC_FAIL;
+    rc_yielding_plan(m, 2, 1e-3);
+    if (rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
+        goto done;
+    rc_point_set(&to, RC_LOAD, 1e-3);
+    if (rc_model_go(m, &to, err) != RC_MORE)
+        goto done;
+    while (!rc_yielding_strain(m, 0, strain))
+        if (rc_model_step(m, err) != RC_MORE)
+            goto done;
+    n = rc_model_state_size(m);
+    if ((state = malloc(n * sizeof *state)) == NULL) {
+        rc_err_set(err, "out of memory for a state of %zu numbers", n);
+        goto done;
     }
-    if (status == RC_OK) {
-        memcpy(out, rc_solver_pressure(rc_press_solver(press)), N * sizeof *out);
-        out[N + 1] = (double)rc_press_result(press)->slabs;
+    rc_model_state(m, state);
+    if ((other = rc_yielding_new(&shape, rough, &problem, err)) == NULL ||
+        rc_model_restore(other, state, n, &going, err) != RC_OK)
+        goto done;
+    while ((status = rc_model_step(other, err)) == RC_MORE)
+        ;
+    if (status == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK) {
+        status = RC_FAIL;
+        goto done;
     }
+    memcpy(out, rc_solver_pressure(rc_model_solver(other)), N * sizeof *out);
+    out[N] = (double)rc_yielding_result(other)->slabs;
+    status = RC_OK;
+done:
     free(state);
-    rc_press_free(press);
+    rc_model_free(m);
+    rc_model_free(other);
     return status;
 }
 

@@ -650,7 +650,8 @@ inherits(void **state)
 enum {
     KEPT = 24, /* nodes a side */
     KEPT_SLABS = 6,
-    KEPT_LOADS = 3
+    KEPT_LOADS = 3,
+    VOXEL = 11 /* numbers of a voxel behind its place, when a load is reached */
 };
 
 /* The results of a history: pressure, residual displacement, equivalent strain. */
@@ -660,18 +661,56 @@ struct found {
 };
 
 static void
-find_all(struct rc_plastic *plastic, struct found *to)
+find_all(struct rc_model *m, struct found *to)
 {
-    memcpy(to->p, rc_solver_pressure(rc_plastic_solver(plastic)), sizeof to->p);
-    memcpy(to->u, rc_plastic_residual(plastic), sizeof to->u);
+    struct rc_err err;
+
+    assert_int_equal(rc_model_look(m, NULL, &err), RC_OK);
+    assert_int_equal(rc_model_frame(m, "pressure", to->p, &err), RC_OK);
+    assert_int_equal(rc_model_frame(m, "residual", to->u, &err), RC_OK);
     for (size_t k = 0; k < KEPT_SLABS; k++) {
         double *const e[RC_PLASTIC_STRAINS] = {[RC_PEEQ] = to->strain[k]};
-        rc_plastic_strain(plastic, k, e);
+        assert_true(rc_yielding_strain(m, k, e));
     }
-    to->figures = *rc_plastic_result(plastic);
+    to->figures = rc_yielding_result(m)->plastic;
 }
 
-static struct rc_plastic *
+static enum rc_status
+set_load(struct rc_model *m, double load)
+{
+    struct rc_point to = {0};
+    struct rc_err err;
+
+    rc_point_set(&to, RC_LOAD, load);
+    return rc_model_go(m, &to, &err);
+}
+
+static double *
+state_of(struct rc_model *m, size_t *n)
+{
+    double *v;
+
+    *n = rc_model_state_size(m);
+    v = malloc(*n * sizeof *v);
+    rc_model_state(m, v);
+    return v;
+}
+
+static struct rc_model *
+model_new(struct rc_shape shape, const double *h, struct rc_plastic_problem problem)
+{
+    struct rc_model *m;
+    struct rc_err err;
+
+    problem.contact.pair.one.e = one_e;
+    problem.contact.pair.two.e = INFINITY;
+    problem.contact.threads = 1;
+    m = rc_yielding_new(&shape, h, &problem, &err);
+    assert_non_null(m);
+    return m;
+}
+
+static struct rc_model *
 kept_new(size_t slabs, size_t increments)
 {
     static const double thickness[KEPT_SLABS + 1] = {0.5, 0.6, 0.8, 1, 1.2, 1.5, 1.9};
@@ -681,6 +720,7 @@ kept_new(size_t slabs, size_t increments)
     const struct rc_plastic_problem problem = {
         .contact = {.boundary = RC_PERIODIC, .pair.one.nu = 0.3, .tol = 1e-9},
         .yield = {.stress = 0.04, .modulus = 0.02},
+        .lag = 0.02,
         .slabs = slabs,
         .thickness = thickness,
         .increments = increments,
@@ -688,14 +728,13 @@ kept_new(size_t slabs, size_t increments)
     double h[KEPT * KEPT];
 
     assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
-    return plastic_new(shape, h, problem);
+    return model_new(shape, h, problem);
 }
 
 /* Goes through the loads from `first` on; after a restored state the first load is already set. `steps`: the
  * step at which to stop, and on return the number of steps; NULL: to the end. */
 static void
-go_through(struct rc_plastic *plastic, size_t first, bool under_way, struct found *found,
-           size_t *steps)
+go_through(struct rc_model *m, size_t first, bool under_way, struct found *found, size_t *steps)
 {
     static const double loads[KEPT_LOADS] = {0.02 * KEPT * KEPT, 0, 0.025 * KEPT * KEPT};
     enum rc_status status = RC_MORE;
@@ -704,16 +743,17 @@ go_through(struct rc_plastic *plastic, size_t first, bool under_way, struct foun
 
     for (size_t q = first; q < KEPT_LOADS; q++) {
         if (q > first || !under_way)
-            assert_int_equal(rc_plastic_set_load(plastic, loads[q], &err), RC_OK);
+            assert_int_equal(set_load(m, loads[q]), RC_MORE);
         do {
-            status = rc_plastic_step(plastic, &err);
+            status = rc_model_step(m, &err);
             if (++made == (steps == NULL ? SIZE_MAX : *steps)) {
                 *steps = q;
                 return;
             }
         } while (status == RC_MORE);
         assert_int_equal(status, RC_OK);
-        find_all(plastic, &found[q]);
+        find_all(m, &found[q]);
+        assert_int_equal(rc_model_keep(m, &err), RC_OK);
     }
     if (steps != NULL)
         *steps = KEPT_LOADS;
@@ -725,40 +765,40 @@ static void
 goes_on(void **state)
 {
     static struct found whole[KEPT_LOADS], again[KEPT_LOADS];
-    struct rc_plastic *plastic = kept_new(KEPT_SLABS, 8);
+    struct rc_model *m = kept_new(KEPT_SLABS, 8);
     double pressure = 0, strain = 0;
     size_t step, tried = 0, exact = 0, sizes[3] = {SIZE_MAX, 0, 0};
     struct rc_err err;
+    bool going;
 
     (void)state;
-    go_through(plastic, 0, false, whole, NULL);
-    rc_plastic_free(plastic);
+    go_through(m, 0, false, whole, NULL);
+    rc_model_free(m);
     for (step = 1;; step += thorough(1, 5), tried++) {
-        struct rc_plastic *other = kept_new(KEPT_SLABS, 8);
+        struct rc_model *other = kept_new(KEPT_SLABS, 8);
         size_t load = step, n;
         double *kept;
 
-        plastic = kept_new(KEPT_SLABS, 8);
-        go_through(plastic, 0, false, again, &load);
+        m = kept_new(KEPT_SLABS, 8);
+        go_through(m, 0, false, again, &load);
         if (load == KEPT_LOADS) {
-            rc_plastic_free(plastic);
-            rc_plastic_free(other);
+            rc_model_free(m);
+            rc_model_free(other);
             break;
         }
-        n = rc_plastic_state_size(plastic);
+        kept = state_of(m, &n);
         sizes[0] = n < sizes[0] ? n : sizes[0];
         sizes[1] = n > sizes[1] ? n : sizes[1];
-        kept = malloc(n * sizeof *kept);
-        rc_plastic_state(plastic, kept);
-        rc_plastic_free(plastic);
-        /* into an object that has solved another problem */
+        rc_model_free(m);
+        /* into a model that has solved another problem */
         if (step % 2 == 0)
-            (void)pressed(other, 10);
-        assert_int_equal(rc_plastic_restore(other, kept, n, &err), RC_OK);
+            for (set_load(other, 10); rc_model_step(other, &err) == RC_MORE;)
+                ;
+        assert_int_equal(rc_model_restore(other, kept, n, &going, &err), RC_OK);
         free(kept);
         memset(again, 0, sizeof again);
         go_through(other, load, true, again, NULL);
-        rc_plastic_free(other);
+        rc_model_free(other);
         if (memcmp(whole[load].p, again[load].p, sizeof whole[load].p) == 0 &&
             memcmp(whole[load].strain, again[load].strain, sizeof whole[load].strain) == 0 &&
             memcmp(whole[load].u, again[load].u, sizeof whole[load].u) == 0)
@@ -780,71 +820,53 @@ goes_on(void **state)
     assert_true(step > 30 && exact >= thorough(KEPT_LOADS, 1) && pressure < 1e-7 && strain < 1e-6);
 }
 
-/* Numbers that are not a state of this problem are refused, and the body does not change. */
+/* Numbers that are no state of this problem are refused, and the model that they came from is not changed. */
 static void
 refuses_states(void **state)
 {
-    struct rc_plastic *plastic = kept_new(KEPT_SLABS, 5), *more = kept_new(KEPT_SLABS + 1, 5),
-                      *finer;
     static struct found before[KEPT_LOADS], after[KEPT_LOADS];
-    size_t steps = 7, n, refused = 0, tried = 0;
+    struct rc_model *m = kept_new(KEPT_SLABS, 5), *other = kept_new(KEPT_SLABS, 5);
+    size_t steps = 40, n, last, refused = 0, tried = 0;
     double *kept, *spoilt;
     struct rc_err err;
+    bool going;
 
     (void)state;
-    go_through(plastic, 0, false, before, &steps);
-    n = rc_plastic_state_size(plastic);
-    kept = malloc(n * sizeof *kept);
+    go_through(m, 0, false, before, &steps);
+    assert_true(rc_model_state_size(m) > 2000); /* the volume is in it */
+    kept = state_of(m, &n);
     spoilt = malloc(n * sizeof *spoilt);
-    rc_plastic_state(plastic, kept);
-    assert_int_equal(rc_plastic_restore(more, kept, n, &err), RC_FAIL);
-    assert_non_null(strstr(err.text, "24 x 24 nodes with 6 slabs, not of"));
-    assert_int_equal(rc_plastic_restore(plastic, kept, n - 1, &err), RC_FAIL);
-    assert_int_equal(rc_plastic_restore(plastic, kept, 3, &err), RC_FAIL);
-    for (size_t k = 0; k < n; k += 7, tried++) {
+    assert_int_equal(rc_model_restore(other, kept, n - 1, &going, &err), RC_FAIL);
+    assert_int_equal(rc_model_restore(other, kept, 3, &going, &err), RC_FAIL);
+    for (size_t k = n / 8 * 5; k < n; k += 7, tried++) { /* behind the copy of the last point */
         memcpy(spoilt, kept, n * sizeof *kept);
         spoilt[k] = k % 2 == 0 ? NAN : INFINITY;
-        refused += rc_plastic_restore(plastic, spoilt, n, &err) == RC_FAIL;
+        refused += rc_model_restore(other, spoilt, n, &going, &err) == RC_FAIL;
     }
     assert_int_equal(refused, tried);
     memcpy(spoilt, kept, n * sizeof *kept);
-    spoilt[n - 1 - (size_t)kept[5]] = 1e12; /* the position of the last voxel in the state */
-    assert_int_equal(rc_plastic_restore(plastic, spoilt, n, &err), RC_FAIL);
-    assert_non_null(strstr(err.text, "damaged at voxel"));
-    go_through(plastic, steps, true, before, NULL);
-    assert_int_equal(rc_plastic_restore(more, kept, n, &err), RC_FAIL);
-    finer = kept_new(KEPT_SLABS, 6); /* the state determines the increments */
-    assert_int_equal(rc_plastic_restore(finer, kept, n, &err), RC_OK);
-    go_through(finer, steps, true, after, NULL);
+    for (last = n - 1; kept[last] == 0; last--) /* rows without voxels */
+        ;
+    assert_true(kept[last - VOXEL] == floor(kept[last - VOXEL]) && kept[last - VOXEL] < KEPT);
+    spoilt[last - VOXEL] = KEPT; /* the place of the last voxel in its row */
+    assert_int_equal(rc_model_restore(other, spoilt, n, &going, &err), RC_FAIL);
+    rc_model_free(other);
+    other = kept_new(KEPT_SLABS, 5);
+    assert_int_equal(rc_model_restore(other, kept, n, &going, &err), RC_OK);
+    go_through(m, steps, true, before, NULL);
+    go_through(other, steps, true, after, NULL);
     assert_true(distance(KEPT * KEPT, after[2].p, before[2].p) < 1e-7);
     free(kept);
     free(spoilt);
-    rc_plastic_free(plastic);
-    rc_plastic_free(more);
-    rc_plastic_free(finer);
+    rc_model_free(m);
+    rc_model_free(other);
 }
 
 /* ---- the elastic contact first ---- */
 
-static struct rc_press *
-press_new(struct rc_shape shape, const double *h, struct rc_plastic_problem problem, size_t loads,
-          double largest)
-{
-    struct rc_press *press;
-    struct rc_err err;
-
-    problem.contact.pair.one.e = one_e;
-    problem.contact.pair.two.e = INFINITY;
-    problem.contact.threads = 1;
-    press = rc_press_new(&shape, h, &problem, &err);
-    assert_non_null(press);
-    rc_press_plan(press, loads, largest);
-    return press;
-}
-
-/* Under Hertz's ball the stress reaches the yield stress at P = (pi p0)^3 R^2/(6 E*^2), where p0 is the yield
- * stress over the largest Mises stress of under_circle. Below that load the solution is the elastic contact,
- * bit for bit. */
+/* Under Hertz's ball the stress reaches the yield stress at P = (pi p0)^3 R^2/(6 E*^2), p0 the stress over
+ * the largest Mises stress of under_circle. Below that load the elastic contact is the solution, bit for
+ * bit. */
 static void
 elastic_first(void **state)
 {
@@ -859,8 +881,7 @@ elastic_first(void **state)
     double h[SIDE * SIDE], at, p0 = yield / largest(under_circle, nu, &at);
     const double limit = pow(acos(-1) * p0, 3) * radius * radius / (6 * estar * estar);
     const double part[] = {0.3, 0.85, 0, 1.25};
-    const struct rc_press_figures *f;
-    struct rc_press *press;
+    struct rc_model *m;
     struct rc_err err;
 
     (void)state;
@@ -868,25 +889,28 @@ elastic_first(void **state)
         double x = (double)(k % SIDE) - SIDE / 2, y = (double)(k / SIDE) - SIDE / 2;
         h[k] = -(x * x + y * y) / (2 * radius);
     }
-    press = press_new(shape, h, problem, 4, 1.25 * limit);
+    m = model_new(shape, h, problem);
+    rc_yielding_plan(m, 4, 1.25 * limit);
     for (size_t k = 0; k < 4; k++) {
+        const struct rc_yielding_figures *f = rc_yielding_result(m);
         struct rc_problem contact = problem.contact;
         struct rc_solver *solver;
         enum rc_status status;
 
-        assert_int_equal(rc_press_set_load(press, part[k] * limit, &err), RC_OK);
-        while ((status = rc_press_step(press, &err)) == RC_MORE)
+        assert_int_equal(set_load(m, part[k] * limit), RC_MORE);
+        while ((status = rc_model_step(m, &err)) == RC_MORE)
             ;
         assert_true(status == RC_OK || (k == 3 && status == RC_SHORT));
-        f = rc_press_result(press);
+        assert_int_equal(rc_model_look(m, NULL, &err), RC_OK);
+        assert_int_equal(rc_model_keep(m, &err), RC_OK);
         print_message(
             "%.2f of the load at which it yields: Mises stress %.3f of the yield stress\n", part[k],
-            f->most);
-        assert_int_equal(rc_press_plastic(press) != NULL, k == 3);
+            f->max_mises_over_yield);
+        assert_int_equal(f->yielded, k == 3);
         assert_int_equal(f->slabs > 0, k == 3);
         if (k >= 2)
             continue;
-        assert_true(fabs(f->most / cbrt(part[k]) - 1) < 0.03);
+        assert_true(fabs(f->max_mises_over_yield / cbrt(part[k]) - 1) < 0.03);
         contact.pair.one.e = one_e;
         contact.pair.two.e = INFINITY;
         contact.threads = 1;
@@ -898,11 +922,11 @@ elastic_first(void **state)
             while (rc_solver_step(solver) == RC_MORE)
                 ;
         }
-        assert_memory_equal(rc_solver_pressure(solver), rc_solver_pressure(rc_press_solver(press)),
+        assert_memory_equal(rc_solver_pressure(solver), rc_solver_pressure(rc_model_solver(m)),
                             sizeof h);
         rc_solver_free(solver);
     }
-    rc_press_free(press);
+    rc_model_free(m);
 }
 
 enum {
@@ -916,7 +940,7 @@ struct walk {
 /* Steps through the loads from `first` on. After `stop` steps in all it returns the current load; else
  * TRIED. */
 static size_t
-try_loads(struct rc_press *press, const double *loads, size_t first, bool under_way, size_t stop,
+try_loads(struct rc_model *m, const double *loads, size_t first, bool under_way, size_t stop,
           struct walk *walk, double *p)
 {
     struct rc_err err;
@@ -925,25 +949,37 @@ try_loads(struct rc_press *press, const double *loads, size_t first, bool under_
         enum rc_status status;
 
         if (q > first || !under_way)
-            assert_int_equal(rc_press_set_load(press, loads[q], &err), RC_OK);
+            assert_int_equal(set_load(m, loads[q]), RC_MORE);
         do {
-            status = rc_press_step(press, &err);
+            status = rc_model_step(m, &err);
             if (++walk->made == stop)
                 return q;
         } while (status == RC_MORE);
         assert_int_equal(status, RC_OK);
-        if (rc_press_result(press)->increments > walk->increments)
-            walk->increments = rc_press_result(press)->increments;
+        assert_int_equal(rc_model_look(m, NULL, &err), RC_OK);
+        if (rc_yielding_result(m)->increments > walk->increments)
+            walk->increments = rc_yielding_result(m)->increments;
         if (p != NULL && loads[q] > 0)
-            memcpy(p + q * KEPT * KEPT, rc_solver_pressure(rc_press_solver(press)),
+            memcpy(p + q * KEPT * KEPT, rc_solver_pressure(rc_model_solver(m)),
                    KEPT * KEPT * sizeof *p);
+        assert_int_equal(rc_model_keep(m, &err), RC_OK);
     }
     return TRIED;
 }
 
-/* With automatic increments: the estimate is at most the requested error and not below the error against many
- * increments; trials with too few increments have no effect on the result; and a run continues from a state
- * of any step, elastic or not. */
+static struct rc_model *
+planned_new(struct rc_shape shape, const double *h, struct rc_plastic_problem problem,
+            double largest)
+{
+    struct rc_model *m = model_new(shape, h, problem);
+
+    rc_yielding_plan(m, TRIED, largest);
+    return m;
+}
+
+/* With increments that are chosen for each load: the estimate is at most what is asked for and no less than
+ * the error against many increments, tries that had too few leave nothing behind, and a state from anywhere
+ * on the way, elastic or not, is gone on with. */
 static void
 chooses(void **state)
 {
@@ -956,24 +992,25 @@ chooses(void **state)
         .yield = {.stress = 0.04, .modulus = 0.05}};
     double h[KEPT * KEPT], whole[TRIED * KEPT * KEPT] = {0}, again[TRIED * KEPT * KEPT], off = 0;
     const struct rc_plastic_figures *found, *straight;
-    struct rc_press *press, *other;
+    struct rc_model *m, *other;
     struct rc_plastic *plastic;
     struct walk walk = {0}, ignored = {0};
     struct rc_err err;
+    bool going;
 
     (void)state;
     assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
-    press = press_new(shape, h, problem, TRIED, loads[2]);
-    assert_int_equal(try_loads(press, loads, 0, false, SIZE_MAX, &walk, whole), TRIED);
-    found = rc_plastic_result(rc_press_plastic(press));
-    problem.slabs = rc_press_result(press)->slabs;
-    problem.thickness = rc_press_result(press)->thickness;
+    m = planned_new(shape, h, problem, loads[2]);
+    assert_int_equal(try_loads(m, loads, 0, false, SIZE_MAX, &walk, whole), TRIED);
+    found = &rc_yielding_result(m)->plastic;
+    problem.slabs = rc_yielding_result(m)->slabs;
+    problem.thickness = rc_yielding_result(m)->thickness;
     problem.increments = 192;
     problem.contact.tol = 1e-6;
     plastic = plastic_new(shape, h, problem);
     for (size_t q = 0; q < TRIED; q++)
         straight = pressed(plastic, loads[q]);
-    off = distance(KEPT * KEPT, rc_solver_pressure(rc_press_solver(press)),
+    off = distance(KEPT * KEPT, rc_solver_pressure(rc_model_solver(m)),
                    rc_solver_pressure(rc_plastic_solver(plastic)));
     print_message("%zu steps, %zu increments at most: error %.1e, told %.1e; work %.4g, %.4g\n",
                   walk.made, walk.increments, off, found->error, found->work, straight->work);
@@ -987,34 +1024,32 @@ chooses(void **state)
         double *kept;
         size_t count, at;
 
-        rc_press_free(press);
-        press = press_new(shape, h, problem, TRIED, loads[2]);
-        other = press_new(shape, h, problem, TRIED, loads[2]);
+        rc_model_free(m);
+        m = planned_new(shape, h, problem, loads[2]);
+        other = planned_new(shape, h, problem, loads[2]);
         ignored.made = 0;
-        at = try_loads(press, loads, 0, false, stop, &ignored, NULL);
-        count = rc_press_state(press, NULL);
-        kept = malloc(count * sizeof *kept);
-        assert_int_equal(rc_press_state(press, kept), count);
-        assert_int_equal(rc_press_restore(other, kept, count, &err), RC_OK);
+        at = try_loads(m, loads, 0, false, stop, &ignored, NULL);
+        kept = state_of(m, &count);
+        assert_int_equal(rc_model_restore(other, kept, count, &going, &err), RC_OK);
         memset(again, 0, sizeof again);
         assert_int_equal(try_loads(other, loads, at, true, SIZE_MAX, &ignored, again), TRIED);
         off = distance(KEPT * KEPT, again + 2 * KEPT * KEPT, whole + 2 * KEPT * KEPT);
         assert_true(off < 5e-4);
-        rc_press_free(other);
-        other = press_new(shape, h, problem, TRIED, loads[2]);
-        for (size_t k = 0; k < 7; k++) { /* the head of the state, number by number */
+        rc_model_free(other);
+        other = planned_new(shape, h, problem, loads[2]);
+        for (size_t k = 0; k < 7; k++) { /* the first numbers, one by one */
             const double was = kept[k];
             kept[k] = -1;
-            assert_int_equal(rc_press_restore(other, kept, count, &err), RC_FAIL);
+            assert_int_equal(rc_model_restore(other, kept, count, &going, &err), RC_FAIL);
             kept[k] = NAN;
-            assert_int_equal(rc_press_restore(other, kept, count, &err), RC_FAIL);
+            assert_int_equal(rc_model_restore(other, kept, count, &going, &err), RC_FAIL);
             kept[k] = was;
         }
-        assert_int_equal(rc_press_restore(other, kept, 3, &err), RC_FAIL);
-        rc_press_free(other);
+        assert_int_equal(rc_model_restore(other, kept, 3, &going, &err), RC_FAIL);
+        rc_model_free(other);
         free(kept);
     }
-    rc_press_free(press);
+    rc_model_free(m);
 }
 
 /* As in law_memory_budget: a map with three tenths of its voxels yielding, in 12 slabs. */

@@ -114,7 +114,7 @@ void
 solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
 {
     const struct rc_yield *law = &run->yielding.law;
-    const bool yields = run->yielding.plastic != NULL;
+    const bool yields = run->yielding.on;
     struct rc_err err;
 
     if (rc_grid_set(g, "boundary", run->args->physics.periodic ? "periodic" : "free", &err) !=
@@ -192,7 +192,7 @@ put_out(struct run *run, const struct rc_grid *g, struct rc_model *m, const stru
     if (run->yielding.wanted) {
         put(run, m, as, SOLVE_RESIDUAL, buffer);
         if (solve_wanted(run->args, SOLVE_STRAIN))
-            yield_put_strain(run, as, buffer);
+            yield_put_strain(run, m, as, buffer);
     }
     rc_grid_free(as);
 }
@@ -294,6 +294,7 @@ end_load(struct run *run, struct rc_grid *g, struct rc_model *m)
         solve_look_at_contact(run, g, rc_solver_pressure(run->solver), s);
     if (rc_model_look(m, NULL, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    yield_found(run, m);
     elastic = rc_elastic_result(m);
     s->contact = elastic != NULL ? elastic->contact : rc_yielding_result(m)->contact;
     if (run->apart && run->conductance)
@@ -361,18 +362,12 @@ solve_after_plan(struct run *run)
     run->setup = solve_now() - run->began;
 }
 
-static struct rc_solver *
-solver_of(const struct run *run, const struct rc_model *m)
-{
-    return run->yielding.wanted ? rc_press_solver(rc_yielding_press(m)) : rc_elastic_solver(m);
-}
-
 /* Leads the model to this load. The first one plans the solver. */
 static void
 press(struct run *run, const struct rc_grid *g, struct rc_model *m,
       const struct rc_problem *problem)
 {
-    const bool plans = !run->apart && solver_of(run, m) == NULL;
+    const bool plans = !run->apart && rc_model_solver(m) == NULL;
     const bool approach = run->args->physics.approach.n > 0;
     struct course *c = &run->course;
     struct rc_point to = {0};
@@ -382,7 +377,7 @@ press(struct run *run, const struct rc_grid *g, struct rc_model *m,
                  : approach ? problem->approach
                             : problem->load);
     c->g = g;
-    c->checkpoint = run->apart && run->yielding.plastic == NULL ? NULL : run->checkpoint;
+    c->checkpoint = run->apart && !run->yielding.on ? NULL : run->checkpoint;
     solve_marks(run);
     if (plans)
         solve_before_plan(run, g, problem);
@@ -391,7 +386,7 @@ press(struct run *run, const struct rc_grid *g, struct rc_model *m,
         solve_after_plan(run);
     run->status = course_run(c, m);
     run->iterate = c->iterate;
-    run->solver = solver_of(run, m);
+    run->solver = rc_model_solver(m);
 }
 
 /* The loads of a list, each from the solution of the last; in a history, on the shape that it has
@@ -419,8 +414,6 @@ do_loads(struct run *run, struct rc_grid *g)
         if (run->yielding.wanted)
             yield_plan(run, m, problem.load);
         press(run, g, m, &problem);
-        if (run->yielding.wanted)
-            yield_found(run, m);
         end_load(run, g, m);
     }
     rc_model_free(m);

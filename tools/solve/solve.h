@@ -52,11 +52,11 @@ struct yielding {
     bool wanted;
     struct yield_law read;
     struct rc_yield law;
-    size_t asked;               /* increments of a load on the line, 0: auto                     */
-    size_t slab_count;          /* on the line, 0: auto                                          */
-    struct numbers list;        /* or thicknesses                                                */
-    struct rc_plastic *plastic; /* of it; NULL: nothing has yielded                            */
-    const struct rc_press_figures *found;
+    size_t asked;        /* increments of a load on the line, 0: auto                     */
+    size_t slab_count;   /* on the line, 0: auto                                          */
+    struct numbers list; /* or thicknesses                                                */
+    bool on;             /* something has yielded                                       */
+    const struct rc_yielding_figures *found; /* NULL: no load was looked at */
     size_t worst; /* the case with the largest error of increments, its increments */
     size_t worst_increments;
     double worst_error;
@@ -190,7 +190,7 @@ void yield_free(struct run *run);
 struct rc_model *yield_model(struct run *run, const struct rc_grid *g,
                              const struct rc_problem *problem);
 /* Before a load, N: the loads that are left; and after it. */
-void yield_plan(struct run *run, const struct rc_model *m, double load);
+void yield_plan(struct run *run, struct rc_model *m, double load);
 void yield_found(struct run *run, const struct rc_model *m);
 /* What a checkpoint of such a body must agree in, k from 0 on: its name, and its value, empty
  * without --yield. */
@@ -201,7 +201,8 @@ const char *yield_mark(const struct run *run, int k, char *value, size_t size);
 /* Puts the estimated error of the plastic body, and its parts, in place of the contact's. */
 void yield_look(struct run *run, struct solution *solution);
 /* The plastic strain slab by slab; `like`: the frames' shape and keys; buffer: room for a map. */
-void yield_put_strain(struct run *run, const struct rc_grid *like, double *buffer);
+void yield_put_strain(struct run *run, const struct rc_model *m, const struct rc_grid *like,
+                      double *buffer);
 /* The largest pressure, and its name (NULL: not wanted): of means of 2 x 2 nodes where single nodes
  * alternate. */
 double yield_peak(const struct run *run, double max_pressure, const char **name);

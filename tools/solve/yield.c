@@ -34,13 +34,13 @@ read_count(struct run *run, const char *name, const char *text, size_t *count,
     if (text == NULL || strcmp(text, "auto") == 0)
         return;
     n = strtoul(text, &end, 10);
-    if (end != text && *end == '\0' && n > 0 && n <= RC_PRESS_INCREMENTS && text[0] != '-') {
+    if (end != text && *end == '\0' && n > 0 && n <= RC_YIELDING_INCREMENTS && text[0] != '-') {
         *count = n;
         return;
     }
     if (lengths == NULL || (end != text && *end == '\0'))
         tool_die(&run->t, EXIT_USAGE, "--%s %s: it must be auto%s or a number from 1 to %d", name,
-                 text, lengths == NULL ? "" : ", a list of thicknesses", RC_PRESS_INCREMENTS);
+                 text, lengths == NULL ? "" : ", a list of thicknesses", RC_YIELDING_INCREMENTS);
     if (unit_numbers(text, UNIT_M, lengths, &err) != RC_OK)
         tool_die(&run->t, EXIT_USAGE, "--%s %s: %s", name, text, err.text);
     for (size_t k = 0; k < lengths->n; k++)
@@ -82,7 +82,7 @@ yield_free(struct run *run)
 {
     struct yielding *y = &run->yielding;
 
-    y->plastic = NULL;
+    y->on = false;
     y->found = NULL;
 }
 
@@ -144,24 +144,24 @@ yield_model(struct run *run, const struct rc_grid *g, const struct rc_problem *c
 }
 
 void
-yield_plan(struct run *run, const struct rc_model *m, double load)
+yield_plan(struct run *run, struct rc_model *m, double load)
 {
     const double *v = run->steps->v; /* in a unit of their own */
     double most = 0;
 
     for (size_t k = run->step; k < run->steps->n; k++)
         most = fmax(most, v[k]);
-    if (run->yielding.plastic == NULL && load > 0)
-        rc_press_plan(rc_yielding_press(m), run->steps->n - run->step, most * load / v[run->step]);
+    if (!run->yielding.on && load > 0)
+        rc_yielding_plan(m, run->steps->n - run->step, most * load / v[run->step]);
 }
 
 void
 yield_found(struct run *run, const struct rc_model *m)
 {
-    struct rc_press *press = rc_yielding_press(m);
+    struct yielding *y = &run->yielding;
 
-    run->yielding.found = rc_press_result(press);
-    run->yielding.plastic = rc_press_plastic(press);
+    y->found = rc_yielding_result(m);
+    y->on = y->found != NULL && y->found->yielded;
 }
 
 /* ---- what is found ---- */
@@ -172,8 +172,8 @@ is_unknown(const struct run *run)
 {
     const struct yielding *y = &run->yielding;
 
-    return y->wanted && y->plastic == NULL && tool_interrupted() != 0 &&
-           !(y->found->most > 0 && y->found->most <= 1);
+    return y->wanted && !y->on && tool_interrupted() != 0 &&
+           !(y->found->max_mises_over_yield > 0 && y->found->max_mises_over_yield <= 1);
 }
 
 void
@@ -187,9 +187,9 @@ yield_look(struct run *run, struct solution *s)
         c->pressure_error = NAN;
         c->converged = false;
     }
-    if (y->plastic == NULL)
+    if (!y->on)
         return;
-    f = rc_plastic_result(y->plastic);
+    f = &y->found->plastic;
     c->convolutions = NAN; /* nearly all of the work is in the volume */
     s->errors = (struct error_parts){
         true,          f->increment_error, f->inherited_error, f->iteration_error, f->contact_error,
@@ -214,17 +214,18 @@ yield_peak(const struct run *run, double max_pressure, const char **name)
         10; /* hardening below so many times the yield stress lets nodes alternate */
     const struct yielding *y = &run->yielding;
     const bool alternates =
-        y->plastic != NULL && yield_law_hardening(&y->law) < soft * rc_yield_stress(&y->law, 0);
+        y->on && yield_law_hardening(&y->law) < soft * rc_yield_stress(&y->law, 0);
 
     if (name != NULL)
         *name = alternates ? "largest pressure over 2 x 2 nodes" : "largest pressure";
-    return alternates ? rc_plastic_result(y->plastic)->max_pressure_mean4 : max_pressure;
+    return alternates ? y->found->plastic.max_pressure_mean4 : max_pressure;
 }
 
 /* ---- strain ---- */
 
 static void
-put_slab(struct run *run, struct rc_grid *frame, size_t slab, double depth, double *buffer)
+put_slab(struct run *run, const struct rc_model *m, struct rc_grid *frame, size_t slab,
+         double depth, double *buffer)
 {
     static const char *const names[RC_PLASTIC_STRAINS] = {"exx", "eyy", "exy",
                                                           "exz", "eyz", "peeq"};
@@ -238,7 +239,7 @@ put_slab(struct run *run, struct rc_grid *frame, size_t slab, double depth, doub
         double *to[RC_PLASTIC_STRAINS] = {NULL};
         struct rc_grid as = *frame; /* as the reader of the stream sees it */
         to[c] = buffer;
-        rc_plastic_strain(y->plastic, slab, to);
+        (void)rc_yielding_strain(m, slab, to);
         as.channel = (char *)names[c]; /* these are only read */
         as.unit = (char *)"1";
         as.v = buffer;
@@ -247,20 +248,21 @@ put_slab(struct run *run, struct rc_grid *frame, size_t slab, double depth, doub
 }
 
 void
-yield_put_strain(struct run *run, const struct rc_grid *like, double *buffer)
+yield_put_strain(struct run *run, const struct rc_model *m, const struct rc_grid *like,
+                 double *buffer)
 {
     const struct yielding *y = &run->yielding;
     struct rc_grid *frame;
     struct rc_err err;
     double z = 0;
 
-    if (y->plastic == NULL)
+    if (!y->on)
         return;
     frame = rc_grid_like(like, like->channel, like->unit, &err);
     if (frame == NULL)
         tool_die_at(&run->t, like, EXIT_IMPOSSIBLE, "%s", err.text);
     for (size_t k = 0; k < y->found->slabs; k++) {
-        put_slab(run, frame, k, z + y->found->thickness[k] / 2, buffer);
+        put_slab(run, m, frame, k, z + y->found->thickness[k] / 2, buffer);
         z += y->found->thickness[k];
     }
     rc_grid_free(frame);
@@ -295,7 +297,7 @@ static void
 warn_of_part(struct run *run, const char *where, const struct solution *s)
 {
     const struct yielding *y = &run->yielding;
-    const struct rc_plastic_figures *f = rc_plastic_result(y->plastic);
+    const struct rc_plastic_figures *f = &y->found->plastic;
     const struct error_parts *e = &s->errors;
     const double asked = goal(run), off = s->contact.pressure_error / asked;
     const char limit = errors_limited_by(e)[0]; /* of increments, history, tolerance, map */
@@ -329,8 +331,6 @@ bool
 yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
 {
     const struct yielding *y = &run->yielding;
-    size_t increment, application;
-    double load;
 
     if (is_unknown(run)) {
         tool_warn(&run->t,
@@ -339,14 +339,13 @@ yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
                   where);
         return true;
     }
-    if (y->plastic == NULL)
+    if (!y->on)
         return false;
-    rc_plastic_progress(y->plastic, &load, &increment, &application);
     if (run->status == RC_MORE)
         tool_warn(&run->t,
                   "%s: interrupted in increment %zu of %zu: what is written is on the way there, "
                   "not a solution: its error is not known",
-                  where, increment, y->found->increments);
+                  where, y->found->increment, y->found->increments);
     else if (isnan(s->contact.pressure_error))
         course_warn(&run->course, "an error that is not known",
                     "%s: nothing is known of its error: a load was reached in fewer than 8 "
@@ -367,9 +366,9 @@ yield_judge(struct run *run, const char *where, const struct solution *s)
     };
     const struct rc_plastic_figures *f;
 
-    if (run->yielding.plastic == NULL)
+    if (!run->yielding.on)
         return;
-    f = rc_plastic_result(run->yielding.plastic);
+    f = &run->yielding.found->plastic;
     warn_of_slabs(run, where, f);
     if (f->max_strain > large_strain)
         course_warn(&run->course, "plastic strain beyond the theory of small strains",
@@ -388,11 +387,11 @@ yield_tell(const struct run *run, const struct rc_contact *c, char *text, size_t
 {
     const struct rc_plastic_figures *f;
 
-    if (run->yielding.plastic == NULL) {
+    if (!run->yielding.on) {
         snprintf(text, size, "%zu iterations, %.3g convolutions", c->iterations, c->convolutions);
         return;
     }
-    f = rc_plastic_result(run->yielding.plastic);
+    f = &run->yielding.found->plastic;
     snprintf(text, size, "%zu increments, %zu applications", f->increments, f->applications);
 }
 
@@ -405,13 +404,13 @@ yield_state(const struct run *run)
 
     if (!y->wanted)
         return "left out: no --yield";
-    if (y->plastic != NULL)
+    if (y->on)
         return "on";
-    if (y->found == NULL || y->found->most == 0)
+    if (y->found == NULL || !(y->found->max_mises_over_yield > 0))
         return "on where the elastic stress exceeds it; costs nothing elsewhere";
     snprintf(text, sizeof text,
              "left out: the largest Mises stress is %.3g of the yield stress, %s deep",
-             y->found->most, shown_in_unit(depth, y->found->deepest, "m"));
+             y->found->max_mises_over_yield, shown_in_unit(depth, y->found->max_mises_depth, "m"));
     return text;
 }
 
@@ -419,8 +418,8 @@ void
 yield_report(struct report *r, const struct run *run)
 {
     const struct yielding *y = &run->yielding;
-    const bool on = y->plastic != NULL;
-    const struct rc_plastic_figures none = {0}, *f = on ? rc_plastic_result(y->plastic) : &none;
+    const bool on = y->on;
+    const struct rc_plastic_figures none = {0}, *f = on ? &y->found->plastic : &none;
     double stress = rc_yield_stress(&y->law, 0);
 
     report_number(r, "yield", y->wanted ? stress : NAN, "Pa");
@@ -433,6 +432,7 @@ yield_report(struct report *r, const struct run *run)
     report_number(r, "max_plastic_strain", on ? f->max_strain : NAN, NULL);
     report_number(r, "plastic_work", on ? f->work : NAN, "J");
     report_number(r, "max_pressure_mean4", on ? f->max_pressure_mean4 : NAN, "Pa");
-    report_number(r, "max_mises_over_yield", y->wanted && !on ? y->found->most : NAN, NULL);
-    report_number(r, "max_mises_depth", y->wanted && !on ? y->found->deepest : NAN, "m");
+    report_number(r, "max_mises_over_yield", y->wanted ? y->found->max_mises_over_yield : NAN,
+                  NULL);
+    report_number(r, "max_mises_depth", y->wanted ? y->found->max_mises_depth : NAN, "m");
 }
