@@ -133,7 +133,7 @@ rc_export_write(const struct rc_export *format, FILE *out, struct rc_grid *const
 
 /* ---- words ---- */
 
-/* The name of one frame; `cases` and `depths`: whether the name has to tell cases and depths apart. */
+/* The name of one frame; `cases` and `depths`: the name must distinguish cases and depths. */
 static void
 plain_label(char label[RC_LABEL], const struct rc_grid *g, bool cases, bool depths)
 {
@@ -168,7 +168,7 @@ rc_export_label(char label[RC_LABEL], struct rc_grid *const *frame, size_t frame
     return label;
 }
 
-/* Whether text begins with a date and a time as ISO 8601 has them: "2026-11-21T09:30:00". */
+/* True if text begins with a date and a time of ISO 8601: "2026-11-21T09:30:00". */
 static bool
 is_date(const char *text)
 {

@@ -1,14 +1,10 @@
 /*
- * Exchange formats the other way: struct rc_grid -> bytes. A format that is written is one file,
- * formats/writers/NAME.c, that ends in its struct rc_export rc_export_NAME, and one line in
- * exports.list.
- *
- * What every writer does:
- *   1. writes straight on, without seeking: the output may be a pipe;
- *   2. spells out byte order, and numbers with a point in every locale;
- *   3. marks missing points by the format's own rule, and refuses what the format cannot say;
- *   4. keeps row 0 as the top row;
- *   5. keeps no clock and no file name: the same frames and wishes give the same bytes.
+ * Writing of exchange formats: struct rc_grid -> bytes. A written format is one file, formats/writers/NAME.c,
+ * that ends in its struct rc_export rc_export_NAME, and one line in exports.list. Every writer: 1. writes
+ * sequentially, because the output may be a pipe; 2. has an explicit byte order, and numbers with a point in
+ * every locale; 3. marks missing points by the rule of the format, and refuses data that the format cannot
+ * hold; 4. keeps row 0 as the top row; 5. writes no time and no file name: the same frames and options give
+ * the same bytes.
  */
 #ifndef RC_EXPORT_H
 #define RC_EXPORT_H
@@ -19,13 +15,13 @@
 #include "formats/core/core.h"
 #include "libcontact/grid.h"
 
-/* What the user says beside the frames. */
+/* Options of the user. */
 struct rc_export_wish {
-    bool typed;          /* whether `raw` was asked for                                       */
-    enum rc_raw raw;     /* how values are to lie in the file                                 */
-    int64_t time;        /* seconds since 1970, for formats that must bear a date             */
-    const char *creator; /* program and version, for those that name it                       */
-    const char *missing; /* word for a missing point in text; NULL: the format's own          */
+    bool typed;          /* true: `raw` was requested */
+    enum rc_raw raw;     /* type of the values in the file */
+    int64_t time;        /* seconds since 1970, for formats with a mandatory date */
+    const char *creator; /* program and version, for formats that name it */
+    const char *missing; /* word for a missing point in text; NULL: that of the format */
     /* m: height of a print from its lowest to its highest point; 0: to scale with the map */
     double relief;
 };
@@ -39,23 +35,25 @@ enum {
 };
 
 struct rc_export {
-    const char *name;     /* "x3p": what --format takes                                       */
-    const char *suffixes; /* ".x3p": separated by spaces; -o NAME chooses by them             */
+    const char *name;     /* "x3p": name for --format                                         */
+    const char *suffixes; /* ".x3p": suffixes, separated by spaces; they select the format of -o
+                             NAME */
     const char *summary;  /* one line                                                         */
-    bool text;            /* for people too: may be written to a terminal                     */
-    bool several;         /* takes several frames; else just one                              */
+    bool text;            /* readable: may be written to a terminal                           */
+    bool several;         /* accepts several frames; else only one                            */
     bool stack;           /* or the depths of one channel and case                            */
-    bool uneven;          /* says where each row of a section is: its depths may be uneven    */
-    bool lengths;         /* says of its spacings that they are lengths: refuses another dunit */
-    bool heights;         /* says metres by its definition: holds heights only                */
-    unsigned types;       /* types that it can hold, of the bits above; 0: text */
-    unsigned copies; /* copies of all values that it holds in memory, as they lie in the file */
-    bool relief;     /* is for printers: takes a wished relief                               */
-    /* NULL, or says into text[0..size) how large what it makes of a frame will be; "" where it refuses. */
+    bool uneven;          /* has the depth of each row of a section: depths may be uneven     */
+    bool lengths;         /* its spacings are lengths: refuses another dunit */
+    bool heights;         /* its values are metres: holds heights only                        */
+    unsigned types;       /* possible types, from the bits above; 0: text */
+    unsigned copies; /* number of copies of all values, in the type of the file, that it holds in
+                        memory */
+    bool relief;     /* is for printers: accepts a relief height */
+    /* NULL, or writes the size of the result for a frame to text[0..size); "" if it refuses the frame. */
     void (*foretell)(const struct rc_grid *frame, const struct rc_export_wish *wish, char *text,
                      size_t size);
-    /* Writes frame[0..frames), frames > 0. RC_FAIL for what the format cannot hold, or when the
-     * device refuses. */
+    /* Writes frame[0..frames), frames > 0. RC_FAIL for frames that the format cannot hold, or when writing
+     * fails. */
     enum rc_status (*write)(FILE *out, struct rc_grid *const *frame, size_t frames,
                             const struct rc_export_wish *wish, struct rc_err *err);
 };
@@ -66,33 +64,33 @@ enum rc_status rc_export_write(const struct rc_export *format, FILE *out,
                                struct rc_grid *const *frame, size_t frames,
                                const struct rc_export_wish *wish, struct rc_err *err);
 
-/* Those of exports.list in its order, ended by NULL. */
+/* The formats of exports.list in its order, ended by NULL. */
 extern const struct rc_export *const rc_exports[];
 
-/* The one of that name, or NULL. */
+/* The format with this name, or NULL. */
 const struct rc_export *rc_export_named(const char *name);
-/* The first one whose suffix the file name has, or NULL. */
+/* The first format with the suffix of the file name, or NULL. */
 const struct rc_export *rc_export_suffixed(const char *file);
 
-/* How values are to lie: as wished, else in the frame's own type, else in the widest of `types`. */
+/* The type of the values: as requested, else that of the frame, else the widest of `types`. */
 enum rc_raw rc_export_raw(const struct rc_grid *grid, const struct rc_export_wish *wish,
                           unsigned types);
 
-/* Reads the depths of a section's rows from its key `depths`, ny numbers separated by commas or
- * spaces, into at. RC_FAIL when their number is not ny or they do not rise from row to row. */
+/* Reads the depths of a section's rows from its key `depths`, ny numbers separated by commas or spaces, into
+ * at. RC_FAIL if their number is not ny or they do not rise. */
 enum rc_status rc_export_depths(const struct rc_grid *grid, double *at, struct rc_err *err);
-/* Whether n places have even steps, but for rounding, and the step; 0 for a single one. */
+/* True if n positions have even steps, except for rounding; returns the step, 0 for a single one. */
 bool rc_export_even(const double *at, size_t n, double *step);
 
 enum {
     RC_LABEL = 160
 };
-/* Gives frame k a name that no other frame has: "pressure"; "pressure_case2" when there are several
- * cases; "mises_z2e-05" when `depths` is set and the depths differ. Returns `label`. */
+/* Gives frame k a unique name: "pressure"; "pressure_case2" with several cases; "mises_z2e-05" if `depths` is
+ * set and the depths differ. Returns `label`. */
 const char *rc_export_label(char label[RC_LABEL], struct rc_grid *const *frame, size_t frames,
                             size_t k, bool depths);
 
-/* The date of the measurement from the frame's file, else the time of the wish:
+/* The date of the measurement from the keys of the frame, else the time of the options:
  * "2026-11-21T09:30:00Z" (ISO 8601). */
 enum {
     RC_DATE = 32

@@ -59,7 +59,7 @@ rc_format_read(const struct rc_format *f, const struct rc_file *file, const stru
                            : f->read(file, wish, index, notes, err);
 }
 
-/* What users hand over that holds no heights, or holds them packed. */
+/* Kinds of files that hold no heights, or hold them packed. */
 static const char *
 other_file(const struct rc_file *file)
 {

@@ -3,17 +3,12 @@
  * formats/readers/SUBJECT/NAME.c (or NAME/NAME.c, with more files beside it), that ends in its struct
  * rc_format rc_format_NAME, and one line in formats.list.
  *
- * What every reader does:
- *   1. looks at the magic again, because the user may force a format;
- *   2. trusts no size: checks it against the bytes that are there before allocating;
- *   3. refuses a spacing that is zero, negative, NaN or infinite, and never repairs one;
- *   4. reads numbers with a point in every locale;
- *   5. spells out byte order;
- *   6. gives missing points as NaN, by the format's own rule;
- *   7. applies scale and offset by the format's own rule, to metres;
- *   8. keeps row 0 as the top row;
- *   9. frees everything on every path;
- *  10. says why, with the offending value.
+ * Every reader: 1. checks the magic again, because the user may force a format; 2. checks each size against
+ * the bytes of the file before allocating; 3. refuses a spacing that is zero, negative, NaN or infinite, and
+ * never repairs one; 4. reads numbers with a point in every locale; 5. has an explicit byte order; 6. returns
+ * missing points as NaN, by the rule of the format; 7. applies scale and offset by the rule of the format, to
+ * metres; 8. keeps row 0 as the top row; 9. frees everything on every path; 10. gives the reason of a failure
+ * with the wrong value.
  */
 #ifndef RC_FORMAT_H
 #define RC_FORMAT_H
@@ -24,45 +19,45 @@
 #include "libcontact/grid.h"
 
 struct rc_format {
-    const char *name;     /* "x3p": what --format takes                                          */
-    const char *suffixes; /* ".x3p": separated by spaces                                         */
+    const char *name;     /* "x3p": name for --format                                            */
+    const char *suffixes; /* ".x3p": suffixes, separated by spaces */
     const char *summary;  /* one line                                                            */
-    /* A file of this format begins with one of these bytes, or is one by what it holds elsewhere; then `sure`
-     * (0: 95) is its score. */
+    /* A file of this format begins with one of these bytes, or has other bytes elsewhere; then `sure` (0: 95)
+     * is its score. */
     struct {
         const char *bytes;
         size_t n;
     } magic[2];
     bool (*is)(const struct rc_file *file);
     int sure;
-    /* Where that does not tell: how sure it is that this is its file, 0 to 100, by content first and name
-     * second. */
+    /* For other formats: the certainty that the file has this format, 0 to 100, first by content, then by
+     * name. */
     int (*score)(const struct rc_file *file);
-    /* Describes the maps of a file (core/maps.h); or, where it is NULL, the two functions below. */
+    /* Describes the maps of a file (core/maps.h); if it is NULL the two functions below are used. */
     rc_maps_find *find;
-    /* Fills at most `most` channels, gives their number in the file; 0 and *err on failure. */
+    /* Fills at most `most` channels and returns their number in the file; 0 and *err on failure. */
     size_t (*list)(const struct rc_file *file, const struct rc_wish *wish,
                    struct rc_channel *channel, size_t most, struct rc_err *err);
-    /* Channel `index` of the list: values, spacing, unit, and keys `file.*`. Channel name is
-     * "height" when its unit is metres. */
+    /* Channel `index` of the list: values, spacing, unit, and keys `file.*`. Its name is "height" if its unit
+     * is metres. */
     struct rc_grid *(*read)(const struct rc_file *file, const struct rc_wish *wish, size_t index,
                             struct rc_notes *notes, struct rc_err *err);
-    /* Listing and reading run in a process of their own, which holds the values too until they have been
-     * handed over. */
+    /* Listing and reading run in a separate process, which also holds the values until it has sent them. */
     bool sandboxed;
     bool copies;  /* the library of that process holds a copy of the file */
-    bool columns; /* its channels are columns of one table: those that are not read are told of */
+    bool columns; /* its channels are columns of one table: a message names those that are not
+                     read */
 };
 
-/* Those of formats.list in its order, ended by NULL. */
+/* The formats of formats.list in its order, ended by NULL. */
 extern const struct rc_format *const rc_formats[];
 
-/* The format of that name, or NULL. */
+/* The format with this name, or NULL. */
 const struct rc_format *rc_format_named(const char *name);
-/* The one that is surest of the file, or NULL with the reason. */
+/* The format with the highest certainty for the file, or NULL with the reason. */
 const struct rc_format *rc_format_find(const struct rc_file *file, struct rc_err *err);
 
-/* Those of a format, by what its row has: see above. */
+/* The functions of a format, from its row: see above. */
 int rc_format_score(const struct rc_format *format, const struct rc_file *file);
 size_t rc_format_list(const struct rc_format *format, const struct rc_file *file,
                       const struct rc_wish *wish, struct rc_channel *channel, size_t most,
@@ -71,18 +66,18 @@ struct rc_grid *rc_format_read(const struct rc_format *format, const struct rc_f
                                const struct rc_wish *wish, size_t index, struct rc_notes *notes,
                                struct rc_err *err);
 
-/* What the name of a channel says of it. */
+/* The kind of a channel, from its name. */
 enum rc_named {
     RC_NAMED_TOPOGRAPHY,
     RC_NAMED_NOTHING,   /* neither */
     RC_NAMED_OTHERWISE, /* something else: a deflection, an error signal, ... */
 };
 
-/* The channel that is meant when the user names none. */
+/* The default channel. */
 struct rc_topography {
-    size_t index;        /* of the channel; where none has the unit, the number of channels */
+    size_t index;        /* index of the channel; if none has the unit, the number of channels */
     enum rc_named named; /* by its name                                                 */
-    size_t alike;        /* channels with the unit whose names are as good */
+    size_t alike;        /* number of channels with the unit and equally good names */
 };
 /* Chooses among the channels of channel[0..n) that have this unit (NULL: any), by their names; see
  * topography.c. */

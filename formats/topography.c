@@ -1,16 +1,12 @@
 /*
- * Which channel of a file is its topography, by unit and name.
+ * The channel of a file with the topography, by unit and name. A height is a length, but not every length is
+ * a height: a deflection, an error signal and an amplitude may be in metres too. Therefore the words of the
+ * name decide, in this order:
  *
- * A height is a length, but not every length is a height: a deflection, an error signal and an
- * amplitude come in metres too. So the words of the name decide, in this order:
- *
- *     1. names of a topography (Height, Topography, Z-Axis, ZSensor), then names that say nothing
- *        (Raw, Layer 0), then names of something else, whatever other words are in them (Height
- *        Error)
- *     2. as measured before derived (corrected, smoothed, flattened)
- *     3. forward (trace) before backward (retrace)
- *     4. what a sensor of z measured before what drove the piezo: a drive creeps and has hysteresis
- *     5. the order of the file
+ *     1. names of a topography (Height, Topography, Z-Axis, ZSensor), then neutral names (Raw, Layer 0), then
+ *     names of other quantities, also if they contain such a word (Height Error) 2. measured before derived
+ *     (corrected, smoothed, flattened) 3. forward (trace) before backward (retrace) 4. sensor signals of z
+ *     before the drive of the piezo, which creeps and has hysteresis 5. the order of the file
  */
 #include "format.h"
 
@@ -24,9 +20,9 @@ enum {
     MEASURED = 1 << 4
 };
 
-/* Words of a channel's name, in lower case, and what each tells of the channel. */
+/* Words of a channel's name, in lower case, and the meaning of each. */
 static const struct {
-    const char *words; /* between them stands '|' */
+    const char *words; /* separated by '|' */
     unsigned says;
 } words[] = {
     {"topography|topographie|topo|height|heights|hoehe|h\xc3\xb6he|z|zaxis|depth|elevation|relief|"
@@ -64,7 +60,7 @@ is_letter(char c)
     return is_lower(c) || is_upper(c) || (unsigned char)c >= 0x80;
 }
 
-/* Letters of the word that s begins with; "ZSensorTrace" is three: Z, Sensor, Trace. */
+/* The number of letters of the first word of s; "ZSensorTrace" has three words: Z, Sensor, Trace. */
 static size_t
 word_length(const char *s)
 {
@@ -84,7 +80,7 @@ word_says(const char *s, size_t n)
     return 0;
 }
 
-/* The less the likelier. */
+/* A rank: the lowest is the most likely. */
 static unsigned
 rank_of(const char *name, enum rc_named *named)
 {

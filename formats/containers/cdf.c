@@ -24,7 +24,7 @@ count(struct rc_cdf *f)
     return f->version == 5 ? rc_bytes_u64(&f->b) : rc_bytes_u32(&f->b);
 }
 
-/* The next n bytes and their padding to a multiple of four. */
+/* Skips the next n bytes and their padding to a multiple of four. */
 static struct rc_piece
 bytes(struct rc_cdf *f, uint64_t n)
 {
@@ -143,7 +143,7 @@ take_attribute(struct rc_cdf_variable *v, struct rc_piece name, unsigned type, u
         v->period = rc_cdf_value(at, type);
 }
 
-/* Attributes of a variable, or with NULL those of the file, which are skipped. */
+/* Reads the attributes of a variable; with NULL skips those of the file. */
 static enum rc_status
 read_attributes(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
 {
@@ -217,7 +217,7 @@ read_variables(struct rc_cdf *f, struct rc_err *err)
 
     if (list_of(f, VARIABLES, "variables", VARIABLES_MOST, &n, err) != RC_OK)
         return RC_FAIL;
-    if (n > f->b.size / 16) /* each takes that much of the header */
+    if (n > f->b.size / 16) /* each variable takes at least this much of the header */
         return rc_err_set(err, "a list of %llu variables in %zu bytes", (unsigned long long)n,
                           f->b.size);
     if ((f->variable = calloc((size_t)n + 1, sizeof *f->variable)) == NULL)
@@ -233,7 +233,7 @@ read_variables(struct rc_cdf *f, struct rc_err *err)
             f->record += f->variable[k].size;
             with_records++;
         }
-    /* the only one with records is not padded */
+    /* a single variable with records is not padded */
     for (size_t k = 0; k < f->variables && with_records == 1; k++)
         if (rc_cdf_has_records(f, &f->variable[k]) && f->variable[k].rank == 2) {
             const struct rc_cdf_variable *v = &f->variable[k];

@@ -1,4 +1,4 @@
-/* The header of a NetCDF classic file: what its variables are and where; see readers/exchange/netcdf.c. */
+/* The header of a NetCDF classic file: its variables and their positions; see readers/exchange/netcdf.c. */
 #ifndef RC_CDF_H
 #define RC_CDF_H
 
@@ -21,31 +21,31 @@ struct rc_cdf_dimension {
 struct rc_cdf_variable {
     struct rc_piece name, unit, title;
     size_t rank, first,
-        dimension[2]; /* the first dimension, and the last two (of rank 1: the one) */
-    uint64_t lead;    /* values of the dimensions before those, 1 where there are none */
+        dimension[2]; /* the first dimension, and the last two (for rank 1 the only one) */
+    uint64_t lead;    /* product of the dimensions before the last two, 1 without any */
     unsigned type;
-    uint64_t size, at;           /* size: bytes, of one record where it has records */
+    uint64_t size, at;           /* size: bytes, of one record if it has records */
     double fill, factor, offset; /* NAN, 1, 0 when not given */
-    double period;               /* not 0: it says it repeats */
+    double period;               /* not 0: the axis is periodic */
 };
 
 struct rc_cdf {
     struct rc_bytes b;
     unsigned version;
-    uint64_t records, record; /* their number; bytes of one */
+    uint64_t records, record; /* number of records; bytes of one */
     struct rc_cdf_dimension *dimension;
     size_t dimensions;
     struct rc_cdf_variable *variable;
     size_t variables;
 };
 
-/* Reads the header; close it in either case. The file's bytes must outlive it. */
+/* Reads the header; close it also on failure. The bytes of the file must outlive it. */
 enum rc_status rc_cdf_open(struct rc_cdf *cdf, const struct rc_file *file, struct rc_err *err);
 void rc_cdf_close(struct rc_cdf *cdf);
 bool rc_cdf_is(struct rc_piece piece, const char *word);
-/* Whether the variable is spread over the records. */
+/* True if the variable is stored in records. */
 bool rc_cdf_has_records(const struct rc_cdf *cdf, const struct rc_cdf_variable *variable);
-/* The value of that type at a place. */
+/* The value of this type at a position. */
 double rc_cdf_value(const unsigned char *at, unsigned type);
 
 #endif

@@ -1,6 +1,6 @@
 /*
- * MD5 (RFC 1321), the checksum of X3P files; the only place that knows libmd. It finds damage that
- * happened by chance and is no defence against intent.
+ * MD5 (RFC 1321), the checksum of X3P files; only this file uses libmd. It detects accidental damage, not
+ * manipulation.
  */
 #ifndef RC_CHECKSUM_H
 #define RC_CHECKSUM_H
@@ -16,7 +16,7 @@ enum {
 /* The checksum of n bytes. */
 void rc_md5_of(const void *bytes, size_t n, char text[RC_MD5_TEXT]);
 
-/* The same of bytes that come one after another. */
+/* The same for bytes in several blocks. */
 struct rc_md5;
 
 struct rc_md5 *rc_md5_new(struct rc_err *err); /* NULL when memory is short */

@@ -1,6 +1,6 @@
 /*
- * The face of this folder: layouts that files of several formats share, such as ZIP and HDF5. Each
- * library for one of them is used by one or two files here.
+ * The interface of this folder: layouts that several formats share, such as ZIP and HDF5. One or two files
+ * here use the library for each.
  */
 #ifndef RC_CONTAINERS_H
 #define RC_CONTAINERS_H

@@ -24,7 +24,7 @@ rc_hdf_new(const struct rc_file *file, struct rc_err *err)
         rc_err_set(err, "out of memory for reading HDF5");
         return NULL;
     }
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* what matters is said here */
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* errors are reported here, not by the library */
     /* opened to be read: nothing is written to the bytes */
     h->file = H5LTopen_file_image((void *)(uintptr_t)file->data, file->size, as_it_is);
     if (h->file >= 0)
@@ -63,13 +63,12 @@ shape_of(hid_t set, struct rc_hdf_set *to)
                 H5Sget_simple_extent_dims(space, size, NULL) == rank;
 
     for (int k = 0; good && k < rank; k++)
-        if (size[k] != 1 || rank - k <= 2 - wide) { /* ones in front are no dimension of a map */
+        if (size[k] != 1 || rank - k <= 2 - wide) { /* leading dimensions of length 1 are ignored */
             good = wide < 2 && size[k] > 0;
             if (good)
                 last[wide++] = size[k];
         }
-    /* a size that no memory has room for stays too large: sizes in the file have 64 bits on every
-     * machine */
+    /* a size that exceeds the memory remains too large: sizes in the file have 64 bits on every machine */
     to->rows = last[0] < SIZE_MAX ? (size_t)last[0] : SIZE_MAX;
     to->columns = last[1] < SIZE_MAX ? (size_t)last[1] : SIZE_MAX;
     H5Tclose(type);
@@ -96,7 +95,7 @@ struct search {
     size_t n, most;
 };
 
-/* HDF5 1.12 describes objects in another structure, given by a function of another name. */
+/* HDF5 1.12 describes objects in another structure, from a function with another name. */
 #if H5_VERSION_GE(1, 12, 0)
 #define visit_objects H5Ovisit3
 #define object_info H5O_info2_t

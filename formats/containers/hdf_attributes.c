@@ -6,7 +6,7 @@
 #include "formats/core/core.h"
 
 enum {
-    RECORDS_MOST = 100000 /* of a table; values of an attribute */
+    RECORDS_MOST = 100000 /* most members of a table; most values of an attribute */
 };
 
 /* ---- attributes ---- */
@@ -19,7 +19,7 @@ open_attribute(struct rc_hdf *h, const char *path, const char *name)
     return H5Aopen_by_name(h->file, path, name, H5P_DEFAULT, H5P_DEFAULT);
 }
 
-/* How many values an attribute has; 0 for more than any file should have. */
+/* The number of values of an attribute; 0 if it is implausibly large. */
 static size_t
 values_in(hid_t attribute)
 {
@@ -53,7 +53,7 @@ rc_hdf_number(struct rc_hdf *h, const char *path, const char *name, double *valu
     return good;
 }
 
-/* Text of a member or attribute at `at`, whose type in memory is `type`. */
+/* The text of a member or attribute at `at`, with the type `type` in memory. */
 static void
 take_text(hid_t type, const unsigned char *at, char *to, size_t size)
 {
@@ -97,7 +97,7 @@ rc_hdf_text(struct rc_hdf *h, const char *path, const char *name, char *to, size
 
 /* ---- tables ---- */
 
-/* Numbers of a member that is an array or a list of doubles. */
+/* The numbers of a member that is an array or a list of doubles. */
 static void
 take_numbers(hid_t type, const unsigned char *at, struct rc_hdf_record *record)
 {

@@ -1,4 +1,4 @@
-/* What the files that know libhdf5 share. */
+/* Shared by the files that use libhdf5. */
 #ifndef RC_HDF_INTERNAL_H
 #define RC_HDF_INTERNAL_H
 

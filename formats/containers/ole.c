@@ -5,14 +5,14 @@
 #include <string.h>
 
 enum {
-    AT_SHIFT = 30, /* of the size of sectors, then of that of small ones */
+    AT_SHIFT = 30, /* positions of the sizes of sectors and of small sectors */
     AT_TABLES = 44,
     AT_DIRECTORY = 48,
     AT_CUTOFF = 56, /* streams shorter than this are in small sectors */
     AT_SMALL_TABLE = 60,
     AT_MORE_TABLES = 68,
     AT_FIRST_TABLES = 76,
-    FIRST_TABLES = 109, /* sectors of the table that the header names */
+    FIRST_TABLES = 109, /* number of sectors of the table in the header */
     ENTRY = 128,        /* bytes of an entry of the directory */
     NAME = 64,
     AT_NAME_SIZE = 64,
@@ -23,14 +23,14 @@ enum {
     ROOT = 5
 };
 
-#define END UINT32_C(0xfffffffa) /* from here on numbers are no sectors */
+#define END UINT32_C(0xfffffffa) /* from here on numbers are not sectors */
 
 static const unsigned char magic[8] = {0xd0, 0xcf, 0x11, 0xe0, 0xa1, 0xb1, 0x1a, 0xe1};
 
 struct ole {
     struct rc_bytes b;
     size_t sector, small; /* bytes of one */
-    uint32_t *table;      /* the sector after each, of `sectors` */
+    uint32_t *table;      /* the next sector of each of `sectors` */
     size_t sectors;
 };
 
@@ -46,7 +46,7 @@ place(const struct ole *o, uint32_t sector)
     return ((size_t)sector + 1) * o->sector;
 }
 
-/* Copies the next sector of the table into it; false where it is not in the file. */
+/* Copies the next sector of the table; false if it is not in the file. */
 static bool
 take_table(struct ole *o, uint32_t sector, size_t *filled)
 {
@@ -60,8 +60,8 @@ take_table(struct ole *o, uint32_t sector, size_t *filled)
     return !b.past || *filled == o->sectors;
 }
 
-/* The table that chains sectors: its own ones are named by the header, and by further sectors, each of which
- * ends with the number of the next. */
+/* The table that chains sectors: its own sectors are listed in the header and in further sectors, each of
+ * which ends with the number of the next one. */
 static enum rc_status
 read_table(struct ole *o, struct rc_err *err)
 {
@@ -69,7 +69,7 @@ read_table(struct ole *o, struct rc_err *err)
     size_t tables = (size_t)rc_bytes_at(&b, AT_TABLES, RC_RAW_U32), filled = 0;
     uint32_t more = (uint32_t)rc_bytes_at(&b, AT_MORE_TABLES, RC_RAW_U32);
 
-    o->sectors = o->b.size / o->sector; /* the header stands in the place of one */
+    o->sectors = o->b.size / o->sector; /* the header takes the place of one sector */
     if ((o->table = malloc(o->sectors * sizeof *o->table)) == NULL)
         return rc_err_set(err, "out of memory for a table of %zu sectors", o->sectors);
     memset(o->table, 0xff, o->sectors * sizeof *o->table);
@@ -89,7 +89,7 @@ read_table(struct ole *o, struct rc_err *err)
     return RC_OK;
 }
 
-/* The n bytes of a chain from a sector on, which the caller frees; NULL where the chain leads nowhere. */
+/* The n bytes of a chain that begins at a sector; the caller frees them; NULL if the chain is broken. */
 static unsigned char *
 read_chain(const struct ole *o, uint32_t sector, size_t n)
 {
@@ -120,7 +120,7 @@ chain_length(const struct ole *o, uint32_t sector)
     return n * o->sector;
 }
 
-/* A stream in small sectors: they lie in the root's stream, chained by a table of their own. */
+/* A stream in small sectors: they are in the stream of the root, chained by a separate table. */
 static unsigned char *
 read_small(const struct ole *o, uint32_t root, uint32_t first, size_t n)
 {
@@ -150,7 +150,7 @@ read_small(const struct ole *o, uint32_t root, uint32_t first, size_t n)
     return NULL;
 }
 
-/* Whether the entry has that name, in UTF-16 with a NUL. */
+/* True if the entry has this name, in UTF-16 with a NUL. */
 static bool
 is_named(const unsigned char *entry, const char *name)
 {

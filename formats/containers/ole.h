@@ -1,4 +1,4 @@
-/* Compound files of Microsoft (OLE): streams by name, in sectors that tables chain. */
+/* Compound files of Microsoft (OLE): named streams in sectors, which tables chain. */
 #ifndef RC_OLE_H
 #define RC_OLE_H
 
@@ -7,10 +7,10 @@
 #include "formats/core/core.h"
 #include "libcontact/grid.h"
 
-/* Whether it begins as such a file does. */
+/* True if it begins like such a file. */
 bool rc_ole_is(const struct rc_file *file);
-/* The whole of the first stream of that name (ASCII), in whichever folder, of *n bytes, which the caller
- * frees; NULL with the reason. No stream is longer than the file. */
+/* The *n bytes of the first stream with this name (ASCII) in any folder, which the caller frees; NULL with
+ * the reason. No stream is longer than the file. */
 unsigned char *rc_ole_stream(const struct rc_file *file, const char *name, size_t *n,
                              struct rc_err *err);
 

@@ -15,7 +15,7 @@ struct rc_tiff {
     TIFF *tiff;
     const unsigned char *data;
     size_t size;
-    toff_t at; /* the place that libtiff went to; it may lie beyond the end */
+    toff_t at; /* the position set by libtiff; it may be beyond the end */
 };
 
 /* ---- a file in memory, as libtiff sees it ---- */
@@ -71,7 +71,7 @@ rc_tiff_new(const struct rc_file *file, struct rc_err *err)
         rc_err_set(err, "out of memory for reading a TIFF");
         return NULL;
     }
-    TIFFSetErrorHandler(NULL); /* what matters is said here */
+    TIFFSetErrorHandler(NULL); /* errors are reported here, not by the library */
     TIFFSetWarningHandler(NULL);
     t->data = file->data;
     t->size = file->size;
@@ -121,7 +121,7 @@ rc_tiff_exif(struct rc_tiff *t)
 
 /* ---- tags ---- */
 
-/* Bytes of a tag that the library does not know by itself: it hands out a count and an array. */
+/* Bytes of a tag that the library does not know: it returns a count and an array. */
 static bool
 private_tag(struct rc_tiff *t, const TIFFField *field, const void **bytes, size_t *count)
 {
@@ -255,7 +255,7 @@ rc_tiff_shape(struct rc_tiff *t, struct rc_tiff_shape *shape, struct rc_err *err
     return RC_OK;
 }
 
-/* One sample of a row that libtiff has unpacked, in the byte order of this machine. */
+/* One sample of an unpacked row, in the byte order of this machine. */
 static double
 sample(const unsigned char *row, size_t k, unsigned bits, unsigned kind)
 {
@@ -344,7 +344,7 @@ rc_tiff_hints(const struct rc_file *file, uint16_t tag, uint16_t type)
                               (unsigned char)(big ? type >> 8 : type & 0xff),
                               (unsigned char)(big ? type & 0xff : type >> 8)};
 
-    for (size_t k = 8; k + 12 <= file->size; k += 2) /* directories begin on even bytes */
+    for (size_t k = 8; k + 12 <= file->size; k += 2) /* directories begin at even positions */
         if (file->data[k] == entry[0] && memcmp(file->data + k, entry, sizeof entry) == 0)
             return true;
     return false;

@@ -17,9 +17,9 @@ struct rc_xml {
     const char *name;
     rc_element *element;
     void *arg;
-    struct rc_err err; /* why the parser was stopped from here */
+    struct rc_err err; /* the error for which this file stopped the parser */
     bool stopped, attributes;
-    size_t path_length, below; /* below: levels under the path that did not fit into it */
+    size_t path_length, below; /* below: number of levels that did not fit into the path */
     size_t text_length;
     char path[PATH_MAX_BYTES];
     char text[TEXT_MAX_BYTES];
@@ -32,7 +32,7 @@ stop(struct rc_xml *x)
     xmlStopParser(x->parser);
 }
 
-/* Attribute k of an element, as libxml2 has them: five pointers, the value between the last two. */
+/* Attribute k of an element in the layout of libxml2: five pointers, with the value between the last two. */
 static void
 on_attribute(struct rc_xml *x, const xmlChar *const *attribute)
 {
@@ -108,7 +108,7 @@ on_end(void *arg, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri
     x->path[x->path_length] = '\0';
 }
 
-/* Called at the name of a document type, before its contents are read. */
+/* Called at the name of a document type, before its content is read. */
 static void
 on_document_type(void *arg, const xmlChar *name, const xmlChar *external, const xmlChar *system)
 {
@@ -127,7 +127,7 @@ on_document_type(void *arg, const xmlChar *name, const xmlChar *external, const 
 static void
 on_complaint(void *arg, xmlErrorPtr complaint)
 {
-    (void)arg, (void)complaint; /* feed asks for the last one */
+    (void)arg, (void)complaint; /* feed requests the last one */
 }
 
 struct rc_xml *

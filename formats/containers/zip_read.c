@@ -8,7 +8,7 @@
 #include "formats/core/core.h"
 
 enum {
-    DEFLATE_MOST = 1032 /* bytes that one deflated byte can yield: 258 for two bits */
+    DEFLATE_MOST = 1032 /* most bytes from one deflated byte: 258 for two bits */
 };
 
 struct rc_zip_read {
@@ -129,7 +129,7 @@ rc_zip_read_size(struct rc_zip_read *a, size_t member, uint64_t *size, struct rc
     return RC_OK;
 }
 
-/* The next n bytes, or fewer at the end; -1 when they cannot be unpacked. */
+/* Unpacks the next n bytes, or fewer at the end; -1 on failure. */
 static zip_int64_t
 read_fully(zip_file_t *f, unsigned char *to, size_t n)
 {
@@ -146,14 +146,14 @@ read_fully(zip_file_t *f, unsigned char *to, size_t n)
     return (zip_int64_t)have;
 }
 
-/* All bytes of a member, in chunks, to `take` and, unless it is NULL, to `md5`. */
+/* Passes all bytes of a member in chunks to `take` and, unless it is NULL, to `md5`. */
 static enum rc_status
 unpack(zip_file_t *f, const char *shown, uint64_t size, unsigned char *chunk, struct rc_md5 *md5,
        rc_zip_take *take, void *arg, struct rc_err *err)
 {
     uint64_t done = 0;
 
-    /* The read that finds the end is the one that checks the CRC. */
+    /* The read that finds the end checks the CRC. */
     for (;;) {
         zip_int64_t n = read_fully(f, chunk, RC_ZIP_CHUNK);
 

@@ -9,17 +9,16 @@
 
 enum {
     CHUNK = 1 << 16,
-    LEVEL = 1, /* noise comes out no smaller at a higher one, only slower */
-    TRIED = 4, /* chunks of a member that are tried                       */
+    LEVEL = 1, /* a higher level compresses noise no better and is slower */
+    TRIED = 4, /* number of chunks of a member that are tried */
     MEMBERS = 16
 };
 
 struct rc_zip_write {
-    zip_source_t *made; /* where the archive grows */
+    zip_source_t *made; /* the growing archive */
     zip_t *zip;         /* NULL once it is closed  */
     time_t time;
-    /* Freed at the end: where memory is short, libzip may or may not have freed what it was given,
-     * and does not say so. */
+    /* Freed at the end: when memory is short libzip may or may not have freed it, without reporting which. */
     void *given[MEMBERS];
     size_t members;
 };
@@ -35,13 +34,13 @@ rc_zip_write_new(int64_t time, struct rc_err *err)
         rc_zip_write_free(w);
         return NULL;
     }
-    zip_source_keep(w->made); /* closing the archive gives up its own hold */
+    zip_source_keep(w->made); /* closing the archive releases its reference */
     w->time = (time_t)time;
     return w;
 }
 
-/* Whether a few chunks, spread over the member, become at least a tenth smaller. A member that
- * would not is stored as it is: it is then read several times as fast. */
+/* True if a few chunks, distributed over the member, become at least a tenth smaller. Other members are
+ * stored uncompressed, which makes reading several times as fast. */
 static bool
 is_compressible(const unsigned char *bytes, size_t n)
 {

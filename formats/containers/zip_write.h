@@ -1,4 +1,4 @@
-/* ZIP archives that are written; beside zip_read.c the only place that knows libzip. */
+/* Writing of ZIP archives; only this file and zip_read.c use libzip. */
 #ifndef RC_ZIP_WRITE_H
 #define RC_ZIP_WRITE_H
 
@@ -10,13 +10,13 @@
 
 struct rc_zip_write;
 
-/* `time` is that of all members, in seconds since 1970. */
+/* `time` is the time of all members, in seconds since 1970. */
 struct rc_zip_write *rc_zip_write_new(int64_t time, struct rc_err *err);
-/* Adds a member, of which there are at most 16. The bytes come from malloc and become the archive's
- * own, also on failure. */
+/* Adds a member; at most 16 are possible. The bytes come from malloc; the archive takes them over, also on
+ * failure. */
 enum rc_status rc_zip_write_add(struct rc_zip_write *archive, const char *name, void *bytes,
                                 size_t n, struct rc_err *err);
-/* Compresses the members and writes the archive; to be called once, last. */
+/* Compresses the members and writes the archive; called once, at the end. */
 enum rc_status rc_zip_write_finish(struct rc_zip_write *archive, FILE *out, struct rc_err *err);
 void rc_zip_write_free(struct rc_zip_write *archive); /* NULL is allowed */
 

@@ -73,7 +73,7 @@ median_spacing(const double *x, size_t points, double *median, struct rc_err *er
     return RC_OK;
 }
 
-/* The wished step in the unit of the positions, or that of the points. */
+/* The requested step in the unit of the positions, or that of the points. */
 static enum rc_status
 pick_step(const struct rc_wish *wish, double metres, double length, double median, double *step,
           struct rc_err *err)
@@ -146,7 +146,7 @@ void
 rc_even_heights(const struct rc_even *even, const double *x, const double *z, size_t points,
                 double *v, struct rc_notes *notes)
 {
-    double near = 1e-9 * even->step; /* a point this near to a node is on it */
+    double near = 1e-9 * even->step; /* a point this near to a node counts as on it */
     size_t left = 0;
 
     if (even->widest == 0) {

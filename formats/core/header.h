@@ -12,14 +12,14 @@ struct rc_piece {
     size_t n;
 };
 
-/* Whether the piece is one of the words, between which stands '|', in either case of ASCII letters. */
+/* True if the piece is one of the words, separated by '|', in upper or lower case of ASCII. */
 bool rc_piece_is(struct rc_piece piece, const char *words);
 /* Whether it begins with the word, in either case. */
 bool rc_piece_begins(struct rc_piece piece, const char *word);
 /* Where the word begins in the piece, or NULL; case counts. */
 const char *rc_piece_find(struct rc_piece piece, const char *word);
 struct rc_piece rc_piece_trim(struct rc_piece piece);
-/* The piece without the quotes or brackets round it: nm of "[nm]". */
+/* The piece without surrounding quotes or brackets: nm of "[nm]". */
 struct rc_piece rc_piece_bare(struct rc_piece piece);
 /* A cursor over its lines, before the first one. */
 struct rc_lines rc_piece_lines(struct rc_piece piece);
@@ -42,7 +42,7 @@ enum rc_status rc_piece_keep(struct rc_grid *grid, const char *key, struct rc_pi
 
 enum rc_field_kind {
     RC_FIELD_TEXT,   /* struct rc_piece                                    */
-    RC_FIELD_NUMBER, /* double, what follows the number is ignored         */
+    RC_FIELD_NUMBER, /* double, text after the number is ignored           */
     RC_FIELD_LENGTH  /* double, metres; numbers without a unit are metres  */
 };
 
@@ -56,8 +56,7 @@ struct rc_field {
  * other keys. RC_FAIL for a value of the wrong kind. */
 enum rc_status rc_field_take(const struct rc_field *field, size_t n, struct rc_piece key,
                              struct rc_piece value, void *into, struct rc_err *err);
-/* Takes all lines that hold one of the `marks`, up to the end or the line `last` (which may be
- * NULL). */
+/* Reads all lines that contain one of the `marks`, up to the end or the line `last` (which may be NULL). */
 enum rc_status rc_fields_read(const struct rc_field *field, size_t n, struct rc_lines *lines,
                               const char *marks, const char *last, void *into, struct rc_err *err);
 

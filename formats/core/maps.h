@@ -1,9 +1,7 @@
 /*
- * Most readers do no more than describe a file as maps of raw numbers at some place in it.
- *
- * A format fills struct rc_maps from its header. Listing, checking the sizes against the bytes that
- * are there, decoding, turning, scaling and marking what is missing is then the same for all, and
- * is done here once.
+ * Most readers only describe a file as maps of raw numbers at some position in it. A format fills struct
+ * rc_maps from its header. Listing, checking the sizes against the bytes of the file, decoding, reordering,
+ * scaling and marking of missing points are then the same for all, and are done here.
  */
 #ifndef RC_MAPS_H
 #define RC_MAPS_H
@@ -14,42 +12,41 @@
 #include "wish.h"
 
 enum {
-    RC_MAPS_MOST = 64, /* that are kept of a file; further ones are counted */
+    RC_MAPS_MOST = 64, /* most maps kept of a file; further ones are only counted */
     RC_KEYS_MOST = 24
 };
 
 struct rc_map {
     char name[64];
-    char unit[16];      /* SI unit: "m", "V", ...; "" when the file does not say              */
+    char unit[16];      /* SI unit: "m", "V", ...; "" if unknown                              */
     double si;          /* SI units in one unit of the file                                   */
     double scale, zero; /* value in the file's unit = raw*scale + zero                        */
     size_t nx, ny;
-    double dx, dy; /* m; NAN when the file does not say                                  */
+    double dx, dy; /* m; NAN if unknown                                                       */
     enum rc_raw raw;
     bool big;        /* most significant byte first                                        */
     size_t at;       /* first byte                                                         */
-    size_t padding;  /* bytes after each line of numbers                                   */
+    size_t padding;  /* padding bytes after each line of numbers */
     bool by_columns; /* a line of numbers is a column                                      */
     bool bottom_first, right_first;
     double missing_from,
         missing_to; /* raw numbers in [from, to] are missing; NAN: none is         */
-    /* Instead of raw, at and padding: puts nx*ny raw numbers into v, NAN where missing, in the
-     * order that by_columns and so on say. The reader that sets it has to check nx*ny against the
-     * file's size. */
+    /* In place of raw, at and padding: writes nx*ny raw numbers to v, NAN if missing, in the order of
+     * by_columns and so on. The reader that sets it must check nx*ny against the size of the file. */
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_map *map, double *v,
                            struct rc_err *err);
     size_t more;   /* for fill                                                           */
-    double beside; /* bytes that fill takes beside v: set by rc_map_bound                         */
+    double beside; /* bytes that fill needs beside v: set by rc_map_bound                */
     const struct rc_wish *wish; /* for fill, and the notes                               */
     struct rc_notes *notes;
-    const char *doubt; /* of what the heights mean: noted, unless --z-unit says it  */
-    double step
-        [2]; /* the spacing where the file gives it without a unit, and words on it for the refusal: */
+    const char *doubt; /* a doubt about the heights: noted, unless --z-unit is given     */
+    double step[2]; /* the spacing if the file gives it without a unit, and a text about it for the
+                message: */
     char hint[128];
 };
 
 struct rc_maps {
-    const struct rc_wish *wish; /* of the user, for those whose maps it changes */
+    const struct rc_wish *wish; /* options of the user, for readers whose maps depend on them */
     struct rc_map map[RC_MAPS_MOST], spare;
     size_t n;
     struct {
@@ -58,35 +55,35 @@ struct rc_maps {
     size_t keys;
 };
 
-/* A further map of that name with scale 1 and nothing else known. */
+/* Adds a map with this name, scale 1 and nothing else known. */
 struct rc_map *rc_maps_add(struct rc_maps *maps, const char *name, size_t n);
-/* A key `file.*` of the grid, cleaned; nothing when the text is empty or the key is there. */
+/* Adds a cleaned key `file.*` of the grid, unless the text is empty or the key exists. */
 void rc_maps_key(struct rc_maps *maps, const char *key, const char *text, size_t n);
-/* What a file calls a thing, and the key of the grid that keeps it. */
+/* The name of an item in a file, and the key of the grid for it. */
 struct rc_keep {
     const char *name, *key;
 };
-/* Keeps the value when one of keep[0..n) has that name. */
+/* Keeps the value if one of keep[0..n) has this name. */
 void rc_maps_keep(struct rc_maps *maps, const struct rc_keep *keep, size_t n, struct rc_piece name,
                   struct rc_piece value);
 /* Sets unit and si from the file's word for it: a length, a unit with an SI prefix, or the word. */
 void rc_map_unit(struct rc_map *map, const char *text, size_t n);
-/* The least and the greatest raw number that is not missing; false when the numbers are not all in
- * the file or every one is missing. */
+/* The smallest and the largest raw number that is not missing; false if the file lacks some numbers, or if
+ * all are missing. */
 bool rc_map_range(const struct rc_map *map, const struct rc_file *file, double *low, double *high);
-/* Remembers the steps of a file that has them without a unit. */
+/* Records the steps of a file that gives them without a unit. */
 void rc_map_hint(struct rc_map *map, double dx, double dy);
-/* Sets dx and dy from the steps in the file's unit of length; the steps become a hint when the unit
- * is none. */
+/* Sets dx and dy from the steps in the file's unit of length; if that is not a unit, the steps become a
+ * hint. */
 void rc_map_steps(struct rc_map *map, double dx, double dy, struct rc_piece unit);
-/* A whole number from 1 to 2^31 - 1 as a header has it, or RC_FAIL with its name. */
+/* A whole number from 1 to 2^31 - 1 in a header, or RC_FAIL with its name. */
 enum rc_status rc_map_count(const char *what, double number, size_t *count, struct rc_err *err);
-/* RC_FAIL when the map and `unpacked` bytes, which fill takes beside it, exceed rc_memory_limit: for
- * what is packed in the file. */
+/* RC_FAIL if the map and `unpacked` bytes, which fill needs beside it, exceed rc_memory_limit: for packed
+ * data. */
 enum rc_status rc_map_bound(struct rc_map *map, const struct rc_file *file, double unpacked,
                             struct rc_err *err);
-/* Makes it a map that is text: numbers separated by white space from `at` on. RC_FAIL when the text
- * is too short for nx*ny of them. */
+/* Makes it a map of text: numbers separated by white space from `at` on. RC_FAIL if the text is too short for
+ * nx*ny of them. */
 enum rc_status rc_map_is_text(struct rc_map *map, const struct rc_file *file, size_t at,
                               struct rc_err *err);
 

@@ -65,7 +65,7 @@ describe(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *w
     return RC_OK;
 }
 
-/* Whether values need a buffer before they get to their positions. */
+/* True if values need a buffer before they are stored at their positions. */
 static bool
 is_turned(const struct rc_map *map)
 {

@@ -40,9 +40,9 @@ ends_field(const struct rc_number_table *t, const char *s)
 /* ---- numbers ---- */
 
 struct number {
-    uint64_t digits; /* all of them as one whole number, as long as they are exact in a double */
-    int power;       /* of ten, to be applied to digits                                        */
-    bool exact;      /* the two above are the number                                           */
+    uint64_t digits; /* all digits as one whole number, while it is exact in a double */
+    int power;       /* the power of ten for the digits                                        */
+    bool exact;      /* true: the two above give the number exactly */
     char mark;       /* decimal mark met, or 0                                                 */
     const char *mark_at;
 };
@@ -53,7 +53,7 @@ is_digit(const struct rc_number_table *t, const char *s)
     return s < t->end && *s >= '0' && *s <= '9';
 }
 
-/* Digits from s on; past 2^53 they are no longer gathered. */
+/* Reads digits from s on; after 2^53 they are only counted. */
 static const char *
 gather(const struct rc_number_table *t, const char *s, struct number *n, bool fraction)
 {
@@ -155,12 +155,12 @@ is_missing(const struct rc_number_table *t, const char *s, size_t n)
 {
     if (t->missing != NULL && strlen(t->missing) == n && memcmp(t->missing, s, n) == 0)
         return true;
-    /* the last three are how some C libraries print a NaN */
+    /* some C libraries print a NaN as one of the last three */
     return rc_piece_is((struct rc_piece){s, n}, "nan|na|n/a|bad|--|---|-nan|1.#qnan|-1.#ind");
 }
 
-/* The value of one field; s is at its first character. *decimal is settled by the first number that
- * has a mark. NULL when it is neither number nor missing. */
+/* The value of one field; s is at its first character. The first number with a mark determines *decimal. NULL
+ * if it is neither a number nor missing. */
 static const char *
 read_field(const struct rc_number_table *t, const char *s, char *decimal, double *value)
 {
@@ -182,7 +182,7 @@ read_field(const struct rc_number_table *t, const char *s, char *decimal, double
     return is_missing(t, s, (size_t)(end - s)) ? end : NULL;
 }
 
-/* The same of a field in quotes, of which nothing and blanks are a missing value. */
+/* The same for a field in quotes; an empty or blank field is a missing value. */
 static const char *
 read_quoted(const struct rc_number_table *t, const char *s, char *decimal, double *value)
 {
@@ -414,7 +414,7 @@ rc_number_table_open(struct rc_number_table *t, const struct rc_lines *lines,
     if (t->separator == '\0' && find_separator(t, s, line, err) != RC_OK)
         return RC_FAIL;
     while (t->separator == '\t' && t->start > lines->at && t->start[-1] == '\t')
-        s = --t->start; /* before it stands a value that is missing */
+        s = --t->start; /* there is a missing value before it */
     if (t->separator == ',' && t->decimal == ',' && !has_quotes(t))
         return rc_err_set(err, "the comma cannot be separator and decimal mark at once");
     if (t->separator == ',' && t->decimal == 0 && !has_quotes(t))

@@ -44,9 +44,9 @@ rc_prefix_factor(int power)
     return power < 0 ? 1 / whole : whole;
 }
 
-/* Symbols, whose case counts, and words in either case, one or several; between them stands '|'. The micro
- * sign is U+00B5, Greek mu or a byte of Latin-1, and ~ is NanoScope's way round it; Angstrom has its letter,
- * its own sign and a byte of Latin-1. */
+/* Symbols, which are case-sensitive, and words in upper or lower case, singular and plural, separated by '|'.
+ * The micro sign is U+00B5, the Greek mu or a byte of Latin-1, and NanoScope writes ~ for it; Angstrom is a
+ * letter, a separate sign or a byte of Latin-1. */
 static const struct {
     double metres;
     const char *symbols, *words;

@@ -17,7 +17,7 @@ enum rc_label {
     RC_LABELS_BOTH
 };
 
-/* The user's options for a file. */
+/* Options of the user for a file. */
 struct rc_wish {
     double dx, dy;         /* spacing in metres; NAN: as the file says                     */
     double z_unit;         /* metres per unit of the file's heights; NAN: as the file says */
@@ -37,9 +37,9 @@ extern const struct rc_wish rc_no_wish; /* no options: all values from the file 
 /* One map in a file, for --list. */
 struct rc_channel {
     char name[64];
-    char unit[16]; /* SI unit of the values, "m" for heights; "" when the file does not say    */
+    char unit[16]; /* SI unit of the values, "m" for heights; "" if unknown */
     size_t nx, ny;
-    double dx, dy; /* m; NAN when the file does not say                   */
+    double dx, dy; /* m; NAN if unknown */
     double beside; /* bytes needed to read the values, besides the values */
 };
 

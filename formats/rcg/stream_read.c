@@ -20,7 +20,7 @@ struct rc_reader {
     size_t last_case;              /* the largest one returned                           */
     size_t frames;                 /* since the last end line                            */
     bool ended;                    /* an end line was the last line                      */
-    uint32_t crc;                  /* of the frame so far                                */
+    uint32_t crc;                  /* checksum of the frame so far                       */
     bool begun;                    /* a line of a stream was read                        */
     bool empty, foreign;           /* the input was empty, or not a stream               */
     char head[16];                 /* the first bytes of something foreign               */
@@ -504,7 +504,7 @@ rc_reader_failure(const struct rc_reader *r, int *exit_status)
     return r->failure[0] == '\0' ? NULL : r->failure;
 }
 
-/* Whether `text` is the word or a beginning of it. */
+/* True if `text` is the word or a beginning of it. */
 static bool
 begins(const char *word, const char *text)
 {

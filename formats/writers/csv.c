@@ -1,12 +1,12 @@
-/* A matrix as text: a header of four comment lines as Gwyddion has them, then a line a row, values
- * separated by commas. Every number has a point, so that no reader takes the comma for one. */
+/* A matrix as text: a header of four comment lines as in Gwyddion, then one line per row, values separated by
+ * commas. Every number has a point, so that no reader takes the comma for a decimal mark. */
 #include <math.h>
 #include <string.h>
 
 #include "encode.h"
 #include "formats/export.h"
 
-/* The number, with a point whatever it is: "2.0", "1.0e-06". */
+/* The number, always with a point: "2.0", "1.0e-06". */
 static const char *
 number_text(char text[RC_NUMBER_SIZE], double value)
 {

@@ -74,7 +74,7 @@ rc_buffer_escaped(struct rc_buffer *b, const char *text)
             rc_buffer_print(b, "&quot;");
             break;
         default:
-            /* XML has no place for control characters */
+            /* XML does not allow control characters */
             rc_buffer_add(b, (unsigned char)*text < ' ' ? " " : text, 1);
         }
 }
@@ -184,7 +184,8 @@ rc_code_for(enum rc_raw raw, const struct rc_range *range, int32_t low, int32_t 
     if (step > 0) {
         code.increment = step;
         code.offset = range->min - low * step;
-    } else { /* one height, or heights closer together than doubles can tell: all are number 0 */
+    } else { /* a single height, or heights that differ by less than doubles can resolve: all are
+                number 0 */
         code.offset = range->min;
     }
     return code;

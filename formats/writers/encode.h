@@ -11,16 +11,16 @@
 
 /* ---- a buffer that grows ---- */
 
-/* Initialise with {0}. After short memory it stays empty, and rc_buffer_write fails. */
+/* Initialise with {0}. If memory is short it stays empty, and rc_buffer_write fails. */
 struct rc_buffer {
-    char *bytes; /* n of them, and a NUL */
+    char *bytes; /* n bytes, and a NUL */
     size_t n, capacity;
     bool failed;
 };
 void rc_buffer_add(struct rc_buffer *buffer, const void *bytes, size_t n);
 void rc_buffer_print(struct rc_buffer *buffer, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-/* Text with the special characters of XML escaped. */
+/* Adds text with escaped special characters of XML. */
 void rc_buffer_escaped(struct rc_buffer *buffer, const char *text);
 void rc_buffer_u16(struct rc_buffer *buffer, uint16_t value);
 void rc_buffer_u32(struct rc_buffer *buffer, uint32_t value);
@@ -28,13 +28,13 @@ void rc_buffer_u64(struct rc_buffer *buffer, uint64_t value);
 void rc_buffer_f32(struct rc_buffer *buffer, float value);
 void rc_buffer_f64(struct rc_buffer *buffer, double value);
 void rc_buffer_free(struct rc_buffer *buffer);
-/* RC_FAIL when memory was short or the device fails. */
+/* RC_FAIL if memory was short or writing fails. */
 enum rc_status rc_buffer_write(const struct rc_buffer *buffer, FILE *out, struct rc_err *err);
 
 /* ---- values ---- */
 
 struct rc_range {
-    double min, max; /* of the measured values; 0 and 0 when there are none */
+    double min, max; /* range of the measured values; 0 and 0 without any */
     size_t missing;
 };
 /* RC_FAIL for a value that is infinite. */
@@ -44,14 +44,14 @@ enum rc_status rc_range_of(const struct rc_grid *grid, struct rc_range *range, s
 struct rc_code {
     enum rc_raw raw;
     double increment, offset;
-    int32_t missing; /* number of a missing point; of the integer types only: NaN in the others */
+    int32_t missing; /* number of a missing point for integer types; other types have NaN */
 };
-/* The finest code for the range with whole numbers from `low` to `high`; floating types store the values
- * unchanged. */
+/* The code with the finest step for the range, with whole numbers from `low` to `high`; floating types store
+ * the values unchanged. */
 struct rc_code rc_code_for(enum rc_raw raw, const struct rc_range *range, int32_t low, int32_t high,
                            int32_t missing);
-/* n values into n * rc_raw_width bytes, little-endian. RC_FAIL for a finite value that is too large
- * for the type. */
+/* Encodes n values in n * rc_raw_width bytes, little-endian. RC_FAIL for a finite value that is too large for
+ * the type. */
 enum rc_status rc_encode(const struct rc_code *code, const double *v, size_t n, unsigned char *to,
                          struct rc_err *err);
 /* The same into a file. */

@@ -1,5 +1,5 @@
 /* Gwyddion Simple Field: a header of `key = value`, one to four NUL bytes up to a multiple of four,
- * and the values as float, little-endian, top row first; NaN where nothing was measured. */
+ * and the values as float, little-endian, top row first; NaN for a missing point. */
 #include <string.h>
 
 #include "encode.h"
@@ -24,7 +24,7 @@ gsf_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
                     g->nx, g->ny, rc_number_text(width, (double)g->nx * g->dx),
                     rc_number_text(height, (double)g->ny * g->dy), rc_grid_dunit(g), g->unit,
                     g->channel);
-    if (strcmp(rc_grid_dunit(g), "m") != 0) { /* where wave number 0 is */
+    if (strcmp(rc_grid_dunit(g), "m") != 0) { /* the position of wave number 0 */
         rc_grid_origin(g, &i, &j);
         rc_buffer_print(&b, "XOffset = %s\nYOffset = %s\n",
                         rc_number_text(width, -(i + 0.5) * g->dx),

@@ -1,8 +1,7 @@
 /*
  * Gwyddion's own format: `GWYP` and one object, a container. An object is its name, NUL, the bytes
  * that follow, and items: name, NUL, a letter for the type, the value. All numbers are
- * little-endian; frame k is the field /k/data, with its title, its keys, and a mask of 1 where
- * nothing was measured.
+ * little-endian; frame k is the field /k/data, with its title, its keys, and a mask of 1 at missing points.
  */
 #include <math.h>
 #include <stdio.h>
@@ -120,7 +119,7 @@ field_head(struct sink *s, const struct rc_grid *g, const char *unit)
     item_count(s, "yres", g->ny);
     item_double(s, "xreal", (double)g->nx * g->dx);
     item_double(s, "yreal", (double)g->ny * g->dy);
-    if (strcmp(rc_grid_dunit(g), "m") != 0) { /* where wave number 0 is */
+    if (strcmp(rc_grid_dunit(g), "m") != 0) { /* the position of wave number 0 */
         rc_grid_origin(g, &i, &j);
         item_double(s, "xoff", -(i + 0.5) * g->dx);
         item_double(s, "yoff", -(j + 0.5) * g->dy);
@@ -131,7 +130,7 @@ field_head(struct sink *s, const struct rc_grid *g, const char *unit)
     put_word(s, (uint32_t)(g->nx * g->ny));
 }
 
-/* A missing point needs some number: the middle of the measured ones, under the mask. */
+/* A missing point needs a number under the mask: the middle of the range of measured values. */
 static void
 data_body(struct sink *s, const void *what)
 {

@@ -1,10 +1,8 @@
 /*
  * HDF5: a dataset for each frame, rows by columns, named by its channel; the depths of one channel and
  * case are one dataset, depth by rows by columns. Its attributes are dx and dy (m), unit, channel, and
- * every key of the frame as text; a missing point is NaN. Where rows or slices are depths, these are a
- * dataset too, the dimension scale of their axis.
- *
- * The library wants to seek, so it makes the file in memory.
+ * every key of the frame as text; a missing point is NaN. If rows or slices are depths, the depths are a
+ * dataset too, the dimension scale of their axis. The library must seek, so it makes the file in memory.
  */
 #include <hdf5.h>
 #include <hdf5_hl.h>
@@ -17,7 +15,7 @@
 
 enum {
     TYPES = RC_TYPE_F32 | RC_TYPE_F64,
-    GROWTH = 1 << 20 /* bytes that the file in memory grows by */
+    GROWTH = 1 << 20 /* step in bytes by which the file in memory grows */
 };
 
 static bool
@@ -85,12 +83,12 @@ struct scale {
 /* The file under construction. */
 struct output {
     hid_t file;
-    struct scale *scale; /* those written so far */
+    struct scale *scale; /* the names written so far */
     size_t scales;
 };
 
-/* The places of a stack's slices or a section's rows, which the caller frees; NULL where they are
- * not known or memory is short. */
+/* The depths of a stack's slices or a section's rows, which the caller frees; NULL if they are unknown or
+ * memory is short. */
 static double *
 depths_of(const struct rc_stack *s, size_t *n)
 {
@@ -223,7 +221,7 @@ put_image(hid_t file, FILE *out, struct rc_err *err)
     return status;
 }
 
-/* Links may not hold a slash or be a point. */
+/* Links must not contain a slash or be a point. */
 static void
 clean_name(char *name)
 {
@@ -253,7 +251,8 @@ put_stacks(struct output *o, const struct rc_stack *stack, size_t stacks,
         if (!put_stack(o, name[a], &stack[a], rc_export_raw(first[a], wish, TYPES)))
             status = rc_err_set(err, "the HDF5 library could not write %s", name[a]);
     }
-    for (size_t a = 0; status == RC_OK && a < stacks; a++) /* last: names of frames come first */
+    for (size_t a = 0; status == RC_OK && a < stacks; a++) /* written last: the names of frames
+                                                              have precedence */
         if (!put_depths(o, name[a], &stack[a]))
             status = rc_err_set(err, "the HDF5 library could not write the depths of %s", name[a]);
     for (size_t k = 0; k < o->scales; k++)

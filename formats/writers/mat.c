@@ -1,5 +1,5 @@
-/* MATLAB, MAT version 5, not packed: the map by the name of its channel, rows first, and dx, dy, dunit and
- * unit beside it. Numbers stand column after column. */
+/* MATLAB, MAT version 5, not compressed: the map with the name of its channel, rows first, and dx, dy, dunit
+ * and unit. Numbers are stored column after column. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +25,7 @@ enum {
     SINGLE_ARRAY = 7
 };
 
-#define BYTES_MOST UINT32_C(0x7fffffff) /* of an array, by MATLAB's limit */
+#define BYTES_MOST UINT32_C(0x7fffffff) /* largest bytes of an array, MATLAB's limit */
 
 static uint32_t
 padded(size_t n)
@@ -41,7 +41,7 @@ put_padding(struct rc_buffer *b, size_t n)
     rc_buffer_add(b, none, padded(n) - n);
 }
 
-/* Writes an array up to its numbers, of which there are n bytes. */
+/* Writes an array up to its numbers, which have n bytes. */
 static void
 start_array(struct rc_buffer *b, const char *name, uint32_t class, size_t rows, size_t columns,
             uint32_t type, size_t n)

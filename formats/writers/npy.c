@@ -1,6 +1,6 @@
 /* NumPy array, version 1.0: a magic, the header as a Python dictionary padded to a multiple of 64,
- * and the values row by row, of a stack slice by slice from the shallowest down. It says nothing of
- * spacing and unit. */
+ * and the values row by row, for a stack slice by slice from the shallowest down. It has no spacing and no
+ * unit. */
 #include <stdlib.h>
 
 #include "encode.h"

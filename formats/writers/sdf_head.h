@@ -17,7 +17,7 @@ sdf_date(char date[RC_SDF_DATE], const struct rc_grid *g, const struct rc_export
     snprintf(date, RC_SDF_DATE, "%.2s%.2s%.4s%.2s%.2s", iso + 8, iso + 5, iso, iso + 11, iso + 14);
 }
 
-/* The creator of the data, in ten characters. */
+/* The creator of the data in ten characters. */
 static inline const char *
 sdf_maker(const struct rc_grid *g)
 {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether the frame is another depth of what the stack holds. */
+/* True if the frame is another depth of the stack. */
 static bool
 is_layer(const struct rc_stack *s, const struct rc_grid *g)
 {
@@ -26,7 +26,7 @@ by_depth(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Puts the frame on the stack that it belongs to, a new one if there is none. */
+/* Adds the frame to its stack, or to a new one. */
 static enum rc_status
 put(struct rc_stack *stack, size_t *stacks, struct rc_grid *g, size_t frames, struct rc_err *err)
 {

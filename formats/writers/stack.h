@@ -10,13 +10,13 @@ struct rc_stack {
     size_t n;
 };
 
-/* All stacks of the frames, in the order of their first ones. RC_FAIL for two frames of a stack at one
- * depth, and when memory is short. Free them in either case. */
+/* All stacks of the frames, in the order of their first frames. RC_FAIL for two frames of a stack at one
+ * depth, and when memory is short. Free them also on failure. */
 enum rc_status rc_stacks_make(struct rc_stack **stack, size_t *stacks, struct rc_grid *const *frame,
                               size_t frames, struct rc_err *err);
 void rc_stacks_free(struct rc_stack *stack, size_t stacks);
 
-/* The depth of layer k; 0 where there is none. */
+/* The depth of layer k; 0 without a depth. */
 double rc_stack_depth(const struct rc_stack *stack, size_t k);
 
 #endif

@@ -1,8 +1,7 @@
 /* STL, binary: the map as the upper face of a block for a printer, with walls and a floor, so that it is
- * closed. 80 bytes of text, the number of triangles, and for each its normal, its corners, anticlockwise
- * as seen from outside, and two bytes of nothing. Lengths are millimetres by custom.
- *
- * The longer side is SIDE; what is under the lowest point is a fiftieth of that. Row 0 is at the back. */
+ * closed. 80 bytes of text, the number of triangles, and for each its normal, its corners, counterclockwise
+ * as seen from outside, and two unused bytes. Lengths are millimetres by convention. The longer side is SIDE;
+ * the thickness under the lowest point is a fiftieth of it. Row 0 is at the back. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -90,7 +89,7 @@ wall(struct relief *r, size_t i, size_t j, size_t i1, size_t j1)
     triangle(r, middle, d, c);
 }
 
-/* Round the border, anticlockwise as seen from above. */
+/* Goes around the border, counterclockwise as seen from above. */
 static void
 walls(struct relief *r)
 {

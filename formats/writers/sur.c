@@ -2,10 +2,9 @@
  * Digital Surf: a 512-byte header and whole numbers, little-endian, row 0 first. Lengths are in mm, as in
  * Digital Surf's programs; value = number * step + offset.
  *
- * Readers disagree on whether the smallest number is to be subtracted first, so it is 0 here. Step
- * and offset are floats: they are rounded before the numbers are made, so that the rounding is in
- * no value. A missing point is the number two below the smallest, and the header says that there
- * are such.
+ * Some readers subtract the smallest number first and others do not, so it is 0 here. Step and offset are
+ * floats: they are rounded before the numbers are computed, so that the rounding does not affect the values.
+ * A missing point is the number two below the smallest, and the header announces missing points.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -113,7 +112,7 @@ make_header(struct rc_buffer *b, const struct rc_grid *g, const struct plan *p,
     text(b, "X", 16);
     text(b, "Y", 16);
     text(b, "Z", 16);
-    for (int k = 0; k < 2; k++) { /* of a step, then of the whole length */
+    for (int k = 0; k < 2; k++) { /* unit of a step, then of the whole length */
         text(b, length, 16);
         text(b, length, 16);
         text(b, p->unit, 16);

@@ -8,7 +8,7 @@
 #include "formats/core/core.h"
 #include "stack.h"
 
-/* A value at every node: one frame a layer. */
+/* A value at every node; each layer is a frame. */
 struct layers {
     struct rc_stack stack;
     char name[RC_LABEL];
@@ -17,7 +17,7 @@ struct layers {
 
 struct volume {
     size_t n[3];   /* nodes along x, y, z             */
-    double *at[3]; /* n of them: where the nodes are  */
+    double *at[3]; /* n positions of nodes            */
     size_t layers; /* frames in each stack            */
     size_t node;   /* values in a layer               */
     struct layers *array;
@@ -178,8 +178,8 @@ bytes_of(size_t n, enum rc_raw raw)
     return sizeof(uint64_t) + (uint64_t)n * rc_raw_width(raw);
 }
 
-/* The attributes and the keys of the arrays as a header: `<PointData>...`, from byte `offset` of
- * the appended data on. */
+/* The attributes and the keys of the arrays as a header, `<PointData>...`, whose data begin at byte `offset`
+ * of the appended data. */
 static void
 put_keys(struct rc_buffer *b, const struct volume *v, uint64_t offset)
 {
@@ -216,7 +216,7 @@ put_history(struct rc_buffer *b, const struct rc_grid *g)
     rc_buffer_print(b, " 0\n      </DataArray>\n    </FieldData>\n");
 }
 
-/* The length in bytes of an array of the appended data, which stands before its values. */
+/* The length in bytes of an array of the appended data, written before its values. */
 static enum rc_status
 put_length(FILE *out, size_t n, enum rc_raw raw, struct rc_err *err)
 {
@@ -246,7 +246,7 @@ put_arrays(FILE *out, const struct volume *v, struct rc_err *err)
 
 /* ---- the file ---- */
 
-/* Even steps, as an image has them, as attributes of its element. */
+/* The even steps of an image, as attributes of its element. */
 static enum rc_status
 put_steps(struct rc_buffer *b, const struct volume *v, const struct rc_grid *g, struct rc_err *err)
 {
@@ -265,7 +265,8 @@ put_steps(struct rc_buffer *b, const struct volume *v, const struct rc_grid *g, 
     return RC_OK;
 }
 
-/* The places of all nodes, the first arrays of the appended data; *offset: the byte behind them. */
+/* The positions of all nodes, which are the first arrays of the appended data; *offset: the byte after
+ * them. */
 static void
 put_coordinates(struct rc_buffer *b, const struct volume *v, uint64_t *offset)
 {

@@ -14,7 +14,7 @@ enum {
     RC_VTK_TYPES = RC_TYPE_F32 | RC_TYPE_F64
 };
 
-/* Writes them as a file of VTK: XML with the values appended as they are, a 64-bit length before each array.
+/* Writes them as a file of VTK: XML with raw appended values, with a 64-bit length before each array.
  * `image`: as ImageData, whose steps are even; else as RectilinearGrid. */
 enum rc_status rc_vtk_write(FILE *out, struct rc_grid *const *frame, size_t frames, bool image,
                             const struct rc_export_wish *wish, struct rc_err *err);

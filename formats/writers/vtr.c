@@ -1,5 +1,4 @@
-/* VTK RectilinearGrid: as vti.c, with the place of every node written out, so that depths may
- * have uneven steps. */
+/* VTK RectilinearGrid: like vti.c, with the position of every node, so that depths may have uneven steps. */
 #include "volume.h"
 
 static enum rc_status

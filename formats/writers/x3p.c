@@ -1,6 +1,5 @@
-/* X3P, ISO 25178-72: see x3p.c. Heights go into bindata/data.bin, the points that are there into
- * bindata/valid.bin when some are missing, and every part has its MD5
- * checksum. */
+/* X3P, ISO 25178-72: see x3p.c. Heights go into bindata/data.bin, the list of valid points into
+ * bindata/valid.bin if some are missing, and every part has an MD5 checksum. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,7 +22,7 @@ struct parts {
     char data_md5[RC_MD5_TEXT], valid_md5[RC_MD5_TEXT];
 };
 
-/* One bit a point, lowest first, 1 where there is a height. */
+/* One bit per point, lowest first, 1 for a valid height. */
 static enum rc_status
 make_valid(struct parts *p, const struct rc_grid *g, struct rc_err *err)
 {

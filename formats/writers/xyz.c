@@ -1,6 +1,6 @@
 /* Points as text: x, y and value of every node, x fastest, in SI, with the origin in the middle of the map,
- * of a spectrum at wave number 0; NaN where nothing was measured, so that the raster stays whole. In a
- * section the second number is the depth. */
+ * or at wave number 0 of a spectrum; NaN for a missing point, so that the raster is complete. In a section
+ * the second number is the depth. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

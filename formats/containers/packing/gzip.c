@@ -1,8 +1,7 @@
 /*
- * Files that were packed with gzip (RFC 1952): one member or several, one after another.
- *
- * Packed data can promise any number of bytes in a few, so that they are unpacked twice: once to
- * count and to check them, piece by piece, and then into memory of just their size.
+ * Gzip files (RFC 1952) with one or several members. A few packed bytes can give any number of bytes;
+ * therefore the data are unpacked twice: first piece by piece to count and check them, then into memory of
+ * exactly their size.
  */
 #include "gzip.h"
 
@@ -12,7 +11,7 @@
 #include <zlib.h>
 
 enum {
-    PIECE = 1 << 16,      /* bytes that are unpacked at once when they are only counted */
+    PIECE = 1 << 16,      /* size of the pieces when bytes are only counted */
     GZIP = 16 + MAX_WBITS /* tells zlib to expect a header of gzip */
 };
 
@@ -22,7 +21,7 @@ rc_file_packed(const struct rc_file *file)
     return rc_file_holds(file, 0, "\x1f\x8b", 2);
 }
 
-/* Fills the input again when it is empty: zlib counts in 32 bits. */
+/* Refills the input when it is empty: zlib counts in 32 bits. */
 static void
 feed(z_stream *z, const struct rc_file *file, size_t *given)
 {
@@ -34,7 +33,7 @@ feed(z_stream *z, const struct rc_file *file, size_t *given)
     *given += z->avail_in;
 }
 
-/* What zlib says, in words. */
+/* The message of zlib. */
 static enum rc_status
 refuse(const z_stream *z, int status, size_t n, struct rc_err *err)
 {
@@ -46,7 +45,7 @@ refuse(const z_stream *z, int status, size_t n, struct rc_err *err)
                       z->msg == NULL ? "zlib" : z->msg);
 }
 
-/* Whether another member follows; zeros that fill up a block may. */
+/* True if another member follows; padding with zeros is allowed. */
 static enum rc_status
 look_on(const struct rc_file *file, const z_stream *z, bool *more, struct rc_err *err)
 {
@@ -61,8 +60,8 @@ look_on(const struct rc_file *file, const z_stream *z, bool *more, struct rc_err
     return RC_OK;
 }
 
-/* Unpacks all members into `to`, which has room for *size + 1 bytes. Where it is NULL, sets *size
- * to the number of unpacked bytes, up to `most`. */
+/* Unpacks all members into `to`, which has *size + 1 bytes. If it is NULL, only sets *size to the number of
+ * unpacked bytes, up to `most`. */
 static enum rc_status
 unpack(const struct rc_file *file, size_t most, unsigned char *to, size_t *size, struct rc_err *err)
 {
@@ -78,7 +77,7 @@ unpack(const struct rc_file *file, size_t most, unsigned char *to, size_t *size,
         return rc_err_set(err, "out of memory for zlib");
     }
     while (more) {
-        size_t left = *size + 1 - n; /* one more, so that zlib always has where to write */
+        size_t left = *size + 1 - n; /* one more, so that zlib always has space to write */
         size_t room = to == NULL ? PIECE : left < (1u << 30) ? left : (1u << 30);
 
         feed(&z, file, &given);

@@ -1,4 +1,4 @@
-/* Files that were packed with gzip; see gzip.c. */
+/* Gzip files; see gzip.c. */
 #ifndef RC_GZIP_H
 #define RC_GZIP_H
 
@@ -6,10 +6,10 @@
 
 #include "formats/core/core.h"
 
-/* Whether a file was packed with gzip. */
+/* True for a gzip file. */
 bool rc_file_packed(const struct rc_file *file);
-/* Unpacks the file into *size bytes, at most `most`, which the caller frees; NULL where they would
- * be more, or are cut short or damaged, before memory is taken for them. */
+/* Unpacks the file into *size bytes, at most `most`, which the caller frees. NULL, before memory is
+ * allocated, if there would be more, or if the data are cut off or damaged. */
 unsigned char *rc_file_unpack(const struct rc_file *file, size_t most, size_t *size,
                               struct rc_err *err);
 

@@ -3,7 +3,7 @@
 #include <limits.h>
 #include <zlib.h>
 
-/* Both sizes as zlib takes them; what lies beyond is not looked at. */
+/* Limits both sizes to the range of zlib; further bytes are ignored. */
 static z_stream
 stream_of(const unsigned char *from, size_t n, unsigned char *to, size_t most)
 {

@@ -1,4 +1,4 @@
-/* The face of this folder: what unpacks streams of gzip, zlib and Zstandard, whole or inside a file. */
+/* The interface of this folder: unpacking of gzip, zlib and Zstandard, as whole files or inside a file. */
 #ifndef RC_PACKING_H
 #define RC_PACKING_H
 

@@ -8,8 +8,8 @@
 #include <zstd.h>
 
 enum {
-    FIRST = 1 << 16,  /* bytes of room, where the frame does not say how many it needs */
-    WINDOW_MOST = 25, /* power of two of bytes that a frame may look back             */
+    FIRST = 1 << 16,  /* initial size of the buffer if the frame does not give its size */
+    WINDOW_MOST = 25, /* binary logarithm of the largest window of a frame */
 };
 
 bool
@@ -18,7 +18,7 @@ rc_zstd_is_there(void)
     return true;
 }
 
-/* Fills the room, which grows as needed up to `most`; the bytes that came out, or SIZE_MAX. */
+/* Unpacks into a buffer that grows as needed up to `most`; returns the number of bytes, or SIZE_MAX. */
 static size_t
 unpack(ZSTD_DCtx *d, ZSTD_inBuffer *in, unsigned char **room, size_t capacity, size_t most)
 {
@@ -40,7 +40,7 @@ unpack(ZSTD_DCtx *d, ZSTD_inBuffer *in, unsigned char **room, size_t capacity, s
             out.dst = *room = larger;
             out.size = more;
         } else if (left != 0 && in->pos + out.pos == before)
-            return SIZE_MAX; /* cut off, or more than may be */
+            return SIZE_MAX; /* cut off, or more than allowed */
     }
     return out.pos;
 }

@@ -1,4 +1,4 @@
-/* Frames of Zstandard (RFC 8878) inside files; the only place that knows libzstd, without which they are
+/* Frames of Zstandard (RFC 8878) inside files; only this file uses libzstd; without it such frames are
  * refused. */
 #ifndef RC_ZSTD_H
 #define RC_ZSTD_H
@@ -8,10 +8,10 @@
 
 #include "libcontact/grid.h"
 
-/* Whether this build has libzstd. */
+/* True if this build has libzstd. */
 bool rc_zstd_is_there(void);
-/* Unpacks the n bytes of a frame into *size bytes, at most `most`, with a NUL behind them, which the caller
- * frees; NULL with the reason. `what` they are, for that. */
+/* Unpacks the n bytes of a frame into *size bytes, at most `most`, followed by a NUL; the caller frees them;
+ * NULL with the reason. `what`: name of the bytes in the message. */
 unsigned char *rc_zstd_unpack(const char *what, const unsigned char *from, size_t n, size_t most,
                               size_t *size, struct rc_err *err);
 
