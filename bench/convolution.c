@@ -1,13 +1,13 @@
 /*
- * What a convolution costs, engine by engine:
+ * The cost of a convolution for each engine:
  *
  *     bench-convolution [fftw] [sparse] [sizes]       (default: all)
  *
- * fftw    the Fourier engine against FFTW's own two-dimensional transforms, same run
- * sparse  MLMS against the Fourier engine, all nodes loaded and 5 % of them
+ * fftw    the Fourier engine and FFTW's two-dimensional transforms, in the same run
+ * sparse  MLMS and the Fourier engine, with all nodes loaded and with 5 % of them
  * sizes   time a node from 256^2 to 4096^2
  *
- * Times are the least of several runs. RC_THREADS sets the threads.
+ * Times are the shortest of several runs. RC_THREADS sets the threads.
  */
 #include "bench.h"
 
@@ -31,7 +31,7 @@ square(size_t m)
 
 /* ---- against FFTW ---- */
 
-/* FFTW's own forward and inverse transform of px x py reals, measured plans, in place. */
+/* FFTW's forward and inverse transform of px x py reals, with measured plans, in place. */
 struct pair {
     double *x;
     fftw_plan plan[2];
@@ -57,7 +57,7 @@ pair_new(size_t px, size_t py)
         fftw_plan_dft_r2c_2d((int)py, (int)px, its.x, (fftw_complex *)(void *)its.x, FFTW_MEASURE));
     its.plan[1] = must(
         fftw_plan_dft_c2r_2d((int)py, (int)px, (fftw_complex *)(void *)its.x, its.x, FFTW_MEASURE));
-    fftw_plan_with_nthreads(1); /* or it would hold for the engine's plans too */
+    fftw_plan_with_nthreads(1); /* otherwise it would also apply to the engine's plans */
     memset(its.x, 0, stride * py * sizeof *its.x);
     return its;
 }
@@ -70,15 +70,15 @@ pair_free(struct pair *its)
     free(its->x);
 }
 
-/* Least seconds of two pieces of work, five times each in turns for four seconds. */
+/* The shortest times of two pieces of work, five times each in turns for four seconds. */
 static void
 duel(struct work a, struct work b, double least[2])
 {
     take_turns(2, (struct work[2]){a, b}, 5, 4, least);
 }
 
-/* Prints the bytes a node that planning and applying take beyond p and u: the growth of the peak
- * resident set, in a process of its own (below), so that nothing freed before hides it. */
+/* Prints the bytes per node for planning and applying beyond p and u: the growth of the peak resident set, in
+ * a separate process (below), because memory freed before would hide it. */
 static void
 peak_bytes(const struct rc_engine *e, const struct rc_sum *sum)
 {
@@ -99,7 +99,7 @@ peak_bytes(const struct rc_engine *e, const struct rc_sum *sum)
     waitpid(child, &status, 0);
 }
 
-/* Peak resident set so far, bytes. (getrusage would count what stood before exec.) */
+/* Peak resident set so far, in bytes. (getrusage would include the process before exec.) */
 static double
 peak_now(void)
 {

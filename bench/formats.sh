@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What files cost: a frame of 64 MB written in every binary format and read back where there is a
-# reader, in milliseconds, best of three, through a pipe; beside them `cat` through a pipe with a CRC.
+# The cost of files: a frame of 64 MB is written in every binary format and read back if a reader exists, in
+# milliseconds, best of three, through a pipe; compared with `cat` through a pipe with a CRC.
 #
 #     bench/formats.sh BUILD [FOLDER]      BUILD holds the tools, FOLDER takes 500 MB
 set -euo pipefail
@@ -29,7 +29,7 @@ for name in npy gsf vti vtr gwy sur sdf-binary hdf5 x3p; do
     if rc-import --formats | grep -q "^${name%-binary} "; then
         rc-export --format "$name" frame.rcg >"frame.$name"
         says=""
-        [ "$name" != npy ] || says="--dx 1um --z-unit m" # it holds numbers and nothing else
+        [ "$name" != npy ] || says="--dx 1um --z-unit m" # it holds only numbers
         best "rc-import $name" "rc-import $says frame.$name | cat >/dev/null"
     fi
 done

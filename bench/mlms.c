@@ -1,11 +1,11 @@
 /*
- * What the multi-level sum leaves out, and what its sums count:
+ * The errors and the work of the multi-level sum:
  *
  *     bench-mlms [calibrate] [stability] [shapes] [counts]       (default: all)
  *
  * calibrate  the table of mlms_design.c: errors under the worst pressures found, and their estimate
  * stability  orders t = 1 .. 50 at 1024^2 with the paper's m_c, against the Fourier engine
- * shapes     aspect ratios of grid and spacing up to 100, all asked for 1e-6
+ * shapes     aspect ratios of grid and spacing up to 100, with a requested error of 1e-6
  * counts     direct and multi-level sums on one thread: times and products, with the paper's t, m_c
  *
  * Errors are the largest of the map over the largest sum of |K| |p|. Estimates hold for any p.
@@ -16,7 +16,7 @@
 
 #include "libcontact/operator/real_space/mlms.h"
 
-/* A sum both ways. */
+/* A sum with both engines. */
 struct pair {
     struct rc_sum sum;
     size_t n;
@@ -93,7 +93,7 @@ usual(struct pair *a, double e[3])
 
 /* ---- calibrate ---- */
 
-/* Error under |e|^a sign(e), e the error about a loaded node. */
+/* Error under the pressure |e|^a sign(e), where e is the error around a loaded node. */
 static double
 contrived(struct pair *a)
 {
@@ -125,7 +125,7 @@ contrived(struct pair *a)
     return worst;
 }
 
-/* Q(t, m_c + 1) times the kernel there, over that at the node. */
+/* Q(t, m_c + 1) times the kernel at this distance, over the kernel at the node. */
 static double
 expected(size_t t, size_t reach)
 {
@@ -222,7 +222,7 @@ shapes(void)
 
 /* ---- counts ---- */
 
-/* Least processor seconds of several runs: other processes do not count. */
+/* Shortest processor time of several runs, in seconds, which excludes other processes. */
 static double
 seconds(const struct rc_engine *e, void *plan, const double *p, double *u, int runs)
 {

@@ -1,19 +1,19 @@
 /*
- * The figures of the paper, measured again: Polonsky and Keer, Wear 231 (1999) 206-219.
+ * The measurements of Polonsky and Keer, Wear 231 (1999) 206-219, repeated:
  *
  *     bench-paper [-n SIZE,SIZE...] [-m WAY] [-s SECONDS] [table1] [fig1] [fig3] [stresses] [section5]
  *
  * The parts, all of them when none is named:
  *
- * table1    errors and times of direct summation and MLMS, one thread fig1      Hertz's contact:
- * errors of contact radius, pressure and Mises' stress against the number of rows fig3      rough
- * spheres: time against nodes, from their 61 x 52 to 4096 x 4096 stresses  483 x 412 nodes, 45
- * depths, six components and Mises section5  what periodic transforms do to a contact on the free
- * half-space as the domain grows, and what as good a
- *           solution costs by them, by padded transforms and by MLMS
+ * table1    errors and times of direct summation and MLMS, one thread
+ * fig1      Hertz's contact: errors of contact radius, pressure and Mises' stress against the number of rows
+ * fig3      rough spheres: time against nodes, from 61 x 52 as in the paper to 4096 x 4096
+ * stresses  483 x 412 nodes, 45 depths, six components and Mises
+ * section5  errors of periodic transforms for a contact on the free half-space as the domain grows, and the
+ *           cost of the same accuracy with them, with padded transforms and with MLMS
  *
- * -n, -m: of fig3 only the grids with so many columns, only the way pk99+mlms, pcg+mlms or pcg+fft;
- * -s: a solution of it that takes longer (default 100) is given up. RC_THREADS sets the threads.
+ * -n, -m: only the grids of fig3 with these numbers of columns, or only pk99+mlms, pcg+mlms or pcg+fft; -s: a
+ * solution of fig3 that takes longer (default 100) is stopped. RC_THREADS sets the threads.
  */
 #include "paper.h"
 
@@ -65,7 +65,7 @@ paper_solve(struct rc_shape shape, const double *h, struct rc_problem problem, b
 
     problem.method = "pk99";
     problem.engine = "mlms";
-    problem.tol = fmin(10 / (m * m), 0.5 * change); /* the sums are right to a tenth of it */
+    problem.tol = fmin(10 / (m * m), 0.5 * change); /* the errors of the sums are a tenth of it */
     solver = solver_new(shape, h, problem);
     before = map_new(n);
     do {
@@ -78,7 +78,7 @@ paper_solve(struct rc_shape shape, const double *h, struct rc_problem problem, b
     return solver;
 }
 
-/* What `hemisphere` displaces, K being 1/r. */
+/* The displacement by `hemisphere`, with K = 1/r. */
 static void
 hemisphere_displacement(size_t m, double *u)
 {
@@ -92,7 +92,7 @@ hemisphere_displacement(size_t m, double *u)
     }
 }
 
-/* Least seconds of a sum. */
+/* The shortest time of a sum in seconds. */
 static double
 summed(const char *engine, const struct rc_sum *sum, const double *p, double *u, int runs)
 {
@@ -114,7 +114,7 @@ table1(void)
     for (size_t m = 64; m <= 2048; m *= 2) {
         size_t n = m * m;
         double *p = map_new(n), *exact = map_new(n), *u = map_new(n), *v = map_new(n);
-        bool direct_too = m <= 512; /* beyond, the Fourier engine stands for its values */
+        bool direct_too = m <= 512; /* for larger M the Fourier engine gives the values */
         struct rc_sum sum =
             point_sum((struct rc_shape){m, m, 2 / (double)(m - 1), 2 / (double)(m - 1)});
         double t_direct, t_mlms;

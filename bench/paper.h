@@ -1,5 +1,5 @@
-/* The parts of bench-paper: what Polonsky and Keer, Wear 231 (1999) 206-219, measured. Equations
- * are theirs. */
+/* The parts of bench-paper: the measurements of Polonsky and Keer, Wear 231 (1999) 206-219. Numbers of
+ * equations are those of the paper. */
 #ifndef PAPER_H
 #define PAPER_H
 
@@ -16,14 +16,14 @@ enum {
 };
 
 extern size_t threads;
-extern double limit; /* seconds that one solution may take */
-/* Whether a grid of so many columns, or a way of fig3, was asked for. */
+extern double limit; /* time limit of a solution in seconds */
+/* True if a grid with this number of columns, or a method of fig3, was requested. */
 bool size_wanted(size_t nx);
 bool way_wanted(const char *title);
 
 /* 3.2: the tolerance M_min^(-3/2) and sums right to M_min^(-2), p from the mean pressure,
- * stopped by the change of the pressure, (32). The solver, to be freed; *done false when `limit`
- * seconds have not been enough. */
+ * stopped by the change of the pressure, (32). Returns the solver, which the caller frees; *done is false if
+ * `limit` seconds were not enough. */
 struct rc_solver *paper_solve(struct rc_shape shape, const double *h, struct rc_problem problem,
                               bool *done);
 

@@ -1,13 +1,13 @@
 /*
- * Section 5 of the paper: transforms without padding solve a periodic problem, and extending the
- * grid moves the images away. For Hertz's contact of radius a in a domain of side L the images add
- * the displacement P / (pi E*) S / (4 L^3) r^2 + const, S = sum of 1/|n|^3 = 9.0336 over the
- * lattice. That is curvature: the radius shrinks by 2 S / (9 pi) (a/L)^3 = 0.639 (a/L)^3, and the
- * relative L1 error of the pressure is 4 / sqrt(3) of that, 1.475 (a/L)^3.
+ * Section 5 of the paper: transforms without padding solve a periodic problem; a larger grid moves the images
+ * away. For Hertz's contact of radius a in a domain of side L the images add the displacement P / (pi E*) S /
+ * (4 L^3) r^2 + const, S = sum of 1/|n|^3 = 9.0336 over the lattice. This is a curvature: the radius
+ * decreases by 2 S / (9 pi) (a/L)^3 = 0.639 (a/L)^3, and the relative L1 error of the pressure is 4 / sqrt(3)
+ * of that, 1.475 (a/L)^3.
  *
- * Periodic pressure is band-limited, free pressure constant in each cell. To see the images alone,
- * a periodic solution is compared with the limit of periodic ones: from the widest domain and half
- * of it, the error falling as L^-3.
+ * Periodic pressure is band-limited, free pressure constant in each cell. To isolate the effect of the
+ * images, a periodic solution is compared with the limit of periodic solutions: extrapolated from the widest
+ * domain and half of it, with an error proportional to L^-3.
  */
 #include "paper.h"
 
@@ -21,13 +21,13 @@ static const double domain[DOMAINS] = {1, 1.5, 2, 3,
                                        4, 6,   8, 16}; /* sides, in sides of the free map */
 static const double width = 2.1;                       /* side of the free map, in a      */
 
-/* A solution, or rather its middle. */
+/* The middle part of a solution. */
 struct run {
     size_t m;           /* nodes across the domain  */
     double seconds, *p; /* p of the middle M x M    */
 };
 
-/* Heights of M x M nodes in the middle of m x m, the sphere going on around them. */
+/* Heights of M x M nodes in the middle of m x m, with the sphere continued around them. */
 static double *
 extended(size_t m, double step, const double *rough)
 {
@@ -73,7 +73,7 @@ in_middle(size_t m, double step, const double *rough, enum rc_boundary boundary,
     return run;
 }
 
-/* The next size that transforms well: no prime above 7, and even, as M is. */
+/* The next size with fast transforms: no prime factor above 7, and even, like M. */
 static size_t
 good_size(double wish)
 {
@@ -87,8 +87,7 @@ good_size(double wish)
     }
 }
 
-/* The domain that makes the error of the images `error`, and what that costs beside the free
- * half-space. */
+/* The domain for which the error of the images is `error`, and its cost compared with the free half-space. */
 static void
 equal(double error, double scale, double step, const double *rough)
 {
@@ -112,7 +111,7 @@ equal(double error, double scale, double step, const double *rough)
         free(run[k].p);
 }
 
-/* `truth`: Hertz's pressure, or NULL, where the free solution takes its place. */
+/* `truth`: Hertz's pressure, or NULL: the free solution is used. */
 static void
 grows(const char *title, double step, const double *rough, const double *truth)
 {

@@ -1,9 +1,9 @@
 /* Section 4.2 of the paper: the rough sphere, its Fig. 3 and its stresses. */
 #include "paper.h"
 
-/* Self-affine roughness that leaves 0.55 of Hertz's area on their largest grid
- * (sample_surfaces/make.sh), clipped at the edges for their smaller ones, drawn anew for larger
- * ones; the sphere grows with the map and the load with its area. */
+/* Self-affine roughness that gives 0.55 of Hertz's area on the largest grid of the paper
+ * (sample_surfaces/make.sh), cut at the edges for the smaller grids, generated again for larger ones; the
+ * radius of the sphere grows with the map and the load with its area. */
 static double *
 rough_sphere(struct rc_shape shape, struct rc_problem *problem)
 {
@@ -53,7 +53,7 @@ static const struct {
                 {"pcg", "mlms", "pcg+mlms, certified"},
                 {"pcg", "fft", "pcg+fft, certified"}};
 
-/* The least of several times, where they are short. */
+/* The shortest of several times, if they are short. */
 static struct cost
 spent(int way, struct rc_shape shape, const double *h, struct rc_problem problem,
       const double *truth)
@@ -103,7 +103,7 @@ enum {
     GRIDS = 7
 };
 
-/* Costs of a way on the grids that it solved. */
+/* Costs of a method on the grids that it solved. */
 struct series {
     size_t count;
     double seconds[GRIDS], steps[GRIDS];

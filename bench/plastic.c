@@ -1,12 +1,13 @@
 /*
- * What a body costs that yields inside.
+ * The cost of a body that yields in its volume:
  *
  *     bench-plastic [increment] [loads]       (default: both)
  *
- * increment  one load in one increment: applications of the volume's operator, processor seconds on one thread, and the
- *            error of the pressure after each, on the heights that bench/peers/plastic.py gives Tamaas
- * loads      one load of 16 increments on 256 x 256 and 1024 x 1024 nodes, 12 slabs: applications, seconds, errors
- *            that are told
+ * increment  one load in one increment: applications of the volume's operator, processor seconds on one
+ *            thread, and the error of the pressure after each, on the heights that bench/peers/plastic.py
+ *            gives Tamaas
+ * loads      one load of 16 increments on 256 x 256 and 1024 x 1024 nodes, 12 slabs: applications, seconds,
+ *            estimated errors
  *
  * Pressures over E, lengths over the spacing. RC_THREADS sets the threads of `loads`.
  */
@@ -52,7 +53,7 @@ processor(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* The pressure after each application, as many as are returned; `end`: after the load. */
+/* The pressure after each application; returns their number; `end`: the pressure after the load. */
 static size_t
 follow(struct rc_shape shape, const double *h, struct rc_plastic_problem problem, double load,
        double *after, double *seconds, double *end)
@@ -95,7 +96,7 @@ increment(void)
         thickness[k] = 1;
     problem = problem_of(thickness, 1);
     problem.contact.threads = 1;
-    problem.contact.tol = 1e-4; /* as rc-solve has it */
+    problem.contact.tol = 1e-4; /* as in rc-solve */
     count = follow(shape, h, problem, load, after, seconds, end);
     problem.lag = 1e-9;
     problem.precise = true;

@@ -1,21 +1,19 @@
 /*
- * What a contact costs:
+ * The cost of a contact:
  *
  *     bench-solve [-n SIZE,SIZE...] [-t TOL] [-m METHOD] [table] [estimate] [growth] [whole]
  *
- * table     convolution equivalents, iterations and seconds to a true relative L1 error of the
- *           pressure (default 1e-4), coarse levels included, and what the certified solution to that
- *           tolerance costs
- *           (when nothing is named)
+ * table     convolution equivalents, iterations and seconds to a true relative L1 error of the pressure
+ *           (default 1e-4), coarse levels included, and the cost of the certified solution to this tolerance
+ *           (the default part)
  * estimate  estimate over true error, every iteration
- * growth    work against size on periodic surfaces rough down to 2 nodes, with and without a
- *           roll-off, and down to 8: equivalents to the true error, and of the certified solution
- * whole     seconds of certified solutions beside those of a convolution on the same grid
+ * growth    work against size on periodic surfaces with shortest waves of 2 nodes, with and without a
+ *           roll-off, and of 8 nodes: equivalents to the true error, and of the certified solution
+ * whole     seconds of certified solutions, compared with those of a convolution on the same grid
  *
  * Surfaces of the first two: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an
- * eighth of the map) and a sphere with such roughness on the free half-space. The truth is the same
- * solver at 1e-9.
- * RC_THREADS sets the threads.
+ * eighth of the map) and a sphere with such roughness on the free half-space. The reference is the same
+ * solver at 1e-9. RC_THREADS sets the threads.
  */
 #include "bench.h"
 
@@ -24,9 +22,8 @@
 struct surface {
     const char *name;
     enum rc_boundary boundary;
-    double
-        load; /* periodic: mean pressure over E* and RMS slope; free: load as a part of that which
-                        makes a Hertz circle as wide as the map                               */
+    double load; /* periodic: mean pressure over E* and RMS slope; free: load relative to that for a
+                 Hertz circle as wide as the map */
     double hardness; /* over the mean pressure; 0: none                                        */
 };
 
@@ -45,7 +42,7 @@ enum {
 /* Roughness of a periodic map. */
 struct roughness {
     double cut;     /* shortest wave, nodes                      */
-    double rolloff; /* longest self-affine one over the side     */
+    double rolloff; /* longest self-affine wave over the side    */
 };
 static const struct roughness roughnesses[] = {{2, 0.25}, {2, 1}, {8, 0.25}};
 /* Mean pressures over E* and RMS slope for contact of about 1, 11, 39, 83 and 97 %. */
@@ -210,7 +207,7 @@ make_periodic(const struct roughness *what, double pressure, struct rc_shape sha
                                .threads = threads};
 }
 
-/* Equivalents until the pressure is as near to p as was asked for; *its: iterations. */
+/* Equivalents until the error against p is the requested one; *its: iterations. */
 static double
 work_to(const double *p, struct rc_shape shape, const double *h, struct rc_problem problem,
         size_t *its)

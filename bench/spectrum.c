@@ -1,11 +1,11 @@
 /*
- * How good the preconditioner is:
+ * The quality of the preconditioner:
  *
  *     bench-spectrum [-n SIZE,SIZE...]
  *
  * Extreme eigenvalues of M K between the nodes of contact, on vectors of zero mean, for M = E' A E
  * (preconditioner.h) and for A cut to those nodes (E the extension by zero), by the Lanczos process:
- * those of the tridiagonal matrix that conjugate gradients with a random right side leave behind.
+ * the eigenvalues of the tridiagonal matrix from conjugate gradients with a random right-hand side.
  * Contact sets are those of solved rough surfaces, and a disc.
  */
 #include "bench.h"
@@ -73,7 +73,7 @@ struct operators {
     float *single;                       /* 2n               */
 };
 
-/* Zero off W, and without the mean on it. */
+/* Sets v to 0 outside of W, and removes the mean on W. */
 static void
 restrict_to_set(const struct operators *o, double *v)
 {

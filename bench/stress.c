@@ -1,15 +1,15 @@
 /*
- * What stresses cost:
+ * The cost of stresses:
  *
  *     bench-stress [slice] [parts] [sizes] [mlms] [layers]       (default: all)
  *
- * slice  a slice of six components and Mises against the transforms it needs, and against writing it
- * parts  where the time of a slice goes: coefficients, their transforms, fields
- * sizes  time a slice against one convolution of the deflection, same run
- * mlms   the multi-level sum against the transforms
- * layers a slice and a section of coated bodies against those of one material
+ * slice  a slice of six components and Mises, compared with its transforms and with writing it
+ * parts  the parts of the time of a slice: coefficients, their transforms, fields
+ * sizes  the time of a slice and of one convolution of the deflection, in the same run
+ * mlms   the multi-level sum and the transforms
+ * layers a slice and a section of coated bodies and of one material
  *
- * Times are the least of several runs. RC_THREADS sets the threads.
+ * Times are the shortest of several runs. RC_THREADS sets the threads.
  */
 #include "bench.h"
 
@@ -70,7 +70,7 @@ slice_run(void *what)
     must_be(rc_stress_slice(w->stress, w->depth, w->s, &err), &err);
 }
 
-/* Least seconds of a slice of a plan. */
+/* The shortest time of a slice of a plan, in seconds. */
 static double
 slice_seconds(const struct rc_shape *shape, const double *p, const struct rc_stress_options *o,
               double depth, struct maps *m, int runs)
@@ -100,7 +100,7 @@ field_run(void *what)
     rc_fft_field(w->fft, w->k, w->u);
 }
 
-/* A kernel's values on a quarter of the padded map to its spectrum. */
+/* Transforms a kernel's values on a quarter of the padded map to its spectrum. */
 struct kernel_work {
     struct rc_fft *fft;
     struct rc_spectrum *k;
@@ -116,17 +116,18 @@ kernel_run(void *what)
 #pragma omp parallel for num_threads((int)threads) schedule(dynamic, 4)
     for (size_t j = 0; j < w->cy; j++)
         rc_fft_quarter_row(w->fft, 0, w->quarter + j * w->cx);
-    (void)rc_spectrum_set_quarter(w->k, w->fft, 0, w->quarter, NULL); /* needs none but of ranks */
+    (void)rc_spectrum_set_quarter(w->k, w->fft, 0, w->quarter, NULL); /* needs no state without
+                                                                         ranks */
 }
 
 enum {
     FRAMES = RC_COMPONENTS + 1
 };
 
-/* Frames of a slice are written to a program that reads and drops them. */
+/* Frames of a slice are written to a program that reads and discards them. */
 struct write_work {
     FILE *pipe;
-    struct rc_writer *writer; /* NULL: their bytes, no stream */
+    struct rc_writer *writer; /* NULL: only their bytes, without a stream */
     struct rc_grid *frame[FRAMES];
 };
 

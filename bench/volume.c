@@ -1,13 +1,13 @@
 /*
- * What the sweeps through slabs of plastic strain cost, in convolutions: a real transform of the
- * map there and back, its product with a kernel included, by the same transforms.
+ * The cost of the sweeps through slabs of plastic strain, in convolutions: a convolution is a real transform
+ * of the map and back, including the product with a kernel, by the same transforms.
  *
  *     bench-volume [applications]       (default: all)
  *
  * applications  up and down through 12 slabs on 512 x 512 and 1024 x 1024 nodes, double and single
  *
- * Strain stands on every node, or on a tenth of the rows' nodes in the upper half of the slabs.
- * Times are the least of several runs. RC_THREADS sets the threads.
+ * All nodes have strain, or a tenth of the nodes of each row in the upper half of the slabs. Times are the
+ * shortest of several runs. RC_THREADS sets the threads.
  */
 #include "bench.h"
 
@@ -35,7 +35,7 @@ strain_row(void *ctx, size_t slab, enum rc_component c, size_t j, double *row)
     return true;
 }
 
-/* About what a return map reads. */
+/* About the memory traffic of a return map. */
 static void
 stress_row(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
 {

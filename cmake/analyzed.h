@@ -1,7 +1,6 @@
-/* Included before each file that clang-tidy looks at, except those that define these two functions,
- * because it sees one file at a time. rc_err_set gives nothing but RC_FAIL, and rc_ranks_agree gives
- * RC_OK only where this rank has RC_OK: with that, clang-tidy does not follow impossible paths after
- * a failure. */
+/* Included before each file that clang-tidy checks, except those that define these two functions, because it
+ * sees one file at a time. rc_err_set always returns RC_FAIL, and rc_ranks_agree returns RC_OK only if this
+ * rank has RC_OK: with this knowledge clang-tidy does not follow impossible paths after a failure. */
 #include "libcontact/grid.h"
 #include "libcontact/ranks/ranks.h"
 

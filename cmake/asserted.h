@@ -1,5 +1,5 @@
-/* Included before each test that clang-tidy looks at: cmocka's assertions do not return when
- * they fail, and their declarations do not say so. */
+/* Included before each test that clang-tidy checks: cmocka's assertions do not return when they fail, but
+ * their declarations lack this property. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

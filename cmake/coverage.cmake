@@ -1,22 +1,23 @@
-# cmake -D SOURCE=... -D BUILD=... -P coverage.cmake: runs the tests of a build with RC_COVERAGE and shows, file by file,
-# how many lines of libcontact and formats they have run; BUILD/coverage.txt has the numbers of those that they have not.
+# cmake -D SOURCE=... -D BUILD=... -P coverage.cmake: runs the tests of a build with RC_COVERAGE and prints,
+# for each file, how many lines of libcontact and formats they have run; BUILD/coverage.txt has the numbers of
+# the other lines.
 find_program(GCOVR gcovr REQUIRED)
 file(GLOB_RECURSE counts ${BUILD}/*.gcda)
 if(counts)
     file(REMOVE ${counts})
 endif()
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
-# Left out: tests that link programs without counters, and tests that bound memory or make it fail, because the counters
-# take memory too.
+# Omitted: tests that link programs without counters, and tests that limit memory or make allocations fail,
+# because the counters need memory too.
 execute_process(COMMAND ${CMAKE_CTEST_COMMAND} --test-dir ${BUILD} --parallel ${cores} --output-on-failure
                 -E "^pipe_(installed|library|memory|allocations)$" RESULT_VARIABLE failed)
-# Tests of sandboxed readers once more, without a sandbox (unsandboxed.c). Their claims on the sandbox fail in this run;
-# the run above is the one that counts for these.
+# Runs the tests of sandboxed readers again without a sandbox (unsandboxed.c). Their checks of the sandbox
+# fail in this run; for these the run above counts.
 set(ENV{RC_UNSANDBOXED} 1)
 execute_process(COMMAND ${CMAKE_CTEST_COMMAND} --test-dir ${BUILD} --parallel ${cores} -R "^format_(hdf5|datx|tiff|park)$"
                 OUTPUT_QUIET)
 set(uncounted --exclude ${SOURCE}/formats/sandbox/confine.c --exclude ${SOURCE}/formats/sandbox/calls.c) # unreached.txt
-# Lines that tests/toys runs in its own copy of libcontact count too.
+# Lines that tests/toys runs in its copy of libcontact count too.
 execute_process(COMMAND ${GCOVR} --root ${SOURCE} --filter ${SOURCE}/libcontact/ --filter ${SOURCE}/formats/ ${uncounted}
     --gcov-ignore-parse-errors --sort-percentage --txt ${BUILD}/coverage.txt ${BUILD} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND tail -n 4 ${BUILD}/coverage.txt)

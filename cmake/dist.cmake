@@ -1,5 +1,5 @@
-# cmake -D SOURCE=... -D OUT=... -D NAME=libcontact-1.2.3 -P dist.cmake: OUT/NAME.tar.gz, the tree as it stands:
-# the files that git tracks or, without git, all files but those that a build leaves.
+# cmake -D SOURCE=... -D OUT=... -D NAME=libcontact-1.2.3 -P dist.cmake: writes OUT/NAME.tar.gz with the
+# current tree: the files that git tracks or, without git, all files except build products.
 get_filename_component(OUT "${OUT}" ABSOLUTE)
 get_filename_component(SOURCE "${SOURCE}" ABSOLUTE)
 find_program(GIT git)

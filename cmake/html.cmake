@@ -1,5 +1,5 @@
-# cmake -D SOURCE=... -D OUT=... -D VERSION=... -P html.cmake: the manual as a folder of pages that refer to each
-# other, and an index of them. Pages of others are looked for where mandoc's own manual is.
+# cmake -D SOURCE=... -D OUT=... -D VERSION=... -P html.cmake: writes the manual as a folder of linked pages
+# with an index. Links to other pages lead to the site of mandoc's manual.
 get_filename_component(OUT "${OUT}" ABSOLUTE)
 get_filename_component(SOURCE "${SOURCE}" ABSOLUTE)
 find_program(MANDOC mandoc REQUIRED)
@@ -25,16 +25,16 @@ set(body "")
 foreach(section title IN ZIP_LISTS sections titles)
     string(APPEND body "<h2>${title}</h2>\n<dl>\n")
     file(GLOB names RELATIVE ${SOURCE}/man ${SOURCE}/man/*.${section})
-    list(TRANSFORM names REPLACE "\\.${section}$" "") # contact stands before contact-theory
+    list(TRANSFORM names REPLACE "\\.${section}$" "") # contact comes before contact-theory
     list(SORT names)
     foreach(name IN LISTS names)
         set(file ${name}.${section})
         set(page ${SOURCE}/man/${file})
         execute_process(COMMAND ${MANDOC} -Thtml
             "-Ostyle=style.css,man=%N.%S.html\\;https://man.openbsd.org/%N.%S" ${page}
-            WORKING_DIRECTORY ${SOURCE}/man # where mandoc looks whether a page is ours
+            WORKING_DIRECTORY ${SOURCE}/man # where mandoc searches for the pages of this manual
             OUTPUT_FILE ${OUT}/${file}.html COMMAND_ERROR_IS_FATAL ANY)
-        # A picture that a page names is shown, over its words.
+        # Shows a picture that a page names, above its caption.
         file(STRINGS ${page} pictures REGEX "^\\.Lk [^ ]*\\.png ")
         if(pictures)
             file(READ ${OUT}/${file}.html text)

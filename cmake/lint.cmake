@@ -1,5 +1,6 @@
-# cmake -D SOURCE=... -D BUILD=... -D COMPILER=... -P lint.cmake: cppcheck and clang-tidy over the sources of a configured build. What is
-# looked for, and what is left out and why, stands in .clang-tidy (tests/.clang-tidy for the tests) and cppcheck.txt.
+# cmake -D SOURCE=... -D BUILD=... -D COMPILER=... -P lint.cmake: cppcheck and clang-tidy over the sources of
+# a configured build. The checks, and the omitted ones with the reason, are in .clang-tidy (tests/.clang-tidy
+# for the tests) and cppcheck.txt.
 cmake_minimum_required(VERSION 3.20)
 find_program(CPPCHECK cppcheck REQUIRED)
 find_program(CLANG_TIDY NAMES clang-tidy clang-tidy-14 REQUIRED)
@@ -9,12 +10,12 @@ set(folders libcontact formats tools tests)
 list(JOIN folders "|" any_folder)
 file(READ ${BUILD}/compile_commands.json commands)
 set(mpi "")
-if(commands MATCHES "-DRC_MPI=1") # lint of the preset mpi sees what the others leave out
+if(commands MATCHES "-DRC_MPI=1") # the lint of the preset mpi also checks sources of builds with MPI
     set(mpi -DRC_MPI=1)
 endif()
 
 # Each source once, although the library is compiled twice and once more with the toys. Options that only gcc
-# understands are left out, and gcc's omp.h is used, because clang's may not be there.
+# understands are removed, and gcc's omp.h is used, because clang's may be absent.
 set(once "")
 set(files "")
 string(JSON last LENGTH "${commands}")
@@ -30,7 +31,7 @@ foreach(k RANGE ${last})
     if(NOT file MATCHES "/libcontact/(grid|ranks/mpi)\\.c$")
         string(APPEND extra " -include ${SOURCE}/cmake/analyzed.h")
     endif()
-    file(STRINGS ${file} feature REGEX "^#define _[A-Z]+_SOURCE") # before what is included first
+    file(STRINGS ${file} feature REGEX "^#define _[A-Z]+_SOURCE") # before the first included file
     if(feature MATCHES "(_[A-Z]+_SOURCE)")
         string(APPEND extra " -D${CMAKE_MATCH_1}=")
     endif()
@@ -38,7 +39,7 @@ foreach(k RANGE ${last})
         string(APPEND extra " -include ${SOURCE}/cmake/asserted.h")
     endif()
     string(REPLACE " -fcx-limited-range" "" entry "${entry}")
-    string(REPLACE " -DNDEBUG" "" entry "${entry}") # assertions tell what never happens
+    string(REPLACE " -DNDEBUG" "" entry "${entry}") # assertions exclude impossible paths
     string(REPLACE " -c " " ${extra} -c " entry "${entry}")
     string(APPEND once "${entry},\n")
 endforeach()
@@ -52,7 +53,7 @@ if(EXISTS "${omp}")
     file(WRITE ${BUILD}/lint/omp.h "${omp}")
 endif()
 
-# cppcheck 2.10 knows the attribute, not the keyword: without it everything goes on after tool_die.
+# cppcheck 2.10 knows the attribute, not the keyword: otherwise it assumes that tool_die returns.
 execute_process(COMMAND ${CPPCHECK} --std=c11 --enable=warning,performance,portability --library=posix
     --suppressions-list=${SOURCE}/cmake/cppcheck.txt --quiet --error-exitcode=1
     -j ${cores} -I . -D_XOPEN_SOURCE=700 "-DRC_VERSION=\"0\"" "-D_Noreturn=__attribute__((noreturn))" ${mpi} ${folders}

@@ -1,6 +1,5 @@
-# Sourced by demo.sh and tests/run.sh: makes sure that the packages named are installed. On Debian
-# and Ubuntu it installs what is missing; elsewhere it says what is needed and goes on if the build
-# finds it.
+# Sourced by demo.sh and tests/run.sh: checks that the named packages are installed. On Debian and Ubuntu it
+# installs missing ones; elsewhere it prints what is needed and continues if the build finds it.
 
 build_packages="gcc libc6-dev make cmake pkg-config libfftw3-dev libgsl-dev libsuitesparse-dev libpng-dev libxml2-dev
     libzip-dev zlib1g-dev libzstd-dev libdeflate-dev libhdf5-dev libtiff-dev libmd-dev libseccomp-dev libpango1.0-dev fonts-dejavu-core"
@@ -41,7 +40,7 @@ EOT
         $missing >/dev/null
 }
 
-# Cores to build with.
+# Prints the number of cores for building.
 cores() {
     getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1
 }

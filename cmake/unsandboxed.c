@@ -1,7 +1,7 @@
 /*
- * Part of every program of a build with RC_COVERAGE. With RC_UNSANDBOXED in the environment the
- * process itself reads what a sandbox reads otherwise: a child of the sandbox may write no file, and
- * so cannot record the lines that it has run.
+ * Part of every program of a build with RC_COVERAGE. With RC_UNSANDBOXED in the environment the process
+ * itself does the reading of the sandbox, whose child may not write files and therefore cannot record its
+ * coverage.
  */
 #include <signal.h>
 #include <stdlib.h>
@@ -11,8 +11,7 @@
 
 void __gcov_dump(void);
 
-/* Damaged files make libhdf5 crash, at the latest when it clears up: the counters are written before
- * that ends. */
+/* Damaged files make libhdf5 crash, at the latest during its cleanup: the counters are written before. */
 static void
 crashed(int number)
 {

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Makes the Debian packages in a root of their own and tries them in another one that is clean:
+# Makes the Debian packages in a separate root and tests them in another, clean one:
 #
 #     debian/try.sh [--keep FOLDER] SUITE [FILE]
 #
-# SUITE is a release of Debian, such as bookworm. Both roots are made by debootstrap, with packages from
-# MIRROR where the environment names one. The packages are built, source and binary, and looked over by lintian,
-# which is to find nothing; installed by apt, tried by the demo on FILE, any surface that rc-import reads, and
-# purged, which is to leave no file behind; installed again and tried by debian/tests through
-# autopkgtest. FOLDER gets the packages and the pictures of the demo. To be run by root, who alone may
-# change into another root.
+# SUITE is a release of Debian, such as bookworm. Both roots are made by debootstrap, with packages from the
+# environment's MIRROR if it is set. The packages are built, source and binary, and checked by lintian, which
+# must find nothing; installed by apt, tested by the demo on FILE, any surface that rc-import reads, and
+# purged, which must leave no file; installed again and tested by debian/tests with autopkgtest. FOLDER
+# receives the packages and the pictures of the demo. Run it as root, because only root may change into
+# another root.
 set -euo pipefail
 
 usage() {
@@ -45,31 +45,31 @@ work=$(mktemp -d)
 trap 'rm -rf --one-file-system "$work"' EXIT
 began=$SECONDS
 
-# phase WHAT: said before it.
+# phase WHAT: prints the next phase.
 phase() {
     echo "== $suite, $((SECONDS - began)) s: $*"
 }
 
-# inside ROOT COMMAND...: the command there, with a /proc, a /dev and a process tree that end with it.
+# inside ROOT COMMAND...: runs the command there, with a /proc, a /dev and a process tree that end with it.
 inside() {
     # shellcheck disable=SC2016
     unshare --mount --pid --fork --kill-child bash -c '
         mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin \
             LANG=C.UTF-8 HOME=/root DEBIAN_FRONTEND=noninteractive bash -euo pipefail -c "$@"' "$@"
 }
-# in_root ROOT 'COMMANDS': in the folder with the packages.
+# in_root ROOT 'COMMANDS': runs the commands in the folder with the packages.
 in_root() {
     inside "$1" "cd /packages && $2"
 }
 get='apt-get -q=2 -y --no-install-recommends -o Dpkg::Use-Pty=0 -o APT::Keep-Downloaded-Packages=true'
 get="$get -o APT::AutoRemove::SuggestsImportant=false -o APT::AutoRemove::RecommendsImportant=false"
 
-# downloaded ROOT: megabytes that apt has fetched there, lists and packages.
+# downloaded ROOT: prints the megabytes that apt has downloaded there, lists and packages.
 downloaded() {
     find "$1/var/cache/apt/archives" "$1/var/lib/apt/lists" -type f -printf '%s\n' | awk '{ n += $1 } END { printf "%d", n / 1e6 }'
 }
 
-# everything ROOT: what is there, but for what apt, dpkg and adduser note of all they do.
+# everything ROOT: lists its files, except the logs of apt, dpkg and adduser.
 everything() {
     (cd "$1" && find . \( -path ./packages -o -path ./proc -o -path ./dev -o -path ./tmp -o -path ./run -o -path './etc/*-' -o -path ./var/cache -o -path ./var/log \
         -o -path ./var/lib/apt -o -path ./var/lib/dpkg \) -prune -o -print | sort)
@@ -103,7 +103,7 @@ if grep -n 'warning:' "$work/build/packages/log"; then
 fi
 
 phase "lintian"
-# No bug of Debian's asks for these packages, which a changelog of Debian's own would close.
+# The changelog closes no bug of Debian, because no bug requests these packages.
 in_root "$work/build" "
     lintian --version
     lintian --allow-root --info --display-info --fail-on error,warning \
@@ -118,7 +118,8 @@ start=$SECONDS
 in_root "$work/clean" "$get install ./libcontact0_*.deb ./rough-contact_*.deb >/dev/null 2>&1"
 echo "rough-contact and what it needs: $(($(downloaded "$work/clean") - before)) MB fetched, $((SECONDS - start)) s"
 in_root "$work/clean" "$get purge rough-contact libcontact0 >/dev/null && $get autoremove --purge >/dev/null
-    # these stay, for man -k, and as autoremove keeps what has priority \"important\"; what only the packages need goes with them
+    # these stay, for man -k, and because autoremove keeps packages of priority \"important\"; other
+    # dependencies are removed
     $get install man-db adduser netbase >/dev/null 2>&1"
 everything "$work/clean" >"$work/before"
 in_root "$work/clean" "$get install ./*.deb >/dev/null"

@@ -1,10 +1,14 @@
 /*
- * Writing of exchange formats: struct rc_grid -> bytes. A written format is one file, formats/writers/NAME.c,
- * that ends in its struct rc_export rc_export_NAME, and one line in exports.list. Every writer: 1. writes
- * sequentially, because the output may be a pipe; 2. has an explicit byte order, and numbers with a point in
- * every locale; 3. marks missing points by the rule of the format, and refuses data that the format cannot
- * hold; 4. keeps row 0 as the top row; 5. writes no time and no file name: the same frames and options give
- * the same bytes.
+ * Writing of exchange formats: struct rc_grid -> bytes.
+ *
+ * A written format is one file, formats/writers/NAME.c, that ends in its struct rc_export rc_export_NAME, and
+ * one line in exports.list. Every writer
+ *
+ *     1. writes sequentially, because the output may be a pipe;
+ *     2. has an explicit byte order, and numbers with a point in every locale;
+ *     3. marks missing points by the rule of the format, and refuses data that the format cannot hold;
+ *     4. keeps row 0 as the top row;
+ *     5. writes no time and no file name: the same frames and options give the same bytes.
  */
 #ifndef RC_EXPORT_H
 #define RC_EXPORT_H

@@ -3,12 +3,18 @@
  * formats/readers/SUBJECT/NAME.c (or NAME/NAME.c, with more files beside it), that ends in its struct
  * rc_format rc_format_NAME, and one line in formats.list.
  *
- * Every reader: 1. checks the magic again, because the user may force a format; 2. checks each size against
- * the bytes of the file before allocating; 3. refuses a spacing that is zero, negative, NaN or infinite, and
- * never repairs one; 4. reads numbers with a point in every locale; 5. has an explicit byte order; 6. returns
- * missing points as NaN, by the rule of the format; 7. applies scale and offset by the rule of the format, to
- * metres; 8. keeps row 0 as the top row; 9. frees everything on every path; 10. gives the reason of a failure
- * with the wrong value.
+ * Every reader
+ *
+ *     1. checks the magic again, because the user may force a format;
+ *     2. checks each size against the bytes of the file before allocating;
+ *     3. refuses a spacing that is zero, negative, NaN or infinite, and never repairs one;
+ *     4. reads numbers with a point in every locale;
+ *     5. has an explicit byte order;
+ *     6. returns missing points as NaN, by the rule of the format;
+ *     7. applies scale and offset by the rule of the format, to metres;
+ *     8. keeps row 0 as the top row;
+ *     9. frees everything on every path;
+ *    10. gives the reason of a failure with the wrong value.
  */
 #ifndef RC_FORMAT_H
 #define RC_FORMAT_H

@@ -3,10 +3,12 @@
  * a height: a deflection, an error signal and an amplitude may be in metres too. Therefore the words of the
  * name decide, in this order:
  *
- *     1. names of a topography (Height, Topography, Z-Axis, ZSensor), then neutral names (Raw, Layer 0), then
- *     names of other quantities, also if they contain such a word (Height Error) 2. measured before derived
- *     (corrected, smoothed, flattened) 3. forward (trace) before backward (retrace) 4. sensor signals of z
- *     before the drive of the piezo, which creeps and has hysteresis 5. the order of the file
+ *     1. names of a topography (Height, Topography, Z-Axis, ZSensor), then neutral names (Raw, Layer 0),
+ *        then names of other quantities, also if they contain such a word (Height Error)
+ *     2. measured before derived (corrected, smoothed, flattened)
+ *     3. forward (trace) before backward (retrace)
+ *     4. sensor signals of z before the drive of the piezo, which creeps and has hysteresis
+ *     5. the order of the file
  */
 #include "format.h"
 

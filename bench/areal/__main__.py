@@ -1,10 +1,9 @@
-"""Areal parameters and spectra by rc-info against those of other programs, on the same heights.
+"""Compares areal parameters and spectra of rc-info with those of other programs, on the same heights.
 
     python bench/areal [--tools DIR] [--gwyddion LIBRARY] FILE...
 
-FILEs are whatever rc-import reads. Each goes through rc-import once; the others get its heights as an array, so that
-no reader is compared. Others are the Python packages surfalize and SurfaceTopography, and libgwyprocess2 of Gwyddion,
-which needs no display. What is not installed is left out, and said so. README.md one folder up says how to install
+FILEs are any files that rc-import reads. rc-import reads each once; the other programs get its heights as an array, so that readers are not compared. The other programs are the Python packages surfalize and SurfaceTopography, and libgwyprocess2 of Gwyddion,
+which needs no display. A message names programs that are not installed. README.md one folder up says how to install
 them, and why figures differ.
 """
 import argparse
@@ -54,7 +53,7 @@ def by_surface_topography(m):
 
 
 def by_gwyddion(m, library):
-    ctypes.CDLL(str(library).replace("gwyprocess2", "gwyddion2"), mode=ctypes.RTLD_GLOBAL)  # it forgets to ask for it
+    ctypes.CDLL(str(library).replace("gwyprocess2", "gwyddion2"), mode=ctypes.RTLD_GLOBAL)  # it does not request it itself
     g = ctypes.CDLL(library)
     g.gwy_data_field_new.restype = g.gwy_data_field_get_data.restype = ctypes.c_void_p
     for name in ("get_surface_area", "get_surface_slope", "get_min", "get_max", "fractal_psdf_dim"):
@@ -74,7 +73,7 @@ def by_gwyddion(m, library):
 
 
 def spectrum(m):
-    """Wave numbers, our spectrum, SurfaceTopography's."""
+    """Wave numbers, the spectrum of rc-info, that of SurfaceTopography."""
     from SurfaceTopography import Topography
     ny, nx = m.h.shape
     t = Topography(m.h.T - m.h.mean(), (nx * m.dx, ny * m.dy), unit="m")

@@ -1,4 +1,4 @@
-"""Surfaces and loads, the grid stream, and our own tools."""
+"""Surfaces and loads, the grid stream, and the tools."""
 import json
 import os
 import subprocess
@@ -88,7 +88,7 @@ def surface(opts, case):
 
 
 def rc_solve(opts, case, tol, method="pcg", limit=None):
-    """Pressure, seconds, iterations, the share of others, the report; None when it took too long."""
+    """Pressure, seconds, iterations, the processor share of other programs, the report; None if it took too long."""
     out, report = opts.work / "ours.rcg", opts.work / "ours.json"
     args = ["--estar", ESTAR, "--mean-pressure", repr(mean_pressure(case, opts.n)), "--tol", repr(tol),
             "--method", method, "--kernel", "fft", "--output", "pressure", "--report", report, "-o", out,

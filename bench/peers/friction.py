@@ -88,7 +88,7 @@ def aspher(case):
     found = []
     for tol in 10 ** -np.arange(2, 7.1, 1.):
         solver = aspher.FrictionSolver(case.n, domain_size=1., E_star=1., nu=case.nu, model=aspher.CoulombFriction(MU))
-        solver.set_gap((case.h.max() - case.h) / case.n)  # lengths over the side: its tolerances are made for that
+        solver.set_gap((case.h.max() - case.h) / case.n)  # lengths over the side of the map, for which its tolerances are made
         area = case.n**2
         solver.step(p_bar=case.p.sum() / area, tol_normal=1e-9)
         began = time.perf_counter()
@@ -98,7 +98,7 @@ def aspher(case):
             print(f"    aspher, tolerance {tol:.0e}: {r.status_reason}", flush=True)
             break
         q = np.stack([np.asarray(r.qx).reshape(case.n, case.n), np.asarray(r.qy).reshape(case.n, case.n)])
-        error = min(case.error(q), case.error(-q))  # whichever body its tractions are on
+        error = min(case.error(q), case.error(-q))  # its tractions may act on either body
         found.append((error, (2 * r.tangential_iters, seconds)))
     return first(found), min((e for e, _ in found), default=None)
 

@@ -1,10 +1,10 @@
-"""What the machine is, and what else runs on it."""
+"""Properties of the machine, and the load by other programs."""
 import os
 import time
 
 
 class Others:
-    """Share of the machine that other processes took meanwhile."""
+    """The share of the machine that other processes used in this time."""
 
     def __init__(self):
         self.began = self.now()
@@ -21,7 +21,7 @@ class Others:
 
 
 def wait_for_quiet(seconds=20.):
-    """Until nobody else computes, or not longer than that."""
+    """Waits until no other program computes, at most this long."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         others = Others()

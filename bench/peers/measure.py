@@ -1,4 +1,4 @@
-"""What is measured: which settings reach an error, what they cost in turns with rc-solve, how references agree."""
+"""Measurements: the settings that reach an error, their time in turns with rc-solve, the agreement of references."""
 import json
 import sys
 
@@ -26,7 +26,7 @@ def load(path, default):
 
 
 def own_reference(opts, peer, case):
-    """The peer's own converged pressure; None when it has none."""
+    """The converged pressure of the peer; None if it has none."""
     path = opts.work / f"own-{peer}-{case}-{opts.n}.npy"
     if not path.exists():
         r = solvers.run(opts, peer, case, solvers.tightest(peer, cases.boundary(case)), 10 * opts.limit)
@@ -36,8 +36,7 @@ def own_reference(opts, peer, case):
 
 
 class Sweep:
-    """Runs of a peer on a case: settings, seconds, true error against our reference and against its own. Kept, so that
-    nothing is run twice for its error."""
+    """Runs of a peer on a case: settings, seconds, true error against both references. The results are kept, so that no run is repeated for its error."""
 
     def __init__(self, opts, peer, case):
         self.opts, self.peer, self.case = opts, peer, case
@@ -63,7 +62,7 @@ class Sweep:
 
 
 def climb(sweep, rungs, least):
-    """From loose to tight until `least` is met, or three rungs that took more steps have brought nothing more."""
+    """From loose to tight tolerances until `least` is reached, or until three tolerances with more steps have not reduced the error."""
     best, steps, idle = np.inf, -1, 0
     for settings in rungs:
         r = sweep(settings)
@@ -77,7 +76,7 @@ def climb(sweep, rungs, least):
 
 
 def candidates(opts, peer, case, error):
-    """Of each ladder the loosest settings that are good enough, the quickest two."""
+    """The loosest sufficient settings of each ladder, and of these the fastest two."""
     sweep, found = Sweep(opts, peer, case), []
     for rungs in solvers.ladders(peer, cases.boundary(case)):
         ours = sorted((r for r in sweep.runs if same(r["settings"], rungs[0])), key=lambda r: -r["settings"]["tol"])
@@ -90,7 +89,7 @@ def candidates(opts, peer, case, error):
 
 
 def same(a, b):
-    """Settings of one ladder: all but the tolerance."""
+    """Settings of one ladder: all except the tolerance."""
     vary = ("tol", "float_floor")
     return {k: v for k, v in a.items() if k not in vary} == {k: v for k, v in b.items() if k not in vary}
 
@@ -99,7 +98,7 @@ def sweep(opts, peer, case):
     run = Sweep(opts, peer, case)
     for rungs in solvers.ladders(peer, cases.boundary(case)):
         climb(run, rungs, min(opts.errors))
-    for error in opts.errors:  # between the rungs, twice halved
+    for error in opts.errors:  # between two tolerances, halved twice
         for good, above in candidates(opts, peer, case, error):
             for _ in range(2 if above is not None else 0):
                 tol = float(f"{(good['settings']['tol'] * above['settings']['tol'])**0.5:.1e}")
@@ -110,12 +109,11 @@ def sweep(opts, peer, case):
                 good, above = (r, above) if r["error"] <= error else (good, r)
 
 
-QUIET = 0.1  # of the machine: what others may take during a run that counts
+QUIET = 0.1  # the share of the machine that other programs may use during a valid run
 
 
 def timed(opts, peer, case, error):
-    """Row of the table: rc-solve and the peer's two quickest settings in turns, the least time of each among the runs
-    that had the machine to themselves, of three times --repeat at most."""
+    """A row of the table: rc-solve and the peer's two fastest settings in turns; the shortest time of each among the undisturbed runs, of at most three times --repeat runs."""
     p, fraction = cases.reference(opts, case)
     own = own_reference(opts, peer, case)
     settings = [good["settings"] for good, _ in candidates(opts, peer, case, error)]
@@ -147,7 +145,7 @@ def timed(opts, peer, case, error):
 
 
 def agree(opts, peer, case):
-    """How far the peer's own converged pressure is from ours: dict or None."""
+    """The difference between the converged pressures of the peer and of rc-solve: dict or None."""
     own, (p, _) = own_reference(opts, peer, case), cases.reference(opts, case)
     if own is None:
         return None

@@ -1,7 +1,6 @@
-"""The peers: how each is called, and the settings it is tried with.
+"""The peers: their calls, and the settings that are tried.
 
-Each `solve` returns pressure over E*, seconds and iterations. They get lengths over the side of the map and
-pressures over E*, which is kind to absolute tolerances.
+Each `solve` returns pressure over E*, seconds and iterations. They get lengths over the side of the map and pressures over E*, which suits absolute tolerances.
 """
 import importlib.metadata
 import json
@@ -65,8 +64,8 @@ TOLERANCES = [float(f"{t:.1e}") for t in 10.**-np.arange(2, 13.1, 0.5)]  # loose
 def aspher_ladders(boundary):
     kinds = ([dict(backend="periodic")] if boundary == "periodic" else
              [dict(backend="h2", active_set=True), dict(backend="fft")])
-    # precision: coarse tolerances, tolerances. Where single precision stops (2e-6, unless told) it goes on for ever
-    # below 1e-7, and double follows it at once above.
+    # precision: coarse tolerances, tolerances. If the tolerance for single precision (default 2e-6) is below
+    # 1e-7 the iteration does not end; above it double precision follows at once.
     precisions = {"double": ([1e-4], TOLERANCES),
                   "float": ([1e-4, 1e-2], [tol for tol in TOLERANCES if tol > 5e-8]),
                   "float_then_double": ([1e-4, 1e-2], [tol for tol in TOLERANCES if tol < 5e-6])}
@@ -106,7 +105,7 @@ PEERS = {
 
 
 def version(peer):
-    """None when it is not installed."""
+    """None if it is not installed."""
     package = PEERS[peer][0]
     if package is None:
         return "of rc-solve"
@@ -125,7 +124,7 @@ def tightest(peer, boundary):
 
 
 def run(opts, peer, case, settings, limit=None):
-    """Pressure, seconds, iterations, share of others; None when it failed or took longer than the limit."""
+    """Pressure, seconds, iterations, share of other programs; None if it failed or took longer than the limit."""
     limit = limit or opts.limit
     if PEERS[peer][0] is None:
         r = cases.rc_solve(opts, case, settings["tol"], settings["method"], limit)

@@ -1,4 +1,4 @@
-"""What is printed, in Markdown."""
+"""The printed tables, in Markdown."""
 import os
 import subprocess
 import time
@@ -51,7 +51,7 @@ def times(opts, peers):
 
 
 def ahead(rows):
-    """Who is quicker, at each error."""
+    """The faster program for each error."""
     print()
     for asked in sorted({r["asked"] for r in rows}, reverse=True):
         for peer in dict.fromkeys(r["peer"] for r in rows):

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Predicted seconds of a periodic contact on several machines, from what one takes: plan.sh strong|weak.
+# Predicts the seconds of a periodic contact on several machines from the time on one: plan.sh strong|weak.
 #
 #   seconds of one convolution's share = C log2(n)/log2(n0) n^2/M      n x n nodes, M machines
 #     + bytes/bandwidth + messages latency                             two exchanges of 16 n^2/2 bytes
 #     + sums latency log2 M
 #
-# C n0^2: seconds of one equivalent at n0 x n0 on one machine, all of the iteration's other work in it. Set by the
-# environment: C (1.1e-8 s a node), N0 (4096), BANDWIDTH (12.5e9 bytes/s a machine), LATENCY (2e-6 s), SUMS (25
-# an equivalent), EQUIVALENTS (20 a contact).
+# C n0^2: seconds of one equivalent at n0 x n0 on one machine, including all other work of the iteration. The
+# environment sets: C (1.1e-8 s a node), N0 (4096), BANDWIDTH (12.5e9 bytes/s a machine), LATENCY (2e-6 s),
+# SUMS (25 an equivalent), EQUIVALENTS (20 a contact).
 case ${1-} in
 strong | weak) ;;
 *)

@@ -1,7 +1,6 @@
 /*
- * What a convolution costs the processes that share a map: mpirun -n P bench-ranks M [free].
- * Prints the least time of five, the time of exchanges in that one, and the peak memory of the
- * process that takes most.
+ * The cost of a convolution for processes that share a map: mpirun -n P bench-ranks M [free]. Prints the
+ * shortest time of five, its part in exchanges, and the largest peak memory of a process.
  */
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +20,7 @@ exchange_seconds(const struct rc_ranks *ranks)
     return sent.seconds;
 }
 
-/* Least seconds of a sum, and those of its exchanges. */
+/* The shortest time of a sum, and of its exchanges, in seconds. */
 static void
 measure(const struct rc_ranks *ranks, struct rc_conv *conv, const double *p, double *u,
         double out[2])

@@ -14,13 +14,13 @@ struct rc_file {
     size_t size;
 };
 
-/* Whether the name of the file ends in one of the suffixes ".a .b", in either case. */
+/* True if the name of the file ends in one of the suffixes ".a .b", in either case. */
 bool rc_file_named(const struct rc_file *file, const char *suffixes);
-/* Whether the file has these bytes at that position. */
+/* True if the file has these bytes at that position. */
 bool rc_file_holds(const struct rc_file *file, size_t at, const void *bytes, size_t n);
-/* Whether it begins with the byte order mark of UTF-16, of either order. */
+/* True if it begins with the byte order mark of UTF-16, of either order. */
 bool rc_file_is_utf16(const struct rc_file *file);
-/* Whether it may be text of one byte a character: not empty, and no NUL in its first 4 KiB. */
+/* True if it may be text of one byte a character: not empty, and no NUL in its first 4 KiB. */
 bool rc_file_is_text(const struct rc_file *file);
 /* The whole file. */
 struct rc_piece rc_file_piece(const struct rc_file *file);

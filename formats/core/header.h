@@ -14,7 +14,7 @@ struct rc_piece {
 
 /* True if the piece is one of the words, separated by '|', in upper or lower case of ASCII. */
 bool rc_piece_is(struct rc_piece piece, const char *words);
-/* Whether it begins with the word, in either case. */
+/* True if it begins with the word, in either case. */
 bool rc_piece_begins(struct rc_piece piece, const char *word);
 /* Where the word begins in the piece, or NULL; case counts. */
 const char *rc_piece_find(struct rc_piece piece, const char *word);
@@ -29,7 +29,7 @@ bool rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *be
 /* The number that it begins with and the trimmed rest (which may be NULL); false when there is
  * none. Decimal commas are read as points. */
 bool rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest);
-/* Whether the piece is a word for infinity, as C libraries print one: inf, -Infinity, 1.#INF. */
+/* True if the piece is a word for infinity, as C libraries print one: inf, -Infinity, 1.#INF. */
 bool rc_piece_infinite(struct rc_piece piece, double *value);
 
 /* Metres in one unit of the length that the piece names; NAN for another word. */

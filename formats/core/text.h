@@ -18,7 +18,7 @@ bool rc_lines_next(struct rc_lines *lines, const char **line, size_t *n);
 /* Drops white space at both ends. */
 void rc_trim(const char **text, size_t *n);
 
-/* Whether text is UTF-8 by RFC 3629: no overlong forms, no surrogates, up to U+10FFFF. */
+/* True if text is UTF-8 by RFC 3629: no overlong forms, no surrogates, up to U+10FFFF. */
 bool rc_utf8_valid(const char *text);
 /* Writes the bytes of a code point below U+10000, 1 to 3 without a NUL; returns their number. */
 size_t rc_utf8_put(char *to, unsigned code);

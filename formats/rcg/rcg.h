@@ -46,7 +46,7 @@ struct rc_reader *rc_reader_new(FILE *file, size_t first_case, size_t memory, st
  * `file` is the same file, which every process has opened. */
 void rc_reader_share(struct rc_reader *reader, const struct rc_share *share);
 
-/* Whether a frame of this shape, whose values take `bytes`, may be read; RC_FAIL, and *err says why. */
+/* RC_OK if a frame of this shape with `bytes` of values may be read; else RC_FAIL and the reason in *err. */
 typedef enum rc_status rc_reader_allow(void *ctx, const struct rc_shape *shape, size_t bytes,
                                        struct rc_err *err);
 /* From now on asks `allow` before it allocates a frame. */

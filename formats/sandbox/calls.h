@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-/* Whether this system can filter calls: Linux on the processors that calls.c names. */
+/* True if this system can filter calls: Linux on the processors that calls.c names. */
 bool rc_calls_can_be_filtered(void);
 
 /* Restricts the calling process, for the rest of its life, to computing and to writing to the file descriptor

@@ -7,13 +7,13 @@
 # may be busy; the slowest file is named.
 #
 #     format   the reader in this process
-#     zip the same, changing the members of the archive
-#     bypass a reader that needs the sandbox, without the sandbox
-#     sandbox the same in the sandbox: a crash in the library is counted but is not a finding
+#     zip      the same, changing the members of the archive
+#     bypass   a reader that needs the sandbox, without the sandbox
+#     sandbox  the same in the sandbox: a crash in the library is counted but is not a finding
 #     whole    the same from whole files, up to 4 MiB
-#     hdf the reader with a substitute for libhdf5
-#     gzip not a reader, but the code that unpacks files, for any FORMAT (run.sh BUILD SECONDS any:gzip)
-#     stream the reader of grid streams (run.sh BUILD SECONDS rcg:stream), from streams of the tools in RC_BIN
+#     hdf      the reader with a substitute for libhdf5
+#     gzip     not a reader, but the code that unpacks files, for any FORMAT (run.sh BUILD SECONDS any:gzip)
+#     stream   the reader of grid streams (run.sh BUILD SECONDS rcg:stream), from streams of the tools in RC_BIN
 #
 # RC_RUNS in the environment limits the executions of each; SECONDS 0 then sets no time limit.
 set -u

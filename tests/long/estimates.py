@@ -1,4 +1,5 @@
-"""estimates.py hist|adhesion|tilt|maps SEED COUNT BIN: compares estimated and true error of the pressure for random contacts.
+"""estimates.py hist|adhesion|tilt|maps SEED COUNT BIN: compares estimated and true error of the pressure
+for random contacts.
 
 hist      lists of loads with a hardness and --history         truth: the same list with --tol 1e-8
 adhesion  paths of approaches or loads with --adhesion         truth: the same path with --tol 1e-8

@@ -5,7 +5,7 @@
 #
 #   exact   the same bytes
 #   close   |a - b| <= 1e-12 max |b|: sums over a map in another order
-#   sums the same, for results that are small compared with the terms of their sums: 1e-10
+#   sums    the same, for results that are small compared with the terms of their sums: 1e-10
 #   solved  the sum of |a - b| <= 2e-9 times that of |b|: two solutions, each of --tol 1e-9
 table() {
     cat <<'END'

@@ -131,7 +131,7 @@ claim "  and nothing is left behind" untouched
 claim "missing heights with --fill" bash -c \
     "rc-import --dx 1um --z-unit nm hole.txt | rc-detrend --fill | $solve --quiet -o filled.rcg"
 
-# a zip that is no X3P
+# a ZIP archive that is not an X3P file
 echo hello >hello.txt
 echo again >again.txt
 zip -q hello.zip hello.txt again.txt

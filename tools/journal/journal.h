@@ -26,7 +26,7 @@ void journal_close(struct journal *j);
 
 /* The end of the frame whose last line begins here. */
 off_t journal_frame_end(const struct journal *j);
-/* Whether no complete frame follows this position: the data there was being written when the run was killed
+/* True if no complete frame follows this position: the data there was being written when the run was killed
  * or the machine stopped. A complete frame that cannot be read is another failure, for example short
  * memory. */
 bool journal_is_cut_off(const struct journal *j, off_t at);

@@ -9,7 +9,7 @@
 /* If fd is a pipe and the system permits it, sets its capacity to 1 MiB: fewer switches between this tool and
  * the next. */
 void pipe_widen(int fd);
-/* Whether fd is a pipe or a socket: connected to another program that runs now. */
+/* True if fd is a pipe or a socket: connected to another program that runs now. */
 bool pipe_is(int fd);
 
 #endif

@@ -21,7 +21,7 @@ bool whole_file_place(const char *name, char place[WHOLE_PATH]);
 /* Opens a file for writing; a device or a FIFO directly. Follows symbolic links, so that a link stays a link.
  * NULL with errno. At most four files can be half-written at a time. */
 FILE *whole_file_open(struct whole_file *w, const char *name);
-/* Whether it is half-written and not yet renamed. */
+/* True if it is half-written and not yet renamed. */
 bool whole_file_is_half(const struct whole_file *w);
 /* Its name until then. */
 const char *whole_file_name(const struct whole_file *w);

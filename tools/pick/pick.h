@@ -4,7 +4,7 @@
 
 #include "tools/cli/cli.h"
 
-/* Whether a step is one of them. */
+/* True for one of these steps. */
 bool pick_geometry(const struct step *step);
 /* Ends the tool when the step's argument is invalid; its lengths are in metres afterwards, as in the
  * history. */

@@ -5,7 +5,8 @@
 
 /* ---- waves ---- */
 
-/* Whether whole waves fit the side; a tolerance for nx * dx / wavelength in decimal numbers. */
+/* True if a whole number of waves fits the side; the tolerance allows for decimal numbers in nx * dx /
+ * wavelength. */
 static bool
 fits(size_t n, double d, double wavelength)
 {

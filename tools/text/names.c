@@ -103,7 +103,7 @@ is_joint(char c)
     return c == '-' || c == '_' || c == '.';
 }
 
-/* Whether `part` is a whole part of the name, between hyphens, underscores or points. */
+/* True if `part` is a whole part of the name, between hyphens, underscores or points. */
 static bool
 is_part(const char *part, size_t n, const char *name)
 {

@@ -12,7 +12,7 @@ enum {
 
 /* The name in the other spelling, "colourmap" for "colormap" and the reverse; NULL if it has only one. */
 const char *name_respelt(const char *name, char text[NAME_SIZE]);
-/* Whether a[0..n) and b[0..m) are the same name in any spelling. */
+/* True if a[0..n) and b[0..m) are the same name in any spelling. */
 bool name_same(const char *a, size_t n, const char *b, size_t m);
 
 /* Replaces `nearest`, initially "", by the name if the name is nearer to the typed one. */

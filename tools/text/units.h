@@ -34,7 +34,7 @@ const char *unit_usual(enum unit unit);
 /* Reads one number, with or without its unit, in SI. On RC_FAIL *err says what was expected. */
 enum rc_status unit_number(const char *text, enum unit unit, double *value, struct rc_err *err);
 
-/* Whether a hardness is in Vickers units, 600HV or 600HV10: kilograms-force per square millimetre of the
+/* True if a hardness is in Vickers units, 600HV or 600HV10: kilograms-force per square millimetre of the
  * sloping faces of the indentation. As a pressure it is the mean over the projected area, which is smaller by
  * the factor sin(68 degrees). */
 bool unit_vickers(const char *text);
@@ -59,7 +59,7 @@ enum rc_status unit_numbers(const char *text, enum unit unit, struct numbers *li
                             struct rc_err *err);
 /* The same for forces, which may all be forces per length, in N/m. */
 enum rc_status unit_forces(const char *text, struct numbers *list, struct rc_err *err);
-/* Whether a list looks like one number with a decimal comma: two whole numbers without a unit, neither of
+/* True if a list looks like one number with a decimal comma: two whole numbers without a unit, neither of
  * them ten times the other. */
 bool unit_decimal_comma(const char *text);
 /* Reads "K1,K2" in W/(m K) or S/m, both above 0. *conductance: the unit of the conductance, "W/K" or "S";

@@ -40,8 +40,11 @@ void drop(struct bytes *b);
 struct rc_file file_of(const struct bytes *b, const char *name);
 
 /*
- * The numbers of the maps in made_files are 10 20 30 with -20 and -60 instead if the type has a sign; 40 50
- * 60 50 is missing if the format can mark it
+ * The numbers of the maps in made_files, but -20 and -60 if the type has a sign; 50 is missing if the format
+ * can mark missing points:
+ *
+ *     10 20 30
+ *     40 50 60
  */
 enum {
     NX = 3,
