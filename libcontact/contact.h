@@ -43,7 +43,6 @@ struct rc_plastic;  /* contact of a body that yields in its volume              
 struct rc_adhesion; /* contact of bodies that attract each other: a path of states     */
 struct rc_leak;     /* flow through a gap                                              */
 struct rc_slip;     /* friction in a contact with a given pressure                     */
-struct rc_joint;    /* contact and friction together                                   */
 struct rc_stress;   /* stresses below the surface                                      */
 struct rc_ranks;    /* processes that share a map: contact_mpi.h; NULL: none           */
 
@@ -1135,7 +1134,7 @@ RC_API void rc_slip_normal(struct rc_slip *slip, double *uz);
 RC_API double rc_slip_beta(const struct rc_slip *slip);
 RC_API void rc_slip_free(struct rc_slip *slip); /* NULL is allowed */
 
-/* ---- load and tangential motion together ---- */
+/* ---- friction as a model ---- */
 
 /* Coupling of pressure and tractions of dissimilar bodies. */
 enum rc_coupling {
@@ -1145,85 +1144,71 @@ enum rc_coupling {
     RC_COUPLING_NONE /* none */
 };
 
-/* A contact and its friction, increment by increment: the pressure is computed for each load and each
- * pass. */
-struct rc_joint_problem {
-    /* Uniform bodies; the load is that of the first increment, or a guess; tol 0: that of friction, or
-     * less */
-    struct rc_problem contact;
-    /* Boundary, pair, threads and ranks are those of the contact; `coupling` sets uncoupled */
-    struct rc_slip_problem slip;
+enum {
+    RC_FEWER = 2 /* ways with fewer increments, at most */
+};
+struct rc_friction_problem {
+    struct rc_slip_problem
+        slip; /* `uncoupled` is that of `coupling`; the tolerance of an increment */
     enum rc_coupling coupling;
-    size_t max_passes; /* of an increment; 0: 50 */
+    size_t increments; /* from point to point, in which all axes change in proportion; 0: chosen */
+    size_t max_passes; /* of pressure and tractions, in an increment; 0: 50                      */
+    /* A known contact: its load (N; 0: none), pressure (Pa) and gap (m; NULL: unknown), nx ny, which the caller
+     * keeps. It is not solved where tractions do not change the pressure. */
+    double known_load;
+    const double *known_p, *known_gap;
+    /* Further solutions with half of the increments (1) and a quarter (2), which tell the error of the
+     * increments; 0: it is unknown. If tractions change the pressure, each needs a model like the inner one, of a
+     * tenth of its tolerance, which the model of friction owns; else NULL. */
+    size_t fewer;
+    struct rc_model *inner_of_fewer[RC_FEWER];
 };
 
-struct rc_joint_figures {
-    struct rc_slip_figures slip;
-    size_t passes; /* of this increment: number of pressures passed to friction */
+struct rc_friction_figures {
+    struct rc_slip_figures slip; /* of the last increment; dissipated: since the last point kept */
+    size_t passes;               /* since the last point kept: pressures passed to friction      */
     /* relative L1, of the last pass; 0: only one pass is needed */
     double pressure_change, traction_change;
-    /* estimated relative L1 error, including what further passes would change */
-    double traction_error;
-    double inherited_error; /* from earlier increments: sum of traction_error |q|_1, over |q|_1 */
-    double contact_error;   /* from the contacts of this and earlier increments: mu error P     */
-    double approach;        /* m, as in rc_contact; NAN: unknown                                */
-    double convolutions;    /* of friction and contacts                                         */
-    bool converged;         /* of both, and of the passes                                       */
+    /* Estimated relative L1 errors of the tractions: of the last increment, with what further passes would
+     * change; of the iteration of earlier increments; of the contacts of this and earlier increments; of too few
+     * increments (NAN: unknown) */
+    double traction_error, inherited_error, contact_error, increment_error;
+    double approach;     /* m, as in rc_contact; NAN: unknown                           */
+    double convolutions; /* of friction and contacts, since the last point kept         */
+    bool converged;      /* all contacts, tractions and passes since the last point kept */
 };
 
-/* Bytes of an object, with or without heights; 0 when the problem is invalid. */
-RC_API size_t rc_joint_memory(const struct rc_shape *shape, const struct rc_joint_problem *problem,
-                              bool heights);
-/* The heights are copied; NULL: no heights, and pressures only from rc_joint_know. The bodies start apart.
- * NULL when either problem is invalid, heights are missing for a pressure that depends on tractions, or
- * memory is short. */
-RC_API struct rc_joint *rc_joint_new(const struct rc_shape *shape, const double *h,
-                                     const struct rc_joint_problem *problem, struct rc_err *err);
-/* Passes the known contact under this load: its pressure and gap (NULL: unknown), which the caller keeps. If
- * pressures do not depend on tractions it is not solved again. */
-RC_API void rc_joint_know(struct rc_joint *joint, double load, const double *p, const double *gap);
-/* Load (N; 0 separates the bodies) and force (N) or displacement (m) along x and y at the end of the
- * increment. RC_FAIL when a load is invalid, or neither known nor solvable. */
-RC_API enum rc_status rc_joint_set_force(struct rc_joint *joint, double load, double fx, double fy,
-                                         struct rc_err *err);
-RC_API enum rc_status rc_joint_set_displacement(struct rc_joint *joint, double load, double dx,
-                                                double dy, struct rc_err *err);
-/* The next increment starts from these tractions and this pressure (nx ny Pa; NULL: none), copied, instead of
- * from the end of the last one, for a result of another run. Call before setting it. */
-RC_API void rc_joint_start(struct rc_joint *joint, const double *const q[2], const double *p);
-/* One step, of the contact or of friction: RC_MORE; RC_OK when both are within tol; RC_SHORT when they cannot
- * get there; RC_FAIL when no force or displacement is set, and when friction cannot carry the force, as in
- * rc_slip_set_force. After each step pressure and tractions are consistent: one may stop there. */
-RC_API enum rc_status rc_joint_step(struct rc_joint *joint, struct rc_err *err);
-RC_API void rc_joint_result(struct rc_joint *joint, struct rc_joint_figures *figures);
-/* Makes the increment history. */
-RC_API void rc_joint_keep(struct rc_joint *joint);
-/* The friction, for its tractions and slip. */
-RC_API struct rc_slip *rc_joint_slip(struct rc_joint *joint);
-/* The pressure of these tractions, nx ny Pa, until the next step; NULL: the bodies are apart. */
-RC_API const double *rc_joint_pressure(const struct rc_joint *joint);
-RC_API void rc_joint_free(struct rc_joint *joint); /* NULL is allowed */
-
-/* ---- friction as a model ---- */
-
-struct rc_friction_problem {
-    struct rc_slip_problem slip; /* `uncoupled` is that of `coupling`                       */
-    enum rc_coupling coupling;
-    size_t increments; /* from point to point, in which all axes change in proportion; 0: 16 */
-    size_t max_passes; /* as in rc_joint_problem                                            */
+/* What is known of the error that the increments to a point, and to those before, leave. */
+enum rc_told {
+    RC_TOLD_EXACT,  /* there is none                                        */
+    RC_TOLD_MANY,   /* enough increments: the estimate is near the error    */
+    RC_TOLD_SOME,   /* larger factors of safety, as where the load changes  */
+    RC_TOLD_FEW,    /* the largest factor                                   */
+    RC_TOLD_UNKNOWN /* fewer than 4 increments, or 8 where the load changes */
 };
+/* The way from one point to the next. */
+struct rc_leg {
+    size_t increments;
+    enum rc_told told;
+    bool carries; /* tractions, at its end                                           */
+    bool late;    /* one increment, or two, the first of which goes most of the way  */
+    bool falls;   /* the load falls                                                  */
+};
+/* The leg that the model takes from a point to the next; before: the leg to `from`. The first leg begins with a
+ * point and a leg of zeros. */
+RC_API struct rc_leg rc_friction_leg(const struct rc_friction_problem *problem,
+                                     const struct rc_leg *before, const struct rc_point *from,
+                                     const struct rc_point *to);
 /* A model (model.h) of friction over an inner one of the same bodies, which it owns from here on; NULL
  * where that is NULL. Beside the axes of the inner model it takes two forces or two displacements along the
- * surface. h: the undeformed heights, copied. Where dissimilar bodies are coupled the inner model must
- * allow other heights, and its tolerance should be a quarter of that of friction. Error estimates are of
- * the iteration and the contacts; that of too few increments is not among them: compare with twice as
- * many. */
+ * surface. h: the undeformed heights, copied; NULL: unknown, so that only the known contact is possible. Where
+ * dissimilar bodies are coupled the inner model must allow other heights, and its tolerance should be a quarter
+ * of that of friction. RC_FAIL on the way when friction cannot carry the force, as in rc_slip_set_force. */
 RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
                                         const struct rc_friction_problem *problem,
                                         struct rc_err *err);
-/* The figures of this model, after rc_model_look: work since the last point kept, slip of the last increment;
- * NULL: it has no friction. */
-RC_API const struct rc_joint_figures *rc_friction_result(const struct rc_model *model);
+/* The figures of this model, after rc_model_look; NULL: it has no friction. */
+RC_API const struct rc_friction_figures *rc_friction_result(const struct rc_model *model);
 
 /* ---- stress ---- */
 

@@ -82,7 +82,7 @@ tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli 
 tools/solve         | formats/core/core.h                      | formats/core formats/rcg
 tools/solve         | tools/model/model.h tools/problem/problem.h | tools/model tools/problem
 tools/slip          | %public tools/cli/cli.h                  | %physics %cli
-tools/slip          | tools/journal/journal.h tools/problem/problem.h | tools/journal tools/problem
+tools/slip          | tools/model/model.h tools/problem/problem.h | tools/model tools/problem
 tools/slip          | formats/core/core.h                      | formats/core formats/rcg
 tools/import        | libcontact/grid.h tools/cli/cli.h        | libcontact %cli
 tools/import        | formats/core/core.h formats/format.h     | formats formats/core

@@ -303,20 +303,22 @@ static bool
 friction_found(const struct work *w, const double *h, const double *p)
 {
     double load = 1e5 * (double)nodes_of(w) * w->shape->dx * w->shape->dy;
-    const struct rc_joint_problem problem = {.contact = {.boundary = w->boundary,
-                                                         .pair.one = {.e = 3e9, .nu = 0.3},
-                                                         .load = load,
-                                                         .tol = 0.01},
-                                             .slip = {.mu = 0.3, .tol = 0.1}};
-    struct rc_joint *joint = rc_joint_new(w->shape, h, &problem, NULL);
+    const struct rc_pair pair = {.one = {.e = 3e9, .nu = 0.3}};
+    const struct rc_problem contact = {.boundary = w->boundary, .pair = pair, .tol = 0.01};
+    const struct rc_friction_problem law = {
+        .slip = {.boundary = w->boundary, .pair = pair, .mu = 0.3, .tol = 0.1}, .increments = 1};
+    struct rc_model *m =
+        rc_friction_new(rc_elastic_new(w->shape, h, &contact, NULL, NULL), h, &law, NULL);
     enum rc_status status = RC_FAIL;
+    struct rc_point to = {0};
 
     (void)p;
-    if (joint != NULL && rc_joint_set_force(joint, load, 0.1 * load, 0, NULL) == RC_OK)
-        do
-            status = rc_joint_step(joint, NULL);
-        while (status == RC_MORE);
-    rc_joint_free(joint);
+    rc_point_set(&to, RC_LOAD, load);
+    rc_point_set(&to, RC_FORCE_X, 0.1 * load);
+    rc_point_set(&to, RC_FORCE_Y, 0);
+    if (m != NULL)
+        status = rc_model_run(m, &to, NULL);
+    rc_model_free(m);
     return status == RC_OK;
 }
 

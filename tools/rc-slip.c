@@ -71,7 +71,7 @@ static const struct opt opts[] = {
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
      .help = "write one JSON object per case, or a row of FILE.tsv or .csv: figures, accuracy, cost"},
     {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
-     .help = "store the tractions of each increment in FILE, to continue an interrupted run"},
+     .help = "store states of the run in FILE, to continue an interrupted run"},
     {.name = "resume", .type = OPT_FLAG, AT(resume),
      .help = "continue from the --checkpoint of an earlier run"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
@@ -153,13 +153,15 @@ take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
 int
 main(int argc, char **argv)
 {
+    static const double interval = 60; /* s, of states of --checkpoint on the way */
     static struct slip_run run;
 
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
     report_open(&run.report, &run.t, args.report);
+    run.course.t = &run.t;
     if (!args.dry_run)
-        run.checkpoint = slip_checkpoint_open(&run, args.checkpoint, args.resume);
+        run.course.checkpoint = checkpoint_open(&run.t, args.checkpoint, args.resume, interval);
     tool_catch_signals();
     while (tool_interrupted() == 0 &&
            (run.p = tool_channel_with(&run.t, "pressure", take, &run)) != NULL) {
@@ -171,7 +173,7 @@ main(int argc, char **argv)
         run.p = run.gap = run.height = run.contact = NULL;
     }
     free(run.given);
-    slip_checkpoint_close(run.checkpoint);
+    checkpoint_close(run.course.checkpoint);
     report_close(&run.report);
     return tool_finish(&run.t);
 }

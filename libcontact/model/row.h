@@ -23,6 +23,8 @@ double *rc_state_map(struct rc_state *s, size_t n, double *v);
 bool rc_state_holds(struct rc_state *s, size_t n);
 /* Whether the state is being read and is not refused. */
 bool rc_state_reads(const struct rc_state *s);
+/* A further model that the row drives beside its inner one. */
+void rc_state_model(struct rc_state *s, struct rc_model *m);
 /* Refuses a state that is being read. `why` is copied: a part of a sentence. */
 void rc_state_refuse(struct rc_state *s, const char *why);
 
@@ -87,6 +89,8 @@ struct rc_model_row {
     enum rc_status (*keep)(struct rc_model *m, struct rc_err *err);
     enum rc_status (*heights)(struct rc_model *m, const double *h, struct rc_err *err);
     enum rc_status (*compliance)(struct rc_model *m, double c, struct rc_err *err);
+    /* After `go`: the iteration starts from this pressure, Pa, which a load (N) belongs to. */
+    enum rc_status (*start)(struct rc_model *m, double load, const double *p, struct rc_err *err);
     void (*progress)(const struct rc_model *m, struct rc_loops *loops);
     enum rc_status (*plan)(const struct rc_model *m, const struct rc_point *most,
                            struct rc_expected *expected, struct rc_err *err);

@@ -129,15 +129,13 @@ exchange_point(struct rc_state *s, struct rc_point *p)
     rc_state_numbers(s, RC_AXES, p->at);
 }
 
-static void exchange(struct rc_model *m, struct rc_state *s);
-
 /* The members of the row, then the inner models. */
 static void
 exchange_members(struct rc_model *m, struct rc_state *s)
 {
     m->row->state(m, s);
     if (m->inner != NULL)
-        exchange(m->inner, s);
+        rc_state_model(s, m->inner);
 }
 
 void
@@ -164,8 +162,8 @@ rc_state_copy(struct rc_state *s, struct rc_state_copy *c)
         rc_state_map(s, nodes, c->v + numbers + k * nodes);
 }
 
-static void
-exchange(struct rc_model *m, struct rc_state *s)
+void
+rc_state_model(struct rc_state *s, struct rc_model *m)
 {
     double head[] = {mark(m->row->name), (double)m->shape.nx, (double)m->shape.ny};
     const double own[] = {head[0], head[1], head[2]};
@@ -262,7 +260,7 @@ exchange_all(struct rc_model *m, struct rc_state *s, size_t numbers, size_t maps
         s->numbers = s->map_at = numbers;
         s->all_maps = maps;
     }
-    exchange(m, s);
+    rc_state_model(s, m);
 }
 
 size_t

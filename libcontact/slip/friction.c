@@ -1,8 +1,14 @@
 /*
- * The model of friction: rc_slip under the pressure of an inner model. Friction depends on the path, so
- * load, force and displacement change in proportion from point to point, in increments. Tractions between
- * dissimilar bodies move the surface along its normal: then the inner model gets heights without this
- * displacement, and pressure and tractions are found in turn, as in joint.c.
+ * The model of friction: rc_slip under the pressure of an inner model, or under a known one. Friction depends
+ * on the path, so load, force and displacement change in proportion from point to point, in increments.
+ *
+ * Dissimilar bodies are coupled: tractions move the surface along its normal, so that the inner model gets
+ * heights without this displacement, and pressure moves the bodies along each other. Pressure and tractions
+ * are found in turn, in passes that contract by about 0.7 mu beta. Where beta is 0, or the effect of tractions
+ * on the pressure is left out (Goodman 1962), the pressure is found once for each load.
+ *
+ * Two further solutions may go along, with half and with a quarter of the increments. They tell the error of
+ * the increments (increments.c). Both start from the tractions that all increments have found.
  */
 #include "slip.h"
 
@@ -18,34 +24,56 @@ enum stage {
     THERE     /* the increment is solved                    */
 };
 
+/* One solution: that of all increments, or that of half or a quarter of them. */
+struct way {
+    struct rc_model *inner; /* NULL: the pressure is that of the first way */
+    struct rc_slip *slip;
+    double *maps, *less, *p, *gap; /* less: heights of the inner model */
+    double *before[2];             /* tractions of the previous pass   */
+    bool has_gap, contact_good;
+    double tol;              /* of the tractions, with all passes        */
+    struct rc_point pressed; /* of p, in the axes of the inner model     */
+    double inherited[2]; /* Pa: sums over the map of the errors that increments before have left, of
+                                their iteration and of their contacts    */
+    /* of the increment */
+    struct rc_point at; /* its end */
+    size_t stage, passes;
+    double pressure_change, traction_change, factor, lowered, pressure_error, approach;
+    double convolutions; /* of all contacts */
+};
+
 struct friction {
     struct rc_model base;
     struct rc_friction_problem problem;
     size_t n;
-    double tol;
     bool alternates;
-    struct rc_slip *slip;
-    double *h, *less, *p, *gap;        /* less: heights of the inner model                      */
-    double *before[2], *slip_start[2]; /* tractions of the previous pass; those of a state */
-    struct rc_point reached;           /* the last kept point, with the found axes too          */
+    double *h;       /* heights; NULL where tractions do not change them */
+    bool known_only; /* there are no heights: only the known pressure is possible */
+    struct way way[1 + RC_FEWER];
+    struct rc_point reached;   /* the last kept point, with the found axes too */
+    struct rc_leg before, leg; /* the legs to this point, and to the next one  */
     /* of the way to the point */
-    size_t increment, increments;
-    double dissipated, inherited[2]; /* J, since the last point kept; Pa, as in joint.c   */
-    bool good;                       /* all contacts and increments have converged        */
-    bool again;                      /* a state was read: its contact must be solved again */
-    /* of the increment */
-    size_t stage, passes;
-    double pressure_change, traction_change, factor, lowered, pressure_error;
-    double convolutions; /* of all contacts */
-    struct rc_joint_figures figures;
+    size_t increment, running, fewer_done; /* running: the way that steps */
+    size_t passes;                         /* of the increments before    */
+    double dissipated, convolutions;       /* J, since the last point kept; until then */
+    double lagging,
+        lag_before; /* Pa: sum over the map of the error of the increments; at `reached`  */
+    double doubt;   /* relative: error of the iteration of half of the increments         */
+    double *lag[2]; /* Pa: tractions of all increments less those of half of them, at `reached` */
+    bool good;      /* all contacts and increments have converged           */
+    bool again;     /* a state was read: its increment must be solved again */
+    struct rc_friction_figures figures;
 };
 
 static const struct rc_figure own_figures[] = {
-    {RC_FIGURE(struct friction, increments), NULL, "Increments", .role = RC_FIGURE_COST}, {0}};
+    {RC_FIGURE_AS("increments", struct friction, leg.increments), NULL, "Increments",
+     .role = RC_FIGURE_COST},
+    {0}};
 static const struct rc_figure_set sets[] = {
     {rc_figures_slip, offsetof(struct friction, figures)}, {own_figures, 0}, {NULL, 0}};
 
 enum {
+    PRESSURE,
     TRACTION_X,
     TRACTION_Y,
     SLIP_X,
@@ -53,6 +81,7 @@ enum {
     STATE
 };
 static const struct rc_frame_kind frames[] = {
+    [PRESSURE] = {"pressure", "Pa", "Pressure"},
     [TRACTION_X] = {"traction-x", "Pa", "Traction along x"},
     [TRACTION_Y] = {"traction-y", "Pa", "Traction along y"},
     [SLIP_X] = {"slip-x", "m", "Slip along x"},
@@ -61,7 +90,35 @@ static const struct rc_frame_kind frames[] = {
     {NULL, NULL, NULL},
 };
 
-/* ---- an increment ---- */
+/* ---- passes ---- */
+
+/* Copies maps of n values; returns the change over the new values, in L1. */
+static double
+take(size_t n, int maps, const double *const v[], double *const to[])
+{
+    struct rc_total change = {0}, all = {0};
+
+    for (int c = 0; c < maps; c++)
+        for (size_t k = 0; k < n; k++) {
+            rc_total_add(&change, fabs(v[c][k] - to[c][k]));
+            rc_total_add(&all, fabs(v[c][k]));
+            to[c][k] = v[c][k];
+        }
+    return rc_total_value(&all) > 0 ? rc_total_value(&change) / rc_total_value(&all) : 0;
+}
+
+/* What further passes would change, over the last change: c/(1 - c), where each change is c times the one
+ * before. */
+static double
+left_over(size_t passes, double change, double before)
+{
+    static const double worst = 0.95;
+    double c = passes > 2 && before > 0 ? fmin(change / before, worst) : 0.5;
+
+    return fmax(1, c / (1 - c));
+}
+
+/* ---- the contact of an increment ---- */
 
 static bool
 moves(const struct friction *f)
@@ -69,111 +126,199 @@ moves(const struct friction *f)
     return rc_point_has(&f->base.to, RC_SHIFT_X);
 }
 
-static struct rc_point
-end_of_increment(const struct friction *f)
+/* No load: the pressure is 0 whatever the tractions were. */
+static bool
+apart(const struct way *w)
 {
-    return rc_point_between(&f->reached, &f->base.to, (double)f->increment / (double)f->increments);
+    return rc_point_has(&w->at, RC_LOAD) && w->at.at[RC_LOAD] == 0;
+}
+
+/* Where increment k of n ends. */
+static struct rc_point
+end_of_increment(const struct friction *f, size_t k, size_t n)
+{
+    return rc_point_between(&f->reached, &f->base.to, rc_leg_part(&f->leg, k, n));
+}
+
+/* Whether two points are the same in all axes of the inner model. */
+static bool
+same(const struct way *w, const struct rc_point *a, const struct rc_point *b)
+{
+    static const double rounding = 1e-12;
+    const struct rc_point p = rc_point_for(w->inner, a), q = rc_point_for(w->inner, b);
+
+    for (int k = 0; k < RC_AXES; k++)
+        if (rc_point_has(&p, k) != rc_point_has(&q, k) ||
+            (rc_point_has(&p, k) && !(fabs(p.at[k] - q.at[k]) <= rounding * fabs(p.at[k]))))
+            return false;
+    return true;
 }
 
 /* Gives the inner model the heights less the normal displacement due to the present tractions. */
 static enum rc_status
-lower_heights(struct friction *f, struct rc_err *err)
+lower_heights(struct friction *f, struct way *w, struct rc_err *err)
 {
     double top = -INFINITY, less = -INFINITY;
 
-    rc_slip_normal(f->slip, f->less);
+    w->lowered = 0;
+    if (apart(w))
+        return rc_model_set_heights(w->inner, f->h, err);
+    rc_slip_normal(w->slip, w->less);
     for (size_t k = 0; k < f->n; k++) {
-        f->less[k] = f->h[k] - f->less[k];
+        w->less[k] = f->h[k] - w->less[k];
         top = fmax(top, f->h[k]);
-        less = fmax(less, f->less[k]);
+        less = fmax(less, w->less[k]);
     }
-    f->lowered = top - less;
-    return rc_model_set_heights(f->base.inner, f->less, err);
+    w->lowered = top - less;
+    return rc_model_set_heights(w->inner, w->less, err);
 }
 
 /* Sends the inner model to the end of the increment. */
 static enum rc_status
-press(struct friction *f, struct rc_err *err)
+press(struct friction *f, struct way *w, struct rc_err *err)
 {
-    const struct rc_point at = end_of_increment(f);
-    struct rc_point to = rc_point_for(f->base.inner, &at);
+    struct rc_point to = rc_point_for(w->inner, &w->at);
 
-    if (f->alternates && lower_heights(f, err) != RC_OK)
+    if (f->known_only)
+        return rc_err_set(err, "load %g N: the contact under it is not known, nor are heights",
+                          w->at.at[RC_LOAD]);
+    if (f->alternates && lower_heights(f, w, err) != RC_OK)
         return RC_FAIL;
-    to.at[RC_APPROACH] -= f->lowered; /* counted from first touch of the heights h */
-    f->stage = PRESSING;
-    f->again = false;
-    return rc_model_go(f->base.inner, &to, err) == RC_MORE ? RC_MORE : RC_FAIL;
-}
-
-static enum rc_status
-begin_increment(struct friction *f, struct rc_err *err)
-{
-    f->increment++;
-    f->passes = 0;
-    f->pressure_change = f->traction_change = f->factor = f->pressure_error = 0;
-    return press(f, err);
-}
-
-static enum rc_status
-go(struct rc_model *m, struct rc_err *err)
-{
-    enum {
-        USUAL = 16
-    };
-    struct friction *f = (struct friction *)m;
-
-    if (rc_point_has(&m->to, RC_FORCE_X) != rc_point_has(&m->to, RC_FORCE_Y))
-        return rc_err_set(err, "a force along one direction and a displacement along the other: "
-                               "give two forces or two displacements");
-    f->increments = f->problem.increments > 0 ? f->problem.increments : USUAL;
-    f->increment = 0;
-    f->dissipated = 0;
-    f->good = true;
-    return begin_increment(f, err) == RC_MORE ? RC_OK : RC_FAIL;
+    to.at[RC_APPROACH] -= w->lowered; /* counted from first touch of the heights h */
+    w->stage = PRESSING;
+    if (rc_model_go(w->inner, &to, err) != RC_MORE)
+        return RC_FAIL;
+    if (w != f->way && w->passes == 0 && w->inner->row->start != NULL &&
+        w->inner->row->start(w->inner, rc_model_number(f->way->inner, "load"), f->way->p, err) !=
+            RC_OK)
+        return RC_FAIL;
+    return RC_MORE;
 }
 
 /* Gives rc_slip the pressure, and the force or displacement at the end of the increment. */
 static enum rc_status
-pose(struct friction *f, struct rc_err *err)
+pose(struct friction *f, struct way *w, struct rc_err *err)
 {
-    const struct rc_point at = end_of_increment(f);
+    const enum rc_axis x = moves(f) ? RC_SHIFT_X : RC_FORCE_X;
 
-    f->stage = SLIDING;
-    if (rc_slip_set_pressure(f->slip, f->p, f->gap, err) != RC_OK)
+    w->stage = SLIDING;
+    if (rc_slip_set_pressure(w->slip, apart(w) ? NULL : w->p, w->has_gap ? w->gap : NULL, err) !=
+            RC_OK ||
+        (moves(f) ? rc_slip_set_displacement(w->slip, w->at.at[x], w->at.at[x + 1], err)
+                  : rc_slip_set_force(w->slip, w->at.at[x], w->at.at[x + 1], err)) != RC_OK)
         return RC_FAIL;
-    return moves(f) ? rc_slip_set_displacement(f->slip, at.at[RC_SHIFT_X], at.at[RC_SHIFT_Y], err)
-                    : rc_slip_set_force(f->slip, at.at[RC_FORCE_X], at.at[RC_FORCE_Y], err);
+    return RC_MORE;
+}
+
+/* Whether the pressure at the end of the increment is there without the inner model: that of the first way,
+ * of the increment before, the known one, or none. */
+static bool
+finds_pressure(struct friction *f, struct way *w)
+{
+    const struct rc_friction_problem *o = &f->problem;
+    struct rc_point known = w->at;
+
+    known.at[RC_LOAD] = o->known_load;
+    w->contact_good = true;
+    if (w != f->way && !f->alternates) {
+        w->has_gap = f->way->has_gap;
+        return true;
+    }
+    if (f->alternates)
+        return false;
+    if (w->pressed.given != 0 && same(w, &w->at, &w->pressed))
+        return true;
+    if (f->known_only && apart(w)) {
+        w->has_gap = false;
+        memset(w->p, 0, f->n * sizeof *w->p);
+    } else if (o->known_load > 0 && rc_point_has(&w->at, RC_LOAD) && same(w, &w->at, &known)) {
+        memcpy(w->p, o->known_p, f->n * sizeof *w->p);
+        if ((w->has_gap = o->known_gap != NULL))
+            memcpy(w->gap, o->known_gap, f->n * sizeof *w->gap);
+    } else {
+        return false;
+    }
+    w->approach = NAN;
+    w->pressed = w->at;
+    return true;
 }
 
 static enum rc_status
-step_contact(struct friction *f, struct rc_err *err)
+find_pressure(struct friction *f, struct way *w, struct rc_err *err)
 {
-    struct rc_model *inner = f->base.inner;
+    return finds_pressure(f, w) ? pose(f, w, err) : press(f, w, err);
+}
+
+static enum rc_status
+step_contact(struct friction *f, struct way *w, struct rc_err *err)
+{
+    struct rc_model *inner = w->inner;
     enum rc_status status = rc_model_step(inner, err);
-    const double *p = f->less; /* a buffer here: lower_heights() fills it again */
+    const double *p = w->less; /* a buffer here: lower_heights() fills it again */
     double error;
 
     if (status == RC_MORE || status == RC_FAIL)
         return status;
-    f->good = f->good && status == RC_OK;
+    w->contact_good = status == RC_OK;
     if (rc_model_look(inner, NULL, err) != RC_OK ||
-        rc_model_frame(inner, "pressure", f->less, err) != RC_OK ||
-        rc_model_frame(inner, "gap", f->gap, err) != RC_OK)
+        rc_model_frame(inner, "pressure", f->alternates ? w->less : w->p, err) != RC_OK ||
+        rc_model_frame(inner, "gap", w->gap, err) != RC_OK)
         return RC_FAIL;
-    f->pressure_change = rc_slip_take(f->n, 1, &p, &f->p);
-    f->convolutions += rc_model_number(inner, "convolutions");
+    if (f->alternates)
+        w->pressure_change = take(f->n, 1, &p, &w->p);
+    w->convolutions += rc_model_number(inner, "convolutions");
     error = rc_model_number(inner, "pressure_error_estimate");
-    f->pressure_error = isnan(error) ? 0 : error; /* of bodies that are apart */
-    return pose(f, err) == RC_OK ? RC_MORE : RC_FAIL;
+    w->pressure_error = isnan(error) ? 0 : error; /* of bodies that are apart */
+    w->approach = rc_model_number(inner, "approach") + w->lowered;
+    w->has_gap = true;
+    w->pressed = w->at;
+    return pose(f, w, err);
+}
+
+/* ---- an increment of a way ---- */
+
+static enum rc_status
+begin_increment(struct friction *f, struct way *w, const struct rc_point *at, struct rc_err *err)
+{
+    w->at = *at;
+    w->passes = 0;
+    w->pressure_change = w->traction_change = w->factor = w->pressure_error = 0;
+    return find_pressure(f, w, err);
+}
+
+static enum rc_status
+slide(struct friction *f, struct way *w, struct rc_err *err)
+{
+    enum {
+        PASSES = 50
+    };
+    const double *q[2] = {rc_slip_traction(w->slip, 0), rc_slip_traction(w->slip, 1)};
+    const size_t most = f->problem.max_passes > 0 ? f->problem.max_passes : PASSES;
+    const double before = w->traction_change;
+    enum rc_status status = rc_slip_step(w->slip, err);
+
+    if (status == RC_MORE || status == RC_FAIL)
+        return status;
+    w->passes++;
+    if (f->alternates && !apart(w)) {
+        w->traction_change = take(f->n, 2, q, w->before);
+        w->factor = left_over(w->passes, w->traction_change, before);
+        if (w->factor * fmax(w->traction_change, w->pressure_change) > w->tol / 2) {
+            if (w->passes < most)
+                return press(f, w, err);
+            status = RC_SHORT;
+        }
+    }
+    w->stage = THERE;
+    return status == RC_OK && w->contact_good ? RC_OK : RC_SHORT;
 }
 
 /* Returns the sum of |q| over the map, Pa. add: the errors of that sum that this increment adds: error of its
  * iteration, and error due to the pressure, which limits |q|. */
 static double
-added(const struct friction *f, double error, double limit, double add[2])
+added(const struct friction *f, const struct way *w, double error, double limit, double add[2])
 {
-    const double *q[2] = {rc_slip_traction(f->slip, 0), rc_slip_traction(f->slip, 1)};
+    const double *q[2] = {rc_slip_traction(w->slip, 0), rc_slip_traction(w->slip, 1)};
     struct rc_total sum = {0};
     double size;
 
@@ -181,85 +326,222 @@ added(const struct friction *f, double error, double limit, double add[2])
         rc_total_add(&sum, hypot(q[0][k], q[1][k]));
     size = rc_total_value(&sum);
     add[0] = size > 0 ? error * size : 0;
-    add[1] = f->pressure_error * limit / (f->base.shape.dx * f->base.shape.dy);
+    add[1] = w->pressure_error * limit / (f->base.shape.dx * f->base.shape.dy);
     return size;
 }
 
+/* Figures of the increment. */
 static void
-find_figures(struct friction *f)
+find_figures(const struct friction *f, const struct way *w, struct rc_friction_figures *to)
 {
-    struct rc_joint_figures *to = &f->figures;
     double size, add[2];
 
-    *to = (struct rc_joint_figures){.passes = f->passes,
-                                    .pressure_change = f->pressure_change,
-                                    .traction_change = f->traction_change};
-    rc_slip_result(f->slip, &to->slip);
-    to->traction_error = to->slip.traction_error + f->factor * f->traction_change;
-    size = added(f, to->traction_error, to->slip.limit, add);
-    to->inherited_error = size > 0 ? f->inherited[0] / size : 0;
-    to->contact_error = size > 0 ? (f->inherited[1] + add[1]) / size : 0;
-    to->convolutions = to->slip.convolutions + f->convolutions;
-    to->converged = f->stage == THERE && f->good;
+    *to = (struct rc_friction_figures){.passes = w->passes,
+                                       .pressure_change = w->pressure_change,
+                                       .traction_change = w->traction_change,
+                                       .approach = w->approach};
+    rc_slip_result(w->slip, &to->slip);
+    to->traction_error = to->slip.traction_error + w->factor * w->traction_change;
+    size = added(f, w, to->traction_error, to->slip.limit, add);
+    if (size > 0 && !apart(w)) {
+        to->inherited_error = w->inherited[0] / size;
+        to->contact_error = (w->inherited[1] + add[1]) / size;
+    }
 }
 
-/* The increment becomes history, also of the inner model. Bodies that are apart inherit no error. */
+/* The increment becomes history, also of the inner model. An increment minimizes the energy from the tractions
+ * before it, so that their error stays, and does not grow. Bodies that are apart inherit no error. */
 static enum rc_status
-keep_increment(struct friction *f, struct rc_err *err)
+keep_increment(struct friction *f, struct way *w, struct rc_err *err)
 {
+    struct rc_friction_figures figures;
     double add[2];
 
-    find_figures(f);
-    added(f, f->figures.traction_error, f->figures.slip.limit, add);
+    find_figures(f, w, &figures);
+    added(f, w, figures.traction_error, figures.slip.limit, add);
     for (int k = 0; k < 2; k++)
-        f->inherited[k] = f->figures.slip.load > 0 ? f->inherited[k] + add[k] : 0;
-    f->dissipated += f->figures.slip.dissipated;
-    rc_slip_keep(f->slip);
-    f->stage = REST;
-    return rc_model_keep(f->base.inner, err);
+        w->inherited[k] = apart(w) ? 0 : w->inherited[k] + add[k];
+    rc_slip_keep(w->slip);
+    w->stage = REST;
+    return w->inner == NULL ? RC_OK : rc_model_keep(w->inner, err);
 }
 
-static enum rc_status
-slide(struct friction *f, struct rc_err *err)
-{
-    enum {
-        PASSES = 50
-    };
-    const double *q[2] = {rc_slip_traction(f->slip, 0), rc_slip_traction(f->slip, 1)};
-    const size_t most = f->problem.max_passes > 0 ? f->problem.max_passes : PASSES;
-    const double before = f->traction_change;
-    enum rc_status status = rc_slip_step(f->slip, err);
+/* ---- all ways to the point ---- */
 
-    if (status == RC_MORE || status == RC_FAIL)
-        return status;
-    f->passes++;
+static enum rc_status
+next_increment(struct friction *f, struct rc_err *err)
+{
+    const struct rc_point at = end_of_increment(f, ++f->increment, f->leg.increments);
+
+    f->running = f->fewer_done = 0;
+    return begin_increment(f, f->way, &at, err);
+}
+
+/* Begins increment k of n of a way with fewer increments, from the tractions of the first way. */
+static enum rc_status
+begin_fewer(struct friction *f, struct way *w, size_t k, size_t n, struct rc_err *err)
+{
+    const double *q[2] = {rc_slip_traction(f->way->slip, 0), rc_slip_traction(f->way->slip, 1)};
+    const struct rc_point at = end_of_increment(f, k, n);
+
+    rc_slip_start(w->slip, q);
     if (f->alternates) {
-        f->traction_change = rc_slip_take(f->n, 2, q, f->before);
-        f->factor = rc_slip_left_over(f->passes, f->traction_change, before);
-        if (f->factor * fmax(f->traction_change, f->pressure_change) > f->tol / 2) {
-            if (f->passes < most)
-                return press(f, err);
-            status = RC_SHORT;
-        }
+        memcpy(w->p, f->way->p, f->n * sizeof *w->p);
+        take(f->n, 2, q, w->before);
     }
-    f->good = f->good && status == RC_OK;
-    f->stage = THERE;
-    if (f->increment == f->increments)
+    return begin_increment(f, w, &at, err);
+}
+
+/* The first way has reached the end of its increment: the others follow where one of theirs ends there. */
+static enum rc_status
+follow(struct friction *f, struct rc_err *err)
+{
+    const size_t n = f->leg.increments;
+    struct rc_friction_figures figures;
+
+    f->running = 0;
+    while (f->fewer_done < f->problem.fewer) {
+        const size_t j = f->fewer_done + 1, all = rc_leg_fewer(&f->leg, j),
+                     done = f->increment * all / n;
+        if (done > (f->increment - 1) * all / n) {
+            f->running = j;
+            return begin_fewer(f, &f->way[j], done, all, err);
+        }
+        f->fewer_done++;
+    }
+    if (f->increment == n)
         return f->good ? RC_OK : RC_SHORT;
-    return keep_increment(f, err) == RC_OK ? begin_increment(f, err) : RC_FAIL;
+    find_figures(f, f->way, &figures);
+    f->dissipated += figures.slip.dissipated;
+    f->passes += figures.passes;
+    return keep_increment(f, f->way, err) == RC_OK ? next_increment(f, err) : RC_FAIL;
+}
+
+/* A force that is too large on the way is too large at its end too, and the message names the numbers there,
+ * which the user has given. */
+static enum rc_status
+refuse(struct friction *f, struct rc_err *err)
+{
+    const struct rc_point end = end_of_increment(f, 1, 1);
+    struct rc_err last;
+    enum rc_status status;
+
+    if (f->running > 0 || f->increment == f->leg.increments)
+        return RC_FAIL;
+    f->increment = f->leg.increments;
+    status = begin_increment(f, f->way, &end, &last);
+    while (status == RC_MORE)
+        status =
+            f->way->stage == PRESSING ? step_contact(f, f->way, &last) : slide(f, f->way, &last);
+    return status == RC_FAIL ? rc_err_set(err, "%s", last.text) : RC_FAIL;
 }
 
 static enum rc_status
 step(struct rc_model *m, struct rc_err *err)
 {
     struct friction *f = (struct friction *)m;
+    struct way *w = &f->way[f->running];
+    struct rc_friction_figures figures;
+    enum rc_status status;
 
-    if (f->again)
-        return press(f, err);
-    return f->stage == PRESSING ? step_contact(f, err) : slide(f, err);
+    if (f->again) {
+        f->again = false;
+        return find_pressure(f, w, err);
+    }
+    status = w->stage == PRESSING ? step_contact(f, w, err) : slide(f, w, err);
+    if (status == RC_MORE)
+        return RC_MORE;
+    if (status == RC_FAIL)
+        return refuse(f, err);
+    f->good = f->good && status == RC_OK;
+    if (f->running > 0) {
+        find_figures(f, w, &figures);
+        if (f->running == 1)
+            f->doubt = figures.traction_error + figures.inherited_error;
+        if (keep_increment(f, w, err) != RC_OK)
+            return RC_FAIL;
+        f->fewer_done++;
+    }
+    return follow(f, err);
 }
 
-/* ---- results ---- */
+/* ---- the error of the increments ---- */
+
+/* Sum over the map of |q_a - q_b|, Pa, b NULL: of |q_a|; less `lag`, which may be NULL. */
+static double
+distance(const struct friction *f, const struct way *a, const struct way *b, double *const lag[2])
+{
+    double sum = 0;
+
+    for (size_t k = 0; k < f->n; k++) {
+        double d[2];
+        for (int c = 0; c < 2; c++)
+            d[c] = rc_slip_traction(a->slip, c)[k] -
+                   (b == NULL ? 0 : rc_slip_traction(b->slip, c)[k]) -
+                   (lag == NULL ? 0 : lag[c][k]);
+        sum += hypot(d[0], d[1]);
+    }
+    return sum;
+}
+
+/* Relative; NAN: unknown. */
+static double
+increment_error(struct friction *f)
+{
+    const struct way *w = f->way;
+    const double size = distance(f, w, NULL, NULL), doubt = f->doubt * size;
+    const size_t fewer = f->problem.fewer;
+    double d = NAN, d2 = NAN, lagged = NAN, error;
+
+    if (fewer > 0) {
+        d = distance(f, w, w + 1, NULL) + doubt;
+        lagged = distance(f, w, w + 1, f->lag) + doubt;
+    }
+    if (fewer > 1)
+        d2 = distance(f, w + 1, w + 2, NULL);
+    error = f->leg.told == RC_TOLD_EXACT ? 0
+            : fewer < (f->leg.late ? (size_t)1 : RC_FEWER)
+                ? NAN
+                : rc_leg_error(&f->leg, f->lag_before, d, d2, lagged);
+    f->lagging = isnan(error) ? 0 : error;
+    return size > 0 ? error / size : 0;
+}
+
+/* ---- verbs ---- */
+
+static double
+all_convolutions(const struct friction *f)
+{
+    struct rc_slip_figures figures;
+    double sum = 0;
+
+    for (size_t j = 0; j <= f->problem.fewer; j++) {
+        rc_slip_result(f->way[j].slip, &figures);
+        sum += figures.convolutions + f->way[j].convolutions;
+    }
+    return sum;
+}
+
+static enum rc_status
+go(struct rc_model *m, struct rc_err *err)
+{
+    struct friction *f = (struct friction *)m;
+
+    if (rc_point_has(&m->to, RC_FORCE_X) != rc_point_has(&m->to, RC_FORCE_Y))
+        return rc_err_set(err, "a force along one direction and a displacement along the other: "
+                               "give two forces or two displacements");
+    f->leg = rc_friction_leg(&f->problem, &f->before, &m->from, &m->to);
+    f->increment = f->passes = 0;
+    f->dissipated = 0;
+    f->good = true;
+    f->again = false;
+    f->convolutions = all_convolutions(f);
+    for (size_t k = 0; k < f->n && f->problem.fewer > 0; k++)
+        for (int c = 0; c < 2; c++)
+            f->lag[c][k] =
+                rc_slip_traction(f->way[0].slip, c)[k] - rc_slip_traction(f->way[1].slip, c)[k];
+    return next_increment(f, err) == RC_MORE ? RC_OK : refuse(f, err);
+}
 
 /* Solves the point of a state again, starting from the tractions of the state. */
 static enum rc_status
@@ -277,21 +559,24 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 {
     static const enum rc_axis axis[2][2] = {{RC_FORCE_X, RC_FORCE_Y}, {RC_SHIFT_X, RC_SHIFT_Y}};
     struct friction *f = (struct friction *)m;
-    struct rc_joint_figures *to = &f->figures;
-    const bool moved = moves(f);
+    struct rc_friction_figures *to = &f->figures;
 
     if (f->again && m->status != RC_MORE &&
         (find_again(f, err) == RC_FAIL || rc_model_look(m->inner, at, err) != RC_OK))
         return RC_FAIL;
-    if (!rc_point_has(&m->to, RC_APPROACH))
-        at->at[RC_APPROACH] += f->lowered;
-    if (f->stage != REST) { /* at rest the figures are those of the kept point */
-        find_figures(f);
+    if (f->way->stage != REST) { /* at rest the figures are those of the kept point */
+        find_figures(f, f->way, to);
         to->slip.dissipated += f->dissipated;
-        to->approach = at->at[RC_APPROACH];
+        to->passes += f->passes;
+        to->convolutions = all_convolutions(f) - f->convolutions;
+        to->increment_error = increment_error(f);
+        to->converged = f->way->stage == THERE && f->good;
     }
+    if (!rc_point_has(&m->to, RC_APPROACH))
+        at->at[RC_APPROACH] = to->approach;
+    to->approach = at->at[RC_APPROACH];
     for (int c = 0; c < 2; c++)
-        at->at[axis[moved ? 0 : 1][c]] = moved ? to->slip.force[c] : to->slip.displacement[c];
+        at->at[axis[moves(f) ? 0 : 1][c]] = moves(f) ? to->slip.force[c] : to->slip.displacement[c];
     return RC_OK;
 }
 
@@ -299,7 +584,6 @@ static enum rc_status
 keep(struct rc_model *m, struct rc_err *err)
 {
     struct friction *f = (struct friction *)m;
-    struct rc_joint_figures figures;
     struct rc_point at;
 
     if (rc_model_look(m, &at, err) != RC_OK)
@@ -307,25 +591,25 @@ keep(struct rc_model *m, struct rc_err *err)
     for (int k = 0; k < RC_AXES; k++)
         if (isfinite(at.at[k]))
             f->reached.at[k] = at.at[k];
-    figures = f->figures;
-    if (keep_increment(f, err) != RC_OK)
-        return RC_FAIL;
-    f->figures = figures;
-    return RC_OK;
+    f->lag_before = f->lagging;
+    f->before = f->leg;
+    return keep_increment(f, f->way, err);
 }
 
 static enum rc_status
 fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 {
     struct friction *f = (struct friction *)m;
+    const struct way *w = f->way;
 
     (void)err;
     if (frame == STATE)
-        rc_slip_state(f->slip, to);
+        rc_slip_state(w->slip, to);
     else if (frame == SLIP_X || frame == SLIP_Y)
-        rc_slip_slip(f->slip, (int)frame - SLIP_X, to);
+        rc_slip_slip(w->slip, (int)frame - SLIP_X, to);
     else
-        memcpy(to, rc_slip_traction(f->slip, (int)frame - TRACTION_X), f->n * sizeof *to);
+        memcpy(to, frame == PRESSURE ? w->p : rc_slip_traction(w->slip, (int)frame - TRACTION_X),
+               f->n * sizeof *to);
     return RC_OK;
 }
 
@@ -335,55 +619,91 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 {
     struct friction *f = (struct friction *)m;
 
-    memcpy(f->h, h, f->n * sizeof *h);
-    return rc_model_set_heights(m->inner, h, err);
+    if (f->h != NULL)
+        memcpy(f->h, h, f->n * sizeof *h);
+    for (size_t j = 0; j <= f->problem.fewer; j++) {
+        f->way[j].pressed.given = 0;
+        if (f->way[j].inner != NULL && rc_model_set_heights(f->way[j].inner, h, err) != RC_OK)
+            return RC_FAIL;
+    }
+    return RC_OK;
 }
 
 /* ---- states ---- */
 
-/* The tractions on the way to a point. The state of the inner model holds the pressure only while that
+/* The increment that is solved or on its way. The state of the inner model holds the pressure only while that
  * model steps; afterwards the contact is solved again when the state was read. */
 static void
 exchange_increment(struct friction *f, struct rc_state *s)
 {
-    double *q[2] = {f->slip_start[0], f->slip_start[1]};
+    struct way *w = f->way;
+    double *numbers[] = {&w->pressure_change, &w->traction_change, &w->factor, &w->pressure_error};
     struct rc_err err;
 
-    for (int c = 0; c < 2; c++) {
-        if (!rc_state_reads(s))
-            memcpy(q[c], rc_slip_traction(f->slip, c), f->n * sizeof **q);
-        rc_state_numbers(s, f->n, q[c]);
-    }
+    rc_state_count(s, &w->passes, SIZE_MAX / 2);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        rc_state_numbers(s, 1, numbers[k]);
+    for (int c = 0; c < 3 && f->alternates; c++) /* of the previous pass */
+        rc_state_numbers(s, f->n, c < 2 ? w->before[c] : w->p);
+    for (int c = 0; c < 2 && f->problem.fewer > 0; c++)
+        rc_state_numbers(s, f->n, f->lag[c]);
+    rc_slip_increment(w->slip, s);
     if (!rc_state_reads(s))
         return;
-    rc_slip_start(f->slip, (const double *const *)q);
-    f->again = f->stage != PRESSING;
-    if (f->alternates && lower_heights(f, &err) != RC_OK)
+    f->leg = rc_friction_leg(&f->problem, &f->before, &f->base.from, &f->base.to);
+    if (f->increment == 0 || f->increment > f->leg.increments) {
+        rc_state_refuse(s, "an increment is out of range");
+        return;
+    }
+    w->at = end_of_increment(f, f->increment, f->leg.increments);
+    f->again = w->stage != PRESSING;
+    if (f->alternates && lower_heights(f, w, &err) != RC_OK)
         rc_state_refuse(s, "its heights are impossible");
+}
+
+/* The history of each way. An increment of a way with fewer increments begins anew. */
+static void
+exchange_ways(struct friction *f, struct rc_state *s)
+{
+    for (size_t j = 0; j <= f->problem.fewer; j++) {
+        struct way *w = &f->way[j];
+        rc_state_numbers(s, 2, w->inherited);
+        rc_slip_history(w->slip, s);
+        if (j > 0 && w->inner != NULL)
+            rc_state_model(s, w->inner);
+        if (rc_state_reads(s))
+            w->pressed.given = 0;
+    }
 }
 
 static void
 state(struct rc_model *m, struct rc_state *s)
 {
     struct friction *f = (struct friction *)m;
-    double *numbers[] = {&f->dissipated,     &f->pressure_change, &f->traction_change, &f->factor,
-                         &f->pressure_error, &f->inherited[0],    &f->inherited[1]};
-    size_t good = f->good;
+    double *numbers[] = {&f->dissipated, &f->lagging, &f->lag_before, &f->doubt};
+    size_t good = f->good, told = f->before.told, carries = f->before.carries;
 
-    rc_state_count(s, &f->stage, THERE);
+    rc_state_count(s, &f->way->stage, THERE);
     rc_state_count(s, &f->increment, SIZE_MAX / 2);
-    rc_state_count(s, &f->increments, SIZE_MAX / 2);
+    rc_state_count(s, &f->fewer_done, f->problem.fewer);
     rc_state_count(s, &f->passes, SIZE_MAX / 2);
     rc_state_count(s, &good, 1);
+    rc_state_count(s, &told, RC_TOLD_UNKNOWN);
+    rc_state_count(s, &carries, 1);
     rc_state_numbers(s, RC_AXES, f->reached.at);
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         rc_state_numbers(s, 1, numbers[k]);
-    rc_slip_history(f->slip, s);
-    for (int c = 0; c < 3 && f->alternates; c++) /* of the previous pass */
-        rc_state_numbers(s, f->n, c < 2 ? f->before[c] : f->p);
-    f->good = good;
-    f->again = false;
-    if (f->stage != REST)
+    exchange_ways(f, s);
+    if (rc_state_reads(s)) {
+        f->good = good;
+        f->before.told = (enum rc_told)told;
+        f->before.carries = carries;
+        f->running = 0;
+        f->again = false;
+        f->convolutions =
+            all_convolutions(f); /* those of the run that wrote the state do not count */
+    }
+    if (f->way->stage != REST)
         exchange_increment(f, s);
 }
 
@@ -392,7 +712,7 @@ progress(const struct rc_model *m, struct rc_loops *l)
 {
     const struct friction *f = (const struct friction *)m;
 
-    rc_loops_add(l, "increment", NULL, (double)f->increment, (double)f->increments);
+    rc_loops_add(l, "increment", NULL, (double)f->increment, (double)f->leg.increments);
 }
 
 static void
@@ -400,8 +720,14 @@ release(struct rc_model *m)
 {
     struct friction *f = (struct friction *)m;
 
-    rc_slip_free(f->slip);
-    free(f->h); /* and the maps behind it */
+    for (size_t j = 0; j <= RC_FEWER; j++) {
+        rc_slip_free(f->way[j].slip);
+        free(f->way[j].maps);
+        if (j > 0)
+            rc_model_free(f->way[j].inner);
+    }
+    free(f->h);
+    free(f->lag[0]); /* and the other behind it */
 }
 
 const struct rc_model_row rc_model_friction = {
@@ -424,59 +750,109 @@ const struct rc_model_row rc_model_friction = {
 
 /* ---- the maker ---- */
 
+static enum rc_status
+short_of_memory(const struct friction *f, struct rc_err *err)
+{
+    return rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", f->base.shape.nx,
+                      f->base.shape.ny);
+}
+
 /* Begins with separated bodies: the gap before contact shows which nodes came into contact later. */
 static enum rc_status
-begin(struct friction *f, struct rc_err *err)
+begin(struct way *w, const double *gap, struct rc_err *err)
 {
     enum rc_status status;
-    struct rc_contact apart;
 
-    rc_contact_apart(NULL, &f->base.shape, f->h, f->gap, &apart);
-    if (rc_slip_set_pressure(f->slip, NULL, f->gap, err) != RC_OK ||
-        rc_slip_set_force(f->slip, 0, 0, err) != RC_OK)
+    if (rc_slip_set_pressure(w->slip, NULL, gap, err) != RC_OK ||
+        rc_slip_set_force(w->slip, 0, 0, err) != RC_OK)
         return RC_FAIL;
-    while ((status = rc_slip_step(f->slip, err)) == RC_MORE)
+    while ((status = rc_slip_step(w->slip, err)) == RC_MORE)
         ;
-    rc_slip_keep(f->slip);
+    rc_slip_keep(w->slip);
     return status;
 }
 
+/* Way j. Half of its tolerance is for the passes. A way with fewer increments starts from the answer that it
+ * is compared with, and what its iteration leaves counts several times: it iterates to a tenth. */
 static enum rc_status
-make(struct friction *f, const double *h, const struct rc_friction_problem *problem,
-     struct rc_err *err)
+make_way(struct friction *f, size_t j, const double *h, struct rc_err *err)
 {
-    enum {
-        MAPS = 8
-    };
     static const double usual = 1e-4;
-    const struct rc_shape *shape = &f->base.shape;
-    struct rc_slip_problem slip = problem->slip;
+    struct way *w = &f->way[j];
+    struct rc_slip_problem slip = f->problem.slip;
+    const bool own = j == 0 || f->alternates; /* a pressure of its own */
+    const size_t maps = !own ? 0 : f->alternates ? 5 : 2;
+    struct rc_contact contact;
 
-    f->problem = *problem;
-    f->n = shape->nx * shape->ny;
-    f->tol = slip.tol > 0 ? slip.tol : usual;
-    slip.uncoupled = problem->coupling == RC_COUPLING_NONE;
-    if ((f->slip = rc_slip_new(shape, &slip, err)) == NULL)
+    w->tol = (slip.tol > 0 ? slip.tol : usual) / (j > 0 ? 10 : 1);
+    slip.tol = f->alternates ? w->tol / 2 : w->tol;
+    w->approach = NAN;
+    if ((w->slip = rc_slip_new(&f->base.shape, &slip, err)) == NULL)
         return RC_FAIL;
-    f->alternates = problem->coupling == RC_COUPLING_FULL && rc_slip_beta(f->slip) != 0;
+    w->p = f->way->p;
+    w->gap = f->way->gap;
+    if (own) {
+        if ((w->maps = rc_alloc(maps * f->n, sizeof *w->maps)) == NULL)
+            return short_of_memory(f, err);
+        memset(w->maps, 0, maps * f->n * sizeof *w->maps);
+        w->p = w->maps;
+        w->gap = w->maps + f->n;
+    }
+    if (f->alternates) {
+        w->less = w->maps + 2 * f->n;
+        w->before[0] = w->maps + 3 * f->n;
+        w->before[1] = w->maps + 4 * f->n;
+    }
+    if (h == NULL)
+        return RC_OK;
+    rc_contact_apart(NULL, &f->base.shape, h, w->gap, &contact);
+    return begin(w, w->gap, err);
+}
+
+static enum rc_status
+make(struct friction *f, const double *h, struct rc_err *err)
+{
+    const struct rc_friction_problem *o = &f->problem;
+    struct rc_shear shear;
+
+    f->n = f->base.shape.nx * f->base.shape.ny;
+    f->known_only = h == NULL;
+    f->problem.slip.uncoupled = o->coupling == RC_COUPLING_NONE;
+    f->way->inner = f->base.inner;
+    for (size_t j = 1; j <= RC_FEWER; j++)
+        f->way[j].inner = o->inner_of_fewer[j - 1];
+    if (rc_pair_shear(&o->slip.pair, o->slip.nu, &shear, err) != RC_OK)
+        return RC_FAIL;
+    f->alternates = o->coupling == RC_COUPLING_FULL && shear.beta != 0;
+    if (o->fewer > RC_FEWER)
+        return rc_err_set(err, "%zu ways with fewer increments: it must be 0, 1 or 2", o->fewer);
+    if (f->alternates && h == NULL)
+        return rc_err_set(err, "the pressure of dissimilar bodies depends on their tractions: give "
+                               "heights, or take another coupling");
     if (f->alternates && f->base.inner->row->heights == NULL)
         return rc_err_set(err,
                           "the bodies are dissimilar, so that tractions move the surface, and the "
                           "heights of the %s model cannot change: take another coupling",
                           rc_model_name(f->base.inner));
-    if ((f->h = rc_alloc(MAPS * f->n, sizeof *f->h)) == NULL)
-        return rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", shape->nx,
-                          shape->ny);
-    memset(f->h, 0, MAPS * f->n * sizeof *f->h);
-    memcpy(f->h, h, f->n * sizeof *h);
-    f->less = f->h + f->n;
-    f->p = f->h + 2 * f->n;
-    f->gap = f->h + 3 * f->n;
-    for (int c = 0; c < 2; c++) {
-        f->before[c] = f->h + (size_t)(4 + c) * f->n;
-        f->slip_start[c] = f->h + (size_t)(6 + c) * f->n;
+    for (size_t j = 1; j <= o->fewer && f->alternates; j++)
+        if (f->way[j].inner == NULL)
+            return rc_err_set(err,
+                              "the bodies are dissimilar: each way with fewer increments needs "
+                              "an inner model of its own");
+    if (f->alternates) {
+        if ((f->h = rc_alloc(f->n, sizeof *f->h)) == NULL)
+            return short_of_memory(f, err);
+        memcpy(f->h, h, f->n * sizeof *h);
     }
-    return begin(f, err);
+    if (o->fewer > 0) {
+        if ((f->lag[0] = rc_alloc(2 * f->n, sizeof **f->lag)) == NULL)
+            return short_of_memory(f, err);
+        f->lag[1] = f->lag[0] + f->n;
+    }
+    for (size_t j = 0; j <= o->fewer; j++)
+        if (make_way(f, j, h, err) != RC_OK)
+            return RC_FAIL;
+    return RC_OK;
 }
 
 struct rc_model *
@@ -486,14 +862,20 @@ rc_friction_new(struct rc_model *inner, const double *h, const struct rc_frictio
     struct rc_model *m =
         rc_model_make_outer(&rc_model_friction, sizeof(struct friction), inner, err);
 
-    if (m != NULL && make((struct friction *)m, h, problem, err) == RC_FAIL) {
+    if (m == NULL) {
+        for (size_t j = 0; j < RC_FEWER; j++)
+            rc_model_free(problem->inner_of_fewer[j]);
+        return NULL;
+    }
+    ((struct friction *)m)->problem = *problem;
+    if (make((struct friction *)m, h, err) == RC_FAIL) {
         rc_model_free(m);
         return NULL;
     }
     return m;
 }
 
-const struct rc_joint_figures *
+const struct rc_friction_figures *
 rc_friction_result(const struct rc_model *m)
 {
     while (m != NULL && m->row != &rc_model_friction)

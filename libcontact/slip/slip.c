@@ -219,6 +219,15 @@ rc_slip_history(struct rc_slip *s, struct rc_state *state)
     memset(s->discs->face, RC_FACE_OFF, s->n);
 }
 
+void
+rc_slip_increment(struct rc_slip *s, struct rc_state *state)
+{
+    for (int c = 0; c < 2; c++)
+        rc_state_numbers(state, s->n, s->discs->q[c]);
+    if (rc_state_reads(state))
+        s->tried = true;
+}
+
 /* How far a node has slipped in this increment, in units: what is left where one sticks is an error. */
 static inline double
 slipped(const struct rc_slip *s, int c, size_t k)
@@ -341,8 +350,8 @@ rc_slip_normal(struct rc_slip *s, double *uz)
         uz[k] *= s->unit;
 }
 
-#define FIGURE(member) RC_FIGURE(struct rc_joint_figures, member)
-#define AS(column, member) RC_FIGURE_AS(column, struct rc_joint_figures, member)
+#define FIGURE(member) RC_FIGURE(struct rc_friction_figures, member)
+#define AS(column, member) RC_FIGURE_AS(column, struct rc_friction_figures, member)
 const struct rc_figure rc_figures_slip[] = {
     {AS("load", slip.load), "N", "Load", .says = "sum of the pressure"},
     {AS("limit", slip.limit), "N", "Largest tangential force", .says = "that friction carries"},

@@ -159,6 +159,14 @@ step(struct rc_model *m, struct rc_err *err)
     return e->apart ? RC_OK : rc_solver_step(e->solver);
 }
 
+static enum rc_status
+start(struct rc_model *m, double load, const double *p, struct rc_err *err)
+{
+    struct elastic *e = (struct elastic *)m;
+
+    return e->apart ? RC_OK : rc_solver_warm_start(e->solver, load, p, err);
+}
+
 /* Where no node is at the hardness, the conductance has also given the stiffness. */
 static enum rc_status
 look_at_stiffness(struct elastic *e, struct rc_err *err)
@@ -187,7 +195,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     struct elastic *e = (struct elastic *)m;
     struct rc_elastic_figures *f = &e->figures;
 
-    if (e->apart && !e->looked) {
+    if ((e->apart || e->solver == NULL) && !e->looked) {
         rc_contact_apart(e->problem.ranks, &m->shape,
                          e->solver != NULL ? e->solver->posed.h : e->given, NULL, &f->contact);
         f->stiffness = NAN;
@@ -510,6 +518,7 @@ const struct rc_model_row rc_model_elastic = {
     .keep = keep,
     .heights = set_heights,
     .compliance = set_compliance,
+    .start = start,
     .progress = progress,
     .plan = plan,
     .solver = solver,

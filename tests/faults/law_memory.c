@@ -361,17 +361,17 @@ static enum rc_status
 friction_model(double *out, struct rc_err *err)
 {
     const struct rc_problem contact = {.pair = bare, .threads = 1};
-    const struct rc_friction_problem law = {.slip = {.pair = bare, .mu = 0.3, .threads = 1},
-                                            .increments = 2};
-    struct rc_model *m = rc_friction_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough,
-                                         &law, err),
-                    *other = NULL;
+    struct rc_friction_problem law = {
+        .slip = {.pair = bare, .mu = 0.3, .threads = 1}, .increments = 2, .fewer = 1};
+    struct rc_model *m, *other = NULL;
     enum rc_status status = RC_FAIL;
     struct rc_point to = {0};
     double *state = NULL;
     bool going;
     size_t n;
 
+    law.inner_of_fewer[0] = rc_elastic_new(&shape, rough, &contact, NULL, err);
+    m = rc_friction_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
     rc_point_set(&to, RC_LOAD, 1e-3);
     rc_point_set(&to, RC_SHIFT_X, 1e-9);
     rc_point_set(&to, RC_SHIFT_Y, 1e-10);
@@ -386,12 +386,15 @@ friction_model(double *out, struct rc_err *err)
         goto done;
     }
     rc_model_state(m, state);
+    law.inner_of_fewer[0] = rc_elastic_new(&shape, rough, &contact, NULL, err);
     other = rc_friction_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
     if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK ||
         rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
         rc_model_frame(other, "traction-x", out, err) != RC_OK)
         goto done;
-    out[N] = rc_friction_result(other)->slip.force[0];
+    out[N] =
+        rc_friction_result(other)->slip.force[0] +
+        (double)rc_friction_leg(&law, &(struct rc_leg){0}, &(struct rc_point){0}, &to).increments;
     status = RC_OK;
 done:
     free(state);
@@ -568,49 +571,6 @@ slides(double *out, struct rc_err *err)
 done:
     rc_slip_free(slip);
     rc_solver_free(solver);
-    return status;
-}
-
-/* The same bodies pressed and moved: a force, then a displacement, then a known pressure. */
-static enum rc_status
-joins(double *out, struct rc_err *err)
-{
-    struct rc_joint_problem problem = {
-        .contact = {.boundary = RC_PERIODIC, .pair = bare, .load = 1e-3, .threads = 1},
-        .slip = {.mu = 0.2}};
-    struct rc_joint *joint = rc_joint_new(&shape, rough, &problem, err);
-    struct rc_joint_figures figures;
-    enum rc_status status = RC_FAIL;
-
-    for (int q = 0; joint != NULL && q < 3; q++) {
-        if (q == 2) {
-            rc_joint_free(joint);
-            problem.coupling = RC_COUPLING_GOODMAN;
-            if ((joint = rc_joint_new(&shape, rough, &problem, err)) == NULL)
-                return RC_FAIL;
-            rc_joint_know(joint, 1e-3, out, NULL);
-        }
-        if (q == 1) /* from the end of the last increment, as by default */
-            rc_joint_start(joint,
-                           (const double *[2]){rc_slip_traction(rc_joint_slip(joint), 0),
-                                               rc_slip_traction(rc_joint_slip(joint), 1)},
-                           out);
-        status = q == 1 ? rc_joint_set_displacement(joint, 1e-3, 0, 0, err)
-                        : rc_joint_set_force(joint, 1e-3, 1e-4, 2e-5, err);
-        while (status == RC_OK && (status = rc_joint_step(joint, err)) == RC_MORE)
-            status = RC_OK;
-        if (status != RC_OK)
-            break;
-        rc_joint_result(joint, &figures);
-        if (q < 2)
-            memcpy(out, rc_joint_pressure(joint), N * sizeof *out);
-        memcpy(out + (q < 2 ? 1 : 2) * N, rc_slip_traction(rc_joint_slip(joint), 0),
-               N * sizeof *out);
-        out[4 * N + q] = figures.slip.dissipated;
-        rc_joint_keep(joint);
-    }
-    out[4 * N + 3] = (double)rc_joint_memory(&shape, &problem, true);
-    rc_joint_free(joint);
     return status;
 }
 
@@ -964,7 +924,6 @@ static const struct {
     {.name = "leakage", .use = leaks},
 #endif
     {.name = "friction", .use = slides},
-    {.name = "friction and contact", .use = joins},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, direct", .use = direct_stress},

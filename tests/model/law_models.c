@@ -63,24 +63,28 @@ friction(struct rc_err *err)
 {
     static const struct rc_friction_problem law = {
         .slip = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.3, .tol = 1e-9, .threads = 1},
-        .increments = 2};
+        .increments = 2,
+        .fewer = 1};
 
     return rc_friction_new(elastic(err), heights, &law, err);
 }
 
-/* Dissimilar bodies, moved along each other: pressure and tractions are solved alternately. */
+/* Dissimilar bodies, moved along each other: pressure and tractions are found in turn, in all increments and in
+ * half of them. */
 static struct rc_model *
 coupled(struct rc_err *err)
 {
     static const struct rc_problem contact = {
         .pair.one = {1e9, 0.4}, .pair.two.e = INFINITY, .tol = 1e-10, .threads = 1};
-    static const struct rc_friction_problem law = {.slip = {.pair.one = {1e9, 0.4},
-                                                            .pair.two.e = INFINITY,
-                                                            .mu = 0.3,
-                                                            .tol = 1e-8,
-                                                            .threads = 1},
-                                                   .increments = 2};
+    struct rc_friction_problem law = {.slip = {.pair.one = {1e9, 0.4},
+                                               .pair.two.e = INFINITY,
+                                               .mu = 0.3,
+                                               .tol = 1e-8,
+                                               .threads = 1},
+                                      .increments = 2,
+                                      .fewer = 1};
 
+    law.inner_of_fewer[0] = rc_elastic_new(&shape, heights, &contact, NULL, err);
     return rc_friction_new(rc_elastic_new(&shape, heights, &contact, NULL, err), heights, &law,
                            err);
 }

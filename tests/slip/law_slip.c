@@ -518,43 +518,45 @@ test_errors_of_a_path_add_up(void **state)
     for (int k = 0; k < 12; k++) {
         enum rc_boundary boundary = k % 3 == 0 ? RC_FREE : RC_PERIODIC;
         double *h = slip_rough(&shape, 0.1, 4, 60 + (uint64_t)k), *p, load = 0;
-        struct rc_joint *joint[2];
+        struct rc_model *model[2];
         uint64_t seed = 40 + (uint64_t)k;
-        double force[2] = {0, 0};
+        double force[2] = {0, 0}, *q[2][2];
         for (size_t i = 0; i < n && boundary == RC_FREE; i++)
             h[i] -= (pow((double)(i % 32) - 16, 2) + pow((double)(i / 32) - 16, 2)) / 90;
         p = pressure_of(&shape, boundary, h, 0.004 * (1 + k % 4));
         for (size_t i = 0; i < n; i++)
             load += p[i];
         for (int c = 0; c < 2; c++) {
-            struct rc_joint_problem what = {
-                .contact = {.boundary = boundary, .pair.estar = 1, .load = load},
-                .slip = {.nu = 0.1 * (k % 6), .mu = 0.3, .tol = c == 0 ? 3e-2 : 1e-10}};
-            joint[c] = rc_joint_new(&shape, NULL, &what, NULL);
-            assert_non_null(joint[c]);
-            rc_joint_know(joint[c], load, p, NULL);
+            const struct rc_problem contact = {.boundary = boundary, .pair.estar = 1};
+            const struct rc_friction_problem law = {.slip = {.boundary = boundary,
+                                                             .pair.estar = 1,
+                                                             .nu = 0.1 * (k % 6),
+                                                             .mu = 0.3,
+                                                             .tol = c == 0 ? 3e-2 : 1e-10},
+                                                    .increments = 1,
+                                                    .known_load = load,
+                                                    .known_p = p};
+            model[c] = slip_model(&shape, NULL, &contact, &law, NULL);
+            assert_non_null(model[c]);
+            q[c][0] = malloc(n * sizeof **q[c]);
+            q[c][1] = malloc(n * sizeof **q[c]);
         }
         for (int step = 0; step < 16; step++) {
-            struct rc_joint_figures f[2];
-            const double *q[2][2];
+            struct rc_friction_figures f[2];
             double error;
             for (int c = 0; c < 2; c++) /* on a square of 0.06 to 0.26 of the friction limit */
                 force[c] += (slip_noise(&seed) - 0.5) * 0.15 * load;
             for (int c = 0; c < 2; c++)
                 force[c] = fmax(-0.18 * load, fmin(0.18 * load, force[c]));
             for (int c = 0; c < 2; c++) {
-                enum rc_status status = RC_MORE;
-                assert_int_equal(rc_joint_set_force(joint[c], load, force[0], force[1], NULL),
-                                 RC_OK);
-                while (status == RC_MORE)
-                    status = rc_joint_step(joint[c], NULL);
-                assert_int_equal(status, RC_OK);
-                rc_joint_result(joint[c], &f[c]);
-                rc_joint_keep(joint[c]);
-                for (int d = 0; d < 2; d++)
-                    q[c][d] = rc_slip_traction(rc_joint_slip(joint[c]), d);
+                assert_int_equal(slip_go(model[c], load, force[0], force[1], false, NULL), RC_OK);
+                f[c] = *rc_friction_result(model[c]);
+                assert_int_equal(rc_model_frame(model[c], "traction-x", q[c][0], NULL), RC_OK);
+                assert_int_equal(rc_model_frame(model[c], "traction-y", q[c][1], NULL), RC_OK);
+                assert_int_equal(rc_model_keep(model[c], NULL), RC_OK);
             }
-            error = slip_distance(n, q[0], q[1]);
+            error = slip_distance(n, (const double *[2]){q[0][0], q[0][1]},
+                                  (const double *[2]){q[1][0], q[1][1]});
             below += f[0].traction_error + f[0].inherited_error < error;
             alone += f[0].traction_error < error;
             least = fmin(least, (f[0].traction_error + f[0].inherited_error) / error);
@@ -562,16 +564,13 @@ test_errors_of_a_path_add_up(void **state)
             assert_true(f[0].contact_error == 0 && (step > 0 || f[0].inherited_error == 0));
         }
         for (int c = 0; c < 2; c++) {
-            struct rc_joint_figures f;
-            rc_joint_set_force(joint[c], 0, 0, 0, NULL);
-            assert_int_equal(rc_joint_step(joint[c], NULL), RC_OK);
-            rc_joint_keep(joint[c]);
-            rc_joint_set_force(joint[c], load, force[0], force[1], NULL);
-            while (rc_joint_step(joint[c], NULL) == RC_MORE)
-                ;
-            rc_joint_result(joint[c], &f);
-            assert_true(f.inherited_error == 0);
-            rc_joint_free(joint[c]);
+            assert_int_equal(slip_go(model[c], 0, 0, 0, false, NULL), RC_OK);
+            assert_int_equal(rc_model_keep(model[c], NULL), RC_OK);
+            assert_int_equal(slip_go(model[c], load, force[0], force[1], false, NULL), RC_OK);
+            assert_true(rc_friction_result(model[c])->inherited_error == 0);
+            rc_model_free(model[c]);
+            free(q[c][0]);
+            free(q[c][1]);
         }
         free(p);
     }

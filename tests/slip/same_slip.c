@@ -8,6 +8,7 @@
 #include <cmocka.h>
 #include <stdio.h>
 
+#include "libcontact/slip/slip.h"
 #include "slip_case.h"
 
 enum {
@@ -348,7 +349,7 @@ test_displacements_of_periodic_maps(void **state)
     assert_true(stuck > 300 && slid > 300);
 }
 
-/* ---- the model of friction and rc_joint, which solves its contacts itself ---- */
+/* ---- the model of friction, and rc_solver and rc_slip driven by hand ---- */
 
 enum {
     SIDE = 20,
@@ -356,56 +357,101 @@ enum {
     EACH = 3 /* increments from point to point */
 };
 
-/* Largest relative difference of the tractions at the points of a path of loads and forces or
- * displacements. */
+struct by_hand {
+    struct rc_solver *solver;
+    struct rc_slip *slip;
+    double h[NODES], less[NODES], gap[NODES];
+};
+
+static struct by_hand *
+by_hand_new(const struct rc_shape *shape, const double *h, const struct rc_problem *contact,
+            const struct rc_slip_problem *slip)
+{
+    struct by_hand *b = malloc(sizeof *b);
+    struct rc_slip_figures f;
+    struct rc_contact apart;
+
+    b->solver = rc_solver_new(shape, h, contact, NULL);
+    b->slip = rc_slip_new(shape, slip, NULL);
+    assert_true(b->solver != NULL && b->slip != NULL);
+    memcpy(b->h, h, sizeof b->h);
+    rc_contact_apart(NULL, shape, h, b->gap, &apart);
+    assert_int_equal(rc_slip_set_pressure(b->slip, NULL, b->gap, NULL), RC_OK);
+    assert_int_equal(rc_slip_set_force(b->slip, 0, 0, NULL), RC_OK);
+    assert_int_equal(slip_solve(b->slip, &f), RC_OK);
+    rc_slip_keep(b->slip);
+    return b;
+}
+
+/* One increment, in so many passes of pressure and tractions; its approach from first touch of h. */
 static double
-apart_from_joint(const struct rc_joint_problem *o, const double (*at)[3], size_t points, bool moved)
+by_hand_go(struct by_hand *b, const double to[3], bool moved, bool full, struct rc_slip_figures *f)
+{
+    struct rc_contact contact;
+    double top = -INFINITY, less = -INFINITY;
+
+    for (int pass = 0; pass < (full ? 30 : 1); pass++) {
+        rc_slip_normal(b->slip, b->less);
+        top = less = -INFINITY;
+        for (size_t k = 0; k < NODES; k++) {
+            b->less[k] = b->h[k] - (full ? b->less[k] : 0);
+            top = fmax(top, b->h[k]);
+            less = fmax(less, b->less[k]);
+        }
+        assert_int_equal(rc_solver_set_heights(b->solver, b->less, NULL), RC_OK);
+        assert_int_equal(rc_solver_set_load(b->solver, to[0], 0, NULL), RC_OK);
+        while (rc_solver_step(b->solver) == RC_MORE)
+            ;
+        rc_solver_result(b->solver, NULL, b->gap, &contact);
+        assert_int_equal(rc_slip_set_pressure(b->slip, rc_solver_pressure(b->solver), b->gap, NULL),
+                         RC_OK);
+        assert_int_equal(moved ? rc_slip_set_displacement(b->slip, to[1], to[2], NULL)
+                               : rc_slip_set_force(b->slip, to[1], to[2], NULL),
+                         RC_OK);
+        assert_int_equal(slip_solve(b->slip, f), RC_OK);
+    }
+    rc_slip_keep(b->slip);
+    return contact.approach + top - less;
+}
+
+/* Largest distance of the results at points of a path, relative, under loads, and forces or displacements. */
+static double
+apart_from_hand(const struct rc_problem *contact, const struct rc_friction_problem *law,
+                const double (*at)[3], size_t points, bool moved)
 {
     const struct rc_shape shape = {SIDE, SIDE, 1e-6, 1e-6};
-    const struct rc_friction_problem law = {
-        .slip = o->slip, .coupling = o->coupling, .increments = EACH};
+    const bool full = law->coupling == RC_COUPLING_FULL && law->slip.pair.estar == 0;
     double *h = slip_rough(&shape, 0.1, 4e-6, 3), q[2][NODES], before[3] = {0, 0, 0}, worst = 0;
-    struct rc_err err = {""};
-    struct rc_model *m =
-        rc_friction_new(rc_elastic_new(&shape, h, &o->contact, NULL, &err), h, &law, &err);
-    struct rc_joint *j = rc_joint_new(&shape, h, o, &err);
+    struct rc_model *m = slip_model(&shape, h, contact, law, NULL);
+    struct by_hand *b = by_hand_new(&shape, h, contact, &law->slip);
 
-    assert_true(m != NULL && j != NULL);
+    assert_non_null(m);
     for (size_t k = 0; k < points; k++) {
-        struct rc_point to = {0};
-        struct rc_joint_figures f;
-        for (int i = 1; i <= EACH; i++) {
-            enum rc_status status = RC_MORE;
+        const struct rc_leg falls = {.increments = EACH, .falls = at[k][0] < before[0]};
+        struct rc_slip_figures f;
+        double approach = 0;
+        for (size_t i = 1; i <= EACH; i++) {
             double v[3];
             for (int a = 0; a < 3; a++)
-                v[a] = before[a] + (at[k][a] - before[a]) * i / EACH;
-            status = moved ? rc_joint_set_displacement(j, v[0], v[1], v[2], &err)
-                           : rc_joint_set_force(j, v[0], v[1], v[2], &err);
-            for (status = RC_MORE; status == RC_MORE;)
-                status = rc_joint_step(j, &err);
-            assert_int_equal(status, RC_OK);
-            rc_joint_result(j, &f);
-            rc_joint_keep(j);
+                v[a] = before[a] + (at[k][a] - before[a]) * rc_leg_part(&falls, i, EACH);
+            approach = by_hand_go(b, v, moved, full, &f);
         }
-        rc_point_set(&to, RC_LOAD, at[k][0]);
-        rc_point_set(&to, moved ? RC_SHIFT_X : RC_FORCE_X, at[k][1]);
-        rc_point_set(&to, moved ? RC_SHIFT_Y : RC_FORCE_Y, at[k][2]);
-        assert_int_equal(rc_model_run(m, &to, &err), RC_OK);
-        assert_int_equal(rc_model_look(m, NULL, &err), RC_OK);
-        assert_true(rc_model_frame(m, "traction-x", q[0], &err) == RC_OK &&
-                    rc_model_frame(m, "traction-y", q[1], &err) == RC_OK);
-        worst = larger(worst,
-                       slip_distance(NODES, (const double *[2]){q[0], q[1]},
-                                     (const double *[2]){rc_slip_traction(rc_joint_slip(j), 0),
-                                                         rc_slip_traction(rc_joint_slip(j), 1)}));
-        worst = larger(worst, fabs(rc_friction_result(m)->approach / f.approach - 1));
+        assert_int_equal(slip_go(m, at[k][0], at[k][1], at[k][2], moved, NULL), RC_OK);
+        assert_true(rc_model_frame(m, "traction-x", q[0], NULL) == RC_OK &&
+                    rc_model_frame(m, "traction-y", q[1], NULL) == RC_OK);
+        worst = larger(worst, slip_distance(NODES, (const double *[2]){q[0], q[1]},
+                                            (const double *[2]){rc_slip_traction(b->slip, 0),
+                                                                rc_slip_traction(b->slip, 1)}));
+        worst = larger(worst, fabs(rc_friction_result(m)->approach / approach - 1));
         worst = larger(worst, fabs(rc_model_number(m, moved ? "tangential_x" : "displacement_x") /
-                                       (moved ? f.slip.force[0] : f.slip.displacement[0]) -
+                                       (moved ? f.force[0] : f.displacement[0]) -
                                    1));
-        assert_int_equal(rc_model_keep(m, &err), RC_OK);
+        assert_int_equal(rc_model_keep(m, NULL), RC_OK);
         memcpy(before, at[k], sizeof before);
     }
-    rc_joint_free(j);
+    rc_solver_free(b->solver);
+    rc_slip_free(b->slip);
+    free(b);
     rc_model_free(m);
     free(h);
     return worst;
@@ -416,18 +462,19 @@ test_model(void **state)
 {
     static const double forces[][3] = {{2e-3, 3e-4, 1e-4}, {3e-3, -2e-4, 4e-4}, {1e-3, 1e-4, 1e-4}};
     static const double moves[][3] = {{2e-3, 1e-8, 2e-9}, {3e-3, -1e-8, 5e-9}, {1e-3, 3e-8, 1e-9}};
-    struct rc_joint_problem o = {
-        .contact = {.pair.estar = 1e9, .load = 1e-3, .tol = 1e-9, .threads = 1},
-        .slip = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.3, .tol = 1e-8, .threads = 1}};
+    struct rc_problem contact = {.pair.estar = 1e9, .load = 1e-3, .tol = 1e-9, .threads = 1};
+    struct rc_friction_problem law = {
+        .slip = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.3, .tol = 1e-8, .threads = 1},
+        .increments = EACH};
 
     (void)state;
-    assert_true(apart_from_joint(&o, forces, 3, false) < 1e-6);
-    assert_true(apart_from_joint(&o, moves, 3, true) < 1e-6);
-    o.contact.pair = o.slip.pair = (struct rc_pair){.one = {1e9, 0.3}, .two.e = INFINITY};
-    o.slip.nu = 0;
-    assert_true(apart_from_joint(&o, moves, 3, true) < 1e-5);
-    o.coupling = RC_COUPLING_GOODMAN;
-    assert_true(apart_from_joint(&o, forces, 3, false) < 1e-6);
+    assert_true(apart_from_hand(&contact, &law, forces, 3, false) < 1e-6);
+    assert_true(apart_from_hand(&contact, &law, moves, 3, true) < 1e-6);
+    contact.pair = law.slip.pair = (struct rc_pair){.one = {1e9, 0.3}, .two.e = INFINITY};
+    law.slip.nu = 0;
+    assert_true(apart_from_hand(&contact, &law, moves, 3, true) < 1e-5);
+    law.coupling = RC_COUPLING_GOODMAN;
+    assert_true(apart_from_hand(&contact, &law, forces, 3, false) < 1e-6);
 }
 
 /* Requests that a model of friction refuses, with their messages. */

@@ -120,4 +120,27 @@ slip_distance(size_t n, const double *const q[2], const double *const truth[2])
     return sum / all;
 }
 
+/* Friction over an elastic contact; h NULL: only the known contact of the law. */
+static inline struct rc_model *
+slip_model(const struct rc_shape *shape, const double *h, const struct rc_problem *contact,
+           const struct rc_friction_problem *law, struct rc_err *err)
+{
+    return rc_friction_new(rc_elastic_new(shape, h != NULL ? h : law->known_p, contact, NULL, err),
+                           h, law, err);
+}
+
+/* Goes to this load and force, or displacement, and looks. */
+static inline enum rc_status
+slip_go(struct rc_model *m, double load, double x, double y, bool moved, struct rc_err *err)
+{
+    struct rc_point to = {0};
+    enum rc_status status;
+
+    rc_point_set(&to, RC_LOAD, load);
+    rc_point_set(&to, moved ? RC_SHIFT_X : RC_FORCE_X, x);
+    rc_point_set(&to, moved ? RC_SHIFT_Y : RC_FORCE_Y, y);
+    status = rc_model_run(m, &to, err);
+    return status == RC_FAIL || rc_model_look(m, NULL, err) != RC_OK ? RC_FAIL : status;
+}
+
 #endif

@@ -1,9 +1,12 @@
 /* A case of rc-slip: its corners one after another, and the frames of each. */
 #include "slip.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "formats/core/core.h"
 
 static const struct {
     const char *name, *unit;
@@ -135,7 +138,7 @@ set_keys(struct slip_run *run, struct rc_grid *g, const struct slip_state *s)
     if (run->number != rc_grid_case(run->p))
         set_number(run, g, "case", (double)run->number);
     set_number(run, g, "load", f->load);
-    set_number(run, g, "approach", s->approach);
+    set_number(run, g, "approach", s->figures.approach);
     set_number(run, g, "friction", run->args->mu);
     set_number(run, g, "tau_max", run->args->tau_max);
     set_number(run, g, "tangential_x", f->force[0]);
@@ -146,10 +149,8 @@ set_keys(struct slip_run *run, struct rc_grid *g, const struct slip_state *s)
 
 /* Maps are made one after another, in one buffer, as they are written. */
 static void
-write_frames(struct slip_run *run, struct rc_joint *joint, const struct slip_state *s)
+write_frames(struct slip_run *run, struct rc_model *m, const struct slip_state *s)
 {
-    struct rc_slip *slip = rc_joint_slip(joint);
-    const double *p = rc_joint_pressure(joint);
     struct rc_err err;
     struct rc_grid *g = rc_grid_like(run->p, "pressure", "Pa", &err);
 
@@ -161,103 +162,66 @@ write_frames(struct slip_run *run, struct rc_joint *joint, const struct slip_sta
 
         if (!(run->args->output >> k & 1))
             continue;
-        frame.channel = (char *)frames[k].name; /* these and the values are only read */
+        frame.channel = (char *)frames[k].name; /* these are only read */
         frame.unit = (char *)frames[k].unit;
-        if (k == SLIP_PRESSURE && p != NULL)
-            frame.v = (double *)p;
-        else if (k == SLIP_PRESSURE)
-            memset(g->v, 0, rc_grid_nodes(g) * sizeof *g->v);
-        else if (k == SLIP_TRACTION_X || k == SLIP_TRACTION_Y)
-            frame.v = (double *)rc_slip_traction(slip, k - SLIP_TRACTION_X);
-        else if (k == SLIP_STATE)
-            rc_slip_state(slip, g->v);
-        else
-            rc_slip_slip(slip, k - SLIP_SLIP_X, g->v);
+        if (rc_model_frame(m, frames[k].name, g->v, &err) != RC_OK)
+            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
         tool_write(&run->t, &frame);
     }
     rc_grid_free(g);
 }
 
-/* ---- increments ---- */
+/* ---- what a checkpoint must agree in ---- */
 
-/* Increment k of n to a corner; `near` has gone there, NULL: nobody has. */
 static void
-increment(struct slip_run *run, struct rc_joint *joint, struct rc_joint *near, size_t corner,
-          size_t k, size_t n, struct slip_state *s)
+add_mark(struct course *c, const char *name, double value)
 {
-    struct slip_corner c = slip_on_the_way(run, corner, k, n);
-    enum rc_status status;
-    struct rc_err err;
-    bool there;
-
-    if (near != NULL)
-        rc_joint_start(joint,
-                       (const double *[2]){rc_slip_traction(rc_joint_slip(near), 0),
-                                           rc_slip_traction(rc_joint_slip(near), 1)},
-                       rc_joint_pressure(near));
-    there = slip_checkpoint_next(run->checkpoint, joint);
-    status = c.moved ? rc_joint_set_displacement(joint, c.load, c.to[0], c.to[1], &err)
-                     : rc_joint_set_force(joint, c.load, c.to[0], c.to[1], &err);
-    if (status == RC_OK)
-        status = RC_MORE;
-    while (status == RC_MORE && tool_interrupted() == 0) {
-        tool_progress(&run->t, (double)(k - 1) / (double)n,
-                      "case %zu, %zu x %zu, increment %zu of %zu", run->number, run->p->nx,
-                      run->p->ny, k, n);
-        status = rc_joint_step(joint, &err);
-    }
-    tool_progress_end(&run->t);
-    if (status == RC_FAIL &&
-        k < n) /* what is asked for at the corner fails too, and is the user's number */
-        increment(run, joint, near, corner, n, n, s);
-    if (status == RC_FAIL)
-        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
-    rc_joint_result(joint, &s->figures);
-    if (!there || s->figures.passes > 1 || s->figures.slip.steps > 0)
-        slip_checkpoint_save(run->checkpoint, joint);
-    s->passes += s->figures.passes;
-    s->dissipated += s->figures.slip.dissipated;
-    s->converged = s->converged && s->figures.converged;
-    rc_joint_keep(joint);
+    c->mark[c->marks].name = name;
+    rc_number_text(c->mark[c->marks++].value, value);
 }
 
-/* To a corner, in all increments and in fewer ones, each of which starts from what all have found there;
- * stops where the tool is interrupted. */
 static void
-go_to(struct slip_run *run, struct rc_joint *const joint[SLIP_JOINTS], size_t corner,
-      struct slip_state *s)
+add_crc(struct slip_run *run, const char *name, const struct rc_grid *g)
 {
-    size_t n = run->corner[corner].increments;
-    double before = 0, after = 0;
-    struct slip_state fewer = {.converged = true};
+    struct mark *mark = &run->course.mark[run->course.marks++];
 
-    for (size_t j = 0; j < run->joints; j++) {
-        rc_joint_result(joint[j], &fewer.figures);
-        before += fewer.figures.convolutions;
-    }
-    s->dissipated = 0;
-    s->passes = 0;
-    s->converged = true;
-    for (size_t k = 1; k <= n && tool_interrupted() == 0; k++) {
-        increment(run, joint[0], NULL, corner, k, n, s);
-        for (size_t j = 1; j < run->joints && tool_interrupted() == 0; j++) {
-            size_t all = slip_fewer(n, j), done = k * all / n;
-            if (done > (k - 1) * all / n)
-                increment(run, joint[j], joint[0], corner, done, all, &fewer);
-            if (j == 1)
-                s->doubt = fewer.figures.traction_error + fewer.figures.inherited_error;
-        }
-    }
-    s->converged = s->converged && fewer.converged && tool_interrupted() == 0;
-    s->dissipated_total += s->dissipated;
-    for (size_t j = 0; j < run->joints; j++) {
-        rc_joint_result(joint[j], &fewer.figures);
-        after += fewer.figures.convolutions;
-    }
-    s->convolutions += after - before;
+    *mark = (struct mark){.name = name};
+    if (g != NULL)
+        checkpoint_crc(&run->t, g, mark->value);
 }
 
-/* Under the load of the stream it is that of the stream, unless it has been found anew. */
+static void
+set_marks(struct slip_run *run)
+{
+    struct course *c = &run->course;
+    uint32_t crc = 0;
+
+    c->g = run->p;
+    c->marks = 0;
+    if (c->checkpoint == NULL)
+        return;
+    add_crc(run, "checkpoint.pressure", run->p);
+    add_crc(run, "checkpoint.height", run->height);
+    add_mark(c, "friction", run->law.slip.mu);
+    add_mark(c, "tau_max", run->law.slip.tau_max);
+    add_mark(c, "estar", run->bodies.pair.estar);
+    add_mark(c, "checkpoint.kap", run->bodies.kap);
+    add_mark(c, "checkpoint.beta", run->bodies.beta);
+    add_mark(c, "checkpoint.coupling", run->coupling);
+    add_mark(c, "checkpoint.increments", (double)run->increments);
+    add_mark(c, "checkpoint.tol", run->law.slip.tol);
+    for (size_t k = 0; k < run->corners; k++) {
+        const struct slip_corner *to = &run->corner[k];
+        const double v[] = {to->load, to->to[0], to->to[1], to->moved};
+        crc = rc_crc32_add(crc, v, sizeof v);
+    }
+    c->mark[c->marks] = (struct mark){.name = "checkpoint.path"};
+    snprintf(c->mark[c->marks++].value, 16, "%08" PRIx32, crc);
+}
+
+/* ---- corners ---- */
+
+/* Under the load of the stream the approach is that of the stream, if it was not found. */
 static double
 approach_of(const struct slip_run *run, const struct slip_state *s)
 {
@@ -269,174 +233,122 @@ approach_of(const struct slip_run *run, const struct slip_state *s)
     return own;
 }
 
-/* Sum over the map of |q_a - q_b|, Pa, b NULL: of |q_a|; less `lag`, which may be NULL. */
-static double
-distance(const struct slip_run *run, struct rc_joint *a, struct rc_joint *b, double *const lag[2])
-{
-    double sum = 0;
-
-    for (size_t k = 0; k < rc_grid_nodes(run->p); k++) {
-        double d[2];
-        for (int c = 0; c < 2; c++)
-            d[c] = rc_slip_traction(rc_joint_slip(a), c)[k] -
-                   (b == NULL ? 0 : rc_slip_traction(rc_joint_slip(b), c)[k]) -
-                   (lag == NULL ? 0 : lag[c][k]);
-        sum += hypot(d[0], d[1]);
-    }
-    return sum;
-}
-
-/* What the increments leave, Pa, summed over the map; `before` at the corner before, which stays, also
- * where D and D2 fall because they cancel. Half of the increments are off by D more and a quarter by D2
- * more again, which tells how fast that falls. On a way of two increments D grows by what the way adds.
- * `doubt`: D's own, of the iteration. The factors are those of random paths. */
-static double
-increment_error(const struct slip_run *run, struct rc_joint *const joint[SLIP_JOINTS],
-                const struct slip_corner *to, double before, double doubt)
-{
-    static const double factor[] = {[SLIP_MANY] = 1.5, [SLIP_SOME] = 3, [SLIP_FEW] = 6};
-    static const double slowest = 0.85;
-    double d, d2, rho, error;
-
-    if (to->told == SLIP_EXACT)
-        return 0;
-    if (to->told == SLIP_UNKNOWN)
-        return NAN;
-    d = distance(run, joint[0], joint[1], NULL) + doubt;
-    if (to->late)
-        return fmin(fmax(factor[to->told] * d, before),
-                    before +
-                        factor[SLIP_SOME] * (distance(run, joint[0], joint[1], run->lag) + doubt));
-    d2 = distance(run, joint[1], joint[2], NULL);
-    rho = d < slowest * d2 ? d / d2 : slowest;
-    error = fmax(factor[to->told] * d, d * rho / (1 - rho));
-    return fmax(error, before);
-}
-
-/* Keeps how far half of the increments are off, for the way to the next corner. */
+/* The figures at a corner, the parts of its error, and whether their sum is within what was asked for. */
 static void
-keep_lag(struct slip_run *run, struct rc_joint *const joint[SLIP_JOINTS])
+find_state(struct slip_run *run, struct rc_model *m, struct slip_state *s)
 {
-    for (size_t k = 0; k < rc_grid_nodes(run->p) && run->joints > 1; k++)
-        for (int c = 0; c < 2; c++)
-            run->lag[c][k] = rc_slip_traction(rc_joint_slip(joint[0]), c)[k] -
-                             rc_slip_traction(rc_joint_slip(joint[1]), c)[k];
-}
+    struct rc_friction_figures *f = &s->figures;
+    struct rc_err err;
 
-/* The parts of the error at a corner, and whether their sum is what was asked for. */
-static void
-find_errors(struct slip_run *run, struct rc_joint *const joint[SLIP_JOINTS], struct slip_state *s)
-{
-    const struct rc_joint_figures *f = &s->figures;
-    double size = distance(run, joint[0], NULL, NULL);
-
-    s->lagging = increment_error(run, joint, s->corner, s->lagging, s->doubt * size);
-    keep_lag(run, joint);
+    if (rc_model_look(m, NULL, &err) != RC_OK)
+        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+    *f = *rc_friction_result(m);
+    f->approach = approach_of(run, s);
+    s->dissipated_total += f->slip.dissipated;
     s->errors = (struct error_parts){.told = true,
-                                     .increment = size > 0 ? s->lagging / size : 0,
+                                     .increment = f->increment_error,
                                      .inherited = f->inherited_error,
                                      .iteration = f->traction_error,
                                      .contact = f->contact_error};
     s->traction_error = errors_sum(&s->errors);
-    s->converged = s->converged && (errors_within(s->traction_error, slip_goal(run)) ||
-                                    (run->increments > 0 && isnan(s->traction_error)));
+    s->converged = f->converged && tool_interrupted() == 0 &&
+                   (errors_within(s->traction_error, slip_goal(run)) ||
+                    (run->increments > 0 && isnan(s->traction_error)));
 }
 
-static struct rc_joint_problem
-problem_of(const struct slip_run *run)
+/* The contact, whose tolerance is that of friction, less where both are found in turn; without heights it is
+ * never solved. */
+static struct rc_model *
+new_contact(const struct slip_run *run, double tol, struct rc_err *err)
 {
-    static const double usual = 1e-4; /* of the iteration: errors of all increments add up */
-    const struct slip_args *a = run->args;
-    struct rc_joint_problem problem = {
-        .contact = {.boundary = run->boundary,
-                    .pair = run->bodies.pair,
-                    .load = run->load,
-                    .threads = run->t.threads},
-        .slip = {.nu = run->bodies.nu,
-                 .mu = a->mu,
-                 .tau_max = isnan(a->tau_max) ? 0 : a->tau_max,
-                 .tol = (isnan(a->tol) ? usual : a->tol) / (double)slip_all_increments(run)},
-        .coupling = run->coupling,
-    };
+    const struct rc_shape shape = rc_grid_shape(run->p);
+    const struct rc_problem problem = {.boundary = run->boundary,
+                                       .pair = run->bodies.pair,
+                                       .threads = run->t.threads,
+                                       .tol = run->alternates ? tol / 4 : tol};
 
-    for (size_t k = 0; k < run->corners && !(problem.contact.load > 0); k++)
-        problem.contact.load = run->corner[k].load;
-    return problem;
+    return rc_elastic_new(&shape, run->solves ? run->height->v : run->p->v, &problem, NULL, err);
 }
 
-static struct rc_joint *
-new_joint(struct slip_run *run, const struct rc_joint_problem *problem)
+static struct rc_model *
+new_model(struct slip_run *run)
 {
-    struct rc_shape shape = rc_grid_shape(run->p);
+    struct rc_friction_problem law = run->law;
+    const double tol = law.slip.tol;
+    struct rc_model *m;
     struct rc_err err;
-    struct rc_joint *joint =
-        rc_joint_new(&shape, run->solves ? run->height->v : NULL, problem, &err);
 
-    if (joint == NULL)
+    for (size_t j = 0; j < law.fewer && run->alternates; j++)
+        if ((law.inner_of_fewer[j] = new_contact(run, tol / 10, &err)) == NULL)
+            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+    m = rc_friction_new(new_contact(run, tol, &err), run->solves ? run->height->v : NULL, &law,
+                        &err);
+    if (m == NULL)
         tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (run->load > 0)
-        rc_joint_know(joint, run->load, run->p->v, run->gap == NULL ? NULL : run->gap->v);
-    return joint;
+    return m;
 }
 
+/* From corner to corner; a signal ends the way. */
 static void
-follow(struct slip_run *run, const struct rc_joint_problem *problem)
+follow(struct slip_run *run)
 {
-    struct rc_joint *joint[SLIP_JOINTS] = {NULL};
+    struct rc_model *m = new_model(run);
     struct slip_state s = {.dissipated_total = 0};
+    struct rc_err err;
 
-    for (size_t j = 0; j < run->joints; j++) {
-        struct rc_joint_problem its = *problem;
-        if (j >
-            0) /* it starts from the answer that it is compared with: what it leaves counts thrice */
-            its.slip.tol /= 10;
-        joint[j] = new_joint(run, &its);
-    }
-    for (int c = 0; c < 2 && run->joints > 1; c++)
-        if ((run->lag[c] = calloc(rc_grid_nodes(run->p), sizeof(double))) == NULL)
-            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "out of memory for its tractions");
     for (size_t k = 0; k < run->corners && tool_interrupted() == 0; k++) {
-        double began = tool_now();
+        const struct rc_point to = slip_point(&run->corner[k]);
+        const double began = tool_now();
 
+        run->course.number++;
         run->number += !run->corner[k].silent;
         s.corner = &run->corner[k];
-        s.convolutions = 0;
-        go_to(run, joint, k, &s);
-        find_errors(run, joint, &s);
-        s.approach = approach_of(run, &s);
+        course_set(&run->course, m, &to);
+        (void)course_run(&run->course, m);
+        find_state(run, m, &s);
         s.seconds = tool_now() - began;
         if (!s.converged)
             tool_fails_with(&run->t, EXIT_SHORT);
+        if (tool_interrupted() == 0 && rc_model_keep(m, &err) != RC_OK)
+            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
         if (run->corner[k].silent && tool_interrupted() == 0)
             continue;
         slip_judge(run, &s);
-        write_frames(run, joint[0], &s);
+        write_frames(run, m, &s);
         slip_report(run, &s);
     }
-    for (size_t j = 0; j < run->joints; j++)
-        rc_joint_free(joint[j]);
-    for (int c = 0; c < 2; c++) {
-        free(run->lag[c]);
-        run->lag[c] = NULL;
-    }
+    rc_model_free(m);
 }
 
 /* ---- a case ---- */
 
+/* Bytes: friction and contacts, maps, and the state of the corner before. */
 static size_t
-memory_for(const struct slip_run *run, const struct rc_joint_problem *problem)
+memory_for(const struct slip_run *run)
 {
-    struct rc_shape shape = rc_grid_shape(run->p);
+    enum {
+        STATE = 8 /* maps of the state of a way */
+    };
+    const struct rc_shape shape = rc_grid_shape(run->p);
+    const struct rc_problem contact = {.boundary = run->boundary,
+                                       .pair = run->bodies.pair,
+                                       .load = fmax(run->load, 1),
+                                       .threads = run->t.threads};
+    struct rc_slip_problem slip = run->law.slip;
+    const size_t ways = 1 + run->law.fewer, maps = run->alternates ? 6 * ways : 2;
 
-    return run->joints * rc_joint_memory(&shape, problem, run->solves) +
-           (run->joints > 1 ? 3 : 1) * rc_grid_nodes(run->p) * sizeof(double) +
-           slip_checkpoint_memory(run);
+    slip.uncoupled = run->coupling == RC_COUPLING_NONE;
+    return ways * rc_slip_memory(&shape, &slip) +
+           (!run->solves      ? 0
+            : run->alternates ? ways
+                              : 1) *
+               rc_solver_memory(&shape, &contact) +
+           (maps + (ways > 1 ? 2 : 0) + STATE * ways + 1) * rc_grid_nodes(run->p) * sizeof(double);
 }
 
 void
 slip_case(struct slip_run *run)
 {
-    struct rc_joint_problem problem;
     size_t told = 0;
 
     check_pressure(run);
@@ -450,14 +362,13 @@ slip_case(struct slip_run *run)
         told += !run->corner[k].silent;
     if (told == 1 && rc_grid_case(run->p) > run->number)
         run->number = rc_grid_case(run->p) - 1;
-    problem = problem_of(run);
-    slip_checkpoint_case(run->checkpoint);
+    set_marks(run);
     slip_judge_plan(run);
     if (run->args->dry_run) {
-        slip_say_plan(run, tool_memory_with(memory_for(run, &problem)));
+        slip_say_plan(run, tool_memory_with(memory_for(run)));
     } else {
-        tool_demand_memory(&run->t, run->p, memory_for(run, &problem));
-        follow(run, &problem);
+        tool_demand_memory(&run->t, run->p, memory_for(run));
+        follow(run);
     }
     free(run->corner);
 }

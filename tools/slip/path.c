@@ -1,4 +1,4 @@
-/* Loads and forces, corner by corner, and in how many increments. */
+/* Paths: loads and forces, corner by corner. */
 #include "slip.h"
 
 #include <errno.h>
@@ -7,17 +7,6 @@
 #include <string.h>
 
 static const double same_load = 1e-6; /* relative: what is nearer to the stream's load is that */
-static const double straight = 1e-9;
-
-enum {
-    LATE = 2,    /* increments of a straight way                                              */
-    HALVED = 4,  /* so many, and half of them, tell the error                                 */
-    TURNS = 8,   /* of a force that turns by a right angle                                    */
-    PRESSES = 16 /* of a contact that grows or shrinks                                        */
-};
-/* Of a straight way: a node that slips carries against its whole slip of an increment, and not against how it
- * slips in the end. Most nodes have begun to slip by then, and what is left of the way sets them right. */
-static const double late = 0.9;
 
 /* ---- the command line ---- */
 
@@ -167,113 +156,6 @@ slip_read_path(struct slip_run *run, struct slip_args *args)
 
 /* ---- of a case ---- */
 
-/* Sine of the angle by which the way turns; 0: there is none. */
-static double
-turn(const struct slip_corner *from, const struct slip_corner *to)
-{
-    double before = hypot(from->to[0], from->to[1]);
-    double d[2] = {to->to[0] - from->to[0], to->to[1] - from->to[1]}, length = hypot(d[0], d[1]);
-
-    if (!(before > 0) || !(length > 0) || from->moved != to->moved)
-        return 0;
-    return fabs(from->to[0] * d[1] - from->to[1] * d[0]) / (before * length);
-}
-
-static bool
-force_changes(const struct slip_corner *from, const struct slip_corner *to)
-{
-    double most = fmax(hypot(from->to[0], from->to[1]), hypot(to->to[0], to->to[1]));
-
-    return to->moved != from->moved ||
-           hypot(to->to[0] - from->to[0], to->to[1] - from->to[1]) > straight * most;
-}
-
-/* Whether one increment is exact: bodies alike with nu = 0, on which all slips along one line, along which
- * all forces have been. */
-static bool
-exact(const struct slip_run *run, const struct slip_corner *from, const struct slip_corner *to)
-{
-    bool grows = to->load > from->load * (1 + straight), capped = !isnan(run->args->tau_max);
-    bool aside = fabs(from->to[0] * to->to[1] - from->to[1] * to->to[0]) >
-                 straight * hypot(from->to[0], from->to[1]) * hypot(to->to[0], to->to[1]);
-
-    return !run->coupled && run->bodies.kap == 0 && !aside &&
-           (from->moved == to->moved || !(hypot(from->to[0], from->to[1]) > 0)) &&
-           (!grows || !(to->moved || capped)) && (from->told == SLIP_EXACT || from->load == 0);
-}
-
-/* Increments, and what will be known of them: one where that is exact, two where load and line of the force
- * stay, more where the force turns or the load changes. */
-static void
-set_increments(const struct slip_run *run, const struct slip_corner *from, struct slip_corner *to)
-{
-    bool grows = to->load > from->load * (1 + straight), moves = force_changes(from, to);
-    bool falls = to->load < from->load * (1 - straight);
-    enum slip_told before = from->load > 0 ? from->told : SLIP_EXACT;
-    double angle = turn(from, to);
-    size_t n = 1;
-
-    to->carries =
-        run->coupled || hypot(to->to[0], to->to[1]) > 0 || (from->load > 0 && from->carries);
-    to->told = before;
-    to->increments = 1;
-    if (!to->carries || to->load == 0 || (!grows && !falls && !moves)) {
-        to->increments = run->coupled && run->increments > 0 ? run->increments : 1;
-        to->late = to->increments == 1;
-        return;
-    }
-    if (exact(run, from, to)) {
-        to->increments = run->increments > 0 ? run->increments : 1;
-        return;
-    }
-    if (run->increments > 0)
-        n = run->increments;
-    else if (grows || falls)
-        n = PRESSES;
-    else if (angle > straight)
-        while (n < TURNS && ((double)n < TURNS * angle * (1 - straight) || n < HALVED))
-            n *= 2;
-    else
-        n = LATE;
-    to->increments = n;
-    to->late = n == LATE && run->increments == 0;
-    if (n < (grows || falls ? TURNS : HALVED) && !to->late)
-        to->told = SLIP_UNKNOWN;
-    else if (grows && !run->coupled)
-        to->told = n >= PRESSES ? SLIP_SOME : SLIP_FEW;
-    else if (grows || falls)
-        to->told = n >= PRESSES && run->coupled ? SLIP_MANY : n >= TURNS ? SLIP_SOME : SLIP_FEW;
-    else
-        to->told = to->late ? SLIP_SOME : n >= TURNS ? SLIP_MANY : SLIP_FEW;
-    if (before > to->told)
-        to->told = before;
-}
-
-size_t
-slip_fewer(size_t n, size_t joint)
-{
-    n >>= joint;
-    return n > 0 ? n : 1;
-}
-
-size_t
-slip_all_increments(const struct slip_run *run)
-{
-    size_t n = 0;
-
-    for (size_t k = 0; k < run->corners; k++)
-        n += run->corner[k].increments;
-    return n;
-}
-
-static const struct slip_corner start = {0};
-
-static const struct slip_corner *
-before(const struct slip_run *run, size_t k)
-{
-    return k == 0 ? &start : &run->corner[k - 1];
-}
-
 /* Under the load of the stream: pressed, and then moved. */
 static void
 press_and_move(struct slip_run *run)
@@ -291,13 +173,72 @@ press_and_move(struct slip_run *run)
     run->corner[run->corners++] = c;
 }
 
+struct rc_point
+slip_point(const struct slip_corner *c)
+{
+    struct rc_point p = {0};
+
+    rc_point_set(&p, RC_LOAD, c->load);
+    rc_point_set(&p, c->moved ? RC_SHIFT_X : RC_FORCE_X, c->to[0]);
+    rc_point_set(&p, c->moved ? RC_SHIFT_Y : RC_FORCE_Y, c->to[1]);
+    return p;
+}
+
+/* The tolerance of an increment: the errors of all increments add up. */
+static double
+tolerance(const struct slip_run *run)
+{
+    static const double usual = 1e-4;
+    size_t n = 0;
+
+    for (size_t k = 0; k < run->corners; k++)
+        n += run->corner[k].leg.increments;
+    return (isnan(run->args->tol) ? usual : run->args->tol) / (double)n;
+}
+
+/* The law of friction but for its tolerance. */
+static struct rc_friction_problem
+law_of(const struct slip_run *run)
+{
+    const struct slip_args *a = run->args;
+
+    return (struct rc_friction_problem){.slip = {.boundary = run->boundary,
+                                                 .pair = run->bodies.pair,
+                                                 .nu = run->bodies.nu,
+                                                 .mu = a->mu,
+                                                 .tau_max = isnan(a->tau_max) ? 0 : a->tau_max,
+                                                 .threads = run->t.threads},
+                                        .coupling = run->coupling,
+                                        .increments = run->increments,
+                                        .known_load = run->load,
+                                        .known_p = run->p->v,
+                                        .known_gap = run->gap == NULL ? NULL : run->gap->v};
+}
+
+/* The leg to a corner, the solutions that tell its error, and whether it needs contacts under other loads than
+ * the known one; from no load to a force, the gap before contact counts. */
+static void
+plan_leg(struct slip_run *run, const struct slip_corner *from, struct slip_corner *to)
+{
+    const struct rc_point a = slip_point(from), b = slip_point(to);
+
+    to->leg = rc_friction_leg(&run->law, &from->leg, &a, &b);
+    if (to->leg.told != RC_TOLD_EXACT && to->leg.told != RC_TOLD_UNKNOWN)
+        run->law.fewer = to->leg.late && run->law.fewer < RC_FEWER ? 1 : RC_FEWER;
+    run->solves =
+        run->solves || (to->load > 0 && to->load != run->load) ||
+        (to->leg.increments > 1 && from->load != to->load) ||
+        (from->load == 0 && to->load > 0 && hypot(to->to[0], to->to[1]) > 0 && run->given != NULL);
+}
+
 void
 slip_plan_path(struct slip_run *run)
 {
+    static const struct slip_corner start = {0};
+
     run->coupled = run->bodies.beta != 0 && run->coupling != RC_COUPLING_NONE;
     run->alternates = run->bodies.beta != 0 && run->coupling == RC_COUPLING_FULL;
     run->solves = run->alternates;
-    run->joints = 1;
     run->corners = 0;
     run->corner = malloc((run->givens + 2) * sizeof *run->corner);
     if (run->corner == NULL)
@@ -310,38 +251,8 @@ slip_plan_path(struct slip_run *run)
             c.load = run->load;
         run->corner[run->corners++] = c;
     }
-    for (size_t k = 0; k < run->corners; k++) {
-        const struct slip_corner *from = before(run, k);
-        struct slip_corner *to = &run->corner[k];
-        set_increments(run, from, to);
-        if (to->told != SLIP_EXACT && to->told != SLIP_UNKNOWN)
-            run->joints = to->late && run->joints < SLIP_JOINTS ? 2 : SLIP_JOINTS;
-        /* other loads than the stream's; or from no load to a force, where the first gap counts */
-        for (size_t i = 1; i <= to->increments; i++) {
-            double load = slip_on_the_way(run, k, i, to->increments).load;
-            run->solves = run->solves || (load > 0 && load != run->load);
-        }
-        run->solves = run->solves || (from->load == 0 && to->load > 0 && force_changes(from, to) &&
-                                      run->given != NULL);
-    }
-}
-
-/* A point on the straight line. Where the load falls, the increments become shorter towards the end: many
- * nodes begin to slip late, and the traction of a node points against its slip in the last increment. */
-struct slip_corner
-slip_on_the_way(const struct slip_run *run, size_t corner, size_t k, size_t n)
-{
-    const struct slip_corner *from = before(run, corner), *to = &run->corner[corner];
-    struct slip_corner c = *to;
-    double part = to->late ? late : (double)k / (double)n;
-
-    if (to->load < from->load * (1 - straight))
-        part = 1 - (1 - part) * (1 - part);
-    if (k == n)
-        return c;
-    c.load = from->load + part * (to->load - from->load);
-    for (int i = 0; i < 2; i++)
-        c.to[i] = from->moved == to->moved ? from->to[i] + part * (to->to[i] - from->to[i])
-                                           : part * to->to[i];
-    return c;
+    run->law = law_of(run);
+    for (size_t k = 0; k < run->corners; k++)
+        plan_leg(run, k == 0 ? &start : &run->corner[k - 1], &run->corner[k]);
+    run->law.slip.tol = tolerance(run);
 }

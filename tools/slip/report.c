@@ -12,30 +12,17 @@ coupling_of(const struct slip_run *run)
                                                   : "none";
 }
 
-/* What has been found on the way to a corner, as figures of the last increment. */
-static struct rc_joint_figures
-figures_of(const struct slip_state *s)
-{
-    struct rc_joint_figures f = s->figures;
-
-    if (f.slip.stick_nodes + f.slip.slip_nodes == 0)
-        f.slip.displacement[0] = f.slip.displacement[1] = NAN;
-    f.approach = s->approach;
-    f.slip.dissipated = s->dissipated;
-    f.passes = s->passes;
-    f.convolutions = s->convolutions;
-    return f;
-}
-
 void
 slip_report(struct slip_run *run, const struct slip_state *s)
 {
     struct report *r = &run->report;
-    const struct rc_joint_figures f = figures_of(s);
+    struct rc_friction_figures f = s->figures;
     const struct figures from[] = {{rc_figures("slip"), &f}, {NULL, NULL}};
 
     if (!report_wanted(r))
         return;
+    if (f.slip.stick_nodes + f.slip.slip_nodes == 0)
+        f.slip.displacement[0] = f.slip.displacement[1] = NAN;
     report_begin(r);
     report_map(r, run->p, run->number);
     report_text(r, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free");
@@ -49,7 +36,7 @@ slip_report(struct slip_run *run, const struct slip_state *s)
                  "stick_nodes slip_nodes stick_area slip_area stick_fraction largest_slip "
                  "tangential_stiffness dissipated_energy");
     report_value(r, "dissipated_total", s->dissipated_total);
-    report_count(r, "increments", s->corner->increments, NULL);
+    report_count(r, "increments", s->corner->leg.increments, NULL);
     report_named(r, from, "passes convolutions");
     report_number(r, "traction_error_estimate", s->traction_error, NULL);
     errors_report(r, &s->errors);
@@ -81,7 +68,7 @@ say_what_is_left(struct slip_run *run, const struct slip_state *s, double most, 
     double n = 0, increments = s->errors.increment;
 
     for (const struct slip_corner *c = run->corner; c <= s->corner; c++)
-        n = fmax(n, (double)c->increments);
+        n = fmax(n, (double)c->leg.increments);
 
     if (isnan(s->traction_error))
         tool_warn(&run->t,
@@ -210,11 +197,11 @@ slip_say_plan(struct slip_run *run, size_t memory)
         if (c->silent)
             continue;
         fprintf(out, "  to P %g N, %g %s, %g %s: %zu increment%s\n", c->load, c->to[0],
-                c->moved ? "m" : "N", c->to[1], c->moved ? "m" : "N", c->increments,
-                c->increments == 1 ? "" : "s");
+                c->moved ? "m" : "N", c->to[1], c->moved ? "m" : "N", c->leg.increments,
+                c->leg.increments == 1 ? "" : "s");
     }
-    if (run->joints > 1)
+    if (run->law.fewer > 0)
         fprintf(out, "  %-16swith half of them%s too, for the error\n", "increments",
-                run->joints < SLIP_JOINTS ? "" : " and a quarter");
+                run->law.fewer < RC_FEWER ? "" : " and a quarter");
     fprintf(out, "  %-16sabout %zu MiB\n", "memory", (memory >> 20) + 1);
 }
