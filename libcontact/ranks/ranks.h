@@ -14,24 +14,23 @@
  *
  * Operations that are not local to rows:
  *
- *   convolutions          rows are transformed, one exchange makes whole columns of them, multiplied there
- *                         by the columns of the spectrum that are kept there only, one exchange back
- *                         (fft_body.h)
+ *   convolutions          each rank transforms its rows, one exchange makes whole columns of them, each rank
+ *                         multiplies its columns by those of the spectrum, one exchange back (fft_body.h)
  *   spectra of kernels    the same with the rows of a quarter (fft.c)
  *   sums, largest values  every rank gets the sums of all ranks, and adds them in order (solver/reduce.c)
- *   projection: the load  Newton's method on such sums; nodes that join by their gap: the gap of the last
- *                         one by bisection on counts (projection.c)
- *   tiles                 never straddle; the roomiest one of all is found by comparing (tiles.c)
- *   the sift of nodes     looks at eight neighbours: rows beside those owned are fetched (working_set.c)
+ *   projection: the load  Newton's method on such sums; the last node that joins by its gap is found by
+ *                         bisection on counts (projection.c)
+ *   tiles                 a tile is always on one rank; the ranks compare to find the tile with the largest
+ *                         reserve (tiles.c)
+ *   selection of nodes    depends on eight neighbours: neighbouring rows are fetched (working_set.c)
  *   edge of the contact   the same (result.c)
- *   the extension         rows of coarser grids are made where they lie, with the rows beside them; of the first
- *                         one that is small, or would begin with an odd row somewhere, all ranks get all
- *                         rows, and from there on each does the same (pyramid.c)
- *   nested start          rows of the coarser grid are moved to the ranks that own them there; small grids
- *                         are solved by every rank for itself, after one message on whether all
- *                         have the memory (nested.c)
- *   patches of contact    labelled row by row, joined across the seams between ranks (surface/patches.c)
- *   failures              no rank goes on alone: makers agree on their status before any of them returns
+ *   extension             each rank makes its rows of coarser grids, with the neighbouring rows; the first
+ *                         grid that is small, or on which a rank would begin with an odd row, is sent to
+ *                         all ranks as a whole, and from there on each does the same (pyramid.c)
+ *   nested start          rows of the coarser grid are moved to the ranks that own them there; each rank
+ *                         solves small grids alone, after a message that all have the memory (nested.c)
+ *   patches of contact    labelled row by row, joined across the edges between ranks (surface/patches.c)
+ *   failures              no rank continues alone: makers agree on their status before any of them returns
  */
 #ifndef RC_RANKS_H
 #define RC_RANKS_H

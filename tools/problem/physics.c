@@ -30,7 +30,8 @@ const struct opt physics_options[] = {
     {.name = "nu2", .type = OPT_NUMBER, AT(nu2), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 2"},
     {.name = "layer", .type = OPT_TEXTS, AT(layer), .result = true, .arg = "T,E,NU[,S]",
-     .help = "a layer on body 1: thickness, E, nu, residual stress (for rc-stress); again for more, top first"},
+     .help = "a layer on body 1: thickness, E, nu, residual stress (for rc-stress); may be repeated, "
+             "top first"},
     {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_HARD, AT(hardness), ABOVE_0,
      .result = true, .arg = "PRESSURE",
      .help = "upper bound of the pressure, where the surface yields; also a Vickers number, as 600HV"},
