@@ -415,7 +415,7 @@ layers(void)
     static const struct rc_layer one[] = {{0.03, 4e11, 0.2}}, three[] = {{0.01, 4e11, 0.2},
                                                                          {0.01, 2e10, 0.45},
                                                                          {0.01, 9e10, 0.3}};
-    static const struct rc_body coats[] = {{1, one, 2e11, 0.3, 0}, {3, three, 2e11, 0.3, 0}};
+    static const struct rc_body coats[] = {{2e11, 0.3, 1, one}, {2e11, 0.3, 3, three}};
     struct rc_shape shape;
     double *p = disc(M, &shape);
     struct maps m = maps_new(M * M);
