@@ -1210,6 +1210,43 @@ RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
 /* The figures of this model, after rc_model_look; NULL: it has no friction. */
 RC_API const struct rc_friction_figures *rc_friction_result(const struct rc_model *model);
 
+/* ---- wear as a model ---- */
+
+struct rc_wear_problem {
+    double k
+        [2]; /* 1/Pa: depth that bodies 1 and 2 lose per pressure and sliding distance, both >= 0 */
+    double
+        estar; /* Pa, of the bodies: for the first step and the forecast                            */
+    double
+        tol; /* bound of the estimated relative error of the worn depth; 0: 0.1                   */
+    /* The way ends early where one of these is reached; 0: none. */
+    double until_area;   /* contact fraction                   */
+    double until_depth;  /* m: largest worn depth              */
+    double until_spread; /* spread of the pressure, from above */
+};
+struct rc_wear_figures {
+    double distance; /* m                                           */
+    double wear_volume, wear_volume_1,
+        wear_volume_2;                      /* m3, of both bodies and of each              */
+    double max_wear_depth, mean_wear_depth; /* m, of both bodies together                  */
+    double pressure_spread; /* RMS of the pressure over its mean in contact, less 1 */
+    size_t steps, rejected, contacts;
+    double convolutions;
+    /* Estimated: L1 norm of the error of the worn depth over the worn volume; relative L1 error of the
+     * pressure. Of a worn pressure the true ones are usually 10 to 30 times smaller. */
+    double wear_error, pressure_error;
+    bool converged; /* both are at most tol */
+};
+/* A model (model.h) of bodies that wear at every node by k p per sliding distance, over an inner one that allows
+ * other heights and a compliance, and which it owns from here on; NULL where that is NULL. Beside the load it
+ * takes the distance. h: the heights at the start, copied. The tolerance of the inner model should be a
+ * hundredth of this one. Its frame `height` is the worn height, `wear` the depth that both bodies have lost.
+ * Source: Archard 1953 (J. Appl. Phys. 24, 981); steps as in libcontact/wear. */
+RC_API struct rc_model *rc_wear_new(struct rc_model *inner, const double *h,
+                                    const struct rc_wear_problem *problem, struct rc_err *err);
+/* The figures of this model, after rc_model_look; NULL: it does not wear. */
+RC_API const struct rc_wear_figures *rc_wear_result(const struct rc_model *model);
+
 /* ---- stress ---- */
 
 enum rc_component {

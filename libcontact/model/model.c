@@ -197,6 +197,15 @@ rc_model_solver(const struct rc_model *m)
     return NULL;
 }
 
+enum rc_status
+rc_model_respond(struct rc_model *m, const double *e, double *z, struct rc_err *err)
+{
+    if (m->row->respond != NULL)
+        return m->row->respond(m, e, z, err);
+    memset(z, 0, m->shape.nx * m->shape.ny * sizeof *z);
+    return RC_OK;
+}
+
 struct rc_shape
 rc_model_shape(const struct rc_model *m)
 {

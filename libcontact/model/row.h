@@ -91,6 +91,9 @@ struct rc_model_row {
     enum rc_status (*compliance)(struct rc_model *m, double c, struct rc_err *err);
     /* After `go`: the iteration starts from this pressure, Pa, which a load (N) belongs to. */
     enum rc_status (*start)(struct rc_model *m, double load, const double *p, struct rc_err *err);
+    /* z, Pa: about the change of the pressure with heights that are higher by e, m, under the same load and
+     * contact; after a look. */
+    enum rc_status (*respond)(struct rc_model *m, const double *e, double *z, struct rc_err *err);
     void (*progress)(const struct rc_model *m, struct rc_loops *loops);
     enum rc_status (*plan)(const struct rc_model *m, const struct rc_point *most,
                            struct rc_expected *expected, struct rc_err *err);
@@ -119,6 +122,8 @@ struct rc_point rc_point_for(const struct rc_model *m, const struct rc_point *po
 struct rc_point rc_point_between(const struct rc_point *from, const struct rc_point *to,
                                  double part);
 bool rc_point_has(const struct rc_point *point, enum rc_axis axis);
+/* z is 0 where the model cannot tell. */
+enum rc_status rc_model_respond(struct rc_model *m, const double *e, double *z, struct rc_err *err);
 void rc_loops_add(struct rc_loops *s, const char *what, const char *unit, double at, double of);
 
 /* The state at the last point kept: copied, and restored, which forgets all later steps (state.c). */

@@ -324,6 +324,19 @@ set_compliance(struct rc_model *m, double c, struct rc_err *err)
     return RC_OK;
 }
 
+/* The elastic nodes stay the same; what the preconditioner finds for them is nearly exact. */
+static enum rc_status
+respond(struct rc_model *m, const double *e, double *z, struct rc_err *err)
+{
+    struct elastic *v = (struct elastic *)m;
+
+    if (!v->looked || v->apart)
+        return rc_err_set(err,
+                          "a change of heights changes the pressure of a point that was looked at");
+    rc_solver_respond(v->solver, e, z);
+    return RC_OK;
+}
+
 /* ---- states ---- */
 
 /* Replaces the dents of the shape by those of the state, where these are others: heights are rounded once. */
@@ -519,6 +532,7 @@ const struct rc_model_row rc_model_elastic = {
     .heights = set_heights,
     .compliance = set_compliance,
     .start = start,
+    .respond = respond,
     .progress = progress,
     .plan = plan,
     .solver = solver,

@@ -441,6 +441,25 @@ rc_solver_set_diagonal(struct rc_solver *s, double plus)
 }
 
 void
+rc_solver_respond(struct rc_solver *s, const double *e, double *z)
+{
+    const size_t size = rc_working_set_fix(s, false);
+    struct rc_total sum = {0};
+
+    memset(z, 0, s->posed.n * sizeof *z);
+    if (size < 2)
+        return;
+    for (size_t k = 0; k < s->posed.n; k++)
+        rc_total_add(&sum, s->set.w[k] ? e[k] : 0);
+    s->set.offset = (float)(rc_total_value(&sum) / (double)size / s->load.length);
+    for (size_t k = 0; k < s->posed.n; k++)
+        s->set.r[k] = (float)(e[k] / s->load.length);
+    rc_working_set_estimate(s);
+    for (size_t k = 0; k < s->posed.n; k++)
+        z[k] = s->set.w[k] ? (double)s->z[k] / s->load.per_pressure : 0;
+}
+
+void
 rc_solver_set_tol(struct rc_solver *s, double tol)
 {
     s->posed.tol = tol;

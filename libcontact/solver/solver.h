@@ -282,6 +282,9 @@ void rc_solver_restart(struct rc_solver *solver);
 bool rc_solver_hurried(const struct rc_solver *solver);
 /* Adds D I to the operator from the next load or heights on: D >= 0, m/Pa. A solver without a free tilt. */
 void rc_solver_set_diagonal(struct rc_solver *solver, double plus);
+/* z (n Pa) = E' A E e on the elastic nodes, e (n m), less the pressure of a common shift. Costs two factors of a
+ * chain. */
+void rc_solver_respond(struct rc_solver *solver, const double *e, double *z);
 /* A solver of the same contact on a coarser grid, for a nested start; its operator is not exact. */
 struct rc_solver *rc_solver_coarse(const struct rc_solver *fine, const struct rc_shape *shape,
                                    const double *h, const struct rc_problem *problem,

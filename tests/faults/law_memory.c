@@ -403,6 +403,50 @@ done:
     return status;
 }
 
+/* Both bodies wear; half-way the state is restored in another model. */
+static enum rc_status
+wear_model(double *out, struct rc_err *err)
+{
+    const struct rc_problem contact = {.pair = bare, .hardness = 2e7, .tol = 1e-3, .threads = 1};
+    const struct rc_wear_problem law = {.k = {1e-12, 1e-12}, .estar = 1e9};
+    struct rc_model *m = rc_wear_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough,
+                                     &law, err),
+                    *other = NULL;
+    enum rc_status status = RC_FAIL;
+    struct rc_expected expected;
+    struct rc_point to = {0};
+    double *state = NULL;
+    bool going;
+    size_t n;
+
+    rc_point_set(&to, RC_LOAD, 1e-3);
+    rc_point_set(&to, RC_DISTANCE, 1e-3);
+    if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK ||
+        rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
+        goto done;
+    rc_point_set(&to, RC_DISTANCE, 3e-3);
+    if (rc_model_go(m, &to, err) != RC_MORE || rc_model_step(m, err) == RC_FAIL)
+        goto done;
+    n = rc_model_state_size(m);
+    if ((state = malloc(n * sizeof *state)) == NULL) {
+        rc_err_set(err, "out of memory");
+        goto done;
+    }
+    rc_model_state(m, state);
+    other = rc_wear_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
+    if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK ||
+        rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
+        rc_model_frame(other, "wear", out, err) != RC_OK)
+        goto done;
+    out[N] = rc_wear_result(other)->wear_volume;
+    status = RC_OK;
+done:
+    free(state);
+    rc_model_free(m);
+    rc_model_free(other);
+    return status;
+}
+
 /* ---- adhesion ---- */
 
 /* A state by approach, one by load that starts from the state of another path, and a retraction. */
@@ -916,6 +960,7 @@ static const struct {
     {.name = "the elastic model", .use = elastic_model},
     {.name = "the yielding model", .use = yielding_model},
     {.name = "the friction model", .use = friction_model},
+    {.name = "the wear model", .use = wear_model},
     {.name = "plasticity", .use = yields},
     {.name = "plasticity after elasticity", .use = may_yield},
     {.name = "adhesion", .use = adheres},

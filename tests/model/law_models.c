@@ -111,6 +111,17 @@ retracted(struct rc_err *err)
     return rc_adhesive_new(&shape, heights, &attraction, err);
 }
 
+/* Both bodies wear, at first on a shape that is dented. */
+static struct rc_model *
+wearing(struct rc_err *err)
+{
+    static const struct rc_problem contact = {
+        .pair.estar = 1e9, .hardness = 4e7, .tol = 1e-9, .history_part = 0.05, .threads = 1};
+    static const struct rc_wear_problem law = {.k = {1e-12, 3e-12}, .estar = 1e9};
+
+    return rc_wear_new(rc_elastic_new(&shape, heights, &contact, NULL, err), heights, &law, err);
+}
+
 #ifdef RC_TOYS
 static struct rc_model *
 relaxing(struct rc_err *err)
@@ -142,6 +153,7 @@ static const struct kind {
      1e-6},
     {"adhesive", dented, {RC_LOAD}, {{4e-3}, {1e-3}, {3e-3}}, 1e-5},
     {"adhesive", retracted, {RC_APPROACH}, {{2e-8}, {0}, {-INFINITY}}, 1e-4},
+    {"wear", wearing, {RC_LOAD, RC_DISTANCE}, {{2e-3, 0}, {1e-3, 2e-3}, {2e-3, 9e-3}}, 1e-5},
 #ifdef RC_TOYS
     {"relaxing", relaxing, {RC_LOAD, RC_TIME}, {{2e-3, 0.3}, {1e-3, 0.5}, {2e-3, 0.6}}, 1e-6},
 #endif

@@ -1,0 +1,680 @@
+/*
+ * The model of wear: while the bodies slide by ds, the pressure p of an inner model takes k p ds off the heights,
+ * k = k1 + k2 (Archard 1953).
+ *
+ * With Phi(h) the largest h'p - 1/2 p'Kp of the pressures that carry the load, dh/ds = -k grad Phi(h). Phi is
+ * convex: two histories never part, so that errors of steps at most add up, and the pressure becomes even. The
+ * flow is stiff (short waves decay by exp(-k E* q s/2)), so steps are implicit: the contact of heights h under
+ * a compliance D = k ds has the pressure of the heights h - D p.
+ *
+ * A step of length t is TR-BDF2 (Bank et al. 1985, IEEE Trans. CAD 4, 436; Hosea and Shampine 1996, Appl.
+ * Numer. Math. 20, 21), with g = 2 - sqrt 2, d = g/2, w = sqrt(2)/4: the pressure p_a of h - d t k p0, and p1 of
+ * h - w t k (p0 + p_a), both with D = d t k; the heights lose t k (w p0 + w p_a + d p1). It leaves ripples in the
+ * pressure where nodes have just come into contact. So the last part of the way to a point are steps of backward
+ * Euler, which damp them.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+#include "libcontact/model/row.h"
+
+enum {
+    GROWTH = 4, /* most from one step to the next */
+    MAPS = 7
+};
+static const double g = 0.58578643762690495, d = 0.29289321881345248, w = 0.35355339059327376;
+static const double third_order = 0.0404; /* local error: this times t^3 k p'' */
+static const double usual_tol = 0.1;
+/* Steps of backward Euler before a point: this part of the distance, and as many as leave a part of the
+ * tolerance in the pressure, whose relative change over one of them is at most some 0.1 over their number. */
+static const double last_part = 0.1, per_tolerance = 0.4;
+static const double fewest = 4;
+static const double of_tol =
+    0.8; /* of the tolerance is for the steps, the rest for the contacts         */
+/* Nodes that come into contact within a step can escape its estimate, which is some 0.8 of the error at worst. */
+static const double caution = 1.5;
+static const double first_step =
+    0.1; /* dx / (k E*)                                                          */
+/* The pressure of backward Euler has an error of its first order, about its last change. Ripples are left beside
+ * it; the larger of the two was 1.1 to 50 times the error of the pressure in runs of random maps. */
+static const double of_change = 2;
+/* From this compliance on, in sides of the map over E*, the accuracy of the contact leaves more in the heights
+ * than elasticity does. */
+static const double long_step = 1.0 / 3;
+
+enum stage {
+    REST,  /* at a point                                  */
+    PRESS, /* the contact of the present heights          */
+    FIRST, /* the two contacts of a step of TR-BDF2       */
+    SECOND,
+    LAST /* a step of backward Euler                    */
+};
+
+struct wear {
+    struct rc_model base;
+    struct rc_wear_problem law;
+    double k; /* 1/Pa: of both bodies */
+    size_t n;
+    double *h, *worn;        /* heights at the start, and what both bodies have lost       */
+    double *p0, *pa, *p1;    /* pressures of a step                                        */
+    double *e, *room;        /* error of a step; heights of the inner model, other numbers */
+    size_t stage, last;      /* last: steps of backward Euler since the last point         */
+    double s, end, t, tried; /* m: slid so far, end of the way, next step, step under way  */
+    double error[6];         /* m3: of the worn volume; relative: of p0, of pa, of steps   */
+    double c;                /* m/Pa: compliance of the last contact                       */
+    bool kept;               /* the inner model has kept its contact                     */
+    bool fitted;             /* the heights in contact are those of elasticity           */
+    bool good;               /* all contacts have converged                              */
+    bool met;                /* one of law.until_...                                 */
+    bool again;              /* a state was read: its contact must be solved again       */
+    double in_contact;       /* part of the nodes                                     */
+    struct rc_wear_figures f;
+};
+enum { /* of error[] */
+    VOLUME,
+    OF_P0,
+    OF_PA,
+    OF_STEPS,
+    OF_ALL,  /* relative, of p0: due to all steps of TR-BDF2 */
+    REPEATED /* error of the pressure due to all steps over that of the last one */
+};
+
+const struct rc_figure rc_figures_wear[] = {
+#define FIGURE(member) RC_FIGURE(struct rc_wear_figures, member)
+#define AS(column, member) RC_FIGURE_AS(column, struct rc_wear_figures, member)
+    {FIGURE(distance), "m", "Sliding distance"},
+    {FIGURE(wear_volume), "m3", "Worn volume", .says = "of both bodies"},
+    {FIGURE(wear_volume_1), "m3", "Worn volume of body 1"},
+    {FIGURE(wear_volume_2), "m3", "Worn volume of body 2"},
+    {FIGURE(max_wear_depth), "m", "Largest worn depth", .says = "of both bodies together"},
+    {FIGURE(mean_wear_depth), "m", "Mean worn depth", .says = "over the whole map"},
+    {FIGURE(pressure_spread), NULL, "Spread of the pressure",
+     .says = "RMS of the pressure over its mean in contact, less 1"},
+    {FIGURE(steps), NULL, "Steps", .role = RC_FIGURE_COST},
+    {FIGURE(rejected), NULL, "Rejected steps", .role = RC_FIGURE_COST},
+    {FIGURE(contacts), NULL, "Contacts", .role = RC_FIGURE_COST, .says = "solved so far"},
+    {FIGURE(convolutions), NULL, "Convolutions", .role = RC_FIGURE_COST,
+     .says = "of all contacts so far, in equivalents of one in double precision on this grid"},
+    {AS("wear_error_estimate", wear_error), NULL, "Error of the wear",
+     .says = "estimated error of the worn depth: its L1 norm over the worn volume",
+     .role = RC_FIGURE_ERROR, .by = "tol"},
+    {AS("pressure_error_estimate", pressure_error), NULL, "Error of the pressure",
+     .says = "estimated relative L1 error", .role = RC_FIGURE_ERROR, .by = "tol"},
+    {FIGURE(converged), NULL, "Converged", .says = "the error estimates are within the tolerance"},
+    {0},
+};
+static const struct rc_figure_set sets[] = {{rc_figures_wear, offsetof(struct wear, f)}, {NULL, 0}};
+
+enum {
+    GAP,
+    HEIGHT,
+    WEAR,
+    WEAR_1,
+    WEAR_2
+};
+static const struct rc_frame_kind frames[] = {
+    [GAP] = {"gap", "m", "Gap"},
+    [HEIGHT] = {"height", "m", "Worn height"},
+    [WEAR] = {"wear", "m", "Worn depth"},
+    [WEAR_1] = {"wear-1", "m", "Worn depth of body 1"},
+    [WEAR_2] = {"wear-2", "m", "Worn depth of body 2"},
+    {NULL, NULL, NULL},
+};
+
+/* ---- a contact ---- */
+
+/* The load where the bodies have slid by s: between two points it changes in proportion to the distance. */
+static struct rc_point
+at_distance(const struct wear *v, double s)
+{
+    const struct rc_point *from = &v->base.from, *to = &v->base.to;
+    const double start = from->at[RC_DISTANCE], way = to->at[RC_DISTANCE] - start;
+    const bool all = from->given == 0 || !(way > 0);
+    const struct rc_point at = rc_point_between(from, to, all ? 1 : (s - start) / way);
+
+    return rc_point_for(v->base.inner, &at);
+}
+
+/* Gives the inner model the heights and the compliance of this stage. */
+static enum rc_status
+pose(struct wear *v, struct rc_err *err)
+{
+    const double step = v->k * v->tried;
+    const double first = v->stage == FIRST ? d * step : v->stage == SECOND ? w * step : 0;
+    const double second = v->stage == SECOND ? first : 0;
+
+    v->c = v->stage == FIRST || v->stage == SECOND ? d * step : v->stage == LAST ? step : 0;
+    for (size_t k = 0; k < v->n; k++)
+        v->room[k] = v->h[k] - v->worn[k] - first * v->p0[k] - second * v->pa[k];
+    return rc_model_set_compliance(v->base.inner, v->c, err) == RC_OK
+               ? rc_model_set_heights(v->base.inner, v->room, err)
+               : RC_FAIL;
+}
+
+/* Sets out for the contact of a stage. What yielded in the last step stays. */
+static enum rc_status
+contact(struct wear *v, enum stage stage, struct rc_err *err)
+{
+    const double part = stage == PRESS ? 0 : stage == FIRST ? g : 1;
+    const struct rc_point to = at_distance(v, v->s + part * v->tried);
+
+    if (!v->kept && rc_model_keep(v->base.inner, err) != RC_OK)
+        return RC_FAIL;
+    v->kept = true;
+    v->stage = stage;
+    return pose(v, err) == RC_OK ? rc_model_go(v->base.inner, &to, err) : RC_FAIL;
+}
+
+static double
+size_of(size_t n, const double *a)
+{
+    struct rc_total sum = {0};
+
+    for (size_t k = 0; k < n; k++)
+        rc_total_add(&sum, fabs(a[k]));
+    return rc_total_value(&sum);
+}
+
+static double
+distance(size_t n, const double *a, const double *b)
+{
+    struct rc_total sum = {0};
+
+    for (size_t k = 0; k < n; k++)
+        rc_total_add(&sum, fabs(a[k] - b[k]));
+    return rc_total_value(&sum);
+}
+
+/* ---- steps ---- */
+
+static void
+find_figures(struct wear *v)
+{
+    const double cell = v->base.shape.dx * v->base.shape.dy;
+    struct rc_wear_figures *f = &v->f;
+    double sum = 0, squares = 0, in = 0;
+
+    f->distance = v->s;
+    f->wear_volume = rc_sum(v->worn, v->n) * cell;
+    f->max_wear_depth = 0;
+    for (size_t k = 0; k < v->n; k++) {
+        f->max_wear_depth = fmax(f->max_wear_depth, v->worn[k]);
+        sum += v->p0[k];
+        squares += v->p0[k] * v->p0[k];
+        in += rc_in_contact(v->p0[k]);
+    }
+    f->wear_volume_1 = v->law.k[0] / v->k * f->wear_volume;
+    f->wear_volume_2 = v->law.k[1] / v->k * f->wear_volume;
+    f->mean_wear_depth = f->wear_volume / (cell * (double)v->n);
+    f->pressure_spread = sqrt(fmax(in * squares / (sum * sum) - 1, 0));
+    f->wear_error = f->wear_volume > 0 ? v->error[VOLUME] / f->wear_volume : 0;
+    f->pressure_error = v->error[OF_STEPS] + v->error[OF_P0];
+    f->converged = v->good && f->wear_error <= v->law.tol && f->pressure_error <= v->law.tol;
+    v->in_contact = in / (double)v->n;
+}
+
+/* The part of the way to the point that backward Euler takes, m. */
+static double
+last_way(const struct wear *v)
+{
+    return fmin(last_part * v->end, v->end - v->base.from.at[RC_DISTANCE]);
+}
+
+static size_t
+last_steps(const struct wear *v)
+{
+    return (size_t)ceil(fmax(fewest, per_tolerance / v->law.tol));
+}
+
+/* Sets out for the next step, if there is one. */
+static enum rc_status
+set_out(struct wear *v, struct rc_err *err)
+{
+    const double left = v->end - last_way(v) - v->s;
+
+    if (v->last == last_steps(v) || !(v->end > v->s)) {
+        v->s = v->end;
+        v->stage = REST;
+        find_figures(v);
+        return v->f.converged ? RC_OK : RC_SHORT;
+    }
+    if (v->last == 0 && left > 1e-9 * v->end) {
+        v->tried = v->t >= left ? left : v->t > left / 2 ? left / 2 : v->t;
+        return contact(v, FIRST, err);
+    }
+    v->tried = (v->end - v->s) / (double)(last_steps(v) - v->last);
+    v->last++;
+    return contact(v, LAST, err);
+}
+
+/* The way ends where the first condition is met, after the last steps. */
+static void
+see_conditions(struct wear *v)
+{
+    const struct rc_wear_figures *f = &v->f;
+    find_figures(v);
+    v->met = (v->law.until_area > 0 && v->in_contact >= v->law.until_area) ||
+             (v->law.until_depth > 0 && f->max_wear_depth >= v->law.until_depth) ||
+             (v->law.until_spread > 0 && f->pressure_spread <= v->law.until_spread);
+    if (v->met)
+        v->end = fmin(v->end, v->s / (1 - last_part));
+}
+
+/* Under a large compliance the tolerance of the contact leaves more in the heights than elasticity does: those in
+ * contact become K p less the shift. Their volume stays, because the mean of the gap is 0 there. */
+static enum rc_status
+fit(struct wear *v, struct rc_err *err)
+{
+    const struct rc_shape *s = &v->base.shape;
+    const double side = fmax(s->dx * (double)s->nx, s->dy * (double)s->ny);
+
+    v->fitted = v->c * v->law.estar > long_step * side &&
+                !(rc_model_number(v->base.inner, "plastic_area") > 0);
+    if (!v->fitted)
+        return RC_OK;
+    if (rc_model_frame(v->base.inner, "gap", v->room, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < v->n; k++)
+        v->worn[k] -= rc_in_contact(v->p1[k]) ? v->room[k] : 0;
+    return RC_OK;
+}
+
+/* p1 and its error become those of the present heights, of which a step has taken `less`; `error`, m: its sum
+ * of errors at the nodes. */
+static enum rc_status
+take(struct wear *v, const double *less, double error, double of_p1, double of_steps,
+     struct rc_err *err)
+{
+    double *p = v->p0;
+
+    for (size_t k = 0; k < v->n; k++)
+        v->worn[k] += less[k];
+    if (fit(v, err) != RC_OK)
+        return RC_FAIL;
+    v->p0 = v->p1;
+    v->p1 = p;
+    v->s += v->tried;
+    v->error[VOLUME] += error * v->base.shape.dx * v->base.shape.dy;
+    v->error[OF_P0] = of_p1;
+    v->error[OF_STEPS] = of_steps;
+    v->kept = false;
+    v->f.steps++;
+    return RC_OK;
+}
+
+/* What the contact leaves of the error e of a step of TR-BDF2: it takes back D z, z the change of the pressure
+ * with the heights, which damps the stiff part. The sum of |z|, Pa, is that of the error of the pressure. */
+static enum rc_status
+respond(struct wear *v, double *sum, struct rc_err *err)
+{
+    if (rc_model_respond(v->base.inner, v->e, v->room, err) != RC_OK)
+        return RC_FAIL;
+    v->f.convolutions += 1;
+    for (size_t k = 0; k < v->n; k++)
+        v->e[k] -= v->c * v->room[k];
+    *sum = size_of(v->n, v->room);
+    return RC_OK;
+}
+
+/* The step by backward Euler, whose local error is t^2 k p'/2. */
+static enum rc_status
+even(struct wear *v, double of_p1, struct rc_err *err)
+{
+    const double step = v->k * v->tried, sum = size_of(v->n, v->p1);
+    const double change = distance(v->n, v->p1, v->p0), *error = v->error;
+    double z;
+
+    if (respond(v, &z, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < v->n; k++)
+        v->pa[k] = step * v->p1[k];
+    if (take(v, v->pa, step * (change / 2 + of_p1 * sum), of_p1,
+             error[OF_P0] + fmax(of_change * change, error[REPEATED] * z) / sum, err) != RC_OK)
+        return RC_FAIL;
+    return set_out(v, err);
+}
+
+/* The step of TR-BDF2 is taken, or tried again with a shorter one. Its local error e is third_order t^3 k p'',
+ * p'' by the three pressures. */
+static enum rc_status
+judge(struct wear *v, double of_p1, struct rc_err *err)
+{
+    const double step = v->k * v->tried, sum = size_of(v->n, v->p1), *error = v->error;
+    const double most = of_tol * v->law.tol * step * sum;
+    double e, z = 0, contacts, factor;
+
+    for (size_t k = 0; k < v->n; k++)
+        v->e[k] =
+            2 * third_order * step * ((v->p1[k] - v->pa[k]) / (1 - g) - (v->pa[k] - v->p0[k]) / g);
+    if (respond(v, &z, err) != RC_OK)
+        return RC_FAIL;
+    e = size_of(v->n, v->e);
+    factor = fmin(GROWTH, 0.9 * sqrt(most / e));
+    if (e > most && v->tried > 1e-12 * v->end) {
+        v->t = fmax(factor, 1.0 / GROWTH) * v->tried;
+        v->f.rejected++;
+        return set_out(v, err);
+    }
+    /* an error of p0 acts twice more in p_a: neither solution increases a difference of its heights */
+    contacts = step * sum * (3 * w * error[OF_P0] + w * error[OF_PA] + d * of_p1);
+    for (size_t k = 0; k < v->n; k++)
+        v->pa[k] = step * (w * (v->p0[k] + v->pa[k]) + d * v->p1[k]);
+    if (v->tried >= v->t || factor < 1) /* a shorter one, to end at the point, tells nothing */
+        v->t = fmax(factor, 1.0 / GROWTH) * v->tried;
+    /* the errors of earlier steps decay as the bodies slide on */
+    v->error[OF_ALL] = v->error[OF_ALL] * v->s / (v->s + v->tried) + z / sum;
+    v->error[REPEATED] = z > 0 ? v->error[OF_ALL] * sum / z : 1;
+    if (take(v, v->pa, caution * e + contacts, of_p1, v->error[OF_ALL], err) != RC_OK)
+        return RC_FAIL;
+    see_conditions(v);
+    return set_out(v, err);
+}
+
+static enum rc_status
+go(struct rc_model *m, struct rc_err *err)
+{
+    struct wear *v = (struct wear *)m;
+    const double load = m->to.at[RC_LOAD];
+
+    if (rc_point_has(&m->to, RC_APPROACH))
+        return rc_err_set(err, "wear at a given approach is not implemented: give the load");
+    if (!(load > 0))
+        return rc_err_set(err, "load %g N: bodies wear under a load above 0", load);
+    v->end = v->met ? v->s : m->to.at[RC_DISTANCE];
+    v->last = 0;
+    v->again = false;
+    if (m->from.given == 0 || (!v->met && v->s >= v->end)) {
+        v->tried = 0;
+        v->good = true;
+        return contact(v, PRESS, err) == RC_MORE ? RC_OK : RC_FAIL;
+    }
+    return v->met ? RC_OK : set_out(v, err) == RC_MORE ? RC_OK : RC_FAIL;
+}
+
+static enum rc_status
+step(struct rc_model *m, struct rc_err *err)
+{
+    struct wear *v = (struct wear *)m;
+    const bool there = v->stage == REST && !v->again;
+    const enum rc_status status = there ? RC_OK : rc_model_step(m->inner, err);
+    double of_p1;
+
+    if (status == RC_MORE || status == RC_FAIL)
+        return status;
+    v->again = false;
+    if (v->stage == REST)
+        return set_out(v, err);
+    if (rc_model_look(m->inner, NULL, err) != RC_OK ||
+        rc_model_frame(m->inner, "pressure", v->p1, err) != RC_OK)
+        return RC_FAIL;
+    v->good = v->good && status == RC_OK;
+    v->f.contacts++;
+    v->f.convolutions += rc_model_number(m->inner, "convolutions");
+    of_p1 = rc_model_number(m->inner, "pressure_error_estimate");
+    switch (v->stage) {
+    case FIRST: {
+        double *pa = v->pa;
+        v->pa = v->p1;
+        v->p1 = pa;
+        v->error[OF_PA] = of_p1;
+        return contact(v, SECOND, err);
+    }
+    case SECOND:
+        return judge(v, of_p1, err);
+    case LAST:
+        return even(v, of_p1, err);
+    default:          /* PRESS */
+        v->f.steps--; /* none */
+        memset(v->pa, 0, v->n * sizeof *v->pa);
+        if (take(v, v->pa, 0, of_p1, 0, err) != RC_OK)
+            return RC_FAIL;
+        see_conditions(v);
+        return set_out(v, err);
+    }
+}
+
+/* ---- results ---- */
+
+static enum rc_status
+height_in(struct wear *v, double *to, struct rc_err *err)
+{
+    struct rc_model *inner = v->base.inner;
+
+    if (v->stage != REST) {
+        for (size_t k = 0; k < v->n; k++)
+            to[k] = v->h[k] - v->worn[k];
+        return RC_OK;
+    }
+    if (rc_model_frame(inner, "plastic", to, err) != RC_OK ||
+        (v->fitted && rc_model_frame(inner, "gap", v->room, err) != RC_OK))
+        return RC_FAIL;
+    for (size_t k = 0; k < v->n; k++)
+        to[k] += (v->fitted && rc_in_contact(v->p0[k]) ? v->room[k] : 0) - v->c * v->p0[k];
+    return RC_OK;
+}
+
+static enum rc_status
+fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
+{
+    struct wear *v = (struct wear *)m;
+    const double part = frame == WEAR_1   ? v->law.k[0] / v->k
+                        : frame == WEAR_2 ? v->law.k[1] / v->k
+                                          : 1;
+
+    if (frame == HEIGHT)
+        return height_in(v, to, err);
+    if (frame == GAP && rc_model_frame(m->inner, "gap", to, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < v->n; k++)
+        if (frame != GAP)
+            to[k] = part * v->worn[k];
+        else if (v->fitted && rc_in_contact(v->p0[k]))
+            to[k] = 0;
+    return RC_OK;
+}
+
+/* The approach is counted from the highest node of the worn heights; the shift is K p - h - g at any node. */
+static enum rc_status
+find_approach(struct wear *v, double *approach, struct rc_err *err)
+{
+    double top = -INFINITY, shift;
+
+    if (rc_model_frame(v->base.inner, "displacement", v->room, err) != RC_OK)
+        return RC_FAIL;
+    shift = v->room[0];
+    if (height_in(v, v->p1, err) != RC_OK || fill(&v->base, GAP, v->room, err) != RC_OK)
+        return RC_FAIL;
+    shift -= v->p1[0] + v->room[0];
+    for (size_t k = 0; k < v->n; k++)
+        top = fmax(top, v->p1[k]);
+    if (!isnan(*approach))
+        *approach = shift + top;
+    return RC_OK;
+}
+
+static enum rc_status
+look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
+{
+    struct wear *v = (struct wear *)m;
+
+    find_figures(v);
+    at->at[RC_DISTANCE] = v->s;
+    return find_approach(v, &at->at[RC_APPROACH], err);
+}
+
+static enum rc_status
+keep(struct rc_model *m, struct rc_err *err)
+{
+    struct wear *v = (struct wear *)m;
+
+    if (rc_model_look(m, NULL, err) != RC_OK)
+        return RC_FAIL;
+    if (!v->kept && rc_model_keep(m->inner, err) != RC_OK)
+        return RC_FAIL;
+    v->kept = true;
+    return RC_OK;
+}
+
+/* ---- states ---- */
+
+static void
+state(struct rc_model *m, struct rc_state *s)
+{
+    struct wear *v = (struct wear *)m;
+    double *numbers[] = {&v->s, &v->end, &v->t, &v->tried, &v->f.convolutions};
+    size_t *counts[] = {&v->f.steps, &v->f.rejected, &v->f.contacts};
+    size_t kept = v->kept, good = v->good, met = v->met;
+    struct rc_err err;
+
+    rc_state_count(s, &v->stage, LAST);
+    rc_state_count(s, &v->last, last_steps(v));
+    rc_state_count(s, &kept, 1);
+    rc_state_count(s, &good, 1);
+    rc_state_count(s, &met, 1);
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
+        rc_state_count(s, counts[k], (size_t)1 << 40);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        rc_state_numbers(s, 1, numbers[k]);
+    rc_state_numbers(s, 6, v->error);
+    rc_state_map(s, v->n, v->worn);
+    rc_state_map(s, v->n, v->p0);
+    rc_state_map(s, v->n, v->e);
+    if (v->stage == SECOND)
+        rc_state_map(s, v->n, v->pa);
+    if (!rc_state_reads(s))
+        return;
+    v->kept = kept;
+    v->good = good;
+    v->met = met;
+    v->again = v->stage == REST && m->moved;
+    v->fitted = false;
+    if (pose(v, &err) != RC_OK)
+        rc_state_refuse(s, "its heights are impossible");
+}
+
+static void
+progress(const struct rc_model *m, struct rc_loops *l)
+{
+    const struct wear *v = (const struct wear *)m;
+
+    rc_loops_add(l, "distance", "m", v->s, v->end);
+    rc_loops_add(l, "step", NULL, (double)v->f.steps, NAN);
+}
+
+/* Measured on rough maps and balls: 4 steps a decade from the first one on, two contacts a step, and the last
+ * steps. */
+static enum rc_status
+plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
+     struct rc_err *err)
+{
+    const struct wear *v = (const struct wear *)m;
+    const struct rc_point inner = rc_point_for(m->inner, most);
+    const double nodes = most->at[RC_DISTANCE] * v->k * v->law.estar / m->shape.dx;
+    const double steps = 4 * fmax(log10(nodes / first_step), 0) + 2;
+    const double contacts = most->at[RC_DISTANCE] > 0 ? 1 + 2 * steps + (double)last_steps(v) : 1;
+
+    if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
+        return RC_FAIL;
+    expected->convolutions *= contacts;
+    expected->seconds *= contacts;
+    expected->memory += (MAPS + 3) * v->n * sizeof(double);
+    return RC_OK;
+}
+
+static void
+release(struct rc_model *m)
+{
+    struct wear *v = (struct wear *)m;
+
+    free(v->h); /* and the maps behind it */
+}
+
+const struct rc_model_row rc_model_wear = {
+    .name = "wear",
+    .summary = "bodies that wear as they slide, over an inner model",
+    .needs = 1u << RC_LOAD | 1u << RC_DISTANCE,
+    .takes = 1u << RC_DISTANCE,
+    .figures = sets,
+    .frame = frames,
+    .go = go,
+    .step = step,
+    .look = look,
+    .fill = fill,
+    .state = state,
+    .free = release,
+    .keep = keep,
+    .progress = progress,
+    .plan = plan,
+};
+
+/* ---- the maker ---- */
+
+static enum rc_status
+check(const struct rc_wear_problem *law, struct rc_err *err)
+{
+    for (int b = 0; b < 2; b++)
+        if (!(law->k[b] >= 0) || isinf(law->k[b]))
+            return rc_err_set(
+                err, "wear coefficient %g 1/Pa of body %d: it must be at least 0 and finite",
+                law->k[b], b + 1);
+    if (law->k[0] + law->k[1] == 0)
+        return rc_err_set(err, "no body wears: one of the two wear coefficients must be above 0");
+    if (!(law->estar > 0) || isinf(law->estar))
+        return rc_err_set(err, "E* %g Pa: it must be above 0 and finite", law->estar);
+    if (!(law->tol >= 0 && law->tol < 1))
+        return rc_err_set(err, "tolerance %g: it must be above 0 and below 1", law->tol);
+    return RC_OK;
+}
+
+static enum rc_status
+make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct rc_err *err)
+{
+    struct rc_model *inner = v->base.inner;
+    const struct rc_shape *s = &v->base.shape;
+
+    if (check(law, err) != RC_OK)
+        return RC_FAIL;
+    v->law = *law;
+    v->law.tol = law->tol > 0 ? law->tol : usual_tol;
+    v->k = law->k[0] + law->k[1];
+    v->n = s->nx * s->ny;
+    v->t = first_step * s->dx / (v->k * law->estar);
+    v->kept = true;
+    if (rc_model_set_compliance(inner, v->k * v->t, err) != RC_OK ||
+        rc_model_set_compliance(inner, 0, err) != RC_OK)
+        return RC_FAIL;
+    if ((v->h = rc_alloc(MAPS * v->n, sizeof *v->h)) == NULL)
+        return rc_err_set(err, "out of memory for the wear of %zu x %zu nodes", s->nx, s->ny);
+    memset(v->h, 0, MAPS * v->n * sizeof *v->h);
+    memcpy(v->h, h, v->n * sizeof *h);
+    v->worn = v->h + v->n;
+    v->p0 = v->h + 2 * v->n;
+    v->pa = v->h + 3 * v->n;
+    v->p1 = v->h + 4 * v->n;
+    v->e = v->h + 5 * v->n;
+    v->room = v->h + 6 * v->n;
+    return RC_OK;
+}
+
+struct rc_model *
+rc_wear_new(struct rc_model *inner, const double *h, const struct rc_wear_problem *law,
+            struct rc_err *err)
+{
+    struct rc_model *m = rc_model_make_outer(&rc_model_wear, sizeof(struct wear), inner, err);
+
+    if (m != NULL && make((struct wear *)m, h, law, err) == RC_FAIL) {
+        rc_model_free(m);
+        return NULL;
+    }
+    return m;
+}
+
+const struct rc_wear_figures *
+rc_wear_result(const struct rc_model *m)
+{
+    while (m != NULL && m->row != &rc_model_wear)
+        m = m->inner;
+    return m != NULL ? &((const struct wear *)m)->f : NULL;
+}

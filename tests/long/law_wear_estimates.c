@@ -1,0 +1,156 @@
+/* Random worn maps: the estimated errors of the worn depth and of the pressure are not below those beside a run
+ * with a tolerance ten times smaller. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "tests/contact_case.h"
+
+enum {
+    RUNS = 200,
+    OUTPUTS = 4,
+    MOST = 48 * 48
+};
+static const double estar = 1e9, node = 1e-6;
+
+struct random_run {
+    struct rc_shape s;
+    enum rc_boundary boundary;
+    double tol, load, k, at[OUTPUTS];
+    double *h;
+};
+
+static double
+uniform(uint64_t *seed)
+{
+    return random_number(seed) + 0.5;
+}
+
+static struct random_run
+draw(uint64_t seed)
+{
+    struct random_run r = {.k = 1e-15};
+    size_t side = 24 + 8 * (size_t)(4 * uniform(&seed));
+    struct rc_selfaffine rough = {
+        .hurst = 0.5 + 0.45 * uniform(&seed), .rms_height = 1, .seed = seed};
+    double slope = 0, area, x, y;
+    const bool ball = uniform(&seed) < 0.25;
+
+    r.s = (struct rc_shape){side, side, node, node};
+    r.boundary = uniform(&seed) < 0.6 && !ball ? RC_PERIODIC : RC_FREE;
+    r.tol = pow(10, -1 - uniform(&seed));
+    r.h = calloc(side * side, sizeof *r.h);
+    rough.short_cut = node * (2 + 6 * uniform(&seed));
+    assert_int_equal(rc_synth_selfaffine(&r.s, &rough, r.h, NULL), RC_OK);
+    for (size_t k = 0; k < side * side; k++) {
+        size_t next = k % side + 1 < side ? k + 1 : k + 1 - side;
+        slope += pow((r.h[next] - r.h[k]) / node, 2);
+    }
+    const double steep = pow(10, -1.3 + 1.3 * uniform(&seed) - (ball ? 0.5 : 0));
+    slope = sqrt(2 * slope / (double)(side * side));
+    for (size_t k = 0; k < side * side; k++) {
+        x = ((double)(k % side) - (double)side / 2) * node;
+        y = ((double)(k / side) - (double)side / 2) * node;
+        r.h[k] *= steep / slope;
+        if (ball)
+            r.h[k] -= (x * x + y * y) / (2 * 100 * node);
+    }
+    area = node * node * (double)(side * side);
+    r.load = estar * pow(10, -3 + 1.5 * uniform(&seed)) * area;
+    for (int q = 0; q < OUTPUTS; q++)
+        r.at[q] =
+            (q > 0 ? r.at[q - 1] : node / (r.k * estar) * 0.03) * pow(10, 1.5 * uniform(&seed));
+    return r;
+}
+
+static struct rc_model *
+model(const struct random_run *r, double tol)
+{
+    const struct rc_problem contact = {
+        .boundary = r->boundary, .pair.estar = estar, .tol = tol / 100, .threads = 1};
+    const struct rc_wear_problem law = {.k = {r->k, 0}, .estar = estar, .tol = tol};
+    struct rc_err err = {""};
+    struct rc_model *m =
+        rc_wear_new(rc_elastic_new(&r->s, r->h, &contact, NULL, &err), r->h, &law, &err);
+
+    if (m == NULL)
+        fail_msg("%s", err.text);
+    return m;
+}
+
+static void
+slide(struct rc_model *m, const struct random_run *r, int q, double *p, double *wear)
+{
+    struct rc_err err = {""};
+    struct rc_point to = {0};
+
+    rc_point_set(&to, RC_LOAD, r->load);
+    rc_point_set(&to, RC_DISTANCE, r->at[q]);
+    if (rc_model_run(m, &to, &err) == RC_FAIL || rc_model_look(m, NULL, &err) != RC_OK ||
+        rc_model_frame(m, "pressure", p, &err) != RC_OK ||
+        rc_model_frame(m, "wear", wear, &err) != RC_OK || rc_model_keep(m, &err) != RC_OK)
+        fail_msg("%s", err.text);
+}
+
+static double
+differ(size_t n, const double *a, const double *b)
+{
+    double off = 0, size = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        off += fabs(a[k] - b[k]);
+        size += fabs(b[k]);
+    }
+    return off / size;
+}
+
+static void
+estimates_are_not_below(void **state)
+{
+    static double p[2][MOST], wear[2][MOST];
+    double least[2] = {INFINITY, INFINITY};
+    size_t short_of = 0;
+
+    (void)state;
+    for (uint64_t seed = 1; seed <= RUNS; seed++) {
+        struct random_run r = draw(seed);
+        struct rc_model *m = model(&r, r.tol), *fine = model(&r, r.tol / 10);
+        const size_t n = r.s.nx * r.s.ny;
+        for (int q = 0; q < OUTPUTS; q++) {
+            const struct rc_wear_figures *f = rc_wear_result(m);
+            double ratio[2];
+            slide(m, &r, q, p[0], wear[0]);
+            slide(fine, &r, q, p[1], wear[1]);
+            ratio[0] = f->wear_error / differ(n, wear[0], wear[1]);
+            ratio[1] = f->pressure_error / differ(n, p[0], p[1]);
+            for (int k = 0; k < 2; k++) {
+                least[k] = fmin(least[k], ratio[k]);
+                if (!(ratio[k] >= 1))
+                    print_message("seed %u, output %d, %zu x %zu nodes, tol %.2g: the estimate of "
+                                  "the %s is %.3f of the error\n",
+                                  (unsigned)seed, q, r.s.nx, r.s.ny, r.tol,
+                                  k == 0 ? "wear" : "pressure", ratio[k]);
+            }
+            short_of += !f->converged;
+        }
+        rc_model_free(m);
+        rc_model_free(fine);
+        free(r.h);
+    }
+    print_message("%d runs, %d outputs: estimates at least %.2f (wear) and %.2f (pressure) of the "
+                  "error; %zu outputs short of the tolerance\n",
+                  RUNS, RUNS * OUTPUTS, least[0], least[1], short_of);
+    assert_true(least[0] >= 1 && least[1] >= 1);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(estimates_are_not_below),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

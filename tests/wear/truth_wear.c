@@ -1,0 +1,278 @@
+/* Worn heights and pressures beside closed forms: waves in full contact decay each by its own rate, the pressure
+ * of a circular and of a strip punch becomes even by the modes of its operator, a ball wears to the rigid limit,
+ * stiff roughness to its Abbott curve, and in the end the pressure is even; the worn volume is k P s always. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "tests/contact_case.h"
+
+static const double estar = 1e9, node = 1e-6, k_wear = 1e-15; /* Pa, m, 1/Pa */
+/* Distance in nodes: s k E* / dx. */
+static const double unit = node / (k_wear * estar);
+
+struct run {
+    struct rc_model *m;
+    size_t n;
+    double *p, *h, *wear;
+};
+
+static struct run
+start(const struct rc_shape *s, const double *h, enum rc_boundary boundary, double tol)
+{
+    const struct rc_problem contact = {.boundary = boundary,
+                                       .pair.estar = estar,
+                                       .tol = (tol > 0 ? tol : 0.1) / 100,
+                                       .threads = 1};
+    const struct rc_wear_problem law = {
+        .k = {k_wear / 4, 3 * k_wear / 4}, .estar = estar, .tol = tol};
+    const size_t n = s->nx * s->ny;
+    struct rc_err err = {""};
+    struct run r = {.n = n, .p = calloc(3 * n, sizeof *r.p)};
+
+    r.h = r.p + n;
+    r.wear = r.p + 2 * n;
+    r.m = rc_wear_new(rc_elastic_new(s, h, &contact, NULL, &err), h, &law, &err);
+    if (r.m == NULL)
+        fail_msg("%s", err.text);
+    return r;
+}
+
+/* Slides to a distance in nodes under a mean pressure over the map. The volume is k P s, to rounding. */
+static const struct rc_wear_figures *
+slide(struct run *r, double mean, double distance)
+{
+    const struct rc_shape s = rc_model_shape(r->m);
+    const double load = mean * s.dx * s.dy * (double)r->n;
+    const struct rc_wear_figures *f;
+    struct rc_err err = {""};
+    struct rc_point to = {0};
+
+    rc_point_set(&to, RC_LOAD, load);
+    rc_point_set(&to, RC_DISTANCE, distance * unit);
+    if (rc_model_run(r->m, &to, &err) != RC_OK || rc_model_look(r->m, NULL, &err) != RC_OK ||
+        rc_model_frame(r->m, "pressure", r->p, &err) != RC_OK ||
+        rc_model_frame(r->m, "height", r->h, &err) != RC_OK ||
+        rc_model_frame(r->m, "wear", r->wear, &err) != RC_OK || rc_model_keep(r->m, &err) != RC_OK)
+        fail_msg("%g nodes: %s", distance, err.text);
+    f = rc_wear_result(r->m);
+    assert_true(f->converged && f->distance == distance * unit);
+    assert_true(fabs(f->wear_volume / (k_wear * load * distance * unit) - 1) < summed);
+    assert_true(fabs(f->wear_volume_2 - 3 * f->wear_volume_1) <= rounding * f->wear_volume);
+    return f;
+}
+
+static void
+end(struct run *r)
+{
+    rc_model_free(r->m);
+    free(r->p);
+}
+
+/* ---- waves ---- */
+
+enum {
+    WAVES = 32,
+    MODES = 5
+};
+static const int wave[MODES][2] = {{1, 0}, {0, 2}, {3, 4}, {7, -5}, {12, 16}};
+static const double amplitude[MODES] = {.6, .3, .08, .04, .02}; /* of the nodes */
+
+/* The height of a wave at a node, m, and its decay per node of distance: exp(-k E* q s/2). */
+static double
+wave_at(int m, size_t k)
+{
+    const int x = (int)(k % WAVES), y = (int)(k / WAVES);
+
+    return amplitude[m] * node * cos(2 * exact_pi * (wave[m][0] * x + wave[m][1] * y) / WAVES + m);
+}
+
+static double
+rate(int m)
+{
+    return exact_pi / WAVES * hypot(wave[m][0], wave[m][1]);
+}
+
+static void
+waves_decay(void **state)
+{
+    static double h[WAVES * WAVES];
+    const struct rc_shape s = {WAVES, WAVES, node, node};
+    const double mean = 0.3 * estar, tols[] = {0.1, 0.02};
+    struct run r;
+
+    (void)state;
+    for (int t = 0; t < 2; t++) {
+        for (size_t k = 0; k < WAVES * WAVES; k++) {
+            h[k] = 0;
+            for (int m = 0; m < MODES; m++)
+                h[k] += wave_at(m, k);
+        }
+        r = start(&s, h, RC_PERIODIC, tols[t]);
+        for (double at = 0.1; at < 200; at *= 10) {
+            const struct rc_wear_figures *f = slide(&r, mean, at);
+            double off[2] = {0, 0}, sum[2] = {0, 0};
+            for (size_t k = 0; k < WAVES * WAVES; k++) {
+                double worn = at * mean / estar * node, p = mean;
+                for (int m = 0; m < MODES; m++) {
+                    worn += (1 - exp(-rate(m) * at)) * wave_at(m, k);
+                    p += estar / node * rate(m) * wave_at(m, k) * exp(-rate(m) * at);
+                }
+                off[0] += fabs(r.wear[k] - worn);
+                off[1] += fabs(r.p[k] - p);
+                sum[0] += worn;
+                sum[1] += p;
+            }
+            if (!(off[0] <= f->wear_error * sum[0] && off[1] <= f->pressure_error * sum[1] &&
+                  off[0] <= 1e-3 * sum[0] && off[1] <= 2e-3 * sum[1]))
+                fail_msg("tol %g, at %g nodes: errors %.2g of the wear, %.2g estimated; %.2g of "
+                         "the pressure, %.2g estimated",
+                         tols[t], at, off[0] / sum[0], f->wear_error, off[1] / sum[1],
+                         f->pressure_error);
+        }
+        end(&r);
+    }
+}
+
+/* ---- punches ---- */
+
+enum {
+    TIMES = 5
+};
+/* k E* s / a, and the RMS of p over its mean, less 1, of a flat punch: sums over the modes of the operator on a
+ * disc (rates 2.06065, 3.67104, 5.25854, 6.83864 E* k/a ...) and on a strip in plane strain (1.72667, 3.31431,
+ * 4.89197, 6.46651 ...), found by 40 Legendre functions. */
+static const double times[TIMES] = {0.1, 0.25, 0.5, 1, 2};
+static const double on_disc[TIMES] = {0.41210, 0.24875, 0.13259, 0.044623, 0.0056115};
+static const double on_strip[TIMES] = {0.43244, 0.28019, 0.16419, 0.065626, 0.011534};
+
+/* A punch of all nodes nearer than `radius` to the middle. `half`: a in nodes, that its area has. */
+static void
+punch(const struct rc_shape *s, double radius, double half, enum rc_boundary boundary,
+      const double *want)
+{
+    const size_t n = s->nx * s->ny;
+    double *h = calloc(n, sizeof *h);
+    size_t in = 0;
+    struct run r;
+
+    for (size_t k = 0; k < n; k++) {
+        double x = (double)(k % s->nx) - (double)(s->nx - 1) / 2;
+        double y = (double)(k / s->nx) - (double)(s->ny - 1) / 2;
+        h[k] = hypot(x, y) < radius ? 0 : -1000 * node;
+        in += h[k] == 0;
+    }
+    half = half > 0 ? half : sqrt((double)in / exact_pi);
+    r = start(s, h, boundary, 0);
+    for (int t = 0; t < TIMES; t++) {
+        const double mean = 1e-3 * estar * (double)in / (double)n;
+        double sum = 0;
+        slide(&r, mean, times[t] * half);
+        for (size_t k = 0; k < n; k++)
+            sum += h[k] == 0 ? pow(r.p[k] / (1e-3 * estar) - 1, 2) : 0;
+        /* an edge of nodes: 1 % of the radius is 4 % in the last and smallest number */
+        if (!(fabs(sqrt(sum / (double)in) / want[t] - 1) < (times[t] > 1 ? 0.08 : 0.015)))
+            fail_msg("%zu x %zu, k E* s/a = %g: RMS %.4g, not %.4g", s->nx, s->ny, times[t],
+                     sqrt(sum / (double)in), want[t]);
+    }
+    end(&r);
+    free(h);
+}
+
+static void
+punches_become_even(void **state)
+{
+    (void)state;
+    punch(&(struct rc_shape){36, 36, node, node}, 16.3, 0, RC_FREE, on_disc);
+    punch(&(struct rc_shape){1280, 1, node, node}, 20, 20, RC_PERIODIC, on_strip);
+}
+
+/* ---- the rigid limit ---- */
+
+/* A ball of radius R: the scar has the area of the cut of volume V, a^4 = 4 R V/pi, and the pressure is even. */
+static void
+a_ball_is_cut(void **state)
+{
+    enum {
+        SIDE = 48
+    };
+    const double radius = 100, hertz_radius = 4, a = 18; /* nodes */
+    const double load = 4 * pow(hertz_radius, 3) / (3 * radius),
+                 volume = exact_pi * pow(a, 4) / (4 * radius);
+    const struct rc_shape s = {SIDE, SIDE, node, node};
+    static double h[SIDE * SIDE];
+    double even = 0, area;
+    struct run r;
+
+    (void)state;
+    for (size_t k = 0; k < SIDE * SIDE; k++) {
+        double x = (double)(k % SIDE) - (SIDE - 1) / 2.0, y = (double)(k / SIDE) - (SIDE - 1) / 2.0;
+        h[k] = -node * (x * x + y * y) / (2 * radius);
+    }
+    r = start(&s, h, RC_FREE, 0);
+    (void)slide(&r, load * estar / (SIDE * SIDE), volume / load);
+    area = rc_model_number(r.m, "contact_fraction") * SIDE * SIDE;
+    assert_true(fabs(sqrt(area / exact_pi) / a - 1) < coarse_grid);
+    for (size_t k = 0; k < SIDE * SIDE; k++) {
+        double x = (double)(k % SIDE) - (SIDE - 1) / 2.0, y = (double)(k / SIDE) - (SIDE - 1) / 2.0;
+        if (hypot(x, y) < 0.8 * a)
+            even = fmax(even, fabs(r.p[k] * exact_pi * a * a / (load * estar) - 1));
+    }
+    assert_true(even < 0.02);
+    end(&r);
+}
+
+/* Steep roughness hardly deforms: it becomes min(h, cut), and the worn volume gives the cut. At long distances
+ * the contact is complete and the pressure even, whatever the slope. */
+static void
+roughness_is_cut(void **state)
+{
+    enum {
+        SIDE = 32
+    };
+    const struct rc_shape s = {SIDE, SIDE, node, node};
+    const struct rc_selfaffine rough = {
+        .hurst = 0.8, .rms_slope = 10, .short_cut = 8 * node, .seed = 5};
+    const double mean = 0.01 * estar;
+    static double h[SIDE * SIDE];
+    double low = -1, high = 1, off = 0, worn = 0;
+    struct run r;
+
+    (void)state;
+    assert_int_equal(rc_synth_selfaffine(&s, &rough, h, NULL), RC_OK);
+    r = start(&s, h, RC_PERIODIC, 0);
+    (void)slide(&r, mean, 500);
+    for (int round = 0; round < 60; round++) {
+        double cut = (low + high) / 2, sum = 0;
+        for (size_t k = 0; k < SIDE * SIDE; k++)
+            sum += fmax(h[k] - cut, 0);
+        *(sum > 500 * mean / estar * node * SIDE * SIDE ? &low : &high) = cut;
+    }
+    for (size_t k = 0; k < SIDE * SIDE; k++) {
+        off += fabs(r.wear[k] - fmax(h[k] - low, 0));
+        worn += r.wear[k];
+    }
+    if (!(off / worn < 0.01))
+        fail_msg("the worn depth is off by %.2g", off / worn);
+    end(&r);
+    for (size_t k = 0; k < SIDE * SIDE; k++)
+        h[k] /= 100;
+    r = start(&s, h, RC_PERIODIC, 0);
+    assert_true(slide(&r, mean, 1000)->pressure_spread < 5e-3);
+    end(&r);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(waves_decay),
+        cmocka_unit_test(punches_become_even),
+        cmocka_unit_test(a_ball_is_cut),
+        cmocka_unit_test(roughness_is_cut),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
