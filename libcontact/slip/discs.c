@@ -15,7 +15,7 @@
  *     the nearest tractions on the discs that carry the load of the tile. One shift carries the rest.
  *  6. The length minimises Newton's energy on the faces; it is at most 1, and at most 1.9 times the
  *     length that lowers the energy most. If the energy does not fall, a projected gradient step follows,
- *     which lowers it.
+ *     which lowers it. Where the fall of the energy is rounding, the length is Newton's alone.
  *
  * M applied to the residual also gives the estimate of the error, together with three parts that M does
  * not contain: the load of nodes inside their circles; the load of turns (near sliding all tangents are
@@ -751,7 +751,7 @@ fall_back(struct rc_discs *d)
 static void
 step_along(struct rc_discs *d)
 {
-    double at[SUMS], length, all, reach = d->reach;
+    double at[SUMS], length, newton, all, reach = d->reach;
 
     direct(d);
 #pragma omp parallel for num_threads(d->threads) schedule(static)
@@ -764,7 +764,7 @@ step_along(struct rc_discs *d)
         return;
     }
     all = at[TWIST] + at[CURVED];
-    length = at[DOWN] / all;
+    newton = length = at[DOWN] / all;
     if (!(length >= 0.5)) /* radial moves count */
         length = (at[FALL] + at[CURVED] / 2) / all;
     d->part = at[CLIPPED] > clipped * at[STRAIGHT] ? 0 : reach;
@@ -772,7 +772,7 @@ step_along(struct rc_discs *d)
         fmin(fmax(reach * length, length < short_step ? reach / 8 : fmin(0.5, 4 * reach)), 1);
     length = at[TWIST] > 16 * DBL_EPSILON * at[SCALE]
                  ? fmin(fmin(length, 1), 1.9 * at[FALL] / at[TWIST])
-                 : 1; /* nothing is left but rounding */
+                 : fmin(fmax(newton, 0.25), 1); /* see 6 */
     d->sift = length >= short_step;
     take(d, length, reach);
 }

@@ -9,191 +9,14 @@
 #include <stdio.h>
 
 #include "libcontact/slip/slip.h"
+#include "dense.h"
 #include "slip_case.h"
 
 enum {
-    MOST = 24,
     PROBLEMS = 20,
     PERIODIC = 80
 };
 static const double bound = 1e-9;
-
-struct dense {
-    size_t n;
-    double t[2 * MOST][2 * MOST]; /* u = T q, first the x components of all nodes, then y */
-    double g[MOST], w[2 * MOST];
-};
-
-/* The columns of T from the closed form for a uniform rectangle, E* = 1 (Love 1929, as in Johnson 1985,
- * section 3.5); truth_slip_kernel compares them with integrals of point loads. */
-static double
-corner(int kind, double x, double y)
-{
-    double a = y == 0 ? 0 : y * asinh(x / fabs(y)), b = x == 0 ? 0 : x * asinh(y / fabs(x));
-
-    return kind == 0 ? a : kind == 1 ? b : -hypot(x, y);
-}
-
-static double
-rectangle(int kind, double x, double y, double dx, double dy)
-{
-    return (corner(kind, x + dx / 2, y + dy / 2) - corner(kind, x - dx / 2, y + dy / 2) -
-            corner(kind, x + dx / 2, y - dy / 2) + corner(kind, x - dx / 2, y - dy / 2)) /
-           exact_pi;
-}
-
-static void
-dense_matrix(struct dense *d, const struct rc_shape *s, double kap)
-{
-    d->n = s->nx * s->ny;
-    for (size_t i = 0; i < d->n; i++)
-        for (size_t j = 0; j < d->n; j++) {
-            double x = ((double)(i % s->nx) - (double)(j % s->nx)) * s->dx;
-            double y = ((double)(i / s->nx) - (double)(j / s->nx)) * s->dy;
-            double xx = rectangle(0, x, y, s->dx, s->dy), yy = rectangle(1, x, y, s->dx, s->dy);
-            double xy = rectangle(2, x, y, s->dx, s->dy);
-            d->t[i][j] = (1 + kap) * xx + yy;
-            d->t[d->n + i][d->n + j] = xx + (1 + kap) * yy;
-            d->t[i][d->n + j] = d->t[d->n + i][j] = kap * xy;
-        }
-}
-
-/* The same on a periodic map, from the response to a wave: 2/k along it and 2(1 + kap)/k across it; 0 for the
- * mean, and 0 across for waves of two nodes. */
-static void
-periodic_matrix(struct dense *d, const struct rc_shape *s, double kap)
-{
-    d->n = s->nx * s->ny;
-    memset(d->t, 0, sizeof d->t);
-    for (size_t wave = 1; wave < d->n; wave++) {
-        size_t a = wave % s->nx, b = wave / s->nx;
-        double kx = 2 * exact_pi * ((double)a - (2 * a > s->nx ? (double)s->nx : 0)) /
-                    ((double)s->nx * s->dx);
-        double ky = 2 * exact_pi * ((double)b - (2 * b > s->ny ? (double)s->ny : 0)) /
-                    ((double)s->ny * s->dy);
-        double k2 = kx * kx + ky * ky, unit = 2 / (sqrt(k2) * (double)d->n);
-        bool nyquist = 2 * a == s->nx || 2 * b == s->ny;
-        for (size_t i = 0; i < d->n; i++)
-            for (size_t j = 0; j < d->n; j++) {
-                double x = ((double)(i % s->nx) - (double)(j % s->nx)) * s->dx;
-                double y = ((double)(i / s->nx) - (double)(j / s->nx)) * s->dy;
-                double wavy = unit * cos(kx * x + ky * y);
-                double cross = nyquist ? 0 : -kap * kx * ky / k2 * wavy;
-                d->t[i][j] += (1 + kap * ky * ky / k2) * wavy;
-                d->t[d->n + i][d->n + j] += (1 + kap * kx * kx / k2) * wavy;
-                d->t[i][d->n + j] += cross;
-                d->t[d->n + i][j] += cross;
-            }
-    }
-}
-
-/* min q'A q/2 - b'q over |q| <= g, A 2 x 2: (A + m)q = b, with the m >= 0 that puts it on the circle, m is
- * found by bisection to the last bit. */
-static void
-on_disc(const double a[3], const double b[2], double g, double q[2])
-{
-    double low = 0, high = hypot(b[0], b[1]) / (g > 0 ? g : 1) + 1, m = 0;
-
-    if (g == 0) {
-        q[0] = q[1] = 0;
-        return;
-    }
-    for (int k = 0; k < 200; k++) {
-        double det = (a[0] + m) * (a[1] + m) - a[2] * a[2];
-        q[0] = ((a[1] + m) * b[0] - a[2] * b[1]) / det;
-        q[1] = ((a[0] + m) * b[1] - a[2] * b[0]) / det;
-        if (hypot(q[0], q[1]) <= g) {
-            if (m == 0)
-                return;
-            high = m;
-        } else {
-            low = m;
-        }
-        m = (low + high) / 2;
-    }
-}
-
-static void
-relax(const struct dense *d, const double delta[2], double *q)
-{
-    for (int sweep = 0; sweep < 20000; sweep++) {
-        double change = 0, size = 0;
-        for (size_t i = 0; i < d->n; i++) {
-            size_t at[2] = {i, d->n + i};
-            double a[3] = {d->t[at[0]][at[0]], d->t[at[1]][at[1]], d->t[at[0]][at[1]]}, b[2], x[2];
-            for (int c = 0; c < 2; c++) {
-                b[c] = d->w[at[c]] + delta[c];
-                for (size_t j = 0; j < 2 * d->n; j++)
-                    if (j != at[0] && j != at[1])
-                        b[c] -= d->t[at[c]][j] * q[j];
-            }
-            on_disc(a, b, d->g[i], x);
-            for (int c = 0; c < 2; c++) {
-                change = fmax(change, fabs(x[c] - q[at[c]]));
-                size = fmax(size, fabs(x[c]));
-                q[at[c]] = x[c];
-            }
-        }
-        if (change <= 1e-15 * size)
-            break;
-    }
-}
-
-static void
-sum_of(const struct dense *d, const double *q, double sum[2])
-{
-    sum[0] = sum[1] = 0;
-    for (size_t i = 0; i < d->n; i++) {
-        sum[0] += q[i];
-        sum[1] += q[d->n + i];
-    }
-}
-
-/* The displacement under which the tractions carry `load`. Their sum is the gradient of a convex function of
- * the displacement; Newton's method is damped until it does not overshoot. */
-static void
-carry(const struct dense *d, const double load[2], double delta[2], double *q)
-{
-    double size = 0;
-
-    for (size_t i = 0; i < d->n; i++)
-        size += d->g[i];
-    for (int step = 0; step < 100; step++) {
-        double f[2], j[2][2], h = 1e-6, trial[2 * MOST], det, move[2], part = 1, there[2];
-        relax(d, delta, q);
-        sum_of(d, q, f);
-        f[0] -= load[0];
-        f[1] -= load[1];
-        if (hypot(f[0], f[1]) < 1e-14 * size)
-            return;
-        for (int c = 0; c < 2; c++) {
-            double other[2] = {delta[0], delta[1]};
-            double step_size = h * (1 + fabs(delta[c]));
-            other[c] += step_size;
-            memcpy(trial, q, sizeof trial);
-            relax(d, other, trial);
-            sum_of(d, trial, there);
-            for (int r = 0; r < 2; r++)
-                j[r][c] = (there[r] - load[r] - f[r]) / step_size;
-        }
-        /* if all nodes slide in one direction the derivative is 0: a small number is added */
-        for (int c = 0; c < 2; c++)
-            j[c][c] += 1e-6;
-        det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
-        move[0] = -(j[1][1] * f[0] - j[0][1] * f[1]) / det;
-        move[1] = -(j[0][0] * f[1] - j[1][0] * f[0]) / det;
-        for (;; part /= 2) {
-            double other[2] = {delta[0] + part * move[0], delta[1] + part * move[1]};
-            memcpy(trial, q, sizeof trial);
-            relax(d, other, trial);
-            sum_of(d, trial, there);
-            if (hypot(there[0] - load[0], there[1] - load[1]) < hypot(f[0], f[1]) || part < 1e-8)
-                break;
-        }
-        delta[0] += part * move[0];
-        delta[1] += part * move[1];
-    }
-}
 
 static void
 test_another_method_finds_the_same(void **state)
@@ -218,12 +41,13 @@ test_another_method_finds_the_same(void **state)
         struct rc_err err;
         struct rc_slip *slip = rc_slip_new(&shape, &what, &err);
         struct dense d = {.n = 0};
-        double q[2 * MOST] = {0}, delta[2] = {0, 0}, origin[2 * MOST] = {0};
+        double q[2 * DENSE_MOST] = {0}, delta[2] = {0, 0}, origin[2 * DENSE_MOST] = {0};
 
         assert_non_null(slip);
         dense_matrix(&d, &shape, kap);
         for (int increment = 0; increment < 3; increment++) {
-            double p[MOST], limit = 0, load[2], angle = 6.3 * slip_noise(&seed), size = 0, far = 0;
+            double p[DENSE_MOST], limit = 0, load[2], angle = 6.3 * slip_noise(&seed), size = 0,
+                                  far = 0;
             struct rc_slip_figures figures;
             enum rc_status status;
             for (size_t k = 0; k < n; k++) {
@@ -300,7 +124,8 @@ test_displacements_of_periodic_maps(void **state)
             .boundary = RC_PERIODIC, .pair.estar = 1, .nu = nu, .mu = 0.3, .tol = 1e-12};
         struct rc_slip *slip = rc_slip_new(&shape, &what, NULL);
         struct dense d;
-        double q[2 * MOST] = {0}, delta[2] = {0, 0}, origin[2 * MOST] = {0}, p[MOST];
+        double q[2 * DENSE_MOST] = {0}, delta[2] = {0, 0}, origin[2 * DENSE_MOST] = {0},
+                     p[DENSE_MOST];
         double missing = problem % 4 < 2 ? 0 : 0.4, far = pow(10, 2 - 4 * slip_noise(&seed));
 
         assert_non_null(slip);
