@@ -984,9 +984,9 @@ RC_API void rc_adhesion_traction(const struct rc_adhesion *a, double *traction);
 RC_API void rc_adhesion_keep_shape(struct rc_adhesion *a, double *h);
 RC_API void rc_adhesion_free(struct rc_adhesion *a); /* NULL is allowed */
 
-/* The model (model.h) of such bodies. It takes a load or an approach; the approach -INFINITY, which is no first
- * point, is a retraction as rc_adhesion_pull_off. Keeping a point adds its plastic dents to the shape. The
- * caller keeps everything that `problem` points to. */
+/* The model (model.h) of such bodies. It takes a load or an approach; the approach -INFINITY, which is no
+ * first point, is a retraction as rc_adhesion_pull_off. Keeping a point adds its plastic dents to the
+ * shape. The caller keeps everything that `problem` points to. */
 struct rc_adhesive_figures {
     struct rc_contact contact; /* the figures that all contacts have */
     struct rc_adhesion_figures adhesion;
@@ -994,7 +994,8 @@ struct rc_adhesive_figures {
 RC_API struct rc_model *rc_adhesive_new(const struct rc_shape *shape, const double *h,
                                         const struct rc_adhesion_problem *problem,
                                         struct rc_err *err);
-/* The figures after a look, of an adhesive model or of a model with an adhesive inner model; NULL: neither. */
+/* The figures after a look, of an adhesive model or of a model with an adhesive inner model; NULL:
+ * neither. */
 RC_API const struct rc_adhesive_figures *rc_adhesive_result(const struct rc_model *model);
 
 /* ---- leakage ---- */
@@ -1153,13 +1154,13 @@ struct rc_friction_problem {
     enum rc_coupling coupling;
     size_t increments; /* from point to point, in which all axes change in proportion; 0: chosen */
     size_t max_passes; /* of pressure and tractions, in an increment; 0: 50                      */
-    /* A known contact: its load (N; 0: none), pressure (Pa) and gap (m; NULL: unknown), nx ny, which the caller
-     * keeps. It is not solved where tractions do not change the pressure. */
+    /* A known contact: its load (N; 0: none), pressure (Pa) and gap (m; NULL: unknown), nx ny, which the
+     * caller keeps. It is not solved where tractions do not change the pressure. */
     double known_load;
     const double *known_p, *known_gap;
     /* Further solutions with half of the increments (1) and a quarter (2), which tell the error of the
-     * increments; 0: it is unknown. If tractions change the pressure, each needs a model like the inner one, of a
-     * tenth of its tolerance, which the model of friction owns; else NULL. */
+     * increments; 0: it is unknown. If tractions change the pressure, each needs a model like the inner
+     * one, of a tenth of its tolerance, which the model of friction owns; else NULL. */
     size_t fewer;
     struct rc_model *inner_of_fewer[RC_FEWER];
 };
@@ -1169,9 +1170,9 @@ struct rc_friction_figures {
     size_t passes;               /* since the last point kept: pressures passed to friction      */
     /* relative L1, of the last pass; 0: only one pass is needed */
     double pressure_change, traction_change;
-    /* Estimated relative L1 errors of the tractions: of the last increment, with what further passes would
-     * change; of the iteration of earlier increments; of the contacts of this and earlier increments; of too few
-     * increments (NAN: unknown) */
+    /* Estimated relative L1 errors of the tractions: of the last increment, with what further passes
+     * would change; of the iteration of earlier increments; of the contacts of this and earlier
+     * increments; of too few increments (NAN: unknown) */
     double traction_error, inherited_error, contact_error, increment_error;
     double approach;     /* m, as in rc_contact; NAN: unknown                           */
     double convolutions; /* of friction and contacts, since the last point kept         */
@@ -1194,16 +1195,17 @@ struct rc_leg {
     bool late;    /* one increment, or two, the first of which goes most of the way  */
     bool falls;   /* the load falls                                                  */
 };
-/* The leg that the model takes from a point to the next; before: the leg to `from`. The first leg begins with a
- * point and a leg of zeros. */
+/* The leg that the model takes from a point to the next; before: the leg to `from`. The first leg begins
+ * with a point and a leg of zeros. */
 RC_API struct rc_leg rc_friction_leg(const struct rc_friction_problem *problem,
                                      const struct rc_leg *before, const struct rc_point *from,
                                      const struct rc_point *to);
 /* A model (model.h) of friction over an inner one of the same bodies, which it owns from here on; NULL
- * where that is NULL. Beside the axes of the inner model it takes two forces or two displacements along the
- * surface. h: the undeformed heights, copied; NULL: unknown, so that only the known contact is possible. Where
- * dissimilar bodies are coupled the inner model must allow other heights, and its tolerance should be a quarter
- * of that of friction. RC_FAIL on the way when friction cannot carry the force, as in rc_slip_set_force. */
+ * where that is NULL. Beside the axes of the inner model it takes two forces or two displacements along
+ * the surface. h: the undeformed heights, copied; NULL: unknown, so that only the known contact is
+ * possible. Where dissimilar bodies are coupled the inner model must allow other heights, and its
+ * tolerance should be a quarter of that of friction. RC_FAIL on the way when friction cannot carry the
+ * force, as in rc_slip_set_force. */
 RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
                                         const struct rc_friction_problem *problem,
                                         struct rc_err *err);

@@ -4,8 +4,8 @@
  *
  * Dissimilar bodies are coupled: tractions move the surface along its normal, so that the inner model gets
  * heights without this displacement, and pressure moves the bodies along each other. Pressure and tractions
- * are found in turn, in passes that contract by about 0.7 mu beta. Where beta is 0, or the effect of tractions
- * on the pressure is left out (Goodman 1962), the pressure is found once for each load.
+ * are found in turn, in passes that contract by about 0.7 mu beta. Where beta is 0, or the effect of
+ * tractions on the pressure is left out (Goodman 1962), the pressure is found once for each load.
  *
  * Two further solutions may go along, with half and with a quarter of the increments. They tell the error of
  * the increments (increments.c). Both start from the tractions that all increments have found.
@@ -349,8 +349,9 @@ find_figures(const struct friction *f, const struct way *w, struct rc_friction_f
     }
 }
 
-/* The increment becomes history, also of the inner model. An increment minimizes the energy from the tractions
- * before it, so that their error stays, and does not grow. Bodies that are apart inherit no error. */
+/* The increment becomes history, also of the inner model. An increment minimizes the energy from the
+ * tractions before it, so that their error stays, and does not grow. Bodies that are apart inherit no
+ * error. */
 static enum rc_status
 keep_increment(struct friction *f, struct way *w, struct rc_err *err)
 {

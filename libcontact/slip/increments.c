@@ -63,8 +63,8 @@ tangent_changes(const struct rc_point *from, const struct rc_point *to)
 
 /* ---- the choice ---- */
 
-/* One increment is exact between bodies of equal elasticity with nu = 0: all nodes slip along one line, if all
- * forces have been along it. */
+/* One increment is exact between bodies of equal elasticity with nu = 0: all nodes slip along one line,
+ * if all forces have been along it. */
 static bool
 exact(const struct rc_slip_problem *o, const struct rc_shear *shear, bool coupled,
       const struct rc_leg *before, const struct rc_point *from, const struct rc_point *to)

@@ -215,8 +215,8 @@ law_of(const struct slip_run *run)
                                         .known_gap = run->gap == NULL ? NULL : run->gap->v};
 }
 
-/* The leg to a corner, the solutions that tell its error, and whether it needs contacts under other loads than
- * the known one; from no load to a force, the gap before contact counts. */
+/* The leg to a corner, the solutions that tell its error, and whether it needs contacts under other loads
+ * than the known one; from no load to a force, the gap before contact counts. */
 static void
 plan_leg(struct slip_run *run, const struct slip_corner *from, struct slip_corner *to)
 {
