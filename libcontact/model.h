@@ -31,7 +31,7 @@ extern "C" {
 struct rc_model;
 struct rc_solver;
 
-/* ---- axes: what a history prescribes ---- */
+/* ---- axes: quantities that a history prescribes ---- */
 
 enum rc_axis {
     RC_LOAD,     /* N, positive when the bodies are pressed together                       */

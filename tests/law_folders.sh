@@ -4,7 +4,7 @@
 . "$(dirname "$0")/pipe.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
-# ---- what is allowed ----
+# ---- rules ----
 
 # Columns: a folder, or one of its files; the headers that it may include beside those of its own folder; the
 # folders whose functions and data it may use. X=rc_y_: from X only names that begin with rc_y_, the rows of a
@@ -117,7 +117,7 @@ formats='libcontact formats formats/core formats/containers formats/containers/p
 sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!; s!%cli!$cli!; s!%plot!$plot!; s!%ranks!libcontact/ranks/ranks.h!
     s!%reader!$reader!; s!%formats!$formats!" arrows.txt
 
-# ---- what there is ----
+# ---- files of the tree ----
 
 # includes TREE: "file header" of every quoted include of the code.
 includes() {

@@ -41,7 +41,7 @@ pictures() {
     sed -n 's/^\.Lk \([^ ]*\.png\) .*/\1/p' "$1"
 }
 
-# ---- options and their words, of --help and of a page ----
+# ---- options and their help texts, in --help and in a page ----
 
 help_options() {
     "$1" --help | grep -oE '^  --?[A-Za-z0-9-]+(, --[A-Za-z0-9-]+)*' | tr ',' '\n' | tr -d ' ' | sort

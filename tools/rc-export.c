@@ -77,7 +77,7 @@ static const struct tool_info info = {
 static const struct rc_export *format;
 static struct rc_export_wish wish;
 
-/* ---- what is to be written ---- */
+/* ---- frames to be written ---- */
 
 static const char *
 types_text(char text[32], unsigned set)

@@ -575,7 +575,7 @@ render_lines(struct tool *t, struct args *a, const struct frames *f)
     finish(t, a, f->grid[0], &(struct figure){.title = drawn.title, .stamp = drawn.stamp}, c, NULL);
 }
 
-/* ---- which picture ---- */
+/* ---- kinds of pictures ---- */
 
 /* Draws one frame: the best of all. */
 static void

@@ -18,7 +18,7 @@ struct rc_tiff {
     toff_t at; /* the position set by libtiff; it may be beyond the end */
 };
 
-/* ---- a file in memory, as libtiff sees it ---- */
+/* ---- a file in memory, for libtiff ---- */
 
 static tmsize_t
 read_some(thandle_t handle, void *to, tmsize_t n)

@@ -213,7 +213,7 @@ rc_xml_read(const char *name, const unsigned char *bytes, size_t n, rc_element *
     return status;
 }
 
-/* ---- numbers in it ---- */
+/* ---- numbers in attributes and text ---- */
 
 enum rc_status
 rc_xml_number(const char *document, const char *name, const char *text, double *value,

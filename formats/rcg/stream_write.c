@@ -131,7 +131,7 @@ write_f32(FILE *file, const double *v, size_t n, uint32_t crc)
     return crc;
 }
 
-/* ---- a file that several write ---- */
+/* ---- a file written by several processes ---- */
 
 /* Writes the bytes between values, which are the same in all processes: the first process writes them. */
 static enum rc_status

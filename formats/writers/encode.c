@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- a buffer that grows ---- */
+/* ---- a growing buffer ---- */
 
 static bool
 reserve(struct rc_buffer *b, size_t n)

@@ -9,7 +9,7 @@
 #include "formats/core/core.h"
 #include "libcontact/grid.h"
 
-/* ---- a buffer that grows ---- */
+/* ---- a growing buffer ---- */
 
 /* Initialise with {0}. If memory is short it stays empty, and rc_buffer_write fails. */
 struct rc_buffer {

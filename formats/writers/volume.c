@@ -24,7 +24,7 @@ struct volume {
     size_t arrays;
 };
 
-/* ---- which frames belong together ---- */
+/* ---- frames of one volume ---- */
 
 static bool
 depth_of(const struct rc_grid *g, double *depth)
@@ -115,7 +115,7 @@ name_arrays(struct volume *v, const struct rc_export_wish *wish, struct rc_err *
     return RC_OK;
 }
 
-/* ---- where the nodes are ---- */
+/* ---- positions of the nodes ---- */
 
 static enum rc_status
 place_nodes(struct volume *v, const struct rc_grid *g, struct rc_err *err)

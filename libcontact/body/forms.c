@@ -39,7 +39,7 @@
 
 #include <math.h>
 
-/* ---- of a point load ---- */
+/* ---- a point load ---- */
 
 #define POINT(name, value)                                                                         \
     RC_WIDE_CLONES static void name##_point(const struct rc_points *s, double weight,              \
@@ -70,7 +70,7 @@ POINT(t_xy, y *(c *(x *x *r2 *w *w *(r + 2 * w) - r * w * w) - 3 * x * x * R5))
 POINT(t_xz, -3 * z * x * x * R5)
 POINT(t_yz, -3 * z * x * y * R5)
 
-/* ---- of a cell, at a corner ---- */
+/* ---- a cell, at a corner ---- */
 
 static double
 t1(const struct rc_corner *k)
@@ -183,7 +183,7 @@ t_yz_corner(const struct rc_corner *k)
     return k->z == 0 ? 0 : -k->z / k->r;
 }
 
-/* ---- of a wave ---- */
+/* ---- a wave ---- */
 
 #define SYMBOL(name, value)                                                                        \
     RC_WIDE_CLONES static void name##_symbol(const struct rc_waves *s, double z, double nu,        \

@@ -49,7 +49,7 @@ struct inside {
 _Static_assert((int)RC_UNDER_BOTH <= (int)RC_WAVE_NUMBERS,
                "of a wave more is known than there is room for");
 
-/* ---- of a wave ---- */
+/* ---- a wave ---- */
 
 static size_t
 numbers(bool shear)
@@ -134,7 +134,7 @@ mean(const struct rc_inside *inside, int kernel, const struct rc_shape *shape)
     return 0;
 }
 
-/* ---- of a point ---- */
+/* ---- a point ---- */
 
 /* The same numbers for a half-space of one material. */
 static void
@@ -238,7 +238,7 @@ add_stresses(const struct inside *in, const struct place *p, double weight, bool
         add_shear(&other, weight, rc_stress_exchanged, sum + (size_t)RC_TURNED * RC_COMPONENTS);
 }
 
-/* ---- of a cell ---- */
+/* ---- a cell ---- */
 
 /* Points of one rule, looked up together. */
 struct block {
@@ -309,7 +309,7 @@ add_coefficients(const struct inside *in, const struct rc_cell *c, unsigned kern
     }
 }
 
-/* ---- of a cell, on a line of nodes ---- */
+/* ---- a cell, on a line of nodes ---- */
 
 enum {
     LINE = 96 /* nodes together */

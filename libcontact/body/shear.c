@@ -52,7 +52,7 @@ rc_pair_shear(const struct rc_pair *pair, double nu, struct rc_shear *shear, str
     return RC_OK;
 }
 
-/* ---- the integrals over a cell, of E* = 1/pi ---- */
+/* ---- the integrals over a cell, for E* = 1/pi ---- */
 
 enum {
     XX, /* x^2/r^3 */

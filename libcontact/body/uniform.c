@@ -94,7 +94,7 @@ rc_uniform_add_rows(double estar, const struct rc_lattice *at, size_t n, size_t 
     }
 }
 
-/* ---- of E* = 1 ---- */
+/* ---- displacements for E* = 1 ---- */
 
 static void
 rows_of_one(const void *of, const struct rc_lattice *at, size_t n, size_t first, size_t last,

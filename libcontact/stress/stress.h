@@ -60,7 +60,7 @@ void rc_strained_add(struct rc_strained *strained, double depth, double *const t
 /* The transforms so far. */
 void rc_strained_count(const struct rc_strained *strained, struct rc_stress_counts *counts);
 
-/* ---- what evaluates stresses ---- */
+/* ---- engines for stresses ---- */
 
 /* Evaluates stresses: slices_fft.c, slices_engine.c and section.c each end in one. */
 struct rc_stress_evaluator {

@@ -24,7 +24,7 @@ rc_crop(const struct rc_shape *from, const double *v, size_t left, size_t top,
     return RC_OK;
 }
 
-/* ---- mirrored and rotated ---- */
+/* ---- mirror and rotation ---- */
 
 static void
 swap(double *a, double *b)

@@ -47,7 +47,7 @@ class NotConverged(Error):
         self.result = result
 
 
-# ---- where the tools and their tables are ----
+# ---- folders of the tools and their tables ----
 
 _found, _tables = {}, {}
 

@@ -414,7 +414,7 @@ eigenvalues_are_right(void **state)
     }
 }
 
-/* ---- what it costs ---- */
+/* ---- cost ---- */
 
 /* Convolutions from undeformed bodies to true errors of 1e-2, 1e-4 and 1e-6 are at most 1.2 times those of an
  * independent program: periodic maps with a given mean gap, and a sphere. */

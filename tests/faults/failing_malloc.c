@@ -121,7 +121,7 @@ is_counted(const void *caller)
     return false;
 }
 
-/* ---- what is held ---- */
+/* ---- blocks that are allocated ---- */
 
 static void
 hold(void *at)
@@ -206,7 +206,7 @@ forget(const void *at)
     pthread_mutex_unlock(&lock);
 }
 
-/* ---- in place of the C library's ---- */
+/* ---- functions in place of the C library's ---- */
 
 /* The search for the real functions may itself allocate and free; meanwhile memory comes from a small buffer
  * that is never freed. */

@@ -824,7 +824,7 @@ slabs_single(double *out, struct rc_err *err)
     return strained(RC_SINGLE, false, out, err);
 }
 
-/* ---- what answers without failing ---- */
+/* ---- functions that cannot fail ---- */
 
 /* Figures of a plan; they allocate nothing either. */
 static enum rc_status
@@ -1076,7 +1076,7 @@ memory_is_told_without_memory(void **state)
     assert_true(room.bytes > 0 && isfinite(room.bytes));
 }
 
-/* ---- that all are tried ---- */
+/* ---- a check that every function was tried ---- */
 
 static char *
 text_of(const char *file)

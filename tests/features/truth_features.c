@@ -132,7 +132,7 @@ test_undefined(void **state)
     assert_true(isnan(measured(&none, lost, RC_FREE).sha));
 }
 
-/* ---- Wolf's rule as it is written ---- */
+/* ---- Wolf's rule, step by step ---- */
 
 enum {
     NX = 23,

@@ -332,7 +332,7 @@ test_lying_sizes(void **state)
     check_refused(with_line("type", "type=f32"), 0, "do not match");
 }
 
-/* ---- messages of the one who wrote it ---- */
+/* ---- messages of the producer ---- */
 
 static struct stream
 failed_stream(const char *message)

@@ -258,7 +258,7 @@ lext_is_refused(void **state)
     drop(&b);
 }
 
-/* ---- tags that ask for memory ---- */
+/* ---- tags that require memory ---- */
 
 /* A directory in which every entry refers to the whole file: 3000 entries of 12 bytes would give 3000
  * copies. */

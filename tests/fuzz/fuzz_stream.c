@@ -32,7 +32,7 @@ demand(bool holds, const char *what)
     abort();
 }
 
-/* ---- what is read ---- */
+/* ---- functions that read ---- */
 
 static void
 check(const struct rc_grid *g)
@@ -128,7 +128,7 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     return 0;
 }
 
-/* ---- what is changed ---- */
+/* ---- changes of a stream ---- */
 
 /* The number in the header line NAME=...; 0 without this line. */
 static size_t

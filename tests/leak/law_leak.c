@@ -139,7 +139,7 @@ agrees_with_dense(void **state)
     assert_true(open > 20);
 }
 
-/* ---- what stands, by taking nodes away ---- */
+/* ---- stagnant fluid, by removing nodes ---- */
 
 /* True if the inlet (node n, at column 0) or the outlet (node n + 1) can be reached from node k without
  * passing `gone`. */

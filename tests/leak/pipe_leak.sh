@@ -156,7 +156,7 @@ made boundary=free 4 3 1e-6 1e-6 pressure 0 >b.rcg
 refuses 1 'bring them to one grid' "a gap and a pressure of two grids" "{ sed '/^RCGEND/d' a.rcg; sed 's/^RCGEND 1/RCGEND 2/' b.rcg; } | rc-leak -o x.rcg"
 claim "nothing is left of what was refused" test ! -e x.rcg.tmp
 
-# ---- what accuracy costs ----
+# ---- cost of accuracy ----
 
 rc-synth selfaffine --nx 96 --dx 1um --hurst 0.8 --rms-slope 0.05 --rolloff 48um --short-cut 12um --seed 3 -o costly.rcg
 cost="rc-cost --periodic --estar 1GPa --mean-pressure 4MPa --kernel fft --method pcg --quiet"

@@ -29,7 +29,7 @@ enum {
 /* The additional memory, in MiB, permitted for a hundred times as many frames. */
 static const double growth_most = 1;
 
-/* ---- a tool that reads what a function writes ---- */
+/* ---- a tool that reads the output of a function ---- */
 
 struct ran {
     int status;

@@ -180,7 +180,7 @@ make(const struct kind *kind)
     return m;
 }
 
-/* ---- a run, as a tool has it ---- */
+/* ---- a run, as in a tool ---- */
 
 /* Figures of the accuracy, and those that depend on the way to a state or are found to 20 % only. */
 static const char others[] = " kkt_residual pull_off_spread jumps stability ";
@@ -425,7 +425,7 @@ forgets(void **state)
     }
 }
 
-/* ---- what is refused ---- */
+/* ---- refusals ---- */
 
 static void
 refused(const struct kind *kind, const double *v, size_t n, const char *why)

@@ -70,7 +70,7 @@ kernel_case(struct body_case *c, int which, size_t kernel, struct rc_shape shape
         stress_case(c, body, 0.7 * shape.dx, boundary, (int)kernel - 1);
 }
 
-/* ---- the judges: no line of theirs is an engine's ---- */
+/* ---- reference sums, independent of the engines ---- */
 
 /* The quarter of the kernel from which its parity gives the rest: nx ny values. */
 static double *

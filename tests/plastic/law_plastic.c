@@ -339,7 +339,7 @@ let_go(void **state)
     free(s.v);
 }
 
-/* ---- a map that does not repeat ---- */
+/* ---- a map that is not periodic ---- */
 
 /* The same ball on maps of two sizes: the part of the larger map. */
 static void
@@ -645,7 +645,7 @@ inherits(void **state)
     assert_true(least >= 0.99 && own > 1e-3);
 }
 
-/* ---- a state that is kept ---- */
+/* ---- a state in a file ---- */
 
 enum {
     KEPT = 24, /* nodes a side */

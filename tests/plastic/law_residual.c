@@ -103,7 +103,7 @@ take_out_two_node_waves(struct rc_shape shape, bool y, double *f)
     }
 }
 
-/* ---- a body that was pressed ---- */
+/* ---- a body with residual stress ---- */
 
 struct body {
     struct rc_shape shape;

@@ -59,7 +59,7 @@ is_blue(const struct picture *p, size_t x, size_t y)
     return (c & 0xff) > (c >> 16) + 40;
 }
 
-/* ---- what is hidden ---- */
+/* ---- hidden surfaces ---- */
 
 /* A ridge along x at the front, and a ditch directly behind it. */
 static double

@@ -181,7 +181,7 @@ test_pressure_and_tractions_know_each_other(void **state)
     }
 }
 
-/* ---- bodies that are alike ---- */
+/* ---- equal bodies ---- */
 
 /* With heights, and without: the known contact is not solved; other ones are, or are refused. */
 static void

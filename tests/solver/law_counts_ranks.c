@@ -15,7 +15,7 @@
 
 static struct rc_ranks *ranks;
 
-/* ---- messages that are noted ---- */
+/* ---- messages that are recorded ---- */
 
 static struct {
     bool noting;

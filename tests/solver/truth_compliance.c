@@ -191,7 +191,7 @@ a_thin_layer_is_the_same(void **state)
     }
 }
 
-/* ---- what the answer is ---- */
+/* ---- figures of the answer ---- */
 
 /* The displacement is K p; the gap, with the displaced film, that of heights less c p: those heights have the
  * same pressure without a compliance. */

@@ -377,7 +377,7 @@ sphere(void **state)
     }
 }
 
-/* ---- where there is none ---- */
+/* ---- no conductance ---- */
 
 static void
 nothing_to_say(void **state)

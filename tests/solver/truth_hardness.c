@@ -11,7 +11,7 @@
 
 static const double estar = 1e11;
 
-/* ---- what is solved ---- */
+/* ---- the equations ---- */
 
 static uint64_t seed;
 
@@ -130,7 +130,7 @@ as_a_quadratic_program(void **state)
     assert_true(plastic > 1000 && missing > 500);
 }
 
-/* ---- maps that are numbers ---- */
+/* ---- uniform maps ---- */
 
 static void
 one_number_is_that_number(void **state)
@@ -427,7 +427,7 @@ other_ways(void **state)
     free(kept);
 }
 
-/* ---- what is refused ---- */
+/* ---- refusals ---- */
 
 static void
 refusals(void **state)

@@ -18,7 +18,7 @@ enum {
     MEDIA = 4
 };
 
-/* ---- of a wave ---- */
+/* ---- a wave ---- */
 
 static struct rc_stack *
 stack(void)
@@ -179,7 +179,7 @@ extreme_stacks(void **state)
     }
 }
 
-/* ---- of maps ---- */
+/* ---- maps ---- */
 
 static const unsigned six = (1 << RC_COMPONENTS) - 1;
 static const double mu = 0.35;

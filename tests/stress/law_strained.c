@@ -223,7 +223,7 @@ slices_are_pieces(void **state)
     free(s.e.v);
 }
 
-/* ---- what it costs ---- */
+/* ---- cost ---- */
 
 static void
 costs_one_sweep(void **state)

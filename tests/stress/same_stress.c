@@ -374,7 +374,7 @@ extremes_as_one_by_one(void **state)
     }
 }
 
-/* ---- only what the scene calls for ---- */
+/* ---- only the necessary transforms ---- */
 
 enum {
     NX = 50,

@@ -247,7 +247,7 @@ alone_as_in_company(void **state)
     }
 }
 
-/* ---- what is done ---- */
+/* ---- only the necessary transforms ---- */
 
 static void
 nothing_is_done_unasked(void **state)

@@ -479,7 +479,7 @@ test_correlation_of_a_map(void **state)
     free(h);
 }
 
-/* ---- edges of what is defined ---- */
+/* ---- limits of the definitions ---- */
 
 static void
 test_flat(void **state)

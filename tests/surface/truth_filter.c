@@ -355,7 +355,7 @@ test_exact_ground(void **state)
     free(h);
 }
 
-/* ---- around it ---- */
+/* ---- threads and unusual calls ---- */
 
 static void
 test_threads_and_high(void **state)

@@ -451,7 +451,7 @@ test_spikes_alone(void **state)
     free(h);
 }
 
-/* ---- around it ---- */
+/* ---- threads and unusual calls ---- */
 
 static void
 test_threads(void **state)

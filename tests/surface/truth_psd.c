@@ -46,7 +46,7 @@ total(const struct rc_psd *psd)
     return sum;
 }
 
-/* ---- where power stands ---- */
+/* ---- wave numbers of the power ---- */
 
 /* A cos(2 pi (m i/nx + n j/ny)): |FFT|^2 = (A nx ny/2)^2 for two waves, so c = A^2 Lx Ly / 4. */
 static void
@@ -263,7 +263,7 @@ test_wave_under_hann(void **state)
     rc_psd_free(psd);
 }
 
-/* ---- a spectrum that is known ---- */
+/* ---- a known spectrum ---- */
 
 /* A quarter of a periodic surface with c = C0 up to the wave number of the roll-off and C0 (q/q0)^(-2-2H)
  * beyond, with a remaining bow, large or small, which must not change the waves. Over the rings from twice

@@ -11,7 +11,7 @@ for source in $(tool_sources); do
     tools="$tools $(basename "$source" .c)"
 done
 
-# ---- what each shell completes ----
+# ---- completions of each shell ----
 
 # in_bash TOOL WORD...: prints the completions of bash for the last word of this line, which may be empty.
 in_bash() {
@@ -49,7 +49,7 @@ words_in_fish() {
 }
 one_a_line() { awk '{ for (i = 2; i <= NF; i++) print $1, $i }'; }
 
-# ---- beside --help and the manual ----
+# ---- comparison with --help and the manual ----
 
 same_options() {
     help_options "$1" >help.txt && "options_in_$2" "$1" >there.txt && diff help.txt there.txt >&2

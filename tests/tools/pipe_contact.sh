@@ -33,7 +33,7 @@ claim "  the gap alone has it beside it too" test "$(rc-pick --case 2 apart.rcg 
 rc-pick --resample 100x50 a.rcg -o again.rcg
 near "$(($(count contact 'v == 0' again.rcg) + $(count contact 'v == 1' again.rcg)))" 5000 0 "on another grid it is 1 or 0 too"
 
-# ---- who asks it ----
+# ---- tools that use it ----
 
 near "$(field contact_nodes <(rc-info --json a.rcg | grep '"channel": "pressure"'))" "$nodes" 0 "rc-info counts it"
 near "$(rc-info --json --patches a.rcg | grep -o '"patches": {"count": [0-9]*, "contact_nodes": [0-9]*' | sed 's/.* //')" "$nodes" 0 "  and its patches"
@@ -77,7 +77,7 @@ claim "  unless it says the same" rc-info late.rcg
 $frames a.rcg:gap=contact a.rcg:pressure >values.rcg
 refuses 1 "neither 0 nor 1" "other values are refused" "rc-info values.rcg"
 
-# ---- streams that do not tell ----
+# ---- streams without a map of the contact ----
 
 rc-pick --channel pressure,gap a.rcg -o without.rcg
 claim "rc-info says that it is unknown" says "contact  *unknown" rc-info without.rcg

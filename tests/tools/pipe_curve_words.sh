@@ -132,7 +132,7 @@ claim "  the same words of two tables are one" eval 'sed "s/PTFE/PA/" words.tsv 
 claim "  long ones read upwards, whole" eval 'rc-render --width 85mm --curve mat:y -o c.svg words.tsv && shows c.svg "rotate.*>PTFE, filled with bronze<"'
 claim "a column with a number is one of numbers" eval 'printf "x\ty\na\t1\n2\t3\n4\t5\n" | rc-render --curve x:y -o c.svg && near c.svg solid 2 3 4 5'
 
-# ---- what is not ----
+# ---- refusals ----
 
 refuses 2 '--log: column mat holds words, which have no logarithm: --log y has only the other axis so' "a logarithm of words" "$draw --log --curve mat:y words.tsv"
 refuses 1 'few.tsv: column x holds numbers, that of n.tsv words: draw two pictures' "words and numbers" "printf 'x/N\ty/m2\na\t1\n' >n.tsv && $draw --curve x:y n.tsv few.tsv"

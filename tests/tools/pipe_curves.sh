@@ -7,7 +7,7 @@ rc-solve --quiet --load 1N,2N,4N --estar 114GPa --report r.tsv --output pressure
 rc-solve --quiet --load 1N,2N,4N --estar 114GPa --report - ball.rcg >r.json
 draw='rc-render -o out.png'
 
-# ---- what is drawn ----
+# ---- drawings ----
 
 claim "a table" rc-render --curve load:contact_area -o t.png r.tsv
 claim "lines of JSON" rc-render --curve load:contact_area -o j.png r.json
@@ -45,7 +45,7 @@ done <<'END'
 1.0000000000001 1
 END
 
-# ---- what is not ----
+# ---- refusals ----
 
 refuses 1 'p.rcg is a grid stream: --curve draws tables' "a stream" "$draw --curve load:approach p.rcg"
 refuses 1 'r.json is no grid stream: it looks like a table: draw columns of it, as in --curve' \

@@ -13,7 +13,7 @@ nothing() {
         "$(awk -v s="$2" -v r="$rounding" 'BEGIN { print r * s }')" "$3"
 }
 
-# ---- what the steps do ----
+# ---- effect of the steps ----
 
 # heights 7 + 5 i - 3 j nm, and 40 nm more at the middle node, which then becomes missing
 awk 'BEGIN { for (j = 0; j < 11; j++) { s = ""

@@ -7,7 +7,7 @@ rc-synth sphere --radius 2mm --nx 32 --dx 4um |
     rc-solve --quiet --load 1N --estar 114GPa -o many.rcg
 rc-stress --nu 0.3 --depths 0,5um,20um --components mises,szz many.rcg >deep.rcg
 
-# ---- which format ----
+# ---- the format ----
 
 for name in x3p sdf gsf gwy npy vti vtr csv xyz h5 hdf5 sur bsdf mat stl; do
     claim "the suffix .$name is known" rc-export one.rcg -o "by.$name"
@@ -27,7 +27,7 @@ refuses 2 "--missing: npy is no text and marks missing points by its own rule" "
     'rc-export --format npy --missing X one.rcg'
 refuses 2 "--missing 'a b': one word without blanks" "and takes one word" 'rc-export --format csv --missing "a b" one.rcg'
 
-# ---- where it goes ----
+# ---- the output file ----
 
 claim "text goes to standard output" says '^# Width: 3.2' rc-export --format csv one.rcg
 claim "binary too when that is a pipe" \
@@ -52,7 +52,7 @@ claim "and the file that was there stays" test "$(cat kept.*)" = old
 refuses 1 "No space left" "a full device is told" 'rc-export --format npy one.rcg >/dev/full'
 refuses 1 "No space left" "with text too" 'rc-export --format xyz one.rcg >/dev/full'
 
-# ---- what it holds ----
+# ---- contents of the file ----
 
 refuses 1 "a second frame, and gsf holds one map" "one map is one frame" 'rc-export -o a.gsf many.rcg'
 refuses 1 "a second frame of channel mises" "several of one channel too" \
@@ -85,7 +85,7 @@ claim "a relief says how large it will be" \
 claim "and is that" test "$(wc -c <relief.stl)" -eq 87584
 refuses 2 "--relief: csv keeps the heights" "other formats are none" 'rc-export --format csv --relief 5mm one.rcg'
 
-# ---- there and back ----
+# ---- export and import ----
 
 back() { # FILE: its heights, read by rc-import, equal those of one.rcg bit for bit
     rc-import "$1" | rc-export --format npy | cmp - by.npy

@@ -49,7 +49,7 @@ claim "--verbose repeats it, with the name of who said it" bash -c '
     rc-solve --lod 3 ball.rcg 2>/dev/null | rc-info --verbose 2>said.txt
     grep -q "^rc-info: standard input: the program that wrote it failed: rc-solve: .*--lod" said.txt'
 
-# ---- what stands in the stream ----
+# ---- contents of the stream ----
 
 # after "sentence" EXPECTED 'command': compares its complete standard output, which is a pipe.
 after() {

@@ -44,7 +44,7 @@ claim "with a whole stream of the others, whose cases keep their numbers" \
 refuses 1 'none of the 2 files can be read' "where none is good there is no stream" \
     'rc-import --keep-going bad.txt bad.txt'
 
-# ---- what the user adds ----
+# ---- keys added by the user ----
 
 rc-import --dx 1.1um --z-unit nm bare.txt >bare.rcg
 near "$(header dx bare.rcg)" 1.1e-6 "$converted" "--dx gives the spacing"

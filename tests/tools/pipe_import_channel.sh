@@ -69,7 +69,7 @@ reads 2 "in either case" 'DEFLECTION||m' 'HEIGHT||m'
 reads 1 "the order of the file is the last word" 'Topography||m' 'Height||m'
 reads 2 "a position is none" 'X Sensor||m' 'Z (height)||m' 'Y Sensor||m'
 
-# ---- what is said ----
+# ---- messages ----
 
 nid many.nid 'Deflection|Scan forward|m' 'Z-Axis|Scan forward|m' 'Z-Axis|Scan backward|m' \
     'Z-Axis Sensor|Scan forward|m' 'Phase|Scan forward|deg'

@@ -116,7 +116,7 @@ claim "and of other formats" warns 'p.sdf: between the nodes the file has a poin
 claim "falling positions are turned round" bash -c '
     cmp <(rc-import --quiet --even falling.txt | sed "s/^source=.*//; s/crc32 [0-9a-f]*$//") <(sed "s/^source=.*//; s/crc32 [0-9a-f]*$//" even.rcg)'
 
-# ---- profiles that are even ----
+# ---- profiles with equal spacings ----
 
 printf 'x [um] z [nm]\n0 1\n1 2\n2 4\n3 3\n' >plain.txt
 claim "an even profile is left as it is" bash -c '

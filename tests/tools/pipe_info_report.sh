@@ -72,7 +72,7 @@ near "$(cell line.tsv 1 rdq)" 0.1 "$summed" "  its slope"
 claim "as text, with how many they are" eval 'rc-info --profile rows ridges.rcg >text.txt && says "^  profile    rows: 200 of them, means \\+- standard deviations; 240 points, 240 um, 5 sections$" cat text.txt && says "^  Rsm +24 um \\+- " cat text.txt'
 claim "as JSON" says '"profile": \{"along": "rows", "profiles": 200, "points": 240, .*"deviation": \{"ra": ' rc-info --json --profile rows ridges.rcg
 
-# ---- what is not ----
+# ---- refusals ----
 
 printf '1 2 3\n4 nan 6\n7 8 9\n' >holed.txt
 rc-import --quiet --dx 1um --z-unit um holed.txt -o holed.rcg

@@ -10,7 +10,7 @@ pressure() {
 }
 values='0 1e9 2e9\n3e9 3e9 0\n'
 
-# ---- figures that can be done by hand ----
+# ---- figures computed by hand ----
 
 printf "$values" | pressure "hardness=3e9 approach=1.25e-07 converged=yes load=77" >hand.rcg
 rc-info hand.rcg >hand.txt
@@ -33,7 +33,7 @@ near "$(field hardness hand.json)" 3e9 "$same" "  hardness"
 near "$(field plastic_area hand.json)" 4e-12 "$rounding" "  the area that yields"
 claim "  and it converged" grep -q '"converged": true}' hand.json
 
-# ---- what is not known ----
+# ---- unknown figures ----
 
 printf "$values" | pressure "" >bare.rcg
 rc-info bare.rcg >bare.txt
@@ -52,7 +52,7 @@ claim "keys that are no figures are not made some" lacks '^  (approach|hardness|
 claim "a height has none of it" bash -c 'rc-pick --channel pressure --set channel=height hand.rcg | rc-info >h.txt; lacks "^  (load|contact)" h.txt'
 claim "  nor in JSON" bash -c 'rc-pick --set channel=height hand.rcg | rc-info --json >h.json; lacks "\"result\"" h.json'
 
-# ---- of a solution ----
+# ---- figures of a solution ----
 
 rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 10nm --seed 2 -o rough.rcg
 rc-solve --quiet --load 100mN --hardness 300MPa --estar 100GPa --report report.json rough.rcg -o result.rcg

@@ -47,7 +47,7 @@ for page in "$pages"/*.[1-9]; do
     claim "man finds $name" found_by "${reader[@]}" "${name##*.}" "${name%.*}"
 done
 
-# ---- what shells complete ----
+# ---- completions of shells ----
 
 # has_completions TOOL: completions are in the folders that bash, zsh and fish search by default.
 has_completions() {
@@ -67,7 +67,7 @@ claim "  with the option tables of the tools" bash -c '[ "$(wc -l <"$0")" = "$(l
     "$prefix/share/libcontact/python/rcg/tables.json" "$prefix"
 claim "  and the sample surfaces" cmp "$RC_SOURCE/sample_surfaces/rough-steel.x3p" "$prefix/share/libcontact/python/rcg/samples/rough-steel.x3p"
 
-# ---- a program of others, by pkg-config ----
+# ---- a user's program, by pkg-config ----
 
 claim "the manual has a program" program "$pages/libcontact.3" hertz.c
 # finds_hertz PROGRAM [LIBDIR]: it runs, and finds Hertz's pressure to the accuracy of 129 nodes over three

@@ -29,7 +29,7 @@ for c in sxx syy szz sxy sxz syz mises; do
     near "$(least $c value a.json)" "$(least $c value b.json)" "$summed" "  and its least"
 done
 
-# ---- what is written ----
+# ---- output ----
 
 layers='2e-05,4e11,0.2;5e-06,1e10,0.45;inf,2e11,0.3'
 coat ball.rcg "$layers" >coated.rcg
@@ -95,7 +95,7 @@ claim "--tol takes no coarser grid on a coated body, and says so" bash -c '
     grep -q "\"coarse_grids\": \"left out: the body is coated\"" t.json &&
     grep -q "\"coarse_depths\": 0" t.json'
 
-# ---- what is refused ----
+# ---- refusals ----
 
 refuses 1 'each material has its own Poisson' "--nu beside layers" "rc-stress --nu 0.3 --depths 0 coated.rcg"
 coat ball.rcg '2e-05,4e11,0.2;inf,inf,0.3' >rigid.rcg

@@ -82,7 +82,7 @@ awk 'BEGIN { print "x/m\ty/m"; for (k = 0; k < 100000; k++) printf "%de-6\t%.6f\
 
 before_release && estimated "rc-cost, with the processes that it starts" "rc-cost --verbose --kernel fft --method pcg --limit 10s $load small.rcg"
 
-# ---- what the report and the plan say ----
+# ---- numbers of the report and of the plan ----
 
 near "$(field memory_estimate free.json)" "$(field peak_memory free.json)" 0.1 "the report has both"
 rc-solve --dry-run $load odd.rcg >plan.txt 2>/dev/null

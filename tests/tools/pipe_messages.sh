@@ -5,7 +5,7 @@
 rc-synth sphere --nx 33 --dx 20um --radius 7.5mm -o ball.rcg
 rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm --seed 3 -o rough.rcg
 
-# ---- a list, warned of once ----
+# ---- one warning for a list ----
 
 press() { rc-solve --estar 1GPa --output pressure "$@" -o p.rcg rough.rcg; }
 export -f press
@@ -27,7 +27,7 @@ claim "--verbose tells figures and nothing of memory" eval 'rc-solve --verbose -
 claim "--debug tells both" eval 'rc-solve --debug --periodic --estar 1GPa --load 1mN -o p.rcg rough.rcg 2>said.txt &&
     says "force 1 mN" cat said.txt && says "^rc-solve: memory: [0-9.]+ MiB counted, [0-9.]+ MiB taken$" cat said.txt'
 
-# ---- what to do ----
+# ---- advice ----
 
 for unit in N Pa um mN s; do
     refuses 1 "^rc-solve: $unit: No such file or directory: a unit follows its number without a blank, as in 60$unit$" \
@@ -41,7 +41,7 @@ claim "Str of ridges says why it has no value" says '^  Str +not defined: ridges
 printf '2 2 2\n2 2 2\n2 2 2\n' >flat.txt && rc-import --dx 1um --z-unit um flat.txt -o flat.rcg
 claim "so does that of a flat" says '^  Str +not defined: the map is flat$' rc-info --areal flat.rcg
 
-# ---- a name that was misspelt ----
+# ---- a misspelt name ----
 
 rc-solve --quiet --periodic --estar 1GPa --load 1mN,2mN --report r.tsv -o p.rcg rough.rcg
 meant() { refuses "$1" "did you mean $2\?$" "$3" "$4"; }

@@ -3,7 +3,7 @@
 # command to use instead, and that command works.
 . "$(dirname "$0")/../pipe.sh"
 
-# ---- something else, where a stream is read ----
+# ---- another file in place of a stream ----
 
 press='rc-solve --load 1 --estar 114GPa --quiet -o never.rcg'
 sample="$RC_SOURCE/sample_surfaces/rough-steel.x3p"
@@ -50,7 +50,7 @@ refuses 1 "frame 2: 'rubbish' stands where a frame" "something behind a frame" \
     "{ sed '/^RCGEND/d' ball.rcg; echo rubbish; } | rc-info"
 claim "nothing was written" test ! -e never.rcg
 
-# ---- a stream, where something else is read ----
+# ---- a stream in place of another file ----
 
 rc-synth sphere --nx 5 --dx 1um --radius 1mm -o ball.rcg
 refuses 1 "ball.rcg: it is a grid stream already and needs no import: give it to the next tool, as in 'rc-info ball.rcg'" \

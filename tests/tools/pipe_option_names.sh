@@ -50,7 +50,7 @@ claim "  to the byte" cmp american.png gray.png
 claim "--help has one of them" bash -c '! { rc-solve --help; rc-render --help; } | grep -E "discretisation|colourmap|gray" >&2'
 refuses 2 'colormap green: it must be one of' "another colour is none" 'rc-render --colormap green -o x.png ball.rcg'
 
-# ---- values that are none ----
+# ---- invalid values ----
 
 for option in load mean-pressure approach; do
     for value in -1 0 -1e-300 -3:-1:3 1,-1; do

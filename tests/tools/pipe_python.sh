@@ -42,7 +42,7 @@ cat cases.rcg ball.rcg stress.rcg >joined.rcg
 rc-pick --case 1:5:5 joined.rcg -o numbered.rcg
 claim "cases of joined streams are numbered on, as the tools do" check joined joined.rcg numbered.rcg
 
-# ---- what is damaged ----
+# ---- damaged streams ----
 
 rc-synth sphere --nx 3 --dx 1um --radius 1mm -o small.rcg
 claim "a stream that is cut off anywhere is refused" check cut small.rcg

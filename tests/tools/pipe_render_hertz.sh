@@ -45,7 +45,7 @@ claim "--law persson takes E* and the slope from the table" rc-render --curve me
 near "$(value_at law.svg dashed 1)" "$(perl -e '$x = sqrt(2) * 1e9 / (100e9 * shift); $n = 20000;
     for $k (0 .. $n - 1) { $t = $x * ($k + 0.5) / $n; $s += exp(-$t * $t) } printf "%.9g", $s * $x / $n * 2 / sqrt(3.14159265358979)' "$(last r.tsv)")" 1e-3 "  and is erf(sqrt(2) p / (E* h'))"
 
-# ---- what is not ----
+# ---- refusals ----
 
 refuses 1 '--hertz needs the keys load, estar and form=sphere RADIUS, which rc-solve --radius leaves: give --radius and --estar' "a ball of which nothing is known" "$draw --hertz p.rcg"
 refuses 2 '--hertz beside --cut is for one pressure' "a gap" "$draw --cut y=0 --hertz --radius 7.5mm --channel gap p.rcg"

@@ -139,7 +139,7 @@ claim "of two bodies there are lines only: one legend would be wrong of one" bas
 claim "PNG and PDF draw them too" bash -c 'rc-render -o c.png coat.rcg && rc-render -o c.pdf coat.rcg &&
     pdftotext c.pdf - | says "3: substrate, E 208 GPa" cat'
 
-# ---- one depth, and nonsense ----
+# ---- one depth, and invalid words ----
 
 made 20 "$three" '1e6' >one.rcg
 claim "a section of one depth is at that depth" bash -c \

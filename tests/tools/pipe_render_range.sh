@@ -85,7 +85,7 @@ made 30 szz Pa '-$i * 1e7' >pressed.rcg
 claim "a stress of one sign" rc-render --width 1200 -o pressed.svg pressed.rcg
 marks_lie pressed.svg -290 0 0 "ends at 0"
 
-# ---- a unit that was forgotten ----
+# ---- a forgotten unit ----
 
 doubted() { # doubted RANGE: a map and a cut with this range give a warning
     warns "range $1 goes from .*, but the values go from 0 Pa to 441 MPa: was a unit forgotten" rc-render --range "$1" -o doubt.png touch.rcg &&

@@ -30,7 +30,7 @@ for ending in svg pdf; do
 done
 claim "  and is a question mark" says '>No \? here</text>' cat no.svg
 
-# ---- a solution that stopped short ----
+# ---- a solution that did not converge ----
 
 rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 10nm --seed 2 |
     rc-solve --quiet --load 100mN --estar 100GPa --tol 1e-18 --output pressure -o short.rcg

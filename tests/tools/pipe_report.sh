@@ -116,7 +116,7 @@ claim "rc-cost writes lines" bash -c "$try --report cost.json ball.rcg"
 claim "rc-cost: the cells are the scalars of the lines" \
     same_cells cost.tsv cost.json expected_seconds seconds runs memory front
 
-# ---- where it cannot be written ----
+# ---- a report that cannot be written ----
 
 refuses 1 'report full: this is a folder' "a folder, before the work" \
     "mkdir full && $press --load 0.5 --report full -o never.rcg rough.rcg"

@@ -145,7 +145,7 @@ near "$(column increment_error_estimate 1 s64.tsv)" "$(awk -v e="$(column increm
 claim "no coupling too" warns "16 to 87" rc-slip --mu 0.3 --tangential 20N --coupling none --report none.tsv -o none.rcg rigid.rcg
 claim "  then they are not pressed first" test "$(wc -l <none.tsv)" = 2
 
-# ---- what is said ----
+# ---- messages ----
 
 claim "the plan says what is left out" says "left out: pressure and tractions do not feel each other, beta = 0" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
 claim "  how many increments" says "to P 240 N, 36 N, 0 N: 2 increments$" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
@@ -169,7 +169,7 @@ claim "  with its mark" grep -aq '^converged=no' short2.rcg
 claim "an interrupted run writes what it has" bash -c '
     rc-slip --mu 0.3 --tangential 20N --increments 2000 -o cut.rcg rigid.rcg 2>cut.err & sleep 1; kill -TERM $!; wait $!; test $? = 143 && grep -aq "^converged=no" cut.rcg'
 
-# ---- what is refused ----
+# ---- refusals ----
 
 refuses 1 'force 80 N: friction carries less than 72 N' "a force beyond friction, with both numbers" "rc-slip --mu 0.3 --tangential 80N -o x.rcg ball.rcg"
 claim "  and nothing is left behind" test ! -e x.rcg

@@ -12,7 +12,7 @@ values() { rc-pick --channel "$2" --case "$3" "$1" | rc-export --format csv | gr
 # apart FILE FILE CHANNEL CASE: prints the relative L1 distance of this frame in both files
 apart() { paste -d ' ' <(values "$1" "$3" "$4") <(values "$2" "$3" "$4") | awk '{ d = $1 - $2; s += d < 0 ? -d : d; t += $2 < 0 ? -$2 : $2 } END { print s / t }'; }
 
-# ---- loads and forces that change, bodies alike ----
+# ---- changing loads and forces, equal bodies ----
 
 printf '100N 0 0\n240N 43.2N 0\n240N -20N 30N\n120N 20N 0\n' >way.txt
 slip="rc-slip --quiet --mu 0.3 --history way.txt"
@@ -53,7 +53,7 @@ near "$(column displacement_x 2 on.tsv)" "$(column displacement_x 2 straight.tsv
 near "$(column increment_error_estimate 2 on.tsv)" "$(column increment_error_estimate 2 straight.tsv)" 1e-2 "  and error of the increments"
 between 1 "$(work on.tsv)" "$(awk -v w="$(work straight.tsv)" 'BEGIN { print 0.97 * w }')" "  in fewer convolutions"
 
-# ---- what is refused ----
+# ---- refusals ----
 
 refuses 1 'there is one already.*--resume' "a checkpoint is not written over" "$slip --checkpoint kept.rcg -o x.rcg alike.rcg"
 refuses 1 'belongs to another problem: friction was 0.3, is 0.2' "that of another coefficient" "${slip/0.3/0.2} --checkpoint kept.rcg --resume -o x.rcg alike.rcg"

@@ -54,7 +54,7 @@ status=$?
 claim "beyond pull-off the bodies part: said, exit 3" test "$status $(column separated 2 s.tsv)" = "3 yes"
 claim "  in words" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN ball.rcg -o s.rcg 2>said; grep -q 'separated: under this load the bodies part' said"
 
-# ---- a run that is cut off ----
+# ---- an interrupted run ----
 
 path="--adhesion 50mJ/m2,jkr --approach=-1um,2um,1um,0"
 $soft $path --pull-off --report straight.tsv ball.rcg -o straight.rcg
@@ -72,14 +72,14 @@ refuses 1 'another problem: checkpoint.approach was -1e-06, is 1e-06' "  of none
 refuses 1 'another problem: checkpoint.approach was -1e-06, is -2e-06' "  of another way" \
     "$soft --adhesion 50mJ/m2,jkr --approach=-2um,2um --checkpoint half.rcg --resume ball.rcg -o y.rcg"
 
-# ---- what follows ----
+# ---- later tools ----
 
 claim "rc-stress takes the net pressure" bash -c "rc-pick --case 2 p.rcg | rc-stress --quiet --nu 0.49 --depths 0 --components szz -o z.rcg"
 near "$(rc-info --json z.rcg | grep -o '"max[a-z]*": [^,]*' | head -n 1 | sed 's/.* //')" "$(awk -v m="$(column min_pressure 2 p.tsv)" 'BEGIN { print -m }')" 1e-3 "  tension where it pulls"
 claim "net pressures are drawn about 0" rc-render --case 2 --channel pressure -o net.png p.rcg
 claim "the path as a curve" bash -c "rc-render --curve approach:load -o path.svg p.tsv && grep -q retraction path.svg && grep -q loading path.svg"
 
-# ---- said before, warned of, refused ----
+# ---- plan, warnings and refusals ----
 
 claim "--dry-run names the law and the cohesive length" says 'adhesion  *on: exponential, 0.05 J/m2 over 300 nm.*cohesive length' rc-solve --dry-run --estar 2MPa --adhesion 50mJ/m2,exponential,300nm --approach 1um ball.rcg
 claim "a grid that does not hold the range is warned of" warns "the grid is too coarse for this law.*lattice pinning" rc-solve --estar 2MPa --adhesion 50mJ/m2,exponential,100nm --approach 1um ball.rcg -o w.rcg

@@ -28,7 +28,7 @@ near "$(grep -o '"largest_areas": \[[^],]*' case.json | sed 's/.*\[//')" "$(fiel
 claim "without it, not a word" bash -c '
     rc-solve --periodic --estar 3GPa --hardness 200MPa --load 40mN --output pressure s.rcg -o p.rcg 2>err && ! grep -q force err'
 
-# ---- what yields and what is at the hardness; the mean gap ----
+# ---- nodes that yield or reach the hardness; the mean gap ----
 
 rc-synth selfaffine --nx 120 --ny 110 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 40um --short-cut 4um --seed 7 -o s.rcg
 press() { rc-solve --quiet --periodic --load 50mN --estar 3GPa --hardness 100MPa --output gap,pressure,plastic --report "$1" "${@:2}"; }
@@ -54,7 +54,7 @@ between 1e-12 "$(field plastic_area second.json)" 1e-8 "  in places"
 near "$(field yielded_area second.json)" 0 0 "  and yields nowhere"
 near "$(field contact_area second.json)" "$(field contact_area first.json)" 0.01 "  on the same contact"
 
-# ---- what was asked ----
+# ---- the figures requested ----
 
 for seed in 1 2 3; do rc-synth selfaffine --nx 40 --ny 32 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed $seed; done |
     rc-solve --quiet --mean-pressure 1.1MPa,0.3GPa --E1 71.7GPa --nu1 0.33 --E2 210GPa --nu2 0.28 --hardness 1.9GPa --tol 3e-4 --report t.tsv -o /dev/null

@@ -93,7 +93,7 @@ claim "rc-cost takes it too, on coarser grids as well" says '^pcg' rc-cost --per
     --method pcg --kernel fft case.rcg
 refuses 1 'leave one out' "  and refuses both" "rc-cost --periodic --mean-pressure 1GPa --estar 100GPa --hardness 1GPa case.rcg"
 
-# ---- Vickers' number, and a hardness that cannot be ----
+# ---- Vickers' number, and an impossible hardness ----
 
 press() { rc-solve --periodic --estar 100GPa --output pressure --report v.json "$@" h.rcg -o v.rcg; }
 export -f press
@@ -105,7 +105,7 @@ refuses 2 "Brinell's number is .*: give a pressure, as in 6GPa, or Vickers' numb
 refuses 2 "Rockwell's number is a depth" "Rockwell's too" "press --mean-pressure 1GPa --hardness 60HRC"
 claim "300 GPa for 3 GPa" warns 'the hardness given, 300 GPa, is above that: is its unit right' press --mean-pressure 5GPa --hardness 300GPa
 
-# ---- other tools take it as any other frame ----
+# ---- the output in other tools ----
 
 claim "rc-pick" says 'channel=hardness|hardness' bash -c 'rc-pick --channel hardness case.rcg | rc-info'
 claim "rc-render" bash -c 'rc-render --channel hardness -o hardness.png case.rcg && [ -s hardness.png ]'

@@ -65,7 +65,7 @@ claim "many nodes in patches of one" \
     warns '256 nodes in contact, in 256 patches: the grid does not resolve it' press --periodic --load 1mN comb.rcg
 near "$(field nodes_per_patch r.json)" 1 "$same" "  1 node each"
 
-# ---- a map whose edges do not meet, solved as a period ----
+# ---- a map with a step at the edges, solved as periodic ----
 
 rc-synth selfaffine --nx 128 --ny 96 --dx 1um --hurst 0.8 --rms-height 100nm --rolloff 40um --short-cut 8um --seed 5 -o period.rcg
 press() { rc-solve --periodic --load 1N --estar 100GPa --output pressure "$@" -o p.rcg; }
@@ -90,7 +90,7 @@ claim "a free solve has no seam" bash -c 'rc-solve --load 10mN --estar 100GPa --
 claim "so does a mirror" bash -c 'rc-detrend --mirror ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
 claim "so does a taper" bash -c 'rc-detrend --quiet --taper 12um ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
 
-# ---- the case and the load that a warning is about ----
+# ---- the case and the load in a warning ----
 
 rc-synth sphere --nx 33 --dx 10um --radius 10mm -o ball.rcg
 press() { rc-solve --estar 100GPa --output pressure "$@" ball.rcg -o p.rcg; }
@@ -127,7 +127,7 @@ claim "a steep flank that nothing touches is no fault" bash -c 'press 1N 2>err; 
 rc-synth sphere --nx 131 --dx 2um --radius 100um -o ball.rcg
 claim "one that is touched is" warns 'RMS slope 0\.[56][0-9]* where the bodies touch' press 1000N
 
-# ---- a solution that was stopped short, or interrupted; last, because of job control ----
+# ---- a solution that did not converge, or was interrupted; last, because of job control ----
 
 rc-synth selfaffine --nx 256 --dx 1um --hurst 0.8 --rms-height 100nm --rolloff 60um --short-cut 4um --seed 5 -o s.rcg
 claim "a tolerance that cannot be reached: said, with exit status 3" bash -c '

@@ -24,7 +24,7 @@ near "$(awk -v m="$(field max_mises_over_yield none.json)" 'BEGIN { print m * 1e
     rc-stress --quiet --nu 0.3 --depths "$(field max_mises_depth none.json)" --components mises | rc-info |
     awk '/maximum/ { u["Pa"] = 1; u["kPa"] = 1e3; u["MPa"] = 1e6; u["GPa"] = 1e9; print $2 * u[$3] }')" 2e-3 "  its largest Mises stress is that of rc-stress"
 
-# ---- a load, none, and the same again ----
+# ---- a load, no load, and the same load again ----
 
 $elastic --mean-pressure 150MPa,0,150MPa --yield 2GPa,10GPa --output pressure,gap,displacement,height,plastic,residual,strain --report r.tsv rough.rcg -o y.rcg
 claim "three cases" test "$(wc -l <r.tsv)" = 4
@@ -48,7 +48,7 @@ paste -d , <(values y.rcg height | grep -v '^#' | head -n 64 | tr ',' '\n') <(va
 claim "the shape that is left is the height less the residual displacement" awk -F , \
     '{ d = $1 - $2 - $3; if (d < 0) d = -d; if (d > m) m = d; if ($2 > u) u = $2 } END { exit !(NR == 4096 && u > 0 && m < 1e-12 * u + 1e-20) }' three.txt
 
-# ---- what the loads leave for each other ----
+# ---- residual states between the loads of a history ----
 
 # the error of the third load of this list is 6e-3; the reference has 256 increments and tight contacts
 rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.2um --rolloff 64um --short-cut 16um --seed 4 -o again.rcg
@@ -121,7 +121,7 @@ near "$(field contact_area six.json)" "$(field contact_area line.json)" 3e-2 "  
 $elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 8 --slabs 0.5um,0.5um,1um,2um,4um --report five.json --output pressure rough.rcg -o s.rcg
 near "$(field slabs five.json)" 5 0 "or these"
 
-# ---- a map that does not repeat ----
+# ---- a map that is not periodic ----
 
 rc-synth sphere --nx 64 --dx 1um --radius 100um -o ball.rcg
 ball="rc-solve --quiet --E1 210GPa --nu1 0.3 --E2 rigid --load 0.3N --yield 2GPa,2GPa --increments 8 --output pressure,strain"

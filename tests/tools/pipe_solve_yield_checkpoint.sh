@@ -57,7 +57,7 @@ before=$(states late.rcg)
 $solve $history --checkpoint late.rcg --resume --interval 0 -o late-out.rcg rough.rcg
 between 1 "$(($(states late.rcg) - before))" 4 "  and only what is missing is done again"
 
-# ---- increments that were too few: the second try is gone on with, and not the first ----
+# ---- too few increments: the second attempt is resumed, not the first ----
 
 harder="--mean-pressure 250MPa --yield 0.8GPa"
 $solve $harder --checkpoint try.rcg --interval 0 --report try.tsv -o try-out.rcg rough.rcg

@@ -176,7 +176,7 @@ refuses 1 '65 x 49 nodes need about .*, --memory allows' "more memory than is al
 refuses 1 '--report nowhere/r.json: No such file' "a report that cannot be written, before the work" \
     "rc-stress --report nowhere/r.json --depths 0 ball.rcg"
 
-# ---- friction on a body that has yielded without it ----
+# ---- friction on a body that yielded before without friction ----
 
 rc-synth sphere --nx 16 --dx 20um --radius 10mm | rc-solve --quiet --load 20N --E1 210GPa --nu1 0.3 --E2 rigid --yield 500MPa,5GPa --increments 2 --slabs 6 --output pressure,strain -o dent.rcg
 claim "friction on a body that has yielded is warned of" warns "friction was not part of that solution.* yield stress, 500 MPa" rc-stress --mu 0.3 --depths 10um dent.rcg -o x.rcg

@@ -83,7 +83,7 @@ between 0.99 "$(awk -v x="$(end largest x)" -v y="$(end largest y)" 'BEGIN { pri
 near "$(end least value)" "$(awk 'BEGIN { print -0.8 * 2.20472e9 }')" "$coarse_grid" "  beside the compression in its middle"
 between 0 "$(awk -v x="$(end least x)" -v y="$(end least y)" 'BEGIN { print sqrt(x * x + y * y) }')" 4e-6 "  within a cell"
 
-# ---- depths that are meant in micrometres ----
+# ---- depths meant in micrometres ----
 
 claim "a depth of 5 m under a map of half a millimetre is told" \
     warns '--depths: 5 m is 9\.8e\+03 times the width of the map, 0\.000512 m.*write 5um' \

@@ -82,7 +82,7 @@ near "$(least y.json)" "$(least x.json)" 1e-6 "on a ball a traction along y make
 frames x.rcg ty.part | sed 's/^RCGEND 2$/RCGEND 3/' >both.rcg
 claim "both at once" rc-stress --quiet --depths 30um --report both.json -o both_stress.rcg both.rcg
 
-# ---- what is said ----
+# ---- messages ----
 
 rc-stress --quiet --depths 30um --report none.json -o none.rcg ball.rcg
 claim "without a map the pressure alone is transformed" test "$(count source_transforms none.json)" = 1
@@ -93,7 +93,7 @@ claim "the report has no mu, and friction is on" grep -q '"mu": null, .*"frictio
 claim "nor have the frames" bash -c 'rc-info syz.rcg >info.txt && lacks "mu=" info.txt'
 claim "a dry run says so" says 'friction *on$' rc-stress --depths 30um --dry-run y.rcg
 
-# ---- what is refused ----
+# ---- refusals ----
 
 refuses 1 'its own traction, and --mu 0.1 contradicts it' "--mu beside it" "rc-stress --quiet --mu 0.1 --depths 1um y.rcg"
 frames ball.rcg ty.part ty.part >two.rcg

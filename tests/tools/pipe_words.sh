@@ -40,7 +40,7 @@ harmless "rc-import" "rc-import bad*.x3p | cat"
 harmless "rc-import --list, which goes on" "rc-import --list --quiet bad*.x3p"
 harmless "the source" "rc-solve --estar 1GPa --load 1N source.rcg -o x.rcg"
 
-# ---- what is shown ----
+# ---- output ----
 
 printf '# Channel: To%spo\n# Width: 6 um\n# Height: 5 um\n# Value units: nm\n1 2 3\n4 5 6\n' "$escape" >"map$escape.txt"
 shown "rc-import --list" "rc-import --list map*.txt"

@@ -536,7 +536,7 @@ table_print(const struct tool *t)
     json_close(&json);
 }
 
-/* ---- all of them ---- */
+/* ---- all completions ---- */
 
 bool
 completions_print(const struct tool *t, const char *shell)

@@ -411,7 +411,7 @@ getopt_table(const struct tool *t)
     return rows.row;
 }
 
-/* ---- what is wrong with an option ---- */
+/* ---- faults of an option ---- */
 
 /* Ends the tool if an abbreviated name, which getopt accepts, matches several options. */
 static void

@@ -144,7 +144,7 @@ ranks_die(struct tool *t, int status, const char *text,
     exit(worst);
 }
 
-/* ---- what is whose ---- */
+/* ---- shares of the processes ---- */
 
 const struct rc_ranks *
 ranks_of(const struct tool *t)
@@ -173,7 +173,7 @@ ranks_rows(const struct tool *t, const struct rc_shape *shape, size_t *first, si
         rc_ranks_rows(t->ranks->library, shape, first, n);
 }
 
-/* ---- what all know ---- */
+/* ---- values known to all processes ---- */
 
 double
 ranks_sum(const struct tool *t, double v)

@@ -130,7 +130,7 @@ tool_demand_writable(struct tool *t, const char *option, const char *name)
         tool_die(t, EXIT_IMPOSSIBLE, "%s %s: %s", option, name, strerror(errno));
 }
 
-/* ---- what the work took ---- */
+/* ---- time and memory of the run ---- */
 
 double
 tool_now(void)

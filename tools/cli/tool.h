@@ -90,7 +90,7 @@ struct steps {
     size_t n;
 };
 
-/* ---- what a tool is ---- */
+/* ---- the declaration of a tool ---- */
 
 enum tool_reads {
     READS_NOTHING,

@@ -299,7 +299,7 @@ read_by_depth(struct wanted *w, struct tool *t)
     return d->waiting > 0 ? first_held(w, t) : NULL;
 }
 
-/* ---- what was not met ---- */
+/* ---- requests that no frame met ---- */
 
 static _Noreturn void
 no_channel(const struct wanted *w, struct tool *t, const char *name, size_t n)

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- what goes with what ---- */
+/* ---- parameters and kinds of frames ---- */
 
 static bool
 is(const struct rc_grid *g, const char *channel)

@@ -144,7 +144,7 @@ patches_text(const struct info_figures *f, FILE *out)
                 shown_area(text, p->patch[0].area), p->patch[0].nodes);
 }
 
-/* ---- all of it ---- */
+/* ---- the whole output ---- */
 
 void
 info_text(const struct info_wanted *w, const struct info_figures *f, FILE *out)

@@ -30,7 +30,7 @@ choice_rank(const char *channel)
     return k;
 }
 
-/* ---- what came by ---- */
+/* ---- frames of the stream ---- */
 
 static void
 remember(struct choice *c, struct tool *t, const struct rc_grid *g)
@@ -184,7 +184,7 @@ choice_offer(struct choice *c, struct tool *t, struct rc_grid *g)
     }
 }
 
-/* ---- what is said about it ---- */
+/* ---- messages ---- */
 
 static _Noreturn void
 no_channel(struct choice *c, struct tool *t)

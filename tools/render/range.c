@@ -167,7 +167,7 @@ has_outlier(const struct frames_of *f, const struct survey *s)
            (counts(touch, g, s->min_at) && around(touch, g, s->min_at) - s->min > half);
 }
 
-/* ---- what was asked for ---- */
+/* ---- options ---- */
 
 static bool
 is_percent(const char *text, double *value)

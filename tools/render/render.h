@@ -7,7 +7,7 @@
 #include "tools/cli/cli.h"
 #include "tools/plot/plot.h"
 
-/* ---- choice.c: which frame; the best one so far is held, and no other ---- */
+/* ---- choice.c: the frame to draw; only the best frame so far is kept ---- */
 
 struct wish {
     const char *channel; /* NULL: mises, pressure, height, else the first channel */
@@ -96,7 +96,7 @@ void section_range(struct tool *tool, const char *text, const struct rc_grid *gr
 struct rc_grid *section_even(struct tool *tool, const struct rc_grid *grid, const double *depth,
                              const struct layers *layers, double top, double bottom);
 
-/* ---- media.c: what a coated body is made of ---- */
+/* ---- media.c: materials of a coated body ---- */
 
 enum {
     MEDIA_NAME = 32
@@ -366,7 +366,7 @@ struct canvas *histogram_draw(struct tool *tool, struct rc_grid *const *grid,
 struct canvas *material_ratio_draw(struct tool *tool, struct rc_grid *const *grid, size_t n,
                                    const struct curve_style *style, struct drawn *drawn);
 
-/* ---- args.c: what was asked for ---- */
+/* ---- args.c: options ---- */
 
 struct args {
     struct wish wish; /* which frame */
@@ -392,7 +392,7 @@ bool args_lines(const struct args *args);
 /* True if it shows several frames: a list of several, or a sheet. */
 bool args_several(const struct args *args);
 
-/* ---- look.c: what a figure is like ---- */
+/* ---- look.c: appearance of a figure ---- */
 
 /* Sets the content of a figure, and the range of its colours. */
 struct look {

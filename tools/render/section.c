@@ -165,7 +165,7 @@ section_even(struct tool *t, const struct rc_grid *g, const double *depth,
     return even;
 }
 
-/* ---- which depths ---- */
+/* ---- depths ---- */
 
 void
 section_range(struct tool *t, const char *text, const struct rc_grid *g, const double *depth,

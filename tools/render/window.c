@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- where it lies ---- */
+/* ---- position ---- */
 
 static void
 place(const struct rc_grid *g, struct window *w)
@@ -117,7 +117,7 @@ contact_box(const struct rc_grid *g, struct box *b)
     return true;
 }
 
-/* ---- what was asked for ---- */
+/* ---- options ---- */
 
 static void
 read_pair(struct tool *t, const struct rc_grid *g, const char *window, const char *text,

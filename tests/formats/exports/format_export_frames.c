@@ -15,7 +15,7 @@
 #include "formats/containers/containers.h"
 #include "decoders.h"
 
-/* ---- what a file says beside its numbers ---- */
+/* ---- metadata of a file ---- */
 
 static zip_t *
 unzip(const struct written *made)
@@ -237,7 +237,7 @@ depths_make_an_array(void **state)
     drop_stack(frame);
 }
 
-/* ---- HDF5: the file as its library reads it ---- */
+/* ---- HDF5: the file read by its library ---- */
 
 static hid_t
 open_hdf5(const struct written *made)

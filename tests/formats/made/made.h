@@ -15,7 +15,7 @@
 #include "formats/format.h"
 #include "tests/exact.h"
 
-/* ---- bytes.c: bytes that grow ---- */
+/* ---- bytes.c: a growing array of bytes ---- */
 
 struct bytes {
     unsigned char *data;
@@ -117,7 +117,7 @@ void ole_file(struct bytes *b, const char *name, const struct bytes *stream);
 /* texts.c */
 made_maker make_keyence, make_wykotext, make_zygo;
 
-/* ---- checks.c: what every reader does ---- */
+/* ---- checks.c: checks of every reader ---- */
 
 /* Relative tolerances for numbers from files. */
 static const double last_digit = 4e-16;    /* one or two roundings of a double */
