@@ -37,7 +37,8 @@ enum {
     INWARDS, /* on its circle, slips inwards: until it is known whether it sticks */
 };
 enum {
-    SUMS = 8,
+    SUMS = 7,
+    MOSTS = 2, /* largest numbers, behind the sums */
     TILE = 16
 };
 static const double safety = 1.3; /* of the estimate                      */
@@ -46,41 +47,35 @@ static const double on_circle = 1e-12;
 static const double clipped = 0.1; /* of a step: the next one keeps nothing of it */
 static const double short_step = 0.1;
 
-/* ---- rows and sums ---- */
+/* ---- sums over nodes ---- */
 
-typedef void of_node(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS]);
+typedef void of_node(const struct rc_discs *d, size_t k, const void *with, double *sum);
 
-/* `count` sums over the nodes that carry something. Rows are summed by themselves and added in order: any
- * number of threads gives the same. */
+struct row {
+    const struct rc_discs *d;
+    of_node *of;
+    const void *with;
+};
+
+static void
+sum_row(void *ctx, size_t j, double *sum)
+{
+    const struct row *r = ctx;
+
+    for (size_t k = j * r->d->nx; k < (j + 1) * r->d->nx; k++)
+        if (r->d->face[k] != OFF)
+            r->of(r->d, k, r->with, sum);
+}
+
+/* The first `count` of the sums over the nodes that carry a load; behind them, the largest numbers. */
 static void
 sum_nodes(const struct rc_discs *d, of_node *of, const void *with, size_t count, double *out)
 {
-    struct rc_total all[SUMS] = {{0}};
+    struct row row = {d, of, with};
+    double all[SUMS + MOSTS];
 
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-    for (size_t j = 0; j < d->ny; j++) {
-        double *sum = d->partial + j * SUMS;
-        memset(sum, 0, SUMS * sizeof *sum);
-        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++)
-            if (d->face[k] != OFF)
-                of(d, k, with, sum);
-    }
-    for (size_t j = 0; j < d->ny; j++)
-        for (size_t k = 0; k < count; k++)
-            rc_total_add(&all[k], d->partial[j * SUMS + k]);
-    for (size_t k = 0; k < count; k++)
-        out[k] = rc_total_value(&all[k]);
-}
-
-/* Of a sum that is the largest number of each row. */
-static double
-most(const struct rc_discs *d, size_t k)
-{
-    double m = 0;
-
-    for (size_t j = 0; j < d->ny; j++)
-        m = fmax(m, d->partial[j * SUMS + k]);
-    return m;
+    rc_sums_rows(&d->memory.rows, sum_row, &row, all);
+    memcpy(out, all, count * sizeof *out);
 }
 
 /* The part of v at a node along what is free there. */
@@ -131,7 +126,7 @@ struct moved {
 /* What a node carries when y is moved by nu, and how that grows with nu; part 2 to 4: xx yy xy of the
  * growth, 5 the function whose gradient the first two are. */
 static void
-carried_by(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+carried_by(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
     const struct moved *m = with;
     double x = m->y[0][k] + m->nu[0], y = m->y[1][k] + m->nu[1], r = sqrt(x * x + y * y);
@@ -253,8 +248,8 @@ project(const struct rc_discs *d, double *const y[2])
 {
     struct moved m = {.y = y, .who = ALL};
 
-    if (!d->given)
-        carry(d, &m, d->sum);
+    if (!d->asked.given)
+        carry(d, &m, d->asked.sum);
     move_all(d, &m);
 }
 
@@ -285,7 +280,7 @@ keep_tile(const struct rc_discs *d, double *const y[2], const size_t tile[4])
 }
 
 static void
-rest_of(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+rest_of(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
     double *const *y = with;
 
@@ -318,16 +313,16 @@ back(const struct rc_discs *d, double *const y[2])
                           j + high < d->ny ? j + high : d->ny};
         keep_tile(d, y, tile);
     }
-    if (d->given)
+    if (d->asked.given)
         return;
     sum_nodes(d, rest_of, y, 3, slips);
-    rest[0] = d->sum[0] - slips[0];
-    rest[1] = d->sum[1] - slips[1];
+    rest[0] = d->asked.sum[0] - slips[0];
+    rest[1] = d->asked.sum[1] - slips[1];
     if (!(hypot(rest[0], rest[1]) < slips[2] && carry(d, &m, rest))) {
         m.who = ON_FACES;
-        if (!carry(d, &m, d->sum)) {
+        if (!carry(d, &m, d->asked.sum)) {
             m.who = ALL;
-            carry(d, &m, d->sum);
+            carry(d, &m, d->asked.sum);
         }
     }
     move_all(d, &m);
@@ -343,7 +338,7 @@ on_chord(const struct rc_discs *d, size_t k, double size)
 }
 
 static void
-inside(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+inside(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
     double size = hypot(d->q[0][k], d->q[1][k]);
     bool in = size < d->g[k] * (1 - on_circle) && !on_chord(d, k, size);
@@ -366,25 +361,25 @@ inwards(const struct rc_discs *d, size_t k)
 static void
 find_delta(struct rc_discs *d)
 {
-    struct moved m = {.y = d->d, .who = ALL};
+    struct moved m = {.y = d->way.d, .who = ALL};
     double at[3];
 
-    d->measured = d->given;
-    if (d->given)
+    d->judged.measured = d->asked.given;
+    if (d->asked.given)
         return;
     sum_nodes(d, inside, NULL, 3, at);
-    d->measured = at[2] > 0;
-    if (d->measured) {
+    d->judged.measured = at[2] > 0;
+    if (d->judged.measured) {
         d->delta[0] = at[0] / at[2];
         d->delta[1] = at[1] / at[2];
         return;
     }
-    d->part = 0; /* d is taken for what a step would shift */
+    d->way.part = 0; /* d is taken for what a step would shift */
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++)
         for (int c = 0; c < 2; c++)
-            d->d[c][k] = d->q[c][k] - (d->u[c][k] - d->w[c][k]) / d->m->self;
-    carry(d, &m, d->sum);
+            d->way.d[c][k] = d->q[c][k] - (d->u[c][k] - d->w[c][k]) / d->m->self;
+    carry(d, &m, d->asked.sum);
     d->delta[0] = m.nu[0] * d->m->self;
     d->delta[1] = m.nu[1] * d->m->self;
 }
@@ -434,12 +429,12 @@ is_pushed_out(const struct rc_discs *d, size_t i, size_t j)
 }
 
 static void
-last_look(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+last_look(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
     double slip[2] = {slip_of(d, 0, k), slip_of(d, 1, k)}, size = hypot(slip[0], slip[1]);
 
     (void)with;
-    sum[4] = fmax(sum[4], size);
+    sum[SUMS + 1] = fmax(sum[SUMS + 1], size);
     if (d->face[k] == INWARDS) {
         d->face[k] = d->curve[k] < 0 ? SLIP : STICK;
         sum[2] += d->face[k] == SLIP;
@@ -449,14 +444,14 @@ last_look(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS]
     free_part(d, k, slip);
     for (int c = 0; c < 2; c++)
         d->r[c][k] = (float)-slip[c];
-    sum[3] = fmax(sum[3], hypot(slip[0], slip[1]));
+    sum[SUMS] = fmax(sum[SUMS], hypot(slip[0], slip[1]));
 }
 
 /* Faces, D, the residual along what is free; how many nodes were left on their circles that slip inwards. */
 static size_t
 find_faces(struct rc_discs *d, bool sift)
 {
-    double at[3];
+    double at[SUMS + MOSTS];
 
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++) {
@@ -469,18 +464,18 @@ find_faces(struct rc_discs *d, bool sift)
         for (size_t i = 0; i < d->nx && sift; i++)
             if (d->face[j * d->nx + i] == INWARDS && is_pushed_out(d, i, j))
                 d->curve[j * d->nx + i] = -1;
-    sum_nodes(d, last_look, NULL, 3, at);
-    d->stick = (size_t)at[0];
-    d->slipping = (size_t)at[1];
-    d->residual = most(d, 3);
-    d->slip = most(d, 4);
+    sum_nodes(d, last_look, NULL, SUMS + MOSTS, at);
+    d->found.stick = (size_t)at[0];
+    d->found.slipping = (size_t)at[1];
+    d->found.residual = at[SUMS];
+    d->found.slip = at[SUMS + 1];
     return (size_t)at[2];
 }
 
 /* ---- the residual ---- */
 
 static void
-load_of(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+load_of(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
     float *const *v = with;
 
@@ -510,7 +505,7 @@ short_of_circle(const struct rc_discs *d, size_t k, double size)
  * circles; 2, 3: the load that turning them by z costs, to second order; 4, 5: the residual, for the
  * motion. */
 static void
-left_by_model(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+left_by_model(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
     double x = d->q[0][k], y = d->q[1][k], size = hypot(x, y), part, turn[2] = {0, 0}, residual[2];
     double r[2] = {(double)d->r[0][k], (double)d->r[1][k]};
@@ -538,7 +533,7 @@ struct remedy {
 };
 
 static void
-errors(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+errors(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
     double x = d->q[0][k], y = d->q[1][k], size = hypot(x, y), out[2], turn[2];
     const struct remedy *m = with;
@@ -550,8 +545,9 @@ errors(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
     sum[1] += size;
     sum[2] += x;
     sum[3] += y;
-    if (d->face[k] == SLIP && !d->measured && size > 0)
-        sum[4] += fmax(inwards(d, k) - (d->motion[0] * x + d->motion[1] * y) / size, 0);
+    if (d->face[k] == SLIP && !d->judged.measured && size > 0)
+        sum[4] +=
+            fmax(inwards(d, k) - (d->judged.motion[0] * x + d->judged.motion[1] * y) / size, 0);
 }
 
 /* The error relative to the exact tractions. `off`: the error of q; `size`: the sum of |q|. The sum over
@@ -560,7 +556,8 @@ static double
 relative(const struct rc_discs *d, double off, double size)
 {
     static const double least = 1.0 / 16;
-    double part = safety * off / size, load = d->given ? 0 : hypot(d->sum[0], d->sum[1]) / size;
+    double part = safety * off / size,
+           load = d->asked.given ? 0 : hypot(d->asked.sum[0], d->asked.sum[1]) / size;
 
     if (off == 0)
         return 0;
@@ -577,8 +574,8 @@ precondition(struct rc_discs *d)
     struct remedy m = {{0, 0}, {0, 0}};
 
     rc_extension_apply(d->m, d->r, d->z);
-    d->motion[0] = d->motion[1] = 0;
-    if (!d->given) {
+    d->judged.motion[0] = d->judged.motion[1] = 0;
+    if (!d->asked.given) {
         sum_nodes(d, load_of, d->z, 5, at);
         solve(&at[2], at, mu);
 #pragma omp parallel for num_threads(d->threads) schedule(static)
@@ -591,13 +588,14 @@ precondition(struct rc_discs *d)
         sum_nodes(d, left_by_model, NULL, 6, left);
         solve(&at[2], left, m.out);
         solve(&at[2], left + 2, m.turn);
-        if (!d->measured)
-            solve(&at[2], left + 4, d->motion);
+        if (!d->judged.measured)
+            solve(&at[2], left + 4, d->judged.motion);
     }
     sum_nodes(d, errors, &m, 5, at);
-    d->carries = d->given || hypot(at[2] - d->sum[0], at[3] - d->sum[1]) <= 1e-9 * d->limit;
-    d->turning = relative(d, at[0], at[1]);
-    d->estimate = relative(d, at[0] + at[4] / d->m->self, at[1]);
+    d->judged.carries = d->asked.given ||
+                        hypot(at[2] - d->asked.sum[0], at[3] - d->asked.sum[1]) <= 1e-9 * d->limit;
+    d->judged.turning = relative(d, at[0], at[1]);
+    d->found.estimate = relative(d, at[0] + at[4] / d->m->self, at[1]);
 }
 
 /* Of the residual, where a displacement is given; false: rounding. */
@@ -609,7 +607,7 @@ has_mean(const struct rc_discs *d, double mean[2])
     sum_nodes(d, load_of, d->r, 5, at);
     mean[0] = at[0] / (double)d->n;
     mean[1] = at[1] / (double)d->n;
-    return hypot(mean[0], mean[1]) > 1e-6 * d->slip;
+    return hypot(mean[0], mean[1]) > 1e-6 * d->found.slip;
 }
 
 /* Faces and what they leave. False: nothing resists the mean of the residual. */
@@ -618,17 +616,17 @@ look(struct rc_discs *d, double mean[2])
 {
     size_t sifted;
 
-    for (bool sift = d->sift;; sift = false) {
+    for (bool sift = d->way.sift;; sift = false) {
         sifted = find_faces(d, sift);
-        if (!rc_extension_set(d->m, d->face, d->q, d->curve, d->given) && has_mean(d, mean))
+        if (!rc_extension_set(d->m, d->face, d->q, d->curve, d->asked.given) && has_mean(d, mean))
             return false;
         precondition(d);
-        if (d->estimate > d->tol &&
-            d->turning <= d->tol) { /* only another delta shows who sticks */
-            d->delta[0] += d->motion[0];
-            d->delta[1] += d->motion[1];
-            d->measured = true;
-        } else if (sifted == 0 || d->estimate > d->tol) {
+        if (d->found.estimate > d->asked.tol &&
+            d->judged.turning <= d->asked.tol) { /* only another delta shows who sticks */
+            d->delta[0] += d->judged.motion[0];
+            d->delta[1] += d->judged.motion[1];
+            d->judged.measured = true;
+        } else if (sifted == 0 || d->found.estimate > d->asked.tol) {
             return true;
         }
     }
@@ -637,14 +635,14 @@ look(struct rc_discs *d, double mean[2])
 /* ---- steps ---- */
 
 static void
-conjugate(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+conjugate(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
-    double f[2] = {d->d[0][k], d->d[1][k]};
+    double f[2] = {d->way.d[0][k], d->way.d[1][k]};
 
     (void)with;
     free_part(d, k, f);
     for (int c = 0; c < 2; c++) {
-        double y = d->h[c][k] + (double)d->curve[k] * f[c];
+        double y = d->way.h[c][k] + (double)d->curve[k] * f[c];
         sum[0] += (double)d->z[c][k] * y;
         sum[1] += f[c] * y;
     }
@@ -656,13 +654,13 @@ direct(struct rc_discs *d)
 {
     double at[2], beta;
 
-    if (d->part == 0)
+    if (d->way.part == 0)
         return;
     sum_nodes(d, conjugate, NULL, 2, at);
-    beta = at[1] > 0 ? fmin(fmax(-d->part * at[0] / at[1], 0), 1) / d->part : 0;
+    beta = at[1] > 0 ? fmin(fmax(-d->way.part * at[0] / at[1], 0), 1) / d->way.part : 0;
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++) {
-        double f[2] = {d->d[0][k], d->d[1][k]};
+        double f[2] = {d->way.d[0][k], d->way.d[1][k]};
         free_part(d, k, f);
         for (int c = 0; c < 2; c++)
             d->z[c][k] += (float)(beta * f[c]);
@@ -680,9 +678,9 @@ enum {
 };
 
 static void
-energies(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+energies(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
-    double p = *(const double *)with, f[2] = {d->d[0][k], d->d[1][k]};
+    double p = *(const double *)with, f[2] = {d->way.d[0][k], d->way.d[1][k]};
     double z[2] = {p * (double)d->z[0][k], p * (double)d->z[1][k]};
 
     sum[CLIPPED] += hypot(f[0] - z[0], f[1] - z[1]);
@@ -690,7 +688,7 @@ energies(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
     for (int c = 0; c < 2; c++) {
         double slip = slip_of(d, c, k);
         sum[FALL] -= f[c] * slip;
-        sum[TWIST] += f[c] * d->h[c][k];
+        sum[TWIST] += f[c] * d->way.h[c][k];
         sum[SCALE] += d->g[k] * fabs(slip);
     }
     free_part(d, k, f);
@@ -705,8 +703,8 @@ judge(struct rc_discs *d, double p, double at[SUMS])
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++)
         for (int c = 0; c < 2; c++)
-            d->d[c][k] = d->face[k] == OFF ? 0 : d->d[c][k] - d->q[c][k];
-    rc_tangential_apply(d->t, d->d, d->h);
+            d->way.d[c][k] = d->face[k] == OFF ? 0 : d->way.d[c][k] - d->q[c][k];
+    rc_tangential_apply(d->t, d->way.d, d->way.h);
     sum_nodes(d, energies, &p, 7, at);
     return at[FALL] > 0;
 }
@@ -717,14 +715,14 @@ take(struct rc_discs *d, double length, double reach)
 {
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++) {
-        double end = hypot(d->q[0][k] + d->d[0][k], d->q[1][k] + d->d[1][k]);
+        double end = hypot(d->q[0][k] + d->way.d[0][k], d->q[1][k] + d->way.d[1][k]);
         double far =
             hypot(d->q[0][k] + reach * (double)d->z[0][k], d->q[1][k] + reach * (double)d->z[1][k]);
         if (d->face[k] == STICK && fmax(end, far) >= d->g[k] * (1 - on_circle))
             d->face[k] = SLIP;
         for (int c = 0; c < 2; c++) {
-            d->q[c][k] += length * d->d[c][k];
-            d->u[c][k] += length * d->h[c][k];
+            d->q[c][k] += length * d->way.d[c][k];
+            d->u[c][k] += length * d->way.h[c][k];
         }
     }
 }
@@ -735,14 +733,14 @@ fall_back(struct rc_discs *d)
 {
     double at[SUMS];
 
-    d->fallbacks++;
-    d->part = 0;
-    d->sift = true;
+    d->found.fallbacks++;
+    d->way.part = 0;
+    d->way.sift = true;
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++)
         for (int c = 0; c < 2; c++)
-            d->d[c][k] = d->q[c][k] - slip_of(d, c, k) / d->t->norm;
-    project(d, d->d);
+            d->way.d[c][k] = d->q[c][k] - slip_of(d, c, k) / d->t->norm;
+    project(d, d->way.d);
     if (judge(d, 0, at))
         take(d, fmin(at[FALL] / at[TWIST], 1), 0);
 }
@@ -751,14 +749,14 @@ fall_back(struct rc_discs *d)
 static void
 step_along(struct rc_discs *d)
 {
-    double at[SUMS], length, newton, all, reach = d->reach;
+    double at[SUMS], length, newton, all, reach = d->way.reach;
 
     direct(d);
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++)
         for (int c = 0; c < 2; c++)
-            d->d[c][k] = d->q[c][k] + d->reach * (double)d->z[c][k];
-    back(d, d->d);
+            d->way.d[c][k] = d->q[c][k] + d->way.reach * (double)d->z[c][k];
+    back(d, d->way.d);
     if (!judge(d, reach, at) && at[TWIST] > 16 * DBL_EPSILON * at[SCALE]) {
         fall_back(d);
         return;
@@ -767,13 +765,13 @@ step_along(struct rc_discs *d)
     newton = length = at[DOWN] / all;
     if (!(length >= 0.5)) /* radial moves count */
         length = (at[FALL] + at[CURVED] / 2) / all;
-    d->part = at[CLIPPED] > clipped * at[STRAIGHT] ? 0 : reach;
-    d->reach =
+    d->way.part = at[CLIPPED] > clipped * at[STRAIGHT] ? 0 : reach;
+    d->way.reach =
         fmin(fmax(reach * length, length < short_step ? reach / 8 : fmin(0.5, 4 * reach)), 1);
     length = at[TWIST] > 16 * DBL_EPSILON * at[SCALE]
                  ? fmin(fmin(length, 1), 1.9 * at[FALL] / at[TWIST])
                  : fmin(fmax(newton, 0.25), 1); /* see 6 */
-    d->sift = length >= short_step;
+    d->way.sift = length >= short_step;
     take(d, length, reach);
 }
 
@@ -803,15 +801,15 @@ rc_discs_step(struct rc_discs *d)
     find_delta(d);
     seen = look(d, mean);
     if (!seen)
-        d->estimate = 1;
-    else if (!(d->estimate > d->tol))
-        return d->carries ? RC_OK : RC_SHORT;
-    if (d->steps >= d->most)
+        d->found.estimate = 1;
+    else if (!(d->found.estimate > d->asked.tol))
+        return d->judged.carries ? RC_OK : RC_SHORT;
+    if (d->found.steps >= d->asked.most)
         return RC_SHORT;
-    d->steps++;
+    d->found.steps++;
     if (seen)
         step_along(d);
-    else if (d->slipping == 0)
+    else if (d->found.slipping == 0)
         to_first_circle(d, mean);
     else
         fall_back(d);
@@ -819,7 +817,7 @@ rc_discs_step(struct rc_discs *d)
 }
 
 static void
-radius(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+radius(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
     (void)with;
     sum[0] += d->g[k];
@@ -828,7 +826,7 @@ radius(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
 static const double near = 0.99; /* to its circle */
 
 static void
-well_inside(const struct rc_discs *d, size_t k, const void *with, double sum[SUMS])
+well_inside(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
     (void)with;
     sum[0] += hypot(d->q[0][k], d->q[1][k]) < near * d->g[k];
@@ -853,10 +851,10 @@ rc_discs_begin(struct rc_discs *d)
         if (d->face[k] == STICK && hypot(d->q[0][k], d->q[1][k]) >= near * d->g[k])
             d->face[k] = SLIP;
     rc_tangential_apply(d->t, d->q, d->u);
-    d->steps = d->fallbacks = 0;
-    d->part = 0;
-    d->reach = 1;
-    d->sift = true;
+    d->found.steps = d->found.fallbacks = 0;
+    d->way.part = 0;
+    d->way.reach = 1;
+    d->way.sift = true;
 }
 
 /* ---- room ---- */
@@ -870,18 +868,18 @@ enum {
 static bool
 allocate(struct rc_discs *d)
 {
-    double *map = d->maps = rc_alloc(MAPS * d->n, sizeof *map);
-    float *single = d->single = rc_alloc(SINGLE * d->n, sizeof *single);
+    double *map = d->memory.maps = rc_alloc(MAPS * d->n, sizeof *map);
+    float *single = d->memory.single = rc_alloc(SINGLE * d->n, sizeof *single);
 
     d->face = rc_alloc(d->n, 1);
-    d->partial = rc_alloc(d->ny * SUMS, sizeof *d->partial);
-    if (map == NULL || single == NULL || d->face == NULL || d->partial == NULL)
+    if (rc_sums_new(&d->memory.rows, d->ny, SUMS, MOSTS, d->threads) != RC_OK || map == NULL ||
+        single == NULL || d->face == NULL)
         return false;
     memset(map, 0, MAPS * d->n * sizeof *map);
     d->g = map;
     d->curve = single;
     for (size_t c = 0; c < 2; c++) {
-        double **const pairs[] = {d->w, d->q, d->u, d->d, d->h};
+        double **const pairs[] = {d->w, d->q, d->u, d->way.d, d->way.h};
         for (size_t k = 0; k < 5; k++)
             pairs[k][c] = map + (1 + 2 * k + c) * d->n;
         d->r[c] = single + (1 + c) * d->n;
@@ -902,7 +900,7 @@ rc_discs_new(struct rc_tangential *t, struct rc_err *err)
                            .ny = t->shape.ny,
                            .n = t->shape.nx * t->shape.ny,
                            .threads = t->threads,
-                           .most = 200};
+                           .asked.most = 200};
     if (!allocate(d))
         goto short_of_memory;
     if ((d->m = rc_extension_new(t, err)) != NULL)
@@ -920,11 +918,11 @@ rc_discs_free(struct rc_discs *d)
 {
     if (d == NULL)
         return;
-    free(d->maps);
-    free(d->single);
+    free(d->memory.maps);
+    free(d->memory.single);
     rc_extension_free(d->m);
     free(d->face);
-    free(d->partial);
+    free(d->memory.rows.row);
     free(d);
 }
 
@@ -934,5 +932,5 @@ rc_discs_memory(const struct rc_shape *shape, enum rc_boundary boundary)
     size_t n = shape->nx * shape->ny;
 
     return n * (MAPS * sizeof(double) + SINGLE * sizeof(float) + 1) +
-           shape->ny * SUMS * sizeof(double) + rc_extension_memory(shape, boundary);
+           shape->ny * (SUMS + MOSTS) * sizeof(double) + rc_extension_memory(shape, boundary);
 }

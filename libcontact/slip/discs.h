@@ -17,35 +17,43 @@ struct rc_discs {
     struct rc_tangential *t; /* the caller's */
     size_t nx, ny, n;
     int threads;
-    /* what is asked: set by the caller before rc_discs_begin */
-    double *g, *w[2];
-    bool given;              /* delta is, else the sum */
-    double sum[2], delta[2]; /* S, Pa; delta, m        */
-    double tol;              /* relative L1 error of q */
-    size_t most;             /* outer steps            */
-    /* what has been found */
-    double *q[2], *u[2]; /* q, where a start is to stand too; u = T q */
-    double estimate;     /* of the relative L1 error of q */
-    double residual;     /* largest slip where nothing may slip, over the largest slip, m */
-    double slip;         /* largest slip, or what the bodies have moved where that is less, m */
-    size_t steps, fallbacks, stick, slipping;
-    /* of one step, and of the last one */
+    /* Maps. The caller sets g, w, and q where the iteration starts from it, before rc_discs_begin. */
+    double *g, *w[2], *q[2], *u[2]; /* u = T q                                    */
+    float *r[2], *z[2];             /* residual of what is free; M r, then the direction */
+    float *curve;                   /* D of nodes that slip                       */
+    unsigned char *face;            /* enum rc_face                               */
+    double delta[2];                /* m: given, or found                         */
+    double limit;                   /* sum of g                                   */
+    struct {
+        bool given;    /* delta is given, else the sum    */
+        double sum[2]; /* of q, Pa                        */
+        double tol;    /* relative L1 error of q          */
+        size_t most;   /* steps                           */
+    } asked;
+    struct {
+        double estimate; /* of the relative L1 error of q                                        */
+        double residual; /* m: largest slip where no node may slip                               */
+        double slip;     /* m: largest slip, or the motion of the bodies where that is less      */
+        size_t steps, fallbacks, stick, slipping;
+    } found;
+    struct {              /* by one look at the faces and the residual */
+        bool carries;     /* the sum of q is the load                                             */
+        bool measured;    /* delta is given, or the mean of nodes inside their circles            */
+        double motion[2]; /* else the change of delta that leaves least along the tangents        */
+        double turning;   /* estimate without the nodes that would then slip inwards              */
+    } judged;
+    struct {                 /* a step, the last one */
+        double *d[2], *h[2]; /* the way, and T of it                                         */
+        double reach; /* part of the direction at which the way back begins, 0.5 to 1        */
+        double part;  /* the reach of the last step; 0: the next step keeps nothing of it    */
+        bool sift;    /* nodes that would slip inwards and back again stay on their circles  */
+    } way;
     struct rc_extension *m;
-    double *d[2], *h[2]; /* where it goes, and T of that                               */
-    bool carries;        /* q adds up to the load                                          */
-    bool measured;       /* delta: given, or the mean of nodes inside their circles        */
-    double motion[2];    /* else what it is to change by to leave least along the tangents */
-    double turning;      /* estimate without the nodes which would then slip inwards       */
-    double limit;        /* sum of g                                                       */
-    double reach;        /* how far along the direction the way back begins, 0.5 to 1      */
-    double part;         /* that of the last step; 0: nothing of it is kept                */
-    bool sift;          /* nodes that would slip inwards and back again are left on their circles */
-    float *r[2], *z[2]; /* residual along what is free; M r, then the direction       */
-    float *curve;       /* D of nodes that slip                                       */
-    unsigned char *face; /* enum rc_face                                               */
-    double *maps;        /* where the maps lie                                             */
-    float *single;
-    double *partial; /* sums of rows                                               */
+    struct { /* where the maps and the sums of rows are */
+        double *maps;
+        float *single;
+        struct rc_sums rows;
+    } memory;
 };
 
 /* Rooms for maps; NULL when memory is short. */

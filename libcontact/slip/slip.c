@@ -97,9 +97,9 @@ rc_slip_set_force(struct rc_slip *s, double fx, double fy, struct rc_err *err)
                           "tangential force %.9g N: friction carries less than %.9g N, beyond it "
                           "the bodies slide; give a displacement instead",
                           f, s->limit);
-    s->force[0] = s->discs->sum[0] = fx / s->cell;
-    s->force[1] = s->discs->sum[1] = fy / s->cell;
-    s->discs->given = false;
+    s->force[0] = s->discs->asked.sum[0] = fx / s->cell;
+    s->force[1] = s->discs->asked.sum[1] = fy / s->cell;
+    s->discs->asked.given = false;
     s->asked = true;
     s->begun = s->done = false;
     return RC_OK;
@@ -112,7 +112,7 @@ rc_slip_set_displacement(struct rc_slip *s, double dx, double dy, struct rc_err 
         return RC_FAIL;
     s->discs->delta[0] = dx / s->unit;
     s->discs->delta[1] = dy / s->unit;
-    s->discs->given = true;
+    s->discs->asked.given = true;
     s->asked = true;
     s->begun = s->done = false;
     return RC_OK;
@@ -129,9 +129,9 @@ pose(struct rc_slip *s)
 {
     struct rc_discs *d = s->discs;
     double more[2] = {0, 0}, entry[2] = {0, 0};
-    bool enter = s->has_gap_old && !d->given && s->load > s->load_old * (1 + grows);
+    bool enter = s->has_gap_old && !d->asked.given && s->load > s->load_old * (1 + grows);
 
-    for (int c = 0; c < 2 && !d->given; c++) {
+    for (int c = 0; c < 2 && !d->asked.given; c++) {
         if (s->limit > 0)
             more[c] = (s->force[c] - s->force_old[c]) * s->cell / s->limit;
         if (enter)
@@ -163,9 +163,9 @@ rc_slip_step(struct rc_slip *s, struct rc_err *err)
             memset(s->discs->q[c], 0, s->n * sizeof(double));
             memset(s->discs->u[c], 0, s->n * sizeof(double));
         }
-        s->discs->estimate = 0;
-        s->discs->stick = s->discs->slipping = 0;
-        s->discs->slip = s->discs->residual = 0;
+        s->discs->found.estimate = 0;
+        s->discs->found.stick = s->discs->found.slipping = 0;
+        s->discs->found.slip = s->discs->found.residual = 0;
         memset(s->discs->face, RC_FACE_OFF, s->n);
         s->last = RC_OK;
         s->done = true;
@@ -290,16 +290,16 @@ rc_slip_result(struct rc_slip *s, struct rc_slip_figures *f)
 
     *f = (struct rc_slip_figures){.load = s->load,
                                   .limit = s->limit,
-                                  .stick_nodes = d->stick,
-                                  .slip_nodes = d->slipping,
-                                  .stick_area = (double)d->stick * s->cell,
-                                  .slip_area = (double)d->slipping * s->cell,
+                                  .stick_nodes = d->found.stick,
+                                  .slip_nodes = d->found.slipping,
+                                  .stick_area = (double)d->found.stick * s->cell,
+                                  .slip_area = (double)d->found.slipping * s->cell,
                                   .stick_fraction = NAN,
                                   .dissipated = dissipated(s),
-                                  .largest_slip = d->slip * s->unit,
-                                  .slip_error = d->residual * s->unit,
-                                  .traction_error = d->estimate,
-                                  .steps = d->steps,
+                                  .largest_slip = d->found.slip * s->unit,
+                                  .slip_error = d->found.residual * s->unit,
+                                  .traction_error = d->found.estimate,
+                                  .steps = d->found.steps,
                                   .convolutions = s->t->convolutions,
                                   .converged = s->done && s->last == RC_OK};
     for (int c = 0; c < 2; c++) {
@@ -309,7 +309,7 @@ rc_slip_result(struct rc_slip *s, struct rc_slip_figures *f)
         f->force[c] = rc_total_value(&sum) * s->cell;
         f->displacement[c] = d->delta[c] * s->unit;
     }
-    if (d->stick + d->slipping > 0)
+    if (d->found.stick + d->found.slipping > 0)
         f->stick_fraction = f->stick_area / (f->stick_area + f->slip_area);
     f->stiffness = hypot(f->force[0], f->force[1]) / hypot(f->displacement[0], f->displacement[1]);
     /* a force that is all rounding has none */
@@ -458,9 +458,9 @@ rc_slip_new(const struct rc_shape *shape, const struct rc_slip_problem *p, struc
     s->t = rc_tangential_new(&unit, p->boundary, &inside, p->threads, err);
     if (s->t == NULL || (s->discs = rc_discs_new(s->t, err)) == NULL)
         goto fail;
-    s->discs->tol = p->tol > 0 ? p->tol : usual;
+    s->discs->asked.tol = p->tol > 0 ? p->tol : usual;
     if (p->max_steps > 0)
-        s->discs->most = p->max_steps;
+        s->discs->asked.most = p->max_steps;
     memset(s->discs->g, 0, s->n * sizeof(double));
     memset(s->discs->face, RC_FACE_OFF, s->n);
     s->apart = true;
