@@ -54,77 +54,30 @@ adhesion_read(struct run *run)
            "--output plastic, residual or strain", "they are not found with it");
 }
 
-/* ---- a path ---- */
+/* ---- the model ---- */
 
 static struct rc_adhesion_problem
-problem_of(const struct run *run, struct rc_problem contact)
+problem_of(const struct run *run, const struct rc_problem *contact)
 {
     struct rc_adhesion_problem problem = run->adhering.law.problem;
 
-    problem.contact = contact;
+    problem.contact = *contact;
     return problem;
 }
 
-static void
-begin(struct run *run, const struct rc_grid *g, struct rc_problem contact)
+struct rc_model *
+adhesion_model(struct run *run, const struct rc_grid *g, const struct rc_problem *contact)
 {
-    struct adhering *a = &run->adhering;
     const struct rc_shape shape = rc_grid_shape(g);
     const struct rc_adhesion_problem problem = problem_of(run, contact);
     struct rc_err err;
+    struct rc_model *m = NULL;
 
-    tool_demand_memory(&run->t, g, adhesion_memory(run, g, &contact));
-    a->path = rc_adhesion_new(&shape, g->v, &problem, &err);
-    if (a->path == NULL)
+    if (rc_adhesion_check(&shape, &problem, &run->adhering.scales, &err) == RC_OK)
+        m = rc_adhesive_new(&shape, g->v, &problem, &err);
+    if (m == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    a->scales = *rc_adhesion_scales(a->path);
-    run->setup = solve_now() - run->began;
-}
-
-/* ---- states in a checkpoint: the approach, then the net pressures ---- */
-
-enum {
-    NUMBERS = 3 /* how many numbers and maps there are, and the approach */
-};
-
-static void
-save(struct run *run, const struct rc_grid *g)
-{
-    const struct adhering *a = &run->adhering;
-    const size_t n = rc_grid_nodes(g) + NUMBERS;
-    double *v;
-
-    if (a->pulling || run->checkpoint == NULL) /* a retraction begins anew */
-        return;
-    if ((v = malloc(n * sizeof *v)) == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for a state of --checkpoint");
-    v[0] = NUMBERS;
-    v[1] = 1;
-    v[2] = rc_adhesion_result(a->path)->approach;
-    rc_adhesion_pressure(a->path, v + NUMBERS);
-    checkpoint_save(&run->course, v, n);
-    free(v);
-}
-
-/* The state of this case that the checkpoint holds becomes that of the path. False: it holds none. */
-static bool
-restore(struct run *run, const struct rc_grid *g)
-{
-    struct rc_err err;
-    size_t n;
-    double *v;
-
-    run->course.g = g;
-    run->course.checkpoint = run->adhering.pulling ? NULL : run->checkpoint;
-    solve_marks(run);
-    if ((v = checkpoint_load(&run->course, &n)) == NULL)
-        return false;
-    if (n != rc_grid_nodes(g) + NUMBERS)
-        checkpoint_refuse(&run->course, "its numbers are not those of this map");
-    if (rc_adhesion_start(run->adhering.path, v + NUMBERS, v[2], &err) != RC_OK)
-        checkpoint_refuse(&run->course, err.text);
-    free(v);
-    return true;
+    return m;
 }
 
 void
@@ -139,124 +92,19 @@ adhesion_mark(const struct run *run, char *value, size_t size)
                  p->law == NULL ? "" : p->law, rc_number_text(range, p->range));
 }
 
-/* ---- states of a path ---- */
-
-static void
-show(struct run *run, const struct rc_grid *g)
+void
+adhesion_set_key(struct run *run, struct rc_grid *as, const struct rc_contact *c)
 {
-    struct rc_adhesion_progress at;
-    char how_far[64] = "", load[SHOWN_NUMBER];
-
-    rc_adhesion_progress(run->adhering.path, &at);
-    if (!isnan(at.error))
-        snprintf(how_far, sizeof how_far, ", error %.1e of %.1e", at.error, at.tol);
-    tool_progress(&run->t, NAN, "case %zu, %zu x %zu, %s%zu, load %s, %s %zu%s", run->course.number,
-                  g->nx, g->ny, "state ", at.state, shown_in_unit(load, at.load, "N"),
-                  at.eigenvalue ? "stability, step" : "iteration", at.iterations, how_far);
-}
-
-static void
-follow(struct run *run, const struct rc_grid *g)
-{
-    struct adhering *a = &run->adhering;
-    double start = solve_now();
-    struct rc_err err;
-
-    a->status = RC_MORE;
-    while (tool_interrupted() == 0 && a->status == RC_MORE) {
-        a->status = rc_adhesion_step(a->path, &err);
-        show(run, g);
-        if (a->status == RC_MORE && checkpoint_due(run->checkpoint))
-            save(run, g);
-    }
-    tool_progress_end(&run->t);
-    if (a->status == RC_FAIL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    run->iterate = solve_now() - start;
-}
-
-/* ---- what is found ---- */
-
-/* What the rest of rc-solve says of a contact. */
-static struct rc_contact
-contact_of(const struct rc_adhesion_figures *f)
-{
-    return (struct rc_contact){.load = f->load,
-                               .mean_pressure = f->mean_pressure,
-                               .max_pressure = f->max_pressure,
-                               .contact_nodes = f->contact_nodes,
-                               .contact_area = f->contact_area,
-                               .contact_fraction = f->contact_fraction,
-                               .plastic_nodes = f->plastic_nodes,
-                               .plastic_area = f->plastic_area,
-                               .yielded_nodes = f->plastic_nodes,
-                               .yielded_area = f->plastic_area,
-                               .hardness_active = f->plastic_nodes > 0,
-                               .edge_load_fraction = NAN,
-                               .elastic_energy = NAN,
-                               .approach = f->approach,
-                               .mean_gap = f->mean_gap,
-                               .gap_error = f->gap_error,
-                               .shape_error = f->gap_error,
-                               .kkt_residual = f->kkt_residual,
-                               .pressure_error = f->pressure_error,
-                               .inherited_error = f->inherited_error,
-                               .iterations = f->iterations,
-                               .convolutions = f->convolutions,
-                               .discretization = {NAN, NAN, NAN},
-                               .converged = f->converged};
-}
-
-/* Where the gap is closed, whatever the net pressure: 1, elsewhere 0. */
-static void
-find_contact(const struct run *run, size_t nodes, double *touch)
-{
-    rc_adhesion_gap(run->adhering.path, touch);
-    for (size_t k = 0; k < nodes; k++)
-        touch[k] = touch[k] > 0 ? 0 : 1;
-}
-
-static void
-put_out(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
-{
-    struct rc_adhesion *path = run->adhering.path;
-    struct rc_grid *as;
     char law[128], work[RC_NUMBER_SIZE], range[RC_NUMBER_SIZE];
     struct rc_err err;
 
-    as = rc_grid_like(g, g->channel, g->unit, &err);
-    if (as == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    solve_set_keys(run, as, c);
+    if (!run->adhering.wanted)
+        return;
     snprintf(law, sizeof law, "%s,%s,%s", rc_number_text(work, run->adhering.law.problem.work),
              run->adhering.scales.law, rc_number_text(range, run->adhering.scales.range));
     if (rc_grid_set(as, "adhesion", law, &err) != RC_OK ||
         rc_grid_set_number(as, "load", c->load, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (solve_wanted(run->args, SOLVE_CONTACT)) {
-        find_contact(run, rc_grid_nodes(g), as->v);
-        solve_put(run, as, SOLVE_CONTACT, as->v);
-    }
-    if (solve_wanted(run->args, SOLVE_PRESSURE)) {
-        rc_adhesion_pressure(path, as->v);
-        solve_put(run, as, SOLVE_PRESSURE, as->v);
-    }
-    if (solve_wanted(run->args, SOLVE_GAP)) {
-        rc_adhesion_gap(path, as->v);
-        solve_put(run, as, SOLVE_GAP, as->v);
-    }
-    if (solve_wanted(run->args, SOLVE_DISPLACEMENT)) {
-        rc_adhesion_displacement(path, as->v);
-        solve_put(run, as, SOLVE_DISPLACEMENT, as->v);
-    }
-    as->type = g->type;
-    solve_put(run, as, SOLVE_HEIGHT, g->v);
-    as->type = RC_F64;
-    if (solve_wanted(run->args, SOLVE_ADHESION)) {
-        rc_adhesion_traction(path, as->v);
-        solve_put(run, as, SOLVE_ADHESION, as->v);
-    }
-    rc_grid_free(as);
+        tool_die_at(&run->t, as, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
 /* ---- what is said ---- */
@@ -376,10 +224,10 @@ tell(struct run *run, const char *where, const struct rc_adhesion_figures *f, bo
         f->convolutions, solve_now() - run->began);
 }
 
-static void
-judge(struct run *run, const struct rc_grid *g, struct solution *s)
+void
+adhesion_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
 {
-    const struct rc_adhesion_figures *f = rc_adhesion_result(run->adhering.path);
+    const struct rc_adhesion_figures *f = run->adhering.figures;
     char where[512];
 
     solve_where(run, g, where, sizeof where);
@@ -396,87 +244,17 @@ judge(struct run *run, const struct rc_grid *g, struct solution *s)
     solve_warn_of_end(run, where, &s->contact);
 }
 
-/* A state of the path that has been followed to its end. */
-static void
-end(struct run *run, struct rc_grid *g)
-{
-    struct solution solution = SOLUTION_NONE, *s = &solution;
-    const struct rc_adhesion_figures *f = rc_adhesion_result(run->adhering.path);
-    double start = solve_now(), *buffer = malloc(rc_grid_nodes(g) * sizeof *buffer);
-
-    if (buffer == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for a map");
-    find_contact(run, rc_grid_nodes(g), buffer);
-    solve_look_at_contact(run, g, buffer, s);
-    s->contact = contact_of(f);
-    if (f->inherited_error > 0)
-        s->errors = (struct error_parts){.told = true,
-                                         .inherited = f->inherited_error,
-                                         .contact = f->pressure_error - f->inherited_error};
-    run->done = solve_now();
-    run->result = run->done - start;
-    judge(run, g, s);
-    if (!f->converged)
-        tool_fails_with(&run->t, EXIT_SHORT);
-    put_out(run, g, &s->contact);
-    solve_report(run, g, NULL, s);
-    if (f->plastic_nodes > 0) { /* what comes next acts on the shape that is left */
-        memcpy(buffer, g->v, rc_grid_nodes(g) * sizeof *buffer);
-        rc_adhesion_keep_shape(run->adhering.path, g->v);
-        g->type = RC_F64;
-    }
-    rc_patches_free(&s->patches);
-    free(buffer);
-}
-
-void
-adhesion_case(struct run *run, struct rc_grid *g, struct rc_problem first)
-{
-    struct adhering *a = &run->adhering;
-    const bool approaches = run->args->physics.approach.n > 0;
-    const size_t states = run->steps->n + run->args->pull_off;
-    struct rc_err err;
-
-    run->course.number = states == 1 ? rc_grid_case(g) - 1 : run->course.number;
-    run->began = solve_now();
-    begin(run, g, first);
-    for (size_t k = 0; k < states && (k == 0 || tool_interrupted() == 0); k++) {
-        enum rc_status status;
-        a->pulling = k == run->steps->n;
-        run->step = a->pulling ? k - 1 : k;
-        run->course.number++;
-        if (k > 0) {
-            run->began = solve_now();
-            run->setup = 0;
-        }
-        run->course.resumed = restore(run, g);
-        if (a->pulling)
-            status = rc_adhesion_pull_off(a->path, &err);
-        else if (approaches)
-            status = rc_adhesion_set_approach(a->path, run->steps->v[k], &err);
-        else
-            status = rc_adhesion_set_load(a->path, physics_problem(&run->args->physics, g, k).load,
-                                          &err);
-        if (status != RC_OK)
-            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-        follow(run, g);
-        if (!rc_adhesion_result(a->path)->separated)
-            save(run, g);
-        end(run, g);
-    }
-    rc_adhesion_free(a->path);
-    a->path = NULL;
-}
-
 size_t
 adhesion_memory(const struct run *run, const struct rc_grid *g, const struct rc_problem *contact)
 {
     const struct rc_shape shape = rc_grid_shape(g);
-    const struct rc_adhesion_problem problem = problem_of(run, *contact);
+    const struct rc_adhesion_problem problem = problem_of(run, contact);
+    /* heights, state at the last point, frame; dents; state of --checkpoint */
+    const size_t maps = 3u + !isinf(run->hardness_min) + (run->checkpoint != NULL);
 
     return rc_adhesion_memory(&shape, &problem) +
            (run->args->pull_off ? rc_adhesion_pull_off_memory(&shape, &problem) : 0) +
-           2 * rc_grid_nodes(g) * sizeof *g->v;
+           maps * rc_grid_nodes(g) * sizeof *g->v;
 }
 
 /* ---- plan and report ---- */
@@ -486,7 +264,7 @@ adhesion_expect(struct run *run, const struct rc_grid *g, const struct rc_proble
                 struct rc_expected *expected)
 {
     const struct rc_shape shape = rc_grid_shape(g);
-    const struct rc_adhesion_problem problem = problem_of(run, *contact);
+    const struct rc_adhesion_problem problem = problem_of(run, contact);
     struct rc_err err;
 
     if (rc_adhesion_check(&shape, &problem, &run->adhering.scales, &err) != RC_OK ||
@@ -515,10 +293,9 @@ void
 adhesion_report(struct report *r, const struct run *run)
 {
     const struct adhering *a = &run->adhering;
-    const bool on = a->path != NULL;
-    const struct rc_adhesion_figures *f = on ? rc_adhesion_result(a->path) : NULL;
-    const struct figures from[] = {{rc_figures("adhesion"), f}, {NULL, NULL}},
-                         pull_off[] = {{from->table, a->pulling ? f : NULL}, {NULL, NULL}};
+    const struct rc_adhesion_figures *f = a->figures;
+    const bool on = f != NULL;
+    const struct figures from[] = {{rc_figures("adhesion"), f}, {NULL, NULL}};
 
     report_number(r, "adhesion_work", on ? a->law.problem.work : NAN, "J/m2");
     report_text(r, "adhesion_law", on ? a->scales.law : NULL);
@@ -527,7 +304,6 @@ adhesion_report(struct report *r, const struct run *run)
     report_named(r, from, "attractive_load repulsive_load attractive_area min_pressure stability");
     report_text(r, "stable", !on ? NULL : f->stable ? "yes" : "no");
     report_text(r, "separated", !on ? NULL : f->separated ? "yes" : "no");
-    report_named(r, from, "jumps");
-    report_named(r, pull_off, "pull_off_load pull_off_approach pull_off_spread");
+    report_named(r, from, "jumps pull_off_load pull_off_approach pull_off_spread");
     report_number(r, "tabor", on ? tabor(run) : NAN, NULL);
 }

@@ -63,8 +63,8 @@ number_mark(struct mark *m, const char *name, double value)
     rc_number_text(m->value, value);
 }
 
-void
-solve_marks(struct run *run)
+static void
+set_marks(struct run *run)
 {
     const struct physics *args = &run->args->physics;
     struct mark *mark = run->course.mark;
@@ -110,8 +110,8 @@ set_number(struct run *run, struct rc_grid *g, const char *name, double value)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-void
-solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
+static void
+set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
 {
     const struct rc_yield *law = &run->yielding.law;
     const bool yields = run->yielding.on;
@@ -134,10 +134,11 @@ solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
     set_number(run, g, "slabs", yields ? (double)run->yielding.found->slabs : NAN);
     set_number(run, g, "yield", yields ? rc_yield_stress(law, 0) : NAN);
     set_number(run, g, "hardening", yields ? yield_law_hardening(law) : NAN);
+    adhesion_set_key(run, g, c);
 }
 
-void
-solve_put(struct run *run, const struct rc_grid *as, enum solve_frame f, const double *v)
+static void
+put_values(struct run *run, const struct rc_grid *as, enum solve_frame f, const double *v)
 {
     struct rc_grid frame = *as; /* as the reader of the stream sees it */
 
@@ -161,7 +162,7 @@ put(struct run *run, struct rc_model *m, const struct rc_grid *as, enum solve_fr
         return;
     if (rc_model_frame(m, solve_frames[f].name, buffer, &err) != RC_OK)
         tool_die_at(&run->t, as, EXIT_IMPOSSIBLE, "%s", err.text);
-    solve_put(run, as, f, buffer);
+    put_values(run, as, f, buffer);
 }
 
 static void
@@ -177,16 +178,16 @@ put_out(struct run *run, const struct rc_grid *g, struct rc_model *m, const stru
 
     if (as == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    solve_set_keys(run, as, c);
+    set_keys(run, as, c);
     for (int f = SOLVE_CONTACT; f <= SOLVE_DISPLACEMENT; f++)
         put(run, m, as, (enum solve_frame)f, buffer);
     as->type = g->type;
-    solve_put(run, as, SOLVE_HEIGHT, g->v);
+    put_values(run, as, SOLVE_HEIGHT, g->v);
     as->type = RC_F64;
-    if (c->yielded_nodes > 0)
+    if (c->yielded_nodes > 0 && !run->adhering.wanted)
         set_number(run, as, HEIGHT_ERROR, c->shape_error);
     if (run->apart && !run->yielding.wanted) /* the shape is that of the heights */
-        solve_put(run, as, SOLVE_PLASTIC, g->v);
+        put_values(run, as, SOLVE_PLASTIC, g->v);
     else
         put(run, m, as, SOLVE_PLASTIC, buffer);
     if (run->yielding.wanted) {
@@ -194,6 +195,7 @@ put_out(struct run *run, const struct rc_grid *g, struct rc_model *m, const stru
         if (solve_wanted(run->args, SOLVE_STRAIN))
             yield_put_strain(run, m, as, buffer);
     }
+    put(run, m, as, SOLVE_ADHESION, buffer);
     rc_grid_free(as);
 }
 
@@ -211,7 +213,8 @@ keep_shape(struct run *run, struct rc_grid *g, struct rc_model *m, struct soluti
         if (rc_model_frame(m, "plastic", g->v, &err) != RC_OK)
             tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
         g->type = RC_F64;
-        set_number(run, g, HEIGHT_ERROR, s->contact.shape_error);
+        if (!run->adhering.wanted)
+            set_number(run, g, HEIGHT_ERROR, s->contact.shape_error);
     }
     if (run->status != RC_MORE && rc_model_keep(m, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -243,9 +246,8 @@ look_inside(struct run *run, const struct rc_grid *g, const double *touch, struc
     s->inside_fraction = inside > 0 ? touching / inside : NAN;
 }
 
-void
-solve_look_at_contact(struct run *run, const struct rc_grid *g, const double *touch,
-                      struct solution *s)
+static void
+look_at_contact(struct run *run, const struct rc_grid *g, const double *touch, struct solution *s)
 {
     struct rc_shape shape = rc_grid_shape(g);
     struct rc_patch_options options = {.boundary =
@@ -259,6 +261,38 @@ solve_look_at_contact(struct run *run, const struct rc_grid *g, const double *to
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     s->slope = rc_measure_contact_slope(ranks_of(&run->t), &shape, g->v, touch);
     look_inside(run, g, touch, s);
+}
+
+/* The net pressure of bodies that attract each other does not tell which nodes touch. */
+static void
+look_at_closed_gap(struct run *run, const struct rc_grid *g, struct rc_model *m, struct solution *s)
+{
+    double *touch = malloc(rc_grid_nodes(g) * sizeof *touch);
+    struct rc_err err = {"out of memory for a map"};
+
+    if (touch == NULL || rc_model_frame(m, CONTACT_CHANNEL, touch, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    look_at_contact(run, g, touch, s);
+    free(touch);
+}
+
+/* The figures that all models have, and those of the model. */
+static void
+look_at_model(struct run *run, const struct rc_grid *g, struct rc_model *m, struct solution *s)
+{
+    const struct rc_elastic_figures *elastic = rc_elastic_result(m);
+    const struct rc_adhesive_figures *adhesive = rc_adhesive_result(m);
+    struct rc_err err;
+
+    if (rc_model_look(m, NULL, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    yield_found(run, m);
+    run->adhering.figures = adhesive != NULL ? &adhesive->adhesion : NULL;
+    s->contact = elastic != NULL    ? elastic->contact
+                 : adhesive != NULL ? adhesive->contact
+                                    : rc_yielding_result(m)->contact;
+    if (adhesive != NULL)
+        look_at_closed_gap(run, g, m, s);
 }
 
 /* Where no node is at the hardness the conductance has found the stiffness too. */
@@ -285,21 +319,16 @@ end_load(struct run *run, struct rc_grid *g, struct rc_model *m)
 {
     struct solution solution = SOLUTION_NONE, *s = &solution;
     const double start = solve_now();
-    const struct rc_elastic_figures *elastic;
-    struct rc_err err;
 
     if (run->apart)
         look_inside(run, g, NULL, s);
-    else if (tool_interrupted() == 0) /* else there may be nothing on this grid yet */
-        solve_look_at_contact(run, g, rc_solver_pressure(run->solver), s);
-    if (rc_model_look(m, NULL, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    yield_found(run, m);
-    elastic = rc_elastic_result(m);
-    s->contact = elastic != NULL ? elastic->contact : rc_yielding_result(m)->contact;
+    else if (run->solver != NULL &&
+             tool_interrupted() == 0) /* else this grid may have no pressure */
+        look_at_contact(run, g, rc_solver_pressure(run->solver), s);
+    look_at_model(run, g, m, s);
     if (run->apart && run->conductance)
         s->conductance = (struct rc_conductance){NAN, 0, 0};
-    if (!run->apart) {
+    if (run->solver != NULL && !run->apart) {
         find_stiffness(run, g, run->solver, s);
         s->contact.convolutions = rc_solver_convolutions(run->solver);
     }
@@ -311,7 +340,10 @@ end_load(struct run *run, struct rc_grid *g, struct rc_model *m)
     yield_look(run, s);
     run->done = solve_now();
     run->result = run->apart ? 0 : run->done - start;
-    solve_judge(run, g, s);
+    if (run->adhering.wanted)
+        adhesion_judge(run, g, s);
+    else
+        solve_judge(run, g, s);
     if (!s->contact.converged && !run->apart)
         tool_fails_with(&run->t, EXIT_SHORT);
     put_out(run, g, m, &s->contact);
@@ -347,16 +379,19 @@ demand_memory(struct run *run, const struct rc_grid *g, const struct rc_problem 
     run->t.remedy = NULL;
 }
 
-void
-solve_before_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
+static void
+before_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
 {
-    demand_memory(run, g, problem);
+    if (run->adhering.wanted)
+        tool_demand_memory(&run->t, g, adhesion_memory(run, g, problem));
+    else
+        demand_memory(run, g, problem);
     if (run->done == 0)         /* no load has been solved */
         tool_release_signals(); /* planning takes long, and no pressure is worth writing before it ends */
 }
 
-void
-solve_after_plan(struct run *run)
+static void
+after_plan(struct run *run)
 {
     tool_catch_signals();
     run->setup = solve_now() - run->began;
@@ -367,7 +402,8 @@ static void
 press(struct run *run, const struct rc_grid *g, struct rc_model *m,
       const struct rc_problem *problem)
 {
-    const bool plans = !run->apart && rc_model_solver(m) == NULL;
+    const bool plans = run->adhering.wanted ? run->step == 0 && !run->adhering.pulling
+                                            : !run->apart && rc_model_solver(m) == NULL;
     const bool approach = run->args->physics.approach.n > 0;
     struct course *c = &run->course;
     struct rc_point to = {0};
@@ -376,47 +412,56 @@ press(struct run *run, const struct rc_grid *g, struct rc_model *m,
                  run->apart ? 0
                  : approach ? problem->approach
                             : problem->load);
+    if (run->adhering.pulling)
+        rc_point_set(&to, RC_APPROACH, -INFINITY);
     c->g = g;
-    c->checkpoint = run->apart && !run->yielding.on ? NULL : run->checkpoint;
-    solve_marks(run);
+    c->checkpoint =
+        (run->apart && !run->yielding.on) || run->adhering.pulling ? NULL : run->checkpoint;
+    set_marks(run);
     if (plans)
-        solve_before_plan(run, g, problem);
+        before_plan(run, g, problem);
     course_set(c, m, &to);
     if (plans)
-        solve_after_plan(run);
+        after_plan(run);
     run->status = course_run(c, m);
     run->iterate = c->iterate;
     run->solver = rc_model_solver(m);
 }
 
 /* The loads of a list, each from the solution of the last; in a history, on the shape that it has
- * left. */
+ * left. --pull-off adds a case in which the bodies are drawn apart. */
 static void
 do_loads(struct run *run, struct rc_grid *g)
 {
     const struct rc_shape shape = rc_grid_shape(g);
     struct rc_problem problem = problem_of(run, g, 0);
     struct rc_err err;
+    const size_t cases = run->steps->n + run->args->pull_off;
     struct rc_model *m = run->yielding.wanted ? yield_model(run, g, &problem)
-                                              : rc_elastic_new(&shape, g->v, &problem, NULL, &err);
+                         : run->adhering.wanted
+                             ? adhesion_model(run, g, &problem)
+                             : rc_elastic_new(&shape, g->v, &problem, NULL, &err);
 
     if (m == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    run->course.number = run->steps->n == 1 ? rc_grid_case(g) - 1 : run->course.number;
-    for (run->step = 0; run->step < run->steps->n; run->step++) {
+    run->course.number = cases == 1 ? rc_grid_case(g) - 1 : run->course.number;
+    for (size_t k = 0; k < cases; k++) {
+        if (k > 0 && tool_interrupted() != 0)
+            break; /* the first case is written in any case */
+        run->adhering.pulling = k == run->steps->n;
+        run->step = run->adhering.pulling ? k - 1 : k;
         problem = problem_of(run, g, run->step);
-        if (run->step > 0 && tool_interrupted() != 0)
-            break; /* of the first there is something to write */
         run->began = solve_now();
         run->setup = run->iterate = 0;
         run->course.number++;
-        run->apart = run->steps->v[run->step] == 0;
+        run->apart = run->steps->v[run->step] == 0 && !run->adhering.wanted;
         if (run->yielding.wanted)
             yield_plan(run, m, problem.load);
         press(run, g, m, &problem);
         end_load(run, g, m);
     }
     rc_model_free(m);
+    run->adhering.figures = NULL;
     yield_free(run);
 }
 
@@ -462,8 +507,6 @@ solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness)
     if (run->args->dry_run) {
         struct rc_problem problem = problem_of(run, g, 0);
         solve_plan(run, g, &problem);
-    } else if (run->adhering.wanted) {
-        adhesion_case(run, g, problem_of(run, g, 0));
     } else {
         do_loads(run, g);
     }

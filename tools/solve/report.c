@@ -277,9 +277,9 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
              const struct solution *s)
 {
     struct scene scene = {run,
-                          solver != NULL               ? rc_solver_engine_reason(solver)
-                          : run->adhering.path != NULL ? "the gap is found by transforms"
-                                                       : "left out: no load",
+                          solver != NULL         ? rc_solver_engine_reason(solver)
+                          : run->adhering.wanted ? "the gap is found by transforms"
+                                                 : "left out: no load",
                           &s->contact.hardness_active};
     const char *name, *state;
     struct report *r = &run->report;
@@ -291,9 +291,9 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_text(r, "boundary", run->args->physics.periodic ? "periodic" : "free");
     report_text(r, "kernel", solver == NULL ? NULL : rc_solver_engine(solver));
     report_text(r, "method",
-                solver != NULL               ? rc_solver_method(solver)
-                : run->adhering.path != NULL ? "gap"
-                                             : NULL);
+                solver != NULL         ? rc_solver_method(solver)
+                : run->adhering.wanted ? "gap"
+                                       : NULL);
     report_count(r, "threads", run->t.threads, NULL);
     report_of(r, s, of_contact);
     report_patches(r, &s->patches);

@@ -67,9 +67,8 @@ struct adhering {
     bool wanted;
     struct attraction law;
     struct rc_adhesion_scales scales; /* on this grid                                      */
-    struct rc_adhesion *path;         /* NULL: none                                        */
-    bool pulling;                     /* this case is the one of --pull-off                */
-    enum rc_status status;            /* of the state                                      */
+    const struct rc_adhesion_figures *figures; /* of the point that was looked at; NULL: none */
+    bool pulling; /* this case is the one of --pull-off                */
 };
 
 struct run {
@@ -151,15 +150,6 @@ void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_proble
 /* Solves the loads of these heights, and writes and reports what is found. hardness: a map of it, or NULL. */
 void solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness);
 
-/* What a checkpoint of this step must agree in becomes run->course.mark. */
-void solve_marks(struct run *run);
-/* Keys of the frames of a solution. */
-void solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c);
-/* Writes a frame, with the keys of `as`, where it is wanted. */
-void solve_put(struct run *run, const struct rc_grid *as, enum solve_frame f, const double *v);
-/* Finds patches and slopes of the contact, whose nodes are those that rc_in_contact finds in `touch`. */
-void solve_look_at_contact(struct run *run, const struct rc_grid *g, const double *touch,
-                           struct solution *solution);
 /* Parts of solve_judge. */
 void solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
                           const struct solution *solution);
@@ -169,8 +159,12 @@ void solve_warn_of_end(struct run *run, const char *where, const struct rc_conta
 
 /* Reads --adhesion and --pull-off, or ends the tool. */
 void adhesion_read(struct run *run);
-/* The path that the loads or approaches are, and the pull-off where it is asked for. */
-void adhesion_case(struct run *run, struct rc_grid *g, struct rc_problem first);
+struct rc_model *adhesion_model(struct run *run, const struct rc_grid *g,
+                                const struct rc_problem *contact);
+/* The keys of frames of such a contact; none without --adhesion. */
+void adhesion_set_key(struct run *run, struct rc_grid *as, const struct rc_contact *c);
+/* Instead of solve_judge. */
+void adhesion_judge(struct run *run, const struct rc_grid *g, const struct solution *solution);
 size_t adhesion_memory(const struct run *run, const struct rc_grid *g,
                        const struct rc_problem *contact);
 /* What a state will take, and with it the law on this grid; or ends the tool. */
@@ -215,7 +209,4 @@ void yield_tell(const struct run *run, const struct rc_contact *contact, char *t
 const char *yield_state(const struct run *run);
 void yield_report(struct report *report, const struct run *run);
 
-/* Before a solver of the map is planned, and after: room for it is demanded, and a signal ends the tool. */
-void solve_before_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem);
-void solve_after_plan(struct run *run);
 #endif
