@@ -34,17 +34,17 @@ enum {
     OFF = RC_FACE_OFF,
     STICK = RC_FACE_STICK,
     SLIP = RC_FACE_SLIP,
-    INWARDS, /* on its circle, slips inwards: until it is known whether it sticks */
+    INWARDS, /* on its circle, slips inwards: it is not decided yet whether it sticks */
 };
 enum {
     SUMS = 7,
     MOSTS = 2, /* largest numbers, behind the sums */
     TILE = 16
 };
-static const double safety = 1.3; /* of the estimate                      */
-static const double early = 20;   /* more of it while the faces are others */
+static const double safety = 1.3; /* factor of the estimate */
+static const double early = 20;   /* a larger factor while the faces differ from the final ones */
 static const double on_circle = 1e-12;
-static const double clipped = 0.1; /* of a step: the next one keeps nothing of it */
+static const double clipped = 0.1; /* if more of a step is clipped, the next one is not conjugate */
 static const double short_step = 0.1;
 
 /* ---- sums over nodes ---- */
@@ -78,7 +78,7 @@ sum_nodes(const struct rc_discs *d, of_node *of, const void *with, size_t count,
     memcpy(out, all, count * sizeof *out);
 }
 
-/* The part of v at a node along what is free there. */
+/* Removes from v the components that are not free at a node. */
 static inline void
 free_part(const struct rc_discs *d, size_t k, double v[2])
 {
@@ -91,7 +91,7 @@ slip_of(const struct rc_discs *d, int c, size_t k)
     return d->u[c][k] - d->w[c][k] - d->delta[c];
 }
 
-/* Of what a symmetric 2 x 2 matrix (xx, yy, xy) maps to v; across its null space where it has one. */
+/* Solves m x = v for a symmetric 2 x 2 matrix (xx, yy, xy); if m is singular, on its range. */
 static void
 solve(const double m[3], const double v[2], double x[2])
 {
@@ -102,7 +102,7 @@ solve(const double m[3], const double v[2], double x[2])
     } else if (det > 1e-14 * trace * trace) {
         x[0] = (m[1] * v[0] - m[2] * v[1]) / det;
         x[1] = (m[0] * v[1] - m[2] * v[0]) / det;
-    } else { /* of rank 1: over the square of its trace */
+    } else { /* of rank 1: the inverse on its range is m over the square of its trace */
         x[0] = (m[0] * v[0] + m[2] * v[1]) / (trace * trace);
         x[1] = (m[2] * v[0] + m[1] * v[1]) / (trace * trace);
     }
@@ -110,21 +110,21 @@ solve(const double m[3], const double v[2], double x[2])
 
 /* ---- the load ---- */
 
-/* Which nodes a shift moves, and where from. */
+/* The nodes that a shift moves, and their starting points. */
 enum who {
     ALL,
     STICKING,
-    ON_FACES /* all, and those that slip stay on their circles */
+    ON_FACES /* all nodes; those that slip stay on their circles */
 };
 struct moved {
     double *const *y;
     enum who who;
-    const size_t *tile; /* columns and rows, first and beyond the last; NULL: the map */
+    const size_t *tile; /* first columns and rows, and those after the last; NULL: the map */
     double nu[2];
 };
 
-/* What a node carries when y is moved by nu, and how that grows with nu; part 2 to 4: xx yy xy of the
- * growth, 5 the function whose gradient the first two are. */
+/* Sums for a shift of y by nu: 0, 1: the traction of a node; 2 to 4: xx yy xy of its derivative; 5: the
+ * function whose gradient is 0, 1. */
 static void
 carried_by(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
@@ -166,10 +166,10 @@ carried(const struct rc_discs *d, const struct moved *m, double out[SUMS])
                 carried_by(d, k, m, out);
 }
 
-/* nu, so that the nearest tractions on the discs to y + nu carry `load`, but for `near` of it, on the nodes
- * that are moved: the minimum of a convex function, by Newton's method after Levenberg and Marquardt, for
- * tractions that all point one way do not grow that way. `size`: what friction can carry there. False where
- * they cannot. */
+/* Finds nu such that the nearest tractions on the discs to y + nu carry `load` within `near`, on the
+ * nodes that are moved. It is the minimum of a convex function, found by Newton's method after Levenberg
+ * and Marquardt, because tractions of one direction do not grow along it. `size`: the largest force that
+ * friction carries there. False if the nodes cannot carry the load. */
 static bool
 find_shift(const struct rc_discs *d, struct moved *m, const double load[2], double size,
            double near)
@@ -198,7 +198,7 @@ find_shift(const struct rc_discs *d, struct moved *m, const double load[2], doub
             continue;
         }
         if (off <= 1e-12 * size && hypot(load[0] - there[0], load[1] - there[1]) >= off)
-            return true; /* nothing is left but rounding */
+            return true; /* the rest is rounding */
         damping = fmax(damping / 10, least * (double)d->n);
         memcpy(at, there, sizeof at);
     }
@@ -216,7 +216,7 @@ on_disc(double g, bool circle, double *x, double *y)
     }
 }
 
-/* Moves a node, and puts it on its disc. */
+/* Moves a node, and projects it on its disc. */
 static inline void
 move_node(const struct rc_discs *d, const struct moved *m, size_t k)
 {
@@ -235,14 +235,14 @@ move_all(const struct rc_discs *d, const struct moved *m)
         move_node(d, m, k);
 }
 
-/* nu that carries the load of the map, but for rounding. */
+/* The shift nu that carries the load of the map, but for rounding. */
 static bool
 carry(const struct rc_discs *d, struct moved *m, const double load[2])
 {
     return find_shift(d, m, load, d->limit, 4 * DBL_EPSILON * d->limit);
 }
 
-/* y becomes the nearest tractions on the discs, that carry the load where one is asked for. */
+/* Projects y on the discs, and on the load if one is given. */
 static void
 project(const struct rc_discs *d, double *const y[2])
 {
@@ -253,8 +253,7 @@ project(const struct rc_discs *d, double *const y[2])
     move_all(d, &m);
 }
 
-/* The nodes of a tile that stick: to the nearest tractions on the discs that carry together what they carry
- * in y. */
+/* Moves the sticking nodes of a tile to the nearest tractions on the discs with the same sum as in y. */
 static void
 keep_tile(const struct rc_discs *d, double *const y[2], const size_t tile[4])
 {
@@ -292,11 +291,11 @@ rest_of(const struct rc_discs *d, size_t k, const void *with, double *sum)
     sum[1] += y[1][k];
 }
 
-/* The way back of a step to y. */
+/* Returns the end y of a step to the discs. */
 static void
 back(const struct rc_discs *d, double *const y[2])
 {
-    /* tiles of as many nodes, about as long as wide */
+    /* the tiles have 16 x 16 nodes, and are nearly square in metres */
     double part = TILE / sqrt(d->t->shape.dy / d->t->shape.dx), slips[3], rest[2];
     size_t high = (size_t)fmin(fmax(part, 1), TILE * TILE), wide = TILE * TILE / high;
     size_t across = (d->nx + wide - 1) / wide, down = (d->ny + high - 1) / high;
@@ -349,7 +348,7 @@ inside(const struct rc_discs *d, size_t k, const void *with, double *sum)
     sum[2] += in;
 }
 
-/* How far a node slips inwards. */
+/* The inward slip of a node. */
 static inline double
 inwards(const struct rc_discs *d, size_t k)
 {
@@ -374,7 +373,7 @@ find_delta(struct rc_discs *d)
         d->delta[1] = at[1] / at[2];
         return;
     }
-    d->way.part = 0; /* d is taken for what a step would shift */
+    d->way.part = 0; /* the map of the step holds the shifts here */
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++)
         for (int c = 0; c < 2; c++)
@@ -394,7 +393,7 @@ first_look(struct rc_discs *d, size_t k)
     d->face[k] = !circle ? STICK : in > 0 ? INWARDS : SLIP;
 }
 
-/* The node beside node i of n; n: none. */
+/* The neighbour of node i of n; n: there is none. */
 static inline size_t
 beside(size_t i, int step, size_t n, bool round)
 {
@@ -405,7 +404,7 @@ beside(size_t i, int step, size_t n, bool round)
     return i;
 }
 
-/* Whether the residuals of the neighbours would push a node out again that sticks. */
+/* Whether the residuals of its neighbours would push a sticking node out again. */
 static bool
 is_pushed_out(const struct rc_discs *d, size_t i, size_t j)
 {
@@ -447,7 +446,8 @@ last_look(const struct rc_discs *d, size_t k, const void *with, double *sum)
     sum[SUMS] = fmax(sum[SUMS], hypot(slip[0], slip[1]));
 }
 
-/* Faces, D, the residual along what is free; how many nodes were left on their circles that slip inwards. */
+/* Finds faces, D and the residual along free directions. Returns the number of nodes that slip inwards
+ * and stay on their circles. */
 static size_t
 find_faces(struct rc_discs *d, bool sift)
 {
@@ -494,16 +494,15 @@ shift_of(const struct rc_discs *d, size_t k, const double mu[2], double v[2])
     v[1] = n[2] * mu[0] + n[1] * mu[1];
 }
 
-/* How far a slipping node is inside its circle. */
+/* The distance of a slipping node to its circle, from inside. */
 static inline double
 short_of_circle(const struct rc_discs *d, size_t k, double size)
 {
     return d->face[k] == SLIP ? fmax(d->g[k] - size, 0) : 0;
 }
 
-/* Sums that M does not contain: 0, 1: the load that slipping nodes gain when they are moved out to their
- * circles; 2, 3: the load that turning them by z costs, to second order; 4, 5: the residual, for the
- * motion. */
+/* Sums that M does not contain. 0, 1: the load that slipping nodes gain on the way to their circles; 2,
+ * 3: the load that their turn by z costs, to second order; 4, 5: the residual, for the motion. */
 static void
 left_by_model(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
@@ -527,7 +526,7 @@ left_by_model(const struct rc_discs *d, size_t k, const void *with, double *sum)
     }
 }
 
-/* Shifts whose tractions carry the loads 0, 1 and 2, 3 of left_by_model. */
+/* Shifts that carry the sums 0, 1 and 2, 3 of left_by_model. */
 struct remedy {
     double out[2], turn[2];
 };
@@ -565,7 +564,7 @@ relative(const struct rc_discs *d, double off, double size)
     return part / fmax(fmax(1 - part, load), least);
 }
 
-/* z = M r, without load, and the estimate: |z|_1, the distances to the circles, and the sums of
+/* z = M r, less its load, and the estimate: |z|_1, the distances to the circles, and the sums of
  * left_by_model. */
 static void
 precondition(struct rc_discs *d)
@@ -598,7 +597,7 @@ precondition(struct rc_discs *d)
     d->found.estimate = relative(d, at[0] + at[4] / d->m->self, at[1]);
 }
 
-/* Of the residual, where a displacement is given; false: rounding. */
+/* The mean of the residual, if a displacement is given; false: it is rounding. */
 static bool
 has_mean(const struct rc_discs *d, double mean[2])
 {
@@ -610,7 +609,7 @@ has_mean(const struct rc_discs *d, double mean[2])
     return hypot(mean[0], mean[1]) > 1e-6 * d->found.slip;
 }
 
-/* Faces and what they leave. False: nothing resists the mean of the residual. */
+/* Looks at faces, residual and estimate. False: nothing resists the mean of the residual. */
 static bool
 look(struct rc_discs *d, double mean[2])
 {
@@ -622,7 +621,7 @@ look(struct rc_discs *d, double mean[2])
             return false;
         precondition(d);
         if (d->found.estimate > d->asked.tol &&
-            d->judged.turning <= d->asked.tol) { /* only another delta shows who sticks */
+            d->judged.turning <= d->asked.tol) { /* another delta shows which nodes stick */
             d->delta[0] += d->judged.motion[0];
             d->delta[1] += d->judged.motion[1];
             d->judged.measured = true;
@@ -648,7 +647,7 @@ conjugate(const struct rc_discs *d, size_t k, const void *with, double *sum)
     }
 }
 
-/* z becomes the direction: so much of the last step is added that T + D ties it no more to that. */
+/* z becomes the direction: it gets the part of the last step that makes both conjugate in T + D. */
 static void
 direct(struct rc_discs *d)
 {
@@ -672,9 +671,9 @@ enum {
     TWIST,    /* d'T d                                   */
     CURVED,   /* f'D f, f the free part of d             */
     DOWN,     /* r'f                                     */
-    CLIPPED,  /* |d - p z|_1, p z the step before the way back */
+    CLIPPED,  /* |d - p z|_1, p z: the step before the way back */
     STRAIGHT, /* |p z|_1                                 */
-    SCALE     /* of rounding                             */
+    SCALE     /* the size of rounding */
 };
 
 static void
@@ -696,7 +695,8 @@ energies(const struct rc_discs *d, size_t k, const void *with, double *sum)
     sum[DOWN] += (double)d->r[0][k] * f[0] + (double)d->r[1][k] * f[1];
 }
 
-/* d, the tractions where a step leads, becomes the way there, h = T d; true: the energy falls along it. */
+/* d, the tractions at the end of a step, becomes the step itself; h = T d. True: the energy falls along
+ * it. */
 static bool
 judge(struct rc_discs *d, double p, double at[SUMS])
 {
@@ -709,7 +709,8 @@ judge(struct rc_discs *d, double p, double at[SUMS])
     return at[FALL] > 0;
 }
 
-/* So much of the way, that back led to from `reach` of z; a node that was to leave its disc is on a chord. */
+/* Goes this part of the step. `reach`: of z, from where the step was returned. A node that was to leave
+ * its disc is now on a chord. */
 static void
 take(struct rc_discs *d, double length, double reach)
 {
@@ -763,7 +764,7 @@ step_along(struct rc_discs *d)
     }
     all = at[TWIST] + at[CURVED];
     newton = length = at[DOWN] / all;
-    if (!(length >= 0.5)) /* radial moves count */
+    if (!(length >= 0.5)) /* the radial moves count too */
         length = (at[FALL] + at[CURVED] / 2) / all;
     d->way.part = at[CLIPPED] > clipped * at[STRAIGHT] ? 0 : reach;
     d->way.reach =
@@ -775,8 +776,8 @@ step_along(struct rc_discs *d)
     take(d, length, reach);
 }
 
-/* Complete contact that sticks: no traction of a periodic map resists the motion of its mean plane, and
- * tractions grow along it up to the first circle. */
+/* For complete contact that sticks: nothing resists the motion of the mean plane of a periodic map, so
+ * that tractions grow along it to the first circle. */
 static void
 to_first_circle(struct rc_discs *d, const double mean[2])
 {
@@ -823,7 +824,7 @@ radius(const struct rc_discs *d, size_t k, const void *with, double *sum)
     sum[0] += d->g[k];
 }
 
-static const double near = 0.99; /* to its circle */
+static const double near = 0.99; /* part of the radius */
 
 static void
 well_inside(const struct rc_discs *d, size_t k, const void *with, double *sum)
@@ -847,7 +848,7 @@ rc_discs_begin(struct rc_discs *d)
     sum_nodes(d, radius, NULL, 1, &d->limit);
     project(d, d->q);
     sum_nodes(d, well_inside, NULL, 1, &inside);
-    for (size_t k = 0; k < d->n && inside > 0; k++) /* a start may have been left on chords */
+    for (size_t k = 0; k < d->n && inside > 0; k++) /* the start may have nodes on chords */
         if (d->face[k] == STICK && hypot(d->q[0][k], d->q[1][k]) >= near * d->g[k])
             d->face[k] = SLIP;
     rc_tangential_apply(d->t, d->q, d->u);
@@ -857,14 +858,14 @@ rc_discs_begin(struct rc_discs *d)
     d->way.sift = true;
 }
 
-/* ---- room ---- */
+/* ---- memory ---- */
 
 enum {
     MAPS = 11, /* of doubles */
     SINGLE = 5
 };
 
-/* All maps lie in two rooms. */
+/* All maps lie in two blocks. */
 static bool
 allocate(struct rc_discs *d)
 {

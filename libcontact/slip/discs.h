@@ -1,12 +1,12 @@
 /*
- * One increment of friction: the tractions q of the least energy on discs of given radii.
+ * One increment of friction: the tractions q of least energy on discs of given radii g.
  *
- *     min  q'Tq/2 - w'q   over   |q_i| <= g_i,   sum q = S   (or less delta'(sum q), delta given)
+ *     min  q'Tq/2 - w'q   over   |q_i| <= g_i,   sum q = S   (or minus delta'(sum q), if delta is given)
  *
- * T the tangential operator, g what friction can carry at a node, w the displacement that nodes which
- * stick keep, S the load over the area of a cell, delta its multiplier: how far the bodies have moved. s =
- * Tq - w - delta is how far a node slips: 0 where |q| < g, else along -q. Units are such that floats lose
- * no decade: displacements over what E* and the cell make of a traction, in Pa. Internal: never installed.
+ * T is the tangential operator, g the largest traction of a node, w the displacement that sticking nodes
+ * keep, S the force over the area of a cell, delta its multiplier: the displacement of the bodies. s = Tq - w
+ * - delta is the slip of a node: 0 where |q| < g, else opposite to q. Displacements are in units of the cell
+ * over E*, and so in Pa: no number is too large or too small for a float. Internal: never installed.
  */
 #ifndef RC_DISCS_H
 #define RC_DISCS_H
@@ -19,7 +19,7 @@ struct rc_discs {
     int threads;
     /* Maps. The caller sets g, w, and q where the iteration starts from it, before rc_discs_begin. */
     double *g, *w[2], *q[2], *u[2]; /* u = T q                                    */
-    float *r[2], *z[2];             /* residual of what is free; M r, then the direction */
+    float *r[2], *z[2];             /* residual along free directions; M r, then the direction */
     float *curve;                   /* D of nodes that slip                       */
     unsigned char *face;            /* enum rc_face                               */
     double delta[2];                /* m: given, or found                         */
@@ -56,12 +56,12 @@ struct rc_discs {
     } memory;
 };
 
-/* Rooms for maps; NULL when memory is short. */
+/* Allocates the maps; NULL when memory is short. */
 struct rc_discs *rc_discs_new(struct rc_tangential *t, struct rc_err *err);
 void rc_discs_free(struct rc_discs *d); /* NULL is allowed */
 size_t rc_discs_memory(const struct rc_shape *shape, enum rc_boundary boundary);
-/* Starts from what stands in q, which is put on the discs and the load; the load must be one that the discs
- * can carry. u is found. */
+/* Starts from q: moves it to the discs and to the load, which the discs must be able to carry, and finds
+ * u. */
 void rc_discs_begin(struct rc_discs *d);
 /* One step: RC_MORE, RC_OK when the estimate is below tol, RC_SHORT when it cannot get there. */
 enum rc_status rc_discs_step(struct rc_discs *d);

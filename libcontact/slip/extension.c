@@ -7,8 +7,8 @@
 
 #include "libcontact/memory.h"
 
-static const double around = 1.5;        /* the wave number of a grid, times its spacing */
-static const double self_of_wave = 0.84; /* on square cells that of a node alone */
+static const double around = 1.5;        /* wave number of a grid, times its spacing */
+static const double self_of_wave = 0.84; /* on square cells: the factor of T for a single node */
 
 /* ---- plan ---- */
 
@@ -100,8 +100,8 @@ struct pass {
     float *const *r;
 };
 
-/* Of row j of the grid the row of the map, which *j becomes, and the place of its first node in *to; false:
- * it is off the map. */
+/* Replaces row *j of the grid by the row of the map; *to: the place of its first node. False: it is off
+ * the map. */
 static bool
 on_map(const struct rc_extension *e, size_t *j, float **to)
 {
@@ -158,7 +158,7 @@ no_row(const void *of, int c, size_t j, float weight, float *to)
     (void)of, (void)c, (void)j, (void)weight, (void)to;
 }
 
-/* Rows of the pyramid, `count` components of them. */
+/* Rows of the pyramid with `count` components. */
 static float *
 rows_of(const struct rc_extension *e, size_t j, int count)
 {
@@ -174,7 +174,7 @@ rows_of(const struct rc_extension *e, size_t j, int count)
 struct place {
     bool on_map;
     size_t k;    /* of the map */
-    float taper; /* off the map: fields fall off to 0 beyond the end of the frame */
+    float taper; /* off the map, fields decrease to 0 at the end of the frame */
 };
 
 static float
@@ -198,7 +198,7 @@ place_of(const struct rc_extension *e, size_t i, size_t j)
 
 /* ---- fields without a mean ---- */
 
-/* The mean over a periodic map of v. */
+/* The mean of v over a periodic map. */
 static void
 mean_of_field(const struct rc_extension *e, double out[2])
 {
@@ -212,7 +212,7 @@ mean_of_field(const struct rc_extension *e, double out[2])
     }
 }
 
-/* v = E r, r NULL for 0, with `beyond` as the pyramid takes it; z: what ties tangents to their residuals. */
+/* v = E r, r NULL for 0, with `beyond` for the pyramid; z: the ties of tangents to their residuals. */
 static void
 extend(struct rc_extension *e, float *const r[2], const double beyond[2], float *const z[2])
 {
@@ -242,7 +242,7 @@ extend(struct rc_extension *e, float *const r[2], const double beyond[2], float 
     }
 }
 
-/* B^-1; false: there is none. */
+/* B^-1; false: B is singular. */
 static bool
 invert_means(struct rc_extension *e)
 {
@@ -292,7 +292,7 @@ know(struct rc_extension *e, const float *curve)
     }
 }
 
-/* n becomes c P (1 - part) P: the tractions of a shift are large where the surroundings are not known. */
+/* n becomes c P (1 - part) P: the tractions of a shift are large where the surroundings are unknown. */
 static void
 share(struct rc_extension *e)
 {
@@ -348,8 +348,8 @@ rc_extension_set(struct rc_extension *e, const unsigned char *face, double *cons
 
 /* ---- E' A E ---- */
 
-/* v, fields that z is to have the transpose of, becomes what goes back to the neighbours; `first`: with the
- * ties in z; else a shift of -eta is added. */
+/* Replaces v by the part of its transpose that goes to the neighbours, and adds the rest to z; `first`:
+ * with the ties in z, else with a shift of -eta. */
 static void
 to_neighbours(struct rc_extension *e, bool first, const double eta[2], float *const z[2])
 {

@@ -2,33 +2,32 @@
  * An approximate inverse of T + D on the free directions of the nodes that carry friction. Internal: never
  * installed.
  *
- * Free are both components where a node sticks, the tangent t alone where it slips; P_i is the projection
- * on to what is free at node i, 0 where nothing is carried. With A = T^-1 on the whole map the exact
- * inverse is, as a quadratic form,
+ * A sticking node has two free directions, a slipping node one, its tangent t. P_i is the projection on the
+ * free directions of node i, 0 for a node without load. With A = T^-1 on the whole map the exact inverse is,
+ * as a quadratic form,
  *
  *     r'(T + D)^-1 r = least of  v'Av + sum over slipping nodes of (t'(r - v))^2/D     over all fields v with
- *                      v = r where nodes stick:
+ * v = r where nodes stick:
  *
- * The displacement v is unknown off the contact, along the normals of the circles, and along their tangents,
- * there the less the larger D is. Here v = E r is an explicit guess of it,
+ * The displacement v is unknown outside the contact, along the normals of the circles, and along their
+ * tangents, where it is the less known the larger D is. Here v = E r is an explicit approximation,
  *
  *     v = e + c P (r - e),   e from the pyramid of pairs with W_0 = c P,   c = T0/(T0 + D):
  *
- * c is what is known of v from the residual of a node, T0 what a wave of about 4 nodes makes of tractions.
- * Then
+ * c is the known part of v at a node, T0 the factor of T for a wave of about 4 nodes. Then
  *
  *     z = E' A E r + (1 - c)^2/D P (r - e) and its transpose:
  *
- * symmetric, and r'z >= r'(T + D)^-1 r whatever the guess: z bounds the error in the energy norm from
- * above.
+ * this is symmetric, and r'z >= r'(T + D)^-1 r for any approximation: z bounds the error in the energy norm
+ * from above.
  *
- * A periodic T has no mean, T(0) = 0, and its inverse allows none: the least of v'Av is over fields v without
- * a mean. A force given, the residual has none either. A displacement given, what the guess has of it goes to
- * where nothing is known, by a change of rank 2:
+ * A periodic T has no mean, T(0) = 0, and its inverse allows none: the fields v have no mean. If a force is
+ * given, the residual has none either. If a displacement is given, the mean of v is moved to where nothing is
+ * known, by a change of rank 2:
  *
  *     e -> e - Phi m,   m = B^-1 mean(e + c P (r - e)),   B = mean((1 - c P) Phi),
  *
- * with Phi m what the pyramid makes of m beyond its coarsest level.
+ * Phi m is the result of the pyramid for m beyond its coarsest level.
  */
 #ifndef RC_EXTENSION_H
 #define RC_EXTENSION_H
@@ -37,7 +36,7 @@
 #include "tangential.h"
 
 enum rc_face {
-    RC_FACE_OFF, /* carries nothing                   */
+    RC_FACE_OFF, /* without load */
     RC_FACE_STICK,
     RC_FACE_SLIP
 };
@@ -46,18 +45,17 @@ struct rc_extension {
     struct rc_tangential *t;
     struct rc_pyramid *pyramid;
     struct rc_shape grid;      /* of fields: the map in its frame */
-    float *maps;               /* where the maps lie */
-    const unsigned char *face; /* the caller's, as q is */
+    float *maps;               /* the block of all maps */
+    const unsigned char *face; /* of the caller, like q */
     double *const *q;
     float
-        *known; /* c                                                                             */
-    float *tie; /* (1 - c)^2/D                                                                   */
-    float
-        *n[3]; /* xx yy xy: about the tractions M P of a shift of all nodes by 1, up to a factor */
+        *known;  /* c                                                                             */
+    float *tie;  /* (1 - c)^2/D                                                                   */
+    float *n[3]; /* xx yy xy: the tractions M P of a shift of all nodes by 1, up to a factor */
     float *v[2]; /* on the grid                           */
     float *row;  /* for each thread                       */
     double self; /* T0                                    */
-    bool level;  /* v is to have no mean                  */
+    bool level;  /* v has no mean */
     double b[4]; /* B^-1, by rows                         */
 };
 
@@ -65,15 +63,15 @@ struct rc_extension {
 struct rc_extension *rc_extension_new(struct rc_tangential *t, struct rc_err *err);
 void rc_extension_free(struct rc_extension *e); /* NULL is allowed */
 size_t rc_extension_memory(const struct rc_shape *shape, enum rc_boundary boundary);
-/* Faces, tractions, whose directions are the normals of the circles, and D where nodes slip; whether the
- * displacement is given. False: B is singular, as where all nodes of a periodic map stick, and what is
- * applied is the inverse for residuals without a mean. */
+/* Takes the faces, the tractions (their directions are the normals of the circles), D of slipping nodes,
+ * and whether the displacement is given. False: B is singular, for example if all nodes of a periodic map
+ * stick; the result is then the inverse for residuals without a mean. */
 bool rc_extension_set(struct rc_extension *e, const unsigned char *face, double *const q[2],
                       const float *curve, bool given);
-/* z = M r; r is 0 along what is not free, and z too. */
+/* z = M r; both are 0 along directions that are not free. */
 void rc_extension_apply(struct rc_extension *e, float *const r[2], float *const z[2]);
 
-/* Takes from (x, y) what is not free at a node with tractions q. */
+/* Removes from (x, y) the components that are not free at a node with tractions q. */
 static inline void
 rc_free_part(unsigned char face, double qx, double qy, double *x, double *y)
 {

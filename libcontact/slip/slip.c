@@ -1,12 +1,14 @@
 /*
- * Friction in steps: what has stuck is kept, what slips is counted.
+ * Friction in increments, with history.
  *
- * A node that carries something keeps (T q + C p - delta) as long as it sticks: `origin`, of the whole
- * map, for a node that touches later keeps what it has then. An increment asks for the tractions of least
- * energy under w = origin - C p. With the force growing by dF/dP of the load a node that touches at the
- * gap g0 has moved by dF/dP (1 + kap/2) g0 before: exactly for kap = 0, where T is K in both directions.
+ * While a node with a load sticks, T q + C p - delta keeps its value there. This value is `origin`, a map of
+ * all nodes: a node that comes into contact later keeps the value that it has then. An increment finds the
+ * tractions of least energy under w = origin - C p. If the force grows by dF/dP of the load, a node that
+ * comes into contact from the gap g0 has moved by dF/dP (1 + kap/2) g0 before. This is exact for kap = 0,
+ * where T equals K in both directions.
  *
- * Inside displacements are in units of sqrt(dx dy)/E*, lengths of sqrt(dx dy), and so in Pa and 1.
+ * Inside, displacements are in units of sqrt(dx dy)/E* and lengths in units of sqrt(dx dy): numbers in Pa and
+ * 1.
  */
 #include "slip.h"
 
@@ -25,14 +27,13 @@ struct rc_slip {
     struct rc_tangential *t;
     struct rc_discs *discs;
     bool coupled, asked, begun, done, apart;
-    bool
-        tried; /* this increment has been solved before, under another pressure: that is where it starts */
+    bool tried; /* this increment was solved before, under another pressure: it starts from there */
     enum rc_status last;
-    /* kept: of the increment before */
+    /* history: of the increment before */
     double *origin[2], *old[2], *slip[2], *gap_old;
     unsigned char *touched;
     double load_old, force_old[2];
-    /* of this one */
+    /* of this increment */
     double *gap, *pushed[2]; /* C p */
     double load, limit, force[2];
     bool has_gap_old, has_gap;
@@ -87,7 +88,7 @@ finite(double x, double y, const char *what, struct rc_err *err)
 enum rc_status
 rc_slip_set_force(struct rc_slip *s, double fx, double fy, struct rc_err *err)
 {
-    static const double nearest = 1 - 1e-9; /* as near to sliding as tractions are told from it */
+    static const double nearest = 1 - 1e-9; /* nearer ones do not differ from sliding */
     double f = hypot(fx, fy);
 
     if (finite(fx, fy, "tangential force", err) != RC_OK)
@@ -120,10 +121,9 @@ rc_slip_set_displacement(struct rc_slip *s, double dx, double dy, struct rc_err 
 
 /* ---- an increment ---- */
 
-static const double grows = 1e-6; /* of the load: less is rounding */
+static const double grows = 1e-6; /* relative to the load: smaller changes are rounding */
 
-/* w: where the nodes stick; and a start: the last tractions, the change of the force spread as friction
- * is. */
+/* Sets w, and the start: the last tractions, and the change of the force in proportion to g. */
 static void
 pose(struct rc_slip *s)
 {
@@ -156,7 +156,7 @@ rc_slip_step(struct rc_slip *s, struct rc_err *err)
         return rc_err_set(err, "neither a force nor a displacement has been set");
     if (s->done)
         return s->last;
-    if (s->apart) { /* nothing touches: nothing is carried, and what has been displaced is forgotten */
+    if (s->apart) { /* no node is in contact: the tractions are 0, and the displacement begins anew */
         pose(s);
         for (int c = 0; c < 2; c++) {
             s->discs->delta[c] = 0;
@@ -228,7 +228,8 @@ rc_slip_increment(struct rc_slip *s, struct rc_state *state)
         s->tried = true;
 }
 
-/* How far a node has slipped in this increment, in units: what is left where one sticks is an error. */
+/* The slip of a node in this increment, in units of `unit`. A sticking node has none: its residual is an
+ * error. */
 static inline double
 slipped(const struct rc_slip *s, int c, size_t k)
 {
@@ -268,8 +269,8 @@ rc_slip_keep(struct rc_slip *s)
 
 /* ---- what has been found ---- */
 
-/* Where the load falls, friction is what it was on average; else it is what it is in the end, which is
- * exact where it is constant. */
+/* Where the load falls, the traction of the increment is the mean of its start and its end. Otherwise it
+ * is that of its end, which is exact under a constant load. */
 static double
 dissipated(const struct rc_slip *s)
 {
@@ -312,7 +313,7 @@ rc_slip_result(struct rc_slip *s, struct rc_slip_figures *f)
     if (d->found.stick + d->found.slipping > 0)
         f->stick_fraction = f->stick_area / (f->stick_area + f->slip_area);
     f->stiffness = hypot(f->force[0], f->force[1]) / hypot(f->displacement[0], f->displacement[1]);
-    /* a force that is all rounding has none */
+    /* a force of the size of rounding has no stiffness */
     if (!isfinite(f->stiffness) || hypot(f->force[0], f->force[1]) <= 1e-12 * f->limit)
         f->stiffness = NAN;
 }

@@ -1,5 +1,5 @@
 /*
- * What the files of this folder share beside the face, which is in contact.h. Internal: never installed.
+ * What the files of this folder share beside the interface in contact.h. Internal: never installed.
  */
 #ifndef RC_SLIP_H
 #define RC_SLIP_H
@@ -8,7 +8,8 @@
 #include "libcontact/model/row.h"
 
 struct rc_slip;
-/* The next increment starts from these tractions, Pa, instead of from the last. Before its force is set. */
+/* The next increment starts from these tractions, Pa, instead of the last ones; call it before the force
+ * is set. */
 void rc_slip_start(struct rc_slip *slip, const double *const q[2]);
 /* The history that the kept increments have left, as numbers; and the tractions of the increment that is
  * being solved, which continues from there when they were read. */

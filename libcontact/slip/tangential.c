@@ -1,6 +1,5 @@
 /*
- * The tangential operator by Fourier transforms: a quarter of each kernel's spectrum, and the waves of
- * two maps.
+ * The tangential operator by Fourier transforms. A quarter of the spectrum of each kernel is stored.
  */
 #include "tangential.h"
 
@@ -32,7 +31,7 @@ sample(const struct rc_tangential *t, const struct rc_kernel *kernel, double *to
 #pragma omp parallel for num_threads(t->threads) schedule(static)
     for (size_t i = 0; i < t->columns; i++)
         for (size_t j = 0; j < t->cy; j++) {
-            /* a wave of two nodes in a direction in which the kernel is odd is zero at all nodes */
+            /* a wave of two nodes is 0 at all nodes in a direction in which the kernel is odd */
             bool none = (i == 0 && j == 0) || (2 * i == nx && kernel->parity & RC_ODD_X) ||
                         (2 * j == ny && kernel->parity & RC_ODD_Y);
             to[i * t->cy + j] =
@@ -65,8 +64,8 @@ set_spectra(struct rc_tangential *t, struct rc_err *err)
     return RC_OK;
 }
 
-/* On the free boundary what a uniform traction does in the middle of the rectangle, as if it were across it
- * everywhere; on a periodic map the longest wave. */
+/* The displacement due to a long wave. On the free boundary: that in the middle of the map under a
+ * uniform traction; on a periodic map: that of the longest wave. */
 static double
 norm_of(const struct rc_tangential *t)
 {
@@ -78,7 +77,8 @@ norm_of(const struct rc_tangential *t)
     return 2 * (a * asinh(b / a) + b * asinh(a / b)) * most;
 }
 
-/* Along x or y of a free map, between the waves on both sides; NAN: its grid has none as long or as short. */
+/* Along x or y of a free map, interpolated between the waves on both sides. NAN: the grid has no waves as
+ * long or as short. */
 static double
 along(const struct rc_tangential *t, bool x, double q)
 {
@@ -99,7 +99,7 @@ along(const struct rc_tangential *t, bool x, double q)
     return value[0] + (at - floor(at)) * (value[1] - value[0]);
 }
 
-/* Of both, or of the one that is there. */
+/* The mean of both values, or the only known one. */
 static double
 mean_of(double x, double y)
 {
@@ -125,8 +125,8 @@ rc_tangential_power(const struct rc_tangential *t, double q)
     return isnan(power) ? 1 : power;
 }
 
-/* The inverse of (XX -XY; -XY YY), wave by wave; nothing stands against the mean. The caller's units are
- * such that no decade is lost in single precision. */
+/* The inverse of (XX -XY; -XY YY), wave by wave; 0 for the mean. The caller chooses units for single
+ * precision. */
 static void
 set_inverse(struct rc_tangential *t)
 {
@@ -147,7 +147,7 @@ rc_tangential_free(struct rc_tangential *t)
 {
     if (t == NULL)
         return;
-    rc_fft_free(t->framed); /* works in memory of the other */
+    rc_fft_free(t->framed); /* it uses the memory of the other one */
     rc_fft_free(t->fft);
     for (int k = 0; k < RC_SHEAR_KERNELS; k++)
         free(t->quarter[k]);
@@ -255,7 +255,7 @@ struct pass {
     bool single;
     const void *from;
     void *to;
-    int which; /* of the two maps */
+    int which; /* map, 0 or 1 */
 };
 
 static size_t
@@ -279,7 +279,7 @@ row_in(void *ctx, size_t j, void *row)
 
     memcpy(row, from, bytes);
     for (size_t i = 0; i < bytes; i++)
-        if (from[i] != 0) /* -0 counts as something */
+        if (from[i] != 0) /* -0 does not count as 0 */
             return true;
     return false;
 }
@@ -303,15 +303,15 @@ column_of(const struct pass *p, int which, size_t i)
     return (const char *)p->t->waves[which] + 2 * i * p->t->length * size_of(p->single);
 }
 
-/* And of the quarter of a kernel. */
+/* Column i of the quarter of a kernel. */
 static const double *
 quarter_of(const struct pass *p, enum rc_shear_which kernel, size_t i)
 {
     return p->t->quarter[kernel] + i * p->t->cy;
 }
 
-/* Real parts and then imaginary ones: a x - b y, b of a kernel that is odd in both directions: its
- * transform is (-i)^2 b. x is the map that is wanted. */
+/* Real parts, then imaginary parts, of a x - b y for the wanted map x. b is a kernel that is odd in both
+ * directions: its transform is (-i)^2 b. */
 RC_CLONES static void
 multiply(const struct rc_tangential *t, const double *a, const double *b, const double *x,
          const double *y, double *to)
@@ -359,7 +359,7 @@ inverse_column(void *ctx, size_t i, void *to)
                     column_of(p, 1 - p->which, i), to);
 }
 
-/* -i (a X + b Y) of both maps: to the normal direction. */
+/* -i (a X + b Y): the normal displacement due to both maps. */
 static void
 normal_column(void *ctx, size_t i, void *column)
 {
@@ -377,7 +377,8 @@ normal_column(void *ctx, size_t i, void *column)
     }
 }
 
-/* i a P: what a pressure does along the surface, against what a traction does along the normal. */
+/* i a P: the tangential displacement due to a pressure. The signs are those of tractions and the normal
+ * displacement. */
 static void
 pressure_column(void *ctx, size_t i, void *column)
 {
@@ -413,7 +414,7 @@ back(struct rc_tangential *t, bool single, rc_wave_column *column, void *map, in
     t->convolutions += single ? 0.25 : 0.5;
 }
 
-/* ---- the face ---- */
+/* ---- the interface ---- */
 
 void
 rc_tangential_apply(struct rc_tangential *t, double *const q[2], double *const u[2])

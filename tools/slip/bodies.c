@@ -1,4 +1,4 @@
-/* What the bodies are, along their surfaces. */
+/* The bodies: their elastic constants along the surface. */
 #include "slip.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ slip_check_bodies(struct slip_run *run)
         tool_die(t, EXIT_USAGE, "--nu is of both bodies, --nu1 and --nu2 are of each: give either");
 }
 
-/* (1 - nu)/G, nu/G and (1 - 2 nu)/G, but for a factor that all share. */
+/* (1 - nu)/G, nu/G and (1 - 2 nu)/G, up to a common factor. */
 static void
 add_body(const struct rc_body *b, double side, double sum[3])
 {
@@ -40,7 +40,7 @@ set_constants(struct slip_pair *b)
     b->beta = b->pair.estar > 0 ? 0 : sum[2] / (2 * sum[0]);
 }
 
-/* Whether a key says that number; an absent one: none. */
+/* Whether a key has this value; `none`: the value of an absent key. */
 static bool
 same(const struct rc_grid *p, const char *key, double value, double none)
 {
@@ -51,7 +51,7 @@ same(const struct rc_grid *p, const char *key, double value, double none)
     return own == value || fabs(own - value) <= 1e-9 * fabs(value);
 }
 
-/* Of the command line, which have to be those of the pressure. */
+/* Takes the bodies of the command line, which must be those of the pressure. */
 static void
 take_given(struct slip_run *run)
 {
@@ -77,7 +77,7 @@ take_given(struct slip_run *run)
                     "or solve it for these bodies first");
 }
 
-/* Of the stream: both bodies, or E* alone and a Poisson's ratio that both have. */
+/* Takes the bodies of the stream: both, or only E* with a Poisson's ratio of both. */
 static void
 take_own(struct slip_run *run)
 {

@@ -22,7 +22,7 @@ slip_frame_word(size_t k)
     return k < SLIP_FRAMES ? frames[k].name : NULL;
 }
 
-/* ---- what stands in the stream ---- */
+/* ---- the input ---- */
 
 static void
 check_beside(struct slip_run *run, struct rc_grid *g)
@@ -61,7 +61,7 @@ check_pressure(struct slip_run *run)
     run->load = rc_sum(run->p->v, n) * run->p->dx * run->p->dy;
 }
 
-/* A pressure found on one boundary has no friction on the other. */
+/* The boundary of the pressure is that of the friction. */
 static void
 find_boundary(struct slip_run *run)
 {
@@ -77,7 +77,7 @@ find_boundary(struct slip_run *run)
     run->boundary = periodic ? RC_PERIODIC : RC_FREE;
 }
 
-/* Where contacts are to be solved, of elastic bodies with known heights. */
+/* Contacts can be solved for elastic bodies with known heights. */
 static void
 check_solvable(struct slip_run *run)
 {
@@ -147,7 +147,7 @@ set_keys(struct slip_run *run, struct rc_grid *g, const struct slip_state *s)
     set_number(run, g, "displacement_y", apart ? NAN : f->displacement[1]);
 }
 
-/* Maps are made one after another, in one buffer, as they are written. */
+/* Maps are written one after another from one buffer. */
 static void
 write_frames(struct slip_run *run, struct rc_model *m, const struct slip_state *s)
 {
@@ -158,7 +158,7 @@ write_frames(struct slip_run *run, struct rc_model *m, const struct slip_state *
         tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
     set_keys(run, g, s);
     for (int k = 0; k < SLIP_FRAMES; k++) {
-        struct rc_grid frame = *g; /* as the reader of the stream sees it */
+        struct rc_grid frame = *g; /* a header as in the input stream */
 
         if (!(run->args->output >> k & 1))
             continue;
@@ -171,7 +171,7 @@ write_frames(struct slip_run *run, struct rc_model *m, const struct slip_state *
     rc_grid_free(g);
 }
 
-/* ---- what a checkpoint must agree in ---- */
+/* ---- marks of a checkpoint ---- */
 
 static void
 add_mark(struct course *c, const char *name, double value)
@@ -256,8 +256,8 @@ find_state(struct slip_run *run, struct rc_model *m, struct slip_state *s)
                     (run->increments > 0 && isnan(s->traction_error)));
 }
 
-/* The contact, whose tolerance is that of friction, less where both are found in turn; without heights it is
- * never solved. */
+/* The contact. Its tolerance is that of friction, or less if both are solved alternately. Without heights
+ * it is never solved. */
 static struct rc_model *
 new_contact(const struct slip_run *run, double tol, struct rc_err *err)
 {
@@ -288,7 +288,7 @@ new_model(struct slip_run *run)
     return m;
 }
 
-/* From corner to corner; a signal ends the way. */
+/* Goes from corner to corner, until a signal comes. */
 static void
 follow(struct slip_run *run)
 {

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double same_load = 1e-6; /* relative: what is nearer to the stream's load is that */
+static const double same_load =
+    1e-6; /* relative: a load that is nearer to that of the stream is that of the stream */
 
 /* ---- the command line ---- */
 
@@ -111,7 +112,7 @@ read_history(struct slip_run *run, const char *name)
                  "--history %s: it holds no line of load, force along x and force along y", name);
 }
 
-/* In a stream's history the path stands in SI, wherever it came from. */
+/* The history of the stream contains the path in SI units, from any source. */
 static void
 set_history(struct slip_run *run, struct slip_args *args)
 {
@@ -154,9 +155,9 @@ slip_read_path(struct slip_run *run, struct slip_args *args)
         set_history(run, args);
 }
 
-/* ---- of a case ---- */
+/* ---- the path of a case ---- */
 
-/* Under the load of the stream: pressed, and then moved. */
+/* The path under the load of the stream: the bodies are pressed together, then moved. */
 static void
 press_and_move(struct slip_run *run)
 {
@@ -215,8 +216,8 @@ law_of(const struct slip_run *run)
                                         .known_gap = run->gap == NULL ? NULL : run->gap->v};
 }
 
-/* The leg to a corner, the solutions that tell its error, and whether it needs contacts under other loads
- * than the known one; from no load to a force, the gap before contact counts. */
+/* Plans the leg to a corner, the solutions for its error, and whether contacts under other loads than the
+ * known one are needed. From no load to a force, the gap before contact is needed. */
 static void
 plan_leg(struct slip_run *run, const struct slip_corner *from, struct slip_corner *to)
 {

@@ -1,4 +1,4 @@
-/* What rc-slip tells: its report, its plan, its warnings. */
+/* Report, plan and warnings of rc-slip. */
 #include "slip.h"
 
 #include <math.h>
@@ -48,20 +48,21 @@ slip_report(struct slip_run *run, const struct slip_state *s)
     report_finish_row(r);
 }
 
-/* ---- what is wrong with it ---- */
+/* ---- warnings ---- */
 
 static const double near_sliding = 0.99;
-static const double coarse = 0.05; /* an error that is told */
+static const double coarse = 0.05; /* an error with a warning */
 
 double
 slip_goal(const struct slip_run *run)
 {
-    static const double usual = 0.1; /* without --tol, which then is that of the iteration */
+    static const double usual =
+        0.1; /* without --tol; the default of --tol is for the iteration alone */
 
     return isnan(run->args->tol) ? usual : run->args->tol;
 }
 
-/* The largest part of the error, and what lowers it, where that is more than `most`. */
+/* Warns of the largest part of the error, and how to lower it, if it exceeds `most`. */
 static void
 say_what_is_left(struct slip_run *run, const struct slip_state *s, double most, const char *where)
 {
@@ -89,7 +90,7 @@ say_what_is_left(struct slip_run *run, const struct slip_state *s, double most, 
             where, s->traction_error - increments, slip_goal(run), slip_goal(run) / 10);
 }
 
-/* Bodies that have flowed under the pressure of the stream are elastic here. */
+/* Bodies that have yielded under the pressure of the stream are elastic here. */
 static void
 say_what_yielded(struct slip_run *run, const char *where)
 {
@@ -149,9 +150,9 @@ slip_judge(struct slip_run *run, const struct slip_state *s)
                   where, force / f->limit);
 }
 
-/* ---- what would be done ---- */
+/* ---- the plan ---- */
 
-/* Passes of both, each of which leaves about 0.7 mu beta of the error before. */
+/* The expected passes: each leaves about 0.7 mu beta of the error. */
 static size_t
 expected_passes(const struct slip_run *run)
 {

@@ -7,7 +7,7 @@
 #include "tools/model/model.h"
 #include "tools/problem/problem.h"
 
-enum slip_frame { /* in the order of --output's words, and of writing */
+enum slip_frame { /* in the order of the words of --output */
     SLIP_PRESSURE,
     SLIP_TRACTION_X,
     SLIP_TRACTION_Y,
@@ -25,12 +25,12 @@ struct slip_args {
     bool periodic, resume, dry_run;
 };
 
-/* A corner of a path, which goes straight to it from the one before. */
+/* A corner of a path. The path to it is straight. */
 struct slip_corner {
     double load;  /* N */
     double to[2]; /* N, or m where `moved` */
     bool moved;
-    bool silent; /* on the way only: no case of its own */
+    bool silent; /* without a case of its own in the output */
     struct rc_leg leg;
 };
 
@@ -76,7 +76,7 @@ struct slip_run {
 
 /* ---- path.c ---- */
 
-/* --path, --history and --increments; ends the tool where they make no sense. */
+/* Reads --path, --history and --increments; ends the tool if they make no sense. */
 void slip_read_path(struct slip_run *run, struct slip_args *args);
 /* The corners of this case, the law of friction with its tolerance, and whether contacts are solved. */
 void slip_plan_path(struct slip_run *run);
@@ -84,10 +84,9 @@ struct rc_point slip_point(const struct slip_corner *c);
 
 /* ---- bodies.c ---- */
 
-/* Ends the tool where the command line names half a pair. */
+/* Ends the tool if the command line gives only a part of both bodies. */
 void slip_check_bodies(struct slip_run *run);
-/* The bodies of the case; ends the tool where they are unknown, coated, or others than those of the
- * pressure. */
+/* Finds the bodies of the case; ends the tool if they are unknown, coated, or not those of the pressure. */
 void slip_find_bodies(struct slip_run *run);
 
 /* ---- case.c ---- */
@@ -97,13 +96,13 @@ void slip_case(struct slip_run *run);
 
 /* ---- report.c ---- */
 
-/* Relative L1 error of the tractions that is asked for: of increments and all. */
+/* The allowed relative L1 error of the tractions, from increments and iteration together. */
 double slip_goal(const struct slip_run *run);
 /* Warnings printed before the run. */
 void slip_judge_plan(struct slip_run *run);
 void slip_judge(struct slip_run *run, const struct slip_state *s);
 void slip_report(struct slip_run *run, const struct slip_state *s);
-/* What would be done, in words, in so many bytes. */
+/* Prints the plan; memory: bytes. */
 void slip_say_plan(struct slip_run *run, size_t memory);
 
 #endif
