@@ -36,8 +36,6 @@ suite=$1
 file=$(realpath "${2-$(dirname "$0")/../sample_surfaces/rough-steel.x3p}")
 [ -r "$file" ] || fail "$file: no such file, or not readable"
 [ -z "$keep" ] || mkdir -p "$keep"
-[ "$(id -u)" = 0 ] || fail "this needs root, for debootstrap and chroot"
-command -v debootstrap >/dev/null || fail "debootstrap is not here: apt-get install debootstrap"
 command -v cmake >/dev/null || fail "cmake is not here, which makes the tarball"
 
 top=$(cd "$(dirname "$0")/.." && pwd)
@@ -50,13 +48,7 @@ phase() {
     echo "== $suite, $((SECONDS - began)) s: $*"
 }
 
-# inside ROOT COMMAND...: runs the command there, with a /proc, a /dev and a process tree that end with it.
-inside() {
-    # shellcheck disable=SC2016
-    unshare --mount --pid --fork --kill-child bash -c '
-        mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin \
-            LANG=C.UTF-8 HOME=/root DEBIAN_FRONTEND=noninteractive bash -euo pipefail -c "$@"' "$@"
-}
+. "$top/packaging/root.sh"
 # in_root ROOT 'COMMANDS': runs the commands in the folder with the packages.
 in_root() {
     inside "$1" "cd /packages && $2"
@@ -76,10 +68,7 @@ everything() {
 }
 
 phase "two roots"
-debootstrap --variant=minbase "$suite" "$work/clean" ${MIRROR:+"$MIRROR"} >"$work/log" 2>&1 || {
-    tail -n 5 "$work/log" >&2
-    fail "no root of $suite"
-}
+make_root "$suite" "$work/clean" || fail "no root of $suite"
 mkdir "$work/clean/packages"
 inside "$work/clean" "apt-get update -q=2 && apt-get clean"
 cp -a "$work/clean" "$work/build"
