@@ -149,8 +149,6 @@ keep(struct rc_model *m, struct rc_err *err)
 {
     struct adhesive *a = (struct adhesive *)m;
 
-    if (rc_model_look(m, NULL, err) != RC_OK)
-        return RC_FAIL;
     a->pulls = false;
     if (a->figures.adhesion.plastic_nodes == 0)
         return RC_OK;

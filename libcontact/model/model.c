@@ -160,13 +160,21 @@ rc_model_look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 enum rc_status
 rc_model_keep(struct rc_model *m, struct rc_err *err)
 {
+    struct rc_point at;
+
     if (m->status != RC_OK && m->status != RC_SHORT)
         return rc_err_set(err,
                           "the point is not reached: only a point that is reached can be kept");
-    if (m->moved && m->row->keep != NULL && m->row->keep(m, err) != RC_OK)
+    if (!m->moved)
+        return RC_OK;
+    if (rc_model_look(m, &at, err) != RC_OK ||
+        (m->row->keep != NULL && m->row->keep(m, err) != RC_OK))
         return RC_FAIL;
     m->from = m->to;
     m->moved = false;
+    for (int k = 0; k < RC_AXES; k++) /* the next point may give an axis that was found here */
+        if (isfinite(at.at[k]) && !(rc_point_has(&m->to, k) && isfinite(m->to.at[k])))
+            m->from.at[k] = at.at[k];
     return RC_OK;
 }
 

@@ -85,7 +85,7 @@ struct rc_model_row {
      * reads. */
     void (*state)(struct rc_model *m, struct rc_state *s);
     void (*free)(struct rc_model *m);
-    /* These may be NULL. */
+    /* These may be NULL. keep: after a look. */
     enum rc_status (*keep)(struct rc_model *m, struct rc_err *err);
     enum rc_status (*heights)(struct rc_model *m, const double *h, struct rc_err *err);
     enum rc_status (*compliance)(struct rc_model *m, double c, struct rc_err *err);
@@ -104,7 +104,7 @@ struct rc_model {
     const struct rc_model_row *row;
     struct rc_shape shape;
     struct rc_model *inner;    /* owned; NULL: none                      */
-    struct rc_point from, to;  /* the last point kept, and the next one  */
+    struct rc_point from, to;  /* last point kept, with its found axes; next one */
     enum rc_status status;     /* RC_MORE: on the way                    */
     bool moved;                /* since the last keep                    */
     struct rc_state_copy kept; /* state at the last keep                */

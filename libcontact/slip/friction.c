@@ -50,18 +50,18 @@ struct friction {
     double *h;       /* heights; NULL where tractions do not change them */
     bool known_only; /* there are no heights: only the known pressure is possible */
     struct way way[1 + RC_FEWER];
-    struct rc_point reached;   /* the last kept point, with the found axes too */
     struct rc_leg before, leg; /* the legs to this point, and to the next one  */
     /* of the way to the point */
     size_t increment, running, fewer_done; /* running: the way that steps */
     size_t passes;                         /* of the increments before    */
     double dissipated, convolutions;       /* J, since the last point kept; until then */
     double lagging,
-        lag_before; /* Pa: sum over the map of the error of the increments; at `reached`  */
+        lag_before; /* Pa: sum over the map of the error of the increments; at the last kept point  */
     double doubt;   /* relative: error of the iteration of half of the increments         */
-    double *lag[2]; /* Pa: tractions of all increments less those of half of them, at `reached` */
-    bool good;      /* all contacts and increments have converged           */
-    bool again;     /* a state was read: its increment must be solved again */
+    double *lag
+        [2]; /* Pa: tractions of all increments less those of half of them, at the last kept point */
+    bool good;  /* all contacts and increments have converged           */
+    bool again; /* a state was read: its increment must be solved again */
     struct rc_friction_figures figures;
 };
 
@@ -137,7 +137,7 @@ apart(const struct way *w)
 static struct rc_point
 end_of_increment(const struct friction *f, size_t k, size_t n)
 {
-    return rc_point_between(&f->reached, &f->base.to, rc_leg_part(&f->leg, k, n));
+    return rc_point_between(&f->base.from, &f->base.to, rc_leg_part(&f->leg, k, n));
 }
 
 /* Whether two points are the same in all axes of the inner model. */
@@ -585,13 +585,7 @@ static enum rc_status
 keep(struct rc_model *m, struct rc_err *err)
 {
     struct friction *f = (struct friction *)m;
-    struct rc_point at;
 
-    if (rc_model_look(m, &at, err) != RC_OK)
-        return RC_FAIL;
-    for (int k = 0; k < RC_AXES; k++)
-        if (isfinite(at.at[k]))
-            f->reached.at[k] = at.at[k];
     f->lag_before = f->lagging;
     f->before = f->leg;
     return keep_increment(f, f->way, err);
@@ -691,7 +685,6 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_count(s, &good, 1);
     rc_state_count(s, &told, RC_TOLD_UNKNOWN);
     rc_state_count(s, &carries, 1);
-    rc_state_numbers(s, RC_AXES, f->reached.at);
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         rc_state_numbers(s, 1, numbers[k]);
     exchange_ways(f, s);

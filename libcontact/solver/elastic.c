@@ -248,8 +248,6 @@ keep(struct rc_model *m, struct rc_err *err)
 {
     struct elastic *e = (struct elastic *)m;
 
-    if (rc_model_look(m, NULL, err) != RC_OK)
-        return RC_FAIL;
     if (!e->apart && e->figures.contact.yielded_nodes > 0) {
         if (e->problem.tilt_free)
             return rc_err_set(err, "dents under a body that is free to tilt cannot be kept: this "

@@ -185,6 +185,14 @@ make(const struct kind *kind)
 /* Figures of the accuracy, and those that depend on the way to a state or are found to 20 % only. */
 static const char others[] = " kkt_residual pull_off_spread jumps stability ";
 
+static double near_tol = 1e-6;
+
+static bool
+near(double a, double b, double scale)
+{
+    return fabs(a - b) <= near_tol * scale || (isnan(a) && isnan(b));
+}
+
 struct found {
     size_t figures;
     const struct rc_figure *of[FIGURES];
@@ -251,16 +259,12 @@ run(const struct kind *kind, struct rc_model *m, int *k, bool going, size_t *lef
             return RC_MORE;
         look(m, &found[*k]);
         assert_int_equal(rc_model_keep(m, &err), RC_OK);
+        /* found axes too are those of the kept point */
+        assert_true(near(m->from.at[RC_LOAD], found[*k].load, 1e-3));
+        assert_true(isnan(found[*k].approach) ||
+                    near(m->from.at[RC_APPROACH], found[*k].approach, 1e-7));
     }
     return RC_OK;
-}
-
-static double near_tol = 1e-6;
-
-static bool
-near(double a, double b, double scale)
-{
-    return fabs(a - b) <= near_tol * scale || (isnan(a) && isnan(b));
 }
 
 static void
