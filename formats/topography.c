@@ -16,7 +16,7 @@
 
 enum {
     TOPOGRAPHY = 1 << 0,
-    OTHER = 1 << 1, /* of something else */
+    OTHER = 1 << 1, /* a channel of another quantity */
     DERIVED = 1 << 2,
     BACKWARD = 1 << 3,
     MEASURED = 1 << 4

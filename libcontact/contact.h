@@ -50,10 +50,10 @@ struct rc_ranks;    /* processes that share a map: contact_mpi.h; NULL: none    
 
 /* Messages of all processes that share maps, in total. */
 struct rc_sent {
-    size_t exchanges;       /* of whole maps: from rows to columns, or back */
-    double messages, bytes; /* of these exchanges                           */
-    double other_bytes;     /* of sums, neighbouring rows, coarser grids    */
-    double seconds;         /* in exchanges of maps, of the slowest process */
+    size_t exchanges;       /* exchanges of whole maps: from rows to columns, or back */
+    double messages, bytes; /* of these exchanges                                     */
+    double other_bytes;     /* bytes of sums, neighbouring rows, coarser grids        */
+    double seconds;         /* in exchanges of maps, of the slowest process           */
 };
 
 /* Version of the library, "0.1.0". */
@@ -119,8 +119,8 @@ struct rc_selfaffine {
     uint64_t seed;     /* the same seed gives the same waves on every grid of the same size in m */
     /* length of waves along the lay over that of waves of equal power across it, at least 1; 0: 1 */
     double anisotropy;
-    double direction; /* of the lay, degrees counterclockwise from x, row 0 at the top */
-    /* of a gamma distribution of heights, at most RC_SKEWNESS_MAX in magnitude; 0: Gaussian heights */
+    double direction; /* direction of the lay, degrees counterclockwise from x, row 0 at the top */
+    /* skewness of a gamma distribution of heights, at most RC_SKEWNESS_MAX in magnitude; 0: Gaussian */
     double skewness;
     /* heights of a Weibull distribution of this shape, from RC_WEIBULL_MIN to RC_WEIBULL_MAX; 0: Gaussian */
     double weibull;
@@ -144,7 +144,7 @@ enum {
     RC_DEGREE_MAX = 20
 };
 enum rc_form_kind {
-    /* of total degree `degree` in x and y; on a profile in the coordinate along it */
+    /* a polynomial of total degree `degree` in x and y; on a profile, in the coordinate along it */
     RC_POLYNOMIAL,
     RC_SPHERE,  /* exact, of either sign, with its apex anywhere; on a profile a circle    */
     RC_CYLINDER /* exact, of either sign, in any direction and tilt; on a profile a circle */
@@ -448,7 +448,7 @@ struct rc_psd {
     const char *window; /* its name                                                            */
     double sum;         /* m^2: of c over all waves, over the area of the map                  */
     double mean_square; /* m^2: Sq^2, of the heights themselves                                */
-    double hurst;       /* of c ~ q^(-2-2H), for a profile q^(-1-2H); NAN: no power law        */
+    double hurst;       /* H of c ~ q^(-2-2H), for a profile q^(-1-2H); NAN: no power law      */
     double hurst_error; /* its standard error                                                  */
     double shortest, longest; /* m: the range of its fit; NAN: none */
 };
@@ -469,9 +469,9 @@ struct rc_layer {
 };
 /* An elastic half-space, uniform or under layers. */
 struct rc_body {
-    double e, nu;                 /* of the half-space; e INFINITY: rigid */
-    size_t layers;                /* 0: uniform                           */
-    const struct rc_layer *layer; /* the top layer first                  */
+    double e, nu;                 /* moduli of the half-space; e INFINITY: rigid */
+    size_t layers;                /* 0: uniform                                  */
+    const struct rc_layer *layer; /* the top layer first                         */
 };
 /* Index of the material at a depth (m): 0 the top layer, `layers` the half-space. An interface belongs to the
  * material above it. */
@@ -760,9 +760,9 @@ struct rc_plastic_problem {
     bool precise; /* strains and stresses in double precision: twice the memory */
 };
 
-/* What a load has done; lengths in m. */
+/* Results of one load; lengths in m. */
 struct rc_plastic_figures {
-    size_t increments;    /* of this load: 1 where nothing, or almost nothing, yields on the way */
+    size_t increments;    /* increments of this load: 1 where nothing, or almost nothing, yields */
     size_t applications;  /* of the volume operator                                              */
     size_t voxels;        /* voxels (a node and a slab) that have yielded                        */
     double depth, volume; /* bottom of the deepest yielded voxel; m^3                            */
@@ -961,7 +961,7 @@ RC_API enum rc_status rc_adhesion_set_heights(struct rc_adhesion *a, const doubl
 RC_API enum rc_status rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err);
 struct rc_adhesion_progress {
     size_t state;      /* of a retraction, from 1                                      */
-    size_t iterations; /* of this state                                                */
+    size_t iterations; /* iterations of this state                                     */
     bool eigenvalue;   /* iterations of its stability                                  */
     double load;       /* N, as set; NAN: an approach was set                          */
     double approach;   /* m, as set, also in a retraction; NAN: a load was set         */
@@ -969,7 +969,8 @@ struct rc_adhesion_progress {
 };
 RC_API void rc_adhesion_progress(const struct rc_adhesion *a,
                                  struct rc_adhesion_progress *progress);
-/* Of the present state, valid until the next step; after a retraction of the state of lowest load. */
+/* Maps of the present state, valid until the next step; after a retraction, those of the state of lowest
+ * load. */
 RC_API const struct rc_adhesion_figures *rc_adhesion_result(struct rc_adhesion *a);
 RC_API const struct rc_adhesion_scales *rc_adhesion_scales(const struct rc_adhesion *a);
 /* nx ny values each: net pressure, Pa; gap, m, never negative except at the hardness; displacement K p, m;
@@ -1065,12 +1066,12 @@ RC_API void rc_leak_free(struct rc_leak *leak); /* NULL is allowed */
 struct rc_slip_problem {
     enum rc_boundary boundary;
     struct rc_pair pair; /* uniform bodies                                                    */
-    double nu;           /* of both, if only E* of the pair is known                          */
+    double nu;           /* Poisson's ratio of both, if only E* of the pair is known          */
     double mu;           /* coefficient of friction, > 0                                      */
     double tau_max;      /* Pa: upper bound of the traction (Tresca); 0 or INFINITY: none     */
     bool uncoupled;      /* for dissimilar bodies: pressure causes no tangential displacement */
     double tol;          /* asked relative L1 error of the tractions; 0: 1e-4                 */
-    size_t max_steps;    /* of an increment; 0: 200                                           */
+    size_t max_steps;    /* most steps of an increment; 0: 200                                */
     size_t threads;      /* 0: all                                                            */
     const struct rc_ranks *ranks; /* must be NULL: friction cannot be shared among processes */
 };
@@ -1083,7 +1084,7 @@ struct rc_slip_figures {
     double displacement[2];         /* m, of body 2 over body 1 since first touch                */
     size_t stick_nodes, slip_nodes; /* of the nodes that carry load                              */
     double stick_area, slip_area;   /* m^2                                                       */
-    double stick_fraction;          /* of the nodes that carry load; NAN: none                   */
+    double stick_fraction;          /* share of the nodes that carry load; NAN: none             */
     double stiffness;               /* N/m: |force| over |displacement|; NAN where one is 0      */
     double dissipated;              /* J, in this increment                                      */
     double largest_slip;            /* m, in this increment                                      */
@@ -1153,7 +1154,7 @@ struct rc_friction_problem {
         slip; /* `uncoupled` is that of `coupling`; the tolerance of an increment */
     enum rc_coupling coupling;
     size_t increments; /* from point to point, in which all axes change in proportion; 0: chosen */
-    size_t max_passes; /* of pressure and tractions, in an increment; 0: 50                      */
+    size_t max_passes; /* passes of pressure and tractions in an increment; 0: 50                */
     /* A known contact: its load (N; 0: none), pressure (Pa) and gap (m; NULL: unknown), nx ny, which the
      * caller keeps. It is not solved where tractions do not change the pressure. */
     double known_load;
@@ -1174,9 +1175,9 @@ struct rc_friction_figures {
      * would change; of the iteration of earlier increments; of the contacts of this and earlier
      * increments; of too few increments (NAN: unknown) */
     double traction_error, inherited_error, contact_error, increment_error;
-    double approach;     /* m, as in rc_contact; NAN: unknown                           */
-    double convolutions; /* of friction and contacts, since the last point kept         */
-    bool converged;      /* all contacts, tractions and passes since the last point kept */
+    double approach;     /* m, as in rc_contact; NAN: unknown                                */
+    double convolutions; /* convolutions of friction and contacts, since the last point kept */
+    bool converged;      /* all contacts, tractions and passes since the last point kept     */
 };
 
 /* What is known of the error that the increments to a point, and to those before, leave. */
@@ -1306,7 +1307,7 @@ struct rc_stress_options {
 /* Work counters; tests use them to check that only requested fields are computed. */
 struct rc_stress_counts {
     size_t depths;
-    size_t source_transforms;       /* of the pressure and of maps of traction              */
+    size_t source_transforms;       /* transforms of the pressure and of maps of traction   */
     size_t normal_kernels;          /* kernels evaluated at a depth, for the pressure       */
     size_t shear_kernels;           /* and for the traction, if any                         */
     size_t coefficients;            /* values of these kernels                              */
@@ -1315,8 +1316,8 @@ struct rc_stress_counts {
     size_t line_transforms;         /* one-dimensional, of kernels and sources of a section */
     size_t engine_sums;             /* convolutions by another engine                       */
     size_t coarse_depths;           /* depths computed on a coarser grid                    */
-    size_t strain_transforms;       /* of maps of plastic strain to wave numbers            */
-    size_t strain_field_transforms; /* and of its stresses back to maps                     */
+    size_t strain_transforms;       /* transforms of maps of plastic strain to wave numbers */
+    size_t strain_field_transforms; /* transforms of its stresses back to maps              */
 };
 
 /* RC_FAIL, and *err says why, when rc_stress_new would refuse these options, except for short memory. */

@@ -53,7 +53,7 @@ enum rc_axis {
 struct rc_axis_info {
     const char *name, *unit, *title; /* unit NULL: a plain number                             */
     bool rises;           /* a later point has at least the value of the earlier one          */
-    enum rc_axis partner; /* of load and approach one is given and the other found; an axis
+    enum rc_axis partner; /* of load and approach, one is given and the other is found; an axis
                              without a partner is its own                                     */
 };
 /* Row k of the table; NULL past the last. */
@@ -92,7 +92,7 @@ struct rc_figure {
     const char *by; /* the field of the problem that governs it                          */
     double limit;   /* the warning holds above it, or below it where `least`; 0: no limit */
     bool least;
-    const char *warning; /* what is then wrong, without naming an option                      */
+    const char *warning; /* a sentence that says what is wrong, without the name of an option */
 };
 /* {RC_FIGURE(struct rc_leak_figures, mean_gap), "m", "Mean gap"}: the kind follows from the type of the
  * member, and a member that does not exist does not compile. RC_FIGURE_AS: the column has another name. */

@@ -5,8 +5,9 @@
 #
 # The commands are taken from man/contact.7 and run in FOLDER, or in one that is removed when they are done; the pictures
 # that the page shows go to sample_surfaces. The tools on PATH are used, or those of build/. cost.png and
-# coated-cost.png, which show what this machine took, are drawn by the first and the last command of contact-theory(7), "What
-# accuracy costs". measured.png, of the README, is of a file that is not ours, test_2.opd among the tests of surfalize:
+# coated-cost.png show times of this machine; the first and the last command of contact-theory(7), "What
+# accuracy costs", draw them. measured.png of the README shows a file of another project, test_2.opd of the
+# tests of surfalize:
 #
 #     rc-import test_2.opd | rc-detrend --poly 2 --fill --lowpass 10um |
 #         rc-solve --mean-pressure 100MPa --estar 114GPa --hardness 4GPa |

@@ -14,8 +14,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-# Values of a one-frame f64 stream as text, one a line: before its end stand "crc32 12345678" and
-# "RCGEND 1" with their line feeds, 24 bytes.
+# Values of a one-frame f64 stream as text, one a line. The stream ends with "crc32 12345678" and "RCGEND 1"
+# and their line feeds: 24 bytes.
 values() {
     head -c -24 | tail -c "$((8 * $1))" | od -An -v -w8 -t f8
 }
@@ -72,8 +72,8 @@ EOT
     zip -q -X -9 -D "$out/$1" main.xml "${files[@]}" md5checksum.hex
 }
 
-# rough-steel.x3p: what a profilometer gives of a ground and lapped steel specimen: 242 x 206 points,
-# self-affine roughness, left tilted and a little bowed, 16-bit steps of 0.5 nm, 0.9 % of the points
+# rough-steel.x3p: a ground and lapped steel specimen as a profilometer measures it: 242 x 206 points,
+# self-affine roughness, with a tilt and a small curvature, 16-bit steps of 0.5 nm. 0.9 % of the points are
 # missing, most of them in small clusters.
 rc-synth selfaffine --nx 242 --ny 206 --dx 1.1um --dy 1.29um --hurst 0.8 --rms-height 0.25um \
     --rolloff 60um --short-cut 8um --seed 1999 | values $((242 * 206)) >heights

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every kind of picture that rc-render draws, once for a screen (800 pixels) and once for the column of a
-# journal (85 mm, PDF): to be looked at when the drawing has changed.
+# Draws every kind of picture of rc-render, once for a screen (800 pixels) and once for the column of a
+# journal (85 mm, PDF). Look at them when the code of the drawing has changed.
 #
 #     sample_surfaces/pictures.sh FOLDER        # the tools on PATH, or those of build/
 set -euo pipefail

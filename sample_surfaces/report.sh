@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# One page of a measured surface, an example of what the tools are for: parameters, maps, a load curve, stresses, how far to
-# trust them, and the command lines that repeat it.
+# Writes one page about a measured surface, as an example of the tools: parameters, maps, a load curve,
+# stresses, their errors, and the command lines that repeat them.
 #
 #     sample_surfaces/report.sh FILE [PAGE.html]
 #
-# ESTAR, HARDNESS, NU and PRESSURES in the environment say what it is made of and how it is pressed. The tools on PATH are used,
-# or those of build/. The page holds its pictures; nothing else is left behind.
+# ESTAR, HARDNESS, NU and PRESSURES in the environment are its material and its loads. The tools on PATH are
+# used, or those of build/. The page holds its pictures; nothing else is left behind.
 set -euo pipefail
 file=$(realpath "${1:?"usage: report.sh FILE [PAGE.html]"}")
 page=$(realpath -m "${2-$(basename "$file").html}")
@@ -17,7 +17,7 @@ cd "$work"
 printf 'set -o pipefail\n' >commands.sh
 
 escape() { sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g'; }
-# Runs a command line as the page prints it, and keeps what it warns of.
+# Runs a command line as the page prints it, and keeps its warnings.
 run() {
     echo "$1" >>commands.sh
     bash -e -o pipefail -c "$1" 2>>said.txt

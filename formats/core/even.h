@@ -17,7 +17,7 @@ enum {
 };
 
 struct rc_even {
-    double first, step; /* of the nodes, in the unit of the positions                    */
+    double first, step; /* first node and step, in the unit of the positions             */
     size_t n;           /* nodes                                                         */
     double widest;      /* largest gap that is interpolated; 0: the points are the nodes */
 };

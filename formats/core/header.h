@@ -16,7 +16,7 @@ struct rc_piece {
 bool rc_piece_is(struct rc_piece piece, const char *words);
 /* True if it begins with the word, in either case. */
 bool rc_piece_begins(struct rc_piece piece, const char *word);
-/* Where the word begins in the piece, or NULL; case counts. */
+/* The position of the word in the piece, or NULL; upper and lower case differ. */
 const char *rc_piece_find(struct rc_piece piece, const char *word);
 struct rc_piece rc_piece_trim(struct rc_piece piece);
 /* The piece without surrounding quotes or brackets: nm of "[nm]". */

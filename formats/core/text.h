@@ -10,7 +10,7 @@
 /* Lines that end in LF, CR LF or CR. */
 struct rc_lines {
     const char *at, *end;
-    size_t number; /* of the line given last, from 1 */
+    size_t number; /* number of the line given last, from 1 */
 };
 /* The next line without its end; false when there is none. */
 bool rc_lines_next(struct rc_lines *lines, const char **line, size_t *n);
@@ -36,7 +36,7 @@ char *rc_text_clean(char *to, size_t size, const char *text, size_t n);
 enum {
     RC_SHOWN = 48
 };
-/* The same, cut short for quoting in a message. */
+/* The same line, shortened for a quotation in a message. */
 const char *rc_text_shown(char to[RC_SHOWN], const char *text, size_t n);
 const char *rc_word_shown(char to[RC_SHOWN], const char *word); /* up to its NUL */
 

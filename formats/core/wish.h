@@ -8,7 +8,7 @@
 
 #include "libcontact/grid.h"
 
-/* Which of the first row and column of a text matrix are labels or positions, not heights. */
+/* Whether the first row and the first column of a text matrix are labels or positions, not heights. */
 enum rc_label {
     RC_LABELS_FOUND, /* those that look like labels */
     RC_LABELS_KEEP,  /* none                        */

@@ -54,7 +54,7 @@ struct rc_code rc_code_for(enum rc_raw raw, const struct rc_range *range, int32_
  * the type. */
 enum rc_status rc_encode(const struct rc_code *code, const double *v, size_t n, unsigned char *to,
                          struct rc_err *err);
-/* The same into a file. */
+/* The same, written to a file. */
 enum rc_status rc_encode_file(const struct rc_code *code, const double *v, size_t n, FILE *out,
                               struct rc_err *err);
 

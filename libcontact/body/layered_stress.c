@@ -32,7 +32,7 @@ enum {
     BLOCK = 64,       /* points looked up together           */
     NEAREST = 4,      /* half sides: a nearer cell is halved */
     PRESSURE = 4,     /* functions of the pressure           */
-    FUNCTIONS = 4 + 7 /* of both loads                       */
+    FUNCTIONS = 4 + 7 /* functions of both loads             */
 };
 static const double far = 80; /* cells: beyond this means on a line of nodes */
 
@@ -43,7 +43,7 @@ struct inside {
     double depth;             /* in the top layer at most its thickness   */
     bool shear;               /* also for the tangential load             */
     double scale;             /* s, m                                     */
-    struct rc_radial *radial; /* of the functions above; NULL: waves only */
+    struct rc_radial *radial; /* tables of the functions above; NULL: waves only */
 };
 
 _Static_assert((int)RC_UNDER_BOTH <= (int)RC_WAVE_NUMBERS,
@@ -67,7 +67,7 @@ waves(const struct rc_inside *inside, size_t n, const double *q, double *out)
         rc_stack_inside(in->stack, in->medium, in->depth, q[k], m, out + k * m);
 }
 
-/* Of the wave with the direction (x, y), over (-i)^(number of odd directions). */
+/* The stress of the wave with the direction (x, y), over (-i)^(number of odd directions). */
 static double
 wave_stress(int kernel, double x, double y, const double *f)
 {

@@ -24,8 +24,8 @@ enum {
 };
 
 static const double step = 0.05;    /* of ln q                                         */
-static const double near = 0.125;   /* of s: the table starts here                     */
-static const double farthest = 1e6; /* of s: beyond, the value at the end of the table */
+static const double near = 0.125;   /* the table starts at this s                      */
+static const double farthest = 1e6; /* beyond this s, the value at the end of the table */
 
 struct rc_radial {
     size_t n; /* functions                                          */

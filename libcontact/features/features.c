@@ -7,13 +7,13 @@
 #include "hills.h"
 #include "libcontact/memory.h"
 
-static const double prune = 0.05; /* of Sz */
+static const double prune = 0.05; /* share of Sz */
 
 enum {
     FIVE = 5 /* peaks of S5p, pits of S5v */
 };
 
-/* Of hills, or of dales. */
+/* Figures of hills, or of dales. */
 struct figures {
     double density, curvature, five, area;
 };

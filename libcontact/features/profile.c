@@ -5,7 +5,7 @@
 
 #include "libcontact/common.h"
 
-/* Of Rz: a hill or dale that deviates less than this from the mean line does not count. */
+/* Share of Rz: a hill or dale that deviates less than this from the mean line does not count. */
 static const double discrimination = 0.1;
 
 /* ---- along a line ---- */

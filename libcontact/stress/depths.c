@@ -29,7 +29,7 @@ enum {
 
 /* With a quarter of 1/k the largest Mises stress of Hertz's contact is accurate to 1 %. */
 static const double part = 0.25, most_part = 0.75, radii = 3, died = 0.01;
-/* Of a layer: largest step; distance of the depth just below an interface. */
+/* Shares of a layer's thickness: largest step; distance of the depth just below an interface. */
 static const double layer_part = 0.25, just_below = 1e-6;
 
 struct bins {

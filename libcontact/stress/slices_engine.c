@@ -10,7 +10,7 @@
 
 struct plan {
     struct rc_stress_task task;
-    double *u; /* of one kernel */
+    double *u; /* displacements of one kernel */
 };
 
 /* An engine's tolerance is relative to the sum of |K| |p|. The sum of |K| grows with the logarithm of the map

@@ -192,7 +192,7 @@ static bool
 guess(const struct values *of, double *sample, double bounds[2])
 {
     const uint64_t golden =
-        UINT64_C(0x9E3779B97F4A7C15); /* of 2^64: these places fill the map evenly */
+        UINT64_C(0x9E3779B97F4A7C15); /* a share of 2^64: these places fill the map evenly */
     size_t n = 0, off;
 
     for (uint64_t k = 0; k < SAMPLE; k++) {

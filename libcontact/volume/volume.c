@@ -205,7 +205,7 @@ rc_slabs_memory(const struct rc_shape *shape, const struct rc_slabs_options *o)
     struct rc_shape here = {shape->nx, rows, shape->dx, shape->dy};
 
     rc_fft_period(shape, boundary(o), &px, &py);
-    columns = spectrum / size / (py / 2 + 1); /* of the rank with most columns */
+    columns = spectrum / size / (py / 2 + 1); /* columns of the rank with most columns */
     threads = (size_t)rc_useful_threads(&here, o->threads);
     return sizeof(struct rc_slabs) + maps * map_size(shape, py, columns, rows) * size +
            rc_fft_memory(shape, boundary(o), o->precision, ranks) - spectrum +

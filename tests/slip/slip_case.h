@@ -1,4 +1,4 @@
-/* What the tests of friction share: pressures to slide under, and increments solved to their end. */
+/* Parts shared by the tests of friction: pressures on sliding bodies, and solutions of increments. */
 #ifndef SLIP_CASE_H
 #define SLIP_CASE_H
 
