@@ -512,7 +512,7 @@ def _settled(status, words, result):
         raise Error(words or '%s ended with status %d' % (result.tool, status), status)
     result.warnings = said
     if status == 3:
-        raise NotConverged(words, result)
+        raise NotConverged(words or '%s stopped short of the requested accuracy' % result.tool, result)
     for line in said:
         _warn(line, result.tool)
     return result
