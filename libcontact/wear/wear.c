@@ -228,6 +228,24 @@ last_steps(const struct wear *v)
     return (size_t)ceil(fmax(fewest, per_tolerance / v->law.tol));
 }
 
+/* The longest step that does not pass a condition by far: the depth grows by the largest pressure at most, the
+ * other figures in proportion to the logarithm of the distance. */
+static double
+longest(const struct wear *v)
+{
+    static const double part = 0.25; /* of the distance */
+    double most = INFINITY, peak = 0;
+
+    if (v->law.until_area > 0 || v->law.until_spread > 0)
+        most = fmax(part * v->s, v->t / GROWTH);
+    for (size_t k = 0; k < v->n && v->law.until_depth > 0; k++)
+        peak = fmax(peak, v->p0[k]);
+    if (v->law.until_depth > 0)
+        most = fmin(most, fmax((v->law.until_depth - v->f.max_wear_depth) / (v->k * peak),
+                               last_part * v->s));
+    return most;
+}
+
 /* Sets out for the next step, if there is one. */
 static enum rc_status
 set_out(struct wear *v, struct rc_err *err)
@@ -241,6 +259,7 @@ set_out(struct wear *v, struct rc_err *err)
         return v->f.converged ? RC_OK : RC_SHORT;
     }
     if (v->last == 0 && left > 1e-9 * v->end) {
+        v->t = fmin(v->t, longest(v));
         v->tried = v->t >= left ? left : v->t > left / 2 ? left / 2 : v->t;
         return contact(v, FIRST, err);
     }
@@ -254,7 +273,6 @@ static void
 see_conditions(struct wear *v)
 {
     const struct rc_wear_figures *f = &v->f;
-    find_figures(v);
     v->met = (v->law.until_area > 0 && v->in_contact >= v->law.until_area) ||
              (v->law.until_depth > 0 && f->max_wear_depth >= v->law.until_depth) ||
              (v->law.until_spread > 0 && f->pressure_spread <= v->law.until_spread);
@@ -300,7 +318,8 @@ take(struct wear *v, const double *less, double error, double of_p1, double of_s
     v->error[OF_P0] = of_p1;
     v->error[OF_STEPS] = of_steps;
     v->kept = false;
-    v->f.steps++;
+    v->f.steps += v->stage != PRESS;
+    find_figures(v);
     return RC_OK;
 }
 
@@ -425,8 +444,7 @@ step(struct rc_model *m, struct rc_err *err)
         return judge(v, of_p1, err);
     case LAST:
         return even(v, of_p1, err);
-    default:          /* PRESS */
-        v->f.steps--; /* none */
+    default: /* PRESS */
         memset(v->pa, 0, v->n * sizeof *v->pa);
         if (take(v, v->pa, 0, of_p1, 0, err) != RC_OK)
             return RC_FAIL;

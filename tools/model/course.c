@@ -114,6 +114,8 @@ course_run(struct course *c, struct rc_model *m)
         if ((status = rc_model_step(m, &err)) == RC_FAIL)
             tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE, "%s", err.text);
         steps++;
+        if (c->stepped != NULL)
+            c->stepped(c, m);
         rc_model_progress(m, &loops);
         show(c, &loops);
         if (status == RC_MORE && loops.worth && checkpoint_due(c->checkpoint))

@@ -406,7 +406,8 @@ drive_case(struct drive *d, const struct rc_grid *g, struct rc_model *m, const s
     else
         tool_demand_memory(&d->t, g, plan_of(d, g, m).memory);
     mark_case(d, g);
-    for (d->at = 0; d->at < d->points && !d->args->dry_run; d->at++) {
+    d->ended = false;
+    for (d->at = 0; d->at < d->points && !d->ended && !d->args->dry_run; d->at++) {
         if (d->at > 0 && tool_interrupted() != 0)
             break;
         d->began = tool_now();

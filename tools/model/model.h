@@ -61,7 +61,8 @@ struct course {
     size_t marks;
     bool resumed;   /* the point continues from the checkpoint                               */
     double iterate; /* seconds that the steps took                                          */
-    struct {        /* the error at the start of the present grid                           */
+    void (*stepped)(struct course *c, struct rc_model *m); /* after each step; NULL: nothing */
+    struct { /* the error at the start of the present grid                           */
         size_t nodes;
         double iterations, error, at;
     } since;
@@ -117,6 +118,7 @@ struct drive {
     const struct drive_axis *axes;
     struct rc_point *point;
     size_t points, at; /* at: the point that is reached */
+    bool ended;        /* set by `keys`: later points of the case are left out */
     enum rc_status status;
     double began, iterated;
 };

@@ -1,0 +1,386 @@
+/* Wear of the contact that rc-solve has found: how heights and pressures change as the bodies slide. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+#include "tools/model/model.h"
+
+static struct args {
+    const char *coefficient, *energy, *until, *steps;
+    struct numbers archard, distance, load; /* load: of the stream */
+    double hardness, mu, tol;
+    size_t output;
+    struct drive_args drive;
+} args = {.hardness = NAN, .mu = NAN, .tol = 0.1, .output = 15, .drive.interval = 60};
+
+static const char *
+frame_word(size_t k)
+{
+    static const char *const words[] = {"pressure", "gap",          "height",  "wear", "wear-1",
+                                        "wear-2",   "displacement", "contact", NULL};
+
+    return words[k];
+}
+
+#define AT(field) .at = offsetof(struct args, field)
+#define ABOVE_0 .min = 0, .max = INFINITY, .above = true
+/* clang-format off */
+static const struct opt opts[] = {
+    {.name = "coefficient", .type = OPT_TEXT, AT(coefficient), .result = true, .arg = "K1[,K2]",
+     .help = "wear coefficient of body 1, and of body 2 (default 0), in mm3/Nm, m2/N or 1/GPa"},
+    {.name = "archard", .type = OPT_NUMBERS, AT(archard), .min = 0, .max = INFINITY, .result = true,
+     .arg = "K1[,K2]", .help = "instead: Archard's numbers, V = K P s/H without a factor 3; needs --hardness"},
+    {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_HARD, AT(hardness), ABOVE_0, .result = true,
+     .arg = "PRESSURE", .help = "H of --archard; the bound of the pressure is that of rc-solve"},
+    {.name = "energy", .type = OPT_TEXT, AT(energy), .result = true, .arg = "K1[,K2]",
+     .help = "instead: volume per energy of friction, in mm3/J or m3/J; needs --mu"},
+    {.name = "mu", .type = OPT_NUMBER, AT(mu), ABOVE_0, .result = true, .arg = "COEFFICIENT",
+     .help = "coefficient of friction of --energy"},
+    {.name = "distance", .type = OPT_NUMBERS, .unit = UNIT_M, AT(distance), .min = 0, .max = INFINITY,
+     .result = true, .arg = "LIST", .help = "sliding distances from the start, each a case"},
+    {.name = "until", .type = OPT_TEXT, AT(until), .result = true, .arg = "LIST",
+     .help = "end earlier at area=FRACTION in contact, depth=LENGTH or uniform=SPREAD of the pressure"},
+    {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 0.5, .above = true, .result = true,
+     .arg = "ERROR", .help = "bound of the estimated relative errors of wear and pressure (default 0.1)"},
+    {.name = "output", .type = OPT_WORDS, AT(output), .words = frame_word, .arg = "LIST",
+     .help = "frames to write, of %s (default: the first four, and wear-1 and wear-2 if both wear)"},
+    {.name = "steps", .type = OPT_REPORT, AT(steps), .arg = "FILE",
+     .help = "write the figures of every step, the running-in curve, as --report does"},
+    {.group = drive_options, AT(drive)},
+    {.name = NULL},
+};
+/* clang-format on */
+
+static const struct tool_info info = {
+    .name = "rc-wear",
+    .summary = "Wear and running-in: heights and pressures as the bodies slide",
+    .operands = "[FILE...]",
+    .examples =
+        "  rc-solve --load 10N --radius 3mm --estar 114GPa surface.rcg |\n"
+        "      rc-wear --coefficient 1e-6mm3/Nm --distance 1m:1km:log:4 \\\n"
+        "          --report worn.tsv --steps running-in.tsv -o worn.rcg\n"
+        "  rc-render --curve distance:contact_fraction --log x -o curve.png running-in.tsv\n",
+    .opts = opts,
+    .reads = READS_STREAM,
+    .writes = WRITES_STREAM,
+    .shares = true, /* to refuse it once */
+};
+
+struct run {
+    struct drive d;
+    struct rc_wear_problem law;
+    struct report steps;
+    double coat;    /* m: thickness of the top layer; 0: none */
+    size_t written; /* steps in --steps                      */
+};
+
+/* ---- the command line ---- */
+
+struct named_unit {
+    const char *text;
+    double size;
+};
+
+/* One number with a unit of the table; 0 needs none. */
+static bool
+number_in(const char *text, size_t n, const struct named_unit *unit, double *value)
+{
+    char word[64] = "";
+    const char *end;
+
+    if (n == 0 || n >= sizeof word)
+        return false;
+    memcpy(word, text, n);
+    if ((end = rc_number_read(word, false, value)) == NULL || !(*value >= 0) || isinf(*value))
+        return false;
+    for (; unit->text != NULL; unit++)
+        if (strcmp(end, unit->text) == 0 || (*value == 0 && *end == '\0')) {
+            *value *= unit->size;
+            return true;
+        }
+    return false;
+}
+
+static void
+read_coefficients(struct tool *t, const char *name, const char *text, const struct named_unit *unit,
+                  const char *why)
+{
+    double *k = ((struct run *)(void *)t)->law.k;
+    const char *comma = strchr(text, ',');
+    const size_t n = comma != NULL ? (size_t)(comma - text) : strlen(text);
+
+    if (!number_in(text, n, unit, &k[0]) ||
+        (comma != NULL && !number_in(comma + 1, strlen(comma + 1), unit, &k[1])))
+        tool_die(t, EXIT_USAGE, "--%s %s: it must be K1 or K1,K2, each at least 0 %s", name, text,
+                 why);
+}
+
+static void
+read_law(struct run *run)
+{
+    static const struct named_unit of_load[] = {{"mm3/Nm", 1e-9}, {"m3/Nm", 1},    {"m2/N", 1},
+                                                {"1/Pa", 1},      {"1/MPa", 1e-6}, {"1/GPa", 1e-9},
+                                                {NULL, 0}};
+    static const struct named_unit of_energy[] = {{"mm3/J", 1e-9}, {"m3/J", 1}, {NULL, 0}};
+    struct tool *t = &run->d.t;
+    double *k = run->law.k;
+
+    if (tool_given(t, "coefficient") + tool_given(t, "archard") + tool_given(t, "energy") != 1)
+        tool_die(t, EXIT_USAGE,
+                 "give one of --coefficient, --archard and --energy: how much wears");
+    if (tool_given(t, "archard") != tool_given(t, "hardness"))
+        tool_die(t, EXIT_USAGE, "--archard and --hardness belong together: V = K P s/H");
+    if (tool_given(t, "energy") != tool_given(t, "mu"))
+        tool_die(t, EXIT_USAGE, "--energy and --mu belong together: the energy is mu P s");
+    if (args.coefficient != NULL)
+        read_coefficients(t, "coefficient", args.coefficient, of_load,
+                          "with its unit, as in 1e-6mm3/Nm, m2/N or 1/GPa: a number without a unit "
+                          "is often Archard's, which is given by --archard and --hardness");
+    if (args.energy != NULL)
+        read_coefficients(t, "energy", args.energy, of_energy, "with its unit, as in 1e-5mm3/J");
+    if (args.archard.n > 2)
+        tool_die(t, EXIT_USAGE, "--archard: it must be K1 or K1,K2");
+    for (size_t b = 0; b < 2; b++) {
+        if (b < args.archard.n)
+            k[b] = args.archard.v[b] / args.hardness;
+        if (args.energy != NULL)
+            k[b] *= args.mu;
+    }
+    if (k[0] + k[1] == 0)
+        tool_die(t, EXIT_USAGE, "no body wears: give a wear coefficient above 0");
+    if (k[0] > 0 && k[1] > 0 && !tool_given(t, "output"))
+        args.output |= 48;
+}
+
+static void
+read_until(struct run *run)
+{
+    static const char *const name[] = {"area", "depth", "uniform"};
+    double *to[] = {&run->law.until_area, &run->law.until_depth, &run->law.until_spread};
+    char text[256], *at = NULL, *word;
+    struct rc_err err;
+
+    if (args.until == NULL)
+        return;
+    snprintf(text, sizeof text, "%s", args.until);
+    for (word = strtok_r(text, ",", &at); word != NULL; word = strtok_r(NULL, ",", &at)) {
+        size_t k = 0, n = strcspn(word, "=");
+        while (k < 3 && (strlen(name[k]) != n || strncmp(word, name[k], n) != 0))
+            k++;
+        if (k == 3 || word[n] == '\0' ||
+            unit_number(word + n + 1, k == 1 ? UNIT_M : UNIT_NONE, to[k], &err) != RC_OK ||
+            !(*to[k] > 0) || (k == 0 && *to[k] > 1))
+            tool_die(&run->d.t, EXIT_USAGE,
+                     "--until %s: it must be area=FRACTION, depth=LENGTH or uniform=SPREAD, above "
+                     "0, as in area=0.9,depth=1um",
+                     args.until);
+    }
+}
+
+/* ---- a case ---- */
+
+static double
+key(struct tool *t, const struct rc_grid *g, const char *name, const char *what)
+{
+    double v;
+
+    if (!rc_grid_number(g, name, &v))
+        tool_die_at(t, g, EXIT_USAGE,
+                    "it has no key %s, %s: rc-wear reads what rc-solve has written", name, what);
+    return v;
+}
+
+/* Bodies that rc-wear does not know how to wear. */
+static void
+refuse_others(struct tool *t, const struct rc_grid *g)
+{
+    static const char *const keys[][2] = {{"adhesion", "attract each other"},
+                                          {"yield", "yield in their volume"}};
+    const char *history = rc_grid_get(g, "history");
+
+    for (size_t k = 0; k < 2; k++)
+        if (rc_grid_get(g, keys[k][0]) != NULL)
+            tool_die_at(t, g, EXIT_IMPOSSIBLE, "its bodies %s: their wear is not implemented",
+                        keys[k][1]);
+    if (history != NULL && strstr(history, "--tilt free") != NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "its counter body was free to tilt: the wear of a body that tilts is not "
+                    "implemented");
+}
+
+/* E* of the pair for waves as short as the roughness: that of the top layer on body 2. */
+static double
+estar_of(const struct rc_pair *p)
+{
+    const struct rc_body *bodies[] = {&p->one, &p->two};
+    double compliance = 0;
+
+    if (p->estar > 0)
+        return p->estar;
+    for (int b = 0; b < 2; b++) {
+        const bool coated = bodies[b]->layers > 0;
+        const double e = coated ? bodies[b]->layer[0].e : bodies[b]->e;
+        const double nu = coated ? bodies[b]->layer[0].nu : bodies[b]->nu;
+        compliance += e > 0 && !isinf(e) ? (1 - nu * nu) / e : 0;
+    }
+    return 1 / compliance;
+}
+
+/* Distances that change nothing, or after which nothing changes: a unit may be wrong. */
+static void
+suspect_unit(struct run *run, const struct rc_grid *g)
+{
+    struct tool *t = &run->d.t;
+    const double side = fmax(g->dx * (double)g->nx, g->dy * (double)g->ny);
+    const double k = run->law.k[0] + run->law.k[1], scale = k * run->law.estar;
+    char least[SHOWN_NUMBER], most[SHOWN_NUMBER], where[256];
+    double first = INFINITY, last = 0;
+
+    for (size_t i = 0; i < args.distance.n; i++) {
+        first = args.distance.v[i] > 0 ? fmin(first, args.distance.v[i]) : first;
+        last = fmax(last, args.distance.v[i]);
+    }
+    tool_where(t, g, where, sizeof where);
+    shown_in_unit(least, 0.1 * g->dx / scale, "m");
+    shown_in_unit(most, 10 * side / scale, "m");
+    if (last > 0 && scale * last < 0.01 * g->dx)
+        tool_warn(t,
+                  "%s: at the last distance hardly anything has changed, which takes about "
+                  "%s: are the wear coefficient and the distance in their units?",
+                  where, least);
+    else if (scale * first > 1e4 * side)
+        tool_warn(t,
+                  "%s: at the first distance the pressure is even already, which takes about "
+                  "%s: are the wear coefficient and the distance in their units?",
+                  where, most);
+}
+
+static void
+set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
+{
+    struct run *run = (struct run *)(void *)d;
+    const struct rc_wear_figures *f = rc_wear_result(m);
+    char worn[SHOWN_NUMBER], coat[SHOWN_NUMBER];
+    struct rc_err err;
+
+    if (run->coat > 0 && f->max_wear_depth > run->coat)
+        tool_die_at(
+            &d->t, g, EXIT_IMPOSSIBLE,
+            "the worn depth, %s, is more than the thickness of the coat, %s: a coat that is "
+            "worn through is not implemented",
+            shown_in_unit(worn, f->max_wear_depth, "m"), shown_in_unit(coat, run->coat, "m"));
+    d->ended = d->status != RC_MORE && f->distance < d->point[d->at].at[RC_DISTANCE];
+    if (rc_grid_set_number(g, "wear_1", run->law.k[0], &err) != RC_OK ||
+        rc_grid_set_number(g, "wear_2", run->law.k[1], &err) != RC_OK)
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+/* A row of --steps after each step. */
+static void
+put_step(struct course *c, struct rc_model *m)
+{
+    struct run *run = (struct run *)(void *)c->t;
+    const struct rc_wear_figures *f = rc_wear_result(m);
+    struct rc_point none = {0};
+
+    if (f->steps == run->written || !report_wanted(&run->steps))
+        return;
+    run->written = f->steps;
+    report_begin(&run->steps);
+    report_count(&run->steps, "case", c->number, NULL);
+    report_model(&run->steps, m, &none, 0);
+    report_finish_row(&run->steps);
+}
+
+static void
+show_plan(struct run *run, const struct rc_grid *g)
+{
+    const double scale = (run->law.k[0] + run->law.k[1]) * run->law.estar;
+    const double limit = 0.9 * g->dx / scale, last = args.distance.v[args.distance.n - 1];
+    char step[SHOWN_NUMBER];
+
+    fprintf(run->d.t.out, "  explicit steps: about %.3g, each at most 0.9 dx/(k E*) = %s\n",
+            ceil(last / limit), shown_in_unit(step, limit, "m"));
+}
+
+static void
+do_case(struct run *run, const struct rc_grid *g)
+{
+    struct drive *d = &run->d;
+    const struct rc_shape shape = rc_grid_shape(g);
+    const char *boundary = rc_grid_get(g, "boundary");
+    struct rc_problem problem = {.tol = args.tol / 100,
+                                 .history_part = 0.05,
+                                 .threads = d->t.threads,
+                                 .hurry = tool_signal()};
+    struct layers layers;
+    struct rc_err err;
+    const double load = key(&d->t, g, "load", "the load");
+
+    refuse_others(&d->t, g);
+    if (boundary == NULL || (strcmp(boundary, "free") != 0 && strcmp(boundary, "periodic") != 0))
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE,
+                    "its boundary is '%s': it must be free or periodic, as rc-solve writes it",
+                    boundary == NULL ? "" : boundary);
+    problem.boundary = boundary[0] == 'p' ? RC_PERIODIC : RC_FREE;
+    if (layers_read(g, &layers, &err) != RC_OK ||
+        bodies_read(g, &layers, &problem.pair, &err) != RC_OK)
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (rc_grid_get(g, "hardness") != NULL)
+        problem.hardness = key(&d->t, g, "hardness", "the bound of the pressure");
+    run->law.estar = estar_of(&problem.pair);
+    run->law.tol = args.tol;
+    run->coat = layers.layer != NULL ? layers.layer[0].thickness : 0;
+    run->written = 0;
+    for (size_t k = 0; k < d->points; k++)
+        rc_point_set(&d->point[k], RC_LOAD, load);
+    suspect_unit(run, g);
+    drive_case(
+        d, g,
+        rc_wear_new(rc_elastic_new(&shape, g->v, &problem, NULL, &err), g->v, &run->law, &err),
+        &err);
+    if (args.drive.dry_run)
+        show_plan(run, g);
+    layers_free(&layers);
+}
+
+/* ---- main ---- */
+
+int
+main(int argc, char **argv)
+{
+    static const struct drive_axis axes[] = {
+        {RC_DISTANCE, &args.distance}, {RC_LOAD, &args.load}, {0, NULL}};
+    static const struct drive_advice advice[] = {
+        {"edge_load_fraction", "take a larger map, or let it be periodic"}, {NULL, NULL}};
+    static struct run run = {.d = {.args = &args.drive,
+                                   .output = &args.output,
+                                   .word = frame_word,
+                                   .advice = advice,
+                                   .keys = set_keys,
+                                   .course.stepped = put_step}};
+    struct rc_grid *g;
+
+    tool_start(&run.d.t, &info, argc, argv, &args);
+    if (ranks_count(&run.d.t) > 1)
+        tool_die(&run.d.t, EXIT_USAGE,
+                 "wear is not shared among processes: take one process, with --threads");
+    read_law(&run);
+    read_until(&run);
+    if (args.distance.n == 0)
+        tool_die(&run.d.t, EXIT_USAGE,
+                 "give the sliding distances with --distance, as in --distance 1m,10m");
+    for (size_t k = 1; k < args.distance.n; k++)
+        if (!(args.distance.v[k] > args.distance.v[k - 1]))
+            tool_die(&run.d.t, EXIT_USAGE,
+                     "--distance: each distance must be larger than the one before it");
+    report_open(&run.steps, &run.d.t, args.steps);
+    drive_open(&run.d, axes);
+    while ((g = drive_next(&run.d)) != NULL) {
+        do_case(&run, g);
+        rc_grid_free(g);
+    }
+    report_close(&run.steps);
+    return drive_close(&run.d);
+}
