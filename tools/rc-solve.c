@@ -12,7 +12,7 @@ static struct solve_args args = {
     .physics = PHYSICS_NONE,
     .kernel = "auto",
     .method = "auto",
-    .interval = 60,
+    .drive.interval = 60,
     .output = 1 << SOLVE_PRESSURE | 1 << SOLVE_GAP | 1 << SOLVE_DISPLACEMENT | 1 << SOLVE_HEIGHT,
 };
 
@@ -43,18 +43,7 @@ static const struct opt opts[] = {
      .help = "compute the conductance from the conductivities of both bodies: 45W/mK,16W/mK, 58MS/m,7MS/m"},
     {.name = "discretization", .type = OPT_FLAG, AT(discretization),
      .help = "estimate the discretization error, from a second solution on a coarser grid"},
-    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
-     .help = "write one JSON object per case, or a row of FILE.tsv or .csv: figures, accuracy, cost"},
-    {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
-     .help = "store the pressures reached in FILE, to continue an interrupted run"},
-    {.name = "resume", .type = OPT_FLAG, AT(resume),
-     .help = "continue from the --checkpoint of an earlier run"},
-    {.name = "interval", .type = OPT_NUMBER, .unit = UNIT_S, AT(interval), .min = 0, .max = 1e9,
-     .arg = "TIME",
-     .help = "first frame of a case in --checkpoint after this time, then after 2, 4 ... times it "
-             "(60)"},
-    {.name = "dry-run", .type = OPT_FLAG, AT(dry_run),
-     .help = "print what would be computed, with reasons and cost, and stop"},
+    {.group = drive_options, AT(drive)},
     {.name = NULL},
 };
 /* clang-format on */
@@ -112,8 +101,7 @@ check_tilt(struct run *run)
 static void
 check_arguments(struct run *run)
 {
-    if ((args.resume || tool_given(&run->t, "interval")) && args.checkpoint == NULL)
-        tool_die(&run->t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
+    drive_check(&run->t, &args.drive);
     args.physics.history |= args.yield != NULL || args.adhesion != NULL; /* each starts from the
                                                                             last one */
     args.physics.attracts = args.adhesion != NULL;
@@ -142,9 +130,10 @@ main(int argc, char **argv)
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
     run.course.t = &run.t;
-    report_open(&run.report, &run.t, args.report);
-    if (!args.dry_run)
-        run.checkpoint = checkpoint_open(&run.t, args.checkpoint, args.resume, args.interval);
+    report_open(&run.report, &run.t, args.drive.report);
+    if (!args.drive.dry_run)
+        run.checkpoint =
+            checkpoint_open(&run.t, args.drive.checkpoint, args.drive.resume, args.drive.interval);
     tool_catch_signals();
     while (tool_interrupted() == 0 &&
            (g = tool_channel_beside(&run.t, "height", "hardness", &hardness)) != NULL) {

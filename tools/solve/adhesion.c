@@ -11,7 +11,6 @@
 static const double resolved = 1.5;   /* nodes in the cohesive length: fewer, and the grid pins   */
 static const double enough = 2;       /* and what is asked for instead                            */
 static const double faint = 0.01;     /* of the largest traction                                  */
-static const double about_to = 0.02;  /* stability below which a state is about to jump           */
 static const double too_strong = 0.1; /* of E*: the tractions of linear elasticity                */
 
 /* ---- the command line ---- */
@@ -171,12 +170,7 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_figur
                   where);
     else if (!f->stable && f->converged)
         course_warn(&run->course, "the state is not stable", "%s: the state is not stable", where);
-    else if (f->stability < about_to && f->converged)
-        course_warn(
-            &run->course, "the state is about to jump",
-            "%s: stability %.2g: the state is about to jump, and figures depend on little: a "
-            "list of approaches leads through it",
-            where, f->stability);
+    solve_warn_of_limits(run, where);
     if (run->adhering.pulling && f->pull_off_at_start)
         tool_warn(
             &run->t,

@@ -444,6 +444,7 @@ do_loads(struct run *run, struct rc_grid *g)
 
     if (m == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    run->model = m;
     run->course.number = cases == 1 ? rc_grid_case(g) - 1 : run->course.number;
     for (size_t k = 0; k < cases; k++) {
         if (k > 0 && tool_interrupted() != 0)
@@ -504,7 +505,7 @@ solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness)
         checkpoint_crc(&run->t, g, run->crc);
     if (run->checkpoint != NULL && hardness != NULL)
         checkpoint_crc(&run->t, hardness, run->hardness_crc);
-    if (run->args->dry_run) {
+    if (run->args->drive.dry_run) {
         struct rc_problem problem = problem_of(run, g, 0);
         solve_plan(run, g, &problem);
     } else {

@@ -5,7 +5,6 @@
 
 #include <math.h>
 
-static const double edge_load = 0.01;  /* of the load, on the outer 2 % of the map          */
 static const double linear = 0.1;      /* of E*: the pressures of linear elasticity         */
 static const double small_slope = 0.3; /* RMS: the slopes of contact theory                 */
 static const double no_modulus = 1e5;  /* Pa: softer than any E* of a solid                 */
@@ -186,6 +185,19 @@ tell(struct run *run, const char *where, const struct solution *s)
 }
 
 void
+solve_warn_of_limits(struct run *run, const char *where)
+{
+    const struct rc_adhesion_figures *f = run->adhering.figures;
+    const bool holds = f != NULL && f->stable && f->converged && !f->separated;
+    const struct drive_advice advice[] = {
+        {"edge_load_fraction", NULL}, /* solve_judge tells more of it */
+        {"stability", holds ? "a list of approaches leads through the jump" : NULL},
+        {NULL, NULL}};
+
+    drive_judge(&run->course, run->model, advice, where);
+}
+
+void
 solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
 {
     char where[512];
@@ -193,7 +205,9 @@ solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
     solve_where(run, g, where, sizeof where);
     tell(run, where, s);
     yield_judge(run, where, s);
-    if (!run->args->physics.periodic && s->contact.edge_load_fraction > edge_load)
+    solve_warn_of_limits(run, where);
+    if (!run->args->physics.periodic &&
+        s->contact.edge_load_fraction > rc_figure_find("edge_load_fraction")->limit)
         course_warn(
             &run->course, "the contact reaches the edge of the map",
             "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact reaches its "

@@ -32,17 +32,16 @@ const char *solve_frame_word(size_t k); /* of --output */
 struct solve_args {
     struct physics physics;
     double tol;
-    const char *kernel, *method, *report;
+    const char *kernel, *method;
     const char *conductivity; /* of both bodies, or NULL                                  */
     const char *yield, *increments, *slabs; /* as on the line, or NULL                      */
-    const char *adhesion;   /* as on the line, or NULL                                  */
-    bool pull_off;          /* a case of it comes last                                  */
-    const char *tilt;       /* a word, or NULL                                          */
-    struct numbers at;      /* x and y; none: the middle                                */
-    const char *checkpoint; /* a file, or NULL                                         */
-    double interval;        /* seconds to the first frame in it                        */
-    bool stiffness, discretization, dry_run, resume;
+    const char *adhesion; /* as on the line, or NULL                                  */
+    bool pull_off;        /* a case of it comes last                                  */
+    const char *tilt;     /* a word, or NULL                                          */
+    struct numbers at;    /* x and y; none: the middle                                */
+    bool stiffness, discretization;
     size_t output; /* bits of enum solve_frame */
+    struct drive_args drive;
 };
 
 extern const struct opt solve_contact_options[]; /* for a struct solve_args */
@@ -79,6 +78,7 @@ struct run {
     bool apart;                  /* it is 0: no load                              */
     enum rc_status status;       /* of the load                                   */
     struct course course;        /* and the number of the case                    */
+    struct rc_model *model;      /* of the map                                    */
     struct rc_solver *solver;    /* of the model, which has the solution          */
     bool stiffness, conductance; /* whether they are found                            */
     struct yielding yielding;
@@ -150,7 +150,8 @@ void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_proble
 /* Solves the loads of these heights, and writes and reports what is found. hardness: a map of it, or NULL. */
 void solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness);
 
-/* Parts of solve_judge. */
+/* Parts of solve_judge. Limits: of figures of the model, in their tables. */
+void solve_warn_of_limits(struct run *run, const char *where);
 void solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
                           const struct solution *solution);
 void solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *contact);

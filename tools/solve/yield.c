@@ -17,7 +17,6 @@
 static const double deserved = 1e-2;       /* error that is asked for where nobody says           */
 static const double order = 1.1;           /* power of the error that the increments go by        */
 static const double image_order = 1 / 2.7; /* and the side of a free map                         */
-static const double large_strain = 0.1;
 
 /* ---- the command line ---- */
 
@@ -370,10 +369,6 @@ yield_judge(struct run *run, const char *where, const struct solution *s)
         return;
     f = &run->yielding.found->plastic;
     warn_of_slabs(run, where, f);
-    if (f->max_strain > large_strain)
-        course_warn(&run->course, "plastic strain beyond the theory of small strains",
-                    "%s: plastic strain up to %.2g: beyond 0.1 the theory of small strains is left",
-                    where, f->max_strain);
     if (s->patches.count > 0 && s->contact.contact_nodes < SPOT * s->patches.count)
         course_warn(
             &run->course, "what yields under a contact spot is not resolved",
