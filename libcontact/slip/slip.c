@@ -123,7 +123,9 @@ rc_slip_set_displacement(struct rc_slip *s, double dx, double dy, struct rc_err 
 
 static const double grows = 1e-6; /* relative to the load: smaller changes are rounding */
 
-/* Sets w, and the start: the last tractions, and the change of the force in proportion to g. */
+/* Sets w, and the start: the last tractions, and the change of the force in proportion to g. After another
+ * pressure it starts from the tractions found there, where slipping nodes move to their new circles: inside of
+ * them they would stick at first, and slip again one after another. */
 static void
 pose(struct rc_slip *s)
 {
@@ -139,14 +141,18 @@ pose(struct rc_slip *s)
                        (s->load - s->load_old) / s->unit;
     }
 #pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (size_t k = 0; k < s->n; k++)
+    for (size_t k = 0; k < s->n; k++) {
+        const double size = hypot(d->q[0][k], d->q[1][k]);
         for (int c = 0; c < 2; c++) {
             d->w[c][k] = s->origin[c][k] - (s->coupled ? s->pushed[c][k] : 0);
             if (enter && d->g[k] > 0 && !s->touched[k])
                 d->w[c][k] -= entry[c] * s->gap_old[k];
             if (!s->tried)
                 d->q[c][k] = s->old[c][k] + more[c] * d->g[k];
+            else if (d->face[k] == RC_FACE_SLIP && size > 0)
+                d->q[c][k] *= d->g[k] / size;
         }
+    }
 }
 
 enum rc_status
@@ -188,6 +194,7 @@ rc_slip_start(struct rc_slip *s, const double *const q[2])
 {
     for (int c = 0; c < 2; c++)
         memmove(s->discs->q[c], q[c], s->n * sizeof(double));
+    memset(s->discs->face, RC_FACE_OFF, s->n);
     s->tried = true;
 }
 
