@@ -2,14 +2,50 @@
 # Writes one page about a measured surface, as an example of the tools: parameters, maps, a load curve,
 # stresses, their errors, and the command lines that repeat them.
 #
-#     sample_surfaces/report.sh FILE [PAGE.html]
+#     sample_surfaces/report.sh [OPTION VALUE]... FILE [PAGE.html]
 #
-# ESTAR, HARDNESS, NU and PRESSURES in the environment are its material and its loads. The tools on PATH are
-# used, or those of build/. The page holds its pictures; nothing else is left behind.
+#     --estar E (114GPa)  --hardness H (6GPa)  --nu NU (0.28)
+#     --mean-pressure LIST (2MPa:64MPa:log:6), or --load LIST
+#     --outliers T: removes points further than T deviations from their neighbours (default: keeps all)
+#     --mirror: makes the surface periodic by mirror images, and solves it so
+#
+# ESTAR, HARDNESS, NU and PRESSURES in the environment are other defaults. The tools on PATH are used, or those of build/.
+# The page holds its pictures; nothing else is left behind.
 set -euo pipefail
-file=$(realpath "${1:?"usage: report.sh FILE [PAGE.html]"}")
+fail() {
+    echo "report.sh: $*: see report.sh --help" >&2
+    exit 2
+}
+estar=${ESTAR-114GPa} hardness=${HARDNESS-6GPa} nu=${NU-0.28} load="--mean-pressure ${PRESSURES-2MPa:64MPa:log:6}"
+outliers= mirror= periodic=
+while [[ ${1-} == -* ]]; do
+    option=$1
+    shift
+    case $option in
+    -h | --help)
+        sed -n '2,14s/^# \{0,1\}//p' "$0"
+        exit 0
+        ;;
+    --mirror)
+        mirror=" --mirror" periodic=" --periodic"
+        continue
+        ;;
+    esac
+    [ $# -gt 0 ] || fail "option $option is unknown or needs a value"
+    value=$(printf '%q' "$1")
+    shift
+    case $option in
+    --estar) estar=$value ;;
+    --hardness) hardness=$value ;;
+    --nu) nu=$value ;;
+    --outliers) outliers=" --outliers $value" ;;
+    --load | --mean-pressure) load="$option $value" ;;
+    *) fail "unknown option $option" ;;
+    esac
+done
+[ $# -eq 1 ] || [ $# -eq 2 ] || fail "one file, and at most a name for the page"
+file=$(realpath "$1")
 page=$(realpath -m "${2-$(basename "$file").html}")
-estar=${ESTAR-114GPa} hardness=${HARDNESS-6GPa} nu=${NU-0.28} pressures=${PRESSURES-2MPa:64MPa:log:6}
 command -v rc-import >/dev/null || PATH="$(dirname "$(realpath "$0")")/../build/tools:$PATH"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -35,12 +71,12 @@ table() {
               gsub(/_/, " ", v); printf NR == 1 ? "<th>%s</th>" : "<td>%s</td>", v } print "</tr>" }' "$1"
 }
 
-run "rc-import $(printf '%q' "$file") | rc-detrend --poly 2 --fill -o surface.rcg"
+run "rc-import $(printf '%q' "$file") | rc-detrend --poly 2$outliers --fill$mirror -o surface.rcg"
 run "rc-render --quiet --hillshade --width 800 -o heights.png surface.rcg"
 run "rc-render --quiet --material-ratio --width 800 -o ratio.png surface.rcg"
 run "rc-info --areal --psd surface.rcg >parameters.txt"
 run "rc-info --profile rows surface.rcg >profiles.txt"
-run "rc-solve --mean-pressure $pressures --estar $estar --hardness $hardness --output pressure --report loads.tsv -o contact.rcg surface.rcg"
+run "rc-solve$periodic $load --estar $estar --hardness $hardness --output pressure --report loads.tsv -o contact.rcg surface.rcg"
 run "rc-render --quiet --curve mean_pressure:contact_fraction --log xy --y-unit % --width 800 -o curve.png loads.tsv"
 last=$(($(wc -l <loads.tsv) - 1))
 run "rc-render --quiet --case $last --width 800 -o pressure.png contact.rcg"

@@ -52,6 +52,15 @@ for picture in heights ratio curve pressure section; do
     claim "    $picture, byte for byte" cmp "again-page/$picture.png" <(sed -n "${k}p" pictures.txt | base64 -d)
 done
 
+claim "a page with other loads, materials, without outliers, periodic, of a name with blanks" bash -c '
+    cp again/turned-brass.txt "page/my brass.txt" && cd page &&
+    bash "$RC_SOURCE/sample_surfaces/report.sh" --load 0.01N,0.02N --estar 70GPa --hardness 2GPa --outliers 5 --mirror "my brass.txt" "my page.html" &&
+    grep -q -- "--poly 2 --outliers 5 --fill --mirror" "my page.html" &&
+    grep -q -- "rc-solve --periodic --load 0.01N.*,0.02N --estar 70GPa --hardness 2GPa" "my page.html"'
+refuses 2 "unknown option --lod" "  an option that is unknown is refused" "bash '$RC_SOURCE/sample_surfaces/report.sh' --lod 3N again/turned-brass.txt"
+claim "  and a page that fails leaves nothing" bash -c '
+    cd again-page && ! bash "$RC_SOURCE/sample_surfaces/report.sh" --load 1K ../again/turned-brass.txt failed.html && ! [ -e failed.html ]'
+
 if [ -d "$RC_CORPUS/corpus" ]; then
     real=$RC_CORPUS/corpus/x3p/bulletxtrctr__Hamby252_Barrel1_Bullet1_Land1.x3p
     claim "a real X3P goes from file to picture in one line" bash -c "
