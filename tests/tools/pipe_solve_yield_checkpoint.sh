@@ -130,17 +130,17 @@ lie() {
         print @s;' -- "$1" "$2" "$3" >lies.rcg
 }
 lie slabs 2 kept.rcg
-refuses 1 'case 3 cannot be continued \(.*it has other slabs' "a state of other slabs" \
+refuses 1 'case 3 cannot be continued \(.*a size is out of range' "a state of other slabs" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 lie -1 nan kept.rcg # plastic strain of the last voxel
 refuses 1 'case 3 cannot be continued \(.*it holds NaN' "one that is not finite" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 lie -12 1e9 kept.rcg # its place
-refuses 1 'case 3 cannot be continued \(.*the state is damaged at voxel' "one whose strain is nowhere" \
+refuses 1 'case 3 cannot be continued \(.*a size is out of range' "one whose strain is nowhere" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 head -c "$(ends kept.rcg | head -n 10 | tail -n 1)" kept.rcg >begun.rcg # in the first load
 lie slabs 1e300 begun.rcg
-refuses 1 'case 1 cannot be continued \(.*its first numbers' "one without slabs" \
+refuses 1 'case 1 cannot be continued \(.*a size is out of range' "one without slabs" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 lie slabs 2 begun.rcg
 refuses 1 'case 1 cannot be continued \(.*no state' "one with fewer" \
