@@ -94,12 +94,15 @@ measure(size_t n, enum rc_precision precision, size_t threads, bool upper)
     struct application a = {.nx = n};
     struct convolution c;
     uint64_t seed = 1;
+    size_t held;
 
     for (size_t k = 0; k < SLABS; k++) {
         h[k] = 0.5e-6 * pow(1.25, (double)k);
         strained[k] = !upper || k < SLABS / 2;
     }
+    held = rc_memory_held().held;
     a.slabs = must(rc_slabs_new(&shape, &options, &err));
+    held = rc_memory_held().held - held;
     a.p = map_new(n * n);
     a.u = map_new(n * n);
     a.map = map_new(n * n);
@@ -118,7 +121,7 @@ measure(size_t n, enum rc_precision precision, size_t threads, bool upper)
     printf("%5zu %7s %7zu %9s %9.2f %9.3f %9.3f %9.1f %9.2f %9.1f\n", n,
            precision == RC_SINGLE ? "single" : "double", threads, upper ? "upper 6" : "all",
            1e3 * least[0], least[1], least[2], least[2] / least[0], least[2] / least[0] / SLABS,
-           (double)rc_slabs_memory(&shape, &options) / (double)(n * n * SLABS));
+           (double)held / (double)(n * n * SLABS));
     rc_slabs_free(a.slabs);
     rc_spectrum_free(c.kernel);
     rc_fft_free(c.fft);

@@ -63,6 +63,9 @@ RC_API size_t rc_threads_available(void);
 
 /* ---- tables: engines and methods ---- */
 
+/* Smaller errors than this need double precision; single precision gives some 1e-6 of the largest |u|. */
+#define RC_SINGLE_FLOOR 1e-5
+
 /* Row k = 0, 1, ... of a table; NULL past the last. Options take their words from these tables. */
 struct rc_engine_info { /* a way to sum displacements */
     const char *name, *summary;
@@ -70,10 +73,14 @@ struct rc_engine_info { /* a way to sum displacements */
     bool mixed;    /* methods may iterate with it in single precision             */
     bool precise;  /* the engine of the row before in double precision throughout */
     int order;     /* its time grows as this power of the number of nodes         */
+    /* Bytes a node, on free and periodic maps: of a sum beside p and u, in single precision if the engine is
+     * mixed; and of a solver. Measured on 1024 x 1024 nodes; smaller maps need a few percent more. */
+    double sum_bytes[2], contact_bytes[2];
 };
 struct rc_method_info { /* an iteration of the contact; "auto" is the first */
     const char *name, *summary;
-    bool mixed; /* iterates in single precision if the engine permits it */
+    bool mixed;   /* iterates in single precision if the engine permits it */
+    double bytes; /* a node, beside those of "auto"                        */
 };
 RC_API const struct rc_engine_info *rc_engine_info(size_t k);
 RC_API const struct rc_method_info *rc_method_info(size_t k);
@@ -502,8 +509,6 @@ struct rc_conv_options {
 /* The engine that such a plan would use, and the reason; "" when there is none of that name. */
 RC_API const char *rc_conv_choice(const struct rc_shape *shape,
                                   const struct rc_conv_options *options, const char **reason);
-/* Bytes of such a plan besides p and u; 0 when there is no such engine. */
-RC_API size_t rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *options);
 /* Seconds of one such sum within a solve, including the work of the method: measured on a machine of 2026;
  * other machines may differ by several times. NAN when there is no such engine. */
 RC_API double rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv_options *options);
@@ -601,21 +606,16 @@ struct rc_contact {
 /* The engine that such a solver would use, and the reason; "" when there is none of that name. */
 RC_API const char *rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
                                     const char **reason);
-/* Bytes of a solver of this size, with its copies of heights and pressure. This and all other estimates of
- * memory exclude the caller's arrays, code, and FFTW's plans (2 to 3 MiB a precision); among ranks they are
- * those of the rank that needs most, without the memory of MPI. */
-RC_API size_t rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem);
-/* Bytes that these calls need in addition while they run. */
-RC_API size_t rc_solver_stiffness_memory(const struct rc_shape *shape,
-                                         const struct rc_problem *problem);
-RC_API size_t rc_solver_conductance_memory(const struct rc_shape *shape,
-                                           const struct rc_problem *problem);
 /* Expected cost of such a solver, from benchmark fits: convolutions (equivalents) and seconds, both NAN where
  * unknown, and bytes. RC_FAIL when the solver would be refused, except for short memory: no such engine or
  * method, none for the boundary or the ranks, no solution under the load. */
 struct rc_expected {
     double convolutions, seconds;
-    size_t memory;
+    size_t memory; /* of a rank, without the caller's arrays, code, and FFTW's plans */
+};
+enum { /* further bytes a node of these calls while they run */
+    RC_STIFFNESS_BYTES = 12,
+    RC_CONDUCTANCE_BYTES = 20
 };
 RC_API enum rc_status rc_solver_expect(const struct rc_shape *shape,
                                        const struct rc_problem *problem,
@@ -779,9 +779,6 @@ struct rc_plastic_figures {
     double strained; /* m^3: the integral of the equivalent strain over the volume */
 };
 
-/* Bytes of an object in which this fraction of the voxels yields. */
-RC_API size_t rc_plastic_memory(const struct rc_shape *shape,
-                                const struct rc_plastic_problem *problem, double yielding);
 /* h: nx ny m, copied. NULL when the problem is invalid, or memory is short. */
 RC_API struct rc_plastic *rc_plastic_new(const struct rc_shape *shape, const double *h,
                                          const struct rc_plastic_problem *problem,
@@ -923,12 +920,6 @@ struct rc_adhesion_figures {
     bool converged; /* pressure_error <= tol, and stable */
 };
 
-/* Bytes of an object; 0 when it would be refused. */
-RC_API size_t rc_adhesion_memory(const struct rc_shape *shape,
-                                 const struct rc_adhesion_problem *problem);
-/* Further bytes that a retraction needs. */
-RC_API size_t rc_adhesion_pull_off_memory(const struct rc_shape *shape,
-                                          const struct rc_adhesion_problem *problem);
 /* Expected cost of a state of a path. Fails as rc_adhesion_check. */
 RC_API enum rc_status rc_adhesion_expect(const struct rc_shape *shape,
                                          const struct rc_adhesion_problem *problem,
@@ -1096,8 +1087,6 @@ struct rc_slip_figures {
     bool converged;      /* traction_error <= tol                                                 */
 };
 
-/* Bytes of an object; 0 when the problem is invalid. */
-RC_API size_t rc_slip_memory(const struct rc_shape *shape, const struct rc_slip_problem *problem);
 /* NULL when the problem is invalid, or memory is short. The bodies start apart. */
 RC_API struct rc_slip *rc_slip_new(const struct rc_shape *shape,
                                    const struct rc_slip_problem *problem, struct rc_err *err);

@@ -92,12 +92,22 @@ static size_t
 memory_by(const void *ctx, const char *engine)
 {
     const struct demand *d = ctx;
-    struct rc_shape shape = rc_grid_shape(d->p);
+    const struct rc_shape shape = rc_grid_shape(d->p);
     struct rc_conv_options options = *d->options;
-    size_t bytes = rc_grid_nodes(d->p) * sizeof *d->p->v;
+    const struct rc_engine_info *e;
+    const char *reason, *name;
+    double bytes = sizeof *d->p->v;
 
     options.engine = engine;
-    return bytes + rc_conv_memory(&shape, &options);
+    name = rc_conv_choice(&shape, &options, &reason);
+    for (size_t k = 0; (e = rc_engine_info(k)) != NULL; k++)
+        if (strcmp(e->name, name) == 0) {
+            if (e->mixed && !(options.tol >= RC_SINGLE_FLOOR))
+                e = rc_engine_info(k + 1); /* the same in double precision */
+            bytes += e->sum_bytes[options.boundary == RC_PERIODIC];
+            break;
+        }
+    return (size_t)(bytes * (double)rc_grid_nodes(d->p));
 }
 
 /* If the map would fit into the memory with another engine, the message says so. */

@@ -1033,13 +1033,6 @@ rc_gap_free(struct rc_gap *g)
     free(g->hards);
 }
 
-size_t
-rc_gap_memory(const struct rc_shape *grid)
-{
-    return grid->nx * grid->ny * (DOUBLES * sizeof(double) + FLOATS * sizeof(float) + 1) +
-           grid->ny * RC_GAP_SUMS * sizeof(double);
-}
-
 /* ---- off a saddle ---- */
 
 void

@@ -101,7 +101,6 @@ struct rc_gap {
 enum rc_status rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction *law,
                           const double *h, double hard, double *hards, struct rc_err *err);
 void rc_gap_free(struct rc_gap *g);
-size_t rc_gap_memory(const struct rc_shape *grid);
 
 /* Undeformed bodies, `clearance` apart at the highest node. */
 void rc_gap_apart(struct rc_gap *g, double clearance);

@@ -108,6 +108,17 @@ rc_engine_serves(const struct rc_engine *engine, const char *name, enum rc_bound
     return RC_OK;
 }
 
+/* Bytes of a sum beside p and u. */
+static double
+bytes(const struct rc_engine *engine, const struct rc_sum *sum)
+{
+    const bool single = sum->tol >= RC_SINGLE_FLOOR && !sum->precise;
+    const struct rc_engine_info *info =
+        single || engine->precise.name == NULL ? &engine->info : &engine->precise;
+
+    return (double)(sum->shape.nx * sum->shape.ny) * info->sum_bytes[sum->boundary == RC_PERIODIC];
+}
+
 /* Chooses an engine; *reason says why. */
 static const struct rc_engine *
 choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **reason)
@@ -128,8 +139,8 @@ choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **r
         *reason = "the grid is small";
         return &rc_engine_direct;
     }
-    if (o->memory != 0 && rc_engine_fft.memory(sum) > o->memory &&
-        rc_engine_mlms.memory(sum) <= o->memory) {
+    if (o->memory != 0 && bytes(&rc_engine_fft, sum) > (double)o->memory &&
+        bytes(&rc_engine_mlms, sum) <= (double)o->memory) {
         *reason = "the transforms need more memory than is allowed";
         return &rc_engine_mlms;
     }
@@ -288,17 +299,6 @@ rc_conv_check(const struct rc_shape *shape, const struct rc_conv_options *option
     bool precise;
 
     return find(&sum, options, &precise, &reason, err) == NULL ? RC_FAIL : RC_OK;
-}
-
-size_t
-rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *options)
-{
-    struct rc_sum sum = sum_of(shape, NULL, options);
-    const char *reason;
-    bool precise;
-    const struct rc_engine *engine = find(&sum, options, &precise, &reason, NULL);
-
-    return engine == NULL ? 0 : engine->memory(&sum);
 }
 
 double

@@ -28,8 +28,6 @@ struct rc_engine {
     bool transforms;
     /* Seconds of one sum within a solve, including the work of the method; two threads, 2026. */
     double (*seconds)(const struct rc_sum *sum);
-    /* Bytes of a plan, beside p and u. */
-    size_t (*memory)(const struct rc_sum *sum);
     /* Chooses, tabulates and allocates; NULL and *err on failure. */
     void *(*new)(const struct rc_sum *sum, struct rc_err *err);
     /* u = K p; p and u do not overlap. */

@@ -117,58 +117,6 @@ share_layout(struct rc_layout *l, enum rc_precision precision, size_t count, siz
     l->turn = turn;
 }
 
-/* The largest number of columns of one rank. */
-static size_t
-most_columns(const struct rc_layout *l, size_t line, size_t ranks)
-{
-    return (l->stride / line + ranks - 1) / ranks * line;
-}
-
-size_t
-rc_spectrum_memory(const struct rc_shape *shape, enum rc_boundary boundary,
-                   enum rc_precision precision, size_t ranks)
-{
-    struct rc_layout l = layout_of(shape, boundary, precision);
-    size_t columns = ranks < 2 ? l.cx : most_columns(&l, line_of(precision), ranks);
-
-    return columns * l.cy * real_size(precision);
-}
-
-size_t
-rc_fft_rows_memory(const struct rc_shape *shape, enum rc_boundary boundary,
-                   const struct rc_frame *frame, enum rc_precision precision, size_t ranks)
-{
-    struct rc_layout l = layout_of(shape, boundary, precision);
-    size_t more = frame == NULL ? 0 : frame->y, waves = (l.ny + 2 * more) * l.stride;
-
-    if (ranks > 1)
-        waves = (l.ny + 2 * more) * most_columns(&l, line_of(precision), ranks) +
-                (rc_rows_most(shape, ranks) + more) * l.stride;
-    return waves * 2 * real_size(precision);
-}
-
-size_t
-rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary, enum rc_precision precision,
-              size_t ranks)
-{
-    return rc_fft_rows_memory(shape, boundary, NULL, precision, ranks) +
-           rc_spectrum_memory(shape, boundary, precision, ranks);
-}
-
-size_t
-rc_fft_scratch(const struct rc_shape *shape, enum rc_boundary boundary, enum rc_precision precision,
-               size_t threads)
-{
-    struct rc_layout l = layout_of(shape, boundary, precision);
-    size_t number = 2 * real_size(precision), column = l.py * number;
-    /* fft_body.h: columns processed together and one more, a row and its transform, a spectrum's column */
-    size_t each = (line_of(precision) + 1) * column + 2 * l.stride * number + column / 4;
-
-    /* dct.c also needs memory */
-    each += COLUMNS * l.cy * sizeof(double) + 4 * (l.px + l.py) * sizeof(double);
-    return (size_t)rc_useful_threads(shape, threads) * each + 3 * l.m * number;
-}
-
 /* ---- half a period ---- */
 
 static void

@@ -38,18 +38,6 @@ struct rc_fft *rc_fft_new_framed(const struct rc_ranks *ranks, struct rc_fft *le
 void rc_fft_free(struct rc_fft *fft);
 /* Sides of the transformed grid: with padding for a free map; a profile has none across it. */
 void rc_fft_period(const struct rc_shape *shape, enum rc_boundary boundary, size_t *px, size_t *py);
-/* Bytes of a plan with one spectrum, and of each further spectrum; where ranks share the map, of the rank
- * that needs most. */
-size_t rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary,
-                     enum rc_precision precision, size_t ranks);
-size_t rc_spectrum_memory(const struct rc_shape *shape, enum rc_boundary boundary,
-                          enum rc_precision precision, size_t ranks);
-/* Bytes of the rows in work in a plan, which can be a lender's; `frame` NULL: none. */
-size_t rc_fft_rows_memory(const struct rc_shape *shape, enum rc_boundary boundary,
-                          const struct rc_frame *frame, enum rc_precision precision, size_t ranks);
-/* Bytes in which rows and columns are transformed; they grow with the threads. */
-size_t rc_fft_scratch(const struct rc_shape *shape, enum rc_boundary boundary,
-                      enum rc_precision precision, size_t threads);
 
 /* NULL when memory is short. */
 struct rc_spectrum *rc_spectrum_new(const struct rc_fft *fft, struct rc_err *err);

@@ -505,32 +505,6 @@ rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
     return NULL;
 }
 
-size_t
-rc_operator_memory(const struct rc_shape *shape, const struct rc_operator_options *o)
-{
-    struct rc_conv_options options = conv_options(o);
-    const char *reason;
-    const struct rc_engine *engine;
-    size_t conv = rc_conv_memory(shape, &options), own;
-    bool precise, bounded = !rc_pair_positive(o->pair) && o->boundary == RC_FREE;
-    size_t ranks = rc_ranks_count(o->ranks), rows;
-    struct rc_frame frame = rc_operator_frame(shape, o);
-
-    if (conv == 0)
-        return 0;
-    engine = rc_engine_named(rc_conv_choice(shape, &options, &reason), &precise);
-    own = rc_spectrum_memory(shape, o->boundary, RC_SINGLE, ranks) * (bounded ? 2 : 1) +
-          rc_fft_scratch(shape, o->boundary, RC_SINGLE, o->threads);
-    if (frame.x + frame.y > 0)
-        own += rc_fft_scratch(shape, o->boundary, RC_SINGLE, o->threads);
-    if (engine->fft == NULL) /* otherwise rows are transformed in the memory of conv */
-        own += rc_fft_rows_memory(shape, o->boundary, &frame, RC_SINGLE, ranks);
-    rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
-    if (!engine->info.mixed || precise)
-        own += 2 * shape->nx * rows * sizeof(double);
-    return own + conv;
-}
-
 enum rc_status
 rc_operator_check(const struct rc_shape *shape, const struct rc_operator_options *o,
                   struct rc_err *err)

@@ -67,8 +67,6 @@ enum rc_status rc_operator_check(const struct rc_shape *shape,
 /* The frame that it would use. */
 struct rc_frame rc_operator_frame(const struct rc_shape *shape,
                                   const struct rc_operator_options *options);
-/* Bytes of an operator; 0 when there is no such engine. */
-size_t rc_operator_memory(const struct rc_shape *shape, const struct rc_operator_options *options);
 /* The engine that it would use, and why; "" when there is none of that name. */
 const char *rc_operator_engine(const struct rc_shape *shape,
                                const struct rc_operator_options *options, const char **reason);
@@ -118,8 +116,6 @@ struct rc_whole *rc_whole_new(const struct rc_shape *shape,
 void rc_whole_free(struct rc_whole *whole); /* NULL is allowed */
 /* The whole grid of a map; layers may need more padding than this. */
 struct rc_shape rc_whole_grid(const struct rc_shape *shape, enum rc_boundary boundary);
-/* Bytes of an rc_whole. */
-size_t rc_whole_memory(const struct rc_shape *shape, const struct rc_operator_options *options);
 /* E* of the pair for waves as short as the roughness of this grid, Pa, and `diagonal`. */
 enum rc_status rc_whole_scales(const struct rc_shape *shape, const struct rc_pair *pair,
                                double *modulus, double *diagonal, struct rc_err *err);

@@ -215,17 +215,6 @@ fail:
     return NULL;
 }
 
-size_t
-rc_whole_memory(const struct rc_shape *shape, const struct rc_operator_options *o)
-{
-    struct rc_shape grid = grid_of(shape, o->boundary, halves[0]);
-
-    return rc_fft_memory(&grid, RC_PERIODIC, RC_DOUBLE, 1) +
-           rc_fft_scratch(&grid, RC_PERIODIC, RC_DOUBLE, o->threads) +
-           rc_spectrum_memory(&grid, RC_PERIODIC, RC_SINGLE, 1) +
-           rc_fft_scratch(&grid, RC_PERIODIC, RC_SINGLE, o->threads);
-}
-
 void
 rc_whole_apply(struct rc_whole *whole, const double *p, double *u)
 {

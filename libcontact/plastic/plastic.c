@@ -976,19 +976,3 @@ rc_plastic_new(const struct rc_shape *shape, const double *h,
     p->tol = p->asked_tol = at.tol;
     return p;
 }
-
-size_t
-rc_plastic_memory(const struct rc_shape *shape, const struct rc_plastic_problem *problem,
-                  double yielding)
-{
-    const struct rc_slabs_options options = {.slabs = problem->slabs,
-                                             .padded = problem->contact.boundary == RC_FREE,
-                                             .precision = problem->precise ? RC_DOUBLE : RC_SINGLE,
-                                             .threads = problem->contact.threads};
-    size_t n = shape->nx * shape->ny;
-    double voxels = (double)n * (double)problem->slabs * yielding;
-
-    return rc_solver_memory(shape, &problem->contact) + rc_slabs_memory(shape, &options) +
-           n * 4 * sizeof(double) + problem->slabs * shape->ny * sizeof(struct rc_voxel_row) +
-           (size_t)(voxels * sizeof(struct rc_voxel));
-}

@@ -926,12 +926,3 @@ rc_discs_free(struct rc_discs *d)
     free(d->memory.rows.row);
     free(d);
 }
-
-size_t
-rc_discs_memory(const struct rc_shape *shape, enum rc_boundary boundary)
-{
-    size_t n = shape->nx * shape->ny;
-
-    return n * (MAPS * sizeof(double) + SINGLE * sizeof(float) + 1) +
-           shape->ny * (SUMS + MOSTS) * sizeof(double) + rc_extension_memory(shape, boundary);
-}

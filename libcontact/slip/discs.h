@@ -59,7 +59,6 @@ struct rc_discs {
 /* Allocates the maps; NULL when memory is short. */
 struct rc_discs *rc_discs_new(struct rc_tangential *t, struct rc_err *err);
 void rc_discs_free(struct rc_discs *d); /* NULL is allowed */
-size_t rc_discs_memory(const struct rc_shape *shape, enum rc_boundary boundary);
 /* Starts from q: moves it to the discs and to the load, which the discs must be able to carry, and finds
  * u. */
 void rc_discs_begin(struct rc_discs *d);

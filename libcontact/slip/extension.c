@@ -84,15 +84,6 @@ rc_extension_new(struct rc_tangential *t, struct rc_err *err)
     return NULL;
 }
 
-size_t
-rc_extension_memory(const struct rc_shape *shape, enum rc_boundary boundary)
-{
-    struct rc_pyramid_base base = base_of(shape, boundary, 1);
-
-    return (5 * shape->nx * shape->ny + 2 * base.shape.nx * base.shape.ny) * sizeof(float) +
-           rc_pyramid_memory(&base);
-}
-
 /* ---- rows for the pyramid ---- */
 
 struct pass {

@@ -62,7 +62,6 @@ struct rc_extension {
 /* NULL when memory is short. */
 struct rc_extension *rc_extension_new(struct rc_tangential *t, struct rc_err *err);
 void rc_extension_free(struct rc_extension *e); /* NULL is allowed */
-size_t rc_extension_memory(const struct rc_shape *shape, enum rc_boundary boundary);
 /* Takes the faces, the tractions (their directions are the normals of the circles), D of slipping nodes,
  * and whether the displacement is given. False: B is singular, for example if all nodes of a periodic map
  * stick; the result is then the inverse for residuals without a mean. */

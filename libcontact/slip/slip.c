@@ -496,18 +496,3 @@ rc_slip_free(struct rc_slip *s)
     free(s->touched);
     free(s);
 }
-
-size_t
-rc_slip_memory(const struct rc_shape *shape, const struct rc_slip_problem *p)
-{
-    struct rc_shear shear;
-    size_t n = shape->nx * shape->ny;
-    bool coupled;
-
-    if (check(shape, p, &shear, NULL) != RC_OK)
-        return 0;
-    coupled = shear.beta != 0 && !p->uncoupled;
-    return n * ((coupled ? 10 : 8) * sizeof(double) + 1) + sizeof(struct rc_slip) +
-           rc_tangential_memory(shape, p->boundary, coupled, p->threads) +
-           rc_discs_memory(shape, p->boundary);
-}

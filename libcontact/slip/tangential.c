@@ -232,22 +232,6 @@ fail:
     return NULL;
 }
 
-size_t
-rc_tangential_memory(const struct rc_shape *shape, enum rc_boundary boundary, bool coupled,
-                     size_t threads)
-{
-    size_t quarter = rc_spectrum_memory(shape, boundary, RC_DOUBLE, 1);
-    size_t px, py, columns;
-
-    rc_fft_period(shape, boundary, &px, &py);
-    columns = px / 2 + 1;
-    return rc_fft_memory(shape, boundary, RC_DOUBLE, 1) - quarter +
-           rc_fft_scratch(shape, boundary, RC_DOUBLE, threads) +
-           rc_fft_scratch(shape, boundary, RC_SINGLE, threads) + (coupled ? 5 : 3) * quarter +
-           3 * quarter / 2 + 4 * columns * py * sizeof(double) +
-           py * (sizeof(size_t) + sizeof(signed char));
-}
-
 /* ---- rows ---- */
 
 struct pass {

@@ -33,8 +33,6 @@ struct rc_tangential *rc_tangential_new(const struct rc_shape *shape, enum rc_bo
                                         const struct rc_shear *shear, size_t threads,
                                         struct rc_err *err);
 void rc_tangential_free(struct rc_tangential *t); /* NULL is allowed */
-size_t rc_tangential_memory(const struct rc_shape *shape, enum rc_boundary boundary, bool coupled,
-                            size_t threads);
 
 struct rc_frame rc_tangential_frame(const struct rc_shape *shape, enum rc_boundary boundary);
 /* m/Pa: the factor of T for waves of wave number q, averaged over their directions. */

@@ -457,9 +457,8 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     if (e->asks.stiffness || e->asks.conductivity[0] > 0) {
         expected->seconds *= 1 + stiffness / expected->convolutions;
         expected->convolutions += stiffness;
-        expected->memory += e->asks.conductivity[0] > 0
-                                ? rc_solver_conductance_memory(&m->shape, &problem)
-                                : rc_solver_stiffness_memory(&m->shape, &problem);
+        expected->memory +=
+            e->n * (e->asks.conductivity[0] > 0 ? RC_CONDUCTANCE_BYTES : RC_STIFFNESS_BYTES);
     }
     return RC_OK;
 }

@@ -113,12 +113,6 @@ forget(void *at)
     s->rate = 1;
 }
 
-static size_t
-memory(const struct rc_shape *shape)
-{
-    return shape->nx * shape->ny * 2 * sizeof(float) + rc_tiles(shape) * sizeof(struct rc_tile);
-}
-
 static void *
 state_new(const struct rc_solver *solver, struct rc_err *err)
 {
@@ -732,7 +726,6 @@ const struct rc_method rc_method_pcg = {
              .mixed = true},
     .nested = true,
     .convolutions = convolutions,
-    .memory = memory,
     .new = state_new,
     .step = step,
     .forget = forget,

@@ -39,12 +39,6 @@ state_free(void *at)
     free(s);
 }
 
-static size_t
-memory(const struct rc_shape *shape)
-{
-    return shape->nx * shape->ny * 3 * sizeof(double);
-}
-
 static void *
 state_new(const struct rc_solver *solver, struct rc_err *err)
 {
@@ -248,9 +242,10 @@ convolutions(double nodes, double digits)
 }
 
 const struct rc_method rc_method_pk99 = {
-    .info = {.name = "pk99", .summary = "conjugate gradients of Polonsky and Keer, 1999"},
+    .info = {.name = "pk99",
+             .summary = "conjugate gradients of Polonsky and Keer, 1999",
+             .bytes = 16},
     .convolutions = convolutions,
-    .memory = memory,
     .new = state_new,
     .step = step,
     .forget = forget,

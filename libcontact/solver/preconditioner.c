@@ -232,19 +232,6 @@ rc_preconditioner_free(struct rc_preconditioner *e)
     free(e);
 }
 
-size_t
-rc_preconditioner_memory(const struct rc_shape *shape, const struct rc_operator_options *options)
-{
-    size_t ranks = rc_ranks_count(options->ranks);
-    struct rc_rows most = {.ny = shape->ny,
-                           .n = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny};
-    struct rc_pyramid_base base =
-        base_of(shape, options->boundary, rc_operator_frame(shape, options), ranks, &most);
-
-    /* a number for each node, and the field on the frame */
-    return rc_pyramid_memory(&base) + base.n * base.shape.nx * sizeof(float);
-}
-
 /* ---- the working set ---- */
 
 /* Numbers on the nodes where w is 1. */

@@ -19,8 +19,6 @@ struct rc_preconditioner *rc_preconditioner_new(struct rc_operator *op, struct r
 /* The diagonal of the operator was changed: applies from the next set on. */
 void rc_preconditioner_tune(struct rc_preconditioner *e);
 void rc_preconditioner_free(struct rc_preconditioner *e);
-size_t rc_preconditioner_memory(const struct rc_shape *shape,
-                                const struct rc_operator_options *options);
 /* The working set: entries 1 of w (0 elsewhere), at least one. w is read until the next set. Costs no factor
  * of a chain. If entries of w change afterwards, the map r -> z stays symmetric but E gets less accurate. */
 void rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w);

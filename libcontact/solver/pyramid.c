@@ -331,18 +331,6 @@ rc_pyramid_free(struct rc_pyramid *p)
     free(p);
 }
 
-size_t
-rc_pyramid_memory(const struct rc_pyramid_base *base)
-{
-    struct grid g = finest(base);
-    size_t sum = 0;
-    struct level l;
-
-    while (coarser(base, &g, &l))
-        sum += (base->pairs ? 9 : 2) * nodes(&l) + (l.parts && !l.shared ? l.own * l.x.coarse : 0);
-    return sum * sizeof(float);
-}
-
 static float *
 scratch(const struct rc_pyramid *p)
 {

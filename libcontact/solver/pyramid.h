@@ -50,8 +50,6 @@ struct rc_pyramid *rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_a
 /* Another power, from the next set on. */
 void rc_pyramid_tune(struct rc_pyramid *pyramid, rc_power_at *power, const void *of);
 void rc_pyramid_free(struct rc_pyramid *pyramid);
-/* Bytes of a pyramid on a rank that holds base->n rows; `ranks` is ignored. */
-size_t rc_pyramid_memory(const struct rc_pyramid_base *base);
 
 /* Adds `weight` times row j (of those held here) of component c to `to`; several threads call it. */
 typedef void rc_pyramid_add(const void *of, int c, size_t j, float weight, float *to);

@@ -263,26 +263,24 @@ rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
     return rc_operator_engine(shape, &options, reason);
 }
 
-size_t
-rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
+/* Bytes of a solver with its copies of heights and pressure, on a rank: measured, as rc_engine_info tells. */
+static size_t
+memory(const struct rc_shape *shape, const struct rc_problem *problem, const char *engine,
+       const struct rc_method *method)
 {
-    struct rc_operator_options options = operator_options(shape, problem);
-    const struct rc_method *method = choose(problem->method, NULL);
-    size_t ranks = rc_ranks_count(problem->ranks);
-    struct rc_shape held = *shape;
-    size_t n;
+    const int periodic = problem->boundary == RC_PERIODIC;
+    const struct rc_engine_info *info;
+    double each = problem->tilt_free ? RC_STIFFNESS_BYTES : 0;
 
-    if (ranks > 1)
-        held.ny = rc_rows_most(shape, ranks);
-    n = held.nx * held.ny;
-
-    /* Heights, pressures and gaps; corrections and residuals in single precision; a mask. The coarser grids
-     * of a nested start are freed before most of this is touched. */
-    return n * (3 * sizeof(double) + 2 * sizeof(float) + 1) +
-           (problem->hardness_map != NULL ? n * sizeof(double) : 0) +
-           (problem->tilt_free ? rc_solver_stiffness_memory(shape, problem) : 0) +
-           (method != NULL && method->memory != NULL ? method->memory(&held) : 0) +
-           rc_operator_memory(shape, &options) + rc_preconditioner_memory(shape, &options);
+    for (size_t k = 0; (info = rc_engine_info(k)) != NULL; k++)
+        if (strcmp(info->name, engine) == 0)
+            each += info->contact_bytes[periodic];
+    if (problem->pair.one.layers + problem->pair.two.layers > 0 && !periodic)
+        each += 4; /* the bound of layers that bend */
+    if (problem->hardness_map != NULL)
+        each += sizeof(double);
+    return (size_t)((each + method->info.bytes) * (double)shape->nx * (double)shape->ny /
+                    (double)rc_ranks_count(problem->ranks));
 }
 
 enum rc_status
@@ -293,6 +291,7 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
     const struct rc_method *method = choose(problem->method, err);
     struct rc_bounds bounds;
     double nodes = (double)(shape->nx * shape->ny), some;
+    const char *reason, *engine = rc_operator_engine(shape, &options, &reason);
 
     if (method == NULL || check(shape, problem, err) != RC_OK ||
         rc_operator_check(shape, &options, err) != RC_OK ||
@@ -310,7 +309,7 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
         some += 5;
     *expected = (struct rc_expected){.convolutions = some,
                                      .seconds = some * rc_operator_seconds(shape, &options),
-                                     .memory = rc_solver_memory(shape, problem)};
+                                     .memory = memory(shape, problem, engine, method)};
     return RC_OK;
 }
 

@@ -35,7 +35,6 @@ struct rc_method {
      * the tolerance. NULL: not measured. */
     double (*convolutions)(double nodes, double digits);
     /* Bytes of its state; NULL: unknown. */
-    size_t (*memory)(const struct rc_shape *shape);
     /* The method's state; NULL and *err when memory is short. */
     void *(*new)(const struct rc_solver *solver, struct rc_err *err);
     struct rc_found (*step)(struct rc_solver *solver, void *state);

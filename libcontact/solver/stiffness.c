@@ -137,22 +137,6 @@ solve(struct system *c, double sum[3])
     }
 }
 
-static size_t
-nodes_held(const struct rc_shape *shape, const struct rc_problem *problem)
-{
-    size_t ranks = rc_ranks_count(problem->ranks);
-
-    return shape->nx * (ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny);
-}
-
-size_t
-rc_solver_stiffness_memory(const struct rc_shape *shape, const struct rc_problem *problem)
-{
-    const struct system *c = NULL;
-
-    return nodes_held(shape, problem) * (sizeof *c->t + sizeof *c->d + sizeof *c->q);
-}
-
 static void
 system_free(struct system *c)
 {
@@ -292,14 +276,6 @@ struct bound {
     const float *t;
     double *p, *u; /* t and K t, in double precision */
 };
-
-size_t
-rc_solver_conductance_memory(const struct rc_shape *shape, const struct rc_problem *problem)
-{
-    const struct bound *b = NULL; /* two maps replace the two smaller ones that are then freed */
-
-    return nodes_held(shape, problem) * (sizeof *b->t + sizeof *b->p + sizeof *b->u);
-}
 
 static void
 widen_block(void *at, size_t first, size_t n, double *sums)

@@ -192,28 +192,6 @@ rc_slabs_free(struct rc_slabs *v)
     free(v);
 }
 
-size_t
-rc_slabs_memory(const struct rc_shape *shape, const struct rc_slabs_options *o)
-{
-    size_t ranks = rc_ranks_count(o->ranks), size = real_size(o->precision);
-    size_t spectrum = rc_spectrum_memory(shape, boundary(o), o->precision, ranks);
-    size_t px, py, columns, threads;
-    size_t rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
-    size_t maps = RC_SWEEP_STRAINS * o->slabs + RC_SWEEP_WAVES * groups_of(o->slabs) +
-                  (o->whole ? RC_SWEEP_SLABS : 0) +
-                  (o->slices ? RC_SWEEP_WAVES * groups_of(o->slabs) + RC_SWEEP_STRAINS + 1 : 0);
-    struct rc_shape here = {shape->nx, rows, shape->dx, shape->dy};
-
-    rc_fft_period(shape, boundary(o), &px, &py);
-    columns = spectrum / size / (py / 2 + 1); /* columns of the rank with most columns */
-    threads = (size_t)rc_useful_threads(&here, o->threads);
-    return sizeof(struct rc_slabs) + maps * map_size(shape, py, columns, rows) * size +
-           rc_fft_memory(shape, boundary(o), o->precision, ranks) - spectrum +
-           rc_fft_scratch(shape, boundary(o), o->precision, o->threads) +
-           (o->slabs * sizeof(double) + 2 * py * sizeof(double)) +
-           (o->precision == RC_SINGLE ? threads * RC_COMPONENTS * shape->nx * sizeof(double) : 0);
-}
-
 /* ---- layout ---- */
 
 static void *

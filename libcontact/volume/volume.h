@@ -90,8 +90,6 @@ struct rc_slabs;
 struct rc_slabs *rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *options,
                               struct rc_err *err);
 void rc_slabs_free(struct rc_slabs *slabs); /* NULL is allowed */
-/* Bytes of an rc_slabs, on the rank that needs most. */
-size_t rc_slabs_memory(const struct rc_shape *shape, const struct rc_slabs_options *options);
 
 /* u = S' e, m; its mean is 0. u may be NULL. */
 void rc_slabs_up(struct rc_slabs *slabs, const struct rc_slab_strain *strain, double *u);

@@ -490,8 +490,6 @@ adheres(double *out, struct rc_err *err)
     rc_adhesion_traction(b, out + 3 * N);
     rc_adhesion_keep_shape(b, out + N);
     out[4 * N] = rc_adhesion_result(a)->pull_off_load;
-    out[4 * N + 1] = (double)(rc_adhesion_memory(&shape, &problem) +
-                              rc_adhesion_pull_off_memory(&shape, &problem));
     out[4 * N + 2] = rc_adhesion_scales(a)->range;
     out[4 * N + 3] = rc_adhesion_law_info(0)->ranged;
     status = RC_OK;
@@ -611,7 +609,7 @@ slides(double *out, struct rc_err *err)
     rc_slip_normal(slip, out + 2 * N);
     rc_slip_state(slip, out + 3 * N);
     out[4 * N] = figures.dissipated;
-    out[4 * N + 1] = (double)rc_slip_memory(&shape, &problem) + rc_slip_beta(slip);
+    out[4 * N + 1] = rc_slip_beta(slip);
 done:
     rc_slip_free(slip);
     rc_solver_free(solver);
@@ -655,7 +653,6 @@ yields(double *out, struct rc_err *err)
     memcpy(out, rc_plastic_residual(plastic), N * sizeof *out);
     rc_plastic_strain(plastic, 0, strain);
     out[3 * N] = rc_plastic_result(plastic)->depth;
-    out[3 * N + 1] = (double)rc_plastic_memory(&shape, &problem, 0.1);
     out[3 * N + 2] = rc_yield_stress(&problem.yield, 0);
 done:
     rc_plastic_free(plastic);
@@ -835,20 +832,10 @@ plans(double *out, struct rc_err *err)
     struct rc_expected expected;
     struct rc_contact apart;
     const char *reason;
-    size_t bytes[4];
 
     rc_contact_apart(NULL, &shape, rough, NULL, &apart);
     if (!(apart.mean_gap > 0))
         return rc_err_set(err, "no gap");
-    bytes[0] = rc_conv_memory(&shape, &conv);
-    bytes[1] = rc_solver_memory(&shape, &problem);
-    bytes[2] = rc_solver_stiffness_memory(&shape, &problem);
-    bytes[3] = rc_solver_conductance_memory(&shape, &problem);
-    for (size_t k = 0; k < 4; k++) {
-        out[k] = (double)bytes[k];
-        if (bytes[k] == 0)
-            return rc_err_set(err, "no plan %zu", k);
-    }
     if (rc_solver_expect(&shape, &problem, &expected, err) != RC_OK)
         return RC_FAIL;
     out[12] = (double)expected.memory;

@@ -14,9 +14,31 @@ row() {
     near "${expected:-none}" "${taken:-none}" 0.1 "$1, $size"
 }
 
+# told "what" 'command': the memory that a refusal tells, before any iteration, against the kernel's peak.
+told() {
+    local needs taken
+    needs=$(bash -c "$2 --memory 40M" 2>&1 >/dev/null | sed -n 's/.* nodes need about \([0-9.]*\) MiB.*/\1/p')
+    taken=$(bash -c "$2 --debug" 2>&1 >/dev/null | sed -n 's/.*, \([0-9.]*\) MiB taken.*/\1/p' | tail -n 1)
+    printf '%-28s %-12s %9s MiB told     %9s MiB taken\n' "$1" "$size" "${needs:-none}" "${taken:-none}" >>table.txt
+    near "${needs:-none}" "${taken:-none}" 0.05 "$1, refused"
+}
+
 rough="selfaffine --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 100um --short-cut 6um"
 load="--estar 3GPa --mean-pressure 100MPa"
 coat="--layer 5um,200GPa,0.3 --E1 70GPa --nu1 0.3 --E2 rigid --mean-pressure 100MPa"
+size=1600x1400
+rc-synth $rough --nx 1600 --ny 1400 -o s.rcg
+rc-solve --quiet $load --output pressure s.rcg -o p.rcg
+told "rc-solve" "rc-solve $load s.rcg"
+told "rc-solve --kernel fft64" "rc-solve --kernel fft64 $load s.rcg"
+told "rc-solve --kernel mlms" "rc-solve --kernel mlms $load s.rcg"
+told "rc-solve --periodic" "rc-solve --periodic $load s.rcg"
+told "rc-solve --periodic, fft64" "rc-solve --periodic --kernel fft64 $load s.rcg"
+told "rc-solve, coated" "rc-solve $coat s.rcg"
+told "rc-solve --stiffness" "rc-solve --stiffness $load s.rcg"
+told "rc-solve --conductivity" "rc-solve --conductivity 45,16 $load s.rcg"
+told "rc-solve --history" "rc-solve --hardness 300MPa --history --estar 3GPa --mean-pressure 50MPa,100MPa s.rcg"
+told "rc-solve --method pk99" "rc-solve --method pk99 --tol 1e-2 $load s.rcg"
 [ $# -gt 0 ] || set -- 256x256 517x389 1024x1024 2047x1021 2048x2048 4096x4096
 for size in "$@"; do
     rc-synth $rough --nx ${size%x*} --ny ${size#*x} -o s.rcg

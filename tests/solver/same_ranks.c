@@ -355,18 +355,15 @@ memory(void **state)
     struct rc_shape s = {512, 512, 1e-6, 1e-6};
     struct rc_problem problem = {.pair.estar = 1e11, .load = 1, .threads = 1};
     unsigned long most = (unsigned long)part_of(s).n;
-    size_t more[2];
+    struct rc_expected expected[2];
 
     (void)state;
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_UNSIGNED_LONG, MPI_MAX, MPI_COMM_WORLD);
     for (int q = 0; q < 2; q++) {
         problem.ranks = q == 0 ? NULL : ranks;
-        problem.engine = "fft64";
-        more[q] = rc_solver_memory(&s, &problem);
-        problem.engine = "fft";
-        more[q] -= rc_solver_memory(&s, &problem);
+        assert_int_equal(rc_solver_expect(&s, &problem, &expected[q], NULL), RC_OK);
     }
-    assert_true(more[0] - more[1] >= 2 * (s.nx * s.ny - most) * sizeof(double));
+    assert_true(expected[1].memory >= 80 * most - 1 && expected[0].memory > 80 * s.nx * s.ny);
 }
 
 /* ---- stresses ---- */

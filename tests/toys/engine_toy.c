@@ -97,7 +97,6 @@ seconds(const struct rc_sum *sum)
 const struct rc_engine rc_engine_toy = {
     .info = {.name = "toy", .summary = "the double sum, the kernel row by row", .order = 2},
     .seconds = seconds,
-    .memory = memory,
     .new = plan_new,
     .apply = apply,
     .error = error,

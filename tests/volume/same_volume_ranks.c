@@ -51,7 +51,6 @@ of_shared_maps(void **state)
         for (size_t m = 0; m < SLABS * RC_COMPONENTS; m++)
             memcpy(own_e.v + m * own_e.n, e.v + m * n + first, own_e.n * sizeof(double));
         o.ranks = ranks;
-        assert_true(rc_slabs_memory(&s, &o) > 0);
         v = volume_new(s, o);
         volume_apply(v, &own_e, NULL, p + first, own_u, &own_t);
         rc_slabs_free(v);

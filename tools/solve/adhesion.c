@@ -245,10 +245,14 @@ adhesion_memory(const struct run *run, const struct rc_grid *g, const struct rc_
     const struct rc_adhesion_problem problem = problem_of(run, contact);
     /* heights, state at the last point, frame; dents; state of --checkpoint */
     const size_t maps = 3u + !isinf(run->hardness_min) + (run->checkpoint != NULL);
+    const size_t kept =
+        contact->boundary == RC_PERIODIC ? 32 : 128; /* bytes a node of a retraction */
+    struct rc_expected expected = {0};
+    struct rc_err err;
 
-    return rc_adhesion_memory(&shape, &problem) +
-           (run->args->pull_off ? rc_adhesion_pull_off_memory(&shape, &problem) : 0) +
-           maps * rc_grid_nodes(g) * sizeof *g->v;
+    (void)rc_adhesion_expect(&shape, &problem, &expected, &err);
+    return expected.memory +
+           ((run->args->pull_off ? kept : 0) + maps * sizeof *g->v) * rc_grid_nodes(g);
 }
 
 /* ---- plan and report ---- */

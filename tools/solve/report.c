@@ -327,47 +327,32 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
 
 /* ---- plan ---- */
 
-/* Of the coarser grids that a start is found on, the maps that are too small to be kept apart leave
- * holes: 30 bytes a node in single precision, 40 in double. */
-static size_t
-holes(size_t nodes)
-{
-    size_t most = 0;
-
-    for (size_t n = nodes / 4; n > 0 && nodes * sizeof(double) >= MEMORY_APART; n /= 4) {
-        size_t bytes = (n * sizeof(float) < MEMORY_APART ? 30 * n : 0) +
-                       (n * sizeof(double) < MEMORY_APART ? 40 * n : 0);
-        most = bytes > most ? bytes : most;
-    }
-    return most;
-}
-
 size_t
 solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
 {
     struct rc_shape shape = rc_grid_shape(g);
-    size_t nodes = rc_grid_nodes(g), bytes = rc_solver_memory(&shape, problem);
-    bool keeps_heights = solve_wanted(run->args, SOLVE_HEIGHT) || run->args->physics.history;
-    bool results = solve_wanted(run->args, SOLVE_GAP) ||
-                   solve_wanted(run->args, SOLVE_DISPLACEMENT) ||
-                   solve_wanted(run->args, SOLVE_PLASTIC);
-    size_t left = holes(nodes),
-           stiffness = run->conductance ? rc_solver_conductance_memory(&shape, problem)
-                       : run->stiffness ? rc_solver_stiffness_memory(&shape, problem)
-                                        : 0;
+    const bool keeps_heights = solve_wanted(run->args, SOLVE_HEIGHT) || run->args->physics.history,
+               results = solve_wanted(run->args, SOLVE_GAP) ||
+                         solve_wanted(run->args, SOLVE_DISPLACEMENT) ||
+                         solve_wanted(run->args, SOLVE_PLASTIC);
+    const size_t maps = 0U + solve_wanted(run->args, SOLVE_CONTACT) + (keeps_heights && results);
+    const size_t later = run->conductance
+                             ? RC_CONDUCTANCE_BYTES /* patches, one map, are freed before */
+                         : run->stiffness ? RC_STIFFNESS_BYTES
+                                          : sizeof *g->v;
+    struct rc_expected expected = {0};
+    struct rc_err err;
 
-    if (nodes * sizeof(float) < MEMORY_APART) /* what the stiffness takes lies in the holes */
-        stiffness -= stiffness < left ? stiffness : left;
-    bytes += left + stiffness + nodes * sizeof(double) /* patches */;
-    bytes += solve_wanted(run->args, SOLVE_CONTACT) ? nodes * sizeof *g->v : 0;
-    return bytes + (keeps_heights && results ? nodes * sizeof *g->v : 0);
+    (void)rc_solver_expect(&shape, problem, &expected, &err);
+    return expected.memory + (maps * sizeof *g->v + later) * rc_grid_nodes(g);
 }
 
 void
 solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
 {
     enum {
-        STIFFNESS = 12 /* convolutions that it takes */
+        STIFFNESS = 12,     /* convolutions that it takes                     */
+        PLANS = 4 * 1 << 20 /* bytes: FFTW's plans, 2 MiB for each precision */
     };
     struct rc_shape shape = rc_grid_shape(g);
     struct scene scene = {.run = run};
@@ -386,6 +371,7 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     memory = ranks_most(&run->t, (double)tool_memory_with(run->adhering.wanted
                                                               ? adhesion_memory(run, g, problem)
                                                               : solve_memory(run, g, problem)));
+    memory += PLANS;
     tool_where(&run->t, g, where, sizeof where);
     fprintf(run->t.out, "%s: %zu x %zu nodes, %zu %s, engine %s\n", where, g->nx, g->ny,
             run->steps->n, run->steps->n == 1 ? "load" : "loads", engine);

@@ -41,12 +41,6 @@ scratch(size_t nx)
     return RC_BLOCK * (nx + strips(nx) * RC_STRIP + RC_SIMD_WIDTH);
 }
 
-size_t
-rc_direct_memory(size_t nx, size_t ny, int threads)
-{
-    return (width(nx) * ny + (size_t)threads * scratch(nx)) * sizeof(double);
-}
-
 void
 rc_direct_free(struct rc_direct *d)
 {
@@ -148,12 +142,6 @@ useful_threads(const struct rc_sum *sum)
     return (int)(threads < most ? threads : most);
 }
 
-static size_t
-memory(const struct rc_sum *sum)
-{
-    return rc_direct_memory(sum->shape.nx, sum->shape.ny, useful_threads(sum));
-}
-
 static void *
 plan_new(const struct rc_sum *sum, struct rc_err *err)
 {
@@ -199,9 +187,10 @@ seconds(const struct rc_sum *sum)
 const struct rc_engine rc_engine_direct = {
     .info = {.name = "direct",
              .summary = "the double sum as it is written: exact to rounding, N^2",
-             .order = 2},
+             .order = 2,
+             .sum_bytes = {16.1},
+             .contact_bytes = {98.8}},
     .seconds = seconds,
-    .memory = memory,
     .new = plan_new,
     .apply = plan_apply,
     .error = error,

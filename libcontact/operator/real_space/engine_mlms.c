@@ -68,35 +68,6 @@ scratch_size(const struct rc_mlms *m)
            2 * m->plane_size + whole_vectors(2 * m->d.t);
 }
 
-static size_t
-stencil_size(const struct rc_mlms_axis axis[2])
-{
-    const struct rc_mlms_axis *x = &axis[RC_X], *y = &axis[RC_Y];
-    size_t classes = (1 + x->halved) * (1 + y->halved), pairs = (classes - 1) * (classes + 1);
-    size_t folded = (x->reach / (1 + x->halved) + 1) * (2 * y->margin + 3 + 2 * RC_BLOCK + 3);
-    size_t unfolded = whole_vectors(2 * x->margin + 1) * (2 * y->margin + 1);
-
-    return pairs * (folded + unfolded);
-}
-
-static size_t
-memory(const struct rc_sum *sum)
-{
-    struct rc_mlms m = {0};
-    size_t n = 0;
-
-    if (!rc_mlms_design(sum, &m.d, NULL))
-        return 0;
-    set_sizes(&m);
-    for (size_t q = 0; q < m.d.levels; q++) {
-        const struct rc_mlms_axis *next = m.d.axis[q + 1];
-        n += 2 * next[RC_X].n * next[RC_Y].n + stencil_size(m.d.axis[q]);
-    }
-    n += (size_t)m.d.threads * scratch_size(&m);
-    return n * sizeof(double) + sizeof m +
-           rc_direct_memory(m.d.axis[m.d.levels][RC_X].n, m.d.axis[m.d.levels][RC_Y].n, 1);
-}
-
 /* ---- plan ---- */
 
 static void
@@ -286,9 +257,10 @@ const struct rc_engine rc_engine_mlms = {
     .info = {.name = "mlms",
              .summary =
                  "multi-level multi-summation: to the accuracy asked for, N, in little memory",
-             .order = 1},
+             .order = 1,
+             .sum_bytes = {7.7},
+             .contact_bytes = {90}},
     .seconds = seconds,
-    .memory = memory,
     .new = plan_new,
     .apply = apply,
     .error = error,
