@@ -48,7 +48,7 @@ struct rc_export {
     bool stack;           /* or the depths of one channel and case                            */
     bool uneven;          /* has the depth of each row of a section: depths may be uneven     */
     bool lengths;         /* its spacings are lengths: refuses another dunit */
-    bool heights;         /* its values are metres: holds heights only                        */
+    bool heights;         /* the values of the format are metres: only heights */
     unsigned types;       /* possible types, from the bits above; 0: text */
     unsigned copies; /* number of copies of all values, in the type of the file, that it holds in
                         memory */

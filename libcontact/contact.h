@@ -730,7 +730,8 @@ struct rc_elastic_figures {
 RC_API struct rc_model *rc_elastic_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem,
                                        const struct rc_elastic_asks *asks, struct rc_err *err);
-/* The figures after a look, of an elastic model or of a model with an elastic inner model; NULL: neither. */
+/* The figures, after rc_model_look, of an elastic model or of a model with an elastic inner model; NULL for
+ * other models. */
 RC_API const struct rc_elastic_figures *rc_elastic_result(const struct rc_model *model);
 
 /* ---- plasticity in the volume ---- */

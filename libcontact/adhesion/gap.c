@@ -909,7 +909,7 @@ shift(struct rc_gap *g, double a)
     }
 }
 
-/* Where a state begins, and the slope of Phi there, that of held nodes too. */
+/* Keeps the start of a state and the slope of Phi there, also at held nodes. */
 static void
 keep_row(void *ctx, size_t j, double *sums)
 {

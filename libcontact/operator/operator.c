@@ -54,10 +54,10 @@ conv_options(const struct rc_operator_options *o)
 
 /* ---- figures ---- */
 
-/* Of K without its diagonal term. On the free boundary the largest row sum of K: the displacement in the middle of a rectangle a x b under
- * uniform pressure, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love 1929; Johnson 1985, eq. 3.25). On a
- * periodic map the eigenvalues are known, and the longest wave has the largest, 2 / (E* q), q = 2 pi / L. E*
- * is the least E*(q) of the bodies. */
+/* The norm of K without its diagonal term. On the free boundary the largest row sum of K: the displacement in
+ * the middle of a rectangle a x b under uniform pressure, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love
+ * 1929; Johnson 1985, eq. 3.25). On a periodic map the eigenvalues are known, and the longest wave has the
+ * largest, 2 / (E* q), q = 2 pi / L. E* is the least E*(q) of the bodies. */
 static double
 norm(const struct own *s)
 {

@@ -180,7 +180,7 @@ press(struct friction *f, struct way *w, struct rc_err *err)
     struct rc_point to = rc_point_for(w->inner, &w->at);
 
     if (f->known_only)
-        return rc_err_set(err, "load %g N: the contact under it is not known, nor are heights",
+        return rc_err_set(err, "load %g N: the contact under it is unknown, and so are the heights",
                           w->at.at[RC_LOAD]);
     if (f->alternates && lower_heights(f, w, err) != RC_OK)
         return RC_FAIL;
@@ -721,7 +721,7 @@ release(struct rc_model *m)
             rc_model_free(f->way[j].inner);
     }
     free(f->h);
-    free(f->lag[0]); /* and the other behind it */
+    free(f->lag[0]); /* the second array is part of this block */
 }
 
 const struct rc_model_row rc_model_friction = {

@@ -46,7 +46,7 @@ static const double loose = 1e-2; /* tolerance of the first contacts */
 static const double finest = 1e-3;
 /* a new H that changes the error by more than this factor is recomputed */
 static const double far_softer = 3;
-static const double thin = 1e-7; /* of S: a smaller H is 0 but for rounding in single precision */
+static const double thin = 1e-7; /* share of S; a smaller H is only rounding in single precision */
 
 struct rc_tilt {
     double at[2]; /* m: the point of the force, from the middle of the map                        */

@@ -355,8 +355,8 @@ stops(void **state)
     }
 }
 
-/* The state of a point that is reached, and not kept, goes into another model: there it is found again, and can
- * be kept. */
+/* A model reaches a point and does not keep it. Its state is given to another model, which finds the point
+ * again and can keep it. */
 static void
 reached(void **state)
 {

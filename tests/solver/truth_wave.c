@@ -72,7 +72,7 @@ full_contact(void **state)
     assert_int_equal(s.c.contact_nodes, 64 * 48);
     for (size_t k = 0; k < 64 * 48; k++) {
         double p = 1.7 * full + full * cos(2 * exact_pi * node_x(shape, k) / lx);
-        assert_true(fabs(s.p[k] - p) < 10 * tol * full); /* of one node, not a mean */
+        assert_true(fabs(s.p[k] - p) < 10 * tol * full); /* the error of one node, not a mean */
     }
     assert_true(s.c.pressure_error < tol);
     /* p u / 2 with u = amplitude cos: full amplitude / 4 over the area; the mean pressure adds none */
@@ -143,7 +143,8 @@ periods_and_shifts(void **state)
     print_message("%zu nodes at the hardness, worst difference %.1e\n", a.c.plastic_nodes,
                   worst / a.c.max_pressure);
     assert_true(a.c.plastic_nodes > 0);
-    assert_true(worst < 100 * problem.tol * a.c.max_pressure); /* of one node, not a mean */
+    assert_true(worst <
+                100 * problem.tol * a.c.max_pressure); /* the error of one node, not a mean */
     assert_true(fabs(a.c.approach / b.c.approach - 1) < 2 * problem.tol);
     solved_free(&a);
     solved_free(&b);

@@ -138,7 +138,7 @@ refuses 2 '--log: column mat holds words, which have no logarithm: --log y has o
 refuses 1 'few.tsv: column x holds numbers, that of n.tsv words: draw two pictures' "words and numbers" "printf 'x/N\ty/m2\na\t1\n' >n.tsv && $draw --curve x:y n.tsv few.tsv"
 refuses 1 'column k holds more than 40 different words, too many for an axis' "a word a row" "perl -e 'print \"k\ty\n\"; print \"a\$_\t1\n\" for 1 .. 41' | $draw --curve k:y"
 
-refuses 2 '--x-unit m: the axis is in N: it must be that with a prefix or without' "a unit of something else" "$draw --curve x:y --x-unit m few.tsv"
+refuses 2 '--x-unit m: the axis is in N: it must be that unit, with or without a prefix' "a unit of something else" "$draw --curve x:y --x-unit m few.tsv"
 refuses 2 '--y-unit N: the axis is in plain numbers: it must be 1 or %' "a unit of a number" "printf 'x\ty\n1\t2\n' | $draw --curve x:y --y-unit N"
 refuses 2 "--legend: 1 text for 2 curves of the legend: give one each, in its order, separated by ';'" "too few names" "$draw --curve x:y --by k --legend a few.tsv"
 refuses 2 '--error e: it must be one column for each of --curve' "too few errors" "$draw --curve x:y,e --error e few.tsv"

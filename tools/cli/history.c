@@ -120,7 +120,7 @@ fill(struct tool *t, struct line *line)
         if (!t->given[k] || !o->result)
             continue;
         if (o->type == OPT_STEP ||
-            o->type == OPT_TEXTS) { /* all of them are in one list, in the order of the line */
+            o->type == OPT_TEXTS) { /* all such options are in one list, in the order of the line */
             if (!steps_done)
                 add_steps(line, at);
             steps_done = true;

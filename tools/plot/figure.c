@@ -191,7 +191,7 @@ line_colour(const struct figure *f, double value)
     return colormap_is_dark(figure_colour(f, value)) ? light : page_ink;
 }
 
-/* Thinner than a node: a line around a single node must not hide it. */
+/* The line is thinner than a node, so that a line around a single node does not hide it. */
 static double
 border_width(const struct page *p)
 {

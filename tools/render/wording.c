@@ -23,11 +23,12 @@ wording_axis(struct tool *t, const struct curve_style *s, char which, struct gra
     if (text != NULL)
         axis->quantity = text;
     if (axis->shown != NULL && !scale_given(&scale, axis->shown, axis->unit))
-        tool_die(
-            t, EXIT_USAGE, "--%c-unit %s: the axis is in %s: it must be %s", which, axis->shown,
-            *axis->unit == '\0' || strcmp(axis->unit, "1") == 0 ? "plain numbers" : axis->unit,
-            *axis->unit == '\0' || strcmp(axis->unit, "1") == 0 ? "1 or %"
-                                                                : "that with a prefix or without");
+        tool_die(t, EXIT_USAGE, "--%c-unit %s: the axis is in %s: it must be %s", which,
+                 axis->shown,
+                 *axis->unit == '\0' || strcmp(axis->unit, "1") == 0 ? "plain numbers" : axis->unit,
+                 *axis->unit == '\0' || strcmp(axis->unit, "1") == 0
+                     ? "1 or %"
+                     : "that unit, with or without a prefix");
 }
 
 /* The existing names; a single curve without a name can get one. */

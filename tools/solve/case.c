@@ -368,7 +368,7 @@ memory_by(const void *ctx, const char *engine)
     return solve_memory(d->run, d->g, &problem);
 }
 
-/* Where the map would fit with another engine, that is said. */
+/* Demands the memory; the message names another engine if the map would fit with it. */
 static void
 demand_memory(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
 {
@@ -387,7 +387,8 @@ before_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *p
     else
         demand_memory(run, g, problem);
     if (run->done == 0)         /* no load has been solved */
-        tool_release_signals(); /* planning takes long, and no pressure is worth writing before it ends */
+        tool_release_signals(); /* the plan takes long, and there is no pressure to write before
+                                   its end */
 }
 
 static void

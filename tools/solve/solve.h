@@ -34,8 +34,8 @@ struct solve_args {
     double tol;
     const char *kernel, *method;
     const char *conductivity; /* of both bodies, or NULL                                  */
-    const char *yield, *increments, *slabs; /* as on the line, or NULL                      */
-    const char *adhesion; /* as on the line, or NULL                                  */
+    const char *yield, *increments, *slabs; /* words of the line, or NULL                   */
+    const char *adhesion; /* words of the command line, or NULL                       */
     bool pull_off;        /* a case of it comes last                                  */
     const char *tilt;     /* a word, or NULL                                          */
     struct numbers at;    /* x and y; none: the middle                                */

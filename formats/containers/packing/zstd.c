@@ -87,8 +87,7 @@ rc_zstd_unpack(const char *what, const unsigned char *from, size_t n, size_t mos
                struct rc_err *err)
 {
     (void)from, (void)n, (void)most, (void)size;
-    rc_err_set(err, "the %s are packed by zstd, which was not there when this program was built",
-               what);
+    rc_err_set(err, "the %s are packed by zstd, but this program was built without zstd", what);
     return NULL;
 }
 

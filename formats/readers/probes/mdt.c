@@ -21,7 +21,7 @@ enum {
     FRAME = 22,
     SCAN = 0,
     ARRAY = 106,
-    SCAN_VARIABLES = 36, /* bytes of them that are read */
+    SCAN_VARIABLES = 36, /* bytes of the variables that are read */
     MODE = 8,
     DOTS = 14, /* before points of spectra, if there are any */
     DOT = 16,

@@ -55,8 +55,9 @@ open_archive(const struct rc_file *file, struct rc_err *err)
         return NULL;
     }
     if (is_packed(file) && !rc_zstd_is_there()) {
-        rc_err_set(err, "the file is packed by zstd (KPK1), which was not there when this program "
-                        "was built: export the heights as CSV in Keyence's program");
+        rc_err_set(err,
+                   "the file is packed by zstd (KPK1), but this program was built without zstd: "
+                   "export the heights as CSV in Keyence's program");
         return NULL;
     }
     if (b.past || picture > file->size - FIRST) {

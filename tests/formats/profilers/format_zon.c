@@ -162,7 +162,7 @@ packed_by_zstd(void **state)
             refuse_cuts(&rc_format_zon, &b, b.n, 7);
             survive_changes(&rc_format_zon, &b, 1000);
         } else
-            refuse(&rc_format_zon, &b, "was not there when this program was built");
+            refuse(&rc_format_zon, &b, "this program was built without zstd");
         drop(&b);
     }
     for (int frames = 0; frames <= 5 && rc_zstd_is_there(); frames++) {
