@@ -91,7 +91,7 @@ told(size_t n, bool grows, bool falls, bool late, bool coupled)
         return n >= PRESSES ? RC_TOLD_SOME : RC_TOLD_FEW;
     if (grows || falls)
         return n >= PRESSES && coupled ? RC_TOLD_MANY : n >= TURNS ? RC_TOLD_SOME : RC_TOLD_FEW;
-    return n >= TURNS ? RC_TOLD_MANY : RC_TOLD_FEW;
+    return n < TURNS ? RC_TOLD_FEW : coupled ? RC_TOLD_MANY : RC_TOLD_SOME;
 }
 
 struct rc_leg
