@@ -165,7 +165,7 @@ rc_leg_part(const struct rc_leg *leg, size_t k, size_t n)
 double
 rc_leg_error(const struct rc_leg *leg, double before, double d, double d2, double lagged)
 {
-    static const double factor[] = {[RC_TOLD_MANY] = 1.5, [RC_TOLD_SOME] = 3, [RC_TOLD_FEW] = 6};
+    static const double factor[] = {[RC_TOLD_MANY] = 2, [RC_TOLD_SOME] = 3, [RC_TOLD_FEW] = 6};
     static const double slowest = 0.85;
     double rho;
 
