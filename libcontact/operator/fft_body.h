@@ -488,14 +488,15 @@ multiply(const struct rc_layout *l, const REAL *s, unsigned parity, size_t r, co
     }
 }
 
-/* The ratio of n numbers. */
+/* The ratio of n numbers. The inverse of a wave without stiffness is 0, also with a diagonal term, which may be
+ * small: the load determines the mean. */
 RC_CLONES static void
 divide(size_t n, const REAL *restrict s, const struct rc_ratio *of, REAL *restrict to)
 {
     const REAL a = (REAL)of->a, b = (REAL)of->b, c = (REAL)of->c, d = (REAL)of->d;
 
     for (size_t k = 0; k < n; k++)
-        to[k] = c + d * s[k] == 0 ? 0 : (a + b * s[k]) / (c + d * s[k]);
+        to[k] = c + d * s[k] == 0 || (b == 0 && s[k] == 0) ? 0 : (a + b * s[k]) / (c + d * s[k]);
 }
 
 /* Columns: transformed, multiplied, transformed back. */
