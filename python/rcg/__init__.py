@@ -9,7 +9,7 @@
     rcg.render(result, channel='pressure', border=True)            # a picture
 
 Each tool is one function: add cost deflect detrend export info leak open (rc-import) pick render slip
-solve stress synth. help(rcg.solve) lists its options. frame, read, write, loads and dumps handle the
+solve stress synth wear. help(rcg.solve) lists its options. frame, read, write, loads and dumps handle the
 grid stream, run and report call a tool by its name. sample('rough-steel.x3p') is the path of a
 sample surface. Long runs show their progress in terminals and notebooks.
 """

@@ -450,6 +450,7 @@ def hints(stub, tables):
     text, rows = content(stub).decode(), content(tables).decode()
     there = keywords(text)
     assert set(there) == set(rcg.tools.FUNCTIONS)
+    assert {json.loads(row)['tool'] for row in rows.splitlines()} == set(rcg.tools.FUNCTIONS.values()), 'a tool without a function'
     for name, command in rcg.tools.FUNCTIONS.items():
         assert set(there[name]) - {'dx', 'timeout', 'progress'} == set(rcg.tools.options_of(command)) - {'dx'}, name
     assert "kernel: Literal['auto', 'fft'," in text
