@@ -635,6 +635,8 @@ end_retraction(struct rc_adhesion *a)
 
     put_back(a, p->kept[r->lowest.kept], r->lowest.c);
     rc_gap_begin(&a->gap, a->control, a->given);
+    if (a->control == RC_GAP_MEAN) /* the mean pressure is found with the residual */
+        rc_gap_look(&a->gap);
     a->stage = STAGE_DONE;
     a->fresh = true;
     a->converged = converged;

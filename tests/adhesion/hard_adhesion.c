@@ -245,6 +245,32 @@ pull_off_by_hand(void **state)
     rc_adhesion_free(a);
 }
 
+/* The frames of a pull-off on a periodic map belong to its load. */
+static void
+pull_off_of_periodic(void **state)
+{
+    const struct rc_shape shape = {32, 32, 1e-6, 1e-6};
+    const struct rc_selfaffine rough = {
+        .hurst = 0.8, .short_cut = 4e-6, .seed = 3, .rms_height = 1e-7};
+    const struct rc_adhesion_problem problem = {
+        .contact = {.pair.estar = 1e9, .boundary = RC_PERIODIC}, .work = 0.05};
+    static double pressure[32 * 32];
+    struct rc_adhesion *a;
+    double load, sum = 0;
+
+    (void)state;
+    assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, &adhesion_err), RC_OK);
+    a = adhesion_new(shape, h, problem);
+    (void)adhesion_to_approach(a, 5e-8);
+    load = adhesion_pull(a)->load;
+    rc_adhesion_pressure(a, pressure);
+    for (size_t k = 0; k < 32 * 32; k++)
+        sum += pressure[k] * shape.dx * shape.dy;
+    print_message("pull-off at %.6e N, the pressures sum to %.6e N\n", load, sum);
+    assert_true(load < 0 && fabs(sum - load) <= 1e-9 * -load);
+    rc_adhesion_free(a);
+}
+
 /* A rough ball separates spot by spot: its load against approach has several local minima, with jumps between
  * them. The search must find the lowest one, as a path of two hundred steps does, and its error must be
  * within the reported spread. */
@@ -561,6 +587,7 @@ main(void)
         cmocka_unit_test(saddles),
         cmocka_unit_test(parting),
         cmocka_unit_test(pull_off_by_hand),
+        cmocka_unit_test(pull_off_of_periodic),
         cmocka_unit_test(pull_off_of_rough),
         cmocka_unit_test(pull_off_at_start),
         cmocka_unit_test(maps),
