@@ -84,8 +84,8 @@ commands=$(
 3 rc-render --raw --channel pressure c.rcg -o out.png
 6 rc-render --figure --channel pressure c.rcg -o out.pdf
 6 rc-render --curve x:y --by k --spread table.tsv -o out.pdf
-4 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --plot plot.png h.rcg -o out
-4 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --nu 0.3 --depths 1um,2um h.rcg -o out
+32 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --plot plot.png h.rcg -o out
+32 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --nu 0.3 --depths 1um,2um h.rcg -o out
 1 rc-cost --quiet --estar 1GPa --load 1mN --kernel direct --dry-run h.rcg
 LIST
 )
