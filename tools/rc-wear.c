@@ -30,7 +30,7 @@ static const struct opt opts[] = {
     {.name = "coefficient", .type = OPT_TEXT, AT(coefficient), .result = true, .arg = "K1[,K2]",
      .help = "wear coefficient of body 1, and of body 2 (default 0), in mm3/Nm, m2/N or 1/GPa"},
     {.name = "archard", .type = OPT_NUMBERS, AT(archard), .min = 0, .max = INFINITY, .result = true,
-     .arg = "K1[,K2]", .help = "instead: Archard's numbers, V = K P s/H without a factor 3; needs --hardness"},
+     .arg = "K1[,K2]", .help = "instead: Archard's numbers, V = K P s/H, no factor 3; needs --hardness"},
     {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_HARD, AT(hardness), ABOVE_0, .result = true,
      .arg = "PRESSURE", .help = "H of --archard; the bound of the pressure is that of rc-solve"},
     {.name = "energy", .type = OPT_TEXT, AT(energy), .result = true, .arg = "K1[,K2]",

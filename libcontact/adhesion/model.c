@@ -390,7 +390,7 @@ rc_adhesive_new(const struct rc_shape *shape, const double *h,
 const struct rc_adhesive_figures *
 rc_adhesive_result(const struct rc_model *m)
 {
-    while (m != NULL && m->row != &rc_model_adhesive)
-        m = m->inner;
-    return m != NULL ? &((const struct adhesive *)m)->figures : NULL;
+    const struct adhesive *found = (const struct adhesive *)rc_model_find(m, &rc_model_adhesive);
+
+    return found != NULL ? &found->figures : NULL;
 }

@@ -196,6 +196,14 @@ rc_model_set_compliance(struct rc_model *m, double c, struct rc_err *err)
                : rc_err_set(err, "the %s model has no compliance of its nodes", m->row->name);
 }
 
+const struct rc_model *
+rc_model_find(const struct rc_model *m, const struct rc_model_row *row)
+{
+    while (m != NULL && m->row != row)
+        m = m->inner;
+    return m;
+}
+
 struct rc_solver *
 rc_model_solver(const struct rc_model *m)
 {

@@ -116,13 +116,15 @@ struct rc_model *rc_model_make(const struct rc_model_row *row, size_t size,
                                const struct rc_shape *shape, struct rc_err *err);
 struct rc_model *rc_model_make_outer(const struct rc_model_row *row, size_t size,
                                      struct rc_model *inner, struct rc_err *err);
+/* The model of that row in a chain of models; NULL: there is none. */
+const struct rc_model *rc_model_find(const struct rc_model *m, const struct rc_model_row *row);
 /* The axes of a point that a model or its inner ones take. */
 struct rc_point rc_point_for(const struct rc_model *m, const struct rc_point *point);
 /* The point a part of the way, 0 to 1, from one to another. */
 struct rc_point rc_point_between(const struct rc_point *from, const struct rc_point *to,
                                  double part);
 bool rc_point_has(const struct rc_point *point, enum rc_axis axis);
-/* z is 0 where the model cannot tell. */
+/* z, Pa: the change of the pressure when the heights grow by e, m; 0 from a model that cannot tell. */
 enum rc_status rc_model_respond(struct rc_model *m, const double *e, double *z, struct rc_err *err);
 void rc_loops_add(struct rc_loops *s, const char *what, const char *unit, double at, double of);
 

@@ -642,9 +642,7 @@ rc_yielding_new(const struct rc_shape *shape, const double *h,
 static struct yielding *
 yielding_of(const struct rc_model *m)
 {
-    while (m != NULL && m->row != &rc_model_yielding)
-        m = m->inner;
-    return (struct yielding *)m;
+    return (struct yielding *)rc_model_find(m, &rc_model_yielding);
 }
 
 void

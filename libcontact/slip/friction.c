@@ -872,7 +872,7 @@ rc_friction_new(struct rc_model *inner, const double *h, const struct rc_frictio
 const struct rc_friction_figures *
 rc_friction_result(const struct rc_model *m)
 {
-    while (m != NULL && m->row != &rc_model_friction)
-        m = m->inner;
-    return m != NULL ? &((const struct friction *)m)->figures : NULL;
+    const struct friction *found = (const struct friction *)rc_model_find(m, &rc_model_friction);
+
+    return found != NULL ? &found->figures : NULL;
 }

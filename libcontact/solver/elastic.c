@@ -506,9 +506,9 @@ rc_elastic_new(const struct rc_shape *shape, const double *h, const struct rc_pr
 const struct rc_elastic_figures *
 rc_elastic_result(const struct rc_model *m)
 {
-    while (m != NULL && m->row != &rc_model_elastic)
-        m = m->inner;
-    return m != NULL ? &((const struct elastic *)m)->figures : NULL;
+    const struct elastic *found = (const struct elastic *)rc_model_find(m, &rc_model_elastic);
+
+    return found != NULL ? &found->figures : NULL;
 }
 
 const struct rc_model_row rc_model_elastic = {

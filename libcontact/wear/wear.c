@@ -1,17 +1,17 @@
 /*
- * The model of wear: while the bodies slide by ds, the pressure p of an inner model takes k p ds off the heights,
- * k = k1 + k2 (Archard 1953).
+ * The model of wear: while the bodies slide by ds, the heights lose k p ds, with the pressure p of an inner
+ * model and k = k1 + k2 (Archard 1953).
  *
- * With Phi(h) the largest h'p - 1/2 p'Kp of the pressures that carry the load, dh/ds = -k grad Phi(h). Phi is
- * convex: two histories never part, so that errors of steps at most add up, and the pressure becomes even. The
- * flow is stiff (short waves decay by exp(-k E* q s/2)), so steps are implicit: the contact of heights h under
- * a compliance D = k ds has the pressure of the heights h - D p.
+ * Phi(h) is the largest h'p - 1/2 p'Kp of all pressures that carry the load, and dh/ds = -k grad Phi(h). Phi
+ * is convex. The distance between two histories therefore never grows, errors of steps at most add, and the
+ * pressure becomes even. The equation is stiff, because short waves decay by exp(-k E* q s/2). The steps are
+ * implicit: the contact of the heights h under a compliance D = k ds has the pressure of the heights h - D p.
  *
  * A step of length t is TR-BDF2 (Bank et al. 1985, IEEE Trans. CAD 4, 436; Hosea and Shampine 1996, Appl.
- * Numer. Math. 20, 21), with g = 2 - sqrt 2, d = g/2, w = sqrt(2)/4: the pressure p_a of h - d t k p0, and p1 of
- * h - w t k (p0 + p_a), both with D = d t k; the heights lose t k (w p0 + w p_a + d p1). It leaves ripples in the
- * pressure where nodes have just come into contact. So the last part of the way to a point are steps of backward
- * Euler, which damp them.
+ * Numer. Math. 20, 21), with g = 2 - sqrt 2, d = g/2, w = sqrt(2)/4. The pressure p_a is that of the heights
+ * h - d t k p0, and p1 that of h - w t k (p0 + p_a), both with D = d t k. The heights lose
+ * t k (w p0 + w p_a + d p1). The step leaves ripples in the pressure where nodes have just come into contact.
+ * Steps of backward Euler in the last part of the way damp them.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -27,21 +27,19 @@ enum {
 static const double g = 0.58578643762690495, d = 0.29289321881345248, w = 0.35355339059327376;
 static const double third_order = 0.0404; /* local error: this times t^3 k p'' */
 static const double usual_tol = 0.1;
-/* Steps of backward Euler before a point: this part of the distance, and as many as leave a part of the
- * tolerance in the pressure, whose relative change over one of them is at most some 0.1 over their number. */
+/* The steps of backward Euler before a point take this part of the distance. Over one of n such steps the
+ * pressure changes by at most about 0.1/n of itself; n grows with the inverse of the tolerance. */
 static const double last_part = 0.1, per_tolerance = 0.4;
 static const double fewest = 4;
-static const double of_tol =
-    0.8; /* of the tolerance is for the steps, the rest for the contacts         */
-/* Nodes that come into contact within a step can escape its estimate, which is some 0.8 of the error at worst. */
+static const double of_tol = 0.8; /* part of the tolerance for the steps; contacts have the rest */
+/* The estimate of a step misses nodes that come into contact within it: at worst it is 0.8 of the error. */
 static const double caution = 1.5;
-static const double first_step =
-    0.1; /* dx / (k E*)                                                          */
-/* The pressure of backward Euler has an error of its first order, about its last change. Ripples are left beside
- * it; the larger of the two was 1.1 to 50 times the error of the pressure in runs of random maps. */
+static const double first_step = 0.1; /* dx / (k E*) */
+/* The error of the pressure is about its last change, because backward Euler is of first order; remaining
+ * ripples add to it. */
 static const double of_change = 2;
-/* From this compliance on, in sides of the map over E*, the accuracy of the contact leaves more in the heights
- * than elasticity does. */
+/* In sides of the map over E*: above this compliance the error of the contact changes the heights more than
+ * elasticity does. */
 static const double long_step = 1.0 / 3;
 
 enum stage {
@@ -228,8 +226,8 @@ last_steps(const struct wear *v)
     return (size_t)ceil(fmax(fewest, per_tolerance / v->law.tol));
 }
 
-/* The longest step that does not pass a condition by far: the depth grows by the largest pressure at most, the
- * other figures in proportion to the logarithm of the distance. */
+/* The longest step that does not go far beyond a condition. The depth grows at most with the largest
+ * pressure; the other figures grow with the logarithm of the distance. */
 static double
 longest(const struct wear *v)
 {
@@ -280,8 +278,8 @@ see_conditions(struct wear *v)
         v->end = fmin(v->end, v->s / (1 - last_part));
 }
 
-/* Under a large compliance the tolerance of the contact leaves more in the heights than elasticity does: those in
- * contact become K p less the shift. Their volume stays, because the mean of the gap is 0 there. */
+/* Under a large compliance the tolerance of the contact changes the heights more than elasticity does. The
+ * heights in contact become K p less the shift. Their volume stays, because the mean gap is 0 there. */
 static enum rc_status
 fit(struct wear *v, struct rc_err *err)
 {
@@ -299,8 +297,7 @@ fit(struct wear *v, struct rc_err *err)
     return RC_OK;
 }
 
-/* p1 and its error become those of the present heights, of which a step has taken `less`; `error`, m: its sum
- * of errors at the nodes. */
+/* A step has lowered the heights by `less`; p1 is their pressure. `error`, m: sum of errors at the nodes. */
 static enum rc_status
 take(struct wear *v, const double *less, double error, double of_p1, double of_steps,
      struct rc_err *err)
@@ -323,8 +320,8 @@ take(struct wear *v, const double *less, double error, double of_p1, double of_s
     return RC_OK;
 }
 
-/* What the contact leaves of the error e of a step of TR-BDF2: it takes back D z, z the change of the pressure
- * with the heights, which damps the stiff part. The sum of |z|, Pa, is that of the error of the pressure. */
+/* The contact corrects a part of the error e of a step: D z, with the change z of the pressure with the
+ * heights. This damps the stiff part. The sum of |z|, Pa, estimates the error of the pressure. */
 static enum rc_status
 respond(struct wear *v, double *sum, struct rc_err *err)
 {
@@ -355,8 +352,8 @@ even(struct wear *v, double of_p1, struct rc_err *err)
     return set_out(v, err);
 }
 
-/* The step of TR-BDF2 is taken, or tried again with a shorter one. Its local error e is third_order t^3 k p'',
- * p'' by the three pressures. */
+/* Accepts the step of TR-BDF2, or tries a shorter one. Its local error e is third_order t^3 k p'', with p''
+ * from the three pressures. */
 static enum rc_status
 judge(struct wear *v, double of_p1, struct rc_err *err)
 {
@@ -376,11 +373,12 @@ judge(struct wear *v, double of_p1, struct rc_err *err)
         v->f.rejected++;
         return set_out(v, err);
     }
-    /* an error of p0 acts twice more in p_a: neither solution increases a difference of its heights */
+    /* an error of p0 also acts through p_a, twice: no contact increases a difference of its heights */
     contacts = step * sum * (3 * w * error[OF_P0] + w * error[OF_PA] + d * of_p1);
     for (size_t k = 0; k < v->n; k++)
         v->pa[k] = step * (w * (v->p0[k] + v->pa[k]) + d * v->p1[k]);
-    if (v->tried >= v->t || factor < 1) /* a shorter one, to end at the point, tells nothing */
+    if (v->tried >= v->t ||
+        factor < 1) /* a step cut short at the point does not limit the next one */
         v->t = fmax(factor, 1.0 / GROWTH) * v->tried;
     /* the errors of earlier steps decay as the bodies slide on */
     v->error[OF_ALL] = v->error[OF_ALL] * v->s / (v->s + v->tried) + z / sum;
@@ -527,8 +525,6 @@ keep(struct rc_model *m, struct rc_err *err)
 {
     struct wear *v = (struct wear *)m;
 
-    if (rc_model_look(m, NULL, err) != RC_OK)
-        return RC_FAIL;
     if (!v->kept && rc_model_keep(m->inner, err) != RC_OK)
         return RC_FAIL;
     v->kept = true;
@@ -692,7 +688,7 @@ rc_wear_new(struct rc_model *inner, const double *h, const struct rc_wear_proble
 const struct rc_wear_figures *
 rc_wear_result(const struct rc_model *m)
 {
-    while (m != NULL && m->row != &rc_model_wear)
-        m = m->inner;
-    return m != NULL ? &((const struct wear *)m)->f : NULL;
+    const struct wear *found = (const struct wear *)rc_model_find(m, &rc_model_wear);
+
+    return found != NULL ? &found->f : NULL;
 }

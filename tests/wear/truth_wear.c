@@ -1,6 +1,7 @@
-/* Worn heights and pressures beside closed forms: waves in full contact decay each by its own rate, the pressure
- * of a circular and of a strip punch becomes even by the modes of its operator, a ball wears to the rigid limit,
- * stiff roughness to its Abbott curve, and in the end the pressure is even; the worn volume is k P s always. */
+/* Compares worn heights and pressures with closed forms. Each wave in full contact decays at its own rate.
+ * The pressure of a circular and of a strip punch becomes even by the modes of the operator. A ball wears to the
+ * rigid limit, and stiff roughness to its Abbott curve. In the end the pressure is even. The worn volume is
+ * always k P s. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -141,9 +142,9 @@ waves_decay(void **state)
 enum {
     TIMES = 5
 };
-/* k E* s / a, and the RMS of p over its mean, less 1, of a flat punch: sums over the modes of the operator on a
- * disc (rates 2.06065, 3.67104, 5.25854, 6.83864 E* k/a ...) and on a strip in plane strain (1.72667, 3.31431,
- * 4.89197, 6.46651 ...), found by 40 Legendre functions. */
+/* k E* s / a, and the RMS of p over its mean, less 1, of a flat punch. They are sums over the modes of the
+ * operator on a disc (rates 2.06065, 3.67104, 5.25854, 6.83864 E* k/a ...) and on a strip in plane strain
+ * (1.72667, 3.31431, 4.89197, 6.46651 ...), from 40 Legendre functions. */
 static const double times[TIMES] = {0.1, 0.25, 0.5, 1, 2};
 static const double on_disc[TIMES] = {0.41210, 0.24875, 0.13259, 0.044623, 0.0056115};
 static const double on_strip[TIMES] = {0.43244, 0.28019, 0.16419, 0.065626, 0.011534};
@@ -191,7 +192,8 @@ punches_become_even(void **state)
 
 /* ---- the rigid limit ---- */
 
-/* A ball of radius R: the scar has the area of the cut of volume V, a^4 = 4 R V/pi, and the pressure is even. */
+/* The scar of a ball of radius R has the area of a plane cut of volume V, a^4 = 4 R V/pi; the pressure is
+ * even. */
 static void
 a_ball_is_cut(void **state)
 {
@@ -224,8 +226,8 @@ a_ball_is_cut(void **state)
     end(&r);
 }
 
-/* Steep roughness hardly deforms: it becomes min(h, cut), and the worn volume gives the cut. At long distances
- * the contact is complete and the pressure even, whatever the slope. */
+/* Steep roughness hardly deforms: it becomes min(h, cut), and the worn volume gives the cut. At long
+ * distances the contact is complete and the pressure even at any slope. */
 static void
 roughness_is_cut(void **state)
 {

@@ -64,8 +64,8 @@ void report_no_object(struct report *report, const char *name);
 /* A column for each figure of the table, in its order; `data`: the struct with the values, or NULL if they
  * are unknown. Adjacent figures "object.name" are in one object, which is null if all are unknown. */
 void report_table(struct report *report, const struct rc_figure *table, const void *data);
-/* The axes of `at` that `given` has, and their partners, then the figures of a model and its inner ones, except
- * `converged`: that of an inner model does not tell of the outer one. */
+/* The axes of `at` that `given` has, and their partners. Then the figures of a model and its inner ones,
+ * except `converged`: an inner model may converge where the outer one does not. */
 void report_model(struct report *report, const struct rc_model *m, const struct rc_point *at,
                   unsigned given);
 /* The figures with these names, separated by blanks, in their order, from several tables, the last of which

@@ -1,6 +1,6 @@
 /*
- * The interface of this folder: a tool drives a model (libcontact/model.h) through the points of a history. Its
- * own parts are its options, the maker of its model and, where it wants them, keys of frames, columns of the
+ * The interface of this folder: a tool drives a model (libcontact/model.h) through the points of a history.
+ * The tool itself has its options, the maker of its model and, if needed, keys of frames, columns of the
  * report and advice in warnings:
  *
  *     static struct args {
@@ -8,7 +8,8 @@
  *         size_t output;
  *         struct drive_args drive;
  *     } args = {.output = 3, .drive.interval = 60};
- *     static const struct opt opts[] = {..., {.group = drive_options, .at = offsetof(struct args, drive)}, ...};
+ *     static const struct opt opts[] = {
+ *         ..., {.group = drive_options, .at = offsetof(struct args, drive)}, {.name = NULL}};
  *
  *     static struct drive d = {.args = &args.drive, .word = frame_word, .output = &args.output};
  *     const struct drive_axis axes[] = {{RC_LOAD, &args.load}, {RC_TIME, &args.time}, {0, NULL}};
@@ -76,7 +77,7 @@ enum rc_status course_run(struct course *c, struct rc_model *m);
 
 /* ---- again.c ---- */
 
-/* Warns in full of the first case. Other cases that are warned of in the same `words` are listed at the end. */
+/* Warns in full of the first case. Other cases with a warning of the same `words` are listed at the end. */
 void course_warn(struct course *c, const char *words, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void course_warn_at_end(struct course *c);
