@@ -1,7 +1,7 @@
 /* Compares worn heights and pressures with closed forms. Each wave in full contact decays at its own rate.
- * The pressure of a circular and of a strip punch becomes even by the modes of the operator. A ball wears to the
- * rigid limit, and stiff roughness to its Abbott curve. In the end the pressure is even. The worn volume is
- * always k P s. */
+ * The pressure of a circular and of a strip punch becomes even by the modes of the operator. A ball wears to
+ * the rigid limit, and stiff roughness to its Abbott curve. In the end the pressure is even. The worn volume
+ * is always k P s. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
