@@ -43,9 +43,9 @@ static const struct opt opts[] = {
      .min = -INFINITY, .max = INFINITY, .result = true, .arg = "DX[,DY]",
      .help = "instead of the force: displacement of body 2 over body 1"},
     {.name = "path", .type = OPT_TEXT, AT(path), .result = true, .arg = "P,FX,FY;...",
-     .help = "loads and forces, each a case, starting apart: '240N,0,0; 240N,40N,0'"},
+     .help = "loads and forces, each a case, starting separated: '240N,0,0; 240N,40N,0'"},
     {.name = "history", .type = OPT_TEXT, AT(history), .arg = "FILE",
-     .help = "the same from a table with lines of load, force along x, force along y"},
+     .help = "the same path from a file with lines of load, force along x, force along y"},
     {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N|auto",
      .help = "increments between corners of a path (default auto: an error of about 1 %)"},
     {.name = "coupling", .type = OPT_CHOICE, AT(coupling), .words = coupling_word, .result = true,
@@ -54,7 +54,7 @@ static const struct opt opts[] = {
      .result = true, .arg = "RATIO",
      .help = "Poisson's ratio of both bodies, if the stream has only E*"},
     {.name = "E1", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e1), ABOVE_0, .result = true,
-     .arg = "MODULUS", .help = "or of each: Young's modulus of body 1"},
+     .arg = "MODULUS", .help = "or both bodies: Young's modulus of body 1"},
     {.name = "nu1", .type = OPT_NUMBER, AT(nu1), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 1"},
     {.name = "E2", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e2), ABOVE_0, .result = true,
@@ -92,7 +92,7 @@ static const struct tool_info info = {
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
-    .shares = true, /* to refuse it, once, instead of each process doing the same */
+    .shares = true, /* to print its refusal once, not from each process */
 };
 
 /* ---- the command line ---- */
@@ -105,8 +105,7 @@ check_arguments(struct slip_run *run)
 
     if (ranks_count(t) > 1)
         tool_die(t, EXIT_USAGE,
-                 "friction is not shared among processes, each node feels all others at once: take "
-                 "one process, with --threads");
+                 "rc-slip cannot share its maps among processes: take one process, with --threads");
     if (isnan(args.mu))
         tool_die(t, EXIT_USAGE, "give the coefficient of friction with --mu, as in --mu 0.3");
     if (tool_given(t, "tangential") + tool_given(t, "displacement") + tool_given(t, "path") +
@@ -117,8 +116,8 @@ check_arguments(struct slip_run *run)
                  "are moved");
     if (along->n > 2)
         tool_die(t, EXIT_USAGE,
-                 "--%s: it must be along x, or along x and y, as in %s: loads that follow each "
-                 "other are a --path",
+                 "--%s: it must be one value (along x) or two (x and y), as in %s: for several "
+                 "steps take --path",
                  along == &args.tangential ? "tangential" : "displacement",
                  along == &args.tangential ? "36N,0" : "1um,0");
     if (args.resume && args.checkpoint == NULL)
@@ -133,7 +132,7 @@ check_arguments(struct slip_run *run)
 
 /* ---- main ---- */
 
-/* Keeps the other frames of the case that are needed. */
+/* Keeps the needed other frames of the case. */
 static bool
 take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
 {
@@ -153,7 +152,7 @@ take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
 int
 main(int argc, char **argv)
 {
-    static const double interval = 60; /* s, of states of --checkpoint on the way */
+    static const double interval = 60; /* s, between states of --checkpoint */
     static struct slip_run run;
 
     tool_start(&run.t, &info, argc, argv, &args);

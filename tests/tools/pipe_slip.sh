@@ -147,17 +147,17 @@ claim "  then they are not pressed first" test "$(wc -l <none.tsv)" = 2
 
 # ---- messages ----
 
-claim "the plan says what is left out" says "left out: pressure and tractions do not feel each other, beta = 0" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
+claim "the plan says what is left out" says "left out: beta = 0, so that pressure and tractions do not influence each other" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
 claim "  how many increments" says "to P 240 N, 36 N, 0 N: 2 increments$" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
 claim "  and what is on" says "on, beta 0.286: about 5 passes" rc-slip --mu 0.3 --tangential 36N --dry-run rigid.rcg
-claim "next to sliding there is a warning" warns "that is 0.995 of what friction can carry" rc-slip --mu 0.3 --tangential 71.64N -o edge.rcg ball.rcg
+claim "next to sliding there is a warning" warns "the force is 0.995 of the friction limit" rc-slip --mu 0.3 --tangential 71.64N -o edge.rcg ball.rcg
 rc-slip --mu 0.3 --displacement 1m --report slides.tsv -o slides.rcg ball.rcg 2>slides.err
 claim "  of a force, not of bodies that are moved so far that they slide" test ! -s slides.err
 near "$(column tangential_x 1 slides.tsv)" 72 1e-9 "    under all that friction carries"
 near "$(column dissipated_energy 1 slides.tsv)" 72 1e-5 "    which takes the work of that force"
-claim "increments that are too few to tell their error too" warns "increments 1 is too few to tell" rc-slip --mu 0.3 --path '240N,40N,0' --increments 1 --report few.tsv -o big.rcg ball.rcg
+claim "increments that are too few to tell their error too" warns "increments 1 is too few to estimate" rc-slip --mu 0.3 --path '240N,40N,0' --increments 1 --report few.tsv -o big.rcg ball.rcg
 claim "  which then is null" test "$(column traction_error_estimate 1 few.tsv)$(column increment_error_estimate 1 few.tsv) $(column error_limited_by 1 few.tsv)" = "NaNNaN unknown"
-refuses 3 'the increments leave an error of .* take --increments' "an error above --tol is not converged" "rc-slip --mu 0.3 --tangential 36N --tol 1e-4 --increments 8 --report tight.tsv -o tight.rcg ball.rcg"
+refuses 3 'the increments cause an error of .* take --increments' "an error above --tol is not converged" "rc-slip --mu 0.3 --tangential 36N --tol 1e-4 --increments 8 --report tight.tsv -o tight.rcg ball.rcg"
 claim "  with its mark, and what lowers it" test "$(column converged 1 tight.tsv) $(column error_limited_by 1 tight.tsv)" = "false increments"
 rc-pick --channel pressure --set yield=1e9 ball.rcg -o flowed.rcg
 claim "a body that has yielded" warns 'the body has yielded .yield stress 1e.09 Pa' rc-slip --mu 0.3 --tangential 20N -o flows.rcg flowed.rcg
@@ -176,7 +176,7 @@ claim "  and nothing is left behind" test ! -e x.rcg
 refuses 2 'give the coefficient' "no coefficient" "rc-slip --tangential 1N -o x.rcg ball.rcg"
 refuses 2 'one of --tangential' "no force" "rc-slip --mu 0.3 -o x.rcg ball.rcg"
 refuses 2 'one of --tangential' "two of them" "rc-slip --mu 0.3 --tangential 1N --displacement 1um -o x.rcg ball.rcg"
-refuses 2 'along x, or along x and y' "a force in three directions" "rc-slip --mu 0.3 --tangential 1N,2N,3N -o x.rcg ball.rcg"
+refuses 2 'one value .along x. or two .x and y.' "a force in three directions" "rc-slip --mu 0.3 --tangential 1N,2N,3N -o x.rcg ball.rcg"
 refuses 2 'LOAD,FX,FY' "a corner of two numbers" "rc-slip --mu 0.3 --path '240N,1N' -o x.rcg ball.rcg"
 refuses 2 'must be finite and not negative' "a load that pulls" "rc-slip --mu 0.3 --path '-240N,1N,0' -o x.rcg ball.rcg"
 printf '240N 0 0\n240N zero 0\n' >bad.txt
@@ -184,22 +184,22 @@ refuses 2 'line 2' "a history with a word, and its line" "rc-slip --mu 0.3 --his
 refuses 2 'No such file' "a history that is not there" "rc-slip --mu 0.3 --history none.txt -o x.rcg ball.rcg"
 refuses 2 'auto or a number' "increments of 0" "rc-slip --mu 0.3 --tangential 1N --increments 0 -o x.rcg ball.rcg"
 refuses 2 'give both bodies' "one body" "rc-slip --mu 0.3 --tangential 1N --E1 1GPa --nu1 0.3 -o x.rcg ball.rcg"
-refuses 1 'solve it for these bodies first' "other bodies" "rc-slip --mu 0.3 --tangential 1N --E1 1GPa --nu1 0.3 --E2 rigid -o x.rcg ball.rcg"
+refuses 1 'solve the contact for these bodies first' "other bodies" "rc-slip --mu 0.3 --tangential 1N --E1 1GPa --nu1 0.3 --E2 rigid -o x.rcg ball.rcg"
 refuses 1 'leave out --nu' "a second Poisson's ratio" "rc-slip --mu 0.3 --tangential 1N --nu 0.2 -o x.rcg ball.rcg"
 refuses 2 "Poisson's ratio is not in the stream" "none" "rc-solve --quiet --load 1N --estar 1GPa sphere.rcg | rc-slip --mu 0.3 --tangential 0.1N -o x.rcg"
 rc-pick --channel pressure ball.rcg -o alone.rcg
-refuses 1 'there must be a height' "another load without a height" "rc-slip --mu 0.3 --path '100N,0,0' -o x.rcg alone.rcg"
+refuses 1 'need a height in the same case' "another load without a height" "rc-slip --mu 0.3 --path '100N,0,0' -o x.rcg alone.rcg"
 rc-pick --channel pressure rigid.rcg -o alone.rcg
 refuses 1 'coupling goodman or none' "coupling without a height" "rc-slip --mu 0.3 --tangential 1N -o x.rcg alone.rcg"
 rc-pick --channel pressure --set 'layers=1e-6,1e9,0.3;inf,2e9,0.3' ball.rcg -o coated.rcg
-refuses 1 'coated' "a coated body" "rc-slip --mu 0.3 --tangential 1N -o x.rcg coated.rcg"
+refuses 1 'only bodies without layers' "a coated body" "rc-slip --mu 0.3 --tangential 1N -o x.rcg coated.rcg"
 refuses 1 'pressure' "a stream without a pressure" "rc-slip --mu 0.3 --tangential 1N -o x.rcg sphere.rcg"
 rc-solve --quiet --load 240N $steel --hardness 1GPa -o soft.rcg sphere.rcg
-refuses 1 'its key hardness says that these are none' "other loads of a body that yields" "rc-slip --mu 0.3 --path '100N,0,0' -o x.rcg soft.rcg"
+refuses 1 'its key hardness says that the bodies are not elastic' "other loads of a body that yields" "rc-slip --mu 0.3 --path '100N,0,0' -o x.rcg soft.rcg"
 claim "  its own load will do" rc-slip --mu 0.3 --tangential 36N -o x.rcg soft.rcg
 rc-solve --quiet --load 1mN --adhesion 50J/m2 --estar 1GPa -o pulls.rcg sphere.rcg
-refuses 1 'negative at [0-9]* of 4096 nodes: the normal force' "bodies that attract each other" "rc-slip --mu 0.3 --nu 0.3 --tangential 1N -o x.rcg pulls.rcg"
-refuses 1 'boundary is free: --periodic contradicts it' "another boundary" "rc-slip --mu 0.3 --periodic --tangential 1N -o x.rcg ball.rcg"
+refuses 1 'negative at [0-9]* of 4096 nodes, and friction needs' "bodies that attract each other" "rc-slip --mu 0.3 --nu 0.3 --tangential 1N -o x.rcg pulls.rcg"
+refuses 1 'boundary is free, which contradicts --periodic' "another boundary" "rc-slip --mu 0.3 --periodic --tangential 1N -o x.rcg ball.rcg"
 claim "a decimal comma is warned of" warns 'two values, 1 N and 5 N' rc-slip --mu 0.3 --tangential 1,5 -o x.rcg ball.rcg
 refuses 1 '--memory allows' "too little memory" "rc-slip --mu 0.3 --tangential 1N --memory 1M -o x.rcg ball.rcg"
 

@@ -1,4 +1,4 @@
-/* The bodies: their elastic constants along the surface. */
+/* Elastic constants of the bodies for tangential displacements. */
 #include "slip.h"
 
 #include <math.h>
@@ -15,7 +15,8 @@ slip_check_bodies(struct slip_run *run)
         tool_die(t, EXIT_USAGE,
                  "give both bodies, --E1 --nu1 --E2 --nu2, or --E1 --nu1 --E2 rigid");
     if (bodies > 0 && tool_given(t, "nu"))
-        tool_die(t, EXIT_USAGE, "--nu is of both bodies, --nu1 and --nu2 are of each: give either");
+        tool_die(t, EXIT_USAGE,
+                 "--nu is Poisson's ratio of both bodies: give either --nu, or --nu1 and --nu2");
 }
 
 /* (1 - nu)/G, nu/G and (1 - 2 nu)/G, up to a common factor. */
@@ -40,7 +41,7 @@ set_constants(struct slip_pair *b)
     b->beta = b->pair.estar > 0 ? 0 : sum[2] / (2 * sum[0]);
 }
 
-/* Whether a key has this value; `none`: the value of an absent key. */
+/* True if the key has this value. An absent key has the value `none`. */
 static bool
 same(const struct rc_grid *p, const char *key, double value, double none)
 {
@@ -51,7 +52,7 @@ same(const struct rc_grid *p, const char *key, double value, double none)
     return own == value || fabs(own - value) <= 1e-9 * fabs(value);
 }
 
-/* Takes the bodies of the command line, which must be those of the pressure. */
+/* Takes the bodies of the command line, which must agree with the keys of the pressure. */
 static void
 take_given(struct slip_run *run)
 {
@@ -66,18 +67,18 @@ take_given(struct slip_run *run)
     of_these = 1 / ((1 - a->nu1 * a->nu1) / a->e1 + (rigid ? 0 : (1 - a->nu2 * a->nu2) / a->e2));
     if (rc_grid_number(run->p, "estar", &estar) && !(fabs(of_these / estar - 1) < 1e-9))
         tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
-                    "its E* is %.9g Pa, that of --E1 --nu1 --E2 --nu2 is %.9g Pa: solve it for "
-                    "these bodies first",
+                    "its E* is %.9g Pa, but --E1 --nu1 --E2 --nu2 give %.9g Pa: solve the contact "
+                    "for these bodies first",
                     estar, of_these);
     if (rc_grid_get(run->p, "e1") != NULL &&
         !(same(run->p, "e1", a->e1, NAN) && same(run->p, "nu", a->nu1, NAN) &&
           same(run->p, "e2", rigid ? 0 : a->e2, 0) && same(run->p, "nu2", rigid ? 0 : a->nu2, 0)))
         tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
-                    "its bodies are others than those of --E1 --nu1 --E2 --nu2: leave these out, "
-                    "or solve it for these bodies first");
+                    "its bodies differ from --E1 --nu1 --E2 --nu2: leave these options out, or "
+                    "solve the contact for these bodies first");
 }
 
-/* Takes the bodies of the stream: both, or only E* with a Poisson's ratio of both. */
+/* Takes the bodies from the stream: both, or E* and one Poisson's ratio for both. */
 static void
 take_own(struct slip_run *run)
 {
@@ -87,11 +88,11 @@ take_own(struct slip_run *run)
     if (rc_grid_number(run->p, "e1", &pair->one.e) && rc_grid_number(run->p, "nu", &pair->one.nu)) {
         if (!isnan(run->args->nu))
             tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
-                        "its bodies have Poisson's ratios of their own: leave out --nu");
+                        "the stream already gives Poisson's ratios: leave out --nu");
         if (rc_grid_get(run->p, "e2") != NULL && (!rc_grid_number(run->p, "e2", &pair->two.e) ||
                                                   !rc_grid_number(run->p, "nu2", &pair->two.nu)))
             tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
-                        "its keys e2 and nu2 are no material: solve it again");
+                        "its keys e2 and nu2 are not both numbers: solve the contact again");
         return;
     }
     pair->one = (struct rc_body){0};
@@ -101,8 +102,8 @@ take_own(struct slip_run *run)
     b->nu = run->args->nu;
     if (isnan(b->nu) && !rc_grid_number(run->p, "nu", &b->nu))
         tool_die_at(&run->t, run->p, EXIT_USAGE,
-                    "Poisson's ratio is not in the stream: give it with --nu for bodies that are "
-                    "alike, or both bodies, --E1 --nu1 --E2 --nu2");
+                    "Poisson's ratio is not in the stream: give --nu for bodies of the same "
+                    "material, else both bodies, --E1 --nu1 --E2 --nu2");
 }
 
 void
@@ -111,8 +112,8 @@ slip_find_bodies(struct slip_run *run)
     run->bodies = (struct slip_pair){.nu = 0};
     if (rc_grid_get(run->p, "layers") != NULL)
         tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
-                    "its body is coated, and how layers shear is not known here: solve it for bare "
-                    "bodies");
+                    "its body 1 has layers, and rc-slip supports only bodies without layers: solve "
+                    "the contact without --layer");
     if (tool_given(&run->t, "E1"))
         take_given(run);
     else

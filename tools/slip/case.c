@@ -1,4 +1,4 @@
-/* A case of rc-slip: its corners one after another, and the frames of each. */
+/* A case of rc-slip: solves its corners one after another and writes the frames of each. */
 #include "slip.h"
 
 #include <inttypes.h>
@@ -43,25 +43,23 @@ check_pressure(struct slip_run *run)
     for (size_t k = 0; k < n; k++)
         pulled += run->p->v[k] < 0;
     if (pulled > 0 || rc_grid_get(run->p, "adhesion") != NULL)
-        tool_die_at(
-            &run->t, run->p, EXIT_IMPOSSIBLE,
-            "it is the net pressure of bodies that attract each other, negative at %zu of %zu "
-            "nodes: the normal force that friction follows in such a contact is not in the stream: "
-            "take pressures of rc-solve without --adhesion",
-            pulled, n);
+        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+                    "it is the net pressure of an adhesive contact, negative at %zu of %zu nodes, "
+                    "and friction needs the pressure of the touching nodes alone: solve the "
+                    "contact without --adhesion",
+                    pulled, n);
     touch = contact_frame(&run->t, run->p, run->contact);
     for (size_t k = 0; k < n; k++)
         without += rc_in_contact(run->p->v[k]) && !rc_in_contact(touch->v[k]);
     if (without > 0)
-        tool_die_at(
-            &run->t, run->contact, EXIT_IMPOSSIBLE,
-            "%zu nodes that carry pressure are not in contact by this frame: friction needs "
-            "both to agree, solve the contact again",
-            without);
+        tool_die_at(&run->t, run->contact, EXIT_IMPOSSIBLE,
+                    "%zu nodes have a pressure, but are not in contact according to this frame: "
+                    "solve the contact again",
+                    without);
     run->load = rc_sum(run->p->v, n) * run->p->dx * run->p->dy;
 }
 
-/* The boundary of the pressure is that of the friction. */
+/* Friction takes the boundary of the pressure. */
 static void
 find_boundary(struct slip_run *run)
 {
@@ -73,11 +71,11 @@ find_boundary(struct slip_run *run)
                     "its boundary is '%s': it must be free or periodic", own);
     if (run->args->periodic && !periodic)
         tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
-                    "its boundary is %s: --periodic contradicts it", own);
+                    "its boundary is %s, which contradicts --periodic: leave out --periodic", own);
     run->boundary = periodic ? RC_PERIODIC : RC_FREE;
 }
 
-/* Contacts can be solved for elastic bodies with known heights. */
+/* A new contact can be solved only for elastic bodies with known heights. */
 static void
 check_solvable(struct slip_run *run)
 {
@@ -86,23 +84,21 @@ check_solvable(struct slip_run *run)
     if (!run->solves)
         return;
     if (run->height == NULL && run->alternates)
-        tool_die_at(
-            &run->t, run->p, EXIT_IMPOSSIBLE,
-            "its bodies are dissimilar (beta %.3g), so that it feels tractions and is found "
-            "anew, and there must be a height beside it: take all that rc-solve writes, or "
-            "--coupling goodman or none",
-            run->bodies.beta);
+        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+                    "its bodies are dissimilar (beta %.3g), so that tractions change the pressure, "
+                    "and this needs a height in the same case: keep all frames of rc-solve, or "
+                    "take --coupling goodman or none",
+                    run->bodies.beta);
     if (run->height == NULL)
         tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
-                    "contacts under other loads than its own, %g N, are to be solved, and there "
-                    "must be a height beside it: take all that rc-solve writes",
+                    "the path has loads other than that of the stream, %g N, and these contacts "
+                    "need a height in the same case: keep all frames of rc-solve",
                     run->load);
     for (size_t k = 0; k < sizeof more / sizeof *more; k++)
         if (rc_grid_get(run->p, more[k]) != NULL)
             tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
-                        "contacts are to be solved on the way, which is done for elastic bodies "
-                        "only, and its key %s says that these are none: move them under its own "
-                        "load alone%s",
+                        "its key %s says that the bodies are not elastic, and rc-slip solves other "
+                        "loads for elastic bodies only: use the load of the stream alone%s",
                         more[k], run->alternates ? ", with --coupling goodman" : "");
 }
 
@@ -147,7 +143,7 @@ set_keys(struct slip_run *run, struct rc_grid *g, const struct slip_state *s)
     set_number(run, g, "displacement_y", apart ? NAN : f->displacement[1]);
 }
 
-/* Maps are written one after another from one buffer. */
+/* Writes the maps one after another from one buffer. */
 static void
 write_frames(struct slip_run *run, struct rc_model *m, const struct slip_state *s)
 {
@@ -221,7 +217,7 @@ set_marks(struct slip_run *run)
 
 /* ---- corners ---- */
 
-/* Under the load of the stream the approach is that of the stream, if it was not found. */
+/* The approach at a state; if unknown, the approach of the stream, provided that the load is the same. */
 static double
 approach_of(const struct slip_run *run, const struct slip_state *s)
 {
@@ -233,7 +229,7 @@ approach_of(const struct slip_run *run, const struct slip_state *s)
     return own;
 }
 
-/* The figures at a corner, the parts of its error, and whether their sum is within what was asked for. */
+/* Finds the figures at a corner, the parts of its error, and whether their sum is within the goal. */
 static void
 find_state(struct slip_run *run, struct rc_model *m, struct slip_state *s)
 {
@@ -256,8 +252,8 @@ find_state(struct slip_run *run, struct rc_model *m, struct slip_state *s)
                     (run->increments > 0 && isnan(s->traction_error)));
 }
 
-/* The contact. Its tolerance is that of friction, or less if both are solved alternately. Without heights
- * it is never solved. */
+/* Makes the model of the contact. Its tolerance is that of friction, or less if both are solved alternately.
+ * Without heights it is never solved. */
 static struct rc_model *
 new_contact(const struct slip_run *run, double tol, struct rc_err *err)
 {
@@ -288,7 +284,7 @@ new_model(struct slip_run *run)
     return m;
 }
 
-/* Goes from corner to corner, until a signal comes. */
+/* Solves the corners one after another, until a signal comes. */
 static void
 follow(struct slip_run *run)
 {
@@ -322,14 +318,14 @@ follow(struct slip_run *run)
 
 /* ---- a case ---- */
 
-/* Bytes: friction and contacts, maps, and the state of the corner before. */
+/* The memory in bytes for friction and contacts, maps, and the state at the previous corner. */
 static size_t
 memory_for(const struct slip_run *run)
 {
     enum {
         STATE = 8 /* maps of the state of a way */
     };
-    /* a node, measured on 1024 x 1024 nodes: free, periodic; of dissimilar bodies */
+    /* bytes a node, measured on 1024 x 1024 nodes: free, periodic; second row: dissimilar bodies */
     static const double bytes[2][2] = {{343, 248}, {375, 268}};
     const struct rc_shape shape = rc_grid_shape(run->p);
     const struct rc_problem contact = {.boundary = run->boundary,

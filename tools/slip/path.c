@@ -6,14 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double same_load =
-    1e-6; /* relative: a load that is nearer to that of the stream is that of the stream */
+static const double same_load = 1e-6; /* relative: a nearer load counts as the load of the stream */
 
 /* ---- the command line ---- */
 
 static const char apart[] = " ,\t";
 
-/* "LOAD,FX,FY", also with blanks. */
+/* Reads "LOAD,FX,FY", which may contain blanks. */
 static enum rc_status
 read_corner(const char *text, struct slip_corner *c, struct rc_err *err)
 {
@@ -81,7 +80,7 @@ read_path(struct slip_run *run, const char *path)
         tool_die(&run->t, EXIT_USAGE, "--path: it must be LOAD,FX,FY; ..., as in 240N,36N,0");
 }
 
-/* Lines; '#' begins a comment, and a line of words at the top is a heading. */
+/* Reads a file of such lines. '#' begins a comment, and a first line of words is a heading. */
 static void
 read_history(struct slip_run *run, const char *name)
 {
@@ -108,11 +107,13 @@ read_history(struct slip_run *run, const char *name)
         tool_die(&run->t, EXIT_USAGE, "--history %s: %s", name, strerror(errno));
     fclose(file);
     if (run->givens == 0)
-        tool_die(&run->t, EXIT_USAGE,
-                 "--history %s: it holds no line of load, force along x and force along y", name);
+        tool_die(
+            &run->t, EXIT_USAGE,
+            "--history %s: the file contains no line with load, force along x and force along y",
+            name);
 }
 
-/* The history of the stream contains the path in SI units, from any source. */
+/* Writes the path in SI units into the history of the stream, from whichever option it came. */
 static void
 set_history(struct slip_run *run, struct slip_args *args)
 {
@@ -157,7 +158,7 @@ slip_read_path(struct slip_run *run, struct slip_args *args)
 
 /* ---- the path of a case ---- */
 
-/* The path under the load of the stream: the bodies are pressed together, then moved. */
+/* Makes the path under the load of the stream: press the bodies together, then move them. */
 static void
 press_and_move(struct slip_run *run)
 {
@@ -185,7 +186,7 @@ slip_point(const struct slip_corner *c)
     return p;
 }
 
-/* The tolerance of an increment: the errors of all increments add up. */
+/* Returns the tolerance of an increment. It falls with their number, because their errors add up. */
 static double
 tolerance(const struct slip_run *run)
 {
@@ -197,7 +198,7 @@ tolerance(const struct slip_run *run)
     return (isnan(run->args->tol) ? usual : run->args->tol) / (double)n;
 }
 
-/* The law of friction but for its tolerance. */
+/* The law of friction without its tolerance. */
 static struct rc_friction_problem
 law_of(const struct slip_run *run)
 {
@@ -216,8 +217,8 @@ law_of(const struct slip_run *run)
                                         .known_gap = run->gap == NULL ? NULL : run->gap->v};
 }
 
-/* Plans the leg to a corner, the solutions for its error, and whether contacts under other loads than the
- * known one are needed. From no load to a force, the gap before contact is needed. */
+/* Plans the leg to a corner, the further solutions that estimate its error, and whether contacts under other
+ * loads must be solved. A leg from no load to a force needs the gap before contact. */
 static void
 plan_leg(struct slip_run *run, const struct slip_corner *from, struct slip_corner *to)
 {

@@ -51,18 +51,17 @@ slip_report(struct slip_run *run, const struct slip_state *s)
 /* ---- warnings ---- */
 
 static const double near_sliding = 0.99;
-static const double coarse = 0.05; /* an error with a warning */
+static const double coarse = 0.05; /* an error above this gets a warning */
 
 double
 slip_goal(const struct slip_run *run)
 {
-    static const double usual =
-        0.1; /* without --tol; the default of --tol is for the iteration alone */
+    static const double usual = 0.1; /* without --tol, whose default concerns the iteration alone */
 
     return isnan(run->args->tol) ? usual : run->args->tol;
 }
 
-/* Warns of the largest part of the error, and how to lower it, if it exceeds `most`. */
+/* Warns if the error exceeds `most`: names its largest part and how to lower it. */
 static void
 say_what_is_left(struct slip_run *run, const struct slip_state *s, double most, const char *where)
 {
@@ -72,25 +71,23 @@ say_what_is_left(struct slip_run *run, const struct slip_state *s, double most, 
         n = fmax(n, (double)c->leg.increments);
 
     if (isnan(s->traction_error))
-        tool_warn(&run->t,
-                  "%s: --increments %zu is too few to tell the error that is left: take 8, or auto",
+        tool_warn(&run->t, "%s: --increments %zu is too few to estimate the error: take 8, or auto",
                   where, run->increments);
     else if (s->traction_error > most && increments > s->traction_error / 2)
-        tool_warn(
-            &run->t,
-            "%s: the increments leave an error of %.2g %% of the tractions: take --increments "
-            "%.0f for %.2g %%",
-            where, 100 * increments, fmax(ceil(n * pow(increments / most, 1.1)), 8), 100 * most);
+        tool_warn(&run->t,
+                  "%s: the increments cause an error of %.2g %% of the tractions: take "
+                  "--increments %.0f for %.2g %%",
+                  where, 100 * increments, fmax(ceil(n * pow(increments / most, 1.1)), 8),
+                  100 * most);
     else if (s->traction_error > most || !s->converged)
         tool_warn(
             &run->t,
-            "%s: the iteration leaves an error of %.1e of the tractions, where %.1e was asked "
-            "for: take --tol %.0e; near sliding a displacement is easier to find than its "
-            "force",
+            "%s: the error of the iteration is %.1e of the tractions, above the goal of %.1e: take "
+            "--tol %.0e; near sliding give --displacement, which is easier to solve than a force",
             where, s->traction_error - increments, slip_goal(run), slip_goal(run) / 10);
 }
 
-/* Bodies that have yielded under the pressure of the stream are elastic here. */
+/* Warns that rc-slip treats bodies that have yielded as elastic. */
 static void
 say_what_yielded(struct slip_run *run, const char *where)
 {
@@ -102,8 +99,8 @@ say_what_yielded(struct slip_run *run, const char *where)
         (rc_grid_number(run->p, "hardness", &limit) && most >= limit * (1 - 1e-9)))
         tool_warn(
             &run->t,
-            "%s: the body has yielded (%s %.4g Pa): rc-slip takes its pressure, moves elastic "
-            "bodies, and considers neither residual strains nor yield under tractions",
+            "%s: the body has yielded (%s %.4g Pa): rc-slip uses its pressure, but treats the "
+            "bodies as elastic, without residual strain and without yield under tractions",
             where, rc_grid_get(run->p, "yield") != NULL ? "yield stress" : "hardness", limit);
 }
 
@@ -117,15 +114,15 @@ slip_judge_plan(struct slip_run *run)
         return;
     if (run->coupling == RC_COUPLING_NONE)
         tool_warn(&run->t,
-                  "%s: the bodies are dissimilar (beta %.3g), and --coupling none leaves out what "
-                  "their pressure does along the surface: on rough surfaces tractions were off by "
-                  "16 to 87 %%",
+                  "%s: the bodies are dissimilar (beta %.3g), and --coupling none neglects the "
+                  "tangential displacement due to their pressure: on rough surfaces tractions were "
+                  "wrong by 16 to 87 %%",
                   where, run->bodies.beta);
     else
         tool_warn(&run->t,
-                  "%s: the bodies are dissimilar (beta %.3g), and the coupling is goodman, the "
-                  "pressure as if there were no tractions: on rough surfaces these were off by 2 "
-                  "to 13 %%, pressures by 1 to 8 %%",
+                  "%s: the bodies are dissimilar (beta %.3g), and --coupling goodman neglects the "
+                  "effect of tractions on the pressure: on rough surfaces tractions were wrong by "
+                  "2 to 13 %%, pressures by 1 to 8 %%",
                   where, run->bodies.beta);
 }
 
@@ -140,19 +137,22 @@ slip_judge(struct slip_run *run, const struct slip_state *s)
     snprintf(where, sizeof where, "%s, at a load of %.6g N and a force of %.6g N", frame, f->load,
              force);
     if (tool_interrupted() != 0)
-        tool_warn(&run->t, "%s: interrupted on its way: what is written stopped short", where);
+        tool_warn(&run->t,
+                  "%s: interrupted on the way to this point: the written frames are not a solution",
+                  where);
     else
         say_what_is_left(run, s, fmin(coarse, slip_goal(run)), where);
     if (!s->corner->moved && force > near_sliding * f->limit && f->limit > 0)
-        tool_warn(&run->t,
-                  "%s: that is %.6g of what friction can carry: the displacement grows without "
-                  "bound there, and small errors of the pressure with it",
-                  where, force / f->limit);
+        tool_warn(
+            &run->t,
+            "%s: the force is %.6g of the friction limit, where the displacement grows without "
+            "bound and is sensitive to errors of the pressure: give --displacement instead",
+            where, force / f->limit);
 }
 
 /* ---- the plan ---- */
 
-/* The expected passes: each leaves about 0.7 mu beta of the error. */
+/* The expected number of passes: each multiplies the error by about 0.7 mu beta. */
 static size_t
 expected_passes(const struct slip_run *run)
 {
@@ -173,7 +173,9 @@ slip_say_plan(struct slip_run *run, size_t memory)
             tool_where(&run->t, run->p, where, sizeof where), run->p->nx, run->p->ny,
             run->boundary == RC_PERIODIC ? "periodic" : "free");
     if (b->beta == 0)
-        fprintf(out, "  %-16sleft out: pressure and tractions do not feel each other, beta = 0\n",
+        fprintf(out,
+                "  %-16sleft out: beta = 0, so that pressure and tractions do not influence each "
+                "other\n",
                 "coupling");
     else if (run->alternates)
         fprintf(out, "  %-16son, beta %.3g: about %zu passes an increment\n", "coupling", b->beta,
@@ -192,7 +194,7 @@ slip_say_plan(struct slip_run *run, size_t memory)
     fprintf(out, "  %-16s%s\n", "contacts",
             run->alternates ? "solved in each pass"
             : run->solves   ? "solved where the load changes"
-                            : "left out: the pressure is there");
+                            : "left out: the stream has the pressure");
     for (size_t k = 0; k < run->corners; k++) {
         const struct slip_corner *c = &run->corner[k];
         if (c->silent)
@@ -202,7 +204,7 @@ slip_say_plan(struct slip_run *run, size_t memory)
                 c->leg.increments == 1 ? "" : "s");
     }
     if (run->law.fewer > 0)
-        fprintf(out, "  %-16swith half of them%s too, for the error\n", "increments",
+        fprintf(out, "  %-16ssolved also with half of them%s, for the error\n", "increments",
                 run->law.fewer < RC_FEWER ? "" : " and a quarter");
     fprintf(out, "  %-16sabout %zu MiB\n", "memory", (memory >> 20) + 1);
 }

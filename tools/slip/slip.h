@@ -1,4 +1,4 @@
-/* What the files of rc-slip share. */
+/* Declarations for all files of rc-slip. */
 #ifndef RC_TOOL_SLIP_H
 #define RC_TOOL_SLIP_H
 
@@ -30,22 +30,22 @@ struct slip_corner {
     double load;  /* N */
     double to[2]; /* N, or m where `moved` */
     bool moved;
-    bool silent; /* without a case of its own in the output */
+    bool silent; /* not written to the output */
     struct rc_leg leg;
 };
 
 struct slip_pair {
     struct rc_pair pair;
-    double nu;        /* of both, where only E* is known */
+    double nu;        /* Poisson's ratio of both bodies, if only E* is known */
     double kap, beta; /* contact-theory(7) */
 };
 
-/* A corner that was reached, or where a signal ended the run. */
+/* The state at a corner, or where a signal ended the run. */
 struct slip_state {
     const struct slip_corner *corner;
     struct rc_friction_figures figures;
-    double dissipated_total;   /* J, since the start             */
-    struct error_parts errors; /* of the tractions               */
+    double dissipated_total;   /* J, since the start of the path */
+    struct error_parts errors; /* parts of the error of the tractions */
     double traction_error;     /* their sum; NAN: unknown        */
     double seconds;
     bool converged;
@@ -59,13 +59,13 @@ struct slip_run {
     size_t givens;
     size_t increments; /* 0: auto */
     enum rc_coupling coupling;
-    size_t number; /* of the case that is written */
+    size_t number; /* number of the written case */
     struct course course;
-    /* of the case that is read; gap and height may be NULL */
+    /* frames of the input case; gap and height may be NULL */
     struct rc_grid *p, *gap, *height, *contact;
     struct slip_pair bodies;
     enum rc_boundary boundary;
-    double load; /* N, of the stream's pressure */
+    double load; /* N, load of the pressure in the stream */
     struct slip_corner *corner;
     size_t corners;
     struct rc_friction_problem law;
