@@ -1,26 +1,20 @@
 /*
- * Semismooth Newton on the faces of the discs. Each set of faces gets one step of preconditioned
- * conjugate gradients: the sets change too fast for a second step to pay.
- *
- *  1. delta is the mean of Tq - w over the nodes with |q| < g. Without such a node it is that of a
- *     projected gradient step.
- *  2. A node inside its circle sticks: both components are free. A node on its circle slips: only its
- *     tangent is free. If its slip points inwards it sticks again, unless the residuals of its neighbours
- *     would push it out. A shortened step leaves slipping nodes on chords, inside the circle: they slip
- *     on while pushed outwards.
- *  3. D = |s|/g along the tangents of slipping nodes is the curvature of the circle, as Newton's method
- *     needs it.
- *  4. z = M r (extension.h), of zero load; d = z + beta times the last step (Hestenes and Stiefel).
- *  5. Slipping nodes return radially to their circles. The sticking nodes of each tile of 16 x 16 take
- *     the nearest tractions on the discs that carry the load of the tile. One shift carries the rest.
- *  6. The length minimises Newton's energy on the faces; it is at most 1, and at most 1.9 times the
- *     length that lowers the energy most. If the energy does not fall, a projected gradient step follows,
- *     which lowers it. Where the fall of the energy is rounding, the length is Newton's alone.
- *
- * M applied to the residual also gives the estimate of the error, together with three parts that M does
- * not contain: the load of nodes inside their circles; the load of turns (near sliding all tangents are
- * nearly parallel, so that only large turns carry a small load along the force); and nodes on their circles
- * that would stick under another delta.
+ * Semismooth Newton on the faces of the discs. Each set of faces gets one step of preconditioned conjugate
+ * gradients: the sets change too fast for a second step to pay. 1. delta is the mean of Tq - w over the nodes
+ * with |q| < g. Without such a node, delta comes from a projected gradient step. 2. A node inside its circle
+ * sticks: both components are free. A node on its circle slips: only its tangent is free. If its slip points
+ * inwards it sticks again, unless the residuals of its neighbours would push it out. A shortened step leaves
+ * slipping nodes on chords, inside the circle: they keep slipping while their residual points outwards. 3.
+ * Newton's method needs the curvature of the circle: D = |s|/g along the tangents of slipping nodes. 4. z = M
+ * r (extension.h), shifted to zero load. The step is d = z + beta times the last step (Hestenes and Stiefel).
+ * 5. Slipping nodes return radially to their circles. The sticking nodes of each tile of 16 x 16 take the
+ * nearest tractions on the discs that carry the load of the tile. One shift carries the rest. 6. The length
+ * minimises Newton's energy on the faces; it is at most 1, and at most 1.9 times the length that lowers the
+ * energy most. If the energy does not fall, a projected gradient step follows, which lowers it. If rounding
+ * hides the change of the energy, the length is Newton's alone. M applied to the residual also gives the
+ * estimate of the error, together with three parts that M does not contain: the load of nodes inside their
+ * circles; the load of turns (near sliding all tangents are nearly parallel, so that only large turns carry a
+ * small load along the force); and nodes on their circles that would stick under another delta.
  */
 #include "discs.h"
 
@@ -34,7 +28,7 @@ enum {
     OFF = RC_FACE_OFF,
     STICK = RC_FACE_STICK,
     SLIP = RC_FACE_SLIP,
-    INWARDS, /* on its circle, slips inwards: it is not decided yet whether it sticks */
+    INWARDS, /* on its circle, slips inwards: whether it sticks is not yet decided */
 };
 enum {
     SUMS = 7,
@@ -42,9 +36,10 @@ enum {
     TILE = 16
 };
 static const double safety = 1.3; /* factor of the estimate */
-static const double early = 20;   /* a larger factor while the faces differ from the final ones */
+static const double early = 20;   /* factor of the estimate before the faces are final */
 static const double on_circle = 1e-12;
-static const double clipped = 0.1; /* if more of a step is clipped, the next one is not conjugate */
+static const double clipped = 0.1; /* if a larger part of a step is clipped, the next step is not
+                                      conjugate */
 static const double short_step = 0.1;
 
 /* ---- sums over nodes ---- */
@@ -67,7 +62,7 @@ sum_row(void *ctx, size_t j, double *sum)
             r->of(r->d, k, r->with, sum);
 }
 
-/* The first `count` of the sums over the nodes that carry a load; behind them, the largest numbers. */
+/* Computes the first `count` sums over the nodes that carry a load, and after them the largest values. */
 static void
 sum_nodes(const struct rc_discs *d, of_node *of, const void *with, size_t count, double *out)
 {
@@ -91,7 +86,7 @@ slip_of(const struct rc_discs *d, int c, size_t k)
     return d->u[c][k] - d->w[c][k] - d->delta[c];
 }
 
-/* Solves m x = v for a symmetric 2 x 2 matrix (xx, yy, xy); if m is singular, on its range. */
+/* Solves m x = v for a symmetric 2 x 2 matrix (xx, yy, xy). If m is singular, solves on its range. */
 static void
 solve(const double m[3], const double v[2], double x[2])
 {
@@ -102,7 +97,7 @@ solve(const double m[3], const double v[2], double x[2])
     } else if (det > 1e-14 * trace * trace) {
         x[0] = (m[1] * v[0] - m[2] * v[1]) / det;
         x[1] = (m[0] * v[1] - m[2] * v[0]) / det;
-    } else { /* of rank 1: the inverse on its range is m over the square of its trace */
+    } else { /* rank 1: the inverse of m on its range is m over the square of its trace */
         x[0] = (m[0] * v[0] + m[2] * v[1]) / (trace * trace);
         x[1] = (m[2] * v[0] + m[1] * v[1]) / (trace * trace);
     }
@@ -114,17 +109,18 @@ solve(const double m[3], const double v[2], double x[2])
 enum who {
     ALL,
     STICKING,
-    ON_FACES /* all nodes; those that slip stay on their circles */
+    ON_FACES /* all nodes; slipping nodes stay on their circles */
 };
 struct moved {
     double *const *y;
     enum who who;
-    const size_t *tile; /* first columns and rows, and those after the last; NULL: the map */
+    const size_t *tile; /* first column and row, and the column and row after the last; NULL: the
+                           map */
     double nu[2];
 };
 
-/* Sums for a shift of y by nu: 0, 1: the traction of a node; 2 to 4: xx yy xy of its derivative; 5: the
- * function whose gradient is 0, 1. */
+/* Sums for a shift of y by nu. 0, 1: the traction of a node; 2 to 4: xx yy xy of its derivative; 5: the
+ * function whose gradient is sums 0 and 1. */
 static void
 carried_by(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
@@ -166,10 +162,10 @@ carried(const struct rc_discs *d, const struct moved *m, double out[SUMS])
                 carried_by(d, k, m, out);
 }
 
-/* Finds nu such that the nearest tractions on the discs to y + nu carry `load` within `near`, on the
- * nodes that are moved. It is the minimum of a convex function, found by Newton's method after Levenberg
- * and Marquardt, because tractions of one direction do not grow along it. `size`: the largest force that
- * friction carries there. False if the nodes cannot carry the load. */
+/* Finds nu such that the tractions on the discs nearest to y + nu carry `load` within `near`, summed over the
+ * moved nodes. nu minimises a convex function; Newton's method finds it, damped after Levenberg and Marquardt
+ * because parallel tractions on their circles make the matrix singular. `size`: the largest force that
+ * friction can carry on these nodes. Returns false if the nodes cannot carry the load. */
 static bool
 find_shift(const struct rc_discs *d, struct moved *m, const double load[2], double size,
            double near)
@@ -235,14 +231,14 @@ move_all(const struct rc_discs *d, const struct moved *m)
         move_node(d, m, k);
 }
 
-/* The shift nu that carries the load of the map, but for rounding. */
+/* Finds the shift nu that carries the load of the map to rounding. */
 static bool
 carry(const struct rc_discs *d, struct moved *m, const double load[2])
 {
     return find_shift(d, m, load, d->limit, 4 * DBL_EPSILON * d->limit);
 }
 
-/* Projects y on the discs, and on the load if one is given. */
+/* Projects y on the discs and, if a load is given, on the load. */
 static void
 project(const struct rc_discs *d, double *const y[2])
 {
@@ -291,7 +287,7 @@ rest_of(const struct rc_discs *d, size_t k, const void *with, double *sum)
     sum[1] += y[1][k];
 }
 
-/* Returns the end y of a step to the discs. */
+/* Moves the end y of a step back to the discs. */
 static void
 back(const struct rc_discs *d, double *const y[2])
 {
@@ -329,7 +325,7 @@ back(const struct rc_discs *d, double *const y[2])
 
 /* ---- faces ---- */
 
-/* Whether a node was left on a chord by a shortened step. */
+/* True if a shortened step has left the node on a chord. */
 static inline bool
 on_chord(const struct rc_discs *d, size_t k, double size)
 {
@@ -348,7 +344,7 @@ inside(const struct rc_discs *d, size_t k, const void *with, double *sum)
     sum[2] += in;
 }
 
-/* The inward slip of a node. */
+/* The inward component of the slip of a node. */
 static inline double
 inwards(const struct rc_discs *d, size_t k)
 {
@@ -393,7 +389,7 @@ first_look(struct rc_discs *d, size_t k)
     d->face[k] = !circle ? STICK : in > 0 ? INWARDS : SLIP;
 }
 
-/* The neighbour of node i of n; n: there is none. */
+/* The neighbour of node i of n nodes. Returns n if there is none. */
 static inline size_t
 beside(size_t i, int step, size_t n, bool round)
 {
@@ -404,7 +400,7 @@ beside(size_t i, int step, size_t n, bool round)
     return i;
 }
 
-/* Whether the residuals of its neighbours would push a sticking node out again. */
+/* True if the residuals of its neighbours would push a sticking node out of its disc again. */
 static bool
 is_pushed_out(const struct rc_discs *d, size_t i, size_t j)
 {
@@ -501,8 +497,9 @@ short_of_circle(const struct rc_discs *d, size_t k, double size)
     return d->face[k] == SLIP ? fmax(d->g[k] - size, 0) : 0;
 }
 
-/* Sums that M does not contain. 0, 1: the load that slipping nodes gain on the way to their circles; 2,
- * 3: the load that their turn by z costs, to second order; 4, 5: the residual, for the motion. */
+/* Computes the sums that M does not contain. 0, 1: the load that slipping nodes gain on the way to their
+ * circles; 2, 3: the load that they lose by turning by z, to second order; 4, 5: the residual, for the
+ * motion. */
 static void
 left_by_model(const struct rc_discs *d, size_t k, const void *with, double *sum)
 {
@@ -549,8 +546,8 @@ errors(const struct rc_discs *d, size_t k, const void *with, double *sum)
             fmax(inwards(d, k) - (d->judged.motion[0] * x + d->judged.motion[1] * y) / size, 0);
 }
 
-/* The error relative to the exact tractions. `off`: the error of q; `size`: the sum of |q|. The sum over
- * the exact tractions is at least size - off, and at least the load. */
+/* The error relative to the exact tractions. `off`: the error of q; `size`: the sum of |q|. The sum of the
+ * exact |q| is at least size - off, and at least the load. */
 static double
 relative(const struct rc_discs *d, double off, double size)
 {
@@ -564,7 +561,7 @@ relative(const struct rc_discs *d, double off, double size)
     return part / fmax(fmax(1 - part, load), least);
 }
 
-/* z = M r, less its load, and the estimate: |z|_1, the distances to the circles, and the sums of
+/* Computes z = M r minus its load, and the estimate: |z|_1, the distances to the circles, and the sums of
  * left_by_model. */
 static void
 precondition(struct rc_discs *d)
@@ -597,7 +594,7 @@ precondition(struct rc_discs *d)
     d->found.estimate = relative(d, at[0] + at[4] / d->m->self, at[1]);
 }
 
-/* The mean of the residual, if a displacement is given; false: it is rounding. */
+/* The mean of the residual, if a displacement is given. Returns false if the mean is only rounding. */
 static bool
 has_mean(const struct rc_discs *d, double mean[2])
 {
@@ -609,7 +606,7 @@ has_mean(const struct rc_discs *d, double mean[2])
     return hypot(mean[0], mean[1]) > 1e-6 * d->found.slip;
 }
 
-/* Looks at faces, residual and estimate. False: nothing resists the mean of the residual. */
+/* Computes faces, residual and estimate. Returns false if no node resists the mean of the residual. */
 static bool
 look(struct rc_discs *d, double mean[2])
 {
@@ -621,7 +618,7 @@ look(struct rc_discs *d, double mean[2])
             return false;
         precondition(d);
         if (d->found.estimate > d->asked.tol &&
-            d->judged.turning <= d->asked.tol) { /* another delta shows which nodes stick */
+            d->judged.turning <= d->asked.tol) { /* the next delta decides which nodes stick */
             d->delta[0] += d->judged.motion[0];
             d->delta[1] += d->judged.motion[1];
             d->judged.measured = true;
@@ -647,7 +644,7 @@ conjugate(const struct rc_discs *d, size_t k, const void *with, double *sum)
     }
 }
 
-/* z becomes the direction: it gets the part of the last step that makes both conjugate in T + D. */
+/* Makes z the direction: adds the multiple of the last step that makes both steps conjugate in T + D. */
 static void
 direct(struct rc_discs *d)
 {
@@ -671,7 +668,7 @@ enum {
     TWIST,    /* d'T d                                   */
     CURVED,   /* f'D f, f the free part of d             */
     DOWN,     /* r'f                                     */
-    CLIPPED,  /* |d - p z|_1, p z: the step before the way back */
+    CLIPPED,  /* |d - p z|_1, where p z is the step before the projection */
     STRAIGHT, /* |p z|_1                                 */
     SCALE     /* the size of rounding */
 };
@@ -695,8 +692,8 @@ energies(const struct rc_discs *d, size_t k, const void *with, double *sum)
     sum[DOWN] += (double)d->r[0][k] * f[0] + (double)d->r[1][k] * f[1];
 }
 
-/* d, the tractions at the end of a step, becomes the step itself; h = T d. True: the energy falls along
- * it. */
+/* Turns d from the tractions at the end of a step into the step itself, and computes h = T d. Returns true if
+ * the energy falls along d. */
 static bool
 judge(struct rc_discs *d, double p, double at[SUMS])
 {
@@ -709,8 +706,8 @@ judge(struct rc_discs *d, double p, double at[SUMS])
     return at[FALL] > 0;
 }
 
-/* Goes this part of the step. `reach`: of z, from where the step was returned. A node that was to leave
- * its disc is now on a chord. */
+/* Takes `part` of the step. `reach`: the multiple of z from which the step was projected back. A node that
+ * would leave its disc ends on a chord. */
 static void
 take(struct rc_discs *d, double length, double reach)
 {
@@ -728,7 +725,7 @@ take(struct rc_discs *d, double length, double reach)
     }
 }
 
-/* A step of the projected gradient. */
+/* Takes a step along the projected gradient. */
 static void
 fall_back(struct rc_discs *d)
 {
@@ -746,7 +743,7 @@ fall_back(struct rc_discs *d)
         take(d, fmin(at[FALL] / at[TWIST], 1), 0);
 }
 
-/* A step along z. */
+/* Takes a step along z. */
 static void
 step_along(struct rc_discs *d)
 {
@@ -776,8 +773,8 @@ step_along(struct rc_discs *d)
     take(d, length, reach);
 }
 
-/* For complete contact that sticks: nothing resists the motion of the mean plane of a periodic map, so
- * that tractions grow along it to the first circle. */
+/* For complete contact that sticks. Nothing resists the motion of the mean plane of a periodic map, so that
+ * tractions grow along this motion until the first node reaches its circle. */
 static void
 to_first_circle(struct rc_discs *d, const double mean[2])
 {

@@ -7,8 +7,8 @@
 
 #include "libcontact/memory.h"
 
-static const double around = 1.5;        /* wave number of a grid, times its spacing */
-static const double self_of_wave = 0.84; /* on square cells: the factor of T for a single node */
+static const double around = 1.5;        /* typical wave number of a grid times its spacing */
+static const double self_of_wave = 0.84; /* factor of T for a single node, on square cells */
 
 /* ---- plan ---- */
 
@@ -18,7 +18,7 @@ power(const void *of, double q)
     return rc_tangential_power(of, q);
 }
 
-/* The grid of fields: the map in its frame. */
+/* The grid of the fields: the map with its padding. */
 static struct rc_shape
 framed(const struct rc_shape *s, enum rc_boundary boundary)
 {
@@ -91,8 +91,8 @@ struct pass {
     float *const *r;
 };
 
-/* Replaces row *j of the grid by the row of the map; *to: the place of its first node. False: it is off
- * the map. */
+/* Replaces row *j of the grid by the row of the map; *to: the place of its first node. Returns false if the
+ * row is off the map. */
 static bool
 on_map(const struct rc_extension *e, size_t *j, float **to)
 {
@@ -164,8 +164,8 @@ rows_of(const struct rc_extension *e, size_t j, int count)
 /* A place on the grid. */
 struct place {
     bool on_map;
-    size_t k;    /* of the map */
-    float taper; /* off the map, fields decrease to 0 at the end of the frame */
+    size_t k;    /* index of the node of the map */
+    float taper; /* off the map: factor by which fields decrease to 0 at the end of the padding */
 };
 
 static float
@@ -203,7 +203,8 @@ mean_of_field(const struct rc_extension *e, double out[2])
     }
 }
 
-/* v = E r, r NULL for 0, with `beyond` for the pyramid; z: the ties of tangents to their residuals. */
+/* Computes v = E r (r NULL: 0), with `beyond` for the pyramid; z: the terms that tie tangents to their
+ * residuals. */
 static void
 extend(struct rc_extension *e, float *const r[2], const double beyond[2], float *const z[2])
 {
@@ -260,7 +261,7 @@ invert_means(struct rc_extension *e)
 
 /* ---- the set ---- */
 
-/* n becomes c P. */
+/* Sets n = c P. */
 static void
 know(struct rc_extension *e, const float *curve)
 {
@@ -283,7 +284,7 @@ know(struct rc_extension *e, const float *curve)
     }
 }
 
-/* n becomes c P (1 - part) P: the tractions of a shift are large where the surroundings are unknown. */
+/* Sets n = c P (1 - part) P. The tractions of a shift are large where the surroundings are unknown. */
 static void
 share(struct rc_extension *e)
 {
@@ -339,8 +340,8 @@ rc_extension_set(struct rc_extension *e, const unsigned char *face, double *cons
 
 /* ---- E' A E ---- */
 
-/* Replaces v by the part of its transpose that goes to the neighbours, and adds the rest to z; `first`:
- * with the ties in z, else with a shift of -eta. */
+/* Replaces v by the part of E' v that the pyramid passes to neighbours, and adds the rest to z; `first`: with
+ * the ties in z, else with a shift of -eta. */
 static void
 to_neighbours(struct rc_extension *e, bool first, const double eta[2], float *const z[2])
 {

@@ -9,8 +9,8 @@
  *     r'(T + D)^-1 r = least of  v'Av + sum over slipping nodes of (t'(r - v))^2/D     over all fields v with
  * v = r where nodes stick:
  *
- * The displacement v is unknown outside the contact, along the normals of the circles, and along their
- * tangents, where it is the less known the larger D is. Here v = E r is an explicit approximation,
+ * The displacement v is unknown outside the contact and along the normals of the circles. Along the tangents,
+ * the larger D is, the less v is known. Here v = E r is an explicit approximation,
  *
  *     v = e + c P (r - e),   e from the pyramid of pairs with W_0 = c P,   c = T0/(T0 + D):
  *
@@ -22,8 +22,8 @@
  * from above.
  *
  * A periodic T has no mean, T(0) = 0, and its inverse allows none: the fields v have no mean. If a force is
- * given, the residual has none either. If a displacement is given, the mean of v is moved to where nothing is
- * known, by a change of rank 2:
+ * given, the residual has none either. If a displacement is given, a change of rank 2 moves the mean of v to
+ * nodes where v is unknown:
  *
  *     e -> e - Phi m,   m = B^-1 mean(e + c P (r - e)),   B = mean((1 - c P) Phi),
  *
@@ -44,14 +44,14 @@ enum rc_face {
 struct rc_extension {
     struct rc_tangential *t;
     struct rc_pyramid *pyramid;
-    struct rc_shape grid;      /* of fields: the map in its frame */
+    struct rc_shape grid;      /* grid of the fields: the map with its padding */
     float *maps;               /* the block of all maps */
-    const unsigned char *face; /* of the caller, like q */
+    const unsigned char *face; /* the caller's array, like q */
     double *const *q;
     float
         *known;  /* c                                                                             */
     float *tie;  /* (1 - c)^2/D                                                                   */
-    float *n[3]; /* xx yy xy: the tractions M P of a shift of all nodes by 1, up to a factor */
+    float *n[3]; /* xx yy xy: the tractions M P due to a shift of all nodes by 1, up to a factor */
     float *v[2]; /* on the grid                           */
     float *row;  /* for each thread                       */
     double self; /* T0                                    */

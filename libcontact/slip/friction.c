@@ -4,11 +4,11 @@
  *
  * Dissimilar bodies are coupled: tractions move the surface along its normal, so that the inner model gets
  * heights without this displacement, and pressure moves the bodies along each other. Pressure and tractions
- * are found in turn, in passes that contract by about 0.7 mu beta. Where beta is 0, or the effect of
- * tractions on the pressure is left out (Goodman 1962), the pressure is found once for each load.
+ * are found in turn, in passes that contract by about 0.7 mu beta. Where beta is 0, or the coupling neglects
+ * the effect of tractions on the pressure (Goodman 1962), the pressure is found once for each load.
  *
- * Two further solutions may go along, with half and with a quarter of the increments. They tell the error of
- * the increments (increments.c). Both start from the tractions that all increments have found.
+ * Two further solutions may be computed, with half and with a quarter of the increments. They give the error
+ * of the increments (increments.c). Both start from the tractions of the solution with all increments.
  */
 #include "slip.h"
 
@@ -18,28 +18,28 @@
 #include "libcontact/memory.h"
 
 enum stage {
-    REST,     /* an increment is kept                       */
+    REST,     /* the last increment is part of the history */
     PRESSING, /* the inner model steps                      */
     SLIDING,  /* rc_slip steps, under the pressure p        */
     THERE     /* the increment is solved                    */
 };
 
-/* One solution: that of all increments, or that of half or a quarter of them. */
+/* One solution: with all increments, or with half or a quarter of them. */
 struct way {
-    struct rc_model *inner; /* NULL: the pressure is that of the first way */
+    struct rc_model *inner; /* NULL: takes the pressure of the first way */
     struct rc_slip *slip;
     double *maps, *less, *p, *gap; /* less: heights of the inner model */
     double *before[2];             /* tractions of the previous pass   */
     bool has_gap, contact_good;
-    double tol;              /* of the tractions, with all passes        */
-    struct rc_point pressed; /* of p, in the axes of the inner model     */
-    double inherited[2]; /* Pa: sums over the map of the errors that increments before have left, of
-                                their iteration and of their contacts    */
-    /* of the increment */
+    double tol;              /* tolerance of the tractions, with all passes */
+    struct rc_point pressed; /* the point of p, in the axes of the inner model */
+    double inherited[2];     /* Pa: sums over the map of the errors of earlier increments: of their
+                                iteration and of their contacts */
+    /* of the present increment */
     struct rc_point at; /* its end */
     size_t stage, passes;
     double pressure_change, traction_change, factor, lowered, pressure_error, approach;
-    double convolutions; /* of all contacts */
+    double convolutions; /* convolutions of all contacts */
 };
 
 struct friction {
@@ -51,15 +51,16 @@ struct friction {
     bool known_only; /* there are no heights: only the known pressure is possible */
     struct way way[1 + RC_FEWER];
     struct rc_leg before, leg; /* the legs to this point, and to the next one  */
-    /* of the way to the point */
-    size_t increment, running, fewer_done; /* running: the way that steps */
-    size_t passes;                         /* of the increments before    */
-    double dissipated, convolutions;       /* J, since the last point kept; until then */
-    double lagging,
-        lag_before; /* Pa: sum over the map of the error of the increments; at the last kept point  */
-    double doubt;   /* relative: error of the iteration of half of the increments         */
-    double *lag
-        [2]; /* Pa: tractions of all increments less those of half of them, at the last kept point */
+    /* of the present leg */
+    size_t increment, running, fewer_done; /* running: index of the way that steps */
+    size_t passes;                         /* passes of the earlier increments */
+    double dissipated, convolutions;       /* J, since the last kept point; convolutions until
+                                              then */
+    /* Pa: sum over the map of the error of the increments; the same at the last kept point */
+    double lagging, lag_before;
+    double doubt; /* relative: error of the iteration with half of the increments */
+    /* Pa: tractions with all increments minus tractions with half of them, at the last kept point */
+    double *lag[2];
     bool good;  /* all contacts and increments have converged           */
     bool again; /* a state was read: its increment must be solved again */
     struct rc_friction_figures figures;
@@ -92,7 +93,7 @@ static const struct rc_frame_kind frames[] = {
 
 /* ---- passes ---- */
 
-/* Copies maps of n values; returns the change over the new values, in L1. */
+/* Copies maps of n values. Returns the L1 norm of the change over the L1 norm of the new values. */
 static double
 take(size_t n, int maps, const double *const v[], double *const to[])
 {
@@ -107,8 +108,8 @@ take(size_t n, int maps, const double *const v[], double *const to[])
     return rc_total_value(&all) > 0 ? rc_total_value(&change) / rc_total_value(&all) : 0;
 }
 
-/* What further passes would change, over the last change: c/(1 - c), where each change is c times the one
- * before. */
+/* The change by all further passes over the last change: c/(1 - c), if each change is c times the previous
+ * one. */
 static double
 left_over(size_t passes, double change, double before)
 {
@@ -126,21 +127,21 @@ moves(const struct friction *f)
     return rc_point_has(&f->base.to, RC_SHIFT_X);
 }
 
-/* No load: the pressure is 0 whatever the tractions were. */
+/* True without load: the pressure is then 0 for any tractions. */
 static bool
 apart(const struct way *w)
 {
     return rc_point_has(&w->at, RC_LOAD) && w->at.at[RC_LOAD] == 0;
 }
 
-/* Where increment k of n ends. */
+/* The end of increment k of n. */
 static struct rc_point
 end_of_increment(const struct friction *f, size_t k, size_t n)
 {
     return rc_point_between(&f->base.from, &f->base.to, rc_leg_part(&f->leg, k, n));
 }
 
-/* Whether two points are the same in all axes of the inner model. */
+/* True if two points agree in all axes of the inner model. */
 static bool
 same(const struct way *w, const struct rc_point *a, const struct rc_point *b)
 {
@@ -154,7 +155,7 @@ same(const struct way *w, const struct rc_point *a, const struct rc_point *b)
     return true;
 }
 
-/* Gives the inner model the heights less the normal displacement due to the present tractions. */
+/* Gives the inner model the heights minus the normal displacement due to the present tractions. */
 static enum rc_status
 lower_heights(struct friction *f, struct way *w, struct rc_err *err)
 {
@@ -180,8 +181,9 @@ press(struct friction *f, struct way *w, struct rc_err *err)
     struct rc_point to = rc_point_for(w->inner, &w->at);
 
     if (f->known_only)
-        return rc_err_set(err, "load %g N: the contact under it is unknown, and so are the heights",
-                          w->at.at[RC_LOAD]);
+        return rc_err_set(
+            err, "load %g N: its pressure is unknown, and without heights it cannot be solved",
+            w->at.at[RC_LOAD]);
     if (f->alternates && lower_heights(f, w, err) != RC_OK)
         return RC_FAIL;
     to.at[RC_APPROACH] -= w->lowered; /* counted from first touch of the heights h */
@@ -210,8 +212,8 @@ pose(struct friction *f, struct way *w, struct rc_err *err)
     return RC_MORE;
 }
 
-/* Whether the pressure at the end of the increment is there without the inner model: that of the first way,
- * of the increment before, the known one, or none. */
+/* True if the pressure at the end of the increment needs no inner model: it is the pressure of the first way,
+ * of the previous increment, the known pressure, or 0. */
 static bool
 finds_pressure(struct friction *f, struct way *w)
 {
@@ -254,7 +256,7 @@ step_contact(struct friction *f, struct way *w, struct rc_err *err)
 {
     struct rc_model *inner = w->inner;
     enum rc_status status = rc_model_step(inner, err);
-    const double *p = w->less; /* a buffer here: lower_heights() fills it again */
+    const double *p = w->less; /* used as a buffer: lower_heights() fills it again */
     double error;
 
     if (status == RC_MORE || status == RC_FAIL)
@@ -268,7 +270,7 @@ step_contact(struct friction *f, struct way *w, struct rc_err *err)
         w->pressure_change = take(f->n, 1, &p, &w->p);
     w->convolutions += rc_model_number(inner, "convolutions");
     error = rc_model_number(inner, "pressure_error_estimate");
-    w->pressure_error = isnan(error) ? 0 : error; /* of bodies that are apart */
+    w->pressure_error = isnan(error) ? 0 : error; /* NAN: the bodies are separated */
     w->approach = rc_model_number(inner, "approach") + w->lowered;
     w->has_gap = true;
     w->pressed = w->at;
@@ -313,8 +315,8 @@ slide(struct friction *f, struct way *w, struct rc_err *err)
     return status == RC_OK && w->contact_good ? RC_OK : RC_SHORT;
 }
 
-/* Returns the sum of |q| over the map, Pa. add: the errors of that sum that this increment adds: error of its
- * iteration, and error due to the pressure, which limits |q|. */
+/* Returns the sum of |q| over the map, Pa. add: the errors that this increment adds to the sum: the error of
+ * its iteration, and the error due to the pressure, which limits |q|. */
 static double
 added(const struct friction *f, const struct way *w, double error, double limit, double add[2])
 {
@@ -330,7 +332,7 @@ added(const struct friction *f, const struct way *w, double error, double limit,
     return size;
 }
 
-/* Figures of the increment. */
+/* Computes the figures of the increment. */
 static void
 find_figures(const struct friction *f, const struct way *w, struct rc_friction_figures *to)
 {
@@ -349,8 +351,8 @@ find_figures(const struct friction *f, const struct way *w, struct rc_friction_f
     }
 }
 
-/* The increment becomes history, also of the inner model. An increment minimizes the energy from the
- * tractions before it, so that their error stays, and does not grow. Bodies that are apart inherit no
+/* Makes the increment part of the history, also of the inner model. An increment minimises the energy
+ * from the tractions before it, so that their error stays, but does not grow. Separated bodies inherit no
  * error. */
 static enum rc_status
 keep_increment(struct friction *f, struct way *w, struct rc_err *err)
@@ -367,7 +369,7 @@ keep_increment(struct friction *f, struct way *w, struct rc_err *err)
     return w->inner == NULL ? RC_OK : rc_model_keep(w->inner, err);
 }
 
-/* ---- all ways to the point ---- */
+/* ---- all solutions of a leg ---- */
 
 static enum rc_status
 next_increment(struct friction *f, struct rc_err *err)
@@ -393,7 +395,8 @@ begin_fewer(struct friction *f, struct way *w, size_t k, size_t n, struct rc_err
     return begin_increment(f, w, &at, err);
 }
 
-/* The first way has reached the end of its increment: the others follow where one of theirs ends there. */
+/* Called when the first way has reached the end of an increment. The other ways follow if one of their
+ * increments ends there too. */
 static enum rc_status
 follow(struct friction *f, struct rc_err *err)
 {
@@ -418,8 +421,8 @@ follow(struct friction *f, struct rc_err *err)
     return keep_increment(f, f->way, err) == RC_OK ? next_increment(f, err) : RC_FAIL;
 }
 
-/* A force that is too large on the way is too large at its end too, and the message names the numbers there,
- * which the user has given. */
+/* A force that is too large within the leg is too large at its end too. The message names the numbers at the
+ * end, because the user has given those. */
 static enum rc_status
 refuse(struct friction *f, struct rc_err *err)
 {
@@ -468,7 +471,7 @@ step(struct rc_model *m, struct rc_err *err)
 
 /* ---- the error of the increments ---- */
 
-/* Sum over the map of |q_a - q_b|, Pa, b NULL: of |q_a|; less `lag`, which may be NULL. */
+/* The sum over the map of |q_a - q_b - lag|, Pa. b or lag NULL: 0. */
 static double
 distance(const struct friction *f, const struct way *a, const struct way *b, double *const lag[2])
 {
@@ -485,7 +488,7 @@ distance(const struct friction *f, const struct way *a, const struct way *b, dou
     return sum;
 }
 
-/* Relative; NAN: unknown. */
+/* The relative error of the increments; NAN: unknown. */
 static double
 increment_error(struct friction *f)
 {
@@ -565,7 +568,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     if (f->again && m->status != RC_MORE &&
         (find_again(f, err) == RC_FAIL || rc_model_look(m->inner, at, err) != RC_OK))
         return RC_FAIL;
-    if (f->way->stage != REST) { /* at rest the figures are those of the kept point */
+    if (f->way->stage != REST) { /* at rest the figures belong to the kept point */
         find_figures(f, f->way, to);
         to->slip.dissipated += f->dissipated;
         to->passes += f->passes;
@@ -626,7 +629,7 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 
 /* ---- states ---- */
 
-/* The increment that is solved or on its way. The state of the inner model holds the pressure only while that
+/* Reads or writes the present increment. The state of the inner model holds the pressure only while that
  * model steps; afterwards the contact is solved again when the state was read. */
 static void
 exchange_increment(struct friction *f, struct rc_state *s)
@@ -638,7 +641,7 @@ exchange_increment(struct friction *f, struct rc_state *s)
     rc_state_count(s, &w->passes, SIZE_MAX / 2);
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         rc_state_numbers(s, 1, numbers[k]);
-    for (int c = 0; c < 3 && f->alternates; c++) /* of the previous pass */
+    for (int c = 0; c < 3 && f->alternates; c++) /* tractions of the previous pass */
         rc_state_numbers(s, f->n, c < 2 ? w->before[c] : w->p);
     for (int c = 0; c < 2 && f->problem.fewer > 0; c++)
         rc_state_numbers(s, f->n, f->lag[c]);
@@ -653,10 +656,10 @@ exchange_increment(struct friction *f, struct rc_state *s)
     w->at = end_of_increment(f, f->increment, f->leg.increments);
     f->again = w->stage != PRESSING;
     if (f->alternates && lower_heights(f, w, &err) != RC_OK)
-        rc_state_refuse(s, "its heights are impossible");
+        rc_state_refuse(s, "its heights are not finite");
 }
 
-/* The history of each way. An increment of a way with fewer increments begins anew. */
+/* Reads or writes the history of each way. An increment of a way with fewer increments begins anew. */
 static void
 exchange_ways(struct friction *f, struct rc_state *s)
 {
@@ -695,7 +698,7 @@ state(struct rc_model *m, struct rc_state *s)
         f->running = 0;
         f->again = false;
         f->convolutions =
-            all_convolutions(f); /* those of the run that wrote the state do not count */
+            all_convolutions(f); /* the convolutions of the run that wrote the state do not count */
     }
     if (f->way->stage != REST)
         exchange_increment(f, s);
@@ -751,7 +754,7 @@ short_of_memory(const struct friction *f, struct rc_err *err)
                       f->base.shape.ny);
 }
 
-/* Begins with separated bodies: the gap before contact shows which nodes came into contact later. */
+/* Begins with separated bodies, because the gap before contact shows which nodes came into contact later. */
 static enum rc_status
 begin(struct way *w, const double *gap, struct rc_err *err)
 {
@@ -766,15 +769,15 @@ begin(struct way *w, const double *gap, struct rc_err *err)
     return status;
 }
 
-/* Way j. Half of its tolerance is for the passes. A way with fewer increments starts from the answer that it
- * is compared with, and what its iteration leaves counts several times: it iterates to a tenth. */
+/* Makes way j. Half of its tolerance is for the passes. The error of a way with fewer increments enters the
+ * estimate several times, so that its tolerance is a tenth. */
 static enum rc_status
 make_way(struct friction *f, size_t j, const double *h, struct rc_err *err)
 {
     static const double usual = 1e-4;
     struct way *w = &f->way[j];
     struct rc_slip_problem slip = f->problem.slip;
-    const bool own = j == 0 || f->alternates; /* a pressure of its own */
+    const bool own = j == 0 || f->alternates; /* this way has its own pressure */
     const size_t maps = !own ? 0 : f->alternates ? 5 : 2;
     struct rc_contact contact;
 
@@ -822,17 +825,16 @@ make(struct friction *f, const double *h, struct rc_err *err)
         return rc_err_set(err, "%zu ways with fewer increments: it must be 0, 1 or 2", o->fewer);
     if (f->alternates && h == NULL)
         return rc_err_set(err, "the pressure of dissimilar bodies depends on their tractions: give "
-                               "heights, or take another coupling");
+                               "heights, or choose another coupling");
     if (f->alternates && f->base.inner->row->heights == NULL)
         return rc_err_set(err,
-                          "the bodies are dissimilar, so that tractions move the surface, and the "
-                          "heights of the %s model cannot change: take another coupling",
+                          "the bodies are dissimilar, so that tractions change the heights, but "
+                          "the %s model cannot change its heights: choose another coupling",
                           rc_model_name(f->base.inner));
     for (size_t j = 1; j <= o->fewer && f->alternates; j++)
         if (f->way[j].inner == NULL)
-            return rc_err_set(err,
-                              "the bodies are dissimilar: each way with fewer increments needs "
-                              "an inner model of its own");
+            return rc_err_set(err, "the bodies are dissimilar: each way with fewer increments "
+                                   "needs its own inner model");
     if (f->alternates) {
         if ((f->h = rc_alloc(f->n, sizeof *f->h)) == NULL)
             return short_of_memory(f, err);

@@ -1,6 +1,6 @@
 /*
- * How many increments friction takes from point to point, and how the error that they leave is estimated: by
- * solutions with half and with a quarter of the increments. All factors come from random paths.
+ * Chooses the number of increments from point to point, and estimates their error from solutions with half
+ * and with a quarter of the increments. All factors were fitted on random paths.
  */
 #include "slip.h"
 
@@ -9,10 +9,10 @@
 static const double straight = 1e-9; /* relative: smaller changes and angles are rounding */
 
 enum {
-    LATE = 2,    /* increments of a straight way                        */
-    HALVED = 4,  /* so many, and half of them, tell the error           */
-    TURNS = 8,   /* of a force that turns by a right angle              */
-    PRESSES = 16 /* of a contact that grows or shrinks                  */
+    LATE = 2,    /* for a straight leg */
+    HALVED = 4,  /* so many, and half of them, suffice to estimate the error */
+    TURNS = 8,   /* for a force that turns by a right angle */
+    PRESSES = 16 /* for a contact that grows or shrinks */
 };
 
 /* ---- points ---- */
@@ -29,7 +29,7 @@ moved(const struct rc_point *p)
     return rc_point_has(p, RC_SHIFT_X);
 }
 
-/* The force, or the displacement, along x and y. */
+/* The force or the displacement along x and y. */
 static const double *
 tangent(const struct rc_point *p)
 {
@@ -42,7 +42,7 @@ length(const double v[2])
     return hypot(v[0], v[1]);
 }
 
-/* Sine of the angle by which the way turns; 0: there is none. */
+/* The sine of the angle between two legs; 0: there is no angle. */
 static double
 turn(const struct rc_point *from, const struct rc_point *to)
 {
@@ -64,7 +64,7 @@ tangent_changes(const struct rc_point *from, const struct rc_point *to)
 /* ---- the choice ---- */
 
 /* One increment is exact between bodies of equal elasticity with nu = 0: all nodes slip along one line,
- * if all forces have been along it. */
+ * provided that all earlier forces were parallel to this line. */
 static bool
 exact(const struct rc_slip_problem *o, const struct rc_shear *shear, bool coupled,
       const struct rc_leg *before, const struct rc_point *from, const struct rc_point *to)
@@ -79,7 +79,7 @@ exact(const struct rc_slip_problem *o, const struct rc_shear *shear, bool couple
            (before->told == RC_TOLD_EXACT || pressing(from) == 0);
 }
 
-/* What is known of the error of n increments. */
+/* How the error of n increments is known. */
 static enum rc_told
 told(size_t n, bool grows, bool falls, bool late, bool coupled)
 {
@@ -142,10 +142,9 @@ rc_leg_fewer(const struct rc_leg *leg, size_t halvings)
     return n > 0 ? n : 1;
 }
 
-/* On a straight way the traction of a node points against its slip in the whole increment, not against its
- * slip at the end. Most nodes have begun to slip at 0.9 of the way, and the rest of the way turns their
- * tractions. Where the load falls, the increments become shorter towards the end, because many nodes begin to
- * slip late. */
+/* On a straight leg the traction of a node opposes its slip in the whole increment, not its slip at the end.
+ * Most nodes slip after 0.9 of the leg, and the rest of the leg turns their tractions. If the load falls, the
+ * increments become shorter towards the end, because many nodes begin to slip late. */
 double
 rc_leg_part(const struct rc_leg *leg, size_t k, size_t n)
 {
@@ -159,9 +158,9 @@ rc_leg_part(const struct rc_leg *leg, size_t k, size_t n)
 
 /* ---- the error ---- */
 
-/* Half of the increments are off by d more and a quarter by d2 more again, which shows how fast the error
- * falls. On a way of one or two increments, d grows by `lagged` that the way adds. The error of the point
- * before stays, also where d and d2 fall because they cancel. */
+/* With half of the increments the error is larger by d, and with a quarter by another d2: their ratio shows
+ * how fast the error falls. On a leg of one or two increments, the leg adds `lagged` to d. The error of the
+ * previous point stays, also where d and d2 fall because they cancel. */
 double
 rc_leg_error(const struct rc_leg *leg, double before, double d, double d2, double lagged)
 {

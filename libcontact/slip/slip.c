@@ -2,13 +2,13 @@
  * Friction in increments, with history.
  *
  * While a node with a load sticks, T q + C p - delta keeps its value there. This value is `origin`, a map of
- * all nodes: a node that comes into contact later keeps the value that it has then. An increment finds the
- * tractions of least energy under w = origin - C p. If the force grows by dF/dP of the load, a node that
- * comes into contact from the gap g0 has moved by dF/dP (1 + kap/2) g0 before. This is exact for kap = 0,
- * where T equals K in both directions.
+ * all nodes. A node that comes into contact later keeps the value at its first contact. An increment finds
+ * the tractions of least energy for w = origin - C p. If the force grows by dF/dP of the load, a node that
+ * comes into contact from the gap g0 has moved by dF/dP (1 + kap/2) g0 before its contact. This is exact for
+ * kap = 0, where T equals K in both directions.
  *
- * Inside, displacements are in units of sqrt(dx dy)/E* and lengths in units of sqrt(dx dy): numbers in Pa and
- * 1.
+ * The code uses the unit sqrt(dx dy)/E* for displacements and sqrt(dx dy) for lengths, so that displacements
+ * are in Pa and lengths are numbers.
  */
 #include "slip.h"
 
@@ -27,13 +27,14 @@ struct rc_slip {
     struct rc_tangential *t;
     struct rc_discs *discs;
     bool coupled, asked, begun, done, apart;
-    bool tried; /* this increment was solved before, under another pressure: it starts from there */
+    bool tried; /* this increment was solved before under another pressure, and starts from these
+                   tractions */
     enum rc_status last;
-    /* history: of the increment before */
+    /* history, from the previous increment */
     double *origin[2], *old[2], *slip[2], *gap_old;
     unsigned char *touched;
     double load_old, force_old[2];
-    /* of this increment */
+    /* of the present increment */
     double *gap, *pushed[2]; /* C p */
     double load, limit, force[2];
     bool has_gap_old, has_gap;
@@ -45,7 +46,7 @@ reach(const struct rc_slip *s, double p)
     return fmin(s->mu * p, s->tau_max);
 }
 
-/* ---- what is asked ---- */
+/* ---- the request ---- */
 
 enum rc_status
 rc_slip_set_pressure(struct rc_slip *s, const double *p, const double *gap, struct rc_err *err)
@@ -88,15 +89,15 @@ finite(double x, double y, const char *what, struct rc_err *err)
 enum rc_status
 rc_slip_set_force(struct rc_slip *s, double fx, double fy, struct rc_err *err)
 {
-    static const double nearest = 1 - 1e-9; /* nearer ones do not differ from sliding */
+    static const double nearest = 1 - 1e-9; /* larger forces cannot be distinguished from sliding */
     double f = hypot(fx, fy);
 
     if (finite(fx, fy, "tangential force", err) != RC_OK)
         return RC_FAIL;
     if (f > 0 && !(f <= nearest * s->limit))
         return rc_err_set(err,
-                          "tangential force %.9g N: friction carries less than %.9g N, beyond it "
-                          "the bodies slide; give a displacement instead",
+                          "tangential force %.9g N: friction carries less than %.9g N, and under a "
+                          "larger force the bodies slide; give a displacement instead",
                           f, s->limit);
     s->force[0] = s->discs->asked.sum[0] = fx / s->cell;
     s->force[1] = s->discs->asked.sum[1] = fy / s->cell;
@@ -123,9 +124,9 @@ rc_slip_set_displacement(struct rc_slip *s, double dx, double dy, struct rc_err 
 
 static const double grows = 1e-6; /* relative to the load: smaller changes are rounding */
 
-/* Sets w, and the start: the last tractions, and the change of the force in proportion to g. After another
- * pressure it starts from the tractions found there, where slipping nodes move to their new circles: inside of
- * them they would stick at first, and slip again one after another. */
+/* Sets w and the start: the last tractions, and the change of the force in proportion to g. If the increment
+ * was solved under another pressure, it starts from those tractions, with slipping nodes moved to their new
+ * circles. Otherwise these nodes would stick at first and slip again one after another. */
 static void
 pose(struct rc_slip *s)
 {
@@ -162,7 +163,8 @@ rc_slip_step(struct rc_slip *s, struct rc_err *err)
         return rc_err_set(err, "neither a force nor a displacement has been set");
     if (s->done)
         return s->last;
-    if (s->apart) { /* no node is in contact: the tractions are 0, and the displacement begins anew */
+    if (s->apart) { /* no node is in contact: the tractions are 0, and the displacement restarts
+                       from 0 */
         pose(s);
         for (int c = 0; c < 2; c++) {
             s->discs->delta[c] = 0;
@@ -235,8 +237,8 @@ rc_slip_increment(struct rc_slip *s, struct rc_state *state)
         s->tried = true;
 }
 
-/* The slip of a node in this increment, in units of `unit`. A sticking node has none: its residual is an
- * error. */
+/* The slip of a node in this increment, in units of `unit`. The slip of a sticking node is 0; its residual is
+ * an error. */
 static inline double
 slipped(const struct rc_slip *s, int c, size_t k)
 {
@@ -274,10 +276,10 @@ rc_slip_keep(struct rc_slip *s)
     s->asked = s->begun = s->done = s->tried = false;
 }
 
-/* ---- what has been found ---- */
+/* ---- results ---- */
 
-/* Where the load falls, the traction of the increment is the mean of its start and its end. Otherwise it
- * is that of its end, which is exact under a constant load. */
+/* Where the load falls, the traction of the increment is the mean of its start and its end. Otherwise the
+ * traction at the end is used, which is exact under a constant load. */
 static double
 dissipated(const struct rc_slip *s)
 {
@@ -320,7 +322,7 @@ rc_slip_result(struct rc_slip *s, struct rc_slip_figures *f)
     if (d->found.stick + d->found.slipping > 0)
         f->stick_fraction = f->stick_area / (f->stick_area + f->slip_area);
     f->stiffness = hypot(f->force[0], f->force[1]) / hypot(f->displacement[0], f->displacement[1]);
-    /* a force of the size of rounding has no stiffness */
+    /* a force of the order of rounding gives no stiffness */
     if (!isfinite(f->stiffness) || hypot(f->force[0], f->force[1]) <= 1e-12 * f->limit)
         f->stiffness = NAN;
 }
@@ -362,7 +364,7 @@ rc_slip_normal(struct rc_slip *s, double *uz)
 #define AS(column, member) RC_FIGURE_AS(column, struct rc_friction_figures, member)
 const struct rc_figure rc_figures_slip[] = {
     {AS("load", slip.load), "N", "Load", .says = "sum of the pressure"},
-    {AS("limit", slip.limit), "N", "Largest tangential force", .says = "that friction carries"},
+    {AS("limit", slip.limit), "N", "Largest tangential force", .says = "that friction can carry"},
     {AS("tangential_x", slip.force[0]), "N", "Force along x"},
     {AS("tangential_y", slip.force[1]), "N", "Force along y"},
     {AS("displacement_x", slip.displacement[0]), "m", "Displacement along x"},
@@ -402,7 +404,7 @@ check(const struct rc_shape *shape, const struct rc_slip_problem *p, struct rc_s
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
     if (p->ranks != NULL)
-        return rc_err_set(err, "friction is not shared among processes: take one");
+        return rc_err_set(err, "friction cannot share its maps among processes: take one process");
     if (!(p->mu > 0) || isinf(p->mu))
         return rc_err_set(err, "coefficient of friction %g: it must be positive and finite", p->mu);
     if (!(p->tau_max >= 0))

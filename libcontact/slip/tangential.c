@@ -64,8 +64,8 @@ set_spectra(struct rc_tangential *t, struct rc_err *err)
     return RC_OK;
 }
 
-/* The displacement due to a long wave. On the free boundary: that in the middle of the map under a
- * uniform traction; on a periodic map: that of the longest wave. */
+/* The displacement due to a long wave. For a free boundary: the displacement of the middle of the map under a
+ * uniform traction; for a periodic map: the displacement of the longest wave. */
 static double
 norm_of(const struct rc_tangential *t)
 {
@@ -77,8 +77,8 @@ norm_of(const struct rc_tangential *t)
     return 2 * (a * asinh(b / a) + b * asinh(a / b)) * most;
 }
 
-/* Along x or y of a free map, interpolated between the waves on both sides. NAN: the grid has no waves as
- * long or as short. */
+/* The factor along x or y of a free map, interpolated between two waves. NAN: the grid has no wave that long
+ * or that short. */
 static double
 along(const struct rc_tangential *t, bool x, double q)
 {
@@ -99,7 +99,7 @@ along(const struct rc_tangential *t, bool x, double q)
     return value[0] + (at - floor(at)) * (value[1] - value[0]);
 }
 
-/* The mean of both values, or the only known one. */
+/* The mean of two values; if one is NAN, the other. */
 static double
 mean_of(double x, double y)
 {
@@ -147,7 +147,7 @@ rc_tangential_free(struct rc_tangential *t)
 {
     if (t == NULL)
         return;
-    rc_fft_free(t->framed); /* it uses the memory of the other one */
+    rc_fft_free(t->framed); /* it uses the memory of t->fft */
     rc_fft_free(t->fft);
     for (int k = 0; k < RC_SHEAR_KERNELS; k++)
         free(t->quarter[k]);
@@ -239,7 +239,7 @@ struct pass {
     bool single;
     const void *from;
     void *to;
-    int which; /* map, 0 or 1 */
+    int which; /* index of the map, 0 or 1 */
 };
 
 static size_t
@@ -294,8 +294,8 @@ quarter_of(const struct pass *p, enum rc_shear_which kernel, size_t i)
     return p->t->quarter[kernel] + i * p->t->cy;
 }
 
-/* Real parts, then imaginary parts, of a x - b y for the wanted map x. b is a kernel that is odd in both
- * directions: its transform is (-i)^2 b. */
+/* Computes the real, then the imaginary parts of a x - b y for the requested map x. b is a kernel that is odd
+ * in both directions: its transform is (-i)^2 b. */
 RC_CLONES static void
 multiply(const struct rc_tangential *t, const double *a, const double *b, const double *x,
          const double *y, double *to)

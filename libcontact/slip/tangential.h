@@ -18,15 +18,17 @@ struct rc_tangential {
     struct rc_shear shear;
     int threads;
     double norm;           /* m/Pa: an upper bound of the largest eigenvalue of T */
-    double convolutions;   /* so far, in equivalents of one of a single map in double precision */
-    struct rc_frame frame; /* nodes of the padding of a free map on which the inverse acts */
+    double convolutions;   /* until now, in equivalents of one convolution of a single map in
+                              double precision */
+    struct rc_frame frame; /* the padded map on which the inverse acts */
     struct rc_fft *fft, *framed;
-    size_t columns, length, cy; /* of waves; numbers in a column; rows of a quarter of a column */
+    size_t columns, length, cy; /* columns of waves; numbers in a column; rows of a quarter of a
+                                   column */
     double *quarter[RC_SHEAR_KERNELS];
     float *single[3];    /* XX, YY, XY of the inverse */
     void *waves[2];      /* transforms of both maps */
-    size_t *wave;        /* for place t of a column: its number in the quarter */
-    signed char *mirror; /* and -1 where this is the mirror image */
+    size_t *wave;        /* for place t of a column: its row in the quarter */
+    signed char *mirror; /* -1 where this row is the mirror image, else 1 */
 };
 
 struct rc_tangential *rc_tangential_new(const struct rc_shape *shape, enum rc_boundary boundary,
@@ -37,13 +39,13 @@ void rc_tangential_free(struct rc_tangential *t); /* NULL is allowed */
 struct rc_frame rc_tangential_frame(const struct rc_shape *shape, enum rc_boundary boundary);
 /* m/Pa: the factor of T for waves of wave number q, averaged over their directions. */
 double rc_tangential_wave(const struct rc_tangential *t, double q);
-/* The power a of its decrease, T ~ q^-a: 1, and on the free boundary near 0 along a strip. For the
- * longest wave of the grid if that is shorter. */
+/* The power a of the decrease, T ~ q^-a. It is 1, but near 0 along a strip with a free boundary. If the grid
+ * has no wave that long, the power belongs to its longest wave. */
 double rc_tangential_power(const struct rc_tangential *t, double q);
-/* u = T q; and q = T^-1 u on the map in its frame, which is padded or periodic. u and q may be the same. */
+/* u = T q, and q = T^-1 u on the padded or periodic map. u and q may be the same. */
 void rc_tangential_apply(struct rc_tangential *t, double *const q[2], double *const u[2]);
 void rc_tangential_inverse(struct rc_tangential *t, float *const u[2], float *const q[2]);
-/* u_z = C' q, and u = C p; only if beta is not 0. */
+/* u_z = C' q and u = C p, both only if beta is not 0. */
 void rc_tangential_normal(struct rc_tangential *t, double *const q[2], double *uz);
 void rc_tangential_pressure(struct rc_tangential *t, const double *p, double *const u[2]);
 

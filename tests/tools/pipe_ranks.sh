@@ -144,7 +144,7 @@ refuses 2 'give -o FILE' "a pipe for output" "$MPIRUN -n 2 rc-solve --estar 1GPa
 refuses 2 'name one instead of a pipe' "a pipe for input" "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg"
 refuses 1 "needs the whole map in one process" "an engine that is not shared" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --kernel mlms -o no.rcg rough.rcg"
-refuses 2 "friction is not shared among processes" "friction" \
+refuses 2 "cannot share its maps among processes" "friction" \
     "$MPIRUN -n 2 rc-slip --mu 0.3 --nu 0.3 --tangential 1uN -o no.rcg rough.rcg"
 rc-synth selfaffine --nx 700 --ny 700 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 |
     rc-pick --set channel=pressure --set unit=Pa -o rough-pressed.rcg
