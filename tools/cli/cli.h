@@ -10,6 +10,7 @@
 #include "ending.h"
 #include "tools/text/text.h"
 #include "tools/machine/machine.h"
+#include "process.h"
 #include "ranks.h"
 #include "report.h"
 #include "results.h"

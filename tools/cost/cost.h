@@ -140,22 +140,11 @@ int cost_file(struct tool *tool);
 /* Opens it for reading from the beginning; the caller closes it. */
 FILE *cost_file_read(struct tool *tool, int file);
 
-enum cost_end {
-    COST_ENDED,       /* with exit status 0 or 3     */
-    COST_FAILED,      /* with another exit status    */
-    COST_LATE,        /* exceeded the permitted time */
-    COST_INTERRUPTED, /* the tool received a signal  */
-    COST_DIED,        /* by a signal                 */
-};
-/* Runs a command: the tool of that name in the folder of this one, else on PATH. `in` and `out`: its standard
- * input and output (-1: the output is captured). Its standard error is then in c->said, its exit status in
- * *status. `doing`: for the progress line. */
-enum cost_end cost_run(struct cost_case *c, const char *const word[], int in, int out,
-                       double allowed, const char *doing, int *status);
-/* Starts a command whose standard output can be read from *out. */
-int cost_start(struct tool *tool, const char *const word[], int in, FILE **out);
-/* Waits for a process; with `kill` ends it first. */
-void cost_wait(int process, bool kill);
+/* Runs a command. `in` and `out`: its standard input and output, which is emptied first (-1: the output is
+ * captured). Its standard error is then in c->said, its exit status in *status. `doing`: for the progress
+ * line. */
+enum process_end cost_run(struct cost_case *c, const char *const word[], int in, int out,
+                          double allowed, const char *doing, int *status);
 /* The number, or true or false, under this key in the last object of a report; NAN: none. */
 double cost_number(const char *report, const char *key);
 /* The last message of a tool, without the tool's name and the place of the frame; "": none. Valid until the

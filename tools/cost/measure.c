@@ -51,7 +51,7 @@ grid_of(struct cost_case *c, const struct cost_trial *m)
     put(&l, "--quiet", "--resample");
     put(&l, size, NULL);
     if (cost_run(c, l.word, c->grid[0], c->grid[k], INFINITY, "coarser grids", &status) ==
-        COST_FAILED)
+        PROCESS_FAILED)
         tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "%s", cost_message(c->said));
     return c->grid[k];
 }
@@ -108,7 +108,7 @@ cost_plan(struct cost_case *c, struct cost_trial *m)
     double elastic;
     struct line l;
     int status;
-    enum cost_end end;
+    enum process_end end;
 
     if (m->coarse > 1 && (least == 1 ? m->shape.nx * m->shape.ny : least) < SMALLEST) {
         leave_out(m, "the grid is too small to be coarsened so far");
@@ -117,13 +117,13 @@ cost_plan(struct cost_case *c, struct cost_trial *m)
     solve_line(c, m, &l);
     put(&l, "--dry-run", m->reference ? NULL : "--quiet");
     end = cost_run(c, l.word, grid_of(c, m), -1, INFINITY, "a plan", &status);
-    if (end == COST_FAILED && m->reference && status == EXIT_USAGE)
+    if (end == PROCESS_FAILED && m->reference && status == EXIT_USAGE)
         tool_die(c->tool, status, "%s", cost_message(c->said));
-    if (end == COST_FAILED && m->reference)
+    if (end == PROCESS_FAILED && m->reference)
         tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "%s", cost_message(c->said));
-    if (end == COST_FAILED)
+    if (end == PROCESS_FAILED)
         leave_out(m, cost_message(c->said));
-    if (end != COST_ENDED || c->said == NULL || (at = strstr(c->said, "  about ")) == NULL)
+    if (end != PROCESS_ENDED || c->said == NULL || (at = strstr(c->said, "  about ")) == NULL)
         return;
     elastic = strtod(at + 8, NULL);
     if ((at = strchr(at, ',')) == NULL ||
@@ -218,28 +218,28 @@ seconds_of(char *said)
 }
 
 static void
-stop(struct cost_trial *m, enum cost_end end, double allowed, const char *message)
+stop(struct cost_trial *m, enum process_end end, double allowed, const char *message)
 {
     if (m->state == COST_DONE)
         return; /* a repetition: the trial has its result */
     m->state = COST_STOPPED;
-    if (end == COST_LATE)
+    if (end == PROCESS_LATE)
         snprintf(m->why, sizeof m->why, "stopped after %.2g s, all that was left of --limit",
                  allowed);
-    else if (end == COST_INTERRUPTED)
+    else if (end == PROCESS_INTERRUPTED)
         snprintf(m->why, sizeof m->why, "interrupted");
-    else if (end == COST_DIED || *message == '\0')
+    else if (end == PROCESS_DIED || *message == '\0')
         snprintf(m->why, sizeof m->why, "its process died: memory may be short");
     else
         snprintf(m->why, sizeof m->why, "it failed: %.240s", message);
 }
 
 /* Computes the leakage through the gap of the last solution. */
-static enum cost_end
+static enum process_end
 leak(struct cost_case *c, struct cost_trial *m, double allowed, const char *name)
 {
     int status;
-    enum cost_end end;
+    enum process_end end;
     struct line l;
 
     begin(c, &l, "rc-leak");
@@ -247,7 +247,7 @@ leak(struct cost_case *c, struct cost_trial *m, double allowed, const char *name
     put(&l, "--quiet", NULL);
     put(&l, "--report", "/dev/fd/2");
     end = cost_run(c, l.word, c->output, c->nowhere, allowed, name, &status);
-    if (end == COST_ENDED)
+    if (end == PROCESS_ENDED)
         take(c, m, c->said, true);
     return end;
 }
@@ -279,7 +279,7 @@ run_pressure(struct cost_case *c, struct cost_trial *m, double allowed)
 {
     char name[128];
     double start = tool_now(), *p = NULL;
-    enum cost_end end;
+    enum process_end end;
     struct line l;
     int status, in = grid_of(c, m);
 
@@ -289,13 +289,13 @@ run_pressure(struct cost_case *c, struct cost_trial *m, double allowed)
     put(&l, "--output", c->leak != NULL ? "pressure,gap" : "pressure");
     put(&l, "--report", "/dev/fd/2");
     end = cost_run(c, l.word, in, c->output, allowed, name, &status);
-    if (end == COST_ENDED && !keep(c, m))
-        end = COST_DIED;
-    if (end == COST_ENDED) {
+    if (end == PROCESS_ENDED && !keep(c, m))
+        end = PROCESS_DIED;
+    if (end == PROCESS_ENDED) {
         c->around = tool_now() - start - m->figure[COST_SECONDS];
         m->converged = status == 0;
         if ((p = pressure_of(c, m)) == NULL)
-            end = COST_DIED;
+            end = PROCESS_DIED;
     }
     if (m->reference && p != NULL) {
         if (m->figure[COST_RUNS] == 1) {
@@ -309,13 +309,13 @@ run_pressure(struct cost_case *c, struct cost_trial *m, double allowed)
             m->figure[COST_ERROR] = distance(c->shape.nx * c->shape.ny, p, c->pressure);
         free(p);
     }
-    if (end == COST_ENDED && c->leak != NULL)
+    if (end == PROCESS_ENDED && c->leak != NULL)
         end = leak(c, m, allowed - (tool_now() - start), name);
-    if (end == COST_ENDED)
+    if (end == PROCESS_ENDED)
         m->state = COST_DONE;
     else
         stop(m, end, allowed, cost_message(c->said));
-    return end != COST_INTERRUPTED;
+    return end != PROCESS_INTERRUPTED;
 }
 
 /* ---- the reference ---- */
@@ -440,7 +440,7 @@ compare_stresses(struct cost_case *c, const struct cost_trial *m, double until, 
     for (int k = 0; k < 2; k++) {
         stress_line(c, k == 0 ? m : &exact, &l[k], tol[k]);
         in = open(name, O_RDONLY | O_CLOEXEC);
-        child[k] = cost_start(c->tool, l[k].word, in, &from[k]);
+        child[k] = process_start(c->tool, l[k].word, in, &from[k]);
         close(in);
         if ((reader[k] = rc_reader_new(from[k], 0, 0, &err)) == NULL)
             status = RC_FAIL;
@@ -459,7 +459,7 @@ compare_stresses(struct cost_case *c, const struct cost_trial *m, double until, 
     for (int k = 0; k < 2; k++) {
         rc_reader_free(reader[k]);
         fclose(from[k]);
-        cost_wait(child[k], status != RC_OK);
+        process_wait(child[k], status != RC_OK);
     }
     tool_progress_end(c->tool);
     return status == RC_OK;
@@ -472,7 +472,7 @@ run_stress(struct cost_case *c, struct cost_trial *m, double allowed)
     int status;
     struct errors e = {0};
     char name[128], tol[RC_NUMBER_SIZE];
-    enum cost_end end;
+    enum process_end end;
     struct line l;
 
     do {
@@ -480,26 +480,26 @@ run_stress(struct cost_case *c, struct cost_trial *m, double allowed)
         put(&l, "--report", "/dev/fd/2");
         end = cost_run(c, l.word, c->solution, c->nowhere, until - tool_now(), cost_name(name, m),
                        &status);
-        if (end == COST_ENDED && !keep(c, m))
-            end = COST_DIED;
-    } while (end == COST_ENDED && cost_again(m->figure[COST_RUNS], m->figure[COST_SECONDS]));
-    if (m->reference && end == COST_ENDED) {
+        if (end == PROCESS_ENDED && !keep(c, m))
+            end = PROCESS_DIED;
+    } while (end == PROCESS_ENDED && cost_again(m->figure[COST_RUNS], m->figure[COST_SECONDS]));
+    if (m->reference && end == PROCESS_ENDED) {
         c->stressed = c->said;
         c->said = NULL;
     } else if (m->figure[COST_RUNS] > 0) {
         if (!compare_stresses(c, m, until, &e))
-            end = tool_interrupted() != 0 ? COST_INTERRUPTED : COST_LATE;
+            end = tool_interrupted() != 0 ? PROCESS_INTERRUPTED : PROCESS_LATE;
         m->figure[COST_ERROR] = e.worst / peak;
         m->figure[COST_RMS_ERROR] = sqrt(e.squares / e.n) / peak;
         m->figure[COST_MISES_ERROR] = e.mises / e.exact - 1;
     }
-    if (end == COST_ENDED) {
+    if (end == PROCESS_ENDED) {
         m->state = COST_DONE;
     } else {
         m->figure[COST_RUNS] = 0;
         stop(m, end, allowed, cost_message(c->said));
     }
-    return end != COST_INTERRUPTED;
+    return end != PROCESS_INTERRUPTED;
 }
 
 bool
