@@ -12,32 +12,31 @@ static struct args {
     struct info_wanted wanted;
 } args = {.wanted.sections = 5};
 
+#define AT(field) .at = offsetof(struct args, field)
 /* clang-format off */
 static const struct opt opts[] = {
-    {.name = "json", .type = OPT_FLAG, .at = offsetof(struct args, json),
-     .help = "one JSON object per frame and line, in SI"},
-    {.name = "areal", .type = OPT_FLAG, .at = offsetof(struct args, wanted.areal),
+    {.name = "json", .type = OPT_FLAG, AT(json), .help = "one JSON object per frame and line, in SI"},
+    {.name = "areal", .type = OPT_FLAG, AT(wanted.areal),
      .help = "for heights: parameters of ISO 25178-2, for profiles of ISO 21920-2"},
-    {.name = "smr", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, wanted.smr),
-     .min = -INFINITY, .max = INFINITY, .arg = "LIST",
+    {.name = "smr", .type = OPT_NUMBERS, .unit = UNIT_M, AT(wanted.smr), .min = -INFINITY,
+     .max = INFINITY, .arg = "LIST",
      .help = "material ratio at heights above the mean (includes --areal)"},
-    {.name = "profile", .type = OPT_TEXT, .at = offsetof(struct args, wanted.profile), .arg = "LINE",
+    {.name = "profile", .type = OPT_TEXT, AT(wanted.profile), .arg = "LINE",
      .help = "parameters of ISO 21920-2 along rows, columns, an angle in degrees, or X0,Y0:X1,Y1"},
-    {.name = "sections", .type = OPT_COUNT, .at = offsetof(struct args, wanted.sections), .min = 1,
-     .max = 1000, .arg = "N", .help = "section lengths of a profile (default 5)"},
-    {.name = "report", .type = OPT_REPORT, .at = offsetof(struct args, wanted.report), .arg = "FILE",
+    {.name = "sections", .type = OPT_COUNT, AT(wanted.sections), .min = 1, .max = 1000, .arg = "N",
+     .help = "section lengths of a profile (default 5)"},
+    {.name = "report", .type = OPT_REPORT, AT(wanted.report), .arg = "FILE",
      .help = "one row per frame, as JSON, .tsv or .csv, instead of text"},
-    {.name = "psd", .type = OPT_FLAG, .at = offsetof(struct args, wanted.psd),
+    {.name = "psd", .type = OPT_FLAG, AT(wanted.psd),
      .help = "for heights: radially averaged power spectral density, Hurst exponent"},
-    {.name = "fit", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, wanted.fit),
-     .min = 0, .max = INFINITY, .above = true, .arg = "LMIN,LMAX",
+    {.name = "fit", .type = OPT_NUMBERS, .unit = UNIT_M, AT(wanted.fit), .min = 0, .max = INFINITY,
+     .above = true, .arg = "LMIN,LMAX",
      .help = "range of wavelengths for the fit of the Hurst exponent (--psd)"},
-    {.name = "window", .type = OPT_CHOICE, .at = offsetof(struct args, wanted.window),
-     .words = rc_window_name, .arg = "NAME",
+    {.name = "window", .type = OPT_CHOICE, AT(wanted.window), .words = rc_window_name, .arg = "NAME",
      .help = "window of the spectrum: %s (--psd; default hann, periodic: none)"},
-    {.name = "psd-map", .type = OPT_TEXT, .at = offsetof(struct args, wanted.psd_map),
-     .arg = "FILE", .help = "write the two-dimensional spectrum, a frame psd, to FILE (--psd)"},
-    {.name = "patches", .type = OPT_FLAG, .at = offsetof(struct args, wanted.patches),
+    {.name = "psd-map", .type = OPT_TEXT, AT(wanted.psd_map), .arg = "FILE",
+     .help = "write the two-dimensional spectrum, a frame psd, to FILE (--psd)"},
+    {.name = "patches", .type = OPT_FLAG, AT(wanted.patches),
      .help = "for pressures: contact patches, corrected area, perimeter, histogram"},
     {.name = NULL},
 };
@@ -69,12 +68,18 @@ is_height(const struct rc_grid *g)
 
 /* ---- results: figures of a pressure ---- */
 
-struct result {
-    double load, contact_area, contact_fraction, max_pressure; /* NAN: unknown, here and below */
-    double approach, hardness, plastic_area;
-    size_t contact_nodes, plastic_nodes;
+struct result { /* NAN: unknown */
+    double load, contact_nodes, contact_area, contact_fraction, max_pressure, approach;
+    double hardness, plastic_area;
+    size_t plastic_nodes;
     const char *converged; /* "yes", "no"; NULL: unknown */
 };
+
+#define FIGURE(member) RC_FIGURE(struct result, member)
+static const struct rc_figure results[] = {
+    {FIGURE(load), "N"},        {FIGURE(contact_nodes)}, {FIGURE(contact_area), "m2"},
+    {FIGURE(contact_fraction)}, {FIGURE(max_pressure)},  {FIGURE(approach), "m"},
+    {FIGURE(hardness), "Pa"},   {FIGURE(plastic_area)},  {0}};
 
 static bool
 is_pressure(const struct rc_grid *g)
@@ -90,15 +95,15 @@ result_of(const struct rc_grid *g, const struct rc_grid *touch, const struct rc_
 {
     const char *converged = rc_grid_get(g, "converged");
     bool whole = s->missing == 0 && s->infinite == 0;
-    double cell = g->dx * g->dy, most;
+    double cell = g->dx * g->dy, most, nodes = 0;
 
-    *r = (struct result){NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0, 0, NULL};
+    *r = (struct result){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0, NULL};
     rc_grid_number(g, "approach", &r->approach);
     rc_grid_number(g, "hardness", &r->hardness);
     /* the resolution of single precision */
     most = g->type == RC_F32 ? (double)(float)r->hardness : r->hardness;
     for (size_t k = 0; whole && k < g->nx * g->ny; k++) {
-        r->contact_nodes += touch != NULL && rc_in_contact(touch->v[k]) ? 1 : 0;
+        nodes += touch != NULL && rc_in_contact(touch->v[k]) ? 1 : 0;
         r->plastic_nodes += g->v[k] >= most ? 1 : 0;
     }
     if (converged != NULL && (strcmp(converged, "yes") == 0 || strcmp(converged, "no") == 0))
@@ -108,8 +113,9 @@ result_of(const struct rc_grid *g, const struct rc_grid *touch, const struct rc_
     r->load = s->sum * cell;
     r->max_pressure = s->maximum;
     if (touch != NULL) {
-        r->contact_area = cell * (double)r->contact_nodes;
-        r->contact_fraction = (double)r->contact_nodes / ((double)g->nx * (double)g->ny);
+        r->contact_nodes = nodes;
+        r->contact_area = cell * nodes;
+        r->contact_fraction = nodes / ((double)g->nx * (double)g->ny);
     }
     if (!isnan(r->hardness))
         r->plastic_area = cell * (double)r->plastic_nodes;
@@ -121,17 +127,7 @@ static void
 put_result_object(struct report *r, const struct result *v)
 {
     report_object(r, "result");
-    report_value(r, "load", v->load);
-    if (isnan(v->contact_area))
-        report_value(r, "contact_nodes", NAN);
-    else
-        report_count(r, "contact_nodes", v->contact_nodes, NULL);
-    report_value(r, "contact_area", v->contact_area);
-    report_value(r, "contact_fraction", v->contact_fraction);
-    report_value(r, "max_pressure", v->max_pressure);
-    report_value(r, "approach", v->approach);
-    report_value(r, "hardness", v->hardness);
-    report_value(r, "plastic_area", v->plastic_area);
+    report_table(r, results, v);
     if (v->converged == NULL)
         report_text(r, "converged", NULL);
     else
@@ -205,7 +201,7 @@ put_result(FILE *out, const struct rc_grid *g, const struct result *r)
     if (!isnan(r->load))
         put_figure(out, "load", r->load, "N");
     if (!isnan(r->contact_area)) {
-        fprintf(out, "  %-10s %s, %.3g %% of the map (%zu of %zu nodes)\n", "contact",
+        fprintf(out, "  %-10s %s, %.3g %% of the map (%.0f of %zu nodes)\n", "contact",
                 shown_area(text, r->contact_area), 100 * r->contact_fraction, r->contact_nodes,
                 g->nx * g->ny);
     } else if (!isnan(r->load)) {

@@ -247,6 +247,15 @@ report_end(struct report *r)
 }
 
 void
+report_numbers(struct report *r, const char *name, const double *v, size_t step, size_t n)
+{
+    report_array(r, name);
+    for (size_t k = 0; k < n; k++)
+        report_number(r, NULL, *(const double *)(const void *)((const char *)v + k * step), NULL);
+    report_end(r);
+}
+
+void
 report_no_object(struct report *r, const char *name)
 {
     if (r->name != NULL && !r->separator)

@@ -59,6 +59,9 @@ void report_column(struct report *report, const char *name, const char *unit);
 void report_object(struct report *report, const char *name);
 void report_array(struct report *report, const char *name);
 void report_end(struct report *report);
+/* An array of n numbers, `step` bytes apart. */
+void report_numbers(struct report *report, const char *name, const double *v, size_t step,
+                    size_t n);
 /* In place of an unknown object. */
 void report_no_object(struct report *report, const char *name);
 /* A column for each figure of the table, in its order; `data`: the struct with the values, or NULL if they

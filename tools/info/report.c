@@ -10,10 +10,7 @@
 static void
 put_list(struct report *r, const char *name, const double *v, size_t n)
 {
-    report_array(r, name);
-    for (size_t k = 0; k < n; k++)
-        report_number(r, NULL, v[k], NULL);
-    report_end(r);
+    report_numbers(r, name, v, sizeof *v, n);
 }
 
 static void
@@ -138,14 +135,12 @@ patches_json(struct report *r, const struct info_figures *f)
     report_count(r, "count", p->count, NULL);
     report_named(r, from, "contact_nodes contact_area contact_area_corrected perimeter");
     report_number(r, "largest_area", largest(p), "m2");
-    report_array(r, "areas");
-    for (size_t k = 0; k < p->count; k++)
-        report_number(r, NULL, p->patch[k].area, "m2");
-    report_end(r);
-    report_array(r, "perimeters");
-    for (size_t k = 0; k < p->count; k++)
-        report_number(r, NULL, p->patch[k].perimeter, "m");
-    report_end(r);
+    for (int k = 0; k < 2; k++)
+        report_numbers(r, k == 0 ? "areas" : "perimeters",
+                       p->count == 0 ? NULL
+                       : k == 0      ? &p->patch->area
+                                     : &p->patch->perimeter,
+                       sizeof *p->patch, p->count);
     report_object(r, "pressure_histogram");
     put_list(r, "edges", f->edges, f->edges == NULL ? 0 : INFO_BINS + 1);
     put_counts(r, "counts", f->counts, f->counts == NULL ? 0 : INFO_BINS);

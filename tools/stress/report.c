@@ -192,18 +192,20 @@ enum {
 
 /* ---- the report ---- */
 
+#define FIGURE(member) RC_FIGURE(struct stress_place, member)
+static const struct rc_figure places[] = {
+    {FIGURE(value), "Pa"}, {FIGURE(x), "m"}, {FIGURE(y), "m"}, {FIGURE(depth), "m"}, {0}};
+
 static void
 write_place(struct report *out, const struct stress_place *at)
 {
-    const double place[] = {at->x, at->y, at->depth};
-
     if (isnan(at->value)) {
         report_no_object(out, NULL);
         return;
     }
     report_array(out, NULL);
-    for (size_t k = 0; k < sizeof place / sizeof *place; k++)
-        report_number(out, NULL, place[k], "m");
+    for (const struct rc_figure *f = places + 1; f->name != NULL; f++)
+        report_number(out, NULL, rc_figure_number(f, at), f->unit);
     report_end(out);
 }
 
@@ -218,18 +220,10 @@ write_extremes(const struct stress_report *r, struct report *out, enum stress_en
         if (x->by_depth == NULL)
             continue;
         report_object(out, rc_component_names[c]);
-        report_number(out, "value", x->all.value, "Pa");
-        report_number(out, "x", x->all.x, "m");
-        report_number(out, "y", x->all.y, "m");
-        report_number(out, "depth", x->all.depth, "m");
-        report_array(out, "by_depth");
-        for (size_t k = 0; k < r->depths->n; k++)
-            report_number(out, NULL, x->by_depth[k], "Pa");
-        report_end(out);
-        report_array(out, "by_material");
-        for (size_t m = 0; m < materials; m++)
-            report_number(out, NULL, x->by_material[m].value, "Pa");
-        report_end(out);
+        report_table(out, places, &x->all);
+        report_numbers(out, "by_depth", x->by_depth, sizeof *x->by_depth, r->depths->n);
+        report_numbers(out, "by_material", &x->by_material->value, sizeof *x->by_material,
+                       materials);
         report_array(out, "place_by_material");
         for (size_t m = 0; m < materials; m++)
             write_place(out, &x->by_material[m]);
@@ -257,10 +251,7 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_text(out, "section", o->section == 0 ? NULL : section);
     report_number(out, "at", o->section == 0 ? NAN : o->at, "m");
     report_number(out, "tol", o->tol, NULL);
-    report_array(out, "depths");
-    for (size_t k = 0; k < r->depths->n; k++)
-        report_number(out, NULL, r->depths->v[k], "m");
-    report_end(out);
+    report_numbers(out, "depths", r->depths->v, sizeof *r->depths->v, r->depths->n);
     report_array(out, "materials");
     for (size_t k = 0; k < r->depths->n; k++)
         report_count(out, NULL, rc_body_material(&o->body, r->depths->v[k]) + 1, NULL);
