@@ -64,8 +64,7 @@ pair_of(struct tool *t, const struct rc_grid *p, struct layers *layers)
     struct rc_pair pair = {.estar = args.estar};
     struct rc_err err;
 
-    if (layers_read(p, layers, &err) != RC_OK)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(t, p, layers_read(p, layers, &err), &err);
     if (layers->text != NULL && !isnan(args.estar))
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "the stream already defines the layers; remove --estar");
     if (isnan(args.estar) && bodies_read(p, layers, &pair, &err) != RC_OK)

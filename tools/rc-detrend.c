@@ -308,8 +308,7 @@ detrend(struct tool *t, struct rc_grid *g)
             failed(t, g, step, &err);
     }
     status = rc_grid_history(g, tool_history(t), &err);
-    if (status != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(t, g, status, &err);
 }
 
 /* Mirrors the other frames of the case, such as a map of hardness, with the heights. */

@@ -202,8 +202,7 @@ set_depths(struct tool *t, struct rc_grid *g, double first, double step)
     for (size_t j = 0; j < g->ny; j++)
         n += (size_t)snprintf(text + n, size - n, "%s%s", j == 0 ? "" : ",",
                               rc_number_text(number, decimal(first + (double)j * step)));
-    if (rc_grid_set(g, "depths", text, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(t, g, rc_grid_set(g, "depths", text, &err), &err);
     free(text);
 }
 
@@ -216,8 +215,7 @@ with_rows_of(struct tool *t, const struct rc_grid *g, const struct rc_shape *sha
 
     to = rc_grid_new(shape, g->channel, g->unit, &err);
     for (size_t k = 0; to != NULL && k < g->keys; k++)
-        if (rc_grid_set(to, g->key[k].name, g->key[k].value, &err) != RC_OK)
-            tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_must(t, g, rc_grid_set(to, g->key[k].name, g->key[k].value, &err), &err);
     if (to == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     to->type = g->type;
@@ -275,8 +273,7 @@ even_rows(struct tool *t, struct rc_grid *g)
         return g;
     if ((at = malloc(g->ny * sizeof *at)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", g->ny);
-    if (rc_export_depths(g, at, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(t, g, rc_export_depths(g, at, &err), &err);
     if (!rc_export_even(at, g->ny, &step)) {
         shape.ny = rows_needed(t, g, at);
         shape.dy = step = decimal((at[g->ny - 1] - at[0]) / (double)(shape.ny - 1));
@@ -329,8 +326,7 @@ read_frames(struct tool *t, size_t *frames)
         check_frame(t, *frames == 0 ? NULL : frame[0], g);
         if (args.even)
             g = even_rows(t, g);
-        if (rc_grid_history(g, tool_history(t), &err) != RC_OK)
-            tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_must(t, g, rc_grid_history(g, tool_history(t), &err), &err);
         if ((more = realloc(frame, (*frames + 1) * sizeof(struct rc_grid *))) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu frames", *frames + 1);
         frame = more;
@@ -395,8 +391,7 @@ main(int argc, char **argv)
         demand_memory(&t, frame, frames);
         foretell(&t, frame[0]);
     }
-    if (rc_export_write(format, t.out, frame, frames, &wish, &err) != RC_OK)
-        tool_die_at(&t, frame[0], EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&t, frame[0], rc_export_write(format, t.out, frame, frames, &wish, &err), &err);
     tool_note(&t, "%zu frame%s as %s", frames, frames == 1 ? "" : "s", format->name);
     for (size_t k = 0; k < frames; k++)
         rc_grid_free(frame[k]);

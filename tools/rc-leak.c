@@ -164,8 +164,7 @@ solve(struct run *run, const struct leak_case *c, struct rc_leak *leak)
     while ((status = rc_leak_step(leak, &err)) == RC_MORE)
         continue;
     tool_progress_end(&run->t);
-    if (status != RC_OK)
-        tool_die_at(&run->t, c->gap, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&run->t, c->gap, status, &err);
 }
 
 static void

@@ -211,8 +211,7 @@ change(struct tool *t, struct rc_grid *g)
             status = set(g, &args.steps.step[k], &err);
     if (status == RC_OK)
         status = rc_grid_history(g, tool_history(t), &err);
-    if (status != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(t, g, status, &err);
 }
 
 int

@@ -12,107 +12,91 @@
 #include "tools/plot/plot.h"
 #include "tools/render/render.h"
 
+#define AT(field) .at = offsetof(struct args, field), .result = true
+#define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 /* clang-format off */
 static const struct opt opts[] = {
-    {.name = "channel", .type = OPT_TEXT, .at = offsetof(struct args, wish.channel),
-     .result = true, .arg = "NAME",
+    {.name = "channel", .type = OPT_TEXT, AT(wish.channel), .arg = "NAME",
      .help = "channel to draw (default: mises, pressure, height, else the first)"},
-    {.name = "depth", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, depth),
-     .min = 0, .max = INFINITY, .result = true, .arg = "LIST",
+    {.name = "depth", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depth), .min = 0, .max = INFINITY,
+     .arg = "LIST",
      .help = "depth of a stress, or the nearest within half a step (default: that of the largest magnitude)"},
-    {.name = "section", .type = OPT_CHOICE, .at = offsetof(struct args, wish.section),
-     .result = true, .arg = "x|y", .help = "a section across this axis instead of a map"},
-    {.name = "case", .type = OPT_NUMBERS, .at = offsetof(struct args, number), .min = 1,
-     .max = 9e15, .whole = true, .result = true, .arg = "LIST",
+    {.name = "section", .type = OPT_CHOICE, AT(wish.section), .arg = "x|y",
+     .help = "a section across this axis instead of a map"},
+    {.name = "case", .type = OPT_NUMBERS, AT(number), .min = 1, .max = 9e15, .whole = true, .arg = "LIST",
      .help = "case, for several loads or files (default: the first)"},
-    {.name = "colormap", .type = OPT_CHOICE, .at = offsetof(struct args, colormap), .result = true,
-     .words = colormap_name, .help = "colour map of the values (default: by channel)"},
-    {.name = "range", .type = OPT_TEXT, .at = offsetof(struct args, range), .result = true,
-     .arg = "LO:HI",
+    {.name = "colormap", .type = OPT_CHOICE, AT(colormap), .words = colormap_name,
+     .help = "colour map of the values (default: by channel)"},
+    {.name = "range", .type = OPT_TEXT, AT(range), .arg = "LO:HI",
      .help = "range of the colours: values as 0:2GPa, percentiles as 1%:99%, or symmetric"},
-    {.name = "log", .type = OPT_CHOICE, .at = offsetof(struct args, style.log), .result = true,
-     .arg = "x|y|xy", .optional = true,
+    {.name = "log", .type = OPT_CHOICE, AT(style.log), .arg = "x|y|xy", .optional = true,
      .help = "logarithmic colours, or axes of curves (without a value: both axes)"},
-    {.name = "clip", .type = OPT_FLAG, .at = offsetof(struct args, clip), .result = true,
+    {.name = "clip", .type = OPT_FLAG, AT(clip),
      .help = "range of the colours from 0.5 % to 99.5 % of the nodes"},
-    {.name = "contour", .type = OPT_FLAG, .at = offsetof(struct args, contour), .result = true,
+    {.name = "contour", .type = OPT_FLAG, AT(contour),
      .help = "draw contour lines at the marks of the colour bar, and the edge of contact"},
-    {.name = "border", .type = OPT_FLAG, .at = offsetof(struct args, border), .result = true,
+    {.name = "border", .type = OPT_FLAG, AT(border),
      .help = "of the contour lines only the edge of contact, if the stream has a pressure"},
-    {.name = "hertz", .type = OPT_FLAG, .at = offsetof(struct args, hertz), .result = true,
+    {.name = "hertz", .type = OPT_FLAG, AT(hertz),
      .help = "draw the Hertzian contact of a smooth sphere: its circle, with --cut its pressure"},
-    {.name = "window", .type = OPT_TEXT, .at = offsetof(struct args, window), .result = true,
-     .arg = "X0:X1,Y0:Y1", .help = "part of the map to draw; contact; or all"},
-    {.name = "depth-range", .type = OPT_TEXT, .at = offsetof(struct args, depths), .result = true,
-     .arg = "Z0:Z1", .help = "the depths of a section to draw"},
-    {.name = "keep", .type = OPT_CHOICE, .at = offsetof(struct args, keep), .result = true,
-     .arg = "mean|max", .help = "value of nodes that share a pixel: their mean (default) or largest"},
-    {.name = "figure", .type = OPT_FLAG, .at = offsetof(struct args, figure), .result = true,
-     .help = "with axes, colour bar and title: the default"},
-    {.name = "raw", .type = OPT_FLAG, .at = offsetof(struct args, raw), .result = true,
-     .help = "one pixel for each node and nothing else"},
-    {.name = "title", .type = OPT_TEXT, .at = offsetof(struct args, title), .result = true,
-     .arg = "TEXT", .help = "title of the figure (default: by channel)"},
-    {.name = "subtitle", .type = OPT_TEXT, .at = offsetof(struct args, style.subtitle),
-     .result = true, .arg = "TEXT", .help = "line below the title (default: source, load and others)"},
-    {.name = "width", .type = OPT_TEXT, .at = offsetof(struct args, width), .result = true,
-     .arg = "WIDTH",
+    {.name = "window", .type = OPT_TEXT, AT(window), .arg = "X0:X1,Y0:Y1",
+     .help = "part of the map to draw; contact; or all"},
+    {.name = "depth-range", .type = OPT_TEXT, AT(depths), .arg = "Z0:Z1",
+     .help = "the depths of a section to draw"},
+    {.name = "keep", .type = OPT_CHOICE, AT(keep), .arg = "mean|max",
+     .help = "value of nodes that share a pixel: their mean (default) or largest"},
+    {.name = "figure", .type = OPT_FLAG, AT(figure), .help = "with axes, colour bar and title: the default"},
+    {.name = "raw", .type = OPT_FLAG, AT(raw), .help = "one pixel for each node and nothing else"},
+    {.name = "title", .type = OPT_TEXT, AT(title), .arg = "TEXT",
+     .help = "title of the figure (default: by channel)"},
+    {.name = "subtitle", .type = OPT_TEXT, AT(style.subtitle), .arg = "TEXT",
+     .help = "line below the title (default: source, load and others)"},
+    {.name = "width", .type = OPT_TEXT, AT(width), .arg = "WIDTH",
      .help = "width of the whole figure in pixels, or with a unit on paper, as 85mm"},
-    {.name = "dpi", .type = OPT_NUMBER, .at = offsetof(struct args, dpi), .min = 50, .max = 2400,
-     .result = true, .arg = "PIXELS",
+    {.name = "dpi", .type = OPT_NUMBER, AT(dpi), .min = 50, .max = 2400, .arg = "PIXELS",
      .help = "pixels per inch; text is then 7 points high (default for a --width in mm: 300)"},
-    {.name = "font", .type = OPT_TEXT, .at = offsetof(struct args, style.family), .result = true,
-     .arg = "FAMILY", .help = "font of all text (default: the sans serif of the system)"},
-    {.name = "view", .type = OPT_TEXT, .at = offsetof(struct args, view), .result = true,
-     .arg = "AZ,EL", .help = "draw a lit surface, seen from this azimuth and elevation in degrees"},
-    {.name = "exaggeration", .type = OPT_NUMBER, .at = offsetof(struct args, exaggeration), .min = 0,
-     .max = INFINITY, .above = true, .result = true, .arg = "N",
+    {.name = "font", .type = OPT_TEXT, AT(style.family), .arg = "FAMILY",
+     .help = "font of all text (default: the sans serif of the system)"},
+    {.name = "view", .type = OPT_TEXT, AT(view), .arg = "AZ,EL",
+     .help = "draw a lit surface, seen from this azimuth and elevation in degrees"},
+    {.name = "exaggeration", .type = OPT_NUMBER, AT(exaggeration), ABOVE_0, .arg = "N",
      .help = "of a relief: heights N times as large as lengths (default: by the range of heights)"},
-    {.name = "aspect", .type = OPT_NUMBER, .at = offsetof(struct args, aspect), .min = 0,
-     .max = INFINITY, .above = true, .result = true, .arg = "N",
+    {.name = "aspect", .type = OPT_NUMBER, AT(aspect), ABOVE_0, .arg = "N",
      .help = "scale of the vertical axis N times that of the horizontal one, for sections"},
-    {.name = "hillshade", .type = OPT_FLAG, .at = offsetof(struct args, hillshade), .result = true,
+    {.name = "hillshade", .type = OPT_FLAG, AT(hillshade),
      .help = "shade the slopes of the map with light from the upper left"},
-    {.name = "sheet", .type = OPT_TEXT, .at = offsetof(struct args, sheet), .result = true,
-     .arg = "COLSxROWS",
+    {.name = "sheet", .type = OPT_TEXT, AT(sheet), .arg = "COLSxROWS",
      .help = "all matching frames in one picture, in this number of columns and rows, or auto"},
-    {.name = "cut", .type = OPT_TEXT, .at = offsetof(struct args, cut), .result = true,
-     .arg = "AXIS=PLACE", .help = "draw the values along a line, as in y=0"},
-    {.name = "histogram", .type = OPT_FLAG, .at = offsetof(struct args, histogram), .result = true,
+    {.name = "cut", .type = OPT_TEXT, AT(cut), .arg = "AXIS=PLACE",
+     .help = "draw the values along a line, as in y=0"},
+    {.name = "histogram", .type = OPT_FLAG, AT(histogram),
      .help = "draw the histogram of the values, for pressures of those in contact"},
-    {.name = "material-ratio", .type = OPT_FLAG, .at = offsetof(struct args, material_ratio),
-     .result = true, .help = "draw the material ratio: fraction of the map at or above each value"},
-    {.name = "curve", .type = OPT_TEXT, .at = offsetof(struct args, curve), .result = true,
-     .arg = "X:Y[,Y...]", .help = "draw columns Y over X of reports or tables instead of a map"},
-    {.name = "by", .type = OPT_TEXT, .at = offsetof(struct args, style.by), .result = true,
-     .arg = "COLUMN[,COLUMN]",
+    {.name = "material-ratio", .type = OPT_FLAG, AT(material_ratio),
+     .help = "draw the material ratio: fraction of the map at or above each value"},
+    {.name = "curve", .type = OPT_TEXT, AT(curve), .arg = "X:Y[,Y...]",
+     .help = "draw columns Y over X of reports or tables instead of a map"},
+    {.name = "by", .type = OPT_TEXT, AT(style.by), .arg = "COLUMN[,COLUMN]",
      .help = "a curve for each value of a column of --curve; of two: colour by one, dashes by the other"},
-    {.name = "points", .type = OPT_FLAG, .at = offsetof(struct args, style.points), .result = true,
-     .help = "of --curve: markers without lines"},
-    {.name = "error", .type = OPT_TEXT, .at = offsetof(struct args, style.error), .result = true,
-     .arg = "COLUMN[,...]", .help = "of --curve: error bars of this column"},
-    {.name = "spread", .type = OPT_FLAG, .at = offsetof(struct args, style.spread), .result = true,
+    {.name = "points", .type = OPT_FLAG, AT(style.points), .help = "of --curve: markers without lines"},
+    {.name = "error", .type = OPT_TEXT, AT(style.error), .arg = "COLUMN[,...]",
+     .help = "of --curve: error bars of this column"},
+    {.name = "spread", .type = OPT_FLAG, AT(style.spread),
      .help = "of --curve: mean of rows with equal x, with bars of their standard deviation"},
-    {.name = "legend", .type = OPT_TEXT, .at = offsetof(struct args, style.legend), .result = true,
-     .arg = "TEXT[;...]", .help = "names of the curves, in the order of the legend"},
-    {.name = "x-label", .type = OPT_TEXT, .at = offsetof(struct args, style.x_label),
-     .result = true, .arg = "TEXT", .help = "title of the horizontal axis of a curve"},
-    {.name = "y-label", .type = OPT_TEXT, .at = offsetof(struct args, style.y_label),
-     .result = true, .arg = "TEXT", .help = "the same upwards"},
-    {.name = "x-unit", .type = OPT_TEXT, .at = offsetof(struct args, style.x_unit), .result = true,
-     .arg = "UNIT", .help = "unit of the axis of a curve, as in mN, mm2 or %"},
-    {.name = "y-unit", .type = OPT_TEXT, .at = offsetof(struct args, style.y_unit), .result = true,
-     .arg = "UNIT", .help = "the same upwards"},
-    {.name = "law", .type = OPT_CHOICE, .at = offsetof(struct args, style.law), .result = true,
-     .words = law_word, .help = "draw a published law beside the curve"},
-    {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA,
-     .at = offsetof(struct args, style.given.estar), .min = 0, .max = INFINITY, .above = true,
-     .result = true, .arg = "MODULUS", .help = "composite modulus E*, for --law and --hertz"},
-    {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M,
-     .at = offsetof(struct args, style.given.radius), .min = 0, .max = INFINITY, .above = true,
-     .result = true, .arg = "LENGTH", .help = "composite radius of the sphere, for --law hertz and --hertz"},
-    {.name = "rms-slope", .type = OPT_NUMBER, .at = offsetof(struct args, style.given.rms_slope),
-     .min = 0, .max = INFINITY, .above = true, .result = true, .arg = "SLOPE",
+    {.name = "legend", .type = OPT_TEXT, AT(style.legend), .arg = "TEXT[;...]",
+     .help = "names of the curves, in the order of the legend"},
+    {.name = "x-label", .type = OPT_TEXT, AT(style.x_label), .arg = "TEXT",
+     .help = "title of the horizontal axis of a curve"},
+    {.name = "y-label", .type = OPT_TEXT, AT(style.y_label), .arg = "TEXT", .help = "the same upwards"},
+    {.name = "x-unit", .type = OPT_TEXT, AT(style.x_unit), .arg = "UNIT",
+     .help = "unit of the axis of a curve, as in mN, mm2 or %"},
+    {.name = "y-unit", .type = OPT_TEXT, AT(style.y_unit), .arg = "UNIT", .help = "the same upwards"},
+    {.name = "law", .type = OPT_CHOICE, AT(style.law), .words = law_word,
+     .help = "draw a published law beside the curve"},
+    {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA, AT(style.given.estar), ABOVE_0, .arg = "MODULUS",
+     .help = "composite modulus E*, for --law and --hertz"},
+    {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M, AT(style.given.radius), ABOVE_0, .arg = "LENGTH",
+     .help = "composite radius of the sphere, for --law hertz and --hertz"},
+    {.name = "rms-slope", .type = OPT_NUMBER, AT(style.given.rms_slope), ABOVE_0, .arg = "SLOPE",
      .help = "RMS gradient of the surface, for --law persson"},
     {.name = NULL},
 };
@@ -188,7 +172,7 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, s
     struct drawing d = {t, g, f, .colours = {.map = NULL}};
     const char *history = g == NULL ? NULL : rc_grid_get(g, "history"), *own = tool_history(t);
     size_t size = strlen(own) + (history == NULL ? 0 : strlen(history)) + 4;
-    char *made = malloc(size), software[64];
+    char *made = tool_room(t, size, 1, "the history"), software[64];
     const struct picture_text text[] = {
         {"Title", f->title},
         {"Description", made},
@@ -201,8 +185,6 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, s
     assert(c != NULL || g != NULL);
     if (c == NULL)
         colormap_tabulate(&d.colours, f->map);
-    if (made == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     snprintf(made, size, "%s%s%s", history == NULL ? "" : history, history == NULL ? "" : " | ",
              own);
     snprintf(software, sizeof software, "rc-render %s", rc_version());
@@ -316,7 +298,7 @@ draw_profile(struct tool *t, const struct args *a, const struct rc_grid *g, cons
     const bool row = g->ny == 1;
     const double first = row ? f->left : f->top, step = row ? g->dx : g->dy;
     const size_t n = g->nx * g->ny;
-    double *x = malloc(n * sizeof *x);
+    double *x = tool_room(t, n, sizeof *x, "a curve");
     struct graph_series series = {.kind = GRAPH_LINE, .x = x, .y = g->v, .n = n};
     char gaps[128];
     struct graph graph = {
@@ -334,8 +316,6 @@ draw_profile(struct tool *t, const struct args *a, const struct rc_grid *g, cons
     struct canvas *c;
     struct rc_err err;
 
-    if (x == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "out of memory for a curve");
     for (size_t k = 0; k < n; k++)
         x[k] = first + ((double)k + 0.5) * step;
     snprintf(gaps, sizeof gaps, "gaps: %s (%zu of %zu nodes)",

@@ -180,8 +180,7 @@ set_material(struct run *run, const struct rc_grid *p)
 {
     struct rc_err err;
 
-    if (layers_read(p, &run->layers, &err) != RC_OK)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&run->t, p, layers_read(p, &run->layers, &err), &err);
     if (run->layers.text != NULL && !isnan(args.nu))
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                     "its body is coated and each material has its own Poisson's ratio: --nu "
@@ -285,8 +284,7 @@ set_options(struct run *run, const struct rc_grid *p)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                     "its boundary is periodic, where only %s sums: leave out --kernel %s",
                     words_periodic_engines(list, sizeof list), args.kernel);
-    if (rc_stress_check(&shape, &run->options, &err) != RC_OK) /* before depths are chosen */
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&run->t, p, rc_stress_check(&shape, &run->options, &err), &err);
 }
 
 /* Refuses depths inside a rigid substrate, where stresses are undefined. */
@@ -368,10 +366,8 @@ static char *
 depths_text(struct run *run, const struct rc_grid *p)
 {
     size_t size = 60000, n = 0;
-    char *text = malloc(size), number[RC_NUMBER_SIZE];
+    char *text = tool_room(&run->t, size, 1, "the depths of a section"), number[RC_NUMBER_SIZE];
 
-    if (text == NULL)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "out of memory for the depths of a section");
     for (size_t k = 0; k < run->depths.n; k++) {
         int more = snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",",
                             rc_number_text(number, run->depths.v[k]));
@@ -419,8 +415,7 @@ new_frame(struct run *run, const struct rc_grid *p, int channel)
     struct rc_grid *g = rc_grid_new_part(&shape, rows, rc_component_names[channel], "Pa", &err);
 
     for (size_t k = 0; g != NULL && k < p->keys; k++)
-        if (rc_grid_set(g, p->key[k].name, p->key[k].value, &err) != RC_OK)
-            tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_must(&run->t, p, rc_grid_set(g, p->key[k].name, p->key[k].value, &err), &err);
     if (g == NULL)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     set_keys(run, p, g);
@@ -482,14 +477,12 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
         if (wanted(c))
             s[c] = run->frame[c]->v + (plane ? k * run->frame[c]->nx : 0);
     stress_report_start(&run->report);
-    if (rc_stress_slice(stress, run->depths.v[k], s, &err) != RC_OK)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&run->t, NULL, rc_stress_slice(stress, run->depths.v[k], s, &err), &err);
     stress_report_depth(&run->report, &run->t, k, rc_stress_values(stress), s);
     for (int c = 0; c < RC_STRESSES && !plane; c++) {
         if (!wanted(c))
             continue;
-        if (set_place(run, run->frame[c], run->depths.v[k], &err) != RC_OK)
-            tool_die(&run->t, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_must(&run->t, NULL, set_place(run, run->frame[c], run->depths.v[k], &err), &err);
         tool_write(&run->t, run->frame[c]);
     }
 }
@@ -501,8 +494,9 @@ plan_case(struct run *run, const struct rc_grid *p)
         &run->t, (double)tool_memory_with(size_sum(plan_memory(run, p), frames_memory(run, p))));
     struct rc_err err;
 
-    if (stress_report_plan(&run->t, p, &run->options, &run->depths, (size_t)memory, &err) != RC_OK)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&run->t, p,
+              stress_report_plan(&run->t, p, &run->options, &run->depths, (size_t)memory, &err),
+              &err);
 }
 
 static void
@@ -512,9 +506,10 @@ do_case(struct run *run, const struct rc_grid *p)
     struct rc_stress *stress;
     struct rc_err err;
 
-    if (stress_report_begin(&run->report, p, &run->options, &run->depths, report_wanted(&run->out),
-                            &err) != RC_OK)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&run->t, p,
+              stress_report_begin(&run->report, p, &run->options, &run->depths,
+                                  report_wanted(&run->out), &err),
+              &err);
     stress = rc_stress_new(&shape, p->v, &run->options, &err);
     if (stress == NULL)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);

@@ -180,3 +180,44 @@ tool_die_at(struct tool *t, const struct rc_grid *g, int status, const char *for
     snprintf(whole, sizeof whole, "%s: %s", tool_where(t, g, where, sizeof where), text);
     die(t, status, whole);
 }
+
+void
+tool_must(struct tool *t, const struct rc_grid *g, enum rc_status status, const struct rc_err *err)
+{
+    if (status == RC_OK)
+        return;
+    if (g == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err->text);
+    tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err->text);
+}
+
+/* ---- memory that must be there ---- */
+
+static void *
+demand(struct tool *t, void *v, const char *what)
+{
+    if (v == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %s", what);
+    return v;
+}
+
+void *
+tool_room(struct tool *t, size_t n, size_t size, const char *what)
+{
+    return demand(t, calloc(n > 0 ? n : 1, size), what);
+}
+
+void *
+tool_grown(struct tool *t, void *v, size_t n, size_t *room, size_t size, const char *what)
+{
+    if (n < *room)
+        return v;
+    *room = *room == 0 ? 64 : 2 * *room;
+    return demand(t, realloc(v, *room * size), what);
+}
+
+char *
+tool_copy(struct tool *t, const char *text)
+{
+    return demand(t, strdup(text), "a text");
+}

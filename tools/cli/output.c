@@ -216,8 +216,7 @@ tool_write(struct tool *t, struct rc_grid *g)
         g->type = t->type;
     demand_no_new(t, g);
     t->began = true;
-    if (rc_writer_put(t->writer, g, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(t, g, rc_writer_put(t->writer, g, &err), &err);
     g->type = type;
 }
 

@@ -232,6 +232,17 @@ _Noreturn void tool_die(struct tool *tool, int status, const char *format, ...)
 /* The same, naming source, case and channel of the faulty frame. */
 _Noreturn void tool_die_at(struct tool *tool, const struct rc_grid *grid, int status,
                            const char *format, ...) __attribute__((format(printf, 4, 5)));
+/* Ends the tool with the message of a failure, at a frame or, with NULL, without a place. */
+void tool_must(struct tool *tool, const struct rc_grid *grid, enum rc_status status,
+               const struct rc_err *err);
+/* An array of n elements of this size, all 0, which the caller frees. Ends the tool when memory is short, with
+ * the message "out of memory for WHAT". */
+void *tool_room(struct tool *tool, size_t n, size_t size, const char *what)
+    __attribute__((returns_nonnull));
+/* The array `v` of n elements with room for one more: the same, or a larger one in its place. */
+void *tool_grown(struct tool *tool, void *v, size_t n, size_t *room, size_t size, const char *what)
+    __attribute__((returns_nonnull));
+char *tool_copy(struct tool *tool, const char *text) __attribute__((returns_nonnull));
 /* Prints what could not be done, also with --quiet, and continues with the next file; exit status 1 at the
  * end. */
 void tool_fail(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -72,16 +72,6 @@ info_end(struct info_wanted *w, struct tool *t)
 
 /* ---- figures ---- */
 
-static void *
-room(struct tool *t, size_t n, size_t size)
-{
-    void *p = calloc(n, size);
-
-    if (p == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
-    return p;
-}
-
 /* The fraction of the measured points at or above this height. */
 static void
 find_smr(const struct info_wanted *w, const struct rc_grid *g, struct info_figures *f)
@@ -112,15 +102,13 @@ find_areal(const struct info_wanted *w, struct tool *t, const struct rc_grid *g,
 
     for (size_t k = 0; k < rc_grid_nodes(g); k++)
         missing += isfinite(g->v[k]) ? 0 : 1;
-    f->areal = room(t, 1, sizeof *f->areal);
-    if (rc_areal(&shape, g->v, &options, f->areal, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    f->areal = tool_room(t, 1, sizeof *f->areal, "the parameters of a map");
+    tool_must(t, g, rc_areal(&shape, g->v, &options, f->areal, &err), &err);
     find_smr(w, g, f);
     if (g->nx == 1 || g->ny == 1)
         return;
-    f->features = room(t, 1, sizeof *f->features);
-    if (rc_features(&shape, g->v, &options, f->features, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    f->features = tool_room(t, 1, sizeof *f->features, "the features of a map");
+    tool_must(t, g, rc_features(&shape, g->v, &options, f->features, &err), &err);
 }
 
 /* The spectrum as a frame, whose spacings are steps of wave numbers. */
@@ -170,8 +158,7 @@ find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct 
     if ((f->psd = rc_psd_new(&shape, g->v, &options, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (map != NULL) {
-        if (rc_grid_set(map, "window", f->psd->window, &err) != RC_OK)
-            tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_must(t, g, rc_grid_set(map, "window", f->psd->window, &err), &err);
         info_file_put(w->file, map);
     }
     rc_grid_free(map);
@@ -192,8 +179,8 @@ count_pressures(struct tool *t, const struct rc_grid *g, const double *touch,
         }
     if (largest == least)
         return;
-    f->edges = room(t, INFO_BINS + 1, sizeof *f->edges);
-    f->counts = room(t, INFO_BINS, sizeof *f->counts);
+    f->edges = tool_room(t, INFO_BINS + 1, sizeof *f->edges, "a histogram");
+    f->counts = tool_room(t, INFO_BINS, sizeof *f->counts, "a histogram");
     for (size_t b = 0; b <= INFO_BINS; b++)
         f->edges[b] = least + (largest - least) * ((double)b / INFO_BINS);
     for (size_t k = 0; k < g->nx * g->ny; k++)
@@ -213,9 +200,8 @@ find_patches(struct tool *t, const struct rc_grid *g, const double *touch, struc
     struct rc_err err;
 
     tool_demand_finite(t, g, "solve the contact again");
-    f->patches = room(t, 1, sizeof *f->patches);
-    if (rc_patches_find(&shape, touch, &options, f->patches, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    f->patches = tool_room(t, 1, sizeof *f->patches, "the patches of a contact");
+    tool_must(t, g, rc_patches_find(&shape, touch, &options, f->patches, &err), &err);
     count_pressures(t, g, touch, f);
 }
 
@@ -234,7 +220,7 @@ info_compute(struct info_wanted *w, struct tool *t, const struct rc_grid *g,
     if (w->areal && height)
         find_areal(w, t, g, f);
     if (w->profile != NULL && height) {
-        f->profile = room(t, 1, sizeof *f->profile);
+        f->profile = tool_room(t, 1, sizeof *f->profile, "a profile");
         info_line_measure(t, g, &w->line, w->sections, f->profile);
     }
     if (w->psd && height)

@@ -9,16 +9,6 @@
 
 #define DEGREE (INFO_2PI / 360)
 
-static double *
-room_for(struct tool *t, size_t n)
-{
-    double *z = malloc(n * sizeof *z);
-
-    if (z == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a profile of %zu points", n);
-    return z;
-}
-
 /* ---- the line asked for ---- */
 
 static void
@@ -135,12 +125,11 @@ measure_rows(struct tool *t, const struct rc_grid *g, const struct info_line_wan
              size_t sections, struct info_profile *to)
 {
     size_t n = w->rows ? g->nx : g->ny, lines = w->rows ? g->ny : g->nx;
-    double *z = room_for(t, n), step = w->rows ? g->dx : g->dy;
+    double *z = tool_room(t, n, sizeof *z, "a profile"), step = w->rows ? g->dx : g->dy;
     struct rc_profile *line;
 
     demand_points(t, g, w, n, sections);
-    if ((line = malloc(lines * sizeof *line)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu profiles", lines);
+    line = tool_room(t, lines, sizeof *line, "the figures of the profiles");
     for (size_t k = 0; k < lines; k++) {
         struct rc_err err;
 
@@ -187,7 +176,7 @@ info_line_measure(struct tool *t, const struct rc_grid *g, const struct info_lin
     length = hypot(w.to.x - w.from.x, w.to.y - w.from.y);
     to->points = (size_t)floor(length / fmin(g->dx, g->dy) * (1 + 1e-12)) + 1;
     demand_points(t, g, &w, to->points, sections);
-    z = room_for(t, to->points);
+    z = tool_room(t, to->points, sizeof *z, "a profile");
     rc_profile_along(&shape, g->v, w.from, w.to, to->points, z);
     if (rc_profile_measure(to->points, length / (double)(to->points - 1), z, sections, &line,
                            &err) != RC_OK)

@@ -22,11 +22,9 @@ failed(struct info_file *f)
 struct info_file *
 info_file_new(struct tool *t, const char *option, const char *name)
 {
-    struct info_file *f = calloc(1, sizeof *f);
+    struct info_file *f = tool_room(t, 1, sizeof *f, "a file");
     struct rc_err err;
 
-    if (f == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     *f = (struct info_file){.tool = t, .option = option, .name = name};
     if (strcmp(name, "-") == 0)
         tool_die(t, EXIT_USAGE, "%s -: standard output is for the figures: name a file", option);

@@ -230,8 +230,7 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
                     "a sphere was already added to these heights (form=%s): remove --radius", form);
     add_sphere(t, a, g);
     snprintf(name, sizeof name, "sphere %s", rc_number_text(radius, a->radius));
-    if (rc_grid_set(g, "form", name, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(t, g, rc_grid_set(g, "form", name, &err), &err);
 }
 
 /* A map that is not a period has a step where its opposite edges meet, which would carry much of the load. */

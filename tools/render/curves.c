@@ -161,8 +161,7 @@ split_names(struct curves *c, const char *columns)
     const char *wrong = "it must be X:Y or X:Y,Y,..., names of columns";
     char *s;
 
-    if ((c->names = strdup(columns)) == NULL)
-        tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
+    c->names = tool_copy(c->tool, columns);
     if ((s = strchr(c->names, ':')) == NULL || strchr(s + 1, ':') != NULL)
         tool_die(c->tool, EXIT_USAGE, "--curve %s: %s", columns, wrong);
     *s = '\0';
@@ -186,10 +185,8 @@ static char *
 split_list(struct curves *c, const char *option, const char *list, const char **word, size_t most,
            size_t *n)
 {
-    char *copy = strdup(list), *s = copy;
+    char *copy = tool_copy(c->tool, list), *s = copy;
 
-    if (copy == NULL)
-        tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
     for (;;) {
         char *comma = strchr(s, ',');
 
@@ -242,14 +239,12 @@ read_tables(struct curves *c)
 {
     size_t files = c->tool->operands == 0 ? 1 : c->tool->operands;
 
-    if ((c->table = calloc(files, sizeof *c->table)) == NULL)
-        tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
+    c->table = tool_room(c->tool, files, sizeof *c->table, "a table");
     for (size_t f = 0; f < files; f++) {
         struct table *table = &c->table[c->tables++];
 
         table->columns = c->asked + HELPERS;
-        if ((table->column = calloc(table->columns, sizeof *table->column)) == NULL)
-            tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
+        table->column = tool_room(c->tool, table->columns, sizeof *table->column, "a table");
         for (size_t k = 0; k < table->columns; k++) {
             table->column[k].optional = k >= c->asked;
             table->column[k].either = k == 0;
@@ -503,11 +498,9 @@ static enum stretch *
 find_steps(struct curves *c, const struct table *table, size_t from, size_t to)
 {
     const double *at = way_of(c, table, from), *jumps = helper(c, table, JUMPS);
-    enum stretch *step = calloc(to - from + 1, sizeof *step);
+    enum stretch *step = tool_room(c->tool, to - from + 1, sizeof *step, "a curve");
     const double rounding = 1e-9;
 
-    if (step == NULL)
-        tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
     for (size_t k = 1; k < to - from; k++) {
         double here = at[from + k], last = at[from + k - 1];
 
@@ -527,12 +520,10 @@ static void
 add_stretches(struct curves *c, const double *x, const double *y, const double *at,
               const enum stretch *step, size_t rows, enum stretch what, const char *name)
 {
-    double *v = malloc(4 * rows * sizeof *v);
+    double *v = tool_room(c->tool, 4 * rows, sizeof *v, "a curve");
     struct graph_series *s;
     size_t n = 0;
 
-    if (v == NULL)
-        tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
     for (size_t k = 0; k < rows; k++) {
         bool to = k > 0 && step[k] == what, on = k + 1 < rows && step[k + 1] == what;
         bool alone = k > 0 && step[k] == JUMP && (k + 1 == rows || step[k + 1] == JUMP);
@@ -613,7 +604,7 @@ set_points(struct curves *c, const struct table *table, size_t k, size_t from, s
     s->y = y;
     s->n = to - from;
     if (c->style->spread) {
-        spread_take(&spread, c->tool, table, x, y, s->n);
+        spread_take(&spread, c->tool, x, y, s->n);
         c->own[c->n - 1] = spread.x;
         c->fewest = spread.least < c->fewest ? spread.least : c->fewest;
         c->most = spread.most > c->most ? spread.most : c->most;
@@ -624,8 +615,7 @@ set_points(struct curves *c, const struct table *table, size_t k, size_t from, s
         s->n = spread.n;
     } else if (c->errors > 0) {
         error = table->column[c->columns + c->bys + k - 1].v + from;
-        if ((bars = malloc(2 * s->n * sizeof *bars)) == NULL)
-            tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
+        bars = tool_room(c->tool, 2 * s->n, sizeof *bars, "error bars");
         for (size_t i = 0; i < s->n; i++) {
             bars[i] = y[i] - fabs(error[i]);
             bars[s->n + i] = y[i] + fabs(error[i]);
@@ -898,12 +888,10 @@ struct canvas *
 curves_draw(struct tool *t, const char *columns, const struct curve_style *style,
             struct drawn *drawn)
 {
-    struct curves *c = calloc(1, sizeof *c);
+    struct curves *c = tool_room(t, 1, sizeof *c, "curves");
     struct canvas *canvas;
 
     t->remedy = "give fewer rows";
-    if (c == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     c->tool = t;
     c->style = style;
     c->fewest = SIZE_MAX;

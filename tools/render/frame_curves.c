@@ -29,10 +29,10 @@ struct set {
     struct channel channel;
 };
 
-static _Noreturn void
-no_memory(struct tool *t)
+static void *
+room(struct tool *t, size_t n, size_t size)
 {
-    tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a curve");
+    return tool_room(t, n, size, "a curve");
 }
 
 static void
@@ -40,12 +40,10 @@ set_begin(struct set *s)
 {
     struct survey survey;
 
-    s->series = calloc(s->n + 1, sizeof *s->series);
-    s->x = calloc(s->n + 1, sizeof *s->x);
-    s->y = calloc(s->n + 1, sizeof *s->y);
-    s->label = calloc(s->n + 1, sizeof *s->label);
-    if (s->series == NULL || s->x == NULL || s->y == NULL || s->label == NULL)
-        no_memory(s->tool);
+    s->series = room(s->tool, s->n + 1, sizeof *s->series);
+    s->x = room(s->tool, s->n + 1, sizeof *s->x);
+    s->y = room(s->tool, s->n + 1, sizeof *s->y);
+    s->label = room(s->tool, s->n + 1, sizeof *s->label);
     for (size_t k = 0; k < s->n; k++) {
         survey_map(s->grid[k], &survey);
         if (isnan(survey.min))
@@ -62,10 +60,8 @@ set_begin(struct set *s)
 static void
 set_series(struct set *s, size_t k, enum graph_kind kind, size_t n)
 {
-    s->x[k] = malloc((n + 1) * sizeof *s->x[k]);
-    s->y[k] = malloc((n + 1) * sizeof *s->y[k]);
-    if (s->x[k] == NULL || s->y[k] == NULL)
-        no_memory(s->tool);
+    s->x[k] = room(s->tool, n + 1, sizeof *s->x[k]);
+    s->y[k] = room(s->tool, n + 1, sizeof *s->y[k]);
     s->series[k] = (struct graph_series){.name = s->n > 1 ? s->label[k] : NULL,
                                          .kind = kind,
                                          .place = k,
@@ -439,8 +435,7 @@ sort_values(struct set *s, const struct rc_grid *g, double **values)
 
     tool_demand_memory(s->tool, g, 2 * g->nx * g->ny * sizeof **values); /* qsort needs the same
                                                                             memory again */
-    if ((*values = malloc(g->nx * g->ny * sizeof **values)) == NULL)
-        no_memory(s->tool);
+    *values = room(s->tool, g->nx * g->ny, sizeof **values);
     for (size_t i = 0; i < g->nx * g->ny; i++)
         if (isfinite(g->v[i]))
             (*values)[n++] = g->v[i];

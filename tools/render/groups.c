@@ -7,12 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static _Noreturn void
-no_memory(struct tool *t, const struct table *table)
-{
-    tool_die(t, EXIT_IMPOSSIBLE, "%s: out of memory for its table", table->source);
-}
-
 /* ---- by column ---- */
 
 struct place {
@@ -40,12 +34,10 @@ same_group(const struct place *a, const struct place *b)
 void
 groups_sort(struct table *table, struct tool *t, const size_t *by, size_t n, bool pieces)
 {
-    struct place *place = malloc(table->rows * sizeof *place);
-    double *v = malloc(table->rows * sizeof *v);
-    size_t *piece = malloc(table->rows * sizeof *piece), now = 0;
+    struct place *place = tool_room(t, table->rows, sizeof *place, "a table");
+    double *v = tool_room(t, table->rows, sizeof *v, "a table");
+    size_t *piece = tool_room(t, table->rows, sizeof *piece, "a table"), now = 0;
 
-    if (place == NULL || v == NULL || piece == NULL)
-        no_memory(t, table);
     for (size_t k = 0; k < table->rows; k++) {
         while (now + 1 < table->pieces && table->piece[now + 1] <= k)
             now++;
@@ -83,16 +75,14 @@ compare_points(const void *one, const void *other)
 }
 
 void
-spread_take(struct spread *s, struct tool *t, const struct table *table, const double *x,
-            const double *y, size_t n)
+spread_take(struct spread *s, struct tool *t, const double *x, const double *y, size_t n)
 {
     const double shared = 1e-6; /* relative, of x: requested loads are met more accurately */
-    double(*point)[2] = malloc(n * sizeof *point);
+    double(*point)[2] = tool_room(t, n, sizeof *point, "the points of a curve");
     size_t points = 0, last;
 
-    *s = (struct spread){.x = malloc(4 * n * sizeof *s->x), .least = SIZE_MAX};
-    if (point == NULL || s->x == NULL)
-        no_memory(t, table);
+    *s = (struct spread){.x = tool_room(t, 4 * n, sizeof *s->x, "the points of a curve"),
+                         .least = SIZE_MAX};
     s->y = s->x + n;
     s->low = s->y + n;
     s->high = s->low + n;

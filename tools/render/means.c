@@ -52,10 +52,7 @@ means_take(struct tool *t, struct rc_grid *g, struct means *m)
 
     if (!alternates(g))
         return;
-    p = malloc(nx * ny * sizeof *p);
-    if (p == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "out of memory for the means of %zu x %zu nodes", nx,
-                    ny);
+    p = tool_room(t, nx * ny, sizeof *p, "the means of a map");
     memcpy(p, g->v, nx * ny * sizeof *p);
     for (size_t j = 0; j < ny; j++)
         for (size_t i = 0; i < nx; i++) {

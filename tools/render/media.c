@@ -12,8 +12,7 @@ media_read(struct tool *t, const struct rc_grid *g, struct layers *c)
 {
     struct rc_err err;
 
-    if (layers_read(g, c, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(t, g, layers_read(g, c, &err), &err);
 }
 
 static void
@@ -40,8 +39,8 @@ media_set(struct tool *t, const struct layers *c, struct figure *f)
 
     f->medium = NULL;
     f->media = c->layer == NULL ? 0 : c->body.layers + 1;
-    if (f->media > 0 && (f->medium = calloc(f->media, sizeof *f->medium)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu layers", f->media);
+    if (f->media > 0)
+        f->medium = tool_room(t, f->media, sizeof *f->medium, "the layers of a figure");
     for (size_t k = 0; k < f->media; k++) {
         f->medium[k].bottom = bottom += c->layer[k].thickness;
         write_text(&f->medium[k], &c->layer[k],

@@ -200,15 +200,15 @@ struct column {
     char nearest[NAME_SIZE];    /* the existing names, if it is missing                     */
     double *v;                  /* true is 1, false 0; NaN: unknown                         */
     char **word;                /* words of labels, in the order of their first rows */
-    size_t word_count;
+    size_t word_count, room, word_room;
 };
 
 struct table {
     const char *source; /* name of the file, for messages                               */
     struct column *column;
-    size_t columns, rows, capacity;
+    size_t columns, rows;
     size_t *piece; /* rows at which further curves begin: arrays of further lines       */
-    size_t pieces;
+    size_t pieces, piece_room;
 };
 
 /* Reads the columns whose names are set; "-" is standard input. Ends the tool if the file is not a table, or
@@ -235,8 +235,8 @@ struct spread {
     size_t n, least, most;      /* number of points; rows in each */
 };
 
-void spread_take(struct spread *spread, struct tool *tool, const struct table *table,
-                 const double *x, const double *y, size_t n);
+void spread_take(struct spread *spread, struct tool *tool, const double *x, const double *y,
+                 size_t n);
 
 /* ---- law.c: published laws beside the points ---- */
 

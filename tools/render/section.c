@@ -21,8 +21,7 @@ section_depths(struct tool *t, const struct rc_grid *g)
     struct rc_err err;
 
     if (text == NULL) {
-        if ((d.v = malloc(g->ny * sizeof *d.v)) == NULL)
-            tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", g->ny);
+        d.v = tool_room(t, g->ny, sizeof *d.v, "the depths of a section");
         for (size_t j = 0; j < g->ny; j++)
             d.v[j] = (double)j * g->dy;
         return d.v;
@@ -148,14 +147,13 @@ section_even(struct tool *t, const struct rc_grid *g, const double *depth,
 {
     size_t times = g->nx < COLUMNS ? (size_t)fmax(1, round((double)COLUMNS / (double)g->nx)) : 1;
     struct rc_shape shape = {times * g->nx, ROWS, g->dx / (double)times, (bottom - top) / ROWS};
-    struct rows r = {depth, layers, malloc(g->ny * sizeof *r.medium), malloc(g->ny * sizeof *r.v),
-                     g->ny};
-    struct rc_grid *even;
+    struct rows r = {depth, layers, tool_room(t, g->ny, sizeof *r.medium, "a section"),
+                     tool_room(t, g->ny, sizeof *r.v, "a section"), g->ny};
     struct rc_err err;
+    struct rc_grid *even = rc_grid_new(&shape, g->channel, g->unit, &err);
 
-    if ((even = rc_grid_new(&shape, g->channel, g->unit, &err)) == NULL || r.medium == NULL ||
-        r.v == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", even == NULL ? err.text : "out of memory");
+    if (even == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     for (size_t j = 0; j < g->ny; j++)
         r.medium[j] = rc_body_material(&layers->body, depth[j]);
     for (size_t i = 0; i < even->nx; i++)

@@ -51,33 +51,21 @@ bad(struct reading *r, const char *what)
     tool_die(r->tool, EXIT_IMPOSSIBLE, "%s, line %zu: %s", r->table->source, r->line, what);
 }
 
-static _Noreturn void
-no_memory(struct tool *t, const char *source)
-{
-    tool_die(t, EXIT_IMPOSSIBLE, "%s: out of memory for its table", source);
-}
-
 /* ---- the file ---- */
 
 /* The whole file, terminated by a NUL. */
 static char *
 read_file(struct tool *t, const char *source, FILE *file, size_t *size)
 {
-    size_t most = t->memory != 0 ? t->memory : most_bytes, capacity = 1 << 16, n = 0, got;
-    char *text = malloc(capacity), *larger;
+    size_t most = t->memory != 0 ? t->memory : most_bytes, capacity = 0, n = 0, got;
+    char *text = tool_grown(t, NULL, 0, &capacity, 1, "a table");
 
-    if (text == NULL)
-        no_memory(t, source);
     while ((got = fread(text + n, 1, capacity - n - 1, file)) > 0) {
         n += got;
         if (n > most)
             tool_die(t, EXIT_IMPOSSIBLE, "%s: a table of more than %zu bytes is not read", source,
                      most);
-        if (n + 1 < capacity)
-            continue;
-        if ((larger = realloc(text, capacity *= 2)) == NULL)
-            no_memory(t, source);
-        text = larger;
+        text = tool_grown(t, text, n + 1, &capacity, 1, "a table");
     }
     if (ferror(file))
         tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", source, strerror(errno));
@@ -88,35 +76,23 @@ read_file(struct tool *t, const char *source, FILE *file, size_t *size)
 
 /* ---- rows ---- */
 
+/* Value `row` of a column, which has the values before it. */
 static void
-make_room(struct reading *r, size_t rows)
+put(struct reading *r, size_t column, size_t row, double value)
 {
-    struct table *table = r->table;
-    size_t capacity = table->capacity == 0 ? 256 : table->capacity;
+    struct column *c = &r->table->column[column];
 
-    while (capacity < rows)
-        capacity *= 2;
-    if (capacity == table->capacity)
-        return;
-    for (size_t k = 0; k < table->columns; k++) {
-        double *v = realloc(table->column[k].v, capacity * sizeof *v);
-
-        if (v == NULL)
-            no_memory(r->tool, table->source);
-        table->column[k].v = v;
-    }
-    table->capacity = capacity;
+    c->v = tool_grown(r->tool, c->v, row, &c->room, sizeof *c->v, "a table");
+    c->v[row] = value;
 }
 
 static void
 begin_piece(struct reading *r)
 {
     struct table *table = r->table;
-    size_t *piece = realloc(table->piece, (table->pieces + 1) * sizeof *piece);
 
-    if (piece == NULL)
-        no_memory(r->tool, table->source);
-    table->piece = piece;
+    table->piece = tool_grown(r->tool, table->piece, table->pieces, &table->piece_room,
+                              sizeof *table->piece, "a table");
     table->piece[table->pieces++] = table->rows;
 }
 
@@ -158,7 +134,7 @@ cell_value(const char *text, size_t n, bool *words)
 static double
 label_value(struct reading *r, struct column *column, const char *text, size_t n)
 {
-    char word[PATH], **more;
+    char word[PATH];
     size_t k = 0;
 
     snprintf(word, sizeof word, "%.*s", (int)(n < sizeof word ? n : sizeof word - 1), text);
@@ -172,9 +148,9 @@ label_value(struct reading *r, struct column *column, const char *text, size_t n
         return (double)k;
     if (k == CELLS) /* more than a picture can distinguish: all others have the last index */
         return CELLS - 1;
-    more = realloc(column->word, (k + 1) * sizeof *more);
-    if (more == NULL || (column->word = more, more[k] = strdup(word)) == NULL)
-        no_memory(r->tool, r->table->source);
+    column->word = tool_grown(r->tool, column->word, k, &column->word_room, sizeof *column->word,
+                              "the words of a table");
+    column->word[k] = tool_copy(r->tool, word);
     return (double)column->word_count++;
 }
 
@@ -195,6 +171,20 @@ either_value(struct reading *r, size_t c, const char *text, size_t n, bool quote
     }
     column->words = column->words || word;
     return word && !column->numbers ? label_value(r, column, text, n) : value;
+}
+
+/* The value of a cell in column c. */
+static double
+any_value(struct reading *r, size_t c, const char *text, size_t n, bool quoted)
+{
+    struct column *column = &r->table->column[c];
+
+    if (column->either)
+        return either_value(r, c, text, n, quoted);
+    column->words = column->words || quoted;
+    if (column->label)
+        return label_value(r, column, text, n);
+    return quoted ? NAN : cell_value(text, n, &column->words);
 }
 
 static const char *
@@ -270,13 +260,11 @@ read_heading(struct reading *r, const char *start[CELLS], const size_t length[CE
 static void
 read_lines(struct reading *r)
 {
-    const char **start = malloc(CELLS * sizeof *start), *end;
-    size_t *length = malloc(CELLS * sizeof *length), cells, n;
-    size_t *where = malloc(r->table->columns * sizeof *where);
+    const char **start = tool_room(r->tool, CELLS, sizeof *start, "a table"), *end;
+    size_t *length = tool_room(r->tool, CELLS, sizeof *length, "a table"), cells, n;
+    size_t *where = tool_room(r->tool, r->table->columns, sizeof *where, "a table");
     char text[128];
 
-    if (start == NULL || length == NULL || where == NULL)
-        no_memory(r->tool, r->table->source);
     end = line_end(r);
     r->separator = memchr(r->at, '\t', (size_t)(end - r->at)) != NULL ? '\t' : ',';
     n = split(r, end, start, length);
@@ -290,16 +278,10 @@ read_lines(struct reading *r)
             snprintf(text, sizeof text, "it has %zu columns, the heading has %zu", cells, n);
             bad(r, text);
         }
-        make_room(r, r->table->rows + 1);
-        for (size_t c = 0; c < r->table->columns; c++) {
-            struct column *column = &r->table->column[c];
-
-            column->v[r->table->rows] =
+        for (size_t c = 0; c < r->table->columns; c++)
+            put(r, c, r->table->rows,
                 where[c] == CELLS ? NAN
-                : column->either  ? either_value(r, c, start[where[c]], length[where[c]], false)
-                : column->label   ? label_value(r, column, start[where[c]], length[where[c]])
-                                  : cell_value(start[where[c]], length[where[c]], &column->words);
-        }
+                                  : any_value(r, c, start[where[c]], length[where[c]], false));
         r->table->rows++;
     }
     free(start);
@@ -357,8 +339,6 @@ is_named(const char *path, const char *name)
 static void
 take(struct reading *r, const char *text, size_t length, bool words, bool element)
 {
-    double value = words ? NAN : cell_value(text, length, &(bool){false});
-
     if (!element && r->table->rows == 0)
         add_name(r, r->path);
     for (size_t c = 0; c < r->table->columns; c++) {
@@ -366,23 +346,13 @@ take(struct reading *r, const char *text, size_t length, bool words, bool elemen
 
         if (!is_named(r->path, r->table->column[c].name) || r->got[c].taken)
             continue;
-        if (n == r->got[c].capacity) {
-            size_t capacity = n == 0 ? 16 : 2 * n;
-            double *v = realloc(r->got[c].v, capacity * sizeof *v);
-
-            if (v == NULL)
-                no_memory(r->tool, r->table->source);
-            r->got[c].v = v;
-            r->got[c].capacity = capacity;
-        }
-        r->got[c].v[r->got[c].n++] =
-            r->table->column[c].either  ? either_value(r, c, text, length, words)
-            : r->table->column[c].label ? label_value(r, &r->table->column[c], text, length)
-                                        : value;
+        r->got[c].v = tool_grown(r->tool, r->got[c].v, n, &r->got[c].capacity, sizeof *r->got[c].v,
+                                 "a table");
+        r->got[c].v[n] = any_value(r, c, text, length, words);
+        r->got[c].n++;
         r->got[c].array = element;
         r->got[c].taken = !element;
         r->table->column[c].found = true;
-        r->table->column[c].words = r->table->column[c].words || words;
     }
 }
 
@@ -499,12 +469,12 @@ add_rows(struct reading *r)
     }
     if (arrays || table->pieces == 0)
         begin_piece(r);
-    make_room(r, table->rows + rows);
     for (size_t c = 0; c < table->columns; c++) {
         for (size_t k = 0; k < rows; k++)
-            table->column[c].v[table->rows + k] = r->got[c].n == 0  ? NAN
-                                                  : r->got[c].array ? r->got[c].v[k]
-                                                                    : r->got[c].v[0];
+            put(r, c, table->rows + k,
+                r->got[c].n == 0  ? NAN
+                : r->got[c].array ? r->got[c].v[k]
+                                  : r->got[c].v[0]);
         r->got[c].n = 0;
         r->got[c].array = r->got[c].taken = false;
     }
@@ -514,9 +484,7 @@ add_rows(struct reading *r)
 static void
 read_json(struct reading *r)
 {
-    r->got = calloc(r->table->columns, sizeof *r->got);
-    if (r->got == NULL)
-        no_memory(r->tool, r->table->source);
+    r->got = tool_room(r->tool, r->table->columns, sizeof *r->got, "a table");
     while (peek(r) != '\0') {
         if (*r->at != '{')
             bad(r, "this is no JSON: an object has to begin with '{'");

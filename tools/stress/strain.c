@@ -53,11 +53,9 @@ begin(struct tool *t, const struct rc_grid *p, struct stress_strain *s)
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "its key slabs is %g: it must be a whole number",
                     number);
     s->slabs = (size_t)number;
-    s->thickness = calloc(s->slabs, sizeof *s->thickness);
-    s->frame = calloc(s->slabs * PARTS, sizeof *s->frame);
-    s->map = calloc(s->slabs * PARTS, sizeof *s->map);
-    if (s->thickness == NULL || s->frame == NULL || s->map == NULL)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE, "out of memory for the strain of %zu slabs", s->slabs);
+    s->thickness = tool_room(t, s->slabs, sizeof *s->thickness, "the strain of slabs");
+    s->frame = tool_room(t, s->slabs * PARTS, sizeof *s->frame, "the strain of slabs");
+    s->map = tool_room(t, s->slabs * PARTS, sizeof *s->map, "the strain of slabs");
     return true;
 }
 
