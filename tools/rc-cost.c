@@ -96,14 +96,14 @@ check_effects(struct tool *t)
     if (args.contact.yield == NULL && args.contact.adhesion == NULL)
         return;
     if (tool_given(t, "kernel") || tool_given(t, "method"))
-        tool_die(t, EXIT_USAGE, "%s: not with --kernel and --method: %s", effect,
+        tool_die(t, EXIT_USAGE, "%s does not work with --kernel and --method: %s", effect,
                  args.contact.yield != NULL
                      ? "the trials vary increments and slabs, with pcg and fft"
                      : "there is only one method");
     if (args.contact.yield != NULL && tool_given(t, "depths"))
         tool_die(t, EXIT_USAGE,
-                 "--yield: not with --depths: the stresses of what has yielded are rc-stress's to "
-                 "find, from its strain");
+                 "--yield does not work with --depths: compute these stresses with rc-stress from "
+                 "the frames of rc-solve");
 }
 
 static void

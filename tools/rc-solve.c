@@ -73,12 +73,11 @@ read_conductivity(struct run *run)
         tool_die(&run->t, EXIT_USAGE, "--conductivity %s: %s", args.conductivity, err.text);
     run->conductance = args.physics.pair.one.layers == 0;
     if (!run->conductance)
-        tool_warn(&run->t,
-                  "--conductivity: how a contact of coated bodies conducts does not follow "
-                  "from how it yields: the conductance is left out");
+        tool_warn(&run->t, "--conductivity does not work with --layer, because the analogy of "
+                           "conductance and stiffness fails: the conductance is left out");
 }
 
-/* A counter body that is free to tilt. */
+/* Checks the options of a counter body that is free to tilt. */
 static void
 check_tilt(struct run *run)
 {
@@ -92,8 +91,8 @@ check_tilt(struct run *run)
                  "--at: it must be X,Y, from the middle of the map, as in 0.1mm,0");
     if (run->tilt && a->periodic)
         tool_die(&run->t, EXIT_USAGE,
-                 "--tilt free: a periodic surface has no point that it could tilt about: leave out "
-                 "--periodic");
+                 "--tilt free does not work on a periodic surface, because it has no centre of "
+                 "tilt: leave out --periodic");
     if (run->tilt && tool_given(&run->t, "history"))
         tool_die(&run->t, EXIT_USAGE, "--tilt free does not work with --history yet");
 }
@@ -102,8 +101,8 @@ static void
 check_arguments(struct run *run)
 {
     drive_check(&run->t, &args.drive);
-    args.physics.history |= args.yield != NULL || args.adhesion != NULL; /* each starts from the
-                                                                            last one */
+    /* each load starts from the last one */
+    args.physics.history |= args.yield != NULL || args.adhesion != NULL;
     args.physics.attracts = args.adhesion != NULL;
     physics_check(&run->t, &args.physics);
     run->args = &args;

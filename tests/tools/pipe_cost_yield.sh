@@ -87,10 +87,10 @@ base="rc-cost --periodic --E1 210GPa --nu1 0.3 --E2 rigid"
 refuses 1 'nothing yields: the largest Mises stress is 0\.[0-9]* of the yield stress: leave out --yield' "a load under which nothing yields" \
     "$base --mean-pressure 1MPa --yield 200GPa rough.rcg"
 refuses 1 'all depths of a periodic body yield' "a mean pressure beyond all" "$base --mean-pressure 5GPa --yield 1GPa rough.rcg"
-refuses 2 'not with --estar' "a composite modulus" "rc-cost --periodic --load 1N --estar 1GPa --yield 1GPa rough.rcg"
-refuses 2 'not with --hardness' "a hardness" "$base --load 1N --yield 1GPa --hardness 3GPa rough.rcg"
-refuses 2 'not with --kernel and --method' "a choice of kernels" "$base --load 1N --yield 1GPa --kernel fft rough.rcg"
-refuses 2 'not with --depths' "stresses" "$base --load 1N --yield 1GPa --depths 0 rough.rcg"
+refuses 2 'does not work with --estar' "a composite modulus" "rc-cost --periodic --load 1N --estar 1GPa --yield 1GPa rough.rcg"
+refuses 2 'does not work with --hardness' "a hardness" "$base --load 1N --yield 1GPa --hardness 3GPa rough.rcg"
+refuses 2 'does not work with --kernel and --method' "a choice of kernels" "$base --load 1N --yield 1GPa --kernel fft rough.rcg"
+refuses 2 'does not work with --depths' "stresses" "$base --load 1N --yield 1GPa --depths 0 rough.rcg"
 refuses 2 '--yield many' "no stress" "$base --load 1N --yield many rough.rcg"
 
 finish

@@ -73,7 +73,7 @@ rc-pick --set estar=80e9 hard.rcg -o old.rcg
 refuses 1 'does not say what body 2 is; solve it again' "an E* that bodies 1 and 2 do not have is refused" "rc-deflect old.rcg"
 claim "rc-stress knows the layers" says 'material' bash -c 'rc-stress --depths 0.5mm,2mm --components mises hard.rcg | rc-info'
 
-refuses 2 'layers lie on a substrate: give its --E1' "with --estar" "rc-solve --load 1N --estar 1GPa --layer 1um,1GPa,0.3 ball.rcg"
+refuses 2 '--layer needs a substrate and a body 2: give --E1' "with --estar" "rc-solve --load 1N --estar 1GPa --layer 1um,1GPa,0.3 ball.rcg"
 for layer in 1um 1um,1GPa 1um,1GPa,0.3,4,5 0,1GPa,0.3 1um,-1GPa,0.3 1um,1GPa,0.6 1um,1GPa,-1 inf,1GPa,0.3 1N,1GPa,0.3 ,, ''; do
     refuses 2 "^rc-solve: --layer $layer" "--layer '$layer'" "solve --layer '$layer' ball.rcg"
 done

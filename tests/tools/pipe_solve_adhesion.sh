@@ -52,7 +52,7 @@ near "$(column load 3 l.tsv)" -1e-4 1e-3 "a load that pulls is carried, to the t
 $soft --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN --report s.tsv ball.rcg -o s.rcg
 status=$?
 claim "beyond pull-off the bodies part: said, exit 3" test "$status $(column separated 2 s.tsv)" = "3 yes"
-claim "  in words" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN ball.rcg -o s.rcg 2>said; grep -q 'separated: under this load the bodies part' said"
+claim "  in words" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN ball.rcg -o s.rcg 2>said; grep -q 'the bodies have separated, because no state carries this load' said"
 
 # ---- an interrupted run ----
 
@@ -101,7 +101,7 @@ refused 2 "must be above 0" "--adhesion 0 --approach 1um"
 refused 2 "must be above 0" "--adhesion=-50mJ/m2 --approach 1um"
 refused 2 "there is no law 'velcro': it must be one of exponential, dugdale, compact, jkr" "--adhesion 50mJ/m2,velcro --approach 1um"
 refused 2 "J/m2 is expected, .* or N/m" "--adhesion 50mJ,jkr --approach 1um"
-refused 2 "adhesion: not with --tilt free" "--adhesion 50mJ/m2 --approach 1um --tilt free"
+refused 2 "adhesion does not work with --tilt free" "--adhesion 50mJ/m2 --approach 1um --tilt free"
 refused 1 "the map carries .* lower the load or raise the hardness" "--adhesion 50mJ/m2,jkr --hardness 1MPa --load 1N"
 refused 2 "use a list of --approach values" "--adhesion 50mJ/m2 --approach 1um --stiffness"
 refused 1 "" "--adhesion 50mJ/m2 --approach 1um --method pk99"

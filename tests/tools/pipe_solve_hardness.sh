@@ -54,7 +54,7 @@ beside h.rcg none.rcg >none-case.rcg
 solve --report none.json --output pressure none-case.rcg -o none.rcg
 solve --report elastic.json --output pressure h.rcg -o elastic.rcg
 claim "a map without a number is no bound" test "$(field max_pressure none.json)" = "$(field max_pressure elastic.json)"
-claim "  and the report says so" says '"hardness": "left out: the map of it holds no number"' cat none.json
+claim "  and the report says so" says '"hardness": "left out: the map of hardness holds no number"' cat none.json
 claim "  as it does of no map" says '"hardness": "left out: no --hardness, and no map' cat elastic.json
 
 # ---- histories, checkpoints ----

@@ -42,7 +42,7 @@ for k in 0 1 2 4 5 6; do
     near "$(of_case yielded_area $((k + 1)))" "$(field yielded_area hand.json)" 0.01 "  area that yields"
 done
 
-claim "without a hardness it leaves no trace, and says so" warns 'nothing yields, so no load leaves a trace' \
+claim "without a hardness it leaves no trace, and says so" warns '--history has no effect, because nothing yields' \
     rc-solve --periodic --estar 3GPa --history --load 2mN,1mN --output pressure s.rcg -o p.rcg
 claim "--dry-run has it among its effects" says 'history +on: each load acts on the shape' \
     rc-solve --periodic --estar 3GPa --hardness 1GPa --history --load 2mN,0 --dry-run s.rcg

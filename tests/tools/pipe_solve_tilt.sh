@@ -47,7 +47,7 @@ claim "--dry-run says so" bash -c 'says "tilt +on" rc-solve --dry-run --load 1N 
 
 # ---- refusals ----
 
-refuses 2 'no point that it could tilt about' "a periodic map" "rc-solve --load 1N --estar 1GPa --periodic --tilt free rough.rcg"
+refuses 2 'a periodic surface, because it has no centre of tilt' "a periodic map" "rc-solve --load 1N --estar 1GPa --periodic --tilt free rough.rcg"
 refuses 2 '--tilt free does not work with --history yet' "a history" "rc-solve --load 1N --estar 1GPa --hardness 1GPa --history --tilt free rough.rcg"
 refuses 2 '--at has no effect without --tilt free' "a place without" "rc-solve --load 1N --estar 1GPa --at 1um,0 rough.rcg"
 refuses 2 'it must be X,Y' "half a place" "rc-solve --load 1N --estar 1GPa --tilt free --at 1um rough.rcg"

@@ -81,7 +81,7 @@ ramp() { # AXIS
 ramp x
 ramp y
 claim "a tilt along x: the last column and the first" \
-    warns 'the edges do not meet: from the last column to the first the heights jump by .*rc-detrend --plane .*--mirror makes a period .*of 4 times the area' press ramp-x.rcg
+    warns 'the edges do not meet: from the last column to the first the heights jump by .*rc-detrend --plane .*--mirror makes a periodic map .*of 4 times the area' press ramp-x.rcg
 claim "  and not the rows" bash -c 'lacks "last row" warns.err'
 claim "a tilt along y: the last row" warns 'from the last row to the first' press ramp-y.rcg
 claim "  a plane mends it" bash -c 'rc-detrend --plane ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
@@ -101,9 +101,9 @@ claim "  and the others do not" bash -c '! grep -E "case [12], .*outer" warns.er
 claim "a mean pressure, an approach" bash -c '
     warns "case 1, mean pressure 1 GPa: .*outer" press --mean-pressure 1GPa &&
     warns "case 1, approach 10 um: .*outer" press --approach 10um'
-claim "a list that does not rise" warns 'load: the list does not rise: each is a first loading of its own' press --load 5N,3N,4N
+claim "a list that does not rise" warns 'load: the list does not rise, but each value starts from unloaded bodies' press --load 5N,3N,4N
 claim "  and one that does" bash -c 'press --load 3N,4N,5N 2>err; ! grep -q rise err'
-refuses 2 '--load 0: it must be above 0: 0 takes the bodies apart, in a --history' "no load is no first loading" \
+refuses 2 '--load 0: it must be above 0 (0 separates the bodies only in a --history)' "no load is no first loading" \
     'rc-solve --estar 1GPa --load 0,3N ball.rcg'
 
 # ---- a sphere that is added twice; slopes, judged where the bodies touch ----
@@ -144,7 +144,7 @@ interrupted() {
     wait "$tool"
     status=$?
     cat err >&2
-    [ "$status" = 130 ] && grep -q 'interrupted after [0-9]* iterations: what is written is the best so far, not a solution' err
+    [ "$status" = 130 ] && grep -q 'interrupted after [0-9]* iterations: the frames hold the best state so far, not a solution' err
 }
 # a background command of bash without job control ignores SIGINT
 set -m

@@ -84,7 +84,7 @@ interrupted() {
     [ $status = 143 ] && rc-info --quiet signal.rcg >/dev/null
 }
 claim "a signal leaves a state" interrupted
-claim "  and what is written is said to be on the way" grep -Eq 'interrupted in increment [0-9]+ of 100: what is written is on the way there, not a solution: its error is not known$' signal.err
+claim "  and what is written is said to be on the way" grep -Eq 'interrupted in increment [0-9]+ of 100: the frames hold an intermediate state, not a solution, and its error is unknown$' signal.err
 claim "from which it goes on" bash -c "
     $solve $history --increments 100 --checkpoint signal.rcg --resume --report on.tsv -o on.rcg rough.rcg &&
     $solve $history --increments 100 --report straight.tsv -o straight.rcg rough.rcg"

@@ -1,5 +1,5 @@
 /*
- * --adhesion: the work, the law and the range by which bodies attract each other.
+ * --adhesion: work, law and range of the attraction between the bodies.
  */
 #include "attracts.h"
 
@@ -50,8 +50,8 @@ attraction_read(struct attraction *a, const char *text, struct rc_err *err)
     if (unit_number(part[0], UNIT_WORK, &a->problem.work, err) != RC_OK)
         return RC_FAIL;
     if (!(a->problem.work > 0))
-        return rc_err_set(err, "the work of adhesion must be above 0: bodies that do not attract "
-                               "each other need no --adhesion");
+        return rc_err_set(err, "the work of adhesion must be above 0: for bodies without "
+                               "attraction leave out --adhesion");
     list_laws(laws, sizeof laws);
     if (n >= 1 && !is_law(part[1], strlen(part[1])))
         return rc_err_set(err, "there is no law '%s': it must be one of %s", part[1], laws);
@@ -62,7 +62,7 @@ attraction_read(struct attraction *a, const char *text, struct rc_err *err)
     if (unit_number(part[2], UNIT_M, &a->problem.range, err) != RC_OK)
         return RC_FAIL;
     if (!(a->problem.range > 0))
-        return rc_err_set(
-            err, "the range must be above 0: without one it is such that the grid holds it");
+        return rc_err_set(err, "the range must be above 0; without a range the tool takes the "
+                               "shortest one that the grid resolves");
     return RC_OK;
 }

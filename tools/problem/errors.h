@@ -6,11 +6,12 @@
 
 #include "tools/cli/cli.h"
 
-/* Relative L1 errors, whose sum is the estimate; 0: the effect does not occur; NAN: unknown. */
+/* Relative L1 errors, whose sum is the estimate; A part is 0 if its cause is absent, and NAN if it is
+ * unknown. */
 struct error_parts {
     bool told;        /* there are several parts; otherwise the report contains null */
     double increment; /* from the increments of this load */
-    double inherited; /* from the states before it */
+    double inherited; /* from earlier states */
     double iteration;
     double contact; /* from the tolerance of the contacts */
     double image;   /* from the edge of a map that is not periodic */

@@ -72,13 +72,13 @@ check_steps(struct tool *t, const struct physics *a)
                                          : "mean pressure");
         if (steps->v[k] == 0 && !a->history)
             tool_die(t, EXIT_USAGE, "--%s 0: it must be above 0%s", name,
-                     steps->n > 1 ? ": 0 takes the bodies apart, in a --history" : "");
+                     steps->n > 1 ? "(0 separates the bodies only in a --history)" : "");
         rises = rises && (k == 0 || steps->v[k] > steps->v[k - 1]);
     }
     if (!rises && !a->history)
         tool_warn(t,
-                  "--%s: the list does not rise: each is a first loading of its own; loads that "
-                  "follow each other are a --history",
+                  "--%s: the list does not rise, but each value starts from unloaded bodies: for "
+                  "loads in sequence add --history",
                   name);
 }
 
@@ -111,7 +111,7 @@ check_elasticity(struct tool *t, struct physics *a)
     a->surface_estar = 1 / (plane_compliance(a->e1, a->nu1) + plane_compliance(a->e2, a->nu2));
 }
 
-/* Useful residual stresses lie between a millionth of the modulus and the modulus. */
+/* Warns of a residual stress outside the range from a millionth of the modulus to the modulus. */
 static void
 warn_of_residual(struct tool *t, const char *layer, double stress, double e)
 {
@@ -126,7 +126,7 @@ warn_of_residual(struct tool *t, const char *layer, double stress, double e)
                   fabs(stress) > e ? "above the modulus" : "below a millionth of the modulus");
 }
 
-/* The layers lie on body 1. The history lists them in SI. */
+/* Checks the layers of body 1, which the history lists in SI. */
 static void
 check_layers(struct tool *t, struct physics *a)
 {
@@ -139,8 +139,8 @@ check_layers(struct tool *t, struct physics *a)
         return;
     if (tool_given(t, "estar"))
         tool_die(t, EXIT_USAGE,
-                 "layers lie on a substrate: give its --E1 and --nu1, and the other "
-                 "body's --E2 and --nu2 (or --E2 rigid), not --estar");
+                 "--layer needs a substrate and a body 2: give --E1 --nu1 and --E2 --nu2 (or --E2 "
+                 "rigid), not --estar");
     if ((a->layers = calloc(n, sizeof *a->layers)) == NULL ||
         (a->residual = calloc(n, sizeof *a->residual)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
@@ -208,7 +208,7 @@ add_sphere(struct tool *t, const struct physics *a, struct rc_grid *g)
     if (row == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "out of memory");
     column = row + g->nx;
-    /* the sum of two spheres of revolution along x and y, that is of two parabolas */
+    /* the sum of two parabolas, one along x and one along y */
     rc_synth_sphere(&along, a->radius, row);
     rc_synth_sphere(&across, a->radius, column);
     for (size_t j = 0; j < g->ny - g->elsewhere; j++)
@@ -233,7 +233,7 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
     tool_must(t, g, rc_grid_set(g, "form", name, &err), &err);
 }
 
-/* A map that is not a period has a step where its opposite edges meet, which would carry much of the load. */
+/* Warns of a periodic map whose opposite edges do not meet: the step there would carry much of the load. */
 static void
 warn_of_seam(struct tool *t, const struct rc_grid *g)
 {
@@ -245,19 +245,18 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
     rc_measure_seam(ranks_of(t), &shape, g->v, &seam);
     for (int side = 0; side < 2; side++)
         if (seam.across[side] > 3 * seam.inside[side])
-            tool_warn(
-                t,
-                "%s: the edges do not meet: from the last %s to the first the heights jump by "
-                "%s (RMS), %.3g times the steps inside: rc-detrend --plane takes a tilt off, "
-                "--mirror makes a period of the map and its mirror images, of %s the area; or "
-                "solve it "
-                "without --periodic",
-                tool_where(t, g, where, sizeof where), line[side],
-                shown_in_unit(jump, seam.across[side], "m"), seam.across[side] / seam.inside[side],
-                g->nx > 1 && g->ny > 1 ? "4 times" : "twice");
+            tool_warn(t,
+                      "%s: the edges do not meet: from the last %s to the first the heights jump "
+                      "by %s (RMS), %.3g times the steps inside: rc-detrend --plane removes a "
+                      "tilt, --mirror makes a periodic map of %s the area from mirror images; or "
+                      "solve it without --periodic",
+                      tool_where(t, g, where, sizeof where), line[side],
+                      shown_in_unit(jump, seam.across[side], "m"),
+                      seam.across[side] / seam.inside[side],
+                      g->nx > 1 && g->ny > 1 ? "4 times" : "twice");
 }
 
-/* Width of the single row or column of a profile, on which a force acts. */
+/* The width of the single row or column of a profile, on which a force acts. */
 static double
 width_of(const struct rc_grid *g)
 {
@@ -272,26 +271,28 @@ check_profile(struct tool *t, const struct physics *a, const struct rc_grid *g)
     if (a->load.per_metre && g->nx > 1 && g->ny > 1)
         tool_die_at(
             t, g, EXIT_IMPOSSIBLE,
-            "--load in N/m is for profiles, this map has %zu rows: give the whole force, in N",
+            "--load in N/m is for profiles, and this map has %zu rows: give the whole force, in N",
             g->ny);
     if ((g->nx > 1) == (g->ny > 1))
         return;
     tool_where(t, g, where, sizeof where);
     shown_in_unit(width, width_of(g), "m");
     if (!a->periodic)
-        tool_warn(t, "%s: a profile is solved as a strip %s wide%s, not as a ridge without end",
+        tool_warn(t, "%s: a profile is solved as a strip %s wide%s, not as an infinite ridge",
                   where, width, a->load.n > 0 ? ", which carries the force" : "");
     else if (a->load.n > 0 && !a->load.per_metre)
-        tool_warn(t, "%s: the force on this profile acts on a width of %s: N/m says it without one",
+        tool_warn(t,
+                  "%s: the force on this profile acts on a width of %s: give --load in N/m to be "
+                  "independent of the width",
                   where, width);
 }
 
-/* Plain numbers are in metres: warns where micrometres or millimetres were probably meant. */
+/* Warns of plain numbers, which are in metres, if micrometres or millimetres were probably meant. */
 static void
 warn_of_metres(struct tool *t, const struct physics *a, const struct rc_grid *g, const char *where)
 {
     const double width = fmax((double)g->nx * g->dx, (double)g->ny * g->dy);
-    const double thick = 0.1, wide = 0.5; /* m: of a layer, of a radius */
+    const double thick = 0.1, wide = 0.5; /* m: limits for a layer and for a radius */
     char is[SHOWN_NUMBER], map[SHOWN_NUMBER], number[RC_NUMBER_SIZE];
 
     shown_in_unit(map, width, "m");
@@ -319,8 +320,8 @@ warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
     warn_of_metres(t, a, g, where);
     if (!a->periodic && periodic != NULL && strcmp(periodic, "yes") == 0 && isnan(a->radius))
         tool_warn(t,
-                  "%s: the surface is periodic, the solution is not: beyond the map there "
-                  "is no material",
+                  "%s: the surface is periodic, but the solution has no material beyond the map: "
+                  "for a periodic solution add --periodic",
                   where);
     if (a->periodic)
         warn_of_seam(t, g);
@@ -339,7 +340,7 @@ physics_heights(struct tool *t, const struct physics *a, struct rc_grid *g)
         add_form(t, a, g);
     for (size_t k = 0; k < rc_grid_nodes(g); k++)
         zero += 0 * g->v[k];
-    if (ranks_most(t, isnan(zero)) > 0) /* a slower search finds the first such node */
+    if (ranks_most(t, isnan(zero)) > 0) /* the search for the first such node is slower */
         tool_demand_finite(t, g, "fill them with rc-detrend --fill");
     check_profile(t, a, g);
     warn(t, a, g);

@@ -1,5 +1,5 @@
 /*
- * A contact as the tools that solve it read it: load, elasticity, hardness, form, boundary.
+ * Options of a contact for the tools that solve it: load, elasticity, hardness, form, boundary.
  */
 #ifndef RC_PHYSICS_H
 #define RC_PHYSICS_H
@@ -8,8 +8,8 @@
 #include "tools/cli/cli.h"
 
 struct physics {
-    struct numbers load, mean_pressure, approach; /* one of them                */
-    double estar, e1, nu1, e2, nu2;               /* estar alone, or the others */
+    struct numbers load, mean_pressure, approach; /* one of them is given */
+    double estar, e1, nu1, e2, nu2;               /* given: estar alone, or the others */
     double hardness, radius;
     bool periodic;
     struct steps layer;      /* as on the command line, top first                                */
@@ -24,14 +24,14 @@ struct physics {
 /* Its options, for a row of a tool's table: .group = physics_options, .at = offset of struct physics in the
  * arguments. */
 extern const struct opt physics_options[];
-/* No option given. */
+/* The values without options. */
 #define PHYSICS_NONE                                                                               \
     {                                                                                              \
         .estar = NAN, .e1 = NAN, .nu1 = NAN, .e2 = NAN, .nu2 = NAN, .hardness = INFINITY,          \
         .radius = NAN                                                                              \
     }
 
-/* Ends the tool when too few or too many options were given; else makes the pair. */
+/* Ends the tool if too few or too many options were given; otherwise makes the pair. */
 void physics_check(struct tool *tool, struct physics *physics);
 /* The loads, mean pressures or approaches. */
 const struct numbers *physics_steps(const struct physics *physics);
@@ -42,7 +42,7 @@ void physics_heights(struct tool *tool, const struct physics *physics, struct rc
 /* Ends the tool when a frame of hardness beside the heights (or NULL) is invalid, or --hardness is given
  * too. */
 void physics_hardness(struct tool *tool, const struct rc_grid *hardness);
-/* The contact at one of the steps, without the options of the solver. */
+/* The contact at one step of the list, without the options of the solver. */
 struct rc_problem physics_problem(const struct physics *physics, const struct rc_grid *heights,
                                   size_t step);
 

@@ -1,6 +1,6 @@
 /*
- * The interface of this folder: a contact as the tools that solve it read it (load, bodies, boundary), the
- * options --yield and --adhesion, and the parts of an estimated error.
+ * The interface of this folder: options of a contact (load, bodies, boundary), the options --yield and
+ * --adhesion, and the parts of an estimated error.
  */
 #ifndef RC_TOOL_PROBLEM_H
 #define RC_TOOL_PROBLEM_H

@@ -26,14 +26,15 @@ check_point(const struct yield_law *y, size_t n, double strain, double stress, s
     if (n == 0 && strain != 0)
         return rc_err_set(err, "plastic strain %g: the table must begin at 0", strain);
     if (n > 0 && !(strain > y->table[0][n - 1]))
-        return rc_err_set(err, "plastic strain %g: it must be above %g, that of the point before",
-                          strain, y->table[0][n - 1]);
+        return rc_err_set(
+            err, "plastic strain %g: it must be above %g, the strain of the previous point", strain,
+            y->table[0][n - 1]);
     if (!(stress > 0))
         return rc_err_set(err, "stress %g Pa: it must be above 0", stress);
     if (n > 0 && stress < y->table[1][n - 1])
-        return rc_err_set(err,
-                          "stress %g Pa: it must not fall below %g Pa, that of the point before",
-                          stress, y->table[1][n - 1]);
+        return rc_err_set(
+            err, "stress %g Pa: it must not be below %g Pa, the stress of the previous point",
+            stress, y->table[1][n - 1]);
     return RC_OK;
 }
 
@@ -124,10 +125,10 @@ void
 yield_law_refuse(struct tool *t, bool given, const char *what, const char *why)
 {
     if (given)
-        tool_die(t, EXIT_USAGE, "--yield: not with %s: %s", what, why);
+        tool_die(t, EXIT_USAGE, "--yield does not work with %s: %s", what, why);
 }
 
-/* The yield stress of a solid lies between a millionth of its modulus and the modulus. */
+/* Warns of a yield stress outside the range from a millionth of the modulus to the modulus. */
 static void
 check_unit(struct tool *t, double stress, double estar)
 {
@@ -148,15 +149,14 @@ yield_law_check(struct tool *t, const struct yield_law *read, const struct physi
     const struct rc_yield *law = &read->law;
 
     yield_law_refuse(t, !isinf(a->hardness), "--hardness",
-                     "a bound of the pressure is what it takes the place of");
-    yield_law_refuse(t, a->layer.n > 0, "--layer", "the material is one");
-    yield_law_refuse(
-        t, tool_given(t, "estar"), "--estar",
-        "what yields inside needs its own modulus: give --E1 --nu1, and --E2 --nu2 or --E2 rigid");
+                     "--yield computes plasticity itself, which --hardness approximates");
+    yield_law_refuse(t, a->layer.n > 0, "--layer", "it supports only bodies without layers");
+    yield_law_refuse(t, tool_given(t, "estar"), "--estar",
+                     "body 1 needs its own modulus: give --E1 --nu1, and --E2 --nu2 or --E2 rigid");
     yield_law_refuse(t, a->nu1 == 0.5, "--nu1 0.5",
-                     "a body that yields inside must be compressible");
+                     "body 1 must be compressible: give a smaller --nu1");
     yield_law_refuse(t, a->approach.n > 0, "--approach",
-                     "a body that yields follows loads: give --load or --mean-pressure");
+                     "it needs a load: give --load or --mean-pressure");
     check_unit(t, rc_yield_stress(law, 0), a->surface_estar);
 }
 

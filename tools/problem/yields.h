@@ -1,5 +1,5 @@
 /*
- * A body that yields inside: the option --yield for the tools that solve it.
+ * The option --yield: a body that yields in its volume, for the tools that solve it.
  */
 #ifndef RC_TOOL_YIELDS_H
 #define RC_TOOL_YIELDS_H

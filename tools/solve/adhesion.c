@@ -1,6 +1,6 @@
 /*
- * --adhesion: bodies that attract each other. The loads or approaches of a list are a path, each state
- * found from the last, whichever way it goes; --pull-off adds a case in which they are drawn apart.
+ * --adhesion: bodies that attract each other. The loads or approaches of a list are a path: each state starts
+ * from the last one, for rising and falling values. --pull-off adds a case in which the bodies are separated.
  */
 #include "solve.h"
 
@@ -8,10 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double resolved = 1.5;   /* nodes in the cohesive length: fewer, and the grid pins   */
-static const double enough = 2;       /* and what is asked for instead                            */
-static const double faint = 0.01;     /* of the largest traction                                  */
-static const double too_strong = 0.1; /* of E*: the tractions of linear elasticity                */
+static const double resolved = 1.5;   /* nodes in the cohesive length: with fewer the grid pins
+                                         the edge of the contact */
+static const double enough = 2;       /* nodes that the warning recommends */
+static const double faint = 0.01;     /* fraction of the largest traction */
+static const double too_strong = 0.1; /* fraction of E*: above it a solid is not linear elastic */
 
 /* ---- the command line ---- */
 
@@ -19,7 +20,7 @@ static void
 refuse(struct run *run, bool given, const char *what, const char *why)
 {
     if (given)
-        tool_die(&run->t, EXIT_USAGE, "--adhesion: not with %s: %s", what, why);
+        tool_die(&run->t, EXIT_USAGE, "--adhesion does not work with %s: %s", what, why);
 }
 
 void
@@ -32,25 +33,27 @@ adhesion_read(struct run *run)
     a->wanted = args->adhesion != NULL;
     if (!a->wanted && args->pull_off)
         tool_die(&run->t, EXIT_USAGE,
-                 "--pull-off needs --adhesion: bodies that do not attract each other part under no "
-                 "load");
+                 "--pull-off needs --adhesion: without attraction the pull-off load is 0");
     if (!a->wanted && solve_wanted(args, SOLVE_ADHESION))
         tool_die(&run->t, EXIT_USAGE, "--output adhesion needs --adhesion");
     if (!a->wanted)
         return;
     if (attraction_read(&a->law, args->adhesion, &err) != RC_OK)
         tool_die(&run->t, EXIT_USAGE, "--adhesion %s: %s", args->adhesion, err.text);
-    refuse(run, args->yield != NULL, "--yield", "what yields inside is pressed by pressures alone");
-    refuse(run, run->tilt, "--tilt free", "bodies that attract each other follow one direction");
-    refuse(run, args->discretization, "--discretization",
-           "a grid half as fine holds another traction: solve it by itself");
+    refuse(run, args->yield != NULL, "--yield",
+           "plasticity in the volume supports pressures only, no attraction");
+    refuse(run, run->tilt, "--tilt free", "with adhesion the bodies move along their normal only");
+    refuse(
+        run, args->discretization, "--discretization",
+        "a coarser grid may not resolve the law; solve a coarser map in a second command instead");
     refuse(run, args->stiffness, "--stiffness", "use a list of --approach values instead");
     refuse(run, args->conductivity != NULL, "--conductivity",
-           "what is not pressed together does not conduct by the analogy");
+           "the analogy of conductance and stiffness holds only without attraction");
     refuse(run,
            solve_wanted(args, SOLVE_PLASTIC) || solve_wanted(args, SOLVE_RESIDUAL) ||
                solve_wanted(args, SOLVE_STRAIN),
-           "--output plastic, residual or strain", "they are not found with it");
+           "--output plastic, residual or strain",
+           "there is no plasticity in the volume with adhesion");
 }
 
 /* ---- the model ---- */
@@ -106,7 +109,7 @@ adhesion_set_key(struct run *run, struct rc_grid *as, const struct rc_contact *c
         tool_die_at(&run->t, as, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* ---- what is said ---- */
+/* ---- warnings ---- */
 
 static void
 warn_of_grid(struct run *run, const struct rc_grid *g, const char *where)
@@ -117,18 +120,17 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where)
 
     if (s->cohesive_nodes >= resolved)
         return;
-    /* at equal work the cohesive length grows with the square of the range */
-    tool_warn(
-        &run->t,
-        "%s: the cohesive length, %s, is %.2g of the spacing: the grid is too coarse for this "
-        "law, and pull-off and hysteresis will be too large (lattice pinning): take a spacing "
-        "of %s, or, where only the work matters, a range of %s",
-        where, shown_in_unit(length, s->cohesive_length, "m"), s->cohesive_nodes,
-        shown_in_unit(finer, spacing * s->cohesive_nodes / enough, "m"),
-        shown_in_unit(range, s->range * sqrt(enough / s->cohesive_nodes), "m"));
+    /* at constant work the cohesive length grows with the square of the range */
+    tool_warn(&run->t,
+              "%s: the cohesive length, %s, is %.2g of the spacing: the grid is too coarse for "
+              "this law, and pull-off and hysteresis will be too large (lattice pinning): take a "
+              "spacing of %s, or, if only the work matters, a range of %s",
+              where, shown_in_unit(length, s->cohesive_length, "m"), s->cohesive_nodes,
+              shown_in_unit(finer, spacing * s->cohesive_nodes / enough, "m"),
+              shown_in_unit(range, s->range * sqrt(enough / s->cohesive_nodes), "m"));
 }
 
-/* Tabor's number, of a sphere of this radius on these bodies. */
+/* Tabor's number for the sphere of --radius on these bodies. */
 static double
 tabor(const struct run *run)
 {
@@ -138,8 +140,8 @@ tabor(const struct run *run)
     return cbrt(p->radius * w * w) / run->adhering.scales.range;
 }
 
-/* The law named jkr has the shortest range that the grid resolves: JKR's limit is that of Tabor's number 3
- * and more. */
+/* Warns if Tabor's number is below 3. The law jkr takes the shortest range that the grid resolves, and JKR
+ * theory holds for Tabor's numbers of 3 and more. */
 static void
 warn_of_jkr(struct run *run, const struct rc_grid *g, const char *where)
 {
@@ -148,13 +150,12 @@ warn_of_jkr(struct run *run, const struct rc_grid *g, const char *where)
 
     if (strcmp(run->adhering.scales.law, "jkr") != 0 || !(is < enough_tabor))
         return;
-    /* the range grows with the root of the spacing */
-    tool_warn(
-        &run->t,
-        "%s: Tabor's number is %.2g, below 3: the range, %s, is too long for JKR theory, whose "
-        "loads and areas may differ by percents: take a spacing of %s",
-        where, is, shown_in_unit(range, run->adhering.scales.range, "m"),
-        shown_in_unit(finer, fmax(g->dx, g->dy) * pow(is / enough_tabor, 2), "m"));
+    /* the range grows with the square root of the spacing */
+    tool_warn(&run->t,
+              "%s: Tabor's number is %.2g, below 3: the range, %s, is too long for JKR theory, and "
+              "loads and areas may differ from it by some per cent: take a spacing of %s",
+              where, is, shown_in_unit(range, run->adhering.scales.range, "m"),
+              shown_in_unit(finer, fmax(g->dx, g->dy) * pow(is / enough_tabor, 2), "m"));
 }
 
 static void
@@ -165,23 +166,22 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_figur
 
     if (f->separated)
         tool_warn(&run->t,
-                  "%s: separated: under this load the bodies part, and there is no state that "
-                  "carries it: --approach leads past pull-off, --pull-off finds it",
+                  "%s: the bodies have separated, because no state carries this load: take "
+                  "--approach to pass the pull-off, or --pull-off to find its load",
                   where);
     else if (!f->stable && f->converged)
         course_warn(&run->course, "the state is not stable", "%s: the state is not stable", where);
     solve_warn_of_limits(run, where);
     if (run->adhering.pulling && f->pull_off_at_start)
-        tool_warn(
-            &run->t,
-            "%s: the load was lowest before they were drawn apart: let the list end where the "
-            "bodies are pressed together more",
-            where);
+        tool_warn(&run->t,
+                  "%s: the lowest load is at the first point, so that the pull-off load may be "
+                  "lower: end the list at a larger load or approach",
+                  where);
     if (f->edge_traction > faint)
         course_warn(
             &run->course, "a traction at the edge of the map",
             "%s: the traction at the edge of the map is %.2g of the largest: the bodies attract "
-            "each other beyond the map too, where nothing is known of them: take a larger map",
+            "each other beyond the map too, where their heights are unknown: take a larger map",
             where, f->edge_traction);
     if (run->adhering.scales.strength > too_strong * estar)
         course_warn(&run->course, "a traction at which a solid is not linear elastic",
@@ -199,8 +199,7 @@ tell(struct run *run, const char *where, const struct rc_adhesion_figures *f, bo
 
     if (pulled)
         tool_note(&run->t,
-                  "%s: pull-off at %s, give or take %s, at approach %s; %zu states, %.3g "
-                  "convolutions, %.2g s",
+                  "%s: pull-off at %s +- %s, at approach %s; %zu states, %.3g convolutions, %.2g s",
                   where, shown_in_unit(load, f->pull_off_load, "N"),
                   shown_in_unit(spread, f->pull_off_spread, "N"),
                   shown_in_unit(approach, f->pull_off_approach, "m"), f->states, f->convolutions,
@@ -243,7 +242,7 @@ adhesion_memory(const struct run *run, const struct rc_grid *g, const struct rc_
 {
     const struct rc_shape shape = rc_grid_shape(g);
     const struct rc_adhesion_problem problem = problem_of(run, contact);
-    /* heights, state at the last point, frame; dents; state of --checkpoint */
+    /* heights, state at the last point, frame; shape of dents; state of --checkpoint */
     const size_t maps = 3u + !isinf(run->hardness_min) + (run->checkpoint != NULL);
     const size_t kept =
         contact->boundary == RC_PERIODIC ? 32 : 128; /* bytes a node of a retraction */

@@ -1,4 +1,4 @@
-/* A case of rc-solve: its loads one after another, what is found of each, and the frames that are written. */
+/* A case of rc-solve: solves its loads one after another, finds their figures and writes their frames. */
 #include "solve.h"
 
 #include <inttypes.h>
@@ -8,18 +8,20 @@
 
 #include "formats/core/core.h"
 
-/* Key of a shape that yield has left: how far off it may be, m. */
+/* Key of a shape after yield: its possible error, m. */
 #define HEIGHT_ERROR "height.error"
 
 /* ---- one case ---- */
 
-/* Of the tolerance: what a load in which nodes yield may be off, so that with those after it, which may be
- * smaller, it is not more than the tolerance. 0: no load leaves a trace. */
+/* Returns the fraction of the tolerance for a load at which nodes yield. The error of its shape stays for
+ * later loads, and relative to a smaller load it is larger: the sum stays within the tolerance. 0: no load
+ * changes the shape. */
 static double
 history_part(const struct run *run)
 {
     const struct numbers *steps = run->steps;
-    const double power = run->args->physics.approach.n > 0 ? 2 : 1; /* a load grows no faster */
+    /* the load grows at most with this power of the approach */
+    const double power = run->args->physics.approach.n > 0 ? 2 : 1;
     double most = 0, smallest = 1;
 
     if (!run->args->physics.history || run->yielding.wanted || isinf(run->hardness_min) ||
@@ -54,7 +56,7 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
     return problem;
 }
 
-/* ---- what a checkpoint must agree in ---- */
+/* ---- marks of a checkpoint ---- */
 
 static void
 number_mark(struct mark *m, const char *name, double value)
@@ -86,7 +88,7 @@ set_marks(struct run *run)
                 : args->mean_pressure.n > 0 ? "checkpoint.mean-pressure"
                                             : "checkpoint.approach",
                 run->steps->v[run->step]);
-    mark[5].name = "checkpoint.history"; /* the loads before, which have left their shape */
+    mark[5].name = "checkpoint.history"; /* earlier loads, which have changed the shape */
     snprintf(mark[5].value, sizeof mark[5].value, "%08" PRIx32,
              !args->history ? 0
                             : rc_crc32_add(0, run->steps->v, run->step * sizeof *run->steps->v));
@@ -99,7 +101,7 @@ set_marks(struct run *run)
 
 /* ---- results ---- */
 
-/* Sets a key, or, where the number is not known, takes away one that an earlier solution left. */
+/* Sets a key. If the number is unknown, removes the key, which may come from an earlier solution. */
 static void
 set_number(struct run *run, struct rc_grid *g, const char *name, double value)
 {
@@ -125,12 +127,12 @@ set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (run->steps->n > 1 || run->args->pull_off)
         set_number(run, g, "case", (double)run->course.number);
-    /* the load asked for and the one reached are the same but for rounding */
+    /* the requested and the reached load differ by rounding only */
     set_number(run, g, "load",
                run->args->physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);
     set_number(run, g, "hardness", run->args->physics.hardness);
     set_number(run, g, "approach", c->approach);
-    /* who reads the stream finds the strain behind the pressure, or misses it */
+    /* slabs: a reader of the stream then expects the frames of plastic strain */
     set_number(run, g, "slabs", yields ? (double)run->yielding.found->slabs : NAN);
     set_number(run, g, "yield", yields ? rc_yield_stress(law, 0) : NAN);
     set_number(run, g, "hardening", yields ? yield_law_hardening(law) : NAN);
@@ -144,14 +146,15 @@ put_values(struct run *run, const struct rc_grid *as, enum solve_frame f, const 
 
     if (!solve_wanted(run->args, (int)f))
         return;
-    frame.channel = (char *)solve_frames[f].name; /* these and the values are only read */
+    frame.channel = (char *)solve_frames[f].name; /* tool_write only reads the strings and the
+                                                     values */
     frame.unit = (char *)solve_frames[f].unit;
-    frame.type = f == SOLVE_CONTACT ? RC_F32 : as->type; /* of 0 and 1 */
+    frame.type = f == SOLVE_CONTACT ? RC_F32 : as->type; /* its values are 0 and 1 */
     frame.v = (double *)v;
     tool_write(&run->t, &frame);
 }
 
-/* Writes a frame of the model, found in the buffer. */
+/* Computes a frame of the model in the buffer and writes it. */
 static void
 put(struct run *run, struct rc_model *m, const struct rc_grid *as, enum solve_frame f,
     double *buffer)
@@ -170,7 +173,7 @@ put_out(struct run *run, const struct rc_grid *g, struct rc_model *m, const stru
 {
     struct rc_err err;
     struct rc_grid *as = rc_grid_like(g, g->channel, g->unit, &err);
-    /* the input map, when it is not needed; untouched pages of the new map take no memory */
+    /* the buffer is the input map if it is no longer needed; untouched pages of the new map take no memory */
     const bool last = run->step + 1 == run->steps->n && !run->args->physics.history;
     double *buffer = as == NULL                                       ? NULL
                      : solve_wanted(run->args, SOLVE_HEIGHT) || !last ? as->v
@@ -186,7 +189,7 @@ put_out(struct run *run, const struct rc_grid *g, struct rc_model *m, const stru
     as->type = RC_F64;
     if (c->yielded_nodes > 0 && !run->adhering.wanted)
         set_number(run, as, HEIGHT_ERROR, c->shape_error);
-    if (run->apart && !run->yielding.wanted) /* the shape is that of the heights */
+    if (run->apart && !run->yielding.wanted) /* the shape has not changed */
         put_values(run, as, SOLVE_PLASTIC, g->v);
     else
         put(run, m, as, SOLVE_PLASTIC, buffer);
@@ -201,7 +204,7 @@ put_out(struct run *run, const struct rc_grid *g, struct rc_model *m, const stru
 
 /* ---- loads ---- */
 
-/* In a history the heights get the shape that the load has left. */
+/* In a history, gives the heights the shape after the load. */
 static void
 keep_shape(struct run *run, struct rc_grid *g, struct rc_model *m, struct solution *s)
 {
@@ -222,7 +225,7 @@ keep_shape(struct run *run, struct rc_grid *g, struct rc_model *m, struct soluti
     s->residual_indentation = rc_model_number(m, "residual_indentation");
 }
 
-/* Of a tapered map (key `taper`), the contact inside; touch is NULL for bodies that are apart. */
+/* Finds the contact inside the taper of a tapered map (key `taper`); touch is NULL for separated bodies. */
 static void
 look_inside(struct run *run, const struct rc_grid *g, const double *touch, struct solution *s)
 {
@@ -263,7 +266,8 @@ look_at_contact(struct run *run, const struct rc_grid *g, const double *touch, s
     look_inside(run, g, touch, s);
 }
 
-/* The net pressure of bodies that attract each other does not tell which nodes touch. */
+/* Finds the touching nodes from the gap, because the net pressure of an adhesive contact does not determine
+ * them. */
 static void
 look_at_closed_gap(struct run *run, const struct rc_grid *g, struct rc_model *m, struct solution *s)
 {
@@ -276,7 +280,7 @@ look_at_closed_gap(struct run *run, const struct rc_grid *g, struct rc_model *m,
     free(touch);
 }
 
-/* The figures that all models have, and those of the model. */
+/* Takes the figures of all models, and the figures of this model. */
 static void
 look_at_model(struct run *run, const struct rc_grid *g, struct rc_model *m, struct solution *s)
 {
@@ -295,7 +299,7 @@ look_at_model(struct run *run, const struct rc_grid *g, struct rc_model *m, stru
         look_at_closed_gap(run, g, m, s);
 }
 
-/* Where no node is at the hardness the conductance has found the stiffness too. */
+/* If no node is at the hardness, the computation of the conductance has found the stiffness too. */
 static void
 find_stiffness(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
                struct solution *s)
@@ -313,7 +317,7 @@ find_stiffness(struct run *run, const struct rc_grid *g, struct rc_solver *solve
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* What the model has found of this load. */
+/* Finds the figures of this load, writes its frames and its row, and keeps its shape. */
 static void
 end_load(struct run *run, struct rc_grid *g, struct rc_model *m)
 {
@@ -323,7 +327,7 @@ end_load(struct run *run, struct rc_grid *g, struct rc_model *m)
     if (run->apart)
         look_inside(run, g, NULL, s);
     else if (run->solver != NULL &&
-             tool_interrupted() == 0) /* else this grid may have no pressure */
+             tool_interrupted() == 0) /* otherwise this grid may have no pressure yet */
         look_at_contact(run, g, rc_solver_pressure(run->solver), s);
     look_at_model(run, g, m, s);
     if (run->apart && run->conductance)
@@ -387,8 +391,8 @@ before_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *p
     else
         demand_memory(run, g, problem);
     if (run->done == 0)         /* no load has been solved */
-        tool_release_signals(); /* the plan takes long, and there is no pressure to write before
-                                   its end */
+        tool_release_signals(); /* making the plan takes long, and before its end there is no
+                                   pressure to write */
 }
 
 static void
@@ -398,7 +402,7 @@ after_plan(struct run *run)
     run->setup = solve_now() - run->began;
 }
 
-/* Leads the model to this load. The first one plans the solver. */
+/* Leads the model to this load. The first load plans the solver. */
 static void
 press(struct run *run, const struct rc_grid *g, struct rc_model *m,
       const struct rc_problem *problem)
@@ -429,8 +433,8 @@ press(struct run *run, const struct rc_grid *g, struct rc_model *m,
     run->solver = rc_model_solver(m);
 }
 
-/* The loads of a list, each from the solution of the last; in a history, on the shape that it has
- * left. --pull-off adds a case in which the bodies are drawn apart. */
+/* Solves the loads of a list, each from the solution of the last one; in a history, on the shape after the
+ * last one. --pull-off adds a case in which the bodies are separated. */
 static void
 do_loads(struct run *run, struct rc_grid *g)
 {
@@ -449,7 +453,7 @@ do_loads(struct run *run, struct rc_grid *g)
     run->course.number = cases == 1 ? rc_grid_case(g) - 1 : run->course.number;
     for (size_t k = 0; k < cases; k++) {
         if (k > 0 && tool_interrupted() != 0)
-            break; /* the first case is written in any case */
+            break; /* the first case is always written */
         run->adhering.pulling = k == run->steps->n;
         run->step = run->adhering.pulling ? k - 1 : k;
         problem = problem_of(run, g, run->step);
@@ -485,9 +489,8 @@ take_hardness(struct run *run, const struct rc_grid *hardness)
     run->hardness_max = ranks_most(&run->t, high);
     if (run->args->physics.history && isinf(run->hardness_min) && !run->yielding.wanted &&
         !run->adhering.wanted)
-        tool_warn(&run->t,
-                  "--history without --hardness or a number in a map of it: nothing yields, so no "
-                  "load leaves a trace");
+        tool_warn(&run->t, "--history has no effect, because nothing yields without --hardness, a "
+                           "map of it, or --yield: give one of them");
 }
 
 void

@@ -1,14 +1,14 @@
 /*
- * What is said of a solution on standard error: what makes it less than it looks, and its figures.
+ * Messages about a solution on standard error: warnings of its limits, and its figures with --verbose.
  */
 #include "solve.h"
 
 #include <math.h>
 
-static const double linear = 0.1;      /* of E*: the pressures of linear elasticity         */
-static const double small_slope = 0.3; /* RMS: the slopes of contact theory                 */
-static const double no_modulus = 1e5;  /* Pa: softer than any E* of a solid                 */
-/* Nodes that resolve a contact on a profile, and on a map, and a patch of either. */
+static const double linear = 0.1;      /* fraction of E*: above it a solid is not linear elastic */
+static const double small_slope = 0.3; /* RMS slope: above it the theory of small slopes fails */
+static const double no_modulus = 1e5;  /* Pa: lower than E* of any solid */
+/* Fewest nodes that resolve a contact on a profile and on a map, and one of its patches. */
 static const size_t fewest_nodes[] = {20, 100};
 static const double fewest_each = 4;
 
@@ -35,7 +35,7 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
 
 /* ---- beyond the theory ---- */
 
-/* A pressure above E* itself is no contact of solids, but a number that means something else. */
+/* Warns of a pressure above E*, which no solid carries: a unit is probably wrong. */
 static void
 suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const struct solution *s)
 {
@@ -81,7 +81,7 @@ solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where
     else if (peak > linear * estar && isfinite(run->hardness_max) && run->hardness_max >= peak)
         course_warn(&run->course, "a pressure at which a solid is not linear elastic",
                     "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic, and "
-                    "the hardness given, %s, is above that: is its unit right?",
+                    "--hardness, %s, is above that: is its unit right?",
                     where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
                     shown_in_unit(hardness, run->hardness_max, "Pa"));
     else if (peak > linear * estar)
@@ -115,7 +115,7 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where, const 
                 s->patches.count == 1 ? "patch" : "patches");
 }
 
-/* ---- not at its end ---- */
+/* ---- not converged ---- */
 
 void
 solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *c)
@@ -128,8 +128,8 @@ solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *c
         snprintf(error, sizeof error, "its estimated error is %.2g", c->pressure_error);
     if (tool_interrupted() != 0)
         tool_warn(&run->t,
-                  "%s: interrupted after %zu iterations: what is written is the best so far, not a "
-                  "solution: %s",
+                  "%s: interrupted after %zu iterations: the frames hold the best state so far, "
+                  "not a solution: %s",
                   where, c->iterations, error);
     else if (run->tilt && c->hardness_active)
         course_warn(
@@ -138,11 +138,10 @@ solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *c
             "the load at this point: move --at nearer to the middle, or raise --hardness",
             where, c->iterations, error);
     else if (c->inherited_error > c->pressure_error / 2)
-        course_warn(
-            &run->course, "stopped short",
-            "%s: %s, of which %.2g come from the loads before, whose dents carry it: a smaller "
-            "--tol solves these better",
-            where, error, c->inherited_error);
+        course_warn(&run->course, "stopped short",
+                    "%s: %s, of which %.2g come from earlier loads, whose shape it has: take a "
+                    "smaller --tol",
+                    where, error, c->inherited_error);
     else
         course_warn(&run->course, "stopped short",
                     "%s: not converged after %zu iterations: %s: accept it with a larger --tol",
@@ -190,8 +189,8 @@ solve_warn_of_limits(struct run *run, const char *where)
     const struct rc_adhesion_figures *f = run->adhering.figures;
     const bool holds = f != NULL && f->stable && f->converged && !f->separated;
     const struct drive_advice advice[] = {
-        {"edge_load_fraction", NULL}, /* solve_judge tells more of it */
-        {"stability", holds ? "a list of approaches leads through the jump" : NULL},
+        {"edge_load_fraction", NULL}, /* solve_judge has its own warning */
+        {"stability", holds ? "a list of approaches passes the jump" : NULL},
         {NULL, NULL}};
 
     drive_judge(&run->course, run->model, advice, where);
@@ -208,12 +207,11 @@ solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
     solve_warn_of_limits(run, where);
     if (!run->args->physics.periodic &&
         s->contact.edge_load_fraction > rc_figure_find("edge_load_fraction")->limit)
-        course_warn(
-            &run->course, "the contact reaches the edge of the map",
-            "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact reaches its "
-            "edge, beyond which there is no material: take a larger map or a smaller load, or "
-            "--periodic where the surface goes on alike",
-            where, 100 * s->contact.edge_load_fraction);
+        course_warn(&run->course, "the contact reaches the edge of the map",
+                    "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact reaches "
+                    "its edge, beyond which there is no material: take a larger map, a smaller "
+                    "load, or --periodic if the surface repeats",
+                    where, 100 * s->contact.edge_load_fraction);
     if (tool_interrupted() == 0 && s->contact.contact_nodes > 0) {
         solve_warn_of_theory(run, g, where, s);
         warn_of_grid(run, g, where, s);

@@ -1,4 +1,4 @@
-/* The options that say what the contact is, for all tools that solve it. */
+/* Options that define the contact, for all tools that solve it. */
 #include "solve.h"
 
 #include <math.h>

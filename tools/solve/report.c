@@ -1,4 +1,4 @@
-/* What rc-solve tells about a solution, or about one that it is to make. */
+/* Report of a solution, and plan of --dry-run. */
 #include "solve.h"
 
 #include <math.h>
@@ -27,8 +27,8 @@ solve_frame_word(size_t k)
 
 /* ---- effects ---- */
 
-/* What a state depends on: the run, why the engine was taken, and whether the hardness was reached
- * (NULL: not known before the solution). */
+/* What the state of an effect depends on: the run, the reason for the engine, and whether the hardness was
+ * reached (NULL: unknown before the solution). */
 struct scene {
     const struct run *run;
     const char *engine;
@@ -57,8 +57,9 @@ static const char *
 hardness_state(const struct scene *s)
 {
     if (isinf(s->run->hardness_min))
-        return s->run->hardness != NULL ? "left out: the map of it holds no number"
-                                        : "left out: no --hardness, and no map of it in the case";
+        return s->run->hardness != NULL
+                   ? "left out: the map of hardness holds no number"
+                   : "left out: no --hardness, and no map of hardness in the case";
     if (s->hardness_active == NULL)
         return "on where the elastic pressure would exceed it; costs nothing elsewhere";
     return *s->hardness_active ? "on" : "left out: the largest elastic pressure is below it";
@@ -87,7 +88,7 @@ history_state(const struct scene *s)
 {
     if (!s->run->args->physics.history)
         return "left out: no --history";
-    return "on: each load acts on the shape that those before have left";
+    return "on: each load acts on the shape after the previous load";
 }
 
 static const char *
@@ -142,7 +143,7 @@ static const struct effect {
     {"approach", approach_state},
     {"history", history_state},
     {"yield", yielding_state},
-    {"adhesion", adhering_state}, /* its frame too */
+    {"adhesion", adhering_state}, /* also the state of its frame */
     {"tilt", tilt_state},
     {"stiffness", stiffness_state},
     {"conductivity", conductivity_state},
@@ -153,8 +154,8 @@ enum {
     EFFECTS = sizeof effects / sizeof *effects
 };
 
-/* Effect k, and after these the frames of --output: `on`, or why it is left out. False past the
- * last. */
+/* Effect k, or after the effects a frame of --output, and its state: `on`, or why it is left out. False past
+ * the last. */
 static bool
 effect_at(const struct scene *scene, size_t k, const char **name, const char **state)
 {
@@ -186,7 +187,7 @@ static const struct rc_figure solution_figures[] = {
     {0},
 };
 
-/* The largest; all of them are in `rc-info --patches`. */
+/* Reports the largest patches; `rc-info --patches` lists all. */
 static void
 report_patches(struct report *r, const struct rc_patches *patches)
 {
@@ -204,7 +205,7 @@ report_patches(struct report *r, const struct rc_patches *patches)
     report_end(r);
 }
 
-/* The figures of these names. */
+/* Reports the figures with these names. */
 static void
 report_of(struct report *r, const struct solution *s, const char *names)
 {
@@ -226,7 +227,7 @@ static const char of_contact[] =
 static const char of_history[] =
     "indentation residual_indentation contact_area_inside contact_fraction_inside";
 
-/* "1e-06,1e+11,0.3; ...": the layers in SI, top first; NULL: none. */
+/* "1e-06,1e+11,0.3; ...": the layers in SI, top first. NULL: no layers. */
 static char *
 layers_text(const struct physics *a)
 {
@@ -245,7 +246,7 @@ layers_text(const struct physics *a)
     return text;
 }
 
-/* Rows of equal settings have equal figures here, to the last digit: those of the command line. */
+/* Reports the values of the command line, so that rows of equal settings agree to the last digit. */
 static void
 report_asked(struct report *r, const struct run *run, const struct rc_solver *solver)
 {
@@ -309,7 +310,8 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_end(r);
     report_memory(r);
     report_ranks(r, &run->t);
-    report_number(r, "hardness_min", run->hardness_min, "Pa"); /* columns keep their places */
+    /* the columns stay the same for all cases */
+    report_number(r, "hardness_min", run->hardness_min, "Pa");
     report_number(r, "hardness_max", run->hardness_max, "Pa");
     report_number(r, "conductance", s->conductance.value, run->conductance_unit);
     report_number(r, "conductance_lower", s->conductance.lower, run->conductance_unit);
@@ -337,7 +339,7 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
                          solve_wanted(run->args, SOLVE_PLASTIC);
     const size_t maps = 0U + solve_wanted(run->args, SOLVE_CONTACT) + (keeps_heights && results);
     const size_t later = run->conductance
-                             ? RC_CONDUCTANCE_BYTES /* patches, one map, are freed before */
+                             ? RC_CONDUCTANCE_BYTES /* the map of patches is freed before */
                          : run->stiffness ? RC_STIFFNESS_BYTES
                                           : sizeof *g->v;
     struct rc_expected expected = {0};
@@ -351,7 +353,7 @@ void
 solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
 {
     enum {
-        STIFFNESS = 12,     /* convolutions that it takes                     */
+        STIFFNESS = 12,     /* convolutions for the stiffness */
         PLANS = 4 * 1 << 20 /* bytes: FFTW's plans, 2 MiB for each precision */
     };
     struct rc_shape shape = rc_grid_shape(g);

@@ -1,5 +1,5 @@
 /*
- * The face of this folder: rc-solve's options, its run, and what is told about it.
+ * The interface of this folder: options of rc-solve, its run, its messages and its report.
  */
 #ifndef RC_SOLVE_H
 #define RC_SOLVE_H
@@ -11,15 +11,15 @@
 #include "tools/model/model.h"
 #include "tools/problem/problem.h"
 
-enum solve_frame { /* in the order of --output's words, and of writing */
-    SOLVE_CONTACT, /* before the pressure: who reads frame by frame knows by then what touches */
+enum solve_frame { /* in the order of the words of --output and of writing */
+    SOLVE_CONTACT, /* before the pressure, because readers need it to interpret the pressure */
     SOLVE_PRESSURE,
     SOLVE_GAP,
     SOLVE_DISPLACEMENT,
     SOLVE_HEIGHT,
     SOLVE_PLASTIC,
     SOLVE_RESIDUAL,
-    SOLVE_STRAIN, /* several frames of each slab */
+    SOLVE_STRAIN, /* several frames for each slab */
     SOLVE_ADHESION,
     SOLVE_FRAMES
 };
@@ -34,9 +34,9 @@ struct solve_args {
     double tol;
     const char *kernel, *method;
     const char *conductivity; /* of both bodies, or NULL                                  */
-    const char *yield, *increments, *slabs; /* words of the line, or NULL                   */
+    const char *yield, *increments, *slabs; /* words of the command line, or NULL */
     const char *adhesion; /* words of the command line, or NULL                       */
-    bool pull_off;        /* a case of it comes last                                  */
+    bool pull_off;        /* pull-off is an additional last case */
     const char *tilt;     /* a word, or NULL                                          */
     struct numbers at;    /* x and y; none: the middle                                */
     bool stiffness, discretization;
@@ -46,17 +46,17 @@ struct solve_args {
 
 extern const struct opt solve_contact_options[]; /* for a struct solve_args */
 
-/* --yield: body 1 yields inside. */
+/* --yield: body 1 yields in its volume. */
 struct yielding {
     bool wanted;
     struct yield_law read;
     struct rc_yield law;
-    size_t asked;        /* increments of a load on the line, 0: auto                     */
-    size_t slab_count;   /* on the line, 0: auto                                          */
+    size_t asked;        /* increments of a load on the command line; 0: auto */
+    size_t slab_count;   /* slabs on the command line; 0: auto */
     struct numbers list; /* or thicknesses                                                */
     bool on;             /* something has yielded                                       */
-    const struct rc_yielding_figures *found; /* NULL: no load was looked at */
-    size_t worst; /* the case with the largest error of increments, its increments */
+    const struct rc_yielding_figures *found; /* NULL: no load was solved yet */
+    size_t worst; /* the case with the largest error of increments, and its number of increments */
     size_t worst_increments;
     double worst_error;
 };
@@ -65,35 +65,36 @@ struct yielding {
 struct adhering {
     bool wanted;
     struct attraction law;
-    struct rc_adhesion_scales scales; /* on this grid                                      */
-    const struct rc_adhesion_figures *figures; /* of the point that was looked at; NULL: none */
-    bool pulling; /* this case is the one of --pull-off                */
+    struct rc_adhesion_scales scales;          /* scales of the law on this grid */
+    const struct rc_adhesion_figures *figures; /* figures of the current point; NULL: none */
+    bool pulling;                              /* this case is the pull-off */
 };
 
 struct run {
     struct tool t;
     const struct solve_args *args;
     const struct numbers *steps; /* the list of loads or approaches               */
-    size_t step;                 /* which of them, from 0                         */
-    bool apart;                  /* it is 0: no load                              */
-    enum rc_status status;       /* of the load                                   */
-    struct course course;        /* and the number of the case                    */
-    struct rc_model *model;      /* of the map                                    */
-    struct rc_solver *solver;    /* of the model, which has the solution          */
-    bool stiffness, conductance; /* whether they are found                            */
+    size_t step;                 /* index in the list, from 0 */
+    bool apart;                  /* the load is 0: the bodies are separated */
+    enum rc_status status;       /* status of the load */
+    struct course course;        /* also has the number of the case */
+    struct rc_model *model;      /* model of the map */
+    struct rc_solver *solver;    /* solver of the model, which has the solution */
+    bool stiffness, conductance; /* whether they are computed */
     struct yielding yielding;
     struct adhering adhering;
-    bool tilt;                         /* the counter body is free to                       */
+    bool tilt;                         /* the counter body is free to tilt */
     double k[2];                       /* conductivities of the bodies, SI                  */
     const char *conductance_unit;      /* W/K or S; NULL: the conductivities have no unit   */
-    double rms_slope;                  /* of the heights that came in; only for a report */
-    double height_error;               /* m: of the heights that came in */
-    const struct rc_grid *hardness;    /* a map of it, in the case; NULL: a number or none */
-    double hardness_min, hardness_max; /* Pa, of the numbers; no number: INFINITY, -INFINITY */
+    double rms_slope;                  /* of the input heights; only for a report */
+    double height_error;               /* m: error of the input heights */
+    const struct rc_grid *hardness;    /* map of the hardness in the case; NULL: a number or none */
+    double hardness_min, hardness_max; /* Pa, range of the numbers; without numbers: INFINITY,
+                                          -INFINITY */
     struct report report;
     struct checkpoint *checkpoint; /* NULL: none */
     char crc[16],
-        hardness_crc[16]; /* of the heights, the sphere included, and of the map of hardness */
+        hardness_crc[16]; /* CRC of the heights, including the sphere, and of the map of hardness */
     double began, setup, iterate, result, done; /* seconds */
 };
 
@@ -109,20 +110,20 @@ solve_now(void)
     return tool_now();
 }
 
-/* What is known of a solution. */
+/* The figures of a solution. */
 struct solution {
     struct rc_contact contact;
-    struct error_parts errors;         /* of contact.pressure_error, where it has several         */
-    struct rc_patches patches;         /* of the contact; the list of them only for a report */
-    double slope;                      /* RMS, where the bodies touch; NAN: not looked at         */
+    struct error_parts errors;         /* parts of contact.pressure_error, if it has several */
+    struct rc_patches patches;         /* patches of the contact; their list only for a report */
+    double slope;                      /* RMS slope where the bodies touch; NAN: not computed */
     double stiffness;                  /* N/m; NAN: unknown                                       */
-    double nodes_per_patch;            /* of the row that is reported                            */
+    double nodes_per_patch;            /* nodes per patch, for the report */
     struct rc_conductance conductance; /* NAN: unknown */
-    /* m, in a history, from the first touch of the first shape; NAN: unknown. Of this solution, and
-     * of the first touch of the shape that it leaves. */
+    /* m, in a history: approach from the first touch of the first shape, for this solution and for the first
+     * touch of the shape after it; NAN: unknown. */
     double indentation, residual_indentation;
-    /* of a tapered map: contact inside of the taper, m^2, and its share of what lies inside; NAN: not
-     * tapered, or nothing does */
+    /* for a tapered map: contact area inside the taper, m^2, and its fraction of the area inside; NAN: not
+     * tapered, or no node lies inside */
     double inside_area, inside_fraction;
 };
 #define SOLUTION_NONE                                                                              \
@@ -131,26 +132,26 @@ struct solution {
         .residual_indentation = NAN, .inside_area = NAN, .inside_fraction = NAN                    \
     }
 
-/* "steel.x3p, case 2, load 3 N": which solution is meant, for messages. */
+/* "steel.x3p, case 2, load 3 N": the name of a solution in messages. */
 const char *solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t size);
-/* Warns of a solution that is not what it looks like, and, with --verbose, tells its figures. */
+/* Warns of the limits of a solution and, with --verbose, prints its figures. */
 void solve_judge(struct run *run, const struct rc_grid *g, const struct solution *solution);
 
-/* The row of the case, where --report asks for it. `solver` is NULL for bodies that are apart. */
+/* Writes the row of the case if --report was given. `solver` is NULL for separated bodies. */
 void solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
                   const struct solution *solution);
-/* Bytes that a solution of this map takes beside the map. */
+/* The bytes that a solution needs in addition to this map. */
 size_t solve_memory(const struct run *run, const struct rc_grid *g,
                     const struct rc_problem *problem);
-/* What the scene calls for and what it doesn't, and what that costs, in words. */
+/* Prints which effects will be computed, which are left out, and the cost. */
 void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem);
 
 /* ---- case.c ---- */
 
-/* Solves the loads of these heights, and writes and reports what is found. hardness: a map of it, or NULL. */
+/* Solves the loads of these heights, and writes and reports the results. hardness: a map, or NULL. */
 void solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness);
 
-/* Parts of solve_judge. Limits: of figures of the model, in their tables. */
+/* Parts of solve_judge. The limits of the figures are in the tables of the model. */
 void solve_warn_of_limits(struct run *run, const char *where);
 void solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
                           const struct solution *solution);
@@ -158,54 +159,52 @@ void solve_warn_of_end(struct run *run, const char *where, const struct rc_conta
 
 /* ---- adhesion.c ---- */
 
-/* Reads --adhesion and --pull-off, or ends the tool. */
+/* Reads --adhesion and --pull-off; ends the tool if they are invalid. */
 void adhesion_read(struct run *run);
 struct rc_model *adhesion_model(struct run *run, const struct rc_grid *g,
                                 const struct rc_problem *contact);
-/* The keys of frames of such a contact; none without --adhesion. */
+/* Sets the keys of frames of an adhesive contact; none without --adhesion. */
 void adhesion_set_key(struct run *run, struct rc_grid *as, const struct rc_contact *c);
-/* Instead of solve_judge. */
+/* Takes the place of solve_judge for an adhesive contact. */
 void adhesion_judge(struct run *run, const struct rc_grid *g, const struct solution *solution);
 size_t adhesion_memory(const struct run *run, const struct rc_grid *g,
                        const struct rc_problem *contact);
-/* What a state will take, and with it the law on this grid; or ends the tool. */
+/* Finds the cost of a state and the scales of the law on this grid; ends the tool if they are invalid. */
 void adhesion_expect(struct run *run, const struct rc_grid *g, const struct rc_problem *contact,
                      struct rc_expected *expected);
-/* What a checkpoint has to agree in; "" without --adhesion. */
+/* The mark of a checkpoint; "" without --adhesion. */
 void adhesion_mark(const struct run *run, char *value, size_t size);
 const char *adhesion_state(const struct run *run);
 void adhesion_report(struct report *report, const struct run *run);
 
 /* ---- yield.c: all but yield_read do nothing without --yield ---- */
 
-/* Reads --yield, --increments, --slabs, or ends the tool. */
+/* Reads --yield, --increments and --slabs; ends the tool if they are invalid. */
 void yield_read(struct run *run);
 void yield_free(struct run *run);
 /* The model of a body that may yield. */
 struct rc_model *yield_model(struct run *run, const struct rc_grid *g,
                              const struct rc_problem *problem);
-/* Before a load, N: the loads that are left; and after it. */
+/* Plans the remaining loads, before a load in N; and after a load takes its figures. */
 void yield_plan(struct run *run, struct rc_model *m, double load);
 void yield_found(struct run *run, const struct rc_model *m);
-/* What a checkpoint of such a body must agree in, k from 0 on: its name, and its value, empty
- * without --yield. */
+/* Mark k of a checkpoint of such a body, from 0 on: name and value. The value is empty without --yield. */
 enum {
     YIELD_MARKS = 6
 };
 const char *yield_mark(const struct run *run, int k, char *value, size_t size);
-/* Puts the estimated error of the plastic body, and its parts, in place of the contact's. */
+/* Replaces the estimated error of the contact, and its parts, by those of the plastic body. */
 void yield_look(struct run *run, struct solution *solution);
-/* The plastic strain slab by slab; `like`: the frames' shape and keys; buffer: room for a map. */
+/* Writes the plastic strain slab by slab; `like`: shape and keys of the frames; buffer: memory for a map. */
 void yield_put_strain(struct run *run, const struct rc_model *m, const struct rc_grid *like,
                       double *buffer);
-/* The largest pressure, and its name (NULL: not wanted): of means of 2 x 2 nodes where single nodes
- * alternate. */
+/* The largest pressure and its name (NULL: not needed). If the pressures of single nodes alternate, it is the
+ * largest mean over 2 x 2 nodes. */
 double yield_peak(const struct run *run, double max_pressure, const char **name);
 void yield_judge(struct run *run, const char *where, const struct solution *solution);
-/* Warns of a load whose error is larger than asked for, or unknown. False: there is nothing to say of
- * that. */
+/* Warns of a load whose error is above the goal or unknown. Returns false if there was no warning. */
 bool yield_warn_of_end(struct run *run, const char *where, const struct solution *solution);
-/* What the solution took, in words. */
+/* The cost of the solution in words. */
 void yield_tell(const struct run *run, const struct rc_contact *contact, char *text, size_t size);
 const char *yield_state(const struct run *run);
 void yield_report(struct report *report, const struct run *run);

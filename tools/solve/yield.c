@@ -1,7 +1,7 @@
 /*
- * --yield: body 1 yields inside. A load is solved as an elastic one first; where its stresses nowhere reach
- * the yield stress that is the solution, and nothing of the volume has been touched. Else the body is
- * pressed from 0 in increments, and from then on every load of the list follows the last.
+ * --yield: body 1 yields in its volume. A load is first solved for an elastic body. If the stresses stay
+ * below the yield stress everywhere, this is the solution, and no plastic volume was computed. Otherwise the
+ * body is loaded from 0 in increments, and every later load of the list continues from the previous one.
  */
 #include "solve.h"
 
@@ -14,13 +14,13 @@
 
 #include "formats/core/core.h"
 
-static const double deserved = 1e-2;       /* error that is asked for where nobody says           */
-static const double order = 1.1;           /* power of the error that the increments go by        */
-static const double image_order = 1 / 2.7; /* and the side of a free map                         */
+static const double deserved = 1e-2;       /* allowed error without --tol */
+static const double order = 1.1;           /* the error falls with this power of the increments */
+static const double image_order = 1 / 2.7; /* and with this power of the side of a free map */
 
 /* ---- the command line ---- */
 
-/* "auto", or a whole number in *count, 0: none; else a list of lengths where one is asked for. */
+/* Reads "auto" (*count = 0), a whole number, or, if `list` is not NULL, a list of lengths. */
 static void
 read_count(struct run *run, const char *name, const char *text, size_t *count,
            struct numbers *lengths)
@@ -58,7 +58,7 @@ yield_read(struct run *run)
 
     y->wanted = args->yield != NULL;
     if (!y->wanted && (args->increments != NULL || args->slabs != NULL))
-        tool_die(&run->t, EXIT_USAGE, "--increments and --slabs belong to --yield");
+        tool_die(&run->t, EXIT_USAGE, "--increments and --slabs have no effect without --yield");
     for (int f = SOLVE_RESIDUAL; !y->wanted && f <= SOLVE_STRAIN; f++)
         if (solve_wanted(args, f))
             tool_die(&run->t, EXIT_USAGE, "--output %s has no effect without --yield",
@@ -72,8 +72,9 @@ yield_read(struct run *run)
     read_count(run, "slabs", args->slabs, &y->slab_count, &y->list);
     yield_law_check(&run->t, &y->read, a);
     yield_law_refuse(&run->t, args->discretization, "--discretization",
-                     "a grid half as fine yields elsewhere: solve it by itself");
-    yield_law_refuse(&run->t, run->tilt, "--tilt free", "a body that yields follows one direction");
+                     "solve a coarser map in a second command instead");
+    yield_law_refuse(&run->t, run->tilt, "--tilt free",
+                     "with --yield the bodies move along their normal only");
 }
 
 void
@@ -145,7 +146,7 @@ yield_model(struct run *run, const struct rc_grid *g, const struct rc_problem *c
 void
 yield_plan(struct run *run, struct rc_model *m, double load)
 {
-    const double *v = run->steps->v; /* in a unit of their own */
+    const double *v = run->steps->v; /* in units of `unit` */
     double most = 0;
 
     for (size_t k = run->step; k < run->steps->n; k++)
@@ -163,9 +164,9 @@ yield_found(struct run *run, const struct rc_model *m)
     y->on = y->found != NULL && y->found->yielded;
 }
 
-/* ---- what is found ---- */
+/* ---- results ---- */
 
-/* Broken off before it was known whether body 1 yields under the load. */
+/* True if a signal came before it was known whether body 1 yields under the load. */
 static bool
 is_unknown(const struct run *run)
 {
@@ -182,7 +183,7 @@ yield_look(struct run *run, struct solution *s)
     const struct rc_plastic_figures *f;
     struct rc_contact *c = &s->contact;
 
-    if (is_unknown(run)) { /* the error of the elastic contact says nothing */
+    if (is_unknown(run)) { /* the error of the elastic contact is then no estimate */
         c->pressure_error = NAN;
         c->converged = false;
     }
@@ -196,9 +197,10 @@ yield_look(struct run *run, struct solution *s)
     if (run->status == RC_MORE) /* broken off */
         s->errors.increment = NAN;
     c->pressure_error = errors_sum(&s->errors);
-    c->converged = run->status == RC_OK && c->converged &&
-                   (errors_within(c->pressure_error, goal(run)) ||
-                    (y->asked > 0 && isnan(c->pressure_error))); /* so few were asked for */
+    /* --increments asked for too few to estimate it */
+    c->converged =
+        run->status == RC_OK && c->converged &&
+        (errors_within(c->pressure_error, goal(run)) || (y->asked > 0 && isnan(c->pressure_error)));
     if (f->increment_error > y->worst_error) {
         y->worst_error = f->increment_error;
         y->worst = run->course.number;
@@ -210,7 +212,7 @@ double
 yield_peak(const struct run *run, double max_pressure, const char **name)
 {
     const double soft =
-        10; /* hardening below so many times the yield stress lets nodes alternate */
+        10; /* with hardening below so many times the yield stress, nodes alternate */
     const struct yielding *y = &run->yielding;
     const bool alternates =
         y->on && yield_law_hardening(&y->law) < soft * rc_yield_stress(&y->law, 0);
@@ -236,10 +238,10 @@ put_slab(struct run *run, const struct rc_model *m, struct rc_grid *frame, size_
         tool_die_at(&run->t, frame, EXIT_IMPOSSIBLE, "%s", err.text);
     for (size_t c = 0; c < RC_PLASTIC_STRAINS; c++) {
         double *to[RC_PLASTIC_STRAINS] = {NULL};
-        struct rc_grid as = *frame; /* as the reader of the stream sees it */
+        struct rc_grid as = *frame; /* the frame in the output stream */
         to[c] = buffer;
         (void)rc_yielding_strain(m, slab, to);
-        as.channel = (char *)names[c]; /* these are only read */
+        as.channel = (char *)names[c]; /* tool_write only reads these strings */
         as.unit = (char *)"1";
         as.v = buffer;
         tool_write(&run->t, &as);
@@ -280,18 +282,18 @@ warn_of_slabs(struct run *run, const char *where, const struct rc_plastic_figure
         within += above < f->depth;
     }
     if (f->depth > above)
-        course_warn(&run->course, "the lowest slab yields",
-                    "%s: the lowest slab yields: the stack is too shallow: give more --slabs",
-                    where);
-    if (within > 0 && within < 4)
         course_warn(
-            &run->course, "few slabs in the depth that yields",
-            "%s: %zu %s in the depth that yields: its stresses are coarse: take a finer grid, or "
-            "thinner --slabs",
-            where, within, within == 1 ? "slab lies" : "slabs lie");
+            &run->course, "the lowest slab yields",
+            "%s: the lowest slab yields, so that the slabs are not deep enough: give more --slabs",
+            where);
+    if (within > 0 && within < 4)
+        course_warn(&run->course, "few slabs in the depth that yields",
+                    "%s: only %zu %s in the depth that yields, which is too coarse for its "
+                    "stresses: take a finer grid, or thinner --slabs",
+                    where, within, within == 1 ? "slab lies" : "slabs lie");
 }
 
-/* The part of the error that is largest, and what lowers it, by how much that was missed. */
+/* Warns of the largest part of the error, and names the option value that lowers it enough. */
 static void
 warn_of_part(struct run *run, const char *where, const struct solution *s)
 {
@@ -299,7 +301,8 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
     const struct rc_plastic_figures *f = &y->found->plastic;
     const struct error_parts *e = &s->errors;
     const double asked = goal(run), off = s->contact.pressure_error / asked;
-    const char limit = errors_limited_by(e)[0]; /* of increments, history, tolerance, map */
+    const char limit = errors_limited_by(e)[0]; /* first letter of increments, history,
+                                                   tolerance, map */
     const size_t made = limit == 'h' ? y->worst_increments : f->increments;
     const double more = ceil((double)made * pow(off, order));
     char what[256], first[96];
@@ -307,7 +310,7 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
     snprintf(first, sizeof first, "its estimated error is %.2g %%, above %.2g %%",
              100 * s->contact.pressure_error, 100 * asked);
     if (limit == 'i')
-        snprintf(what, sizeof what, "its increments leave %.2g %%: give --increments %.0f",
+        snprintf(what, sizeof what, "%.2g %% come from its increments: give --increments %.0f",
                  100 * e->increment, more);
     else if (limit == 'h')
         snprintf(what, sizeof what,
@@ -316,14 +319,14 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
                  100 * e->inherited, y->worst, made, more);
     else if (limit == 'm')
         snprintf(what, sizeof what,
-                 "%.2g %% come from the edge of the map: more increments do not help: give a map "
-                 "%.1f times as large with the same contact, or --periodic where it is a period",
+                 "%.2g %% come from the edge of the map: give a map %.1f times as large with the "
+                 "same contact, or --periodic if the map is a period",
                  100 * e->image, ceil(10 * pow(off, image_order)) / 10);
     else
         snprintf(what, sizeof what,
                  "%.2g %% come from the tolerance of contacts and iteration: give --tol %.0e",
                  100 * (e->iteration + e->contact), asked / 10);
-    course_warn(&run->course, "errors above what was asked for", "%s: %s: %s", where, first, what);
+    course_warn(&run->course, "errors above the goal", "%s: %s: %s", where, first, what);
 }
 
 bool
@@ -333,22 +336,23 @@ yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
 
     if (is_unknown(run)) {
         tool_warn(&run->t,
-                  "%s: interrupted before it is known whether body 1 yields: what is written is an "
-                  "elastic solution: its error is not known",
+                  "%s: interrupted before it was known whether body 1 yields: the frames hold an "
+                  "elastic solution with an unknown error",
                   where);
         return true;
     }
     if (!y->on)
         return false;
     if (run->status == RC_MORE)
-        tool_warn(&run->t,
-                  "%s: interrupted in increment %zu of %zu: what is written is on the way there, "
-                  "not a solution: its error is not known",
-                  where, y->found->increment, y->found->increments);
+        tool_warn(
+            &run->t,
+            "%s: interrupted in increment %zu of %zu: the frames hold an intermediate state, not "
+            "a solution, and its error is unknown",
+            where, y->found->increment, y->found->increments);
     else if (isnan(s->contact.pressure_error))
-        course_warn(&run->course, "an error that is not known",
-                    "%s: nothing is known of its error: a load was reached in fewer than 8 "
-                    "increments: give more --increments",
+        course_warn(&run->course, "an unknown error",
+                    "%s: its error is unknown, because a load was reached in fewer than 8 "
+                    "increments: give --increments 8 or more",
                     where);
     else if (!s->contact.converged && run->status == RC_OK && s->contact.pressure_error > goal(run))
         warn_of_part(run, where, s);
@@ -370,11 +374,10 @@ yield_judge(struct run *run, const char *where, const struct solution *s)
     f = &run->yielding.found->plastic;
     warn_of_slabs(run, where, f);
     if (s->patches.count > 0 && s->contact.contact_nodes < SPOT * s->patches.count)
-        course_warn(
-            &run->course, "what yields under a contact spot is not resolved",
-            "%s: %.0f nodes in a contact spot: with less than 6 in its radius what yields under "
-            "it is not resolved",
-            where, (double)s->contact.contact_nodes / (double)s->patches.count);
+        course_warn(&run->course, "the plastic zone of a contact spot is not resolved",
+                    "%s: a contact spot has %.0f nodes, and with a radius below 6 nodes its "
+                    "plastic zone is not resolved: take a finer grid",
+                    where, (double)s->contact.contact_nodes / (double)s->patches.count);
 }
 
 void
