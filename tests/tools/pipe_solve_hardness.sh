@@ -103,7 +103,7 @@ near "$(field hardness_max v.json)" 6.3460876e9 1e-7 "  in the report"
 near "$(field max_pressure v.json)" 6.3460876e9 1e-7 "  and is the bound"
 refuses 2 "Brinell's number is .*: give a pressure, as in 6GPa, or Vickers' number, as in 600HV" "Brinell's is refused" "press --mean-pressure 1GPa --hardness 200HB"
 refuses 2 "Rockwell's number is a depth" "Rockwell's too" "press --mean-pressure 1GPa --hardness 60HRC"
-claim "300 GPa for 3 GPa" warns 'the hardness given, 300 GPa, is above that: is its unit right' press --mean-pressure 5GPa --hardness 300GPa
+claim "300 GPa for 3 GPa" warns 'and --hardness, 300 GPa, is above that: is its unit right' press --mean-pressure 5GPa --hardness 300GPa
 
 # ---- the output in other tools ----
 

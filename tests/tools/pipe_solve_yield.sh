@@ -158,7 +158,7 @@ table() { # WORDS CLAIM POINTS: the table is refused as a wrong command line, be
     printf "$3" >bad.tsv
     refuses 2 "$1" "$2" "$base --periodic --yield bad.tsv absent.rcg"
 }
-table 'line 2: stress 1e.09 Pa: it must not fall' "a table that falls" '0 2GPa\n0.1 1GPa\n'
+table 'line 2: stress 1e.09 Pa: it must not be below 2e.09' "a table that falls" '0 2GPa\n0.1 1GPa\n'
 table 'line 1: plastic strain 0.01: the table must begin at 0' "a table that does not begin at 0" '0.01 2GPa\n'
 table 'line 3: plastic strain 0.1: it must be above 0.1' "a table whose strain stands still" '0 2GPa\n0.1 3GPa\n0.1 4GPa\n'
 table 'line 1: stress 0 Pa: it must be above 0' "a table without a yield stress" '0 0\n'

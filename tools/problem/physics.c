@@ -72,7 +72,7 @@ check_steps(struct tool *t, const struct physics *a)
                                          : "mean pressure");
         if (steps->v[k] == 0 && !a->history)
             tool_die(t, EXIT_USAGE, "--%s 0: it must be above 0%s", name,
-                     steps->n > 1 ? "(0 separates the bodies only in a --history)" : "");
+                     steps->n > 1 ? " (0 separates the bodies only in a --history)" : "");
         rises = rises && (k == 0 || steps->v[k] > steps->v[k - 1]);
     }
     if (!rises && !a->history)
