@@ -1,15 +1,13 @@
 /*
- * Bodies that attract each other, along a path: each state begins with the gap of the last, goes down to a
- * stationary point (gap.c), and is asked whether it is stable under the control in use (stability.c). A
- * saddle is left along its eigenvector. A small residual is not enough: at a saddle it is as small as
- * elsewhere.
+ * Bodies that attract each other, along a path. Each state starts from the gap of the last state and descends
+ * to a stationary point (gap.c). Then the smallest eigenvalue shows whether this point is stable under the
+ * present control (stability.c). The iteration leaves a saddle along its eigenvector. A small residual does
+ * not suffice, because it is also small at a saddle. The error of the pressure is about e/sqrt(mu), where e
+ * is the change by the next correction and mu the smallest eigenvalue: the preconditioner underestimates the
+ * response of soft modes. Where nodes yield, the error stays in their dents, and later states add theirs.
  *
- * The error of the pressure is some e/sqrt(mu), e what the next correction would change of it, mu the
- * smallest eigenvalue: soft modes answer more than the preconditioner takes for granted. Where nodes yield
- * it stays in their dents, and the states that follow add theirs.
- *
- * A retraction for the lowest load goes from state to state until the bodies have parted, and then again,
- * in smaller steps, from the state before the lowest to the one after it.
+ * A retraction goes from state to state until the bodies have separated. Then it repeats the interval from
+ * the state before the lowest load to the state after it in smaller steps.
  */
 #include "adhesion.h"
 
@@ -48,21 +46,21 @@ rc_adhesion_law_named(const char *name)
 /* ---- a path ---- */
 
 enum {
-    BELOW = 2,       /* states in a row whose error is below tol */
-    LEAVES = 20,     /* saddles that are left before a state is given up */
+    BELOW = 2,       /* successive states with an error below tol */
+    LEAVES = 20,     /* most saddles of a state */
     EIGEN_STEPS = 40 /* at most */
 };
 static const double nodes_default =
-    2; /* cohesive length, where the grid chooses the range          */
-static const double eigen_exact =
-    0.2;                            /* of the eigenvalue, its bound of error                      */
-static const double loosest = 1e-3; /* tol: farther off, an eigenvalue says nothing of a state */
-/* The error is at most 2 e/sqrt(mu), or, where soft modes have most of it, 1.25 e/mu, which, as all of it
- * is never theirs, is not followed below `soft`. */
+    2; /* nodes in the cohesive length if the grid determines the range */
+static const double eigen_exact = 0.2; /* accepted error of the eigenvalue, relative */
+static const double loosest = 1e-3;    /* largest tol: with a larger error the eigenvalue has no
+                                          meaning */
+/* The error is at most 2 e/sqrt(mu). If soft modes have most of it, the bound is 1.25 e/mu. It is not used
+ * below `soft`, because soft modes never have all of the error. */
 static const double safe = 2, safe_soft = 1.25, soft = 0.05;
-/* Of tol: dents are not mended by the states that follow, whose errors add up. */
+/* Fraction of tol, because the errors of dents stay and those of later states add up. */
 static const double yielding_part = 0.05;
-static const double single = 4e-6; /* what an eigenvalue in single precision may be off          */
+static const double single = 4e-6; /* error of an eigenvalue in single precision */
 
 enum stage {
     STAGE_NEW,
@@ -75,7 +73,7 @@ struct retraction {
     bool on;
     struct rc_retraction search;
     double *kept[RC_RETRACTION_KEPT]; /* gaps on the whole grid */
-    struct rc_adhesion_figures found; /* of the lowest          */
+    struct rc_adhesion_figures found; /* figures of the lowest state */
     size_t iterations, eigen_steps, jumps;
     double convolutions;
     double start; /* the shift of the first state */
@@ -87,24 +85,24 @@ struct rc_adhesion {
     struct rc_whole *whole;
     struct rc_gap gap;
     struct rc_adhesion_scales scales;
-    double *h;     /* over the length, less the largest                                */
+    double *h;     /* heights over the length, minus the largest height */
     double mean_h; /* their mean                                                       */
     double tol;
     size_t max_iterations;
     enum stage stage;
-    bool held; /* no control is set yet */
+    bool held; /* a gap is held, but no control is set yet */
     enum rc_gap_control control;
     double given;
-    size_t below; /* steps in a row with an error below tol */
+    size_t below; /* successive steps with an error below tol */
     size_t leaves, jumps;
-    bool unstable; /* the last step began where there was no stiffness */
-    double mu[3];  /* of the last state of each control, 0: none */
-    double way;    /* the least stiffness of a way down, near where the state ends */
+    bool unstable; /* the stiffness was negative at the start of the last step */
+    double mu[3];  /* eigenvalue of the last state of each control; 0: none */
+    double way;    /* the lowest stiffness along a descent, close to its end */
     struct rc_adhesion_past past;
-    double judged; /* the error when the eigenvalue was found; 0: it has not been */
+    double judged; /* the error when the eigenvalue was found; 0: not found yet */
     bool converged;
     bool separated;
-    bool fresh; /* figures are those of the state */
+    bool fresh; /* the figures belong to the present state */
     struct rc_adhesion_figures figures;
     struct retraction pull;
 };
@@ -127,16 +125,18 @@ refuse(const struct rc_shape *shape, const struct rc_adhesion_problem *problem, 
         return rc_err_set(err, "range of adhesion %g m: it must be positive and finite",
                           problem->range);
     if (problem->range > 0 && !law->info.ranged)
-        return rc_err_set(err,
-                          "the law '%s' takes its range from the grid: give none, or another law",
-                          law->info.name);
+        return rc_err_set(
+            err, "the law '%s' takes its range from the grid: give no range, or another law",
+            law->info.name);
     if (problem->range > side)
-        return rc_err_set(err, "range of adhesion %g m: beyond the map, whose longer side is %g m",
-                          problem->range, side);
+        return rc_err_set(
+            err, "range of adhesion %g m: it must be below the longer side of the map, %g m",
+            problem->range, side);
     if (c->ranks != NULL)
-        return rc_err_set(err, "contact with adhesion is not shared among processes");
+        return rc_err_set(
+            err, "contact with adhesion cannot share its maps among processes: take one process");
     if (c->tilt_free)
-        return rc_err_set(err, "with adhesion the counter body is not free to tilt");
+        return rc_err_set(err, "with adhesion the counter body cannot tilt");
     if (!(c->hardness >= 0))
         return rc_err_set(err, "hardness %g Pa: it must be positive", c->hardness);
     if (!(c->tol >= 0))
@@ -152,16 +152,14 @@ refuse_ways(const struct rc_problem *c, struct rc_err *err)
         if (engine == NULL)
             return rc_err_set(err, "there is no engine '%s'", c->engine);
         if (!engine->transforms)
-            return rc_err_set(
-                err,
-                "contact with adhesion needs the inverse of K, which engine '%s' does "
-                "not have: take the one that transforms",
-                c->engine);
+            return rc_err_set(err,
+                              "contact with adhesion needs the inverse of K, which engine '%s' "
+                              "does not have: take engine 'fft'",
+                              c->engine);
     }
     if (c->method != NULL && strcmp(c->method, "auto") != 0 && strcmp(c->method, "gap") != 0)
         return rc_err_set(err,
-                          "method '%s' knows no pressure that pulls: contact with adhesion is "
-                          "iterated by 'gap'",
+                          "method '%s' does not support adhesion: contact with adhesion uses 'gap'",
                           c->method);
     return RC_OK;
 }
@@ -185,13 +183,13 @@ attraction_of(const struct rc_shape *shape, const struct rc_adhesion_problem *pr
     law->law->set(law, diagonal);
     if (!(law->strength > 0) || isinf(law->steepest) || !(law->steepest > 0))
         return rc_err_set(err,
-                          "work of adhesion %g J/m2 over a range of %g m: beyond the numbers of a "
-                          "computer, beside E* %g Pa and nodes %g m apart",
+                          "work of adhesion %g J/m2 over a range of %g m: too large or too small "
+                          "for a computer, with E* %g Pa and a spacing of %g m",
                           problem->work, law->range * length, modulus, length);
     if (law->spread > 0 && law->steepest * diagonal >= 1)
         return rc_err_set(err,
-                          "the law '%s' over %g m falls to nothing within a node of this grid: "
-                          "nodes at most %g m apart, or a range of at least %g m, hold it",
+                          "the law '%s' over %g m falls to 0 within a node of this grid: take a "
+                          "spacing of at most %g m, or a range of at least %g m",
                           law->law->info.name, law->range * length,
                           0.5 * length / (law->steepest * diagonal),
                           law->law->range(law->work, nodes_default * node, diagonal) * length);
@@ -231,7 +229,8 @@ check_heights(const struct rc_adhesion *a, const double *h, struct rc_err *err)
     return RC_OK;
 }
 
-/* h: with the dents (NULL: none); approaches count from first touch without them. */
+/* Takes the heights h, which include the dents (NULL: none); approaches count from first touch without
+ * dents. */
 static void
 take_heights(struct rc_adhesion *a, const double *h, const double *dent)
 {
@@ -345,8 +344,8 @@ set(struct rc_adhesion *a, enum rc_gap_control control, double given)
     a->held = true;
 }
 
-/* The largest load that there is a state for: at its hardness a node carries that less the traction at gap
- * 0, or, where it is the smaller of the two, is drawn in, and carries nothing as long as it is apart. */
+/* The largest load that has a state. A node at its hardness carries the hardness minus the traction at gap 0.
+ * If this is negative, the traction pulls the node into contact, and while open it carries nothing. */
 static double
 most_load(const struct rc_adhesion *a)
 {
@@ -368,17 +367,17 @@ rc_adhesion_set_load(struct rc_adhesion *a, double load, struct rc_err *err)
     if (!isfinite(load))
         return rc_err_set(err, "load %g N: it must be finite", load);
     if (load > 0 && load >= most)
-        return rc_err_set(err,
-                          "load %.9g N: with every node at its hardness, less the traction at gap "
-                          "0, %.9g Pa, the map carries %.9g N: no solution exists; lower the load "
-                          "or raise the hardness",
-                          load, a->scales.strength, most);
+        return rc_err_set(
+            err,
+            "load %.9g N: with every node at its hardness and with the traction at gap 0, %.9g Pa, "
+            "the map carries only %.9g N: lower the load or raise the hardness",
+            load, a->scales.strength, most);
     a->pull.on = false;
     set(a, RC_GAP_LOAD, load / cell / a->whole->modulus / (double)a->gap.n);
     return RC_OK;
 }
 
-/* The control of an approach, over the length. */
+/* The shift for an approach, over the length. */
 static void
 set_shift(struct rc_adhesion *a, double c)
 {
@@ -405,8 +404,8 @@ rc_adhesion_set_approach(struct rc_adhesion *a, double approach, struct rc_err *
     return RC_OK;
 }
 
-/* The smallest eigenvalue, as far as is known: the iteration for it may have come to another mode, whose
- * softer neighbour the way down has most of. */
+/* The smallest known eigenvalue. Its iteration may have found another mode than the softest one; the
+ * stiffness along the descent then gives a lower value. */
 static double
 softest(const struct rc_adhesion *a)
 {
@@ -422,7 +421,7 @@ own_error(const struct rc_adhesion *a)
     return fmax(safe / sqrt(mu), safe_soft / fmax(mu, soft)) * a->gap.told.error;
 }
 
-/* What dents of earlier states may be off, over the pressures of this one. */
+/* The possible error from dents of earlier states, relative to the pressures of this state. */
 static double
 inherited_error(const struct rc_adhesion *a)
 {
@@ -461,8 +460,8 @@ begin(struct rc_adhesion *a)
     a->stage = STAGE_DOWN;
 }
 
-/* A step, and whether there was no stiffness where it began: from one stable state to the next there is
- * such a place only where the path between them has ended. */
+/* Takes a step, and counts a jump if the stiffness at its start was negative: on a path of stable states this
+ * happens only where the path has ended. */
 static void
 move(struct rc_adhesion *a)
 {
@@ -486,7 +485,8 @@ down(struct rc_adhesion *a)
         a->way = fmin(a->way, g->way.stiffness);
     }
     a->below = ends(a) ? a->below + 1 : 0;
-    if (a->judged > 0 && g->told.error > 10 * a->judged) { /* on the way to another place */
+    /* the iteration leaves this stationary point */
+    if (a->judged > 0 && g->told.error > 10 * a->judged) {
         a->judged = 0;
         a->way = INFINITY;
     }
@@ -574,12 +574,12 @@ copy_gap(const struct rc_adhesion *a, double *to, const double *from)
     memcpy(to, from, a->gap.n * sizeof *to);
 }
 
-/* The next state begins with this gap, which is that of c. */
+/* Makes the next state start from this gap, which belongs to c. */
 static void
 put_back(struct rc_adhesion *a, const double *gap, double c)
 {
     copy_gap(a, a->gap.x, gap);
-    a->gap.mode.known = false; /* its softest mode is another's */
+    a->gap.mode.known = false; /* its softest mode belongs to another gap */
     set_shift(a, c);
     a->gap.control = a->control;
     a->gap.given = a->given;
@@ -591,7 +591,8 @@ rc_adhesion_pull_off(struct rc_adhesion *a, struct rc_err *err)
     struct retraction *p = &a->pull;
 
     if (!a->past.begun)
-        return rc_err_set(err, "there is no state to begin a retraction with");
+        return rc_err_set(
+            err, "a retraction needs a state to start from: set a load or an approach first");
     for (size_t k = 0; k < RC_RETRACTION_KEPT; k++) {
         double *kept = p->kept[k] != NULL ? p->kept[k] : rc_alloc(a->gap.n, sizeof *kept);
         if (kept == NULL)
@@ -655,7 +656,7 @@ end_retraction(struct rc_adhesion *a)
     return converged ? RC_OK : RC_SHORT;
 }
 
-/* The next approach, or the end. */
+/* Sets the next approach, or ends. */
 static enum rc_status
 go_on(struct rc_adhesion *a)
 {
@@ -689,7 +690,7 @@ rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err)
     return status != RC_MORE && a->pull.on ? go_on(a) : status;
 }
 
-/* ---- what has been found ---- */
+/* ---- results ---- */
 
 #define FIGURE(member) RC_FIGURE(struct rc_adhesion_figures, member)
 const struct rc_figure rc_figures_adhesion[] = {
@@ -701,7 +702,7 @@ const struct rc_figure rc_figures_adhesion[] = {
     {FIGURE(stability), NULL, "Stability",
      .says = "smallest eigenvalue of the stiffness of the gap", .limit = 0.02, .least = true,
      .warning = "the state is about to jump"},
-    {FIGURE(jumps), NULL, "Jumps", .says = "places on the way where stable states ended"},
+    {FIGURE(jumps), NULL, "Jumps", .says = "places on the path where stable states ended"},
     {FIGURE(pull_off_load), "N", "Pull-off load", .says = "lowest load of the retraction"},
     {FIGURE(pull_off_approach), "m", "Approach at pull-off"},
     {FIGURE(pull_off_spread), "N", "Uncertainty of the pull-off load"},
@@ -732,8 +733,8 @@ enum {
     MOST = RC_GAP_MOST
 };
 
-/* Sums of a row: p, sigma, its area, nodes in contact, below 0, the gap. Largest: p, -p, violation,
- * correction of the gap. */
+/* Sums of a row: p, sigma, the area of sigma, nodes in contact, nodes below 0, the gap. Largest values: p,
+ * -p, violation, correction of the gap. */
 static void
 figures_row(void *ctx, size_t j, double *sums)
 {
@@ -887,9 +888,9 @@ rc_adhesion_progress(const struct rc_adhesion *a, struct rc_adhesion_progress *p
         .tol = a->tol};
 }
 
-/* ---- from an earlier path ---- */
+/* ---- start from an earlier path ---- */
 
-/* The state has this shift and the pressure `au`; the next one must be set. */
+/* Holds a state with this shift and the pressure `au`; the caller must then set the next one. */
 static void
 hold(struct rc_adhesion *a, double c)
 {
@@ -936,7 +937,7 @@ rc_adhesion_start(struct rc_adhesion *a, const double *pressure, double approach
             if (j >= g->ny || i >= g->nx)
                 continue;
             *x -= a->h[j * g->nx + i];
-            /* in contact, but for rounding; without a hardness nothing is below */
+            /* in contact within rounding; without a hardness no gap is negative */
             if ((*x < 0 && !g->yields) || (fabs(*x) < 1e-6 * g->law.range && p > -g->law.strength))
                 *x = 0;
         }
@@ -946,7 +947,7 @@ rc_adhesion_start(struct rc_adhesion *a, const double *pressure, double approach
     return RC_OK;
 }
 
-/* The displacement stays, and with it the pressure: the gap changes by what the heights do. */
+/* The displacement and the pressure stay; the gap changes by the change of the heights. */
 enum rc_status
 rc_adhesion_set_dented(struct rc_adhesion *a, const double *h, const double *dent,
                        struct rc_err *err)
@@ -1006,14 +1007,15 @@ rc_adhesion_keep_shape(struct rc_adhesion *a, double *h)
     }
 }
 
-/* ---- what it takes ---- */
+/* ---- cost ---- */
 
 enum rc_status
 rc_adhesion_expect(const struct rc_shape *shape, const struct rc_adhesion_problem *problem,
                    struct rc_expected *expected, struct rc_err *err)
 {
     struct rc_adhesion_scales scales;
-    const double bytes[] = {458, 121}; /* a node, measured on 1024 x 1024 nodes: free, periodic */
+    const double bytes[] = {458, 121}; /* bytes a node, measured on 1024 x 1024 nodes: free,
+                                          periodic */
     const double mapped = problem->contact.hardness_map != NULL ? sizeof(double) : 0;
     const int periodic = problem->contact.boundary == RC_PERIODIC;
     double nodes = (double)shape->nx * (double)shape->ny, padded = 1;

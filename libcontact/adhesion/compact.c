@@ -1,5 +1,6 @@
 /*
- * sigma = sigma(0) (1 - g/gc)^2 up to gc = 3 w/sigma(0), with its slope: smooth, with an end.
+ * sigma = sigma(0) (1 - g/gc)^2 up to gc = 3 w/sigma(0), where sigma and its slope are 0: a smooth law with a
+ * finite range.
  */
 #include "law.h"
 

@@ -1,10 +1,10 @@
 /*
- * sigma(0) up to the range w/sigma(0), then nothing (Maugis 1992). The jump is spread along a line whose
- * slope the grid can hold, about that range: w stays what it is.
+ * sigma(0) up to the range w/sigma(0), then 0 (Maugis 1992). A straight line, centred at this range, replaces
+ * the jump; the grid resolves its slope, and w does not change.
  */
 #include "law.h"
 
-/* The spread over what sigma(0) displaces a node, and its bounds over the range. */
+/* The spread relative to the displacement of a node by sigma(0), and its bounds relative to the range. */
 static const double nodes = 2, least = 0.05, most = 2;
 
 static void
@@ -16,8 +16,8 @@ set(struct rc_attraction *a, double diagonal)
     a->reach = a->range + a->spread / 2;
 }
 
-/* Its cohesive length is the grid's, unless the spread is at a bound: at the upper one, steepest = w /
- * (most range^2). */
+/* The grid determines the cohesive length, unless the spread is at a bound; at the upper bound, steepest = w
+ * / (most range^2). */
 static double
 range(double work, double cohesive, double diagonal)
 {
@@ -32,7 +32,8 @@ at(const struct rc_attraction *a, size_t n, const double *restrict g, double *re
     const double strength = a->strength, slope = strength / a->spread;
 
     for (size_t k = 0; k < n; k++) {
-        double x = fmin(g[k], last), rest = last - fmax(x, first); /* of the line */
+        /* the part of the line beyond the gap */
+        double x = fmin(g[k], last), rest = last - fmax(x, first);
         s[k] = slope * rest;
         v[k] = -slope * rest * rest / 2 + strength * (fmin(x, first) - first);
         d[k] = g[k] >= first && g[k] < last && g[k] >= 0 ? slope : 0;

@@ -1,13 +1,13 @@
 /*
- * sigma = (w/rho) exp(-g/rho): smooth, without an end.
+ * sigma = (w/rho) exp(-g/rho): a smooth law with an infinite range.
  */
 #include <stdint.h>
 #include <string.h>
 
 #include "law.h"
 
-/* exp(x) for -700 <= x <= 0, to 2 units in the last place, in a form of which compilers make wide
- * registers: x = k ln 2 + r, |r| <= ln(2)/2, and the series of r. */
+/* exp(x) for -700 <= x <= 0, to 2 units in the last place, in a form that compilers vectorise: x = k ln 2 +
+ * r, |r| <= ln(2)/2, and the series of exp(r). */
 static inline double
 exponential(double x)
 {

@@ -1,7 +1,7 @@
 /*
- * Projected nonlinear conjugate gradients on the gap, with K on the nodes off contact as preconditioner, in
- * single precision: (K A = 1, so that what is left to do is what contact and traction change.) A step costs
- * A d and K r, and A of what was clipped when a node has reached 0; along the direction Phi is known without
+ * Projected nonlinear conjugate gradients on the gap. The preconditioner is K on the nodes outside contact,
+ * in single precision: because K A = 1, it leaves only the effects of contact and traction. A step costs A d
+ * and K r, and, when a node has reached 0, A times the clipped part. Along the direction Phi is known without
  * a convolution.
  */
 #include "gap.h"
@@ -12,16 +12,16 @@
 #include "libcontact/memory.h"
 
 static const double clipped_anew =
-    0.02; /* part of the free nodes: when more come to 0, CG begins anew */
-static const double curvature = 0.05; /* of d'Ad, that a step assumes at least    */
+    0.02; /* part of the free nodes: if more reach 0 in a step, CG restarts */
+static const double curvature = 0.05; /* of d'A d: the least curvature that a step assumes */
 static const double shorter = 0.4;
-static const double single = 1e-6; /* of A d in single precision                         */
-static const double float_rounding = 1.2e-7; /* of the pressures of a step, L1 */
-static const double vanishing = 1e-12;       /* of the largest traction */
-static const double rounding = 4e-15;        /* of A u in double precision, L1 */
+static const double single = 1e-6;           /* error of A d in single precision */
+static const double float_rounding = 1.2e-7; /* error of the pressures of a step, L1 */
+static const double vanishing = 1e-12;       /* relative to the largest traction */
+static const double rounding = 4e-15;        /* error of A u in double precision, L1 */
 static const double fresh =
-    1e-4; /* when the error has come down to so much of what it was, A u is found anew */
-static const double exact = 1e-3; /* of the slope, that a line search leaves */
+    1e-4; /* when the error has fallen by this factor, A u is computed again */
+static const double exact = 1e-3; /* part of the slope that a line search may leave */
 enum {
     LINE = RC_GAP_LINE,
     NEWTON = 12,
@@ -50,15 +50,14 @@ hard_at(const struct rc_gap *g, size_t j, size_t i)
     return g->hards != NULL ? g->hards[j * g->nx + i] : g->hard;
 }
 
-/* Work on all rows of the grid: rows of these take the state, or the state and what they are to do with
- * it. */
+/* Applies a function to all rows of the grid; ctx is the state, or the state and a number. */
 static void
 rows(const struct rc_gap *g, rc_sums_work *work, void *ctx, double *sums)
 {
     rc_sums_rows(&g->sums, work, ctx, sums);
 }
 
-/* A row's work with a number: how far, or by how much. */
+/* The state and a number for a row function. */
 struct by {
     struct rc_gap *g;
     double a;
@@ -109,7 +108,7 @@ u_out(void *ctx, size_t j, void *from)
     return true;
 }
 
-/* A is blind to the mean where the load is given. */
+/* Under a given load A ignores the mean. */
 static void
 take_mean(const struct rc_gap *g, double *v, double mean)
 {
@@ -141,8 +140,8 @@ added(const struct rc_gap *g)
     return (g->control == RC_GAP_LOAD ? g->given : 0) - g->level;
 }
 
-/* r = A u + S + sigma, and its sum over nodes apart. What the traction takes from the stiffness of the last
- * state's softest mode, by the way. */
+/* Computes r = A u + S + sigma and its sum over open nodes; also the stiffness that the traction subtracts
+ * from the softest mode of the last state. */
 static void
 residual_row(void *ctx, size_t j, double *sums)
 {
@@ -173,8 +172,8 @@ residual_row(void *ctx, size_t j, double *sums)
     sums[1] += (double)(g->px - m);
 }
 
-/* Which nodes are held, and how many are not as they were; r becomes the negative residual of the others,
- * and 0 on these. */
+/* Finds the held nodes and counts the changes. r becomes the negative residual on free nodes, and 0 on held
+ * nodes. */
 static void
 hold_row(void *ctx, size_t j, double *sums)
 {
@@ -238,7 +237,7 @@ r_in(void *ctx, size_t j, void *to)
     return any;
 }
 
-/* Sums: r z, r z of the step before, z, and |z|. */
+/* Sums: r z, r times the z of the previous step, z, and |z|. */
 static bool
 z_out(void *ctx, size_t j, void *from)
 {
@@ -260,7 +259,7 @@ z_out(void *ctx, size_t j, void *from)
 
 /* ---- direction ---- */
 
-/* n numbers times `per`; false: all are 0. */
+/* Multiplies n numbers by `per`. Returns false if all are 0. */
 static bool
 to_single(const double *v, size_t n, double per, float *to)
 {
@@ -273,14 +272,14 @@ to_single(const double *v, size_t n, double per, float *to)
     return any;
 }
 
-/* A node at 0 only goes where its residual points. */
+/* True if a node at 0 must not move along d, because its residual points the other way. */
 static bool
 barred(const struct rc_gap *g, size_t at, bool map)
 {
     return map && g->x[at] == 0 && g->d[at] * g->r[at] < 0;
 }
 
-/* d = z + beta d within the bounds, less `a`: the mean of z, where it is to be 0. */
+/* d = z + beta d within the bounds, minus `a`: the mean of z if the mean of d must be 0. */
 static void
 direction_row(void *ctx, size_t j, double *sums)
 {
@@ -374,7 +373,7 @@ ad_out(void *ctx, size_t j, void *from)
     return true;
 }
 
-/* Changes that are nothing beside the traction are rounding. */
+/* Finds the error. Changes that are negligible compared with the traction are rounding. */
 static void
 find_error(struct rc_gap *g)
 {
@@ -386,7 +385,7 @@ find_error(struct rc_gap *g)
         g->told.error = g->told.size > 0 ? off / g->told.size + rounding : INFINITY;
 }
 
-/* d'A d; the error by the way. */
+/* Returns d'A d, and finds the error. */
 static double
 find_ad(struct rc_gap *g, double *mean_d)
 {
@@ -408,7 +407,7 @@ find_ad(struct rc_gap *g, double *mean_d)
 
 /* ---- along the direction ---- */
 
-/* Of V(x + a d) - V(x) - a sigma(x) d, (sigma(x + a d) - sigma(x)) d and D d^2, the sums; of |V| too. */
+/* Sums of V(x + a d) - V(x) - a sigma(x) d, of (sigma(x + a d) - sigma(x)) d, of D d^2, and of |V|. */
 static void
 line_row(void *ctx, size_t j, double *sums)
 {
@@ -455,7 +454,7 @@ clip_row(void *ctx, size_t j, double *sums)
     }
 }
 
-/* Where the mean is given: what clipping has added is taken from nodes apart. */
+/* For a given mean: subtracts the increase by clipping from the open nodes. */
 static void
 lower_row(void *ctx, size_t j, double *sums)
 {
@@ -495,7 +494,7 @@ step_in(void *ctx, size_t j, void *to)
     return to_single(g->step + j * g->px, g->px, 1 / g->way.unit, to);
 }
 
-/* A of the step; sums: its half with the step, A u with it, itself, the step. */
+/* A s for the step s; sums: s'A s/2, s'A u, A s, and s. */
 static bool
 step_out(void *ctx, size_t j, void *from)
 {
@@ -515,7 +514,7 @@ step_out(void *ctx, size_t j, void *from)
     return true;
 }
 
-/* What the step changes in V, and |V|. */
+/* Sums of the change of V by the step, and of |V|. */
 static void
 step_law_row(void *ctx, size_t j, double *sums)
 {
@@ -537,7 +536,7 @@ step_law_row(void *ctx, size_t j, double *sums)
     }
 }
 
-/* By how much Phi rises with `step`; finds a_step, and `moves`. */
+/* Returns the change of Phi by `step`; finds a_step and `moves`. */
 static double
 rise(struct rc_gap *g, double *least)
 {
@@ -579,7 +578,7 @@ take_whole_row(void *ctx, size_t j, double *sums)
     }
 }
 
-/* Phi along a d less that at 0, its slope, and its curvature, from `line` and what is known without. */
+/* Phi along a d minus Phi at a = 0, its slope and its curvature. */
 struct line {
     double rd, q; /* r'd, d'A d */
     double phi, slope, bend, rounding;
@@ -597,14 +596,15 @@ look(struct rc_gap *g, struct line *l, double a)
     l->rounding = 1e-14 * (sums[3] + a * a * l->q);
 }
 
-/* bend: that at 0. */
+/* The stiffness along d, with the curvature `bend` at a = 0. */
 static double
 way_of(const struct rc_gap *g, const struct line *l)
 {
     return g->way.dwd > 0 ? l->bend / g->way.dwd : INFINITY;
 }
 
-/* The minimum along d, by Newton's method from 0, kept between slopes of either sign once there are such. */
+/* The minimum along d by Newton's method from a = 0. Once slopes of both signs are known, the iterates stay
+ * between them. */
 static double
 line_minimum(struct rc_gap *g, struct line *l, double most)
 {
@@ -633,7 +633,7 @@ line_minimum(struct rc_gap *g, struct line *l, double most)
     return a;
 }
 
-/* Takes the step of a d, shortened until Phi does not rise. */
+/* Takes the step a d, shortened until Phi does not rise. */
 static void
 go(struct rc_gap *g, struct line *l, double a)
 {
@@ -674,7 +674,7 @@ largest_row(void *ctx, size_t j, double *sums)
         sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], fabs(g->d[j * g->px + i]));
 }
 
-/* The longest step before a node that is apart comes to 0. */
+/* The largest step before an open node reaches 0. */
 static void
 reach_row(void *ctx, size_t j, double *sums)
 {
@@ -686,8 +686,9 @@ reach_row(void *ctx, size_t j, double *sums)
             sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], -x[i] / d[i]);
 }
 
-/* Under a load nothing else bounds a step that is alike everywhere: drawn apart it is not to leap over what
- * holds, and pressed together it ends where the last of them meet. */
+/* The longest step under a given load, where a uniform motion has no other bound. If the bodies separate,
+ * the step must not pass over the range of the attraction; if they approach, it ends where the last node
+ * touches. */
 static double
 longest(struct rc_gap *g)
 {
@@ -762,15 +763,15 @@ refresh(struct rc_gap *g)
     g->told.fresh = g->told.error;
 }
 
-/* Whether most of the error is that of A u in single precision. */
+/* True if most of the error comes from A u in single precision. */
 static bool
 drifted(const struct rc_gap *g)
 {
     return g->told.drift > 10 * g->told.change;
 }
 
-/* d'W d, W the inverse of K on the nodes that are not held, from r'z = z'W z and r = W z; NAN where nodes
- * have been held or let go since the last direction. */
+/* Computes d'W d, where W is the inverse of K on the free nodes, from r'z = z'W z and r = W z. NAN if the set
+ * of free nodes has changed since the last direction. */
 static void
 measure_way(struct rc_gap *g, double rz)
 {
@@ -804,7 +805,7 @@ rc_gap_look(struct rc_gap *g)
         g->way.dad = find_ad(g, &g->way.mean);
         return;
     }
-    if (g->told.drift > 0) { /* the residual is rounding: is it that of A u? */
+    if (g->told.drift > 0) { /* the residual is rounding, perhaps of A u: compute A u again */
         refresh(g);
         g->way.restart = true;
         return;
@@ -824,7 +825,7 @@ rc_gap_move(struct rc_gap *g)
     if (g->stuck || !(g->way.rd > 0))
         return;
     go(g, &line, line_minimum(g, &line, longest(g)));
-    if (g->stuck && drifted(g)) { /* not before A u is as it is */
+    if (g->stuck && drifted(g)) { /* first compute A u again */
         refresh(g);
         g->way.restart = true;
         g->stuck = false;
@@ -872,7 +873,7 @@ rc_gap_apart(struct rc_gap *g, double clearance)
     g->mode.known = false;
 }
 
-/* The map's nodes that are apart and those beyond it move by `a`. */
+/* Moves the open nodes of the map, and the nodes beyond the map, by `a`. */
 static void
 shift_row(void *ctx, size_t j, double *sums)
 {
@@ -896,7 +897,7 @@ shift(struct rc_gap *g, double a)
     double sums[RC_GAP_SUMS];
 
     rows(g, shift_row, &by, sums);
-    if (g->control == RC_GAP_MEAN && sums[2] == 0) { /* no node is apart, which would move */
+    if (g->control == RC_GAP_MEAN && sums[2] == 0) { /* no node is open, so that none would move */
         for (size_t k = 0; k < g->n; k++)
             g->x[k] = g->given;
         return;
@@ -927,7 +928,7 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
     double c = rc_gap_shift(g), sums[RC_GAP_SUMS];
 
     g->mode.watched = g->mode.known && g->mode.mu > 0 && control == g->control;
-    if (g->mode.watched) { /* of the softest mode without the traction */
+    if (g->mode.watched) { /* stiffness of the softest mode without the traction */
         rows(g, residual_row, g, sums);
         g->mode.stiffness = g->mode.mu + sums[2];
     }
@@ -937,7 +938,7 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
         shift(g, c - given);
     if (control == RC_GAP_MEAN)
         shift(g, 0);
-    /* of the mean of the grid: what it lacks to twice the largest; else K has it as it is */
+    /* under a load, lifts the factor of the mean to twice the largest factor; otherwise K has the mean */
     g->lift = control == RC_GAP_LOAD ? (2 * g->whole->most - g->whole->mean) : 0;
     g->level = 0;
     g->way.restart = true;

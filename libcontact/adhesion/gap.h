@@ -1,15 +1,16 @@
 /*
- * The iteration for the gap, and the stability of what it finds. Internal: never installed.
+ * The iteration for the gap, and the stability of its result. Internal: never installed.
  *
- * Unknown is x on the whole grid: on the map the gap g = u - h - c >= 0, beyond it u - c, free. Wanted is a
- * stationary point, downhill from where it begins, of
+ * The unknown is x on the whole grid. On the map x is the gap g = u - h - c >= 0; beyond the map x = u - c is
+ * unconstrained. The iteration descends from its start to a stationary point of
  *
  *     Phi(x) = 1/2 u'A u + sum of V(g) over the map,    u = x + h + c,  h = 0 beyond the map
  *
- * with c given; or with the load given, where A is blind to the mean and S sum x is added, S the load over
- * the cell and the nodes of the grid; or, where the map repeats, with the mean of x given. Then p = A u (+ S;
- * less its mean over the nodes apart of A u + sigma) is the net pressure, and p + sigma that of the contact,
- * >= 0 where g = 0 and nothing elsewhere. Units are those of struct rc_whole.
+ * if c is given. If the load is given, A ignores the mean and Phi contains S sum x as well, where S is the
+ * load over the area of a cell and the number of nodes of the grid. On a periodic map the mean of x may be
+ * given instead. Then p = A u is the net pressure (plus S for a given load; minus the mean of A u + sigma
+ * over open nodes for a given mean). p + sigma is the pressure of the contact: >= 0 where g = 0, and 0
+ * elsewhere. Units are those of struct rc_whole.
  */
 #ifndef RC_GAP_H
 #define RC_GAP_H
@@ -18,103 +19,107 @@
 #include "libcontact/operator/operator.h"
 
 enum rc_gap_control {
-    RC_GAP_SHIFT, /* c given: free */
-    RC_GAP_MEAN,  /* mean gap given: periodic */
+    RC_GAP_SHIFT, /* c is given; free boundary */
+    RC_GAP_MEAN,  /* the mean gap is given; periodic boundary */
     RC_GAP_LOAD
 };
 
 enum {
-    RC_GAP_MOST = 12, /* from here on the largest numbers of the rows count, before it their sums */
+    RC_GAP_MOST = 12, /* from here on the largest values of the rows, before it their sums */
     RC_GAP_SUMS = 16,
     RC_GAP_FLOATS = 9, /* maps of the softest mode */
-    RC_GAP_LINE = 512  /* nodes of a row that a law is asked for together, at most */
+    RC_GAP_LINE = 512  /* most nodes of a row in one call of a law */
 };
 
-/* The direction d of the next step, z + beta times the last one. W is that of stability.c, and so is the
- * bound `stiffness` of its smallest eigenvalue; dwd NAN, stiffness INFINITY: not known. */
+/* The direction d of the next step, z + beta times the last one. W is defined in stability.c; `stiffness`
+ * bounds the smallest eigenvalue from above. dwd NAN, stiffness INFINITY: unknown. */
 struct rc_gap_way {
     double rz, beta, rd, dad, dwd; /* r'z, beta, r'd, d'A d, d'W d                         */
-    double mean, unit;             /* of d on the grid; its largest number                 */
+    double mean, unit;             /* mean of d on the grid; its largest value */
     double stiffness;              /* d'(A - D) d over d'W d                               */
-    bool same, whole;              /* as before the same nodes are held; all others move   */
-    bool restart;                  /* the next one has beta 0                              */
+    bool same, whole;              /* the held nodes have not changed; all other nodes move */
+    bool restart;                  /* the next direction has beta 0 */
 };
 
-/* What the pressure is off, L1. */
+/* The error of the pressure, L1. */
 struct rc_gap_told {
     double error,
-        fresh;    /* |A z| over |p|, with drift; the same when A u was found, INFINITY: not yet */
-    double drift; /* of A u since then: steps add to it in single precision                     */
+        fresh;    /* |A z| over |p|, with drift; the same when A u was computed, INFINITY: not
+                     yet */
+    double drift; /* error of A u since then, because steps add to it in single precision */
     double size,
         change;   /* |p|, |A z|                                                                 */
-    double moves; /* |A d| of a step                                                            */
+    double moves; /* |A d| of a step */
 };
 
 /* The softest mode of the last state, by stability.c. */
 struct rc_gap_mode {
-    float *
-        e[RC_GAP_FLOATS]; /* x, K^-1 x, (A - D) x; the same of its residual and of its way        */
-    double mu, error;     /* smallest eigenvalue, and how far one is at most                      */
-    double stiffness;     /* of that of the state before, if nothing pulled                       */
-    bool known, watched;  /* e[1] holds it; e[0] that of the state before, of this control        */
+    float *e[RC_GAP_FLOATS]; /* x, K^-1 x, (A - D) x; the same for its residual and for its last
+                                step */
+    double mu, error;        /* smallest eigenvalue, and bound of its error */
+    double stiffness;        /* stiffness of the mode of the previous state without attraction */
+    bool known, watched;     /* e[1] holds the mode; e[0] the mode of the previous state with this
+                                control */
     size_t steps;
 };
 
-/* Where a state began. */
+/* The start of a state. */
 struct rc_gap_from {
-    float *x, *slope; /* and the slope of Phi there */
-    double fall;      /* of Phi since               */
+    float *x, *slope; /* x, and the slope of Phi there */
+    double fall;      /* decrease of Phi since the start */
 };
 
 struct rc_gap {
     struct rc_whole *whole;
     struct rc_attraction law;
-    size_t nx, ny, px, py, n; /* of the map, of the grid; nodes of the grid */
+    size_t nx, ny, px, py, n; /* columns and rows of the map and of the grid; nodes of the grid */
     const double *h;          /* nx ny                                                 */
     double hard;              /* bound of p + sigma; INFINITY: none                    */
-    double *hards;            /* nx ny, instead of it; NULL: one for all               */
+    double *hards;            /* nx ny bounds in place of `hard`; NULL: the same for all nodes */
     bool yields;              /* some node has such a bound                            */
     enum rc_gap_control control;
     double given; /* c, the mean of x, or S                                */
-    /* x, A u, residual, its correction K r, direction, A of that; room for a step */
+    /* x, A u, residual, its correction K r, direction d, A d; memory for a step */
     double *x, *au, *r, *z, *d, *ad, *step;
-    double *a_step;       /* A of a step: the room of r, which the next look finds anew */
+    double *a_step;       /* A times a step, in the memory of r, which is computed again */
     unsigned char *off;   /* 1: held at 0; on the whole grid                       */
-    struct rc_sums sums;  /* of the rows of the grid                               */
-    double level;         /* what is taken from A u + S to make p                  */
-    double lift;          /* of the preconditioner at the mean                     */
-    double scale, mean_r; /* of the residual: the largest, the mean                */
+    struct rc_sums sums;  /* sums over the rows of the grid */
+    double level;         /* p is A u + S minus this */
+    double lift;          /* factor of the preconditioner for the mean */
+    double scale, mean_r; /* the largest residual, and the mean residual */
     size_t free;          /* nodes not held                                        */
     struct rc_gap_way way;
     struct rc_gap_told told;
     struct rc_gap_mode mode;
     struct rc_gap_from from;
-    bool negative; /* stiffness there was negative, of its direction or of the softest mode */
-    bool stuck;    /* no step goes down any more                            */
-    bool parting;  /* drawn apart, with nothing left to hold                */
+    bool negative; /* the stiffness at the start was negative, along the direction or in the
+                      softest mode */
+    bool stuck;    /* no step lowers Phi any more */
+    bool parting;  /* the bodies separate without remaining attraction */
     double convolutions;
     size_t iterations;
 };
 
-/* RC_FAIL when memory is short; rc_gap_free in either case. h, hards: nx ny, of the caller's, who keeps h;
- * hards is taken over. */
+/* RC_FAIL if memory is short; call rc_gap_free in either case. h, hards: nx ny numbers of the caller. rc_gap
+ * takes over hards, but not h. */
 enum rc_status rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction *law,
                           const double *h, double hard, double *hards, struct rc_err *err);
 void rc_gap_free(struct rc_gap *g);
 
 /* Undeformed bodies, `clearance` apart at the highest node. */
 void rc_gap_apart(struct rc_gap *g, double clearance);
-/* A control, and the state it begins with: the gap there is, shifted. */
+/* Sets a control; the state starts from the present gap, shifted. */
 void rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given);
-/* The way down from here, and with it what the pressure is off; and a step along it. */
+/* rc_gap_look finds the direction of descent and the error of the pressure; rc_gap_move takes a step along
+ * the direction. */
 void rc_gap_look(struct rc_gap *g);
 void rc_gap_move(struct rc_gap *g);
 /* Finds way.stiffness without a step. */
 void rc_gap_look_along(struct rc_gap *g);
-/* Whether the straight way from where the state began leads over a place that is not convex: Phi has fallen
- * by more than its slope there allows. */
+/* True if the straight line from the start of the state crosses a region where Phi is not convex: Phi has
+ * fallen by more than its slope at the start allows. */
 bool rc_gap_jumped(struct rc_gap *g);
-/* c of the state: the mean of u less that of x and h. */
+/* c of the state: the mean of u minus the means of x and h. */
 double rc_gap_shift(const struct rc_gap *g);
 /* p of node k of the grid. */
 static inline double
@@ -134,8 +139,7 @@ rc_gap_on_map(const struct rc_gap *g, size_t j)
 /* V, sigma and D at n <= RC_GAP_LINE gaps of row j from node i on, with the hardness. */
 void rc_gap_law(const struct rc_gap *g, size_t j, size_t i, size_t n, const double *gap, double *v,
                 double *s, double *d);
-/* Down from here along d, whose largest number is way.unit and which is to be a way of less than no
- * curvature. */
+/* Descends along d, a direction of negative curvature, whose largest value is way.unit. */
 void rc_gap_down(struct rc_gap *g, double first);
 
 /* ---- stability.c ---- */
@@ -144,7 +148,7 @@ void rc_gap_down(struct rc_gap *g, double first);
  * step of a locally optimal conjugate gradient iteration (Knyazev 2001). */
 void rc_gap_eigen_begin(struct rc_gap *g);
 void rc_gap_eigen_step(struct rc_gap *g);
-/* Leaves a saddle along the eigenvector, downhill. */
+/* Leaves a saddle along the eigenvector, in the direction that lowers Phi. */
 void rc_gap_leave(struct rc_gap *g);
 
 #endif

@@ -1,5 +1,5 @@
 /*
- * The exponential law over the shortest range that the grid resolves: where only the work matters.
+ * The exponential law over the shortest range that the grid resolves, for use if only the work matters.
  */
 #include "law.h"
 

@@ -9,24 +9,24 @@
 
 #include "libcontact/common.h"
 
-/* A law with its numbers. V' = sigma, V(0) = -work, V(inf) = 0; D = -sigma' >= 0. */
+/* A law with its parameters. V' = sigma, V(0) = -work, V(inf) = 0; D = -sigma' >= 0. */
 struct rc_attraction {
     const struct rc_adhesion_law *law;
     double work, range;
     double strength; /* sigma(0)                                    */
     double steepest; /* the largest D                               */
-    double reach;    /* beyond it sigma is 0, but for rounding      */
-    double spread;   /* over which a jump of sigma has been spread  */
+    double reach;    /* beyond it sigma is 0 within rounding */
+    double spread;   /* length over which a jump of sigma is spread */
 };
 
 struct rc_adhesion_law {
     struct rc_adhesion_law_info info;
-    /* strength, steepest, reach and spread from work and range; `diagonal`: the displacement of a node
-     * under unit pressure on its own cell. */
+    /* Computes strength, steepest, reach and spread from work and range; `diagonal`: the displacement of a
+     * node under unit pressure on its own cell. */
     void (*set)(struct rc_attraction *a, double diagonal);
-    /* The range for which 1/steepest, the cohesive length, is this. */
+    /* The range for which the cohesive length, 1/steepest, has this value. */
     double (*range)(double work, double cohesive, double diagonal);
-    /* V, sigma and D at n gaps. Below 0, sigma stays what it is at 0, and D is 0. */
+    /* V, sigma and D at n gaps. For gaps below 0, sigma is sigma(0) and D is 0. */
     void (*at)(const struct rc_attraction *a, size_t n, const double *restrict g,
                double *restrict v, double *restrict s, double *restrict d);
 };
@@ -35,7 +35,7 @@ struct rc_adhesion_law {
 #include "laws.list"
 #undef RC_ADHESION_LAW
 
-/* The law of that name, NULL being the first; NULL when there is none. */
+/* The law of this name (NULL: the first law); NULL if there is none. */
 const struct rc_adhesion_law *rc_adhesion_law_named(const char *name);
 
 #endif

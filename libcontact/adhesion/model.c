@@ -15,9 +15,9 @@ struct adhesive {
     struct rc_adhesion_problem problem;
     size_t n;
     double *h;                /* m: present heights                                               */
-    double *dent;             /* m: these less the undeformed heights; NULL: none                 */
+    double *dent;             /* m: present minus undeformed heights; NULL: no dents */
     struct rc_adhesion *path; /* NULL: no point so far                                            */
-    bool started;             /* the path was stepped: its pressure is that of a state            */
+    bool started;             /* the path was stepped, so that its pressure belongs to a state */
     bool pulls;               /* the point is a retraction                                        */
     bool again;               /* a state was read: the next step sets the point                   */
     bool returns;             /* the state at the last kept point is being read                   */
@@ -44,7 +44,7 @@ static const struct rc_frame_kind frames[] = {
 
 /* ---- verbs ---- */
 
-/* The path takes the present heights. Errors of the dents stay. */
+/* Gives the path the present heights. The errors of the dents stay. */
 static enum rc_status
 pass_heights(struct adhesive *a, struct rc_err *err)
 {
@@ -112,7 +112,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     struct rc_adhesion_figures *f = &a->figures.adhesion;
 
     if (a->path == NULL)
-        return rc_err_set(err, "there is no point to look at");
+        return rc_err_set(err, "there are no figures before the first point");
     *f = *rc_adhesion_result(a->path);
     a->figures.contact = (struct rc_contact){.load = f->load,
                                              .mean_pressure = f->mean_pressure,
@@ -153,7 +153,7 @@ keep(struct rc_model *m, struct rc_err *err)
     if (a->figures.adhesion.plastic_nodes == 0)
         return RC_OK;
     if (a->dent == NULL && (a->dent = calloc(a->n, sizeof *a->dent)) == NULL)
-        return rc_err_set(err, "out of memory for the shape that is left");
+        return rc_err_set(err, "out of memory for the shape after yield");
     for (size_t k = 0; k < a->n; k++)
         a->dent[k] -= a->h[k];
     rc_adhesion_keep_shape(a->path, a->h);
@@ -168,7 +168,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     struct adhesive *a = (struct adhesive *)m;
 
     if (!a->looked)
-        return rc_err_set(err, "frames are those of a point that was looked at");
+        return rc_err_set(err, "call rc_model_look before reading a frame");
     if (frame == RC_FRAME_PRESSURE)
         rc_adhesion_pressure(a->path, to);
     else if (frame == RC_FRAME_DISPLACEMENT)
@@ -178,13 +178,13 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     else
         rc_adhesion_gap(a->path, to);
     for (size_t k = 0; k < a->n && frame == RC_FRAME_CONTACT; k++)
-        to[k] = to[k] > 0 ? 0 : 1; /* the net pressure does not tell */
+        to[k] = to[k] > 0 ? 0 : 1; /* the net pressure does not determine the contact */
     for (size_t k = 0; k < a->n && frame == SHAPE; k++)
         to[k] = a->h[k] + fmin(to[k], 0);
     return RC_OK;
 }
 
-/* The dents are added to the new heights. */
+/* Adds the dents to the new heights. */
 static enum rc_status
 set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 {
@@ -219,7 +219,7 @@ read_dent(struct adhesive *a, struct rc_state *s, bool some)
     free(a->dent);
     a->dent = now;
     if (rc_state_reads(s) && differ && pass_heights(a, &err) != RC_OK)
-        rc_state_refuse(s, "its shape is impossible");
+        rc_state_refuse(s, "its shape is not finite");
 }
 
 /* The path starts from this net pressure and approach. */
@@ -242,11 +242,11 @@ read_path(struct adhesive *a, struct rc_state *s, double approach,
     free(p);
 }
 
-/* The state at the last kept point: from there a retraction, or a separation, is gone through again. */
+/* Reads the state at the last kept point, from which a retraction or a separation is repeated. */
 static void
 read_start(struct adhesive *a, struct rc_state *s)
 {
-    struct rc_err err = {"its start is missing"};
+    struct rc_err err = {"the state at its start is missing"};
 
     if (a->returns) {
         rc_state_refuse(s, err.text);
@@ -258,8 +258,8 @@ read_start(struct adhesive *a, struct rc_state *s)
     a->returns = false;
 }
 
-/* A state holds the dents, the approach and the net pressure. On a retraction, and where the bodies have
- * separated, it is the state at the last kept point. */
+/* A state holds the dents, the approach and the net pressure. During a retraction, and if the bodies have
+ * separated, it holds the state at the last kept point. */
 static void
 state(struct rc_model *m, struct rc_state *s)
 {
@@ -274,7 +274,7 @@ state(struct rc_model *m, struct rc_state *s)
     begun = past.begun;
     rc_state_count(s, &anew, 1);
     if (rc_state_reads(s) && m->moved && m->status != RC_FAIL)
-        m->status = RC_MORE; /* a step tells whether it is the solution */
+        m->status = RC_MORE; /* the next step decides whether it is the solution */
     if (anew) {
         if (rc_state_reads(s))
             read_start(a, s);

@@ -1,17 +1,17 @@
 /*
  * The lowest load of a retraction, in up to three stages.
  *
- * Coarse: from state to state until what attracts is less than the lowest load so far. Gaps only grow, so
- * that no later load is lower than minus the attraction. On a path without jumps the load is convex over
- * the approach as long as it falls, for contact goes and stiffness with it.
+ * Coarse: from state to state until the attraction is less than minus the lowest load so far. Gaps only grow,
+ * so that no later load is below minus the attraction. On a path without jumps the falling load is a convex
+ * function of the approach, because contact and stiffness decrease.
  *
- * Fine, where it is not: once more, from the state before the first way that may hide a lower load.
- * Between jumps the load falls no faster than the stiffness of the contact, so that a way is as long as
- * it takes at least to the lowest load that is known; and one that has jumped is halved until it hides
- * nothing that counts.
+ * Fine, if the load is not convex: repeats the path from the state before the first step that may hide a
+ * lower load. Between jumps the load falls no faster than the stiffness of the contact allows. A step is
+ * therefore as long as the load needs at least to fall below the lowest known one. A step with a jump is
+ * halved until it cannot hide a relevant load.
  *
- * Vertex, where the path is smooth about the lowest: by the parabola through it and its neighbours, until
- * the load there stays.
+ * Vertex, if the path is smooth near the lowest load: the minimum of the parabola through it and its
+ * neighbours, repeated until the load does not change.
  */
 #include "retraction.h"
 
@@ -21,19 +21,17 @@
 
 enum {
     STATES = 600, /* at most          */
-    FINE = 3,     /* fine stages, at most */
+    FINE = 3,     /* most fine stages */
     VERTICES = 5  /* at most          */
 };
-static const double load_step =
-    0.3; /* of the attraction: by how much a step lowers the load             */
-static const double growth = 1.5;     /* of a step from the last, as the load falls               */
-static const double growth_after = 2; /* as it rises                                              */
-static const double fine_step = 0.05; /* of the lowest load: a fine step hides as much            */
-static const double settled = 1e-3;   /* of the lowest load: what does not count                  */
-static const double unsteady = 1.5; /* change of the rate of attraction that is taken for a jump */
-static const double convex = 1.1;   /* growth of the slope that a path without jumps cannot have */
-static const double least_step =
-    1e-6; /* of the range                                             */
+static const double load_step = 0.3;   /* part of the attraction by which a step lowers the load */
+static const double growth = 1.5;      /* growth of a step over the last one while the load falls */
+static const double growth_after = 2;  /* the same while the load rises */
+static const double fine_step = 0.05;  /* of the lowest load: a fine step may hide so much */
+static const double settled = 1e-3;    /* of the lowest load: smaller differences do not count */
+static const double unsteady = 1.5;    /* change of the rate of attraction that counts as a jump */
+static const double convex = 1.1;      /* a larger growth of the slope means a jump */
+static const double least_step = 1e-6; /* relative to the range */
 
 void
 rc_retraction_begin(struct rc_retraction *r, double work, double range, double parted)
@@ -48,9 +46,9 @@ rc_retraction_begin(struct rc_retraction *r, double work, double range, double p
                                 .estimate = INFINITY};
 }
 
-/* ---- what a way may hide ---- */
+/* ---- loads hidden between two states ---- */
 
-/* Whether what attracts has changed on the way from m to r by far more than at this rate. */
+/* True if the attraction has changed from m to r by far more than at this rate. */
 static bool
 has_jumped(double rate, const struct rc_retraction_state *m, const struct rc_retraction_state *r)
 {
@@ -58,7 +56,8 @@ has_jumped(double rate, const struct rc_retraction_state *m, const struct rc_ret
            unsteady * fabs(rate * (m->c - r->c)) + settled * m->attraction;
 }
 
-/* The lowest of the parabola through three states, and where; that of m where it has none between them. */
+/* The minimum of the parabola through three states, and its place. If the minimum is not between them: the
+ * load of m. */
 static double
 vertex(const struct rc_retraction_state *l, const struct rc_retraction_state *m,
        const struct rc_retraction_state *r, double *at, double *bend_of)
@@ -78,15 +77,15 @@ vertex(const struct rc_retraction_state *l, const struct rc_retraction_state *m,
     return m->load + slope * (c - m->c) + bend * (c - m->c) * (c - m->c);
 }
 
-/* At most, of the load as far as the path does not jump: the flat circular punch of this area has the least
- * stiffness, and several spots what they were seen to have. */
+/* An upper bound of the slope of the load on a path without jumps. The flat circular punch with this area has
+ * the lowest stiffness; several spots have at most the largest stiffness seen so far. */
 static double
 stiffness(const struct rc_retraction *r, const struct rc_retraction_state *s)
 {
     return fmax(2 * s->radius, r->stiffness);
 }
 
-/* The lowest load that the way from the last state to this one may hide. */
+/* The lowest load that may occur between the last state and this one. */
 static double
 hidden(const struct rc_retraction *r, const struct rc_retraction_state *here, bool jumped)
 {
@@ -116,7 +115,7 @@ counts(const struct rc_retraction *r, double load)
 
 /* ---- the states ---- */
 
-/* One that is free, of those that are kept. */
+/* A free place among the kept states. */
 static int
 free_one(const struct rc_retraction *r)
 {
@@ -127,7 +126,7 @@ free_one(const struct rc_retraction *r)
     return RC_RETRACTION_HERE;
 }
 
-/* A state in the order of the retraction, and what the way to it may hide. */
+/* Notes a state in the order of the retraction, and the load that may be hidden before it. */
 static void
 note(struct rc_retraction *r, struct rc_retraction_state here, double hides)
 {
@@ -163,7 +162,7 @@ note(struct rc_retraction *r, struct rc_retraction_state here, double hides)
     r->last = here;
 }
 
-/* A state where the parabola is lowest, between the one before the lowest and that after it. */
+/* Notes a state at the minimum of the parabola, between the neighbours of the lowest state. */
 static void
 note_vertex(struct rc_retraction *r, struct rc_retraction_state here)
 {
@@ -190,11 +189,11 @@ note_vertex(struct rc_retraction *r, struct rc_retraction_state here)
     }
 }
 
-/* ---- ways ---- */
+/* ---- steps ---- */
 
-/* The way on from a state: to a load that is lower by part of what holds, as far as the slope tells. What
- * holds is at most the attraction, and no more than it takes to open a round crack about the contact: of a
- * sphere in the limit of short ranges the lowest load is a quarter of sqrt(8 pi E* w a^3) at no load. */
+/* The coarse step from a state. By the present slope, the load falls by a part of the holding force. This
+ * force is at most the attraction, and at most the force that opens a circular crack around the contact: for
+ * a sphere in the limit of short ranges the lowest load is a quarter of sqrt(8 pi E* w a^3) at load 0. */
 static double
 coarse_way(const struct rc_retraction *r, const struct rc_retraction_state *here)
 {
@@ -208,11 +207,11 @@ coarse_way(const struct rc_retraction *r, const struct rc_retraction_state *here
     if (here->slope <= 0)
         return growth_after * r->step;
     if (here->slope < r->stiffest / 4)
-        return r->step; /* near a lowest */
+        return r->step; /* near a minimum */
     return fmin(way, growth * r->step);
 }
 
-/* As far as it takes, at least, to where the load is lower than any that is known. */
+/* The fine step: as far as the load needs at least to fall below the lowest known one. */
 static double
 fine_way(const struct rc_retraction *r, const struct rc_retraction_state *here)
 {
@@ -240,7 +239,7 @@ go_on(struct rc_retraction *r)
     return true;
 }
 
-/* Nothing later is lower. */
+/* True if no later load is lower. */
 static bool
 is_over(struct rc_retraction *r, const struct rc_retraction_state *here)
 {
@@ -255,7 +254,7 @@ is_over(struct rc_retraction *r, const struct rc_retraction_state *here)
 
 /* ---- stages ---- */
 
-/* Again from this state on, at most to the end of what may hide a lower load. */
+/* Repeats the path from this state, at most to the end of the last step that may hide a lower load. */
 static bool
 begin_fine(struct rc_retraction *r, struct rc_retraction_state from, double step)
 {
@@ -281,19 +280,19 @@ end(struct rc_retraction *r, double load, double at, double spread)
     return false;
 }
 
-/* On a grid that hardly holds the law the load over the approach is a saw: it falls with the stiffness of
- * the contact, and leaps up where a node lets go, so that the lowest that was found is that of one tooth.
- * Two states beside it tell, where the parabola of the coarse stage is higher by what settles it, at
- * distances of no simple ratio. Where they are off the parabola six more look for the height of the teeth.
- * Far above them the bodies have jumped: that is no tooth. */
+/* On a grid that barely resolves the law, the load over the approach is a saw: it falls with the stiffness of
+ * the contact, and jumps up where a node separates. The lowest load found then belongs to one tooth. Two
+ * states beside it show this, at places where the parabola of the coarse stage is higher by `settled`, and at
+ * distances without a simple ratio. If they are off the parabola, six more states measure the height of the
+ * teeth. A state far above the parabola is beyond a jump, not on a tooth. */
 static const double places[RC_RETRACTION_CHECKS] = {1,     -0.618, -1.5, 0.382,
                                                     0.854, -0.236, -1.1, 0.56};
-static const double leap = 0.05; /* of the lowest load */
+static const double leap = 0.05; /* relative to the lowest load */
 enum {
     FIRST = 2
 };
 
-/* How far the loads beside the lowest, and the lowest, lie apart about a parabola that fits them best. */
+/* The spread of the lowest load and the loads beside it about their best parabola. */
 static double
 teeth(const struct rc_retraction *r)
 {
@@ -309,7 +308,7 @@ teeth(const struct rc_retraction *r)
             a[i][3] += power[i] * r->beside_load[k];
         }
     }
-    for (int i = 0; i < 3; i++) /* the matrix is positive */
+    for (int i = 0; i < 3; i++) /* the matrix is positive definite */
         for (int k = 0; k < 3; k++) {
             double factor = a[k][i] / a[i][i];
             for (int j = i; k != i && j < 4; j++)
@@ -339,12 +338,12 @@ check(struct rc_retraction *r)
     way = sqrt(settled * fabs(r->estimate) / r->around);
     way = places[r->checks++] * fmin(way, r->at_estimate - r->late);
     c = r->at_estimate + way;
-    if (c > r->base.c) /* no state to come from */
+    if (c > r->base.c) /* there is no state to start from */
         c = r->at_estimate - way;
     return go(r, c <= r->lowest.c ? &r->lowest : c <= r->before.c ? &r->before : &r->base, c);
 }
 
-/* About this load, that of a parabola with this bend; the spread is at least this. */
+/* Checks this lowest load of a parabola with this bend; the spread is at least `spread`. */
 static bool
 begin_check(struct rc_retraction *r, double load, double at, double bend, double spread)
 {
@@ -376,7 +375,7 @@ note_check(struct rc_retraction *r, struct rc_retraction_state here)
     r->lowest = here;
 }
 
-/* The end of a search that has found this state the lowest, by as much as is given. */
+/* Ends the search with the lowest state and this spread, or checks it first. */
 static bool
 end_or_check(struct rc_retraction *r, double spread)
 {
@@ -386,7 +385,7 @@ end_or_check(struct rc_retraction *r, double spread)
                          : end(r, m->load, m->c, spread);
 }
 
-/* The next stage, the parabola's next, or the end. */
+/* Chooses the next stage, the next vertex, or the end. */
 static bool
 settle(struct rc_retraction *r)
 {
@@ -395,9 +394,10 @@ settle(struct rc_retraction *r)
            bend;
     bool again = r->fine < FINE && !r->short_of, jumped;
 
-    if (!r->has_after) /* short of states */
+    if (!r->has_after) /* too few states */
         return end(r, m->load, m->c, m->load - least);
-    if (!r->has_before) { /* the first is the lowest, unless the first step was too long */
+    if (!r->has_before) { /* the first state has the lowest load, unless the first step was too
+                             long */
         r->to = right->c;
         return again ? begin_fine(r, *m, (m->c - right->c) / 4)
                      : end(r, m->load, m->c, right->load - m->load);
@@ -414,7 +414,7 @@ settle(struct rc_retraction *r)
         r->to = right->c;
         return begin_fine(r, *l, fine_way(r, l));
     }
-    if (jumped) /* where a leap below settled was not looked for */
+    if (jumped) /* smaller jumps than `settled` were not searched for */
         return end_or_check(r, fmax(m->load - least, settled * fabs(m->load)));
     r->estimate = estimate;
     r->at_estimate = at;

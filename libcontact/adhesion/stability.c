@@ -1,11 +1,11 @@
 /*
- * The smallest eigenvalue of the stiffness, A less what the traction takes from it, on the nodes that are
- * not in contact: x with (A - D) x = mu W x, W the inverse of K on these nodes. All eigenvalues are at
- * most 1 or so and only as many are far below as the traction has soft modes.
+ * The smallest eigenvalue of the stiffness: of A minus the softening by the traction, on the nodes outside
+ * contact. It solves (A - D) x = mu W x, where W is the inverse of K on these nodes. All eigenvalues are at
+ * most about 1, and the number of far smaller ones is the number of soft modes of the traction.
  *
- * In each step the best x is taken in the space of x itself, of its residual under K and of the way by
- * which x came: of each of these W x and (A - D) x come along, in single precision. Every mu on the way is
- * above the smallest.
+ * Each step takes the best x in the space of x, of its residual times K, and of the last change of x. W x and
+ * (A - D) x of these vectors are updated with them, in single precision. Every mu on the way is above the
+ * smallest eigenvalue.
  */
 #include "gap.h"
 
@@ -15,10 +15,11 @@
 enum {
     X,
     Y = 3,
-    D = 6, /* a vector, its W, its A - D */
+    D = 6, /* a vector, W times it, A - D times it */
     SPACE = 3
 };
-static const double dependent = 1e-5; /* squared part of a unit vector outside of the others */
+static const double dependent = 1e-5; /* squared part of a unit vector outside the space of the
+                                         others */
 
 /* ---- K r and (A - D) x, of one vector ---- */
 
@@ -26,7 +27,7 @@ struct product {
     struct rc_gap *g;
     const float *from;
     float *to;
-    double mean, scale; /* of what comes in; what to multiply by */
+    double mean, scale; /* mean of the input; factor */
 };
 
 static bool
@@ -65,7 +66,7 @@ give_row(void *ctx, size_t j, void *from)
     return true;
 }
 
-/* The mean of what came out, over all nodes, and the one that is to be added on free ones. */
+/* The mean of the output over all nodes, and the value to add on free nodes. */
 static void
 add_mean(const struct product *p, double add)
 {
@@ -90,7 +91,7 @@ apply_k(struct rc_gap *g, const float *from, float *to)
                                                           : g->lift * sums[2] / (double)g->n);
 }
 
-/* D x, subtracted. */
+/* Subtracts D x. */
 static void
 soften(struct rc_gap *g, const float *x, float *to)
 {
@@ -176,7 +177,7 @@ smallest(size_t m, double a[SPACE][SPACE], double *vector)
     return a[least][least];
 }
 
-/* Coefficients of the best vector of the space, of unit W; those that depend on others have none. */
+/* Coefficients of the best vector of the space, with x'W x = 1; a vector that depends on others gets 0. */
 static void
 best(const double *sums, double *c)
 {
@@ -190,7 +191,7 @@ best(const double *sums, double *c)
             t[a][b] = t[b][a] = sums[q + 6];
         }
     memset(c, 0, SPACE * sizeof *c);
-    /* Cholesky's factor of W on unit vectors */
+    /* Cholesky factor of W on unit vectors */
     for (size_t a = 0; a < SPACE; a++) {
         double rest = 1;
         if (!(w[a][a] > 0))
@@ -238,7 +239,7 @@ best(const double *sums, double *c)
 
 /* ---- the iteration ---- */
 
-/* Where contact holds a node it does not move. Where it holds all of the map, nothing softens. */
+/* Removes held nodes from x. If all nodes of the map are held, nothing softens. */
 static void
 mask_row(void *ctx, size_t j, double *sums)
 {
@@ -254,7 +255,7 @@ mask_row(void *ctx, size_t j, double *sums)
 
 struct first {
     struct rc_gap *g;
-    double noise; /* beside a vector that is not known */
+    double noise; /* relative to an unknown vector */
 };
 
 /* Sums of W x and of the free nodes. */
@@ -273,7 +274,7 @@ first_row(void *ctx, size_t j, double *sums)
         for (size_t k = 0; k < n; k++)
             w[i + k] = (float)(d[k] / g->law.steepest);
     }
-    /* something of every wave beside it: no eigenvector is out of sight for reasons of symmetry */
+    /* with noise, x has a part of every wave: symmetry then hides no eigenvector */
     for (size_t i = 0; i < g->px; i++) {
         uint64_t hash = ((uint64_t)(j * g->px + i) + 1) * 0x9e3779b97f4a7c15u;
         double noise = (double)(hash >> 40) / 0x1p24 - 0.5;
@@ -308,7 +309,7 @@ clear(struct rc_gap *g, size_t first)
         memset(g->mode.e[first + q], 0, g->n * sizeof *g->mode.e[0]);
 }
 
-/* W y = t - mu w, less its mean on free nodes where that is given. */
+/* W y = t - mu w, minus its mean on free nodes if the mean is given. */
 static void
 residual_row(void *ctx, size_t j, double *sums)
 {
@@ -345,7 +346,7 @@ rc_gap_eigen_begin(struct rc_gap *g)
         return;
     first.noise = g->mode.known ? 0 : 0.05;
     rc_sums_rows(&g->sums, first_row, &first, sums);
-    if (!(sums[2] > 0)) { /* of the last vector nothing is left */
+    if (!(sums[2] > 0)) { /* the last vector depends on the others */
         g->mode.known = false;
         first.noise = 0.05;
         rc_sums_rows(&g->sums, first_row, &first, sums);
@@ -373,7 +374,7 @@ rc_gap_eigen_step(struct rc_gap *g)
     apply_k(g, g->mode.e[Y + 1], g->mode.e[Y]);
     apply_stiffness(g, g->mode.e[Y], g->mode.e[Y + 2]);
     rc_sums_rows(&g->sums, gram_row, g, sums);
-    g->mode.error = sqrt(fmax(sums[2], 0)); /* y'W y, of x with x'W x = 1 */
+    g->mode.error = sqrt(fmax(sums[2], 0)); /* y'W y, for x with x'W x = 1 */
     best(sums, c);
     combine(g, c);
     rc_sums_rows(&g->sums, gram_row, g, sums);
