@@ -1,6 +1,6 @@
 /*
- * Which slabs a body needs that may yield, from the stresses under the elastic pressure. Where it yields the
- * pressure is spread, so that plastic strain does not reach as deep as the elastic stress says.
+ * The slabs of a body that may yield, from the stresses under the elastic pressure. Yielding spreads the
+ * pressure, so that plastic strain does not reach as deep as the elastic stress suggests.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -10,11 +10,11 @@
 #include "plastic.h"
 
 enum {
-    MOST = 80 /* slabs: from half a node they reach beyond any map */
+    MOST = 80 /* most slabs: starting with half a node, so many reach deeper than any map needs */
 };
 static const double growth = 1.25;
 
-/* The largest Mises stress at each of the middles. */
+/* Finds the largest Mises stress at the middle of each slab. */
 static enum rc_status
 look(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
      const struct rc_body *body, size_t threads, size_t n, const double *middle, double *mises,
@@ -87,8 +87,8 @@ rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary, const
     return RC_OK;
 }
 
-/* With the growth of the stack that was found, to the power of how many more there are, its slabs are
- * divided, or put together, all alike. */
+/* Keeps the growth of the computed stack: each slab is divided or joined alike, so that the ratio of
+ * thicknesses changes with the number of slabs. */
 void
 rc_plastic_stack(const struct rc_plastic_depths *found, size_t n, double *thickness)
 {

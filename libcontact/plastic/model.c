@@ -1,10 +1,10 @@
 /*
- * The model of a body that may yield in its volume, along a history of loads. A load is solved as an elastic
- * contact first. Where its stresses nowhere reach the yield stress, that is the solution, and no voxel takes
- * memory. Otherwise the body is pressed from 0 in increments, in slabs as deep as the largest load of the plan
- * needs, and from then on each load follows the last.
+ * The model of a body that may yield in its volume, along a history of loads. A load is first solved as an
+ * elastic contact. If its stresses stay below the yield stress everywhere, this is the solution, and no voxel
+ * takes memory. Otherwise the body is loaded from 0 in increments, with slabs as deep as the largest planned
+ * load needs. From then on each load continues from the last one.
  *
- * Where the caller gives no number of increments, a load starts with a few. While their part of the estimated
+ * If the caller gives no number of increments, a load starts with a few. While their part of the estimated
  * error is too large, the body returns to the state before the load and takes more increments.
  */
 #include <math.h>
@@ -16,25 +16,26 @@
 #include "libcontact/memory.h"
 
 enum {
-    FIRST = 8,       /* increments of the first try of a load, */
-    MOST_AUTO = 128, /* of the last, */
+    FIRST = 8,       /* increments of the first try of a load */
+    MOST_AUTO = 128, /* increments of the last try */
     TRIES = 3
 };
-static const double deserved = 1e-2;      /* error that the increments are chosen for        */
-static const double contact_most = 1e-4;  /* tolerance of each contact, at most,             */
-static const double contact_least = 1e-6; /* and, for the sake of a smaller goal, at least   */
-static const double contact_share = 0.1;  /* of the goal                                     */
-static const double lag_least = 1e-3;     /* what single precision allows                    */
-static const double for_later = 0.7;      /* share of the goal where loads follow            */
-static const double expected_part = 0.3;  /* of the voxels that yield, for the memory        */
-static const double order = 1.1;          /* power of the error that the increments go by    */
+static const double deserved = 1e-2;      /* goal of the error that determines the increments */
+static const double contact_most = 1e-4;  /* largest tolerance of each contact */
+static const double contact_least = 1e-6; /* its smallest tolerance, for a smaller goal */
+static const double contact_share = 0.1;  /* part of the goal */
+static const double lag_least = 1e-3;     /* the smallest lag that single precision allows */
+static const double for_later = 0.7;      /* part of the goal for a load that others follow */
+static const double expected_part = 0.3;  /* part of the voxels that probably yield, for the
+                                             expected memory */
+static const double order = 1.1;          /* the error falls with this power of the increments */
 
 enum stage {
     APART,   /* no load, and nothing has yielded */
     ELASTIC, /* the elastic contact */
     DEPTHS,  /* its stresses */
     LARGEST, /* the elastic contact under the largest load of the plan */
-    MAKE,    /* the volume comes next */
+    MAKE,    /* the next step makes the volume */
     VOLUME
 };
 
@@ -44,18 +45,21 @@ struct yielding {
         problem; /* as given to the maker                                        */
     size_t n;
     double *h;             /* m: undeformed heights                                        */
-    double first_top, top; /* m: their highest; that of those that plastic strain leaves   */
+    double first_top, top; /* m: highest point of h; highest point of the shape after plastic
+                              strain */
     struct rc_solver *elastic;
-    struct rc_plastic *plastic;  /* NULL: nothing has yielded                                  */
-    double *thickness;           /* of the slabs, m                                            */
+    struct rc_plastic *plastic;  /* NULL: no voxel has yielded */
+    double *thickness;           /* thicknesses of the slabs, m */
     size_t slabs;                /* 0: the elastic stress nowhere exceeds the yield stress     */
-    double load, largest;        /* N: of the point, and of the plan                           */
-    size_t left, planned;        /* loads of the plan                                          */
-    size_t increments, try;      /* of the present try of the load, and its number, from 0     */
-    struct rc_state_copy before; /* the load; without numbers: there is no further try         */
-    double most, deepest;        /* the largest elastic Mises stress over the yield stress; m  */
+    double load, largest;        /* N: load of the point; largest load of the plan */
+    size_t left, planned;        /* remaining loads of the plan; all of them */
+    size_t increments, try;      /* increments of the present try of the load; number of the try,
+                                    from 0 */
+    struct rc_state_copy before; /* state before the load; empty: there is no further try */
+    double most, deepest;        /* the largest elastic Mises stress over the yield stress; its
+                                    depth, m */
     enum stage stage;
-    enum rc_status reached; /* of the elastic contact                                      */
+    enum rc_status reached; /* status of the elastic contact */
     bool looked;
     struct rc_yielding_figures figures;
 };
@@ -74,12 +78,13 @@ const struct rc_figure rc_figures_yielding[] = {
     {AS("max_pressure_mean4", plastic.max_pressure_mean4), "Pa",
      "Largest pressure over 2 x 2 nodes"},
     {FIGURE(max_mises_over_yield), NULL, "Mises stress over the yield stress",
-     .says = "largest, where nothing has yielded"},
+     .says = "largest value in a body without yield"},
     {FIGURE(max_mises_depth), "m", "Depth of the largest Mises stress"},
     {FIGURE(indentation), "m", "Indentation",
      .says = "approach from the first touch of the first shape"},
     {FIGURE(residual_indentation), "m", "Residual indentation",
-     .says = "first touch of the shape that is left, from that of the first shape"},
+     .says =
+         "first touch of the shape after the load, counted from first touch of the first shape"},
     {AS("increment_error_estimate", plastic.increment_error), NULL, "Error of the increments",
      .role = RC_FIGURE_ERROR, .by = "increments"},
     {AS("inherited_error_estimate", plastic.inherited_error), NULL, "Error of earlier loads",
@@ -111,7 +116,7 @@ static const struct rc_frame_kind frames[] = {
 
 /* ---- slabs ---- */
 
-/* From the elastic pressure; y->slabs is 0 if nothing yields under it. */
+/* Finds the slabs from the elastic pressure; y->slabs is 0 if no stress reaches the yield stress. */
 static enum rc_status
 find_slabs(struct yielding *y, struct rc_err *err)
 {
@@ -140,7 +145,7 @@ find_slabs(struct yielding *y, struct rc_err *err)
 
 /* ---- the volume ---- */
 
-/* The relative error of the pressure that is asked for. */
+/* The allowed relative error of the pressure. */
 static double
 goal(const struct yielding *y)
 {
@@ -184,7 +189,7 @@ try_load(struct yielding *y, struct rc_err *err)
     return rc_plastic_set_load(y->plastic, y->load, err);
 }
 
-/* The first try of a load. */
+/* Begins the first try of a load. */
 static enum rc_status
 begin(struct yielding *y, struct rc_err *err)
 {
@@ -197,8 +202,8 @@ begin(struct yielding *y, struct rc_err *err)
     return try_load(y, err);
 }
 
-/* Whether more increments lower the error of the load to the goal, and how many. The errors of images and of
- * earlier loads do not depend on them. */
+/* True if more increments can lower the error of the load to the goal; sets their number. The errors from
+ * images and earlier loads do not depend on it. */
 static bool
 deserves_more(struct yielding *y)
 {
@@ -237,18 +242,18 @@ press_volume(struct yielding *y, struct rc_err *err)
 
 /* ---- memory ---- */
 
-/* Bytes that the volume and a state of it take beside the present ones, if it is made in the next step. */
+/* The further bytes for the volume and its state, if the next step makes the volume. */
 static size_t
 coming(const struct yielding *y)
 {
-    /* a node, measured on 1024 x 1024 nodes: free, periodic */
+    /* bytes a node, measured on 1024 x 1024 nodes: free, periodic */
     static const double body[] = {122, 96}, slab[] = {92.2, 23.1};
     const int periodic = y->problem.contact.boundary == RC_PERIODIC;
     const double voxels = expected_part * sizeof(struct rc_voxel);
 
     if (y->stage != MAKE)
         return 0;
-    /* a state takes no more than the voxels, and a pressure */
+    /* a state takes at most the memory of the voxels and of a pressure */
     return (size_t)((double)y->n * (body[periodic] + sizeof(double) +
                                     (double)y->slabs * (slab[periodic] + 2 * voxels)));
 }
@@ -292,7 +297,7 @@ go(struct rc_model *m, struct rc_err *err)
     return set_load(y, m->to.at[RC_LOAD], err);
 }
 
-/* The stresses of the elastic contact: RC_MORE if the body yields under it. */
+/* Finds the stresses of the elastic contact. Returns RC_MORE if the body yields. */
 static enum rc_status
 look_inside(struct yielding *y, struct rc_err *err)
 {
@@ -304,7 +309,7 @@ look_inside(struct yielding *y, struct rc_err *err)
     return y->stage == LARGEST && set_elastic(y, y->largest, err) != RC_OK ? RC_FAIL : RC_MORE;
 }
 
-/* An iteration of the elastic contact. */
+/* Takes an iteration of the elastic contact. */
 static enum rc_status
 press_elastic(struct yielding *y, struct rc_err *err)
 {
@@ -358,7 +363,7 @@ displace(const struct yielding *y, double factor, double *v)
         v[k] += factor * u[k];
 }
 
-/* The shape that plastic strain leaves. */
+/* Finds the shape after plastic strain. */
 static void
 shape(const struct yielding *y, double *to)
 {
@@ -366,14 +371,14 @@ shape(const struct yielding *y, double *to)
     displace(y, -1, to);
 }
 
-/* Figures of separate bodies, and the gap (NULL: not needed). */
+/* Finds the figures of separated bodies, and the gap (NULL: not needed). */
 static enum rc_status
 look_apart(const struct yielding *y, double *gap, struct rc_contact *c, struct rc_err *err)
 {
     double *left = rc_alloc(y->n, sizeof *left);
 
     if (left == NULL)
-        return rc_err_set(err, "out of memory for the shape that is left");
+        return rc_err_set(err, "out of memory for the shape after yield");
     shape(y, left);
     rc_contact_apart(NULL, &y->base.shape, left, gap, c);
     free(left);
@@ -401,8 +406,8 @@ look_at_volume(struct yielding *y)
     f->plastic = *rc_plastic_result(y->plastic);
     rc_plastic_progress(y->plastic, &load, &f->increment, &application);
     f->contact.pressure_error = f->plastic.error;
-    f->contact.convolutions = NAN; /* nearly all of the work is in the volume */
-    /* the error is unknown where few increments were asked for */
+    f->contact.convolutions = NAN; /* nearly all of the work is for the volume */
+    /* the error is unknown if the caller asked for few increments */
     f->contact.converged =
         y->base.status == RC_OK && f->contact.converged &&
         (f->plastic.error <= goal(y) || (y->problem.increments > 0 && isnan(f->plastic.error)));
@@ -415,7 +420,8 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     struct rc_yielding_figures *f = &y->figures;
     const bool known = y->plastic == NULL && (y->most > 0 || y->load == 0);
 
-    if (y->stage == LARGEST) { /* the caller stopped on the way: the load is that of the point */
+    if (y->stage == LARGEST) { /* the caller stopped before the end: the load is the load of the
+                                  point */
         if (set_elastic(y, y->load, err) != RC_OK)
             return RC_FAIL;
         y->stage = ELASTIC;
@@ -449,7 +455,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     struct rc_contact again;
 
     if (!y->looked)
-        return rc_err_set(err, "frames are those of a point that was looked at");
+        return rc_err_set(err, "call rc_model_look before reading a frame");
     memset(to, 0, y->n * sizeof *to);
     if (frame == SHAPE)
         shape(y, to);
@@ -482,7 +488,7 @@ progress(const struct rc_model *m, struct rc_loops *l)
         rc_loops_add(l, "load", "N", load, NAN);
         rc_loops_add(l, "increment", NULL, fmin((double)increment, most), most);
         rc_loops_add(l, "application", NULL, (double)application, NAN);
-        /* between increments a state is smaller; the last may take long */
+        /* between increments a state is smaller; the last increment may take long */
         l->worth = application == 0 || (double)increment >= most;
     } else if (y->elastic != NULL) {
         rc_solver_progress(y->elastic, &at);
@@ -494,10 +500,10 @@ progress(const struct rc_model *m, struct rc_loops *l)
     }
 }
 
-/* ---- states: counts and loads; then of an elastic contact its pressure, or of a volume the thicknesses of
- * its slabs, the state before the load, and its own ---- */
+/* ---- states: counts and loads; then for an elastic contact the pressure, or for a volume the thicknesses of
+ * its slabs, the state before the load, and the state of the volume ---- */
 
-/* Nothing has yielded in the state that is read. */
+/* Forgets the volume, because the state that was read has none. */
 static void
 forget_volume(struct yielding *y)
 {
@@ -517,7 +523,7 @@ exchange_elastic(struct yielding *y, struct rc_state *s, double solved)
     struct rc_err err;
 
     if (!rc_state_reads(s)) {
-        if (solved > 0) /* a pressure that is written is not changed */
+        if (solved > 0) /* a pressure that is being written does not change */
             rc_state_numbers(s, y->n, (double *)rc_solver_pressure(y->elastic));
         return;
     }
@@ -531,7 +537,7 @@ exchange_elastic(struct yielding *y, struct rc_state *s, double solved)
         (set_load(y, y->load, &err) != RC_OK ||
          (solved > 0 &&
           (y->elastic == NULL || rc_solver_warm_start(y->elastic, solved, p, &err) != RC_OK))))
-        rc_state_refuse(s, "its load or its pressure is impossible");
+        rc_state_refuse(s, "its load or its pressure is not finite or negative");
     free(p);
 }
 
@@ -583,7 +589,7 @@ state(struct rc_model *m, struct rc_state *s)
     else
         exchange_elastic(y, s, solved);
     if (rc_state_reads(s) && m->moved)
-        m->status = RC_MORE; /* a step tells whether it is the solution */
+        m->status = RC_MORE; /* the next step decides whether it is the solution */
     y->looked &= !rc_state_reads(s);
 }
 

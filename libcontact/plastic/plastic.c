@@ -1,44 +1,46 @@
 /*
- * A contact whose body yields inside: plastic strain e under the surface, in step with the pressure.
+ * A contact with a body that yields in its volume: plastic strain e below the surface, coupled to the
+ * pressure.
  *
  * A load is reached in increments. In each of them the increment x of e is a fixed point,
  *
- *     x = F(x):  p is the contact of the heights h - u_r(e + x), s the stress deviator under p and e + x,
- *                F the return of the trial stress s + 2 mu x to the yield surface, x held as total strain,
+ *     x = F(x):  p is the contact of the heights h - u_r(e + x), s is the stress deviator under p and e + x,
+ *                F returns the trial stress s + 2 mu x to the yield surface at fixed total strain.
  *
- * which lowers the energy of body and contact together whatever the load and the hardening are, and so
- * converges without relaxation: it is a proximal gradient step of a convex problem, whose smooth part has
- * no curvature above 2 mu. An application of F costs one sweep up, one contact, and one sweep down.
+ * F lowers the energy of body and contact together for any load and hardening, and therefore converges
+ * without relaxation: it is a proximal gradient step of a convex problem, whose smooth part has no curvature
+ * above 2 mu. An application of F costs one sweep up, one contact, and one sweep down.
  *
- * A load begins with elastic trials, which change no strain: the contact at its end, and one sweep down.
- * Where no stress exceeds the yield stress the load is done, as most unloading is. Where little does, as in
- * reloading to the same peak, one increment follows, and all of its flow counts as an error of the
- * increments. Where that is small beside the error of the loads before it stays; else it is undone. Then
- * bisection finds the last load up to which nothing flows, and the increments go from there.
+ * A load begins with elastic trials, which change no strain: the contact at its end, and one sweep down. If
+ * no stress exceeds the yield stress, the load is done, as in most unloading. If little flow would follow, as
+ * in reloading to the same peak, one increment follows, and all of its flow counts as an error of the
+ * increments. If this error is small beside the error of earlier loads, the increment stays; otherwise it is
+ * undone. Then bisection finds the last load without flow, and the increments start there.
  *
- * The increments are not converged one by one. Each begins with the last one, is applied twice, and takes
- * the mixture of both that Anderson's method with one step kept would take: what it lags behind is caught
- * up by the next, which sees the true stress. Where it lags by more than 0.04 of the yield stress it is
- * applied again, for a lag changes the path, which no estimate sees. The last is applied until it lags no
- * more, for a load is believed where |F(x) - x| as a stress is small against the yield stress, not where it
- * is small against x. In time the return is of second order (two steps back, BDF2): its base is
+ * The increments are not converged one by one. Each starts from the last increment, is applied twice, and
+ * takes the mixture of both that Anderson's method with one kept step would take. The next increment sees the
+ * true stress and so corrects the lag of this one. If the lag is above 0.04 of the yield stress, the
+ * increment is applied again, because a lag changes the path, and no estimate contains this change. The last
+ * increment is applied until it lags no more: a load is accepted if |F(x) - x| as a stress is small against
+ * the yield stress, not if it is small against x. In time the return is of second order (two steps back,
+ * BDF2), with the base
  *
  *     e_b = e + beta last,  beta = w^2/(1 + 2 w) = 1/3 for equal steps,
  *
- * with `last` the increment before; beta is 0 where the voxel does not flow from e, and just so large that
- * it flows where it would not from e_b: else what unloads would flow on. The first increment of a load has
- * beta 0 throughout (backward Euler), for the load has turned.
+ * where `last` is the previous increment. beta is 0 if the voxel does not flow from e. If it flows from e but
+ * not from e_b, beta is the largest value with flow; otherwise an unloading voxel would continue to flow. The
+ * first increment of a load has beta 0 everywhere (backward Euler), because the load has turned.
  *
- * Where the map does not repeat the contact is that of the half-space, exactly; the stresses, and what
- * strain does to the surface, are those of a map that repeats after twice its sides, some thousandths of
- * the yield stress beside those of the half-space.
+ * On a free map the contact is exactly that of the half-space. The stresses, and the displacement of the
+ * surface by plastic strain, belong to a map that repeats after twice its sides; they differ from those of
+ * the half-space by some thousandths of the yield stress.
  *
- * The estimate of a load's error is a sum. Of the increments: what BDF2 adds to Euler's return in each of
- * them is summed over all loads, since the error of a strain stays as the body is pressed on, and the contact
- * is found once more with that added to e, and with the part of the loads before. Of the iteration: by how
- * much its last step moved the pressure, over the least resistance that a step has met. Of the contacts:
- * plastic flow keeps part of the tolerance of each increment's contact, some 0.03 of it (measured: 0.004 to
- * 0.034), so that many increments have their contacts solved to less. Of the images: image_error.
+ * The estimated error of a load is a sum of four parts. Increments: the terms that BDF2 adds to Euler's
+ * return are summed over all loads, because the error of a strain stays in later loads. The contact is found
+ * once more with this sum added to e, and with the part of earlier loads alone. Iteration: the change of the
+ * pressure by the last step, divided by the least resistance of all steps. Contacts: plastic flow keeps about
+ * 0.03 of the tolerance of each contact (measured: 0.004 to 0.034), so that many increments need a smaller
+ * tolerance. Images: image_error.
  */
 #include "plastic.h"
 
@@ -50,23 +52,23 @@
 
 enum {
     INCREMENTS = 16,
-    FEW = 8,          /* increments; with fewer nothing is said of their error */
-    EACH = 2,         /* applications of an increment, at least */
-    MOST_EACH = 24,   /* and at most */
-    LAST = 4,         /* of the last one, at least */
-    MOST = 200,       /* and at most */
-    BISECTIONS = 4,   /* for the last elastic load */
-    BISECT_FIRST = 2, /* of them, after which one that is still 0 is believed to be */
+    FEW = 8,          /* with fewer increments their error is unknown */
+    EACH = 2,         /* fewest applications of an increment */
+    MOST_EACH = 24,   /* most applications of an increment */
+    LAST = 4,         /* fewest applications of the last increment */
+    MOST = 200,       /* most applications of the last increment */
+    BISECTIONS = 4,   /* bisections for the last elastic load */
+    BISECT_FIRST = 2, /* after so many, a load that is still 0 is accepted as 0 */
     HALVINGS = 40
 };
-static const double settled = 0.02; /* the lag at which a load is believed */
-static const double moves = 5e-3;   /* and the error of the pressure from the iteration */
-static const double lags = 0.04;    /* at which an increment inside a load is */
-static const double trace = 0.01;   /* of the first trial: flow that one increment follows, */
+static const double settled = 0.02; /* largest lag of an accepted load */
+static const double moves = 5e-3;   /* and its largest error of the pressure from the iteration */
+static const double lags = 0.04;    /* largest lag of an increment within a load */
+static const double trace = 0.01;   /* flow in the first trial that needs only one increment */
 static const double little =
-    0.2; /* and flow that it is tried with in a body that has yielded before */
+    0.2; /* flow for which one increment is tried in a body that has already yielded */
 static const double once_part =
-    0.5; /* it stays where its error is at most this part of the inherited one, */
+    0.5; /* this increment stays if its error is at most this part of the inherited error, */
 static const double once_least = 5e-4; /* or this */
 static const double keeps = 0.03;      /* part of a contact's tolerance that flow keeps */
 static const double kept_goal = 3e-3;  /* tolerance of the contacts times all increments, at most */
@@ -92,7 +94,7 @@ strain_row(void *ctx, size_t slab, enum rc_component c, size_t j, double *to)
     return true;
 }
 
-/* The return from e + beta last: growth of the equivalent strain, and the trial stress with its size. */
+/* The return from e + beta last: finds the growth of the equivalent strain, the trial stress and its size. */
 static double
 return_from(const struct rc_plastic *p, const struct rc_voxel *v, const double *s, double beta,
             double *trial, double *size)
@@ -110,7 +112,7 @@ flow_by(double growth, const double *trial, double size, double *flow)
         flow[a] = growth > 0 ? 1.5 * growth * trial[a] / size : 0;
 }
 
-/* F of a voxel under the stress s. `adds`: note what the order of the integration adds. */
+/* Applies F to a voxel under the stress s. `adds`: note the terms of second order in time. */
 static void
 flow(const struct rc_plastic *p, struct rc_voxel *v, const double *s, bool adds)
 {
@@ -174,7 +176,7 @@ stress_at(double *const s[RC_COMPONENTS], size_t i, double *to)
     to[4] = s[RC_SYZ][i];
 }
 
-/* Nodes of a row that yield for the first time; `place`: where to note them, or NULL. */
+/* Counts the nodes of a row that yield for the first time; `place`: array for their indices, or NULL. */
 static size_t
 yields_first(const struct rc_plastic *p, const struct rc_voxel_row *row, double *const s[],
              uint32_t *place)
@@ -214,7 +216,7 @@ take_in(const struct rc_plastic *p, struct rc_voxel_row *row, double *const s[])
     return status;
 }
 
-/* What would flow under this stress, of which nothing is kept. */
+/* Finds the flow under this stress without keeping it. */
 static void
 look_ahead(const struct rc_plastic *p, size_t slab, struct rc_voxel_row *row, double *const s[])
 {
@@ -273,12 +275,11 @@ for_each(struct rc_plastic *p, each_voxel *do_it)
             do_it(p, &p->voxels.row[r].v[k]);
 }
 
-/* x becomes the mixture of f and that of the trial before; 0 where neither flows, which rounding would not
- * leave it. */
+/* Sets x to the mixture of f and the f of the previous trial; to exactly 0 if neither flows. */
 static void
 mix(struct rc_plastic *p, struct rc_voxel *v)
 {
-    static const double rounding = 1e-6; /* of single precision */
+    static const double rounding = 1e-6; /* rounding of single precision */
     double r[RC_DEVIATOR], moved[RC_DEVIATOR], left[RC_DEVIATOR], before[RC_DEVIATOR];
     bool still;
 
@@ -318,7 +319,7 @@ accept(struct rc_plastic *p, struct rc_voxel *v)
     }
 }
 
-/* The only increment of the load is forgotten. */
+/* Undoes the only increment of the load. */
 static void
 undo(struct rc_plastic *p, struct rc_voxel *v)
 {
@@ -370,7 +371,7 @@ try_none(struct rc_plastic *p, struct rc_voxel *v)
 
 /* ---- an application ---- */
 
-/* Which slabs hold voxels that have yielded; false: none. */
+/* Finds the slabs with yielded voxels. Returns false if there are none. */
 static bool
 find_strained(struct rc_plastic *p)
 {
@@ -385,7 +386,7 @@ find_strained(struct rc_plastic *p)
     return any;
 }
 
-/* p, the contact of e + x under the load that is set. */
+/* Finds p, the contact of e + x under the present load. */
 static enum rc_status
 press(struct rc_plastic *p, struct rc_err *err)
 {
@@ -416,7 +417,7 @@ pressure(const struct rc_plastic *p)
     return p->alone ? NULL : rc_solver_pressure(p->solver);
 }
 
-/* Relative L1 distance of this pressure from the other. */
+/* The relative L1 distance of this pressure from p->other. */
 static double
 moved(const struct rc_plastic *p)
 {
@@ -450,7 +451,7 @@ total(const struct rc_plastic *p, double sums[RC_VOXEL_SUMS])
             sums[q] += p->voxels.row[r].sums[q];
 }
 
-/* F of e + x, and what it says of x. */
+/* Applies F to e + x, and finds the lag of x. */
 static enum rc_status
 apply(struct rc_plastic *p, struct rc_err *err)
 {
@@ -469,11 +470,11 @@ apply(struct rc_plastic *p, struct rc_err *err)
     p->flows = sums[RC_FLOWING] > 0;
     p->figures.lag = p->flows ? sqrt(sums[RC_LAG] / sums[RC_FLOWING]) : 0;
     p->mix = 0;
-    /* F itself never raises the energy, a mixture may: it is not taken where the last one did not help. To
-     * compare energies instead, which takes a displacement by the pressure more, comes to the same: one
-     * increment of 300 random maps of 24 x 24 nodes, Hm from 0 to 100 Y, took 6404 applications by the
-     * energy, 6413 by the lag, 6547 by neither, and 13403 without mixtures, 7 of the maps more than 200
-     * each. */
+    /* F itself never raises the energy, but a mixture may. A mixture is not taken if the last one did not
+     * lower the lag. Comparing energies instead needs one more displacement by the pressure, and is no
+     * better: one increment of 300 random maps of 24 x 24 nodes, Hm from 0 to 100 Y, took 6404 applications
+     * by the energy, 6413 by the lag, 6547 by neither, and 13403 without mixtures, where 7 maps took more
+     * than 200. */
     if (p->trial > 0 && sums[RC_CHANGE] > 0 && p->figures.lag < last)
         p->mix = sums[RC_NEW_OLD] / sums[RC_CHANGE];
     if (p->trial > 0 && sums[RC_ADVANCE] > 0 && sums[RC_RESISTED] > 0)
@@ -497,7 +498,7 @@ share_of_way(const struct rc_plastic *p, double share)
     return share == 1 ? p->to : p->from + (p->to - p->from) * share;
 }
 
-/* The increments of the load go from `start`. */
+/* Starts the increments of the load at the load `start`. */
 static void
 begin_increments(struct rc_plastic *p, size_t count, double start)
 {
@@ -509,14 +510,14 @@ begin_increments(struct rc_plastic *p, size_t count, double start)
     p->stage = RC_PLASTIC_TRIAL;
 }
 
-/* Whether one increment is tried with little flow, whose error is then found. */
+/* True if little flow makes one increment worth a try; its error is found afterwards. */
 static bool
 follows_little(const struct rc_plastic *p)
 {
     return !p->few && !p->thorough && rc_voxels_count(&p->voxels) > 0;
 }
 
-/* One elastic trial of the load, its end first. */
+/* Takes an elastic trial of the load, first at its end. */
 static enum rc_status
 probe(struct rc_plastic *p, struct rc_err *err)
 {
@@ -553,11 +554,11 @@ begin_increment(struct rc_plastic *p, struct rc_err *err)
                     err);
 }
 
-/* Of the pressure, whose last move that is known goes from the other. */
+/* The error of the pressure from the iteration, estimated from its last change, from p->other. */
 static double
 iteration_error(const struct rc_plastic *p)
 {
-    return 1.5 * moved(p) / fmin(p->resistance, 1); /* no resistance is met above 1 */
+    return 1.5 * moved(p) / fmin(p->resistance, 1); /* a resistance is at most 1 */
 }
 
 static bool
@@ -642,13 +643,13 @@ find_figures(struct rc_plastic *p)
     f->max_pressure_mean4 = largest_mean(p);
 }
 
-/* The accepted state, and where its pressure stands against that of the last application. */
+/* Accepts the state, and compares its pressure with that of the last application. */
 static enum rc_status
 settle(struct rc_plastic *p, struct rc_err *err)
 {
     p->trial = 0;
     p->taken += p->count;
-    if (p->elastic) { /* its contact is there */
+    if (p->elastic) { /* its contact is already solved */
         p->figures.iteration_error = 0;
     } else {
         for_each(p, try_none);
@@ -664,8 +665,8 @@ settle(struct rc_plastic *p, struct rc_err *err)
     return RC_OK;
 }
 
-/* By how much the contact moves with all that the order of the integration adds, in shares of what this load
- * and those before it do alone. */
+/* Finds how much the contact changes by all terms of second order, and divides it in proportion to the
+ * changes by this load alone and by earlier loads alone. */
 static enum rc_status
 compare_order(struct rc_plastic *p, struct rc_err *err)
 {
@@ -692,19 +693,20 @@ compare_order(struct rc_plastic *p, struct rc_err *err)
         p->figures.increment_error > fmax(once_part * p->figures.inherited_error, once_least)) {
         p->once = p->stopped = false;
         for_each(p, undo);
-        p->trial = 1; /* the first is known */
+        p->trial = 1; /* the first trial is known */
         p->stage = RC_PLASTIC_PROBE;
     }
     return RC_OK;
 }
 
-/* Of the pressure, from the images at twice the sides of a map that does not repeat. Those of the yielded
- * volume: their stress, as the modulus times the strain that is spread over the cube of a side, beside the
- * pressure. Measured on balls, whose contact takes 5 to 28 % of the map: 0.4 to 0.47 of this without the
- * factor. Those of the load: the mean pressure of the map with its padding beside the yield stress; half of
- * it is enough on 212 balls, pairs of balls and rough balls, 0.4 on all but one of them. Where few nodes
- * touch, one of them bears most, and what changes its limit the others must bear: times 20, 5 and 3 at 3, 6
- * and 8 nodes, which 1 + (13 / nodes)^2 covers. */
+/* The error of the pressure from the images of a free map, at a distance of twice its sides. Images of
+ * the yielded volume: their stress over the mean contact pressure, where the stress is the modulus times
+ * the plastic strain spread over a cube on the map. On balls with a contact of 5 to 28 % of the map the
+ * error was 0.4 to 0.47 of this ratio. Images of the load: the mean pressure of the padded map over the
+ * yield stress. Half of this ratio was enough on 212 balls, pairs of balls and rough balls, and 0.4 on
+ * all but one of them. If few nodes touch, one of them carries most of the load, and a change of its
+ * limit moves load to the others: this part is larger by 20, 5 and 3 at 3, 6 and 8 nodes, which the
+ * factor 1 + (13 / nodes)^2 covers. */
 static double
 image_error(const struct rc_plastic *p)
 {
@@ -724,7 +726,7 @@ image_error(const struct rc_plastic *p)
            share * (1 + each * each) * sum / (double)p->n / (4 * p->yield);
 }
 
-/* Of the pressure, from the tolerance of this contact and of those that flow has kept. */
+/* The error of the pressure from the tolerance of this contact, and from earlier ones that flow has kept. */
 static double
 contact_error(const struct rc_plastic *p)
 {
@@ -743,13 +745,13 @@ sum_errors(struct rc_plastic *p)
 
     f->image_error = image_error(p);
     f->contact_error = contact_error(p);
-    if (p->alone) /* there is no pressure to be wrong */
+    if (p->alone) /* the pressure is 0 and has no error */
         f->increment_error = f->inherited_error = f->iteration_error = 0;
     f->error = f->increment_error + f->inherited_error + f->iteration_error + f->contact_error +
                f->image_error;
 }
 
-/* ---- the face ---- */
+/* ---- the interface ---- */
 
 enum rc_status
 rc_plastic_set_load(struct rc_plastic *p, double load, struct rc_err *err)
@@ -757,11 +759,10 @@ rc_plastic_set_load(struct rc_plastic *p, double load, struct rc_err *err)
     if (!(load >= 0) || isinf(load))
         return rc_err_set(err, "load %g N: it must be finite and not negative", load);
     if (load > p->bearable)
-        return rc_err_set(
-            err,
-            "load %.9g N: above %.9g N, 0.9 of where the mean pressure alone makes all "
-            "depths of a periodic body yield, there is no such contact",
-            load, p->bearable);
+        return rc_err_set(err,
+                          "load %.9g N: it must be below %.9g N, 0.9 of the load at which the mean "
+                          "pressure alone makes all depths of a periodic body yield",
+                          load, p->bearable);
     p->to = load;
     p->trial = 0;
     p->low = p->order = 0;
@@ -889,7 +890,9 @@ rc_plastic_check(const struct rc_plastic_problem *problem, struct rc_err *err)
     if (rc_yield_check(&problem->yield, err) != RC_OK)
         return RC_FAIL;
     if (problem->contact.ranks != NULL)
-        return rc_err_set(err, "plasticity in the volume is not shared among processes");
+        return rc_err_set(
+            err,
+            "plasticity in the volume cannot share its maps among processes: take one process");
     if (problem->contact.pair.estar > 0 || !(one->e > 0) || isinf(one->e))
         return rc_err_set(err, "plasticity needs E and nu of the body that yields");
     if (one->layers > 0)
@@ -898,8 +901,10 @@ rc_plastic_check(const struct rc_plastic_problem *problem, struct rc_err *err)
         problem->contact.hardness_map != NULL)
         return rc_err_set(err, "hardness and volume plasticity exclude each other");
     if (!(one->nu < 0.5))
-        return rc_err_set(err, "Poisson's ratio %g: a body that yields inside must be compressible",
-                          one->nu);
+        return rc_err_set(
+            err,
+            "Poisson's ratio %g: a body that yields in its volume must be compressible, below 0.5",
+            one->nu);
     return RC_OK;
 }
 
@@ -940,7 +945,7 @@ rc_plastic_new(const struct rc_shape *shape, const double *h,
                                        .precision = problem->precise ? RC_DOUBLE : RC_SINGLE,
                                        .threads = contact.threads};
 
-    contact.hurry = NULL; /* a contact that stands still would be taken into the strain */
+    contact.hurry = NULL; /* an unfinished contact would change the strain */
     if (rc_plastic_check(problem, err) != RC_OK)
         return NULL;
     p = calloc(1, sizeof *p);
@@ -958,7 +963,8 @@ rc_plastic_new(const struct rc_shape *shape, const double *h,
                              .yield = rc_yield_stress(&problem->yield, 0),
                              .lag = problem->lag > 0 ? problem->lag : settled};
     rc_plastic_set_increments(p, problem->increments);
-    /* the mean pressure makes a Mises stress of (1 - 2 nu)/2 of it at every depth; on a profile more */
+    /* the mean pressure causes a Mises stress of (1 - 2 nu)/2 times itself at every depth; on a profile
+     * more */
     p->bearable = contact.boundary == RC_FREE ? INFINITY
                                               : 0.9 * 2 * p->yield / (1 - 2 * one->nu) *
                                                     (double)p->n * shape->dx * shape->dy;

@@ -1,12 +1,12 @@
 /*
- * The state of a body that yields: figures, the pressure of the contact, and the voxels row by row. Voxels have
- * fewer numbers where a later step needs fewer of them:
+ * The state of a body that yields: figures, the pressure of the contact, and the voxels row by row. The
+ * numbers of a voxel depend on what the next step needs:
  *
- *     a load is reached          place, e, equivalent strain, what the order of the integration adds to e
- *     between two increments     also the last increment, from which the next one starts
- *     within an increment        also the trial, and what the trial before it did
+ *     a load is reached        place, e, equivalent strain, the terms of second order in e
+ *     between two increments   also the last increment, from which the next one starts
+ *     within an increment      also the trial, and the changes by the previous trial
  *
- * All else is computed again. All numbers are finite, in single precision too.
+ * All other values are computed again. All numbers are finite, also in single precision.
  */
 #include "plastic.h"
 
@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { /* numbers of a voxel behind its place */
+enum { /* numbers of a voxel after its place */
     REACHED = 2 * RC_DEVIATOR + 1,
     BETWEEN = REACHED + 2 * RC_DEVIATOR + 1,
     WITHIN = BETWEEN + 3 * RC_DEVIATOR
@@ -97,7 +97,7 @@ flag(struct rc_state *s, bool *on)
     *on = v > 0;
 }
 
-/* A number of at least 0, or one that is not finite, which `mark` stands for. */
+/* Exchanges a number of at least 0, or one that is not finite, for which `mark` is written. */
 static void
 number_or(struct rc_state *s, double *v, double mark, double unknown)
 {
@@ -146,7 +146,7 @@ exchange_figures(struct rc_plastic *p, struct rc_state *s)
 
 /* ---- the state ---- */
 
-/* After the numbers were read: what follows from them. */
+/* Computes what follows from the numbers that were read. */
 static void
 resume(struct rc_plastic *p, struct rc_state *s, enum rc_plastic_stage stage, double load)
 {
@@ -159,7 +159,7 @@ resume(struct rc_plastic *p, struct rc_state *s, enum rc_plastic_stage stage, do
     rc_plastic_solve_to(p, p->tol);
     if (rc_solver_set_load(p->solver, load, 0, &err) != RC_OK ||
         (p->pressed && rc_solver_warm_start(p->solver, load, p->other, &err) != RC_OK))
-        rc_state_refuse(s, "its load or its pressure is impossible");
+        rc_state_refuse(s, "its load or its pressure is not finite or negative");
     else
         rc_plastic_keep_pressure(p);
 }
@@ -177,7 +177,7 @@ rc_plastic_exchange(void *plastic, struct rc_state *s)
         rc_state_refuse(s, "a size is out of range");
     rc_state_number(s, &load, DBL_MIN);
     exchange_figures(p, s);
-    /* a pressure that is written is not changed */
+    /* a pressure that is being written does not change */
     rc_state_finite(s, p->n,
                     rc_state_reads(s) ? p->other : (double *)rc_solver_pressure(p->solver));
     if (rc_state_reads(s))

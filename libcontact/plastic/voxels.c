@@ -35,12 +35,13 @@ rc_voxels_add(struct rc_voxel_row *row, size_t n, const uint32_t *place)
 {
     size_t from = row->n, to = row->n + n;
 
-    struct rc_voxel *more = realloc(row->v, to * sizeof *more); /* few times: no room to spare */
+    /* it grows seldom, so without spare memory */
+    struct rc_voxel *more = realloc(row->v, to * sizeof *more);
     if (more == NULL)
         return RC_FAIL;
     row->v = more;
     row->n = to;
-    while (n > 0) { /* from the back, so that each moves once */
+    while (n > 0) { /* from the end, so that each voxel moves once */
         if (from > 0 && row->v[from - 1].i > place[n - 1])
             row->v[--to] = row->v[--from];
         else

@@ -1,6 +1,6 @@
 /*
- * The yield stress: a straight line, or a table of points with straight lines between them, which goes on
- * beyond its last point as between the last two.
+ * The yield stress: a straight line, or straight lines between the points of a table. Beyond its last point
+ * the last line continues.
  */
 #include "yield.h"
 
@@ -29,7 +29,7 @@ rc_yield_check(const struct rc_yield *law, struct rc_err *err)
 
 /* A straight part of the law. */
 struct part {
-    double strain, stress, modulus, end; /* where it begins, its slope, the strain where it ends */
+    double strain, stress, modulus, end; /* its start, its slope, and the strain at its end */
 };
 
 static struct part

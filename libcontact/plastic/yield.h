@@ -1,8 +1,7 @@
 /*
- * How a material yields: von Mises, with isotropic hardening. Internal: never installed.
+ * The yield law: von Mises with isotropic hardening. Internal: never installed.
  *
- * Tensors are symmetric and without trace: five numbers, of which zz = -xx - yy is left out, shears those
- * of the tensor.
+ * Tensors are symmetric and traceless: five numbers without zz = -xx - yy, with tensor shears.
  */
 #ifndef RC_YIELD_H
 #define RC_YIELD_H
@@ -23,7 +22,7 @@ rc_deviator_product(const double *a, const double *b)
            2 * (a[2] * b[2] + a[3] * b[3] + a[4] * b[4]);
 }
 
-/* Mises' equivalent of a stress; of a plastic strain 2/3 of this. */
+/* The Mises stress of a stress deviator; 2/3 of it is the equivalent of a plastic strain. */
 static inline double
 rc_mises_of(const double *s)
 {
@@ -31,10 +30,10 @@ rc_mises_of(const double *s)
 }
 
 enum rc_status rc_yield_check(const struct rc_yield *law, struct rc_err *err);
-/* The work that hardening has taken from 0 to this strain, J/m^3: the integral of the yield stress. */
+/* The plastic work from 0 to this strain, J/m^3: the integral of the yield stress. */
 double rc_yield_work(const struct rc_yield *law, double strain);
-/* The growth of the equivalent strain that takes a Mises stress back to the yield stress, which it lowers
- * by `stiffness` (3 mu) per strain: 0 where it does not yield. */
+/* The growth of the equivalent strain that returns a Mises stress to the yield stress. The stress falls by
+ * `stiffness` (3 mu) per strain. 0 if the stress does not yield. */
 double rc_yield_return(const struct rc_yield *law, double stiffness, double strain, double mises);
 
 #endif
