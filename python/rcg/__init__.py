@@ -7,18 +7,19 @@
     result.pressure                                                # 2-D array, pascals
     result.report['contact_area']                                  # square metres
     rcg.render(result, channel='pressure', border=True)            # a picture
+    rcg.report('rough-steel.x3p', 'page.html', load='0.1N')        # a page about the surface
 
-Each tool is one function: add cost deflect detrend export info leak open (rc-import) pick render slip
+Each tool is one function: add cost deflect detrend export info leak open (rc-import) pick render report slip
 solve stress synth wear. help(rcg.solve) lists its options. frame, read, write, loads and dumps handle the
-grid stream, run and report call a tool by its name. sample('rough-steel.x3p') is the path of a
-sample surface. Long runs show their progress in terminals and notebooks.
+grid stream, run calls a tool by its name, and so does report with the name of a tool and frames.
+sample('rough-steel.x3p') is the path of a sample surface. Long runs show their progress in terminals and notebooks.
 """
 from .stream import Error, Frame, dumps, frame, loads, read, write
-from .tools import FUNCTIONS, NotConverged, Picture, Result, ToolWarning, function, report, run, sample
+from .tools import FUNCTIONS, NotConverged, Page, Picture, Result, ToolWarning, function, run, sample
 
 __version__ = '0.1.0'
-__all__ = ['Error', 'Frame', 'NotConverged', 'Picture', 'Result', 'ToolWarning', 'frame', 'loads', 'read', 'dumps',
-           'write', 'run', 'report', 'sample'] + sorted(FUNCTIONS)
+__all__ = ['Error', 'Frame', 'NotConverged', 'Page', 'Picture', 'Result', 'ToolWarning', 'frame', 'loads', 'read',
+           'dumps', 'write', 'run', 'sample'] + sorted(FUNCTIONS)
 
 
 def __getattr__(name):

@@ -6,13 +6,13 @@ from . import FUNCTIONS, tools
 
 HEAD = '''# Made by the build from the option tables of the tools.
 import os
-from typing import Any, Callable, Literal
+from typing import Any, Callable, Literal, overload
 
 import numpy
 
 from .stream import Error as Error, Frame as Frame, dumps as dumps, frame as frame, loads as loads, read as read, write as write
-from .tools import NotConverged as NotConverged, Picture as Picture, Result as Result, ToolWarning as ToolWarning
-from .tools import report as report, run as run, sample as sample
+from .tools import NotConverged as NotConverged, Page as Page, Picture as Picture, Result as Result, ToolWarning as ToolWarning
+from .tools import run as run, sample as sample
 
 __version__: str
 
@@ -22,14 +22,22 @@ Path = str | os.PathLike[str]
 # An array needs dx=.
 Surface = Result | Frame | list[Frame] | numpy.ndarray[Any, Any] | Path
 '''
+# The other call of this function: the report lines of another tool.
+LINES = '''
+
+@overload
+def report(tool: str, frames: Any, *args: Any, **options: Any) -> tuple[list[Frame], list[dict[str, Any]]]: ...
+
+
+@overload'''
 
 
 def stub():
     parts = [HEAD]
-    for name in sorted(FUNCTIONS):
+    for name in sorted(name for name, tool in FUNCTIONS.items() if tool in tools._tables):
         made = tools.function(name)
         text = made.__doc__.replace('\\', '\\\\').rstrip().replace('\n', '\n    ').replace('    \n', '\n')
-        parts.append('\n\ndef %s%s:\n    """%s"""\n' % (name, made.__signature__, text))
+        parts.append('%s\ndef %s%s:\n    """%s"""\n' % (LINES if name == 'report' else '\n', name, made.__signature__, text))
     return ''.join(parts)
 
 

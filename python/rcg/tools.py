@@ -20,7 +20,7 @@ from .stream import Error, Frame
 
 # The functions and their tools. An import of files is `open`: import is a word of Python.
 FUNCTIONS = {name: 'rc-' + name for name in
-             'add cost deflect detrend export info leak pick render slip solve stress synth wear'.split()}
+             'add cost deflect detrend export info leak pick render report slip solve stress synth wear'.split()}
 FUNCTIONS['open'] = 'rc-import'
 # Options that the functions set themselves, or that print text for people at a terminal.
 HIDDEN = {'o', 'report', 'json', 'help', 'version', 'verbose', 'debug', 'progress', 'formats', 'list', 'dry-run'}
@@ -477,6 +477,18 @@ class Picture(bytes):
             out.write(self)
 
 
+class Page(str):
+    """The HTML of a page, which notebooks show in a frame of its own."""
+
+    def _repr_html_(self):
+        import html
+        return '<iframe srcdoc="%s" style="width: 100%%; height: 40em; border: 0"></iframe>' % html.escape(self)
+
+    def save(self, file):
+        with open(file, 'w', encoding='utf-8') as out:
+            out.write(self)
+
+
 # ---- calls ----
 
 def call(tool, surface=None, operands=(), spacing=None, timeout=None, progress=None, **given):
@@ -561,6 +573,26 @@ def save_as(surface, path, dx=None, **given):
     _settled(status, words, Result('rc-export', command, frames=[]))
 
 
+def page(surface, path=None, dx=None, timeout=None, progress=None, **given):
+    """The page as HTML text, which notebooks show. path: also write it to this file.
+
+    With the name of a tool first, report('rc-solve', frames, **options) gives the frames and the report lines of this tool.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        name = surface
+        if not isinstance(surface, str) and not hasattr(surface, '__fspath__'):
+            name, frames = os.path.join(folder, 'surface.rcg'), frames_from(surface, dx)
+            stream.write(name, frames)
+            given.setdefault('title', frames[0].keys.get('source', 'surface'))
+        command = ['rc-report'] + arguments('rc-report', given) + ['--', os.fspath(name)]
+        status, output, words = execute(command, None, timeout, progress)
+    result = Result('rc-report', command, frames=[])
+    result.page = Page(bytes(output).decode('utf-8'))
+    if path is not None and result.page:
+        result.page.save(path)
+    return _settled(status, words, result).page
+
+
 def add_two(a, b, dx=None, **given):
     """The sum of two surfaces that face each other, or with subtract=True their difference."""
     with tempfile.TemporaryDirectory() as folder:
@@ -581,7 +613,7 @@ def make(shape, **given):
         return call('rc-synth', None, (shape,), **given)
 
 
-SPECIAL = {'open': open_file, 'render': draw, 'export': save_as, 'add': add_two, 'synth': make}
+SPECIAL = {'open': open_file, 'render': draw, 'report': page, 'export': save_as, 'add': add_two, 'synth': make}
 
 
 def function(name):
@@ -596,6 +628,8 @@ def function(name):
     inner = SPECIAL.get(name, solver)
 
     def made(*operands, **given):
+        if name == 'report' and operands and isinstance(operands[0], str) and os.path.basename(operands[0]) in FUNCTIONS.values():
+            return lines_of(*operands, **given)
         return inner(*operands, **given)
 
     own = [p.replace(annotation=_Hint(OWN_HINTS[p.name] + (' | None' if p.default is None else '')))
@@ -604,7 +638,7 @@ def function(name):
     named = [inspect.Parameter(python, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=_Hint(annotation(row) + ' | None'))
              for python, row in rows.items()]
     named += [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own if p not in positional]
-    result = {'render': 'Picture', 'export': 'None'}.get(name, 'Result')
+    result = {'render': 'Picture', 'report': 'Page', 'export': 'None'}.get(name, 'Result')
     made.__signature__ = inspect.Signature(positional + named, return_annotation=_Hint(result))
     made.__name__ = made.__qualname__ = name
     made.__module__ = 'rcg'
@@ -631,11 +665,12 @@ def annotation(row):
 
 
 def documentation(name, rows):
+    import inspect
     tool = FUNCTIONS[name]
     row = table(tool)
     text = [row['summary'] + '.', '']
     if name in SPECIAL:
-        text += [SPECIAL[name].__doc__, '']
+        text += [inspect.cleandoc(SPECIAL[name].__doc__), '']
     else:
         text += ['timeout: seconds, after which the tool stops. progress: True, False, or a function of a dict (default: progress',
                  'appears where a person watches).', '']
@@ -694,6 +729,6 @@ def run(tool, frames=None, *args, **options):
     return _named(tool, frames, args, options, False)[0]
 
 
-def report(tool, frames, *args, **options):
-    """As run(), with the lines of the tool's report: the frames and a list of dicts."""
+def lines_of(tool, frames, *args, **options):
+    """As run(), with the lines of the tool's report: the frames and a list of dicts. rcg.report() calls it."""
     return _named(tool, frames, args, options, True)

@@ -74,6 +74,15 @@ claim "  layers, a list of tuples" check layers ball.rcg
 claim "  what is wrong in a call is said before the tool runs" check mistakes ball.rcg
 claim "  one that stopped short, and warnings at the line of the user" check unfinished
 claim "  pictures, curves, files of other programs" check pictures ball.rcg
+mkdir short
+for tool in "$RC_BIN"/rc-*[a-z]; do
+    ln -s "$tool" short
+done
+rm short/rc-report short/rc-solve
+cp "$RC_BIN/rc-report" short
+printf '#!/bin/sh\n"%s/rc-solve" "$@"\nexit 3\n' "$RC_BIN" >short/rc-solve
+chmod +x short/rc-solve
+claim "  a page, of a file and of arrays" check page ball.rcg
 claim "their documentation has every option of --help" check documented
 mkdir mutated
 printf '#!/bin/sh\n%s "$@" | sed "s/\"hardness\"/\"hardened\"/"\n' "$RC_BIN/rc-solve" >mutated/rc-solve

@@ -34,33 +34,6 @@ near "$(sed -n 's/^  pressure *at most \([0-9.]*\) GPa$/\1/p' demo/said.txt)" 6 
 claim "  on any other file too" bash -c '
     cd demo && says "^  load +[0-9.]+ N$" bash "$RC_SOURCE/sample_surfaces/demo.sh" ../again/turned-brass.txt'
 
-
-# ---- a page of a surface ----
-
-mkdir page again-page
-claim "a page of a surface" bash -c 'cd page && bash "$RC_SOURCE/sample_surfaces/report.sh" ../again/turned-brass.txt brass.html'
-claim "  leaves nothing else behind" test "$(ls page)" = brass.html
-claim "  holds all its pictures" test "$(grep -c '<img src="data:image/png;base64,' page/brass.html) $(grep -Eoc '(src|href)="[^d]' page/brass.html)" = "5 0"
-claim "  tells parameters, loads, and how far to trust them" bash -c '
-    for words in "Sq  *[0-9.]* nm" "S10z " "Rsm " "<td>true</td>" "pressure error estimate" "largest patch"; do grep -q "$words" page/brass.html || { echo "$words" >&2; exit 1; }; done'
-sed -n '/<pre id="commands">/,/<\/pre>/p' page/brass.html | sed 's/<[^>]*>//g; s/&gt;/>/g; s/&lt;/</g; s/&amp;/\&/g' | grep -v '^rc-solve (' >commands.sh
-claim "  and its command lines make it again" bash -c 'cd again-page && bash -e ../commands.sh 2>/dev/null && [ "$(ls *.png | wc -l)" = 5 ]'
-sed -n 's/.*base64,\([^"]*\)".*/\1/p' page/brass.html >pictures.txt
-k=0
-for picture in heights ratio curve pressure section; do
-    k=$((k + 1))
-    claim "    $picture, byte for byte" cmp "again-page/$picture.png" <(sed -n "${k}p" pictures.txt | base64 -d)
-done
-
-claim "a page with other loads, materials, without outliers, periodic, of a name with blanks" bash -c '
-    cp again/turned-brass.txt "page/my brass.txt" && cd page &&
-    bash "$RC_SOURCE/sample_surfaces/report.sh" --load 0.01N,0.02N --estar 70GPa --hardness 2GPa --outliers 5 --mirror "my brass.txt" "my page.html" &&
-    grep -q -- "--poly 2 --outliers 5 --fill --mirror" "my page.html" &&
-    grep -q -- "rc-solve --periodic --load 0.01N.*,0.02N --estar 70GPa --hardness 2GPa" "my page.html"'
-refuses 2 "unknown option --lod" "  an option that is unknown is refused" "bash '$RC_SOURCE/sample_surfaces/report.sh' --lod 3N again/turned-brass.txt"
-claim "  and a page that fails leaves nothing" bash -c '
-    cd again-page && ! bash "$RC_SOURCE/sample_surfaces/report.sh" --load 1K ../again/turned-brass.txt failed.html && ! [ -e failed.html ]'
-
 if [ -d "$RC_CORPUS/corpus" ]; then
     real=$RC_CORPUS/corpus/x3p/bulletxtrctr__Hamby252_Barrel1_Bullet1_Land1.x3p
     claim "a real X3P goes from file to picture in one line" bash -c "

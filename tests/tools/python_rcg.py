@@ -416,10 +416,42 @@ def pictures(name):
     assert (numpy.load('pressure.npy') == result.cases[0].pressure).all()
 
 
+def page(name):
+    """The page of rc-report: of a file, of arrays; the older call with the name of a tool; a solution that stopped short."""
+    wanted = dict(load='0.5N', estar='114GPa', quiet=True)
+    made = rcg.report(name, 'page.html', **wanted)
+    assert content('page.html') == made.encode() == tool('rc-report', '--load', '0.5N', '--estar', '114GPa', '--quiet', name)[1]
+    assert made._repr_html_().startswith('<iframe srcdoc="&lt;!DOCTYPE html') and made.startswith('<!DOCTYPE html')
+    ball = rcg.open(name)
+    for surface in (ball, ball.frames[0]):
+        again = rcg.report(surface, **wanted)
+        assert '<title>sphere</title>' in again and again.count('<img') == made.count('<img') == 5
+    assert '<title>surface</title>' in rcg.report(ball.height, dx=(1.1e-6, 1.29e-6), **wanted)
+    frames, lines = rcg.report('rc-solve', ball, **wanted)
+    assert len(lines) == 1 and frames[0].channel == 'pressure'
+    try:
+        rcg.report('nosuch.x3p')
+        assert False
+    except rcg.Error as e:
+        assert e.status == 1 and 'nosuch.x3p' in str(e)
+    os.environ['RC_BIN'] = 'short'
+    try:
+        rcg.report(name, 'short.html', **wanted)
+        assert False
+    except rcg.NotConverged as e:
+        assert e.result.page == made == content('short.html').decode()
+
+
+def built():
+    """{function: tool} of the tools of this build, which may be without rc-leak."""
+    leak = not tool('which', 'rc-leak')[0]
+    return {name: command for name, command in rcg.tools.FUNCTIONS.items() if leak or command != 'rc-leak'}
+
+
 def documented():
     """Every option of --help is in the documentation and in the signature, and no other."""
     import inspect
-    for name, command in rcg.tools.FUNCTIONS.items():
+    for name, command in built().items():
         help_ = tool(command, '--help')[1].decode()
         shown = {w.strip(' ,')[2:] for line in help_.splitlines() if line.startswith('  -')
                  for w in line.split()[:2] if w.startswith('--')}
@@ -449,9 +481,9 @@ def hints(stub, tables):
     """The stub has every function with the options of its tool, which come from the tables and nothing else."""
     text, rows = content(stub).decode(), content(tables).decode()
     there = keywords(text)
-    assert set(there) == set(rcg.tools.FUNCTIONS)
-    assert {json.loads(row)['tool'] for row in rows.splitlines()} == set(rcg.tools.FUNCTIONS.values()), 'a tool without a function'
-    for name, command in rcg.tools.FUNCTIONS.items():
+    assert set(there) == set(built())
+    assert {json.loads(row)['tool'] for row in rows.splitlines()} == set(built().values()), 'a tool without a function'
+    for name, command in built().items():
         assert set(there[name]) - {'dx', 'timeout', 'progress'} == set(rcg.tools.options_of(command)) - {'dx'}, name
     assert "kernel: Literal['auto', 'fft'," in text
     with open('tables.json', 'w') as file:

@@ -1,0 +1,662 @@
+/* A page about a measured surface: the other tools do the steps, and this one puts their pictures, tables and
+ * texts together. */
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "formats/core/core.h"
+#include "tools/cli/cli.h"
+#include "tools/problem/problem.h"
+
+static struct args {
+    struct physics physics;
+    double outliers, nu;
+    bool mirror;
+    const char *title;
+} args = {.physics = PHYSICS_NONE, .outliers = NAN, .nu = NAN};
+
+#define AT(field) .at = offsetof(struct args, field)
+/* clang-format off */
+static const struct opt opts[] = {
+    {.name = "outliers", .type = OPT_NUMBER, AT(outliers), .min = 0, .max = INFINITY, .above = true,
+     .arg = "T", .help = "drop points that differ by T deviations from the median of their neighbours"},
+    {.name = "mirror", .type = OPT_FLAG, AT(mirror),
+     .help = "add the mirror images about two edges, and solve the contact as periodic"},
+    {.group = physics_options, AT(physics)},
+    {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
+     .help = "Poisson's ratio for the stresses (default: --nu1, else 0.28)"},
+    {.name = "title", .type = OPT_TEXT, AT(title), .arg = "TEXT",
+     .help = "title of the page (default: the name of the file)"},
+    {.name = NULL},
+};
+/* clang-format on */
+
+static const struct tool_info info = {
+    .name = "rc-report",
+    .summary = "One page about a measured surface: maps, parameters, contact and stresses",
+    .operands = "FILE",
+    .examples =
+        "  rc-report -o page.html surface.x3p\n"
+        "  rc-report --outliers 5 --load 1N:20N:log:5 --estar 3GPa -o page.html surface.x3p\n",
+    .opts = opts,
+    .reads = READS_FILES,
+    .writes = WRITES_BYTES,
+};
+
+enum {
+    WORDS = 512 /* more than a command has words or a table columns */
+};
+
+struct run {
+    struct tool t;
+    const char *file, *name; /* as it was given; without its folders */
+    char *path;              /* its full name                        */
+    bool stream;             /* it is a grid stream                  */
+    bool assumed;            /* the bodies are those of the defaults */
+    size_t loads;
+    char last[RC_NUMBER_SIZE], outliers[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE], memory[RC_NUMBER_SIZE];
+    const char *contact[WORDS]; /* options of rc-solve */
+    size_t contacts;
+    struct text {
+        char *text;
+        size_t size;
+        FILE *file;   /* writes it */
+    } commands, said; /* what was run; the messages */
+    int nothing;      /* /dev/null */
+};
+
+/* ---- the temporary folder ---- */
+
+static char folder[WHOLE_PATH - 256];
+
+/* Also at the end of a tool that fails. */
+static void
+remove_folder(void)
+{
+    DIR *dir = opendir(folder);
+    const struct dirent *entry;
+
+    while (dir != NULL && (entry = readdir(dir)) != NULL)
+        unlinkat(dirfd(dir), entry->d_name, 0);
+    if (dir != NULL)
+        closedir(dir);
+    rmdir(folder);
+}
+
+static void
+make_folder(struct tool *t)
+{
+    const char *place = getenv("TMPDIR");
+
+    snprintf(folder, sizeof folder, "%s/rc-report-XXXXXX",
+             place == NULL || *place == '\0' ? "/tmp" : place);
+    if (mkdtemp(folder) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "a temporary folder %s cannot be made: %s", folder,
+                 strerror(errno));
+    atexit(remove_folder);
+}
+
+static FILE *
+open_part(struct run *run, const char *name)
+{
+    char path[WHOLE_PATH];
+    FILE *in;
+
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    if ((in = fopen(path, "rb")) == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "%s: %s", path, strerror(errno));
+    return in;
+}
+
+/* ---- HTML ---- */
+
+/* Writes text of files and users: no character of it acts as markup, and none is a control character. */
+static void
+put_text(FILE *out, const char *text)
+{
+    bool utf8 = rc_utf8_valid(text);
+
+    for (size_t size; *text != '\0'; text += size) {
+        size = rc_control_size(text);
+        if (*text != '\n' && (size > 0 || (!utf8 && (unsigned char)*text >= 0x80)))
+            putc('?', out);
+        else if (strchr("&<>\"'", *text) != NULL)
+            fprintf(out, "&#%d;", *text);
+        else
+            putc(*text, out);
+        size = size == 0 ? 1 : size;
+    }
+}
+
+static void
+put_base64(FILE *out, FILE *in)
+{
+    static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    unsigned char b[3];
+    size_t n;
+
+    while ((n = fread(b, 1, 3, in)) > 0) {
+        unsigned bits = b[0] * 65536U + (n > 1 ? b[1] * 256U : 0) + (n > 2 ? b[2] : 0);
+
+        putc(digit[bits >> 18], out);
+        putc(digit[bits >> 12 & 63], out);
+        putc(n > 1 ? digit[bits >> 6 & 63] : '=', out);
+        putc(n > 2 ? digit[bits & 63] : '=', out);
+    }
+}
+
+static void
+show_picture(struct run *run, FILE *in, const char *caption, const char *unused)
+{
+    FILE *out = run->t.out;
+
+    (void)unused;
+    fprintf(out, "<figure><img alt=\"%s\" src=\"data:image/png;base64,", caption);
+    put_base64(out, in);
+    fprintf(out, "\"/><figcaption>%s</figcaption></figure>\n", caption);
+}
+
+static bool
+begins(const char *line, const char *word)
+{
+    return word != NULL && strncmp(line, "  ", 2) == 0 &&
+           strncmp(line + 2, word, strlen(word)) == 0;
+}
+
+/* Shows the lines of a text of rc-info from the one with this first word (NULL: from the second line) to the
+ * one before that with the other. */
+static void
+show_lines(struct run *run, FILE *in, const char *from, const char *to)
+{
+    char *line = NULL;
+    size_t room = 0;
+    bool shown = false;
+
+    fputs("<pre>", run->t.out);
+    for (size_t k = 0; getline(&line, &room, in) > 0; k++) {
+        shown = (shown || (from == NULL ? k == 1 : begins(line, from))) && !begins(line, to);
+        if (shown)
+            put_text(run->t.out, line);
+    }
+    fputs("</pre>\n", run->t.out);
+    free(line);
+}
+
+/* Shows these columns of a report, its numbers with four digits. */
+static void
+show_table(struct run *run, FILE *in, const char *columns, const char *unused)
+{
+    FILE *out = run->t.out;
+    bool wanted[WORDS] = {false};
+    char *line = NULL, *end;
+    size_t room = 0;
+
+    (void)unused;
+    fputs("<table>\n", out);
+    for (size_t row = 0; getline(&line, &room, in) > 0; row++) {
+        char *cell = line;
+
+        fputs("<tr>", out);
+        for (size_t k = 0, n; k < WORDS && *cell != '\0'; k++, cell += n + 1) {
+            double value = strtod(cell, &end);
+
+            n = strcspn(cell, "\t\n");
+            cell[n] = '\0';
+            if (row == 0) {
+                char name[64];
+
+                snprintf(name, sizeof name, " %.*s ", (int)strcspn(cell, "/"), cell);
+                wanted[k] = strstr(columns, name) != NULL;
+            }
+            if (!wanted[k])
+                continue;
+            for (char *c = cell; row == 0 && (c = strchr(c, '_')) != NULL;)
+                *c = ' ';
+            fputs(row == 0 ? "<th>" : "<td>", out);
+            if (row > 0 && n > 0 && end == cell + n)
+                fprintf(out, "%.4g", value);
+            else
+                put_text(out, cell);
+            fputs(row == 0 ? "</th>" : "</td>", out);
+        }
+        fputs("</tr>\n", out);
+    }
+    fputs("</table>\n", out);
+    free(line);
+}
+
+static void
+show_bodies(struct run *run, FILE *in, const char *a, const char *b)
+{
+    const struct physics *p = &args.physics;
+    FILE *out = run->t.out;
+    char text[SHOWN_NUMBER];
+
+    (void)in, (void)a, (void)b;
+    fprintf(out, "<p>The surface is pressed against a flat body. E* is %s",
+            shown_in_unit(text, p->surface_estar, "Pa"));
+    if (p->pair.one.layers > 0)
+        fprintf(out, " at the surface of %zu layer%s", p->pair.one.layers,
+                p->pair.one.layers == 1 ? "" : "s");
+    if (!isnan(p->radius))
+        fprintf(out, ", a sphere of radius %s is added", shown_in_unit(text, p->radius, "m"));
+    if (isfinite(p->hardness))
+        fprintf(out, ", the hardness is %s", shown_in_unit(text, p->hardness, "Pa"));
+    else
+        fputs(", the bodies are elastic", out);
+    fprintf(out, ", and the map %s.%s</p>\n",
+            p->periodic ? "repeats without end" : "ends at its edges",
+            run->assumed ? " No elasticity was given: these are values of steel on steel." : "");
+}
+
+static void
+show_messages(struct run *run, FILE *in, const char *a, const char *b)
+{
+    FILE *out = run->t.out;
+
+    (void)in, (void)a, (void)b;
+    if (run->said.size == 0) {
+        fputs("<p>The tools gave no warnings.</p>\n", out);
+        return;
+    }
+    fputs("<p>Warnings of the tools:</p>\n<pre>", out);
+    put_text(out, run->said.text);
+    fputs("</pre>\n", out);
+}
+
+static void
+show_commands(struct run *run, FILE *in, const char *a, const char *b)
+{
+    FILE *out = run->t.out;
+
+    (void)in, (void)a, (void)b;
+    fprintf(out,
+            "<p>These commands of libcontact %s make the files of this page again.</p>\n"
+            "<pre id=\"commands\">",
+            rc_version());
+    put_text(out, run->commands.text);
+    fputs("</pre>\n", out);
+}
+
+static bool
+is_measured(const struct run *run)
+{
+    return !run->stream;
+}
+
+static bool
+has_several_loads(const struct run *run)
+{
+    return run->loads > 1;
+}
+
+/* ---- the page: what its parts run and show ---- */
+
+/* A command gets "-o FILE" at its end. The words in capitals stand for others, see `expand`. */
+static const struct part {
+    const char *heading, *command, *file;
+    void (*show)(struct run *run, FILE *in, const char *a, const char *b);
+    const char *a, *b;
+    bool (*wanted)(const struct run *run); /* NULL: always */
+} parts[] = {
+    {.command = "rc-import ORIGINAL", .file = "measured.rcg", .wanted = is_measured},
+    {.command = "rc-detrend PREPARED", .file = "surface.rcg"},
+    {.heading = "The surface",
+     .command = "rc-render --quiet --hillshade --width 800 surface.rcg",
+     .file = "heights.png",
+     .show = show_picture,
+     .a = "Heights; the section Origin says how they were prepared"},
+    {.command = "rc-info --areal --psd surface.rcg",
+     .file = "parameters.txt",
+     .show = show_lines,
+     .b = "psd"},
+    {.heading = "Heights and wavelengths",
+     .command = "rc-render --quiet --material-ratio --width 800 surface.rcg",
+     .file = "ratio.png",
+     .show = show_picture,
+     .a = "Material ratio: the share of the surface at or above each height"},
+    {.command = "rc-info --json --psd surface.rcg", .file = "spectrum.json"},
+    {.command =
+         "rc-render --quiet --curve psd.q:psd.c --log xy --subtitle= --width 800 spectrum.json",
+     .file = "spectrum.png",
+     .show = show_picture,
+     .a = "Power spectrum, the mean over all directions"},
+    {.file = "parameters.txt", .show = show_lines, .a = "psd", .b = "keys"},
+    {.heading = "Profiles along x",
+     .command = "rc-info --profile rows surface.rcg",
+     .file = "profiles.txt",
+     .show = show_lines,
+     .a = "profile",
+     .b = "keys"},
+    {.heading = "Under load", .show = show_bodies},
+    {.command = "rc-solve CONTACT --output pressure --report loads.tsv surface.rcg",
+     .file = "contact.rcg"},
+    {.command = "rc-pick --case LAST contact.rcg", .file = "last.rcg"},
+    {.command = "rc-render --quiet --width 800 last.rcg",
+     .file = "pressure.png",
+     .show = show_picture,
+     .a = "Contact pressure under the last load"},
+    {.command = "rc-info --patches last.rcg",
+     .file = "contact.txt",
+     .show = show_lines,
+     .b = "keys"},
+    {.command = "rc-render --quiet --curve mean_pressure:contact_fraction --log xy --y-unit % "
+                "--subtitle= --width 800 loads.tsv",
+     .file = "curve.png",
+     .show = show_picture,
+     .a = "Real contact area, as a share of the map, against the mean pressure",
+     .wanted = has_several_loads},
+    {.command = "rc-stress NU --section y=0 --depths auto --components mises last.rcg",
+     .file = "section.rcg"},
+    {.command = "rc-render --quiet --log --width 800 section.rcg",
+     .file = "section.png",
+     .show = show_picture,
+     .a = "Mises stress below the middle of the map, under the last load"},
+    {.heading = "Accuracy",
+     .file = "loads.tsv",
+     .show = show_table,
+     .a = " mean_pressure load contact_fraction max_pressure converged pressure_error_estimate "
+          "edge_load_fraction nodes_per_patch "},
+    {.show = show_messages},
+    {.heading = "Origin", .file = "parameters.txt", .show = show_lines, .a = "keys"},
+    {.heading = "Commands", .show = show_commands},
+};
+
+/* ---- commands ---- */
+
+struct command {
+    const char *word[WORDS + 1];
+    size_t n;
+};
+
+static void
+add(struct command *c, const char *option, const char *value)
+{
+    c->word[c->n++] = option;
+    if (value != NULL)
+        c->word[c->n++] = value;
+}
+
+static void
+add_preparation(const struct run *run, struct command *c)
+{
+    if (!run->stream)
+        add(c, "--poly", "2");
+    if (*run->outliers != '\0')
+        add(c, "--outliers", run->outliers);
+    add(c, "--fill", NULL);
+    if (args.mirror)
+        add(c, "--mirror", NULL);
+    add(c, run->stream ? run->path : "measured.rcg", NULL);
+}
+
+/* Adds a word of a part, or the words for which it stands. */
+static void
+expand(const struct run *run, struct command *c, const char *word)
+{
+    if (strcmp(word, "ORIGINAL") == 0)
+        add(c, run->path, NULL);
+    else if (strcmp(word, "PREPARED") == 0)
+        add_preparation(run, c);
+    else if (strcmp(word, "LAST") == 0)
+        add(c, run->last, NULL);
+    else if (strcmp(word, "CONTACT") == 0)
+        for (size_t k = 0; k < run->contacts; k++)
+            add(c, run->contact[k], NULL);
+    else if (strcmp(word, "NU") != 0)
+        add(c, word, NULL);
+    else if (*run->nu != '\0')
+        add(c, "--nu", run->nu);
+}
+
+/* Writes the command for a shell, with the file as it was given. */
+static void
+write_command(const struct run *run, const struct command *c)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "%+,-./:=@_";
+    FILE *out = run->commands.file;
+
+    for (size_t k = 0; k < c->n; k++) {
+        const char *word = c->word[k] == run->path ? run->file : c->word[k];
+
+        if (k > 0)
+            putc(' ', out);
+        if (word == run->file && *word == '-')
+            fputs("./", out);
+        if (*word != '\0' && word[strspn(word, plain)] == '\0') {
+            fputs(word, out);
+            continue;
+        }
+        putc('\'', out);
+        for (; *word != '\0'; word++)
+            fputs(*word == '\'' ? "'\\''" : (const char[]){*word, '\0'}, out);
+        putc('\'', out);
+    }
+    putc('\n', out);
+}
+
+/* Repeats the messages of a command, and ends as it did if it failed. */
+static void
+take_messages(struct run *run, const char *name, enum process_end end, struct process *p)
+{
+    struct tool *t = &run->t;
+
+    if (end == PROCESS_INTERRUPTED)
+        remove_folder(); /* the signal ends this tool, which then does nothing else */
+    if (end == PROCESS_INTERRUPTED || end == PROCESS_DIED)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s was ended by a signal", name);
+    if (p->said != NULL && (end == PROCESS_FAILED || !t->quiet))
+        fputs(p->said, stderr);
+    if (end == PROCESS_FAILED) {
+        whole_files_remove();
+        exit(p->status == EXIT_USAGE ? EXIT_USAGE : EXIT_IMPOSSIBLE);
+    }
+    if (p->said != NULL)
+        fputs(p->said, run->said.file);
+    if (p->status == EXIT_SHORT)
+        tool_fails_with(t, EXIT_SHORT);
+    free(p->said);
+}
+
+static void
+run_part(struct run *run, const struct part *part)
+{
+    struct process p = {
+        .in = run->nothing, .out = run->nothing, .folder = folder, .allowed = INFINITY};
+    struct command c = {.n = 0};
+    char *words = strdup(part->command), *rest = words;
+
+    if (words == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory");
+    for (const char *word; (word = strtok_r(rest, " ", &rest)) != NULL;)
+        expand(run, &c, word);
+    add(&c, "-o", part->file);
+    write_command(run, &c);
+    if (*run->memory != '\0')
+        add(&c, "--memory", run->memory);
+    p.doing = c.word[0];
+    take_messages(run, c.word[0], process_run(&run->t, c.word, &p), &p);
+    free(words);
+}
+
+/* ---- the command line ---- */
+
+/* Gives an option that the command line does not have. */
+static void
+assume(struct tool *t, const char *name, const char *text)
+{
+    for (size_t k = 0; k < t->opts; k++) {
+        const struct opt *o = &t->opt[k];
+        void *at = (char *)t->args + o->at;
+
+        if (strcmp(o->name, name) != 0)
+            continue;
+        t->given[k] = true;
+        if (o->type == OPT_NUMBERS)
+            (void)unit_numbers(text, o->unit, at, NULL);
+        else
+            (void)unit_number(text, o->unit, at, NULL);
+    }
+}
+
+static void
+check_contact(struct run *run)
+{
+    struct tool *t = &run->t;
+    bool quiet = t->quiet;
+
+    if (!tool_given(t, "load") && !tool_given(t, "mean-pressure") && !tool_given(t, "approach"))
+        assume(t, "mean-pressure", "2MPa:64MPa:log:6");
+    if (!tool_given(t, "estar") && !tool_given(t, "E1") && !tool_given(t, "nu1") &&
+        !tool_given(t, "E2") && !tool_given(t, "nu2")) {
+        run->assumed = true;
+        assume(t, "estar", "114GPa");
+        tool_warn(t, "no elasticity was given: E* is that of steel on steel, 114 GPa%s",
+                  tool_given(t, "hardness") ? "" : ", and the hardness is 6 GPa");
+        if (!tool_given(t, "hardness"))
+            assume(t, "hardness", "6GPa");
+    }
+    if (args.mirror && !args.physics.periodic) {
+        args.physics.periodic = true;
+        run->contact[run->contacts++] = "--periodic";
+    }
+    t->quiet = true; /* rc-solve gives these warnings */
+    physics_check(t, &args.physics);
+    t->quiet = quiet;
+    run->loads = physics_steps(&args.physics)->n;
+    run->contacts += tool_result_words(t, run->contact + run->contacts, WORDS / 2);
+    rc_number_text(run->last, (double)run->loads);
+    if (tool_given(t, "nu") && tool_given(t, "nu1"))
+        tool_die(t, EXIT_USAGE, "--nu: --nu1 already gives Poisson's ratio: leave --nu out");
+    if (!tool_given(t, "nu1"))
+        rc_number_text(run->nu, isnan(args.nu) ? 0.28 : args.nu);
+}
+
+static void
+check_file(struct run *run)
+{
+    struct tool *t = &run->t;
+    char head[4] = "";
+    FILE *in;
+
+    if (t->operands != 1)
+        tool_die(t, EXIT_USAGE, "%zu files were given: give one, as in rc-report -o page.html FILE",
+                 t->operands);
+    run->file = t->operand[0];
+    if (strcmp(run->file, "-") == 0)
+        tool_die(t, EXIT_USAGE,
+                 "-: the page names its file: write standard input to a file and give its name");
+    if ((run->path = realpath(run->file, NULL)) == NULL || (in = fopen(run->path, "rb")) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", run->file, strerror(errno));
+    run->stream = fread(head, 1, 4, in) == 4 && memcmp(head, "RCG1", 4) == 0;
+    fclose(in);
+    run->name = strrchr(run->file, '/') == NULL ? run->file : strrchr(run->file, '/') + 1;
+}
+
+static void
+check_arguments(struct run *run)
+{
+    char threads[RC_NUMBER_SIZE];
+
+    check_file(run);
+    check_contact(run);
+    if (!isnan(args.outliers))
+        rc_number_text(run->outliers, args.outliers);
+    if (run->t.memory > 0)
+        rc_number_text(run->memory, (double)run->t.memory);
+    setenv("RC_THREADS", rc_number_text(threads, (double)run->t.threads), 1);
+}
+
+/* ---- the run ---- */
+
+static void
+demand_one_map(struct run *run)
+{
+    FILE *in = open_part(run, "surface.rcg");
+    struct rc_err err;
+    struct rc_reader *reader = rc_reader_new(in, 0, 0, &err);
+    struct rc_grid *g;
+    size_t maps = 0;
+
+    for (; reader != NULL && rc_reader_next(reader, &g, &err) == RC_MORE; maps++)
+        rc_grid_free(g);
+    if (maps != 1)
+        tool_die(&run->t, EXIT_IMPOSSIBLE,
+                 "%s: it holds %zu maps, and a page is about one: choose one with rc-import and "
+                 "rc-pick, "
+                 "and give the new file",
+                 run->file, maps);
+    rc_reader_free(reader);
+    fclose(in);
+}
+
+static void
+write_page(struct run *run)
+{
+    const char *title = args.title == NULL ? run->name : args.title;
+    FILE *out = run->t.out, *in;
+
+    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+          "<meta http-equiv=\"Content-Security-Policy\" "
+          "content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\"/>\n<title>",
+          out);
+    put_text(out, title);
+    fputs("</title>\n<style>body{font:16px/1.5 sans-serif;max-width:52em;margin:2em auto;padding:0 "
+          "1em;"
+          "color:#222}img{max-width:100%}figure{margin:1em 0}figcaption{color:#595959}"
+          "pre{background:#f4f4f4;padding:.8em;white-space:pre-wrap;overflow-wrap:anywhere}"
+          "table{font-size:85%}td,th{padding:.2em .6em;text-align:right}"
+          "</style>\n</head>\n<body>\n<h1>",
+          out);
+    put_text(out, title);
+    fputs("</h1>\n", out);
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+        const struct part *part = &parts[k];
+
+        if (part->heading != NULL)
+            fprintf(out, "<h2>%s</h2>\n", part->heading);
+        if (part->show == NULL || (part->wanted != NULL && !part->wanted(run)))
+            continue;
+        in = part->file == NULL ? NULL : open_part(run, part->file);
+        part->show(run, in, part->a, part->b);
+        if (in != NULL)
+            fclose(in);
+    }
+    fputs("</body>\n</html>\n", out);
+}
+
+int
+main(int argc, char **argv)
+{
+    static struct run run;
+    struct tool *t = &run.t;
+
+    tool_start(t, &info, argc, argv, &args);
+    check_arguments(&run);
+    run.nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+    run.said.file = open_memstream(&run.said.text, &run.said.size);
+    run.commands.file = open_memstream(&run.commands.text, &run.commands.size);
+    if (run.nothing < 0 || run.said.file == NULL || run.commands.file == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "/dev/null, or memory: %s", strerror(errno));
+    make_folder(t);
+    tool_catch_signals();
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
+        if (parts[k].command != NULL && (parts[k].wanted == NULL || parts[k].wanted(&run))) {
+            run_part(&run, &parts[k]);
+            if (strcmp(parts[k].file, "surface.rcg") == 0)
+                demand_one_map(&run);
+        }
+    if (fclose(run.said.file) != 0 || fclose(run.commands.file) != 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    write_page(&run);
+    remove_folder();
+    free(run.said.text);
+    free(run.commands.text);
+    free(run.path);
+    return tool_finish(t);
+}
