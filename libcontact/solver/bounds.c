@@ -27,9 +27,9 @@ of_numbers(double high, size_t nodes)
 
 /* Figures of a map of upper bounds. */
 struct survey {
-    double least, most;  /* of the nodes that have a bound                           */
-    double sum;          /* of all nodes; INFINITY if a node has no bound            */
-    size_t numbers, bad; /* nodes that have a bound, and nodes with one of 0 or less */
+    double least, most;  /* range over the nodes that have a bound */
+    double sum;          /* sum over all nodes; INFINITY if a node has no bound */
+    size_t numbers, bad; /* number of nodes with a bound; of nodes with a bound of 0 or less */
     size_t first_bad;    /* index in the whole map                                   */
 };
 
@@ -71,12 +71,13 @@ rc_bounds_of(struct rc_bounds *b, const struct rc_problem *problem, const struct
     if (problem->hardness_map == NULL)
         return RC_OK;
     if (!isinf(b->box.high))
-        return rc_err_set(err, "hardness %g Pa beside a map of it: give one of them", b->box.high);
+        return rc_err_set(err, "hardness %g Pa and a map of hardness: give only one of them",
+                          b->box.high);
     s = survey_of(problem->hardness_map, &rows, whole->nx);
     if (s.bad > 0)
         return rc_err_set(err,
                           "%zu of %zu hardnesses are not above 0, the first in column %zu of row "
-                          "%zu: where there is none NaN says so",
+                          "%zu: each must be above 0, or NaN for a node without a hardness",
                           s.bad, nodes, s.first_bad % whole->nx, s.first_bad / whole->nx);
     if (s.numbers == 0 || (s.numbers == nodes && s.least == s.most)) {
         *b = of_numbers(s.numbers == 0 ? INFINITY : s.most, nodes);

@@ -1,11 +1,11 @@
 /*
- * The bounds of the pressure. No other file of this folder knows their values. The lower bound is
- * 0, because the bodies do not pull; the upper bound is the hardness: a number, a map, or none.
+ * The bounds of the pressure. No other file of this folder knows their values. The lower bound is 0, because
+ * the bodies do not attract each other. The upper bound is the hardness: a number, a map, or none.
  *
  * Loops over nodes use a box: the bounds of the nodes that follow a given node. The body of a hot loop is an
  * RC_INLINE function that an RC_CLONES function calls twice: with rc_box_of_numbers, where the compiler sees
- * two numbers and no map, and with the box itself. A lower bound that is a map would need the code of `highs`
- * twice: here and in tiles.c, which copies a tile of it.
+ * two numbers and no map, and with the box itself. A map of lower bounds would need code like that for
+ * `highs`, here and in tiles.c, which copies a tile of it.
  */
 #ifndef RC_BOUNDS_H
 #define RC_BOUNDS_H
@@ -20,12 +20,12 @@
 struct rc_box {
     double low, high;    /* Pa                                                                 */
     const double *highs; /* Pa, node by node, in place of high; NULL: high holds for all nodes */
-    double rest;         /* Pa: a pressure this near to a bound is at it but for rounding      */
+    double rest;         /* Pa: a pressure this near to a bound is at the bound within rounding */
     double per_unit;     /* 1/Pa: 1 / rc_bounds.unit, for rc_room                              */
 };
 
 struct rc_bounds {
-    struct rc_box box; /* of the nodes held here; INFINITY: no upper bound            */
+    struct rc_box box; /* bounds of the nodes held here; INFINITY: no upper bound */
     double unit;       /* Pa: unit of the distance between the bounds                 */
     double highest;    /* Pa: the largest finite upper bound, or the lower one        */
     bool open;         /* some node has no upper bound                                */
@@ -165,9 +165,9 @@ rc_bare(const struct rc_bounds *b)
     return !rc_bounded(b) && b->box.low == 0;
 }
 
-/* The bounds of this problem, with their sums; rc_bounds_keep then copies the map; after it the functions of
- * nodes may be called. All ranks call it, and all get the same sums. RC_FAIL for a map with invalid bounds,
- * and for a map and a number together. A map of one value counts as that number. */
+/* Finds the bounds of this problem and their sums. rc_bounds_keep then copies the map; only after it may the
+ * functions for single nodes be called. All ranks call it, and all get the same sums. RC_FAIL for a map with
+ * invalid bounds, and for a map and a number together. A map of one value counts as that number. */
 enum rc_status rc_bounds_of(struct rc_bounds *b, const struct rc_problem *problem,
                             const struct rc_shape *whole, struct rc_err *err);
 /* Copies the bounds of the n nodes held here. RC_FAIL when memory is short, on this rank only. */
@@ -178,7 +178,7 @@ void rc_bounds_pose(const struct rc_bounds *b, const double *highs, struct rc_pr
 /* Sets `rest` for nodal pressures of this sum: 1e-14 of the sum. Without an upper bound nodes reach the lower
  * bound exactly. */
 void rc_bounds_keep_load(struct rc_bounds *b, double sum);
-/* RC_FAIL when they cannot carry this load (N) on so many cells (m2). */
+/* RC_FAIL if nodes with these bounds cannot carry this load (N). */
 enum rc_status rc_bounds_carry(const struct rc_bounds *b, double load, double cell, size_t nodes,
                                struct rc_err *err);
 

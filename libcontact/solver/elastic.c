@@ -17,15 +17,15 @@ struct elastic {
     struct rc_problem problem;
     struct rc_elastic_asks asks;
     size_t n;            /* nodes of this rank                                     */
-    const double *given; /* undeformed heights: those of the caller until the first go, then h */
-    double *h;           /* a copy of them; freed when the solver has its copy */
-    double *dent;        /* heights less the undeformed ones; NULL: none           */
-    double compliance;   /* m/Pa, of every node for itself                         */
+    const double *given; /* undeformed heights: until the first go the caller's array, then h */
+    double *h;           /* a copy of `given`; freed when the solver has its own copy */
+    double *dent;        /* present minus undeformed heights; NULL: no dents */
+    double compliance;   /* m/Pa, own compliance of every node */
     /* m, N: error of the heights; error of the loads that made the dents */
     double height_error, off;
     double first_top, top;    /* m: highest node of the first shape, and of the present one   */
     struct rc_solver *solver; /* NULL: no load so far                                         */
-    bool apart;               /* at this point: no load                                       */
+    bool apart;               /* no load at this point */
     bool looked, deformed;    /* the figures belong to this point; its dents are in the shape */
     struct rc_elastic_figures figures;
 };
@@ -38,7 +38,8 @@ const struct rc_figure rc_figures_elastic[] = {
     {FIGURE(indentation), "m", "Indentation",
      .says = "approach from the first touch of the first shape"},
     {FIGURE(residual_indentation), "m", "Residual indentation",
-     .says = "first touch of the shape that is left, from that of the first shape"},
+     .says =
+         "first touch of the shape after the load, counted from first touch of the first shape"},
     {FIGURE(tilt_x), "rad", "Tilt along x", .says = "of the counter body"},
     {FIGURE(tilt_y), "rad", "Tilt along y", .says = "of the counter body"},
     {FIGURE(kernel), NULL, "Engine", .says = "by which displacements are summed"},
@@ -96,7 +97,7 @@ press(struct elastic *e, double load, double approach, struct rc_err *err)
     return RC_OK;
 }
 
-/* The model has heights of its own. */
+/* Gives the model its own copy of the heights. */
 static enum rc_status
 own_heights(struct elastic *e, const double *h, struct rc_err *err)
 {
@@ -138,8 +139,9 @@ go(struct rc_model *m, struct rc_err *err)
     const double v = m->to.at[by_approach ? RC_APPROACH : RC_LOAD];
 
     if (!(v >= 0) || isinf(v))
-        return rc_err_set(err, "%s %g %s: bodies that do not attract each other carry none below 0",
-                          by_approach ? "approach" : "load", v, by_approach ? "m" : "N");
+        return rc_err_set(
+            err, "%s %g %s: it must not be negative, because the bodies do not attract each other",
+            by_approach ? "approach" : "load", v, by_approach ? "m" : "N");
     e->looked = e->deformed = false;
     e->apart = v == 0;
     if (m->from.given == 0)
@@ -167,7 +169,7 @@ start(struct rc_model *m, double load, const double *p, struct rc_err *err)
     return e->apart ? RC_OK : rc_solver_warm_start(e->solver, load, p, err);
 }
 
-/* Where no node is at the hardness, the conductance has also given the stiffness. */
+/* Finds the stiffness. If no node is at the hardness, the conductance already contains it. */
 static enum rc_status
 look_at_stiffness(struct elastic *e, struct rc_err *err)
 {
@@ -218,7 +220,7 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     return RC_OK;
 }
 
-/* The shape after elastic unloading, and the dents: this shape less the undeformed heights. */
+/* Finds the shape after elastic unloading, and the dents: this shape minus the undeformed heights. */
 static enum rc_status
 dent(struct elastic *e, struct rc_err *err)
 {
@@ -227,7 +229,7 @@ dent(struct elastic *e, struct rc_err *err)
 
     if (left == NULL ||
         (e->dent == NULL && (e->dent = calloc(e->n + 1, sizeof *e->dent)) == NULL)) {
-        rc_err_set(err, "out of memory for the shape that is left");
+        rc_err_set(err, "out of memory for the shape after yield");
         goto done;
     }
     shape(e, left);
@@ -250,8 +252,7 @@ keep(struct rc_model *m, struct rc_err *err)
 
     if (!e->apart && e->figures.contact.yielded_nodes > 0) {
         if (e->problem.tilt_free)
-            return rc_err_set(err, "dents under a body that is free to tilt cannot be kept: this "
-                                   "is not implemented");
+            return rc_err_set(err, "a history of dents with a free tilt is not implemented");
         if (dent(e, err) != RC_OK)
             return RC_FAIL;
     }
@@ -268,7 +269,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     struct rc_contact again;
 
     if (!e->looked)
-        return rc_err_set(err, "frames are those of a point that was looked at");
+        return rc_err_set(err, "call rc_model_look before reading a frame");
     if (frame == SHAPE && !e->apart && !e->deformed)
         return rc_solver_plastic(e->solver, to, err);
     if (frame == SHAPE)
@@ -289,7 +290,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     return RC_OK;
 }
 
-/* The dents are added to the new heights. */
+/* Adds the dents to the new heights. */
 static enum rc_status
 set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 {
@@ -314,30 +315,31 @@ set_compliance(struct rc_model *m, double c, struct rc_err *err)
     struct elastic *e = (struct elastic *)m;
 
     if (c > 0 && (e->problem.tilt_free || e->asks.stiffness || e->asks.conductivity[0] > 0))
-        return rc_err_set(err, "a compliance of the nodes beside a free tilt, the stiffness or the "
-                               "conductance is not implemented");
+        return rc_err_set(err, "a compliance of the nodes together with a free tilt, the stiffness "
+                               "or the conductance is not implemented");
     e->compliance = c;
     if (e->solver != NULL)
         rc_solver_set_diagonal(e->solver, c);
     return RC_OK;
 }
 
-/* The elastic nodes stay the same; what the preconditioner finds for them is nearly exact. */
+/* The elastic nodes do not change, and the preconditioner gives their response nearly exactly. */
 static enum rc_status
 respond(struct rc_model *m, const double *e, double *z, struct rc_err *err)
 {
     struct elastic *v = (struct elastic *)m;
 
     if (!v->looked || v->apart)
-        return rc_err_set(err,
-                          "a change of heights changes the pressure of a point that was looked at");
+        return rc_err_set(
+            err, "call rc_model_look before asking for the response to a change of heights");
     rc_solver_respond(v->solver, e, z);
     return RC_OK;
 }
 
 /* ---- states ---- */
 
-/* Replaces the dents of the shape by those of the state, where these are others: heights are rounded once. */
+/* Replaces the dents of the shape by those of the state. Equal dents stay, so that heights are rounded only
+ * once. */
 static void
 read_dent(struct elastic *e, struct rc_state *s, bool some)
 {
@@ -359,7 +361,7 @@ read_dent(struct elastic *e, struct rc_state *s, bool some)
     }
     others = rc_ranks_most(e->problem.ranks, others) > 0;
     if (rc_state_reads(s) && others && set_shape(e, h, &err) != RC_OK)
-        rc_state_refuse(s, err.text[0] != '\0' ? "its shape is impossible" : "memory is short");
+        rc_state_refuse(s, err.text[0] != '\0' ? "its shape is not finite" : "memory is short");
     free(e->dent);
     e->dent = now;
     now = NULL;
@@ -385,8 +387,8 @@ read_pressure(struct elastic *e, struct rc_state *s, double load)
     if (rc_state_reads(s) && (press(e, by_approach ? 0 : to->at[RC_LOAD],
                                     by_approach ? to->at[RC_APPROACH] : 0, &err) != RC_OK ||
                               rc_solver_warm_start(e->solver, load, p, &err) != RC_OK))
-        rc_state_refuse(s, "its load or its pressure is impossible");
-    e->base.status = RC_MORE; /* a step tells whether it is the solution */
+        rc_state_refuse(s, "its load or its pressure is not finite or negative");
+    e->base.status = RC_MORE; /* the next step decides whether it is the solution */
     free(p);
 }
 

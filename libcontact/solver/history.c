@@ -1,6 +1,6 @@
 /*
- * A loading history: each load acts on the shape that the earlier loads have left, and between two
- * loads the bodies may be taken apart.
+ * A loading history: each load acts on the shape after the earlier loads, and between two loads the bodies
+ * may be separated.
  *
  * The error of the pressure of a yielding load stays in the dents. The map from one shape to the next does
  * not increase this error, so the errors (N) of all earlier loads add up; their sum over the present load is

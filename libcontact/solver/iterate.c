@@ -127,7 +127,7 @@ rc_iterate_displace_rows(struct rc_solver *s)
 {
     double total[RC_SUMS];
 
-    if (s->op->row_cost >= 1) { /* double precision costs no more */
+    if (s->op->row_cost >= 1) { /* double precision costs no more here */
         rc_iterate_displace(s);
         return 0;
     }
@@ -218,7 +218,7 @@ rc_iterate_stiffness(const struct rc_solver *s)
     return s->op->inverse_near[1][1] / (s->load.length * s->load.per_pressure);
 }
 
-/* Relative error of the load up to which that shift is found: it only selects a working set. */
+/* Allowed relative error of the load for the balancing shift, which only selects a working set. */
 static const double unbalanced = 1e-4;
 
 /* Context of the search for the balancing shift: each node moves by its gap times the stiffness of a node
@@ -352,7 +352,7 @@ rc_iterate_operator_error(const struct rc_solver *s)
 double
 rc_iterate_judge(struct rc_solver *s)
 {
-    if (s->posed.rough) /* coarser grids do without convolutions in double precision */
+    if (s->posed.rough) /* coarser grids need no convolutions in double precision */
         (void)rc_iterate_displace_rows(s);
     else if (!s->it.fresh)
         rc_iterate_displace(s);

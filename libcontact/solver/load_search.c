@@ -43,7 +43,7 @@ rc_load_set(struct rc_solver *s, double load, struct rc_err *err)
     s->load.load = load;
     s->load.sum = load / s->posed.cell;
     if (s->load.sum >= bounds->full * (1 - 8 * DBL_EPSILON))
-        s->load.sum = bounds->full; /* every node is at its upper bound, whatever the rounding */
+        s->load.sum = bounds->full; /* every node is at its upper bound, exactly */
     rc_bounds_keep_load(&s->posed.bounds, s->load.sum);
     set_units(&s->load, s->posed.nodes, s->op->unit);
     return RC_OK;
@@ -99,11 +99,11 @@ check_yield(struct rc_solver *s, double approach, double depth, struct rc_err *e
             last = fmax(last, u[k] - s->posed.h[k]);
         last = rc_ranks_most(s->posed.rows.ranks, last);
         if (approach >= last)
-            status = rc_err_set(err,
-                                "approach %.9g m: at %.9g m every node carries its hardness, and "
-                                "under that load, %.9g N, the bodies come as near as one likes; "
-                                "give a smaller approach or the load",
-                                approach, last, s->posed.bounds.full * s->posed.cell);
+            status = rc_err_set(
+                err,
+                "approach %.9g m: at %.9g m and a load of %.9g N every node is at its hardness, "
+                "and the load cannot increase further; give a smaller approach or the load",
+                approach, last, s->posed.bounds.full * s->posed.cell);
     }
     free(p);
     free(u);
@@ -125,11 +125,11 @@ check_approach(struct rc_solver *s, double approach, struct rc_err *err)
         return check_yield(s, approach, total[RC_MOST], err);
     full = -total[0] / (double)s->posed.nodes;
     if (approach >= full)
-        return rc_err_set(err,
-                          "approach %.9g m: contact is complete at %.9g m, and from there "
-                          "the load of a periodic surface grows at the same approach; "
-                          "give the load",
-                          approach, full);
+        return rc_err_set(
+            err,
+            "approach %.9g m: the contact of this periodic surface is complete at %.9g m, and a "
+            "larger load does not change the approach; give the load instead",
+            approach, full);
     return RC_OK;
 }
 
@@ -220,8 +220,8 @@ bound_block(void *at, size_t first, size_t n, double *sums)
 }
 
 /* While no node is elastic the approach varies at constant load: the loads next to it have approaches that
- * are too small and too large. Sets all nodes to a bound; false where this is not the contact of the wanted
- * approach either. */
+ * are too small and too large. Sets all nodes to a bound. Returns false if this contact does not have the
+ * wanted approach either. */
 static bool
 settle(struct rc_solver *s)
 {

@@ -17,7 +17,8 @@ enum {
     COARSEST = 24,    /* nodes along the map; a smaller coarse grid does not pay */
     FEW_NODES = 16384 /* of a rank; with fewer, each rank solves the whole grid itself */
 };
-/* A more accurate start saves no steps, unless nodes are at their upper bounds. */
+/* Tolerances of the coarse solution. A more accurate start saves no steps, unless nodes are at their upper
+ * bounds. */
 static const double coarse_tol = 8e-2, coarse_tol_yielding = 3e-2;
 
 void
@@ -229,7 +230,8 @@ coarse_new(const struct rc_solver *s, bool *sought)
     double *h = coarse_map(s, s->posed.h, &shape, &rows), *highs = NULL, lower;
     struct rc_solver *c;
 
-    /* a coarse node has the mean bound of its four nodes; no bound if one of them has none */
+    /* the bound of a coarse node is the mean over its four nodes; without a bound on one of them it has
+     * none */
     if (h != NULL && fine_highs != NULL)
         highs = coarse_map(s, fine_highs, &shape, &rows);
     if (h == NULL || (fine_highs != NULL && highs == NULL)) {
@@ -257,11 +259,12 @@ coarse_new(const struct rc_solver *s, bool *sought)
 
 /* The coarse solution over the rows held here. */
 struct known {
-    size_t nx, rows;     /* of the coarse grid; number of its rows that cover those held here */
-    const double *p, *u; /* pressure, and displacement but for a constant                     */
+    size_t nx, rows;     /* columns of the coarse grid; number of its rows that cover the rows
+                            held here */
+    const double *p, *u; /* pressure, and displacement up to a constant */
     const double *before, *after; /* rows of u before and after them; NULL: none */
-    double *rooms[3]; /* where ranks share the coarse grid: p, u, and the rows beside them */
-    double stiffness; /* Pa/m: of a fine node whose neighbours are fixed */
+    double *rooms[3]; /* memory for p, u and the rows beside them, if ranks share the coarse grid */
+    double stiffness; /* Pa/m: stiffness of a fine node whose neighbours are fixed */
     bool round;       /* the map is periodic */
 };
 
@@ -305,7 +308,7 @@ known_under(const struct rc_solver *s, struct rc_solver *c, struct known *k)
     return true;
 }
 
-/* The fine nodes of one coarse node: their pressures but for a common shift, and the load that they share. */
+/* The fine nodes of one coarse node: their pressures up to a common shift, and their total load. */
 struct over {
     size_t n, k[4];
     double y[4], load;
@@ -340,7 +343,7 @@ share(const struct over *o, struct rc_box box, double *p)
         p[o->k[i]] = rc_clip(box, o->k[i], yields ? mean : o->y[i] + mu);
 }
 
-/* The node after or before i on a coarse line of n nodes; i where there is none. */
+/* The node after or before i on a coarse line of n nodes. Returns i at an end of the line. */
 static size_t
 beside(size_t i, bool after, size_t n, bool round)
 {
@@ -417,8 +420,8 @@ refine(struct rc_solver *s, struct rc_solver *c)
     rc_projection_balance(s, s->it.v);
 }
 
-/* Figures of the coarse solution. For a given approach both grids have the same approach, so its difference
- * tells nothing. */
+/* Figures of the coarse solution. If the approach is given, it is equal on both grids, and its difference is
+ * no estimate. */
 static void
 compare(struct rc_solver *s, struct rc_solver *c)
 {

@@ -17,7 +17,7 @@
  * spacer-step theorem (Luenberger and Ye, Linear and Nonlinear Programming) the iteration then converges to
  * the unique minimum.
  *
- * ||z||_1 / ||p||_1 estimates the error of the pressure and costs nothing here: z is at hand.
+ * ||z||_1 / ||p||_1 estimates the error of the pressure at no cost, because z is known.
  *
  * Where the operator allows it, K delta is summed in single precision: its error is relative to delta, which
  * shrinks. `drift` is a bound of the resulting error of p; v is recomputed in double precision before this
@@ -56,10 +56,10 @@ static const double apart = 100;
  * bodies, where the eigenvalues are near 1, a larger limit saves no steps and makes the estimate less
  * accurate, because it is most accurate for errors along the smallest eigenvalues. */
 static const double conjugate = 1e-2;
-/* In conjugate gradients on a fixed set the factor of the last direction is b = (z'r) / (z'r before), about
- * the square of the ratio of two estimates. If nodes joined or left, z'q also contains their residuals, and
- * the next step would repeat the last one: four steps in place of six on uniform bodies at 33 % contact when
- * b is limited to this square (Gilbert and Nocedal, SIAM J. Optim. 2, 1992). But under coatings a few
+/* In conjugate gradients on a fixed set the factor of the last direction is b = (z'r) / (the previous z'r),
+ * about the square of the ratio of two estimates. If nodes joined or left, z'q also contains their residuals,
+ * and the next step would repeat the last one: four steps in place of six on uniform bodies at 33 % contact
+ * when b is limited to this square (Gilbert and Nocedal, SIAM J. Optim. 2, 1992). But under coatings a few
  * eigenvalues can lie far from the others, and the two values of b differ: seven elastic nodes under a
  * coating 10^4 times as stiff as its base took 100 steps. So b is not limited if at most this fraction of the
  * set joined or left. On uniform bodies a larger fraction would save nothing and make the estimate too small:
@@ -80,7 +80,7 @@ struct pcg {
     size_t best_at;           /* and its iteration                          */
 };
 
-/* What the passes over all nodes share. */
+/* Context of the passes over all nodes. */
 struct pass {
     struct rc_solver *solver;
     struct pcg *s;
@@ -149,7 +149,7 @@ settle(struct rc_solver *solver)
     rc_working_set_find(solver, true);
 }
 
-/* The first v, in single precision if the solution is a rough one. The error of single precision is relative
+/* Computes the first v, in single precision for a rough solution. The error of single precision is relative
  * to the whole displacement, so on large maps v would have to be recomputed during the iteration. */
 static void
 begin(struct rc_solver *solver, struct pcg *s)
@@ -395,8 +395,8 @@ enum {
     SLOPE,     /* delta'g                     */
     CURVATURE, /* delta'q                     */
     SQUARE,    /* q'q                         */
-    GAP,       /* of v over the elastic nodes */
-    PULL,      /* of q there                  */
+    GAP,       /* sum of v over the elastic nodes */
+    PULL,      /* sum of q over the elastic nodes */
     ELASTIC,   /* number of elastic nodes     */
     CARRIED    /* of p                        */
 };
@@ -440,7 +440,7 @@ along(struct rc_box box, size_t n, const double *p, const double *v, double shif
         along_in(box, n, p, v, shift, delta, row, q, sums);
 }
 
-/* The same for a stretch without nodes of the set, where no node has moved or carries pressure. */
+/* The same for nodes outside the set that have not moved and carry no pressure. */
 RC_CLONES static double
 beside(size_t n, const float *restrict row, float *restrict q)
 {
@@ -483,7 +483,7 @@ follow(size_t n, const float *restrict q, double factor, double *restrict v)
         v[k] += factor * (double)q[k];
 }
 
-/* Updates v after p; a is the fraction of the step that p took. */
+/* Updates v to the changed p; p took the fraction a of the step. */
 static void
 follow_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -493,8 +493,7 @@ follow_block(void *at, size_t first, size_t n, double *sums)
     follow(n, c->s->q + first, c->a * c->solver->load.length, c->solver->it.v + first);
 }
 
-/* Takes back a fraction b of the step. A node that left a bound returns to it exactly, whatever the
- * rounding. */
+/* Takes back a fraction b of the step. A node that left a bound returns to it exactly. */
 static void
 back_block(void *at, size_t first, size_t n, double *sums)
 {

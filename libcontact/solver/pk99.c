@@ -19,7 +19,7 @@
 struct state {
     double *t;    /* conjugate direction, zero off the elastic nodes */
     double *r;    /* K t                                             */
-    double *old;  /* p before the step                               */
+    double *old;  /* the previous p */
     double G;     /* (22) of the last step                           */
     double delta; /* 0: the next direction is steepest descent       */
     double tau;   /* last step length, 0 before the first            */
@@ -65,7 +65,7 @@ gap(const struct rc_solver *solver, size_t k)
     return solver->it.v[k] - solver->it.shift;
 }
 
-/* Context of the passes below; `number`: a result of the pass before. */
+/* Context of the passes below; `number`: a result of the previous pass. */
 struct pass {
     struct rc_solver *solver;
     struct state *s;
@@ -168,7 +168,7 @@ move_block(void *at, size_t first, size_t n, double *sums)
 static void
 move(struct rc_solver *solver, struct state *s)
 {
-    const double safe = 1 / solver->op->diagonal; /* a step length where (26) is 0/0 */
+    const double safe = 1 / solver->op->diagonal; /* the step length if (26) is 0/0 */
     struct pass c = {.solver = solver, .s = s, .number = s->tau > 0 ? s->tau : safe};
     double total[RC_SUMS];
 

@@ -15,10 +15,10 @@ struct rc_preconditioner {
     const unsigned char *w;
     int threads;
     size_t above, below; /* rows of the frame that are held here                           */
-    float *row;          /* of the framed map, for each thread                             */
+    float *row;          /* a row of the framed map, for each thread */
     float *
-        /* a field on the frame: the nodes of a frame row in order, all of the row or those left and right of
-         * the map; NULL: no frame */
+        /* a field on the frame, row by row: all nodes of the row, or those left and right of the map; NULL:
+         * no frame */
         frame;
 };
 
@@ -238,7 +238,7 @@ rc_preconditioner_free(struct rc_preconditioner *e)
 struct field {
     const struct rc_preconditioner *e;
     const unsigned char *w;
-    const float *r; /* less the offset; NULL: 1 */
+    const float *r; /* minus the offset; NULL: 1 */
     float offset;
 };
 

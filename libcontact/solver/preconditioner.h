@@ -4,8 +4,8 @@
  * With K restricted to the working set W, its exact inverse is the Schur complement of A = K^-1: A applied to
  * the extension of r off W with the least energy. Here E is the extension of pyramid.h, and A is a factor of
  * the operator in wave numbers. A free map lies in the operator's frame, in which E r continues and decreases
- * linearly to the end of the frame. The map r -> z is symmetric. The energy of E r is at least the least one,
- * so r'z >= r' (K_WW)^-1 r: z bounds the error of the pressure on W in the energy norm from above.
+ * linearly to the end of the frame. The map r -> z is symmetric. No extension has less energy than the exact
+ * one, so r'z >= r' (K_WW)^-1 r: z bounds the error of the pressure on W in the energy norm from above.
  */
 #ifndef RC_PRECONDITIONER_H
 #define RC_PRECONDITIONER_H

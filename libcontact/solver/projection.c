@@ -2,9 +2,9 @@
  * Returns pressures to {0 <= p <= H, sum p = S}: keeps the load exactly and the pressures within their
  * bounds, which scaling alone does not.
  *
- * The Euclidean projection of y on it is clip(y + mu, 0, H) with one shift mu for all nodes. The load phi(mu)
- * = sum clip(y + mu, 0, H) is monotone and piecewise linear in the shift: Newton's method inside a bracket
- * finds it. Most steps use tiles.c instead.
+ * The Euclidean projection of y on this set is clip(y + mu, 0, H) with one shift mu for all nodes. The load
+ * phi(mu) = sum clip(y + mu, 0, H) is monotone and piecewise linear in the shift: Newton's method inside a
+ * bracket finds it. Most steps use tiles.c instead.
  */
 #include "solver.h"
 
@@ -123,10 +123,10 @@ struct step {
     double shift, wanted;
 };
 
-enum {    /* sums of the first pass, */
+enum {    /* sums of the first pass */
     HELD, /* load of nodes off W */
     ROOM,
-    /* and of the later passes */
+    /* sums of the later passes */
     CARRIED = 0,
     COUNT,
     SIZE = 0
@@ -232,7 +232,8 @@ rc_move_shift(struct rc_move *m)
 struct scale {
     struct rc_solver *s;
     double f;
-    /* only nodes that would reach their bound move, to the bound; else all elastic nodes are multiplied */
+    /* true: only nodes that would reach their bound move, to the bound; false: all elastic nodes are
+     * multiplied */
     bool cap;
     const double *g;
     double least, most; /* nodes with gaps between these join */
@@ -427,7 +428,7 @@ times_block(void *at, size_t first, size_t n, double *sums)
         c->s->it.p[k] = scaled(c, rc_box(c->s, 0), k);
 }
 
-/* The nodes at the bound alone exceed the load. */
+/* Scales all nodes, because the nodes at the bound alone exceed the load. */
 static void
 scale_all(struct rc_solver *s)
 {

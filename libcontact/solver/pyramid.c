@@ -127,8 +127,8 @@ struct level {
     struct axis x, y; /* from the finer level to this one         */
     float k, t;       /* of this level                            */
     float whole;      /* P' of 1: 4, or 2 where one side is kept  */
-    float *weight[3]; /* w; of pairs (w + t)^-1, xx yy xy         */
-    float *most[3];   /* of pairs max(w, 1)^-1                    */
+    float *weight[3]; /* w; w; for pairs (w + t)^-1, xx yy xy */
+    float *most[3];   /* for pairs max(w, 1)^-1 */
     float *value[3];  /* X, then y; and the same of the transpose */
     int threads;
     /* Each rank that shares the finer level computes the rows of this level over its own rows. If this level
@@ -136,7 +136,7 @@ struct level {
     bool parts, shared;
     size_t own_first, own; /* computed here */
     size_t first, n;       /* held here     */
-    float *beside; /* of a shared level: values of the rows before and after those held here */
+    float *beside; /* on a shared level: values of the rows before and after those held here */
 };
 
 struct rc_pyramid {
@@ -155,7 +155,7 @@ struct rc_pyramid {
     float *edge;
 };
 
-/* A level on the way from the base to the coarsest one. */
+/* The grid of a level, from the base to the coarsest one. */
 struct grid {
     size_t nx, ny, first, n, unit;
     double spacing[2];
@@ -174,8 +174,8 @@ finest(const struct rc_pyramid_base *b)
                          .shared = b->count > 1};
 }
 
-/* Replaces *g by the next level; false when there is none. A level is no longer shared if a rank would begin
- * with an odd row or hold few nodes. */
+/* Replaces *g by the next level. Returns false if there is none. A level is no longer shared if a rank would
+ * begin with an odd row or hold few nodes. */
 static bool
 coarser(const struct rc_pyramid_base *b, struct grid *g, struct level *l)
 {
@@ -379,7 +379,7 @@ fetch_beside(const struct source *s)
     rc_ranks_beside(&rows, b->round, nx * sizeof *v, v, v + nx, v + 2 * nx, v + 3 * nx, has);
 }
 
-/* `to`, of level m, becomes `factor` P' of component c of the rows of level m - 1. */
+/* Sets `to`, on level m, to `factor` P' of component c of the rows of level m - 1. */
 static void
 pull(struct rc_pyramid *p, size_t m, rc_pyramid_add *add, const void *of, int c, float factor,
      float *to)
@@ -508,7 +508,7 @@ add_of_level(const void *of, int c, size_t j, float weight, float *to)
     }
 }
 
-/* `to`, of the level after `from`, becomes `factor` P' of `count` maps of values. */
+/* Sets `to`, on the level after `from`, to `factor` P' of `count` maps of values. */
 static void
 up(struct rc_pyramid *p, size_t from, enum up what, int count, float factor, float *const *to)
 {
@@ -765,7 +765,7 @@ rc_pyramid_extend(struct rc_pyramid *p, rc_pyramid_add *r, const void *of, const
     down(p, MEANS);
 }
 
-/* The sum of what f contributes to y beyond the coarsest level. */
+/* Sums the contributions of f to y beyond the coarsest level. */
 static void
 sum_beyond(struct rc_pyramid *p, double *beyond)
 {

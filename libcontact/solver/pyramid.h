@@ -8,7 +8,7 @@
  *     X_0 = r on W, w_0 = 1 on W;   X_l+1 = k P' (c X_l),   w_l+1 = k P' min(w_l, 1),   c = min(1, 1/w_l)
  *     y_l = (X_l + t P y_l+1) / (w_l + t);   y_0 = r on W, P y_1 elsewhere
  *
- * So a node off W gets the mean over a part of W that is about as wide as it is far away: nearly the field of
+ * A node off W gets the mean over a part of W whose width is about its distance: this is nearly the field of
  * least energy. The constants k and t of a level follow from the power a with which the inverse of the
  * influence operator grows, A(q) ~ q^a, at waves as long as the spacing of the level. Far from a single patch
  * the field of least energy decreases as |x|^(a-d) in d directions, which gives k = 2^(a-d), at most 1. The
@@ -47,7 +47,7 @@ typedef double rc_power_at(const void *of, double q);
 /* NULL when memory is short on any rank. */
 struct rc_pyramid *rc_pyramid_new(const struct rc_pyramid_base *base, rc_power_at *power,
                                   const void *of, struct rc_err *err);
-/* Another power, from the next set on. */
+/* Changes the power, from the next set on. */
 void rc_pyramid_tune(struct rc_pyramid *pyramid, rc_power_at *power, const void *of);
 void rc_pyramid_free(struct rc_pyramid *pyramid);
 

@@ -75,7 +75,7 @@ enum { /* sums of the first pass, */
     PRESSURE,
     HEIGHT,
     V,
-    /* and of the second pass */
+    /* sums of the second pass */
     SPREAD_H = 0,
     SPREAD_U,
     OPEN,
@@ -194,8 +194,8 @@ enum rc_status
 rc_solver_plastic(const struct rc_solver *s, double *h, struct rc_err *err)
 {
     if (s->stage != RC_STAGE_JUDGED)
-        return rc_err_set(err, "the shape after yield is that of a result: ask for "
-                               "rc_solver_result first");
+        return rc_err_set(err,
+                          "the shape after yield belongs to a result: call rc_solver_result first");
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t k = 0; k < s->posed.n; k++) {
         double g = s->it.v[k] - s->it.shift;
@@ -220,7 +220,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
         rc_solver_hurried(s) && s->it.checked == s->it.iterations && s->it.error > s->load.tol;
     stopped = !s->it.known || (!s->it.fresh && !early && !hurried);
     if (stopped && early)
-        (void)rc_iterate_displace_rows(s); /* no better gap of this pressure is needed */
+        (void)rc_iterate_displace_rows(s); /* this pressure needs no better gap */
     else if (stopped)
         rc_iterate_displace(s);
     rc_iterate_shift(s);
@@ -256,7 +256,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     if (c->yielded_nodes > 0)
         c->shape_error = fmax(c->shape_error, c->gap_error);
     c->yielded_area = s->posed.cell * (double)c->yielded_nodes;
-    /* Stopped on a coarser grid: an estimate here would take longer than the whole iteration took. */
+    /* Not after a stop on a coarser grid, where the estimate would take longer than the iteration. */
     if (!early && (stopped || s->it.checked != s->it.iterations || isnan(s->it.error))) {
         rc_working_set_find(s, false);
         rc_iterate_checked(s, rc_working_set_estimate(s), 1);

@@ -95,7 +95,7 @@ product_block(void *at, size_t first, size_t n, double *sums)
     const struct rc_solver *s = w->solver;
 
     for (size_t k = first; k < first + n; k++) {
-        /* the shift is left out: the sum of t is 0 but for rounding */
+        /* without the shift, because the sum of t is 0 within rounding */
         sums[ABOVE] -= (s->it.v[k] - s->it.shift) * w->t[k];
         sums[BELOW] += w->r[k] * w->t[k];
     }

@@ -1,5 +1,5 @@
 /*
- * The solver's front: it makes a solver, steps it, judges its result, and sets other loads, heights and
+ * The interface of the solver: makes a solver, steps it, judges its result, and sets other loads, heights and
  * starts.
  */
 #include "solver.h"
@@ -106,8 +106,8 @@ first_not_finite(const double *h, size_t n)
     return k;
 }
 
-/* Stores the heights less the largest of all ranks. `status`: RC_FAIL if this rank failed before; all ranks
- * then fail. */
+/* Stores the heights minus the largest height of all ranks. `status`: RC_FAIL if this rank failed before; all
+ * ranks then fail. */
 static enum rc_status
 take_heights(struct rc_posed *posed, const double *h, enum rc_status status, struct rc_err *err)
 {
@@ -177,8 +177,8 @@ make_room(struct rc_solver *s, struct rc_err *err)
     return rc_ranks_agree(s->posed.rows.ranks, status, err);
 }
 
-/* Takes over the operator, which is NULL if it could not be made (*err then has the reason). `all`: the ranks
- * that make this call. */
+/* Makes a solver that owns the operator. The operator is NULL if making it failed (*err then has the reason).
+ * `all`: the ranks that make this call. */
 static struct rc_solver *
 solver_new(const struct rc_ranks *all, const struct rc_shape *shape, const double *h,
            const struct rc_problem *problem, const struct rc_method *method, struct rc_operator *op,
@@ -276,7 +276,7 @@ memory(const struct rc_shape *shape, const struct rc_problem *problem, const cha
         if (strcmp(info->name, engine) == 0)
             each += info->contact_bytes[periodic];
     if (problem->pair.one.layers + problem->pair.two.layers > 0 && !periodic)
-        each += 4; /* the bound of layers that bend */
+        each += 4; /* for the upper bound of layers that bend */
     if (problem->hardness_map != NULL)
         each += sizeof(double);
     return (size_t)((each + method->info.bytes) * (double)shape->nx * (double)shape->ny /
@@ -321,9 +321,9 @@ rc_solver_hurried(const struct rc_solver *s)
     return s->posed.hurry != NULL && *s->posed.hurry != 0;
 }
 
-/* When a yielded shape is loaded again, nodes are at their upper bounds with a gap of 0, and the iteration
- * leaves them below by up to the tolerance. They are put at their bounds, and the pressure is judged once
- * more. */
+/* When a yielded shape is loaded again, nodes are at their upper bounds with a gap of 0, but the iteration
+ * leaves their pressures lower by up to the tolerance. This sets them to their bounds and judges the pressure
+ * again. */
 static enum rc_status
 finished(struct rc_solver *s)
 {
@@ -360,8 +360,8 @@ step(struct rc_solver *s)
         return last || found.change == 0 ? RC_SHORT : RC_MORE;
     }
     last |= found.change <= DBL_EPSILON;
-    /* Judging costs four convolutions, a step two: so a solution is judged when its steps are small, not
-     * after every step. */
+    /* Judging costs four convolutions and a step two, so a solution is judged only when its steps are
+     * small. */
     if (!last && (it->iterations < it->next_check || found.change > s->load.tol))
         return RC_MORE;
     rc_iterate_checked(s, rc_iterate_judge(s), 5 + it->iterations / 10);

@@ -1,6 +1,6 @@
 /*
- * Shared by the solver's front and its methods. A method is a row of methods.list: it improves the
- * pressure step by step. The front (solver.c) judges, counts and reports.
+ * Declarations for the interface of the solver and its methods. A method is a row of methods.list: it
+ * improves the pressure step by step. solver.c judges, counts and reports.
  *
  * The problem: p with 0 <= p <= H and sum p dx dy = load that minimises 1/2 p'Kp - h'p. With the gap g = Kp -
  * h - c, c its mean over the elastic nodes (0 < p < H), the solution has g = 0 there, g >= 0 where p = 0 and
@@ -23,7 +23,7 @@
 
 /* Findings of a step. */
 struct rc_found {
-    double change; /* relative L1 change of p; 0: p stands still                              */
+    double change; /* relative L1 change of p; 0: p does not change */
     /* estimated relative L1 error of p, from a fresh K p; NAN: the method has none */
     double estimate;
 };
@@ -38,7 +38,7 @@ struct rc_method {
     /* The method's state; NULL and *err when memory is short. */
     void *(*new)(const struct rc_solver *solver, struct rc_err *err);
     struct rc_found (*step)(struct rc_solver *solver, void *state);
-    /* A new load: the method drops the data of earlier steps. NULL: it has none. */
+    /* For a new load: the method drops the data of earlier steps. NULL: the method has none. */
     void (*forget)(void *state);
     void (*free)(void *state);
 };
@@ -55,9 +55,9 @@ struct rc_method {
 
 /* The problem: constant after rc_solver_new, except the heights. */
 struct rc_posed {
-    struct rc_shape whole; /* of the map                                            */
-    struct rc_shape shape; /* of the rows held here: all maps below hold these rows */
-    struct rc_rows rows;   /* of these rows in the whole map                        */
+    struct rc_shape whole; /* the whole map */
+    struct rc_shape shape; /* the rows held here: all maps below have these rows */
+    struct rc_rows rows;   /* place of these rows in the whole map */
     /* All ranks of the solver, each with its rows or, on a small coarse grid, with all rows. If one fails,
      * all fail. */
     const struct rc_ranks *all;
@@ -69,12 +69,12 @@ struct rc_posed {
     struct rc_bounds bounds;
     double height_error;   /* m: error of the heights                                             */
     double tol;            /* asked relative L1 error of the pressure                             */
-    double history_part;   /* fraction of tol for a yielding load of a history; 0: 1              */
+    double history_part;   /* fraction of tol for a yielding load of a history; 0 stands for 1 */
     double dents;          /* N: error of the pressures of the earlier loads that made this shape */
     size_t max_iterations; /* per load                                                            */
     int threads;
-    /* a grid of a nested start: its operator is not exact, and its estimate is believed without a check in
-     * double precision */
+    /* a grid of a nested start: its operator is not exact, and its estimate needs no check in double
+     * precision */
     bool rough;
     bool discretization; /* the coarser grid is solved accurately enough for a comparison */
     const volatile sig_atomic_t *hurry; /* not 0: the caller cannot wait; NULL: never */
@@ -82,7 +82,7 @@ struct rc_posed {
 
 struct rc_iterate {
     double *p;         /* within its bounds, with the right load                      */
-    double *v;         /* K p - h: the gap less a constant                            */
+    double *v;         /* K p - h: the gap minus a constant */
     bool known, fresh; /* v belongs to p; v is from a convolution in double precision */
     bool rested;       /* nodes near their upper bounds were put at them              */
     double shift;      /* c: the gap is v - c                                         */
@@ -94,11 +94,11 @@ struct rc_iterate {
     size_t next_check;   /* iteration of the next check                                        */
 };
 
-/* The elastic nodes, and those at a bound that want to leave it. */
+/* The elastic nodes, and nodes at a bound with a gap of the wrong sign. */
 struct rc_working_set {
     unsigned char *w; /* 1 on the set, else 0 */
     float *r;     /* residual -g on the set, divided by `length` of the load; undefined elsewhere */
-    float offset; /* its mean there                                                               */
+    float offset; /* mean residual on the set */
     /* w and r of the rows before and after those held here, during sifting; NULL: without ranks */
     unsigned char *beside_w;
     float *beside_r;
@@ -118,19 +118,19 @@ struct rc_load {
     /* Single precision has 38 decades; gaps in metres with moduli in pascals can need more. So pressures are
      * scaled to the order of 1 by a power of 2, which adds no rounding. */
     double per_pressure; /* single precision holds p times this */
-    double length;       /* m: and displacements divided by this */
+    double length;       /* m: single precision holds displacements divided by this */
     double tol;          /* tolerance for this load: larger during the search */
     double target;       /* m: the wanted shift; 0: the load is given */
     double low, high;    /* loads with a smaller and a larger shift; 0, INFINITY: none yet */
-    double last_load, last_shift; /* of the last solution; 0: none                             */
+    double last_load, last_shift; /* load and shift of the last solution; 0: none */
     double power; /* d log load / d log shift                                           */
 };
 
 /* The start from coarser grids. */
 struct rc_nested {
-    bool ahead;               /* it exists and is not finished */
+    bool ahead;               /* a coarser grid exists and is not finished */
     struct rc_solver *coarse; /* NULL: not yet made */
-    /* the coarse grid searches for the load too, and this grid starts with its result */
+    /* the coarse grid searches for the load too, and this grid starts from its load */
     bool sought;
     size_t lent; /* bytes of the coarser solver */
 };
@@ -143,7 +143,7 @@ struct rc_solver {
     struct rc_operator *op;
     struct rc_preconditioner *preconditioner;
     const struct rc_method *method;
-    void *state; /* of the method */
+    void *state; /* state of the method */
     struct rc_nested nested;
     struct rc_tilt *tilt;            /* NULL: the counter body does not tilt        */
     struct rc_discretization coarse; /* comparison with the coarser grid; NAN: none */
@@ -202,13 +202,13 @@ double rc_history_goal(const struct rc_solver *solver);
 
 enum rc_status rc_iterate_new(struct rc_solver *solver);
 void rc_iterate_free(struct rc_solver *solver);
-/* p becomes the mean pressure everywhere, within the bounds. */
+/* Sets p to the mean pressure everywhere, within the bounds. */
 void rc_iterate_level(struct rc_solver *solver);
 /* The caller changed p or the load: v and the estimate are unknown. */
 void rc_iterate_forget(struct rc_solver *solver);
 /* v = K p - h in double precision. */
 void rc_iterate_displace(struct rc_solver *solver);
-/* The same in single precision, where that costs less. Returns the RMS of K p in the units of the operator's
+/* The same in single precision if this costs less. Returns the RMS of K p in the units of the operator's
  * rows, for the rounding error; 0 if it used double precision. */
 double rc_iterate_displace_rows(struct rc_solver *solver);
 /* The method changed p and v. `gap`: the sum of v over `elastic` elastic nodes, which gives the shift;
@@ -223,7 +223,7 @@ void rc_iterate_count(struct rc_solver *solver, double convolutions);
 /* The shift: mean of v over the elastic nodes, or, when there are none, the middle between the
  * largest v at an upper bound and the smallest at a lower one. Sets `elastic` and `shift`. */
 void rc_iterate_shift(struct rc_solver *solver);
-/* Another shift: the one at which steps of all nodes by their gaps, within their bounds, preserve the
+/* Sets the balancing shift: with it, steps of all nodes by their gaps, within their bounds, preserve the
  * load. */
 void rc_iterate_balance(struct rc_solver *solver);
 /* Pressure per displacement of a node whose neighbours are fixed, Pa/m. */
@@ -233,7 +233,8 @@ double rc_iterate_stiffness(const struct rc_solver *solver);
 bool rc_iterate_rest(struct rc_solver *solver);
 /* Sum of p. */
 double rc_iterate_carried(const struct rc_solver *solver);
-/* Whether p carries the load. Every method preserves it; without it a result does not count as converged. */
+/* True if p carries the load. Every method preserves the load; a result without it does not count as
+ * converged. */
 bool rc_iterate_keeps_load(const struct rc_solver *solver);
 /* The relative error of the pressure from the operator's own error. */
 double rc_iterate_operator_error(const struct rc_solver *solver);
@@ -251,23 +252,23 @@ void rc_working_set_free(struct rc_solver *solver);
 void rc_working_set_find(struct rc_solver *solver, bool sift);
 /* The same after v += factor q; off the set p is at a bound. */
 void rc_working_set_follow(struct rc_solver *solver, const float *q, double factor);
-/* The set becomes all nodes; r stays. */
+/* Makes all nodes the set; r does not change. */
 void rc_working_set_all(struct rc_solver *solver);
 /* Computes M 1 exactly where the operator requires it (see preconditioner.h). Uses z. */
 void rc_working_set_spread(struct rc_solver *solver);
-/* The set becomes the elastic nodes or, with `touching`, all nodes with pressure, with r = 1 on them; returns
+/* Makes the elastic nodes or, with `touching`, all nodes with pressure the set, with r = 1 on them. Returns
  * their number. */
 size_t rc_working_set_fix(struct rc_solver *solver, bool touching);
-/* z = E' A E r; `done` as in rc_preconditioner_apply. The mean of z is not yet taken out. */
+/* z = E' A E r; `done` as in rc_preconditioner_apply. z still contains its mean. */
 void rc_working_set_correct(struct rc_solver *solver, rc_row *done, void *ctx);
-/* Takes the pressure of a common shift, `share` times rc_load_share of each node, out of z, and returns the
+/* Subtracts the pressure of a common shift, `share` times rc_load_share of each node, from z. Returns the
  * estimated error: the relative L1 norm of the remaining z. */
 double rc_working_set_error(struct rc_solver *solver, double share);
 /* The correction z and its estimated error. */
 double rc_working_set_estimate(struct rc_solver *solver);
 
-/* Length of the run of nodes from `first`, at most n, that can be treated alike. *in: some may carry
- * pressure; else all are off the set and carry none. */
+/* The number of nodes from `first` on, at most n, that one loop can process. *in true: some may carry
+ * pressure; false: all are off the set and have pressure 0. */
 size_t rc_working_set_stretch(const struct rc_solver *solver, size_t first, size_t n, bool *in);
 
 /* The next set is unrelated to this one: the preconditioner will be set anew. */
@@ -277,9 +278,9 @@ void rc_working_set_forget(struct rc_solver *solver);
 
 /* The caller changed p or the load: drops all derived fields. */
 void rc_solver_restart(struct rc_solver *solver);
-/* Whether the caller cannot wait. */
+/* True if the caller cannot wait. */
 bool rc_solver_hurried(const struct rc_solver *solver);
-/* Adds D I to the operator from the next load or heights on: D >= 0, m/Pa. A solver without a free tilt. */
+/* Adds D I to the operator from the next load or heights on: D >= 0, m/Pa. Not with a free tilt. */
 void rc_solver_set_diagonal(struct rc_solver *solver, double plus);
 /* z (n Pa) = E' A E e on the elastic nodes, e (n m), less the pressure of a common shift. Costs two factors of a
  * chain. */
@@ -307,7 +308,7 @@ enum rc_status rc_load_next(struct rc_solver *solver, double load, double approa
                             struct rc_err *err);
 /* After a solution: RC_OK when it has the wanted shift, else sets the next load. */
 enum rc_status rc_load_search(struct rc_solver *solver);
-/* Whether the wanted approach is reached; true if the load was given. */
+/* True if the wanted approach is reached, or if the load was given. */
 bool rc_load_reached(const struct rc_solver *solver);
 
 /* ---- stiffness.c ---- */
@@ -345,8 +346,8 @@ double rc_tilt_error(struct rc_solver *solver, double contact);
 double rc_tilt_approach(const struct rc_solver *solver);
 /* Slope of the counter body along an axis. */
 double rc_tilt_slope(const struct rc_solver *solver, size_t axis);
-/* The first sets the tilt of a coarser grid's problem, the second takes the tilt that the coarser grid
- * found. */
+/* rc_tilt_pose sets the tilt of the problem on a coarser grid; the second function takes the tilt that the
+ * coarser grid found. */
 void rc_tilt_pose(const struct rc_solver *solver, struct rc_problem *coarse);
 void rc_tilt_from_coarse(struct rc_solver *solver, const struct rc_solver *coarse);
 /* The tilt with the smallest gaps at the elastic nodes of p. */
@@ -362,7 +363,7 @@ void rc_nested_free(struct rc_solver *solver);
 void rc_nested_step(struct rc_solver *solver);
 /* Ends the nested start early: its present pressure is the start on this grid. */
 void rc_nested_end(struct rc_solver *solver);
-/* Whether a nested start exists and has not begun. */
+/* True if a nested start exists and has not begun. */
 bool rc_nested_untouched(const struct rc_solver *solver);
 /* The solver of the grid that is being iterated: this one or a coarser one. */
 const struct rc_solver *rc_nested_at_work(const struct rc_solver *solver);
@@ -403,13 +404,13 @@ struct rc_move {
     double size;                     /* result: sum of |delta|, as a pressure, or a little more */
     bool clipped;                    /* result: some node would have left the bounds            */
 };
-/* By one shift of all nodes of the set, the Euclidean projection. If the set cannot carry its share, all
- * nodes become the set. */
+/* Moves by one shift of all nodes of the set, the Euclidean projection. If the set cannot carry its share,
+ * all nodes become the set. */
 void rc_move_shift(struct rc_move *move);
 
 /* ---- tiles.c ---- */
 
-/* A tile after a move. */
+/* The state of a tile after a move. */
 struct rc_tile {
     double room;  /* the shift that all its elastic nodes can take */
     size_t count; /* its elastic nodes                             */
@@ -424,16 +425,17 @@ struct rc_tile_line {
 /* RC_FAIL when memory is short; rc_tile_line_free in either case. */
 enum rc_status rc_tile_line_new(struct rc_tile_line *line, const struct rc_posed *posed);
 void rc_tile_line_free(struct rc_tile_line *line);
-/* By a shift of each tile of the map. A node at its bound that would leave the bounds stays there and does
- * not count as clipped. False when the load cannot be kept this way; delta then holds the changes so far. */
+/* Moves by a shift of each tile of the map. A node at its bound that would leave the bounds stays there and
+ * does not count as clipped. False when the load cannot be kept this way; delta then holds the changes so
+ * far. */
 bool rc_move_tiles(struct rc_move *move);
 
 /* ---- safeguard.c ---- */
 
 struct rc_safeguard {
-    double energy; /* of the last p that was kept; starts at INFINITY */
+    double energy; /* energy of the last kept p; starts at INFINITY */
 };
-/* Whether the energy has risen above that of the last p that was kept; if not, this p is kept. */
+/* True if the energy has risen above that of the last kept p. If it has not risen, keeps this p. */
 bool rc_safeguard_raised(struct rc_safeguard *safeguard, const struct rc_solver *solver);
 /* Resets the pressure to `old` and moves it towards the projection of p - g / |K|, to the lowest energy on
  * that line. t, r: scratch of n. Costs two convolutions. */

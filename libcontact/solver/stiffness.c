@@ -104,7 +104,7 @@ turn_block(void *at, size_t first, size_t n, double *sums)
                 sums[1 + a] += (double)c->t[k] * rc_arm(c->s, a, k);
 }
 
-/* `sum`: of t, and its moments if they are needed. */
+/* `sum`: the sum of t, and its moments if they are needed. */
 static void
 solve(struct system *c, double sum[3])
 {
@@ -123,7 +123,7 @@ solve(struct system *c, double sum[3])
         rc_reduce_blocks(s, turn_block, c, total);
         for (size_t q = 0; q < 3; q++)
             sum[q] = total[q];
-        /* r'z is an upper bound of the squared energy norm of the error; that of t is t'K t */
+        /* r'z bounds the squared energy norm of the error from above; the squared norm of t is t'K t */
         if (!(rz > 0) || (step > 0 && rz <= enough * enough * sum[c->by]))
             break;
         rc_reduce_rows_begin(s);
@@ -169,7 +169,7 @@ static enum rc_status
 check_judged(const struct rc_solver *s, struct rc_err *err)
 {
     if (s->stage != RC_STAGE_JUDGED)
-        return rc_err_set(err, "the stiffness is that of a result: ask for rc_solver_result first");
+        return rc_err_set(err, "the stiffness belongs to a result: call rc_solver_result first");
     return RC_OK;
 }
 
@@ -206,8 +206,8 @@ fix_and_solve(struct system *c, bool touching, double sum[3])
     return moving;
 }
 
-/* The stiffness of the elastic nodes, or of all in contact, N/m; NAN where there are none, and where they are
- * all nodes of a periodic map, whose mean displacement is undefined. */
+/* The stiffness of the elastic nodes, or of all nodes in contact, N/m. NAN without such nodes, and if they
+ * are all nodes of a periodic map, whose mean displacement is undefined. */
 static double
 stiffness_of(struct system *c, bool touching)
 {
@@ -215,7 +215,7 @@ stiffness_of(struct system *c, bool touching)
 
     if (fix_and_solve(c, touching, sum) == 0)
         return NAN;
-    /* t of one unit of pressure displaces by one unit of the operator's rows */
+    /* a pressure t of one unit displaces by one unit of the rows of the operator */
     return sum[0] * c->s->posed.cell / c->s->op->unit;
 }
 

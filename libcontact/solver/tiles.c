@@ -1,10 +1,10 @@
 /*
  * A step and the return to {0 <= p <= H, sum p = S}, tile by tile.
  *
- * A node that stops at its bound leaves a surplus of load. One shift of all nodes removes the surplus but
+ * A node that stops at its bound causes a surplus of load. One shift of all nodes removes the surplus but
  * spreads it over the whole map: a remainder with waves as long as the map is left, and K multiplies a wave
  * by 2/(E* q). The clipped step is then too long for the energy, the more so the larger the map. Here each
- * tile of 16 x 16 nodes preserves its own load by a shift of its own, so no remainder has waves longer than a
+ * tile of 16 x 16 nodes preserves its own load by its own shift, so no remainder has waves longer than a
  * tile. All elastic nodes share only the load that a tile cannot carry because its nodes would have to pull
  * or to exceed their upper bounds.
  *
@@ -28,12 +28,12 @@
 enum {
     TILE = RC_TILE_ROWS, /* nodes a side */
     NODES = TILE * TILE,
-    EDGE = TILE + 2, /* with one node on each side */
+    EDGE = TILE + 2, /* a tile with one more node on each side */
     ROUNDS = 60      /* limit of Newton's method in a tile; 3 or 4 are enough */
 };
 /* Damping of the Jacobi sweep: without it, two stopped neighbours would be corrected too much. */
 static const float damping = 0.8F;
-/* Marks of y: the shift does not move this node, which is at its lower or upper bound. */
+/* Values of y for a node at its lower or upper bound, which the shift does not move. */
 static const float stays_low = -FLT_MAX, stays_high = FLT_MAX;
 /* A remainder up to this fraction of the tolerance is put into a single tile. */
 static const double little = 1e-2;
@@ -205,7 +205,7 @@ enum { /* sums of the pass */
     OUT
 };
 
-/* p becomes y + push + shift within the bounds, in double precision; y becomes the change of p. */
+/* Sets p to y + push + shift within the bounds, in double precision, and y to the change of p. */
 RC_INLINE void
 settle(struct rc_box box, double alpha, double mean, double shift, double scale, struct copy *c,
        struct rc_tile *tile, double *sums)
@@ -267,7 +267,7 @@ move_copy(struct rc_box box, struct copy *c, const struct place *t, const struct
         push_back(box, m->solver->op->inverse_near, most, c);
     else
         memset(c->push, 0, sizeof c->push);
-    if (c->sum <= 0) /* the tile cannot carry its load: it would have to pull */
+    if (c->sum <= 0) /* the tile cannot carry its load, which is negative */
         for (size_t k = 0; k < NODES; k++)
             c->push[k] = stays_low;
     else if (c->out || c->held_in)
@@ -493,7 +493,7 @@ struct along {
 };
 
 struct group {
-    double left, room, count; /* as of a tile */
+    double left, room, count; /* the same as for a tile */
 };
 
 /* The load that tiles cannot carry goes to the elastic nodes of the smallest group of 2, 4, 8, ... tiles that

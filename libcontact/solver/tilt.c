@@ -1,9 +1,9 @@
 /*
- * A counter body that is free to tilt: the force acts at a point about which the pressures have no moment.
- * With x the position of a node from that point, a tilt with slopes a raises the counter surface by a x, and
- * the contact is that of the heights h - a x. The two slopes are the multipliers of the two conditions p'x =
- * 0, as the shift is that of the load. So G(a) = min over p of 1/2 p'Kp - p'(h - a x) is concave, its
- * gradient is the moment, and the solution is its maximum.
+ * A counter body that is free to tilt: the moment of the pressures about the point of the force is 0. With x
+ * the position of a node from that point, a tilt with slopes a raises the counter surface by a x, and the
+ * contact is that of the heights h - a x. The two slopes are the multipliers of the two conditions p'x = 0,
+ * as the shift is that of the load. So G(a) = min over p of 1/2 p'Kp - p'(h - a x) is concave, its gradient
+ * is the moment, and the solution is its maximum.
  *
  * Newton's method maximises G: the contact is solved, its moment is computed, and the body is turned by H^-1
  * times the moment. While no node joins or leaves, the derivative of the moment is minus
@@ -15,8 +15,8 @@
  * recomputed. If a full turn is too long or too short, a line search between bounds finds its length.
  * Contacts on the way are solved only as accurately as the next turn needs.
  *
- * To the solution the pressure changes by at most sqrt(S m'H^-1 m), S = 1'K^-1 1, in the L1 norm: exact for
- * independent springs, by Schwarz's inequality.
+ * From such a contact to the solution the pressure changes by at most sqrt(S m'H^-1 m), S = 1'K^-1 1, in the
+ * L1 norm: exact for independent springs, by Schwarz's inequality.
  *
  * Without a coarser grid the start is the facet on which a rigid body would rest, which also defines zero
  * approach. It is the plane above all heights that is lowest at the point of the force: a linear program of
@@ -33,7 +33,8 @@
 #include "libcontact/memory.h"
 
 enum {
-    /* of the simplex method: a start needs no more, because only little is then left above the facet */
+    /* limit of the simplex method: more steps do not pay for a start, because only little is left above the
+     * facet */
     PIVOTS = 200,
     TURNS = 200,
     EVEN = 6, /* trials of the line search, after which the interval is halved */
@@ -42,7 +43,7 @@ enum {
     FAR = 12
 };
 static const double loose = 1e-2; /* tolerance of the first contacts */
-/* of the tolerance; needed where few nodes determine the moment */
+/* fraction of the tolerance; needed if few nodes determine the moment */
 static const double finest = 1e-3;
 /* a new H that changes the error by more than this factor is recomputed */
 static const double far_softer = 3;
@@ -100,12 +101,12 @@ check(const struct rc_shape *shape, const struct rc_problem *problem, struct rc_
                             (double)(shape->ny - 1) / 2 * shape->dy};
 
     if (problem->boundary == RC_PERIODIC)
-        return rc_err_set(err, "a periodic surface has no point that it could tilt about");
+        return rc_err_set(err, "a periodic surface cannot tilt, because it has no centre");
     for (size_t a = 0; a < 2; a++)
         if (!(fabs(problem->force_at[a]) < half[a]) && problem->force_at[a] != 0)
             return rc_err_set(err,
-                              "the force acts at %.9g m, %.9g m from the middle: no contact could "
-                              "balance it, for the map ends %.9g m, %.9g m from there",
+                              "the force acts at %.9g m, %.9g m from the middle: it must act on "
+                              "the map, which ends %.9g m, %.9g m from the middle",
                               problem->force_at[0], problem->force_at[1], half[0], half[1]);
     return RC_OK;
 }
@@ -370,7 +371,7 @@ above_facet(const struct rc_solver *s, const struct facet *f)
     return c;
 }
 
-/* The node replaces the node of the facet that would first have to pull. */
+/* Replaces the node of the facet whose share would first become negative by this node. */
 static bool
 exchange(const struct rc_solver *s, struct facet *f, size_t node)
 {
@@ -462,7 +463,7 @@ eigenvalues(double a, double b, double d, double value[2], double vector[2][2])
     vector[0][1] = vector[1][0];
 }
 
-/* Eigenvalues of H over S. Without H: those of a contact as wide as the map. */
+/* Eigenvalues of H over S. If H is unknown: the eigenvalues for a contact as wide as the map. */
 static void
 stiffnesses(const struct rc_tilt *t, double value[2], double vector[2][2])
 {
@@ -572,7 +573,7 @@ touch_block(void *at, size_t first, size_t n, double *sums)
 
     for (size_t k = first; k < first + n; k++) {
         double p = s->it.p[k], g = s->it.v[k] - s->it.shift;
-        double up = risen(s, c->way, k) - c->centre; /* of the gap */
+        double up = risen(s, c->way, k) - c->centre; /* rate of the gap */
         bool closes = rc_at_low(box, k, p) && up < 0 && g > 0;
         bool opens = rc_at_high(box, k, p) && up > 0 && g < 0;
         if (closes || opens)
@@ -580,7 +581,7 @@ touch_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* The turn in this direction until something resists, and a little more. */
+/* The turn in this direction until a further node joins the contact, and a little more. */
 static double
 until_touch(struct rc_solver *s, const double way[2], double centre)
 {
@@ -592,7 +593,7 @@ until_touch(struct rc_solver *s, const double way[2], double centre)
     return total[RC_MOST] > 0 ? 1 / total[RC_MOST] + more : more;
 }
 
-/* Newton's step; if nothing resists, the turn to the first touch. */
+/* Chooses Newton's step; if no node resists the turn, the turn to the first touch. */
 static void
 choose_way(struct rc_solver *s)
 {
@@ -875,7 +876,7 @@ rc_tilt_pose(const struct rc_solver *s, struct rc_problem *coarse)
     coarse->tilt_free = s->tilt != NULL;
     if (s->tilt == NULL)
         return;
-    /* an odd line is one of two fine lines under a coarse one; the other lies beyond the map */
+    /* on an odd map the last coarse line covers one fine line and one beyond the map */
     coarse->force_at[0] = s->tilt->at[0] - (w->nx > 1 && w->nx % 2 == 1 ? w->dx / 2 : 0);
     coarse->force_at[1] = s->tilt->at[1] - (w->ny > 1 && w->ny % 2 == 1 ? w->dy / 2 : 0);
 }

@@ -3,9 +3,10 @@
  *
  * The elastic nodes are in the set, and so are nodes at a bound that would leave it. Not every node that
  * penetrates the other body (p = 0 and g < 0, or the reverse at the upper bound) would: beside an edge of
- * contact whose pressure is about to decrease, a node penetrates a little, but as soon as its neighbours fit
- * it would have to pull. With such nodes in the set the preconditioner uses that pull, the bound removes it,
- * and the step is too long: at 2048 x 2048 and 50 % contact this doubled the number of steps.
+ * contact whose pressure is about to decrease, a node penetrates a little, but once its neighbours fit, its
+ * pressure would be negative. With such nodes in the set the preconditioner uses these negative pressures,
+ * the bound removes them, and the step is too long: at 2048 x 2048 and 50 % contact this doubled the number
+ * of steps.
  *
  * The pressure that a node would get is z = A r, with A the inverse of the operator and r the residual,
  * extended smoothly: (A r)_i ~ sum_j a_ij (r_i - r_j). On uniform bodies a_ij = |x_i - x_j|^(-3) decreases so
@@ -16,11 +17,11 @@
  * Under a stiff coating a_ij alternates in sign, and nodes far beyond the neighbours count. There a node
  * joins if its residual would keep its sign when the elastic nodes fit: K z is r on the set, and beside it
  * about the extension E r from the elastic nodes (preconditioner.h), so r_i must exceed that. The sets of a
- * primal-dual active set method, whose systems are solved exactly, are the same but for the error of E; on a
- * map of 128 x 128 under a coating of two nodes with E_1/E_s = 400 that method took four steps. Coatings of
+ * primal-dual active set method, whose systems are solved exactly, are the same except for the error of E; on
+ * a map of 128 x 128 under a coating of two nodes with E_1/E_s = 400 that method took four steps. Coatings of
  * one to four nodes, E_1/E_s 100 and 400, 1 to 40 % contact at 512 x 512: 9 to 23 equivalents, against 10 to
- * 25 with neighbours whose residual is smaller weighted less. Only nodes with a positive z, from a correction
- * computed for this purpose, was far worse.
+ * 25 with neighbours whose residual is smaller weighted less. Taking only nodes with a positive z, from an
+ * additional correction, was far worse.
  *
  * The estimate that ends the iteration uses all nodes that want to leave their bounds.
  */
@@ -32,7 +33,7 @@
 
 #include "libcontact/memory.h"
 
-enum {        /* bits of w during sifting */
+enum {        /* bits of w during the removal of nodes */
     WAS = 1,  /* in the set before */
     WANTS = 2 /* at a bound, with a gap of the wrong sign */
 };
@@ -215,7 +216,7 @@ settle_block(void *at, size_t first, size_t n, double *sums)
         sums[OUT]++;
         sums[SATURATED] += rc_at_low(box, k, s->it.p[k]) ? 0 : rc_room(box, k);
         sums[SIZE] += fabs((double)s->set.r[k]);
-        sums[CHANGED] += was ? 1 : -1; /* the pass before counted it as a node that joins */
+        sums[CHANGED] += was ? 1 : -1; /* the previous pass counted it as a joining node */
         s->set.r[k] = 0;
     }
 }

@@ -234,7 +234,7 @@ approach_is_met_where_nodes_yield(void **state)
             s = solve(own, h, problem);
             if (parts[k] > 1) {
                 assert_int_equal(s.status, RC_FAIL);
-                assert_non_null(strstr(s.err.text, "every node carries its hardness"));
+                assert_non_null(strstr(s.err.text, "every node is at its hardness"));
             } else {
                 if (s.status != RC_OK || !s.c.converged)
                     print_error("seed %d, %g of %g m, hardness %g Pa: status %d, approach %g m, "

@@ -51,7 +51,7 @@ refuses 2 'a periodic surface, because it has no centre of tilt' "a periodic map
 refuses 2 '--tilt free does not work with --history yet' "a history" "rc-solve --load 1N --estar 1GPa --hardness 1GPa --history --tilt free rough.rcg"
 refuses 2 '--at has no effect without --tilt free' "a place without" "rc-solve --load 1N --estar 1GPa --at 1um,0 rough.rcg"
 refuses 2 'it must be X,Y' "half a place" "rc-solve --load 1N --estar 1GPa --tilt free --at 1um rough.rcg"
-refuses 1 'no contact could balance it' "a place beside the map" "rc-solve --load 1N --estar 1GPa --tilt free --at 50um,0 rough.rcg"
+refuses 1 'it must act on the map' "a place beside the map" "rc-solve --load 1N --estar 1GPa --tilt free --at 50um,0 rough.rcg"
 refuses 3 "may not be able to balance the load at this point" "what yields cannot balance any load" \
     "rc-solve --load 0.5N --estar 100GPa --hardness 0.1GPa --tilt free --at 40um,30um rough.rcg -o c.rcg"
 
