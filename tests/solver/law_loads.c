@@ -168,7 +168,8 @@ impossible_is_refused(void **state)
     (void)state;
     problem.approach = 1;
     assert_null(rc_solver_new(&shape, h, &problem, &err));
-    assert_non_null(strstr(err.text, "approach 1 m: contact is complete at "));
+    assert_non_null(
+        strstr(err.text, "approach 1 m: the contact of this periodic surface is complete at "));
     problem.approach = 0;
     problem.hardness = 1e9;
     s = start(h, problem);
