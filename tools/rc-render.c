@@ -47,15 +47,15 @@ static const struct opt opts[] = {
      .help = "value of nodes that share a pixel: their mean (default) or largest"},
     {.name = "figure", .type = OPT_FLAG, AT(figure), .help = "with axes, colour bar and title: the default"},
     {.name = "raw", .type = OPT_FLAG, AT(raw), .help = "one pixel for each node and nothing else"},
-    {.name = "title", .type = OPT_TEXT, AT(title), .arg = "TEXT",
+    {.name = "title", .type = OPT_TEXT, AT(style.paper.title), .arg = "TEXT",
      .help = "title of the figure (default: by channel)"},
-    {.name = "subtitle", .type = OPT_TEXT, AT(style.subtitle), .arg = "TEXT",
+    {.name = "subtitle", .type = OPT_TEXT, AT(style.paper.subtitle), .arg = "TEXT",
      .help = "line below the title (default: source, load and others)"},
     {.name = "width", .type = OPT_TEXT, AT(width), .arg = "WIDTH",
      .help = "width of the whole figure in pixels, or with a unit on paper, as 85mm"},
     {.name = "dpi", .type = OPT_NUMBER, AT(dpi), .min = 50, .max = 2400, .arg = "PIXELS",
      .help = "pixels per inch; text is then 7 points high (default for a --width in mm: 300)"},
-    {.name = "font", .type = OPT_TEXT, AT(style.family), .arg = "FAMILY",
+    {.name = "font", .type = OPT_TEXT, AT(style.paper.family), .arg = "FAMILY",
      .help = "font of all text (default: the sans serif of the system)"},
     {.name = "view", .type = OPT_TEXT, AT(view), .arg = "AZ,EL",
      .help = "draw a lit surface, seen from this azimuth and elevation in degrees"},
@@ -134,9 +134,9 @@ raw_row(const struct rc_grid *g, const struct figure *f, const struct colormap_t
     const double *v = g->v + j * g->nx;
 
     for (size_t i = 0; i < g->nx; i++) {
-        struct rgb c = isnan(v[i]) ? f->map->missing
-                       : f->zero_is_none && v[i] == 0
-                           ? f->map->none
+        struct rgb c = isnan(v[i]) ? f->bar.map->missing
+                       : f->nodes.zero_is_none && v[i] == 0
+                           ? f->bar.map->none
                            : colormap_look_up(table, figure_place(f, v[i]));
 
         rgb[3 * i] = c.r;
@@ -164,33 +164,34 @@ next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
     return RC_OK;
 }
 
-/* Writes the picture (without a canvas one pixel per node), with texts that describe how it was made. Without
- * a grid the source is the subtitle of the figure. */
+/* Writes the canvas or, if it is NULL, the raw picture of the figure, with texts that describe how it was
+ * made. Without a grid the source is the subtitle. */
 static void
-write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, struct canvas *c)
+write_picture(struct tool *t, const struct rc_grid *g, const struct paper *paper,
+              const struct figure *raw, struct canvas *c)
 {
-    struct drawing d = {t, g, f, .colours = {.map = NULL}};
+    struct drawing d = {t, g, raw, .colours = {.map = NULL}};
     const char *history = g == NULL ? NULL : rc_grid_get(g, "history"), *own = tool_history(t);
     size_t size = strlen(own) + (history == NULL ? 0 : strlen(history)) + 4;
     char *made = tool_room(t, size, 1, "the history"), software[64];
     const struct picture_text text[] = {
-        {"Title", f->title},
+        {"Title", paper->title},
         {"Description", made},
-        {"Warning", f->stamp},
+        {"Warning", paper->stamp},
         {"Software", software},
-        {"Source", g == NULL ? f->subtitle : rc_grid_get(g, "source")}};
+        {"Source", g == NULL ? paper->subtitle : rc_grid_get(g, "source")}};
     size_t texts = sizeof text / sizeof *text;
     struct rc_err err;
 
-    assert(c != NULL || g != NULL);
+    assert(c != NULL || (g != NULL && raw != NULL));
     if (c == NULL)
-        colormap_tabulate(&d.colours, f->map);
+        colormap_tabulate(&d.colours, raw->bar.map);
     snprintf(made, size, "%s%s%s", history == NULL ? "" : history, history == NULL ? "" : " | ",
              own);
     snprintf(software, sizeof software, "rc-render %s", rc_version());
     if ((c != NULL
              ? canvas_write(c, canvas_format(ending_of(t->out_name)), text, texts, t->out, &err)
-             : picture_write(t->out, g->nx, g->ny, f->dpi, text, texts, next_row, &d, &err)) !=
+             : picture_write(t->out, g->nx, g->ny, paper->dpi, text, texts, next_row, &d, &err)) !=
         RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
     free(made);
@@ -219,20 +220,20 @@ warn_of_text(struct tool *t, const struct args *a, struct canvas *c)
 
     if (canvas_warning(c, text, sizeof text) != NULL)
         tool_warn(t, "%s", text);
-    if (a->style.family != NULL)
-        warn_of_family(t, a->style.family, canvas_set_family(c, a->style.family));
+    if (a->style.paper.family != NULL)
+        warn_of_family(t, a->style.paper.family, canvas_set_family(c, a->style.paper.family));
 }
 
 /* Writes the figure on its canvas and frees the canvas; grid NULL: a figure of tables; canvas NULL: it could
  * not be drawn. */
 static void
-finish(struct tool *t, const struct args *a, const struct rc_grid *g, const struct figure *f,
+finish(struct tool *t, const struct args *a, const struct rc_grid *g, const struct paper *paper,
        struct canvas *c, const struct rc_err *err)
 {
     if (c == NULL && err != NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err->text);
     warn_of_text(t, a, c);
-    write_picture(t, g, f, c);
+    write_picture(t, g, paper, NULL, c);
     canvas_free(c);
 }
 
@@ -244,10 +245,10 @@ mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, st
     double *depth = section_depths(t, g);
     size_t at = fabs(s->min) > fabs(s->max) ? s->min_at : s->max_at;
 
-    f->largest_x = f->left + ((double)(at % g->nx) + 0.5) * g->dx;
-    f->largest_y = depth[at / g->nx];
-    if (f->largest_y >= f->top && f->largest_y <= f->bottom)
-        f->largest = words_largest(w, g, g->v[at], f->across, f->largest_x, f->largest_y);
+    f->mark.x = f->at.left + ((double)(at % g->nx) + 0.5) * g->dx;
+    f->mark.y = depth[at / g->nx];
+    if (f->mark.y >= f->at.top && f->mark.y <= f->at.bottom)
+        f->mark.largest = words_largest(w, g, g->v[at], f->at.across, f->mark.x, f->mark.y);
     free(depth);
 }
 
@@ -274,18 +275,15 @@ draw_figure(struct tool *t, const struct args *a, struct rc_grid *g, const struc
         even = look_section(t, a, g, f);
         mark_largest(t, g, s, f, &words);
     } else if (look_throat(g, f))
-        f->largest = "the critical constriction";
+        f->mark.largest = "the critical constriction";
     if (a->hertz)
-        f->circle = words_hertz(t, &words, g, &a->style.given, &f->radius);
-    if ((c = figure_draw(f, even == NULL ? g : even, &err)) == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    warn_of_text(t, a, c);
+        f->mark.circle = words_hertz(t, &words, g, &a->style.given, &f->mark.radius);
+    c = figure_draw(f, even == NULL ? g : even, &err);
     rc_grid_free(even);
     drop_values(g);
     drop_values(beside->pressure);
     drop_values(beside->contact);
-    write_picture(t, g, f, c);
-    canvas_free(c);
+    finish(t, a, g, &f->paper, c, &err);
     free(f->medium);
 }
 
@@ -296,33 +294,29 @@ static void
 draw_profile(struct tool *t, const struct args *a, const struct rc_grid *g, const struct figure *f)
 {
     const bool row = g->ny == 1;
-    const double first = row ? f->left : f->top, step = row ? g->dx : g->dy;
+    const double first = row ? f->at.left : f->at.top, step = row ? g->dx : g->dy;
     const size_t n = g->nx * g->ny;
     double *x = tool_room(t, n, sizeof *x, "a curve");
     struct graph_series series = {.kind = GRAPH_LINE, .x = x, .y = g->v, .n = n};
     char gaps[128];
-    struct graph graph = {
-        .title = f->title,
-        .subtitle = f->subtitle,
-        .stamp = f->stamp,
-        .x = {row ? f->across : f->down, f->dunit, false, first, row ? f->right : f->bottom},
-        .y = {f->quantity, f->unit, f->log, f->lo, f->hi},
-        .series = &series,
-        .n = 1,
-        .note = f->missing > 0 ? gaps : NULL,
-        .width = f->width,
-        .dpi = f->dpi,
-        .family = f->family};
+    struct graph graph = {.paper = f->paper,
+                          .x = {row ? f->at.across : f->at.down, f->at.dunit, false, first,
+                                row ? f->at.right : f->at.bottom},
+                          .y = {f->bar.quantity, f->bar.unit, f->bar.log, f->bar.lo, f->bar.hi},
+                          .series = &series,
+                          .n = 1,
+                          .note = f->nodes.missing > 0 ? gaps : NULL};
     struct canvas *c;
     struct rc_err err;
 
     for (size_t k = 0; k < n; k++)
         x[k] = first + ((double)k + 0.5) * step;
     snprintf(gaps, sizeof gaps, "gaps: %s (%zu of %zu nodes)",
-             f->missing_is == NULL ? "not measured" : f->missing_is, f->missing, n);
+             f->nodes.missing_is == NULL ? "not measured" : f->nodes.missing_is, f->nodes.missing,
+             n);
     c = graph_draw(&graph, &err);
     free(x);
-    finish(t, a, g, f, c, &err);
+    finish(t, a, g, &f->paper, c, &err);
 }
 
 /* ---- reliefs ---- */
@@ -338,11 +332,11 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
     if (look_is_profile(g) || rc_grid_get(g, "section") != NULL || g->nx == 1 || g->ny == 1)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "a relief is of a map, this is a profile or a section: leave out --view");
-    view.peaks = a->keep == NULL ? f->zero_is_none : f->keep_max;
+    view.peaks = a->keep == NULL ? f->nodes.zero_is_none : f->keep_max;
     view_check(t, g, f);
     view_say(f, subtitle);
-    f->missing = 0; /* they are holes */
-    finish(t, a, g, f, relief_draw(f, &view, g, &err), &err);
+    f->nodes.missing = 0; /* they are holes */
+    finish(t, a, g, &f->paper, relief_draw(f, &view, g, &err), &err);
 }
 
 /* True if the window is that of the contact. */
@@ -381,9 +375,9 @@ render(struct tool *t, struct args *a, struct rc_grid *g, const struct beside *b
     look_aspect(t, g, &f);
     look_contact(&f, g, beside, touch);
     snprintf(title, sizeof title, "%.80s about the contact", look.what.title);
-    if (a->title == NULL && w.contact)
-        f.title = title;
-    f.subtitle = wording_subtitle(a->title, a->style.subtitle, subtitle.text);
+    if (a->style.paper.title == NULL && w.contact)
+        f.paper.title = title;
+    f.paper.subtitle = wording_subtitle(&a->style.paper, subtitle.text);
     if (a->hillshade && !look_is_profile(g))
         subtitle_add(&subtitle, shaded, "");
     if ((a->contour || a->border || a->hertz || a->hillshade) && look_is_profile(g))
@@ -393,7 +387,7 @@ render(struct tool *t, struct args *a, struct rc_grid *g, const struct beside *b
                   : a->hertz  ? "hertz"
                               : "hillshade");
     if (a->raw)
-        write_picture(t, g, &f, NULL);
+        write_picture(t, g, &f.paper, &f, NULL);
     else if (a->view != NULL)
         draw_relief(t, a, g, &f, &subtitle);
     else if (look_is_profile(g))
@@ -424,27 +418,27 @@ set_panels(struct tool *t, const struct args *a, const struct frames *frames,
         panel[k].grid = even[k] == NULL ? g : even[k];
         beside = frames_beside(frames, k);
         look_contact(of, g, &beside, frames->touch[k]);
-        hard = fmax(hard, of->hard);
-        f->contact = f->contact == NULL ? of->contact : f->contact;
+        hard = fmax(hard, of->edge.hard);
+        f->edge.contact = f->edge.contact == NULL ? of->edge.contact : f->edge.contact;
         sheet_check_alike(t, frames->grid[0], &panel[0].figure, g, of);
         sheet_label(&panel[k], frames, k);
     }
     for (size_t k = 0; k < frames->n; k++) {
-        f->stamp = f->stamp == NULL ? look_stamp(frames->grid[k]) : f->stamp;
-        f->nodes += frames->grid[k]->nx * frames->grid[k]->ny;
+        f->paper.stamp = f->paper.stamp == NULL ? look_stamp(frames->grid[k]) : f->paper.stamp;
+        f->nodes.all += frames->grid[k]->nx * frames->grid[k]->ny;
     }
     look_extent(&window[0], f);
-    f->top = panel[0].figure.top;
-    f->bottom = panel[0].figure.bottom;
-    f->across = panel[0].figure.across;
-    f->down = panel[0].figure.down;
-    f->section = panel[0].figure.section;
+    f->at.top = panel[0].figure.at.top;
+    f->at.bottom = panel[0].figure.at.bottom;
+    f->at.across = panel[0].figure.at.across;
+    f->at.down = panel[0].figure.at.down;
+    f->at.section = panel[0].figure.at.section;
     look_aspect(t, frames->grid[0], f);
     if (sheet_one_body(frames)) {
         f->medium = panel[0].figure.medium;
         f->media = panel[0].figure.media;
     }
-    f->hard = hard;
+    f->edge.hard = hard;
 }
 
 static void
@@ -489,16 +483,14 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     sheet_survey(t, frames, &all);
     look_figure(t, a, frames->grid, frames->touch, frames->n, &all, &look, &f);
     say_of_sheet(&subtitle, a, frames, &all, &means, window[0].part);
-    f.subtitle = wording_subtitle(a->title, a->style.subtitle, subtitle.text);
+    f.paper.subtitle = wording_subtitle(&a->style.paper, subtitle.text);
     set_panels(t, a, frames, window, &f, panel, even);
     if (columns == 0)
-        columns = panels_columns(frames->n, (f.right - f.left) / (f.bottom - f.top));
+        columns = panels_columns(frames->n, (f.at.right - f.at.left) / (f.at.bottom - f.at.top));
     panels = (struct panels){&f, panel, frames->n, columns};
     if ((c = panels_draw(&panels, &err)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
-    warn_of_text(t, a, c);
-    write_picture(t, frames->grid[0], &f, c);
-    canvas_free(c);
+    finish(t, a, frames->grid[0], &f.paper, c, NULL);
     for (size_t k = 0; k < frames->n; k++) {
         rc_grid_free(even[k]);
         free(panel[k].figure.medium);
@@ -511,15 +503,12 @@ static void
 render_curves(struct tool *t, struct args *a)
 {
     struct drawn drawn = {.stamp = NULL};
-    struct figure words;
-    struct canvas *c;
+    struct canvas *c = curves_draw(t, a->curve, &a->style, &drawn);
+    const struct paper paper = {.title = drawn.title,
+                                .stamp = drawn.stamp,
+                                .subtitle = *drawn.source == '\0' ? NULL : drawn.source};
 
-    a->style.title = a->title;
-    c = curves_draw(t, a->curve, &a->style, &drawn);
-    words = (struct figure){.title = drawn.title,
-                            .stamp = drawn.stamp,
-                            .subtitle = *drawn.source == '\0' ? NULL : drawn.source};
-    finish(t, a, NULL, &words, c, NULL);
+    finish(t, a, NULL, &paper, c, NULL);
 }
 
 static struct canvas *
@@ -549,10 +538,9 @@ render_lines(struct tool *t, struct args *a, const struct frames *f)
     struct drawn drawn = {.stamp = NULL};
     struct canvas *c;
 
-    a->style.title = a->title;
     a->style.hertz = a->hertz;
     c = draw_lines(t, a, f, &drawn);
-    finish(t, a, f->grid[0], &(struct figure){.title = drawn.title, .stamp = drawn.stamp}, c, NULL);
+    finish(t, a, f->grid[0], &(struct paper){.title = drawn.title, .stamp = drawn.stamp}, c, NULL);
 }
 
 /* ---- kinds of pictures ---- */
@@ -612,8 +600,8 @@ main(int argc, char **argv)
 
     tool_start(&t, &info, argc, argv, &args);
     args_check(&t, &args);
-    check_text(&t, "title", args.title);
-    check_text(&t, "subtitle", args.style.subtitle);
+    check_text(&t, "title", args.style.paper.title);
+    check_text(&t, "subtitle", args.style.paper.subtitle);
     check_text(&t, "legend", args.style.legend);
     check_text(&t, "x-label", args.style.x_label);
     check_text(&t, "y-label", args.style.y_label);

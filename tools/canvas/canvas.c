@@ -190,6 +190,13 @@ canvas_draw_to(struct canvas *c, double x, double y)
     add_point(c, x, y, c->points == 0);
 }
 
+void
+canvas_line(struct canvas *c, double x0, double y0, double x1, double y1)
+{
+    canvas_move(c, x0, y0);
+    canvas_draw_to(c, x1, y1);
+}
+
 /* Makes an item of the current path. */
 static void
 add_path(struct canvas *c, struct item item)

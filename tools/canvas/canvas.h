@@ -61,6 +61,8 @@ void canvas_clip(struct canvas *canvas, double x, double y, double w, double h);
 /* A line is a path drawn in one stroke: move, draw to, draw to, ..., stroke. */
 void canvas_move(struct canvas *canvas, double x, double y);
 void canvas_draw_to(struct canvas *canvas, double x, double y);
+/* Move and draw to. */
+void canvas_line(struct canvas *canvas, double x0, double y0, double x1, double y1);
 void canvas_stroke(struct canvas *canvas, double width, struct rgb colour);
 /* The same with dashes and gaps of this length. */
 void canvas_dashes(struct canvas *canvas, double width, double dash, struct rgb colour);

@@ -43,9 +43,9 @@ describe(const struct cost_case *c, struct drawing *d, bool stress)
                              : scale_value(text, approach, "m"),
              100 * cost_number(c->solved, "contact_fraction"), c->tool->threads);
     d->graph = (struct graph){
-        .title = stress ? "What accuracy costs: the stresses"
-                        : "What accuracy costs: the contact pressure",
-        .subtitle = d->subtitle,
+        .paper = {.title = stress ? "What accuracy costs: the stresses"
+                                  : "What accuracy costs: the contact pressure",
+                  .subtitle = d->subtitle},
         .x = {.quantity = (c->about & COST_YIELD) ? "time (s); at the points: increments" : "time",
               .unit = "s",
               .log = true,

@@ -30,9 +30,9 @@ mix(struct rgb a, double x, struct rgb b, double y)
 double
 figure_place(const struct figure *f, double value)
 {
-    if (!f->log)
-        return colormap_place(f->lo, f->hi, value);
-    return value > f->lo ? log(value / f->lo) / log(f->hi / f->lo) : 0;
+    if (!f->bar.log)
+        return colormap_place(f->bar.lo, f->bar.hi, value);
+    return value > f->bar.lo ? log(value / f->bar.lo) / log(f->bar.hi / f->bar.lo) : 0;
 }
 
 struct rgb
@@ -40,9 +40,9 @@ figure_colour(const struct figure *f, double value)
 {
     double t = figure_place(f, value);
 
-    if (f->is == NULL)
-        return colormap_at(f->map, t);
-    return mix(colormap_at(f->map, 0), 1 - t, colormap_at(f->map, 1),
+    if (f->nodes.is == NULL)
+        return colormap_at(f->bar.map, t);
+    return mix(colormap_at(f->bar.map, 0), 1 - t, colormap_at(f->bar.map, 1),
                t); /* size in pixels of both */
 }
 
@@ -52,8 +52,8 @@ missing_at(const struct page *p, size_t x, size_t y)
 {
     size_t side = (size_t)fmax(4, round(7 * p->u));
 
-    return (x / side + y / side) % 2 == 0 ? p->f->map->missing
-                                          : mix(p->f->map->missing, 0.5, light, 0.5);
+    return (x / side + y / side) % 2 == 0 ? p->f->bar.map->missing
+                                          : mix(p->f->bar.map->missing, 0.5, light, 0.5);
 }
 
 /* Light and shadow for each node, or for each cell of the image if there are more nodes. */
@@ -69,12 +69,13 @@ shades_new(const struct page *p, size_t image_w, size_t image_h, struct shades *
     const struct figure *f = p->f;
     size_t w = p->g->nx < image_w ? p->g->nx : image_w;
     size_t h = p->g->ny < image_h ? p->g->ny : image_h;
-    double aspect = (f->bottom - f->top) / (double)h / ((f->right - f->left) / (double)w);
+    double aspect =
+        (f->at.bottom - f->at.top) / (double)h / ((f->at.right - f->at.left) / (double)w);
 
     *s = (struct shades){NULL, NULL};
     if (!f->hillshade)
         return RC_OK;
-    if ((s->raster = raster_new(p->g, f->zero_is_none, w, h, err)) == NULL)
+    if ((s->raster = raster_new(p->g, f->nodes.zero_is_none, w, h, err)) == NULL)
         return RC_FAIL;
     if ((s->bright = hillshade_new(s->raster, aspect, err)) != NULL)
         return RC_OK;
@@ -113,19 +114,19 @@ cell_colour(const struct page *p, const struct raster *r, size_t i, size_t j, si
     struct rgb colour = missing_at(p, i, first + j), value;
 
     if (isnan(r->v[k]))
-        return none > 0 ? mix(f->map->none, none, colour, 1 - none) : colour;
+        return none > 0 ? mix(f->bar.map->none, none, colour, 1 - none) : colour;
     value = figure_colour(f, r->v[k]);
     if (missing > 0)
         value = mix(value, fmax(0, 1 - missing), colour, fmin(missing, 1));
-    return none > 0 ? mix(value, fmax(0, 1 - none), f->map->none, fmin(none, 1)) : value;
+    return none > 0 ? mix(value, fmax(0, 1 - none), f->bar.map->none, fmin(none, 1)) : value;
 }
 
 static struct raster *
 new_rows(struct page *p, size_t w, size_t h, size_t first, size_t rows, struct rc_err *err)
 {
     if (p->f->keep_max && (w < p->g->nx || h < p->g->ny))
-        return raster_rows_max(p->g, p->f->zero_is_none, w, h, first, rows, err);
-    return raster_rows(p->g, p->f->zero_is_none, w, h, first, rows, err);
+        return raster_rows_max(p->g, p->f->nodes.zero_is_none, w, h, first, rows, err);
+    return raster_rows(p->g, p->f->nodes.zero_is_none, w, h, first, rows, err);
 }
 
 static enum rc_status
@@ -163,8 +164,7 @@ paint(struct page *p, size_t w, size_t h, struct rc_err *err)
             paint_rows(p, &shades, w, h, first, h - first < BAND ? h - first : BAND, pixel, err);
     shades_free(&shades);
     if (status == RC_OK)
-        canvas_image(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w,
-                     (double)p->plot_h, pixel, NULL, w, h);
+        canvas_image(p->c, p->plot.x, p->plot.y, p->plot.w, p->plot.h, pixel, NULL, w, h);
     else
         free(pixel);
     return status;
@@ -174,12 +174,12 @@ static void
 stroke_lines(struct page *p, struct lines *l, const struct raster *r, double width,
              struct rgb colour)
 {
-    double x = (double)p->plot_x, y = (double)p->plot_y;
-    double sx = (double)p->plot_w / (double)r->w, sy = (double)p->plot_h / (double)r->h;
+    double x = p->plot.x, y = p->plot.y;
+    double sx = p->plot.w / (double)r->w, sy = p->plot.h / (double)r->h;
 
     for (size_t k = 0; k < l->n; k++) {
-        canvas_move(p->c, x + sx * l->at[k][0], y + sy * l->at[k][1]);
-        canvas_draw_to(p->c, x + sx * l->at[k][2], y + sy * l->at[k][3]);
+        canvas_line(p->c, x + sx * l->at[k][0], y + sy * l->at[k][1], x + sx * l->at[k][2],
+                    y + sy * l->at[k][3]);
     }
     canvas_stroke(p->c, width, colour);
     l->n = 0;
@@ -195,7 +195,7 @@ line_colour(const struct figure *f, double value)
 static double
 border_width(const struct page *p)
 {
-    double node = fmin((double)p->plot_w / (double)p->g->nx, (double)p->plot_h / (double)p->g->ny);
+    double node = fmin(p->plot.w / (double)p->g->nx, p->plot.h / (double)p->g->ny);
 
     return fmin(1.5 * p->u, fmax(0.35 * node, 0.4 * p->u));
 }
@@ -205,7 +205,7 @@ border_width(const struct page *p)
 static struct rgb
 edge_ink(const struct page *p)
 {
-    const struct rc_grid *of = p->f->contact;
+    const struct rc_grid *of = p->f->edge.contact;
     double sum = 0, n = 0;
 
     if (of == NULL || of == p->g || of->nx != p->g->nx || of->ny != p->g->ny)
@@ -222,13 +222,13 @@ edge_ink(const struct page *p)
 static double
 page_x(const struct page *p, double x)
 {
-    return (double)p->plot_x + (x - p->f->left) / (p->f->right - p->f->left) * (double)p->plot_w;
+    return p->plot.x + (x - p->f->at.left) / (p->f->at.right - p->f->at.left) * p->plot.w;
 }
 
 static double
 page_y(const struct page *p, double y)
 {
-    return (double)p->plot_y + (y - p->f->top) / (p->f->bottom - p->f->top) * (double)p->plot_h;
+    return p->plot.y + (y - p->f->at.top) / (p->f->at.bottom - p->f->at.top) * p->plot.h;
 }
 
 static void
@@ -236,10 +236,11 @@ draw_circle(struct page *p)
 {
     const int steps = 360;
 
-    canvas_clip(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h);
+    page_clip(p);
     for (int k = 0; k <= steps; k++) {
         double turn = 4 * acos(0.0) * k / steps;
-        double x = page_x(p, p->f->radius * cos(turn)), y = page_y(p, p->f->radius * sin(turn));
+        double x = page_x(p, p->f->mark.radius * cos(turn)),
+               y = page_y(p, p->f->mark.radius * sin(turn));
 
         if (k == 0)
             canvas_move(p->c, x, y);
@@ -247,7 +248,7 @@ draw_circle(struct page *p)
             canvas_draw_to(p->c, x, y);
     }
     canvas_dashes(p->c, 2 * p->u, 9 * p->u, circle_ink);
-    canvas_clip(p->c, 0, 0, 0, 0);
+    page_clip_end(p);
 }
 
 /* A cross with a light rim, visible on every colour. */
@@ -257,10 +258,8 @@ draw_cross(struct page *p, double x, double y)
     for (int layer = 0; layer < 2; layer++) {
         double reach = (layer == 0 ? 11 : 10) * p->u;
 
-        canvas_move(p->c, x - reach, y);
-        canvas_draw_to(p->c, x + reach, y);
-        canvas_move(p->c, x, y - reach);
-        canvas_draw_to(p->c, x, y + reach);
+        canvas_line(p->c, x - reach, y, x + reach, y);
+        canvas_line(p->c, x, y - reach, x, y + reach);
         canvas_stroke(p->c, (layer == 0 ? 5 : 2) * p->u, layer == 0 ? light : page_ink);
     }
 }
@@ -272,25 +271,25 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
     struct lines lines = {0};
     enum rc_status status = RC_OK;
 
-    canvas_clip(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h);
+    page_clip(p);
     for (size_t k = 0; k < a->marks && status == RC_OK; k++) {
         double level = a->mark[k].value * a->scale.size;
 
-        if (p->f->border || !a->mark[k].major || (p->f->zero_is_none && level == 0))
+        if (p->f->edge.border || !a->mark[k].major || (p->f->nodes.zero_is_none && level == 0))
             continue; /* the edge of the contact shows this better */
         status = raster_contour(r, level, &lines, err);
-        stroke_lines(p, &lines, r, p->f->zero_is_none ? border_width(p) : 1.5 * p->u,
+        stroke_lines(p, &lines, r, p->f->nodes.zero_is_none ? border_width(p) : 1.5 * p->u,
                      line_colour(p->f, level));
     }
-    if (status == RC_OK && p->f->contact != NULL) {
-        status = raster_border(p->f->contact, 0, r->w, r->h, &lines, err);
+    if (status == RC_OK && p->f->edge.contact != NULL) {
+        status = raster_border(p->f->edge.contact, 0, r->w, r->h, &lines, err);
         stroke_lines(p, &lines, r, border_width(p), edge_ink(p));
     }
-    if (status == RC_OK && p->f->hard > 0) {
-        status = raster_border(p->f->pressure, p->f->hard, r->w, r->h, &lines, err);
+    if (status == RC_OK && p->f->edge.hard > 0) {
+        status = raster_border(p->f->edge.pressure, p->f->edge.hard, r->w, r->h, &lines, err);
         stroke_lines(p, &lines, r, border_width(p), hard_ink);
     }
-    canvas_clip(p->c, 0, 0, 0, 0);
+    page_clip_end(p);
     free(lines.at);
     return status;
 }
@@ -301,19 +300,20 @@ static enum rc_status
 draw_map(struct page *p, struct rc_err *err)
 {
     const struct figure *f = p->f;
-    size_t nx = p->g->nx, ny = p->g->ny, w = p->plot_w, h = p->plot_h;
+    size_t nx = p->g->nx, ny = p->g->ny, plot_w = (size_t)p->plot.w, plot_h = (size_t)p->plot.h;
+    size_t w = plot_w, h = plot_h;
     struct raster *r;
     enum rc_status status;
 
-    if (f->vector && f->missing == 0) {
+    if (f->vector && f->nodes.missing == 0) {
         w = nx < IMAGE_MOST ? nx : IMAGE_MOST;
         h = ny < IMAGE_MOST ? ny : IMAGE_MOST;
     }
     status = paint(p, w, h, err);
-    if (!f->contour || status != RC_OK)
+    if (!f->edge.contour || status != RC_OK)
         return status;
-    w = nx < p->plot_w ? nx : p->plot_w;
-    h = ny < p->plot_h ? ny : p->plot_h;
+    w = nx < plot_w ? nx : plot_w;
+    h = ny < plot_h ? ny : plot_h;
     if ((r = new_rows(p, w, h, 0, h, err)) == NULL)
         return RC_FAIL;
     status = draw_contours(p, r, err);
@@ -330,7 +330,7 @@ paint_bar(struct page *p, double x, double y, double w, double h)
     for (size_t k = 0; k < STEPS && pixel != NULL; k++) {
         double t = ((double)k + 0.5) / STEPS;
 
-        pixel[k] = colormap_at(p->f->map, p->bar_below ? t : 1 - t);
+        pixel[k] = colormap_at(p->f->bar.map, p->bar_below ? t : 1 - t);
     }
     canvas_image(p->c, x, y, w, h, pixel, NULL, p->bar_below ? STEPS : 1, p->bar_below ? 1 : STEPS);
 }
@@ -343,11 +343,11 @@ point_bar(struct page *p, double x, double y, double w, double h)
     double reach = 18 * p->u, gap = 4 * p->u;
 
     for (int end = 0; end < 2; end++) {
-        struct rgb colour = colormap_at(f->map, end);
+        struct rgb colour = colormap_at(f->bar.map, end);
         double sign = end == 0 ? -1 : 1;
         double corner[3][2];
 
-        if (!(end == 0 ? f->min < f->lo : f->max > f->hi))
+        if (!(end == 0 ? f->bar.min < f->bar.lo : f->bar.max > f->bar.hi))
             continue;
         for (int k = 0; k < 3; k++) {
             double out = sign * (gap + (k == 1 ? reach : 0)), along = 0.5 * (double)k;
@@ -369,11 +369,10 @@ static void
 draw_bar(struct page *p)
 {
     double u = p->u, thick = round(28 * u);
-    double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
-           h = (double)p->plot_h;
+    double x = p->plot.x, y = p->plot.y, w = p->plot.w, h = p->plot.h;
     const struct axis *a = &p->values;
 
-    if (p->f->is != NULL)
+    if (p->f->nodes.is != NULL)
         return;
     if (p->bar_below) {
         y = round(y + h + page_bar_below(p));
@@ -384,7 +383,7 @@ draw_bar(struct page *p)
     }
     paint_bar(p, x, y, w, h);
     point_bar(p, x, y, w, h);
-    for (size_t k = 0; p->f->contour && !p->f->border && k < a->marks; k++) {
+    for (size_t k = 0; p->f->edge.contour && !p->f->edge.border && k < a->marks; k++) {
         double t = a->mark[k].at;
         struct rgb colour = line_colour(p->f, a->mark[k].value * a->scale.size);
 
@@ -410,13 +409,13 @@ draw_stamp(struct page *p, double middle, double y)
 {
     double size = p->stamp.size, w, line = fmax(2, round(2.4 * p->u));
 
-    if (p->f->stamp == NULL)
+    if (p->paper->stamp == NULL)
         return;
-    w = canvas_text_width(p->c, &p->stamp, p->f->stamp) + 1.6 * size;
+    w = canvas_text_width(p->c, &p->stamp, p->paper->stamp) + 1.6 * size;
     y += 0.4 * size;
     canvas_frame(p->c, round(middle - 0.5 * w), round(y), round(w), round(1.55 * size), line,
                  page_alarm);
-    canvas_text(p->c, &p->stamp, middle, y + 1.12 * size, 0.5, p->f->stamp);
+    canvas_text(p->c, &p->stamp, middle, y + 1.12 * size, 0.5, p->paper->stamp);
 }
 
 void
@@ -454,15 +453,14 @@ draw_swatch(struct page *p, enum swatch swatch, double x, double y, size_t n)
     if (swatch == SWATCH_LARGEST)
         draw_cross(p, x + 0.5 * w, y + 0.5 * h);
     if (swatch == SWATCH_CONTACT || swatch == SWATCH_HARD || swatch == SWATCH_CIRCLE) {
-        canvas_move(p->c, x, y + 0.5 * h);
-        canvas_draw_to(p->c, x + w, y + 0.5 * h);
+        canvas_line(p->c, x, y + 0.5 * h, x + w, y + 0.5 * h);
         if (swatch == SWATCH_CIRCLE)
             canvas_dashes(p->c, 2 * u, 9 * u, circle_ink);
         else
             canvas_stroke(p->c, 2 * u, swatch == SWATCH_HARD ? hard_ink : edge_ink(p));
     }
     if (swatch == SWATCH_NONE)
-        canvas_fill(p->c, x, y, w, h, p->f->map->none);
+        canvas_fill(p->c, x, y, w, h, p->f->bar.map->none);
     if (swatch == SWATCH_ONE || swatch == SWATCH_TWO)
         canvas_fill(p->c, x, y, w, h, figure_colour(p->f, swatch == SWATCH_ONE ? 1 : 2));
     if (swatch == SWATCH_MISSING)
@@ -502,50 +500,42 @@ label_font(const struct page *p, const struct panels *panels)
     font.bold = true;
     for (size_t k = 0; k < panels->n; k++)
         widest = fmax(widest, canvas_text_width(p->c, &font, panels->panel[k].label));
-    font.size *= fmin(1, fmax(0.6, 0.97 * (double)p->map_w / widest));
+    font.size *= fmin(1, fmax(0.6, 0.97 * p->map_w / widest));
     return font;
 }
 
 /* Axes are left of the first column and under the lowest map of each column. */
 static enum rc_status
-draw_panel(const struct page *page, const struct panels *panels, size_t k, struct rc_err *err)
+draw_panel(struct page *p, const struct panels *panels, size_t k, struct rc_err *err)
 {
     const struct panel *panel = &panels->panel[k];
-    struct page *p = malloc(sizeof *p);
-    struct canvas_font font = label_font(page, panels);
-    double x, y, w = (double)page->map_w, h = (double)page->map_h;
+    struct canvas_font font = label_font(p, panels);
+    const struct box *at = &p->plot;
     char label[LINE];
-    enum rc_status status;
 
-    if (p == NULL)
-        return rc_err_set(err, "out of memory for a figure");
-    *p = *page;
     p->f = &panel->figure;
     p->g = panel->grid;
-    p->plot_x += (size_t)(p->across_step * (double)(k % p->columns));
-    p->plot_y += (size_t)(p->down_step * (double)(k / p->columns));
-    p->plot_w = p->map_w;
-    p->plot_h = p->map_h;
-    x = (double)p->plot_x;
-    y = (double)p->plot_y;
+    p->plot.x += floor(p->across_step * (double)(k % p->columns));
+    p->plot.y += floor(p->down_step * (double)(k / p->columns));
+    p->plot.w = p->map_w;
+    p->plot.h = p->map_h;
     snprintf(label, sizeof label, "%s", panel->label);
-    page_shorten(p, &font, w, label);
+    page_shorten(p, &font, at->w, label);
     if (*label != '\0')
-        canvas_text(p->c, &font, x, y - 0.45 * p->small.size, 0, label);
-    if ((status = draw_map(p, err)) == RC_OK) {
-        media_draw(p);
-        if (p->f->circle != NULL)
-            draw_circle(p);
-        if (p->f->largest != NULL)
-            draw_cross(p, page_x(p, p->f->largest_x), page_y(p, p->f->largest_y));
-        canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
-        if (k % p->columns == 0)
-            axis_upright(p, &p->down, x, y, h, true, true);
-        if (k + p->columns >= panels->n)
-            axis_across(p, &p->across, x, y + h, w);
-    }
-    free(p);
-    return status;
+        canvas_text(p->c, &font, at->x, at->y - 0.45 * p->small.size, 0, label);
+    if (draw_map(p, err) != RC_OK)
+        return RC_FAIL;
+    media_draw(p);
+    if (p->f->mark.circle != NULL)
+        draw_circle(p);
+    if (p->f->mark.largest != NULL)
+        draw_cross(p, page_x(p, p->f->mark.x), page_y(p, p->f->mark.y));
+    canvas_frame(p->c, at->x, at->y, at->w, at->h, fmax(1, round(1.2 * p->u)), page_ink);
+    if (k % p->columns == 0)
+        axis_upright(p, &p->down, at->x, at->y, at->h, true, true);
+    if (k + p->columns >= panels->n)
+        axis_across(p, &p->across, at->x, at->y + at->h, at->w);
+    return RC_OK;
 }
 
 void
@@ -556,42 +546,40 @@ page_bar(struct page *p)
 }
 
 static enum rc_status
-draw(struct page *p, const struct panels *panels, struct rc_err *err)
+draw(struct page *p, struct rc_err *err)
 {
+    const struct panels *panels = p->of;
+    const struct box plot = p->plot;
+
     page_heading(p);
-    for (size_t k = 0; k < panels->n; k++)
+    for (size_t k = 0; k < panels->n; k++) {
         if (draw_panel(p, panels, k, err) != RC_OK)
             return RC_FAIL;
+        p->plot = plot;
+    }
+    p->f = panels->figure;
+    p->g = panels->panel[0].grid;
     page_bar(p);
-    return canvas_check(p->c, err);
+    return RC_OK;
 }
+
+static const struct page_kind one_map = {1200, page_lay_out, draw},
+                              several_maps = {SHEET_WIDTH, page_lay_out, draw};
 
 struct canvas *
 panels_draw(const struct panels *panels, struct rc_err *err)
 {
-    struct page *p = calloc(1, sizeof *p);
+    struct page *p = page_new(panels->n * panels->columns > 1 ? &several_maps : &one_map,
+                              (void *)panels, &panels->figure->paper, err);
     struct canvas *drawn = NULL;
-    bool laid_out;
 
-    if (p == NULL) {
-        rc_err_set(err, "out of memory for a figure");
+    if (p == NULL)
         return NULL;
-    }
     p->f = panels->figure;
     p->g = panels->panel[0].grid;
     p->columns = panels->columns;
     p->rows = (panels->n + panels->columns - 1) / panels->columns;
-    if ((p->c = page_canvas(p, 1, 1, err)) == NULL) /* only to measure text */
-        goto done;
-    laid_out = page_lay_out(p, err) == RC_OK;
-    canvas_free(p->c);
-    if (!laid_out || (p->c = page_canvas(p, p->w, p->h, err)) == NULL)
-        goto done;
-    if (draw(p, panels, err) == RC_OK)
-        drawn = p->c;
-    else
-        canvas_free(p->c);
-done:
+    drawn = pages_draw(&p, 1, err);
     free(p);
     return drawn;
 }

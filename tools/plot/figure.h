@@ -26,55 +26,79 @@ struct medium {
     char text[128]; /* of the legend        */
 };
 
-struct figure {
-    const char *title;         /* large, over everything                                */
-    const char *subtitle;      /* below the title; lines break at " · "                 */
-    const char *stamp;         /* a warning in a separate frame; NULL: none             */
-    const char *quantity;      /* name of the values: "Gap"                             */
-    const char *unit;          /* unit of the values, as in a stream */
-    const char *across, *down; /* names of the axes: "x", "y", "depth" */
-    const char *dunit;         /* unit of the axes; NULL: m */
-    double left, right;        /* the outer edges of the map in that unit: left < right */
-    double top, bottom;        /* the same vertically: top < bottom */
-    bool section;              /* y is the depth, whose axis has a separate unit */
-    const char *largest;       /* a cross at (x, y) with this text in the legend; NULL: none */
-    double largest_x, largest_y;
-    struct medium *medium; /* media of a section, the top first, with lines between them; NULL:
-                              one medium */
-    size_t media;
-    const char *circle;             /* a dashed circle about the origin with this text in the
-                                       legend; NULL: none */
-    double radius;                  /* metres                                                */
-    const struct rc_grid *contact;  /* the contact on the same grid, whose edge `contour` draws;
-                                       NULL: unknown */
-    const struct rc_grid *pressure; /* the pressure on the same grid; NULL: unknown */
-    double hard;   /* pressures that reach this hardness get a line around them; 0: none */
-    bool keep_max; /* a reduced map shows the largest value in each pixel            */
+/* The words above a plot, and the size of the picture. */
+struct paper {
+    const char *title;
+    const char *subtitle; /* below the title; lines break at " · "                          */
+    const char *stamp;    /* a warning in a separate frame; NULL: none                      */
+    size_t width;         /* pixels of the whole picture; 0: automatic                      */
+    double dpi;           /* per inch, for text of its size on paper; 0: marks of FIGURE_POINTS  */
+    const char *family;   /* font of the text; NULL: sans */
+};
+
+/* The colours of values and their bar. */
+struct bar {
+    const char *quantity; /* name of the values: "Gap"       */
+    const char *unit;     /* of the values, as in a stream   */
     const struct colormap *map;
-    double lo, hi;          /* values at the ends of the colour bar, lo < hi         */
-    bool log;               /* logarithmic colours; 0 < lo                           */
-    const char *note;       /* note about the colours in the legend; NULL: none      */
-    double min, max;        /* extremes of the values: the bar gets an arrow at an end beyond
-                               which there are values */
-    size_t missing;         /* number of NaN nodes */
-    size_t nodes;           /* among this number of nodes; 0: those of the map */
-    bool zero_is_none;      /* the value 0 has a separate colour */
-    size_t zeros;           /* number of nodes with the value 0 */
-    const char *none;       /* its meaning: "no contact" */
-    const char *const *is;  /* meanings of the values 1 and 2 (NULL: not present) of categories,
-                               which have a legend in place of the bar; NULL: no categories */
-    const char *missing_is; /* meaning of missing nodes; NULL: not measured */
-    bool contour;           /* lines at the marks of the bar, and the edge of the contact */
-    bool border;            /* only the edge of the contact                          */
-    double aspect;          /* vertical scale over the horizontal one; 0: automatic  */
-    double exaggeration;    /* exaggeration of a relief of lengths; 0: automatic     */
-    bool hillshade;         /* with light and shadow                                 */
-    size_t width;           /* pixels of the whole figure; 0: automatic              */
-    double dpi;             /* pixels per inch: text then has its size on paper; 0: the value
-                               that makes the marks FIGURE_POINTS high */
-    bool vector;            /* for a PDF or SVG: the map keeps its resolution */
-    bool paper;             /* a PDF */
-    const char *family;     /* font of the text; NULL: sans */
+    double lo, hi;    /* values at the ends of the colour bar, lo < hi */
+    bool log;         /* logarithmic colours; 0 < lo                   */
+    const char *note; /* about the colours, in the legend; NULL: none  */
+    double min, max;  /* of the values: the bar has an arrow towards values beyond its end */
+};
+
+/* The position of a map, and its axes. */
+struct extent {
+    const char *across, *down;       /* names of the axes: "x", "y", "depth"             */
+    const char *dunit;               /* unit of the axes; NULL: m                        */
+    double left, right, top, bottom; /* outer edges in that unit: left < right, top < bottom */
+    bool section;                    /* y is the depth, whose axis has a separate unit   */
+    double aspect;                   /* vertical scale over the horizontal one; 0: automatic */
+    double exaggeration;             /* of a relief of lengths; 0: automatic             */
+};
+
+/* What is drawn over the colours, with its text in the legend (NULL: it is not drawn). */
+struct mark {
+    const char *largest; /* a cross at (x, y)                   */
+    double x, y;
+    const char *circle; /* a dashed circle about the origin     */
+    double radius;      /* m */
+};
+
+/* Lines on a map. */
+struct edge {
+    const struct rc_grid *contact;  /* on the same grid: its edge is drawn; NULL: unknown        */
+    const struct rc_grid *pressure; /* on the same grid; NULL: unknown                           */
+    double hard;  /* pressures that reach this hardness get a line around them; 0: none          */
+    bool contour; /* lines at the marks of the bar, and the edge of the contact                  */
+    bool border;  /* only the edge of the contact                                                */
+};
+
+/* Nodes without a value, and nodes whose value is a word. */
+struct nodes {
+    size_t missing;         /* number of NaN nodes                              */
+    size_t all;             /* among this number of nodes; 0: those of the map  */
+    const char *missing_is; /* meaning of missing nodes; NULL: not measured     */
+    bool zero_is_none;      /* the value 0 has a separate colour                */
+    size_t zeros;           /* number of nodes with the value 0                 */
+    const char *none;       /* its meaning: "no contact"                        */
+    /* Meanings of the values 1 and 2 (NULL: not present) of categories, which have a legend in place of the
+     * bar; NULL: no categories. */
+    const char *const *is;
+};
+
+struct figure {
+    struct paper paper;
+    struct bar bar;
+    struct extent at;
+    struct mark mark;
+    struct edge edge;
+    struct nodes nodes;
+    struct medium *medium; /* of a section, the top first; NULL: one medium */
+    size_t media;
+    bool keep_max;  /* a reduced map shows the largest value in each pixel */
+    bool hillshade; /* with light and shadow                               */
+    bool vector;    /* for a PDF or SVG: the map keeps its resolution      */
 };
 
 /* The position of a value in the range of colours, from 0 to 1 or beyond, and its colour. */
@@ -94,8 +118,8 @@ struct panel {
 };
 
 struct panels {
-    const struct figure *figure; /* for the whole: title, subtitle, stamp, the colours, and the
-                                    numbers of missing and 0 nodes of all maps */
+    const struct figure *figure; /* for the whole: paper, colours, and the numbers of nodes of all
+                                    maps */
     const struct panel *panel;
     size_t n, columns;
 };

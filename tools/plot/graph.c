@@ -27,23 +27,19 @@ enum {
     LABELS = 64   /* labels of points of the front                          */
 };
 
-struct box {
-    double x, y, w, h;
-};
-
-struct graph_page {
-    const struct graph *g;
-    struct canvas *c;
-    struct page page; /* with fonts, title, subtitle, stamp */
-    struct figure words;
-    struct axis x, y;
-    double left, top, w, h; /* the plot */
-    double u;
+/* What a layout finds about a graph, and its drawing about labels. */
+struct notes {
     size_t lost;              /* number of points not above 0 on a logarithmic axis */
     size_t sunk;              /* of these, the number at the foot of the plot */
     struct box taken[LABELS]; /* by labels */
     size_t labels;
 };
+
+static struct notes *
+notes_of(const struct page *p)
+{
+    return p->of;
+}
 
 /* ---- axes ---- */
 
@@ -212,21 +208,21 @@ set_range(struct axis *s, const struct graph *g, bool up, struct rc_err *err)
 /* ---- drawing ---- */
 
 static double
-x_of(const struct graph_page *p, double value)
+x_of(const struct page *p, double value)
 {
-    return p->left + fmin(fmax(place(&p->x, value), -10), 10) * p->w;
+    return p->plot.x + fmin(fmax(place(&p->across, value), -10), 10) * p->plot.w;
 }
 
 static double
-y_of(const struct graph_page *p, double value)
+y_of(const struct page *p, double value)
 {
-    double t = p->g->y.log && !(value > 0) ? -10 : place(&p->y, value);
+    double t = p->graph->y.log && !(value > 0) ? -10 : place(&p->down, value);
 
-    return p->top + (1 - fmin(fmax(t, -10), 10)) * p->h;
+    return p->plot.y + (1 - fmin(fmax(t, -10), 10)) * p->plot.h;
 }
 
 static void
-draw_marker(struct graph_page *p, size_t which, double x, double y, double size, struct rgb colour)
+draw_marker(struct page *p, size_t which, double x, double y, double size, struct rgb colour)
 {
     static const double corner[3][4][2] = {
         {{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}},  /* square   */
@@ -235,8 +231,7 @@ draw_marker(struct graph_page *p, size_t which, double x, double y, double size,
     double r = 0.5 * size, at[3][2];
 
     if (which % MARKERS == 0) {
-        canvas_move(p->c, x, y);
-        canvas_draw_to(p->c, x, y);
+        canvas_line(p->c, x, y, x, y);
         canvas_stroke(p->c, size, colour);
         return;
     }
@@ -260,13 +255,13 @@ is_hollow(const struct graph_series *s, size_t k)
 /* In a series of many points, of the points from k on in one column of pixels only the extremes and the last
  * are drawn. Returns the last. */
 static size_t
-draw_column(struct graph_page *p, const struct graph_series *s, size_t k)
+draw_column(struct page *p, const struct graph_series *s, size_t k)
 {
     const double x = x_of(p, s->x[k]);
     double lo = s->y[k], hi = lo;
     size_t last = k;
 
-    while ((double)s->n > 8 * p->w && last + 1 < s->n && is_point(p->g, s, last + 1) &&
+    while ((double)s->n > 8 * p->plot.w && last + 1 < s->n && is_point(p->graph, s, last + 1) &&
            floor(x_of(p, s->x[last + 1])) == floor(x)) {
         lo = fmin(lo, s->y[++last]);
         hi = fmax(hi, s->y[last]);
@@ -281,12 +276,12 @@ draw_column(struct graph_page *p, const struct graph_series *s, size_t k)
 
 /* Laws are dashed; points of different kinds are not joined. */
 static void
-draw_line(struct graph_page *p, const struct graph_series *s, struct rgb colour)
+draw_line(struct page *p, const struct graph_series *s, struct rgb colour)
 {
     bool pen_down = false;
 
     for (size_t k = 0; k < s->n; k++) {
-        if (!is_point(p->g, s, k)) {
+        if (!is_point(p->graph, s, k)) {
             pen_down = false;
             continue;
         }
@@ -312,9 +307,9 @@ pale(struct rgb c)
 }
 
 static void
-draw_bars(struct graph_page *p, const struct graph_series *s, struct rgb colour)
+draw_bars(struct page *p, const struct graph_series *s, struct rgb colour)
 {
-    double floor_y = p->top + p->h;
+    double floor_y = p->plot.y + p->plot.h;
 
     for (size_t k = 0; k + 1 < s->n; k++) {
         double x = round(x_of(p, s->x[k])), end = round(x_of(p, s->x[k + 1]));
@@ -346,7 +341,7 @@ colour_of(const struct graph_series *s)
 }
 
 static double
-marker_size(const struct graph_page *p, const struct graph_series *s)
+marker_size(const struct page *p, const struct graph_series *s)
 {
     return (s->n > CROWDED ? 7 : 12) * p->u;
 }
@@ -358,23 +353,21 @@ marker_of(const struct graph_series *s)
 }
 
 static void
-draw_error_bars(struct graph_page *p, const struct graph_series *s)
+draw_error_bars(struct page *p, const struct graph_series *s)
 {
     double cap = 7 * p->u;
 
     for (size_t k = 0; s->low != NULL && k < s->n; k++) {
         double x, end[2];
 
-        if (!is_point(p->g, s, k) || !isfinite(s->low[k]) || !isfinite(s->high[k]))
+        if (!is_point(p->graph, s, k) || !isfinite(s->low[k]) || !isfinite(s->high[k]))
             continue;
         x = x_of(p, s->x[k]);
         end[0] = y_of(p, s->low[k]);
         end[1] = y_of(p, s->high[k]);
-        canvas_move(p->c, x, end[0]);
-        canvas_draw_to(p->c, x, end[1]);
+        canvas_line(p->c, x, end[0], x, end[1]);
         for (int e = 0; e < 2; e++) {
-            canvas_move(p->c, x - cap, end[e]);
-            canvas_draw_to(p->c, x + cap, end[e]);
+            canvas_line(p->c, x - cap, end[e], x + cap, end[e]);
         }
     }
     if (s->low != NULL)
@@ -382,7 +375,7 @@ draw_error_bars(struct graph_page *p, const struct graph_series *s)
 }
 
 static void
-draw_series(struct graph_page *p, const struct graph_series *s)
+draw_series(struct page *p, const struct graph_series *s)
 {
     struct rgb colour = colour_of(s);
 
@@ -395,7 +388,7 @@ draw_series(struct graph_page *p, const struct graph_series *s)
 
 /* A triangle that points down to (x, y). */
 static void
-draw_sunk(struct graph_page *p, double x, double y, struct rgb colour)
+draw_sunk(struct page *p, double x, double y, struct rgb colour)
 {
     double r = 8 * p->u, at[3][2] = {{x - r, y - 1.8 * r}, {x + r, y - 1.8 * r}, {x, y}};
 
@@ -404,19 +397,19 @@ draw_sunk(struct graph_page *p, double x, double y, struct rgb colour)
 
 /* They are complete even on the frame. */
 static void
-draw_markers(struct graph_page *p, const struct graph_series *s)
+draw_markers(struct page *p, const struct graph_series *s)
 {
     for (size_t k = 0; has_markers(s) && k < s->n; k++) {
         double x, y;
 
-        if (is_sunk(p->g, s, k))
-            draw_sunk(p, x_of(p, s->x[k]), p->top + p->h - 2 * p->u, colour_of(s));
-        if (!is_point(p->g, s, k))
+        if (is_sunk(p->graph, s, k))
+            draw_sunk(p, x_of(p, s->x[k]), p->plot.y + p->plot.h - 2 * p->u, colour_of(s));
+        if (!is_point(p->graph, s, k))
             continue;
         x = x_of(p, s->x[k]);
         y = y_of(p, s->y[k]);
-        if (x >= p->left - 1 && x <= p->left + p->w + 1 && y >= p->top - 1 &&
-            y <= p->top + p->h + 1)
+        if (x >= p->plot.x - 1 && x <= p->plot.x + p->plot.w + 1 && y >= p->plot.y - 1 &&
+            y <= p->plot.y + p->plot.h + 1)
             draw_marker(p, marker_of(s), x, y, marker_size(p, s), colour_of(s));
         if (is_hollow(s, k))
             draw_marker(p, marker_of(s), x, y, 0.5 * marker_size(p, s), white);
@@ -426,22 +419,23 @@ draw_markers(struct graph_page *p, const struct graph_series *s)
 /* ---- the front ---- */
 
 static void
-draw_floor(struct graph_page *p)
+draw_floor(struct page *p)
 {
-    double top = y_of(p, p->g->floor), foot = p->top + p->h;
-    struct canvas_font font = p->page.small;
+    double top = y_of(p, p->graph->floor), foot = p->plot.y + p->plot.h;
+    struct canvas_font font = p->small;
 
-    if (!(p->g->floor > 0) || top >= foot - 1)
+    if (!(p->graph->floor > 0) || top >= foot - 1)
         return;
     font.colour = page_faint;
-    canvas_fill(p->c, p->left, top, p->w, foot - top, sand);
+    canvas_fill(p->c, p->plot.x, top, p->plot.w, foot - top, sand);
     if (foot - top > 1.4 * font.size)
-        canvas_text(p->c, &font, p->left + p->w - 10 * p->u, foot - 8 * p->u, 1, p->g->floor_text);
+        canvas_text(p->c, &font, p->plot.x + p->plot.w - 10 * p->u, foot - 8 * p->u, 1,
+                    p->graph->floor_text);
 }
 
 /* Joins the points from left to right. */
 static void
-draw_front(struct graph_page *p)
+draw_front(struct page *p)
 {
     double last = -INFINITY;
 
@@ -449,9 +443,10 @@ draw_front(struct graph_page *p)
         const struct graph_series *next = NULL;
         size_t at = 0;
 
-        for (size_t s = 0; s < p->g->n; s++)
-            for (size_t k = 0; p->g->series[s].point != NULL && k < p->g->series[s].n; k++) {
-                const struct graph_series *q = &p->g->series[s];
+        for (size_t s = 0; s < p->graph->n; s++)
+            for (size_t k = 0; p->graph->series[s].point != NULL && k < p->graph->series[s].n;
+                 k++) {
+                const struct graph_series *q = &p->graph->series[s];
                 if (q->point[k].front && q->x[k] > last &&
                     (next == NULL || q->x[k] < next->x[at])) {
                     next = q;
@@ -475,32 +470,32 @@ overlap(const struct box *a, const struct box *b)
 }
 
 static bool
-is_free(const struct graph_page *p, const struct box *b)
+is_free(const struct page *p, const struct box *b)
 {
     const double size = 14 * p->u;
 
-    if (b->x < p->left || b->x + b->w > p->left + p->w || b->y < p->top ||
-        b->y + b->h > p->top + p->h)
+    if (b->x < p->plot.x || b->x + b->w > p->plot.x + p->plot.w || b->y < p->plot.y ||
+        b->y + b->h > p->plot.y + p->plot.h)
         return false;
-    for (size_t k = 0; k < p->labels; k++)
-        if (overlap(b, &p->taken[k]))
+    for (size_t k = 0; k < notes_of(p)->labels; k++)
+        if (overlap(b, &notes_of(p)->taken[k]))
             return false;
-    for (size_t s = 0; s < p->g->n; s++)
-        for (size_t k = 0; k < p->g->series[s].n; k++) {
-            struct box mark = {x_of(p, p->g->series[s].x[k]) - 0.5 * size,
-                               y_of(p, p->g->series[s].y[k]) - 0.5 * size, size, size};
+    for (size_t s = 0; s < p->graph->n; s++)
+        for (size_t k = 0; k < p->graph->series[s].n; k++) {
+            struct box mark = {x_of(p, p->graph->series[s].x[k]) - 0.5 * size,
+                               y_of(p, p->graph->series[s].y[k]) - 0.5 * size, size, size};
             if (overlap(b, &mark))
                 return false;
         }
-    return p->labels < LABELS;
+    return notes_of(p)->labels < LABELS;
 }
 
 /* A label is at the lower left of its point, where no other point of the front can be; if this place is
  * taken, the other places are tried in turn; if all are taken the label is omitted. */
 static void
-draw_labels(struct graph_page *p, const struct graph_series *s)
+draw_labels(struct page *p, const struct graph_series *s)
 {
-    struct canvas_font font = p->page.small;
+    struct canvas_font font = p->small;
     const double u = p->u;
 
     font.size *= 0.81;
@@ -519,34 +514,35 @@ draw_labels(struct graph_page *p, const struct graph_series *s)
         if (!s->point[k].front || free == n)
             continue;
         canvas_text(p->c, &font, at[free].x, at[free].y + 0.8 * font.size, 0, label);
-        p->taken[p->labels++] = at[free];
+        notes_of(p)->taken[notes_of(p)->labels++] = at[free];
     }
 }
 
 static void
-draw_rules(struct graph_page *p)
+draw_rules(struct page *p)
 {
-    for (size_t k = 0; k < p->x.marks; k++)
-        if (p->x.mark[k].major)
-            canvas_fill(p->c, p->left + p->x.mark[k].at * p->w - 0.6 * p->u, p->top, 1.2 * p->u,
-                        p->h, rule);
-    for (size_t k = 0; k < p->y.marks; k++)
-        if (p->y.mark[k].major)
-            canvas_fill(p->c, p->left, p->top + (1 - p->y.mark[k].at) * p->h - 0.6 * p->u, p->w,
+    for (size_t k = 0; k < p->across.marks; k++)
+        if (p->across.mark[k].major)
+            canvas_fill(p->c, p->plot.x + p->across.mark[k].at * p->plot.w - 0.6 * p->u, p->plot.y,
+                        1.2 * p->u, p->plot.h, rule);
+    for (size_t k = 0; k < p->down.marks; k++)
+        if (p->down.mark[k].major)
+            canvas_fill(p->c, p->plot.x,
+                        p->plot.y + (1 - p->down.mark[k].at) * p->plot.h - 0.6 * p->u, p->plot.w,
                         1.2 * p->u, rule);
 }
 
 /* Dashed lines across the plot, for example at the interfaces of media. */
 static void
-draw_uprights(struct graph_page *p)
+draw_uprights(struct page *p)
 {
-    for (size_t k = 0; k < p->g->uprights; k++) {
-        double at = place(&p->x, p->g->upright[k]);
+    for (size_t k = 0; k < p->graph->uprights; k++) {
+        double at = place(&p->across, p->graph->upright[k]);
 
         if (!(at >= 0 && at <= 1))
             continue;
-        canvas_move(p->c, p->left + at * p->w, p->top);
-        canvas_draw_to(p->c, p->left + at * p->w, p->top + p->h);
+        canvas_line(p->c, p->plot.x + at * p->plot.w, p->plot.y, p->plot.x + at * p->plot.w,
+                    p->plot.y + p->plot.h);
     }
     canvas_dashes(p->c, 1.4 * p->u, 5 * p->u, page_faint);
 }
@@ -554,7 +550,7 @@ draw_uprights(struct graph_page *p)
 /* ---- legend ---- */
 
 static void
-draw_swatch(struct graph_page *p, const struct graph_series *s, double x, double y)
+draw_swatch(struct page *p, const struct graph_series *s, double x, double y)
 {
     double w = (SWATCH - 14) * p->u;
     struct rgb colour = colour_of(s);
@@ -566,8 +562,8 @@ draw_swatch(struct graph_page *p, const struct graph_series *s, double x, double
         return;
     }
     for (int k = 0; k < (dashes ? 3 : 1) && s->kind != GRAPH_POINTS; k++) {
-        canvas_move(p->c, dashes ? x + 0.37 * k * w : x, y);
-        canvas_draw_to(p->c, dashes ? x + (0.37 * k + 0.26) * w : x + w, y);
+        canvas_line(p->c, dashes ? x + 0.37 * k * w : x, y,
+                    dashes ? x + (0.37 * k + 0.26) * w : x + w, y);
     }
     if (s->kind != GRAPH_POINTS)
         canvas_stroke(p->c, 2.2 * p->u, colour);
@@ -576,36 +572,37 @@ draw_swatch(struct graph_page *p, const struct graph_series *s, double x, double
 }
 
 static void
-say_sunk(const struct graph_page *p, char text[LINE])
+say_sunk(const struct page *p, char text[LINE])
 {
-    const char *what = p->g->zero == NULL ? "point" : "load", *s = p->sunk == 1 ? "" : "s";
+    const char *what = p->graph->zero == NULL ? "point" : "load",
+               *s = notes_of(p)->sunk == 1 ? "" : "s";
 
-    snprintf(text, LINE, "%zu %s%s %s", p->sunk, what, s,
-             p->g->zero == NULL ? "at or below 0" : p->g->zero);
+    snprintf(text, LINE, "%zu %s%s %s", notes_of(p)->sunk, what, s,
+             p->graph->zero == NULL ? "at or below 0" : p->graph->zero);
 }
 
 /* The legend entries after the series: points at the foot, hollow points, the front. NULL: there are none. */
 static const char *
-entry(const struct graph_page *p, size_t k, char text[LINE])
+entry(const struct page *p, size_t k, char text[LINE])
 {
-    if (k < p->g->n)
-        return p->g->series[k].name;
-    if (k > p->g->n)
-        return k == p->g->n + 1 ? p->g->hollow : p->g->front;
+    if (k < p->graph->n)
+        return p->graph->series[k].name;
+    if (k > p->graph->n)
+        return k == p->graph->n + 1 ? p->graph->hollow : p->graph->front;
     say_sunk(p, text);
-    return p->sunk > 0 ? text : NULL;
+    return notes_of(p)->sunk > 0 ? text : NULL;
 }
 
 static void
-draw_entry(struct graph_page *p, size_t k, double x, double y)
+draw_entry(struct page *p, size_t k, double x, double y)
 {
     const double u = p->u, middle = x + 0.5 * (SWATCH - 14) * u;
 
-    if (k < p->g->n) {
-        draw_swatch(p, &p->g->series[k], x, y);
-    } else if (k == p->g->n) {
+    if (k < p->graph->n) {
+        draw_swatch(p, &p->graph->series[k], x, y);
+    } else if (k == p->graph->n) {
         draw_sunk(p, middle, y + 7 * u, page_ink);
-    } else if (k == p->g->n + 1) {
+    } else if (k == p->graph->n + 1) {
         draw_marker(p, 0, middle, y, 12 * u, page_faint);
         draw_marker(p, 0, middle, y, 6 * u, white);
     } else {
@@ -615,45 +612,45 @@ draw_entry(struct graph_page *p, size_t k, double x, double y)
 
 /* Draws the entries from y downwards, as many side by side as fit, the note last; returns their height. */
 static double
-legend(struct graph_page *p, double y, bool draw)
+legend(struct page *p, double y, bool draw)
 {
-    double line = 1.55 * p->page.small.size, x = p->left, from = y;
-    double right = p->left + p->w, swatch = SWATCH * p->u;
-    struct canvas_font faint = p->page.small;
+    double line = 1.55 * p->small.size, x = p->plot.x, from = y;
+    double right = p->plot.x + p->plot.w, swatch = SWATCH * p->u;
+    struct canvas_font faint = p->small;
     struct text note = {.n = 0};
     char text[LINE], sunk[LINE];
 
     faint.colour = page_faint;
-    for (size_t k = 0; k <= p->g->n + 2; k++) {
+    for (size_t k = 0; k <= p->graph->n + 2; k++) {
         const char *name = entry(p, k, sunk);
         double w;
 
         if (name == NULL)
             continue;
         snprintf(text, sizeof text, "%s", name);
-        page_shorten(&p->page, &p->page.small, p->w - swatch, text);
-        w = swatch + canvas_text_width(p->c, &p->page.small, text);
-        if (x > p->left && x + w > right) {
-            x = p->left;
+        page_shorten(p, &p->small, p->plot.w - swatch, text);
+        w = swatch + canvas_text_width(p->c, &p->small, text);
+        if (x > p->plot.x && x + w > right) {
+            x = p->plot.x;
             y += line;
         }
         if (draw) {
             draw_entry(p, k, x, y + 0.5 * line);
-            canvas_text(p->c, &p->page.small, x + swatch, y + 0.5 * line + 0.36 * faint.size, 0,
-                        text);
+            canvas_text(p->c, &p->small, x + swatch, y + 0.5 * line + 0.36 * faint.size, 0, text);
         }
         x += w + 34 * p->u;
     }
-    y += x > p->left ? line : 0;
-    snprintf(text, sizeof text, "%s", p->g->note == NULL ? "" : p->g->note);
-    if (p->lost > 0)
+    y += x > p->plot.x ? line : 0;
+    snprintf(text, sizeof text, "%s", p->graph->note == NULL ? "" : p->graph->note);
+    if (notes_of(p)->lost > 0)
         snprintf(text + strlen(text), sizeof text - strlen(text),
                  "%s%zu %s at or below 0 cannot be on a logarithmic axis", *text ? " · " : "",
-                 p->lost, p->lost == 1 ? "point" : "points");
-    page_wrap(&p->page, &faint, p->w, " · ", text, &note);
+                 notes_of(p)->lost, notes_of(p)->lost == 1 ? "point" : "points");
+    page_wrap(p, &faint, p->plot.w, " · ", text, &note);
     for (size_t k = 0; k < note.n; k++) {
         if (draw)
-            canvas_text(p->c, &faint, p->left, y + 0.5 * line + 0.36 * faint.size, 0, note.line[k]);
+            canvas_text(p->c, &faint, p->plot.x, y + 0.5 * line + 0.36 * faint.size, 0,
+                        note.line[k]);
         y += line;
     }
     return y - from;
@@ -662,94 +659,75 @@ legend(struct graph_page *p, double y, bool draw)
 /* ---- the whole ---- */
 
 static void
-count_lost(struct graph_page *p)
+count_lost(const struct graph *g, struct notes *notes)
 {
-    const struct graph *g = p->g;
-
     for (size_t s = 0; s < g->n; s++)
         for (size_t k = 0; k < g->series[s].n && g->series[s].kind != GRAPH_BARS; k++)
             if (is_sunk(g, &g->series[s], k))
-                p->sunk++;
+                notes->sunk++;
             else
-                p->lost += isfinite(g->series[s].x[k]) && isfinite(g->series[s].y[k]) &&
-                           !is_point(g, &g->series[s], k);
+                notes->lost += isfinite(g->series[s].x[k]) && isfinite(g->series[s].y[k]) &&
+                               !is_point(g, &g->series[s], k);
 }
 
-/* Returns the height of the picture. */
+/* From the plot to the legend. */
 static double
-lay_out(struct graph_page *p)
+axis_height(const struct page *p)
 {
-    struct page *page = &p->page;
-    double u = p->u, width = (double)page->w;
-
-    p->h = round(0.56 * width);
-    axis_mark(page, &p->y, p->h, true);
-    p->left = round(26 * u + 1.1 * page->large.size + p->y.widest + 28 * u);
-    for (int k = 0; k < 2; k++) {
-        p->w = round(width - p->left - 30 * u - (p->x.words > 0 ? 0 : 0.5 * p->x.widest));
-        axis_mark(page, &p->x, p->w, false);
-    }
-    page_words(page, width - 48 * u);
-    p->top = round(page_words_height(page) + 22 * u);
-    return p->top + p->h + page_marks(page) + axis_word_room(page, &p->x) + 14 * u +
-           legend(p, 0, false) + 18 * u;
+    return page_marks(p) + axis_word_room(p, &p->across) + 14 * p->u;
 }
 
-static void
-draw(struct graph_page *p)
+static enum rc_status
+lay_out(struct page *p, struct rc_err *err)
 {
-    page_heading(&p->page);
+    double u = p->u, width = (double)p->w;
+
+    if (set_range(&p->across, p->graph, false, err) != RC_OK ||
+        set_range(&p->down, p->graph, true, err) != RC_OK)
+        return RC_FAIL;
+    count_lost(p->graph, notes_of(p));
+    p->plot.h = round(0.56 * width);
+    axis_mark(p, &p->down, p->plot.h, true);
+    p->plot.x = round(26 * u + 1.1 * p->large.size + p->down.widest + 28 * u);
+    for (int k = 0; k < 2; k++) {
+        p->plot.w =
+            round(width - p->plot.x - 30 * u - (p->across.words > 0 ? 0 : 0.5 * p->across.widest));
+        axis_mark(p, &p->across, p->plot.w, false);
+    }
+    page_words(p, width - 48 * u);
+    p->plot.y = round(page_words_height(p) + 22 * u);
+    p->h = (size_t)ceil(p->plot.y + p->plot.h + axis_height(p) + legend(p, 0, false) + 18 * u);
+    return RC_OK;
+}
+
+static enum rc_status
+draw(struct page *p, struct rc_err *err)
+{
+    const struct graph *g = p->graph;
+    const struct box *at = &p->plot;
+
+    (void)err;
+    page_heading(p);
     draw_floor(p);
     draw_rules(p);
-    canvas_clip(p->c, p->left, p->top, p->w, p->h);
+    page_clip(p);
     draw_uprights(p);
     draw_front(p);
-    for (size_t s = 0; s < p->g->n; s++)
-        draw_series(p, &p->g->series[s]);
-    canvas_clip(p->c, 0, 0, 0, 0);
-    canvas_frame(p->c, p->left, p->top, p->w, p->h, fmax(1, round(1.2 * p->u)), page_ink);
-    for (size_t s = 0; s < p->g->n; s++)
-        draw_markers(p, &p->g->series[s]);
-    for (size_t s = 0; s < p->g->n; s++)
-        draw_labels(p, &p->g->series[s]);
-    axis_across(&p->page, &p->x, p->left, p->top + p->h, p->w);
-    axis_upright(&p->page, &p->y, p->left, p->top, p->h, true, false);
-    legend(p, p->top + p->h + page_marks(&p->page) + axis_word_room(&p->page, &p->x) + 14 * p->u,
-           true);
+    for (size_t s = 0; s < g->n; s++)
+        draw_series(p, &g->series[s]);
+    page_clip_end(p);
+    canvas_frame(p->c, at->x, at->y, at->w, at->h, fmax(1, round(1.2 * p->u)), page_ink);
+    for (size_t s = 0; s < g->n; s++)
+        draw_markers(p, &g->series[s]);
+    for (size_t s = 0; s < g->n; s++)
+        draw_labels(p, &g->series[s]);
+    axis_across(p, &p->across, at->x, at->y + at->h, at->w);
+    axis_upright(p, &p->down, at->x, at->y, at->h, true, false);
+    legend(p, at->y + at->h + axis_height(p), true);
+    return RC_OK;
 }
 
-/* The laid out graph, its height in page.h; NULL when memory is short or an axis has no point. */
-static struct graph_page *
-graph_page_new(const struct graph *g, struct rc_err *err)
-{
-    struct graph_page *p = calloc(1, sizeof *p);
-
-    if (p == NULL) {
-        rc_err_set(err, "out of memory for a figure");
-        return NULL;
-    }
-    p->g = g;
-    p->words = (struct figure){.title = g->title,
-                               .subtitle = g->subtitle,
-                               .stamp = g->stamp,
-                               .width = g->width,
-                               .dpi = g->dpi,
-                               .family = g->family};
-    p->page.f = &p->words;
-    page_size(&p->page, GRAPH_WIDTH);
-    p->u = p->page.u;
-    if (set_range(&p->x, g, false, err) != RC_OK || set_range(&p->y, g, true, err) != RC_OK)
-        goto fail;
-    count_lost(p);
-    if ((p->c = p->page.c = page_canvas(&p->page, 1, 1, err)) == NULL) /* only to measure text */
-        goto fail;
-    p->page.h = (size_t)ceil(lay_out(p));
-    canvas_free(p->c);
-    return p;
-fail:
-    free(p);
-    return NULL;
-}
+static const struct page_kind kind = {GRAPH_WIDTH, lay_out, draw};
 
 enum {
     GRAPHS = 4 /* on a canvas */
@@ -758,27 +736,19 @@ enum {
 struct canvas *
 graphs_draw(const struct graph *g, size_t n, struct rc_err *err)
 {
-    struct graph_page *p[GRAPHS] = {NULL};
+    struct notes notes[GRAPHS] = {{0}};
+    struct page *p[GRAPHS] = {NULL};
     struct canvas *c = NULL;
-    size_t h = 0, k = 0;
+    size_t k = 0;
 
-    for (; k < n && k < GRAPHS && (p[k] = graph_page_new(&g[k], err)) != NULL; k++) {
-        p[k]->page.top = (double)h;
-        p[k]->top += (double)h;
-        h += p[k]->page.h;
-    }
+    for (; k < n && k < GRAPHS && (p[k] = page_new(&kind, &notes[k], &g[k].paper, err)) != NULL;
+         k++)
+        p[k]->graph = &g[k];
     if (k == n)
-        c = page_canvas(&p[0]->page, p[0]->page.w, h, err);
-    for (k = 0; k < GRAPHS && p[k] != NULL; k++) {
-        p[k]->c = p[k]->page.c = c;
-        if (c != NULL)
-            draw(p[k]);
+        c = pages_draw(p, n, err);
+    for (k = 0; k < GRAPHS; k++)
         free(p[k]);
-    }
-    if (c == NULL || canvas_check(c, err) == RC_OK)
-        return c;
-    canvas_free(c);
-    return NULL;
+    return c;
 }
 
 struct canvas *

@@ -10,6 +10,7 @@
 
 #include "libcontact/grid.h"
 #include "tools/canvas/canvas.h"
+#include "figure.h"
 
 enum graph_kind {
     GRAPH_MARKS,  /* points joined by a line, with markers if there are few */
@@ -47,8 +48,7 @@ struct graph_axis {
 };
 
 struct graph {
-    const char *title, *subtitle; /* lines of the subtitle break at " · "          */
-    const char *stamp;            /* NULL: none                                    */
+    struct paper paper; /* width 0: GRAPH_WIDTH */
     struct graph_axis x, y;
     const struct graph_series *series;
     size_t n;
@@ -59,9 +59,6 @@ struct graph {
     const char *hollow, *front; /* name of these points in the legend; NULL: there are none */
     double floor;               /* y below this is only rounding; 0: no limit   */
     const char *floor_text;
-    size_t width; /* pixels; 0: GRAPH_WIDTH                                     */
-    double dpi;   /* as in a figure                                             */
-    const char *family;
 };
 
 enum {

@@ -21,9 +21,9 @@ media_seen(const struct figure *f, size_t *first)
     for (size_t k = 0; k < f->media; k++) {
         double top = k == 0 ? 0 : f->medium[k - 1].bottom;
 
-        if (f->medium[k].bottom <= f->top)
+        if (f->medium[k].bottom <= f->at.top)
             *first = k + 1;
-        else if (top < f->bottom)
+        else if (top < f->at.bottom)
             n++;
     }
     return n;
@@ -52,7 +52,7 @@ media_gutter(const struct page *p)
     double widest = 0;
     char text[32];
 
-    if (n == 0 || n > MEDIA_TOLD || (double)n * number_height(p) > (double)p->plot_h)
+    if (n == 0 || n > MEDIA_TOLD || (double)n * number_height(p) > p->plot.h)
         return 0;
     for (size_t k = first; k < first + n; k++) {
         snprintf(text, sizeof text, "%zu", k + 1);
@@ -66,9 +66,9 @@ static double
 place(const struct page *p, double depth)
 {
     const struct figure *f = p->f;
-    double t = (depth - f->top) / (f->bottom - f->top);
+    double t = (depth - f->at.top) / (f->at.bottom - f->at.top);
 
-    return (double)p->plot_y + fmin(fmax(t, 0), 1) * (double)p->plot_h;
+    return p->plot.y + fmin(fmax(t, 0), 1) * p->plot.h;
 }
 
 /* Dark with a light rim, visible on every colour. */
@@ -76,8 +76,7 @@ static void
 draw_line(struct page *p, double y)
 {
     for (int layer = 0; layer < 2; layer++) {
-        canvas_move(p->c, (double)p->plot_x, y);
-        canvas_draw_to(p->c, (double)(p->plot_x + p->plot_w), y);
+        canvas_line(p->c, p->plot.x, y, (p->plot.x + p->plot.w), y);
         canvas_stroke(p->c, (layer == 0 ? 3 : 1.2) * p->u, layer == 0 ? light : page_ink);
     }
 }
@@ -105,7 +104,7 @@ static void
 draw_numbers(struct page *p, size_t first, size_t n)
 {
     double at[MEDIA_TOLD], middle[MEDIA_TOLD], high = number_height(p), u = p->u;
-    double x = (double)(p->plot_x + p->plot_w), bottom = (double)(p->plot_y + p->plot_h);
+    double x = (p->plot.x + p->plot.w), bottom = (p->plot.y + p->plot.h);
     struct canvas_font font = number_font(p);
     char text[32];
 
@@ -113,7 +112,7 @@ draw_numbers(struct page *p, size_t first, size_t n)
         double top = first + k == 0 ? 0 : p->f->medium[first + k - 1].bottom;
 
         middle[k] = 0.5 * (place(p, top) + place(p, p->f->medium[first + k].bottom));
-        at[k] = fmax(middle[k], k == 0 ? (double)p->plot_y + 0.5 * high : at[k - 1] + high);
+        at[k] = fmax(middle[k], k == 0 ? p->plot.y + 0.5 * high : at[k - 1] + high);
     }
     for (size_t k = n; k-- > 0;)
         at[k] = fmin(at[k], k + 1 == n ? bottom - 0.5 * high : at[k + 1] - high);
@@ -132,10 +131,10 @@ media_draw(struct page *p)
 {
     size_t first, n = media_seen(p->f, &first);
 
-    canvas_clip(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h);
+    page_clip(p);
     if (n > 1)
         draw_lines(p, first, n);
-    canvas_clip(p->c, 0, 0, 0, 0);
+    page_clip_end(p);
     if (p->gutter > 0)
         draw_numbers(p, first, n);
 }

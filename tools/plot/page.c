@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define SMALL 21 /* size of the marks for a design unit of 1 */
@@ -118,7 +119,7 @@ set_axis(struct axis *a, const char *quantity, const char *unit, double lo, doub
 static void
 mark_map(struct page *p)
 {
-    const double w = (double)p->plot_w, h = (double)p->plot_h;
+    const double w = p->plot.w, h = p->plot.h;
 
     axis_mark(p, &p->across, w, false);
     axis_mark(p, &p->down, h, true);
@@ -135,15 +136,18 @@ static void
 set_axes(struct page *p)
 {
     const struct figure *f = p->f;
-    double x = fmax(fabs(f->left), fabs(f->right)), y = fmax(fabs(f->top), fabs(f->bottom));
+    double x = fmax(fabs(f->at.left), fabs(f->at.right)),
+           y = fmax(fabs(f->at.top), fabs(f->at.bottom));
     double both = fmax(x, y);
-    const char *unit = f->dunit == NULL ? "m" : f->dunit;
+    const char *unit = f->at.dunit == NULL ? "m" : f->at.dunit;
 
-    p->values.log = f->log;
-    set_axis(&p->values, f->quantity, f->unit, f->lo, f->hi, fmax(fabs(f->lo), fabs(f->hi)));
-    set_axis(&p->across, f->across, unit, f->left, f->right,
-             f->section || x < 0.01 * both ? x : both);
-    set_axis(&p->down, f->down, unit, f->top, f->bottom, f->section || y < 0.01 * both ? y : both);
+    p->values.log = f->bar.log;
+    set_axis(&p->values, f->bar.quantity, f->bar.unit, f->bar.lo, f->bar.hi,
+             fmax(fabs(f->bar.lo), fabs(f->bar.hi)));
+    set_axis(&p->across, f->at.across, unit, f->at.left, f->at.right,
+             f->at.section || x < 0.01 * both ? x : both);
+    set_axis(&p->down, f->at.down, unit, f->at.top, f->at.bottom,
+             f->at.section || y < 0.01 * both ? y : both);
 }
 
 /* ---- layout ---- */
@@ -163,7 +167,7 @@ page_bar_right(const struct page *p)
 double
 page_right(const struct page *p)
 {
-    if (p->f->is != NULL)
+    if (p->f->nodes.is != NULL)
         return 24 * p->u + fmax(0.5 * p->across.widest, p->gutter);
     return page_bar_right(p) + 42 * p->u + p->values.widest + 1.8 * p->large.size + 24 * p->u;
 }
@@ -186,15 +190,15 @@ page_fonts(struct page *p)
 
 /* The unit of the design for text with a size on paper; 0: not requested. */
 static double
-unit_on_paper(const struct figure *f)
+unit_on_paper(const struct page *p)
 {
-    return f->dpi * FIGURE_POINTS / 72 / SMALL;
+    return p->paper->dpi * FIGURE_POINTS / 72 / SMALL;
 }
 
 static void
 set_dpi(struct page *p)
 {
-    p->dpi = p->f->dpi > 0 ? p->f->dpi : 72 * p->small.size / FIGURE_POINTS;
+    p->dpi = p->paper->dpi > 0 ? p->paper->dpi : 72 * p->small.size / FIGURE_POINTS;
 }
 
 /* Pixels of the longer side of a plot of n nodes: a whole number of pixels per node, or of nodes per pixel,
@@ -214,10 +218,10 @@ natural_side(size_t n, double u)
 static double
 aspect_of(const struct figure *f)
 {
-    double aspect = (f->right - f->left) / (f->bottom - f->top);
+    double aspect = (f->at.right - f->at.left) / (f->at.bottom - f->at.top);
 
-    if (f->aspect > 0)
-        return aspect / f->aspect;
+    if (f->at.aspect > 0)
+        return aspect / f->at.aspect;
     return fmin(fmax(aspect, 1.0 / FIGURE_ASPECT), FIGURE_ASPECT);
 }
 
@@ -231,21 +235,21 @@ is_sheet(const struct page *p)
 static void
 set_plot(struct page *p, double width)
 {
-    double aspect = aspect_of(p->f), paper = unit_on_paper(p->f), w = width;
+    double aspect = aspect_of(p->f), paper = unit_on_paper(p), w = width;
 
-    p->distorted = aspect != (p->f->right - p->f->left) / (p->f->bottom - p->f->top);
+    p->distorted = aspect != (p->f->at.right - p->f->at.left) / (p->f->at.bottom - p->f->at.top);
     if (is_sheet(p))
         w = floor(width);
     else if (width > 0)
-        w = fmin(width, 0.85 * (double)p->f->width * aspect);
+        w = fmin(width, 0.85 * (double)p->paper->width * aspect);
     else
         w = aspect >= 1 ? natural_side(p->g->nx, paper) : natural_side(p->g->ny, paper) * aspect;
-    p->plot_w = (size_t)fmax(round(w), 1);
-    p->plot_h = (size_t)fmax(round(w / aspect), 1);
+    p->plot.w = fmax(round(w), 1);
+    p->plot.h = fmax(round(w / aspect), 1);
     if (width == 0 && paper == 0)
-        p->u = fmax((double)p->plot_w, (double)p->plot_h) / 900;
+        p->u = fmax(p->plot.w, p->plot.h) / 900;
     page_fonts(p);
-    p->bar_below = (double)p->plot_h < 300 * p->u && p->f->is == NULL && !is_sheet(p);
+    p->bar_below = p->plot.h < 300 * p->u && p->f->nodes.is == NULL && !is_sheet(p);
 }
 
 /* The widths of axes and bar left and right of the plot, and between maps. */
@@ -257,7 +261,7 @@ measure_sides(struct page *p)
     mark_map(p);
     p->left_w = 24 * u + 1.3 * p->large.size + 8 * u + p->down.widest + 14 * u;
     p->gutter = media_gutter(p);
-    axis_mark(p, &p->values, (double)(p->bar_below ? p->plot_w : p->plot_h), !p->bar_below);
+    axis_mark(p, &p->values, p->bar_below ? p->plot.w : p->plot.h, !p->bar_below);
     p->right_w = page_right(p);
     if (p->bar_below)
         p->right_w =
@@ -307,9 +311,9 @@ add_media(struct page *p, double width)
 static const char *
 say_scales(const struct figure *f, char *text, size_t size)
 {
-    if (f->aspect > 0)
-        snprintf(text, size, "%s is drawn %.4g times as large as %s", f->down, f->aspect,
-                 f->across);
+    if (f->at.aspect > 0)
+        snprintf(text, size, "%s is drawn %.4g times as large as %s", f->at.down, f->at.aspect,
+                 f->at.across);
     else
         snprintf(text, size, "the axes differ in scale");
     return text;
@@ -323,26 +327,26 @@ page_legend(struct page *p, double width)
     char text[LINE];
 
     p->notes = 0;
-    if (p->f->zero_is_none && (p->f->zeros > 0 || p->f->is != NULL))
-        add_note(p, width, SWATCH_NONE, p->f->none);
-    for (int k = 0; k < 2 && p->f->is != NULL && p->f->is[k] != NULL; k++)
-        add_note(p, width, k == 0 ? SWATCH_ONE : SWATCH_TWO, p->f->is[k]);
+    if (p->f->nodes.zero_is_none && (p->f->nodes.zeros > 0 || p->f->nodes.is != NULL))
+        add_note(p, width, SWATCH_NONE, p->f->nodes.none);
+    for (int k = 0; k < 2 && p->f->nodes.is != NULL && p->f->nodes.is[k] != NULL; k++)
+        add_note(p, width, k == 0 ? SWATCH_ONE : SWATCH_TWO, p->f->nodes.is[k]);
     snprintf(text, sizeof text, "%s (%zu of %zu nodes)",
-             p->f->missing_is == NULL ? "not measured" : p->f->missing_is, p->f->missing,
-             p->f->nodes != 0 ? p->f->nodes : p->g->nx * p->g->ny);
-    if (p->f->missing > 0)
+             p->f->nodes.missing_is == NULL ? "not measured" : p->f->nodes.missing_is,
+             p->f->nodes.missing, p->f->nodes.all != 0 ? p->f->nodes.all : p->g->nx * p->g->ny);
+    if (p->f->nodes.missing > 0)
         add_note(p, width, SWATCH_MISSING, text);
-    if (p->f->contour && p->f->contact != NULL)
+    if (p->f->edge.contour && p->f->edge.contact != NULL)
         add_note(p, width, SWATCH_CONTACT, "edge of contact");
-    if (p->f->contour && p->f->hard > 0)
+    if (p->f->edge.contour && p->f->edge.hard > 0)
         add_note(p, width, SWATCH_HARD, "pressure at the hardness");
-    if (p->f->circle != NULL)
-        add_note(p, width, SWATCH_CIRCLE, p->f->circle);
-    if (p->f->largest != NULL)
-        add_note(p, width, SWATCH_LARGEST, p->f->largest);
+    if (p->f->mark.circle != NULL)
+        add_note(p, width, SWATCH_CIRCLE, p->f->mark.circle);
+    if (p->f->mark.largest != NULL)
+        add_note(p, width, SWATCH_LARGEST, p->f->mark.largest);
     add_media(p, width);
-    if (p->f->note != NULL)
-        add_note(p, width, SWATCH_NOTHING, p->f->note);
+    if (p->f->bar.note != NULL)
+        add_note(p, width, SWATCH_NOTHING, p->f->bar.note);
     if (p->distorted)
         add_note(p, width, SWATCH_NOTHING, say_scales(p->f, text, sizeof text));
     for (size_t k = 0; k < p->notes; k++) {
@@ -367,9 +371,9 @@ overhang(struct page *p)
 {
     double longest = canvas_text_width(p->c, &p->large, p->down.label);
 
-    if (!p->bar_below && p->f->is == NULL)
+    if (!p->bar_below && p->f->nodes.is == NULL)
         longest = fmax(longest, canvas_text_width(p->c, &p->large, p->values.label));
-    return fmax(0, 0.5 * (longest - (double)p->plot_h));
+    return fmax(0, 0.5 * (longest - p->plot.h));
 }
 
 /* ---- title and subtitle ---- */
@@ -393,10 +397,10 @@ longest_word(struct page *p, const struct canvas_font *font, const char *text)
 void
 page_words(struct page *p, double width)
 {
-    p->heading.size *= fmin(1, fmax(0.5, width / longest_word(p, &p->heading, p->f->title)));
-    page_wrap(p, &p->heading, width, " ", p->f->title, &p->title);
-    page_wrap(p, &p->subheading, width, BETWEEN, p->f->subtitle, &p->subtitle);
-    p->stamp_h = p->f->stamp == NULL ? 0 : 2.1 * p->stamp.size;
+    p->heading.size *= fmin(1, fmax(0.5, width / longest_word(p, &p->heading, p->paper->title)));
+    page_wrap(p, &p->heading, width, " ", p->paper->title, &p->title);
+    page_wrap(p, &p->subheading, width, BETWEEN, p->paper->subtitle, &p->subtitle);
+    p->stamp_h = p->paper->stamp == NULL ? 0 : 2.1 * p->stamp.size;
 }
 
 double
@@ -418,15 +422,15 @@ set_page(struct page *p)
 {
     double u = p->u, text_w, marks = page_marks(p), free, content, over;
 
-    p->map_w = p->plot_w;
-    p->map_h = p->plot_h;
-    p->across_step += (double)p->map_w;
-    p->down_step = (double)p->map_h + page_between_rows(p);
-    p->plot_w += (size_t)(p->across_step * (double)(p->columns - 1));
-    p->plot_h += (size_t)(p->down_step * (double)(p->rows - 1));
-    content = p->left_w + (double)p->plot_w + p->right_w;
+    p->map_w = p->plot.w;
+    p->map_h = p->plot.h;
+    p->across_step += p->map_w;
+    p->down_step = p->map_h + page_between_rows(p);
+    p->plot.w += floor(p->across_step * (double)(p->columns - 1));
+    p->plot.h += floor(p->down_step * (double)(p->rows - 1));
+    content = p->left_w + p->plot.w + p->right_w;
     over = overhang(p);
-    if (p->f->width == 0 && !is_sheet(p))
+    if (p->paper->width == 0 && !is_sheet(p))
         p->w = (size_t)ceil(fmax(content, 680 * u));
     text_w = (double)p->w - 48 * u;
     page_words(p, text_w);
@@ -436,9 +440,9 @@ set_page(struct page *p)
         marks = page_bar_below(p) + 28 * u + marks;
     p->below = fmax(marks, over) + p->legend_h + 22 * u;
     free = is_sheet(p) ? 0 : fmax(0, (double)p->w - content);
-    p->plot_x = (size_t)round(p->left_w + 0.5 * free);
-    p->plot_y = (size_t)round(p->above);
-    p->h = (size_t)ceil(p->above + (double)p->plot_h + p->below);
+    p->plot.x = round(p->left_w + 0.5 * free);
+    p->plot.y = round(p->above);
+    p->h = (size_t)ceil(p->above + p->plot.h + p->below);
     set_dpi(p);
 }
 
@@ -452,16 +456,15 @@ page_lay_out(struct page *p, struct rc_err *err)
          again = false; /* the bar was beside the plot, then below it again: it stays below */
     double width;
 
-    page_size(p, is_sheet(p) ? SHEET_WIDTH : 1200);
     set_axes(p);
-    width = is_sheet(p) ? ((double)p->w - 260 * p->u) / columns : 0.8 * (double)p->f->width;
+    width = is_sheet(p) ? ((double)p->w - 260 * p->u) / columns : 0.8 * (double)p->paper->width;
     for (int round = 0; round < (is_sheet(p) ? 4 : 6); round++) {
         set_plot(p, width);
         again = again || (beside && p->bar_below);
         beside = beside || !p->bar_below;
         p->bar_below = p->bar_below || again;
         measure_sides(p);
-        if (p->f->width == 0 && !is_sheet(p))
+        if (p->paper->width == 0 && !is_sheet(p))
             break;
         width = ((double)p->w - p->left_w - p->right_w - p->across_step * (columns - 1)) / columns;
         if (is_sheet(p) && width < least)
@@ -475,32 +478,97 @@ page_lay_out(struct page *p, struct rc_err *err)
     return RC_OK;
 }
 
-struct canvas *
-page_canvas(const struct page *p, size_t w, size_t h, struct rc_err *err)
+/* ---- pages of all kinds ---- */
+
+struct page *
+page_new(const struct page_kind *kind, void *of, const struct paper *paper, struct rc_err *err)
+{
+    struct page *p = calloc(1, sizeof *p);
+
+    if (p == NULL)
+        rc_err_set(err, "out of memory for a figure");
+    else
+        *p = (struct page){.kind = kind, .of = of, .paper = paper};
+    return p;
+}
+
+/* Sets width, unit, fonts and dpi. */
+static void
+set_size(struct page *p)
+{
+    double paper = unit_on_paper(p), design = (double)p->kind->design, w = (double)p->paper->width;
+
+    if (p->paper->width == 0)
+        w = round(design * (paper > 0 ? paper : 1));
+    p->w = (size_t)w;
+    p->u = paper > 0 ? paper : fmax(w / design, 0.5);
+    page_fonts(p);
+    set_dpi(p);
+}
+
+/* A canvas of this size, with the font and the size on paper of the page. */
+static struct canvas *
+new_canvas(const struct page *p, size_t w, size_t h, struct rc_err *err)
 {
     struct canvas *c = canvas_new(w, h, err);
 
     if (c == NULL)
         return NULL;
-    if (p->f->family != NULL)
-        canvas_set_family(c, p->f->family);
-    canvas_set_dpi(c, p->dpi, p->f->width > 0 && p->f->dpi == 0);
+    if (p->paper->family != NULL)
+        canvas_set_family(c, p->paper->family);
+    canvas_set_dpi(c, p->dpi, p->paper->width > 0 && p->paper->dpi == 0);
     return c;
 }
 
-/* ---- pages of other shapes ---- */
+static enum rc_status
+lay_out(struct page *p, struct rc_err *err)
+{
+    enum rc_status status;
+
+    set_size(p);
+    if ((p->c = new_canvas(p, 1, 1, err)) == NULL) /* only to measure text */
+        return RC_FAIL;
+    status = p->kind->lay_out(p, err);
+    canvas_free(p->c);
+    return status;
+}
+
+struct canvas *
+pages_draw(struct page *const page[], size_t n, struct rc_err *err)
+{
+    enum rc_status status = RC_OK;
+    struct canvas *c;
+    size_t h = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        if (lay_out(page[k], err) != RC_OK)
+            return NULL;
+        page[k]->top = (double)h;
+        h += page[k]->h;
+    }
+    if ((c = new_canvas(page[0], page[0]->w, h, err)) == NULL)
+        return NULL;
+    for (size_t k = 0; k < n && status == RC_OK; k++) {
+        page[k]->c = c;
+        page[k]->plot.y += page[k]->top;
+        status = page[k]->kind->draw(page[k], err);
+    }
+    if (status == RC_OK && canvas_check(c, err) == RC_OK)
+        return c;
+    canvas_free(c);
+    return NULL;
+}
 
 void
-page_size(struct page *p, size_t design)
+page_clip(const struct page *p)
 {
-    double paper = unit_on_paper(p->f), w = (double)p->f->width;
+    canvas_clip(p->c, p->plot.x, p->plot.y, p->plot.w, p->plot.h);
+}
 
-    if (p->f->width == 0)
-        w = round((double)design * (paper > 0 ? paper : 1));
-    p->w = (size_t)w;
-    p->u = paper > 0 ? paper : fmax(w / (double)design, 0.5);
-    page_fonts(p);
-    set_dpi(p);
+void
+page_clip_end(const struct page *p)
+{
+    canvas_clip(p->c, 0, 0, 0, 0);
 }
 
 void
@@ -508,6 +576,6 @@ page_measure(struct page *p)
 {
     set_axes(p);
     mark_map(p);
-    axis_mark(p, &p->values, (double)p->plot_h, true);
+    axis_mark(p, &p->values, p->plot.h, true);
     p->gutter = media_gutter(p);
 }

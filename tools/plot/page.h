@@ -8,6 +8,7 @@
 
 #include "tools/canvas/canvas.h"
 #include "figure.h"
+#include "graph.h"
 #include "ticks.h"
 
 enum {
@@ -54,8 +55,25 @@ enum swatch {
     SWATCH_LARGEST
 };
 
+struct box {
+    double x, y, w, h;
+};
+
+struct page;
+/* A kind of picture: its layout, which measures text with page->c and sets w and h of the page, and its
+ * drawing. */
+struct page_kind {
+    size_t design; /* pixels: the width by default */
+    enum rc_status (*lay_out)(struct page *page, struct rc_err *err);
+    enum rc_status (*draw)(struct page *page, struct rc_err *err);
+};
+
 struct page {
-    const struct figure *f;
+    const struct page_kind *kind;
+    void *of; /* what is drawn, for the functions of its kind */
+    const struct paper *paper;
+    const struct figure *f; /* of a map; NULL: it is a graph */
+    const struct graph *graph;
     const struct rc_grid *g;
     struct canvas *c;
     bool bar_below, distorted;
@@ -75,9 +93,10 @@ struct page {
     double left_w, right_w, above, below; /* space around the plot, margins included   */
     double top;                           /* position of the page on its canvas        */
     size_t columns, rows;                 /* of maps                                   */
-    size_t map_w, map_h;                  /* size of each map; plot_w and plot_h are those of all */
+    double map_w, map_h;                  /* size of each map, whole pixels            */
     double across_step, down_step;        /* distance from one to the next, pixels     */
-    size_t plot_x, plot_y, plot_w, plot_h, w, h;
+    struct box plot;                      /* of all maps, whole pixels                 */
+    size_t w, h;
     double dpi; /* pixels of the page per inch of paper */
 };
 
@@ -85,8 +104,16 @@ extern const struct rgb page_ink, page_faint;
 
 extern const struct rgb page_alarm;
 
-/* Lays out a page of maps, with f, g, columns and rows set, measuring text with c. RC_FAIL: the page is too
- * narrow for the columns. */
+/* NULL when memory is short. */
+struct page *page_new(const struct page_kind *kind, void *of, const struct paper *paper,
+                      struct rc_err *err);
+/* Lays out n pages and draws them on one canvas, one below the other; f and g of maps are set. NULL
+ * when memory is short or a layout is not possible. */
+struct canvas *pages_draw(struct page *const page[], size_t n, struct rc_err *err);
+/* Clips to the plot what is drawn until page_clip_end. */
+void page_clip(const struct page *page);
+void page_clip_end(const struct page *page);
+/* Lays out a page of maps, with columns and rows set. RC_FAIL: the page is too narrow for the columns. */
 enum rc_status page_lay_out(struct page *page, struct rc_err *err);
 /* Width of the swatch of note k, gap included. */
 double page_swatch(const struct page *page, size_t k);
@@ -100,11 +127,6 @@ double page_between_rows(const struct page *page);
 double page_bar_below(const struct page *page);
 /* The height of marks and label below an axis. */
 double page_marks(const struct page *page);
-/* Sets width, unit, fonts and dpi of the figure, for a page that is `design` pixels wide by default. */
-void page_size(struct page *page, size_t design);
-/* A canvas of this size for the page, with the font and the size on paper of the figure. NULL as for
- * canvas_new. */
-struct canvas *page_canvas(const struct page *page, size_t w, size_t h, struct rc_err *err);
 /* Sets the fonts of the page for its u. */
 void page_fonts(struct page *page);
 /* Cuts a line to `width`. */
@@ -119,7 +141,7 @@ void page_words(struct page *page, double width);
 double page_words_height(const struct page *page);
 /* Draws title, subtitle and stamp above the plot. In figure.c. */
 void page_heading(struct page *page);
-/* Chooses the marks of all axes for a plot of plot_w by plot_h pixels and a bar of the same height. */
+/* Chooses the marks of all axes for the plot and a bar of the same height. */
 void page_measure(struct page *page);
 /* Determines the content of the legend, and its height. */
 void page_legend(struct page *page, double width);

@@ -18,7 +18,7 @@ struct vec {
 struct scene {
     const struct figure *f;
     const struct view *view;
-    struct page page;
+    struct page *page;
     double lx, ly, lz;            /* of the box                                              */
     struct vec right, up, toward; /* direction towards the viewer, in the box                */
     double scale, ox, oy;         /* pixels per unit, and the position of the origin */
@@ -37,6 +37,12 @@ struct corner {
 
 static const struct rgb wall = {0xc4, 0xc4, 0xc4}, edge = {0x99, 0x99, 0x99};
 
+static struct scene *
+scene_of(const struct page *p)
+{
+    return p->of;
+}
+
 /* ---- the box and its projection ---- */
 
 static double
@@ -48,23 +54,24 @@ dot(struct vec a, struct vec b)
 static double
 longer_side(const struct figure *f)
 {
-    return fmax(f->right - f->left, f->bottom - f->top);
+    return fmax(f->at.right - f->at.left, f->at.bottom - f->at.top);
 }
 
 double
 relief_exaggeration(const struct figure *f)
 {
-    double most = 0.4 * longer_side(f) / (f->hi - f->lo), power = pow(10, floor(log10(most)));
+    double most = 0.4 * longer_side(f) / (f->bar.hi - f->bar.lo),
+           power = pow(10, floor(log10(most)));
 
-    if (f->exaggeration > 0)
-        return f->exaggeration;
+    if (f->at.exaggeration > 0)
+        return f->at.exaggeration;
     return (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1) * power;
 }
 
 bool
 relief_to_scale(const struct figure *f)
 {
-    return strcmp(f->unit, "m") == 0 && (f->dunit == NULL || strcmp(f->dunit, "m") == 0);
+    return strcmp(f->bar.unit, "m") == 0 && (f->at.dunit == NULL || strcmp(f->at.dunit, "m") == 0);
 }
 
 static void
@@ -73,9 +80,10 @@ set_view(struct scene *s)
     double az = s->view->azimuth * FIGURE_PI / 180, el = s->view->elevation * FIGURE_PI / 180;
     double side = longer_side(s->f);
 
-    s->lx = (s->f->right - s->f->left) / side;
-    s->ly = (s->f->bottom - s->f->top) / side;
-    s->lz = relief_to_scale(s->f) ? relief_exaggeration(s->f) * (s->f->hi - s->f->lo) / side : 0.35;
+    s->lx = (s->f->at.right - s->f->at.left) / side;
+    s->ly = (s->f->at.bottom - s->f->at.top) / side;
+    s->lz = relief_to_scale(s->f) ? relief_exaggeration(s->f) * (s->f->bar.hi - s->f->bar.lo) / side
+                                  : 0.35;
     s->right = (struct vec){cos(az), sin(az), 0};
     s->toward = (struct vec){cos(el) * sin(az), -cos(el) * cos(az), sin(el)};
     s->up = (struct vec){-sin(el) * sin(az), sin(el) * cos(az), cos(el)};
@@ -84,7 +92,7 @@ set_view(struct scene *s)
 static double
 height_of(const struct scene *s, double value)
 {
-    double t = (value - s->f->lo) / (s->f->hi - s->f->lo);
+    double t = (value - s->f->bar.lo) / (s->f->bar.hi - s->f->bar.lo);
 
     return s->lz * fmin(fmax(t, 0), 1);
 }
@@ -106,20 +114,6 @@ box_corner(const struct scene *s, int k)
 
 /* ---- the mesh ---- */
 
-/* The largest value of the nodes in a piece. */
-static void
-take_peaks(struct scene *s, const struct rc_grid *g)
-{
-    for (size_t k = 0; k < s->nx * s->ny; k++)
-        s->value[k] = NAN;
-    for (size_t j = 0; j < g->ny; j++)
-        for (size_t i = 0; i < g->nx; i++) {
-            double *to = &s->value[j * s->ny / g->ny * s->nx + i * s->nx / g->nx];
-
-            *to = fmax(*to, g->v[j * g->nx + i]);
-        }
-}
-
 static enum rc_status
 set_mesh(struct scene *s, const struct rc_grid *g, struct rc_err *err)
 {
@@ -127,16 +121,12 @@ set_mesh(struct scene *s, const struct rc_grid *g, struct rc_err *err)
 
     s->nx = g->nx < RELIEF_SIDE ? g->nx : RELIEF_SIDE;
     s->ny = g->ny < RELIEF_SIDE ? g->ny : RELIEF_SIDE;
-    if ((s->value = malloc(s->nx * s->ny * sizeof *s->value)) == NULL)
-        return rc_err_set(err, "out of memory for a relief of %zu by %zu pieces", s->nx, s->ny);
-    if (s->view->peaks) {
-        take_peaks(s, g);
-    } else {
-        if ((r = raster_new(g, false, s->nx, s->ny, err)) == NULL)
-            return RC_FAIL;
-        memcpy(s->value, r->v, s->nx * s->ny * sizeof *s->value);
-        raster_free(r);
-    }
+    r = (s->view->peaks ? raster_rows_max : raster_rows)(g, false, s->nx, s->ny, 0, s->ny, err);
+    if (r == NULL)
+        return RC_FAIL;
+    s->value = r->v;
+    r->v = NULL;
+    raster_free(r);
     for (size_t k = 0; k < s->nx * s->ny; k++)
         if (!isfinite(s->value[k]))
             s->value[k] = NAN;
@@ -231,9 +221,9 @@ put(struct scene *s, size_t at, double depth, struct rgb colour, double shade)
 static struct rgb
 surface_colour(const struct scene *s, double value)
 {
-    if (s->f->zero_is_none && value == 0)
-        return s->f->map->none;
-    return colormap_value(s->f->map, s->f->lo, s->f->hi, value);
+    if (s->f->nodes.zero_is_none && value == 0)
+        return s->f->bar.map->none;
+    return colormap_value(s->f->bar.map, s->f->bar.lo, s->f->bar.hi, value);
 }
 
 /* Fills the triangle where it is nearer than the surface drawn before; with one colour or, with NULL, the
@@ -371,18 +361,18 @@ put_image(struct scene *s)
     }
     for (size_t k = 0; k < n && pixel != NULL; k++)
         inked[k] = mean_at(s, k % across, k / across, &pixel[k]);
-    canvas_image(s->page.c, s->left, s->top, (double)across, (double)down, pixel, inked, across,
+    canvas_image(s->page->c, s->left, s->top, (double)across, (double)down, pixel, inked, across,
                  down);
 }
 
 static enum rc_status
 draw_image(struct scene *s, struct rc_err *err)
 {
-    size_t across = s->page.plot_w, down = s->page.plot_h;
+    size_t across = (size_t)s->page->plot.w, down = (size_t)s->page->plot.h;
     enum rc_status status = RC_FAIL;
 
-    s->left = (double)s->page.plot_x;
-    s->top = (double)s->page.plot_y;
+    s->left = s->page->plot.x;
+    s->top = s->page->plot.y;
     s->fine = across * down < 5000000 ? 2 : 1;
     s->w = across * s->fine;
     s->h = down * s->fine;
@@ -410,10 +400,10 @@ line(struct scene *s, struct vec a, struct vec b, double width, struct rgb colou
     double x, y;
 
     project(s, a, &x, &y);
-    canvas_move(s->page.c, x, y);
+    canvas_move(s->page->c, x, y);
     project(s, b, &x, &y);
-    canvas_draw_to(s->page.c, x, y);
-    canvas_stroke(s->page.c, width, colour);
+    canvas_draw_to(s->page->c, x, y);
+    canvas_stroke(s->page->c, width, colour);
 }
 
 /* The edges that end in the nearest corner of the top are omitted, so that no line crosses the surface. */
@@ -429,7 +419,7 @@ draw_box(struct scene *s)
 
         if (b == (near_side | 4) || a == (near_side | 4))
             continue;
-        line(s, box_corner(s, a), box_corner(s, b), fmax(1, s->page.u), edge);
+        line(s, box_corner(s, a), box_corner(s, b), fmax(1, s->page->u), edge);
     }
 }
 
@@ -453,7 +443,7 @@ static void
 draw_side(struct scene *s, const struct side *side)
 {
     const struct axis *a = side->axis;
-    struct page *p = &s->page;
+    struct page *p = s->page;
     double u = p->u, x0, y0, x1, y1, length, widest = 0;
     struct ticks ticks;
     char text[TICKS_TEXT];
@@ -472,8 +462,7 @@ draw_side(struct scene *s, const struct side *side)
         t = side->flip ? 1 - t : t;
         x = x0 + t * (x1 - x0);
         y = y0 + t * (y1 - y0);
-        canvas_move(p->c, x, y);
-        canvas_draw_to(p->c, x + 9 * u * side->out[0], y + 9 * u * side->out[1]);
+        canvas_line(p->c, x, y, x + 9 * u * side->out[0], y + 9 * u * side->out[1]);
         canvas_stroke(p->c, 1.6 * u, page_ink);
         part = 0.5 - 0.5 * fmin(fmax(1.6 * side->out[0], -1), 1);
         ticks_text(text, &ticks, k);
@@ -522,14 +511,14 @@ set_sides(const struct scene *s, struct side side[3])
 
     left = dot(a, s->right) < dot(b, s->right) ? a : b;
     side[0] = (struct side){
-        .axis = &s->page.across, .a = {-0.5 * s->lx, fy, 0}, .b = {0.5 * s->lx, fy, 0}};
-    side[1] = (struct side){.axis = &s->page.down,
+        .axis = &s->page->across, .a = {-0.5 * s->lx, fy, 0}, .b = {0.5 * s->lx, fy, 0}};
+    side[1] = (struct side){.axis = &s->page->down,
                             .a = {fx, -0.5 * s->ly, 0},
                             .b = {fx, 0.5 * s->ly, 0},
                             .flip = true,
                             .keep_off = true};
     side[2] = (struct side){
-        .axis = &s->page.values, .a = left, .b = {left.x, left.y, s->lz}, .out = {-1, 0}};
+        .axis = &s->page->values, .a = left, .b = {left.x, left.y, s->lz}, .out = {-1, 0}};
     set_out(s, &side[0], (struct vec){0, fy, 0});
     set_out(s, &side[1], (struct vec){fx, 0, 0});
 }
@@ -538,8 +527,8 @@ set_sides(const struct scene *s, struct side side[3])
 static double
 below_box(const struct scene *s)
 {
-    const struct page *p = &s->page;
-    double below = 18 * p->u + 1.3 * p->small.size, bottom = (double)(p->plot_y + p->plot_h);
+    const struct page *p = s->page;
+    double below = 18 * p->u + 1.3 * p->small.size, bottom = (p->plot.y + p->plot.h);
     struct side side[3];
 
     set_sides(s, side);
@@ -556,14 +545,11 @@ below_box(const struct scene *s)
 
 /* ---- the whole ---- */
 
-/* Makes the box as large as fits beside the bar. */
-static enum rc_status
-lay_out(struct scene *s, struct rc_err *err)
+/* The part of the picture that a box of scale 1 takes, from its origin. */
+static struct box
+box_extent(struct scene *s)
 {
-    const double least = 150; /* units of the design: on a smaller width marks touch each other */
-    struct page *p = &s->page;
-    double u = p->u, x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
-    double text_w = (double)p->w - 48 * u, above;
+    double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
 
     s->scale = 1;
     s->ox = s->oy = 0;
@@ -576,36 +562,45 @@ lay_out(struct scene *s, struct rc_err *err)
         y0 = fmin(y0, y);
         y1 = fmax(y1, y);
     }
-    p->plot_w = p->plot_h = (size_t)(600 * u);
+    return (struct box){x0, y0, x1 - x0, y1 - y0};
+}
+
+/* Makes the box as large as fits beside the bar. */
+static enum rc_status
+lay_out(struct page *p, struct rc_err *err)
+{
+    const double least = 150; /* units of the design: on a smaller width marks touch each other */
+    struct scene *s = scene_of(p);
+    const struct box box = box_extent(s);
+    double u = p->u, text_w = (double)p->w - 48 * u, above;
+
+    p->plot.w = p->plot.h = floor(600 * u);
     page_measure(p);
     p->left_w = 24 * u + 1.4 * p->large.size + widest_number(p) + 40 * u;
     p->right_w = 110 * u + 28 * u + 14 * u + p->values.widest + 1.8 * p->large.size + 24 * u;
     page_words(p, text_w);
     page_legend(p, text_w);
     above = page_words_height(p) + 22 * u;
-    s->scale = ((double)p->w - p->left_w - p->right_w) / (x1 - x0);
-    if (s->scale * (x1 - x0) < least * u)
+    s->scale = ((double)p->w - p->left_w - p->right_w) / box.w;
+    if (s->scale * box.w < least * u)
         return rc_err_set(err,
                           "on a page of %zu pixels with text of that size there is no room for a "
                           "relief: ask for a larger --width",
                           p->w);
-    p->plot_x = (size_t)round(p->left_w);
-    p->plot_y = (size_t)round(above);
-    p->plot_w = (size_t)ceil(s->scale * (x1 - x0)) + 1;
-    p->plot_h = (size_t)ceil(s->scale * (y1 - y0)) + 1;
-    s->ox = (double)p->plot_x - s->scale * x0;
-    s->oy = (double)p->plot_y - s->scale * y0;
+    p->plot = (struct box){round(p->left_w), round(above), ceil(s->scale * box.w) + 1,
+                           ceil(s->scale * box.h) + 1};
+    s->ox = p->plot.x - s->scale * box.x;
+    s->oy = p->plot.y - s->scale * box.y;
     page_measure(p); /* the bar is as high as the box */
-    p->h = (size_t)ceil(above + (double)p->plot_h + below_box(s) + p->legend_h + 22 * u);
+    p->h = (size_t)ceil(above + p->plot.h + below_box(s) + p->legend_h + 22 * u);
     return RC_OK;
 }
 
 static enum rc_status
-draw(struct scene *s, struct rc_err *err)
+draw(struct page *p, struct rc_err *err)
 {
-    struct page *p = &s->page;
+    struct scene *s = scene_of(p);
     struct side side[3];
-    size_t w = p->plot_w;
 
     page_heading(p);
     draw_box(s);
@@ -614,55 +609,28 @@ draw(struct scene *s, struct rc_err *err)
     set_sides(s, side);
     for (int k = 0; k < 3; k++)
         draw_side(s, &side[k]);
-    p->plot_w += (size_t)(110 * p->u - page_bar_right(p)); /* space for the marks of an axis */
+    p->plot.w += floor(110 * p->u - page_bar_right(p)); /* space for the marks of an axis */
     page_bar(p);
-    p->plot_w = w;
-    return canvas_check(p->c, err);
+    return RC_OK;
 }
 
-static struct scene *
-scene_new(const struct figure *f, const struct view *view, const struct rc_grid *g,
-          struct rc_err *err)
-{
-    struct scene *s = calloc(1, sizeof *s);
-
-    if (s == NULL) {
-        rc_err_set(err, "out of memory for a figure");
-        return NULL;
-    }
-    s->f = f;
-    s->view = view;
-    s->page.f = f;
-    s->page.g = g;
-    page_size(&s->page, RELIEF_WIDTH);
-    set_view(s);
-    return s;
-}
+static const struct page_kind kind = {RELIEF_WIDTH, lay_out, draw};
 
 struct canvas *
 relief_draw(const struct figure *f, const struct view *view, const struct rc_grid *g,
             struct rc_err *err)
 {
-    struct scene *s = scene_new(f, view, g, err);
+    struct scene s = {.f = f, .view = view};
     struct canvas *drawn = NULL;
 
-    if (s == NULL)
+    if ((s.page = page_new(&kind, &s, &f->paper, err)) == NULL)
         return NULL;
-    if (set_mesh(s, g, err) != RC_OK || (s->page.c = page_canvas(&s->page, 1, 1, err)) == NULL)
-        goto done;
-    if (lay_out(s, err) != RC_OK) {
-        canvas_free(s->page.c);
-        goto done;
-    }
-    canvas_free(s->page.c);
-    if ((s->page.c = page_canvas(&s->page, s->page.w, s->page.h, err)) == NULL)
-        goto done;
-    if (draw(s, err) == RC_OK)
-        drawn = s->page.c;
-    else
-        canvas_free(s->page.c);
-done:
-    free(s->value);
-    free(s);
+    s.page->f = f;
+    s.page->g = g;
+    set_view(&s);
+    if (set_mesh(&s, g, err) == RC_OK)
+        drawn = pages_draw(&s.page, 1, err);
+    free(s.value);
+    free(s.page);
     return drawn;
 }

@@ -113,21 +113,21 @@ read_width(struct tool *t, struct args *a)
     double width = 0;
     struct rc_err err;
 
-    a->style.dpi = isnan(a->dpi) ? 0 : a->dpi;
+    a->style.paper.dpi = isnan(a->dpi) ? 0 : a->dpi;
     if (a->width == NULL)
         return;
     if (unit_number(a->width, plain ? UNIT_NONE : UNIT_M, &width, &err) != RC_OK)
         tool_die(t, EXIT_USAGE, "--width %s: %s", a->width, err.text);
     if (!plain) {
-        a->style.dpi = a->style.dpi > 0 ? a->style.dpi : dpi;
-        width *= a->style.dpi / inch;
+        a->style.paper.dpi = a->style.paper.dpi > 0 ? a->style.paper.dpi : dpi;
+        width *= a->style.paper.dpi / inch;
     }
-    if (a->style.dpi > 0 && !(width >= narrow / inch * a->style.dpi))
+    if (a->style.paper.dpi > 0 && !(width >= narrow / inch * a->style.paper.dpi))
         tool_die(t, EXIT_USAGE, "--width %s: on paper it must be at least 60mm", a->width);
     if (!(width >= FIGURE_NARROW && width <= FIGURE_WIDE))
         tool_die(t, EXIT_USAGE, "--width %s: it must be %d to %d pixels%s", a->width, FIGURE_NARROW,
                  FIGURE_WIDE, plain ? "" : ", which is a matter of --dpi");
-    a->style.width = (size_t)round(width);
+    a->style.paper.width = (size_t)round(width);
 }
 
 static void
@@ -142,7 +142,7 @@ check_options(struct tool *t, const struct args *a)
                              : "aspect");
     if (a->raw && a->width != NULL)
         tool_die(t, EXIT_USAGE, "--raw is as wide as the map has columns: leave out --width");
-    if (a->raw && a->style.family != NULL)
+    if (a->raw && a->style.paper.family != NULL)
         tool_die(t, EXIT_USAGE, "--raw holds no text: leave out --font");
     if (a->raw && canvas_format(ending_of(t->out_name)) != CANVAS_PNG)
         tool_die(t, EXIT_USAGE,

@@ -843,9 +843,7 @@ draw(struct curves *c, struct drawn *drawn)
     const char *y = last_part(c->column[1]);
     bool flow = strncmp(y, "flow_", 5) == 0 || strncmp(y, "critical_", 9) == 0;
     struct graph graph = {
-        .title = drawn->title,
-        .subtitle = wording_subtitle(c->style->title, c->style->subtitle, drawn->source),
-        .stamp = drawn->stamp,
+        .paper = wording_paper(c->style, c->title, drawn->source, drawn),
         .x = {title_of(c, 0), unit_of(c->table, 0), curve_log(c->style, 'x'), NAN, NAN, NULL,
               c->word, c->words},
         .y = {c->axis, unit_of(c->table, 1), curve_log(c->style, 'y'), NAN, NAN},
@@ -853,9 +851,6 @@ draw(struct curves *c, struct drawn *drawn)
         .series = c->series,
         .n = c->n,
         .note = *c->note == '\0' ? NULL : c->note,
-        .width = c->style->width,
-        .dpi = c->style->dpi,
-        .family = c->style->family,
     };
     struct canvas *canvas;
     struct rc_err err;
@@ -911,8 +906,6 @@ curves_draw(struct tool *t, const char *columns, const struct curve_style *style
     if (style->law != NULL)
         add_law(c);
     describe(c);
-    snprintf(drawn->title, sizeof drawn->title, "%s",
-             style->title == NULL ? c->title : style->title);
     snprintf(drawn->source, sizeof drawn->source, "%s",
              c->tables > 1 ? "" : base_name(c->table->source));
     drawn->stamp = c->short_of ? "not converged" : NULL;

@@ -77,19 +77,12 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
     struct canvas *canvas;
     struct rc_err err;
 
-    snprintf(drawn->title, sizeof drawn->title, "%s",
-             s->style->title == NULL ? title : s->style->title);
     snprintf(drawn->source, sizeof drawn->source, "%s", source == NULL ? "" : source);
     drawn->stamp = NULL;
     for (size_t k = 0; k < s->n && drawn->stamp == NULL; k++)
         drawn->stamp = look_stamp(s->grid[k]);
-    graph->title = drawn->title;
-    graph->subtitle = wording_subtitle(s->style->title, s->style->subtitle, s->subtitle.text);
-    graph->stamp = drawn->stamp;
+    graph->paper = wording_paper(s->style, title, s->subtitle.text, drawn);
     graph->series = s->series;
-    graph->width = s->style->width;
-    graph->dpi = s->style->dpi;
-    graph->family = s->style->family;
     graph->x.log = curve_log(s->style, 'x');
     graph->y.log = curve_log(s->style, 'y');
     wording_axis(s->tool, s->style, 'x', &graph->x);

@@ -40,16 +40,16 @@ choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid,
         range_read(t, a->range, grid[0], r);
     range_doubt(t, a->range, grid[0]->unit, s, r);
     axis = r->kind == RANGE_AUTO && look_is_profile(grid[0]) && !a->raw;
-    range_choose(grid, touch, n, s, f->map, &look->what, r);
+    range_choose(grid, touch, n, s, f->bar.map, &look->what, r);
     if (r->kind == RANGE_VALUES)
         a->range = range_text(r);
     if (a->style.log != NULL)
         range_take_logarithm(t, grid, n, r);
-    f->lo = axis ? NAN : r->lo;
-    f->hi = axis ? NAN : r->hi;
-    f->min = range_least(grid, touch, n, s, r);
-    f->log = a->style.log != NULL;
-    f->note = r->note[0] == '\0' ? NULL : r->note;
+    f->bar.lo = axis ? NAN : r->lo;
+    f->bar.hi = axis ? NAN : r->hi;
+    f->bar.min = range_least(grid, touch, n, s, r);
+    f->bar.log = a->style.log != NULL;
+    f->bar.note = r->note[0] == '\0' ? NULL : r->note;
 }
 
 /* Category 1 has the first colour of the map, 2 the last. */
@@ -61,10 +61,10 @@ set_categories(struct tool *t, const struct args *a, const struct look *look, st
                   a->range != NULL ? "range"
                   : a->clip        ? "clip"
                                    : "log");
-    f->is = look->what.is;
-    f->lo = 1;
-    f->hi = 2;
-    f->border = true;
+    f->nodes.is = look->what.is;
+    f->bar.lo = 1;
+    f->bar.hi = 2;
+    f->edge.border = true;
 }
 
 void
@@ -77,31 +77,28 @@ look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid,
 
     look->what = channel_of(g, s);
     *f = (struct figure){
-        .title = a->title == NULL ? look->what.title : a->title,
-        .stamp = look_stamp(g),
-        .quantity = look->what.axis != NULL && curve ? look->what.axis : look->what.title,
-        .unit = g->unit,
-        .dunit = rc_grid_dunit(g),
-        .map = colormap_find(a->colormap == NULL ? look->what.colormap : a->colormap),
-        .min = s->min,
-        .max = s->max,
-        .missing = s->missing,
-        .zero_is_none = look->what.none != NULL,
-        .none = look->what.none,
-        .missing_is = look->what.missing,
-        .zeros = s->zeros,
-        .contour = a->contour || a->border,
-        .border = a->border && !a->contour,
-        .aspect = isnan(a->aspect) ? 0 : a->aspect,
-        .exaggeration = isnan(a->exaggeration) ? 0 : a->exaggeration,
+        .paper = a->style.paper,
+        .bar = {.quantity = look->what.axis != NULL && curve ? look->what.axis : look->what.title,
+                .unit = g->unit,
+                .map = colormap_find(a->colormap == NULL ? look->what.colormap : a->colormap),
+                .min = s->min,
+                .max = s->max},
+        .at = {.dunit = rc_grid_dunit(g),
+               .aspect = isnan(a->aspect) ? 0 : a->aspect,
+               .exaggeration = isnan(a->exaggeration) ? 0 : a->exaggeration},
+        .edge = {.contour = a->contour || a->border, .border = a->border && !a->contour},
+        .nodes = {.missing = s->missing,
+                  .missing_is = look->what.missing,
+                  .zero_is_none = look->what.none != NULL,
+                  .zeros = s->zeros,
+                  .none = look->what.none},
         .hillshade = a->hillshade,
         .keep_max = a->keep != NULL && strcmp(a->keep, "max") == 0,
-        .width = a->style.width,
-        .dpi = a->style.dpi,
-        .family = a->style.family,
         .vector = canvas_format(ending_of(t->out_name)) != CANVAS_PNG,
-        .paper = canvas_format(ending_of(t->out_name)) == CANVAS_PDF,
     };
+    f->paper.stamp = look_stamp(g);
+    if (f->paper.title == NULL)
+        f->paper.title = look->what.title;
     if (look->what.is[0] != NULL && !curve)
         set_categories(t, a, look, f);
     else
@@ -140,46 +137,46 @@ look_contact(struct figure *f, const struct rc_grid *g, const struct beside *bes
         any = rc_in_contact(touch->v[k]);
     for (size_t k = 0; p != NULL && k < p->nx * p->ny; k++)
         largest = fmax(largest, p->v[k]);
-    f->contact = any ? touch : NULL;
-    f->pressure = p;
-    f->hard = 0;
+    f->edge.contact = any ? touch : NULL;
+    f->edge.pressure = p;
+    f->edge.hard = 0;
     if (largest > 0 && rc_grid_number(p, "hardness", &hardness) && hardness > 0 &&
         largest >= hardness * (1 - rounding))
-        f->hard = hardness * (1 - rounding);
+        f->edge.hard = hardness * (1 - rounding);
 }
 
 void
 look_extent(const struct window *w, struct figure *f)
 {
-    bool waves = f->dunit != NULL && strcmp(f->dunit, "rad/m") == 0;
+    bool waves = f->at.dunit != NULL && strcmp(f->at.dunit, "rad/m") == 0;
 
-    f->across = waves ? "qx" : "x";
-    f->down = waves ? "qy" : "y";
-    f->left = w->left;
-    f->right = w->right;
-    f->top = w->top;
-    f->bottom = w->bottom;
+    f->at.across = waves ? "qx" : "x";
+    f->at.down = waves ? "qy" : "y";
+    f->at.left = w->left;
+    f->at.right = w->right;
+    f->at.top = w->top;
+    f->at.bottom = w->bottom;
 }
 
 void
 look_aspect(struct tool *t, const struct rc_grid *g, const struct figure *f)
 {
-    double aspect = (f->right - f->left) / (f->bottom - f->top) / f->aspect;
+    double aspect = (f->at.right - f->at.left) / (f->at.bottom - f->at.top) / f->at.aspect;
 
-    if (f->aspect > 0 && !(aspect <= FIGURE_ASPECT && aspect >= 1.0 / FIGURE_ASPECT))
+    if (f->at.aspect > 0 && !(aspect <= FIGURE_ASPECT && aspect >= 1.0 / FIGURE_ASPECT))
         tool_die_at(t, g, EXIT_USAGE,
                     "--aspect %.6g: the plot would be %.3g times as %s: give one that leaves it at "
                     "most %d times",
-                    f->aspect, aspect > 1 ? aspect : 1 / aspect,
+                    f->at.aspect, aspect > 1 ? aspect : 1 / aspect,
                     aspect > 1 ? "wide as high" : "high as wide", FIGURE_ASPECT);
 }
 
 bool
 look_throat(const struct rc_grid *g, struct figure *f)
 {
-    return rc_grid_number(g, "throat_x", &f->largest_x) &&
-           rc_grid_number(g, "throat_y", &f->largest_y) && f->largest_x >= f->left &&
-           f->largest_x <= f->right && f->largest_y >= f->top && f->largest_y <= f->bottom;
+    return rc_grid_number(g, "throat_x", &f->mark.x) && rc_grid_number(g, "throat_y", &f->mark.y) &&
+           f->mark.x >= f->at.left && f->mark.x <= f->at.right && f->mark.y >= f->at.top &&
+           f->mark.y <= f->at.bottom;
 }
 
 struct rc_grid *
@@ -191,11 +188,11 @@ look_section(struct tool *t, const struct args *a, const struct rc_grid *g, stru
 
     media_read(t, g, &layers);
     media_set(t, &layers, f);
-    section_range(t, a->depths, g, depth, &f->top, &f->bottom);
-    f->across = strcmp(rc_grid_get(g, "section"), "x") == 0 ? "y" : "x";
-    f->down = "depth";
-    f->section = true;
-    even = section_even(t, g, depth, &layers, f->top, f->bottom);
+    section_range(t, a->depths, g, depth, &f->at.top, &f->at.bottom);
+    f->at.across = strcmp(rc_grid_get(g, "section"), "x") == 0 ? "y" : "x";
+    f->at.down = "depth";
+    f->at.section = true;
+    even = section_even(t, g, depth, &layers, f->at.top, f->at.bottom);
     layers_free(&layers);
     free(depth);
     return even;

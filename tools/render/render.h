@@ -266,22 +266,25 @@ double law_pressure_density(const struct law_given *given, double mean, double p
 
 /* Properties of all pictures of curves. */
 struct curve_style {
-    const char *log; /* NULL: linear; "" or "xy": both axes, "x", "y"   */
-    const char *title, *subtitle, *law;
+    const char *log;    /* NULL: linear; "" or "xy": both axes, "x", "y"   */
+    struct paper paper; /* title or subtitle NULL: what suits */
+    const char *law;
     const char *x_label, *y_label, *x_unit, *y_unit, *legend; /* NULL: what suits */
     const char *by, *error;                                   /* columns of tables */
     bool points, spread;
     bool hertz; /* beside a cut */
     struct law_given given;
-    size_t width; /* as in a figure */
-    double dpi;
-    const char *family;
 };
 
 /* ---- wording.c: words of a figure as the command line gives them ---- */
 
 /* The given subtitle, else that of the figure, but none under an empty title. */
-const char *wording_subtitle(const char *title, const char *subtitle, const char *own);
+const char *wording_subtitle(const struct paper *given, const char *own);
+/* The words of a picture of curves with the title and the subtitle that suit it; sets drawn->title, and takes
+ * the stamp from there. */
+struct drawn;
+struct paper wording_paper(const struct curve_style *style, const char *title, const char *subtitle,
+                           struct drawn *drawn);
 /* Text and unit of the axis 'x' or 'y'; ends the tool if the unit does not fit the quantity. */
 void wording_axis(struct tool *tool, const struct curve_style *style, char which,
                   struct graph_axis *axis);
@@ -370,7 +373,7 @@ struct canvas *material_ratio_draw(struct tool *tool, struct rc_grid *const *gri
 
 struct args {
     struct wish wish; /* which frame */
-    const char *colormap, *range, *title;
+    const char *colormap, *range;
     const char *width, *window, *depths, *keep;
     double dpi;                  /* as given                                 */
     double aspect, exaggeration; /* as given; NAN: automatic                 */
@@ -381,7 +384,7 @@ struct args {
     const char *view;  /* AZ,EL: a relief */
     const char *sheet; /* COLSxROWS or "auto" */
     bool histogram, material_ratio, hillshade;
-    struct curve_style style; /* log, width, dpi and family are for every picture */
+    struct curve_style style; /* log and paper are for every picture */
 };
 
 /* Ends the tool for contradicting options; determines the size of the picture, and the depth and case of a

@@ -31,14 +31,16 @@ void
 sheet_check_alike(struct tool *t, const struct rc_grid *first, const struct figure *of_first,
                   const struct rc_grid *g, const struct figure *f)
 {
-    double size = fabs(of_first->right - of_first->left), high = of_first->bottom - of_first->top;
+    double size = fabs(of_first->at.right - of_first->at.left),
+           high = of_first->at.bottom - of_first->at.top;
 
     if ((g->nx == 1) != (g->ny == 1) && rc_grid_get(g, "section") == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "a profile is no map: draw several as curves, with --cut y=0");
-    if (strcmp(first->unit, g->unit) != 0 || strcmp(f->down, of_first->down) != 0 ||
-        strcmp(f->across, of_first->across) != 0 || fabs(f->right - f->left - size) > 1e-6 * size ||
-        fabs(f->bottom - f->top - high) > 1e-6 * high)
+    if (strcmp(first->unit, g->unit) != 0 || strcmp(f->at.down, of_first->at.down) != 0 ||
+        strcmp(f->at.across, of_first->at.across) != 0 ||
+        fabs(f->at.right - f->at.left - size) > 1e-6 * size ||
+        fabs(f->at.bottom - f->at.top - high) > 1e-6 * high)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "it is not of the size of the frame before: a sheet shows maps of one size: "
                     "choose with --case and --depth");

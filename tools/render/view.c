@@ -28,10 +28,10 @@ void
 view_check(struct tool *t, const struct rc_grid *g, const struct figure *f)
 {
     const double most = 4; /* sides */
-    double side = fmax(f->right - f->left, f->bottom - f->top);
-    double box = f->exaggeration * (f->hi - f->lo) / side;
+    double side = fmax(f->at.right - f->at.left, f->at.bottom - f->at.top);
+    double box = f->at.exaggeration * (f->bar.hi - f->bar.lo) / side;
 
-    if (f->exaggeration > 0 && !relief_to_scale(f))
+    if (f->at.exaggeration > 0 && !relief_to_scale(f))
         tool_die_at(t, g, EXIT_USAGE,
                     "--exaggeration is for heights and other lengths, this is a %s: leave it out",
                     g->channel);
@@ -39,7 +39,7 @@ view_check(struct tool *t, const struct rc_grid *g, const struct figure *f)
         tool_die_at(t, g, EXIT_USAGE,
                     "--exaggeration %.6g: the box would be %.3g times as high as its longer side: "
                     "give at most %.3g",
-                    f->exaggeration, box, f->exaggeration * most / box);
+                    f->at.exaggeration, box, f->at.exaggeration * most / box);
 }
 
 void
@@ -51,8 +51,8 @@ view_say(const struct figure *f, struct subtitle *subtitle)
         snprintf(text, sizeof text, "%.15g", relief_exaggeration(f));
         subtitle_add(subtitle, "vertical exaggeration ", text);
     }
-    if (f->missing > 0) {
-        snprintf(text, sizeof text, "%zu nodes", f->missing);
+    if (f->nodes.missing > 0) {
+        snprintf(text, sizeof text, "%zu nodes", f->nodes.missing);
         subtitle_add(subtitle, "holes: not measured, ", text);
     }
 }

@@ -6,11 +6,24 @@
 #include <string.h>
 
 const char *
-wording_subtitle(const char *title, const char *subtitle, const char *own)
+wording_subtitle(const struct paper *given, const char *own)
 {
-    if (subtitle != NULL)
-        return subtitle;
-    return title != NULL && *title == '\0' ? "" : own;
+    if (given->subtitle != NULL)
+        return given->subtitle;
+    return given->title != NULL && *given->title == '\0' ? "" : own;
+}
+
+struct paper
+wording_paper(const struct curve_style *s, const char *title, const char *subtitle,
+              struct drawn *drawn)
+{
+    struct paper paper = s->paper;
+
+    snprintf(drawn->title, sizeof drawn->title, "%s", paper.title == NULL ? title : paper.title);
+    paper.title = drawn->title;
+    paper.subtitle = wording_subtitle(&s->paper, subtitle);
+    paper.stamp = drawn->stamp;
+    return paper;
 }
 
 void
