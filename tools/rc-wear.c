@@ -72,6 +72,7 @@ struct run {
     struct rc_wear_problem law;
     struct report steps;
     double coat;    /* m: thickness of the top layer; 0: none */
+    double relief;  /* m: from the lowest to the highest node before wear */
     size_t written; /* steps in --steps                      */
 };
 
@@ -234,7 +235,7 @@ suspect_unit(struct run *run, const struct rc_grid *g)
     struct tool *t = &run->d.t;
     const double side = fmax(g->dx * (double)g->nx, g->dy * (double)g->ny);
     const double k = run->law.k[0] + run->law.k[1], scale = k * run->law.estar;
-    char least[SHOWN_NUMBER], most[SHOWN_NUMBER], where[256];
+    char given[SHOWN_NUMBER], usual[SHOWN_NUMBER], where[256];
     double first = INFINITY, last = 0;
 
     for (size_t i = 0; i < args.distance.n; i++) {
@@ -242,22 +243,50 @@ suspect_unit(struct run *run, const struct rc_grid *g)
         last = fmax(last, args.distance.v[i]);
     }
     tool_where(t, g, where, sizeof where);
-    shown_in_unit(least, 0.1 * g->dx / scale, "m");
-    shown_in_unit(most, 10 * side / scale, "m");
     if (last > 0 && scale * last < 0.01 * g->dx)
+        tool_warn(
+            t,
+            "%s: the last distance, %s, hardly changes the contact, which takes about %s: are "
+            "the wear coefficient and the distance in their units?",
+            where, shown_in_unit(given, last, "m"), shown_in_unit(usual, 0.1 * g->dx / scale, "m"));
+    else if (isfinite(first) && scale * first > 1e4 * side)
         tool_warn(t,
-                  "%s: at the last distance hardly anything has changed, which takes about "
+                  "%s: at the first distance, %s, the pressure is even already, which takes about "
                   "%s: are the wear coefficient and the distance in their units?",
-                  where, least);
-    else if (scale * first > 1e4 * side)
-        tool_warn(t,
-                  "%s: at the first distance the pressure is even already, which takes about "
-                  "%s: are the wear coefficient and the distance in their units?",
-                  where, most);
+                  where, shown_in_unit(given, first, "m"),
+                  shown_in_unit(usual, 10 * side / scale, "m"));
+}
+
+/* ---- a worn map ---- */
+
+/* Warns of worn heights that are steep, and of a surface of which nothing is left. `room` has a map for them. */
+static void
+judge_map(struct run *run, struct rc_model *m, struct rc_grid *room)
+{
+    struct drive *d = &run->d;
+    const struct rc_shape shape = rc_grid_shape(room);
+    const double deepest = rc_wear_result(m)->max_wear_depth;
+    double *p = malloc(rc_grid_nodes(room) * sizeof *p);
+    char where[512], worn[SHOWN_NUMBER], span[SHOWN_NUMBER];
+    struct rc_err err = {"out of memory for the pressure"};
+
+    if (p == NULL || rc_model_frame(m, "pressure", p, &err) != RC_OK ||
+        rc_model_frame(m, "height", room->v, &err) != RC_OK)
+        tool_die_at(&d->t, room, EXIT_IMPOSSIBLE, "%s", err.text);
+    drive_where(d, room, where, sizeof where);
+    drive_judge_slope(&d->course, rc_measure_contact_slope(NULL, &shape, room->v, p), where);
+    free(p);
+    if (run->relief > 0 && deepest > run->relief)
+        course_warn(&d->course, "nothing is left of the surface before wear",
+                    "%s: the largest worn depth, %s, is more than the peak-to-valley height of the "
+                    "surface before wear, %s: nothing is left of that surface: end earlier, as "
+                    "with --until area=0.9",
+                    where, shown_in_unit(worn, deepest, "m"),
+                    shown_in_unit(span, run->relief, "m"));
 }
 
 static void
-set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
+set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
 {
     struct run *run = (struct run *)(void *)d;
     const struct rc_wear_figures *f = rc_wear_result(m);
@@ -274,6 +303,7 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     if (rc_grid_set_number(g, "wear_1", run->law.k[0], &err) != RC_OK ||
         rc_grid_set_number(g, "wear_2", run->law.k[1], &err) != RC_OK)
         tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    judge_map(run, m, g);
 }
 
 /* A row of --steps after each step. */
@@ -307,6 +337,9 @@ show_plan(struct run *run, const struct rc_grid *g)
 static void
 do_case(struct run *run, const struct rc_grid *g)
 {
+    static const struct drive_advice free_map[] = {
+        {"edge_load_fraction", "take a larger map, or let it be periodic"}, {NULL, NULL}};
+    static const struct drive_advice periodic[] = {{"edge_load_fraction", NULL}, {NULL, NULL}};
     struct drive *d = &run->d;
     const struct rc_shape shape = rc_grid_shape(g);
     const char *boundary = rc_grid_get(g, "boundary");
@@ -314,6 +347,7 @@ do_case(struct run *run, const struct rc_grid *g)
                                  .history_part = 0.05,
                                  .threads = d->t.threads,
                                  .hurry = tool_signal()};
+    struct rc_statistics before;
     struct layers layers;
     struct rc_err err;
     const double load = key(&d->t, g, "load", "the load");
@@ -324,6 +358,7 @@ do_case(struct run *run, const struct rc_grid *g)
                     "its boundary is '%s': it must be free or periodic, as rc-solve writes it",
                     boundary == NULL ? "" : boundary);
     problem.boundary = boundary[0] == 'p' ? RC_PERIODIC : RC_FREE;
+    d->advice = boundary[0] == 'p' ? periodic : free_map;
     if (layers_read(g, &layers, &err) != RC_OK ||
         bodies_read(g, &layers, &problem.pair, &err) != RC_OK)
         tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -332,6 +367,8 @@ do_case(struct run *run, const struct rc_grid *g)
     run->law.estar = estar_of(&problem.pair);
     run->law.tol = args.tol;
     run->coat = layers.layer != NULL ? layers.layer[0].thickness : 0;
+    rc_measure(&shape, g->v, &before);
+    run->relief = before.maximum - before.minimum;
     run->written = 0;
     for (size_t k = 0; k < d->points; k++)
         rc_point_set(&d->point[k], RC_LOAD, load);
@@ -352,12 +389,17 @@ main(int argc, char **argv)
 {
     static const struct drive_axis axes[] = {
         {RC_DISTANCE, &args.distance}, {RC_LOAD, &args.load}, {0, NULL}};
-    static const struct drive_advice advice[] = {
-        {"edge_load_fraction", "take a larger map, or let it be periodic"}, {NULL, NULL}};
+    static const char *const tells[] = {"contact_fraction",
+                                        "max_pressure",
+                                        "max_wear_depth",
+                                        "wear_volume",
+                                        "steps",
+                                        "convolutions",
+                                        NULL};
     static struct run run = {.d = {.args = &args.drive,
                                    .output = &args.output,
                                    .word = frame_word,
-                                   .advice = advice,
+                                   .tells = tells,
                                    .keys = set_keys,
                                    .course.stepped = put_step}};
     struct rc_grid *g;

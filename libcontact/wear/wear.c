@@ -89,7 +89,7 @@ const struct rc_figure rc_figures_wear[] = {
     {FIGURE(max_wear_depth), "m", "Largest worn depth", .says = "of both bodies together"},
     {FIGURE(mean_wear_depth), "m", "Mean worn depth", .says = "over the whole map"},
     {FIGURE(pressure_spread), NULL, "Spread of the pressure",
-     .says = "RMS of the pressure over its mean in contact, less 1"},
+     .says = "standard deviation of the pressure in contact over its mean"},
     {FIGURE(steps), NULL, "Steps", .role = RC_FIGURE_COST},
     {FIGURE(rejected), NULL, "Rejected steps", .role = RC_FIGURE_COST},
     {FIGURE(contacts), NULL, "Contacts", .role = RC_FIGURE_COST, .says = "solved so far"},

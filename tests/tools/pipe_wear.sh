@@ -89,10 +89,22 @@ near "$(column max_pressure 2 on.tsv)" "$(column max_pressure 2 straight.tsv)" 1
 
 claim "the plan beside explicit steps" says 'explicit steps: about 2.53e.04, each at most 0.9 dx/.k E.. = 39.4737 mm' \
     $wear --dry-run --distance 1km ball.rcg
-claim "a distance at which nothing happens" warns 'hardly anything has changed' \
-    rc-wear --coefficient 1e-6mm3/Nm --distance 1um -o x.rcg ball.rcg
-claim "one after which nothing changes" warns 'even already' \
-    rc-wear --coefficient 1e-6mm3/Nm --distance 1000Mm -o x.rcg pressed.rcg
+loud='rc-wear --coefficient 1e-6mm3/Nm'
+claim "a distance at which nothing happens" warns 'the last distance, 1 um, hardly changes the contact, which takes about 4.38596 mm' \
+    $loud --distance 1um -o x.rcg ball.rcg
+claim "one after which nothing changes" warns 'the first distance, 1e.09 m, the pressure is even already, which takes about 320 m' \
+    $loud --distance 1000Mm -o x.rcg pressed.rcg
+claim "  and nothing is left of the surface" grep -q 'largest worn depth, .*, is more than the peak-to-valley height of the surface before wear, .*--until area' warns.err
+claim "  but a periodic map has no edge" bash -c '! grep -q "edge of the map" warns.err'
+claim "  neither has an usual distance a warning" bash -c "$loud --distance 1m,100m -o x.rcg pressed.rcg 2>usual.err && ! [ -s usual.err ]"
+claim "a scar that reaches the edge of a free map" warns 'share of the load at the edge is .*, above 0.01: .*: take a larger map' \
+    $loud --distance 20km -o x.rcg ball.rcg
+rc-synth selfaffine --nx 32 --ny 32 --dx 1um --hurst 0.8 --rms-slope 1.2 --short-cut 8um --seed 3 |
+    rc-solve --quiet --periodic --load 1mN --estar 1GPa -o steep.rcg
+claim "slopes beyond the theory" warns 'case 1, load 1 mN, distance 1 m: RMS slope 0.[3-9][0-9]* where the bodies touch is beyond the theory of small slopes .0.3.' \
+    $loud --distance 1m -o x.rcg steep.rcg
+claim "--verbose prints the figures of a case" warns 'case 2, load 10 N, distance 1 m: contact fraction 0.024.*, largest worn depth .* nm, worn volume 1e-14 m3, steps ' \
+    rc-wear --verbose --coefficient 1e-6mm3/Nm --distance 0,1m -o x.rcg ball.rcg
 refuses 2 'with its unit, as in 1e-6mm3/Nm.*--archard' "a coefficient without a unit" "rc-wear --coefficient 1e-4 --distance 1m ball.rcg -o x.rcg"
 refuses 2 'each at least 0' "one below 0" "rc-wear --coefficient -1e-6mm3/Nm --distance 1m ball.rcg -o x.rcg"
 refuses 2 'each at least 0' "one that is no number" "rc-wear --coefficient nanmm3/Nm --distance 1m ball.rcg -o x.rcg"

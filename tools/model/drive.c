@@ -177,7 +177,7 @@ kind_of(const struct rc_model *m, const char *name)
 }
 
 static void
-set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g, const struct rc_point *at)
+set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g, const struct rc_point *at)
 {
     struct rc_err err;
     bool fine = rc_grid_set(g, "converged", d->status == RC_OK ? "yes" : "no", &err) == RC_OK &&
@@ -263,9 +263,8 @@ shown(char text[SHOWN_NUMBER], double value, const char *unit)
     return text;
 }
 
-/* "surface.rcg, case 2, load 3 N, time 0.1 s" */
-static void
-say_where(const struct drive *d, const struct rc_grid *g, char *text, size_t size)
+void
+drive_where(const struct drive *d, const struct rc_grid *g, char *text, size_t size)
 {
     const char *source = rc_grid_get(g, "source");
     size_t at = (size_t)snprintf(text, size, "%s, case %zu",
@@ -303,6 +302,36 @@ drive_judge(struct course *c, const struct rc_model *m, const struct drive_advic
                         f->least ? "below" : "above", f->limit, f->warning, a != NULL ? ": " : "",
                         a != NULL ? a->advice : "");
     }
+}
+
+void
+drive_judge_slope(struct course *c, double slope, const char *where)
+{
+    static const double small = 0.3; /* RMS slope: above it the theory of small slopes fails */
+
+    if (slope > small)
+        course_warn(c, "slopes beyond the theory of small slopes",
+                    "%s: RMS slope %.2g where the bodies touch is beyond the theory of small "
+                    "slopes (%g): expect pressures that are too high",
+                    where, slope, small);
+}
+
+/* With --verbose: the figures that the tool names. */
+static void
+tell(struct drive *d, const struct rc_model *m, const char *where)
+{
+    char text[512] = "", value[SHOWN_NUMBER];
+    size_t at = 0;
+
+    for (const char *const *name = d->tells; name != NULL && *name != NULL; name++) {
+        const struct rc_figure *f = rc_figure_find(*name);
+        if (f != NULL && at < sizeof text)
+            at += (size_t)snprintf(text + at, sizeof text - at, "%c%s %s, ",
+                                   tolower((unsigned char)f->title[0]), f->title + 1,
+                                   shown(value, rc_model_number(m, *name), f->unit));
+    }
+    if (at > 0)
+        tool_note(&d->t, "%s: %s%.2g s", where, text, tool_now() - d->began);
 }
 
 static bool
@@ -379,9 +408,10 @@ end_point(struct drive *d, const struct rc_grid *g, struct rc_model *m)
 
     if (rc_model_look(m, &at, &err) != RC_OK)
         tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    say_where(d, g, where, sizeof where);
+    drive_where(d, g, where, sizeof where);
     drive_judge(&d->course, m, d->advice, where);
     judge_end(d, m, where);
+    tell(d, m, where);
     if (d->status != RC_OK)
         tool_fails_with(&d->t, EXIT_SHORT);
     put_frames(d, m, g, &at);

@@ -110,7 +110,8 @@ struct drive {
     const char *(*word)(size_t k); /* its words: names of frames of the model, or "height" */
     /* of the tool; each may be NULL */
     const struct drive_advice *advice;
-    void (*keys)(struct drive *d, const struct rc_model *m, struct rc_grid *frame);
+    const char *const *tells; /* names of figures that --verbose prints; the last is NULL */
+    void (*keys)(struct drive *d, struct rc_model *m, struct rc_grid *frame);
     void (*columns)(struct drive *d, const struct rc_model *m); /* before those of the model */
     /* set by drive_open and drive_case */
     struct report report;
@@ -138,6 +139,10 @@ void drive_check(struct tool *t, const struct drive_args *args);
 /* Warns of figures of the model that are beyond their limits. */
 void drive_judge(struct course *c, const struct rc_model *m, const struct drive_advice *advice,
                  const char *where);
+/* Warns of an RMS slope in contact that is not small. */
+void drive_judge_slope(struct course *c, double slope, const char *where);
+/* "surface.rcg, case 2, load 3 N, time 0.1 s": the point of a warning. */
+void drive_where(const struct drive *d, const struct rc_grid *g, char *text, size_t size);
 
 /* ---- checkpoint.c ---- */
 

@@ -5,9 +5,8 @@
 
 #include <math.h>
 
-static const double linear = 0.1;      /* fraction of E*: above it a solid is not linear elastic */
-static const double small_slope = 0.3; /* RMS slope: above it the theory of small slopes fails */
-static const double no_modulus = 1e5;  /* Pa: lower than E* of any solid */
+static const double linear = 0.1;     /* fraction of E*: above it a solid is not linear elastic */
+static const double no_modulus = 1e5; /* Pa: lower than E* of any solid */
 /* Fewest nodes that resolve a contact on a profile and on a map, and one of its patches. */
 static const size_t fewest_nodes[] = {20, 100};
 static const double fewest_each = 4;
@@ -90,12 +89,7 @@ solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where
                     "%sa smaller load",
                     where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
                     run->yielding.wanted ? "" : "its --hardness, or ");
-    if (s->slope > small_slope)
-        course_warn(
-            &run->course, "slopes beyond the theory of small slopes",
-            "%s: RMS slope %.2g where the bodies touch is beyond the theory of small slopes "
-            "(%g): expect pressures that are too high",
-            where, s->slope, small_slope);
+    drive_judge_slope(&run->course, s->slope, where);
 }
 
 /* ---- beyond the grid ---- */
