@@ -1222,7 +1222,7 @@ struct rc_wear_figures {
     double wear_volume, wear_volume_1,
         wear_volume_2;                      /* m3, of both bodies and of each              */
     double max_wear_depth, mean_wear_depth; /* m, of both bodies together                  */
-    double pressure_spread; /* standard deviation in contact over the mean */
+    double pressure_spread;                 /* standard deviation in contact over the mean */
     size_t steps, rejected, contacts;
     double convolutions;
     /* Estimated: L1 norm of the error of the worn depth over the worn volume; relative L1 error of the
