@@ -617,8 +617,8 @@ count(struct rc_adhesion *a)
 {
     struct retraction *p = &a->pull;
 
-    if (p->search.stage == RC_RETRACTION_COARSE)
-        p->jumps += a->figures.jumps;
+    if (p->search.stage == RC_RETRACTION_COARSE && p->search.states > 0)
+        p->jumps += a->figures.jumps; /* there is no way to the first state */
     p->iterations += a->figures.iterations;
     p->eigen_steps += a->figures.eigen_steps;
     p->convolutions += a->figures.convolutions;
