@@ -171,8 +171,8 @@ RC_API void rc_model_free(struct rc_model *model);
 /* ---- cost before, progress during ---- */
 
 struct rc_expected;
-/* Expected cost of this point, by which the largest point of a history is meant. RC_FAIL when it is
- * impossible. */
+/* Expected cost of this point, by which the largest point of a history is meant; an outer model that does not
+ * know its own cost tells that of its inner model. RC_FAIL when the point is impossible. */
 RC_API enum rc_status rc_model_plan(const struct rc_model *model, const struct rc_point *most,
                                     struct rc_expected *expected, struct rc_err *err);
 

@@ -312,6 +312,9 @@ rc_model_plan(const struct rc_model *m, const struct rc_point *most, struct rc_e
         return RC_FAIL;
     if (m->row->plan != NULL)
         return m->row->plan(m, &next, expected, err);
+    next = rc_point_for(m->inner, &next);
+    if (m->inner != NULL)
+        return rc_model_plan(m->inner, &next, expected, err);
     *expected = (struct rc_expected){NAN, NAN, 0};
     return RC_OK;
 }

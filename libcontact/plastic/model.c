@@ -500,6 +500,18 @@ progress(const struct rc_model *m, struct rc_loops *l)
     }
 }
 
+/* The elastic contact: how much of the volume yields is unknown. */
+static enum rc_status
+plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
+     struct rc_err *err)
+{
+    struct rc_problem contact = ((const struct yielding *)m)->problem.contact;
+
+    contact.load = most->at[RC_LOAD];
+    contact.approach = 0;
+    return rc_solver_expect(&m->shape, &contact, expected, err);
+}
+
 /* ---- states: counts and loads; then for an elastic contact the pressure, or for a volume the thicknesses of
  * its slabs, the state before the load, and the state of the volume ---- */
 
@@ -619,6 +631,7 @@ const struct rc_model_row rc_model_yielding = {
     .state = state,
     .free = release,
     .progress = progress,
+    .plan = plan,
     .solver = solver,
 };
 

@@ -182,8 +182,8 @@ make(const struct kind *kind)
 
 /* ---- a run, as in a tool ---- */
 
-/* Figures of the accuracy, and those that depend on the way to a state or are found to 20 % only. */
-static const char others[] = " kkt_residual pull_off_spread jumps stability ";
+/* Figures of the accuracy. */
+static const char others[] = " kkt_residual pull_off_spread ";
 
 static double near_tol = 1e-6;
 
@@ -191,6 +191,17 @@ static bool
 near(double a, double b, double scale)
 {
     return fabs(a - b) <= near_tol * scale || (isnan(a) && isnan(b));
+}
+
+/* A stability is an eigenvalue to 20 %, at most. A stiff state, whose softest modes are all alike, may show
+ * another of them. */
+static bool
+same_stability(double a, double b)
+{
+    const double stiff = 0.5, bound = 0.2, least = fmin(a, b), most = fmax(a, b);
+
+    return (isnan(a) && isnan(b)) || least > stiff ||
+           (least > 0 && least >= (1 - 2 * bound) * most);
 }
 
 struct found {
@@ -267,8 +278,9 @@ run(const struct kind *kind, struct rc_model *m, int *k, bool going, size_t *lef
     return RC_OK;
 }
 
+/* `stopped`: the run of b was stopped on the way to this point, and counts the jumps from there. */
 static void
-same(const char *what, const struct found *a, const struct found *b)
+same(const char *what, const struct found *a, const struct found *b, bool stopped)
 {
     double most = 0;
 
@@ -276,11 +288,14 @@ same(const char *what, const struct found *a, const struct found *b)
         most = fmax(most, fabs(a->pressure[k]));
     assert_int_equal(a->figures, b->figures);
     for (size_t k = 0; k < a->figures; k++) {
-        const char *unit = a->of[k]->unit;
+        const char *name = a->of[k]->name, *unit = a->of[k]->unit;
         const bool pressure = unit != NULL && strcmp(unit, "Pa") == 0;
-        if (!near(a->figure[k], b->figure[k], pressure ? most : fabs(a->figure[k])))
-            fail_msg("%s: %s is %.10g, was %.10g", what, a->of[k]->name, b->figure[k],
-                     a->figure[k]);
+        const bool alike =
+            strcmp(name, "stability") == 0
+                ? same_stability(a->figure[k], b->figure[k])
+                : near(a->figure[k], b->figure[k], pressure ? most : fabs(a->figure[k]));
+        if (!alike && !(stopped && strcmp(name, "jumps") == 0))
+            fail_msg("%s: %s is %.10g, was %.10g", what, name, b->figure[k], a->figure[k]);
     }
     assert_true(near(a->load, b->load, fabs(a->load)));
     assert_true(near(a->approach, b->approach, fabs(a->approach)));
@@ -303,13 +318,14 @@ resumed(const struct kind *kind, size_t stop)
     struct rc_err err = {""};
     double *v;
     bool going;
-    int k = 0;
+    int k = 0, stopped;
     char what[64];
 
     if (run(kind, m, &k, false, &left, again) == RC_OK) {
         rc_model_free(m);
         return false;
     }
+    stopped = k;
     n = rc_model_state_size(m);
     v = malloc(n * sizeof *v);
     assert_non_null(v);
@@ -324,7 +340,7 @@ resumed(const struct kind *kind, size_t stop)
     rc_model_free(m);
     for (k = 0; k < POINTS; k++) {
         snprintf(what, sizeof what, "%s, %zu steps, point %d", kind->name, stop, k);
-        same(what, &whole[k], &again[k]);
+        same(what, &whole[k], &again[k], k == stopped);
     }
     return true;
 }
@@ -382,7 +398,7 @@ reached(void **state)
         free(v);
         assert_int_equal(steps(other, &left, &err), RC_OK);
         look(other, &one);
-        same(kind->name, &whole[0], &one);
+        same(kind->name, &whole[0], &one, false);
         if (rc_model_keep(other, &err) != RC_OK)
             fail_msg("%s: %s", kind->name, err.text);
         rc_model_free(other);
@@ -417,14 +433,14 @@ forgets(void **state)
         rc_model_state(m, v);
         assert_int_equal(rc_model_run(m, &second, &err), RC_OK);
         look(m, &one);
-        same(kind->name, &whole[1], &one);
+        same(kind->name, &whole[1], &one, false);
         rc_model_free(m);
         if (rc_model_restore(other, v, n, &going, &err) != RC_OK)
             fail_msg("%s: %s", kind->name, err.text);
         free(v);
         assert_int_equal(rc_model_run(other, &second, &err), RC_OK);
         look(other, &one);
-        same(kind->name, &whole[1], &one);
+        same(kind->name, &whole[1], &one, false);
         rc_model_free(other);
     }
 }
@@ -508,6 +524,27 @@ points(void **state)
     for (size_t k = 0; k < RC_AXES; k++)
         assert_true(rc_axis_info(rc_axis_info(k)->partner)->partner == k);
     assert_null(rc_axis_info(RC_AXES));
+}
+
+/* A plan tells a cost; that of an outer model is at least the cost of its inner model. */
+static void
+plans(void **state)
+{
+    (void)state;
+    for (size_t q = 0; q < sizeof kinds / sizeof *kinds; q++) {
+        struct rc_model *m = make(&kinds[q]);
+        const struct rc_point first = point_of(&kinds[q], 0);
+        const struct rc_point of_inner = rc_point_for(m->inner, &first);
+        struct rc_expected e, inner = {0, 0, 0};
+        struct rc_err err = {""};
+        if (rc_model_plan(m, &first, &e, &err) != RC_OK ||
+            (m->inner != NULL && rc_model_plan(m->inner, &of_inner, &inner, &err) != RC_OK))
+            fail_msg("%s: %s", kinds[q].name, err.text);
+        assert_true(e.convolutions >= inner.convolutions && e.convolutions > 1);
+        assert_true(e.seconds >= inner.seconds && e.seconds > 0);
+        assert_true(e.memory >= inner.memory && e.memory > N);
+        rc_model_free(m);
+    }
 }
 
 static void
@@ -597,6 +634,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_rows),   cmocka_unit_test(points),  cmocka_unit_test(stops),
         cmocka_unit_test(reached),    cmocka_unit_test(forgets), cmocka_unit_test(states_of_others),
+        cmocka_unit_test(plans),
 #ifdef RC_TOYS
         cmocka_unit_test(relaxation),
 #endif
