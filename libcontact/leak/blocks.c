@@ -1,8 +1,8 @@
 /*
  * Distinguishes flowing from still fluid: a node lies on a path from inlet to outlet that passes no node
- * twice if it is in one block with an additional face that joins the two (Hopcroft and Tarjan, Commun. ACM
- * 16, 1973, 372). In all other fluid the velocity is exactly zero: dead ends, which are connected through a
- * single node, and enclosed fluid.
+ * twice if it is in one block with an additional face between inlet and outlet (Hopcroft and Tarjan, Commun.
+ * ACM 16, 1973, 372). In all other fluid the velocity is exactly zero: dead ends, which are connected through
+ * a single node, and enclosed fluid.
  *
  * The depth-first search starts at the inlet and first crosses that face to the outlet. low[k] is the
  * earliest node that k and the nodes found below it reach by one face other than that to its parent. A node
@@ -20,7 +20,7 @@ enum {
 
 struct search {
     const struct rc_passage *a;
-    int32_t *found, *low; /* 0: not yet                                         */
+    int32_t *found, *low; /* 0: not found yet */
     int32_t *order;       /* nodes of the map in the order of the search        */
     uint8_t *way;         /* direction to its parent; the next direction to try */
     uint8_t *next;
@@ -42,7 +42,7 @@ find_node(struct search *s, int32_t k, enum rc_direction way)
     s->next[k] = 0;
 }
 
-/* Searches everything connected to node k, which was found from the outlet. */
+/* Searches all nodes connected to node k, which was found from the outlet. */
 static void
 search_from(struct search *s, int32_t k)
 {
@@ -109,7 +109,7 @@ done:
     return status;
 }
 
-/* The still nodes connected to node k, in list from list[0] on, and the pressure that they share. */
+/* Lists the still nodes connected to node k, from list[0] on, and returns their common pressure. */
 static int32_t
 pool_of(const struct rc_passage *a, int32_t k, const struct rc_levels *levels, int32_t *list,
         bool *seen, double *shared)

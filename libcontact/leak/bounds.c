@@ -58,7 +58,7 @@ flowing_beside(const struct rc_passage *a, int32_t k, enum rc_direction d)
     return other < 0 || other >= a->nodes || a->state[other] == RC_FLOWS ? other : -1;
 }
 
-/* The correction of the flow through that face. */
+/* The correction of the flow through the face from node k in this direction. */
 static double
 sent(const struct repair *r, int32_t k, int32_t other, enum rc_direction d)
 {
@@ -94,7 +94,7 @@ set_parents(struct repair *r, const uint8_t *tree)
         }
 }
 
-/* The imbalance of a node is sent to its parent. */
+/* Sends the imbalance of each node to its parent. */
 static void
 send_down(struct repair *r)
 {

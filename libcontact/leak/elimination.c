@@ -28,8 +28,8 @@ struct rc_elimination {
     size_t *start;          /* column j: start[j] .. start[j + 1] - 1                  */
     int32_t *row;           /* increasing; NULL: not yet known                         */
     double *c;              /* conductances                                            */
-    double *in, *out, *sum; /* of column j: to inlet, to outlet, sum of all            */
-    double *work;           /* of the present column, by place; then levels            */
+    double *in, *out, *sum; /* conductances of column j: to inlet, to outlet, sum of all */
+    double *work;           /* the present column, by place; later the levels */
     double *rest;
     size_t *at; /* place in the column of the next node that it contributes to */
     /* the first column that waits for node j; the next one after column k */
@@ -208,7 +208,7 @@ list_rows(struct rc_elimination *e, const struct rc_passage *a)
     for (int32_t i = 0; i < e->n; i++) {
         int32_t list[RC_DIRECTIONS];
         e->at[i] = e->start[i];
-        e->waits[i] = i; /* the last row that contained it */
+        e->waits[i] = i; /* the last row that contained i */
         for (int m = earlier(e, a, i, list); m > 0; m--)
             for (int32_t k = list[m - 1]; e->waits[k] != i; k = e->row[e->start[k]]) {
                 e->row[e->at[k]++] = i;

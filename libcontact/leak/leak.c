@@ -29,7 +29,8 @@ struct rc_leak {
     int threads;
     struct rc_passage a;
     uint8_t *tree;
-    struct rc_levels levels; /* of the passage's nodes; p NAN: none, or unknown */
+    struct rc_levels levels; /* pressures of the nodes of the passage; p NAN: no fluid, or
+                                unknown */
     struct rc_elimination *elimination;
     enum stage stage;
     struct rc_leak_figures figures;
@@ -55,7 +56,7 @@ const struct rc_figure rc_figures_leak[] = {
     {FIGURE(percolates), NULL, "Percolates", .says = "through the edges of cells"},
     {FIGURE(percolates_diagonal), NULL, "Percolates diagonally",
      .says = "through the corners of cells too"},
-    {FIGURE(critical_gap), "m", "Critical gap", .says = "narrowest place of the widest way"},
+    {FIGURE(critical_gap), "m", "Critical gap", .says = "narrowest place of the widest path"},
     {FIGURE(critical_x), "m", "Place of the critical gap along x"},
     {FIGURE(critical_y), "m", "Place of the critical gap along y"},
     {FIGURE(throat_nodes), NULL, "Nodes across the critical gap"},
@@ -83,13 +84,13 @@ check(const struct rc_shape *s, const double *p, const double *g, const struct r
     if (o->direction != 0 && o->direction != 'x' && o->direction != 'y')
         return rc_err_set(err, "a direction of flow is x or y, not '%c'", o->direction);
     if (s->nx * s->ny > INT32_MAX - 2)
-        return rc_err_set(err, "%zu x %zu nodes are more than are counted here: cut the map", s->nx,
-                          s->ny);
+        return rc_err_set(err, "%zu x %zu nodes are more than 32-bit counts allow: cut the map",
+                          s->nx, s->ny);
     for (size_t k = 0; k < s->nx * s->ny; k++)
         if (!isfinite(g[k]) || (p != NULL && !isfinite(p[k])))
-            return rc_err_set(err,
-                              "node (%zu, %zu) has no finite %s: fluid is where both are known",
-                              k % s->nx, k / s->nx, isfinite(g[k]) ? "pressure" : "gap");
+            return rc_err_set(
+                err, "node (%zu, %zu) has no finite %s, but both gap and pressure must be finite",
+                k % s->nx, k / s->nx, isfinite(g[k]) ? "pressure" : "gap");
     return RC_OK;
 }
 
@@ -261,7 +262,7 @@ step_harmonic(struct rc_leak *l, struct rc_err *err)
         if (rc_elimination_run(l->elimination, &l->a, RC_HARMONIC, &f->conductance, err) != RC_OK)
             return RC_FAIL;
         rc_elimination_levels(l->elimination, &l->levels);
-        rc_elimination_free(l->elimination); /* frees memory for the next step */
+        rc_elimination_free(l->elimination); /* the next step needs the memory */
         l->elimination = NULL;
         f->conductance *= size;
     }

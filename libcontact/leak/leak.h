@@ -1,5 +1,5 @@
 /*
- * Flow through a gap as a network: what the files of this folder share. Internal: never installed.
+ * Flow through a gap as a network: declarations for the files of this folder. Internal: never installed.
  *
  * The map is rotated so that the fluid flows along rows, from the inlet before column 0 to the outlet after
  * the last column. Inlet and outlet are two more nodes after those of the map.
@@ -93,7 +93,7 @@ rc_passage_beside(const struct rc_passage *a, int32_t k, enum rc_direction d)
 
 /* The gap between two nodes of gaps a and b: g^3 of the gap in series. */
 enum rc_face_rule {
-    RC_HARMONIC, /* half of the way a, half of it b        */
+    RC_HARMONIC, /* half of the distance with gap a, half with gap b */
     RC_LINEAR    /* a gap that varies linearly from a to b */
 };
 
@@ -137,7 +137,7 @@ enum rc_status rc_ordering(int32_t n, const int32_t *start, const int32_t *row, 
 
 struct rc_elimination;
 
-/* NULL when memory is short, or as rc_ordering. */
+/* NULL if memory is short, or if rc_ordering fails. */
 struct rc_elimination *rc_elimination_new(const struct rc_passage *a, struct rc_err *err);
 /* The conductance from inlet to outlet. RC_FAIL when memory is short. */
 enum rc_status rc_elimination_run(struct rc_elimination *e, const struct rc_passage *a,
@@ -152,7 +152,7 @@ void rc_elimination_free(struct rc_elimination *e); /* NULL is allowed */
 enum rc_status rc_leak_bounds(const struct rc_passage *a, const uint8_t *tree,
                               const struct rc_levels *levels, double *lower, double *upper,
                               struct rc_err *err);
-/* c dP, the flow through a face of conductance c from node k. */
+/* c dP: the flow from node k through a face of conductance c. */
 double rc_leak_driven(const struct rc_passage *a, const struct rc_levels *levels, int32_t k,
                       int32_t other, enum rc_direction d, double *c);
 

@@ -76,7 +76,7 @@ take_in(const struct rc_passage *a, const struct opening *open, size_t n, int32_
     }
 }
 
-/* Whether corners would join inlet and outlet where edges do not. */
+/* True if corners would join inlet and outlet although edges do not. */
 static bool
 joins_by_corners(const struct rc_passage *a, const struct opening *open, size_t n, int32_t *parent)
 {
@@ -145,7 +145,7 @@ rc_percolation(const struct rc_passage *a, struct rc_critical *critical, uint8_t
 
     *critical = (struct rc_critical){.node = -1};
     if (open == NULL || parent == NULL) {
-        rc_err_set(err, "out of memory for the ways through %zu x %zu nodes", a->nx, a->ny);
+        rc_err_set(err, "out of memory for the paths through %zu x %zu nodes", a->nx, a->ny);
         goto done;
     }
     for (int32_t k = 0; k < a->nodes; k++) {

@@ -1,4 +1,4 @@
-/* Tables of figures: their values, and where they are. */
+/* Tables of figures: reads values, and finds figures by name. */
 #include <math.h>
 #include <string.h>
 

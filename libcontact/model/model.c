@@ -73,7 +73,7 @@ rc_point_for(const struct rc_model *m, const struct rc_point *point)
     return p;
 }
 
-/* The next point, where the axes of `to` are given and the others keep their values; each is checked. */
+/* Sets the next point: the given axes of `to`, and the last values of the others. Checks each value. */
 static enum rc_status
 aim(const struct rc_model *m, const struct rc_point *to, struct rc_point *next, struct rc_err *err)
 {
@@ -89,7 +89,7 @@ aim(const struct rc_model *m, const struct rc_point *to, struct rc_point *next, 
         if (isnan(v) || (isinf(v) && !(k == RC_APPROACH && v < 0)))
             return rc_err_set(err, "%s %g: it must be a finite number", a->name, v);
         if (a->rises && rc_point_has(&m->from, k) && v < m->from.at[k])
-            return rc_err_set(err, "%s %g %s: it must be at least that of the point before, %g",
+            return rc_err_set(err, "%s %g %s: it must be at least that of the previous point, %g",
                               a->name, v, a->unit, m->from.at[k]);
         rc_point_set(next, k, v);
     }
@@ -121,7 +121,8 @@ enum rc_status
 rc_model_step(struct rc_model *m, struct rc_err *err)
 {
     if (m->status == RC_FAIL)
-        return rc_err_set(err, "the %s model has no point to go to: its last go failed",
+        return rc_err_set(err,
+                          "the %s model has no next point, because its last rc_model_go failed",
                           m->row->name);
     return m->status != RC_MORE ? m->status : (m->status = m->row->step(m, err));
 }
@@ -136,7 +137,7 @@ rc_model_run(struct rc_model *m, const struct rc_point *to, struct rc_err *err)
     return s;
 }
 
-/* Axes that are found are overwritten outwards: under an outer model the inner one has other heights. */
+/* Outer models overwrite found axes of inner ones, because their heights differ. */
 enum rc_status
 rc_model_look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 {
@@ -164,7 +165,7 @@ rc_model_keep(struct rc_model *m, struct rc_err *err)
 
     if (m->status != RC_OK && m->status != RC_SHORT)
         return rc_err_set(err,
-                          "the point is not reached: only a point that is reached can be kept");
+                          "the point is not reached yet: call rc_model_step before rc_model_keep");
     if (!m->moved)
         return RC_OK;
     if (rc_model_look(m, &at, err) != RC_OK ||
@@ -172,7 +173,8 @@ rc_model_keep(struct rc_model *m, struct rc_err *err)
         return RC_FAIL;
     m->from = m->to;
     m->moved = false;
-    for (int k = 0; k < RC_AXES; k++) /* the next point may give an axis that was found here */
+    for (int k = 0; k < RC_AXES; k++) /* the next point may give an axis that the model has found
+                                         here */
         if (isfinite(at.at[k]) && !(rc_point_has(&m->to, k) && isfinite(m->to.at[k])))
             m->from.at[k] = at.at[k];
     return RC_OK;
@@ -234,9 +236,9 @@ rc_model_name(const struct rc_model *m)
     return m->row->name;
 }
 
-/* ---- figures and frames along the chain, those of inner models first ---- */
+/* ---- figures and frames of a chain of models, inner models first ---- */
 
-/* A name that an outer model has too is the outer one's. */
+/* True if an outer model has a figure of this name, which then hides this one. */
 static bool
 is_outer(const struct rc_model *outer, const struct rc_model *m, const char *name)
 {
@@ -300,7 +302,7 @@ rc_model_frame(struct rc_model *m, const char *name, double *to, struct rc_err *
     return rc_err_set(err, "the %s model has no frame '%s'", m->row->name, name);
 }
 
-/* ---- before and during it ---- */
+/* ---- before and during an iteration ---- */
 
 enum rc_status
 rc_model_plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,

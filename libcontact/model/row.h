@@ -10,28 +10,29 @@
 /* A state is a sequence of numbers. One function of a row counts, writes and reads them. */
 struct rc_state;
 void rc_state_numbers(struct rc_state *s, size_t n, double *v);
-/* The same, of numbers that are finite, in single precision too; a state with others is refused. */
+/* The same for numbers that must be finite, also in single precision; a state with other numbers is
+ * refused. */
 void rc_state_finite(struct rc_state *s, size_t n, double *v);
-/* Such a number, of at least `least`. */
+/* The same for one number of at least `least`. */
 void rc_state_number(struct rc_state *s, double *v, double least);
-/* A size or a yes/no, at most `most`, as one number. */
+/* A size or a boolean, at most `most`, as one number. */
 void rc_state_count(struct rc_state *s, size_t *n, size_t most);
 /* A map: the n nodes of this rank. In a state all maps follow all numbers. Returns the place of the map in a
  * state that is being written, else NULL; v NULL: the caller writes to that place. */
 double *rc_state_map(struct rc_state *s, size_t n, double *v);
-/* Before n numbers are read: whether the state has as many left; if not, the state is refused. */
+/* True if n numbers are left in the state that is being read; otherwise refuses the state. */
 bool rc_state_holds(struct rc_state *s, size_t n);
-/* Whether the state is being read and is not refused. */
+/* True if the state is being read and was not refused. */
 bool rc_state_reads(const struct rc_state *s);
-/* A further model that the row drives beside its inner one. */
+/* Exchanges a further model that the row drives in addition to its inner one. */
 void rc_state_model(struct rc_state *s, struct rc_model *m);
 /* Refuses a state that is being read. `why` is copied: a part of a sentence. */
 void rc_state_refuse(struct rc_state *s, const char *why);
 
-/* A state in memory, of a function that counts, writes and reads; zeroed: none. */
+/* A state in memory, made by a function that counts, writes and reads; zeroed: empty. */
 struct rc_state_copy {
     double *v;
-    size_t n, numbers, maps; /* values; those before the maps; maps */
+    size_t n, numbers, maps; /* n: all values; numbers: values before the maps */
 };
 /* RC_FAIL: memory is short. */
 enum rc_status rc_state_save(struct rc_state_copy *copy, void (*part)(void *of, struct rc_state *s),
@@ -39,7 +40,7 @@ enum rc_status rc_state_save(struct rc_state_copy *copy, void (*part)(void *of, 
 enum rc_status rc_state_load(const struct rc_state_copy *copy,
                              void (*part)(void *of, struct rc_state *s), void *of,
                              struct rc_err *err);
-/* The copy as a part of another state. */
+/* Exchanges the copy as a part of another state. */
 void rc_state_copy(struct rc_state *s, struct rc_state_copy *copy);
 void rc_state_forget(struct rc_state_copy *copy);
 
@@ -49,7 +50,7 @@ enum {
     RC_FRAME_PRESSURE,
     RC_FRAME_GAP,
     RC_FRAME_DISPLACEMENT,
-    RC_CONTACT_FRAMES /* the place of the first frame of its own */
+    RC_CONTACT_FRAMES /* the place of the first frame of the model itself */
 };
 /* clang-format off */
 #define RC_CONTACT_FRAME_KINDS                                                                     \
@@ -67,32 +68,33 @@ struct rc_figure_set {
 
 struct rc_model_row {
     const char *name, *summary;
-    /* Axes: each of `needs`, or its partner, must have a value; all but those of `takes` are refused. */
+    /* Axes: each axis of `needs`, or its partner, must have a value; axes that are not in `takes` are
+     * refused. */
     unsigned needs, takes;
-    /* `go` starts from the last kept point without help; if false, model.c keeps a copy of the state. */
+    /* true: `go` itself returns to the last kept point; false: model.c keeps a copy of the state for that. */
     bool forgets;
     const struct rc_figure_set *figures;
     const struct rc_frame_kind *frame; /* the last has no name */
 
-    /* Sets out from m->from to m->to, which are checked. */
+    /* Starts from m->from towards m->to; both are already checked. */
     enum rc_status (*go)(struct rc_model *m, struct rc_err *err);
     enum rc_status (*step)(struct rc_model *m, struct rc_err *err);
-    /* Fills the figures and the axes of `at` that were found. */
+    /* Fills the figures, and the axes of `at` that the model has found. */
     enum rc_status (*look)(struct rc_model *m, struct rc_point *at, struct rc_err *err);
     enum rc_status (*fill)(struct rc_model *m, size_t frame, double *to, struct rc_err *err);
-    /* The members that a next step depends on. The heights of the undeformed bodies are not among them: an
-     * outer model that sets them, or the compliance, sets them here while it reads, before its inner model
-     * reads. */
+    /* Exchanges the members on which the next step depends. The heights of the undeformed bodies are not
+     * among them: an outer model that sets them, or the compliance, sets them here while it reads, before its
+     * inner model reads. */
     void (*state)(struct rc_model *m, struct rc_state *s);
     void (*free)(struct rc_model *m);
-    /* These may be NULL. keep: after a look. */
+    /* The following functions may be NULL. keep is called after look. */
     enum rc_status (*keep)(struct rc_model *m, struct rc_err *err);
     enum rc_status (*heights)(struct rc_model *m, const double *h, struct rc_err *err);
     enum rc_status (*compliance)(struct rc_model *m, double c, struct rc_err *err);
-    /* After `go`: the iteration starts from this pressure, Pa, which a load (N) belongs to. */
+    /* After `go`: starts the iteration from this pressure, Pa, which carries this load, N. */
     enum rc_status (*start)(struct rc_model *m, double load, const double *p, struct rc_err *err);
-    /* z, Pa: about the change of the pressure with heights that are higher by e, m, under the same load and
-     * contact; after a look. */
+    /* After `look`: z, Pa, is the approximate change of the pressure if the heights grow by e, m, under the
+     * same load and contact. */
     enum rc_status (*respond)(struct rc_model *m, const double *e, double *z, struct rc_err *err);
     void (*progress)(const struct rc_model *m, struct rc_loops *loops);
     enum rc_status (*plan)(const struct rc_model *m, const struct rc_point *most,
@@ -105,22 +107,22 @@ struct rc_model {
     struct rc_shape shape;
     struct rc_model *inner;    /* owned; NULL: none                      */
     struct rc_point from, to;  /* last point kept, with its found axes; next one */
-    enum rc_status status;     /* RC_MORE: on the way                    */
-    bool moved;                /* since the last keep                    */
+    enum rc_status status;     /* RC_MORE: the point is not reached yet */
+    bool moved;                /* true: steps were made since the last keep */
     struct rc_state_copy kept; /* state at the last keep                */
 };
 
-/* For makers: zeroed, of `size` bytes; NULL when memory is short. An outer model owns its inner one from here
- * on, also when it fails; inner NULL, which could not be made: NULL, and *err stays. */
+/* For makers: a zeroed model of `size` bytes; NULL if memory is short. It owns its inner model from now on,
+ * also on failure. If the maker of the inner model failed (inner NULL), returns NULL and keeps *err. */
 struct rc_model *rc_model_make(const struct rc_model_row *row, size_t size,
                                const struct rc_shape *shape, struct rc_err *err);
 struct rc_model *rc_model_make_outer(const struct rc_model_row *row, size_t size,
                                      struct rc_model *inner, struct rc_err *err);
-/* The model of that row in a chain of models; NULL: there is none. */
+/* The model of this row in a chain of models; NULL: there is none. */
 const struct rc_model *rc_model_find(const struct rc_model *m, const struct rc_model_row *row);
-/* The axes of a point that a model or its inner ones take. */
+/* The axes of a point that a model or its inner models take. */
 struct rc_point rc_point_for(const struct rc_model *m, const struct rc_point *point);
-/* The point a part of the way, 0 to 1, from one to another. */
+/* The point at this fraction, 0 to 1, of the path between two points. */
 struct rc_point rc_point_between(const struct rc_point *from, const struct rc_point *to,
                                  double part);
 bool rc_point_has(const struct rc_point *point, enum rc_axis axis);
@@ -128,7 +130,7 @@ bool rc_point_has(const struct rc_point *point, enum rc_axis axis);
 enum rc_status rc_model_respond(struct rc_model *m, const double *e, double *z, struct rc_err *err);
 void rc_loops_add(struct rc_loops *s, const char *what, const char *unit, double at, double of);
 
-/* The state at the last point kept: copied, and restored, which forgets all later steps (state.c). */
+/* Copies the state at the last kept point, and restores it, which forgets all later steps (state.c). */
 enum rc_status rc_model_remember(struct rc_model *m, struct rc_err *err);
 enum rc_status rc_model_recall(struct rc_model *m, struct rc_err *err);
 

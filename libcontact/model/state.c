@@ -1,6 +1,6 @@
 /*
- * The state of a model and its inner ones as numbers, for files and for the copy that is taken at each
- * point kept: how many numbers and maps there are, the numbers, then the maps.
+ * The state of a model and its inner models as numbers, for files and for the copy at each kept point: the
+ * count of numbers and maps, the numbers, then the maps.
  */
 #include "row.h"
 
@@ -20,7 +20,7 @@ struct rc_state {
     const double *from;    /* READS  */
     size_t at, numbers;    /* place of the next number, and where they end     */
     size_t map_at, n;      /* place of the next map, and where they end        */
-    size_t maps, all_maps; /* so far, and of the state that is read            */
+    size_t maps, all_maps; /* maps exchanged so far, and all maps of the state that is read */
     bool bad;              /* the numbers were refused, */
     char why[256];         /* because of this */
 };
@@ -129,7 +129,7 @@ exchange_point(struct rc_state *s, struct rc_point *p)
     rc_state_numbers(s, RC_AXES, p->at);
 }
 
-/* The members of the row, then the inner models. */
+/* Exchanges the members of the row, then the inner models. */
 static void
 exchange_members(struct rc_model *m, struct rc_state *s)
 {
@@ -171,7 +171,8 @@ rc_state_model(struct rc_state *s, struct rc_model *m)
 
     rc_state_numbers(s, 3, head);
     if (rc_state_reads(s) && memcmp(head, own, sizeof own) != 0)
-        rc_state_refuse(s, head[0] != own[0] ? "it is of another model" : "it is of another map");
+        rc_state_refuse(s, head[0] != own[0] ? "it belongs to another model"
+                                             : "it belongs to another map");
     rc_state_count(s, &status, RC_SHORT - RC_FAIL);
     rc_state_count(s, &moved, 1);
     exchange_point(s, &m->from);
@@ -179,7 +180,7 @@ rc_state_model(struct rc_state *s, struct rc_model *m)
     m->status = (enum rc_status)((int)status + RC_FAIL);
     m->moved = moved;
     if (m->moved && !m->row->forgets)
-        rc_state_copy(s, &m->kept); /* without it a restored model could not forget */
+        rc_state_copy(s, &m->kept); /* a restored model needs it for its own later return */
     if (!s->bad)
         exchange_members(m, s);
     if (rc_state_reads(s) && m->moved && m->inner != NULL && m->inner->status == RC_MORE)
@@ -215,7 +216,7 @@ rc_state_load(const struct rc_state_copy *c, void (*part)(void *of, struct rc_st
                          .all_maps = c->maps};
 
     part(of, &s);
-    return !s.bad ? RC_OK : rc_err_set(err, "the point before cannot be restored: %s", s.why);
+    return !s.bad ? RC_OK : rc_err_set(err, "the previous point cannot be restored: %s", s.why);
 }
 
 void

@@ -55,7 +55,7 @@ coarse_nodes(size_t n, size_t s)
     return s == 1 ? n : (n - 1) / s + ORDER;
 }
 
-/* The largest power of 2 for which steps of that many d are at most `spacing` and shorten the axis. */
+/* The largest power of 2 for which so many d are at most `spacing` and the axis becomes shorter. */
 static size_t
 step(size_t n, double d, double spacing)
 {

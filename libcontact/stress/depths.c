@@ -23,7 +23,7 @@
 #include "libcontact/operator/operator.h"
 
 enum {
-    BINS = 400, /* of wave numbers, equal on a logarithmic scale */
+    BINS = 400, /* bins of wave numbers, equal on a logarithmic scale */
     MOST = 2000 /* depths                                        */
 };
 
@@ -101,9 +101,10 @@ collect(const struct rc_shape *s, const double *p, struct bins *b, struct rc_err
 struct shared {
     struct rc_turn turn;
     struct rc_line *along_x, *along_y;
-    double complex *pieces, *columns, *line; /* of rows, of the columns held here; one of each */
+    double complex *pieces, *columns, *line; /* pieces of rows; columns held here; one row or
+                                                column */
     double *part;                            /* a column's real or imaginary part               */
-    double *power;                           /* of all ranks, bin by bin                       */
+    double *power;                           /* power of all ranks, bin by bin */
 };
 
 static void

@@ -39,10 +39,10 @@ struct plan {
     int threads;
     struct rc_line *line;
     struct rc_dct *dct;     /* of a kernel along; NULL when periodic */
-    double complex *source; /* of each map m lines of `waves`; of the waves across, when periodic */
+    double complex *source; /* m lines of `waves` for each map; periodic: the waves across */
     struct pair *pair;
     size_t pairs;
-    size_t kernels;  /* number of kernels with scratch, from the first on */
+    size_t kernels;  /* number of kernels with scratch */
     double *scratch; /* for each thread: a line of each kernel, and its positions or waves */
     size_t scratch_size;
     double complex *sum;      /* `waves` for each part and component */
@@ -97,7 +97,7 @@ sizes(const struct rc_stress_task *t)
     return plan;
 }
 
-/* A map with its rows along the plane. */
+/* Copies a map with its rows along the plane. */
 static void
 transpose(const struct plan *plan, const double *p, double *v)
 {

@@ -25,11 +25,11 @@ struct grid {
     struct rc_fft *fft;
     int threads;
     size_t cx, cy;                          /* of a quarter of a kernel's period                */
-    size_t first_row, rows;                 /* of these rows, those computed here               */
-    size_t first_column, columns;           /* of these columns, those held here                */
+    size_t first_row, rows;                 /* rows computed here */
+    size_t first_column, columns;           /* columns held here */
     double *quarter[RC_STRESS_KERNELS];     /* free: these rows of cx values, transformed in x  */
     double *known;                          /* periodic: `numbers` for each wave, columns of cy */
-    size_t numbers;                         /* that describe a wave at the depth                */
+    size_t numbers;                         /* numbers that describe a wave at the depth */
     struct rc_inside *inside;               /* at the depth                                     */
     double depth;                           /* of all tables above, m                           */
     struct rc_spectrum *spectrum[RC_LOADS]; /* the last ones, one per load                      */
@@ -38,7 +38,7 @@ struct grid {
 
 struct plan {
     struct rc_stress_task task;
-    struct grid *fine, *coarse; /* coarse: that of the last depth that had one; or NULL */
+    struct grid *fine, *coarse; /* coarse: the grid of the last depth that had one; or NULL */
     struct rc_coarse *between;  /* between fine and coarse                              */
     size_t sx, sy;              /* fine nodes per coarse node                           */
     double *field;              /* of one component on the coarse grid                  */
@@ -387,8 +387,8 @@ plan_free(void *at)
     free(plan);
 }
 
-/* Whether there is room for the largest coarser grid, which comes with its depth; `fine`: bytes of the
- * map's. */
+/* Checks that memory suffices for the largest coarser grid, which is made later; `fine`: bytes of the grid of
+ * the map. */
 static enum rc_status
 reserve(const struct rc_stress_task *task, size_t fine, struct rc_err *err)
 {

@@ -1,6 +1,6 @@
 /*
- * The stress due to plastic strain in slabs, added to that of the pressure: one sweep up through the slabs,
- * and one down for all depths.
+ * Adds the stress due to plastic strain in slabs to the stress of the pressure: one sweep up through the
+ * slabs, and one down for all depths.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -74,7 +74,7 @@ strain_row(void *ctx, size_t slab, enum rc_component c, size_t j, double *row)
     return true;
 }
 
-/* Both sweeps. `strained` has an entry for each slab. */
+/* Makes both sweeps. `strained` has an entry for each slab. */
 static void
 sweep(struct rc_strained *p, bool *strained)
 {

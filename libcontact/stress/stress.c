@@ -60,14 +60,14 @@ rc_stress_check(const struct rc_shape *shape, const struct rc_stress_options *o,
     if (type->check(&o->body, RC_INSIDE, err) != RC_OK)
         return RC_FAIL;
     if (type->inside == NULL)
-        return rc_err_set(err, "stresses inside a body that is %s are not known", type->name);
+        return rc_err_set(err, "stresses inside a body that is %s are not implemented", type->name);
     if (!isfinite(o->mu))
         return rc_err_set(err, "friction coefficient %g: it must be finite", o->mu);
     if (o->mu != 0 && (o->traction[0] != NULL || o->traction[1] != NULL))
         return rc_err_set(
             err, "friction coefficient %g and a map of traction: give one or the other", o->mu);
     if (o->wanted == 0 || o->wanted >> RC_STRESSES != 0)
-        return rc_err_set(err, "no stress is wanted, or one that does not exist");
+        return rc_err_set(err, "the requested components are empty or unknown");
     if (!(o->tol >= 0 && o->tol < 1))
         return rc_err_set(err, "tolerance %g: it must be at least 0 and below 1", o->tol);
     if (o->section != 0 && !(fabs(o->at) <= half))

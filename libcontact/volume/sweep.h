@@ -14,7 +14,7 @@ enum {
     RC_SWEEP_STRAINS = 5 /* xx, yy, xy, xz, yz                                 */
 };
 
-/* Waves of equal qx, `length` of them; where they are not alive they are 0. */
+/* `length` waves of equal qx. Waves with alive = 0 are 0. */
 struct rc_sweep_column {
     size_t length;
     double qx;
@@ -29,7 +29,7 @@ struct rc_sweep_slab {
     bool strained, wanted;
     void *strain[RC_SWEEP_STRAINS]; /* stress replaces it; read only if strained */
     void *zz;                       /* scratch for szz; NULL: only deviators */
-    double szz, sxx, syy;           /* a mean: added to the first wave of the column */
+    double szz, sxx, syy;           /* mean stresses, added to the first wave of the column */
 };
 
 /* A depth: the slab that contains it, or the number of slabs if it is below all of them; and the parts of
@@ -43,7 +43,8 @@ struct rc_sweep_place {
  * times the amplitude. */
 struct rc_sweep_ops {
     size_t real_size;
-    /* Waves through n slabs: upwards from below, or downwards from above if `down`. From NULL: none. */
+    /* Moves waves through n slabs: upwards from below, or downwards from above if `down`. `from` NULL: no
+     * waves enter. */
     void (*through)(const struct rc_sweep_column *column, size_t n,
                     const struct rc_sweep_slab *slab, bool down, const void *from, void *to);
     /* At the surface: from upward to downward waves, plus the contribution of p over 2 mu (NULL: none).

@@ -107,7 +107,7 @@ decay(REAL x)
     s = (REAL)(1. / 2.) + r * s;
     s = 1 + r * s;
     s = 1 + r * s;
-    memcpy(&a, &u, sizeof a); /* its last digits hold n */
+    memcpy(&a, &u, sizeof a); /* the last digits of a hold n */
     memcpy(&b, &s, sizeof b);
     b += a << MANTISSA;
     memcpy(&s, &b, sizeof s);
@@ -176,7 +176,7 @@ struct waves {
     REAL w1[BLOCK], w2[BLOCK], w3[BLOCK];
 };
 
-/* Where one half of a slab's numbers lies; for xz and yz it is the other half. */
+/* The addresses of one half of the numbers of a slab; for xz and yz of the other half. */
 struct half {
     REAL sign;
     REAL *xx, *yy, *xy, *xz, *yz, *zz;
@@ -315,7 +315,7 @@ keep(const struct waves *w, size_t length, size_t first, size_t n, bool imaginar
     memcpy(v + 4 * length, w->w3, n * sizeof *v);
 }
 
-/* Both halves of m waves through a slab of this thickness and the strain of `slab`. */
+/* Moves both halves of m waves through a slab of this thickness, with the strain of `slab`. */
 static void
 cross(const struct rc_sweep_column *column, const struct way *way, size_t first, size_t m,
       const struct rc_sweep_slab *slab, double thickness, bool down, struct waves w[2])
@@ -358,7 +358,7 @@ through(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_sl
     }
 }
 
-/* A mean has one wave, whose direction is arbitrary: it stays in its slab. */
+/* The mean is one wave of arbitrary direction, and stays in its slab. */
 static void
 add_mean(const struct rc_sweep_slab *slab)
 {

@@ -18,7 +18,7 @@
 #include "sweep.h"
 
 struct rc_slabs {
-    struct rc_shape shape, here; /* of the whole map; of the rows held here */
+    struct rc_shape shape, here; /* the whole map; the rows held here */
     size_t px, py;               /* nodes of the period: those of the map, or more */
     size_t slabs, groups;
     double *thickness;
@@ -29,16 +29,16 @@ struct rc_slabs {
     const struct rc_sweep_ops *ops;
     size_t length, first, columns; /* waves of a column; columns held here             */
     size_t map;                    /* numbers of a map, as waves or as rows            */
-    double *qy, *alive;            /* of the waves of a column                         */
+    double *qy, *alive;            /* for the waves of a column */
     void *strain;                  /* 5 maps a slab: strain, then stress               */
     void *zz;                      /* whole: a map for each slab of a group            */
-    void *waves;                   /* 3 maps a group: those on top of it               */
+    void *waves;                   /* 3 maps a group: the waves at its top */
     void *down;                    /* slices: 3 maps a group: the downward waves there */
     void *slice;                   /* slices: 6 maps                                   */
-    bool *strained;                /* slabs of the last strain                         */
+    bool *strained;                /* slabs with strain, from the last rc_slabs_up */
     bool *passes;                  /* groups: whether there are waves at its top       */
     double *rows;                  /* single: RC_COMPONENTS rows for each thread       */
-    double mean;                   /* of the pressure, Pa                              */
+    double mean;                   /* mean of the pressure, Pa */
     struct rc_slabs_counts counts;
 };
 
@@ -68,9 +68,10 @@ check(const struct rc_shape *shape, const struct rc_slabs_options *o, struct rc_
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
     if (o->padded && (shape->nx == 1 || shape->ny == 1))
-        return rc_err_set(err, "a profile that does not repeat has no volume of its own");
+        return rc_err_set(err,
+                          "a profile on a free map is not supported: take the periodic boundary");
     if (o->slabs == 0)
-        return rc_err_set(err, "no slabs: a volume has at least one");
+        return rc_err_set(err, "0 slabs: a volume needs at least one");
     if (!(o->shear > 0) || isinf(o->shear))
         return rc_err_set(err, "shear modulus %g Pa: it must be positive and finite", o->shear);
     if (!(o->nu > -1 && o->nu <= 0.5))
@@ -82,7 +83,7 @@ check(const struct rc_shape *shape, const struct rc_slabs_options *o, struct rc_
     return RC_OK;
 }
 
-/* Numbers of a map as waves of this many columns or as rows: the larger. */
+/* The number of values of a map: as waves of so many columns, or as rows if that is larger. */
 static size_t
 map_size(const struct rc_shape *shape, size_t length, size_t columns, size_t rows)
 {
@@ -206,7 +207,7 @@ strain_of(const struct rc_slabs *v, size_t slab, size_t component)
     return map_of(v, v->strain, slab * RC_SWEEP_STRAINS + component);
 }
 
-/* A column of waves in `arrays` arrays. */
+/* The address of column i of waves, with `arrays` arrays a column. */
 static void *
 column_of(const struct rc_slabs *v, void *waves, size_t arrays, size_t i)
 {

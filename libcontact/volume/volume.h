@@ -39,12 +39,12 @@
 
 struct rc_slabs_options {
     size_t slabs;                 /* from the surface down, at least one                */
-    const double *thickness;      /* m, of each; needed by rc_slabs_new alone           */
+    const double *thickness;      /* m, thickness of each slab; only rc_slabs_new needs it */
     double shear, nu;             /* mu, Pa; Poisson's ratio, above -1 and at most 0.5  */
     bool padded;                  /* the map is free: padded                            */
     bool whole;                   /* all six stresses; otherwise deviators, without szz */
     bool slices;                  /* rc_slabs_slice will be called                      */
-    enum rc_precision precision;  /* inside: rows and maps are double on both sides     */
+    enum rc_precision precision;  /* precision of the computation; rows and maps are double */
     size_t threads;               /* 0: all                                             */
     const struct rc_ranks *ranks; /* ranks that share the map; NULL: none               */
 };
@@ -55,7 +55,7 @@ struct rc_slab_strain {
     /* Whether each slab has strain; NULL: all have. Slabs without strain are not read and cost only the
      * passing waves. */
     const bool *strained;
-    /* Writes row j of component c of a slab, nx numbers; or returns false where all are 0. c is never RC_SZZ,
+    /* Writes row j of component c of a slab, nx numbers, or returns false if all are 0. c is never RC_SZZ,
      * which is -exx - eyy. Shears are those of the tensor, half the engineering shears. */
     bool (*row)(void *ctx, size_t slab, enum rc_component c, size_t j, double *row);
     void *ctx;
@@ -64,7 +64,7 @@ struct rc_slab_strain {
 /* Stress, passed by several threads, once per row: all rows of a slab before those of the next, from the
  * surface down. */
 struct rc_slab_stress {
-    const bool *wanted; /* of each slab; NULL: all. Other slabs cost only the passing waves */
+    const bool *wanted; /* for each slab; NULL: all. Other slabs cost only the passing waves */
     /* Row j of a slab: s[c] has nx numbers for each component, and may be overwritten; s[RC_SZZ] is NULL for
      * deviators. */
     void (*row)(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS]);
@@ -93,8 +93,8 @@ void rc_slabs_free(struct rc_slabs *slabs); /* NULL is allowed */
 
 /* u = S' e, m; its mean is 0. u may be NULL. */
 void rc_slabs_up(struct rc_slabs *slabs, const struct rc_slab_strain *strain, double *u);
-/* S p - G e with the strain of the last rc_slabs_up, which is consumed: without another one e is 0. p, Pa,
- * may be NULL: none. */
+/* S p - G e with the strain of the last rc_slabs_up. The call consumes this strain: e is then 0 until the
+ * next rc_slabs_up. p, Pa, may be NULL: no pressure. */
 void rc_slabs_down(struct rc_slabs *slabs, const double *p, const struct rc_slab_stress *stress);
 
 /* Instead of rc_slabs_down: keeps the last strain for any number of slices. */

@@ -9,9 +9,9 @@
  *
  * A step of length t is TR-BDF2 (Bank et al. 1985, IEEE Trans. CAD 4, 436; Hosea and Shampine 1996, Appl.
  * Numer. Math. 20, 21), with g = 2 - sqrt 2, d = g/2, w = sqrt(2)/4. The pressure p_a is that of the heights
- * h - d t k p0, and p1 that of h - w t k (p0 + p_a), both with D = d t k. The heights lose
- * t k (w p0 + w p_a + d p1). The step leaves ripples in the pressure where nodes have just come into contact.
- * Steps of backward Euler in the last part of the way damp them.
+ * h - d t k p0, and p1 that of h - w t k (p0 + p_a), both with D = d t k. The heights lose t k (w p0 + w p_a
+ * + d p1). The step leaves ripples in the pressure where nodes have just come into contact. Steps of backward
+ * Euler in the last part of the distance damp them.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -25,21 +25,22 @@ enum {
     MAPS = 7
 };
 static const double g = 0.58578643762690495, d = 0.29289321881345248, w = 0.35355339059327376;
-static const double third_order = 0.0404; /* local error: this times t^3 k p'' */
+static const double third_order = 0.0404; /* factor of the local error, t^3 k p'' */
 static const double usual_tol = 0.1;
 /* The steps of backward Euler before a point take this part of the distance. Over one of n such steps the
  * pressure changes by at most about 0.1/n of itself; n grows with the inverse of the tolerance. */
 static const double last_part = 0.1, per_tolerance = 0.4;
 static const double fewest = 4;
-static const double of_tol = 0.8; /* part of the tolerance for the steps; contacts have the rest */
+static const double of_tol = 0.8; /* part of the tolerance for the steps; the rest is for the
+                                     contacts */
 /* The estimate of a step misses nodes that come into contact within it: at worst it is 0.8 of the error. */
 static const double caution = 1.5;
 static const double first_step = 0.1; /* dx / (k E*) */
 /* The error of the pressure is about its last change, because backward Euler is of first order; remaining
  * ripples add to it. */
 static const double of_change = 2;
-/* In sides of the map over E*: above this compliance the error of the contact changes the heights more than
- * elasticity does. */
+/* Times the side of the map over E*: above this compliance the error of the contact changes the heights more
+ * than elasticity does. */
 static const double long_step = 1.0 / 3;
 
 enum stage {
@@ -53,21 +54,22 @@ enum stage {
 struct wear {
     struct rc_model base;
     struct rc_wear_problem law;
-    double k; /* 1/Pa: of both bodies */
+    double k; /* 1/Pa: sum of both bodies */
     size_t n;
-    double *h, *worn;        /* heights at the start, and what both bodies have lost       */
+    double *h, *worn;        /* heights at the start, and worn depth of both bodies */
     double *p0, *pa, *p1;    /* pressures of a step                                        */
     double *e, *room;        /* error of a step; heights of the inner model, other numbers */
     size_t stage, last;      /* last: steps of backward Euler since the last point         */
-    double s, end, t, tried; /* m: slid so far, end of the way, next step, step under way  */
-    double error[6];         /* m3: of the worn volume; relative: of p0, of pa, of steps   */
+    double s, end, t, tried; /* m: distance slid, end of the leg, next step, present step */
+    double error[6];         /* m3: error of the worn volume; relative: errors of p0, of pa, of
+                                steps */
     double c;                /* m/Pa: compliance of the last contact                       */
     bool kept;               /* the inner model has kept its contact                     */
-    bool fitted;             /* the heights in contact are those of elasticity           */
+    bool fitted;             /* the heights in contact were replaced by K p minus the shift */
     bool good;               /* all contacts have converged                              */
-    bool met;                /* one of law.until_...                                 */
+    bool met;                /* one of the conditions law.until_... is met */
     bool again;              /* a state was read: its contact must be solved again       */
-    double in_contact;       /* part of the nodes                                     */
+    double in_contact;       /* part of the nodes in contact */
     struct rc_wear_figures f;
 };
 enum { /* of error[] */
@@ -123,7 +125,7 @@ static const struct rc_frame_kind frames[] = {
 
 /* ---- a contact ---- */
 
-/* The load where the bodies have slid by s: between two points it changes in proportion to the distance. */
+/* The load after the sliding distance s: between two points it changes in proportion to the distance. */
 static struct rc_point
 at_distance(const struct wear *v, double s)
 {
@@ -151,7 +153,7 @@ pose(struct wear *v, struct rc_err *err)
                : RC_FAIL;
 }
 
-/* Sets out for the contact of a stage. What yielded in the last step stays. */
+/* Starts the contact of a stage. Plastic dents of the last step stay. */
 static enum rc_status
 contact(struct wear *v, enum stage stage, struct rc_err *err)
 {
@@ -213,7 +215,7 @@ find_figures(struct wear *v)
     v->in_contact = in / (double)v->n;
 }
 
-/* The part of the way to the point that backward Euler takes, m. */
+/* The distance before the point that backward Euler takes, m. */
 static double
 last_way(const struct wear *v)
 {
@@ -226,12 +228,12 @@ last_steps(const struct wear *v)
     return (size_t)ceil(fmax(fewest, per_tolerance / v->law.tol));
 }
 
-/* The longest step that does not go far beyond a condition. The depth grows at most with the largest
+/* The longest step that does not pass far beyond a condition. The depth grows at most with the largest
  * pressure; the other figures grow with the logarithm of the distance. */
 static double
 longest(const struct wear *v)
 {
-    static const double part = 0.25; /* of the distance */
+    static const double part = 0.25; /* part of the remaining distance */
     double most = INFINITY, peak = 0;
 
     if (v->law.until_area > 0 || v->law.until_spread > 0)
@@ -244,7 +246,7 @@ longest(const struct wear *v)
     return most;
 }
 
-/* Sets out for the next step, if there is one. */
+/* Starts the next step, if there is one. */
 static enum rc_status
 set_out(struct wear *v, struct rc_err *err)
 {
@@ -266,7 +268,7 @@ set_out(struct wear *v, struct rc_err *err)
     return contact(v, LAST, err);
 }
 
-/* The way ends where the first condition is met, after the last steps. */
+/* Ends the leg where the first condition is met, after the last steps. */
 static void
 see_conditions(struct wear *v)
 {
@@ -278,8 +280,9 @@ see_conditions(struct wear *v)
         v->end = fmin(v->end, v->s / (1 - last_part));
 }
 
-/* Under a large compliance the tolerance of the contact changes the heights more than elasticity does. The
- * heights in contact become K p less the shift. Their volume stays, because the mean gap is 0 there. */
+/* Under a large compliance the tolerance of the contact changes the heights more than elasticity does. This
+ * replaces the heights in contact by K p minus the shift. Their volume stays, because the mean gap is 0
+ * there. */
 static enum rc_status
 fit(struct wear *v, struct rc_err *err)
 {
@@ -334,7 +337,7 @@ respond(struct wear *v, double *sum, struct rc_err *err)
     return RC_OK;
 }
 
-/* The step by backward Euler, whose local error is t^2 k p'/2. */
+/* Accepts the step of backward Euler, whose local error is t^2 k p'/2. */
 static enum rc_status
 even(struct wear *v, double of_p1, struct rc_err *err)
 {
@@ -378,9 +381,9 @@ judge(struct wear *v, double of_p1, struct rc_err *err)
     for (size_t k = 0; k < v->n; k++)
         v->pa[k] = step * (w * (v->p0[k] + v->pa[k]) + d * v->p1[k]);
     if (v->tried >= v->t ||
-        factor < 1) /* a step cut short at the point does not limit the next one */
+        factor < 1) /* a step shortened to end at the point does not limit the next one */
         v->t = fmax(factor, 1.0 / GROWTH) * v->tried;
-    /* the errors of earlier steps decay as the bodies slide on */
+    /* the errors of earlier steps decay as sliding continues */
     v->error[OF_ALL] = v->error[OF_ALL] * v->s / (v->s + v->tried) + z / sum;
     v->error[REPEATED] = z > 0 ? v->error[OF_ALL] * sum / z : 1;
     if (take(v, v->pa, caution * e + contacts, of_p1, v->error[OF_ALL], err) != RC_OK)
@@ -565,7 +568,7 @@ state(struct rc_model *m, struct rc_state *s)
     v->again = v->stage == REST && m->moved;
     v->fitted = false;
     if (pose(v, &err) != RC_OK)
-        rc_state_refuse(s, "its heights are impossible");
+        rc_state_refuse(s, "its heights are not finite");
 }
 
 static void
@@ -602,7 +605,7 @@ release(struct rc_model *m)
 {
     struct wear *v = (struct wear *)m;
 
-    free(v->h); /* and the maps behind it */
+    free(v->h); /* also frees the maps after it */
 }
 
 const struct rc_model_row rc_model_wear = {

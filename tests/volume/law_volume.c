@@ -331,7 +331,7 @@ refuses(void **state)
     static const struct {
         struct rc_slabs_options o;
         const char *says;
-    } cases[] = {{{.slabs = 0, .thickness = h, .shear = 8e10, .nu = 0.3}, "no slabs"},
+    } cases[] = {{{.slabs = 0, .thickness = h, .shear = 8e10, .nu = 0.3}, "0 slabs"},
                  {{.slabs = 2, .thickness = bad, .shear = 8e10, .nu = 0.3}, "slab 2 is -1e-06 m"},
                  {{.slabs = 2, .thickness = h, .shear = 0, .nu = 0.3}, "shear modulus 0"},
                  {{.slabs = 2, .thickness = h, .shear = NAN, .nu = 0.3}, "shear modulus nan"},
