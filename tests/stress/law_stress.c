@@ -409,9 +409,9 @@ refused(void **state)
     const struct rc_stress_options fine = options(RC_FREE, 0.3, 0.1);
     struct rc_stress_options bad[9];
     static const char *const reason[] = {
-        "Poisson's ratio 0.51", "Poisson's ratio -1",      "friction coefficient inf",
-        "no stress is wanted",  "one that does not exist", "tolerance 1",
-        "tolerance -0.1",       "the map ends at",         "there is no engine 'abacus'"};
+        "Poisson's ratio 0.51", "Poisson's ratio -1", "friction coefficient inf",
+        "components are empty", "empty or unknown",   "tolerance 1",
+        "tolerance -0.1",       "the map ends at",    "there is no engine 'abacus'"};
     double *p = calloc(N, sizeof *p);
     struct rc_err err;
 
