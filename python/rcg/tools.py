@@ -109,7 +109,7 @@ def python_name(option):
 # ---- one run of a tool ----
 
 def execute(command, data=None, timeout=None, progress=False):
-    """Runs a command on a sequence of bytes (None: no input): exit status, output, messages.
+    """Runs a command on a sequence of bytes (None: no input): exit status, output (see _taken), messages.
 
     progress: False; None shows it where a person watches; True always; or a function of a dict with the keys
     progress (the share of the case that is done, or None), tool and text.
@@ -130,7 +130,7 @@ def execute(command, data=None, timeout=None, progress=False):
     for thread in threads + [watch] * (watch is not None):
         thread.start()
     try:
-        output = child.stdout.read()
+        output = _taken(child.stdout)
         child.wait()
     except BaseException:  # Ctrl-C: the tool removes its files when it is asked to end
         child.terminate()
@@ -198,6 +198,25 @@ def _widen(pipe):
         pass
 
 
+class _Stream:
+    """The grid stream that a tool wrote: its frames, or what is wrong with it, and its bytes."""
+
+    def __init__(self, pipe):
+        self.frames, self.bytes, self.error = [], [], None
+        try:
+            self.frames = stream.parse(pipe, self.bytes)
+        except Error as e:
+            self.error = e
+            while pipe.read(PIPE_BYTES):  # to the end of the tool, whose own message says more
+                pass
+
+
+def _taken(pipe):
+    """What a tool writes: a _Stream, or bytes if it is something else."""
+    head = pipe.peek(3)[:3]
+    return _Stream(pipe) if head and b'RCG'.startswith(head) else pipe.read()
+
+
 def _feed(pipe, data):
     _widen(pipe)
     try:
@@ -222,9 +241,11 @@ def _reported(command, data, has_report, timeout=None, progress=False):
 
 
 def _frames_of(tool, output):
-    if output and not output.startswith(b'RCG'):
+    if output and not isinstance(output, _Stream):
         raise Error('the output of %s is no grid stream: run it in a shell' % tool)
-    return stream.loads(output) if output else []
+    if output and output.error is not None:
+        raise output.error
+    return output.frames if output else []
 
 
 # ---- arguments ----
@@ -334,7 +355,8 @@ class Result:
 
     def stream(self):
         """The grid stream for the next tool: the bytes of the tool, until the frames are read and may change."""
-        return [self._output] if self._frames is None else stream.pieces(self._frames)
+        whole = self._frames is None and isinstance(self._output, _Stream) and self._output.error is None
+        return self._output.bytes if whole else stream.pieces(self.frames)
 
     def save(self, file):
         """Writes the grid stream to a file; export() writes other formats."""
@@ -502,7 +524,7 @@ def call(tool, surface=None, operands=(), spacing=None, timeout=None, progress=N
     data = None if surface is None else _data(surface, spacing)
     has_report = any(o['name'] == 'report' for o in row['options'])
     status, output, words, lines = _reported(command, data, has_report, timeout, progress)
-    if row['writes'] != 'stream' or not output.startswith(b'RCG'):
+    if row['writes'] != 'stream' or not isinstance(output, _Stream):
         result = Result(tool, command, frames=[], lines=lines)
     else:
         result = Result(tool, command, output, lines=lines)
