@@ -453,6 +453,11 @@ take_messages(struct run *run, const char *name, enum process_end end, struct pr
     if (p->said != NULL && (end == PROCESS_FAILED || !t->quiet))
         fputs(p->said, stderr);
     if (end == PROCESS_FAILED) {
+        if (strcmp(name, "rc-import") == 0)
+            fprintf(stderr,
+                    "%s: if this file needs options of rc-import, write its grid stream to a "
+                    "file, and make the page of that\n",
+                    info.name);
         whole_files_remove();
         exit(p->status == EXIT_USAGE ? EXIT_USAGE : EXIT_IMPOSSIBLE);
     }

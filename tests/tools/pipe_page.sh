@@ -89,6 +89,7 @@ echo old >old.html
 head -c 1000 brass.txt >cut.txt
 echo 'no number' >>cut.txt
 refuses 1 '^rc-import: .*cut.txt: ' "a file that a tool refuses, in the words of this tool" "rc-report $contact -o old.html cut.txt"
+claim "  with the way out where it needs options of rc-import" grep -q 'rc-report: if this file needs options of rc-import, write its grid stream' refuses.err
 refuses 1 '^rc-[a-z]*: .*--memory allows' "too little memory" "rc-report $contact --memory 100k -o old.html brass.txt"
 claim "  then the old page stays, and no other file" bash -c '[ "$(cat old.html)" = old ] && [ "$(ls old.html* | wc -l)$(ls tmp | wc -l)" = 10 ]'
 
