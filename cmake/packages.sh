@@ -1,5 +1,5 @@
-# Sourced by demo.sh and tests/run.sh: checks that the named packages are installed. On Debian and Ubuntu it
-# installs missing ones; elsewhere it prints what is needed and continues if the build finds it.
+# Checks that the packages for the build are installed: bash cmake/packages.sh. On Debian and Ubuntu it installs
+# missing ones; elsewhere it prints what is needed. demo.sh and tests/run.sh source it and name the packages.
 
 build_packages="gcc libc6-dev make cmake pkg-config libfftw3-dev libgsl-dev libsuitesparse-dev libpng-dev libxml2-dev
     libzip-dev zlib1g-dev libzstd-dev libdeflate-dev libhdf5-dev libtiff-dev libmd-dev libseccomp-dev libpango1.0-dev fonts-dejavu-core"
@@ -45,3 +45,6 @@ EOT
 cores() {
     getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1
 }
+
+# shellcheck disable=SC2086
+[ "${BASH_SOURCE[0]}" != "$0" ] || need_packages $build_packages
