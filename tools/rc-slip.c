@@ -18,6 +18,7 @@ static struct slip_args args = {
     .tol = NAN,
     .coupling = "full",
     .output = (1u << SLIP_STATE) - 1,
+    .drive.interval = 60,
 };
 
 static const char *
@@ -68,14 +69,7 @@ static const struct opt opts[] = {
      .help = "relative L1 error of the tractions (default 1e-4 of the iteration, 0.1 in all)"},
     {.name = "output", .type = OPT_WORDS, AT(output), .words = slip_frame_word, .arg = "LIST",
      .help = "frames to write, of %s (default: all but state)"},
-    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
-     .help = "write one JSON object per case, or a row of FILE.tsv or .csv: figures, accuracy, cost"},
-    {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
-     .help = "store states of the run in FILE, to continue an interrupted run"},
-    {.name = "resume", .type = OPT_FLAG, AT(resume),
-     .help = "continue from the --checkpoint of an earlier run"},
-    {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
-     .help = "print what would be computed, and stop"},
+    {.group = drive_options, AT(drive)},
     {.name = NULL},
 };
 /* clang-format on */
@@ -100,7 +94,7 @@ static const struct tool_info info = {
 static void
 check_arguments(struct slip_run *run)
 {
-    struct tool *t = &run->t;
+    struct tool *t = &run->d.t;
     const struct numbers *along = args.tangential.n > 0 ? &args.tangential : &args.displacement;
 
     if (ranks_count(t) > 1)
@@ -120,8 +114,6 @@ check_arguments(struct slip_run *run)
                  "steps take --path",
                  along == &args.tangential ? "tangential" : "displacement",
                  along == &args.tangential ? "36N,0" : "1um,0");
-    if (args.resume && args.checkpoint == NULL)
-        tool_die(t, EXIT_USAGE, "--resume needs --checkpoint FILE");
     run->args = &args;
     run->coupling = strcmp(args.coupling, "full") == 0      ? RC_COUPLING_FULL
                     : strcmp(args.coupling, "goodman") == 0 ? RC_COUPLING_GOODMAN
@@ -152,18 +144,14 @@ take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
 int
 main(int argc, char **argv)
 {
-    static const double interval = 60; /* s, between states of --checkpoint */
-    static struct slip_run run;
+    static struct slip_run run = {
+        .d = {.args = &args.drive, .output = &args.output, .word = slip_frame_word}};
 
-    tool_start(&run.t, &info, argc, argv, &args);
+    tool_start(&run.d.t, &info, argc, argv, &args);
     check_arguments(&run);
-    report_open(&run.report, &run.t, args.report);
-    run.course.t = &run.t;
-    if (!args.dry_run)
-        run.course.checkpoint = checkpoint_open(&run.t, args.checkpoint, args.resume, interval);
-    tool_catch_signals();
+    drive_open(&run.d, NULL);
     while (tool_interrupted() == 0 &&
-           (run.p = tool_channel_with(&run.t, "pressure", take, &run)) != NULL) {
+           (run.p = tool_channel_with(&run.d.t, "pressure", take, &run)) != NULL) {
         slip_case(&run);
         rc_grid_free(run.p);
         rc_grid_free(run.gap);
@@ -172,7 +160,5 @@ main(int argc, char **argv)
         run.p = run.gap = run.height = run.contact = NULL;
     }
     free(run.given);
-    checkpoint_close(run.course.checkpoint);
-    report_close(&run.report);
-    return tool_finish(&run.t);
+    return drive_close(&run.d);
 }

@@ -72,13 +72,24 @@ drive_open(struct drive *d, const struct drive_axis *axes)
 {
     d->axes = axes;
     drive_check(&d->t, d->args);
-    make_points(d);
+    if (axes != NULL)
+        make_points(d);
     d->course.t = &d->t;
     report_open(&d->report, &d->t, d->args->report);
     if (!d->args->dry_run)
         d->checkpoint =
             checkpoint_open(&d->t, d->args->checkpoint, d->args->resume, d->args->interval);
     tool_catch_signals();
+}
+
+void
+drive_set_number(struct drive *d, struct rc_grid *g, const char *name, double value)
+{
+    struct rc_err err;
+
+    if ((isfinite(value) ? rc_grid_set_number(g, name, value, &err)
+                         : rc_grid_set(g, name, NULL, &err)) != RC_OK)
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
 struct rc_grid *
@@ -99,19 +110,25 @@ drive_close(struct drive *d)
 
 /* ---- what a state of a checkpoint must agree in ---- */
 
-static struct mark *
-add_mark(struct drive *d, const char *name)
+char *
+course_mark(struct course *c, const char *name)
 {
-    struct mark *m = &d->course.mark[d->course.marks++];
+    struct mark *m = &c->mark[c->marks++];
 
-    m->name = name;
-    return m;
+    *m = (struct mark){.name = name};
+    return m->value;
 }
 
-static void
-set_crc(struct mark *m, uint32_t crc)
+void
+course_mark_number(struct course *c, const char *name, double value)
 {
-    snprintf(m->value, sizeof m->value, "%08" PRIx32, crc);
+    rc_number_text(course_mark(c, name), value);
+}
+
+void
+course_mark_crc(struct course *c, const char *name, uint32_t crc)
+{
+    snprintf(course_mark(c, name), sizeof c->mark->value, "%08" PRIx32, crc);
 }
 
 static bool
@@ -133,7 +150,7 @@ mark_case(struct drive *d, const struct rc_grid *g)
     uint32_t all = 0;
 
     d->course.marks = 0;
-    checkpoint_crc(&d->t, g, add_mark(d, "checkpoint.surface")->value);
+    checkpoint_crc(&d->t, g, course_mark(&d->course, "checkpoint.surface"));
     for (size_t k = 0, end; k < n; k = end) {
         const char *value = k + 1 < n ? word[k + 1] : "";
         for (end = k + 1; end < n && strncmp(word[end], "--", 2) != 0; end++)
@@ -144,23 +161,24 @@ mark_case(struct drive *d, const struct rc_grid *g)
             all = rc_crc32_add(all, word[j], strlen(word[j]) + 1);
         if (d->course.marks + 2 < COURSE_MARKS && end == k + 2 &&
             strlen(value) < sizeof d->course.mark->value)
-            strcpy(add_mark(d, word[k] + 2)->value, value);
+            strcpy(course_mark(&d->course, word[k] + 2), value);
     }
-    set_crc(add_mark(d, "checkpoint.options"), all);
+    course_mark_crc(&d->course, "checkpoint.options", all);
 }
 
 static void
-mark_point(struct drive *d)
+mark_point(struct drive *d, struct rc_model *m)
 {
     uint32_t crc = 0;
 
+    (void)m;
     if (d->at > 0)
         d->course.marks--;
     for (size_t k = 0; k <= d->at; k++) {
         crc = rc_crc32_add(crc, &d->point[k].given, sizeof d->point[k].given);
         crc = rc_crc32_add(crc, d->point[k].at, sizeof d->point[k].at);
     }
-    set_crc(add_mark(d, "checkpoint.points"), crc);
+    course_mark_crc(&d->course, "checkpoint.points", crc);
 }
 
 /* ---- frames ---- */
@@ -180,8 +198,14 @@ static void
 set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g, const struct rc_point *at)
 {
     struct rc_err err;
-    bool fine = rc_grid_set(g, "converged", d->status == RC_OK ? "yes" : "no", &err) == RC_OK &&
-                rc_grid_history(g, tool_history(&d->t), &err) == RC_OK;
+    bool fine;
+
+    if (d->all_keys != NULL) {
+        d->all_keys(d, m, g);
+        return;
+    }
+    fine = rc_grid_set(g, "converged", d->status == RC_OK ? "yes" : "no", &err) == RC_OK &&
+           rc_grid_history(g, tool_history(&d->t), &err) == RC_OK;
 
     if (d->points > 1)
         fine = fine && rc_grid_set_number(g, "case", (double)d->course.number, &err) == RC_OK;
@@ -197,9 +221,26 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g, const struct rc
         d->keys(d, m, g);
 }
 
-static void
-put_frames(struct drive *d, struct rc_model *m, const struct rc_grid *g, const struct rc_point *at)
+/* The values of a frame: those of the tool, or of the model, found in the buffer. NULL: there are none. */
+static const double *
+values_of(struct drive *d, struct rc_model *m, struct rc_grid *as, const char *word, double *buffer)
 {
+    const double *own = d->frame != NULL ? d->frame(d, m, as, word) : NULL;
+    struct rc_err err;
+
+    if (own != NULL)
+        return own;
+    if (kind_of(m, word) == NULL)
+        return strcmp(word, "height") == 0 ? d->course.g->v : NULL;
+    if (rc_model_frame(m, word, buffer, &err) != RC_OK)
+        tool_die_at(&d->t, d->course.g, EXIT_IMPOSSIBLE, "%s", err.text);
+    return buffer;
+}
+
+static void
+put_frames(struct drive *d, struct rc_model *m, const struct rc_point *at)
+{
+    const struct rc_grid *g = d->course.g;
     struct rc_err err;
     struct rc_grid *as = rc_grid_like(g, g->channel, g->unit, &err);
     const char *word;
@@ -209,19 +250,18 @@ put_frames(struct drive *d, struct rc_model *m, const struct rc_grid *g, const s
     set_keys(d, m, as, at);
     for (size_t k = 0; (word = d->word(k)) != NULL; k++) {
         const struct rc_frame_kind *kind = kind_of(m, word);
-        struct rc_grid frame = *as; /* as the reader of the stream sees it */
-        if (!(*d->output >> k & 1) || (kind == NULL && strcmp(word, "height") != 0))
+        struct rc_grid frame;
+        const double *v =
+            *d->output >> k & 1 ? values_of(d, m, as, word, d->spare ? g->v : as->v) : NULL;
+        if (v == NULL)
             continue;
-        frame.channel = (char *)word; /* these are only read */
-        if (kind == NULL) {           /* the height */
-            frame.type = g->type;
-            frame.v = g->v;
-        } else if (rc_model_frame(m, word, as->v, &err) != RC_OK) {
-            tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-        } else {
-            frame.unit = (char *)kind->unit;
-            frame.type = strcmp(word, CONTACT_CHANNEL) == 0 ? RC_F32 : RC_F64; /* of 0 and 1 */
-        }
+        frame = *as;                  /* as the reader of the stream sees it */
+        frame.channel = (char *)word; /* this, the unit and the values are only read */
+        frame.unit = kind != NULL ? (char *)kind->unit : as->unit;
+        frame.v = (double *)v;
+        frame.type = kind == NULL                         ? g->type
+                     : strcmp(word, CONTACT_CHANNEL) == 0 ? RC_F32 /* 0 and 1 */
+                                                          : RC_F64;
         tool_write(&d->t, &frame);
     }
     rc_grid_free(as);
@@ -230,15 +270,19 @@ put_frames(struct drive *d, struct rc_model *m, const struct rc_grid *g, const s
 /* ---- report ---- */
 
 static void
-put_row(struct drive *d, const struct rc_model *m, const struct rc_grid *g,
-        const struct rc_point *at)
+put_row(struct drive *d, const struct rc_model *m, const struct rc_point *at)
 {
     struct report *r = &d->report;
 
     if (!report_wanted(r))
         return;
     report_begin(r);
-    report_map(r, g, d->course.number);
+    if (d->row != NULL) {
+        d->row(d, m);
+        report_finish_row(r);
+        return;
+    }
+    report_map(r, d->course.g, d->course.number);
     report_count(r, "threads", d->t.threads, NULL);
     if (d->columns != NULL)
         d->columns(d, m);
@@ -398,54 +442,86 @@ print_plan(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
                 (tool_memory_with(e.memory) >> 20) + 1, e.seconds);
 }
 
-/* What the model found at a point; then the point becomes history. */
+/* Warns of what the model found, in the way of all tools. */
 static void
-end_point(struct drive *d, const struct rc_grid *g, struct rc_model *m)
+judge(struct drive *d, const struct rc_model *m)
 {
-    struct rc_point at;
-    struct rc_err err;
     char where[512];
 
-    if (rc_model_look(m, &at, &err) != RC_OK)
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    drive_where(d, g, where, sizeof where);
+    drive_where(d, d->course.g, where, sizeof where);
     drive_judge(&d->course, m, d->advice, where);
     judge_end(d, m, where);
     tell(d, m, where);
     if (d->status != RC_OK)
         tool_fails_with(&d->t, EXIT_SHORT);
-    put_frames(d, m, g, &at);
-    put_row(d, m, g, &at);
+}
+
+void
+drive_keep(struct drive *d, struct rc_model *m)
+{
+    struct rc_err err;
+
     if (d->status != RC_MORE && rc_model_keep(m, &err) != RC_OK)
-        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&d->t, d->course.g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+/* What the model found at a point; then the point becomes history. */
+static void
+end_point(struct drive *d, struct rc_model *m)
+{
+    struct rc_point at;
+    struct rc_err err;
+
+    if (rc_model_look(m, &at, &err) != RC_OK)
+        tool_die_at(&d->t, d->course.g, EXIT_IMPOSSIBLE, "%s", err.text);
+    d->silent = false;
+    (d->judge != NULL ? d->judge : judge)(d, m);
+    if (!d->silent)
+        put_frames(d, m, &at);
+    if (d->keep != NULL)
+        d->keep(d, m);
+    if (!d->silent)
+        put_row(d, m, &at);
+    if (d->keep == NULL)
+        drive_keep(d, m);
+}
+
+void
+drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m)
+{
+    struct course *c = &d->course;
+
+    c->g = g;
+    d->ended = false;
+    for (d->at = 0; d->at < d->points && !d->ended; d->at++) {
+        if (d->at > 0 && tool_interrupted() != 0)
+            break; /* the first point is written in any case */
+        d->began = tool_now();
+        c->number++;
+        c->checkpoint = d->checkpoint;
+        (d->begin != NULL ? d->begin : mark_point)(d, m);
+        course_set(c, m, &d->point[d->at]);
+        d->setup = tool_now() - d->began;
+        tool_catch_signals(); /* a tool may release them for the first plan */
+        d->status = course_run(c, m);
+        end_point(d, m);
+    }
+    rc_model_free(m);
 }
 
 void
 drive_case(struct drive *d, const struct rc_grid *g, struct rc_model *m, const struct rc_err *err)
 {
-    struct course *c = &d->course;
-
     if (m == NULL)
         tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err->text);
-    c->g = g;
-    c->checkpoint = d->checkpoint;
     if (d->points == 1)
-        c->number = rc_grid_case(g) - 1;
-    if (d->args->dry_run)
+        d->course.number = rc_grid_case(g) - 1;
+    if (d->args->dry_run) {
         print_plan(d, g, m);
-    else
-        tool_demand_memory(&d->t, g, plan_of(d, g, m).memory);
-    mark_case(d, g);
-    d->ended = false;
-    for (d->at = 0; d->at < d->points && !d->ended && !d->args->dry_run; d->at++) {
-        if (d->at > 0 && tool_interrupted() != 0)
-            break;
-        d->began = tool_now();
-        c->number++;
-        mark_point(d);
-        course_set(c, m, &d->point[d->at]);
-        d->status = course_run(c, m);
-        end_point(d, g, m);
+        rc_model_free(m);
+        return;
     }
-    rc_model_free(m);
+    tool_demand_memory(&d->t, g, plan_of(d, g, m).memory);
+    mark_case(d, g);
+    drive_points(d, g, m);
 }

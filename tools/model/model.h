@@ -30,6 +30,8 @@
 #ifndef RC_TOOL_MODEL_H
 #define RC_TOOL_MODEL_H
 
+#include <stdint.h>
+
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 
@@ -70,6 +72,10 @@ struct course {
     struct again again[COURSE_WARNINGS];
 };
 
+/* A further mark: its value, of sizeof struct mark.value bytes, which is empty at first; or a value. */
+char *course_mark(struct course *c, const char *name);
+void course_mark_number(struct course *c, const char *name, double value);
+void course_mark_crc(struct course *c, const char *name, uint32_t crc);
 /* Starts towards a point, from the state of this case in the checkpoint or from the last kept point. */
 void course_set(struct course *c, struct rc_model *m, const struct rc_point *to);
 /* Steps until the point is reached; RC_MORE: a signal came first. */
@@ -113,6 +119,16 @@ struct drive {
     const char *const *tells; /* names of figures that --verbose prints; the last is NULL */
     void (*keys)(struct drive *d, struct rc_model *m, struct rc_grid *frame);
     void (*columns)(struct drive *d, const struct rc_model *m); /* before those of the model */
+    /* Of a tool with more to say, in place of the usual: what comes before a point (marks, plan), warnings,
+     * all keys of the frames, the values of a frame (NULL: those of the model), how a point becomes history,
+     * and the columns of the report. */
+    void (*begin)(struct drive *d, struct rc_model *m);
+    void (*judge)(struct drive *d, const struct rc_model *m);
+    void (*all_keys)(struct drive *d, const struct rc_model *m, struct rc_grid *frame);
+    const double *(*frame)(struct drive *d, struct rc_model *m, struct rc_grid *frame,
+                           const char *word);
+    void (*keep)(struct drive *d, struct rc_model *m);
+    void (*row)(struct drive *d, const struct rc_model *m);
     /* set by drive_open and drive_case */
     struct report report;
     struct course course;
@@ -121,21 +137,30 @@ struct drive {
     struct rc_point *point;
     size_t points, at; /* at: the point that is reached */
     bool ended;        /* set by `keys`: later points of the case are left out */
+    bool silent;       /* set by `judge`: the point has no frames and no row */
+    bool spare;        /* set by the tool: the values of the heights are free for those of frames */
     enum rc_status status;
-    double began, iterated;
+    double began, setup; /* seconds: start of the point; until its first step */
 };
 
-/* Ends the tool where options contradict each other; the lists must have the same length, or one number. */
+/* Ends the tool where options contradict each other; the lists must have the same length, or one number. axes
+ * NULL: the tool makes the points. */
 void drive_open(struct drive *d, const struct drive_axis *axes);
 /* The next height map; NULL: none, or a signal came. */
 struct rc_grid *drive_next(struct drive *d);
 /* Leads the model, which it frees, through the points. m NULL: ends the tool with the error. */
 void drive_case(struct drive *d, const struct rc_grid *g, struct rc_model *m,
                 const struct rc_err *err);
+/* The same without plan and marks: `begin` has them. */
+void drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m);
+/* The point becomes history, unless a signal came first. */
+void drive_keep(struct drive *d, struct rc_model *m);
 /* The exit status of main. */
 int drive_close(struct drive *d);
 /* Ends the tool where --resume or --interval lacks --checkpoint. */
 void drive_check(struct tool *t, const struct drive_args *args);
+/* Sets a key of a frame, or removes it if the number is not finite. */
+void drive_set_number(struct drive *d, struct rc_grid *g, const char *name, double value);
 /* Warns of figures of the model that are beyond their limits. */
 void drive_judge(struct course *c, const struct rc_model *m, const struct drive_advice *advice,
                  const char *where);

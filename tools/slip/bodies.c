@@ -6,7 +6,7 @@
 void
 slip_check_bodies(struct slip_run *run)
 {
-    struct tool *t = &run->t;
+    struct tool *t = &run->d.t;
     int bodies =
         tool_given(t, "E1") + tool_given(t, "nu1") + tool_given(t, "E2") + tool_given(t, "nu2");
     bool rigid = isinf(run->args->e2);
@@ -66,14 +66,14 @@ take_given(struct slip_run *run)
         pair->two = (struct rc_body){.e = a->e2, .nu = a->nu2};
     of_these = 1 / ((1 - a->nu1 * a->nu1) / a->e1 + (rigid ? 0 : (1 - a->nu2 * a->nu2) / a->e2));
     if (rc_grid_number(run->p, "estar", &estar) && !(fabs(of_these / estar - 1) < 1e-9))
-        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                     "its E* is %.9g Pa, but --E1 --nu1 --E2 --nu2 give %.9g Pa: solve the contact "
                     "for these bodies first",
                     estar, of_these);
     if (rc_grid_get(run->p, "e1") != NULL &&
         !(same(run->p, "e1", a->e1, NAN) && same(run->p, "nu", a->nu1, NAN) &&
           same(run->p, "e2", rigid ? 0 : a->e2, 0) && same(run->p, "nu2", rigid ? 0 : a->nu2, 0)))
-        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                     "its bodies differ from --E1 --nu1 --E2 --nu2: leave these options out, or "
                     "solve the contact for these bodies first");
 }
@@ -87,21 +87,21 @@ take_own(struct slip_run *run)
 
     if (rc_grid_number(run->p, "e1", &pair->one.e) && rc_grid_number(run->p, "nu", &pair->one.nu)) {
         if (!isnan(run->args->nu))
-            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+            tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                         "the stream already gives Poisson's ratios: leave out --nu");
         if (rc_grid_get(run->p, "e2") != NULL && (!rc_grid_number(run->p, "e2", &pair->two.e) ||
                                                   !rc_grid_number(run->p, "nu2", &pair->two.nu)))
-            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+            tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                         "its keys e2 and nu2 are not both numbers: solve the contact again");
         return;
     }
     pair->one = (struct rc_body){0};
     if (!rc_grid_number(run->p, "estar", &pair->estar))
-        tool_die_at(&run->t, run->p, EXIT_USAGE,
+        tool_die_at(&run->d.t, run->p, EXIT_USAGE,
                     "E* is not in the stream: give both bodies, --E1 --nu1 --E2 --nu2");
     b->nu = run->args->nu;
     if (isnan(b->nu) && !rc_grid_number(run->p, "nu", &b->nu))
-        tool_die_at(&run->t, run->p, EXIT_USAGE,
+        tool_die_at(&run->d.t, run->p, EXIT_USAGE,
                     "Poisson's ratio is not in the stream: give --nu for bodies of the same "
                     "material, else both bodies, --E1 --nu1 --E2 --nu2");
 }
@@ -111,10 +111,10 @@ slip_find_bodies(struct slip_run *run)
 {
     run->bodies = (struct slip_pair){.nu = 0};
     if (rc_grid_get(run->p, "layers") != NULL)
-        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                     "its body 1 has layers, and rc-slip supports only bodies without layers: solve "
                     "the contact without --layer");
-    if (tool_given(&run->t, "E1"))
+    if (tool_given(&run->d.t, "E1"))
         take_given(run);
     else
         take_own(run);

@@ -1,25 +1,24 @@
 /* A case of rc-slip: solves its corners one after another and writes the frames of each. */
 #include "slip.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "formats/core/core.h"
 
-static const struct {
-    const char *name, *unit;
-} frames[SLIP_FRAMES] = {
-    [SLIP_PRESSURE] = {"pressure", "Pa"},     [SLIP_TRACTION_X] = {"traction-x", "Pa"},
-    [SLIP_TRACTION_Y] = {"traction-y", "Pa"}, [SLIP_SLIP_X] = {"slip-x", "m"},
-    [SLIP_SLIP_Y] = {"slip-y", "m"},          [SLIP_STATE] = {"state", "1"},
-};
-
 const char *
 slip_frame_word(size_t k)
 {
-    return k < SLIP_FRAMES ? frames[k].name : NULL;
+    static const char *const words[] = {[SLIP_PRESSURE] = "pressure",
+                                        [SLIP_TRACTION_X] = "traction-x",
+                                        [SLIP_TRACTION_Y] = "traction-y",
+                                        [SLIP_SLIP_X] = "slip-x",
+                                        [SLIP_SLIP_Y] = "slip-y",
+                                        [SLIP_STATE] = "state",
+                                        [SLIP_FRAMES] = NULL};
+
+    return words[k];
 }
 
 /* ---- the input ---- */
@@ -29,8 +28,8 @@ check_beside(struct slip_run *run, struct rc_grid *g)
 {
     if (g == NULL)
         return;
-    tool_demand_grid_of(&run->t, g, run->p);
-    tool_demand_finite(&run->t, g, "solve the contact again");
+    tool_demand_grid_of(&run->d.t, g, run->p);
+    tool_demand_finite(&run->d.t, g, "solve the contact again");
 }
 
 static void
@@ -39,20 +38,20 @@ check_pressure(struct slip_run *run)
     size_t n = rc_grid_nodes(run->p), pulled = 0, without = 0;
     const struct rc_grid *touch;
 
-    tool_demand_finite(&run->t, run->p, "recompute the map");
+    tool_demand_finite(&run->d.t, run->p, "recompute the map");
     for (size_t k = 0; k < n; k++)
         pulled += run->p->v[k] < 0;
     if (pulled > 0 || rc_grid_get(run->p, "adhesion") != NULL)
-        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                     "it is the net pressure of an adhesive contact, negative at %zu of %zu nodes, "
                     "and friction needs the pressure of the touching nodes alone: solve the "
                     "contact without --adhesion",
                     pulled, n);
-    touch = contact_frame(&run->t, run->p, run->contact);
+    touch = contact_frame(&run->d.t, run->p, run->contact);
     for (size_t k = 0; k < n; k++)
         without += rc_in_contact(run->p->v[k]) && !rc_in_contact(touch->v[k]);
     if (without > 0)
-        tool_die_at(&run->t, run->contact, EXIT_IMPOSSIBLE,
+        tool_die_at(&run->d.t, run->contact, EXIT_IMPOSSIBLE,
                     "%zu nodes have a pressure, but are not in contact according to this frame: "
                     "solve the contact again",
                     without);
@@ -67,10 +66,10 @@ find_boundary(struct slip_run *run)
     bool periodic = own == NULL ? run->args->periodic : strcmp(own, "periodic") == 0;
 
     if (own != NULL && strcmp(own, "free") != 0 && !periodic)
-        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                     "its boundary is '%s': it must be free or periodic", own);
     if (run->args->periodic && !periodic)
-        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                     "its boundary is %s, which contradicts --periodic: leave out --periodic", own);
     run->boundary = periodic ? RC_PERIODIC : RC_FREE;
 }
@@ -84,19 +83,19 @@ check_solvable(struct slip_run *run)
     if (!run->solves)
         return;
     if (run->height == NULL && run->alternates)
-        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                     "its bodies are dissimilar (beta %.3g), so that tractions change the pressure, "
                     "and this needs a height in the same case: keep all frames of rc-solve, or "
                     "take --coupling goodman or none",
                     run->bodies.beta);
     if (run->height == NULL)
-        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                     "the path has loads other than that of the stream, %g N, and these contacts "
                     "need a height in the same case: keep all frames of rc-solve",
                     run->load);
     for (size_t k = 0; k < sizeof more / sizeof *more; k++)
         if (rc_grid_get(run->p, more[k]) != NULL)
-            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+            tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                         "its key %s says that the bodies are not elastic, and rc-slip solves other "
                         "loads for elastic bodies only: use the load of the stream alone%s",
                         more[k], run->alternates ? ", with --coupling goodman" : "");
@@ -105,114 +104,67 @@ check_solvable(struct slip_run *run)
 /* ---- frames ---- */
 
 static void
-set_number(struct slip_run *run, struct rc_grid *g, const char *name, double value)
+set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
 {
-    struct rc_err err;
-
-    if ((isfinite(value) ? rc_grid_set_number(g, name, value, &err)
-                         : rc_grid_set(g, name, NULL, &err)) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-}
-
-static void
-set_keys(struct slip_run *run, struct rc_grid *g, const struct slip_state *s)
-{
+    struct slip_run *run = (struct slip_run *)(void *)d;
+    const struct slip_state *s = &run->state;
     const struct rc_slip_figures *f = &s->figures.slip;
     const char *own = rc_grid_get(g, "converged");
     bool converged = s->converged && (own == NULL || strcmp(own, "no") != 0);
     bool apart = f->stick_nodes + f->slip_nodes == 0;
     struct rc_err err;
 
+    (void)m;
     if (rc_grid_set(g, "converged", converged ? "yes" : "no", &err) != RC_OK ||
         rc_grid_set(g, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free", &err) !=
             RC_OK ||
-        (tool_given(&run->t, "E1") && bodies_set(g, &run->bodies.pair, NULL, &err) != RC_OK) ||
-        rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        (tool_given(&run->d.t, "E1") && bodies_set(g, &run->bodies.pair, NULL, &err) != RC_OK) ||
+        rc_grid_history(g, tool_history(&run->d.t), &err) != RC_OK)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (run->bodies.pair.estar > 0)
-        set_number(run, g, "nu", run->bodies.nu);
+        drive_set_number(d, g, "nu", run->bodies.nu);
     if (run->number != rc_grid_case(run->p))
-        set_number(run, g, "case", (double)run->number);
-    set_number(run, g, "load", f->load);
-    set_number(run, g, "approach", s->figures.approach);
-    set_number(run, g, "friction", run->args->mu);
-    set_number(run, g, "tau_max", run->args->tau_max);
-    set_number(run, g, "tangential_x", f->force[0]);
-    set_number(run, g, "tangential_y", f->force[1]);
-    set_number(run, g, "displacement_x", apart ? NAN : f->displacement[0]);
-    set_number(run, g, "displacement_y", apart ? NAN : f->displacement[1]);
-}
-
-/* Writes the maps one after another from one buffer. */
-static void
-write_frames(struct slip_run *run, struct rc_model *m, const struct slip_state *s)
-{
-    struct rc_err err;
-    struct rc_grid *g = rc_grid_like(run->p, "pressure", "Pa", &err);
-
-    if (g == NULL)
-        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
-    set_keys(run, g, s);
-    for (int k = 0; k < SLIP_FRAMES; k++) {
-        struct rc_grid frame = *g; /* a header as in the input stream */
-
-        if (!(run->args->output >> k & 1))
-            continue;
-        frame.channel = (char *)frames[k].name; /* these are only read */
-        frame.unit = (char *)frames[k].unit;
-        if (rc_model_frame(m, frames[k].name, g->v, &err) != RC_OK)
-            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
-        tool_write(&run->t, &frame);
-    }
-    rc_grid_free(g);
+        drive_set_number(d, g, "case", (double)run->number);
+    drive_set_number(d, g, "load", f->load);
+    drive_set_number(d, g, "approach", s->figures.approach);
+    drive_set_number(d, g, "friction", run->args->mu);
+    drive_set_number(d, g, "tau_max", run->args->tau_max);
+    drive_set_number(d, g, "tangential_x", f->force[0]);
+    drive_set_number(d, g, "tangential_y", f->force[1]);
+    drive_set_number(d, g, "displacement_x", apart ? NAN : f->displacement[0]);
+    drive_set_number(d, g, "displacement_y", apart ? NAN : f->displacement[1]);
 }
 
 /* ---- marks of a checkpoint ---- */
 
 static void
-add_mark(struct course *c, const char *name, double value)
-{
-    c->mark[c->marks].name = name;
-    rc_number_text(c->mark[c->marks++].value, value);
-}
-
-static void
-add_crc(struct slip_run *run, const char *name, const struct rc_grid *g)
-{
-    struct mark *mark = &run->course.mark[run->course.marks++];
-
-    *mark = (struct mark){.name = name};
-    if (g != NULL)
-        checkpoint_crc(&run->t, g, mark->value);
-}
-
-static void
 set_marks(struct slip_run *run)
 {
-    struct course *c = &run->course;
+    struct course *c = &run->d.course;
     uint32_t crc = 0;
 
-    c->g = run->p;
     c->marks = 0;
-    if (c->checkpoint == NULL)
+    if (run->d.checkpoint == NULL)
         return;
-    add_crc(run, "checkpoint.pressure", run->p);
-    add_crc(run, "checkpoint.height", run->height);
-    add_mark(c, "friction", run->law.slip.mu);
-    add_mark(c, "tau_max", run->law.slip.tau_max);
-    add_mark(c, "estar", run->bodies.pair.estar);
-    add_mark(c, "checkpoint.kap", run->bodies.kap);
-    add_mark(c, "checkpoint.beta", run->bodies.beta);
-    add_mark(c, "checkpoint.coupling", run->coupling);
-    add_mark(c, "checkpoint.increments", (double)run->increments);
-    add_mark(c, "checkpoint.tol", run->law.slip.tol);
+    checkpoint_crc(&run->d.t, run->p, course_mark(c, "checkpoint.pressure"));
+    if (run->height != NULL)
+        checkpoint_crc(&run->d.t, run->height, course_mark(c, "checkpoint.height"));
+    else
+        (void)course_mark(c, "checkpoint.height");
+    course_mark_number(c, "friction", run->law.slip.mu);
+    course_mark_number(c, "tau_max", run->law.slip.tau_max);
+    course_mark_number(c, "estar", run->bodies.pair.estar);
+    course_mark_number(c, "checkpoint.kap", run->bodies.kap);
+    course_mark_number(c, "checkpoint.beta", run->bodies.beta);
+    course_mark_number(c, "checkpoint.coupling", run->coupling);
+    course_mark_number(c, "checkpoint.increments", (double)run->increments);
+    course_mark_number(c, "checkpoint.tol", run->law.slip.tol);
     for (size_t k = 0; k < run->corners; k++) {
         const struct slip_corner *to = &run->corner[k];
         const double v[] = {to->load, to->to[0], to->to[1], to->moved};
         crc = rc_crc32_add(crc, v, sizeof v);
     }
-    c->mark[c->marks] = (struct mark){.name = "checkpoint.path"};
-    snprintf(c->mark[c->marks++].value, 16, "%08" PRIx32, crc);
+    course_mark_crc(c, "checkpoint.path", crc);
 }
 
 /* ---- corners ---- */
@@ -231,13 +183,11 @@ approach_of(const struct slip_run *run, const struct slip_state *s)
 
 /* Finds the figures at a corner, the parts of its error, and whether their sum is within the goal. */
 static void
-find_state(struct slip_run *run, struct rc_model *m, struct slip_state *s)
+find_state(struct slip_run *run, const struct rc_model *m, struct slip_state *s)
 {
     struct rc_friction_figures *f = &s->figures;
-    struct rc_err err;
 
-    if (rc_model_look(m, NULL, &err) != RC_OK)
-        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+    s->corner = &run->corner[run->d.at];
     *f = *rc_friction_result(m);
     f->approach = approach_of(run, s);
     s->dissipated_total += f->slip.dissipated;
@@ -260,7 +210,7 @@ new_contact(const struct slip_run *run, double tol, struct rc_err *err)
     const struct rc_shape shape = rc_grid_shape(run->p);
     const struct rc_problem problem = {.boundary = run->boundary,
                                        .pair = run->bodies.pair,
-                                       .threads = run->t.threads,
+                                       .threads = run->d.t.threads,
                                        .tol = run->alternates ? tol / 4 : tol};
 
     return rc_elastic_new(&shape, run->solves ? run->height->v : run->p->v, &problem, NULL, err);
@@ -276,44 +226,56 @@ new_model(struct slip_run *run)
 
     for (size_t j = 0; j < law.fewer && run->alternates; j++)
         if ((law.inner_of_fewer[j] = new_contact(run, tol / 10, &err)) == NULL)
-            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+            tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
     m = rc_friction_new(new_contact(run, tol, &err), run->solves ? run->height->v : NULL, &law,
                         &err);
     if (m == NULL)
-        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
     return m;
+}
+
+static void
+begin(struct drive *d, struct rc_model *m)
+{
+    struct slip_run *run = (struct slip_run *)(void *)d;
+
+    (void)m;
+    run->number += !run->corner[d->at].silent;
+}
+
+static void
+judge(struct drive *d, const struct rc_model *m)
+{
+    struct slip_run *run = (struct slip_run *)(void *)d;
+    struct slip_state *s = &run->state;
+
+    find_state(run, m, s);
+    if (!s->converged)
+        tool_fails_with(&d->t, EXIT_SHORT);
+    d->silent = s->corner->silent && tool_interrupted() == 0;
+    if (!d->silent)
+        slip_judge(run, s);
 }
 
 /* Solves the corners one after another, until a signal comes. */
 static void
 follow(struct slip_run *run)
 {
-    struct rc_model *m = new_model(run);
-    struct slip_state s = {.dissipated_total = 0};
-    struct rc_err err;
+    struct drive *d = &run->d;
 
-    for (size_t k = 0; k < run->corners && tool_interrupted() == 0; k++) {
-        const struct rc_point to = slip_point(&run->corner[k]);
-        const double began = tool_now();
-
-        run->course.number++;
-        run->number += !run->corner[k].silent;
-        s.corner = &run->corner[k];
-        course_set(&run->course, m, &to);
-        (void)course_run(&run->course, m);
-        find_state(run, m, &s);
-        s.seconds = tool_now() - began;
-        if (!s.converged)
-            tool_fails_with(&run->t, EXIT_SHORT);
-        if (tool_interrupted() == 0 && rc_model_keep(m, &err) != RC_OK)
-            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
-        if (run->corner[k].silent && tool_interrupted() == 0)
-            continue;
-        slip_judge(run, &s);
-        write_frames(run, m, &s);
-        slip_report(run, &s);
-    }
-    rc_model_free(m);
+    run->state = (struct slip_state){.dissipated_total = 0};
+    d->begin = begin;
+    d->judge = judge;
+    d->all_keys = set_keys;
+    d->row = slip_report;
+    d->points = run->corners;
+    if ((d->point = malloc(run->corners * sizeof *d->point)) == NULL)
+        tool_die(&d->t, EXIT_IMPOSSIBLE, "out of memory for a path");
+    for (size_t k = 0; k < run->corners; k++)
+        d->point[k] = slip_point(&run->corner[k]);
+    drive_points(d, run->p, new_model(run));
+    free(d->point);
+    d->point = NULL;
 }
 
 /* ---- a case ---- */
@@ -331,7 +293,7 @@ memory_for(const struct slip_run *run)
     const struct rc_problem contact = {.boundary = run->boundary,
                                        .pair = run->bodies.pair,
                                        .load = fmax(run->load, 1),
-                                       .threads = run->t.threads};
+                                       .threads = run->d.t.threads};
     const size_t ways = 1 + run->law.fewer, maps = run->alternates ? 6 * ways : 2;
     const double nodes = (double)rc_grid_nodes(run->p);
     struct rc_expected solver = {0};
@@ -362,10 +324,10 @@ slip_case(struct slip_run *run)
         run->number = rc_grid_case(run->p) - 1;
     set_marks(run);
     slip_judge_plan(run);
-    if (run->args->dry_run) {
+    if (run->args->drive.dry_run) {
         slip_say_plan(run, tool_memory_with(memory_for(run)));
     } else {
-        tool_demand_memory(&run->t, run->p, memory_for(run));
+        tool_demand_memory(&run->d.t, run->p, memory_for(run));
         follow(run);
     }
     free(run->corner);

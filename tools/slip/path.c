@@ -45,7 +45,7 @@ add_corner(struct slip_run *run, const struct slip_corner *c)
     struct slip_corner *more = realloc(run->given, (run->givens + 1) * sizeof *more);
 
     if (more == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory for a path");
+        tool_die(&run->d.t, EXIT_IMPOSSIBLE, "out of memory for a path");
     run->given = more;
     run->given[run->givens++] = *c;
 }
@@ -66,18 +66,18 @@ read_path(struct slip_run *run, const char *path)
     while (*path != '\0') {
         size_t n = strcspn(path, ";");
         if (n >= sizeof part)
-            tool_die(&run->t, EXIT_USAGE, "--path %.40s...: it must be LOAD,FX,FY; ...", path);
+            tool_die(&run->d.t, EXIT_USAGE, "--path %.40s...: it must be LOAD,FX,FY; ...", path);
         memcpy(part, path, n);
         part[n] = '\0';
         path += n + (path[n] == ';');
         if (blank(part))
             continue;
         if (read_corner(part, &c, &err) != RC_OK)
-            tool_die(&run->t, EXIT_USAGE, "--path %s: %s", part, err.text);
+            tool_die(&run->d.t, EXIT_USAGE, "--path %s: %s", part, err.text);
         add_corner(run, &c);
     }
     if (run->givens == 0)
-        tool_die(&run->t, EXIT_USAGE, "--path: it must be LOAD,FX,FY; ..., as in 240N,36N,0");
+        tool_die(&run->d.t, EXIT_USAGE, "--path: it must be LOAD,FX,FY; ..., as in 240N,36N,0");
 }
 
 /* Reads a file of such lines. '#' begins a comment, and a first line of words is a heading. */
@@ -91,24 +91,24 @@ read_history(struct slip_run *run, const char *name)
     size_t number = 0;
 
     if (file == NULL)
-        tool_die(&run->t, EXIT_USAGE, "--history %s: %s", name, strerror(errno));
+        tool_die(&run->d.t, EXIT_USAGE, "--history %s: %s", name, strerror(errno));
     while (fgets(line, sizeof line, file) != NULL) {
         number++;
         if (strchr(line, '\n') == NULL && !feof(file))
-            tool_die(&run->t, EXIT_USAGE, "--history %s: line %zu is too long", name, number);
+            tool_die(&run->d.t, EXIT_USAGE, "--history %s: line %zu is too long", name, number);
         line[strcspn(line, "#\r\n")] = '\0';
         if (blank(line) || (run->givens == 0 && strpbrk(line, "0123456789") == NULL))
             continue;
         if (read_corner(line, &c, &err) != RC_OK)
-            tool_die(&run->t, EXIT_USAGE, "--history %s: line %zu: %s", name, number, err.text);
+            tool_die(&run->d.t, EXIT_USAGE, "--history %s: line %zu: %s", name, number, err.text);
         add_corner(run, &c);
     }
     if (ferror(file))
-        tool_die(&run->t, EXIT_USAGE, "--history %s: %s", name, strerror(errno));
+        tool_die(&run->d.t, EXIT_USAGE, "--history %s: %s", name, strerror(errno));
     fclose(file);
     if (run->givens == 0)
         tool_die(
-            &run->t, EXIT_USAGE,
+            &run->d.t, EXIT_USAGE,
             "--history %s: the file contains no line with load, force along x and force along y",
             name);
 }
@@ -121,7 +121,7 @@ set_history(struct slip_run *run, struct slip_args *args)
     char *text = malloc(most), number[3][RC_NUMBER_SIZE];
 
     if (text == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory for a path");
+        tool_die(&run->d.t, EXIT_IMPOSSIBLE, "out of memory for a path");
     for (size_t k = 0; k < run->givens; k++) {
         const struct slip_corner *c = &run->given[k];
         n += (size_t)snprintf(
@@ -129,9 +129,9 @@ set_history(struct slip_run *run, struct slip_args *args)
             rc_number_text(number[1], c->to[0]), rc_number_text(number[2], c->to[1]));
     }
     args->path = text;
-    for (size_t k = 0; k < run->t.opts; k++)
-        if (strcmp(run->t.opt[k].name, "path") == 0)
-            run->t.given[k] = true;
+    for (size_t k = 0; k < run->d.t.opts; k++)
+        if (strcmp(run->d.t.opt[k].name, "path") == 0)
+            run->d.t.given[k] = true;
 }
 
 void
@@ -143,7 +143,7 @@ slip_read_path(struct slip_run *run, struct slip_args *args)
     if (args->increments != NULL && strcmp(args->increments, "auto") != 0) {
         if (unit_number(args->increments, UNIT_NONE, &n, &err) != RC_OK ||
             !(n >= 1 && n <= 1e6 && n == floor(n)))
-            tool_die(&run->t, EXIT_USAGE,
+            tool_die(&run->d.t, EXIT_USAGE,
                      "--increments %s: it must be auto or a number from 1 to 1000000",
                      args->increments);
         run->increments = (size_t)n;
@@ -209,7 +209,7 @@ law_of(const struct slip_run *run)
                                                  .nu = run->bodies.nu,
                                                  .mu = a->mu,
                                                  .tau_max = isnan(a->tau_max) ? 0 : a->tau_max,
-                                                 .threads = run->t.threads},
+                                                 .threads = run->d.t.threads},
                                         .coupling = run->coupling,
                                         .increments = run->increments,
                                         .known_load = run->load,
@@ -244,7 +244,7 @@ slip_plan_path(struct slip_run *run)
     run->corners = 0;
     run->corner = malloc((run->givens + 2) * sizeof *run->corner);
     if (run->corner == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory for a path");
+        tool_die(&run->d.t, EXIT_IMPOSSIBLE, "out of memory for a path");
     if (run->given == NULL)
         press_and_move(run);
     for (size_t k = 0; k < run->givens; k++) {

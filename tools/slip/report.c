@@ -13,20 +13,20 @@ coupling_of(const struct slip_run *run)
 }
 
 void
-slip_report(struct slip_run *run, const struct slip_state *s)
+slip_report(struct drive *d, const struct rc_model *m)
 {
-    struct report *r = &run->report;
+    const struct slip_run *run = (const struct slip_run *)(const void *)d;
+    const struct slip_state *s = &run->state;
+    struct report *r = &d->report;
     struct rc_friction_figures f = s->figures;
     const struct figures from[] = {{rc_figures("slip"), &f}, {NULL, NULL}};
 
-    if (!report_wanted(r))
-        return;
+    (void)m;
     if (f.slip.stick_nodes + f.slip.slip_nodes == 0)
         f.slip.displacement[0] = f.slip.displacement[1] = NAN;
-    report_begin(r);
     report_map(r, run->p, run->number);
     report_text(r, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free");
-    report_count(r, "threads", run->t.threads, NULL);
+    report_count(r, "threads", run->d.t.threads, NULL);
     report_number(r, "mu", run->args->mu, NULL);
     report_number(r, "tau_max", run->args->tau_max, "Pa");
     report_number(r, "beta", run->bodies.beta, NULL);
@@ -42,10 +42,9 @@ slip_report(struct slip_run *run, const struct slip_state *s)
     errors_report(r, &s->errors);
     report_bool(r, "converged", s->converged);
     report_object(r, "seconds");
-    report_number(r, "total", s->seconds, "s");
+    report_number(r, "total", tool_now() - d->began, "s");
     report_end(r);
     report_memory(r);
-    report_finish_row(r);
 }
 
 /* ---- warnings ---- */
@@ -71,17 +70,18 @@ say_what_is_left(struct slip_run *run, const struct slip_state *s, double most, 
         n = fmax(n, (double)c->leg.increments);
 
     if (isnan(s->traction_error))
-        tool_warn(&run->t, "%s: --increments %zu is too few to estimate the error: take 8, or auto",
-                  where, run->increments);
+        tool_warn(&run->d.t,
+                  "%s: --increments %zu is too few to estimate the error: take 8, or auto", where,
+                  run->increments);
     else if (s->traction_error > most && increments > s->traction_error / 2)
-        tool_warn(&run->t,
+        tool_warn(&run->d.t,
                   "%s: the increments cause an error of %.2g %% of the tractions: take "
                   "--increments %.0f for %.2g %%",
                   where, 100 * increments, fmax(ceil(n * pow(increments / most, 1.1)), 8),
                   100 * most);
     else if (s->traction_error > most || !s->converged)
         tool_warn(
-            &run->t,
+            &run->d.t,
             "%s: the error of the iteration is %.1e of the tractions, above the goal of %.1e: take "
             "--tol %.0e; near sliding give --displacement, which is easier to solve than a force",
             where, s->traction_error - increments, slip_goal(run), slip_goal(run) / 10);
@@ -98,7 +98,7 @@ say_what_yielded(struct slip_run *run, const char *where)
     if (rc_grid_number(run->p, "yield", &limit) ||
         (rc_grid_number(run->p, "hardness", &limit) && most >= limit * (1 - 1e-9)))
         tool_warn(
-            &run->t,
+            &run->d.t,
             "%s: the body has yielded (%s %.4g Pa): rc-slip uses its pressure, but treats the "
             "bodies as elastic, without residual strain and without yield under tractions",
             where, rc_grid_get(run->p, "yield") != NULL ? "yield stress" : "hardness", limit);
@@ -109,17 +109,17 @@ slip_judge_plan(struct slip_run *run)
 {
     char where[256];
 
-    say_what_yielded(run, tool_where(&run->t, run->p, where, sizeof where));
+    say_what_yielded(run, tool_where(&run->d.t, run->p, where, sizeof where));
     if (run->bodies.beta == 0 || run->coupling == RC_COUPLING_FULL)
         return;
     if (run->coupling == RC_COUPLING_NONE)
-        tool_warn(&run->t,
+        tool_warn(&run->d.t,
                   "%s: the bodies are dissimilar (beta %.3g), and --coupling none neglects the "
                   "tangential displacement due to their pressure: on rough surfaces tractions were "
                   "wrong by 16 to 87 %%",
                   where, run->bodies.beta);
     else
-        tool_warn(&run->t,
+        tool_warn(&run->d.t,
                   "%s: the bodies are dissimilar (beta %.3g), and --coupling goodman neglects the "
                   "effect of tractions on the pressure: on rough surfaces tractions were wrong by "
                   "2 to 13 %%, pressures by 1 to 8 %%",
@@ -133,18 +133,18 @@ slip_judge(struct slip_run *run, const struct slip_state *s)
     double force = hypot(f->force[0], f->force[1]);
     char where[320], frame[256];
 
-    tool_where(&run->t, run->p, frame, sizeof frame);
+    tool_where(&run->d.t, run->p, frame, sizeof frame);
     snprintf(where, sizeof where, "%s, at a load of %.6g N and a force of %.6g N", frame, f->load,
              force);
     if (tool_interrupted() != 0)
-        tool_warn(&run->t,
+        tool_warn(&run->d.t,
                   "%s: interrupted on the way to this point: the written frames are not a solution",
                   where);
     else
         say_what_is_left(run, s, fmin(coarse, slip_goal(run)), where);
     if (!s->corner->moved && force > near_sliding * f->limit && f->limit > 0)
         tool_warn(
-            &run->t,
+            &run->d.t,
             "%s: the force is %.6g of the friction limit, where the displacement grows without "
             "bound and is sensitive to errors of the pressure: give --displacement instead",
             where, force / f->limit);
@@ -165,12 +165,12 @@ expected_passes(const struct slip_run *run)
 void
 slip_say_plan(struct slip_run *run, size_t memory)
 {
-    FILE *out = run->t.out;
+    FILE *out = run->d.t.out;
     const struct slip_pair *b = &run->bodies;
     char where[256];
 
     fprintf(out, "%s: %zu x %zu nodes, %s boundary\n",
-            tool_where(&run->t, run->p, where, sizeof where), run->p->nx, run->p->ny,
+            tool_where(&run->d.t, run->p, where, sizeof where), run->p->nx, run->p->ny,
             run->boundary == RC_PERIODIC ? "periodic" : "free");
     if (b->beta == 0)
         fprintf(out,

@@ -20,9 +20,10 @@ enum slip_frame { /* in the order of the words of --output */
 struct slip_args {
     double mu, tau_max, nu, e1, nu1, e2, nu2, tol;
     struct numbers tangential, displacement; /* N, m */
-    const char *path, *history, *increments, *coupling, *report, *checkpoint;
+    const char *path, *history, *increments, *coupling;
     size_t output; /* bits of enum slip_frame */
-    bool periodic, resume, dry_run;
+    bool periodic;
+    struct drive_args drive;
 };
 
 /* A corner of a path. The path to it is straight. */
@@ -47,20 +48,17 @@ struct slip_state {
     double dissipated_total;   /* J, since the start of the path */
     struct error_parts errors; /* parts of the error of the tractions */
     double traction_error;     /* their sum; NAN: unknown        */
-    double seconds;
     bool converged;
 };
 
 struct slip_run {
-    struct tool t;
-    struct report report;
+    struct drive d;
     const struct slip_args *args;
     struct slip_corner *given; /* --path, --history; NULL: neither */
     size_t givens;
     size_t increments; /* 0: auto */
     enum rc_coupling coupling;
     size_t number; /* number of the written case */
-    struct course course;
     /* frames of the input case; gap and height may be NULL */
     struct rc_grid *p, *gap, *height, *contact;
     struct slip_pair bodies;
@@ -68,6 +66,7 @@ struct slip_run {
     double load; /* N, load of the pressure in the stream */
     struct slip_corner *corner;
     size_t corners;
+    struct slip_state state; /* of the corner that was reached last */
     struct rc_friction_problem law;
     bool coupled;    /* the pressure moves the bodies along each other  */
     bool alternates; /* tractions change the pressure too               */
@@ -101,7 +100,8 @@ double slip_goal(const struct slip_run *run);
 /* Warnings printed before the run. */
 void slip_judge_plan(struct slip_run *run);
 void slip_judge(struct slip_run *run, const struct slip_state *s);
-void slip_report(struct slip_run *run, const struct slip_state *s);
+/* A row of the report, for tools/model. */
+void slip_report(struct drive *d, const struct rc_model *m);
 /* Prints the plan; memory: bytes. */
 void slip_say_plan(struct slip_run *run, size_t memory);
 
