@@ -1203,6 +1203,54 @@ RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
 /* The figures of this model, after rc_model_look; NULL: it has no friction. */
 RC_API const struct rc_friction_figures *rc_friction_result(const struct rc_model *model);
 
+/* ---- steady rolling as a model ---- */
+
+/* The contact rolls towards +x, steadily: at each node tractions and slip are the same at all times. Body 2 moves
+ * over body 1 by (creep_x - spin y, creep_y + spin x) per length rolled, x and y from the middle of the map; this
+ * is minus the creepage of railway textbooks, where body 1 moves over body 2. */
+struct rc_rolling_problem {
+    /* Friction and bodies, under the free boundary. Pressure moves dissimilar bodies along each other, unless
+     * `uncoupled`; tractions do not change the pressure. tol 0: 1e-3; max_steps of each grid. */
+    struct rc_slip_problem slip;
+    bool
+        force; /* points give the forces RC_FORCE_X, RC_FORCE_Y, and RC_CREEP_X, RC_CREEP_Y are found */
+    /* A known contact: its load (N) and pressure (nx ny, Pa), which the caller keeps; NULL: the inner model
+     * solves it. */
+    double known_load;
+    const double *known_p;
+};
+struct rc_rolling_figures {
+    double load, limit;             /* N: normal; the largest that friction can carry         */
+    double creep[2], spin;          /* per length rolled: 1; rad/m                            */
+    double force[2], moment;        /* N, on body 1; N m, about the middle of the map         */
+    size_t stick_nodes, slip_nodes; /* of the nodes that carry load                    */
+    double stick_fraction;          /* share of the nodes that carry load                     */
+    double power;                   /* J/m: tractions times the motion of the bodies          */
+    double power_slip;              /* J/m: tractions times slip; the grid loses the rest     */
+    /* Extrapolated from the two finest grids to a spacing of 0; NAN: too few nodes along x. */
+    double extrapolated_creep[2], extrapolated_force[2], extrapolated_moment;
+    /* N: Kalker's linear theory for the ellipse of the same area and second moments; NAN: its semi-axes have a
+     * ratio beyond 0.1 to 10. */
+    double kalker_force[2];
+    /* Estimated relative errors: L1, of the tractions on this grid; of the force due to the spacing, or of the
+     * creepage if the force is given (NAN: unknown). */
+    double traction_error, discretization_error;
+    size_t steps, fallbacks; /* of Newton's method; steps in time, where it fails      */
+    double convolutions;     /* with those of the contact                              */
+    bool converged;          /* traction_error <= tol                                  */
+};
+/* A model (model.h) of steady rolling over an inner one of the same bodies, which it owns from here on; NULL
+ * where that is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or two forces, and
+ * RC_SPIN (0 if it is never given). Frames: pressure, traction-x, traction-y (Pa), slip-x, slip-y (per length
+ * rolled), state (as in rc_slip_state). RC_FAIL on the way where no node is in contact, where the contact reaches
+ * the last column, the leading edge, or where friction cannot carry the force. Sources: Kalker 1990, Three-dimensional
+ * elastic bodies in rolling contact; Newton's method as in libcontact/slip/steady.c. */
+RC_API struct rc_model *rc_rolling_new(struct rc_model *inner,
+                                       const struct rc_rolling_problem *problem,
+                                       struct rc_err *err);
+/* The figures of this model, after rc_model_look; NULL: it does not roll. */
+RC_API const struct rc_rolling_figures *rc_rolling_result(const struct rc_model *model);
+
 /* ---- wear as a model ---- */
 
 struct rc_wear_problem {

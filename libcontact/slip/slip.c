@@ -397,9 +397,9 @@ rc_slip_beta(const struct rc_slip *s)
 
 /* ---- plan ---- */
 
-static enum rc_status
-check(const struct rc_shape *shape, const struct rc_slip_problem *p, struct rc_shear *shear,
-      struct rc_err *err)
+enum rc_status
+rc_slip_check(const struct rc_shape *shape, const struct rc_slip_problem *p, struct rc_shear *shear,
+              struct rc_err *err)
 {
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
@@ -442,7 +442,7 @@ rc_slip_new(const struct rc_shape *shape, const struct rc_slip_problem *p, struc
     struct rc_shape unit;
     struct rc_slip *s;
 
-    if (check(shape, p, &shear, err) != RC_OK)
+    if (rc_slip_check(shape, p, &shear, err) != RC_OK)
         return NULL;
     s = calloc(1, sizeof *s);
     if (s == NULL) {

@@ -17,6 +17,14 @@ void rc_slip_start(struct rc_slip *slip, const double *const q[2]);
 void rc_slip_history(struct rc_slip *slip, struct rc_state *state);
 void rc_slip_increment(struct rc_slip *slip, struct rc_state *state);
 
+/* Checks a problem of friction, and finds the shear of its bodies. */
+enum rc_status rc_slip_check(const struct rc_shape *shape, const struct rc_slip_problem *p,
+                             struct rc_shear *shear, struct rc_err *err);
+
+/* Coefficients C11, C22, C23 of an ellipse: a/b, with a along x, and Poisson's ratio. NAN beyond 0.1 to 10, or
+ * where nu is not in 0 to 0.5. */
+void rc_kalker(double ratio, double nu, double c[3]);
+
 /* ---- increments.c ---- */
 
 /* The number of increments of a way with half (1) or a quarter (2) of them. */

