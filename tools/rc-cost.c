@@ -217,8 +217,7 @@ tell_results(struct costs *run, struct cost_case *c)
         if (c->trial[k].optimistic) {
             char name[128];
             tool_warn(&run->t, "%s: the estimate %.1e is below the true error %.1e",
-                      cost_name(name, &c->trial[k]), c->trial[k].figure[COST_ESTIMATE],
-                      c->trial[k].figure[COST_ERROR]);
+                      cost_name(name, &c->trial[k]), c->trial[k].is.estimate, c->trial[k].is.error);
         }
     if (run->t.report_alone)
         return;

@@ -15,28 +15,11 @@
 
 /* ---- figures ---- */
 
-enum cost_figure { /* in the order of the report */
-    COST_INCREMENTS,
-    COST_SLABS,
-    COST_APPLICATIONS,
-    COST_COHESIVE,
-    COST_SECONDS,
-    COST_RUNS,
-    COST_COARSE_DEPTHS,
-    COST_CONVOLUTIONS,
-    COST_MEMORY,
-    COST_ITERATIONS,
-    COST_ESTIMATE,
-    COST_ERROR,
-    COST_AREA_ERROR,
-    COST_PEAK_ERROR,
-    COST_APPROACH_ERROR,
-    COST_RMS_ERROR,
-    COST_MISES_ERROR,
-    COST_FLOW,
-    COST_FLOW_ERROR,
-    COST_FLOW_SECONDS,
-    COST_FIGURES
+struct cost_figures { /* NAN: unknown */
+    double increments, slabs, applications, cohesive_nodes, seconds, runs, coarse_depths;
+    double convolutions, memory, iterations, estimate, error, contact_area_error;
+    double max_pressure_error, approach_error, rms_error, mises_error, flow_conductance;
+    double flow_error, flow_seconds;
 };
 
 enum { /* subjects of a trial and of a case */
@@ -49,14 +32,16 @@ enum { /* subjects of a trial and of a case */
 
 /* A figure: its source and its format. */
 struct cost_column {
-    const char *key, *unit;    /* in rc-cost's report                           */
-    unsigned of;               /* bits: its subjects                            */
-    const char *from;          /* its key in the report of the tool; NULL: none */
-    bool relative;             /* relative difference from the reference        */
-    const char *head, *format; /* in the table; NULL: not in the table */
-    double scale;              /* factor in the table; 0: 1 */
+    struct rc_figure figure;   /* in rc-cost's report; without a name: the end        */
+    unsigned of;               /* bits: its subjects                                  */
+    const char *head, *format; /* in the table; NULL: not in the table                */
+    const char *from;          /* its key in the report of the tool; NULL: none       */
+    bool relative;             /* relative difference from the reference              */
+    bool early;                /* known before the run                                */
+    double scale;              /* divides it in the table; 0: 1                       */
 };
-extern const struct cost_column cost_columns[COST_FIGURES];
+extern const struct cost_column cost_columns[];
+double *cost_value(const struct cost_column *column, struct cost_figures *figures);
 
 /* ---- trials.c: the list of trials ---- */
 
@@ -82,7 +67,7 @@ struct cost_trial {
     enum cost_state state;
     char why[256];
     double expected; /* s, before the run */
-    double figure[COST_FIGURES];
+    struct cost_figures is;
     bool converged;
     bool front;      /* no other trial is both faster and more accurate */
     bool optimistic; /* its estimated error is below its error by more than 1 % */
@@ -112,7 +97,7 @@ struct cost_case {
     char *stressed;           /* the report of the most accurate stresses, or NULL */
     double base_slabs;        /* slabs by default of rc-solve; NAN: not known yet */
     struct cost_trial *trial; /* of pressures, then of stresses */
-    size_t pressures, trials;
+    size_t pressures, trials, room;
     /* files: the map, and the map with 1/2, 1/4, 1/8 of its nodes a side; -1: not made */
     int grid[4];
     int solution, output; /* files: solution of the reference, output of the last trial */

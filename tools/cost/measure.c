@@ -185,18 +185,19 @@ distance(size_t n, const double *p, const double *truth)
 static void
 take(const struct cost_case *c, struct cost_trial *m, const char *report, bool leak)
 {
-    for (size_t k = 0; k < COST_FIGURES; k++) {
-        const struct cost_column *col = &cost_columns[k];
+    for (const struct cost_column *col = cost_columns; col->figure.name != NULL; col++) {
         double value;
 
         if (col->from == NULL || !(col->of & m->about) || (col->of == COST_LEAK) != leak)
             continue;
         value = cost_number(report, col->from);
         if (col->relative && !m->reference)
-            value = value / (leak ? c->reference.figure[COST_FLOW]
+            value = value / (leak ? c->reference.is.flow_conductance
                                   : cost_number(c->solved, col->from)) -
                     1;
-        m->figure[k] = col->relative && m->reference ? 0 : isnan(value) ? NAN : value; /* no sign */
+        *cost_value(col, &m->is) = col->relative && m->reference ? 0
+                                   : isnan(value)                ? NAN
+                                                                 : value; /* no sign */
     }
 }
 
@@ -256,7 +257,7 @@ leak(struct cost_case *c, struct cost_trial *m, double allowed, const char *name
 static bool
 keep(struct cost_case *c, struct cost_trial *m)
 {
-    const double before = m->figure[COST_SECONDS];
+    const double before = m->is.seconds;
     double seconds = (m->about & COST_STRESS)
                          ? cost_number(c->said, "setup") + cost_number(c->said, "slices")
                          : seconds_of(c->said);
@@ -264,13 +265,13 @@ keep(struct cost_case *c, struct cost_trial *m)
     if (isnan(seconds))
         return false;
     take(c, m, c->said, false);
-    m->figure[COST_SECONDS] = seconds < before || isnan(before) ? seconds : before;
-    if (m->figure[COST_CONVOLUTIONS] > 0) /* on the map's own grid */
-        m->figure[COST_CONVOLUTIONS] *=
+    m->is.seconds = seconds < before || isnan(before) ? seconds : before;
+    if (m->is.convolutions > 0) /* on the map's own grid */
+        m->is.convolutions *=
             (double)(m->shape.nx * m->shape.ny) / (double)(c->shape.nx * c->shape.ny);
-    m->figure[COST_RUNS]++;
-    if (m->figure[COST_MEMORY] > 0)
-        tool_memory_beside(c->tool, (size_t)m->figure[COST_MEMORY]);
+    m->is.runs++;
+    if (m->is.memory > 0)
+        tool_memory_beside(c->tool, (size_t)m->is.memory);
     return true;
 }
 
@@ -292,21 +293,21 @@ run_pressure(struct cost_case *c, struct cost_trial *m, double allowed)
     if (end == PROCESS_ENDED && !keep(c, m))
         end = PROCESS_DIED;
     if (end == PROCESS_ENDED) {
-        c->around = tool_now() - start - m->figure[COST_SECONDS];
+        c->around = tool_now() - start - m->is.seconds;
         m->converged = status == 0;
         if ((p = pressure_of(c, m)) == NULL)
             end = PROCESS_DIED;
     }
     if (m->reference && p != NULL) {
-        if (m->figure[COST_RUNS] == 1) {
+        if (m->is.runs == 1) {
             c->pressure = p;
             c->solved = c->said;
             c->said = NULL;
-            m->figure[COST_ERROR] = 0;
+            m->is.error = 0;
         }
     } else if (p != NULL) {
         if (c->pressure != NULL)
-            m->figure[COST_ERROR] = distance(c->shape.nx * c->shape.ny, p, c->pressure);
+            m->is.error = distance(c->shape.nx * c->shape.ny, p, c->pressure);
         free(p);
     }
     if (end == PROCESS_ENDED && c->leak != NULL)
@@ -334,15 +335,15 @@ find_slabs(struct cost_case *c)
         snprintf(c->reference.why, sizeof c->reference.why, "%s", first.why);
         return;
     }
-    if (isnan(first.figure[COST_SLABS]))
+    if (isnan(first.is.slabs))
         tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE,
                     "nothing yields: the largest Mises stress is %.3g of the yield stress: leave "
                     "out --yield",
                     cost_number(c->said, "max_mises_over_yield"));
-    c->base_slabs = first.figure[COST_SLABS];
+    c->base_slabs = first.is.slabs;
     for (size_t k = 0; k < c->pressures; k++)
-        c->trial[k].figure[COST_SLABS] = ceil(c->base_slabs * c->trial[k].stack);
-    c->reference.figure[COST_SLABS] = ceil(c->base_slabs * c->reference.stack);
+        c->trial[k].is.slabs = ceil(c->base_slabs * c->trial[k].stack);
+    c->reference.is.slabs = ceil(c->base_slabs * c->reference.stack);
 }
 
 /* Memory of the largest process, and of the maps of this one: the reference, the pressure of the trial, and
@@ -482,21 +483,21 @@ run_stress(struct cost_case *c, struct cost_trial *m, double allowed)
                        &status);
         if (end == PROCESS_ENDED && !keep(c, m))
             end = PROCESS_DIED;
-    } while (end == PROCESS_ENDED && cost_again(m->figure[COST_RUNS], m->figure[COST_SECONDS]));
+    } while (end == PROCESS_ENDED && cost_again(m->is.runs, m->is.seconds));
     if (m->reference && end == PROCESS_ENDED) {
         c->stressed = c->said;
         c->said = NULL;
-    } else if (m->figure[COST_RUNS] > 0) {
+    } else if (m->is.runs > 0) {
         if (!compare_stresses(c, m, until, &e))
             end = tool_interrupted() != 0 ? PROCESS_INTERRUPTED : PROCESS_LATE;
-        m->figure[COST_ERROR] = e.worst / peak;
-        m->figure[COST_RMS_ERROR] = sqrt(e.squares / e.n) / peak;
-        m->figure[COST_MISES_ERROR] = e.mises / e.exact - 1;
+        m->is.error = e.worst / peak;
+        m->is.rms_error = sqrt(e.squares / e.n) / peak;
+        m->is.mises_error = e.mises / e.exact - 1;
     }
     if (end == PROCESS_ENDED) {
         m->state = COST_DONE;
     } else {
-        m->figure[COST_RUNS] = 0;
+        m->is.runs = 0;
         stop(m, end, allowed, cost_message(c->said));
     }
     return end != PROCESS_INTERRUPTED;

@@ -60,7 +60,7 @@ describe(const struct cost_case *c, struct drawing *d, bool stress)
               .hi = NAN},
         .series = d->series,
         .front = "front: nothing is both quicker and nearer",
-        .floor = stress ? rounding : c->reference.figure[COST_ESTIMATE],
+        .floor = stress ? rounding : c->reference.is.estimate,
         .floor_text = stress ? "rounding" : "below the reference's own error"};
 }
 
@@ -106,9 +106,8 @@ draw_trials(const struct cost_case *c, struct drawing *d, size_t from, size_t to
         if (m->state != COST_DONE || (s = series_of(d, name, cost_series(m))) == SERIES)
             continue;
         n = d->series[s].n++;
-        d->x[s][n] = m->figure[COST_SECONDS];
-        d->y[s][n] =
-            fmax(m->reference ? 0 : m->figure[COST_ERROR], fmax(d->graph.floor / 10, 1e-15));
+        d->x[s][n] = m->is.seconds;
+        d->y[s][n] = fmax(m->reference ? 0 : m->is.error, fmax(d->graph.floor / 10, 1e-15));
         d->point[s][n] = (struct graph_point){.hollow = m->coarse > 1, .front = m->front};
         snprintf(d->point[s][n].label, sizeof d->point[s][n].label, "%s",
                  cost_point_name(label, m));

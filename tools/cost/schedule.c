@@ -49,10 +49,10 @@ expect_stress(const struct cost_case *c, const struct cost_trial *t)
     double each;
 
     if (exact->state != COST_DONE)
-        return c->reference.figure[COST_SECONDS];
-    each = exact->figure[COST_SECONDS] * sums * rc_conv_seconds(&c->shape, &by) /
+        return c->reference.is.seconds;
+    each = exact->is.seconds * sums * rc_conv_seconds(&c->shape, &by) /
            rc_conv_seconds(&c->shape, &of);
-    return 2 * each + exact->figure[COST_SECONDS] + 3 * c->around;
+    return 2 * each + exact->is.seconds + 3 * c->around;
 }
 
 double
@@ -65,7 +65,7 @@ cost_expect(const struct cost_case *c, const struct cost_trial *t)
     near = nearest(c, t);
     if (near->state != COST_DONE)
         return t->planned;
-    return t->planned * near->figure[COST_SECONDS] / near->planned + c->around;
+    return t->planned * near->is.seconds / near->planned + c->around;
 }
 
 /* ---- the order ---- */
@@ -73,13 +73,13 @@ cost_expect(const struct cost_case *c, const struct cost_trial *t)
 bool
 cost_is_near(const struct cost_case *c, const struct cost_trial *m)
 {
-    const double error = m->figure[COST_ERROR];
+    const double error = m->is.error;
 
     if (m->state != COST_DONE || !m->converged)
         return false;
     if (m->about & COST_YIELD)
-        return error <= c->error && !isnan(m->figure[COST_ESTIMATE]);
-    return error + c->reference.figure[COST_ESTIMATE] <= c->error;
+        return error <= c->error && !isnan(m->is.estimate);
+    return error + c->reference.is.estimate <= c->error;
 }
 
 /* Seconds beyond which a trial is not needed for the choice: three times those of the fastest trial that is
@@ -98,7 +98,7 @@ too_slow(const struct cost_case *c)
             continue;
         any = true;
         if (cost_is_near(c, m))
-            least = fmin(least, m->figure[COST_SECONDS]);
+            least = fmin(least, m->is.seconds);
     }
     if (!c->choosing || c->shown || !any)
         return INFINITY;
@@ -142,7 +142,7 @@ disturbed(const struct cost_case *c, const struct cost_trial *m)
         if (o->state == COST_DONE && strcmp(o->method, m->method) == 0 &&
             strcmp(o->kernel, m->kernel) == 0 && o->coarse <= m->coarse && o->tol <= m->tol &&
             o->increments >= m->increments && o->stack >= m->stack &&
-            m->figure[COST_SECONDS] > 1.1 * o->figure[COST_SECONDS])
+            m->is.seconds > 1.1 * o->is.seconds)
             return true;
     }
     return false;
@@ -157,7 +157,7 @@ cost_again(double runs, double seconds)
 static bool
 again(const struct cost_case *c, const struct cost_trial *m)
 {
-    const double runs = m->figure[COST_RUNS], seconds = m->figure[COST_SECONDS];
+    const double runs = m->is.runs, seconds = m->is.seconds;
 
     if (m->state != COST_DONE || seconds + c->around > left(c))
         return false;
@@ -176,10 +176,10 @@ repeat(struct cost_case *c)
         more = false;
         for (size_t k = 0; k < c->pressures && tool_interrupted() == 0; k++)
             if (again(c, &c->trial[k])) {
-                const double runs = c->trial[k].figure[COST_RUNS];
+                const double runs = c->trial[k].is.runs;
 
                 cost_trial_run(c, &c->trial[k], left(c));
-                more = more || c->trial[k].figure[COST_RUNS] > runs;
+                more = more || c->trial[k].is.runs > runs;
             }
     }
 }

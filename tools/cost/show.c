@@ -6,44 +6,46 @@
 #include <string.h>
 
 /* clang-format off */
-const struct cost_column cost_columns[COST_FIGURES] = {
-    [COST_INCREMENTS] = {"increments", NULL, COST_YIELD, NULL, false, "increments", "%10.0f", 0},
-    [COST_SLABS] = {"slabs", NULL, COST_YIELD, "slabs", false, "slabs", "%5.0f", 0},
-    [COST_APPLICATIONS] = {"applications", NULL, COST_YIELD, "applications", false,
-                           "applications", "%12.0f", 0},
-    [COST_COHESIVE] = {"cohesive_nodes", NULL, COST_ADHESION, "cohesive_nodes", false,
-                       "cohesive_nodes", "%14.3g", 0},
-    [COST_SECONDS] = {"seconds", "s", COST_PRESSURE | COST_STRESS, NULL, false, "time[s]", "%9.4f", 0},
-    [COST_RUNS] = {"runs", NULL, COST_PRESSURE | COST_STRESS, NULL, false, "runs", "%4.0f", 0},
-    [COST_COARSE_DEPTHS] = {"coarse_depths", NULL, COST_STRESS, "coarse_depths", false,
-                            "coarse_depths", "%13.0f", 0},
-    [COST_CONVOLUTIONS] = {"convolutions", NULL, COST_PRESSURE, "convolutions", false,
-                           "convolutions", "%12.1f", 0},
-    [COST_MEMORY] = {"memory", "B", COST_PRESSURE | COST_STRESS, "peak_memory", false,
-                     "memory[MiB]", "%11.1f", 1048576},
-    [COST_ITERATIONS] = {"iterations", NULL, COST_PRESSURE, "iterations", false, NULL, NULL, 0},
-    [COST_ESTIMATE] = {"pressure_error_estimate", NULL, COST_PRESSURE, "pressure_error_estimate", false,
-                       "estimate", "%9.2e", 0},
-    [COST_ERROR] = {"error", NULL, COST_PRESSURE | COST_STRESS, NULL, false, "error", "%9.2e", 0},
-    [COST_AREA_ERROR] = {"contact_area_error", NULL, COST_PRESSURE, "contact_area", true,
-                         "area_error", "%10.2e", 0},
-    [COST_PEAK_ERROR] = {"max_pressure_error", NULL, COST_PRESSURE, "max_pressure", true,
-                         "peak_error", "%10.2e", 0},
-    [COST_APPROACH_ERROR] = {"approach_error", NULL, COST_PRESSURE, "approach", true,
-                             "approach_error", "%14.2e", 0},
-    [COST_RMS_ERROR] = {"rms_error", NULL, COST_STRESS, NULL, false, "rms_error", "%9.2e", 0},
-    [COST_MISES_ERROR] = {"mises_error", NULL, COST_STRESS, NULL, false, "mises", "%10.2e", 0},
-    [COST_FLOW] = {"flow_conductance", "m3", COST_LEAK, "flow_conductance", false, NULL, NULL, 0},
-    [COST_FLOW_ERROR] = {"flow_error", NULL, COST_LEAK, "flow_conductance", true, "flow_error", "%10.2e", 0},
-    [COST_FLOW_SECONDS] = {"flow_seconds", "s", COST_LEAK, "total", false, "flow_time[s]", "%12.4f", 0},
+#define FIGURE(member) {RC_FIGURE(struct cost_figures, member)}
+#define IN(si, member) {RC_FIGURE(struct cost_figures, member), .unit = si}
+#define BOTH (COST_PRESSURE | COST_STRESS)
+const struct cost_column cost_columns[] = {
+    {FIGURE(increments), .of = COST_YIELD, "increments", "%10.0f", .early = true},
+    {FIGURE(slabs), .of = COST_YIELD, "slabs", "%5.0f", "slabs", .early = true},
+    {FIGURE(applications), .of = COST_YIELD, "applications", "%12.0f", "applications"},
+    {FIGURE(cohesive_nodes), .of = COST_ADHESION, "cohesive_nodes", "%14.3g", "cohesive_nodes"},
+    {IN("s", seconds), .of = BOTH, "time[s]", "%9.4f"},
+    {FIGURE(runs), .of = BOTH, "runs", "%4.0f", .early = true},
+    {FIGURE(coarse_depths), .of = COST_STRESS, "coarse_depths", "%13.0f", "coarse_depths"},
+    {FIGURE(convolutions), .of = COST_PRESSURE, "convolutions", "%12.1f", "convolutions"},
+    {IN("B", memory), .of = BOTH, "memory[MiB]", "%11.1f", "peak_memory", .scale = 1048576},
+    {FIGURE(iterations), .of = COST_PRESSURE, NULL, NULL, "iterations"},
+    {{RC_FIGURE_AS("pressure_error_estimate", struct cost_figures, estimate)}, .of = COST_PRESSURE,
+     "estimate", "%9.2e", "pressure_error_estimate"},
+    {FIGURE(error), .of = BOTH, "error", "%9.2e"},
+    {FIGURE(contact_area_error), .of = COST_PRESSURE, "area_error", "%10.2e", "contact_area", true},
+    {FIGURE(max_pressure_error), .of = COST_PRESSURE, "peak_error", "%10.2e", "max_pressure", true},
+    {FIGURE(approach_error), .of = COST_PRESSURE, "approach_error", "%14.2e", "approach", true},
+    {FIGURE(rms_error), .of = COST_STRESS, "rms_error", "%9.2e"},
+    {FIGURE(mises_error), .of = COST_STRESS, "mises", "%10.2e"},
+    {IN("m3", flow_conductance), .of = COST_LEAK, NULL, NULL, "flow_conductance"},
+    {FIGURE(flow_error), .of = COST_LEAK, "flow_error", "%10.2e", "flow_conductance", true},
+    {IN("s", flow_seconds), .of = COST_LEAK, "flow_time[s]", "%12.4f", "total"},
+    {.of = 0},
 };
 /* clang-format on */
 
+double *
+cost_value(const struct cost_column *column, struct cost_figures *figures)
+{
+    return (double *)(void *)((char *)figures + column->figure.at);
+}
+
 /* Figures that are settings: last in the table, first in the report. */
 static bool
-is_setting(size_t figure)
+is_setting(const struct cost_column *column)
 {
-    return figure < COST_SECONDS;
+    return (column->of & (COST_YIELD | COST_ADHESION)) != 0;
 }
 
 /* ---- marks ---- */
@@ -52,16 +54,14 @@ is_setting(size_t figure)
 static double
 error_of(const struct cost_case *c, const struct cost_trial *t)
 {
-    return (t->about & COST_STRESS)
-               ? t->reference ? 0 : t->figure[COST_ERROR]
-               : fmax(t->figure[COST_ERROR], c->reference.figure[COST_ESTIMATE]);
+    return (t->about & COST_STRESS) ? t->reference ? 0 : t->is.error
+                                    : fmax(t->is.error, c->reference.is.estimate);
 }
 
 static bool
 beaten(const struct cost_case *c, const struct cost_trial *a, const struct cost_trial *by)
 {
-    double seconds = by->figure[COST_SECONDS] - a->figure[COST_SECONDS],
-           error = error_of(c, by) - error_of(c, a);
+    double seconds = by->is.seconds - a->is.seconds, error = error_of(c, by) - error_of(c, a);
 
     return by->state == COST_DONE && ((a->about ^ by->about) & COST_STRESS) == 0 && seconds <= 0 &&
            error <= 0 && (seconds < 0 || error < 0);
@@ -78,10 +78,9 @@ cost_mark(struct cost_case *c)
         t->front = t->state == COST_DONE;
         for (size_t l = 0; l < c->trials; l++)
             t->front = t->front && !beaten(c, t, &c->trial[l]);
-        t->optimistic =
-            t->state == COST_DONE && !(t->about & COST_STRESS) && t->coarse == 1 &&
-            t->stack == r->stack &&
-            t->figure[COST_ERROR] > 1.01 * t->figure[COST_ESTIMATE] + r->figure[COST_ESTIMATE];
+        t->optimistic = t->state == COST_DONE && !(t->about & COST_STRESS) && t->coarse == 1 &&
+                        t->stack == r->stack &&
+                        t->is.error > 1.01 * t->is.estimate + r->is.estimate;
     }
 }
 
@@ -126,25 +125,24 @@ put_head(const struct cost_case *c, FILE *out)
             "# reference: %s, %s in %s precision, estimated error %.1e (asked %.0e), %.0f steps, "
             "%.3g s: contact area %.9g m2 (%.4g %% of the map, %.3g %% at the hardness), largest "
             "pressure %.9g Pa, approach %.9g m\n",
-            r->method, r->kernel, r->arithmetic, r->figure[COST_ESTIMATE], r->tol,
-            r->figure[COST_ITERATIONS], r->figure[COST_SECONDS], area,
-            100 * cost_number(c->solved, "contact_fraction"),
+            r->method, r->kernel, r->arithmetic, r->is.estimate, r->tol, r->is.iterations,
+            r->is.seconds, area, 100 * cost_number(c->solved, "contact_fraction"),
             area > 0 ? 100 * cost_number(c->solved, "plastic_area") / area : 0,
             cost_number(c->solved, "max_pressure"), cost_number(c->solved, "approach"));
     if (c->about & COST_YIELD)
         fprintf(out, "# it yields: the reference has %zu increments and %.0f slabs\n",
-                r->increments, r->figure[COST_SLABS]);
+                r->increments, r->is.slabs);
     if (c->about & COST_ADHESION)
         fprintf(out,
                 "# pressures are net, tension negative; the cohesive length is %.3g nodes of the "
                 "map, each trial's own is in its column: below 1.5 the grid pins the edge of the "
                 "contact\n",
-                r->figure[COST_COHESIVE]);
+                r->is.cohesive_nodes);
     if (c->leak != NULL)
         fprintf(out,
                 "# flow along %s: the reference has a conductance of %.9g m3; flow_error: relative "
                 "to it, each on its own grid\n",
-                c->leak, r->figure[COST_FLOW]);
+                c->leak, r->is.flow_conductance);
     fprintf(out, "# error: sum |p - reference| / sum reference, on the map's own grid; area, peak, "
                  "approach: relative to the reference; estimate: what the solver says of its own "
                  "grid\n");
@@ -199,16 +197,16 @@ note(const struct cost_trial *m)
 static void
 put_cells(unsigned about, const struct cost_trial *m, bool settings, FILE *out)
 {
-    for (size_t k = 0; k < COST_FIGURES; k++) {
-        const struct cost_column *col = &cost_columns[k];
+    for (const struct cost_column *col = cost_columns; col->figure.name != NULL; col++) {
         /* leakage is the last column */
         if (col->head == NULL || !(col->of & about) ||
-            (is_setting(k) || col->of == COST_LEAK) != settings)
+            (is_setting(col) || col->of == COST_LEAK) != settings)
             continue;
         if (m == NULL)
             fprintf(out, "%*s ", (int)strtol(col->format + 1, NULL, 10), col->head);
         else
-            fprintf(out, col->format, m->figure[k] / (col->scale > 0 ? col->scale : 1));
+            fprintf(out, col->format,
+                    rc_figure_number(&col->figure, &m->is) / (col->scale > 0 ? col->scale : 1));
         if (m != NULL)
             putc(' ', out);
     }
@@ -266,16 +264,16 @@ static void
 report_figures(const struct cost_case *c, const struct cost_trial *m, bool settings,
                struct report *out)
 {
-    for (size_t k = 0; k < COST_FIGURES; k++) {
-        const struct cost_column *col = &cost_columns[k];
-        const bool known = m->state == COST_DONE || k == COST_RUNS || k < COST_APPLICATIONS;
+    for (const struct cost_column *col = cost_columns; col->figure.name != NULL; col++) {
+        const struct rc_figure *f = &col->figure;
+        const bool known = m->state == COST_DONE || col->early;
 
-        if (is_setting(k) != settings || !(col->of & c->about))
+        if (is_setting(col) != settings || !(col->of & c->about))
             continue;
         if (col->of & m->about)
-            report_number(out, col->key, known ? m->figure[k] : NAN, col->unit);
+            report_number(out, f->name, rc_figure_number(f, known ? &m->is : NULL), f->unit);
         else
-            report_column(out, col->key, col->unit);
+            report_column(out, f->name, f->unit);
     }
 }
 
@@ -402,8 +400,8 @@ better(const struct cost_case *c, const struct cost_trial *a, const struct cost_
 
     if (b == NULL)
         return true;
-    seconds = a->figure[COST_SECONDS] - b->figure[COST_SECONDS];
-    error = a->figure[COST_ERROR] - b->figure[COST_ERROR];
+    seconds = a->is.seconds - b->is.seconds;
+    error = a->is.error - b->is.error;
     return isnan(c->budget) ? seconds < 0 : error < 0 || (error == 0 && seconds < 0);
 }
 
@@ -419,26 +417,24 @@ cost_command(const struct cost_case *c, FILE *out)
 
         if (m->state != COST_DONE || !m->converged)
             continue;
-        if ((timed ? m->figure[COST_SECONDS] <= c->budget : cost_is_near(c, m)) &&
-            better(c, m, best))
+        if ((timed ? m->is.seconds <= c->budget : cost_is_near(c, m)) && better(c, m, best))
             best = m;
-        if (nearest == NULL || (timed ? m->figure[COST_SECONDS] < nearest->figure[COST_SECONDS]
-                                      : m->figure[COST_ERROR] < nearest->figure[COST_ERROR]))
+        if (nearest == NULL ||
+            (timed ? m->is.seconds < nearest->is.seconds : m->is.error < nearest->is.error))
             nearest = m;
     }
     if (best != NULL) {
-        if (!isnan(best->figure[COST_ESTIMATE]))
-            snprintf(own, sizeof own, "%.1e", best->figure[COST_ESTIMATE]);
-        tool_warn(
-            c->tool, "%s: %.3g s, off by %.2g %% of the pressure (estimate on its own grid %s)",
-            cost_name(name, best), best->figure[COST_SECONDS], 100 * best->figure[COST_ERROR], own);
+        if (!isnan(best->is.estimate))
+            snprintf(own, sizeof own, "%.1e", best->is.estimate);
+        tool_warn(c->tool,
+                  "%s: %.3g s, off by %.2g %% of the pressure (estimate on its own grid %s)",
+                  cost_name(name, best), best->is.seconds, 100 * best->is.error, own);
         put_command(c, best, out);
     } else if (nearest != NULL) {
         tool_die(c->tool, EXIT_IMPOSSIBLE,
                  "nothing measured %s: the best was %s, %.3g s, error %.1e; raise %s",
                  timed ? "is so quick" : "is so near", cost_name(name, nearest),
-                 nearest->figure[COST_SECONDS], nearest->figure[COST_ERROR],
-                 timed ? "--budget" : "--error or --limit");
+                 nearest->is.seconds, nearest->is.error, timed ? "--budget" : "--error or --limit");
     } else {
         tool_die(c->tool, EXIT_IMPOSSIBLE, "nothing was measured: raise --limit");
     }

@@ -52,14 +52,10 @@ static const double first_tols[] = {0, 1e-2, 1e-3, 1e-4, 1e-6}, other_tols[] = {
 static void
 add(struct cost_case *c, struct cost_trial t)
 {
-    struct cost_trial *more = realloc(c->trial, (c->trials + 1) * sizeof *more);
-
-    if (more == NULL)
-        tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "out of memory");
-    for (size_t k = 0; k < COST_FIGURES; k++)
-        t.figure[k] = NAN;
-    t.figure[COST_RUNS] = 0;
-    t.figure[COST_INCREMENTS] = t.increments > 0 ? (double)t.increments : NAN;
+    for (const struct cost_column *col = cost_columns; col->figure.name != NULL; col++)
+        *cost_value(col, &t.is) = NAN;
+    t.is.runs = 0;
+    t.is.increments = t.increments > 0 ? (double)t.increments : NAN;
     t.planned = t.mebibytes = NAN;
     t.goal = !(t.about & COST_YIELD) || t.reference ? t.tol : isnan(c->error) ? 0 : c->error;
     t.shape = c->shape;
@@ -70,7 +66,7 @@ add(struct cost_case *c, struct cost_trial t)
         *n = (nodes + t.coarse / 2) / t.coarse > 0 ? (nodes + t.coarse / 2) / t.coarse : 1;
         *d *= (double)nodes / (double)*n;
     }
-    c->trial = more;
+    c->trial = tool_grown(c->tool, c->trial, c->trials, &c->room, sizeof t, "a list of trials");
     c->trial[c->trials++] = t;
 }
 
@@ -225,8 +221,8 @@ cost_series(const struct cost_trial *t)
 static const char *
 slabs_of(char text[32], const struct cost_trial *t)
 {
-    if (t->figure[COST_SLABS] > 0)
-        snprintf(text, 32, "%.0f slabs", t->figure[COST_SLABS]);
+    if (t->is.slabs > 0)
+        snprintf(text, 32, "%.0f slabs", t->is.slabs);
     else
         snprintf(text, 32, "%g x the slabs", t->stack);
     return text;
@@ -291,10 +287,10 @@ cost_trial_words(const struct cost_trial *t, const char *word[], size_t n)
     }
     if (t->increments > 0) {
         snprintf(of[0], sizeof of[0], "%zu", t->increments);
-        snprintf(of[1], sizeof of[1], "%.0f", t->figure[COST_SLABS]);
+        snprintf(of[1], sizeof of[1], "%.0f", t->is.slabs);
         word[n++] = "--increments";
         word[n++] = of[0];
-        if (t->figure[COST_SLABS] > 0) {
+        if (t->is.slabs > 0) {
             word[n++] = "--slabs";
             word[n++] = of[1];
         }
