@@ -6,13 +6,6 @@
 
 #include "tools/text/text.h"
 
-struct seen {
-    char *channel;
-    double depth; /* NAN: none */
-    size_t number;
-    bool taken;
-};
-
 /* The current place in the input, for messages. */
 struct place {
     const char *source;
@@ -39,6 +32,73 @@ struct wanted_depths {
     bool ended;
 };
 
+/* ---- frames that were read ---- */
+
+struct seen *
+seen_add(struct seen_list *l, struct tool *t, const struct rc_grid *g)
+{
+    const char *section = rc_grid_get(g, "section");
+    struct seen *s;
+
+    l->seen = tool_grown(t, l->seen, l->n, &l->room, sizeof *l->seen, "a list of frames");
+    s = &l->seen[l->n++];
+    *s = (struct seen){.channel = tool_copy(t, g->channel),
+                       .section = section == NULL ? '\0' : section[0],
+                       .number = rc_grid_case(g)};
+    if (!rc_grid_number(g, "depth", &s->depth))
+        s->depth = NAN;
+    return s;
+}
+
+void
+seen_free(struct seen_list *l)
+{
+    for (size_t k = 0; k < l->n; k++)
+        free(l->seen[k].channel);
+    free(l->seen);
+}
+
+void
+seen_channels(const struct seen_list *l, struct name_list *to)
+{
+    for (size_t k = 0, i; k < l->n; k++) {
+        for (i = 0; strcmp(l->seen[i].channel, l->seen[k].channel) != 0;)
+            i++;
+        if (i == k)
+            name_list_add(to, l->seen[k].channel);
+    }
+}
+
+void
+seen_cases(const struct seen_list *l, seen_right *right, const void *ctx, struct name_list *to)
+{
+    size_t last = 0;
+    char text[32];
+
+    for (size_t k = 0; k < l->n; k++) {
+        if (!right(ctx, &l->seen[k]) || l->seen[k].number == last)
+            continue;
+        last = l->seen[k].number;
+        snprintf(text, sizeof text, "%zu", last);
+        name_list_add(to, text);
+    }
+}
+
+void
+seen_depths(const struct seen_list *l, seen_right *right, const void *ctx, struct name_list *to)
+{
+    char text[RC_NUMBER_SIZE];
+
+    for (size_t k = 0, i; k < l->n; k++) {
+        if (isnan(l->seen[k].depth) || !right(ctx, &l->seen[k]))
+            continue;
+        for (i = 0; !right(ctx, &l->seen[i]) || l->seen[i].depth != l->seen[k].depth;)
+            i++;
+        if (i == k)
+            name_list_add(to, rc_number_text(text, l->seen[k].depth));
+    }
+}
+
 /* ---- whether a frame meets a list ---- */
 
 /* Name k of the list: its start and length; NULL past the last. */
@@ -61,8 +121,9 @@ is_name(const struct seen *s, const char *name, size_t n)
 }
 
 static bool
-right_channel(const struct wanted *w, const struct seen *s)
+right_channel(const void *ctx, const struct seen *s)
 {
+    const struct wanted *w = ctx;
     const char *name;
     size_t n;
 
@@ -150,36 +211,11 @@ wanted_check(const struct wanted *w, struct tool *t)
             tool_die(t, EXIT_USAGE, "--case %g: it must be a whole number", w->number.v[k]);
 }
 
-/* Enlarges an array of n elements by one. */
-static void *
-grown(struct tool *t, void *v, size_t n, size_t *room, size_t size)
-{
-    if (n < *room)
-        return v;
-    *room = *room == 0 ? 64 : 2 * *room;
-    if ((v = realloc(v, *room * size)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a list of %zu frames", *room);
-    return v;
-}
-
-static struct seen *
-see(struct wanted *w, struct tool *t, const struct rc_grid *g)
-{
-    struct seen *s;
-
-    w->seen = grown(t, w->seen, w->n, &w->capacity, sizeof *w->seen);
-    s = &w->seen[w->n++];
-    *s = (struct seen){.channel = strdup(g->channel), .number = rc_grid_case(g)};
-    if (s->channel == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a list of frames");
-    if (!rc_grid_number(g, "depth", &s->depth))
-        s->depth = NAN;
-    return s;
-}
-
 static bool
-only_depth(const struct wanted *w, const struct seen *s)
+only_depth(const void *ctx, const struct seen *s)
 {
+    const struct wanted *w = ctx;
+
     return right_channel(w, s) && right_case(w, s);
 }
 
@@ -188,10 +224,8 @@ only_depth(const struct wanted *w, const struct seen *s)
 static void
 begin_depths(struct wanted *w, struct tool *t)
 {
-    struct wanted_depths *d = w->depths = calloc(1, sizeof *d);
-
-    if (d == NULL || (d->met = calloc(w->depth.n, sizeof *d->met)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", w->depth.n);
+    w->depths = tool_room(t, 1, sizeof *w->depths, "depths");
+    w->depths->met = tool_room(t, w->depth.n, sizeof *w->depths->met, "depths");
 }
 
 /* Keeps the waiting frames at the depth that is so far the nearest to depth k of the list. They are sure if
@@ -238,7 +272,7 @@ static void
 hold(struct wanted *w, struct tool *t, struct rc_grid *g)
 {
     struct wanted_depths *d = w->depths;
-    const struct seen *s = see(w, t, g);
+    const struct seen *s = seen_add(&w->list, t, g);
     size_t k = 0;
 
     if (isnan(s->depth) || !only_depth(w, s)) {
@@ -248,12 +282,12 @@ hold(struct wanted *w, struct tool *t, struct rc_grid *g)
     while (k < d->n && d->depth[k] != s->depth)
         k++;
     if (k == d->n) {
-        d->depth = grown(t, d->depth, d->n, &d->room, sizeof *d->depth);
+        d->depth = tool_grown(t, d->depth, d->n, &d->room, sizeof *d->depth, "a list of frames");
         d->depth[d->n++] = s->depth;
     }
-    d->held = grown(t, d->held, d->waiting, &d->space, sizeof *d->held);
+    d->held = tool_grown(t, d->held, d->waiting, &d->space, sizeof *d->held, "a list of frames");
     d->held[d->waiting++] =
-        (struct held){.grid = g, .depth = s->depth, .seen = w->n - 1, .place = d->place};
+        (struct held){.grid = g, .depth = s->depth, .seen = w->list.n - 1, .place = d->place};
     sort_out(w, t, false);
 }
 
@@ -271,7 +305,7 @@ first_held(struct wanted *w, struct tool *t)
     const struct held first = d->held[0];
 
     memmove(d->held, d->held + 1, --d->waiting * sizeof *d->held);
-    w->seen[first.seen].taken = true;
+    w->list.seen[first.seen].taken = true;
     set_place(t, &first.place);
     return first.grid;
 }
@@ -308,12 +342,7 @@ no_channel(const struct wanted *w, struct tool *t, const char *name, size_t n)
     struct name_list l = {.asked = asked};
 
     snprintf(asked, sizeof asked, "%.*s", (int)n, name);
-    for (size_t k = 0, i; k < w->n; k++) {
-        for (i = 0; strcmp(w->seen[i].channel, w->seen[k].channel) != 0;)
-            i++;
-        if (i == k)
-            name_list_add(&l, w->seen[k].channel);
-    }
+    seen_channels(&w->list, &l);
     tool_die(t, EXIT_IMPOSSIBLE, "%s: no frame with the channel %.*s, only %s", t->source, (int)n,
              name, name_list_end(&l));
 }
@@ -322,16 +351,8 @@ static _Noreturn void
 no_case(const struct wanted *w, struct tool *t, double number)
 {
     struct name_list l = {.n = 0};
-    size_t last = 0;
-    char text[32];
 
-    for (size_t k = 0; k < w->n; k++) {
-        if (!right_channel(w, &w->seen[k]) || w->seen[k].number == last)
-            continue;
-        last = w->seen[k].number;
-        snprintf(text, sizeof text, "%zu", last);
-        name_list_add(&l, text);
-    }
+    seen_cases(&w->list, right_channel, w, &l);
     tool_die(t, EXIT_IMPOSSIBLE, "%s: no case %.0f%s%s: there are cases %s", t->source, number,
              w->channel == NULL ? "" : " with ", w->channel == NULL ? "" : w->channel,
              name_list_end(&l));
@@ -343,14 +364,7 @@ no_depth(const struct wanted *w, struct tool *t, double depth)
     char text[RC_NUMBER_SIZE];
     struct name_list l = {.n = 0};
 
-    for (size_t k = 0, i; k < w->n; k++) {
-        if (isnan(w->seen[k].depth) || !only_depth(w, &w->seen[k]))
-            continue;
-        for (i = 0; !only_depth(w, &w->seen[i]) || w->seen[i].depth != w->seen[k].depth;)
-            i++;
-        if (i == k)
-            name_list_add(&l, rc_number_text(text, w->seen[k].depth));
-    }
+    seen_depths(&w->list, only_depth, w, &l);
     tool_die(t, EXIT_IMPOSSIBLE, "%s: no frame at depth %s m: %s%s%s", t->source,
              rc_number_text(text, depth), l.n == 0 ? "no frame has a depth" : "there are ",
              name_list_end(&l), l.n == 0 ? "" : " m");
@@ -364,14 +378,14 @@ demand_channels(const struct wanted *w, struct tool *t, bool wanted)
     size_t n, i;
 
     for (size_t k = 0; (name = name_at(w->channel, k, &n)) != NULL; k++) {
-        for (i = 0; i < w->n; i++)
-            if (is_name(&w->seen[i], name, n) && (!wanted || w->seen[i].taken))
+        for (i = 0; i < w->list.n; i++)
+            if (is_name(&w->list.seen[i], name, n) && (!wanted || w->list.seen[i].taken))
                 break;
-        if (i == w->n && wanted)
+        if (i == w->list.n && wanted)
             tool_die(t, EXIT_IMPOSSIBLE,
                      "%s: no frame with the channel %.*s among the cases and depths asked for",
                      t->source, (int)n, name);
-        if (i == w->n)
+        if (i == w->list.n)
             no_channel(w, t, name, n);
     }
 }
@@ -382,10 +396,11 @@ demand_cases(const struct wanted *w, struct tool *t)
     size_t i;
 
     for (size_t k = 0; k < w->number.n; k++) {
-        for (i = 0; i < w->n; i++)
-            if (right_channel(w, &w->seen[i]) && (double)w->seen[i].number == w->number.v[k])
+        for (i = 0; i < w->list.n; i++)
+            if (right_channel(w, &w->list.seen[i]) &&
+                (double)w->list.seen[i].number == w->number.v[k])
                 break;
-        if (i == w->n)
+        if (i == w->list.n)
             no_case(w, t, w->number.v[k]);
     }
 }
@@ -402,15 +417,13 @@ demand_depths(const struct wanted *w, struct tool *t)
 static void
 settle(struct wanted *w, struct tool *t)
 {
-    if (w->n == 0)
+    if (w->list.n == 0)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame", t->source);
     demand_channels(w, t, false);
     demand_cases(w, t);
     demand_depths(w, t);
     demand_channels(w, t, true);
-    for (size_t k = 0; k < w->n; k++)
-        free(w->seen[k].channel);
-    free(w->seen);
+    seen_free(&w->list);
     if (w->depths != NULL) {
         free(w->depths->depth);
         free(w->depths->met);
@@ -427,9 +440,9 @@ is_wanted(struct wanted *w, struct tool *t, const struct rc_grid *g)
 {
     struct seen *s;
 
-    if (w->n > 0 && anything_goes(w)) /* the message names no frame: the first one is enough */
+    if (w->list.n > 0 && anything_goes(w)) /* the message names no frame: the first one is enough */
         return true;
-    s = see(w, t, g);
+    s = seen_add(&w->list, t, g);
     return s->taken = only_depth(w, s);
 }
 

@@ -7,6 +7,29 @@
 
 #include "tool.h"
 
+/* The frames of a stream that were read, without their values. */
+struct seen {
+    char *channel;
+    char section; /* 'x', 'y', or 0 */
+    double depth; /* NAN: none      */
+    size_t number;
+    bool taken;
+};
+struct seen_list {
+    struct seen *seen;
+    size_t n, room;
+};
+
+struct seen *seen_add(struct seen_list *list, struct tool *tool, const struct rc_grid *grid);
+void seen_free(struct seen_list *list);
+/* For messages: the channels; the cases, and the depths in m, of the frames that are `right`. */
+typedef bool seen_right(const void *ctx, const struct seen *seen);
+void seen_channels(const struct seen_list *list, struct name_list *to);
+void seen_cases(const struct seen_list *list, seen_right *right, const void *ctx,
+                struct name_list *to);
+void seen_depths(const struct seen_list *list, seen_right *right, const void *ctx,
+                 struct name_list *to);
+
 struct wanted {          /* starts as {0}: every frame                                          */
     const char *channel; /* names separated by commas; NULL: any                                */
     struct numbers depth, number; /* of depths (m) and cases; n = 0: any                        */
@@ -14,8 +37,7 @@ struct wanted {          /* starts as {0}: every frame                          
      * with requested depths. */
     bool (*other)(void *ctx, struct rc_grid *grid);
     void *ctx;
-    struct seen *seen; /* with any selection: all frames so far, without values */
-    size_t n, capacity;
+    struct seen_list list;        /* with any selection: all frames so far */
     struct wanted_depths *depths; /* waiting frames of the current case; NULL: none requested */
 };
 

@@ -7,13 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct seen {
-    char *channel;
-    char section; /* 'x', 'y', or 0 */
-    double depth; /* NAN: none      */
-    size_t number;
-};
-
 static const char *const preferred[] = {"mises", "pressure", "height"};
 
 enum {
@@ -32,52 +25,26 @@ choice_rank(const char *channel)
 
 /* ---- frames of the stream ---- */
 
-static void
-remember(struct choice *c, struct tool *t, const struct rc_grid *g)
-{
-    const char *section = rc_grid_get(g, "section");
-    struct seen *s = c->seen;
-
-    if (c->n == c->capacity) {
-        c->capacity = c->capacity == 0 ? 64 : 2 * c->capacity;
-        s = realloc(c->seen, c->capacity * sizeof *s);
-        if (s == NULL)
-            tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a list of %zu frames", c->capacity);
-        c->seen = s;
-    }
-    s += c->n;
-    *s = (struct seen){.channel = strdup(g->channel),
-                       .section = section == NULL ? '\0' : section[0],
-                       .depth = NAN,
-                       .number = rc_grid_case(g)};
-    if (s->channel == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a list of frames");
-    rc_grid_number(g, "depth", &s->depth);
-    c->n++;
-}
-
 static bool
-right_channel(const struct wish *w, const struct seen *s)
+right_channel(const void *wish, const struct seen *s)
 {
+    const struct wish *w = wish;
+
     return w->channel == NULL || strcmp(w->channel, s->channel) == 0;
 }
 
 static bool
-right_case(const struct wish *w, const struct seen *s)
+right_frame(const void *wish, const struct seen *s)
 {
-    return w->number == 0 || w->number == s->number;
+    const struct wish *w = wish;
+
+    return right_channel(w, s) && (w->number == 0 || w->number == s->number);
 }
 
 static bool
 right_section(const struct wish *w, const struct seen *s)
 {
     return w->section == NULL || w->section[0] == s->section;
-}
-
-static bool
-right_depth(const struct wish *w, const struct seen *s)
-{
-    return isnan(w->depth) || !isnan(s->depth);
 }
 
 /* ---- the best ---- */
@@ -147,12 +114,11 @@ end_case(struct choice *c, struct tool *t)
 
     if (c->grid == NULL || !rc_grid_number(c->grid, "depth", &own) || isnan(c->wish->depth))
         return;
-    if ((depth = malloc(c->n * sizeof *depth)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", c->n);
-    for (size_t k = 0; k < c->n; k++)
-        if (strcmp(c->seen[k].channel, c->grid->channel) == 0 &&
-            c->seen[k].number == rc_grid_case(c->grid) && !isnan(c->seen[k].depth))
-            depth[n++] = c->seen[k].depth;
+    depth = tool_room(t, c->list.n, sizeof *depth, "a list of depths");
+    for (size_t k = 0; k < c->list.n; k++)
+        if (strcmp(c->list.seen[k].channel, c->grid->channel) == 0 &&
+            c->list.seen[k].number == rc_grid_case(c->grid) && !isnan(c->list.seen[k].depth))
+            depth[n++] = c->list.seen[k].depth;
     if (isnan(wanted_depth(depth, n, c->wish->depth))) {
         rc_grid_free(c->grid);
         c->grid = NULL;
@@ -167,12 +133,11 @@ choice_offer(struct choice *c, struct tool *t, struct rc_grid *g)
     const struct seen *s;
     double size;
 
-    if (c->n > 0 && c->seen[c->n - 1].number != rc_grid_case(g))
+    if (c->list.n > 0 && c->list.seen[c->list.n - 1].number != rc_grid_case(g))
         end_case(c, t);
-    remember(c, t, g);
-    s = &c->seen[c->n - 1];
+    s = seen_add(&c->list, t, g);
     size = isnan(s->depth) ? 0 : largest(g);
-    if (right_channel(w, s) && right_case(w, s) && right_section(w, s) && right_depth(w, s) &&
+    if (right_frame(w, s) && right_section(w, s) && (isnan(w->depth) || !isnan(s->depth)) &&
         is_better(c, g, s, size)) {
         struct rc_grid *old = c->grid;
 
@@ -191,54 +156,35 @@ no_channel(struct choice *c, struct tool *t)
 {
     struct name_list l = {.asked = c->wish->channel};
 
-    for (size_t k = 0, i; k < c->n; k++) {
-        for (i = 0; i < k && strcmp(c->seen[i].channel, c->seen[k].channel) != 0;)
-            i++;
-        if (i == k)
-            name_list_add(&l, c->seen[k].channel);
-    }
+    seen_channels(&c->list, &l);
     tool_die(t, EXIT_IMPOSSIBLE, "%s: there is no channel %s: there are %s", t->source,
              c->wish->channel, name_list_end(&l));
+}
+
+static const char *
+wished(const struct choice *c)
+{
+    return c->wish->channel == NULL ? "frame" : c->wish->channel;
 }
 
 static _Noreturn void
 no_case(struct choice *c, struct tool *t)
 {
-    char text[TICKS_TEXT];
     struct name_list l = {.n = 0};
 
-    for (size_t k = 0; k < c->n; k++) {
-        if (!right_channel(c->wish, &c->seen[k]) ||
-            (k > 0 && c->seen[k].number == c->seen[k - 1].number && l.n > 0))
-            continue;
-        snprintf(text, sizeof text, "%zu", c->seen[k].number);
-        name_list_add(&l, text);
-    }
+    seen_cases(&c->list, right_channel, c->wish, &l);
     tool_die(t, EXIT_IMPOSSIBLE, "%s: case %zu holds no %s: there are cases %s", t->source,
-             c->wish->number, c->wish->channel == NULL ? "frame" : c->wish->channel,
-             name_list_end(&l));
+             c->wish->number, wished(c), name_list_end(&l));
 }
 
 static _Noreturn void
 no_depth(struct choice *c, struct tool *t)
 {
-    char text[TICKS_TEXT];
+    char text[RC_NUMBER_SIZE];
     struct name_list l = {.n = 0};
 
-    for (size_t k = 0, i; k < c->n; k++) {
-        const struct seen *s = &c->seen[k];
-
-        if (isnan(s->depth) || !right_channel(c->wish, s) || !right_case(c->wish, s))
-            continue;
-        for (i = 0;
-             i < k && (c->seen[i].depth != s->depth || !right_channel(c->wish, &c->seen[i]) ||
-                       !right_case(c->wish, &c->seen[i]));)
-            i++;
-        if (i == k)
-            name_list_add(&l, rc_number_text(text, s->depth));
-    }
-    tool_die(t, EXIT_IMPOSSIBLE, "%s: there is no %s at depth %s m: %s%s%s", t->source,
-             c->wish->channel == NULL ? "frame" : c->wish->channel,
+    seen_depths(&c->list, right_frame, c->wish, &l);
+    tool_die(t, EXIT_IMPOSSIBLE, "%s: there is no %s at depth %s m: %s%s%s", t->source, wished(c),
              rc_number_text(text, c->wish->depth), l.n == 0 ? "no frame has a depth" : "there are ",
              name_list_end(&l), l.n == 0 ? "" : " m");
 }
@@ -248,15 +194,14 @@ fail(struct choice *c, struct tool *t)
 {
     bool channel = false, number = false, section = false;
 
-    for (size_t k = 0; k < c->n; k++) {
-        const struct seen *s = &c->seen[k];
+    for (size_t k = 0; k < c->list.n; k++) {
+        const struct seen *s = &c->list.seen[k];
 
         channel = channel || right_channel(c->wish, s);
-        number = number || (right_channel(c->wish, s) && right_case(c->wish, s));
-        section = section || (right_channel(c->wish, s) && right_case(c->wish, s) &&
-                              right_section(c->wish, s));
+        number = number || right_frame(c->wish, s);
+        section = section || (right_frame(c->wish, s) && right_section(c->wish, s));
     }
-    if (c->n == 0)
+    if (c->list.n == 0)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame: there is nothing to draw",
                  t->source);
     if (!channel)
@@ -300,8 +245,8 @@ choice_settle(struct choice *c, struct tool *t)
     keep_beside(&c->beside.pressure, c->grid);
     keep_beside(&c->beside.contact, c->grid);
     number = rc_grid_case(c->grid);
-    for (size_t k = 0; k < c->n; k++) {
-        const struct seen *s = &c->seen[k];
+    for (size_t k = 0; k < c->list.n; k++) {
+        const struct seen *s = &c->list.seen[k];
         bool channel = strcmp(s->channel, c->grid->channel) == 0;
 
         others = others || !channel;
@@ -332,7 +277,5 @@ choice_free(struct choice *c)
     rc_grid_free(c->grid);
     rc_grid_free(c->beside.pressure);
     rc_grid_free(c->beside.contact);
-    for (size_t k = 0; k < c->n; k++)
-        free(c->seen[k].channel);
-    free(c->seen);
+    seen_free(&c->list);
 }

@@ -26,10 +26,9 @@ struct choice {
     const struct wish *wish;
     struct rc_grid *grid; /* the best frame so far; NULL: none matched             */
     struct beside beside;
-    double size;       /* its largest |value|                                      */
-    bool by_size;      /* settled: the reason why it is preferred to other depths  */
-    struct seen *seen; /* every frame that was read, without its values            */
-    size_t n, capacity;
+    double size;           /* its largest |value|                                      */
+    bool by_size;          /* settled: the reason why it is preferred to other depths  */
+    struct seen_list list; /* every frame that was read */
 };
 
 /* Keeps the frame if it is better than the kept one, or frees it. Of several depths the one with the largest
