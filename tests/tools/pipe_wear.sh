@@ -29,6 +29,13 @@ claim "worn heights and pressures agree: solved again, they carry the same press
 near "$(column max_pressure 1 again.tsv)" "$(column max_pressure 4 worn.tsv)" 0.03 "  the largest one"
 near "$(column contact_area 1 again.tsv)" "$(column contact_area 4 worn.tsv)" 0.01 "  and the same area"
 
+claim "a picture of each distance, and the running-in curve with its units" bash -c '
+    rc-render --channel pressure --case 1,2 -o maps.svg worn.rcg && rc-render --case 2 -o map.svg worn.rcg &&
+        grep -q "distance 10 m" map.svg && grep -q ">b) distance 10 m<" maps.svg && ! grep -q "case 2" maps.svg &&
+        rc-render --curve distance:max_wear_depth --log x -o curve.svg steps.tsv &&
+        grep -q "Sliding distance (m)" curve.svg && grep -q "Largest worn depth (.m)" curve.svg &&
+        rc-render --curve distance:contact_fraction --log x -o report.svg worn.tsv && grep -q ">Contact fraction<" report.svg'
+
 # ---- how much wears ----
 
 rc-synth selfaffine --nx 32 --ny 32 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o rough.rcg

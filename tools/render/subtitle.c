@@ -83,7 +83,7 @@ subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey 
 {
     const char *source = rc_grid_get(g, "source"), *number = rc_grid_get(g, "case");
     char text[TICKS_TEXT];
-    double load;
+    double load, distance;
 
     if (source != NULL)
         subtitle_add(w, "", source);
@@ -91,6 +91,8 @@ subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey 
         subtitle_add(w, "case ", number);
     if (rc_grid_number(g, "load", &load))
         subtitle_add(w, "load ", scale_value(text, load, "N"));
+    if (rc_grid_number(g, "distance", &distance))
+        subtitle_add(w, "distance ", scale_value(text, distance, "m"));
     say_where(w, g, largest);
     subtitle_part(w, part);
     subtitle_range(w, g, s, means);
@@ -117,6 +119,7 @@ static const struct {
 } pieces[] = {{"source", "", NULL},
               {"case", "case ", NULL},
               {"load", "load ", "N"},
+              {"distance", "distance ", "m"},
               {"depth", "depth ", "m"},
               {"material", "", NULL}}; /* a separate word */
 
@@ -148,18 +151,18 @@ subtitle_common(struct subtitle *w, struct rc_grid *const *grid, size_t n)
             subtitle_add(w, pieces[p].name, piece_text(text, grid[0], p));
 }
 
-/* If the load identifies the frame, the number of its case is omitted. */
+/* If the load or the sliding distance identifies the frame, the number of its case is omitted. */
 void
 frame_label(char *text, size_t size, struct rc_grid *const *grid, size_t n, size_t k)
 {
-    bool loads = !subtitle_same(grid, n, "load");
+    bool named = !subtitle_same(grid, n, "load") || !subtitle_same(grid, n, "distance");
     char value[TICKS_TEXT];
     size_t used = 0;
 
     text[0] = '\0';
     for (size_t p = 0; p < PIECES && used < size; p++) {
         if (rc_grid_get(grid[k], pieces[p].key) == NULL || subtitle_same(grid, n, pieces[p].key) ||
-            (loads && strcmp(pieces[p].key, "case") == 0))
+            (named && strcmp(pieces[p].key, "case") == 0))
             continue;
         used += (size_t)snprintf(text + used, size - used, "%s%s%s", used == 0 ? "" : ", ",
                                  pieces[p].name, piece_text(value, grid[k], p));
