@@ -116,12 +116,9 @@ subtitle_same(struct rc_grid *const *grid, size_t n, const char *key)
 /* Names of keys with the units of their numbers; texts have none. */
 static const struct {
     const char *key, *name, *unit;
-} pieces[] = {{"source", "", NULL},
-              {"case", "case ", NULL},
-              {"load", "load ", "N"},
-              {"distance", "distance ", "m"},
-              {"depth", "depth ", "m"},
-              {"material", "", NULL}}; /* a separate word */
+} pieces[] = {{"source", "", NULL},     {"case", "case ", NULL},
+              {"load", "load ", "N"},   {"distance", "distance ", "m"},
+              {"depth", "depth ", "m"}, {"material", "", NULL}}; /* a separate word */
 
 enum {
     PIECES = sizeof pieces / sizeof *pieces
