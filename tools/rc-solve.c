@@ -70,11 +70,11 @@ read_conductivity(struct run *run)
     if (args.conductivity == NULL)
         return;
     if (unit_conductivities(args.conductivity, run->k, &run->conductance_unit, &err) != RC_OK)
-        tool_die(&run->t, EXIT_USAGE, "--conductivity %s: %s", args.conductivity, err.text);
+        tool_die(&run->d.t, EXIT_USAGE, "--conductivity %s: %s", args.conductivity, err.text);
     run->conductance = args.physics.pair.one.layers == 0;
     if (!run->conductance)
-        tool_warn(&run->t, "--conductivity does not work with --layer, because the analogy of "
-                           "conductance and stiffness fails: the conductance is left out");
+        tool_warn(&run->d.t, "--conductivity does not work with --layer, because the analogy of "
+                             "conductance and stiffness fails: the conductance is left out");
 }
 
 /* Checks the options of a counter body that is free to tilt. */
@@ -85,26 +85,25 @@ check_tilt(struct run *run)
 
     run->tilt = args.tilt != NULL && strcmp(args.tilt, "free") == 0;
     if (args.at.n > 0 && !run->tilt)
-        tool_die(&run->t, EXIT_USAGE, "--at has no effect without --tilt free");
+        tool_die(&run->d.t, EXIT_USAGE, "--at has no effect without --tilt free");
     if (args.at.n > 0 && args.at.n != 2)
-        tool_die(&run->t, EXIT_USAGE,
+        tool_die(&run->d.t, EXIT_USAGE,
                  "--at: it must be X,Y, from the middle of the map, as in 0.1mm,0");
     if (run->tilt && a->periodic)
-        tool_die(&run->t, EXIT_USAGE,
+        tool_die(&run->d.t, EXIT_USAGE,
                  "--tilt free does not work on a periodic surface, because it has no centre of "
                  "tilt: leave out --periodic");
-    if (run->tilt && tool_given(&run->t, "history"))
-        tool_die(&run->t, EXIT_USAGE, "--tilt free does not work with --history yet");
+    if (run->tilt && tool_given(&run->d.t, "history"))
+        tool_die(&run->d.t, EXIT_USAGE, "--tilt free does not work with --history yet");
 }
 
 static void
 check_arguments(struct run *run)
 {
-    drive_check(&run->t, &args.drive);
     /* each load starts from the last one */
     args.physics.history |= args.yield != NULL || args.adhesion != NULL;
     args.physics.attracts = args.adhesion != NULL;
-    physics_check(&run->t, &args.physics);
+    physics_check(&run->d.t, &args.physics);
     run->args = &args;
     run->steps = physics_steps(&args.physics);
     run->stiffness = args.stiffness || run->steps->n > 1;
@@ -112,7 +111,7 @@ check_arguments(struct run *run)
     check_tilt(run);
     yield_read(run);
     adhesion_read(run);
-    if (run->yielding.wanted && !tool_given(&run->t, "output"))
+    if (run->yielding.wanted && !tool_given(&run->d.t, "output"))
         args.output |= 1 << SOLVE_RESIDUAL;
     if (run->adhering.wanted && (args.output & (1 << SOLVE_PRESSURE | 1 << SOLVE_GAP)))
         args.output |= 1 << SOLVE_CONTACT; /* the pressure does not determine the contact */
@@ -123,25 +122,18 @@ check_arguments(struct run *run)
 int
 main(int argc, char **argv)
 {
-    static struct run run;
-    struct rc_grid *g, *hardness;
+    static struct run run = {
+        .d = {.args = &args.drive, .output = &args.output, .word = solve_frame_word}};
+    struct rc_grid *hardness;
 
-    tool_start(&run.t, &info, argc, argv, &args);
+    tool_start(&run.d.t, &info, argc, argv, &args);
     check_arguments(&run);
-    run.course.t = &run.t;
-    report_open(&run.report, &run.t, args.drive.report);
-    if (!args.drive.dry_run)
-        run.checkpoint =
-            checkpoint_open(&run.t, args.drive.checkpoint, args.drive.resume, args.drive.interval);
-    tool_catch_signals();
+    drive_open(&run.d, NULL);
     while (tool_interrupted() == 0 &&
-           (g = tool_channel_beside(&run.t, "height", "hardness", &hardness)) != NULL) {
-        solve_case(&run, g, hardness);
-        rc_grid_free(g);
+           (run.g = tool_channel_beside(&run.d.t, "height", "hardness", &hardness)) != NULL) {
+        solve_case(&run, hardness);
+        rc_grid_free(run.g);
         rc_grid_free(hardness);
     }
-    checkpoint_close(run.checkpoint);
-    course_warn_at_end(&run.course);
-    report_close(&run.report);
-    return tool_finish(&run.t);
+    return drive_close(&run.d);
 }

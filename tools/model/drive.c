@@ -28,13 +28,6 @@ const struct opt drive_options[] = {
 };
 /* clang-format on */
 
-void
-drive_check(struct tool *t, const struct drive_args *args)
-{
-    if ((args->resume || tool_given(t, "interval")) && args->checkpoint == NULL)
-        tool_die(t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
-}
-
 /* ---- points ---- */
 
 static const char *
@@ -71,7 +64,8 @@ void
 drive_open(struct drive *d, const struct drive_axis *axes)
 {
     d->axes = axes;
-    drive_check(&d->t, d->args);
+    if ((d->args->resume || tool_given(&d->t, "interval")) && d->args->checkpoint == NULL)
+        tool_die(&d->t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
     if (axes != NULL)
         make_points(d);
     d->course.t = &d->t;
@@ -444,7 +438,7 @@ print_plan(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
 
 /* Warns of what the model found, in the way of all tools. */
 static void
-judge(struct drive *d, const struct rc_model *m)
+judge(struct drive *d, struct rc_model *m)
 {
     char where[512];
 

@@ -123,7 +123,7 @@ struct drive {
      * all keys of the frames, the values of a frame (NULL: those of the model), how a point becomes history,
      * and the columns of the report. */
     void (*begin)(struct drive *d, struct rc_model *m);
-    void (*judge)(struct drive *d, const struct rc_model *m);
+    void (*judge)(struct drive *d, struct rc_model *m);
     void (*all_keys)(struct drive *d, const struct rc_model *m, struct rc_grid *frame);
     const double *(*frame)(struct drive *d, struct rc_model *m, struct rc_grid *frame,
                            const char *word);
@@ -157,8 +157,6 @@ void drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m);
 void drive_keep(struct drive *d, struct rc_model *m);
 /* The exit status of main. */
 int drive_close(struct drive *d);
-/* Ends the tool where --resume or --interval lacks --checkpoint. */
-void drive_check(struct tool *t, const struct drive_args *args);
 /* Sets a key of a frame, or removes it if the number is not finite. */
 void drive_set_number(struct drive *d, struct rc_grid *g, const char *name, double value);
 /* Warns of figures of the model that are beyond their limits. */

@@ -244,7 +244,7 @@ begin(struct drive *d, struct rc_model *m)
 }
 
 static void
-judge(struct drive *d, const struct rc_model *m)
+judge(struct drive *d, struct rc_model *m)
 {
     struct slip_run *run = (struct slip_run *)(void *)d;
     struct slip_state *s = &run->state;

@@ -20,7 +20,7 @@ static void
 refuse(struct run *run, bool given, const char *what, const char *why)
 {
     if (given)
-        tool_die(&run->t, EXIT_USAGE, "--adhesion does not work with %s: %s", what, why);
+        tool_die(&run->d.t, EXIT_USAGE, "--adhesion does not work with %s: %s", what, why);
 }
 
 void
@@ -32,14 +32,14 @@ adhesion_read(struct run *run)
 
     a->wanted = args->adhesion != NULL;
     if (!a->wanted && args->pull_off)
-        tool_die(&run->t, EXIT_USAGE,
+        tool_die(&run->d.t, EXIT_USAGE,
                  "--pull-off needs --adhesion: without attraction the pull-off load is 0");
     if (!a->wanted && solve_wanted(args, SOLVE_ADHESION))
-        tool_die(&run->t, EXIT_USAGE, "--output adhesion needs --adhesion");
+        tool_die(&run->d.t, EXIT_USAGE, "--output adhesion needs --adhesion");
     if (!a->wanted)
         return;
     if (attraction_read(&a->law, args->adhesion, &err) != RC_OK)
-        tool_die(&run->t, EXIT_USAGE, "--adhesion %s: %s", args->adhesion, err.text);
+        tool_die(&run->d.t, EXIT_USAGE, "--adhesion %s: %s", args->adhesion, err.text);
     refuse(run, args->yield != NULL, "--yield",
            "plasticity in the volume supports pressures only, no attraction");
     refuse(run, run->tilt, "--tilt free", "with adhesion the bodies move along their normal only");
@@ -78,7 +78,7 @@ adhesion_model(struct run *run, const struct rc_grid *g, const struct rc_problem
     if (rc_adhesion_check(&shape, &problem, &run->adhering.scales, &err) == RC_OK)
         m = rc_adhesive_new(&shape, g->v, &problem, &err);
     if (m == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     return m;
 }
 
@@ -106,7 +106,7 @@ adhesion_set_key(struct run *run, struct rc_grid *as, const struct rc_contact *c
              run->adhering.scales.law, rc_number_text(range, run->adhering.scales.range));
     if (rc_grid_set(as, "adhesion", law, &err) != RC_OK ||
         rc_grid_set_number(as, "load", c->load, &err) != RC_OK)
-        tool_die_at(&run->t, as, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, as, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
 /* ---- warnings ---- */
@@ -121,7 +121,7 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where)
     if (s->cohesive_nodes >= resolved)
         return;
     /* at constant work the cohesive length grows with the square of the range */
-    tool_warn(&run->t,
+    tool_warn(&run->d.t,
               "%s: the cohesive length, %s, is %.2g of the spacing: the grid is too coarse for "
               "this law, and pull-off and hysteresis will be too large (lattice pinning): take a "
               "spacing of %s, or, if only the work matters, a range of %s",
@@ -151,7 +151,7 @@ warn_of_jkr(struct run *run, const struct rc_grid *g, const char *where)
     if (strcmp(run->adhering.scales.law, "jkr") != 0 || !(is < enough_tabor))
         return;
     /* the range grows with the square root of the spacing */
-    tool_warn(&run->t,
+    tool_warn(&run->d.t,
               "%s: Tabor's number is %.2g, below 3: the range, %s, is too long for JKR theory, and "
               "loads and areas may differ from it by some per cent: take a spacing of %s",
               where, is, shown_in_unit(range, run->adhering.scales.range, "m"),
@@ -165,26 +165,27 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_figur
     char strength[SHOWN_NUMBER];
 
     if (f->separated)
-        tool_warn(&run->t,
+        tool_warn(&run->d.t,
                   "%s: the bodies have separated, because no state carries this load: take "
                   "--approach to pass the pull-off, or --pull-off to find its load",
                   where);
     else if (!f->stable && f->converged)
-        course_warn(&run->course, "the state is not stable", "%s: the state is not stable", where);
+        course_warn(&run->d.course, "the state is not stable", "%s: the state is not stable",
+                    where);
     solve_warn_of_limits(run, where);
     if (run->adhering.pulling && f->pull_off_at_start)
-        tool_warn(&run->t,
+        tool_warn(&run->d.t,
                   "%s: the lowest load is at the first point, so that the pull-off load may be "
                   "lower: end the list at a larger load or approach",
                   where);
     if (f->edge_traction > faint)
         course_warn(
-            &run->course, "a traction at the edge of the map",
+            &run->d.course, "a traction at the edge of the map",
             "%s: the traction at the edge of the map is %.2g of the largest: the bodies attract "
             "each other beyond the map too, where their heights are unknown: take a larger map",
             where, f->edge_traction);
     if (run->adhering.scales.strength > too_strong * estar)
-        course_warn(&run->course, "a traction at which a solid is not linear elastic",
+        course_warn(&run->d.course, "a traction at which a solid is not linear elastic",
                     "%s: the largest traction, %s, is %.2g of E*: beyond %g a solid is not linear "
                     "elastic: is the range right?",
                     where, shown_in_unit(strength, run->adhering.scales.strength, "Pa"),
@@ -198,14 +199,14 @@ tell(struct run *run, const char *where, const struct rc_adhesion_figures *f, bo
         spread[SHOWN_NUMBER];
 
     if (pulled)
-        tool_note(&run->t,
+        tool_note(&run->d.t,
                   "%s: pull-off at %s +- %s, at approach %s; %zu states, %.3g convolutions, %.2g s",
                   where, shown_in_unit(load, f->pull_off_load, "N"),
                   shown_in_unit(spread, f->pull_off_spread, "N"),
                   shown_in_unit(approach, f->pull_off_approach, "m"), f->states, f->convolutions,
-                  solve_now() - run->began);
+                  tool_now() - run->d.began);
     tool_note(
-        &run->t,
+        &run->d.t,
         "%s: force %s, of which %s attracts, contact area %s (%.3g %% of the map, %zu nodes), "
         "approach %s, stability %.2g, %zu %s; %s to %.2g in %zu iterations, %.3g convolutions, "
         "%.2g s",
@@ -214,7 +215,7 @@ tell(struct run *run, const char *where, const struct rc_adhesion_figures *f, bo
         100 * f->contact_fraction, f->contact_nodes, shown_in_unit(approach, f->approach, "m"),
         f->stability, f->jumps, f->jumps == 1 ? "jump" : "jumps",
         f->converged ? "converged" : "not converged", f->pressure_error, f->iterations,
-        f->convolutions, solve_now() - run->began);
+        f->convolutions, tool_now() - run->d.began);
 }
 
 void
@@ -243,7 +244,7 @@ adhesion_memory(const struct run *run, const struct rc_grid *g, const struct rc_
     const struct rc_shape shape = rc_grid_shape(g);
     const struct rc_adhesion_problem problem = problem_of(run, contact);
     /* heights, state at the last point, frame; shape of dents; state of --checkpoint */
-    const size_t maps = 3u + !isinf(run->hardness_min) + (run->checkpoint != NULL);
+    const size_t maps = 3u + !isinf(run->hardness_min) + (run->d.checkpoint != NULL);
     const size_t kept =
         contact->boundary == RC_PERIODIC ? 32 : 128; /* bytes a node of a retraction */
     struct rc_expected expected = {0};
@@ -266,7 +267,7 @@ adhesion_expect(struct run *run, const struct rc_grid *g, const struct rc_proble
 
     if (rc_adhesion_check(&shape, &problem, &run->adhering.scales, &err) != RC_OK ||
         rc_adhesion_expect(&shape, &problem, expected, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
 const char *

@@ -44,8 +44,8 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
     problem.history_part = history_part(run);
     problem.engine = run->args->kernel;
     problem.method = run->args->method;
-    problem.threads = run->t.threads;
-    problem.ranks = ranks_of(&run->t);
+    problem.threads = run->d.t.threads;
+    problem.ranks = ranks_of(&run->d.t);
     problem.hurry = tool_signal();
     problem.discretization = run->args->discretization;
     problem.tilt_free = run->tilt;
@@ -59,168 +59,105 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
 /* ---- marks of a checkpoint ---- */
 
 static void
-number_mark(struct mark *m, const char *name, double value)
-{
-    m->name = name;
-    rc_number_text(m->value, value);
-}
-
-static void
 set_marks(struct run *run)
 {
     const struct physics *args = &run->args->physics;
-    struct mark *mark = run->course.mark;
-    size_t n = 6;
+    struct course *c = &run->d.course;
+    const size_t size = sizeof c->mark->value;
 
-    if (run->checkpoint == NULL)
+    c->marks = 0;
+    if (run->d.checkpoint == NULL)
         return;
-    mark[0].name = "checkpoint.surface";
-    snprintf(mark[0].value, sizeof mark[0].value, "%s", run->crc);
-    mark[1].name = "boundary";
-    snprintf(mark[1].value, sizeof mark[1].value, "%s", args->periodic ? "periodic" : "free");
-    number_mark(&mark[2], "estar", args->estar);
-    number_mark(&mark[3], "checkpoint.hardness", args->hardness);
+    strcpy(course_mark(c, "checkpoint.surface"), run->crc);
+    strcpy(course_mark(c, "boundary"), args->periodic ? "periodic" : "free");
+    course_mark_number(c, "estar", args->estar);
     if (run->hardness != NULL)
-        snprintf(mark[3].value, sizeof mark[3].value, "map %s", run->hardness_crc);
-    number_mark(&mark[4],
-                args->load.per_metre        ? "checkpoint.load-per-metre"
-                : args->load.n > 0          ? "checkpoint.load"
-                : args->mean_pressure.n > 0 ? "checkpoint.mean-pressure"
-                                            : "checkpoint.approach",
-                run->steps->v[run->step]);
-    mark[5].name = "checkpoint.history"; /* earlier loads, which have changed the shape */
-    snprintf(mark[5].value, sizeof mark[5].value, "%08" PRIx32,
-             !args->history ? 0
-                            : rc_crc32_add(0, run->steps->v, run->step * sizeof *run->steps->v));
-    for (int k = 0; k < YIELD_MARKS; k++, n++)
-        mark[n].name = yield_mark(run, k, mark[n].value, sizeof mark[n].value);
-    mark[n].name = "checkpoint.adhesion";
-    adhesion_mark(run, mark[n].value, sizeof mark[n].value);
-    run->course.marks = n + 1;
+        snprintf(course_mark(c, "checkpoint.hardness"), size, "map %s", run->hardness_crc);
+    else
+        course_mark_number(c, "checkpoint.hardness", args->hardness);
+    course_mark_number(c,
+                       args->load.per_metre        ? "checkpoint.load-per-metre"
+                       : args->load.n > 0          ? "checkpoint.load"
+                       : args->mean_pressure.n > 0 ? "checkpoint.mean-pressure"
+                                                   : "checkpoint.approach",
+                       run->steps->v[run->step]);
+    /* the earlier loads, which have changed the shape */
+    course_mark_crc(
+        c, "checkpoint.history",
+        args->history ? rc_crc32_add(0, run->steps->v, run->step * sizeof *run->steps->v) : 0);
+    yield_set_marks(run);
+    adhesion_mark(run, course_mark(c, "checkpoint.adhesion"), size);
 }
 
 /* ---- results ---- */
 
-/* Sets a key. If the number is unknown, removes the key, which may come from an earlier solution. */
 static void
-set_number(struct run *run, struct rc_grid *g, const char *name, double value)
+set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
 {
-    struct rc_err err;
-
-    if ((isfinite(value) ? rc_grid_set_number(g, name, value, &err)
-                         : rc_grid_set(g, name, NULL, &err)) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-}
-
-static void
-set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
-{
+    struct run *run = (struct run *)(void *)d;
+    const struct rc_contact *c = &run->solution.contact;
     const struct rc_yield *law = &run->yielding.law;
     const bool yields = run->yielding.on;
     struct rc_err err;
 
+    (void)m;
     if (rc_grid_set(g, "boundary", run->args->physics.periodic ? "periodic" : "free", &err) !=
             RC_OK ||
         rc_grid_set(g, "converged", c->converged ? "yes" : "no", &err) != RC_OK ||
         bodies_set(g, &run->args->physics.pair, run->args->physics.residual, &err) != RC_OK ||
-        rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (run->steps->n > 1 || run->args->pull_off)
-        set_number(run, g, "case", (double)run->course.number);
+        rc_grid_history(g, tool_history(&run->d.t), &err) != RC_OK)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (d->points > 1)
+        drive_set_number(d, g, "case", (double)run->d.course.number);
     /* the requested and the reached load differ by rounding only */
-    set_number(run, g, "load",
-               run->args->physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);
-    set_number(run, g, "hardness", run->args->physics.hardness);
-    set_number(run, g, "approach", c->approach);
+    drive_set_number(d, g, "load",
+                     run->args->physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);
+    drive_set_number(d, g, "hardness", run->args->physics.hardness);
+    drive_set_number(d, g, "approach", c->approach);
     /* slabs: a reader of the stream then expects the frames of plastic strain */
-    set_number(run, g, "slabs", yields ? (double)run->yielding.found->slabs : NAN);
-    set_number(run, g, "yield", yields ? rc_yield_stress(law, 0) : NAN);
-    set_number(run, g, "hardening", yields ? yield_law_hardening(law) : NAN);
+    drive_set_number(d, g, "slabs", yields ? (double)run->yielding.found->slabs : NAN);
+    drive_set_number(d, g, "yield", yields ? rc_yield_stress(law, 0) : NAN);
+    drive_set_number(d, g, "hardening", yields ? yield_law_hardening(law) : NAN);
     adhesion_set_key(run, g, c);
 }
 
-static void
-put_values(struct run *run, const struct rc_grid *as, enum solve_frame f, const double *v)
+/* Values that are not those of a frame of the model. The frames from `plastic` on have the error of the shape. */
+static const double *
+own_values(struct drive *d, struct rc_model *m, struct rc_grid *as, const char *word)
 {
-    struct rc_grid frame = *as; /* as the reader of the stream sees it */
+    struct run *run = (struct run *)(void *)d;
+    const struct rc_contact *c = &run->solution.contact;
 
-    if (!solve_wanted(run->args, (int)f))
-        return;
-    frame.channel = (char *)solve_frames[f].name; /* tool_write only reads the strings and the
-                                                     values */
-    frame.unit = (char *)solve_frames[f].unit;
-    frame.type = f == SOLVE_CONTACT ? RC_F32 : as->type; /* its values are 0 and 1 */
-    frame.v = (double *)v;
-    tool_write(&run->t, &frame);
-}
-
-/* Computes a frame of the model in the buffer and writes it. */
-static void
-put(struct run *run, struct rc_model *m, const struct rc_grid *as, enum solve_frame f,
-    double *buffer)
-{
-    struct rc_err err;
-
-    if (!solve_wanted(run->args, (int)f))
-        return;
-    if (rc_model_frame(m, solve_frames[f].name, buffer, &err) != RC_OK)
-        tool_die_at(&run->t, as, EXIT_IMPOSSIBLE, "%s", err.text);
-    put_values(run, as, f, buffer);
-}
-
-static void
-put_out(struct run *run, const struct rc_grid *g, struct rc_model *m, const struct rc_contact *c)
-{
-    struct rc_err err;
-    struct rc_grid *as = rc_grid_like(g, g->channel, g->unit, &err);
-    /* the buffer is the input map if it is no longer needed; untouched pages of the new map take no memory */
-    const bool last = run->step + 1 == run->steps->n && !run->args->physics.history;
-    double *buffer = as == NULL                                       ? NULL
-                     : solve_wanted(run->args, SOLVE_HEIGHT) || !last ? as->v
-                                                                      : g->v;
-
-    if (as == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    set_keys(run, as, c);
-    for (int f = SOLVE_CONTACT; f <= SOLVE_DISPLACEMENT; f++)
-        put(run, m, as, (enum solve_frame)f, buffer);
-    as->type = g->type;
-    put_values(run, as, SOLVE_HEIGHT, g->v);
-    as->type = RC_F64;
-    if (c->yielded_nodes > 0 && !run->adhering.wanted)
-        set_number(run, as, HEIGHT_ERROR, c->shape_error);
-    if (run->apart && !run->yielding.wanted) /* the shape has not changed */
-        put_values(run, as, SOLVE_PLASTIC, g->v);
-    else
-        put(run, m, as, SOLVE_PLASTIC, buffer);
-    if (run->yielding.wanted) {
-        put(run, m, as, SOLVE_RESIDUAL, buffer);
-        if (solve_wanted(run->args, SOLVE_STRAIN))
-            yield_put_strain(run, m, as, buffer);
-    }
-    put(run, m, as, SOLVE_ADHESION, buffer);
-    rc_grid_free(as);
+    if (strcmp(word, "plastic") == 0 && c->yielded_nodes > 0 && !run->adhering.wanted)
+        drive_set_number(d, as, HEIGHT_ERROR, c->shape_error);
+    if (strcmp(word, "plastic") == 0 && run->apart && !run->yielding.wanted)
+        return run->g->v; /* the shape has not changed */
+    if (strcmp(word, "strain") == 0)
+        yield_put_strain(run, m, as);
+    return NULL;
 }
 
 /* ---- loads ---- */
 
 /* In a history, gives the heights the shape after the load. */
 static void
-keep_shape(struct run *run, struct rc_grid *g, struct rc_model *m, struct solution *s)
+keep_shape(struct drive *d, struct rc_model *m)
 {
+    struct run *run = (struct run *)(void *)d;
+    struct solution *s = &run->solution;
+    struct rc_grid *g = run->g;
     struct rc_err err;
 
     if (!run->args->physics.history)
         return;
     if (s->contact.yielded_nodes > 0) {
         if (rc_model_frame(m, "plastic", g->v, &err) != RC_OK)
-            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+            tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
         g->type = RC_F64;
         if (!run->adhering.wanted)
-            set_number(run, g, HEIGHT_ERROR, s->contact.shape_error);
+            drive_set_number(d, g, HEIGHT_ERROR, s->contact.shape_error);
     }
-    if (run->status != RC_MORE && rc_model_keep(m, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    drive_keep(d, m);
     s->indentation = rc_model_number(m, "indentation");
     s->residual_indentation = rc_model_number(m, "residual_indentation");
 }
@@ -230,7 +167,7 @@ static void
 look_inside(struct run *run, const struct rc_grid *g, const double *touch, struct solution *s)
 {
     const struct rc_shape shape = rc_grid_shape(g);
-    size_t columns, rows, first = tool_first_row(&run->t, g);
+    size_t columns, rows, first = tool_first_row(&run->d.t, g);
     double width, touching = 0, inside;
 
     s->inside_area = s->inside_fraction = NAN;
@@ -243,7 +180,7 @@ look_inside(struct run *run, const struct rc_grid *g, const double *touch, struc
             rc_in_contact(touch[k]))
             touching++;
     }
-    touching = ranks_sum(&run->t, touching);
+    touching = ranks_sum(&run->d.t, touching);
     inside = (double)(g->nx - 2 * columns) * (double)(g->ny - 2 * rows);
     s->inside_area = touching * g->dx * g->dy;
     s->inside_fraction = inside > 0 ? touching / inside : NAN;
@@ -255,14 +192,14 @@ look_at_contact(struct run *run, const struct rc_grid *g, const double *touch, s
     struct rc_shape shape = rc_grid_shape(g);
     struct rc_patch_options options = {.boundary =
                                            run->args->physics.periodic ? RC_PERIODIC : RC_FREE,
-                                       .each = report_wanted(&run->report),
-                                       .threads = run->t.threads,
-                                       .ranks = ranks_of(&run->t)};
+                                       .each = report_wanted(&run->d.report),
+                                       .threads = run->d.t.threads,
+                                       .ranks = ranks_of(&run->d.t)};
     struct rc_err err;
 
     if (rc_patches_find(&shape, touch, &options, &s->patches, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    s->slope = rc_measure_contact_slope(ranks_of(&run->t), &shape, g->v, touch);
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    s->slope = rc_measure_contact_slope(ranks_of(&run->d.t), &shape, g->v, touch);
     look_inside(run, g, touch, s);
 }
 
@@ -275,7 +212,7 @@ look_at_closed_gap(struct run *run, const struct rc_grid *g, struct rc_model *m,
     struct rc_err err = {"out of memory for a map"};
 
     if (touch == NULL || rc_model_frame(m, CONTACT_CHANNEL, touch, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     look_at_contact(run, g, touch, s);
     free(touch);
 }
@@ -286,10 +223,7 @@ look_at_model(struct run *run, const struct rc_grid *g, struct rc_model *m, stru
 {
     const struct rc_elastic_figures *elastic = rc_elastic_result(m);
     const struct rc_adhesive_figures *adhesive = rc_adhesive_result(m);
-    struct rc_err err;
 
-    if (rc_model_look(m, NULL, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     yield_found(run, m);
     run->adhering.figures = adhesive != NULL ? &adhesive->adhesion : NULL;
     s->contact = elastic != NULL    ? elastic->contact
@@ -308,22 +242,27 @@ find_stiffness(struct run *run, const struct rc_grid *g, struct rc_solver *solve
 
     if (run->conductance &&
         rc_solver_conductance(solver, run->k[0], run->k[1], &s->conductance, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (!run->stiffness)
         return;
     if (run->conductance && s->contact.plastic_nodes == 0)
         s->stiffness = s->conductance.stiffness;
     else if (rc_solver_stiffness(solver, &s->stiffness, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* Finds the figures of this load, writes its frames and its row, and keeps its shape. */
+/* Finds the figures of this load, and warns. */
 static void
-end_load(struct run *run, struct rc_grid *g, struct rc_model *m)
+judge_load(struct drive *d, struct rc_model *m)
 {
-    struct solution solution = SOLUTION_NONE, *s = &solution;
-    const double start = solve_now();
+    struct run *run = (struct run *)(void *)d;
+    struct solution *s = &run->solution;
+    struct rc_grid *g = run->g;
+    const double start = tool_now();
 
+    rc_patches_free(&s->patches);
+    *s = (struct solution)SOLUTION_NONE;
+    run->solver = rc_model_solver(m);
     if (run->apart)
         look_inside(run, g, NULL, s);
     else if (run->solver != NULL &&
@@ -342,18 +281,17 @@ end_load(struct run *run, struct rc_grid *g, struct rc_model *m)
                                  .inherited = s->contact.inherited_error,
                                  .contact = s->contact.pressure_error - s->contact.inherited_error};
     yield_look(run, s);
-    run->done = solve_now();
+    run->done = tool_now();
     run->result = run->apart ? 0 : run->done - start;
     if (run->adhering.wanted)
         adhesion_judge(run, g, s);
     else
         solve_judge(run, g, s);
     if (!s->contact.converged && !run->apart)
-        tool_fails_with(&run->t, EXIT_SHORT);
-    put_out(run, g, m, &s->contact);
-    keep_shape(run, g, m, s);
-    solve_report(run, g, run->apart ? NULL : run->solver, s);
-    rc_patches_free(&s->patches);
+        tool_fails_with(&d->t, EXIT_SHORT);
+    /* the frames are found in the input map if it is no longer needed */
+    d->spare = !solve_wanted(run->args, SOLVE_HEIGHT) && !run->args->physics.history &&
+               run->step + 1 == run->steps->n;
 }
 
 struct demand {
@@ -378,16 +316,17 @@ demand_memory(struct run *run, const struct rc_grid *g, const struct rc_problem 
 {
     const struct demand d = {run, g, problem};
 
-    run->t.remedy = tool_leaner_engine(&run->t, problem->boundary == RC_PERIODIC, memory_by, &d);
-    tool_demand_memory(&run->t, g, solve_memory(run, g, problem));
-    run->t.remedy = NULL;
+    run->d.t.remedy =
+        tool_leaner_engine(&run->d.t, problem->boundary == RC_PERIODIC, memory_by, &d);
+    tool_demand_memory(&run->d.t, g, solve_memory(run, g, problem));
+    run->d.t.remedy = NULL;
 }
 
 static void
 before_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
 {
     if (run->adhering.wanted)
-        tool_demand_memory(&run->t, g, adhesion_memory(run, g, problem));
+        tool_demand_memory(&run->d.t, g, adhesion_memory(run, g, problem));
     else
         demand_memory(run, g, problem);
     if (run->done == 0)         /* no load has been solved */
@@ -395,78 +334,75 @@ before_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *p
                                    pressure to write */
 }
 
+/* Before a load. The first one plans the solver. */
 static void
-after_plan(struct run *run)
+begin_load(struct drive *d, struct rc_model *m)
 {
-    tool_catch_signals();
-    run->setup = solve_now() - run->began;
-}
+    struct run *run = (struct run *)(void *)d;
+    struct adhering *a = &run->adhering;
+    struct rc_problem problem;
+    bool plans;
 
-/* Leads the model to this load. The first load plans the solver. */
-static void
-press(struct run *run, const struct rc_grid *g, struct rc_model *m,
-      const struct rc_problem *problem)
-{
-    const bool plans = run->adhering.wanted ? run->step == 0 && !run->adhering.pulling
-                                            : !run->apart && rc_model_solver(m) == NULL;
-    const bool approach = run->args->physics.approach.n > 0;
-    struct course *c = &run->course;
-    struct rc_point to = {0};
-
-    rc_point_set(&to, approach ? RC_APPROACH : RC_LOAD,
-                 run->apart ? 0
-                 : approach ? problem->approach
-                            : problem->load);
-    if (run->adhering.pulling)
-        rc_point_set(&to, RC_APPROACH, -INFINITY);
-    c->g = g;
-    c->checkpoint =
-        (run->apart && !run->yielding.on) || run->adhering.pulling ? NULL : run->checkpoint;
+    a->pulling = d->at == run->steps->n;
+    run->step = a->pulling ? d->at - 1 : d->at;
+    run->apart = run->steps->v[run->step] == 0 && !a->wanted;
+    problem = problem_of(run, run->g, run->step);
+    if (run->yielding.wanted)
+        yield_plan(run, m, problem.load);
+    plans = a->wanted ? d->at == 0 : !run->apart && rc_model_solver(m) == NULL;
+    if ((run->apart && !run->yielding.on) || a->pulling)
+        d->course.checkpoint = NULL;
     set_marks(run);
     if (plans)
-        before_plan(run, g, problem);
-    course_set(c, m, &to);
-    if (plans)
-        after_plan(run);
-    run->status = course_run(c, m);
-    run->iterate = c->iterate;
-    run->solver = rc_model_solver(m);
+        before_plan(run, run->g, &problem);
 }
 
-/* Solves the loads of a list, each from the solution of the last one; in a history, on the shape after the
- * last one. --pull-off adds a case in which the bodies are separated. */
+/* The loads of a list, each from the solution of the last one; in a history, on the shape after the last one.
+ * --pull-off adds a case in which the bodies are separated. */
 static void
-do_loads(struct run *run, struct rc_grid *g)
+make_points(struct run *run)
 {
-    const struct rc_shape shape = rc_grid_shape(g);
-    struct rc_problem problem = problem_of(run, g, 0);
-    struct rc_err err;
-    const size_t cases = run->steps->n + run->args->pull_off;
-    struct rc_model *m = run->yielding.wanted ? yield_model(run, g, &problem)
-                         : run->adhering.wanted
-                             ? adhesion_model(run, g, &problem)
-                             : rc_elastic_new(&shape, g->v, &problem, NULL, &err);
+    const bool approach = run->args->physics.approach.n > 0;
+    struct drive *d = &run->d;
 
-    if (m == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    run->model = m;
-    run->course.number = cases == 1 ? rc_grid_case(g) - 1 : run->course.number;
-    for (size_t k = 0; k < cases; k++) {
-        if (k > 0 && tool_interrupted() != 0)
-            break; /* the first case is always written */
-        run->adhering.pulling = k == run->steps->n;
-        run->step = run->adhering.pulling ? k - 1 : k;
-        problem = problem_of(run, g, run->step);
-        run->began = solve_now();
-        run->setup = run->iterate = 0;
-        run->course.number++;
-        run->apart = run->steps->v[run->step] == 0 && !run->adhering.wanted;
-        if (run->yielding.wanted)
-            yield_plan(run, m, problem.load);
-        press(run, g, m, &problem);
-        end_load(run, g, m);
+    d->points = run->steps->n + run->args->pull_off;
+    if ((d->point = calloc(d->points, sizeof *d->point)) == NULL)
+        tool_die(&d->t, EXIT_IMPOSSIBLE, "out of memory for %zu loads", d->points);
+    for (size_t k = 0; k < run->steps->n; k++) {
+        const struct rc_problem problem = problem_of(run, run->g, k);
+        rc_point_set(&d->point[k], approach ? RC_APPROACH : RC_LOAD,
+                     approach ? problem.approach : problem.load);
     }
-    rc_model_free(m);
+    if (run->args->pull_off)
+        rc_point_set(&d->point[run->steps->n], RC_APPROACH, -INFINITY);
+}
+
+static void
+do_loads(struct run *run)
+{
+    const struct rc_shape shape = rc_grid_shape(run->g);
+    const struct rc_problem problem = problem_of(run, run->g, 0);
+    struct drive *d = &run->d;
+    struct rc_err err;
+
+    run->model = run->yielding.wanted   ? yield_model(run, run->g, &problem)
+                 : run->adhering.wanted ? adhesion_model(run, run->g, &problem)
+                                        : rc_elastic_new(&shape, run->g->v, &problem, NULL, &err);
+    if (run->model == NULL)
+        tool_die_at(&d->t, run->g, EXIT_IMPOSSIBLE, "%s", err.text);
+    d->begin = begin_load;
+    d->judge = judge_load;
+    d->all_keys = set_keys;
+    d->frame = own_values;
+    d->keep = keep_shape;
+    d->row = solve_report;
+    make_points(run);
+    if (d->points == 1)
+        d->course.number = rc_grid_case(run->g) - 1;
+    drive_points(d, run->g, run->model);
+    free(d->point);
+    d->point = NULL;
+    rc_patches_free(&run->solution.patches);
     run->adhering.figures = NULL;
     yield_free(run);
 }
@@ -478,41 +414,43 @@ take_hardness(struct run *run, const struct rc_grid *hardness)
     const double *v = hardness != NULL ? hardness->v : &run->args->physics.hardness;
     double low = INFINITY, high = -INFINITY;
 
-    physics_hardness(&run->t, hardness);
+    physics_hardness(&run->d.t, hardness);
     for (size_t k = 0; k < (hardness != NULL ? rc_grid_nodes(hardness) : 1); k++)
         if (isfinite(v[k])) {
             low = fmin(low, v[k]);
             high = fmax(high, v[k]);
         }
     run->hardness = hardness;
-    run->hardness_min = -ranks_most(&run->t, -low);
-    run->hardness_max = ranks_most(&run->t, high);
+    run->hardness_min = -ranks_most(&run->d.t, -low);
+    run->hardness_max = ranks_most(&run->d.t, high);
     if (run->args->physics.history && isinf(run->hardness_min) && !run->yielding.wanted &&
         !run->adhering.wanted)
-        tool_warn(&run->t, "--history has no effect, because nothing yields without --hardness, a "
-                           "map of it, or --yield: give one of them");
+        tool_warn(&run->d.t,
+                  "--history has no effect, because nothing yields without --hardness, a "
+                  "map of it, or --yield: give one of them");
 }
 
 void
-solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness)
+solve_case(struct run *run, const struct rc_grid *hardness)
 {
+    struct rc_grid *g = run->g;
     const struct rc_shape shape = rc_grid_shape(g);
 
     take_hardness(run, hardness);
-    run->rms_slope = report_wanted(&run->report)
-                         ? rc_measure_contact_slope(ranks_of(&run->t), &shape, g->v, NULL)
+    run->rms_slope = report_wanted(&run->d.report)
+                         ? rc_measure_contact_slope(ranks_of(&run->d.t), &shape, g->v, NULL)
                          : NAN;
-    physics_heights(&run->t, &run->args->physics, g);
+    physics_heights(&run->d.t, &run->args->physics, g);
     if (!rc_grid_number(g, HEIGHT_ERROR, &run->height_error))
         run->height_error = 0;
-    if (run->checkpoint != NULL)
-        checkpoint_crc(&run->t, g, run->crc);
-    if (run->checkpoint != NULL && hardness != NULL)
-        checkpoint_crc(&run->t, hardness, run->hardness_crc);
+    if (run->d.checkpoint != NULL)
+        checkpoint_crc(&run->d.t, g, run->crc);
+    if (run->d.checkpoint != NULL && hardness != NULL)
+        checkpoint_crc(&run->d.t, hardness, run->hardness_crc);
     if (run->args->drive.dry_run) {
         struct rc_problem problem = problem_of(run, g, 0);
         solve_plan(run, g, &problem);
     } else {
-        do_loads(run, g);
+        do_loads(run);
     }
 }

@@ -19,7 +19,7 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
     char value[SHOWN_NUMBER];
 
     if (source == NULL)
-        source = run->t.source == NULL ? "standard input" : run->t.source;
+        source = run->d.t.source == NULL ? "standard input" : run->d.t.source;
     if (a->load.n > 0) {
         name = "load";
         unit = a->load.per_metre ? "N/m" : "N";
@@ -27,7 +27,7 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
         name = "mean pressure";
         unit = "Pa";
     }
-    snprintf(text, size, "%s, case %zu, %s %s", source, run->course.number, name,
+    snprintf(text, size, "%s, case %zu, %s %s", source, run->d.course.number, name,
              shown_in_unit(value, run->steps->v[run->step], unit));
     return text;
 }
@@ -48,19 +48,19 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
     shown_in_unit(modulus, estar, "Pa");
     shown_in_unit(mean, s->contact.mean_pressure, "Pa");
     if (estar < no_modulus)
-        course_warn(&run->course, "the largest pressure is above E*",
+        course_warn(&run->d.course, "the largest pressure is above E*",
                     "%s: the %s, %s, is above E*, which is %s: was its unit forgotten, as in "
                     "114GPa?",
                     where, name, peak, modulus);
     else if (s->contact.mean_pressure > linear * estar)
-        course_warn(&run->course, "the largest pressure is above E*",
+        course_warn(&run->d.course, "the largest pressure is above E*",
                     "%s: the %s, %s, is above E* = %s; on a map of %s by %s the mean is %s: "
                     "are the load, %s, and E* in their right units?",
                     where, name, peak, modulus, shown_in_unit(x, width, "m"),
                     shown_in_unit(y, length, "m"), mean, shown_in_unit(load, s->contact.load, "N"));
     else
         course_warn(
-            &run->course, "the largest pressure is above E*",
+            &run->d.course, "the largest pressure is above E*",
             "%s: the %s, %s, is above E* = %s, and the RMS slope in contact is %.3g: are heights "
             "and spacings in their right units (rc-import --z-unit, --dx)?",
             where, name, peak, modulus, s->slope);
@@ -78,18 +78,18 @@ solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where
     if (peak > estar)
         suspect_unit(run, g, where, s);
     else if (peak > linear * estar && isfinite(run->hardness_max) && run->hardness_max >= peak)
-        course_warn(&run->course, "a pressure at which a solid is not linear elastic",
+        course_warn(&run->d.course, "a pressure at which a solid is not linear elastic",
                     "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic, and "
                     "--hardness, %s, is above that: is its unit right?",
                     where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
                     shown_in_unit(hardness, run->hardness_max, "Pa"));
     else if (peak > linear * estar)
-        course_warn(&run->course, "a pressure at which a solid is not linear elastic",
+        course_warn(&run->d.course, "a pressure at which a solid is not linear elastic",
                     "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic: give "
                     "%sa smaller load",
                     where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
                     run->yielding.wanted ? "" : "its --hardness, or ");
-    drive_judge_slope(&run->course, s->slope, where);
+    drive_judge_slope(&run->d.course, s->slope, where);
 }
 
 /* ---- beyond the grid ---- */
@@ -102,7 +102,7 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where, const 
 
     if (nodes >= fewest_nodes[map] && (double)nodes >= fewest_each * (double)s->patches.count)
         return;
-    course_warn(&run->course, "the grid does not resolve the contact",
+    course_warn(&run->d.course, "the grid does not resolve the contact",
                 "%s: %zu %s in contact, in %zu %s: the grid does not resolve it: area and "
                 "largest pressure may be far off: --discretization estimates by how much",
                 where, nodes, nodes == 1 ? "node" : "nodes", s->patches.count,
@@ -121,23 +121,23 @@ solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *c
     if (!isnan(c->pressure_error))
         snprintf(error, sizeof error, "its estimated error is %.2g", c->pressure_error);
     if (tool_interrupted() != 0)
-        tool_warn(&run->t,
+        tool_warn(&run->d.t,
                   "%s: interrupted after %zu iterations: the frames hold the best state so far, "
                   "not a solution: %s",
                   where, c->iterations, error);
     else if (run->tilt && c->hardness_active)
         course_warn(
-            &run->course, "stopped short",
+            &run->d.course, "stopped short",
             "%s: not converged after %zu iterations: %s: yielding nodes may not be able to balance "
             "the load at this point: move --at nearer to the middle, or raise --hardness",
             where, c->iterations, error);
     else if (c->inherited_error > c->pressure_error / 2)
-        course_warn(&run->course, "stopped short",
+        course_warn(&run->d.course, "stopped short",
                     "%s: %s, of which %.2g come from earlier loads, whose shape it has: take a "
                     "smaller --tol",
                     where, error, c->inherited_error);
     else
-        course_warn(&run->course, "stopped short",
+        course_warn(&run->d.course, "stopped short",
                     "%s: not converged after %zu iterations: %s: accept it with a larger --tol",
                     where, c->iterations, error);
 }
@@ -164,7 +164,7 @@ tell(struct run *run, const char *where, const struct solution *s)
         snprintf(over_nodes, sizeof over_nodes, " (%s over 2 x 2 nodes)",
                  shown_in_unit(value, mean, "Pa"));
     yield_tell(run, c, took, sizeof took);
-    tool_note(&run->t,
+    tool_note(&run->d.t,
               "%s: force %s, contact area %s (%.3g %% of the map, %zu nodes in %zu %s), %slargest "
               "pressure %s%s, approach %s, mean gap %s; %s%s in %s, "
               "%.2g s",
@@ -174,7 +174,7 @@ tell(struct run *run, const char *where, const struct solution *s)
               shown_in_unit(peak, c->max_pressure, "Pa"), over_nodes,
               isnan(c->approach) ? "unknown" : shown_in_unit(approach, c->approach, "m"),
               shown_in_unit(gap, c->mean_gap, "m"), c->converged ? "converged" : "not converged",
-              error, took, solve_now() - run->began);
+              error, took, tool_now() - run->d.began);
 }
 
 void
@@ -187,7 +187,7 @@ solve_warn_of_limits(struct run *run, const char *where)
         {"stability", holds ? "a list of approaches passes the jump" : NULL},
         {NULL, NULL}};
 
-    drive_judge(&run->course, run->model, advice, where);
+    drive_judge(&run->d.course, run->model, advice, where);
 }
 
 void
@@ -201,7 +201,7 @@ solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
     solve_warn_of_limits(run, where);
     if (!run->args->physics.periodic &&
         s->contact.edge_load_fraction > rc_figure_find("edge_load_fraction")->limit)
-        course_warn(&run->course, "the contact reaches the edge of the map",
+        course_warn(&run->d.course, "the contact reaches the edge of the map",
                     "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact reaches "
                     "its edge, beyond which there is no material: take a larger map, a smaller "
                     "load, or --periodic if the surface repeats",

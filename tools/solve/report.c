@@ -5,24 +5,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* clang-format off */
-const struct solve_frame_kind solve_frames[SOLVE_FRAMES] = {
-    [SOLVE_CONTACT] = {CONTACT_CHANNEL, "1"},
-    [SOLVE_PRESSURE] = {"pressure", "Pa"},
-    [SOLVE_GAP] = {"gap", "m"},
-    [SOLVE_DISPLACEMENT] = {"displacement", "m"},
-    [SOLVE_HEIGHT] = {"height", "m"},
-    [SOLVE_PLASTIC] = {"plastic", "m"},
-    [SOLVE_RESIDUAL] = {"residual", "m"},
-    [SOLVE_STRAIN] = {"strain", "1"},
-    [SOLVE_ADHESION] = {"adhesion", "Pa"},
-};
-/* clang-format on */
-
 const char *
 solve_frame_word(size_t k)
 {
-    return k < SOLVE_FRAMES ? solve_frames[k].name : NULL;
+    static const char *const words[] = {
+        [SOLVE_CONTACT] = CONTACT_CHANNEL,
+        [SOLVE_PRESSURE] = "pressure",
+        [SOLVE_GAP] = "gap",
+        [SOLVE_DISPLACEMENT] = "displacement",
+        [SOLVE_HEIGHT] = "height",
+        [SOLVE_PLASTIC] = "plastic",
+        [SOLVE_RESIDUAL] = "residual",
+        [SOLVE_STRAIN] = "strain",
+        [SOLVE_ADHESION] = "adhesion",
+        [SOLVE_FRAMES] = NULL,
+    };
+
+    return words[k];
 }
 
 /* ---- effects ---- */
@@ -128,7 +127,7 @@ discretization_state(const struct scene *s)
 {
     if (!s->run->args->discretization)
         return "left out: no --discretization";
-    return s->run->course.resumed ? "left out: resumed, no coarser grid was solved" : "on";
+    return s->run->d.course.resumed ? "left out: resumed, no coarser grid was solved" : "on";
 }
 
 static const struct effect {
@@ -165,7 +164,7 @@ effect_at(const struct scene *scene, size_t k, const char **name, const char **s
         *name = effects[k].name;
         *state = effects[k].state(scene);
     } else {
-        *name = solve_frames[k - EFFECTS].name;
+        *name = solve_frame_word(k - EFFECTS);
         *state =
             solve_wanted(scene->run->args, (int)(k - EFFECTS)) ? "on" : "left out: not in --output";
     }
@@ -274,28 +273,28 @@ report_asked(struct report *r, const struct run *run, const struct rc_solver *so
 }
 
 void
-solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
-             const struct solution *s)
+solve_report(struct drive *d, const struct rc_model *m)
 {
+    struct run *run = (struct run *)(void *)d;
+    const struct rc_solver *solver = run->apart ? NULL : run->solver;
+    const struct solution *s = &run->solution;
     struct scene scene = {run,
                           solver != NULL         ? rc_solver_engine_reason(solver)
                           : run->adhering.wanted ? "the gap is found by transforms"
                                                  : "left out: no load",
                           &s->contact.hardness_active};
     const char *name, *state;
-    struct report *r = &run->report;
+    struct report *r = &d->report;
 
-    if (!report_wanted(r))
-        return;
-    report_begin(r);
-    report_map(r, g, run->course.number);
+    (void)m;
+    report_map(r, run->g, run->d.course.number);
     report_text(r, "boundary", run->args->physics.periodic ? "periodic" : "free");
     report_text(r, "kernel", solver == NULL ? NULL : rc_solver_engine(solver));
     report_text(r, "method",
                 solver != NULL         ? rc_solver_method(solver)
                 : run->adhering.wanted ? "gap"
                                        : NULL);
-    report_count(r, "threads", run->t.threads, NULL);
+    report_count(r, "threads", run->d.t.threads, NULL);
     report_of(r, s, of_contact);
     report_patches(r, &s->patches);
     report_object(r, "effects");
@@ -303,13 +302,13 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
         report_text(r, name, state);
     report_end(r);
     report_object(r, "seconds");
-    report_number(r, "setup", run->setup, "s");
-    report_number(r, "iterate", run->iterate, "s");
+    report_number(r, "setup", run->d.setup, "s");
+    report_number(r, "iterate", run->d.course.iterate, "s");
     report_number(r, "result", run->result, "s");
-    report_number(r, "total", run->done - run->began, "s");
+    report_number(r, "total", run->done - run->d.began, "s");
     report_end(r);
     report_memory(r);
-    report_ranks(r, &run->t);
+    report_ranks(r, &run->d.t);
     /* the columns stay the same for all cases */
     report_number(r, "hardness_min", run->hardness_min, "Pa");
     report_number(r, "hardness_max", run->hardness_max, "Pa");
@@ -324,7 +323,6 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     adhesion_report(r, run);
     report_number(r, "rms_slope", run->rms_slope, NULL);
     report_number(r, "elastic_energy", s->contact.elastic_energy, "J");
-    report_finish_row(r);
 }
 
 /* ---- plan ---- */
@@ -367,20 +365,20 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     if (run->adhering.wanted)
         adhesion_expect(run, g, problem, &e);
     else if (rc_solver_expect(&shape, problem, &e, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     each = e.convolutions + (run->conductance ? STIFFNESS + 1 : 0) +
            (run->stiffness && !(run->conductance && isinf(run->hardness_min)) ? STIFFNESS : 0);
-    memory = ranks_most(&run->t, (double)tool_memory_with(run->adhering.wanted
-                                                              ? adhesion_memory(run, g, problem)
-                                                              : solve_memory(run, g, problem)));
+    memory = ranks_most(&run->d.t, (double)tool_memory_with(run->adhering.wanted
+                                                                ? adhesion_memory(run, g, problem)
+                                                                : solve_memory(run, g, problem)));
     memory += PLANS;
-    tool_where(&run->t, g, where, sizeof where);
-    fprintf(run->t.out, "%s: %zu x %zu nodes, %zu %s, engine %s\n", where, g->nx, g->ny,
+    tool_where(&run->d.t, g, where, sizeof where);
+    fprintf(run->d.t.out, "%s: %zu x %zu nodes, %zu %s, engine %s\n", where, g->nx, g->ny,
             run->steps->n, run->steps->n == 1 ? "load" : "loads", engine);
     for (size_t k = 0; effect_at(&scene, k, &name, &state); k++)
-        fprintf(run->t.out, "  %-15s %s\n", name, state);
-    fprintf(run->t.out, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n", each,
+        fprintf(run->d.t.out, "  %-15s %s\n", name, state);
+    fprintf(run->d.t.out, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n", each,
             run->steps->n > 1 ? " for the first load, fewer for the next" : "",
             ((size_t)memory >> 20) + 1, e.seconds * each / e.convolutions * (double)run->steps->n,
-            run->t.threads);
+            run->d.t.threads);
 }

@@ -23,10 +23,6 @@ enum solve_frame { /* in the order of the words of --output and of writing */
     SOLVE_ADHESION,
     SOLVE_FRAMES
 };
-struct solve_frame_kind {
-    const char *name, *unit;
-};
-extern const struct solve_frame_kind solve_frames[SOLVE_FRAMES];
 const char *solve_frame_word(size_t k); /* of --output */
 
 struct solve_args {
@@ -70,46 +66,6 @@ struct adhering {
     bool pulling;                              /* this case is the pull-off */
 };
 
-struct run {
-    struct tool t;
-    const struct solve_args *args;
-    const struct numbers *steps; /* the list of loads or approaches               */
-    size_t step;                 /* index in the list, from 0 */
-    bool apart;                  /* the load is 0: the bodies are separated */
-    enum rc_status status;       /* status of the load */
-    struct course course;        /* also has the number of the case */
-    struct rc_model *model;      /* model of the map */
-    struct rc_solver *solver;    /* solver of the model, which has the solution */
-    bool stiffness, conductance; /* whether they are computed */
-    struct yielding yielding;
-    struct adhering adhering;
-    bool tilt;                         /* the counter body is free to tilt */
-    double k[2];                       /* conductivities of the bodies, SI                  */
-    const char *conductance_unit;      /* W/K or S; NULL: the conductivities have no unit   */
-    double rms_slope;                  /* of the input heights; only for a report */
-    double height_error;               /* m: error of the input heights */
-    const struct rc_grid *hardness;    /* map of the hardness in the case; NULL: a number or none */
-    double hardness_min, hardness_max; /* Pa, range of the numbers; without numbers: INFINITY,
-                                          -INFINITY */
-    struct report report;
-    struct checkpoint *checkpoint; /* NULL: none */
-    char crc[16],
-        hardness_crc[16]; /* CRC of the heights, including the sphere, and of the map of hardness */
-    double began, setup, iterate, result, done; /* seconds */
-};
-
-static inline bool
-solve_wanted(const struct solve_args *args, int frame)
-{
-    return args->output >> frame & 1;
-}
-
-static inline double
-solve_now(void)
-{
-    return tool_now();
-}
-
 /* The figures of a solution. */
 struct solution {
     struct rc_contact contact;
@@ -132,14 +88,45 @@ struct solution {
         .residual_indentation = NAN, .inside_area = NAN, .inside_fraction = NAN                    \
     }
 
+struct run {
+    struct drive d;
+    const struct solve_args *args;
+    const struct numbers *steps; /* the list of loads or approaches               */
+    size_t step;                 /* index in the list, from 0 */
+    bool apart;                  /* the load is 0: the bodies are separated */
+    struct rc_model *model;      /* model of the map */
+    struct rc_solver *solver;    /* solver of the model, which has the solution */
+    bool stiffness, conductance; /* whether they are computed */
+    struct yielding yielding;
+    struct adhering adhering;
+    bool tilt;                         /* the counter body is free to tilt */
+    double k[2];                       /* conductivities of the bodies, SI                  */
+    const char *conductance_unit;      /* W/K or S; NULL: the conductivities have no unit   */
+    double rms_slope;                  /* of the input heights; only for a report */
+    double height_error;               /* m: error of the input heights */
+    const struct rc_grid *hardness;    /* map of the hardness in the case; NULL: a number or none */
+    double hardness_min, hardness_max; /* Pa, range of the numbers; without numbers: INFINITY,
+                                          -INFINITY */
+    char crc[16],
+        hardness_crc[16]; /* CRC of the heights, including the sphere, and of the map of hardness */
+    double result, done;  /* seconds */
+    struct rc_grid *g;    /* the heights of the case */
+    struct solution solution; /* of the load */
+};
+
+static inline bool
+solve_wanted(const struct solve_args *args, int frame)
+{
+    return args->output >> frame & 1;
+}
+
 /* "steel.x3p, case 2, load 3 N": the name of a solution in messages. */
 const char *solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t size);
 /* Warns of the limits of a solution and, with --verbose, prints its figures. */
 void solve_judge(struct run *run, const struct rc_grid *g, const struct solution *solution);
 
 /* Writes the row of the case if --report was given. `solver` is NULL for separated bodies. */
-void solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
-                  const struct solution *solution);
+void solve_report(struct drive *d, const struct rc_model *m);
 /* The bytes that a solution needs in addition to this map. */
 size_t solve_memory(const struct run *run, const struct rc_grid *g,
                     const struct rc_problem *problem);
@@ -149,7 +136,7 @@ void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_proble
 /* ---- case.c ---- */
 
 /* Solves the loads of these heights, and writes and reports the results. hardness: a map, or NULL. */
-void solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness);
+void solve_case(struct run *run, const struct rc_grid *hardness);
 
 /* Parts of solve_judge. The limits of the figures are in the tables of the model. */
 void solve_warn_of_limits(struct run *run, const char *where);
@@ -189,15 +176,11 @@ struct rc_model *yield_model(struct run *run, const struct rc_grid *g,
 void yield_plan(struct run *run, struct rc_model *m, double load);
 void yield_found(struct run *run, const struct rc_model *m);
 /* Mark k of a checkpoint of such a body, from 0 on: name and value. The value is empty without --yield. */
-enum {
-    YIELD_MARKS = 6
-};
-const char *yield_mark(const struct run *run, int k, char *value, size_t size);
+void yield_set_marks(struct run *run);
 /* Replaces the estimated error of the contact, and its parts, by those of the plastic body. */
 void yield_look(struct run *run, struct solution *solution);
 /* Writes the plastic strain slab by slab; `like`: shape and keys of the frames; buffer: memory for a map. */
-void yield_put_strain(struct run *run, const struct rc_model *m, const struct rc_grid *like,
-                      double *buffer);
+void yield_put_strain(struct run *run, const struct rc_model *m, const struct rc_grid *like);
 /* The largest pressure and its name (NULL: not needed). If the pressures of single nodes alternate, it is the
  * largest mean over 2 x 2 nodes. */
 double yield_peak(const struct run *run, double max_pressure, const char **name);

@@ -38,13 +38,13 @@ read_count(struct run *run, const char *name, const char *text, size_t *count,
         return;
     }
     if (lengths == NULL || (end != text && *end == '\0'))
-        tool_die(&run->t, EXIT_USAGE, "--%s %s: it must be auto%s or a number from 1 to %d", name,
+        tool_die(&run->d.t, EXIT_USAGE, "--%s %s: it must be auto%s or a number from 1 to %d", name,
                  text, lengths == NULL ? "" : ", a list of thicknesses", RC_YIELDING_INCREMENTS);
     if (unit_numbers(text, UNIT_M, lengths, &err) != RC_OK)
-        tool_die(&run->t, EXIT_USAGE, "--%s %s: %s", name, text, err.text);
+        tool_die(&run->d.t, EXIT_USAGE, "--%s %s: %s", name, text, err.text);
     for (size_t k = 0; k < lengths->n; k++)
         if (!(lengths->v[k] > 0))
-            tool_die(&run->t, EXIT_USAGE, "--%s %s: a slab must have a thickness above 0", name,
+            tool_die(&run->d.t, EXIT_USAGE, "--%s %s: a slab must have a thickness above 0", name,
                      text);
 }
 
@@ -58,22 +58,22 @@ yield_read(struct run *run)
 
     y->wanted = args->yield != NULL;
     if (!y->wanted && (args->increments != NULL || args->slabs != NULL))
-        tool_die(&run->t, EXIT_USAGE, "--increments and --slabs have no effect without --yield");
+        tool_die(&run->d.t, EXIT_USAGE, "--increments and --slabs have no effect without --yield");
     for (int f = SOLVE_RESIDUAL; !y->wanted && f <= SOLVE_STRAIN; f++)
         if (solve_wanted(args, f))
-            tool_die(&run->t, EXIT_USAGE, "--output %s has no effect without --yield",
-                     solve_frames[f].name);
+            tool_die(&run->d.t, EXIT_USAGE, "--output %s has no effect without --yield",
+                     solve_frame_word((size_t)f));
     if (!y->wanted)
         return;
     if (yield_law_read(&y->read, args->yield, &err) != RC_OK)
-        tool_die(&run->t, EXIT_USAGE, "--yield %s: %s", args->yield, err.text);
+        tool_die(&run->d.t, EXIT_USAGE, "--yield %s: %s", args->yield, err.text);
     y->law = y->read.law;
     read_count(run, "increments", args->increments, &y->asked, NULL);
     read_count(run, "slabs", args->slabs, &y->slab_count, &y->list);
-    yield_law_check(&run->t, &y->read, a);
-    yield_law_refuse(&run->t, args->discretization, "--discretization",
+    yield_law_check(&run->d.t, &y->read, a);
+    yield_law_refuse(&run->d.t, args->discretization, "--discretization",
                      "solve a coarser map in a second command instead");
-    yield_law_refuse(&run->t, run->tilt, "--tilt free",
+    yield_law_refuse(&run->d.t, run->tilt, "--tilt free",
                      "with --yield the bodies move along their normal only");
 }
 
@@ -92,35 +92,46 @@ goal(const struct run *run)
     return run->args->tol > 0 ? run->args->tol : deserved;
 }
 
-const char *
-yield_mark(const struct run *run, int k, char *value, size_t size)
+/* The number of slabs or increments, of which 0 is "auto". */
+static void
+count_text(char *value, size_t n)
 {
-    static const char *const names[YIELD_MARKS] = {"checkpoint.yield",      "checkpoint.e1",
-                                                   "checkpoint.nu1",        "checkpoint.slabs",
-                                                   "checkpoint.increments", "checkpoint.tol"};
-    const struct yielding *y = &run->yielding;
-    const struct physics *a = &run->args->physics;
-    const double number[YIELD_MARKS] = {y->law.stress,         a->pair.one.e,    a->pair.one.nu,
-                                        (double)y->slab_count, (double)y->asked, goal(run)};
-    char text[RC_NUMBER_SIZE], modulus[RC_NUMBER_SIZE];
-    const size_t bytes = y->law.points * sizeof(double);
+    if (n == 0)
+        strcpy(value, "auto");
+    else
+        rc_number_text(value, (double)n);
+}
 
-    value[0] = '\0';
+void
+yield_set_marks(struct run *run)
+{
+    static const char *const names[] = {"checkpoint.yield",      "checkpoint.e1",
+                                        "checkpoint.nu1",        "checkpoint.slabs",
+                                        "checkpoint.increments", "checkpoint.tol"};
+    const struct yielding *y = &run->yielding;
+    const struct rc_body *one = &run->args->physics.pair.one;
+    const size_t bytes = y->law.points * sizeof(double), size = sizeof run->d.course.mark->value;
+    char *value[6], text[RC_NUMBER_SIZE], modulus[RC_NUMBER_SIZE];
+
+    for (size_t k = 0; k < 6; k++)
+        value[k] = course_mark(&run->d.course, names[k]);
     if (!y->wanted)
-        return names[k];
-    if (k == 0 && y->law.points > 0)
-        snprintf(value, size, "table %08" PRIx32,
+        return;
+    if (y->law.points > 0)
+        snprintf(value[0], size, "table %08" PRIx32,
                  rc_crc32_add(rc_crc32_add(0, y->read.table[0], bytes), y->read.table[1], bytes));
-    else if (k == 0)
-        snprintf(value, size, "%s,%s", rc_number_text(text, number[k]),
+    else
+        snprintf(value[0], size, "%s,%s", rc_number_text(text, y->law.stress),
                  rc_number_text(modulus, y->law.modulus));
-    else if (k == 3 && y->list.n > 0)
-        snprintf(value, size, "list %08" PRIx32,
+    rc_number_text(value[1], one->e);
+    rc_number_text(value[2], one->nu);
+    if (y->list.n > 0)
+        snprintf(value[3], size, "list %08" PRIx32,
                  rc_crc32_add(0, y->list.v, y->list.n * sizeof *y->list.v));
     else
-        snprintf(value, size, "%s",
-                 (k == 3 || k == 4) && number[k] == 0 ? "auto" : rc_number_text(text, number[k]));
-    return names[k];
+        count_text(value[3], y->slab_count);
+    count_text(value[4], y->asked);
+    rc_number_text(value[5], goal(run));
 }
 
 /* ---- the loads ---- */
@@ -139,7 +150,7 @@ yield_model(struct run *run, const struct rc_grid *g, const struct rc_problem *c
     struct rc_model *m = rc_yielding_new(&shape, g->v, &problem, &err);
 
     if (m == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     return m;
 }
 
@@ -194,16 +205,16 @@ yield_look(struct run *run, struct solution *s)
     s->errors = (struct error_parts){
         true,          f->increment_error, f->inherited_error, f->iteration_error, f->contact_error,
         f->image_error};
-    if (run->status == RC_MORE) /* broken off */
+    if (run->d.status == RC_MORE) /* broken off */
         s->errors.increment = NAN;
     c->pressure_error = errors_sum(&s->errors);
     /* --increments asked for too few to estimate it */
     c->converged =
-        run->status == RC_OK && c->converged &&
+        run->d.status == RC_OK && c->converged &&
         (errors_within(c->pressure_error, goal(run)) || (y->asked > 0 && isnan(c->pressure_error)));
     if (f->increment_error > y->worst_error) {
         y->worst_error = f->increment_error;
-        y->worst = run->course.number;
+        y->worst = run->d.course.number;
         y->worst_increments = f->increments;
     }
 }
@@ -235,7 +246,7 @@ put_slab(struct run *run, const struct rc_model *m, struct rc_grid *frame, size_
 
     if (rc_grid_set_number(frame, "depth", depth, &err) != RC_OK ||
         rc_grid_set_number(frame, "thickness", y->found->thickness[slab], &err) != RC_OK)
-        tool_die_at(&run->t, frame, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, frame, EXIT_IMPOSSIBLE, "%s", err.text);
     for (size_t c = 0; c < RC_PLASTIC_STRAINS; c++) {
         double *to[RC_PLASTIC_STRAINS] = {NULL};
         struct rc_grid as = *frame; /* the frame in the output stream */
@@ -244,13 +255,12 @@ put_slab(struct run *run, const struct rc_model *m, struct rc_grid *frame, size_
         as.channel = (char *)names[c]; /* tool_write only reads these strings */
         as.unit = (char *)"1";
         as.v = buffer;
-        tool_write(&run->t, &as);
+        tool_write(&run->d.t, &as);
     }
 }
 
 void
-yield_put_strain(struct run *run, const struct rc_model *m, const struct rc_grid *like,
-                 double *buffer)
+yield_put_strain(struct run *run, const struct rc_model *m, const struct rc_grid *like)
 {
     const struct yielding *y = &run->yielding;
     struct rc_grid *frame;
@@ -261,9 +271,9 @@ yield_put_strain(struct run *run, const struct rc_model *m, const struct rc_grid
         return;
     frame = rc_grid_like(like, like->channel, like->unit, &err);
     if (frame == NULL)
-        tool_die_at(&run->t, like, EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_die_at(&run->d.t, like, EXIT_IMPOSSIBLE, "%s", err.text);
     for (size_t k = 0; k < y->found->slabs; k++) {
-        put_slab(run, m, frame, k, z + y->found->thickness[k] / 2, buffer);
+        put_slab(run, m, frame, k, z + y->found->thickness[k] / 2, like->v);
         z += y->found->thickness[k];
     }
     rc_grid_free(frame);
@@ -283,11 +293,11 @@ warn_of_slabs(struct run *run, const char *where, const struct rc_plastic_figure
     }
     if (f->depth > above)
         course_warn(
-            &run->course, "the lowest slab yields",
+            &run->d.course, "the lowest slab yields",
             "%s: the lowest slab yields, so that the slabs are not deep enough: give more --slabs",
             where);
     if (within > 0 && within < 4)
-        course_warn(&run->course, "few slabs in the depth that yields",
+        course_warn(&run->d.course, "few slabs in the depth that yields",
                     "%s: only %zu %s in the depth that yields, which is too coarse for its "
                     "stresses: take a finer grid, or thinner --slabs",
                     where, within, within == 1 ? "slab lies" : "slabs lie");
@@ -326,7 +336,7 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
         snprintf(what, sizeof what,
                  "%.2g %% come from the tolerance of contacts and iteration: give --tol %.0e",
                  100 * (e->iteration + e->contact), asked / 10);
-    course_warn(&run->course, "errors above the goal", "%s: %s: %s", where, first, what);
+    course_warn(&run->d.course, "errors above the goal", "%s: %s: %s", where, first, what);
 }
 
 bool
@@ -335,7 +345,7 @@ yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
     const struct yielding *y = &run->yielding;
 
     if (is_unknown(run)) {
-        tool_warn(&run->t,
+        tool_warn(&run->d.t,
                   "%s: interrupted before it was known whether body 1 yields: the frames hold an "
                   "elastic solution with an unknown error",
                   where);
@@ -343,18 +353,19 @@ yield_warn_of_end(struct run *run, const char *where, const struct solution *s)
     }
     if (!y->on)
         return false;
-    if (run->status == RC_MORE)
+    if (run->d.status == RC_MORE)
         tool_warn(
-            &run->t,
+            &run->d.t,
             "%s: interrupted in increment %zu of %zu: the frames hold an intermediate state, not "
             "a solution, and its error is unknown",
             where, y->found->increment, y->found->increments);
     else if (isnan(s->contact.pressure_error))
-        course_warn(&run->course, "an unknown error",
+        course_warn(&run->d.course, "an unknown error",
                     "%s: its error is unknown, because a load was reached in fewer than 8 "
                     "increments: give --increments 8 or more",
                     where);
-    else if (!s->contact.converged && run->status == RC_OK && s->contact.pressure_error > goal(run))
+    else if (!s->contact.converged && run->d.status == RC_OK &&
+             s->contact.pressure_error > goal(run))
         warn_of_part(run, where, s);
     else
         return false;
@@ -374,7 +385,7 @@ yield_judge(struct run *run, const char *where, const struct solution *s)
     f = &run->yielding.found->plastic;
     warn_of_slabs(run, where, f);
     if (s->patches.count > 0 && s->contact.contact_nodes < SPOT * s->patches.count)
-        course_warn(&run->course, "the plastic zone of a contact spot is not resolved",
+        course_warn(&run->d.course, "the plastic zone of a contact spot is not resolved",
                     "%s: a contact spot has %.0f nodes, and with a radius below 6 nodes its "
                     "plastic zone is not resolved: take a finer grid",
                     where, (double)s->contact.contact_nodes / (double)s->patches.count);
