@@ -49,7 +49,7 @@ read_second(struct tool *t, struct second *b)
 {
     struct rc_grid *g;
 
-    b->t.began = t->began;
+    b->t.output.began = t->output.began;
     g = tool_channel(&b->t, "height", false);
     if (b->t.exit_status != 0)
         tool_fails_with(t, b->t.exit_status);

@@ -194,11 +194,9 @@ static void
 set_depths(struct tool *t, struct rc_grid *g, double first, double step)
 {
     size_t size = g->ny * RC_NUMBER_SIZE, n = 0;
-    char *text = malloc(size), number[RC_NUMBER_SIZE];
+    char *text = tool_room(t, size, 1, "the depths of a section"), number[RC_NUMBER_SIZE];
     struct rc_err err;
 
-    if (text == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", g->ny);
     for (size_t j = 0; j < g->ny; j++)
         n += (size_t)snprintf(text + n, size - n, "%s%s", j == 0 ? "" : ",",
                               rc_number_text(number, decimal(first + (double)j * step)));
@@ -271,8 +269,7 @@ even_rows(struct tool *t, struct rc_grid *g)
 
     if (rc_grid_get(g, "section") == NULL || rc_grid_get(g, "depths") == NULL)
         return g;
-    if ((at = malloc(g->ny * sizeof *at)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", g->ny);
+    at = tool_room(t, g->ny, sizeof *at, "the depths of a section");
     tool_must(t, g, rc_export_depths(g, at, &err), &err);
     if (!rc_export_even(at, g->ny, &step)) {
         shape.ny = rows_needed(t, g, at);

@@ -188,9 +188,9 @@ static enum rc_status
 unpack(const struct tool *t, struct source *s, struct rc_err *err)
 {
     const size_t held = rc_memory_held().held;
-    size_t most = t->memory == 0     ? rc_memory_limit(s->file.size)
-                  : t->budget > held ? t->budget - held
-                                     : 0;
+    size_t most = t->memory == 0          ? rc_memory_limit(s->file.size)
+                  : t->room.budget > held ? t->room.budget - held
+                                          : 0;
     size_t size, n = strlen(s->name);
     unsigned char *data = rc_file_unpack(&s->file, most, &size, err);
 

@@ -205,26 +205,12 @@ do_case(struct run *run, const struct rc_grid *gap)
 
 /* ---- start ---- */
 
-/* Keeps the frame that defines the contact. */
-static bool
-take(void *ctx, struct tool *t, const struct rc_grid *gap, struct rc_grid *g)
-{
-    struct run *run = ctx;
-    struct rc_grid **to = strcmp(g->channel, "pressure") == 0        ? &run->p
-                          : strcmp(g->channel, CONTACT_CHANNEL) == 0 ? &run->contact
-                                                                     : NULL;
-
-    (void)gap;
-    if (to == NULL)
-        return false;
-    tool_keep_frame(t, g, to);
-    return true;
-}
-
 int
 main(int argc, char **argv)
 {
     static struct run run;
+    struct tool_frame beside[] = {
+        {"pressure", &run.p}, {CONTACT_CHANNEL, &run.contact}, {NULL, NULL}};
     struct rc_grid *gap;
 
     tool_start(&run.t, &info, argc, argv, &args);
@@ -233,7 +219,7 @@ main(int argc, char **argv)
             &run.t, EXIT_USAGE,
             "--viscosity and --pressure-drop are given together, for a flow rate, or not at all");
     report_open(&run.report, &run.t, args.report);
-    while ((gap = tool_channel_with(&run.t, "gap", take, &run)) != NULL) {
+    while ((gap = tool_channel_with(&run.t, "gap", tool_take_frames, beside)) != NULL) {
         do_case(&run, gap);
         rc_grid_free(gap);
         rc_grid_free(run.p);

@@ -82,11 +82,9 @@ settle_set(struct tool *t, struct step *step)
 {
     size_t n = strcspn(step->text, "="), size = strlen(step->text) + RC_NUMBER_SIZE;
     const char *value = step->text + n + (step->text[n] == '=');
-    char *text = args.made[step - args.steps.step] = malloc(size);
+    char *text = args.made[step - args.steps.step] = tool_room(t, size, 1, "a text");
     struct rc_err err;
 
-    if (text == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu bytes of text", size);
     snprintf(text, size, "%.*s", (int)n, step->text);
     if (step->text[n] == '\0' || !rc_key_valid(text))
         tool_die(

@@ -495,13 +495,13 @@ run_part(struct run *run, const struct part *part)
 static void
 assume(struct tool *t, const char *name, const char *text)
 {
-    for (size_t k = 0; k < t->opts; k++) {
-        const struct opt *o = &t->opt[k];
+    for (size_t k = 0; k < t->option.n; k++) {
+        const struct opt *o = &t->option.row[k];
         void *at = (char *)t->args + o->at;
 
         if (strcmp(o->name, name) != 0)
             continue;
-        t->given[k] = true;
+        t->option.given[k] = true;
         if (o->type == OPT_NUMBERS)
             (void)unit_numbers(text, o->unit, at, NULL);
         else

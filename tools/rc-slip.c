@@ -124,34 +124,19 @@ check_arguments(struct slip_run *run)
 
 /* ---- main ---- */
 
-/* Keeps the needed other frames of the case. */
-static bool
-take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
-{
-    struct slip_run *run = ctx;
-    struct rc_grid **to = strcmp(g->channel, "gap") == 0             ? &run->gap
-                          : strcmp(g->channel, "height") == 0        ? &run->height
-                          : strcmp(g->channel, CONTACT_CHANNEL) == 0 ? &run->contact
-                                                                     : NULL;
-
-    (void)p;
-    if (to == NULL)
-        return false;
-    tool_keep_frame(t, g, to);
-    return true;
-}
-
 int
 main(int argc, char **argv)
 {
     static struct slip_run run = {
         .d = {.args = &args.drive, .output = &args.output, .word = slip_frame_word}};
+    struct tool_frame beside[] = {
+        {"gap", &run.gap}, {"height", &run.height}, {CONTACT_CHANNEL, &run.contact}, {NULL, NULL}};
 
     tool_start(&run.d.t, &info, argc, argv, &args);
     check_arguments(&run);
     drive_open(&run.d, NULL);
     while (tool_interrupted() == 0 &&
-           (run.p = tool_channel_with(&run.d.t, "pressure", take, &run)) != NULL) {
+           (run.p = tool_channel_with(&run.d.t, "pressure", tool_take_frames, beside)) != NULL) {
         slip_case(&run);
         rc_grid_free(run.p);
         rc_grid_free(run.gap);

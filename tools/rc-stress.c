@@ -539,15 +539,12 @@ do_case(struct run *run, const struct rc_grid *p)
 static bool
 take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
 {
-    static const char *const tractions[] = {"traction-x", "traction-y"};
     struct run *run = ctx;
+    struct tool_frame tractions[] = {
+        {"traction-x", &run->traction[0]}, {"traction-y", &run->traction[1]}, {NULL, NULL}};
 
-    for (size_t k = 0; k < 2; k++)
-        if (strcmp(g->channel, tractions[k]) == 0) {
-            tool_keep_frame(t, g, &run->traction[k]);
-            return true;
-        }
-    return p != NULL && stress_strain_take(t, p, g, &run->strain);
+    return tool_take_frames(tractions, t, p, g) ||
+           (p != NULL && stress_strain_take(t, p, g, &run->strain));
 }
 
 static void

@@ -190,8 +190,7 @@ place_highest(struct tool *t, const struct rc_grid *g)
         tool_die(t, EXIT_IMPOSSIBLE,
                  "--like %s: no height was measured: --place highest is nowhere", args.like);
     args.place.n = 2;
-    if ((args.place.v = malloc(2 * sizeof *args.place.v)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    args.place.v = tool_room(t, 2, sizeof *args.place.v, "a place");
     i = top % g->nx;
     j = top / g->nx;
     args.place.v[0] = ((double)i - 0.5 * (double)(g->nx - 1)) * g->dx;

@@ -132,9 +132,9 @@ row_at(const struct tool *t, size_t k)
                                    .arg = "FILE",
                                    .help = "write to FILE, which appears whole or not at all"};
 
-    if (k < t->opts)
-        return &t->opt[k];
-    return k == t->opts ? &out : option_common(t->info, k - t->opts - 1);
+    if (k < t->option.n)
+        return &t->option.row[k];
+    return k == t->option.n ? &out : option_common(t->info, k - t->option.n - 1);
 }
 
 static void
@@ -150,8 +150,8 @@ walk(const struct tool *t, void (*row)(const struct tool_info *, const struct op
 static bool
 takes(const struct tool *t, enum argument argument)
 {
-    for (size_t k = 0; k < t->opts; k++)
-        if (argument_of(t->info, &t->opt[k]) == argument)
+    for (size_t k = 0; k < t->option.n; k++)
+        if (argument_of(t->info, &t->option.row[k]) == argument)
             return true;
     return false;
 }

@@ -19,14 +19,14 @@ tool_budget(struct tool *t)
     const struct memory_room room = memory_room("");
     double most = (double)rc_memory_held().held + room.bytes;
 
-    t->bound = room.why;
+    t->room.bound = room.why;
     if (t->memory != 0 && (double)t->memory < most) {
         most = (double)t->memory;
-        t->bound = "--memory allows";
+        t->room.bound = "--memory allows";
     }
-    t->budget = unit_size(fmax(most, 1));
-    rc_memory_budget(t->budget);
-    t->budget_at = tool_now();
+    t->room.budget = unit_size(fmax(most, 1));
+    rc_memory_budget(t->room.budget);
+    t->room.at = tool_now();
 }
 
 /* Writes the message: which work exceeds the budget, by how much, and what to do. */
@@ -39,8 +39,8 @@ refusal(const struct tool *t, const struct rc_shape *shape, const char *need, ch
     if (shape != NULL)
         snprintf(what, sizeof what, "%zu x %zu nodes need", shape->nx, shape->ny);
     snprintf(text, size, "%s %s %s, %s %s: %s", what, need,
-             shown_bytes(needed, (double)rc_memory_held().refused), t->bound,
-             shown_bytes(allowed, (double)t->budget), t->remedy == NULL ? smaller : t->remedy);
+             shown_bytes(needed, (double)rc_memory_held().refused), t->room.bound,
+             shown_bytes(allowed, (double)t->room.budget), t->remedy == NULL ? smaller : t->remedy);
 }
 
 void
@@ -79,7 +79,7 @@ tool_memory_left(const struct tool *t)
 {
     const size_t held = rc_memory_held().held;
 
-    return t->budget > held ? t->budget - held : 1;
+    return t->room.budget > held ? t->room.budget - held : 1;
 }
 
 /* ---- memory in reports ---- */
@@ -100,9 +100,9 @@ tool_counted_memory(struct tool *t)
 {
     const size_t now = beside();
 
-    if (now > t->beside) /* untouched maps make the difference too small */
-        t->beside = now;
-    return rc_memory_held().peak + t->beside;
+    if (now > t->room.beside) /* untouched maps make the difference too small */
+        t->room.beside = now;
+    return rc_memory_held().peak + t->room.beside;
 }
 
 size_t

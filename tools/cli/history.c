@@ -114,10 +114,10 @@ fill(struct tool *t, struct line *line)
     line->n = 0;
     add(line, t->info->name, "");
     add(line, " ", rc_version());
-    for (size_t k = 0; k < t->opts; k++) {
-        const struct opt *o = &t->opt[k];
+    for (size_t k = 0; k < t->option.n; k++) {
+        const struct opt *o = &t->option.row[k];
         const void *at = (const char *)t->args + o->at;
-        if (!t->given[k] || !o->result)
+        if (!t->option.given[k] || !o->result)
             continue;
         if (o->type == OPT_STEP ||
             o->type == OPT_TEXTS) { /* all such options are in one list, in the order of the line */

@@ -29,7 +29,7 @@ allow(void *tool, const struct rc_shape *shape, size_t bytes, struct rc_err *err
     const char *remedy = t->remedy;
     enum rc_status status;
 
-    if (tool_now() > t->budget_at + seconds)
+    if (tool_now() > t->room.at + seconds)
         tool_budget(t);
     t->remedy = "use a coarser or smaller map, or raise --memory";
     status = tool_ask_memory(t, shape, bytes, err);
@@ -58,51 +58,51 @@ is_unit(const char *name)
 static void
 open_next(struct tool *t)
 {
-    const char *name = t->operands == 0 ? "-" : t->operand[t->next_operand];
+    const char *name = t->operands == 0 ? "-" : t->operand[t->input.next];
     struct rc_err err;
 
-    t->next_operand++;
+    t->input.next++;
     t->frame = 0;
     if (strcmp(name, "-") == 0) {
-        t->in = stdin;
+        t->input.file = stdin;
         t->source = "standard input";
     } else {
         t->source = name;
-        if ((t->in = fopen(name, "rb")) == NULL)
+        if ((t->input.file = fopen(name, "rb")) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "%s: %s%s%s", name, strerror(errno),
                      is_unit(name) ? ": a unit follows its number without a blank, as in 60" : "",
                      is_unit(name) ? name : "");
     }
-    if (t->ranks != NULL && (t->in == stdin || fseeko(t->in, 0, SEEK_CUR) != 0))
+    if (t->ranks != NULL && (t->input.file == stdin || fseeko(t->input.file, 0, SEEK_CUR) != 0))
         tool_die(
             t, EXIT_USAGE,
             "%s: several processes read a file, each its part of it: name one instead of a pipe",
             t->source);
-    if (isatty(fileno(t->in)))
+    if (isatty(fileno(t->input.file)))
         tool_die(t, EXIT_USAGE, "%s is a terminal: pipe a grid stream in or name a file",
                  t->source);
-    setvbuf(t->in, NULL, _IOFBF, TOOL_BUFFER);
-    pipe_widen(fileno(t->in));
-    t->reader = rc_reader_new(t->in, t->last_case, 0, &err);
-    if (t->reader == NULL)
+    setvbuf(t->input.file, NULL, _IOFBF, TOOL_BUFFER);
+    pipe_widen(fileno(t->input.file));
+    t->input.reader = rc_reader_new(t->input.file, t->input.last_case, 0, &err);
+    if (t->input.reader == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
     if (t->ranks != NULL) {
-        t->in_share = ranks_read(t, name);
-        rc_reader_share(t->reader, t->in_share);
+        t->input.share = ranks_read(t, name);
+        rc_reader_share(t->input.reader, t->input.share);
     }
-    rc_reader_ask(t->reader, allow, t);
+    rc_reader_ask(t->input.reader, allow, t);
 }
 
 static void
 close_input(struct tool *t)
 {
-    t->last_case = rc_reader_last_case(t->reader);
-    rc_reader_free(t->reader);
-    t->reader = NULL;
-    ranks_close(t, t->in_share);
-    t->in_share = NULL;
-    if (t->in != stdin)
-        fclose(t->in);
+    t->input.last_case = rc_reader_last_case(t->input.reader);
+    rc_reader_free(t->input.reader);
+    t->input.reader = NULL;
+    ranks_close(t, t->input.share);
+    t->input.share = NULL;
+    if (t->input.file != stdin)
+        fclose(t->input.file);
 }
 
 static void
@@ -113,12 +113,12 @@ check_convergence(struct tool *t, const struct rc_grid *g)
 
     if (converged == NULL || strcmp(converged, "no") != 0)
         return;
-    if (!t->warned_short)
+    if (!t->input.warned_short)
         tool_warn(t,
                   "%s: this solution stopped short of its accuracy (converged=no): results from "
                   "it are no more accurate",
                   tool_where(t, g, where, sizeof where));
-    t->warned_short = true;
+    t->input.warned_short = true;
     tool_fails_with(t, EXIT_SHORT);
 }
 
@@ -127,23 +127,23 @@ static _Noreturn void
 cannot_read(struct tool *t, const struct rc_err *err)
 {
     int status;
-    const char *failure = rc_reader_failure(t->reader, &status), *head, *remedy;
+    const char *failure = rc_reader_failure(t->input.reader, &status), *head, *remedy;
     char text[1024];
 
-    if (failure != NULL && pipe_is(fileno(t->in)))
+    if (failure != NULL && pipe_is(fileno(t->input.file)))
         fail_as_before(t, failure, status);
-    if (rc_reader_foreign(t->reader, &head) && head != NULL && t->info->foreign != NULL &&
+    if (rc_reader_foreign(t->input.reader, &head) && head != NULL && t->info->foreign != NULL &&
         (remedy = t->info->foreign(head)) != NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s is no grid stream: %s", t->source, remedy);
-    if (rc_reader_foreign(t->reader, &head) && head != NULL)
+    if (rc_reader_foreign(t->input.reader, &head) && head != NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s",
-                 foreign_message(text, sizeof text, t->info->name, t->in == stdin ? "-" : t->source,
-                                 head));
-    if (rc_reader_foreign(t->reader, &head))
-        tool_die(t, EXIT_IMPOSSIBLE, "%s is empty, the stream stops before it begins: %s",
-                 t->source,
-                 pipe_is(fileno(t->in)) ? "the program before this one in the pipe wrote nothing"
-                                        : "make it again");
+                 foreign_message(text, sizeof text, t->info->name,
+                                 t->input.file == stdin ? "-" : t->source, head));
+    if (rc_reader_foreign(t->input.reader, &head))
+        tool_die(
+            t, EXIT_IMPOSSIBLE, "%s is empty, the stream stops before it begins: %s", t->source,
+            pipe_is(fileno(t->input.file)) ? "the program before this one in the pipe wrote nothing"
+                                           : "make it again");
     tool_die(t, EXIT_IMPOSSIBLE, "%s, frame %zu: %s", t->source, t->frame + 1, err->text);
 }
 
@@ -184,9 +184,9 @@ look_ahead(struct tool *t)
 {
     struct rc_err err;
 
-    if (t->ahead != NULL || t->reader == NULL)
-        return t->ahead != NULL;
-    switch (rc_reader_head(t->reader, &t->ahead, &err)) {
+    if (t->input.ahead != NULL || t->input.reader == NULL)
+        return t->input.ahead != NULL;
+    switch (rc_reader_head(t->input.reader, &t->input.ahead, &err)) {
     case RC_MORE:
         return true;
     case RC_OK:
@@ -201,11 +201,11 @@ look_ahead(struct tool *t)
 static struct rc_grid *
 take_ahead(struct tool *t)
 {
-    struct rc_grid *g = t->ahead;
+    struct rc_grid *g = t->input.ahead;
     struct rc_err err;
 
-    t->ahead = NULL;
-    if (rc_reader_values(t->reader, g, &err) != RC_OK)
+    t->input.ahead = NULL;
+    if (rc_reader_values(t->input.reader, g, &err) != RC_OK)
         cannot_read(t, &err);
     t->frame++;
     check_convergence(t, g);
@@ -219,7 +219,7 @@ tool_read(struct tool *t)
     size_t inputs = t->operands == 0 ? 1 : t->operands;
 
     while (!look_ahead(t)) {
-        if (t->next_operand == inputs)
+        if (t->input.next == inputs)
             return NULL;
         open_next(t);
     }
@@ -303,7 +303,7 @@ tool_channel_with(struct tool *t, const char *channel, tool_take *take, void *ct
             tool_keep_frame(t, g, &kept);
         else if (!take(ctx, t, kept, g))
             rc_grid_free(g);
-        if (!look_ahead(t) || rc_grid_case(t->ahead) != t->current.number)
+        if (!look_ahead(t) || rc_grid_case(t->input.ahead) != t->current.number)
             break;
         g = take_ahead(t);
     }
@@ -313,31 +313,27 @@ tool_channel_with(struct tool *t, const char *channel, tool_take *take, void *ct
     return kept;
 }
 
-struct beside {
-    const char *channel;
-    struct rc_grid **frame;
-};
-
-static bool
-take_beside(void *ctx, struct tool *t, const struct rc_grid *kept, struct rc_grid *g)
+bool
+tool_take_frames(void *ctx, struct tool *t, const struct rc_grid *kept, struct rc_grid *g)
 {
-    const struct beside *beside = ctx;
+    const struct tool_frame *f = ctx;
 
     (void)kept;
-    if (strcmp(g->channel, beside->channel) != 0)
-        return false;
-    tool_keep_frame(t, g, beside->frame);
-    return true;
+    while (f->channel != NULL && strcmp(g->channel, f->channel) != 0)
+        f++;
+    if (f->channel != NULL)
+        tool_keep_frame(t, g, f->frame);
+    return f->channel != NULL;
 }
 
 struct rc_grid *
 tool_channel_beside(struct tool *t, const char *channel, const char *beside, struct rc_grid **other)
 {
-    struct beside with = {beside, other};
+    struct tool_frame with[] = {{beside, other}, {NULL, NULL}};
     struct rc_grid *kept;
 
     *other = NULL;
-    kept = tool_channel_with(t, channel, take_beside, &with);
+    kept = tool_channel_with(t, channel, tool_take_frames, with);
     if (*other != NULL)
         tool_demand_grid_of(t, *other, kept);
     return kept;

@@ -86,9 +86,9 @@ tool_progress(struct tool *t, double done, const char *format, ...)
     va_list ap;
 
     if (t->quiet || !ranks_speak(t) || !(terminal || t->progress != NULL) ||
-        tool_now() - t->progress_at < 0.1)
+        tool_now() - t->line.at < 0.1)
         return;
-    t->progress_at = tool_now();
+    t->line.at = tool_now();
     va_start(ap, format);
     vsnprintf(text, sizeof text, format, ap);
     va_end(ap);
@@ -98,15 +98,15 @@ tool_progress(struct tool *t, double done, const char *format, ...)
     }
     fprintf(stderr, terminal ? "\r\033[K%s: %s" : "%s: %s\n", t->info->name, text);
     fflush(stderr);
-    t->progress_shown = terminal;
+    t->line.shown = terminal;
 }
 
 void
 tool_progress_end(struct tool *t)
 {
-    if (t->progress_shown)
+    if (t->line.shown)
         fputs("\r\033[K", stderr);
-    t->progress_shown = false;
+    t->line.shown = false;
 }
 
 static void

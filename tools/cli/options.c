@@ -54,9 +54,9 @@ add_rows(struct tool *t, const struct opt *table, size_t at)
             add_rows(t, o->group, at + o->at);
             continue;
         }
-        assert(t->opts < TOOL_OPTIONS);
-        t->opt[t->opts] = *o;
-        t->opt[t->opts++].at += at;
+        assert(t->option.n < TOOL_OPTIONS);
+        t->option.row[t->option.n] = *o;
+        t->option.row[t->option.n++].at += at;
     }
 }
 
@@ -168,9 +168,9 @@ print_help(const struct tool *t)
     const struct opt *o;
 
     printf("Usage: %s [OPTION]... %s\n%s.\n\n", info->name, info->operands, info->summary);
-    for (size_t k = 0; k < t->opts; k++)
-        help_row("--", &t->opt[k]);
-    if (t->opts > 0)
+    for (size_t k = 0; k < t->option.n; k++)
+        help_row("--", &t->option.row[k]);
+    if (t->option.n > 0)
         printf("\n");
     printf("  %-*swrite to FILE, which appears whole or not at all\n", COLUMN - 2, "-o FILE");
     for (size_t k = 0; (o = option_common(info, k)) != NULL; k++)
@@ -293,10 +293,10 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
 
     free(list->v);
     *list = (struct numbers){0};
-    t->list[o - t->opt] = NULL;
+    t->option.list[o - t->option.row] = NULL;
     if (o->word != NULL && strcmp(text, o->word) == 0)
         return;
-    t->list[o - t->opt] = text;
+    t->option.list[o - t->option.row] = text;
     if ((o->per_metre ? unit_forces(text, list, &err) : unit_numbers(text, o->unit, list, &err)) !=
         RC_OK)
         tool_die(t, list->no_memory ? EXIT_IMPOSSIBLE : EXIT_USAGE, "--%s %s: %s", o->name, text,
@@ -358,8 +358,8 @@ set_common(struct tool *t, const struct opt *o, const char *text)
     if (strcmp(o->name, "memory") == 0) {
         t->memory = unit_size(number(t, o, text));
     } else if (strcmp(o->name, "type") == 0) {
-        t->type_given = true;
-        t->type = strcmp(choice(t, o, text), "f32") == 0 ? RC_F32 : RC_F64;
+        t->output.type_given = true;
+        t->output.type = strcmp(choice(t, o, text), "f32") == 0 ? RC_F32 : RC_F64;
     } else {
         set_value(t, o, t, text);
     }
@@ -396,11 +396,11 @@ getopt_table(const struct tool *t)
 {
     static struct getopt_rows rows;
 
-    rows.row = calloc(4 * t->opts + 2 * sizeof common / sizeof *common, sizeof *rows.row);
+    rows.row = calloc(4 * t->option.n + 2 * sizeof common / sizeof *common, sizeof *rows.row);
     if (rows.row == NULL)
         return NULL;
-    for (size_t k = 0; k < t->opts; k++) {
-        const struct opt *o = &t->opt[k];
+    for (size_t k = 0; k < t->option.n; k++) {
+        const struct opt *o = &t->option.row[k];
 
         add_name(&rows, o->name, argument_kind(o), OWN + (int)k);
         if (o->alias != NULL)
@@ -490,10 +490,10 @@ bad_option(struct tool *t, int what, char **argv, const struct option *table)
 static void
 warn_of_commas(struct tool *t)
 {
-    for (size_t k = 0; k < t->opts; k++) {
-        const struct opt *o = &t->opt[k];
+    for (size_t k = 0; k < t->option.n; k++) {
+        const struct opt *o = &t->option.row[k];
         const char *unit = unit_name(o->unit), *blank = *unit == '\0' ? "" : " ";
-        const char *text = t->list[k], *comma;
+        const char *text = t->option.list[k], *comma;
         const struct numbers *list;
         if (text == NULL || o->whole || !unit_decimal_comma(text))
             continue;
@@ -509,10 +509,10 @@ warn_of_commas(struct tool *t)
 static void
 warn_of_repetition(struct tool *t, const bool *twice)
 {
-    for (size_t k = 0; k < t->opts; k++)
-        if (twice[k] && t->opt[k].type != OPT_FLAG && t->opt[k].type != OPT_STEP &&
-            t->opt[k].type != OPT_TEXTS)
-            tool_warn(t, "--%s is given twice: only the last one counts", t->opt[k].name);
+    for (size_t k = 0; k < t->option.n; k++)
+        if (twice[k] && t->option.row[k].type != OPT_FLAG && t->option.row[k].type != OPT_STEP &&
+            t->option.row[k].type != OPT_TEXTS)
+            tool_warn(t, "--%s is given twice: only the last one counts", t->option.row[k].name);
 }
 
 /* True if standard output is text because of this option. */
@@ -529,7 +529,7 @@ asks_for_text(const struct tool *t, int what, const char *text)
         o = &common[what - COMMON];
         return strcmp(o->name, "help") == 0 || strcmp(o->name, "version") == 0;
     }
-    o = &t->opt[what - OWN];
+    o = &t->option.row[what - OWN];
     return o->text || strcmp(o->name, "dry-run") == 0 ||
            (o->type == OPT_REPORT && strcmp(text, "-") == 0);
 }
@@ -538,16 +538,14 @@ asks_for_text(const struct tool *t, int what, const char *text)
 static void
 look_for_output(struct tool *t, int argc, char **argv, const struct option *table)
 {
-    char **copy = malloc(((size_t)argc + 1) * sizeof *copy); /* because getopt sorts its words */
-    int what;
+    char **copy = tool_room(t, (size_t)argc + 1, sizeof *copy, "the command line");
+    int what; /* a copy because getopt sorts its words */
 
-    if (copy == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     memcpy(copy, argv, ((size_t)argc + 1) * sizeof *copy);
-    t->stream_expected = t->info->writes == WRITES_STREAM;
+    t->output.expected = t->info->writes == WRITES_STREAM;
     while ((what = getopt_long(argc, copy, letters, table, NULL)) != -1)
         if (what == 'o' ? strcmp(optarg, "-") != 0 : asks_for_text(t, what, optarg))
-            t->stream_expected = false;
+            t->output.expected = false;
     free(copy);
     optind = 0; /* starts again without memory of the first pass */
 }
@@ -577,14 +575,14 @@ options_read(struct tool *t, int argc, char **argv)
             set_common(t, &common[what - COMMON],
                        optional_argument_of(&common[what - COMMON], argc, argv));
         } else if (what >= OWN) {
-            twice[what - OWN] = t->given[what - OWN];
-            t->given[what - OWN] = true;
-            if (t->opt[what - OWN].text)
+            twice[what - OWN] = t->option.given[what - OWN];
+            t->option.given[what - OWN] = true;
+            if (t->option.row[what - OWN].text)
                 t->writes = WRITES_TEXT;
-            text = optional_argument_of(&t->opt[what - OWN], argc, argv);
-            if (text != NULL || !t->opt[what - OWN].optional ||
-                t->opt[what - OWN].type == OPT_CHOICE)
-                set_value(t, &t->opt[what - OWN], t->args, text);
+            text = optional_argument_of(&t->option.row[what - OWN], argc, argv);
+            if (text != NULL || !t->option.row[what - OWN].optional ||
+                t->option.row[what - OWN].type == OPT_CHOICE)
+                set_value(t, &t->option.row[what - OWN], t->args, text);
         } else {
             bad_option(t, what, argv, table);
         }
@@ -599,8 +597,8 @@ options_read(struct tool *t, int argc, char **argv)
 bool
 tool_given(const struct tool *t, const char *name)
 {
-    for (size_t k = 0; k < t->opts; k++)
-        if (strcmp(t->opt[k].name, name) == 0)
-            return t->given[k];
+    for (size_t k = 0; k < t->option.n; k++)
+        if (strcmp(t->option.row[k].name, name) == 0)
+            return t->option.given[k];
     return false;
 }

@@ -137,8 +137,8 @@ open_shared(struct tool *t)
     ranks_share(t, 0, name, sizeof name);
     if (!ranks_speak(t))
         whole_file_share(&output, name); /* the last process removes it */
-    t->out_share = ranks_write(t, name);
-    if ((t->writer = rc_writer_new_shared(t->out_share, 0, &err)) == NULL)
+    t->output.share = ranks_write(t, name);
+    if ((t->output.writer = rc_writer_new_shared(t->output.share, 0, &err)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
@@ -174,7 +174,7 @@ output_open(struct tool *t)
         setvbuf(t->out, NULL, _IOFBF, TOOL_BUFFER);
     if (binary)
         pipe_widen(fileno(t->out));
-    if (t->writes == WRITES_STREAM && (t->writer = rc_writer_new(t->out, &err)) == NULL)
+    if (t->writes == WRITES_STREAM && (t->output.writer = rc_writer_new(t->out, &err)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
@@ -210,13 +210,13 @@ tool_write(struct tool *t, struct rc_grid *g)
 
     if (t->report_alone)
         return;
-    if (t->ranks != NULL && t->writer == NULL)
+    if (t->ranks != NULL && t->output.writer == NULL)
         open_shared(t);
-    if (t->type_given)
-        g->type = t->type;
+    if (t->output.type_given)
+        g->type = t->output.type;
     demand_no_new(t, g);
-    t->began = true;
-    tool_must(t, g, rc_writer_put(t->writer, g, &err), &err);
+    t->output.began = true;
+    tool_must(t, g, rc_writer_put(t->output.writer, g, &err), &err);
     g->type = type;
 }
 
@@ -226,17 +226,17 @@ output_end(struct tool *t)
     const char *name = t->out_name == NULL ? "standard output" : t->out_name;
     struct rc_err err;
 
-    if (t->ranks != NULL && t->writes == WRITES_STREAM && t->writer == NULL)
+    if (t->ranks != NULL && t->writes == WRITES_STREAM && t->output.writer == NULL)
         open_shared(t); /* of no frame */
-    if (t->writer != NULL && rc_writer_end(t->writer, &err) != RC_OK)
+    if (t->output.writer != NULL && rc_writer_end(t->output.writer, &err) != RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, err.text);
-    t->ended = true; /* an end line was written: nothing may follow it */
-    rc_writer_free(t->writer);
-    t->writer = NULL;
-    if (ranks_settle(t->out_share, &err) != RC_OK)
+    t->output.ended = true; /* an end line was written: nothing may follow it */
+    rc_writer_free(t->output.writer);
+    t->output.writer = NULL;
+    if (ranks_settle(t->output.share, &err) != RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, err.text);
-    ranks_close(t, t->out_share);
-    t->out_share = NULL;
+    ranks_close(t, t->output.share);
+    t->output.share = NULL;
     if (!ranks_speak(t))
         whole_file_share(&output, ""); /* the first process renames it */
     if (!whole_file_put(&output, t->out))
@@ -259,11 +259,13 @@ stream_to_fail(const struct tool *t)
 
     if (t->ranks != NULL)
         return NULL;
-    if (whole_file_is_half(&output) || t->ended)
+    if (whole_file_is_half(&output) || t->output.ended)
         return NULL;
     if (t->out == NULL) /* while the command line is read */
-        return t->stream_expected && before && pipe_is(STDOUT_FILENO) ? stdout : NULL;
-    return t->writer != NULL && (t->began || (before && pipe_is(fileno(t->out)))) ? t->out : NULL;
+        return t->output.expected && before && pipe_is(STDOUT_FILENO) ? stdout : NULL;
+    return t->output.writer != NULL && (t->output.began || (before && pipe_is(fileno(t->out))))
+               ? t->out
+               : NULL;
 }
 
 void

@@ -37,9 +37,9 @@ threads_wanted(struct tool *t)
 static bool
 reports_to_output(const struct tool *t)
 {
-    for (size_t k = 0; k < t->opts; k++)
-        if (t->opt[k].type == OPT_REPORT && t->given[k] &&
-            strcmp(*(const char *const *)((const char *)t->args + t->opt[k].at), "-") == 0)
+    for (size_t k = 0; k < t->option.n; k++)
+        if (t->option.row[k].type == OPT_REPORT && t->option.given[k] &&
+            strcmp(*(const char *const *)((const char *)t->args + t->option.row[k].at), "-") == 0)
             return true;
     return false;
 }
@@ -97,7 +97,7 @@ tool_finish(struct tool *t)
     output_end(t);
     peak = memory_peak(); /* the output may be made only at the end */
     counted = ranks_most(t, (double)tool_counted_memory(t));
-    taken = ranks_most(t, (double)(peak > t->beside_memory ? peak : t->beside_memory));
+    taken = ranks_most(t, (double)(peak > t->room.children ? peak : t->room.children));
     if (t->debug)
         tool_note(t, "memory: %.1f MiB counted, %.1f MiB taken", mebibytes(counted),
                   mebibytes(taken));
@@ -148,7 +148,7 @@ tool_memory_beside(struct tool *t, size_t bytes)
 {
     size_t both = memory_peak() + bytes;
 
-    t->beside_memory = both > t->beside_memory ? both : t->beside_memory;
+    t->room.children = both > t->room.children ? both : t->room.children;
 }
 
 size_t

@@ -128,37 +128,54 @@ struct tool {
     const struct tool_info *info;
     void *args;
     /* the options of every tool */
-    size_t threads;       /* at least 1 */
-    size_t memory;        /* bytes; 0: no limit */
-    size_t beside;        /* bytes of code and stacks, which the allocator does not count */
-    size_t budget;        /* bytes that may be allocated */
-    const char *bound;    /* what limits it, as in "--memory allows" */
-    const char *remedy;   /* advice in the message when memory is short; NULL: a smaller map */
-    double budget_at;     /* s: the time when the memory of the machine was last read */
-    size_t beside_memory; /* bytes: the largest of tool_memory_beside                           */
-    const char *vickers;  /* a hardness as a Vickers number, as it was written; or NULL         */
+    size_t threads; /* at least 1 */
+    size_t memory;  /* bytes; 0: no limit */
     bool quiet, verbose;
-    const char *progress;    /* NULL: where a person watches; "", line, json: always            */
     bool debug;              /* verbose too, and prints the memory */
-    enum tool_writes writes; /* info->writes, or text if an option selects it                 */
+    const char *progress;    /* NULL: where a person watches; "", line, json: always            */
     const char *out_name;    /* NULL: standard output                                         */
-    struct ranks
-        *ranks; /* the processes that share the maps; NULL: a single process. See ranks.h     */
-    const struct rc_share *in_share,
-        *out_share; /* with several: this process's part of the files */
-    /* streams */
+    const char *vickers;     /* a hardness as a Vickers number, as it was written; or NULL    */
+    enum tool_writes writes; /* info->writes, or text if an option selects it                 */
     char **operand;
-    size_t operands, next_operand;
-    const char *source; /* name of the current input, for messages */
-    FILE *in, *out;
-    struct rc_reader *reader;
-    struct rc_writer *writer;
-    bool missing,
-        infinite; /* the input has NaN or infinity, or the tool makes it on purpose: the output may
-                     have it */
-    size_t last_case, frame; /* frame: number in the current source, from 1 */
-    struct rc_grid *ahead;   /* the next frame without its values; NULL: not read yet */
-    struct {                 /* the current case of tool_channel; number 0: none yet      */
+    size_t operands;
+    struct {
+        struct opt row[TOOL_OPTIONS]; /* the tool's own rows, with groups expanded           */
+        size_t n;
+        bool given[TOOL_OPTIONS];       /* one entry for each row                            */
+        const char *list[TOOL_OPTIONS]; /* the text of OPT_NUMBERS on the line, for a warning */
+    } option;
+    struct {               /* memory                                                           */
+        size_t beside;     /* bytes of code and stacks, which the allocator does not count */
+        size_t budget;     /* bytes that may be allocated                                  */
+        const char *bound; /* what limits it, as in "--memory allows"                      */
+        double at;         /* s: the time when the memory of the machine was last read     */
+        size_t children;   /* bytes: the largest of tool_memory_beside                     */
+    } room;
+    const char *remedy;  /* advice in the message when memory is short; NULL: a smaller map */
+    struct ranks *ranks; /* the processes that share the maps (ranks.h); NULL: a single one */
+    /* streams */
+    const char *source;     /* name of the current input, for messages    */
+    size_t frame;           /* number in the current source, from 1       */
+    bool missing, infinite; /* the input has NaN or infinity, or the tool makes it on purpose: the
+                               output may have it */
+    struct {
+        FILE *file;
+        struct rc_reader *reader;
+        const struct rc_share *share; /* with several processes: this process's part of the file */
+        size_t next, last_case;       /* next: operand                                         */
+        struct rc_grid *ahead; /* the next frame without its values; NULL: not read yet        */
+        bool warned_short;
+    } input;
+    FILE *out;
+    struct {
+        struct rc_writer *writer;
+        const struct rc_share *share;
+        enum rc_type type;
+        bool type_given, began, ended; /* began, ended: state of the stream */
+        bool expected; /* a stream is expected on standard output, according to the command line */
+    } output;
+    bool report_alone; /* standard output holds only the report                               */
+    struct {           /* the current case of tool_channel; number 0: none yet                */
         size_t number, found;
         const char *source; /* where it began                                             */
         char names[512];    /* its channels, for the message about a missing one          */
@@ -168,18 +185,10 @@ struct tool {
         bool height;
         char names[256]; /* channels of its results                                       */
     } results;
-    bool report_alone; /* standard output holds only the report */
-    bool
-        stream_expected; /* what the reader of standard output expects, according to the command line */
-    bool type_given, began, ended, warned_short; /* began, ended: state of the output stream */
-    bool progress_shown;                         /* a line is on the terminal */
-    double progress_at;                          /* s: the time when it was written */
-    enum rc_type type;
-    struct opt
-        opt[TOOL_OPTIONS]; /* the tool's own rows, with groups expanded                           */
-    size_t opts;
-    bool given[TOOL_OPTIONS];       /* by row of opt                                              */
-    const char *list[TOOL_OPTIONS]; /* the text of OPT_NUMBERS on the line, for a warning         */
+    struct {
+        bool shown; /* a line of progress is on the terminal  */
+        double at;  /* s: the time when it was written        */
+    } line;
     int exit_status;
 };
 
@@ -206,6 +215,12 @@ struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
 typedef bool tool_take(void *ctx, struct tool *tool, const struct rc_grid *kept, struct rc_grid *g);
 struct rc_grid *tool_channel_with(struct tool *tool, const char *channel, tool_take *take,
                                   void *ctx);
+/* A `take` that keeps the frames of a list; ctx: the list, which ends with a row without a channel. */
+struct tool_frame {
+    const char *channel;
+    struct rc_grid **frame; /* where the frame is kept; NULL before */
+};
+bool tool_take_frames(void *ctx, struct tool *tool, const struct rc_grid *kept, struct rc_grid *g);
 /* The same with the frame of one other channel on its grid; *other is NULL if there is none. */
 struct rc_grid *tool_channel_beside(struct tool *tool, const char *channel, const char *beside,
                                     struct rc_grid **other);
@@ -235,8 +250,8 @@ _Noreturn void tool_die_at(struct tool *tool, const struct rc_grid *grid, int st
 /* Ends the tool with the message of a failure, at a frame or, with NULL, without a place. */
 void tool_must(struct tool *tool, const struct rc_grid *grid, enum rc_status status,
                const struct rc_err *err);
-/* An array of n elements of this size, all 0, which the caller frees. Ends the tool when memory is short, with
- * the message "out of memory for WHAT". */
+/* An array of n elements of this size, all 0, which the caller frees. Ends the tool when memory is short,
+ * with the message "out of memory for WHAT". */
 void *tool_room(struct tool *tool, size_t n, size_t size, const char *what)
     __attribute__((returns_nonnull));
 /* The array `v` of n elements with room for one more: the same, or a larger one in its place. */

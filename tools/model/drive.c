@@ -33,9 +33,9 @@ const struct opt drive_options[] = {
 static const char *
 name_of(const struct drive *d, const struct drive_axis *axis)
 {
-    for (size_t k = 0; k < d->t.opts; k++)
-        if ((const char *)d->t.args + d->t.opt[k].at == (const char *)axis->list)
-            return d->t.opt[k].name;
+    for (size_t k = 0; k < d->t.option.n; k++)
+        if ((const char *)d->t.args + d->t.option.row[k].at == (const char *)axis->list)
+            return d->t.option.row[k].name;
     return rc_axis_info(axis->axis)->name;
 }
 
@@ -375,8 +375,8 @@ tell(struct drive *d, const struct rc_model *m, const char *where)
 static bool
 has_option(const struct tool *t, const char *name)
 {
-    for (size_t k = 0; name != NULL && k < t->opts; k++)
-        if (strcmp(t->opt[k].name, name) == 0)
+    for (size_t k = 0; name != NULL && k < t->option.n; k++)
+        if (strcmp(t->option.row[k].name, name) == 0)
             return true;
     return false;
 }

@@ -355,8 +355,7 @@ pick_geometry_settle(struct tool *t, struct step *step)
         tool_die(t, EXIT_USAGE, "--%s %s: %s", what->option, step->text, err.text);
     if (!r.lengths)
         return;
-    if ((text = malloc(size)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu bytes of text", size);
+    text = tool_room(t, size, 1, "a text");
     for (size_t k = 0; k < r.n; k++)
         n += (size_t)snprintf(text + n, size - n, "%s%s%s", k == 0 ? "" : ",",
                               rc_number_text(number, r.v[k]), r.v[k] == 0 ? "" : "m");

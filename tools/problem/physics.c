@@ -141,16 +141,14 @@ check_layers(struct tool *t, struct physics *a)
         tool_die(t, EXIT_USAGE,
                  "--layer needs a substrate and a body 2: give --E1 --nu1 and --E2 --nu2 (or --E2 "
                  "rigid), not --estar");
-    if ((a->layers = calloc(n, sizeof *a->layers)) == NULL ||
-        (a->residual = calloc(n, sizeof *a->residual)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    a->layers = tool_room(t, n, sizeof *a->layers, "the layers of a body");
+    a->residual = tool_room(t, n, sizeof *a->residual, "the layers of a body");
     for (size_t k = 0; k < n; k++) {
         struct rc_layer *m = &a->layers[k];
         if (layer_read(a->layer.step[k].text, m, &a->residual[k], &err) != RC_OK)
             tool_die(t, EXIT_USAGE, "--layer %s: %s", a->layer.step[k].text, err.text);
         warn_of_residual(t, a->layer.step[k].text, a->residual[k], m->e);
-        if ((si = malloc(4 * RC_NUMBER_SIZE)) == NULL)
-            tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+        si = tool_room(t, 4, RC_NUMBER_SIZE, "the layers of a body");
         snprintf(si, 4 * RC_NUMBER_SIZE, "%s,%s,%s%s%s", rc_number_text(h, m->thickness),
                  rc_number_text(e, m->e), rc_number_text(nu, m->nu), a->residual[k] == 0 ? "" : ",",
                  a->residual[k] == 0 ? "" : rc_number_text(r, a->residual[k]));
@@ -202,11 +200,9 @@ static void
 add_sphere(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
     struct rc_shape along = {g->nx, 1, g->dx, g->dy}, across = {1, g->ny, g->dx, g->dy};
-    double *row = malloc((g->nx + g->ny) * sizeof *row), *column;
+    double *row = tool_room(t, g->nx + g->ny, sizeof *row, "a sphere"), *column;
     size_t first = tool_first_row(t, g);
 
-    if (row == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "out of memory");
     column = row + g->nx;
     /* the sum of two parabolas, one along x and one along y */
     rc_synth_sphere(&along, a->radius, row);

@@ -129,9 +129,9 @@ set_history(struct slip_run *run, struct slip_args *args)
             rc_number_text(number[1], c->to[0]), rc_number_text(number[2], c->to[1]));
     }
     args->path = text;
-    for (size_t k = 0; k < run->d.t.opts; k++)
-        if (strcmp(run->d.t.opt[k].name, "path") == 0)
-            run->d.t.given[k] = true;
+    for (size_t k = 0; k < run->d.t.option.n; k++)
+        if (strcmp(run->d.t.option.row[k].name, "path") == 0)
+            run->d.t.option.given[k] = true;
 }
 
 void
