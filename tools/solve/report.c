@@ -26,25 +26,11 @@ solve_frame_word(size_t k)
 
 /* ---- effects ---- */
 
-/* What the state of an effect depends on: the run, the reason for the engine, and whether the hardness was
- * reached (NULL: unknown before the solution). */
-struct scene {
-    const struct run *run;
-    const char *engine;
-    const bool *hardness_active;
-};
-
 static const char *
-kernel_state(const struct scene *s)
-{
-    return s->engine;
-}
-
-static const char *
-layers_state(const struct scene *s)
+layers_state(const struct run *run)
 {
     static char text[64];
-    size_t n = s->run->args->physics.pair.one.layers;
+    size_t n = run->args->physics.pair.one.layers;
 
     if (n == 0)
         return "left out: one material";
@@ -53,122 +39,63 @@ layers_state(const struct scene *s)
 }
 
 static const char *
-hardness_state(const struct scene *s)
+hardness_state(const struct run *run, const bool *active)
 {
-    if (isinf(s->run->hardness_min))
-        return s->run->hardness != NULL
+    if (isinf(run->hardness_min))
+        return run->hardness != NULL
                    ? "left out: the map of hardness holds no number"
                    : "left out: no --hardness, and no map of hardness in the case";
-    if (s->hardness_active == NULL)
+    if (active == NULL)
         return "on where the elastic pressure would exceed it; costs nothing elsewhere";
-    return *s->hardness_active ? "on" : "left out: the largest elastic pressure is below it";
+    return *active ? "on" : "left out: the largest elastic pressure is below it";
 }
 
-static const char *
-sphere_state(const struct scene *s)
+/* Shows each effect and each frame of --output with its state: `on`, or why it is left out. engine: the reason
+ * for it; active: whether the hardness was reached (NULL: unknown before the solution). */
+static void
+show_effects(struct run *run, const char *engine, const bool *active,
+             void (*show)(struct run *run, const char *name, const char *state))
 {
-    return isnan(s->run->args->physics.radius) ? "left out: no --radius" : "on";
+    const struct solve_args *args = run->args;
+    const struct physics *a = &args->physics;
+    const char *const effects[][2] = {
+        {"kernel", engine},
+        {"layers", layers_state(run)},
+        {"hardness", hardness_state(run, active)},
+        {"sphere", isnan(a->radius) ? "left out: no --radius" : "on"},
+        {"padding", a->periodic ? "left out: the map is periodic" : "on"},
+        {"approach", a->approach.n > 0 ? "on" : "left out: the load is given"},
+        {"history", a->history ? "on: each load acts on the shape after the previous load"
+                               : "left out: no --history"},
+        {"yield", yield_state(run)},
+        {"adhesion", adhesion_state(run)}, /* also the state of its frame */
+        {"tilt", run->tilt ? "on" : "left out: no --tilt free"},
+        {"stiffness", run->stiffness ? "on" : "left out: one load and no --stiffness"},
+        {"conductivity", args->conductivity == NULL ? "left out: no --conductivity"
+                         : run->conductance         ? "on"
+                                            : "left out: layers, for which no analogy holds"},
+        {"discretization", !args->discretization   ? "left out: no --discretization"
+                           : run->d.course.resumed ? "left out: resumed, no coarser grid was solved"
+                                                   : "on"},
+    };
+
+    for (size_t k = 0; k < sizeof effects / sizeof *effects; k++)
+        show(run, effects[k][0], effects[k][1]);
+    for (int f = 0; f < SOLVE_ADHESION; f++)
+        show(run, solve_frame_word((size_t)f),
+             solve_wanted(args, f) ? "on" : "left out: not in --output");
 }
 
-static const char *
-padding_state(const struct scene *s)
+static void
+report_effect(struct run *run, const char *name, const char *state)
 {
-    return s->run->args->physics.periodic ? "left out: the map is periodic" : "on";
+    report_text(&run->d.report, name, state);
 }
 
-static const char *
-approach_state(const struct scene *s)
+static void
+print_effect(struct run *run, const char *name, const char *state)
 {
-    return s->run->args->physics.approach.n > 0 ? "on" : "left out: the load is given";
-}
-
-static const char *
-history_state(const struct scene *s)
-{
-    if (!s->run->args->physics.history)
-        return "left out: no --history";
-    return "on: each load acts on the shape after the previous load";
-}
-
-static const char *
-yielding_state(const struct scene *s)
-{
-    return yield_state(s->run);
-}
-
-static const char *
-adhering_state(const struct scene *s)
-{
-    return adhesion_state(s->run);
-}
-
-static const char *
-tilt_state(const struct scene *s)
-{
-    return s->run->tilt ? "on" : "left out: no --tilt free";
-}
-
-static const char *
-stiffness_state(const struct scene *s)
-{
-    return s->run->stiffness ? "on" : "left out: one load and no --stiffness";
-}
-
-static const char *
-conductivity_state(const struct scene *s)
-{
-    if (s->run->args->conductivity == NULL)
-        return "left out: no --conductivity";
-    return s->run->conductance ? "on" : "left out: layers, for which no analogy holds";
-}
-
-static const char *
-discretization_state(const struct scene *s)
-{
-    if (!s->run->args->discretization)
-        return "left out: no --discretization";
-    return s->run->d.course.resumed ? "left out: resumed, no coarser grid was solved" : "on";
-}
-
-static const struct effect {
-    const char *name;
-    const char *(*state)(const struct scene *scene);
-} effects[] = {
-    {"kernel", kernel_state},
-    {"layers", layers_state},
-    {"hardness", hardness_state},
-    {"sphere", sphere_state},
-    {"padding", padding_state},
-    {"approach", approach_state},
-    {"history", history_state},
-    {"yield", yielding_state},
-    {"adhesion", adhering_state}, /* also the state of its frame */
-    {"tilt", tilt_state},
-    {"stiffness", stiffness_state},
-    {"conductivity", conductivity_state},
-    {"discretization", discretization_state},
-};
-
-enum {
-    EFFECTS = sizeof effects / sizeof *effects
-};
-
-/* Effect k, or after the effects a frame of --output, and its state: `on`, or why it is left out. False past
- * the last. */
-static bool
-effect_at(const struct scene *scene, size_t k, const char **name, const char **state)
-{
-    if (k >= EFFECTS + SOLVE_ADHESION)
-        return false;
-    if (k < EFFECTS) {
-        *name = effects[k].name;
-        *state = effects[k].state(scene);
-    } else {
-        *name = solve_frame_word(k - EFFECTS);
-        *state =
-            solve_wanted(scene->run->args, (int)(k - EFFECTS)) ? "on" : "left out: not in --output";
-    }
-    return true;
+    fprintf(run->d.t.out, "  %-15s %s\n", name, state);
 }
 
 /* ---- report ---- */
@@ -278,12 +205,9 @@ solve_report(struct drive *d, const struct rc_model *m)
     struct run *run = (struct run *)(void *)d;
     const struct rc_solver *solver = run->apart ? NULL : run->solver;
     const struct solution *s = &run->solution;
-    struct scene scene = {run,
-                          solver != NULL         ? rc_solver_engine_reason(solver)
-                          : run->adhering.wanted ? "the gap is found by transforms"
-                                                 : "left out: no load",
-                          &s->contact.hardness_active};
-    const char *name, *state;
+    const char *engine = solver != NULL         ? rc_solver_engine_reason(solver)
+                         : run->adhering.wanted ? "the gap is found by transforms"
+                                                : "left out: no load";
     struct report *r = &d->report;
 
     (void)m;
@@ -298,8 +222,7 @@ solve_report(struct drive *d, const struct rc_model *m)
     report_of(r, s, of_contact);
     report_patches(r, &s->patches);
     report_object(r, "effects");
-    for (size_t k = 0; effect_at(&scene, k, &name, &state); k++)
-        report_text(r, name, state);
+    show_effects(run, engine, &s->contact.hardness_active, report_effect);
     report_end(r);
     report_object(r, "seconds");
     report_number(r, "setup", run->d.setup, "s");
@@ -355,8 +278,7 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
         PLANS = 4 * 1 << 20 /* bytes: FFTW's plans, 2 MiB for each precision */
     };
     struct rc_shape shape = rc_grid_shape(g);
-    struct scene scene = {.run = run};
-    const char *engine = rc_solver_choice(&shape, problem, &scene.engine), *name, *state;
+    const char *why = NULL, *engine = rc_solver_choice(&shape, problem, &why);
     struct rc_expected e;
     struct rc_err err;
     double each, memory;
@@ -375,8 +297,7 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     tool_where(&run->d.t, g, where, sizeof where);
     fprintf(run->d.t.out, "%s: %zu x %zu nodes, %zu %s, engine %s\n", where, g->nx, g->ny,
             run->steps->n, run->steps->n == 1 ? "load" : "loads", engine);
-    for (size_t k = 0; effect_at(&scene, k, &name, &state); k++)
-        fprintf(run->d.t.out, "  %-15s %s\n", name, state);
+    show_effects(run, why, NULL, print_effect);
     fprintf(run->d.t.out, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n", each,
             run->steps->n > 1 ? " for the first load, fewer for the next" : "",
             ((size_t)memory >> 20) + 1, e.seconds * each / e.convolutions * (double)run->steps->n,

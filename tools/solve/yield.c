@@ -427,21 +427,13 @@ void
 yield_report(struct report *r, const struct run *run)
 {
     const struct yielding *y = &run->yielding;
-    const bool on = y->on;
-    const struct rc_plastic_figures none = {0}, *f = on ? &y->found->plastic : &none;
-    double stress = rc_yield_stress(&y->law, 0);
+    const struct figures of_volume[] = {{rc_figures("yielding"), y->on ? y->found : NULL}, {0}},
+                         of_stress[] = {{rc_figures("yielding"), y->wanted ? y->found : NULL}, {0}};
 
-    report_number(r, "yield", y->wanted ? stress : NAN, "Pa");
+    report_number(r, "yield", y->wanted ? rc_yield_stress(&y->law, 0) : NAN, "Pa");
     report_number(r, "hardening", y->wanted && y->law.points == 0 ? y->law.modulus : NAN, "Pa");
-    report_number(r, "increments", on ? (double)f->increments : NAN, NULL);
-    report_number(r, "applications", on ? (double)f->applications : NAN, NULL);
-    report_number(r, "slabs", on ? (double)y->found->slabs : NAN, NULL);
-    report_number(r, "plastic_depth", on ? f->depth : NAN, "m");
-    report_number(r, "plastic_volume", on ? f->volume : NAN, "m3");
-    report_number(r, "max_plastic_strain", on ? f->max_strain : NAN, NULL);
-    report_number(r, "plastic_work", on ? f->work : NAN, "J");
-    report_number(r, "max_pressure_mean4", on ? f->max_pressure_mean4 : NAN, "Pa");
-    report_number(r, "max_mises_over_yield", y->wanted ? y->found->max_mises_over_yield : NAN,
-                  NULL);
-    report_number(r, "max_mises_depth", y->wanted ? y->found->max_mises_depth : NAN, "m");
+    report_named(r, of_volume,
+                 "increments applications slabs plastic_depth plastic_volume max_plastic_strain "
+                 "plastic_work max_pressure_mean4");
+    report_named(r, of_stress, "max_mises_over_yield max_mises_depth");
 }
