@@ -187,8 +187,10 @@ key(struct tool *t, const struct rc_grid *g, const char *name, const char *what)
     double v;
 
     if (!rc_grid_number(g, name, &v))
-        tool_die_at(t, g, EXIT_USAGE,
-                    "it has no key %s, %s: rc-wear reads what rc-solve has written", name, what);
+        tool_die_at(
+            t, g, EXIT_USAGE,
+            "it has no key %s, %s: rc-wear reads the output of rc-solve: run rc-solve first", name,
+            what);
     return v;
 }
 

@@ -33,7 +33,7 @@ claim "a picture of each distance, and the running-in curve with its units" bash
     rc-render --channel pressure --case 1,2 -o maps.svg worn.rcg && rc-render --case 2 -o map.svg worn.rcg &&
         grep -q "distance 10 m" map.svg && grep -q ">b) distance 10 m<" maps.svg && ! grep -q "case 2" maps.svg &&
         rc-render --curve distance:max_wear_depth --log x -o curve.svg steps.tsv &&
-        grep -q "Sliding distance (m)" curve.svg && grep -q "Largest worn depth (.m)" curve.svg &&
+        grep -q "Sliding distance (km)" curve.svg && grep -q "Largest worn depth (.m)" curve.svg &&
         rc-render --curve distance:contact_fraction --log x -o report.svg worn.tsv && grep -q ">Contact fraction<" report.svg'
 
 # ---- how much wears ----
@@ -45,6 +45,11 @@ near "$(volume rc-wear --coefficient 2e-6mm3/Nm --distance 1m)" 2e-18 1e-12 "in 
 near "$(volume rc-wear --coefficient 2e-15m2/N,0 --distance 1m)" 2e-18 1e-12 "in m2/N"
 near "$(volume rc-wear --archard 4e-6 --hardness 2GPa --distance 1m)" 2e-18 1e-12 "by Archard's number"
 near "$(volume rc-wear --energy 1e-5mm3/J --mu 0.2 --distance 1m)" 2e-18 1e-12 "by energy"
+claim "a worn surface wears on" bash -c "
+    $wear --distance 1m -o part.rcg pressed.rcg && $wear --distance 9m --report rest.tsv -o rest.rcg part.rcg &&
+    $wear --distance 10m --report through.tsv -o through.rcg pressed.rcg"
+near "$(column contact_area 1 rest.tsv)" "$(column contact_area 1 through.tsv)" 0.01 "  to the area of one run"
+near "$(column wear_volume 1 rest.tsv)" 9e-18 1e-12 "  and counts from its heights"
 claim "both bodies wear, each its part" bash -c "
     rc-wear --quiet --coefficient 1e-6mm3/Nm,3e-6mm3/Nm --distance 1m -o both.rcg pressed.rcg &&
     rc-info both.rcg | grep -c 'wear-[12]' | grep -q 2"
@@ -122,7 +127,7 @@ refuses 2 'belong together' "an energy without a friction" "rc-wear --energy 1e-
 refuses 2 'larger than the one before' "a distance that falls" "$wear --distance 2m,1m ball.rcg -o x.rcg"
 refuses 2 'give the sliding distances' "no distance" "$wear ball.rcg -o x.rcg"
 refuses 2 'it must be area=FRACTION' "an end that is none" "$wear --distance 1m --until area=2 ball.rcg -o x.rcg"
-refuses 2 'no key load' "a surface that carries nothing" "$wear --distance 1m rough.rcg -o x.rcg"
+refuses 2 'no key load.*run rc-solve first' "a surface that carries nothing" "$wear --distance 1m rough.rcg -o x.rcg"
 refuses 1 'attract each other' "bodies that attract each other" \
     "rc-solve --quiet --estar 1GPa --adhesion 50mJ/m2 --load 1uN rough.rcg | $wear --distance 1m -o x.rcg"
 refuses 1 'tilt' "a body that tilts" "rc-solve --quiet --estar 1GPa --tilt free --load 1mN rough.rcg | $wear --distance 1m -o x.rcg"

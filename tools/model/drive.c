@@ -354,6 +354,19 @@ drive_judge_slope(struct course *c, double slope, const char *where)
                     where, slope, small);
 }
 
+/* The row of a figure of the model, by its name. */
+static const struct rc_figure *
+figure_of(const struct rc_model *m, const char *name)
+{
+    const struct rc_figure *f;
+    const void *data;
+
+    for (size_t k = 0; (f = rc_model_figure(m, k, &data)) != NULL; k++)
+        if (strcmp(f->name, name) == 0)
+            break;
+    return f;
+}
+
 /* With --verbose: the figures that the tool names. */
 static void
 tell(struct drive *d, const struct rc_model *m, const char *where)
@@ -362,7 +375,7 @@ tell(struct drive *d, const struct rc_model *m, const char *where)
     size_t at = 0;
 
     for (const char *const *name = d->tells; name != NULL && *name != NULL; name++) {
-        const struct rc_figure *f = rc_figure_find(*name);
+        const struct rc_figure *f = figure_of(m, *name);
         if (f != NULL && at < sizeof text)
             at += (size_t)snprintf(text + at, sizeof text - at, "%c%s %s, ",
                                    tolower((unsigned char)f->title[0]), f->title + 1,
