@@ -349,15 +349,15 @@ find_motion(struct rc_steady *d, double dv[2])
             d->way[c][k] += dv[0] * d->way_of[0][c][k] + dv[1] * d->way_of[1][c][k];
 }
 
-/* What further steps change over what this one does, at least 1: c/(1 - c), if each changes c times as much
- * as the one before. */
+/* What further steps change over what this one does: c/(1 - c), if each changes c times as much as the one
+ * before. The last step may have been better than the next ones: c is the root of its ratio. */
 static double
 left_over(double change, double before)
 {
-    static const double worst = 0.95;
-    const double c = before > 0 ? fmin(change / before, worst) : 0;
+    static const double least = 0.3, worst = 0.95;
+    const double c = fmin(sqrt(change / before), worst);
 
-    return fmax(1, c / (1 - c));
+    return before > 0 ? fmax(least, c / (1 - c)) : 1;
 }
 
 /* Moves from the old q by a part of the way, and looks. */
