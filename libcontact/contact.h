@@ -1113,6 +1113,10 @@ RC_API void rc_slip_result(struct rc_slip *slip, struct rc_slip_figures *figures
 /* Makes the increment history, on which the next one builds. Before this, pressure and force may be set
  * again. */
 RC_API void rc_slip_keep(struct rc_slip *slip);
+/* After a keep: the map moves by so many columns towards +x over the bodies, to follow a contact that rolls or
+ * slides that way. On a free map the columns that come in repeat the last one, and the next increment must not have
+ * contact there; on a periodic map they are the columns that leave. */
+RC_API void rc_slip_shift(struct rc_slip *slip, size_t columns);
 /* Tractions, Pa, nx ny, along x (0) or y (1), valid until the next step; slip since first touch, m, including
  * this increment, 0 out of contact. */
 RC_API const double *rc_slip_traction(const struct rc_slip *slip, int direction);

@@ -657,6 +657,7 @@ slides(double *out, struct rc_err *err)
         rc_slip_result(slip, &figures);
         rc_slip_keep(slip);
     }
+    rc_slip_shift(slip, 1);
     memcpy(out, rc_slip_traction(slip, 0), N * sizeof *out);
     rc_slip_slip(slip, 1, out + N);
     rc_slip_normal(slip, out + 2 * N);
