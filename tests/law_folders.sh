@@ -208,9 +208,9 @@ none() {
 # ---- the tree ----
 
 include_faults "$RC_SOURCE" >include.txt
-claim "every include goes downwards, to the header that a folder offers" none include.txt
-claim "  and there were includes to look at" test "$(includes "$RC_SOURCE" | wc -l)" -gt 200
-claim "  and every header of the table is there" bash -c '
+claim "every include names the public header of a folder that the table allows" none include.txt
+claim "  the check has seen includes" test "$(includes "$RC_SOURCE" | wc -l)" -gt 200
+claim "  every header of the table exists" bash -c '
     cut -d "|" -f 2 arrows.txt | tr " " "\n" | grep / | sort -u | while read -r header; do
         [ -f "$RC_SOURCE/$header" ] || { echo "$header" >&2; exit 1; }
     done'
@@ -232,17 +232,17 @@ mapped() {
         done
     done
 }
-claim "the map in CONTRIBUTING.md has every folder, and no other" mapped
+claim "the map in CONTRIBUTING.md lists exactly the folders of the tree" mapped
 names "$RC_SOURCE" >name.txt
-claim "no engine is named outside the folder of the operators, and no body outside its own" none name.txt
+claim "only the folder of operators names engines, and only the folder of bodies names bodies" none name.txt
 
 if command -v nm >/dev/null; then
     symbols "$(dirname "$RC_BIN")" >symbols.txt
     call_faults symbols.txt >call.txt
-    claim "nothing calls upwards" none call.txt
-    claim "  and there were calls to look at" test "$(grep -c '^U.* rc_' symbols.txt)" -gt 500
+    claim "every call goes to a folder that the table allows" none call.txt
+    claim "  the check has seen calls" test "$(grep -c '^U.* rc_' symbols.txt)" -gt 500
     private_faults symbols.txt >private.txt
-    claim "formats and tools use of libcontact what its public headers declare" none private.txt
+    claim "formats and tools use only functions of the public headers of libcontact" none private.txt
 else
     echo "not tried: what is called, because nm is not here"
 fi
@@ -258,7 +258,7 @@ printf '#include "libcontact/operator/operator.h"\n#include "libcontact/operator
 printf '#include "libcontact/grid.h"\n' >bad/libcontact/other/new.c
 printf '  #  include "libcontact/contact.h"\n' >bad/formats/core/core.c
 include_faults bad | grep -v '/body/\|/engine_[^u]' >seen.txt
-claim "includes: upwards, of no file, past the offered header, without a row, out of the formats" diff - seen.txt <<'END'
+claim "the check finds wrong includes: of other folders, missing files, private headers" diff - seen.txt <<'END'
 include formats/core/core.c libcontact/contact.h
 include libcontact/operator/engine_up.c libcontact/solver/solver.h
 include libcontact/operator/engine_up.c nowhere.h
@@ -268,7 +268,7 @@ END
 printf '/* "mlms" */ a = "fft64"; b = &rc_engine_direct; c = "uniform"; d = "ffts";\n' >bad/tools/rc-x.c
 printf 'e = &rc_body_layered; f = rc_body_type(b)->name;\n' | tee bad/libcontact/stress/s.c >bad/libcontact/operator/s.c
 names bad >seen.txt
-claim "names: in quotes and as rows, not in comments" diff - seen.txt <<'END'
+claim "the check finds names in quotes and in rows, but not in comments" diff - seen.txt <<'END'
 name libcontact/operator/s.c 1
 name libcontact/stress/s.c 1
 name tools/rc-x.c 2
@@ -287,7 +287,7 @@ U tools/rc-solve.c rc_solver_new
 U formats/core/text.c rc_conv_apply
 END
 { call_faults bad-symbols.txt && private_faults bad-symbols.txt; } >seen.txt
-claim "calls: upwards, of more than a row, of physics by a format, of what is private" diff - seen.txt <<'END'
+claim "the check finds wrong calls: of other folders, of private functions" diff - seen.txt <<'END'
 call formats/core libcontact/operator rc_conv_apply
 call libcontact/operator libcontact/solver rc_solver_new
 private tools rc_hidden

@@ -11,7 +11,7 @@ rc-synth selfaffine --nx 320 --ny 250 --dx 1um --hurst 0.8 --rms-slope 0.1 --sho
 tolerance=1e-9
 solve="rc-solve --periodic --estar 1GPa --load 0.2N:0.4N:2 --method pk99 --tol $tolerance --output pressure"
 began=$(date +%s%N)
-claim "the solution that nobody disturbs" $solve -o right.rcg rough.rcg
+claim "the undisturbed solution is computed" $solve -o right.rcg rough.rcg
 milliseconds=$((($(date +%s%N) - began) / 1000000))
 
 # distance A B: the relative L1 distance of the frames of two streams, the largest of all cases.
@@ -67,9 +67,9 @@ while [ $killed -lt "$kills" ] && [ $starts -lt $((20 * kills)) ]; do
         rm -f out.rcg kept.rcg
     fi
 done
-claim "$killed kills in $starts runs, $finished of which came to their end: nothing wrong" \
+claim "$killed kills in $starts runs, $finished runs finished: no error" \
     bash -c "[ $killed = $kills ] && [ $wrong = 0 ]"
-claim "and at last it goes on to its end" $solve --quiet --checkpoint kept.rcg --resume -o out.rcg rough.rcg
+claim "a last run continues to the end" $solve --quiet --checkpoint kept.rcg --resume -o out.rcg rough.rcg
 between 0 "$(distance out.rcg right.rcg)" "$(awk -v t=$tolerance 'BEGIN { print 2 * t }')" "to the same pressure"
 
 # two: starts a run that would write to the checkpoint of a running one.
@@ -87,7 +87,7 @@ two() {
     [ $status = 1 ] && grep -q 'two.rcg: another run is adding to it' two.err && [ ! -e other.rcg ] &&
         $solve --quiet --checkpoint two.rcg --resume -o other.rcg rough.rcg
 }
-claim "two runs do not add to one checkpoint; after the first has been killed the other may" two
+claim "two runs cannot write to one checkpoint; after the first is killed the other can" two
 
 # ---- beside -o ----
 
@@ -103,7 +103,7 @@ maps() {
     [ $? -gt 128 ] && [ -z "$(ls map.rcg* 2>/dev/null)" ]
 }
 for signal in TERM HUP; do # in a background job of a shell SIGINT is ignored
-    claim "rc-info --psd-map: $signal leaves nothing of the map" maps $signal
+    claim "rc-info --psd-map: $signal leaves no part of the map" maps $signal
 done
 # costs: stops rc-cost, whose trials are other processes, at random moments.
 costs() {
@@ -121,14 +121,14 @@ costs() {
     done
     return $wrong
 }
-claim "rc-cost: stopped at random moments it leaves nothing half-written" costs
-claim "a map takes the place of the one before" bash -c '
+claim "rc-cost, stopped at random moments, leaves no half-written file" costs
+claim "a new map replaces the old one" bash -c '
     echo old >map.rcg && rc-info --psd --psd-map map.rcg rough.rcg && rc-info map.rcg'
 refuses 2 'rc-solve: --checkpoint -: .*name a file' "a checkpoint is no pipe" \
     "rc-solve --estar 1GPa --load 0.1N --checkpoint - -o x.rcg rough.rcg"
 refuses 2 'rc-cost: --plot -: a picture is' "a plot has to say what it is" \
     "rc-cost --estar 1GPa --load 0.1N --plot - rough.rcg"
 refuses 2 'rc-info: --psd-map -: ' "a map of waves is no pipe" "rc-info --psd --psd-map - rough.rcg"
-claim "no file is called -" test ! -e -
+claim "no file has the name -" test ! -e -
 
 finish

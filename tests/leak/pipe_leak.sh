@@ -27,7 +27,7 @@ column() { # NAME ROW FILE
 made 'boundary=free
 load=3' 12 4 2e-6 1e-6 gap '$j < 3 ? 2e-6 : 1e-12' pressure '$j < 3 ? 0 : 8e7' >channel.rcg
 rc-leak --viscosity 2mPas --pressure-drop 100kPa --report channel.json channel.rcg -o flow.rcg 2>flow.err
-claim "a channel is nothing to warn of" test ! -s flow.err
+claim "a resolved channel causes no warning" test ! -s flow.err
 near "$(field flow_conductance channel.json)" 1e-18 "$rounding" "a channel: its conductance"
 near "$(field flow_rate channel.json)" "$(awk 'BEGIN { print 1e-18 * 1e5 / (12 * 2e-3) }')" "$six_digits" "  and rate"
 near "$(field conductance_lower channel.json)" 1e-18 "$rounding" "  which is proven from below"
@@ -41,33 +41,33 @@ near "$(field critical_flow channel.json)" "$(awk 'BEGIN { print 8e-18 * 4 / 24 
 near "$(field throat_nodes channel.json)" 3 "$same" "  which is 3 nodes wide"
 # 12 cells: pressures at (i + 1/2)/12 of the way; the flux per width is g^3 dp/(24 dx)/(12 eta) everywhere
 row() { rc-pick --channel "$1" flow.rcg | rc-export --format csv | grep -v '^#' | sed -n "$2p"; }
-claim "fluid pressure falls along the channel, and there is none in contact" bash -c '
+claim "fluid pressure falls along the channel and is missing in contact" bash -c '
     awk -F , "{ for (i = 1; i <= 12; i++) { d = \$i - 1e5 * (12.5 - i) / 12; if (d < -1e-6 || d > 1e-6) exit 1 } n = NF } END { exit n != 12 }" <<<"$1" &&
         [[ $2 =~ ^[nN]a[nN](,[nN]a[nN]){11}$ ]]' - "$(row fluid-pressure 2)" "$(row fluid-pressure 4)"
 flux=$(awk 'BEGIN { print 8e-18 / 24e-6 * 1e5 / (12 * 2e-3) }')
 near "$(row flux 1 | cut -d , -f 7)" "$flux" "$six_digits" "flux per width"
-claim "  and none in contact" test "$(row flux 4 | tr , '\n' | sort -u | tr A-Z a-z)" = nan
-claim "channels" test "$(row channel 1 | tr , '\n' | sort -u) $(row channel 4 | tr , '\n' | sort -u)" = "2.0 0.0"
-claim "units" bash -c 'rc-info --json flow.rcg | grep -o "\"unit\": \"[^\"]*\"" | tr "\n" " " | grep -qx "\"unit\": \"Pa\" \"unit\": \"m2/s\" \"unit\": \"1\" "'
-claim "keys for a picture" bash -c 'rc-info flow.rcg | says "throat_x=" cat && rc-info flow.rcg | says "flow_rate=4.16666.*e-12" cat'
-claim "history" says 'rc-leak [^|]* --viscosity 0.002 --pressure-drop 100000' head -c 2000 flow.rcg
+claim "  the flux is missing in contact" test "$(row flux 4 | tr , '\n' | sort -u | tr A-Z a-z)" = nan
+claim "the frame channels has its values" test "$(row channel 1 | tr , '\n' | sort -u) $(row channel 4 | tr , '\n' | sort -u)" = "2.0 0.0"
+claim "the frames have their units" bash -c 'rc-info --json flow.rcg | grep -o "\"unit\": \"[^\"]*\"" | tr "\n" " " | grep -qx "\"unit\": \"Pa\" \"unit\": \"m2/s\" \"unit\": \"1\" "'
+claim "the frames have the keys for a picture" bash -c 'rc-info flow.rcg | says "throat_x=" cat && rc-info flow.rcg | says "flow_rate=4.16666.*e-12" cat'
+claim "the frames have the history" says 'rc-leak [^|]* --viscosity 0.002 --pressure-drop 100000' head -c 2000 flow.rcg
 
 rc-leak --quiet --report bare.json channel.rcg -o bare.rcg
-claim "without a fluid a conductance and no rate" grep -q '"viscosity": null, "pressure_drop": null, "flow_rate": null, "flow_conductance": [19]' bare.json
-claim "  pressures from 1 to 0, fluxes in m2" bash -c 'rc-info --json bare.rcg | grep -o "\"unit\": \"[^\"]*\"" | tr "\n" " " | grep -qx "\"unit\": \"1\" \"unit\": \"m2\" \"unit\": \"1\" "'
-claim "--output chooses, in its own order" bash -c 'test "$(rc-leak --quiet --output channel,flux channel.rcg | rc-info --json | grep -o "\"channel\": \"[a-z-]*\"" | tr "\n" " ")" = "\"channel\": \"flux\" \"channel\": \"channel\" "'
+claim "without a fluid there is a conductance, but no flow rate" grep -q '"viscosity": null, "pressure_drop": null, "flow_rate": null, "flow_conductance": [19]' bare.json
+claim "  pressures fall from 1 to 0, and fluxes are in m2" bash -c 'rc-info --json bare.rcg | grep -o "\"unit\": \"[^\"]*\"" | tr "\n" " " | grep -qx "\"unit\": \"1\" \"unit\": \"m2\" \"unit\": \"1\" "'
+claim "--output selects frames, which come in a fixed order" bash -c 'test "$(rc-leak --quiet --output channel,flux channel.rcg | rc-info --json | grep -o "\"channel\": \"[a-z-]*\"" | tr "\n" " ")" = "\"channel\": \"flux\" \"channel\": \"channel\" "'
 rc-leak --quiet --direction y --report across.json channel.rcg -o across.rcg
-claim "across the wall nothing flows" grep -q '"flow_conductance": 0, .*"percolates": false, .*"critical_gap": 0, "critical_x": null' across.json
-claim "  and no place is marked" bash -c 'rc-info across.rcg >across.txt && ! grep -q throat_x across.txt'
+claim "no fluid flows across the wall" grep -q '"flow_conductance": 0, .*"percolates": false, .*"critical_gap": 0, "critical_x": null' across.json
+claim "  no critical constriction is marked" bash -c 'rc-info across.rcg >across.txt && ! grep -q throat_x across.txt'
 
 # a gap that varies along the flow: (1 - A^2)^(5/2)/(1 + A^2/2), A = 0.5
 made periodic=yes 32 4 1e-6 1e-6 gap '1e-6 * (1 + 0.5 * cos(2 * 3.14159265358979 * ($i + 0.5) / 32))' >wave.rcg
 rc-leak --report wave.json wave.rcg -o wave-flow.rcg 2>wave.err
 near "$(field flow_factor wave.json)" "$(awk 'BEGIN { print 0.75 ^ 2.5 / 1.125 }')" "$six_digits" "a wave across the flow"
-claim "its sides meet, for the map is periodic" grep -q '"sides": "periodic"' wave.json
-claim "without a pressure frame: a warning" grep -q 'without a pressure frame .*rc-solve --output pressure,gap' wave.err
+claim "the sides join, because the map is periodic" grep -q '"sides": "periodic"' wave.json
+claim "a case without a pressure frame causes a warning" grep -q 'without a pressure frame .*rc-solve --output pressure,gap' wave.err
 rc-leak --quiet --sides closed --report closed.json wave.rcg -o closed.rcg
-claim "  closed when that is asked for" grep -q '"sides": "closed"' closed.json
+claim "  --sides closed closes them" grep -q '"sides": "closed"' closed.json
 rc-leak --quiet --report stripes.json --direction y wave.rcg -o stripes.rcg
 near "$(field flow_factor stripes.json)" 1.375 "$rounding" "a wave along it: 1 + 3 A^2/2"
 
@@ -76,18 +76,18 @@ near "$(field flow_factor stripes.json)" 1.375 "$rounding" "a wave along it: 1 +
 rc-synth selfaffine --nx 128 --dx 1um --hurst 0.8 --rms-slope 0.05 --rolloff 32um --short-cut 4um --seed 2 -o rough.rcg
 rc-solve --quiet --periodic --estar 1GPa --mean-pressure 1MPa,3MPa,5MPa,16MPa --output pressure,gap rough.rcg -o pressed.rcg
 rc-leak --quiet --report loads.tsv pressed.rcg -o leak.rcg
-claim "four loads, four rows" test "$(wc -l <loads.tsv)" = 5
-claim "  of one conductance after the other" bash -c '
+claim "four loads give four rows" test "$(wc -l <loads.tsv)" = 5
+claim "  the conductance falls from row to row" bash -c '
     awk -F "\t" "NR == 1 { for (i = 1; i <= NF; i++) if (\$i == \"flow_conductance/m3\") c = i }
         NR > 1 { if (NR > 2 && !(\$c < last)) exit 1; last = \$c } END { exit last != 0 || NR != 5 }" loads.tsv'
-claim "  none percolates at 16 MPa" test "$(column percolates 4 loads.tsv)" = false
+claim "  at 16 MPa no path percolates" test "$(column percolates 4 loads.tsv)" = false
 for row in 1 2 3; do
     near "$(column conductance_lower $row loads.tsv)" "$(column conductance_upper $row loads.tsv)" "$summed" "proven bounds meet"
 done
-claim "through pipes too, with every frame of a case" bash -c '
+claim "a pipe works too, with every frame of a case" bash -c '
     rc-solve --quiet --periodic --estar 1GPa --mean-pressure 3MPa rough.rcg | rc-leak --quiet | rc-info --json >piped.json && test "$(wc -l <piped.json)" = 3'
 # stagnant fluid has no flow: channel is 1 exactly at nodes without contact whose flux is 0
-claim "the flux is 0 where fluid stands, and there is none in contact" bash -c '
+claim "the flux is 0 in still fluid and missing in contact" bash -c '
     paste -d " " <(rc-pick --case 3 --channel channel leak.rcg | rc-export --format xyz | grep -v "^#" | awk "{ print \$3 }") \
         <(rc-pick --case 3 --channel flux leak.rcg | rc-export --format xyz | grep -v "^#" | awk "{ print \$3 }") |
         awk "{ n[\$1]++; if (\$1 == 0 ? tolower(\$2) != \"nan\" : (\$1 == 1) != (\$2 == 0)) exit 1 } END { exit !(n[0] > 100 && n[1] > 10 && n[2] > 1000) }"'
@@ -102,40 +102,40 @@ claim "threads change no bit" cmp threads1.rcg threads2.rcg
 
 # legend FILE: prints the words of an SVG in one line.
 legend() { sed 's/<[^>]*>/ /g' "$1" | tr -s ' \n' '  '; }
-claim "the flux by colour of its logarithm" rc-render --case 3 --channel flux --log leak.rcg -o flux.svg
-claim "  what is not flowing has two signs of its own" says 'stagnant fluid .*contact \([0-9]+ of 16384 nodes\)' legend flux.svg
-claim "  and the constriction a cross" says 'the critical constriction' legend flux.svg
-claim "  beside the window there is none" rc-render --case 3 --channel flux --log --window "$(awk -v x="$(column critical_x 3 loads.tsv)" \
+claim "rc-render draws the flux on logarithmic colours" rc-render --case 3 --channel flux --log leak.rcg -o flux.svg
+claim "  contact and still fluid have their own entries in the legend" says 'stagnant fluid .*contact \([0-9]+ of 16384 nodes\)' legend flux.svg
+claim "  the constriction has a cross" says 'the critical constriction' legend flux.svg
+claim "  a window without the constriction has no cross" rc-render --case 3 --channel flux --log --window "$(awk -v x="$(column critical_x 3 loads.tsv)" \
     'BEGIN { print (x > 0 ? "-60um:-20um,-60um:60um" : "20um:60um,-60um:60um") }')" leak.rcg -o part.svg
-claim "    nor its sign" bash -c '! grep -q "narrowest place" part.svg && test -s part.svg'
-claim "fluid pressure" rc-render --case 2 --channel fluid-pressure leak.rcg -o pressure.svg
-claim "  says what has none" says 'contact, or enclosed fluid \([0-9]+ of' legend pressure.svg
-claim "leakage against load" rc-render --curve mean_pressure:flow_conductance --log y -o curve.svg loads.tsv
-claim "  a load that lets nothing through is told" says "1 load sealed \(no flow\)" legend curve.svg
-claim "  in the unit of a volume" says 'Flow conductance \(m 3 *\)' legend curve.svg
-claim "channels are three colours, and no bar" rc-render --case 3 --channel channel leak.rcg -o channel.svg
-claim "  named in the legend" says 'Flow channels .*contact stagnant fluid flowing fluid' legend channel.svg
-claim "  as of a sheet" bash -c 'rc-render --sheet auto --channel channel leak.rcg -o sheet.svg && grep -q ">stagnant fluid<" sheet.svg && ! grep -q ">[0-2]\.[05]0*<" sheet.svg'
+claim "    its legend has no entry for the cross" bash -c '! grep -q "narrowest place" part.svg && test -s part.svg'
+claim "rc-render draws the fluid pressure" rc-render --case 2 --channel fluid-pressure leak.rcg -o pressure.svg
+claim "  the legend explains nodes without a value" says 'contact, or enclosed fluid \([0-9]+ of' legend pressure.svg
+claim "rc-render draws the leakage against the load" rc-render --curve mean_pressure:flow_conductance --log y -o curve.svg loads.tsv
+claim "  a note counts the loads without flow" says "1 load sealed \(no flow\)" legend curve.svg
+claim "  the axis has the unit of a volume flow" says 'Flow conductance \(m 3 *\)' legend curve.svg
+claim "channels are drawn in three colours, without a colour bar" rc-render --case 3 --channel channel leak.rcg -o channel.svg
+claim "  the legend names the colours" says 'Flow channels .*contact stagnant fluid flowing fluid' legend channel.svg
+claim "  a sheet has the same legend" bash -c 'rc-render --sheet auto --channel channel leak.rcg -o sheet.svg && grep -q ">stagnant fluid<" sheet.svg && ! grep -q ">[0-2]\.[05]0*<" sheet.svg'
 rc-render --channel pressure --case 2 pressed.rcg -o contact.svg
-claim "of other maps the legend is as it was" says 'no contact' legend contact.svg
+claim "the legend of other maps has not changed" says 'no contact' legend contact.svg
 
 # ---- warnings ----
 
 # one gap, one node wide
 made boundary=free 9 9 1e-6 1e-6 gap '$i != 4 ? 1e-6 : $j == 3 ? 9e-7 : 0' pressure '$i == 4 && $j != 3 ? 1e6 : 0' >slit.rcg
-claim "a throat of one node" warns 'narrowest place of the widest way, at x = 0 m, y = -1e-06 m, is 1 node wide, .*finer grid' rc-leak slit.rcg -o x.rcg
-claim "  of three nodes: none" bash -c "rc-leak channel.rcg -o x.rcg 2>x.err && ! grep narrowest x.err"
+claim "a constriction of one node causes a warning" warns 'narrowest place of the widest way, at x = 0 m, y = -1e-06 m, is 1 node wide, .*finer grid' rc-leak slit.rcg -o x.rcg
+claim "  a constriction of three nodes causes no warning" bash -c "rc-leak channel.rcg -o x.rcg 2>x.err && ! grep narrowest x.err"
 made boundary=free 4 4 1e-6 1e-6 gap '($i < 2) == ($j < 2) ? 1e-6 : 0' pressure '($i < 2) == ($j < 2) ? 0 : 1e6' >corners.rcg
-claim "what corners decide" warns 'the only remaining path runs through cell corners; this grid cannot decide' rc-leak corners.rcg -o x.rcg
+claim "a path through corners alone causes a warning" warns 'the only remaining path runs through cell corners; this grid cannot decide' rc-leak corners.rcg -o x.rcg
 made boundary=free 8 8 1e-6 1e-6 gap '1e-7 * (1 + 30 * ($i % 2))' pressure 0 >comb.rcg
-claim "an error of the grid" warns 'estimated error of the grid is 27[0-9] % of the flow' rc-leak comb.rcg -o x.rcg
-claim "a steep gap" warns 'RMS slope of the gap is 3 where fluid flows: .*below 0.3' rc-leak comb.rcg -o x.rcg
-claim "fluid that would lift the bodies" warns 'pressure drop, 3e\+06 Pa, is more than a tenth of the mean contact pressure, 2e\+07 Pa' \
+claim "a large error of the grid causes a warning" warns 'estimated error of the grid is 27[0-9] % of the flow' rc-leak comb.rcg -o x.rcg
+claim "a steep gap causes a warning" warns 'RMS slope of the gap is 3 where fluid flows: .*below 0.3' rc-leak comb.rcg -o x.rcg
+claim "a fluid pressure that would lift the bodies causes a warning" warns 'pressure drop, 3e\+06 Pa, is more than a tenth of the mean contact pressure, 2e\+07 Pa' \
     rc-leak --viscosity 1mPas --pressure-drop 3MPa channel.rcg -o x.rcg
-claim "  and none that does not" bash -c 'rc-leak --viscosity 1mPas --pressure-drop 1.9MPa channel.rcg -o x.rcg 2>x.err && ! grep -q lift x.err'
+claim "  a lower fluid pressure causes no warning" bash -c 'rc-leak --viscosity 1mPas --pressure-drop 1.9MPa channel.rcg -o x.rcg 2>x.err && ! grep -q lift x.err'
 sed 's/^boundary=free/&\nconverged=no/' channel.rcg | perl -MCompress::Zlib -0777 -pe 's/(RCG1.*?)crc32 [0-9a-f]{8}\n/$1 . sprintf("crc32 %08x\n", crc32($1))/sge' >short.rcg
 refuses 3 'converged' "what has not converged stays so" "rc-leak short.rcg -o short-flow.rcg"
-claim "  and says so" says 'converged=no' head -c 1000 short-flow.rcg
+claim "  a message says so" says 'converged=no' head -c 1000 short-flow.rcg
 
 # ---- refusals ----
 
@@ -154,23 +154,23 @@ refuses 1 'NaN or infinite.*: recompute the map' "a pressure without end" "rc-le
 made boundary=free 3 3 1e-6 1e-6 gap 1 >a.rcg
 made boundary=free 4 3 1e-6 1e-6 pressure 0 >b.rcg
 refuses 1 'bring them to one grid' "a gap and a pressure of two grids" "{ sed '/^RCGEND/d' a.rcg; sed 's/^RCGEND 1/RCGEND 2/' b.rcg; } | rc-leak -o x.rcg"
-claim "nothing is left of what was refused" test ! -e x.rcg.tmp
+claim "refused commands leave no file" test ! -e x.rcg.tmp
 
 # ---- cost of accuracy ----
 
 rc-synth selfaffine --nx 96 --dx 1um --hurst 0.8 --rms-slope 0.05 --rolloff 48um --short-cut 12um --seed 3 -o costly.rcg
 cost="rc-cost --periodic --estar 1GPa --mean-pressure 4MPa --kernel fft --method pcg --quiet"
 $cost --leak y --report cost.tsv costly.rcg >cost.txt
-claim "rc-cost: flow against the grid" says '^# flow along y: the reference has a conductance of [0-9.e-]+ m3; flow_error: relative to it' cat cost.txt
+claim "rc-cost compares the flow on several grids" says '^# flow along y: the reference has a conductance of [0-9.e-]+ m3; flow_error: relative to it' cat cost.txt
 flow_of() { rc-solve --quiet --periodic --estar 1GPa --mean-pressure 4MPa --tol 1e-10 --output pressure,gap | rc-leak --quiet --direction y --report - | tee flow.json | field flow_conductance /dev/stdin; }
 fine=$(flow_of <costly.rcg)
 near "$(sed -n 's/^# flow along y.* of \([0-9.e-]*\) m3;.*/\1/p' cost.txt)" "$fine" 1e-6 "  the reference is what rc-solve and rc-leak find"
 coarse=$(rc-pick --resample 48x48 costly.rcg | flow_of)
 near "$(awk -F '\t' 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } NR > 1 && $at["nx"] == 48 && $at["tol"] <= 1e-3 { print $at["flow_error"]; exit }' cost.tsv)" \
     "$(awk -v a="$coarse" -v b="$fine" 'BEGIN { print a / b - 1 }')" 0.02 "  on half the nodes a side its error is that of the coarse flow"
-claim "  a column of the table" awk '$1 == "method" { for (i = 1; i <= NF; i++) if ($i == "flow_error") at = i } at && $5 == "96x96" && $4 <= 1e-4 { n++; if ($at > 0.01 || $at < -0.01) bad = 1 } END { exit bad || !n }' cost.txt
+claim "  the table has a column for it" awk '$1 == "method" { for (i = 1; i <= NF; i++) if ($i == "flow_error") at = i } at && $5 == "96x96" && $4 <= 1e-4 { n++; if ($at > 0.01 || $at < -0.01) bad = 1 } END { exit bad || !n }' cost.txt
 $cost --report bare.tsv costly.rcg >bare.txt
-claim "  and none without --leak" bash -c '! grep -q flow bare.txt && ! grep -q flow bare.tsv && test -s bare.tsv'
+claim "  without --leak there is no such column" bash -c '! grep -q flow bare.txt && ! grep -q flow bare.tsv && test -s bare.tsv'
 refuses 2 'leak z' "another direction" "$cost --leak z costly.rcg"
 
 # ---- memory ----
@@ -185,7 +185,7 @@ else
     refuses 1 'need (about|at least) [0-9]+ MiB, --memory allows 20 MiB' "more than --memory, before the order" "rc-leak --memory 20M wide-pressed.rcg -o never.rcg"
     between_steps=$(awk -v peak="$(field peak_memory wide.json)" 'BEGIN { printf "%d", 0.85 * peak / 1024 }')
     refuses 1 'need (about|at least) [0-9]+ MiB, --memory allows [0-9]+ MiB' "and after it, by what it says" "rc-leak --memory ${between_steps}K wide-pressed.rcg -o never.rcg"
-    claim "nothing is half-written" test ! -e never.rcg
+    claim "no half-written file is left" test ! -e never.rcg
 fi
 
 finish

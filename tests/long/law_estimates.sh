@@ -9,7 +9,7 @@ if ! python=$(python_with numpy 2>why.txt); then
 fi
 long=$RC_SOURCE/tests/long
 export RC_THREADS=1
-claim "a body that yields" "$python" "$long/plastic_lists.py" 1 60
+claim "errors of a body that yields are below their estimates" "$python" "$long/plastic_lists.py" 1 60
 for kind in hist:100 adhesion:60 tilt:60 maps:20; do
     claim "$kind" "$python" "$long/estimates.py" "${kind%:*}" 1 "${kind#*:}" "$RC_BIN"
 done

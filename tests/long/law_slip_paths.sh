@@ -87,7 +87,7 @@ env -u SHELLOPTS python3 paths.py >paths.txt
 cat paths.txt
 for increments in auto 8 16; do
     read -r _ states below median most < <(grep "^$increments " paths.txt)
-    claim "increments $increments: of $states states none is off by more than is told" test "$below" = 0
+    claim "increments $increments: no error of $states states exceeds its estimate" test "$below" = 0
     between 1 "$median" 7 "  which in the middle is not far from the error"
     between 1 "$most" 16 "  nor in nine of ten"
 done

@@ -33,8 +33,8 @@ eight() {
 export -f eight
 
 for round in $(seq $rounds); do
-    claim "eight at a time, round $round of $rounds: each as alone, to the last bit" eight "round$round"
+    claim "eight pipelines at a time, round $round of $rounds: each gives the bits of a single run" eight "round$round"
 done
-claim "and nothing else is left" bash -c '[ $(ls | grep -c "rcg$") = $((8 + 8 + 8 * '$rounds')) ] && ! ls *.rcg.* 2>/dev/null'
+claim "no other file is left" bash -c '[ $(ls | grep -c "rcg$") = $((8 + 8 + 8 * '$rounds')) ] && ! ls *.rcg.* 2>/dev/null'
 
 finish

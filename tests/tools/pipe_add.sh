@@ -24,20 +24,20 @@ rc-add flat.rcg a.rcg -o mirrored.rcg
 rc-add --subtract flat.rcg mirrored.rcg -o replica.rcg
 rc-info --json flat.rcg >info.json
 near "$(field rms info.json)" 0 "$same" "a surface less itself is a flat"
-claim "on its replica a surface closes everywhere" info rc-add a.rcg replica.rcg
+claim "a surface and its replica close everywhere" info rc-add a.rcg replica.rcg
 near "$(field minimum info.json)" 0 "$same" "its lowest point is 0"
 near "$(field maximum info.json)" 0 "$same" "and its highest"
-claim "the other way round as well" info rc-add replica.rcg a.rcg
+claim "the reverse order too" info rc-add replica.rcg a.rcg
 near "$(field maximum info.json)" 0 "$same" "its highest point is 0"
-claim "the mirrored one is the mirrored one" bash -c '
+claim "--mirror gives the mirrored map" bash -c '
     perl -e '\''my @v = map { open my $f, "-|", "bash", "-c", "values $_" or die; local $/; [unpack "d<*", <$f>] } @ARGV;
         for my $k (0 .. 66 * 47 - 1) {
             exit 1 if $v[0][$k] != $v[1][66 * int($k / 66) + 65 - $k % 66];
         }
         exit 1 if @{$v[0]} != 66 * 47'\'' a.rcg mirrored.rcg'
 
-claim "standard input is A" bash -c 'rc-add - b.rcg <a.rcg >one.rcg && rc-add a.rcg b.rcg -o two.rcg && cmp <(values one.rcg) <(values two.rcg)'
-claim "  or B" bash -c 'rc-add a.rcg - <b.rcg >one.rcg && cmp <(values one.rcg) <(values two.rcg)'
+claim "standard input can be A" bash -c 'rc-add - b.rcg <a.rcg >one.rcg && rc-add a.rcg b.rcg -o two.rcg && cmp <(values one.rcg) <(values two.rcg)'
+claim "  standard input can be B" bash -c 'rc-add a.rcg - <b.rcg >one.rcg && cmp <(values one.rcg) <(values two.rcg)'
 
 # ---- two balls ----
 
@@ -45,13 +45,13 @@ claim "  or B" bash -c 'rc-add a.rcg - <b.rcg >one.rcg && cmp <(values one.rcg) 
 radius=$(awk 'BEGIN { printf "%.17g", 1 / (1 / 2.385e-3 + 1 / 7.1e-3) }')
 ball() { rc-synth sphere --nx 71 --dx 1.4um --radius "$@"; }
 ball 2.385mm -o small.rcg
-claim "two balls" bash -c "rc-synth sphere --nx 71 --dx 1.4um --radius 7.1mm | rc-add small.rcg - -o balls.rcg"
+claim "the sum of two balls is computed" bash -c "rc-synth sphere --nx 71 --dx 1.4um --radius 7.1mm | rc-add small.rcg - -o balls.rcg"
 ball "$radius" -o one.rcg
 info rc-add --subtract balls.rcg one.rcg
 # the corner is 1.5 um deep
 between -1.5e-19 "$(field minimum info.json)" 0 "are one of the composite radius"
 between 0 "$(field maximum info.json)" 1.5e-19 "  from below too"
-claim "they are pressed together" rc-solve --quiet --load 2N --estar 114GPa --tol 1e-6 --report report.json \
+claim "rc-solve presses it" rc-solve --quiet --load 2N --estar 114GPa --tol 1e-6 --report report.json \
     -o pressed.rcg balls.rcg
 near "$(field approach report.json)" \
     "$(awk -v R="$radius" 'BEGIN { a = (3 * 2 * R / (4 * 114e9)) ^ (1 / 3); print a * a / R }')" \
@@ -62,67 +62,67 @@ near "$(field max_pressure report.json)" \
 
 # ---- cut, missing, periodic ----
 
-claim "of two sizes the overlap" bash -c '
+claim "maps of two sizes are added where they overlap" bash -c '
     rc-synth cone --slope 0.1 --nx 61 --ny 51 --dx 1.1um --dy 1um | rc-add --quiet a.rcg - | rc-info --json >info.json'
 near "$(field nx info.json)" 61 "$same" "its columns"
 near "$(field ny info.json)" 47 "$same" "its rows"
-claim "  which is said" warns 'case 1, frame 1 \(height\): 66 x 47 nodes and 61 x 51 of B: cut to the 61 x 47 that they share' bash -c '
+claim "  a warning says so" warns 'case 1, frame 1 \(height\): 66 x 47 nodes and 61 x 51 of B: cut to the 61 x 47 that they share' bash -c '
     rc-synth cone --slope 0.1 --nx 61 --ny 51 --dx 1.1um --dy 1um | rc-add --verbose a.rcg -'
 printf '1 2 3\n4 NaN 6\n' | rc-import --dx 1um --z-unit um -o left.rcg -
 printf '0 0 NaN\n0 0 0\n' | rc-import --dx 1um --z-unit um -o right.rcg -
-claim "missing in one is missing in the sum, B mirrored" bash -c '
+claim "a point that is missing in one map is missing in the sum, with B mirrored" bash -c '
     [ "$(rc-add left.rcg right.rcg | rc-export --format xyz | grep -v "^#" | cut -d " " -f 3 | tr "\n" " ")" = \
       "$(printf "NaN 2 3\n4 NaN 6\n" | rc-import --dx 1um --z-unit um - | rc-export --format xyz | grep -v "^#" | cut -d " " -f 3 | tr "\n" " ")" ]'
-claim "the sum of two periodic ones is periodic" bash -c 'rc-add a.rcg b.rcg >sum.rcg 2>err.txt && [ ! -s err.txt ]'
-claim "  indeed" says periodic=yes cat sum.rcg
-claim "with another it is not" warns 'this surface is periodic, what comes out is not, because the other one is not: periodic=no' bash -c '
+claim "the sum of two periodic maps is periodic" bash -c 'rc-add a.rcg b.rcg >sum.rcg 2>err.txt && [ ! -s err.txt ]'
+claim "  its key says so" says periodic=yes cat sum.rcg
+claim "the sum with a map that is not periodic is not periodic" warns 'this surface is periodic, what comes out is not, because the other one is not: periodic=no' bash -c '
     rc-synth cone --slope 0.1 --like a.rcg | rc-add a.rcg - -o sum.rcg'
-claim "  indeed" says periodic=no cat sum.rcg
-claim "cut it is not" warns 'what comes out is not, because the maps are cut to their overlap: periodic=no' bash -c '
+claim "  its key says so" says periodic=no cat sum.rcg
+claim "a cropped periodic map gives a sum that is not periodic" warns 'what comes out is not, because the maps are cut to their overlap: periodic=no' bash -c '
     rc-synth selfaffine --hurst 0.8 --rms-height 1um --nx 60 --ny 47 --dx 1.1um --dy 1um | rc-add a.rcg - -o sum.rcg'
-claim "  indeed" says periodic=no cat sum.rcg
-claim "what never was is not spoken of" bash -c '
+claim "  its key says so" says periodic=no cat sum.rcg
+claim "maps without the key cause no message about periods" bash -c '
     rc-add small.rcg one.rcg >sum.rcg 2>err.txt && [ ! -s err.txt ] && lacks periodic= sum.rcg'
-claim "spacings within a millionth are the same" bash -c '
+claim "spacings that differ by less than a millionth count as equal" bash -c '
     rc-pick --set dx=1.1000009um b.rcg | rc-add a.rcg - | rc-info --json >info.json'
 near "$(field dx info.json)" 1.1e-6 "$same" "and those of A"
 
 # ---- keys, cases ----
 
-claim "keys of A, with the name and the history of both" bash -c '
+claim "the sum has the keys of A, and name and history of both" bash -c '
     rc-pick --set colour=red --set source=first.x3p a.rcg -o red.rcg &&
     rc-pick --set colour=blue --set taste=salt b.rcg | rc-add red.rcg - -o sum.rcg && grep -aq colour=red sum.rcg && lacks ^taste= sum.rcg'
-claim "  in this form" says '^history=rc-synth .* \| rc-pick .* \| rc-add [0-9.]* first.x3p selfaffine-seed-4 \(selfaffine-seed-4: rc-synth [^|]*--seed 4 selfaffine; rc-pick [^|]*\)$' cat sum.rcg
+claim "  the history has this form" says '^history=rc-synth .* \| rc-pick .* \| rc-add [0-9.]* first.x3p selfaffine-seed-4 \(selfaffine-seed-4: rc-synth [^|]*--seed 4 selfaffine; rc-pick [^|]*\)$' cat sum.rcg
 claim "--subtract is in the history" says 'rc-add [0-9.]* --subtract selfaffine-seed-3 selfaffine-seed-3' cat flat.rcg
-claim "a long history is cut" bash -c '
+claim "a long history is shortened" bash -c '
     rc-pick --set history.x=1 b.rcg -o long.rcg &&
     for k in 1 2 3; do rc-pick --set "long=$(printf "%02000d" "$k")" long.rcg -o next.rcg && mv next.rcg long.rcg; done &&
     rc-add a.rcg long.rcg -o sum.rcg && [ "$(grep -a ^history= sum.rcg | wc -c)" -lt 4600 ]'
-claim "  with three points" says '^history=.*0\.\.\.\)$' cat sum.rcg
-claim "an added shape is named in the sum" bash -c '
+claim "  it ends in three points" says '^history=.*0\.\.\.\)$' cat sum.rcg
+claim "a sphere that was added to one map is named in the sum" bash -c '
     rc-solve --quiet --output height --radius 2mm --load 1N --estar 100GPa b.rcg -o formed.rcg && rc-add --quiet a.rcg formed.rcg -o sum.rcg'
-claim "  indeed" says 'form=sphere 0.002$' cat sum.rcg
+claim "  its key has the value" says 'form=sphere 0.002$' cat sum.rcg
 refuses 1 'form=sphere 0.002' "  and not added again" "rc-solve --radius 2mm --load 1N --estar 100GPa sum.rcg"
-claim "  both of two" bash -c 'rc-add --quiet formed.rcg formed.rcg -o sum.rcg'
-claim "  indeed" says 'form=sphere 0.002 \+ sphere 0.002$' cat sum.rcg
-claim "  and in the difference of two it is not" bash -c 'rc-add --quiet --subtract formed.rcg formed.rcg -o sum.rcg && lacks form= sum.rcg'
+claim "  spheres of both maps are named in the sum" bash -c 'rc-add --quiet formed.rcg formed.rcg -o sum.rcg'
+claim "  its key has both values" says 'form=sphere 0.002 \+ sphere 0.002$' cat sum.rcg
+claim "  equal spheres cancel in the difference" bash -c 'rc-add --quiet --subtract formed.rcg formed.rcg -o sum.rcg && lacks form= sum.rcg'
 
 cat a.rcg b.rcg >two.rcg
-claim "one B for all of A" bash -c 'rc-add two.rcg b.rcg -o sum.rcg && [ "$(rc-info sum.rcg | grep -c "case [12]")" = 2 ]'
-claim "  each with it" bash -c 'rc-pick --case 1 sum.rcg -o x.rcg && rc-add a.rcg b.rcg -o y.rcg && cmp <(values x.rcg) <(values y.rcg) &&
+claim "one B is added to every case of A" bash -c 'rc-add two.rcg b.rcg -o sum.rcg && [ "$(rc-info sum.rcg | grep -c "case [12]")" = 2 ]'
+claim "  each sum contains it" bash -c 'rc-pick --case 1 sum.rcg -o x.rcg && rc-add a.rcg b.rcg -o y.rcg && cmp <(values x.rcg) <(values y.rcg) &&
     rc-pick --case 2 sum.rcg -o x.rcg && rc-add b.rcg b.rcg -o y.rcg && cmp <(values x.rcg) <(values y.rcg)'
-claim "two for two, in their order" bash -c 'rc-add --subtract two.rcg two.rcg | rc-info --json >info.json &&
+claim "two cases of B are added to two cases of A in their order" bash -c 'rc-add --subtract two.rcg two.rcg | rc-info --json >info.json &&
     [ "$(grep -c "\"rms\": 0," info.json)" = 2 ]'
-claim "other frames of A pass, those of B do not" bash -c '
+claim "other frames of A are passed on, other frames of B are not" bash -c '
     rc-pick --set channel=quality a.rcg -o quality.rcg &&
     perl -0777 -pe "s/RCGEND 1\n//" a.rcg >pair.rcg &&
     perl -0777 -pe "s/RCGEND 1\n/RCGEND 2\n/" quality.rcg >>pair.rcg &&
     rc-add pair.rcg pair.rcg | rc-info --json | grep -o "\"channel\": \"[a-z]*\"" | tr "\n" " " >channels.txt &&
     [ "$(cat channels.txt)" = "\"channel\": \"height\" \"channel\": \"quality\" " ]'
-claim "the solved height may be B" bash -c 'rc-solve --quiet --load 1N --estar 100GPa a.rcg -o solved.rcg && rc-add b.rcg solved.rcg -o sum.rcg'
-claim "f64 when one of them is" bash -c 'rc-pick --type f32 --channel height a.rcg -o single.rcg && rc-add single.rcg b.rcg | rc-info --json >info.json'
-claim "  indeed" grep -q '"type": "f64"' info.json
-claim "f32 when both are" bash -c 'rc-add single.rcg single.rcg | rc-info --json >info.json && grep -q "\"type\": \"f32\"" info.json'
+claim "the height of a solution may be B" bash -c 'rc-solve --quiet --load 1N --estar 100GPa a.rcg -o solved.rcg && rc-add b.rcg solved.rcg -o sum.rcg'
+claim "the sum is f64 if one map is f64" bash -c 'rc-pick --type f32 --channel height a.rcg -o single.rcg && rc-add single.rcg b.rcg | rc-info --json >info.json'
+claim "  its type says so" grep -q '"type": "f64"' info.json
+claim "the sum is f32 if both maps are f32" bash -c 'rc-add single.rcg single.rcg | rc-info --json >info.json && grep -q "\"type\": \"f32\"" info.json'
 
 # ---- refusals ----
 
@@ -146,11 +146,11 @@ refuses 2 '- and -: standard input is one surface' "standard input twice" "rc-ad
 refuses 2 '1 files named: give two, A and B' "one surface" "rc-add a.rcg"
 refuses 2 '3 files named: give two' "three" "rc-add a.rcg a.rcg a.rcg"
 refuses 1 'nowhere.rcg: No such file' "a file that is not there" "rc-add a.rcg nowhere.rcg -o out2.rcg"
-claim "and nothing is left" test ! -e out2.rcg
+claim "no file is left" test ! -e out2.rcg
 refuses 1 '66 x 47 nodes need about' "more memory than is allowed" "rc-add --memory 30k a.rcg b.rcg"
 refuses 1 'No space left' "a full disk" "rc-add a.rcg b.rcg >/dev/full"
 rc-pick --set converged=no b.rcg -o short.rcg
 refuses 3 'selfaffine-seed-4.* stopped short of its accuracy' "what stopped short in B is told" "rc-add a.rcg short.rcg -o sum.rcg"
-claim "  and written" says RCGEND cat sum.rcg
+claim "  the sum is written" says RCGEND cat sum.rcg
 
 finish

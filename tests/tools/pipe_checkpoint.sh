@@ -5,26 +5,26 @@ rc-synth selfaffine --nx 200 --ny 150 --dx 1um --hurst 0.8 --rms-slope 0.1 --sho
     --seed 3 -o rough.rcg
 solve="rc-solve --periodic --estar 1GPa --output pressure"
 
-claim "a list of loads, whole" bash -c "$solve --load 0.1N:0.5N:3 --checkpoint kept.rcg --report whole.json -o whole.rcg rough.rcg"
-claim "resumed, it is the same to the last bit, one step a case" bash -c "
+claim "a list of loads is solved without interruption" bash -c "$solve --load 0.1N:0.5N:3 --checkpoint kept.rcg --report whole.json -o whole.rcg rough.rcg"
+claim "the resumed run gives the same bits, in one step per case" bash -c "
     $solve --load 0.1N:0.5N:3 --checkpoint kept.rcg --resume --report again.json -o again.rcg rough.rcg &&
     cmp whole.rcg again.rcg && [ \$(grep -c '\"iterations\": 1,' again.json) = 3 ]"
-claim "and what would have been learnt from them is left out, with the reason" bash -c "
+claim "the report omits what needs the iteration, with the reason" bash -c "
     $solve --load 0.1N:0.5N:3 --checkpoint kept.rcg --resume --discretization --report left.json -o left.rcg rough.rcg &&
     grep -q '\"discretization\": \"left out: resumed' left.json &&
     grep -q '\"discretization_error_estimate\": null' left.json"
-claim "the checkpoint is a grid stream of a frame a case" says '^3$' bash -c "rc-info kept.rcg | grep -c 'frame . (state)'"
+claim "the checkpoint is a grid stream with a frame for each case" says '^3$' bash -c "rc-info kept.rcg | grep -c 'frame . (state)'"
 
 # 300,000 bytes contain the first frame and a part of the second
-claim "cut off while it was written, what was whole in it serves" bash -c "
+claim "the complete frames of a truncated checkpoint can be resumed" bash -c "
     head -c 300000 kept.rcg >torn.rcg &&
     $solve --load 0.1N:0.5N:3 --checkpoint torn.rcg --resume --report torn.json -o torn-out.rcg rough.rcg &&
     [ \$(grep -c '\"iterations\": 1,' torn.json) = 1 ] &&
     says '^3$' bash -c \"rc-info torn.rcg | grep -c 'frame . (state)'\""
-claim "nothing to resume is a first run" bash -c "
+claim "--resume without a file starts a first run" bash -c "
     $solve --load 0.3N --checkpoint fresh.rcg --resume -o fresh-out.rcg rough.rcg && [ -s fresh.rcg ]"
 # K p in double precision, a correction, and another correction with the whole working set: 1 + 0.5 + 0.5
-claim "and resumed does no work on coarser grids" bash -c "
+claim "the resumed run does no work on coarser grids" bash -c "
     $solve --load 0.3N --checkpoint fresh.rcg --resume --report fresh.json -o fresh-out.rcg rough.rcg"
 near "$(field convolutions fresh.json)" 2 1e-15 "but what tells that it is done"
 
@@ -38,14 +38,14 @@ interrupted() {
     status=$?
     [ $status = 143 ] && [ "$(field converged cut.json)" = false ] && rc-info cut.rcg >/dev/null
 }
-claim "a signal leaves the pressure reached" interrupted
-claim "and from that it goes on" bash -c "
+claim "after a signal the checkpoint has the current pressure" interrupted
+claim "--resume continues from this pressure" bash -c "
     $solve --load 0.3N --method pk99 --tol 1e-12 --checkpoint cut.rcg --resume --report on.json -o on.rcg rough.rcg &&
     $solve --load 0.3N --method pk99 --tol 1e-12 --report straight.json -o straight.rcg rough.rcg"
 # Both to 1e-12 in the mean over the map; a single pressure may have a larger error.
 near "$(field max_pressure on.json)" "$(field max_pressure straight.json)" 1e-10 "to the same largest pressure"
-claim "in fewer steps than from the start" test "$(field iterations on.json)" -lt "$(field iterations straight.json)"
-claim "an approach goes on from the load it had found" bash -c "
+claim "it takes fewer steps than a run from the start" test "$(field iterations on.json)" -lt "$(field iterations straight.json)"
+claim "a search for an approach continues from the load that it had found" bash -c "
     $solve --approach 0.5um --checkpoint near.rcg --report near.json -o near-out.rcg rough.rcg &&
     $solve --approach 0.5um --checkpoint near.rcg --resume --report near2.json -o near2-out.rcg rough.rcg &&
     [ \$(grep -o '\"iterations\": [0-9]*' near2.json | cut -d' ' -f2) -le 2 ]"
@@ -68,37 +68,37 @@ refuses 1 'rough.rcg: a grid stream, but no checkpoint: name another' "a stream 
 echo "notes of a user" >notes.txt
 refuses 1 'no pressure can be read from it \(.notes of a user. stands where a frame' "a file that is none" \
     "$solve --load 0.1N --checkpoint notes.txt --resume -o x.rcg rough.rcg"
-claim "which stays as it is" grep -qx "notes of a user" notes.txt
+claim "the file stays unchanged" grep -qx "notes of a user" notes.txt
 refuses 2 '--resume and --interval need --checkpoint' "--resume alone" "$solve --load 0.1N --resume -o x.rcg rough.rcg"
 # killed inside the first frame: starting again loses nothing
 head -c 5000 kept.rcg >first.rcg
-claim "one cut off in its first frame is begun anew" \
+claim "a file with an incomplete first frame is started again" \
     warns 'first.rcg: the run stopped while it wrote the first frame: it begins anew' \
     $solve --load 0.1N --checkpoint first.rcg --resume -o begun.rcg rough.rcg
-claim "to a checkpoint like any other" bash -c "rc-info --quiet first.rcg >/dev/null &&
+claim "it becomes a normal checkpoint" bash -c "rc-info --quiet first.rcg >/dev/null &&
     $solve --load 0.1N --checkpoint first.rcg --resume --report first.json -o again.rcg rough.rcg"
-claim "from which the next one goes on" test "$(field iterations first.json)" -le 1
+claim "the next run continues from it" test "$(field iterations first.json)" -le 1
 # a line as long as one block of the reader, so that its line feed is not taken for the end of the header
 rc-pick --set "note=$(printf '%0250d' 0)" rough.rcg -o noted.rcg
 $solve --load 0.1N --checkpoint noted-kept.rcg --quiet -o x.rcg noted.rcg && rm x.rcg
 head -c 5000 noted-kept.rcg >noted-first.rcg
-claim "so is one with a long line in its header" \
+claim "a file with a long line in its header is started again too" \
     warns 'noted-first.rcg: the run stopped while it wrote the first frame: it begins anew' \
     $solve --load 0.1N --checkpoint noted-first.rcg --resume -o noted-begun.rcg noted.rcg
 (head -c 5000 kept.rcg && printf X && tail -c +5002 kept.rcg) >spoilt.rcg
 cp spoilt.rcg as-it-was.rcg
 refuses 1 'frame 1 of it cannot be read .*checksum' "one that is spoilt, not cut off, is refused" \
     "$solve --load 0.1N --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"
-claim "and left as it is" cmp spoilt.rcg as-it-was.rcg
+claim "the file stays unchanged" cmp spoilt.rcg as-it-was.rcg
 head -c 500000 kept.rcg >tail.rcg # two frames and a part of the third; a power failure may append zeros
 head -c 100000 /dev/zero >>tail.rcg
-claim "a tail without the end of a frame is cut off" bash -c "
+claim "an incomplete last frame is removed" bash -c "
     $solve --load 0.1N:0.5N:3 --checkpoint tail.rcg --resume --report tail.json -o tail-out.rcg rough.rcg &&
     [ \$(grep -c '\"iterations\": 1,' tail.json) = 2 ] && says '^3$' bash -c \"rc-info tail.rcg | grep -c 'frame . (state)'\""
 if [ -w /dev/full ]; then
     refuses 1 '--checkpoint /dev/full: there is one already' "nor over a device" \
         "$solve --load 0.1N --checkpoint /dev/full -o x.rcg rough.rcg"
 fi
-claim "no refused run left anything" bash -c '! ls x.rcg* 2>/dev/null'
+claim "refused runs leave no file" bash -c '! ls x.rcg* 2>/dev/null'
 
 finish

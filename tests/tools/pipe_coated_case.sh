@@ -14,8 +14,8 @@ figure() {
 }
 
 block rc-solve 'rc-synth selfaffine --nx 400' >case.sh
-claim "the case of rc-solve(1)" test "$(wc -l <case.sh)" = 12
-claim "  runs" bash -c 'bash -e case.sh >said.txt 2>told.txt'
+claim "rc-solve(1) has the example of a coated body" test "$(wc -l <case.sh)" = 12
+claim "  it runs" bash -c 'bash -e case.sh >said.txt 2>told.txt'
 read -r steel coated <<<"$(sed -n 's/.*largest pressure \([0-9.]*\) GPa.*/\1/p' told.txt | xargs)"
 near "$steel" 4.13 "$three_digits" "  largest pressure on steel, GPa"
 near "$coated" 4.73 "$three_digits" "  and on the film"
@@ -34,8 +34,8 @@ for told in 1427 1536 4.73 4.13 1.86 1.66 2.23 2.19; do
 done
 
 block rc-stress 'rc-synth selfaffine --nx 400' >plane.sh
-claim "the plane of rc-stress(1)" test "$(wc -l <plane.sh)" = 7
-claim "  is drawn" bash -c \
+claim "rc-stress(1) has the example of a section" test "$(wc -l <plane.sh)" = 7
+claim "  it draws a picture" bash -c \
     'bash -e plane.sh && says PNG head -c 4 mises.png && says PNG head -c 4 sxx.png'
 rc-pick --channel mises plane.rcg | rc-info --json >mises.json
 near "$(grep -o '"maximum": [^,]*' mises.json | sed 's/.* //')" 2.24e9 "$three_digits" \

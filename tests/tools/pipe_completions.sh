@@ -76,17 +76,17 @@ same_words() {
 
 for tool in $tools; do
     for shell in bash zsh fish; do
-        claim "$tool, $shell: the options of --help and no other" same_options "$tool" "$shell"
-        claim "$tool, $shell: the words of --help, and none that the manual lacks" same_words "$tool" "$shell"
+        claim "$tool, $shell: the options are exactly those of --help" same_options "$tool" "$shell"
+        claim "$tool, $shell: the words are those of --help, and the manual has all of them" same_words "$tool" "$shell"
     done
 done
 words_in_bash rc-solve | sort >words.txt
 for shell in zsh fish; do
     words_in_$shell rc-solve | sort >"words.$shell"
-    claim "rc-solve: $shell has the words of bash" cmp words.txt words.$shell
+    claim "rc-solve: $shell completes the same words as bash" cmp words.txt words.$shell
 done
 for word in '--E2 rigid' '--engine mlms' '--kernel mlms' '--method pcg' '--output gap' '--type f32'; do
-    claim "  $word is one" grep -qxe "$word" words.txt
+    claim "  $word is a completion" grep -qxe "$word" words.txt
 done
 rc-import --formats >formats.txt
 claim "rc-import: --format has every format" test \
@@ -109,17 +109,17 @@ offers() {
 }
 at_work() {
     shell=$1
-    claim "$shell: words" offers 'rc-solve --method p' 'pcg pk99 '
-    claim "$shell:   of the other name" offers 'rc-solve --engine m' 'mlms '
-    claim "$shell:   behind a comma" offers 'rc-solve --output gap,pr' 'gap,pressure '
-    claim "$shell: a word that stands for a number" offers 'rc-solve --E2 r' 'rigid '
-    claim "$shell: units behind a number" offers 'rc-solve --load 1.5' '1.5N 1.5kN 1.5mN '
-    claim "$shell:   and nothing in its place" offers 'rc-solve --tol ' ''
-    claim "$shell: shapes" offers 'rc-synth se' 'selfaffine '
-    claim "$shell: options" offers 'rc-solve --mean' '--mean-pressure '
-    claim "$shell: files, where they are options" offers 'rc-synth --like tw' 'two.rcg '
-    claim "$shell:   and operands" offers 'rc-solve tw' 'two.rcg '
-    claim "$shell: channels of the stream that is named" offers 'rc-pick two.rcg --channel ' 'displacement gap height pressure '
+    claim "$shell: words of an option are completed" offers 'rc-solve --method p' 'pcg pk99 '
+    claim "$shell:   for the other name of the option too" offers 'rc-solve --engine m' 'mlms '
+    claim "$shell:   after a comma too" offers 'rc-solve --output gap,pr' 'gap,pressure '
+    claim "$shell: a word that replaces a number is completed" offers 'rc-solve --E2 r' 'rigid '
+    claim "$shell: units are completed after a number" offers 'rc-solve --load 1.5' '1.5N 1.5kN 1.5mN '
+    claim "$shell:   without a number there are none" offers 'rc-solve --tol ' ''
+    claim "$shell: shapes are completed" offers 'rc-synth se' 'selfaffine '
+    claim "$shell: options are completed" offers 'rc-solve --mean' '--mean-pressure '
+    claim "$shell: files are completed for options with a file" offers 'rc-synth --like tw' 'two.rcg '
+    claim "$shell:   and for operands" offers 'rc-solve tw' 'two.rcg '
+    claim "$shell: channels of the named stream are completed" offers 'rc-pick two.rcg --channel ' 'displacement gap height pressure '
 }
 
 complete_bash() { # shellcheck disable=SC2086
@@ -129,11 +129,11 @@ complete_bash() { # shellcheck disable=SC2086
     esac
 }
 at_work bash
-claim "bash:   behind an equals sign" test "$(in_bash rc-solve --method = pk)" = pk99
-claim "bash:   at it" test "$(in_bash rc-solve --method = | wc -l)" = 3
-claim "bash: units behind a colon" test "$(in_bash rc-stress --depths 0 : 20 | head -n 1)" = 20nm
-claim "bash:   not at it" test -z "$(in_bash rc-stress --depths 0 : | grep -v auto)"
-claim "bash: files with blanks" test "$(cd streams && in_bash rc-info one)" = 'one ball.rcg'
+claim "bash:   words after an equals sign are completed" test "$(in_bash rc-solve --method = pk)" = pk99
+claim "bash:   words at the equals sign are completed" test "$(in_bash rc-solve --method = | wc -l)" = 3
+claim "bash: units after a colon are completed" test "$(in_bash rc-stress --depths 0 : 20 | head -n 1)" = 20nm
+claim "bash:   no unit directly at the colon" test -z "$(in_bash rc-stress --depths 0 : | grep -v auto)"
+claim "bash: file names with blanks are completed" test "$(cd streams && in_bash rc-info one)" = 'one ball.rcg'
 
 if command -v fish >/dev/null; then
     complete_fish() {
@@ -188,7 +188,7 @@ END
     complete_zsh() { zsh -f "$scratch/typed.zsh" "$completions/zsh" "$1" "$scratch"; }
     at_work zsh
     for tool in $tools; do
-        claim "zsh: the file of $tool is one of zsh" zsh -n "$completions/zsh/_$tool"
+        claim "zsh: zsh accepts the file of $tool" zsh -n "$completions/zsh/_$tool"
     done
 else
     echo "not tried: zsh at work, which is not here"

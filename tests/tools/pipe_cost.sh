@@ -46,11 +46,11 @@ every_error() {
         { d = $4 - $5; if (d < 0) d = -d; if (NF != 5 || d > digits * $5 + floor) bad = 1 }
         END { exit bad || NR != 18 }' both.txt
 }
-claim "every true error on the map's own grid is that of rc-solve with these settings" every_error
-claim "pcg's true errors are at most the tolerances asked for" bash -c "
+claim "every true error on the original grid equals that of rc-solve with these settings" every_error
+claim "true errors of pcg are at most the requested tolerances" bash -c "
     awk '!/^#/ && \$1 == \"pcg\" && \$5 == \"66x62\" { n++; if (\$11 > \$4) bad = 1 } END { exit bad || n != 14 }' cost.txt"
 # Figures have three digits, and below 1e-11 the error of the reference matters.
-claim "its estimates are not below them, nor above 1.5 times them" bash -c "
+claim "estimates of pcg are 1 to 1.5 times the true errors" bash -c "
     awk '!/^#/ && \$1 == \"pcg\" && \$5 == \"66x62\" && \$11 > 1e-11 {
         n++; if (\$10 < (1 - $three_digits) * \$11 || \$10 > 1.5 * \$11) { bad = 1; print >\"/dev/stderr\" }
     } END { exit bad || n < 10 }' cost.txt"
@@ -81,7 +81,7 @@ front_again() {
         }
         die "only $marked of ", scalar @trial, " are marked\n" if $marked < 2 || $marked == @trial;' cost.json
 }
-claim "the front is what no other trial beats in time and error" front_again
+claim "the front has the trials that no other beats in both time and error" front_again
 table_again() {
     rows cost.txt >trials.txt
     perl -MJSON::PP -e '
@@ -102,8 +102,8 @@ table_again() {
         }
         die "$n rows in JSON, more in the table\n" if $n < 20 || defined <$table>;' cost.json
 }
-claim "a JSON line for each trial, with the table's figures" table_again
-claim "and one for the reference" test "$(grep -c '"what": "reference"' cost.json)" = 1
+claim "each trial has a JSON line with the figures of the table" table_again
+claim "the reference has one too" test "$(grep -c '"what": "reference"' cost.json)" = 1
 claim "the picture is a PNG of 1200 pixels" bash -c '
     [ "$(head -c 4 cost.png | tail -c 3)" = PNG ] && [ "$(od -An -j 16 -N 4 -t x1 cost.png | tr -d " ")" = 000004b0 ]'
 
@@ -116,14 +116,14 @@ proposed() {
         rc-solve $contact --tol 1e-10 --output pressure --quiet -o near.rcg rough.rcg &&
         off ran.rcg near.rcg $nodes >distance && awk '{ exit !($1 <= 1e-3) }' distance
 }
-claim "the command for 1e-3, run, is within 1e-3 of a solution to 1e-10" proposed
-claim "it spells the contact in SI units" grep -q \
+claim "the command for 1e-3 gives a result within 1e-3 of a solution to 1e-10" proposed
+claim "the command has the options of the contact in SI units" grep -q \
     '^rc-solve --mean-pressure 2000000000 --estar 114000000000 --periodic --method pcg --kernel fft' command
-claim "a name that a shell would take apart is quoted" bash -c '
+claim "a file name with special characters is quoted" bash -c '
     cp rough.rcg "a b.rcg" && says " .a b.rcg.$" rc-cost '"$contact"' --method pcg --error 1e-3 "a b.rcg"'
-claim "within a time it proposes the nearest, which is right to 1e-6 at least" bash -c "
+claim "with --budget the command is the most accurate in time, right to 1e-6 at least" bash -c "
     rc-cost $contact --method pcg --kernel fft --budget 20s rough.rcg >budget.txt && grep -Eq 'tol 1e-(0[6-9]|10)' budget.txt"
-claim "  and says by how much it is off, unasked" \
+claim "  its error is printed without a request" \
     warns 's, off by [0-9.e-]+ % of the pressure' rc-cost $contact --method pcg --kernel fft --budget 20s rough.rcg
 refuses 1 'nothing measured is so quick: the best was pcg, .* s, error .*; raise --budget' "a budget that nothing meets, saying what was the quickest" \
     "rc-cost $contact --method pcg --budget 1us rough.rcg"
@@ -136,11 +136,11 @@ refuses 1 'case 2.*a picture is for one case' "a picture of two cases" "rc-cost 
 # ---- limits and signals ----
 
 rc-synth sphere --nx 96 --dx 5um --radius 7.5mm -o ball.rcg
-claim "what would not fit into --limit is left out, and named" bash -c '
+claim "trials above --limit are omitted and named" bash -c '
     rc-synth sphere --nx 200 --dx 5um --radius 7.5mm |
         rc-cost --load 20N --estar 114GPa --kernel direct --limit 3s >short.txt &&
     [ "$(grep -c "^# pcg, direct, .*: left out: it would take about .* left of --limit" short.txt)" = 3 ]'
-claim "--dry-run says how long it would take, and does nothing" bash -c '
+claim "--dry-run prints the expected time and runs no trial" bash -c '
     rc-cost --load 20N --estar 114GPa --dry-run --plot dry.png ball.rcg >dry.txt &&
     grep -q "ways to solve 96 x 96 nodes, about .* s after .* s for the reference" dry.txt && [ ! -e dry.png ]'
 # large enough for plain sums to take long on any machine
@@ -161,7 +161,7 @@ interrupted() {
     # shellcheck disable=SC2086
     [ "$status" = 143 ] && grep -q '^pcg' cut-rows.txt && [ -n "${children// /}" ] && ! kill -0 $children
 }
-claim "a signal ends it and what it started, with the table of what was measured" interrupted
+claim "a signal ends rc-cost and its trial, and the table has the finished trials" interrupted
 killed() {
     local tool child="" n=0
     mkdir -p scratch
@@ -173,7 +173,7 @@ killed() {
     for n in {1..40}; do kill -0 "$child" 2>/dev/null || break; sleep 0.05; done
     [ -n "$child" ] && ! kill -0 "$child" 2>/dev/null && [ -z "$(ls scratch)" ]
 }
-claim "where it is killed what it started ends too, and no file is left" killed
+claim "a kill of rc-cost ends its trial too, and leaves no file" killed
 
 # ---- rc-solve ----
 
@@ -184,7 +184,7 @@ of_path() {
     printf '#!/bin/sh\necho "rc-solve: no contact today" >&2\nexit 1\n' >alone/rc-solve && chmod +x alone/rc-solve
     ! alone/rc-cost $contact --dry-run rough.rcg 2>own.txt && grep -q 'no contact today' own.txt
 }
-claim "it runs the rc-solve beside itself, else that of PATH, and says where there is none" of_path
+claim "rc-cost runs the rc-solve of its folder, otherwise that of PATH, and says if there is none" of_path
 coated="--load 40N --E1 200GPa --nu1 0.3 --E2 rigid --layer 5um,400GPa,0.2,-1GPa --tilt free --at 20um,0"
 tilted() {
     rc-cost $coated --method pcg --kernel fft --error 1e-3 --quiet -o tilted ball.rcg && cat tilted >&2 &&
@@ -193,7 +193,7 @@ tilted() {
         rc-solve $coated --tol 1e-10 --output pressure --quiet -o near.rcg ball.rcg &&
         off tilted.rcg near.rcg 9216 >distance && awk '{ exit !($1 <= 1e-3) }' distance
 }
-claim "options of rc-solve reach it: a residual stress, a body that tilts" tilted
+claim "options of rc-solve are passed on: a residual stress, a free tilt" tilted
 
 # ---- Hertz: radius 7.5 mm, E* 114 GPa, 20 N; a^3 = 3 P R / 4 E*, p0 = 3 P / 2 pi a^2, approach a^2 / R ----
 
@@ -216,19 +216,19 @@ coarse_sphere() {
              { k = FNR - 1; d = c[int(int(k / 96) / 2) * 48 + int(k % 96 / 2)] - $1
                s += d < 0 ? -d : d; t += $1 } END { printf "%.6g\n", s / t }' half.txt fine.txt >coarse.txt
 }
-claim "a sphere on half the nodes can be solved apart" coarse_sphere
+claim "the sphere of a coarser grid can be solved separately" coarse_sphere
 near "$(awk '$5 == "48x48" && $4 == "1e-03" { print $11 }' hertz.txt)" "$(cat coarse.txt)" "$three_and" \
     "the error of a coarser grid is that of the same sphere on fewer nodes, spread over its cells"
 # The same ball, 480 um, on 512 x 512 nodes: an eighth of the nodes a side gives an error of 20 % in a
 # fiftieth of the time.
 rc-synth sphere --nx 512 --dx 0.9375um --radius 7.5mm -o large.rcg
 rc-cost --load 20N --estar 114GPa --method pcg --kernel fft --error 0.2 -o coarser large.rcg
-claim "where the error allows it a coarser grid is proposed" \
+claim "a coarser grid is proposed if the error allows it" \
     grep -Eq '^rc-pick --resample 64x64 large.rcg \| rc-solve --load 20 --estar 114000000000 --method pcg --kernel fft --tol [0-9.]+$' coarser
-claim "  and the command runs" bash -c 'sh -c "$(cat coarser) --output pressure --quiet --report coarser.json" >coarser.rcg'
+claim "  the command runs" bash -c 'sh -c "$(cat coarser) --output pressure --quiet --report coarser.json" >coarser.rcg'
 near "$(field nx coarser.json)" 64 "$same" "  on that grid"
 near "$(field max_pressure coarser.json)" 9.633992e+08 "$coarse_grid" "  with Hertz's largest pressure"
-claim "pcg with mlms is as near as asked for" bash -c "
+claim "the error of pcg with mlms is at most the requested one" bash -c "
     awk '\$1 == \"pcg\" && \$2 == \"mlms\" { n++; if (\$11 > \$4) bad = 1 } END { exit bad || n != 5 }' hertz.txt"
 
 # ---- Westergaard 1939: a wave in plane strain, p* = pi E* amplitude / wavelength, mean p* sin^2(pi a / wavelength) ----
@@ -259,7 +259,7 @@ near "$(awk '$1 == "mlms" && $2 == "1e-04" { print $7 }' stress.txt)" "$(stress_
     "the error of mlms' stresses is their distance from direct sums"
 claim "fft and direct give the same stresses to rounding" bash -c "
     awk '\$1 == \"direct\" { n++; if (\$7 > $rounding) bad = 1 } END { exit bad || n != 1 }' stress.txt"
-claim "no stress is farther off than asked for" bash -c "
+claim "no error of a stress exceeds the requested one" bash -c "
     awk 'on && NF == 10 && \$2 > 0 && \$7 != \"nan\" { n++; if (\$7 > \$2) bad = 1 } /^kernel/ { on = 1 }
          END { exit bad || n != 7 }' stress.txt"
 

@@ -23,9 +23,9 @@ rc-synth selfaffine --nx $side --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 24
 contact="--periodic --mean-pressure 1MPa --estar 100MPa --adhesion 1J/m2,exponential,200nm"
 rc-cost $contact --quiet -o cost.txt --report cost.json --plot cost.png rough.rcg
 awk '/^$/ { exit } !/^#/ && $1 != "method"' cost.txt >rows.txt
-claim "eight trials: three on coarser grids" test "$(wc -l <rows.txt)" = 8
-claim "  by the one method there is" bash -c '[ "$(cut -d " " -f 1 rows.txt | sort -u)" = gap ]'
-claim "the cohesive length has that many nodes of each grid" bash -c "
+claim "there are eight trials, three of them on coarser grids" test "$(wc -l <rows.txt)" = 8
+claim "  all use the only method for adhesion" bash -c '[ "$(cut -d " " -f 1 rows.txt | sort -u)" = gap ]'
+claim "the cohesive length is given in nodes of each grid" bash -c "
     awk '{ split(\$5, n, \"x\"); want = 100e6 * 200e-9 ^ 2 / 1 / 1e-6 * n[1] / $side; d = \$15 / want - 1; if (d < -0.01 || d > 0.01) exit 1 }' rows.txt"
 
 rc-solve $contact --tol 1e-10 --quiet --output pressure -o truth.rcg rough.rcg
@@ -39,24 +39,24 @@ every_error() {
     awk '{ d = $1 - $2; if (d < 0) d = -d; e = $3 / $4 - 1
            if (d > 0.01 * $2 + 1e-9 || e < -0.01 || e > 0.01 || $1 > $3) bad = 1 } END { exit bad || NR != 5 }' both.txt
 }
-claim "every error on the map's own grid is that of rc-solve, and at most its estimate" every_error
-claim "a coarser grid leaves out more" bash -c "awk '{ e[\$5, \$4] = \$11 } END { exit !(e[\"12x12\", \"1e-03\"] > e[\"24x24\", \"1e-03\"] && e[\"24x24\", \"1e-03\"] > e[\"48x48\", \"1e-03\"]) }' rows.txt"
+claim "every error on the original grid equals that of rc-solve, and is at most its estimate" every_error
+claim "errors on a coarser grid are larger" bash -c "awk '{ e[\$5, \$4] = \$11 } END { exit !(e[\"12x12\", \"1e-03\"] > e[\"24x24\", \"1e-03\"] && e[\"24x24\", \"1e-03\"] > e[\"48x48\", \"1e-03\"]) }' rows.txt"
 near "$(sed -n 's/.*"cohesive_nodes": \([0-9.e+-]*\).*/\1/p' cost.json | head -1)" 4 1e-9 "a report has it too"
 
 rc-cost $contact --error 1e-4 --quiet -o command.txt rough.rcg
-claim "the command for 1e-4" grep -q -- '--adhesion 1J/m2,exponential,200nm --tol' command.txt
+claim "the command for 1e-4 gives a result within 1e-4" grep -q -- '--adhesion 1J/m2,exponential,200nm --tol' command.txt
 bash -c "$(cat command.txt) --quiet --output pressure -o said.rcg"
 between 0 "$(off said.rcg truth.rcg $nodes)" 1e-4 "  is within 1e-4"
 
-claim "pulled apart there is nothing to measure" bash -c '
+claim "separated bodies are refused" bash -c '
     rc-cost --periodic --mean-pressure=-20MPa --estar 100MPa --adhesion 1J/m2,exponential,200nm rough.rcg 2>said; [ $? = 1 ] && grep -q "no reference: under this load the bodies part" said'
-claim "an approach is a load that is found" bash -c '
+claim "an approach works like the load that it gives" bash -c '
     rc-cost --periodic --approach=-50nm --estar 100MPa --adhesion 1J/m2,exponential,200nm --quiet rough.rcg | head -1 | grep -q "approach -5e-08 m"'
 refused() {
     refuses 2 "$1" "refused: $2" "rc-cost --periodic --mean-pressure 1MPa --estar 100MPa --adhesion 1J/m2 $2 rough.rcg"
 }
 refused "only one method" "--method pcg"
-claim "stresses under net pressures, and the flow beside them" bash -c "
+claim "stresses and flow work with net pressures" bash -c "
     rc-cost $contact --depths 1um --nu 0.3 --leak x --quiet rough.rcg >more.txt && says '^# stresses under the reference' cat more.txt &&
     says ' flow_error ' cat more.txt"
 refuses 2 "must be above 0" "no work" "rc-cost --periodic --mean-pressure 1MPa --estar 100MPa --adhesion 0 rough.rcg"

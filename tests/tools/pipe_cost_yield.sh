@@ -22,15 +22,15 @@ contact="--periodic --mean-pressure 0.6GPa --E1 210GPa --nu1 0.3 --E2 rigid --yi
 rc-cost $contact --quiet -o cost.txt --report cost.json --plot cost.png rough.rcg
 awk '/^$/ { exit } !/^#/ && $1 != "method"' cost.txt >rows.txt
 
-claim "five numbers of increments with each of three stacks" bash -c '
+claim "the trials are five numbers of increments with each of three stacks of slabs" bash -c '
     [ "$(awk "{ print \$15 }" rows.txt | sort -n | uniq -c | awk "{ print \$2 \"x\" \$1 }" | tr "\n" " ")" = "4x3 8x3 16x3 32x3 64x3 " ] &&
     [ "$(awk "{ print \$16 }" rows.txt | sort -n | uniq -c | awk "{ print \$1 }" | tr "\n" " ")" = "5 5 5 " ]'
 rc-solve $contact --quiet --output pressure --report auto.json -o auto.rcg rough.rcg
-claim "one of them is that of rc-solve, the others have half of its slabs and twice as many" bash -c "
+claim "one stack is that of rc-solve, the others have half and twice as many slabs" bash -c "
     [ \"\$(awk '{ print \$16 }' rows.txt | sort -n | uniq | tr '\n' ' ')\" = \"$(awk -v n="$(field slabs auto.json)" 'BEGIN { print int((n + 1) / 2), n, 2 * n }') \" ]"
 read -r increments slabs < <(sed -n 's/^# it yields: the reference has \([0-9]*\) increments and \([0-9]*\) slabs$/\1 \2/p' cost.txt)
 near "$slabs" "$((2 * $(field slabs auto.json)))" 0 "the reference has the finest stack"
-claim "  and twice the increments" test "$increments" = 128
+claim "  the reference has twice the increments" test "$increments" = 128
 
 # The reference by rc-solve, with contacts solved to 1e-6.
 rc-solve $contact --increments "$increments" --slabs "$slabs" --tol 1e-6 --quiet --output pressure --report truth.json -o truth.rcg rough.rcg
@@ -47,13 +47,13 @@ every_error() {
            if (NF != 8 || d > 0.006 * $4 + 1e-5 || e > 0.006 * ($6 < 0 ? -$6 : $6) + 1e-9 || $7 != $8) bad = 1 }
          END { exit bad || NR != 15 }' both.txt
 }
-claim "every error, and every count of applications, is that of rc-solve with these settings" every_error
-claim "more increments are nearer, on the finest slabs" bash -c "
+claim "every error and every count of applications equals that of rc-solve with these settings" every_error
+claim "with the finest slabs more increments lower the error" bash -c "
     awk -v n=$slabs '\$16 == n { if (last != \"\" && \$11 >= last) bad = 1; last = \$11; k++ } END { exit bad || k != 5 }' rows.txt"
-claim "more slabs are nearer, in the most increments" bash -c "
+claim "with the most increments more slabs lower the error" bash -c "
     awk '\$15 == 64' rows.txt | sort -n -k 16 | awk '{ if (last != \"\" && \$11 >= last) bad = 1; last = \$11; k++ } END { exit bad || k != 3 }'"
-claim "of four increments no estimate is made" bash -c 'awk "\$15 == 4 { if (\$10 != \"nan\") bad = 1; n++ } END { exit bad || n != 3 }" rows.txt'
-claim "a JSON line for each, with increments, slabs and applications" bash -c '
+claim "four increments give no estimate" bash -c 'awk "\$15 == 4 { if (\$10 != \"nan\") bad = 1; n++ } END { exit bad || n != 3 }" rows.txt'
+claim "each trial has a JSON line with increments, slabs and applications" bash -c '
     perl -MJSON::PP -e '\''
         open my $table, "<", "rows.txt" or die;
         my $n = 0;
@@ -66,7 +66,7 @@ claim "a JSON line for each, with increments, slabs and applications" bash -c '
             $n++;
         }
         die "$n rows\n" if $n != 15;'\'' cost.json'
-claim "a picture" says PNG head -c 4 cost.png
+claim "a picture is drawn" says PNG head -c 4 cost.png
 
 # ---- the command ----
 
@@ -75,11 +75,11 @@ proposed() {
     [ "$(wc -l <command)" = 1 ] && cat command >&2 &&
         sh -c "$(cat command) --output pressure --quiet --report ran.json" >ran.rcg && off ran.rcg truth.rcg $nodes >distance && awk '{ exit !($1 <= 0.02) }' distance
 }
-claim "the command for 2 %, run, ends with status 0 and is within 2 %" proposed
+claim "the command for 2 % ends with status 0 and gives a result within 2 %" proposed
 between 0 "$(field pressure_error_estimate ran.json)" 0.02 "  by rc-solve's own estimate too"
-claim "  which stands beside the true error" grep -q "(estimate on its own grid $(printf %.1e "$(field pressure_error_estimate ran.json)"))" told
-claim "  it names increments and slabs" grep -Eq ' --yield 1.5GPa,5GPa .*--increments [0-9]+ --slabs [0-9]+ --tol 0.02( --threads 1)? rough.rcg$' command
-claim "--dry-run says how long it would take" says '15 ways to solve 40 x 36 nodes' rc-cost $contact --dry-run rough.rcg
+claim "  the estimate is printed beside the true error" grep -q "(estimate on its own grid $(printf %.1e "$(field pressure_error_estimate ran.json)"))" told
+claim "  the command has --increments and --slabs" grep -Eq ' --yield 1.5GPa,5GPa .*--increments [0-9]+ --slabs [0-9]+ --tol 0.02( --threads 1)? rough.rcg$' command
+claim "--dry-run prints the expected time" says '15 ways to solve 40 x 36 nodes' rc-cost $contact --dry-run rough.rcg
 
 # ---- refusals ----
 

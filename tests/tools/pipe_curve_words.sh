@@ -25,32 +25,32 @@ export -f points near shows
 
 # 2 with deviations -1 0 1: deviation 1; 5 with -1 and 1: sqrt 2
 printf 'x/N\ty/m2\tk\te/m2\n1\t1\ta\t0.5\n3\t4\tb\t1\n1\t2\tb\t0.5\n1\t3\ta\t0.25\n3\t6\ta\t1\n' >few.tsv
-claim "rows that share an x are a point" rc-render --curve x:y --spread -o s.svg few.tsv
-claim "  their mean" near s.svg solid 1 2 3 5
-claim "  with bars as long as their standard deviation (n - 1)" near s.svg bars 1 1 1 3
-claim "  at each" eval "points s.svg | awk '\$2 == \"bars\" { d = (\$18 - \$16) / 2; ok = (d - sqrt(2)) ^ 2 < 1e-5 } END { exit !ok }'"
-claim "  and the figure says what they are" shows s.svg 'means of the rows that share x \(2 to 3 each\) · bars: their standard deviation'
-claim "without --spread nothing is a mean" eval 'rc-render --curve x:y -o z.svg few.tsv && near z.svg solid 1 1 3 4 1 2 1 3 3 6'
+claim "rows with the same x become a point" rc-render --curve x:y --spread -o s.svg few.tsv
+claim "  the point is their mean" near s.svg solid 1 2 3 5
+claim "  its bars are their standard deviation (n - 1)" near s.svg bars 1 1 1 3
+claim "  every point has bars" eval "points s.svg | awk '\$2 == \"bars\" { d = (\$18 - \$16) / 2; ok = (d - sqrt(2)) ^ 2 < 1e-5 } END { exit !ok }'"
+claim "  the figure explains the bars" shows s.svg 'means of the rows that share x \(2 to 3 each\) · bars: their standard deviation'
+claim "without --spread no means are drawn" eval 'rc-render --curve x:y -o z.svg few.tsv && near z.svg solid 1 1 3 4 1 2 1 3 3 6'
 printf 'x\ty\n1\t1\n2\t2\n1\t1.1\n2\t2.1\n1\t0.9\n2\t1.9\n' >seeds.tsv
-claim "  but a line that goes back and forth is warned of" warns 'seeds.tsv: the line turns back 4 times along x: --spread makes a point of rows that share it, --by COLUMN a curve of each group' \
+claim "  a curve that goes back and forth causes a warning" warns 'seeds.tsv: the line turns back 4 times along x: --spread makes a point of rows that share it, --by COLUMN a curve of each group' \
     rc-render --curve x:y -o z.svg seeds.tsv
-claim "    not with --spread, nor one that turns back once" eval 'rc-render --curve x:y --spread -o z.svg seeds.tsv 2>said.txt && [ ! -s said.txt ] &&
+claim "    with --spread, or for a single turn, there is no warning" eval 'rc-render --curve x:y --spread -o z.svg seeds.tsv 2>said.txt && [ ! -s said.txt ] &&
     head -n 5 seeds.tsv | sed 4d | rc-render --curve x:y -o z.svg 2>said.txt && [ ! -s said.txt ]'
-claim "a column of errors is a bar to both sides" eval 'rc-render --curve x:y --error e -o e.svg few.tsv && near e.svg bars 1 0.5 1 1.5'
-claim "  and the figure says which" shows e.svg 'bars: ± e<'
-claim "bars that reach to 0 run out of a logarithmic axis" eval '
+claim "a column of errors gives bars to both sides" eval 'rc-render --curve x:y --error e -o e.svg few.tsv && near e.svg bars 1 0.5 1 1.5'
+claim "  the figure names the column" shows e.svg 'bars: ± e<'
+claim "bars that reach 0 end at the edge of a logarithmic axis" eval '
     printf "x/N\ty/m\te/m\n1\t1\t2\n2\t2\t0.5\n3\t3\t1\n" | rc-render --curve x:y --error e --log -o l.svg && shows l.svg "M[0-9.]+ [0-9]{4}[0-9.]*L"'
-claim "markers without lines" eval 'rc-render --curve x:y --points -o p.svg few.tsv && ! points p.svg | grep -q solid'
-claim "  in their places" near p.svg marker 3 6
+claim "--markers draws markers without lines" eval 'rc-render --curve x:y --points -o p.svg few.tsv && ! points p.svg | grep -q solid'
+claim "  they are at their places" near p.svg marker 3 6
 
 # ---- groups ----
 
-claim "a curve for each value of a column" eval 'rc-render --curve x:y --by k -o k.svg few.tsv &&
+claim "each value of a column gets a curve" eval 'rc-render --curve x:y --by k -o k.svg few.tsv &&
     near k.svg solid 1 1 1 3 3 6 && near k.svg solid 3 4 1 2'
-claim "  called after it" eval 'shows k.svg ">k a<" && shows k.svg ">k b<"'
-claim "groups have means of their own" eval 'rc-render --curve x:y --by k --spread -o k.svg few.tsv && near k.svg solid 1 2 3 6'
+claim "  the curve has the name of the value" eval 'shows k.svg ">k a<" && shows k.svg ">k b<"'
+claim "groups have their own means" eval 'rc-render --curve x:y --by k --spread -o k.svg few.tsv && near k.svg solid 1 2 3 6'
 printf 'x\ty\ta\tb\n1\t1\tp\t10\n2\t2\tp\t10\n1\t2\tp\t20\n2\t3\tp\t20\n1\t3\tq\t10\n2\t4\tq\t10\n1\t4\tq\t20\n2\t5\tq\t20\n' >two.tsv
-claim "of two columns colours tell the one, dashes the other" eval '
+claim "of two columns the first sets the colours, the second the dashes" eval '
     rc-render --curve x:y --by a,b -o two.svg two.tsv && points two.svg | grep -E "solid|dashed" >lines &&
     [ "$(cut -d " " -f 1 lines | sort | uniq -c | tr -s " " | cut -d " " -f 2 | paste -s -d ,)" = 2,2 ] &&
     [ "$(grep -c solid lines)" = 2 ]'
@@ -64,73 +64,73 @@ for report in r.tsv r.json; do
         rc-solve --quiet --periodic --load 10mN,20mN --estar 100GPa --report $report --output pressure -o p.rcg
 done
 for kind in tsv json; do
-    claim "rows of several sources are a curve each, $kind" eval "rc-render --curve load:approach -o sources.svg r.$kind &&
+    claim "rows of several sources become one curve each, $kind" eval "rc-render --curve load:approach -o sources.svg r.$kind &&
         [ \$(points sources.svg | grep -c solid) = 2 ]"
-    claim "  called after these" eval 'shows sources.svg ">seed-1.gsf<" && shows sources.svg ">seed-2.gsf<"'
-    claim "  no case has a number" eval '! shows sources.svg ">case"'
+    claim "  the curves have the names of the sources" eval 'shows sources.svg ">seed-1.gsf<" && shows sources.svg ">seed-2.gsf<"'
+    claim "  a single case has no number" eval '! shows sources.svg ">case"'
 done
-claim "spectra are called after the loads that they are of" eval '
+claim "spectra have the names of their loads" eval '
     printf "{\"load\": 1, \"q\": [1, 2], \"c\": [2, 1]}\n{\"load\": 2000, \"q\": [1, 2], \"c\": [3, 2]}\n" |
         rc-render --curve q:c -o q.svg && shows q.svg ">load 1 N<" && shows q.svg ">load 2 kN<"'
 
 # ---- words and units ----
 
-claim "units as asked for" eval 'rc-render --curve x:y --points --x-unit mN --y-unit mm2 -o u.svg few.tsv && near u.svg marker 3e3 6e6'
-claim "  on the axes" eval 'shows u.svg ">x \\(mN\\)<" && shows u.svg "mm<"'
-claim "per cents" eval 'printf "x\ty\n0.1\t0.2\n0.3\t0.4\n" | rc-render --curve x:y --points --y-unit % -o u.svg && near u.svg marker 0.3 40 && shows u.svg ">y \\(%\\)<"'
-claim "a reciprocal" eval 'printf "x/1/Pa\ty/um\n2e-9\t1\n4e-9\t2\n" | rc-render --curve x:y --points --x-unit 1/GPa -o u.svg && near u.svg marker 4 2'
-claim "texts of the axes" eval 'rc-render --curve x:y --x-label "Normal load" --y-label "Real area, m2" --y-unit m2 -o w.svg few.tsv &&
+claim "--units converts the units" eval 'rc-render --curve x:y --points --x-unit mN --y-unit mm2 -o u.svg few.tsv && near u.svg marker 3e3 6e6'
+claim "  the axes show them" eval 'shows u.svg ">x \\(mN\\)<" && shows u.svg "mm<"'
+claim "a fraction can be shown in per cent" eval 'printf "x\ty\n0.1\t0.2\n0.3\t0.4\n" | rc-render --curve x:y --points --y-unit % -o u.svg && near u.svg marker 0.3 40 && shows u.svg ">y \\(%\\)<"'
+claim "a reciprocal unit can be shown" eval 'printf "x/1/Pa\ty/um\n2e-9\t1\n4e-9\t2\n" | rc-render --curve x:y --points --x-unit 1/GPa -o u.svg && near u.svg marker 4 2'
+claim "the texts of the axes can be set" eval 'rc-render --curve x:y --x-label "Normal load" --y-label "Real area, m2" --y-unit m2 -o w.svg few.tsv &&
     shows w.svg ">Normal load \\(N\\)<" && ! shows w.svg "m2 \\(m"'
-claim "texts of the legend" eval 'rc-render --curve x:y --by k --legend "rough;worn, twice" -o w.svg few.tsv && shows w.svg ">rough<" && shows w.svg ">worn, twice<" && ! shows w.svg ">k a<"'
-claim "  of one curve, which else has none" eval 'rc-render --curve x:y --legend steel -o w.svg few.tsv && shows w.svg ">steel<"'
-claim "  or none at all" eval 'rc-render --curve x:y --by k --legend "" -o w.svg few.tsv && ! shows w.svg ">k a<"'
-claim "an empty title takes the subtitle too" eval 'rc-render --curve x:y --title "" -o t.svg few.tsv && ! shows t.svg ">few.tsv<"'
-claim "  unless one is given" eval 'rc-render --curve x:y --title "" --subtitle "20 °C" -o t.svg few.tsv && shows t.svg ">20 °C<"'
-claim "  of a map, a cut and a sheet too" bash -c '
+claim "the texts of the legend can be set" eval 'rc-render --curve x:y --by k --legend "rough;worn, twice" -o w.svg few.tsv && shows w.svg ">rough<" && shows w.svg ">worn, twice<" && ! shows w.svg ">k a<"'
+claim "  a single curve then has a legend too" eval 'rc-render --curve x:y --legend steel -o w.svg few.tsv && shows w.svg ">steel<"'
+claim "  the legend can be omitted" eval 'rc-render --curve x:y --by k --legend "" -o w.svg few.tsv && ! shows w.svg ">k a<"'
+claim "an empty title also removes the subtitle" eval 'rc-render --curve x:y --title "" -o t.svg few.tsv && ! shows t.svg ">few.tsv<"'
+claim "  unless a subtitle is given" eval 'rc-render --curve x:y --title "" --subtitle "20 °C" -o t.svg few.tsv && shows t.svg ">20 °C<"'
+claim "  the same holds for a map, a cut and a sheet" bash -c '
     for how in "" "--cut y=0" "--sheet 1x1"; do
         rc-render $how --channel height --title "" -o t.svg ball.rcg && ! shows t.svg ">[^<]*(sphere|RMS|mean)[^<]*</text>" || exit 1
         rc-render $how --channel height --subtitle "as turned" -o t.svg ball.rcg && shows t.svg ">as turned<" || exit 1
     done'
-claim "units and texts of a cut" eval 'rc-render --cut y=0 --x-unit mm --y-unit nm --x-label Place -o c.svg ball.rcg && shows c.svg ">Place \\(mm\\)<" && shows c.svg "\\(nm\\)<"'
+claim "units and texts of a cut can be set" eval 'rc-render --cut y=0 --x-unit mm --y-unit nm --x-label Place -o c.svg ball.rcg && shows c.svg ">Place \\(mm\\)<" && shows c.svg "\\(nm\\)<"'
 
 # ---- histories: loading and unloading ----
 
 printf 'load/N\tindentation/m\tcontact_area/m2\n0\t0\t0\n1\t1\t1\n2\t2\t2\n1\t1.5\t1.1\n0\t0.5\t0\n1\t1.5\t1.1\n2\t2\t2\n3\t3\t3\n1\t2\t1.2\n2\t2.5\t2.1\n1\t2\t1.2\n' >history.tsv
-claim "a history is drawn without a word of lines that turn back" eval 'rc-render --curve indentation:load -o h.svg history.tsv 2>said.txt && [ ! -s said.txt ]'
-claim "  its loads in one colour" near h.svg solid 0 0 1 1 2 2 0.5 0 1.5 1 2 2 3 3 2 1 2.5 2
-claim "  its unloadings in another" near h.svg solid 2 2 1.5 1 0.5 0 3 3 2 1 2.5 2 2 1
-claim "    which differs" eval '[ "$(points h.svg | grep solid | cut -d " " -f 1 | sort -u | wc -l)" = 2 ]'
-claim "  named in the legend" eval 'shows h.svg ">loading<" && shows h.svg ">unloading<" && shows h.svg ">Indentation \\(m\\)<"'
-claim "  over the load too" eval 'rc-render --curve load:contact_area -o h.svg history.tsv && near h.svg solid 2 2 1 1.1 0 0 3 3 1 1.2 2 2.1 1 1.2'
-claim "of loads that only grow there is one curve" eval 'head -n 4 history.tsv | rc-render --curve indentation:load -o h.svg && near h.svg solid 0 0 1 1 2 2 && ! shows h.svg ">loading<"'
-claim "forty cycles are two curves" eval '{ printf "load\tindentation\n"; perl -e "printf qq(%g\t%g\n0\t%g\n), \$_, \$_, 0.5 * \$_ for 1 .. 40"; } |
+claim "a loading history causes no warning about turns" eval 'rc-render --curve indentation:load -o h.svg history.tsv 2>said.txt && [ ! -s said.txt ]'
+claim "  its loading has one colour" near h.svg solid 0 0 1 1 2 2 0.5 0 1.5 1 2 2 3 3 2 1 2.5 2
+claim "  its unloading has another colour" near h.svg solid 2 2 1.5 1 0.5 0 3 3 2 1 2.5 2 2 1
+claim "    the two colours differ" eval '[ "$(points h.svg | grep solid | cut -d " " -f 1 | sort -u | wc -l)" = 2 ]'
+claim "  the legend names both" eval 'shows h.svg ">loading<" && shows h.svg ">unloading<" && shows h.svg ">Indentation \\(m\\)<"'
+claim "  the same holds with the load as x" eval 'rc-render --curve load:contact_area -o h.svg history.tsv && near h.svg solid 2 2 1 1.1 0 0 3 3 1 1.2 2 2.1 1 1.2'
+claim "loads that only grow give one curve" eval 'head -n 4 history.tsv | rc-render --curve indentation:load -o h.svg && near h.svg solid 0 0 1 1 2 2 && ! shows h.svg ">loading<"'
+claim "forty cycles give two curves" eval '{ printf "load\tindentation\n"; perl -e "printf qq(%g\t%g\n0\t%g\n), \$_, \$_, 0.5 * \$_ for 1 .. 40"; } |
     rc-render --curve indentation:load -o h.svg && [ "$(points h.svg | grep -c solid)" = 2 ]'
 
 # ---- seals, notes, categories ----
 
 printf 'mean_pressure/Pa\tflow_rate/m3/s\n1\t1e-9\n2\t1e-12\n3\t0\n4\t0\n' >seal.tsv
-claim "a closed seal stands at the foot of a leak curve" rc-render --width 85mm --log y --curve mean_pressure:flow_rate -o seal.svg seal.tsv
-claim "  as many as there are, and one in the legend" test "$(grep -o "<path d=\"[^\"]*Z\"" seal.svg | wc -l)" = 3
-claim "  and the axis goes so far" shows seal.svg 'text-anchor="middle" fill="#222222">4(\.0)?<'
-claim "  the legend says that they are sealed" shows seal.svg '>2 loads sealed \(no flow\)<'
-claim "  the unit is raised" shows seal.svg 'm<tspan dy="-[0-9.]*" font-size="[0-9.]*">3</tspan><tspan dy="[0-9.]*">/s|m</tspan><tspan [^>]*>3</tspan>'
-claim "  and has a power of ten where no marks have" eval 'printf "load/N\tflow_rate/m3/s\n1\t1e-12\n2\t2e-13\n" | rc-render --log --curve load:flow_rate -o z.svg && ! shows z.svg ">0\\.000" && shows z.svg ">Flow rate \\(10<"'
-claim "other columns have points there" eval 'sed s/flow_rate/y/ seal.tsv | rc-render --log --curve mean_pressure:y -o z.svg && shows z.svg ">2 points at or below 0<"'
-claim "a note too long for its line goes on in the next" eval 'sed "1s/x/pressure_over_the_whole_map/" few.tsv | rc-render --curve pressure_over_the_whole_map:y --spread --width 85mm -o n.svg && ! grep -q "…</text>" n.svg && shows n.svg " each\\)</text>"'
+claim "a sealed load has a mark at the bottom of a leak curve" rc-render --width 85mm --log y --curve mean_pressure:flow_rate -o seal.svg seal.tsv
+claim "  each sealed load has a mark, and the legend has one" test "$(grep -o "<path d=\"[^\"]*Z\"" seal.svg | wc -l)" = 3
+claim "  the axis includes these loads" shows seal.svg 'text-anchor="middle" fill="#222222">4(\.0)?<'
+claim "  the legend calls them sealed" shows seal.svg '>2 loads sealed \(no flow\)<'
+claim "  the power of the unit is raised" shows seal.svg 'm<tspan dy="-[0-9.]*" font-size="[0-9.]*">3</tspan><tspan dy="[0-9.]*">/s|m</tspan><tspan [^>]*>3</tspan>'
+claim "  the axis has a power of ten if its marks have none" eval 'printf "load/N\tflow_rate/m3/s\n1\t1e-12\n2\t2e-13\n" | rc-render --log --curve load:flow_rate -o z.svg && ! shows z.svg ">0\\.000" && shows z.svg ">Flow rate \\(10<"'
+claim "other columns have normal points there" eval 'sed s/flow_rate/y/ seal.tsv | rc-render --log --curve mean_pressure:y -o z.svg && shows z.svg ">2 points at or below 0<"'
+claim "a note that is too long continues on the next line" eval 'sed "1s/x/pressure_over_the_whole_map/" few.tsv | rc-render --curve pressure_over_the_whole_map:y --spread --width 85mm -o n.svg && ! grep -q "…</text>" n.svg && shows n.svg " each\\)</text>"'
 printf 'mat\ty/N\nsteel\t1\nrubber\t3\nsteel\t2\nPTFE, filled with bronze\t2\n' >words.tsv
 # Prints the positions of the markers across the plot, 0 to 1.
 across() {
     perl -0777 -ne 'my ($x, $w) = /<clipPath id="\w+"><rect x="([\d.]+)" y="[\d.]+" width="([\d.]+)"/ or die;
         printf "%.3f ", ($1 - $x) / $w while /<path d="M([\d.]+) ([\d.]+)L\1 \2"/g' "$1"
 }
-claim "words are categories of an axis x, in the order in which they come" eval 'rc-render --curve mat:y -o c.svg words.tsv &&
+claim "words become categories of the x axis, in their order" eval 'rc-render --curve mat:y -o c.svg words.tsv &&
     [ "$(across c.svg)" = "0.167 0.500 0.167 0.833 " ] && shows c.svg ">steel<" && shows c.svg ">rubber<"'
 claim "  in JSON too" eval 'printf "{\"mat\": \"a\", \"y\": 1}\n{\"mat\": \"b\", \"y\": 2}\n" | rc-render --curve mat:y -o c.svg && [ "$(across c.svg)" = "0.250 0.750 " ]'
-claim "  with means" eval 'rc-render --curve mat:y --spread -o c.svg words.tsv && [ "$(across c.svg)" = "0.167 0.500 0.833 " ]'
-claim "  the same words of two tables are one" eval 'sed "s/PTFE/PA/" words.tsv | sed 2d >a.tsv && rc-render --curve mat:y -o c.svg words.tsv a.tsv &&
+claim "  with means too" eval 'rc-render --curve mat:y --spread -o c.svg words.tsv && [ "$(across c.svg)" = "0.167 0.500 0.833 " ]'
+claim "  the same word in two tables is one category" eval 'sed "s/PTFE/PA/" words.tsv | sed 2d >a.tsv && rc-render --curve mat:y -o c.svg words.tsv a.tsv &&
     [[ "$(across c.svg)" = "0.125 0.375 0.125 0.625 "* ]]'
-claim "  long ones read upwards, whole" eval 'rc-render --width 85mm --curve mat:y -o c.svg words.tsv && shows c.svg "rotate.*>PTFE, filled with bronze<"'
-claim "a column with a number is one of numbers" eval 'printf "x\ty\na\t1\n2\t3\n4\t5\n" | rc-render --curve x:y -o c.svg && near c.svg solid 2 3 4 5'
+claim "  long words are drawn upright and complete" eval 'rc-render --width 85mm --curve mat:y -o c.svg words.tsv && shows c.svg "rotate.*>PTFE, filled with bronze<"'
+claim "a column with one number counts as numeric" eval 'printf "x\ty\na\t1\n2\t3\n4\t5\n" | rc-render --curve x:y -o c.svg && near c.svg solid 2 3 4 5'
 
 # ---- refusals ----
 
@@ -150,13 +150,13 @@ refuses 2 'it is for tables, with --curve X:Y: leave out --spread' "the spread o
 refuses 2 'it is for curves: --curve, --cut, --histogram, --material-ratio: leave out --x-unit' "units of a map" "$draw --x-unit mm ball.rcg"
 refuses 2 'the text is not UTF-8' "a legend that is no text" "$draw --curve x:y --legend \$'\\xff' few.tsv"
 refuses 1 'more than 63 curves in one picture' "a curve a row" "perl -e 'print \"x\ty\tk\n\"; print \"\$_\t1\t\$_\n\" for 1 .. 80' | $draw --curve x:y --by k"
-claim "none of these left a picture behind" bash -c '[ ! -e out.svg ] && [ -z "$(ls out.svg.* 2>/dev/null)" ]'
+claim "refused commands leave no picture" bash -c '[ ! -e out.svg ] && [ -z "$(ls out.svg.* 2>/dev/null)" ]'
 
 # ---- titles of figures ----
 
 printf 'sa/m\tsq/m\tlimit/N\tstick_fraction\n1\t2\t3\t4\n2\t3\t4\t5\n' >figures.tsv
 claim "parameters of a surface have the names of their standard" eval 'rc-render --curve sa:sq -o t.svg figures.tsv && shows t.svg ">Sq against Sa<"'
-claim "  and figures of friction their titles" eval 'rc-render --curve limit:stick_fraction -o t.svg figures.tsv &&
+claim "  figures of friction have their titles" eval 'rc-render --curve limit:stick_fraction -o t.svg figures.tsv &&
     shows t.svg ">Part of the contact that sticks against largest tangential force<"'
 
 finish

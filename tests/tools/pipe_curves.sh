@@ -9,35 +9,35 @@ draw='rc-render -o out.png'
 
 # ---- drawings ----
 
-claim "a table" rc-render --curve load:contact_area -o t.png r.tsv
-claim "lines of JSON" rc-render --curve load:contact_area -o j.png r.json
-claim "  from a pipe" bash -c 'rc-render --curve load:contact_area <r.json >k.png'
-claim "the same numbers are the same picture, but for the name of the file" bash -c '
+claim "a table becomes a curve" rc-render --curve load:contact_area -o t.png r.tsv
+claim "lines of JSON become a curve" rc-render --curve load:contact_area -o j.png r.json
+claim "  a pipe becomes a curve" bash -c 'rc-render --curve load:contact_area <r.json >k.png'
+claim "the same numbers give the same picture, except for the name of the file" bash -c '
     mkdir -p a b && cp r.tsv a/r && cp r.json b/r &&
     rc-render --curve load:contact_area --quiet -o a.png a/r &&
     rc-render --curve load:contact_area --quiet -o b.png b/r && cmp a.png b.png'
-claim "several columns, several files, a law" bash -c '
+claim "several columns, several files and a law can be drawn together" bash -c '
     rc-render --curve load:contact_area,plastic_area --log x -o m.png r.tsv r.json &&
     rc-render --curve load:max_pressure --law hertz --radius 7.5mm --estar 114GPa -o l.png r.tsv'
-claim "the words of --log stand with = or without, or not at all" bash -c '
+claim "--log accepts its words with =, without = or not at all" bash -c '
     rc-render --curve load:approach --log=xy --title T <r.json >a.png &&
     rc-render --curve load:approach --log xy --title T <r.json >b.png &&
     rc-render --curve load:approach --log --title T <r.json >c.png &&
     rc-render --log y --curve load:approach --title T <r.json >d.png &&
     for f in a b c d; do perl -0777 -ne "print \$1 while /IDAT(.*?)....IEND/gs" $f.png >$f.idat; done
     cmp a.idat b.idat && cmp a.idat c.idat && ! cmp -s a.idat d.idat'
-claim "the picture says how it was made" grep -aqF -- '--log --title T --curve load:approach' c.png
-claim "unknown values are gaps" bash -c '
+claim "the picture contains the command that made it" grep -aqF -- '--log --title T --curve load:approach' c.png
+claim "unknown values are gaps in the curve" bash -c '
     printf "x/m\ty/m\n1\t1\n2\tNaN\n3\t\n4\t2\n" | rc-render --curve x:y -o g.png'
 sed 's/"converged": true/"converged": false/' r.json >short.json
 rc-render --curve load:approach --quiet -o s.png short.json
 claim "a solution that stopped short makes the exit status 3" test $? = 3
-claim "  and the picture says so" bash -c 'tr "\0" = <s.png | says "tEXtWarning=not converged" cat'
+claim "  the picture says so" bash -c 'tr "\0" = <s.png | says "tEXtWarning=not converged" cat'
 
 while read -r x y; do
-    claim "a point at $x and $y" bash -c "printf 'x/m\ty/Pa\n0\t0\n$x\t$y\n' | rc-render --curve x:y -o g.png"
-    claim "  alone" bash -c "printf 'x/m\ty/Pa\n$x\t$y\n' | rc-render --curve x:y -o g.png"
-    claim "  on logarithmic axes" bash -c "printf 'x/m\ty/m2\n${x#-}\t${y#-}\n1e-3\t7\n' | rc-render --curve x:y --log -o g.png"
+    claim "a point at $x and $y is drawn" bash -c "printf 'x/m\ty/Pa\n0\t0\n$x\t$y\n' | rc-render --curve x:y -o g.png"
+    claim "  a single point too" bash -c "printf 'x/m\ty/Pa\n$x\t$y\n' | rc-render --curve x:y -o g.png"
+    claim "  on logarithmic axes too" bash -c "printf 'x/m\ty/m2\n${x#-}\t${y#-}\n1e-3\t7\n' | rc-render --curve x:y --log -o g.png"
 done <<'END'
 1e308 -1e308
 5e-324 1e-300
@@ -84,14 +84,14 @@ printf 'load/N\tcontact_fraction\n1\t0.5\n' >few.tsv
 refuses 1 'it needs the area of the map, the columns nx, ny, dx and dy' "a law without the area of the map" \
     "$draw --curve load:contact_fraction --law hertz --estar 1GPa --radius 1mm few.tsv"
 refuses 1 'no point has a number on both axes' "points of halves" "printf 'a\tb\nNaN\t1\n2\tNaN\n' | $draw --curve a:b"
-claim "none of these left a picture behind" bash -c '[ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]'
+claim "refused commands leave no picture" bash -c '[ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]'
 
 
 # ---- curves of frames ----
 
 draw='rc-render -o out.png'
-claim "a cut of several cases" rc-render --cut x=0.1mm --case 1,3 -o c.png p.rcg
-claim "of a section by depth and by place" bash -c '
+claim "a cut of several cases is drawn" rc-render --cut x=0.1mm --case 1,3 -o c.png p.rcg
+claim "a cut of a section at a depth and at a place too" bash -c '
     rc-stress --quiet --nu 0.3 --section y=0 --depths 5um,10um,40um --components mises p.rcg >s.rcg &&
     rc-render --cut depth=9um --case 1 -o c.png s.rcg && rc-render --cut x=0 --case 1,2 -o d.png s.rcg'
 refuses 2 '--cut z=0: it must be x=PLACE or y=PLACE, as in y=0' "a cut across no axis" "$draw --cut z=0 --case 1 p.rcg"
@@ -106,9 +106,9 @@ refuses 2 '--law persson needs --rms-slope' "a law without its slope" "$draw --h
 
 # ---- sheets ----
 
-claim "a list of cases is a sheet" rc-render --case 1,3 -o c.png p.rcg
-claim "a sheet of sections" rc-render --sheet 1x3 -o c.png s.rcg
-claim "the words of a sheet are those of its frames" bash -c 'grep -aqF -- "--sheet 1x3" c.png'
+claim "a list of cases becomes a sheet" rc-render --case 1,3 -o c.png p.rcg
+claim "a sheet of sections is drawn" rc-render --sheet 1x3 -o c.png s.rcg
+claim "the texts of a sheet come from its frames" bash -c 'grep -aqF -- "--sheet 1x3" c.png'
 refuses 1 '3 frames match, --sheet 1x2 holds 2' "a sheet too small" "$draw --sheet 1x2 p.rcg"
 refuses 2 '--sheet 2: it must be COLSxROWS, as in 3x2, or auto' "a sheet of one number" "$draw --sheet 2 p.rcg"
 refuses 2 '--sheet 0x2: it must be' "a sheet of no column" "$draw --sheet 0x2 p.rcg"
@@ -119,20 +119,20 @@ rc-synth sphere --nx 33 --dx 10um --radius 7.5mm -o small.rcg
 refuses 1 'a sheet shows maps of one size' "maps of two sizes" "$draw --sheet auto ball.rcg small.rcg"
 rc-synth wave --nx 30 --ny 1 --dx 1um --amplitude 1um --wavelength 10um -o wave.rcg
 refuses 1 'a profile is no map: draw several as curves' "profiles" "$draw --sheet auto wave.rcg wave.rcg"
-claim "profiles are curves" rc-render --cut y=0 --case 1,2 -o c.png wave.rcg wave.rcg
+claim "profiles are drawn as curves" rc-render --cut y=0 --case 1,2 -o c.png wave.rcg wave.rcg
 
 # ---- reliefs ----
 
-claim "reliefs, from any side" bash -c '
+claim "reliefs are drawn from any direction" bash -c '
     rc-render --view 30,35 -o v.png ball.rcg && rc-render --view=-400e-1,10 -o w.png ball.rcg'
 printf '0 1 0 nan\n1 3 1 2\n0 nan 0 1\n1 1 1 1\n' >holes.txt
 claim "a map with holes is drawn" bash -c '
     rc-import --dx 1um --z-unit um holes.txt | rc-render --view 30,35 --quiet -o h.png && [ -s h.png ]'
-claim "a map of 2 by 3 nodes, one of the same everywhere, one in a hundred times as long as wide" bash -c '
+claim "maps of 2 x 3 nodes, of equal values, and a hundred times longer than wide are drawn" bash -c '
     rc-synth wave --nx 2 --ny 3 --dx 1um --amplitude 1um --wavelength 2um | rc-render --view 30,35 -o h.png &&
     printf '2 2 2\\n2 2 2\\n2 2 2\\n' >flat.txt && rc-import --dx 1um --z-unit um flat.txt | rc-render --view 30,35 -o h.png &&
     rc-synth wave --nx 400 --ny 4 --dx 1um --amplitude 1um --wavelength 20um | rc-render --view 30,35 -o h.png'
-claim "a map with shadows, and a sheet of them" bash -c '
+claim "a map with shadows and a sheet of such maps are drawn" bash -c '
     rc-render --hillshade -o h.png ball.rcg && rc-render --hillshade --sheet 2x2 -o h.png p.rcg'
 refuses 2 '--view 30: it must be AZ,EL in degrees' "one angle" "$draw --view 30 ball.rcg"
 refuses 2 '--view 30,0: it must be AZ,EL' "a view along the map" "$draw --view 30,0 ball.rcg"
@@ -141,6 +141,6 @@ refuses 2 '--view x,y: ' "a view of words" "$draw --view x,y ball.rcg"
 refuses 2 '--view draws one map as a relief: leave out' "a raw relief" "$draw --view 30,35 --raw ball.rcg"
 refuses 2 '--hillshade is for flat maps' "shadows on a relief" "$draw --view 30,35 --hillshade ball.rcg"
 refuses 1 'a relief is of a map, this is a profile or a section' "a relief of a section" "$draw --view 30,35 --case 1 s.rcg"
-claim "none of these left a picture behind" bash -c '[ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]'
+claim "refused commands leave no picture" bash -c '[ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]'
 
 finish

@@ -22,16 +22,16 @@ $rounding direct
 1e-9 mlms --tol 1e-9
 1e-9 mlms --order 8 --correction 24
 END
-claim "the boundary stands in the stream" says 'boundary=free' rc-info u.rcg
-claim "--estar wins over the stream" rc-deflect --estar 57GPa solved.rcg -o soft.rcg
+claim "the stream has the boundary" says 'boundary=free' rc-info u.rcg
+claim "--estar has priority over the stream" rc-deflect --estar 57GPa solved.rcg -o soft.rcg
 near "$(statistic maximum soft.rcg)" "$(awk -v m="$maximum" 'BEGIN { printf "%.17g", 2 * m }')" "$rounding" \
     "  and half the modulus gives twice the displacement"
-claim "--verbose says which engine and why" \
+claim "--verbose names the engine and the reason" \
     warns 'summed by fft, because the fastest of those that are exact' rc-deflect --verbose solved.rcg -o u.rcg
 
 # a pressure that rc-solve has not written: no boundary, no modulus
 rc-synth sphere --nx 40 --dx 1um --radius 1mm | sed 's/^channel=height/channel=pressure/; s/^unit=m/unit=Pa/' | reseal >bare.rcg
-claim "a pressure without keys is free, and needs the modulus" says 'boundary=free' bash -c '
+claim "a pressure without keys has the free boundary, and needs --estar" says 'boundary=free' bash -c '
     rc-deflect --estar 1GPa bare.rcg | rc-info'
 refuses 2 'E\* is not in the stream: give it with --estar' "  which is asked for" "rc-deflect bare.rcg"
 refuses 1 'its boundary is free: --periodic contradicts it' "--periodic against the stream" "rc-deflect --periodic solved.rcg"

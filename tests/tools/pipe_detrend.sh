@@ -21,7 +21,7 @@ awk 'BEGIN { for (j = 0; j < 11; j++) { s = ""
     print s } }' >plane.txt
 rc-import --dx 1.1um --dy 1um --z-unit nm plane.txt -o plane.rcg
 
-claim "a plane is taken off" rc-detrend --plane plane.rcg -o flat.rcg
+claim "a plane is removed" rc-detrend --plane plane.rcg -o flat.rcg
 rc-info --json flat.rcg >flat.json
 nothing "$(field rms flat.json)" 1e-8 "and nothing of it is left"
 near "$(field missing flat.json)" 9 "$same" "what was missing is missing still"
@@ -34,14 +34,14 @@ rc-info --json filled.rcg >filled.json
 near "$(field missing filled.json)" 0 "$same" "none is left"
 near "$(field filled filled.json)" 9 "$same" "their number is in the stream"
 near "$(field mean filled.json)" 22e-9 "$summed" "with a plane in a plane"
-claim "filled again, the number stays" \
+claim "a second --fill keeps the number of filled points" \
     says '"filled": "9"' bash -c 'rc-detrend --fill filled.rcg | rc-info --json'
-claim "a form of degree 2 is a sphere's" bash -c \
+claim "--form of degree 2 removes a sphere" bash -c \
     'rc-synth sphere --radius 2.385mm --nx 33 --ny 47 --dx 1.1um --dy 1um | rc-detrend --poly 2 -o ball.rcg'
 nothing "$(figure rms ball.rcg)" 1e-7 "  which leaves nothing"
-claim "the mean alone" bash -c 'rc-detrend --poly 0 plane.rcg | rc-info --json >mean.json'
+claim "the mean alone is removed" bash -c 'rc-detrend --poly 0 plane.rcg | rc-info --json >mean.json'
 nothing "$(field mean mean.json)" 1e-9 "  is then 0"
-claim "a profile" bash -c "printf '1 2 4 8 NaN 32\n' | rc-import --dx 1um --z-unit um - |
+claim "a profile is levelled" bash -c "printf '1 2 4 8 NaN 32\n' | rc-import --dx 1um --z-unit um - |
     rc-detrend --poly 4 --fill -o profile.rcg"
 nothing "$(figure rms profile.rcg)" 1e-5 "  with as many points as coefficients leaves nothing"
 
@@ -51,32 +51,32 @@ nothing "$(figure rms profile.rcg)" 1e-5 "  with as many points as coefficients 
 awk 'BEGIN { for (j = 0; j < 6; j++) print 0 + 100 * j, 1 + 100 * j, (j == 2 ? "NaN" : -1 + 100 * j), (j == 2 ? "NaN" : 2 + 100 * j), -2 + 100 * j }' >lines.txt
 rc-import --dx 1um --z-unit nm lines.txt -o lines.rcg
 rows() { rc-export --format csv "$1" | grep -v '^#' | awk -F '[,;	 ]+' '/^[-0-9n]/ { s = ""; for (i = 1; i <= NF; i++) s = s sprintf("%.3g ", 1e9 * $i); print s }' | head -n "${2:-3}" | tail -n 1; }
-claim "--rows offset takes the median of each row" rc-detrend --rows offset lines.rcg -o offset.rcg
-claim "  which leaves the rows as they were" test "$(rows offset.rcg 6)" = "0 1 -1 2 -2 "
+claim "--rows offset subtracts the median of each row" rc-detrend --rows offset lines.rcg -o offset.rcg
+claim "  the shape of each row does not change" test "$(rows offset.rcg 6)" = "0 1 -1 2 -2 "
 rc-info --json offset.rcg >offset.json
 near "$(field missing offset.json)" 2 "$same" "  and what is missing, missing"
-claim "  and history has its word" says 'rc-detrend [0-9.]* --rows offset"' rc-info --json offset.rcg
-claim "a slope of each row" bash -c 'rc-detrend --rows tilt plane.rcg -o tilted.rcg && rc-detrend --robust --rows tilt plane.rcg -o robust.rcg'
+claim "  the history has the option" says 'rc-detrend [0-9.]* --rows offset"' rc-info --json offset.rcg
+claim "--rows slope subtracts the slope of each row" bash -c 'rc-detrend --rows tilt plane.rcg -o tilted.rcg && rc-detrend --robust --rows tilt plane.rcg -o robust.rcg'
 nothing "$(figure rms tilted.rcg)" 1e-7 "  leaves nothing of a plane"
 nothing "$(figure rms robust.rcg)" 1e-7 "  --robust neither"
-claim "a bow" bash -c 'rc-synth sphere --radius 2.385mm --nx 33 --ny 47 --dx 1.1um --dy 1um | rc-detrend --rows bow -o bow.rcg'
+claim "--rows bow subtracts the bow of each row" bash -c 'rc-synth sphere --radius 2.385mm --nx 33 --ny 47 --dx 1.1um --dy 1um | rc-detrend --rows bow -o bow.rcg'
 nothing "$(figure rms bow.rcg)" 1e-7 "  leaves nothing of a paraboloid"
-claim "levels alone keep a period" bash -c 'rc-synth wave --nx 16 --dx 1um --wavelength 8um --amplitude 1nm | rc-detrend --rows offset | rc-info | grep -q "periodic.*yes"'
-claim "  slopes do not" warns 'a periodic surface is not periodic without its form' bash -c 'rc-synth wave --nx 16 --dx 1um --wavelength 8um --amplitude 1nm | rc-detrend --rows tilt -o w.rcg'
+claim "offsets of rows keep a period" bash -c 'rc-synth wave --nx 16 --dx 1um --wavelength 8um --amplitude 1nm | rc-detrend --rows offset | rc-info | grep -q "periodic.*yes"'
+claim "  slopes of rows do not" warns 'a periodic surface is not periodic without its form' bash -c 'rc-synth wave --nx 16 --dx 1um --wavelength 8um --amplitude 1nm | rc-detrend --rows tilt -o w.rcg'
 refuses 2 '--rows offst: it must be one of offset|tilt|bow' "no such level" "rc-detrend --rows offst lines.rcg -o x.rcg"
 
 # ---- their order ----
 
 # one column far away: levelled by the measured points, or by the filled ones too
 printf '0 0 9 NaN NaN\n0 0 9 NaN NaN\n0 0 9 NaN NaN\n' | rc-import --dx 1um --z-unit nm - -o step.rcg
-claim "the order of the steps counts" bash -c '
+claim "the order of the steps matters" bash -c '
     rc-detrend --plane --fill step.rcg -o a.rcg && rc-detrend --fill --plane step.rcg -o b.rcg &&
     says "rc-detrend [0-9.]* --plane --fill" rc-info a.rcg &&
     says "rc-detrend [0-9.]* --fill --plane" rc-info b.rcg'
 # first: 0 0 9 minus 4.5 i - 1.5 is 1.5 -3 1.5, and twice 1.5: the mean is 0.6 nm
 near "$(figure mean a.rcg)" 0.6e-9 "$summed" "plane first"
 nothing "$(figure mean b.rcg)" 1e-9 "fill first: the mean is 0"
-claim "history has steps with their values, in order" \
+claim "the history has the steps with their values, in their order" \
     says 'rc-import [^|]* \| rc-detrend [0-9.]* --poly 2 --fill --poly 0 --plane"' bash -c '
     rc-detrend --poly 2 --fill --poly 0 --plane plane.rcg | rc-info --json'
 
@@ -85,19 +85,19 @@ claim "history has steps with their values, in order" \
 sed 's/^channel=height/channel=weight/' step.rcg | reseal >weight.rcg
 # one case of two frames: without the end line of the first
 { head -c -9 weight.rcg; head -c -9 plane.rcg; printf 'RCGEND 2\n'; } >both.rcg
-claim "another channel of the case passes untouched" bash -c '
+claim "another channel of the case is passed on unchanged" bash -c '
     rc-detrend --plane both.rcg -o out.rcg && [ "$(rc-info --json out.rcg | wc -l)" = 2 ] &&
     head -c $(($(wc -c <weight.rcg) - 9)) weight.rcg >want &&
     head -c $(wc -c <want) out.rcg | cmp - want'
 refuses 1 'case 1: no frame with the channel height, only weight' "a case without heights" "rc-detrend --plane weight.rcg -o no.rcg"
-claim "  and nothing is left behind" test ! -e no.rcg
+claim "  no file is left" test ! -e no.rcg
 refuses 1 'case 2: no frame with the channel height, only weight' "the second case without heights" \
     "rc-detrend --plane plane.rcg weight.rcg | cat >cut.rcg"
 refuses 1 'this stream failed: rc-detrend: weight.rcg, case 2: no frame' "  and its reader fails too" "rc-info cut.rcg"
 claim "every case is levelled" bash -c '
     cat plane.rcg plane.rcg | rc-detrend --plane | rc-info --json >two.json &&
     [ "$(wc -l <two.json)" = 2 ] && grep -q "\"case\": 2" two.json'
-claim "a periodic surface loses that with its form, and keeps it without" bash -c '
+claim "a periodic surface stays periodic without its mean, but not without its form" bash -c '
     rough="rc-synth selfaffine --hurst 0.8 --rms-slope 0.1 --nx 32 --dx 1um"
     $rough | rc-detrend --quiet --plane -o without.rcg && says periodic=no rc-info without.rcg &&
     $rough | rc-detrend --poly 0 --fill -o with.rcg && says periodic=yes rc-info with.rcg'

@@ -9,18 +9,18 @@ map() {
 }
 
 map 20 20 'i >= 5 && i < 9 && j >= 5 && j < 10' >twentieth.rcg
-claim "a twentieth is filled without a word" bash -c 'rc-detrend --fill twentieth.rcg -o out.rcg 2>said; [ ! -s said ]'
+claim "filling a twentieth of the points causes no warning" bash -c 'rc-detrend --fill twentieth.rcg -o out.rcg 2>said; [ ! -s said ]'
 map 20 20 'i >= 5 && i < 12 && j >= 5 && j < 8' >more.rcg
 # 7 columns of 1 um, 3 rows of 2 um: the middle is 4 um from the rim on all sides
-claim "more is told, with how much and how wide" \
+claim "filling more causes a warning with the share and the largest width" \
     warns 'rc-detrend: .*, case 1, frame 1 \(height\): 5\.25 % of the points were missing \(21 of 400\).* widest hole is 8 um wide' \
     rc-detrend --fill more.rcg -o out.rcg
 map 20 20 'i < 5' >edge.rcg
 # the outermost column is 5 um from the only rim
-claim "a hole at the edge counts as if it went on beyond it" warns '25 % .* widest hole is 10 um wide' rc-detrend --fill edge.rcg -o out.rcg
-claim "--quiet says nothing" bash -c 'rc-detrend --quiet --fill edge.rcg -o out.rcg 2>said; [ ! -s said ]'
-claim "a second fill has nothing to tell" bash -c 'rc-detrend --fill out.rcg -o again.rcg 2>said; [ ! -s said ]'
-claim "the warning comes once" test "$(rc-detrend --fill --plane --fill edge.rcg 2>&1 >/dev/null | wc -l)" = 1
-claim "levelling alone warns of nothing" bash -c 'rc-detrend --plane edge.rcg -o out.rcg 2>said; [ ! -s said ]'
+claim "a hole at the edge counts as twice as wide" warns '25 % .* widest hole is 10 um wide' rc-detrend --fill edge.rcg -o out.rcg
+claim "--quiet suppresses the warning" bash -c 'rc-detrend --quiet --fill edge.rcg -o out.rcg 2>said; [ ! -s said ]'
+claim "a second --fill causes no warning" bash -c 'rc-detrend --fill out.rcg -o again.rcg 2>said; [ ! -s said ]'
+claim "the warning is printed once" test "$(rc-detrend --fill --plane --fill edge.rcg 2>&1 >/dev/null | wc -l)" = 1
+claim "levelling alone causes no warning" bash -c 'rc-detrend --plane edge.rcg -o out.rcg 2>said; [ ! -s said ]'
 
 finish

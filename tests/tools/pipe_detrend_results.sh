@@ -6,11 +6,11 @@ rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm --seed 2 -o s
 solve="rc-solve --quiet --load 10mN --estar 100GPa"
 $solve surface.rcg -o result.rcg
 rc-info --json result.rcg | sed 's/.*"channel": "\([a-z]*\)".*/\1/' | tr '\n' ' ' >order
-claim "a solution ends in its height" grep -q '^pressure gap displacement height $' order
+claim "rc-solve writes a solution with its height" grep -q '^pressure gap displacement height $' order
 
 refuses 1 'case 1, frame 4 \(height\): .* \(pressure, gap, displacement\).*: take the height alone, rc-pick --channel height' \
     "results before the height, named" "rc-detrend --plane result.rcg -o out.rcg"
-claim "  and nothing is left behind" test ! -e out.rcg
+claim "  no file is left" test ! -e out.rcg
 refuses 1 "case holds a height" "  and a reader fails too" "rc-detrend --plane result.rcg 2>/dev/null | rc-info --verbose - >none"
 
 # one case of three frames, the height first: without the inner end lines
@@ -24,9 +24,9 @@ refuses 1 'case 2, frame 4' "in the second case too" "rc-detrend --plane surface
 
 $solve --output gap surface.rcg | sed 's/^channel=gap/channel=colour/' | reseal >colour.rcg
 { head -c -9 surface.rcg; head -c -9 colour.rcg; printf 'RCGEND 2\n'; } >both.rcg
-claim "what is no result passes as before" says '^  *2$' bash -c \
+claim "frames that are no results are passed on" says '^  *2$' bash -c \
     'rc-detrend --plane both.rcg | rc-info | grep -c "^  grid" | sed "s/^/ /"'
 $solve --output height surface.rcg -o alone.rcg
-claim "the height of a solution alone is a height" rc-detrend --plane alone.rcg -o out.rcg
+claim "the height of a solution alone can be changed" rc-detrend --plane alone.rcg -o out.rcg
 
 finish

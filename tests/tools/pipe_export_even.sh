@@ -11,31 +11,31 @@ printf '2 102 202\n3 103 203\n5 105 205\n12 112 NaN\n' | rc-import --dx 1um --z-
 for name in x3p sdf bsdf gsf gwy npy csv sur vti; do
     refuses 1 'uneven steps, which [a-z0-9-]* cannot say: write vtr, or resample them with --even' ".$name refuses it" \
         "rc-export uneven.rcg -o no.$name"
-    claim "  and takes it resampled" rc-export --even uneven.rcg -o "even.$name"
+    claim "  the resampled section is accepted" rc-export --even uneven.rcg -o "even.$name"
 done
-claim "none of the refusals left a file" test -z "$(ls no.* 2>/dev/null)"
+claim "refused commands leave no file" test -z "$(ls no.* 2>/dev/null)"
 for name in vtr xyz h5; do
-    claim ".$name says where its rows are" rc-export uneven.rcg -o "as-it-is.$name"
+    claim ".$name has the depths of its rows" rc-export uneven.rcg -o "as-it-is.$name"
 done
-claim "  in xyz beside each value" grep -qx -- '-1e-06 3e-06 5' as-it-is.xyz
+claim "  xyz has the depth beside each value" grep -qx -- '-1e-06 3e-06 5' as-it-is.xyz
 
 # the smallest step is 1 um: eleven rows, on the straight line
-claim "between its rows values are on the straight line, a row a smallest step" bash -c "
+claim "values between rows are interpolated linearly, with rows at the smallest step" bash -c "
     rc-export --even --format csv uneven.rcg | grep -v '^#' | awk -F , -v tolerance=$rounding '
         function off(x, want) { return (x - want) / want > tolerance || (want - x) / want > tolerance }
         { j = NR - 1; bad += off(\$1, 2 + j) + off(\$2, 102 + j) + (j <= 3 ? off(\$3, 202 + j) : \$3 != \"NaN\") }
         END { exit !(NR == 11 && bad == 0) }'"
-claim "the even rows are told" says '^# Height: 1.1e-05 m' rc-export --even --format csv uneven.rcg
-claim "history says so" says '<Comment>.* rc-export [0-9.]* --even</Comment>' unzip -p even.x3p main.xml
+claim "a message names the even rows" says '^# Height: 1.1e-05 m' rc-export --even --format csv uneven.rcg
+claim "the history says so" says '<Comment>.* rc-export [0-9.]* --even</Comment>' unzip -p even.x3p main.xml
 sed 's/^depths=.*/depths=0,1e-06,2e-06,3e-06/; s/^dy=.*/dy=1e-06/' uneven.rcg | reseal >even.rcg
-claim "even rows stay what they are" bash -c '
+claim "even rows do not change" bash -c '
     rc-export --even --format csv even.rcg >a && rc-export --format csv even.rcg | cmp - a'
 printf '1 2\n3 4\n' | rc-import --dx 1um --z-unit m - -o map.rcg
-claim "and so does a map" bash -c 'rc-export --even --format csv map.rcg >a && rc-export --format csv map.rcg | cmp - a'
+claim "a map does not change either" bash -c 'rc-export --even --format csv map.rcg >a && rc-export --format csv map.rcg | cmp - a'
 sed 's/^depths=.*/depths=0,1e-09,3e-06,1e-05/' uneven.rcg | reseal >fine.rcg
-claim "rows have a bound, which is told" warns 'the smallest step .* would make 10001 rows: 4096 are made' \
+claim "the number of rows has a limit, with a message" warns 'the smallest step .* would make 10001 rows: 4096 are made' \
     rc-export --even fine.rcg -o fine.csv
-claim "  and kept" test "$(grep -vc '^#' fine.csv)" = 4096
+claim "  the file has at most so many rows" test "$(grep -vc '^#' fine.csv)" = 4096
 sed 's/^depths=.*/depths=0,1e-06,3e-06/' uneven.rcg | reseal >few.rcg
 refuses 1 'a section of 4 rows without as many depths' "fewer depths than rows" 'rc-export --even few.rcg -o no.csv'
 sed 's/^depths=.*/depths=0,1e-06,3e-06,2e-06/' uneven.rcg | reseal >back.rcg

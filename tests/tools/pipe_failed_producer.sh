@@ -33,7 +33,7 @@ fails '2 2 2' '^rc-solve: --load 0: it must be above 0' "a value out of bounds, 
 fails '0 1 1' 'rc-solve: .*no frame with the channel height' "of three the second, when all was read" \
     "rc-stress --nu 0.3 --depths 0 pressed.rcg | $press | rc-info"
 fails '1 1' 'No such file' "after a whole case" "$press ball.rcg nosuch.rcg | rc-info"
-claim "  which was shown" says pressure cat pipe.out
+claim "  it was printed" says pressure cat pipe.out
 fails '2 2' '^rc-synth: ' "rc-synth" 'rc-synth sphere --nx 0 | rc-info'
 fails '2 2' '^rc-import: ' "rc-import" 'rc-import --nothing | rc-info'
 
@@ -44,8 +44,8 @@ for last in 'rc-render -o out.png' 'rc-export -o out.csv' 'rc-info -o out.txt' "
     'rc-detrend --plane -o out.level'; do
     fails '2 2' '^rc-solve: ' "$last is silent" "rc-solve --lod 3 ball.rcg | $last"
 done
-claim "nothing was left behind" bash -c '! ls -d out.* >&2'
-claim "--verbose repeats it, with the name of who said it" bash -c '
+claim "no file is left" bash -c '! ls -d out.* >&2'
+claim "--verbose repeats the message, with the name of the tool that failed" bash -c '
     rc-solve --lod 3 ball.rcg 2>/dev/null | rc-info --verbose 2>said.txt
     grep -q "^rc-info: standard input: the program that wrote it failed: rc-solve: .*--lod" said.txt'
 
@@ -68,20 +68,20 @@ after "it is passed on as it came" 'RCGFAIL rc-solve: .*--lod.* \(exit status 2\
     'rc-solve --lod 3 ball.rcg | rc-stress --nu 0.3 --depths 0 | rc-deflect'
 after "the status stands at the end of a long message too" 'RCGFAIL rc-solve: x{0}.* \(exit status 2\)' \
     "rc-solve --load \$(printf 'x%.0s' {1..2000}) ball.rcg"
-claim "  which has its bounds" test "$(tail -n 1 after.out | wc -c)" = 408
+claim "  the length of the message is limited" test "$(tail -n 1 after.out | wc -c)" = 408
 
 # No such line if the output is a file or text.
 nothing() {
     "$@" >nothing.out 2>/dev/null
     [ $? = 2 ] && [ ! -s nothing.out ]
 }
-claim "a file gets none" nothing rc-solve --lod 3 ball.rcg
+claim "a file without a stream gets no failure line" nothing rc-solve --lod 3 ball.rcg
 for words in '--help' '--version' '--dry-run' '--report -' '-o elsewhere.rcg' '--report=-'; do
-    claim "rc-solve --lod 3 $words: no stream is there to fail" \
+    claim "rc-solve --lod 3 $words: there is no stream to mark" \
         bash -c "set +o pipefail; rc-solve --lod 3 $words ball.rcg 2>/dev/null | cat >piped; [ ! -s piped ] && [ ! -e elsewhere.rcg ]"
 done
 for words in 'rc-import --list nosuch.x3p' 'rc-cost --lod 3 ball.rcg' 'rc-info --lod ball.rcg' 'rc-export --format csv nosuch.rcg'; do
-    claim "$words: nor is one here" bash -c "set +o pipefail; $words 2>/dev/null | cat >piped; ! grep RCGFAIL piped >&2"
+    claim "$words: there is no stream to mark either" bash -c "set +o pipefail; $words 2>/dev/null | cat >piped; ! grep RCGFAIL piped >&2"
 done
 
 # ---- a message from a file ----

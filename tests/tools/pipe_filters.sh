@@ -22,7 +22,7 @@ map 33 47 'sqrt(2385^2 - (x - 900)^2 - (y + 400)^2) - 2100' ball.rcg
 map 33 47 '-sqrt(150^2 - (x - 9)^2 - (y + 4)^2)' hollow.rcg
 map 33 47 '0.1 * (0.8 * y - 0.6 * x) + sqrt(80^2 - (0.8 * x + 0.6 * y)^2 * 1.01) ' rod.rcg
 for form in ball hollow; do
-    claim "--sphere takes the $form off" rc-detrend --sphere $form.rcg -o left.rcg
+    claim "--sphere removes the $form" rc-detrend --sphere $form.rcg -o left.rcg
     between 0 "$(figure rms left.rcg)" "$(awk -v h="$(figure rms $form.rcg)" 'BEGIN { print 1e-7 * h }')" "  nothing is left"
     radius=$(figure form.radius left.rcg)
     if [ $form = ball ]; then
@@ -33,21 +33,21 @@ for form in ball hollow; do
 done
 # the horizontal section of a rod with the slope s is an ellipse; across the rod the profile is a circle of
 # radius 80 um / sqrt(1.01) with r^2 (1 + s^2) in place of r^2
-claim "--cylinder takes a tilted rod off" rc-detrend --cylinder rod.rcg -o left.rcg
+claim "--cylinder removes a tilted rod" rc-detrend --cylinder rod.rcg -o left.rcg
 between 0 "$(figure rms left.rcg)" 1e-12 "  nothing is left"
 near "$(figure form.radius left.rcg)" "$(awk 'BEGIN { print 80e-6 / sqrt(1.01) }')" 1e-6 "  its radius"
-claim "--verbose tells the radius" warns 'frame 1 \(height\): a hollow of radius 150 um' \
+claim "--verbose prints the radius" warns 'frame 1 \(height\): a hollow of radius 150 um' \
     rc-detrend --sphere --verbose hollow.rcg -o left.rcg
-claim "a profile has a radius too" bash -c "
+claim "the radius of a profile is printed too" bash -c "
     awk 'BEGIN { for (i = 0; i < 50; i++) printf \" %.17g\", sqrt(200^2 - (i - 20)^2) }' |
         rc-import --dx 1um --z-unit um - | rc-detrend --sphere -o line.rcg"
 near "$(figure form.radius line.rcg)" 200e-6 1e-7 "  that of the circle"
 
 # every seventh point is 5 um too high
 map 33 47 'sqrt(2385^2 - (x - 900)^2 - (y + 400)^2) - 2100 + (k % 7 == 3 ? 5 : 0)' spikes.rcg
-claim "spikes bend a sphere" rc-detrend --sphere spikes.rcg -o bent.rcg
+claim "spikes change a fitted sphere" rc-detrend --sphere spikes.rcg -o bent.rcg
 between 1e-6 "$(awk -v r="$(figure form.radius bent.rcg)" 'BEGIN { d = r - 2.385e-3; print d < 0 ? -d : d }')" 1 "  its radius is wrong"
-claim "  and with --robust they do not, wherever that stands" bash -c '
+claim "  with --robust they do not, at any place of the option" bash -c '
     rc-detrend --robust --sphere spikes.rcg -o a.rcg && rc-detrend --sphere --robust spikes.rcg -o b.rcg &&
     cmp a.rcg b.rcg'
 near "$(figure form.radius a.rcg)" 2.385e-3 1e-6 "  its radius is right"
@@ -61,20 +61,20 @@ root() {
 }
 
 wave='rc-synth wave --amplitude 1um --nx 256 --ny 9 --dx 1um'
-claim "of a wave of the length L half gets through" bash -c "
+claim "half of a wave of the cut-off length passes the filter" bash -c "
     $wave --wavelength 32um -o wave.rcg && rc-detrend --lowpass 32um wave.rcg -o low.rcg &&
     rc-detrend --highpass 32um wave.rcg -o high.rcg"
 near "$(figure rms low.rcg)" "$(root 0.5)" 1e-6 "  low"
 near "$(figure rms high.rcg)" "$(root 0.5)" 1e-6 "  high"
 # exp(-ln 2 (50/32)^2)
-claim "of a shorter one less" rc-detrend --lowpass 50um wave.rcg -o low.rcg
+claim "less of a shorter wave passes" rc-detrend --lowpass 50um wave.rcg -o low.rcg
 near "$(figure rms low.rcg)" "$(root "exp(-log(2) * (50 / 32) ^ 2)")" 2e-6 "  by the formula"
-claim "a filtered surface is as periodic as it was" says '"periodic": "yes"' rc-info --json low.rcg
-claim "a band is two steps" bash -c 'rc-detrend --lowpass 8um --highpass 100um wave.rcg -o band.rcg'
+claim "a filter does not change the period of a surface" says '"periodic": "yes"' rc-info --json low.rcg
+claim "a band pass equals two steps" bash -c 'rc-detrend --lowpass 8um --highpass 100um wave.rcg -o band.rcg'
 near "$(figure rms band.rcg)" \
     "$(root "exp(-log(2) / 16) * (1 - exp(-log(2) * (100 / 32) ^ 2))")" 2e-6 "  one after the other"
 map 40 30 'k % 11 == 5 ? "NaN" : sin(k) + x' holes.rcg
-claim "what is missing stays missing" rc-detrend --lowpass 9um holes.rcg -o low.rcg
+claim "missing points stay missing" rc-detrend --lowpass 9um holes.rcg -o low.rcg
 near "$(figure missing low.rcg)" "$(figure missing holes.rcg)" "$same" "  as many points"
 claim "threads change no bit" bash -c '
     rc-synth selfaffine --hurst 0.8 --rms-height 1um --nx 200 --dx 1um -o rough.rcg
@@ -89,40 +89,40 @@ map 40 30 'sin(x / 9) + 0.01 * sin(k * k) + (k % 100 == 50 ? 3 : 0)' spikes.rcg
 claim "outliers become missing" rc-detrend --outliers 10 spikes.rcg -o clean.rcg
 near "$(figure missing clean.rcg)" 12 "$same" "  the twelve that there are"
 near "$(figure outliers clean.rcg)" 12 "$same" "  the key counts them"
-claim "  and is added to" bash -c 'rc-detrend --outliers 2.5 clean.rcg -o more.rcg'
+claim "  their number is added to the earlier one" bash -c 'rc-detrend --outliers 2.5 clean.rcg -o more.rcg'
 near "$(figure outliers more.rcg)" "$(figure missing more.rcg)" "$same" "  all that were taken out"
-claim "in the order given" bash -c '
+claim "the steps act in the given order" bash -c '
     rc-detrend --outliers 10 --fill spikes.rcg -o a.rcg && rc-detrend --fill --outliers 10 spikes.rcg -o b.rcg &&
     says "\"missing\": 0," rc-info --json a.rcg && says "\"missing\": 12," rc-info --json b.rcg'
-claim "many outliers are warned of" warns '[0-9.]+ % of the points \([0-9]+ of 1200\) are outliers at T = 0.5' \
+claim "many outliers cause a warning" warns '[0-9.]+ % of the points \([0-9]+ of 1200\) are outliers at T = 0.5' \
     rc-detrend --outliers 0.5 spikes.rcg -o c.rcg
 claim "a taper makes a surface periodic" bash -c '
     rc-detrend --plane --taper 5um spikes.rcg -o a.rcg && says "\"periodic\": \"yes\"" rc-info --json a.rcg'
 # of 40 x 30 nodes 1.1 um x 1 um, 5 columns (4.5 * 1.1 um is below 5 um) and 5 rows on each side: 600 of 1200
 rc-detrend --plane spikes.rcg -o level.rcg
-claim "  says what it covers, and names what covers nothing" \
+claim "  a message has the share of the map, and a warning follows if it is 0" \
     warns 'the taper covers 50 % of the map, and Sq goes from .*--mirror makes a period' rc-detrend --taper 5um level.rcg -o a.rcg
-claim "  Sq before and after is that of the maps" bash -c '
+claim "  the printed Sq before and after are those of the maps" bash -c '
     [ "$(sed -n "s/.*Sq goes from \(.*\) to \(.*\): near.*/\1, \2/p" warns.err)" = \
         "$(for f in level a; do rc-info --areal $f.rcg | sed -n "s/^  Sq  *//p"; done | paste -sd, | sed "s/,/, /")" ]'
 near "$(figure taper a.rcg)" 5e-6 "$rounding" "  the key taper has its width"
-claim "  the widest of several" bash -c 'rc-detrend --quiet --taper 3um a.rcg | rc-info | grep -q "taper=5e-06"'
-claim "  a part is not tapered" bash -c 'rc-pick --quiet --crop 0,0,20,20 a.rcg | rc-info >b.out && ! grep -q "taper=" b.out'
+claim "  the widest of several tapers is the key" bash -c 'rc-detrend --quiet --taper 3um a.rcg | rc-info | grep -q "taper=5e-06"'
+claim "  a part of a tapered map is not tapered" bash -c 'rc-pick --quiet --crop 0,0,20,20 a.rcg | rc-info >b.out && ! grep -q "taper=" b.out'
 
 # beside A B: writes the frames of both as one case
 beside() { perl -0777 -ne 's/RCGEND 1\n\z//; print; END { print "RCGEND 2\n" }' "$1" "$2"; }
 export -f beside
 claim "a mirror makes a surface periodic" bash -c '
     rc-detrend --plane --mirror spikes.rcg -o m.rcg && says "\"periodic\": \"yes\"" rc-info --json m.rcg'
-claim "  of twice the columns and rows" says '"nx": 80, "ny": 60, "dx": 1.1e-06, "dy": 1e-06,' rc-info --json m.rcg
-claim "  Sq is that of the map" test "$(rc-info --areal m.rcg | grep "^  Sq ")" = "$(rc-info --areal level.rcg | grep "^  Sq ")"
-claim "  without a word" bash -c 'rc-detrend --mirror level.rcg -o m.rcg 2>err && [ ! -s err ]'
-claim "  the map is the upper left quarter" bash -c '
+claim "  the map has twice the columns and rows" says '"nx": 80, "ny": 60, "dx": 1.1e-06, "dy": 1e-06,' rc-info --json m.rcg
+claim "  Sq does not change" test "$(rc-info --areal m.rcg | grep "^  Sq ")" = "$(rc-info --areal level.rcg | grep "^  Sq ")"
+claim "  there is no message" bash -c 'rc-detrend --mirror level.rcg -o m.rcg 2>err && [ ! -s err ]'
+claim "  the original map is the upper left quarter" bash -c '
     for f in m level; do rc-pick --quiet --crop 0,0,40,30 $f.rcg | rc-export --format csv | grep -v "^#" >$f.csv; done; cmp m.csv level.csv'
-claim "  points that were filled count four times" test \
+claim "  filled points count four times" test \
     "$(rc-detrend --outliers 10 --fill --mirror spikes.rcg -o b.rcg; figure filled b.rcg) $(figure outliers b.rcg)" = "48 48"
-claim "  a profile has two ends" says '"nx": 80, "ny": 1,' bash -c 'rc-pick --crop 0,0,40,1 level.rcg | rc-detrend --mirror | rc-info --json'
-claim "  a map of hardness beside it is mirrored too, and says no more" bash -c '
+claim "  a profile is mirrored at two ends" says '"nx": 80, "ny": 1,' bash -c 'rc-pick --crop 0,0,40,1 level.rcg | rc-detrend --mirror | rc-info --json'
+claim "  a map of hardness is mirrored too, without a message" bash -c '
     rc-pick --set channel=hardness --set unit=Pa level.rcg -o hard.rcg
     beside level.rcg hard.rcg >both.rcg
     rc-detrend --plane --mirror both.rcg -o b.rcg && rc-info --json b.rcg >b.json && grep -c "\"nx\": 80, \"ny\": 60" b.json | grep -qx 2 &&
@@ -135,12 +135,12 @@ refuses 1 '--mirror: a single node is no map' "a mirror of one node" "rc-detrend
 rc-pick --set channel=psd level.rcg | rc-pick --set dunit=rad/m - -o wave.rcg
 beside level.rcg wave.rcg >waved.rcg
 refuses 1 '--mirror: the frame is no map of places: leave it out' "a mirror of a spectrum" "rc-detrend --mirror waved.rcg"
-claim "history names all steps in SI" \
+claim "the history has all steps in SI" \
     says 'rc-detrend [0-9.]* --outliers 3.5 --sphere --lowpass 9e-06 --fill --taper 5e-06 --robust"' bash -c '
     rc-detrend --robust --outliers 3.5 --sphere --lowpass 9um --fill --taper 5um spikes.rcg | rc-info --json'
-claim "a periodic surface loses that with a sphere" warns 'periodic=no from here' \
+claim "without its sphere a periodic surface is not periodic" warns 'periodic=no from here' \
     rc-detrend --sphere rough.rcg -o a.rcg
-claim "  and has it again with a taper" says '"periodic": "yes"' bash -c 'rc-detrend --taper 9um a.rcg | rc-info --json'
+claim "  with a taper it is periodic again" says '"periodic": "yes"' bash -c 'rc-detrend --taper 9um a.rcg | rc-info --json'
 
 # ---- refusals ----
 

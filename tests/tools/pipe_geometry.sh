@@ -24,25 +24,25 @@ map() { # map EXPECTED OPTION...: compares the rows of map.rcg after these optio
 
 # ---- turning ----
 
-claim "turned by 90 the right column is the top row" map '4 8 12 3 7 11 2 6 10 1 5 9' --rotate 90
+claim "after a turn by 90 degrees the right column is the top row" map '4 8 12 3 7 11 2 6 10 1 5 9' --rotate 90
 rc-info --json out.rcg >info.json
 near "$(field nx info.json)" 3 "$same" "its columns"
 near "$(field dx info.json)" 1e-6 "$same" "its spacings have changed places"
 near "$(field dy info.json)" 2e-6 "$same" "  both"
-claim "turned by 180" map '12 11 10 9 8 7 6 5 4 3 2 1' --rotate 180
-claim "turned by 270" map '9 5 1 10 6 2 11 7 3 12 8 4' --rotate 270
-claim "left to right" map '4 3 2 1 8 7 6 5 12 11 10 9' --mirror x
-claim "top to bottom" map '9 10 11 12 5 6 7 8 1 2 3 4' --mirror y
-claim "in the order of the line" map '7 8' --rotate 90 --crop 1,0,1,2 --rotate 90 --mirror x
-claim "  another order" map '2 6' --crop 1,0,3,3 --mirror x --rotate 90 --rotate 180 --crop 1,2,2,1 --mirror x
+claim "a turn by 180 degrees is right" map '12 11 10 9 8 7 6 5 4 3 2 1' --rotate 180
+claim "a turn by 270 degrees is right" map '9 5 1 10 6 2 11 7 3 12 8 4' --rotate 270
+claim "--flip x exchanges left and right" map '4 3 2 1 8 7 6 5 12 11 10 9' --mirror x
+claim "--flip y exchanges top and bottom" map '9 10 11 12 5 6 7 8 1 2 3 4' --mirror y
+claim "the options act in their order" map '7 8' --rotate 90 --crop 1,0,1,2 --rotate 90 --mirror x
+claim "  another order gives another map" map '2 6' --crop 1,0,3,3 --mirror x --rotate 90 --rotate 180 --crop 1,2,2,1 --mirror x
 
 rough='rc-synth selfaffine --hurst 0.8 --rms-height 0.3um --nx 66 --ny 47 --dx 1.1um --dy 1um'
 $rough -o rough.rcg
-claim "four times by 90 is nothing, bit for bit" bash -c '
+claim "four turns by 90 degrees change no bit" bash -c '
     rc-pick --rotate 90 rough.rcg | rc-pick --rotate 90 | rc-pick --rotate 90 --rotate 90 -o four.rcg &&
     cmp <(values rough.rcg) <(values four.rcg) && says "^dx=1.1e-06$" cat four.rcg'
-claim "turned, a periodic surface is periodic" says '^periodic=yes' cat four.rcg
-claim "history has the steps in their order" says 'rc-pick [0-9.]* --rotate 90 --mirror x --crop 1,2,30,20 --resample 2e-06m,2e-06m --resample 20x10$' bash -c '
+claim "a turned periodic surface is periodic" says '^periodic=yes' cat four.rcg
+claim "the history has the steps in their order" says 'rc-pick [0-9.]* --rotate 90 --mirror x --crop 1,2,30,20 --resample 2e-06m,2e-06m --resample 20x10$' bash -c '
     rc-pick --quiet --rotate 90 --mirror x --crop 1,2,30,20 --resample 2um --resample 20x10 rough.rcg | grep -a ^history'
 
 # A rotated surface gives the rotated contact.
@@ -53,51 +53,51 @@ claim "the solution of a turned surface is the turned solution" bash -c '
     rc-pick --set channel=height --set unit=m turned.rcg | rc-add --subtract x.rcg - | rc-info --json >info.json'
 rc-info --json x.rcg >pressure.json
 near "$(awk -v a="$(field rms info.json)" -v b="$(field rms pressure.json)" 'BEGIN { print 1 + a / b }')" 1 1e-6 "  to the tolerance of both"
-claim "all frames of a case alike" bash -c '
+claim "all frames of a case are turned alike" bash -c '
     rc-pick --rotate 180 --crop 3,4,20,10 solved.rcg | rc-info --json >info.json &&
     [ "$(grep -c "\"nx\": 20, \"ny\": 10" info.json)" = 2 ]'
 
 # ---- cutting ----
 
-claim "a part in nodes" map '7 8 11 12' --crop 2,1,2,2
-claim "in lengths, from the edges of the first nodes" map '7 8 11 12' --crop 4um,1um,4um,2um
-claim "  nodes whose middles lie there" map '7 8 11 12' --crop 4.9um,0.6um,3.1um,2.4um
-claim "  from 0" map '1 2' --crop 0,0,4um,1um
-claim "the whole map" map '1 2 3 4 5 6 7 8 9 10 11 12' --crop 0,0,8um,3um
-claim "  in nodes" map '1 2 3 4 5 6 7 8 9 10 11 12' --crop 0,0,4,3
-claim "a part of a periodic surface is not, with a warning" warns 'a part of a periodic map is not periodic: periodic=no' \
+claim "--crop in nodes selects a part" map '7 8 11 12' --crop 2,1,2,2
+claim "--crop in lengths counts from the edges of the first nodes" map '7 8 11 12' --crop 4um,1um,4um,2um
+claim "  it takes the nodes whose centres are in the part" map '7 8 11 12' --crop 4.9um,0.6um,3.1um,2.4um
+claim "  it may begin at 0" map '1 2' --crop 0,0,4um,1um
+claim "it may be the whole map" map '1 2 3 4 5 6 7 8 9 10 11 12' --crop 0,0,8um,3um
+claim "  the same holds in nodes" map '1 2 3 4 5 6 7 8 9 10 11 12' --crop 0,0,4,3
+claim "a part of a periodic surface is not periodic, with a warning" warns 'a part of a periodic map is not periodic: periodic=no' \
     rc-pick --crop 0,0,66,46 rough.rcg -o part.rcg
-claim "  indeed" says '^periodic=no' cat part.rcg
-claim "the whole of it is" bash -c 'rc-pick --crop 0,0,66,47 rough.rcg -o whole.rcg 2>err.txt && [ ! -s err.txt ]'
-claim "  indeed" says '^periodic=yes' cat whole.rcg
+claim "  its key says so" says '^periodic=no' cat part.rcg
+claim "the whole surface stays periodic" bash -c 'rc-pick --crop 0,0,66,47 rough.rcg -o whole.rcg 2>err.txt && [ ! -s err.txt ]'
+claim "  its key says so" says '^periodic=yes' cat whole.rcg
 rc-solve --quiet --periodic --load 0.1N --estar 100GPa --output pressure rough.rcg -o periodic.rcg
-claim "of a solution a part has no load" bash -c '
+claim "a part of a solution has no load" bash -c '
     rc-pick --quiet --crop 0,0,30,30 periodic.rcg -o part.rcg && grep -aq "^estar=" part.rcg && lacks "^(load|boundary)=" part.rcg'
-claim "  and no period, but the other boundary stays" bash -c '
+claim "  it is not periodic; a free boundary stays" bash -c '
     rc-pick --crop 0,0,30,30 solved.rcg >part.rcg && grep -aq "^boundary=free" part.rcg && lacks "^load=" part.rcg'
-claim "turned it keeps both" bash -c 'rc-pick --rotate 90 periodic.rcg -o part.rcg && grep -aq "^load=" part.rcg && grep -aq "^boundary=periodic" part.rcg'
-claim "counts of points go with the points" bash -c '
+claim "a turned solution keeps load and boundary" bash -c 'rc-pick --rotate 90 periodic.rcg -o part.rcg && grep -aq "^load=" part.rcg && grep -aq "^boundary=periodic" part.rcg'
+claim "counts of points are removed with the points" bash -c '
     rc-pick --set filled=3 --set outliers=2 --set form="sphere 0.002" --crop 1,1,2,2 map.rcg -o part.rcg && lacks "^(filled|outliers)=" part.rcg'
-claim "  and a shape that was added stays" says '^form=sphere 0.002' cat part.rcg
+claim "  the key of an added sphere stays" says '^form=sphere 0.002' cat part.rcg
 rc-stress --nu 0.3 --depths 0,5um --components mises,sxz solved.rcg -o stress.rcg
-claim "stresses can be cut" bash -c 'rc-pick --crop 3,4,20,10 stress.rcg | rc-info --json >info.json && [ "$(grep -c "\"nx\": 20, \"ny\": 10" info.json)" = 4 ]'
+claim "stresses can be cropped" bash -c 'rc-pick --crop 3,4,20,10 stress.rcg | rc-info --json >info.json && [ "$(grep -c "\"nx\": 20, \"ny\": 10" info.json)" = 4 ]'
 
 # ---- other spacings ----
 
-claim "means of pairs" map '1.5 3.5 5.5 7.5 9.5 11.5' --resample 4um,1um
-claim "one for all" map '6.5' --resample 1x1
+claim "--resample takes means of pairs" map '1.5 3.5 5.5 7.5 9.5 11.5' --resample 4um,1um
+claim "one factor holds for both directions" map '6.5' --resample 1x1
 rc-info --json out.rcg >info.json
 near "$(field dx info.json)" 8e-6 "$same" "as wide as the map"
 near "$(field dy info.json)" 3e-6 "$same" "and as high"
-claim "the same spacings change nothing" bash -c 'rc-pick --resample 1.1um,1um rough.rcg -o same.rcg && cmp <(values same.rcg) <(values rough.rcg)'
-claim "  nor do spacings within a millionth" bash -c 'rc-pick --resample 1.1000005um,1um rough.rcg -o same.rcg && cmp <(values same.rcg) <(values rough.rcg) && says ^dx=1.1e-06$ cat same.rcg'
-claim "one spacing is that of both sides" bash -c 'rc-pick --quiet --resample 2.2um rough.rcg | rc-info --json >info.json'
+claim "unchanged spacings change nothing" bash -c 'rc-pick --resample 1.1um,1um rough.rcg -o same.rcg && cmp <(values same.rcg) <(values rough.rcg)'
+claim "  spacings that differ by less than a millionth change nothing" bash -c 'rc-pick --resample 1.1000005um,1um rough.rcg -o same.rcg && cmp <(values same.rcg) <(values rough.rcg) && says ^dx=1.1e-06$ cat same.rcg'
+claim "one spacing holds for both directions" bash -c 'rc-pick --quiet --resample 2.2um rough.rcg | rc-info --json >info.json'
 near "$(field nx info.json)" 33 "$same" "33 columns of 2.2 um"
 near "$(field ny info.json)" 21 "$same" "21 rows of them fit in 47 um"
-claim "the rest is cut, and the surface not periodic" warns 'periodic=no' rc-pick --resample 2.2um rough.rcg -o part.rcg
-claim "whole it stays periodic" bash -c 'rc-pick --resample 33x94 rough.rcg -o fine.rcg 2>err.txt && [ ! -s err.txt ]'
-claim "  indeed" says '^periodic=yes' cat fine.rcg
-claim "a profile stays one, as wide as its nodes are apart" bash -c '
+claim "a remainder is cut, and the surface is then not periodic" warns 'periodic=no' rc-pick --resample 2.2um rough.rcg -o part.rcg
+claim "without a remainder it stays periodic" bash -c 'rc-pick --resample 33x94 rough.rcg -o fine.rcg 2>err.txt && [ ! -s err.txt ]'
+claim "  its key says so" says '^periodic=yes' cat fine.rcg
+claim "a profile stays a profile, with the width of its spacing" bash -c '
     rc-synth wave --amplitude 1um --wavelength 50um --nx 200 --ny 1 --dx 1um -o profile.rcg &&
     rc-pick --resample 0.5um profile.rcg | rc-info --json >info.json && rc-pick --resample 400x1 profile.rcg | rc-info --json >info2.json'
 near "$(field nx info.json)" 400 "$same" "400 nodes"
@@ -106,14 +106,14 @@ near "$(field dy info.json)" 5e-7 "$same" "of half the width"
 near "$(field dy info2.json)" 5e-7 "$same" "  by numbers too"
 # four nodes in 25 um: the error of the cubics is at most 1e-6
 near "$(field rms info.json)" 7.0710678118654755e-07 1e-5 "the wave is still one"
-claim "the load stays with means over the whole map" bash -c 'rc-pick --resample 33x47 solved.rcg -o part.rcg && grep -aq ^load= part.rcg'
-claim "  and not with others" bash -c 'rc-pick --resample 132x47 solved.rcg -o part.rcg && lacks ^load= part.rcg'
+claim "means over the whole map keep the load" bash -c 'rc-pick --resample 33x47 solved.rcg -o part.rcg && grep -aq ^load= part.rcg'
+claim "  other means remove it" bash -c 'rc-pick --resample 132x47 solved.rcg -o part.rcg && lacks ^load= part.rcg'
 printf '1 NaN\n1 NaN\n' | rc-import --dx 1um --z-unit m -o half.rcg -
-claim "half of a cell is enough" bash -c '[ "$(rc-pick --resample 1x1 half.rcg | values - | perl -e "print unpack q(d<), <STDIN>")" = 1 ]'
-claim "what was missing is missing on a finer grid" bash -c '
+claim "a mean over half of a cell counts as measured" bash -c '[ "$(rc-pick --resample 1x1 half.rcg | values - | perl -e "print unpack q(d<), <STDIN>")" = 1 ]'
+claim "missing points stay missing on a finer grid" bash -c '
     rc-pick --resample 4x4 half.rcg | rc-info --json >info.json'
 near "$(field missing info.json)" 8 "$same" "eight of sixteen"
-claim "what rc-add asks for mends it" bash -c '
+claim "the command that rc-add proposes works" bash -c '
     rc-synth cone --slope 0.1 --nx 40 --dx 2um -o cone.rcg
     rc-add rough.rcg cone.rcg 2>err.txt >/dev/null
     command=$(sed -n "s/.*bring them together by //p" err.txt) &&
@@ -124,7 +124,7 @@ rc-synth cone --slope 1 --place highest --like rough.rcg | rc-pick --mirror x | 
 highest() {
     rc-export --format xyz "$1" | grep -v '^#' | sort -g -k 3,3 | tail -n 1 | cut -d ' ' -f 1-3
 }
-claim "an indenter mirrored stands on the highest node" test "$(highest cone.rcg)" = "$(highest rough.rcg)"
+claim "a mirrored indenter has its tip on the highest node" test "$(highest cone.rcg)" = "$(highest rough.rcg)"
 
 # ---- refusals ----
 

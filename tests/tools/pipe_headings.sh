@@ -21,11 +21,11 @@ recorded() {
 }
 # report NAME 'command with --report $r': its table and its keys equal the recorded ones.
 report() {
-    claim "$1 writes a table and lines" bash -c "r=table.tsv; $2 && r=lines.json && $2"
+    claim "$1 writes a table and lines of JSON" bash -c "r=table.tsv; $2 && r=lines.json && $2"
     head -n 1 table.tsv | lines >table.txt
     keys lines.json | lines >keys.txt
-    claim "  its columns" diff <(recorded "$1: table") table.txt
-    claim "  its keys" diff <(recorded "$1: keys") keys.txt
+    claim "  the table has the listed columns" diff <(recorded "$1: table") table.txt
+    claim "  the lines have the listed keys" diff <(recorded "$1: keys") keys.txt
     tr ' ' '\n' <keys.txt >>"${1%%[ ,]*}.keys"
     if [ -n "${RC_RECORD-}" ]; then # a file that becomes headings.txt
         { echo "== $1: table"; cat table.txt; echo "== $1: keys"; cat keys.txt; } >>"$RC_RECORD"
@@ -60,7 +60,7 @@ shared='ranks exchanges messages bytes_exchanged other_bytes exchange_seconds'
 listed() { # PAGE SECTION
     claim "$1(1): its list has every column" test -z \
         "$(grep -v '\.' "$1.keys" | sort -u | comm -23 - <(page_words "$1" "$2" '^\.(It )?Cm ' | sort -u))"
-    claim "  and nothing but columns" test -z \
+    claim "  the list has only columns" test -z \
         "$(page_words "$1" "$2" '^\.It Cm ' | sort -u | comm -23 - <(tr ' ' '\n' <<<"$shared" | sed 's/.*\.//' - "$1.keys" | sort -u))"
 }
 listed rc-slip REPORT

@@ -24,22 +24,22 @@ near "$(header dy map.rcg)" 2.5e-6 "$converted" "dy is the height over the rows"
 near "$(first_value map.rcg)" 1e-9 "$converted" "heights are in metres"
 claim "the frame is called height" test "$(header channel map.rcg) $(header unit map.rcg)" = "height m"
 claim "the source is the base name" test "$(header source map.rcg)" = map.txt
-claim "one file makes no case number" test -z "$(header case map.rcg)"
-claim "history names tool and version" grep -aq '^history=rc-import [0-9.]*$' map.rcg
-claim "a pipe does as well as a file" says '^nx=3$' bash -c 'cat map.txt | rc-import -'
-claim "--type f32 is obeyed" says '^type=f32$' rc-import --type f32 map.txt
+claim "a single file gives no case number" test -z "$(header case map.rcg)"
+claim "the history has the tool and its version" grep -aq '^history=rc-import [0-9.]*$' map.rcg
+claim "a file can come from a pipe" says '^nx=3$' bash -c 'cat map.txt | rc-import -'
+claim "--type f32 sets the type" says '^type=f32$' rc-import --type f32 map.txt
 rc-import map.txt ./map.txt map.txt >three.rcg
-claim "several files are several cases" \
+claim "several files give several cases" \
     test "$(grep -a '^case=' three.rcg | tr '\n' ' ')" = "case=1 case=2 case=3 "
-claim "and one stream" test "$(tail -n 1 three.rcg)" = "RCGEND 3"
+claim "they form one stream" test "$(tail -n 1 three.rcg)" = "RCGEND 3"
 
 cp map.txt good.txt
 printf 'words and no more\n' >bad.txt
 refuses 1 'bad.txt: ' "a bad file among several ends the import" 'rc-import good.txt bad.txt map.txt'
-claim "--keep-going goes on and exits with 1 at the end" bash -c '
+claim "--keep-going reads the other files and exits with 1" bash -c '
     rc-import --keep-going good.txt bad.txt map.txt >going.rcg 2>going.err
     [ $? -eq 1 ] && grep -q "^rc-import: bad.txt: " going.err'
-claim "with a whole stream of the others, whose cases keep their numbers" \
+claim "the stream of the other files is complete, with their case numbers" \
     test "$(grep -a '^case=\|^RCGEND\|^RCGFAIL' going.rcg | tr '\n' ' ')" = "case=1 case=3 RCGEND 2 "
 refuses 1 'none of the 2 files can be read' "where none is good there is no stream" \
     'rc-import --keep-going bad.txt bad.txt'
@@ -50,13 +50,13 @@ rc-import --dx 1.1um --z-unit nm bare.txt >bare.rcg
 near "$(header dx bare.rcg)" 1.1e-6 "$converted" "--dx gives the spacing"
 near "$(header dy bare.rcg)" 1.1e-6 "$converted" "dy defaults to dx"
 near "$(first_value bare.rcg)" 1e-9 "$converted" "--z-unit gives the unit"
-claim "history holds what was given, in SI" \
+claim "the history has the given options in SI" \
     grep -aq '^history=rc-import [0-9.]* --dx 1.1e-06 --z-unit 1e-09$' bare.rcg
 rc-import --dx 4um map.txt >wider.rcg 2>wider.err
 near "$(header dx wider.rcg)" 4e-6 "$converted" "--dx wins over the file"
-claim "which is said" grep -q 'in x is 4e-06 m as given; the file says 2e-06 m' wider.err
-claim "and kept in history" grep -aq '^history=.* --dx 4e-06$' wider.rcg
-claim "--quiet says nothing" bash -c '
+claim "a message says so" grep -q 'in x is 4e-06 m as given; the file says 2e-06 m' wider.err
+claim "the history has it" grep -aq '^history=.* --dx 4e-06$' wider.rcg
+claim "--quiet suppresses the message" bash -c '
     rc-import --quiet --dx 4um map.txt 2>quiet.err | cmp - wider.rcg && [ ! -s quiet.err ]'
 printf '1|2\nlost|4,5\n' >odd.txt
 rc-import --format ascii --dx 1um --z-unit 1e-6 --separator '|' --decimal , --missing lost odd.txt >odd.rcg
@@ -72,24 +72,24 @@ claim "--formats has a line for each reader, in order" \
     test "$(rc-import --formats | cut -d ' ' -f 1)" = "$formats"
 # "X3P, SDF, ... (N names) and M more, packed" in the README: N + M of them
 row=$(sed -n 's/^| `rc-import` .*(\(.*\) and \([0-9]*\) more, .*/\1; \2/p' "$RC_SOURCE/README.md")
-claim "the README counts them right" \
+claim "the README has the right number of formats" \
     test "$(($(tr -cd , <<<"$row" | wc -c) + 1 + ${row##*; }))" -eq "$(wc -w <<<"$formats")"
 for format in $(rc-import --formats | cut -d ' ' -f 1); do
     section=$(awk -v s=".Ss $format" '$0 == s {on = 1; next} /^\.S[sh]/ {on = 0} on' \
         "$RC_SOURCE/man/rc-import.1")
-    claim "the manual has a section on $format, which says what is ignored" grep -qi ignored <<<"$section"
+    claim "the manual has a section about $format, with the ignored parts" grep -qi ignored <<<"$section"
 done
 claim "--formats prints the formats" says '^x3p ' rc-import --formats
 claim "--list prints the channels" \
     says '^[*] +1 +3 +2 +2e-06 +2.5e-06 +m +1e-09 +5e-09 +Topo$' rc-import --list map.txt
-claim "--list shows what the file does not say" \
+claim "--list shows which figures the file lacks" \
     says '^[*] +1 +3 +3 +- +- +- +1 +9 +height$' rc-import --list bare.txt
-claim "--channel takes a number" says '^nx=3$' rc-import --channel 1 map.txt
-claim "--channel takes a name" says '^nx=3$' rc-import --channel Topo map.txt
+claim "--channel accepts a number" says '^nx=3$' rc-import --channel 1 map.txt
+claim "--channel accepts a name" says '^nx=3$' rc-import --channel Topo map.txt
 if command -v script >/dev/null; then
-    claim "--list writes even to a terminal" says Topo script -qec "rc-import --list map.txt" /dev/null
+    claim "--list may write to a terminal" says Topo script -qec "rc-import --list map.txt" /dev/null
     # a message for the terminal appears on the standard output of script, as a stream would
-    claim "a stream does not" bash -c '
+    claim "a stream may not" bash -c '
         script -qec "rc-import map.txt" /dev/null </dev/null >terminal.txt
         [ $? = 1 ] && grep -q "standard output is a terminal" terminal.txt && lacks RCG1 terminal.txt'
 fi
@@ -124,9 +124,9 @@ refuses 1 "line 2: 1 values, where the first row \(line 1\) has 2" "a row that i
 refuses 1 "map.txt: reading it needs more memory than the 10 bytes of --memory" "a file that --memory has no room for" 'rc-import --memory 10 map.txt'
 refuses 1 "writing failed \(No space left on device\)" "a full disk" 'rc-import map.txt >/dev/full'
 refuses 1 "bare.txt: the file does not give the spacing" "the second of two files" 'rc-import map.txt bare.txt >half.rcg'
-claim "then the stream says that it failed" says '^RCGFAIL .*bare.txt' tail -n 1 half.rcg
+claim "a failed stream says that it failed" says '^RCGFAIL .*bare.txt' tail -n 1 half.rcg
 refuses 1 "bare.txt: the file does not give the spacing" "with -o" 'rc-import map.txt bare.txt -o half2.rcg'
-claim "nothing is left behind" bash -c '! ls half2.rcg* 2>/dev/null'
+claim "no file is left" bash -c '! ls half2.rcg* 2>/dev/null'
 
 # ---- real files ----
 
@@ -154,8 +154,8 @@ if [ -d "$corpus" ]; then
             ;;
         esac
     done <rows.txt
-    claim "the manifest had files of these formats" test "$(wc -l <rows.txt)" -ge 30
-    claim "and heights of them" test $heights -ge 20
+    claim "the manifest had files of all these formats" test "$(wc -l <rows.txt)" -ge 30
+    claim "their heights were compared" test $heights -ge 20
     claim "csafe-logo's wrong checksum is only a warning" \
         warns 51f0b43f25b587b72aa51b954c2134eb rc-import "$corpus/x3p/x3ptools__csafe-logo.x3p"
     bad=$corpus/bad
@@ -165,19 +165,19 @@ if [ -d "$corpus" ]; then
     refuses 1 "9 numbers in one column" "one column" "rc-import '$bad/SurfaceTopography__single_column.txt'"
     refuses 1 "a ZIP archive, but no X3P: it holds no main.xml" "a ZIP archive of another kind" \
         "rc-import --format x3p '$bad/SurfaceTopography__mitutoyo_mock.xlsx'"
-    claim "a list of points is told from a matrix" says ': xyz$' rc-import --list --dx 1um --z-unit um \
+    claim "a list of points is distinguished from a matrix" says ': xyz$' rc-import --list --dx 1um --z-unit um \
         "$corpus/xyz/SurfaceTopography__xyz-1.txt"
-    claim "and so is a profile" says ': profile$' rc-import --list --dx 1um --z-unit um \
+    claim "a profile is distinguished too" says ': profile$' rc-import --list --dx 1um --z-unit um \
         "$corpus/profile-text/SurfaceTopography__xy-4.txt"
     di=$corpus/nanoscope/SurfaceTopography__di-4.di
-    claim "--list has a line for every channel" \
+    claim "--list has a line for each channel" \
         test "$(rc-import --list "$di" | grep -Ec '^[* ] +[123] +512 +512 ')" = 3
-    claim "with its range" says 'm +-2.08215e-07 +2.72935e-07 Height Sensor$' \
+    claim "the line has its range" says 'm +-2.08215e-07 +2.72935e-07 Height Sensor$' \
         rc-import --list "$di"
     claim "another channel keeps its name and unit" bash -c "
         rc-import --channel Phase '$di' -o phase.rcg &&
         says 'channel=Phase nx=512 ny=512 .* unit=deg ' bash -c \"sed '/^\$/q' phase.rcg | tr '\\n' ' '\""
-    claim "by number too" says '^file.channel=Amplitude Error' rc-import --channel 2 "$di"
+    claim "it can be chosen by its number" says '^file.channel=Amplitude Error' rc-import --channel 2 "$di"
     refuses 1 "no channel 'Topography'; there are 1 'Height Sensor' in m, 2 'Amplitude Error' in m" \
         "an absent channel names all" "rc-import --channel Topography '$di'"
     refuses 1 "its steps are 1 and 10 of a unit not given" "steps without a unit are named" \

@@ -42,8 +42,8 @@ reads() {
         echo "NOT OK: $sentence: channel $(first_value read.rcg) was read"
         failures=$((failures + 1))
     fi
-    claim "$sentence: and --list marks it" says "^[*] +$number " rc-import --list of.nid
-    claim "and it alone" test "$(rc-import --list of.nid | grep -c '^[*]')" = 1
+    claim "$sentence: --list marks it" says "^[*] +$number " rc-import --list of.nid
+    claim "it marks no other" test "$(rc-import --list of.nid | grep -c '^[*]')" = 1
 }
 
 first_value() {
@@ -73,22 +73,22 @@ reads 2 "a position is none" 'X Sensor||m' 'Z (height)||m' 'Y Sensor||m'
 
 nid many.nid 'Deflection|Scan forward|m' 'Z-Axis|Scan forward|m' 'Z-Axis|Scan backward|m' \
     'Z-Axis Sensor|Scan forward|m' 'Phase|Scan forward|deg'
-claim "which of several was taken is said, with how to choose" \
+claim "a message names the chosen channel and the option to choose" \
     warns "many.nid: 3 channels are heights: 'Z-Axis Sensor, Scan forward' \(4\) is read; --channel takes another" \
     rc-import many.nid
 rc-import many.nid 2>all.err >/dev/null
-claim "once" test "$(wc -l <all.err)" = 1
+claim "it is printed once" test "$(wc -l <all.err)" = 1
 rc-import --quiet many.nid 2>quiet.err >/dev/null
-claim "not with --quiet" test ! -s quiet.err
+claim "--quiet suppresses it" test ! -s quiet.err
 nid one.nid 'Deflection|Scan forward|m' 'Z-Axis|Scan forward|m'
 rc-import one.nid 2>one.err >/dev/null
-claim "nor where there is no choice" test ! -s one.err
+claim "a file with one height causes no message" test ! -s one.err
 nid none.nid 'Deflection||m' 'Phase||deg'
-claim "a deflection that is read for want of a height is" \
+claim "a deflection in place of a height causes a message" \
     warns "no channel in metres is named as a topography: 'Deflection' \(1\) is read" rc-import none.nid
 nid single.nid 'Phase||m'
 rc-import single.nid 2>single.err >/dev/null
-claim "the only channel of a file is not" test ! -s single.err
+claim "the only channel of a file causes none" test ! -s single.err
 
 # ---- --channel ----
 
@@ -96,25 +96,25 @@ claim "the only channel of a file is not" test ! -s single.err
 takes() {
     rc-import --channel "$2" many.nid -o taken.rcg 2>taken.err && [ "$(first_value taken.rcg)" = "$1" ]
 }
-claim "--channel takes the beginning of a name" takes 1 defl
-claim "as far as it is unique" takes 3 'z-axis, scan b'
-claim "a number is that of the list" takes 2 2
-claim "a whole name comes first" takes 4 'Z-Axis Sensor, Scan forward'
-claim "in either case" takes 1 'DEFLECTION, scan forward'
+claim "--channel accepts the first letters of a name" takes 1 defl
+claim "they must be unique" takes 3 'z-axis, scan b'
+claim "a number counts as in --list" takes 2 2
+claim "a complete name has priority" takes 4 'Z-Axis Sensor, Scan forward'
+claim "upper and lower case are equal" takes 1 'DEFLECTION, scan forward'
 refuses 1 "many.nid: 'z-a' begins the names of 3 channels: 2 'Z-Axis, Scan forward' in m, 3 'Z-Axis, Scan backward' in m, 4 'Z-Axis Sensor, Scan forward' in m" \
     "several that it could be are named" 'rc-import --channel z-a many.nid'
 refuses 1 "no channel 'Axis'; there are 1 'Deflection, Scan forward' in m, 2 " \
     "the middle of a name is none" 'rc-import --channel Axis many.nid'
 refuses 1 "no channel ''; there are 1" "nor is nothing" "rc-import --channel '' many.nid"
 refuses 1 "no channel '6'; there are 1" "nor a number past the last" "rc-import --channel 6 many.nid"
-claim "--list marks what --channel takes" says '^[*] +1 .*Deflection' rc-import --list --channel defl many.nid
+claim "--list marks the channel of --channel" says '^[*] +1 .*Deflection' rc-import --list --channel defl many.nid
 nid twins.nid 'Height||m' 'Height||m' 'Height 2||m'
-claim "of two channels of one name the first is read, which is said" \
+claim "of two channels with the same name the first is read, with a message" \
     warns "2 channels are called 'Height': the first, 1, is read; --channel takes another by its number" \
     rc-import --channel Height twins.nid
 nid numbers.nid '2||m' 'Height||m'
 rc-import --channel 2 numbers.nid -o number.rcg 2>number.err
-claim "a channel called 2 is meant by 2" test "$(first_value number.rcg)" = 1
+claim "a channel with the name 2 has priority over the number 2" test "$(first_value number.rcg)" = 1
 
 # ---- real files ----
 
@@ -124,9 +124,9 @@ if [ -d "$corpus" ]; then
         rc-import "$corpus/$file" -o real.rcg 2>real.err
         claim "$file: $name" grep -aqxF "file.channel=$name" real.rcg
         if [ -n "$said" ]; then
-            claim "$file: which is said" grep -q "$said: .$name" real.err
+            claim "$file: a message says so" grep -q "$said: .$name" real.err
         else
-            claim "$file: there is nothing to say" bash -c '! grep -v "mask of the file covers" real.err'
+            claim "$file: there is no message" bash -c '! grep -v "mask of the file covers" real.err'
         fi
     done <<'END'
 nanosurf-nid/NSFopen__circles.nid|2 channels are heights|Topography, Scan forward
@@ -138,11 +138,11 @@ mi-picoview/SurfaceTopography__mi-1.mi||Topography
 generated/frt-2.gwy||Topography (top sensor) 1
 metropro-dat/SurfaceTopography__metropro-1.dat||Phase
 END
-    claim "the way back of a scan says so" says '2 .* Height \(retrace\)$' \
+    claim "a backward scan has this in its name" says '2 .* Height \(retrace\)$' \
         rc-import --list "$corpus/nanoscope/SurfaceTopography__di-2.di"
     rc-import --list "$corpus/jpk-image/AFMReader__sample_0.jpk" >jpk.txt 2>jpk.err
     claim "channels in other units are listed with their ranges" grep -q ' 9 .* deg  *-9[.]6.* -8[.]2.* Lock-In Phase$' jpk.txt
-    claim "without a word on standard error" test ! -s jpk.err
+    claim "standard error is empty" test ! -s jpk.err
 else
     echo "not tried: RC_CORPUS names no folder of real files"
 fi

@@ -57,7 +57,7 @@ length=$(awk 'NR == 2 { a = $1 } END { printf "%.17g", $1 - a }' uneven.txt)
 median=$(awk 'NR > 2 { printf "%.17g\n", $1 - p } { p = $1 }' uneven.txt | sort -g |
     awk '{ a[NR] = $1 } END { printf "%.17g", (a[int((NR + 1) / 2)] + a[int(NR / 2) + 1]) / 2 }')
 step=$(awk -v l="$length" -v m="$median" 'BEGIN { printf "%.17g", l / int(l / m + 0.5) }')
-claim "--even resamples it, and says what is missing" \
+claim "--even resamples it, and a message counts the missing points" \
     warns "uneven.txt: [0-9]+ of [0-9]+ nodes are missing: the points next to them are, or are more than 5 steps apart" \
     rc-import --even uneven.txt -o even.rcg
 near "$(header dx even.rcg)" "$(awk -v s="$step" 'BEGIN { printf "%.17g", s * 1e-6 }')" "$rounding" \
@@ -65,29 +65,29 @@ near "$(header dx even.rcg)" "$(awk -v s="$step" 'BEGIN { printf "%.17g", s * 1e
 near "$(header dy even.rcg)" "$(header dx even.rcg)" "$same" "dy is dx"
 heights even.rcg >even.heights
 resampled "$step" "$(awk -v s="$step" -v m="$median" 'BEGIN { print 5 * (s > m ? s : m) }')" uneven.txt >even.truth
-claim "heights lie on straight lines between neighbours, or are missing" same_heights even.heights even.truth
-claim "in a gap and beside a missing height" test "$(grep -c nan even.truth)" -ge 6
+claim "heights are interpolated linearly between neighbours, or missing" same_heights even.heights even.truth
+claim "they are missing in a gap and beside a missing height" test "$(grep -c nan even.truth)" -ge 6
 near "$(head -n 1 even.heights)" 0 1 "the first point is a node"
 near "$(tail -n 1 even.heights)" "$(awk 'END { printf "%.17g", $2 * 1e-9 }' uneven.txt)" "$rounding" "so is the last"
-claim "history says so with the step in SI" \
+claim "the history has the step in SI" \
     test "$(header history even.rcg)" = "rc-import $(rc-import --version | sed 's/.* //') --even $(header dx even.rcg)"
 
 for option in '--even=0.35um' '--even 0.35um' '--even 3.5e-7' '--ev 350nm'; do
     # shellcheck disable=SC2086
     rm -f fine.rcg
     rc-import --quiet $option uneven.txt -o fine.rcg
-    claim "$option: history" test "$(header history fine.rcg)" = \
+    claim "$option: the history is right" test "$(header history fine.rcg)" = \
         "rc-import $(rc-import --version | sed 's/.* //') --even 3.5e-07"
     heights fine.rcg >fine.heights
     resampled 0.35 "$(awk -v m="$median" 'BEGIN { print 5 * m }')" uneven.txt >fine.truth
-    claim "$option: heights" same_heights fine.heights fine.truth
+    claim "$option: the heights are right" same_heights fine.heights fine.truth
 done
 rc-import --quiet --even 3um uneven.txt -o coarse.rcg
 heights coarse.rcg >coarse.heights
 resampled 3 15 uneven.txt >coarse.truth
-claim "a coarse step bridges wider gaps, and what is left at the end is cut" same_heights coarse.heights coarse.truth
-claim "the option may stand last" bash -c 'rc-import uneven.txt --quiet --even | cmp - even.rcg'
-claim "and a file may follow it" bash -c 'rc-import --quiet --even uneven.txt | cmp - even.rcg'
+claim "a coarse step bridges wider gaps, and the remainder at the end is cut" same_heights coarse.heights coarse.truth
+claim "the option may be the last word" bash -c 'rc-import uneven.txt --quiet --even | cmp - even.rcg'
+claim "a file may follow it" bash -c 'rc-import --quiet --even uneven.txt | cmp - even.rcg'
 cp uneven.txt 2
 claim "./2 is a file" bash -c 'rc-import --quiet --even ./2 | grep -a ^source=2'
 
@@ -100,34 +100,34 @@ claim "a straight profile stays the same line" test $? = 0
 
 # a peak and a pit between the nodes: 10 at 1.5 and -4 at 4.5, among heights from 0 to 2; the span is 14
 printf 'x [um] z [nm]\n0 0\n1 0\n1.5 10\n1.9 2\n2 2\n3 1\n4 1\n4.5 -4\n4.8 0\n5 0\n6 0\n' >peak.txt
-claim "what lies between the nodes is told of" \
+claim "a message counts the extremes lost between nodes" \
     warns 'peak.txt: between the nodes the file has a point 0.57 of its span of heights above the highest node and one 0.29 below the lowest: a finer --even STEP' \
     rc-import --even=1um peak.txt
 printf 'x [um] z [nm]\n0 1\n1 1\n1.5 10\n1.8 1\n2 1\n3 1\n4 1\n' >spike.txt
-claim "where the nodes are all alike too" warns 'above the highest' rc-import --even=1um spike.txt
-claim "and nothing where every extreme is a node" bash -c '! rc-import --even=0.1um peak.txt 2>&1 >out.rcg | grep between'
-claim "of a list of points too" warns 'row.xyz: between the nodes the file has a point 0.57 ' \
+claim "also if all nodes are equal" warns 'above the highest' rc-import --even=1um spike.txt
+claim "there is none if every extreme is a node" bash -c '! rc-import --even=0.1um peak.txt 2>&1 >out.rcg | grep between'
+claim "the same holds for a list of points" warns 'row.xyz: between the nodes the file has a point 0.57 ' \
     bash -c "awk '{ print NR == 1 ? \"x[um] y[um] z[nm]\" : \$1 \" 2 \" \$2 }' peak.txt >row.xyz; rc-import --even=1um row.xyz"
 printf 'aISO-1.0\nNumPoints = 7\nNumProfiles = 1\nXscale = 1e-6\nYscale = 1e-6\nZscale = 1e-9\nDataType = 7\n*\n0 1 0 9 1 0 -1\n*\n' >p.sdf
-claim "and of other formats" warns 'p.sdf: between the nodes the file has a point 0.8 of .* one 0 below' rc-import --even=2um p.sdf
+claim "the same holds for other formats" warns 'p.sdf: between the nodes the file has a point 0.8 of .* one 0 below' rc-import --even=2um p.sdf
 
 # falling positions
 (head -n 1 uneven.txt; tail -n +2 uneven.txt | tac) >falling.txt
-claim "falling positions are turned round" bash -c '
+claim "falling positions are reversed" bash -c '
     cmp <(rc-import --quiet --even falling.txt | sed "s/^source=.*//; s/crc32 [0-9a-f]*$//") <(sed "s/^source=.*//; s/crc32 [0-9a-f]*$//" even.rcg)'
 
 # ---- profiles with equal spacings ----
 
 printf 'x [um] z [nm]\n0 1\n1 2\n2 4\n3 3\n' >plain.txt
-claim "an even profile is left as it is" bash -c '
+claim "an even profile does not change" bash -c '
     cmp <(rc-import --even plain.txt | sed "s/^history=.*//; s/crc32 [0-9a-f]*$//") <(rc-import plain.txt | sed "s/^history=.*//; s/crc32 [0-9a-f]*$//")'
 rc-import --even=0.5um plain.txt -o half.rcg
-claim "but for another step" same_heights <(heights half.rcg) <(printf '%s\n' 1e-9 1.5e-9 2e-9 3e-9 4e-9 3.5e-9 3e-9)
+claim "another step changes it" same_heights <(heights half.rcg) <(printf '%s\n' 1e-9 1.5e-9 2e-9 3e-9 4e-9 3.5e-9 3e-9)
 printf 'aISO-1.0\nNumPoints = 4\nNumProfiles = 1\nXscale = 1e-6\nYscale = 1e-6\nZscale = 1e-9\nDataType = 7\n*\n1 2 4 3\n*\n' >p.sdf
 rc-import --even=0.5um p.sdf -o sdf.rcg
-claim "of any format" same_heights <(heights sdf.rcg) <(heights half.rcg)
+claim "the same holds for any format" same_heights <(heights sdf.rcg) <(heights half.rcg)
 printf '# Width: 2 um\n# Height: 2 um\n# Value units: nm\n1 2 3\n4 5 6\n' >map.txt
-claim "a map is no profile" bash -c 'rc-import --even map.txt | grep -a ^ny=2'
+claim "a map is refused, because it is no profile" bash -c 'rc-import --even map.txt | grep -a ^ny=2'
 refuses 1 "map.txt: --even STEP resamples profiles, and this is a map of 2 rows" "and takes no step" 'rc-import --even=1um map.txt'
 
 # ---- without a unit ----
@@ -138,8 +138,8 @@ refuses 1 "bare.txt: the file does not give the spacing in x: --dx LENGTH says i
 refuses 1 "the positions have no unit, so that --even takes no step here" "a step in metres is refused" \
     'rc-import --even=1um --z-unit nm bare.txt'
 rc-import --quiet --even --dx "${step}um" --z-unit nm bare.txt -o bare.rcg
-claim "--dx says how wide it is" same_heights <(heights bare.rcg) even.truth
-claim "and history holds it" grep -aq "^history=rc-import [0-9.]* --dx $(header dx bare.rcg) --even --z-unit 1e-09$" bare.rcg
+claim "--dx gives the width" same_heights <(heights bare.rcg) even.truth
+claim "the history has it" grep -aq "^history=rc-import [0-9.]* --dx $(header dx bare.rcg) --even --z-unit 1e-09$" bare.rcg
 refuses 2 "^rc-import: --even STEP and --dx both say how wide a step is: give one" "both are a wrong command line" \
     'rc-import --even=1um --dx 1um uneven.txt'
 
@@ -153,12 +153,12 @@ for file in row.xyz column.xyz slant.xyz; do
     refuses 1 "$file: the positions are not evenly apart: .*--even" "$file: refused" \
         "rc-import --dx 1um --z-unit nm $file"
     rc-import --quiet --even --dx "${step}um" --z-unit nm "$file" -o line.rcg
-    claim "$file: read along the line" same_heights <(heights line.rcg) even.truth
+    claim "$file: it is read along the line" same_heights <(heights line.rcg) even.truth
 done
 cp row.xyz row.txt
-claim "a row of points is known by its content" bash -c 'rc-import --list --even --dx 1um row.txt | grep ": xyz$"'
+claim "a row of points is recognised by its content" bash -c 'rc-import --list --even --dx 1um row.txt | grep ": xyz$"'
 rc-import --quiet --even --dx "${step}um" --z-unit nm any.xyz -o any.rcg
-claim "in any order, from the end that is nearer to the first" same_heights <(heights any.rcg | tac) even.truth
+claim "points in any order start at the end nearer to the first" same_heights <(heights any.rcg | tac) even.truth
 
 # ---- refusals ----
 

@@ -14,28 +14,28 @@ same_as() {
 for format in x3p sdf gsf npy sur gwy h5 xyz; do
     rc-export -o "ball.$format" ball.rcg
     gzip -k "ball.$format"
-    claim "$format: the packed file is the same as the plain one" same_as "ball.$format" "ball.$format.gz"
+    claim "$format: the compressed file gives the same frame as the plain one" same_as "ball.$format" "ball.$format.gz"
 done
 gzip -k map.txt
-claim "so is text" same_as map.txt map.txt.gz
-claim "and standard input" bash -c 'rc-import - <map.txt.gz | cmp - <(rc-import - <map.txt)'
-claim "the source is the name of the file that is there" says '^source=map.txt.gz$' rc-import map.txt.gz
+claim "compressed text too" same_as map.txt map.txt.gz
+claim "standard input too" bash -c 'rc-import - <map.txt.gz | cmp - <(rc-import - <map.txt)'
+claim "the source is the name of the compressed file" says '^source=map.txt.gz$' rc-import map.txt.gz
 claim "the suffix is not needed" bash -c 'cp map.txt.gz packed && rc-import packed | grep -a ^nx=3'
-claim "--list names it and what it is" says '^map.txt.gz: ascii$' rc-import --list map.txt.gz
+claim "--list names the file and its format" says '^map.txt.gz: ascii$' rc-import --list map.txt.gz
 
 # two columns are a profile or a list of points only by the name of the file
 printf '0 0 1\n1 0 2\n2 0 3\n' >line.xyz
 gzip -k line.xyz
 cp line.xyz.gz line.gz
-claim "the suffix before .gz tells the format" says 'line.xyz.gz: xyz$' rc-import --list line.xyz.gz
-claim "without one the content does" bash -c '! rc-import --list line.gz 2>&1 | grep ": xyz$"'
+claim "the suffix before .gz selects the format" says 'line.xyz.gz: xyz$' rc-import --list line.xyz.gz
+claim "without it the content does" bash -c '! rc-import --list line.gz 2>&1 | grep ": xyz$"'
 
 # ---- members, padding, damage ----
 
 (head -n 4 map.txt | gzip; tail -n 2 map.txt | gzip) >members.txt.gz
-claim "several members are one file" same_as map.txt members.txt.gz
+claim "several members form one file" same_as map.txt members.txt.gz
 (gzip -c map.txt; head -c 700 /dev/zero) >padded.txt.gz
-claim "zeros behind the last are nothing" same_as map.txt padded.txt.gz
+claim "zeros after the last member are ignored" same_as map.txt padded.txt.gz
 (gzip -c map.txt; printf 'more') >more.txt.gz
 refuses 1 "more.txt.gz: behind its gzip data stand 4 bytes that are no gzip data" "other bytes are" 'rc-import more.txt.gz'
 size=$(wc -c <ball.sdf.gz)

@@ -28,36 +28,36 @@ near "$(field missing infinite.json)" 2 "$same" "they are missing points"
 near "$(field maximum infinite.json)" 6e-6 "$converted" "the highest is the highest that was measured"
 near "$(field minimum infinite.json)" 1e-6 "$converted" "and so is the lowest"
 claim "missing points can be filled" rc-detrend --fill infinite.rcg -o filled.rcg
-claim "--list has the range of those measured" says '^[*] +1 .* m +1e-06 +6e-06 ' rc-import --list infinite.x3p
+claim "--list has the range of the measured points" says '^[*] +1 .* m +1e-06 +6e-06 ' rc-import --list infinite.x3p
 rc-import --quiet infinite.x3p 2>quiet.err >/dev/null
-claim "--quiet says nothing" test ! -s quiet.err
+claim "--quiet suppresses the warning" test ! -s quiet.err
 x3p all.x3p ISO5436_2 inf inf inf
 refuses 1 "all.x3p: every value that is there is infinite" "where all of them are the file is refused" 'rc-import all.x3p'
 
 # ---- elsewhere ----
 
-claim "in text" warns "1 of 4 values is infinite and read as missing, the first at column 1, row 0" \
+claim "the same holds in text" warns "1 of 4 values is infinite and read as missing, the first at column 1, row 0" \
     bash -c 'printf "1 inf\n3 4\n" | rc-import --dx 1um --z-unit nm -'
 printf 'aISO-1.0\nNumPoints = 2\nNumProfiles = 2\nXscale = 1e-6\nYscale = 1e-6\nZscale = 1e-9\nDataType = 7\n*\n1 -inf\nBAD 4\n*\n' >a.sdf
-claim "in SDF" warns "a.sdf: 1 of 4 values is infinite" rc-import a.sdf
+claim "the same holds in SDF" warns "a.sdf: 1 of 4 values is infinite" rc-import a.sdf
 {
     printf 'Gwyddion Simple Field 1.0\nXRes = 2\nYRes = 1\nXReal = 2e-6\nXYUnits = m\nZUnits = m\n\0\0\0\0'
     perl -e 'print pack("f<2", 9**9**9, 1e-6)'
 } >a.gsf
 size=$(($(wc -c <a.gsf) - 8))
-claim "the GSF header ends at a multiple of four" test $((size % 4)) = 0
-claim "in floats" warns "a.gsf: 1 of 2 values is infinite" rc-import a.gsf
+claim "the GSF header ends at a multiple of four bytes" test $((size % 4)) = 0
+claim "the same holds for its floats" warns "a.gsf: 1 of 2 values is infinite" rc-import a.gsf
 
 # ---- the root ----
 
 x3p old.x3p ISO5436 1e-7 2e-7 3e-7 4e-7 5e-7 6e-7
-claim "a root without the part of the standard is read, with a warning" \
+claim "an X3P without the part of the standard is read, with a warning" \
     warns "old.x3p: the root of its main.xml is ISO5436, where the standard has ISO5436_2" rc-import old.x3p -o old.rcg
 x3p new.x3p ISO5436_2 1e-7 2e-7 3e-7 4e-7 5e-7 6e-7
 rc-import new.x3p 2>new.err | sed 's/^source=.*//' >new.txt
-claim "as the same heights" bash -c '
+claim "its heights are right" bash -c '
     cmp <(sed "s/^source=.*//; s/crc32 [0-9a-f]*$//" old.rcg) <(sed "s/crc32 [0-9a-f]*$//" new.txt)'
-claim "the other needs no warning" test ! -s new.err
+claim "the complete file causes no warning" test ! -s new.err
 x3p other.x3p html 1e-6 2e-6 3e-6
 refuses 1 "the root of its main.xml is 'html', not ISO5436_2" "another root is refused" 'rc-import other.x3p'
 

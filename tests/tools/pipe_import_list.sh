@@ -7,18 +7,18 @@ sed 's/Topo/Other/' a.txt >c.txt
 printf 'neither here nor there\n' >b.txt
 refuses 1 '^rc-import: b.txt: not recognised' "a bad file among good ones is told of" \
     'rc-import --list a.txt b.txt c.txt >list.txt'
-claim "those before and after it are listed" test "$(grep -o '^[ac].txt: ascii\|Topo$\|Other$' list.txt | tr '\n' ' ')" = \
+claim "--list continues before and after a bad file" test "$(grep -o '^[ac].txt: ascii\|Topo$\|Other$' list.txt | tr '\n' ' ')" = \
     "a.txt: ascii Topo c.txt: ascii Other "
 refuses 1 '^rc-import: nowhere.txt: No such file' "so is one that is not there" \
     'rc-import --list nowhere.txt a.txt >list.txt'
-claim "the next one is listed all the same" grep -q Topo list.txt
+claim "the file after a bad one is listed" grep -q Topo list.txt
 refuses 1 '^rc-import: [.]: reading failed \(Is a directory\)' "so is a folder" 'rc-import --list . a.txt'
 refuses 1 '^rc-import: b.txt: not recognised' "--quiet hides no failure" 'rc-import --quiet --list b.txt a.txt'
 refuses 1 '^rc-import: b.txt: ' "with -o" 'rc-import --list -o listed.txt b.txt a.txt'
-claim "the list is there" grep -q Topo listed.txt
-claim "nothing bad, status 0" rc-import --list a.txt c.txt
+claim "the list is complete" grep -q Topo listed.txt
+claim "without a bad file the status is 0" rc-import --list a.txt c.txt
 rc-import --list a.txt b.txt c.txt >both.txt 2>&1
-claim "what a terminal shows is in the order of the files" \
+claim "on a terminal lists and messages appear in the order of the files" \
     test "$(grep -oE '^a.txt|b.txt|^c.txt' both.txt | tr '\n' ' ')" = "a.txt b.txt c.txt "
 refuses 1 'b.txt: not recognised' "without --list the first bad file ends it" 'rc-import a.txt b.txt c.txt'
 
@@ -27,10 +27,10 @@ refuses 1 'b.txt: not recognised' "without --list the first bad file ends it" 'r
 printf '# Channel: %s\n# Width: 4 um\n# Height: 3 um\n# Value units: %s\n1 2 3 4\n5 6 7 8\n9 10 11 12\n' \
     Phase deg Height nm >two.txt
 claim "of two images in one text the height is taken" says '^[*] +2 +4 +3 +1e-06 +1e-06 m ' rc-import --list two.txt
-claim "the other one is a channel too" says '^  +1 +4 +3 +1e-06 +1e-06 deg +1 +12 Phase$' rc-import --list two.txt
-claim "that --channel takes" says '^unit=deg$' rc-import --channel phase two.txt
+claim "the other image is a channel too" says '^  +1 +4 +3 +1e-06 +1e-06 deg +1 +12 Phase$' rc-import --list two.txt
+claim "--channel selects it" says '^unit=deg$' rc-import --channel phase two.txt
 printf '# Daisy frame view snapshot\n# x-pixels: 4\n# y-pixels: 3\n# x-length: 8\n# y-length: 6\n# x-unit: um\n' >daisy.asc
 printf '# y-unit: um\n# z-unit: nm\n# Start of Data:\n1 2 3 4\n5 6 7 8\n9 10 11 12\n' >>daisy.asc
-claim "lengths are in the unit that another line names" says ' 4 +3 +2e-06 +2e-06 m ' rc-import --list daisy.asc
+claim "lengths have the unit that another line gives" says ' 4 +3 +2e-06 +2e-06 m ' rc-import --list daisy.asc
 
 finish

@@ -6,46 +6,46 @@
 # spacing of 7.8 "m"
 rc-synth wave --nx 300 --ny 200 --dx 7.8m --amplitude 1.5m --wavelength 780m | rc-export -o um.x3p
 claim "a map of kilometres is read as the standard says" says '^dx=7[.]8$' rc-import um.x3p
-claim "and warned of, with the options that mend it" \
+claim "a warning names the options that correct it" \
     warns '^rc-import: um.x3p: the map is 2340 m by 1560 m, which is implausible: if the file means another unit, --dx and --dy give the spacing$' \
     rc-import um.x3p
 quiet() { "$@" >out.rcg 2>err.txt && [ ! -s err.txt ]; }
-claim "once" test "$(rc-import um.x3p 2>&1 >out.rcg | wc -l)" = 1
-claim "--quiet hides it" quiet rc-import --quiet um.x3p
+claim "it is printed once" test "$(rc-import um.x3p 2>&1 >out.rcg | wc -l)" = 1
+claim "--quiet suppresses it" quiet rc-import --quiet um.x3p
 rc-import --dx 7.8um --z-unit um um.x3p -o mended.rcg 2>mended.err
-claim "with --dx and --z-unit it is as it was meant" \
+claim "--dx and --z-unit correct the map" \
     bash -c 'rc-info --json mended.rcg | tee mended.json | grep -q "\"dx\": 7.8e-06"'
 near "$(sed 's/.*"maximum": \([^,}]*\).*/\1/' mended.json)" \
     "$(awk 'BEGIN { printf "%.17g", 1.5e-6 * cos(atan2(0, -1) / 100) }')" "$six_digits" "so are its heights" # beside the crest
-claim "and nothing is implausible" bash -c '! grep -q implausible mended.err'
+claim "it causes no warning then" bash -c '! grep -q implausible mended.err'
 
 matrix() { # WIDTH HEIGHT UNIT: writes 4 x 3 heights of 1 to 12
     printf '# Width: %s\n# Height: %s\n# Value units: %s\n1 2 3 4\n5 6 7 8\n9 10 11 12\n' "$@"
 }
 matrix '0.9 m' '0.9 m' nm >large.txt
-claim "a map of less than a metre is none of these" quiet rc-import large.txt
+claim "a map of less than a metre causes no warning" quiet rc-import large.txt
 matrix '1.1 m' '0.9 m' nm >larger.txt
-claim "one above is" warns 'larger.txt: the map is 1.1 m by 0.9' rc-import larger.txt
+claim "a larger one does" warns 'larger.txt: the map is 1.1 m by 0.9' rc-import larger.txt
 matrix '11 nm' '11 nm' pm >small.txt
-claim "a map of more than 10 nm is none" quiet rc-import small.txt
+claim "a map of more than 10 nm causes no warning" quiet rc-import small.txt
 matrix '11 nm' '9 nm' pm >smaller.txt
-claim "one below is" warns 'smaller.txt: the map is 1.1e-08 m by 9' rc-import smaller.txt
-claim "not where the spacing is given" quiet rc-import --quiet --dx 1m smaller.txt
+claim "a smaller one does" warns 'smaller.txt: the map is 1.1e-08 m by 9' rc-import smaller.txt
+claim "not if the spacing is given" quiet rc-import --quiet --dx 1m smaller.txt
 matrix '10 um' '10 um' um >tall.txt # they span 11 um
-claim "heights that span more than the longer side are warned of" \
+claim "heights with a range above the longer side cause a warning" \
     warns 'tall.txt: the heights span 1.1e-05 m, more than the 1e-05 m of the longer side, which is implausible: .* --z-unit' \
     rc-import tall.txt
-claim "not by a little less" quiet bash -c "rc-import <(sed 's/10 um/11.1 um/' tall.txt)"
-claim "nor where the unit is given" bash -c '! rc-import --z-unit um tall.txt 2>&1 >out.rcg | grep implausible'
+claim "a slightly smaller range causes none" quiet bash -c "rc-import <(sed 's/10 um/11.1 um/' tall.txt)"
+claim "a given unit causes none" bash -c '! rc-import --z-unit um tall.txt 2>&1 >out.rcg | grep implausible'
 printf 'x [m] z [um]\n0 1\n1 2\n2 3\n' >long.txt
-claim "a profile has one length" warns 'long.txt: the profile is 3 m long, which is implausible: .* --dx gives the spacing$' \
+claim "the length of a profile is checked alone" warns 'long.txt: the profile is 3 m long, which is implausible: .* --dx gives the spacing$' \
     rc-import long.txt
 
 # the check applies to the map of any file
 rc-synth wave --nx 30 --ny 20 --dx 7.8m --amplitude 1.5m --wavelength 78m -o wide.rcg
 for format in x3p sdf sdf-binary gsf gwy csv hdf5 sur mat; do
     rc-export --format $format wide.rcg >"wide.$format"
-    claim "a map of 234 m in $format" warns 'the map is 234 m by 156' rc-import "wide.$format"
+    claim "a map of 234 m in $format causes a warning" warns 'the map is 234 m by 156' rc-import "wide.$format"
 done
 
 finish

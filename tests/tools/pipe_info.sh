@@ -6,8 +6,8 @@ rc-import --dx 1.1um --dy 1um --z-unit nm map.txt -o map.rcg
 
 # ---- JSON ----
 
-claim "JSON of a map" bash -c 'rc-info --json map.rcg >map.json'
-claim "a line a frame, which a parser reads" bash -c \
+claim "the JSON of a map is written" bash -c 'rc-info --json map.rcg >map.json'
+claim "each frame has a line that a parser reads" bash -c \
     '[ "$(wc -l <map.json)" = 1 ] && perl -MJSON::PP -e "decode_json(\$_) for <>" map.json'
 near "$(field nx map.json)" 3 "$same" "nx"
 near "$(field ny map.json)" 2 "$same" "ny"
@@ -26,23 +26,23 @@ claim "source and history are among the keys" grep -q \
     '"keys": {.*"source": "map.txt".*"history": "rc-import' map.json
 rc-synth sphere --radius 1mm --nx 16 --dx 1um |
     rc-solve --load 1mN --estar 100GPa --output pressure --quiet | rc-info --json >p.json
-claim "a slope is a matter of heights" grep -q '"unit": "Pa".*"rms_slope": null' p.json
+claim "only heights have a slope" grep -q '"unit": "Pa".*"rms_slope": null' p.json
 near "$(awk -v s="$(field sum p.json)" 'BEGIN { printf "%.17g", s * 1e-12 }')" 1e-3 "$summed" \
     "a pressure's sum times dx dy is its load"
-claim "what is not there is null" \
+claim "unknown values are null" \
     says '"minimum": null.*"mean": null, "rms": null, "rms_slope": null' bash -c '
     printf "NaN NaN\nNaN NaN\n" | rc-import --dx 1um --z-unit nm - | rc-info --json'
 
 # ---- text ----
 
-claim "text of a map" bash -c 'rc-info map.rcg >map.out'
+claim "the text of a map is printed" bash -c 'rc-info map.rcg >map.out'
 for line in '^map.txt, case 1, frame 1 \(height\)$' '^  grid +3 x 2 nodes, dx 1.1 um, dy 1 um$' \
     '^  size +3.3 um x 2 um$' '^  minimum +1 nm$' '^  maximum +8 nm$' '^  mean +3.6 nm$' \
     '^  rms +2.41661 nm$' '^  rms slope +0.00219692$' '^  missing +1 \(16.7 %\)$' \
     '^  history +rc-import [0-9.]+ --dx 1.1e-06'; do
     claim "  has the line $line" grep -qE "$line" map.out
 done
-claim "history goes step by step" bash -c '
+claim "the history is printed step by step" bash -c '
     rc-detrend --plane map.rcg | rc-info | grep -A 1 "^  history  *rc-import" >steps &&
     grep -q "^             rc-detrend [0-9.]* --plane" steps'
 claim "control characters do not reach a terminal" bash -c '
@@ -51,9 +51,9 @@ claim "control characters do not reach a terminal" bash -c '
 
 # ---- several frames and streams ----
 
-claim "files one after another are cases" test "$(rc-info --json map.rcg - map.rcg <map.rcg |
+claim "several files become several cases" test "$(rc-info --json map.rcg - map.rcg <map.rcg |
     grep -o '"case": [0-9]*, "frame": 1,' | tr -d '\n')" = '"case": 1, "frame": 1,"case": 2, "frame": 1,"case": 3, "frame": 1,'
-claim "-o FILE" bash -c 'rc-info --json -o file.json map.rcg && cmp file.json map.json'
+claim "-o FILE writes to the file" bash -c 'rc-info --json -o file.json map.rcg && cmp file.json map.json'
 
 # ---- refusals ----
 
