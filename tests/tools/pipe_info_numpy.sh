@@ -11,7 +11,7 @@ export PYTHONPATH="$RC_SOURCE/python" PYTHONDONTWRITEBYTECODE=1
 rc-import --quiet "$RC_SOURCE/sample_surfaces/rough-steel.x3p" | rc-detrend --quiet --poly 2 --fill -o steel.rcg
 rc-synth selfaffine --nx 150 --ny 90 --dx 1um --dy 1.7um --hurst 0.4 --rms-height 50nm --seed 8 | rc-pick --set periodic=no -o rough.rcg
 for surface in steel rough; do
-    claim "$surface: features, profiles and material ratio, as numpy has them" "$python" "$RC_SOURCE/tests/tools/python_parameters.py" $surface.rcg
+    claim "$surface: features, profiles and material ratio agree with numpy" "$python" "$RC_SOURCE/tests/tools/python_parameters.py" $surface.rcg
     cat claim.out
 done
 

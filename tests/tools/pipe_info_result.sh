@@ -19,10 +19,10 @@ for line in '  load       18 mN' '  contact    8 um2, 66.7 % of the map (4 of 6 
     '  approach   125 nm' '  hardness   3 GPa, reached on 4 um2 (2 nodes)' '  converged  yes'; do
     claim "$line" grep -qxF -- "$line" hand.txt
 done
-claim "they stand at the top" bash -c 'sed -n 2p hand.txt | grep -q "^  load" && sed -n 8p hand.txt | grep -q "^  grid"'
+claim "the figures of a result are at the top" bash -c 'sed -n 2p hand.txt | grep -q "^  load" && sed -n 8p hand.txt | grep -q "^  grid"'
 rc-info --json hand.rcg >hand.json
-claim "JSON that a parser reads" perl -MJSON::PP -e 'decode_json($_) for <>' hand.json
-claim "  in an object of its own" grep -q '"result": {"load": .*}, "keys": {' hand.json
+claim "the JSON is read by a parser" perl -MJSON::PP -e 'decode_json($_) for <>' hand.json
+claim "  the figures form an object" grep -q '"result": {"load": .*}, "keys": {' hand.json
 near "$(field load hand.json)" 0.018 "$rounding" "  load of the values, not of the key"
 near "$(field contact_nodes hand.json)" 4 "$same" "  nodes in contact"
 near "$(field contact_area hand.json)" 8e-12 "$rounding" "  their area"
@@ -31,26 +31,26 @@ near "$(field max_pressure hand.json)" 3e9 "$same" "  the largest pressure"
 near "$(field approach hand.json)" 1.25e-7 "$same" "  approach"
 near "$(field hardness hand.json)" 3e9 "$same" "  hardness"
 near "$(field plastic_area hand.json)" 4e-12 "$rounding" "  the area that yields"
-claim "  and it converged" grep -q '"converged": true}' hand.json
+claim "  the key converged is true" grep -q '"converged": true}' hand.json
 
 # ---- unknown figures ----
 
 printf "$values" | pressure "" >bare.rcg
 rc-info bare.rcg >bare.txt
-claim "without keys there are load and contact" bash -c 'grep -q "^  load       18 mN" bare.txt && grep -q "^  contact    8 um2" bare.txt'
-claim "  and nothing else" lacks '^  (approach|hardness|converged)' bare.txt
-claim "  in JSON it is null" says '"approach": null, "hardness": null, "plastic_area": null, "converged": null}' rc-info --json bare.rcg
+claim "without keys the load and the contact are printed" bash -c 'grep -q "^  load       18 mN" bare.txt && grep -q "^  contact    8 um2" bare.txt'
+claim "  nothing else is printed" lacks '^  (approach|hardness|converged)' bare.txt
+claim "  JSON has null" says '"approach": null, "hardness": null, "plastic_area": null, "converged": null}' rc-info --json bare.rcg
 printf '0 NaN 2e9\n3e9 3e9 0\n' | pressure "approach=1e-7 hardness=3e9" >holes.rcg
 rc-info holes.rcg >holes.txt
-claim "with missing values no sum and no area is told" bash -c 'lacks "^  (load|contact)" holes.txt && ! grep -q "at most" holes.txt'
-claim "  but what the keys say" bash -c 'grep -qx "  approach   100 nm" holes.txt && grep -qx "  hardness   3 GPa" holes.txt'
+claim "with missing values neither sum nor area is printed" bash -c 'lacks "^  (load|contact)" holes.txt && ! grep -q "at most" holes.txt'
+claim "  the figures of the keys are printed" bash -c 'grep -qx "  approach   100 nm" holes.txt && grep -qx "  hardness   3 GPa" holes.txt'
 printf "$values" | pressure "hardness=4e9" >elastic.rcg
-claim "a hardness that is not reached is told to be not" says '^  hardness   4 GPa, not reached$' rc-info elastic.rcg
+claim "a hardness that the pressure does not reach is printed as such" says '^  hardness   4 GPa, not reached$' rc-info elastic.rcg
 printf "$values" | pressure "hardness=soft approach=null converged=perhaps" >odd.rcg
 rc-info odd.rcg >odd.txt
-claim "keys that are no figures are not made some" lacks '^  (approach|hardness|converged)' odd.txt
-claim "a height has none of it" bash -c 'rc-pick --channel pressure --set channel=height hand.rcg | rc-info >h.txt; lacks "^  (load|contact)" h.txt'
-claim "  nor in JSON" bash -c 'rc-pick --set channel=height hand.rcg | rc-info --json >h.json; lacks "\"result\"" h.json'
+claim "keys without numbers are not printed as figures" lacks '^  (approach|hardness|converged)' odd.txt
+claim "a height has no figures of a result" bash -c 'rc-pick --channel pressure --set channel=height hand.rcg | rc-info >h.txt; lacks "^  (load|contact)" h.txt'
+claim "  its JSON has none either" bash -c 'rc-pick --set channel=height hand.rcg | rc-info --json >h.json; lacks "\"result\"" h.json'
 
 # ---- figures of a solution ----
 
@@ -64,9 +64,9 @@ done
 rc-solve --quiet --load 100mN --hardness 300000007 --estar 100GPa --type f32 --report report.json rough.rcg -o single.rcg
 rc-info --json single.rcg | head -n 1 >info.json
 near "$(field plastic_area info.json)" "$(field plastic_area report.json)" "$summed" "single precision reaches the hardness too"
-claim "  on some nodes" says 'reached on [1-9]' rc-info single.rcg
+claim "  this concerns some nodes" says 'reached on [1-9]' rc-info single.rcg
 rc-solve --quiet --load 100mN --estar 100GPa --tol 1e-18 rough.rcg -o short.rcg
 rc-info short.rcg >short.txt 2>short.err
-claim "one that stopped short is told to have" grep -qx '  converged  no: it stopped short of its accuracy' short.txt
+claim "a result that stopped short says so" grep -qx '  converged  no: it stopped short of its accuracy' short.txt
 
 finish

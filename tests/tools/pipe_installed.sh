@@ -17,7 +17,7 @@ if grep -E '^CMAKE_INSTALL_(BIN|LIB|INCLUDE|DATAROOT|MAN)DIR:[A-Z]*=/' "$build/C
     echo "not tried: this build is installed in folders of its own, whatever the prefix"
     exit 77
 fi
-claim "it is installed" cmake --install "$build" --prefix "$scratch/first"
+claim "cmake --install succeeds" cmake --install "$build" --prefix "$scratch/first"
 mv first "$prefix"
 pc=$(find "$prefix" -name libcontact.pc)
 libdir=$(dirname "$(dirname "$pc")")
@@ -57,15 +57,15 @@ has_completions() {
 }
 for source in $(tool_sources); do
     tool=$(basename "$source" .c)
-    claim "completions of $tool" has_completions "$tool"
+    claim "completions of $tool are installed" has_completions "$tool"
 done
 
 # ---- for users of numpy ----
 
-claim "the Python package is there" diff -r -x __pycache__ -x tables.json -x '*.pyi' -x samples "$RC_SOURCE/python" "$prefix/share/libcontact/python"
-claim "  with the option tables of the tools" bash -c '[ "$(wc -l <"$0")" = "$(ls "$1"/bin/rc-* | grep -vc mpi)" ]' \
+claim "the Python package is installed" diff -r -x __pycache__ -x tables.json -x '*.pyi' -x samples "$RC_SOURCE/python" "$prefix/share/libcontact/python"
+claim "  it has the option tables of the tools" bash -c '[ "$(wc -l <"$0")" = "$(ls "$1"/bin/rc-* | grep -vc mpi)" ]' \
     "$prefix/share/libcontact/python/rcg/tables.json" "$prefix"
-claim "  and the sample surfaces" cmp "$RC_SOURCE/sample_surfaces/rough-steel.x3p" "$prefix/share/libcontact/python/rcg/samples/rough-steel.x3p"
+claim "  the sample surfaces are installed" cmp "$RC_SOURCE/sample_surfaces/rough-steel.x3p" "$prefix/share/libcontact/python/rcg/samples/rough-steel.x3p"
 
 # ---- a user's program, by pkg-config ----
 
@@ -90,10 +90,10 @@ compiled() {
     eval "${CC:-cc} -std=c17 $sanitizers -o $program hertz.c $words -lm"
 }
 
-claim "pkg-config: shared" compiled "$pc" shared
+claim "pkg-config builds it with the shared library" compiled "$pc" shared
 claim "  it runs" finds_hertz ./shared "$libdir"
-claim "pkg-config: static" compiled "$pc" static --static
-claim "  it runs, by itself" finds_hertz ./static
+claim "pkg-config builds it with the static library" compiled "$pc" static --static
+claim "  it runs without the shared library" finds_hertz ./static
 
 # ---- by find_package ----
 
@@ -113,17 +113,17 @@ project() {
     cmake -S outside -B "$1" -DCMAKE_C_COMPILER="${CC:-cc}" -DCMAKE_C_FLAGS="$sanitizers" -DKINDS="$2" -DLIBRARIES="$3" \
         "${@:4}" && cmake --build "$1"
 }
-claim "find_package" project found 'shared;static' 'contact;contact_static' -DCMAKE_PREFIX_PATH="$prefix"
+claim "find_package builds it" project found 'shared;static' 'contact;contact_static' -DCMAKE_PREFIX_PATH="$prefix"
 claim "  libcontact::contact runs" finds_hertz found/with_contact
 claim "  libcontact::contact_static runs" finds_hertz found/with_contact_static
 mv "$libdir" away
-claim "  by itself" finds_hertz found/with_contact_static
-claim "  and the other does not" bash -c '! found/with_contact'
+claim "  it runs without the shared library" finds_hertz found/with_contact_static
+claim "  the other program needs the shared library" bash -c '! found/with_contact'
 mv away "$libdir"
 refuses 1 'no libcontact::contact_static, which needs fftw3 fftw3f gsl' "without FFTW and GSL, what is asked for is refused" \
     "PKG_CONFIG_LIBDIR=/ cmake -S outside -B lacking -DCMAKE_C_COMPILER='${CC:-cc}' -DKINDS=static -DCMAKE_PREFIX_PATH='$prefix'"
 bare() { PKG_CONFIG_LIBDIR=/ project bare '' contact -DCMAKE_PREFIX_PATH="$prefix"; }
-claim "  the shared library needs neither" bare
+claim "  the shared library needs neither of them" bare
 claim "  it runs" finds_hertz bare/with_contact
 refuses 1 'requested version "1\.0"' "another major version is refused" \
     "sed 's/libcontact 0.1 /libcontact 1.0 /' outside/CMakeLists.txt >newer.txt && mkdir newer && cp newer.txt newer/CMakeLists.txt &&
@@ -151,10 +151,10 @@ main(void)
 END
     cp hertz.c hertz.kept
     cp leak.c hertz.c
-    claim "flow through a gap, by pkg-config: static" compiled "$pc" leak_static --static
-    claim "  it runs, by itself" ./leak_static
+    claim "a program with flow through a gap is built by pkg-config, static" compiled "$pc" leak_static --static
+    claim "  it runs without the shared library" ./leak_static
     cp leak.c outside/hertz.c
-    claim "  by find_package" project found_leak static contact_static -DCMAKE_PREFIX_PATH="$prefix"
+    claim "  find_package builds it" project found_leak static contact_static -DCMAKE_PREFIX_PATH="$prefix"
     claim "  it runs" found_leak/with_contact_static
     cp hertz.kept hertz.c
     cp hertz.c outside
@@ -182,7 +182,7 @@ main(int argc, char **argv)
 }
 END
     for kind in '' --static; do
-        claim "by mpicc${kind:+, $kind}" bash -c "PKG_CONFIG_PATH='$(dirname "$pc")' pkg-config --cflags --libs $kind libcontact >words.txt &&
+        claim "mpicc builds it${kind:+, $kind}" bash -c "PKG_CONFIG_PATH='$(dirname "$pc")' pkg-config --cflags --libs $kind libcontact >words.txt &&
             sed -i '${kind:+s/ -lcontact/ -l:libcontact.a/}' words.txt && eval mpicc -std=c17 $sanitizers -o on_ranks shared.c \"\$(cat words.txt)\""
         claim "  it runs" env LD_LIBRARY_PATH="$libdir" OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ./on_ranks
     done
@@ -197,20 +197,20 @@ layout() {
         cmake --install other/libcontact --prefix "$1"
 }
 export DESTDIR=$scratch/stage
-claim "staged, in a folder of its architecture" layout /opt/contact -DCMAKE_INSTALL_LIBDIR=lib/x86_64-linux-gnu
+claim "a staged installation in a folder of the architecture succeeds" layout /opt/contact -DCMAKE_INSTALL_LIBDIR=lib/x86_64-linux-gnu
 unset DESTDIR
 staged=stage/opt/contact/lib/x86_64-linux-gnu
-claim "  pkg-config" compiled $staged/pkgconfig/libcontact.pc staged
+claim "  pkg-config builds the program" compiled $staged/pkgconfig/libcontact.pc staged
 claim "  it runs" finds_hertz ./staged $staged
-claim "  find_package" project found_staged '' contact -DCMAKE_PREFIX_PATH="$scratch/stage/opt/contact" \
+claim "  find_package builds the program" project found_staged '' contact -DCMAKE_PREFIX_PATH="$scratch/stage/opt/contact" \
     -DCMAKE_LIBRARY_ARCHITECTURE=x86_64-linux-gnu
 claim "  it runs" finds_hertz found_staged/with_contact
 
-claim "libraries in a folder that the prefix does not hold" \
+claim "libraries in a folder outside the prefix are installed" \
     layout "beside it" -DCMAKE_INSTALL_LIBDIR="$scratch/their own"
-claim "  pkg-config" compiled "their own/pkgconfig/libcontact.pc" apart
+claim "  pkg-config builds the program" compiled "their own/pkgconfig/libcontact.pc" apart
 claim "  it runs" finds_hertz ./apart "their own"
-claim "  find_package" project found_apart '' contact -DCMAKE_PREFIX_PATH="$scratch/beside it"
+claim "  find_package builds the program" project found_apart '' contact -DCMAKE_PREFIX_PATH="$scratch/beside it"
 claim "  it runs" finds_hertz found_apart/with_contact
 
 # names_none FOLDER...: the files that find the library contain no paths except the given ones.
@@ -218,6 +218,6 @@ names_none() {
     find "$@" \( -name '*.pc' -o -name '*.cmake' \) -exec cat {} + >finders.txt &&
         [ -s finders.txt ] && ! grep -nF -e "$build" -e "$RC_SOURCE" -e /usr/local -e "$scratch/first" finders.txt >&2
 }
-claim "no path of the build is left" names_none "$prefix" stage "beside it" "their own"
+claim "no file contains a path of the build" names_none "$prefix" stage "beside it" "their own"
 
 finish

@@ -34,11 +34,11 @@ done
 layers='2e-05,4e11,0.2;5e-06,1e10,0.45;inf,2e11,0.3'
 coat ball.rcg "$layers" >coated.rcg
 rc-stress --depths 0,20um,22um,25um,30um --components szz --report r.json coated.rcg -o s.rcg
-claim "a slice says in which material it is, an interface in that above" \
+claim "a slice has the number of its material, at an interface the upper one" \
     test "$(rc-info --json s.rcg | grep -o '"material": "[0-9]*"' | tr -dc '0-9\n' | xargs)" = '1 1 2 2 3'
-claim "  and the report too" test "$(list materials r.json)" = '1, 1, 2, 2, 3'
-claim "  and the layers" grep -qF "\"layers\": \"$layers\"" r.json
-claim "slices carry the layers, and no Poisson's ratio of one material" bash -c '
+claim "  the report has it too" test "$(list materials r.json)" = '1, 1, 2, 2, 3'
+claim "  the report has the layers" grep -qF "\"layers\": \"$layers\"" r.json
+claim "slices have the layers, and no Poisson's ratio of a single material" bash -c '
     says "layers=2e-05,4e11" rc-info s.rcg && lacks "nu=" says.out'
 claim "the report has none either" grep -q '"nu": null' r.json
 near "$(least szz value r.json)" "-$p0" 5e-3 "szz at the surface is the pressure"
@@ -47,26 +47,26 @@ claim "without layers the report says so" bash -c '
     grep -q "\"materials\": \[1, 1, 1\]" b.json'
 
 # by_material: the largest or smallest value of by_depth in each material
-claim "the largest and the least value in each material are of by_depth" bash -c '
+claim "the largest and smallest values of each material are among those by depth" bash -c '
     rc-stress --depths 20um,20.1um,30um --components mises --report m.json coated.rcg -o /dev/null
     grep -o "\"by_depth\": \[[^]]*" m.json | sed "s/.*\[//" >depth.txt
     grep -o "\"by_material\": \[[^]]*" m.json | sed "s/.*\[//" | cmp - depth.txt'
 rc-stress --depths 1um --components mises --report n.json coated.rcg -o /dev/null
-claim "a material that no depth is in has no largest value" \
+claim "a material without a depth has no largest value" \
     grep -q '"by_material": \[[0-9.e]*, null, null\]' n.json
 
 # ---- depths ----
 
 rc-stress --depths auto --components szz --report auto.json coated.rcg -o auto.rcg
-claim "auto looks at both sides of each interface" bash -c '
+claim "--depths auto takes both sides of each interface" bash -c '
     grep -q " 2e-05, 2.0000005e-05, .* 2.5e-05, 2.5000025e-05, " auto.json'
-claim "  in depths that rise" bash -c '
+claim "  its depths increase" bash -c '
     grep -o "\"depths\": \[0, [^]]*" auto.json | tr "," "\n" | sed "1d" | sort -g -c -u'
-claim "  three at least in each material" bash -c '
+claim "  each material has at least three" bash -c '
     for m in 1 2 3; do
         [ "$(grep -o "\"materials\": \[[^]]*" auto.json | grep -o "[ \[]$m\b" | wc -l)" -ge 3 ] || exit 1
     done'
-claim "a section goes through them" bash -c '
+claim "a section passes through all materials" bash -c '
     rc-stress --depths auto --section y=0 --components sxx coated.rcg | rc-render -o section.png &&
     test -s section.png'
 
@@ -88,9 +88,9 @@ claim "--dry-run names the materials and the depths in each" bash -c '
     grep -q "material 1 .*E 4e+11 Pa, nu 0.2: 1 of" dry.txt &&
     grep -q "material 3 .*from 2.5e-05 m, E 2e+11 Pa, nu 0.3: 2 of" dry.txt &&
     grep -q "coating *on" dry.txt'
-claim "  and that there are none" \
+claim "  it says if there are no layers" \
     says 'coating *left out: .*one material' rc-stress --depths 0 --dry-run ball.rcg
-claim "--tol takes no coarser grid on a coated body, and says so" bash -c '
+claim "--tol takes no coarser grid for a coated body, and says so" bash -c '
     rc-stress --depths 400um --tol 0.05 --components szz --report t.json coated.rcg -o /dev/null &&
     grep -q "\"coarse_grids\": \"left out: the body is coated\"" t.json &&
     grep -q "\"coarse_depths\": 0" t.json'
@@ -101,7 +101,7 @@ refuses 1 'each material has its own Poisson' "--nu beside layers" "rc-stress --
 coat ball.rcg '2e-05,4e11,0.2;inf,inf,0.3' >rigid.rcg
 refuses 1 'depth 3e-05 m is inside its rigid substrate' "a depth in a rigid substrate" \
     "rc-stress --depths 20um,30um rigid.rcg"
-claim "its face is none, and auto ends there" bash -c '
+claim "a rigid substrate is no material for stresses, and auto ends at it" bash -c '
     rc-stress --depths 20um --components szz rigid.rcg -o face.rcg &&
     rc-stress --depths auto --components szz rigid.rcg | rc-info | grep "depth=" | tail -n 1 >last.txt &&
     grep -q "depth=2e-05$" last.txt'

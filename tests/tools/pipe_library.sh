@@ -9,8 +9,8 @@ flags="-fopenmp $(sanitizers "$library/libcontact.a")"
 with_mpi && flags="$flags -lmpi"
 with_leak && flags="$flags -lamd -lsuitesparseconfig"
 
-claim "the page holds a program" program "$pages/libcontact.3" hertz.c
-claim "  in 30 lines at most" [ "$(wc -l <hertz.c)" -le 30 ]
+claim "the page has a program" program "$pages/libcontact.3" hertz.c
+claim "  it has 30 lines at most" [ "$(wc -l <hertz.c)" -le 30 ]
 # shellcheck disable=SC2086
 claim "it compiles against the static library" ${CC:-cc} -std=c17 -Wall -Wextra -pedantic \
     -I "$RC_SOURCE" -o hertz hertz.c "$library/libcontact.a" $flags \
@@ -29,19 +29,19 @@ near "$(awk '/^radius/ { print $2 }' hertz.txt)" 227.934e-6 "$(awk -v order="$gr
 # shellcheck disable=SC2086
 claim "it compiles against the shared library" ${CC:-cc} -std=c17 -I "$RC_SOURCE" -o shared \
     hertz.c -L "$library" -lcontact $flags -lm
-claim "it finds the same there" bash -c "
+claim "it gives the same result" bash -c "
     LD_LIBRARY_PATH='$library' ./shared >shared.txt && cmp hertz.txt shared.txt"
 
-claim "the page holds a loading history" program "$pages/libcontact.3" history.c rc_solver_keep_shape
-claim "  its loop is of a dozen lines" [ "$(sed -n '/^    for/,/^    }/p' history.c | wc -l)" -le 13 ]
+claim "the page has a program of a loading history" program "$pages/libcontact.3" history.c rc_solver_keep_shape
+claim "  its loop has a dozen lines" [ "$(sed -n '/^    for/,/^    }/p' history.c | wc -l)" -le 13 ]
 # shellcheck disable=SC2086
 claim "  it compiles" ${CC:-cc} -std=c17 -Wall -Wextra -pedantic -I "$RC_SOURCE" -o history \
     history.c "$library/libcontact.a" $flags -lfftw3_threads -lfftw3f_threads -lfftw3 -lfftw3f -lgsl -lgslcblas -lm
 claim "  it runs" bash -c './history >history.txt'
 claim "  the first load yields" grep -Eq '^240 N: [1-9][0-9]* nodes in contact, [1-9][0-9]* yield$' history.txt
-claim "  no load touches nothing" grep -qx '0 N: 0 nodes in contact, 0 yield' history.txt
-claim "  the same load again yields no more" grep -Eq '^240 N: [1-9][0-9]* nodes in contact, 0 yield$' history.txt
-claim "  a higher one does" grep -Eq '^300 N: [1-9][0-9]* nodes in contact, [1-9][0-9]* yield$' history.txt
+claim "  a load of 0 has no contact" grep -qx '0 N: 0 nodes in contact, 0 yield' history.txt
+claim "  the same load again causes no further yield" grep -Eq '^240 N: [1-9][0-9]* nodes in contact, 0 yield$' history.txt
+claim "  a higher load does" grep -Eq '^300 N: [1-9][0-9]* nodes in contact, [1-9][0-9]* yield$' history.txt
 
 # Names with a leading underscore belong to the compiler: marks of sanitizers.
 offered() {
@@ -52,11 +52,11 @@ offered() {
         diff declared.txt offered.txt >&2
 }
 if command -v nm >/dev/null; then
-    claim "the shared library offers what its headers declare, and nothing else" offered
+    claim "the shared library exports exactly the symbols of its headers" offered
     # The package is built without MPI.
     packaged() { sed -n 's/^ \(.*\)@Base .*/\1/p' "$RC_SOURCE/debian/libcontact0.symbols" | sort | diff - <(grep -v '^rc_ranks_' offered.txt) >&2; }
-    claim "  its Debian package says the same" packaged
-    claim "  functions and an object" bash -c 'grep -qx rc_solver_new offered.txt && grep -qx rc_component_names offered.txt'
+    claim "  its Debian package lists the same" packaged
+    claim "  they are functions and an object" bash -c 'grep -qx rc_solver_new offered.txt && grep -qx rc_component_names offered.txt'
 else
     echo "not tried: what the shared library offers, because nm is not here"
 fi

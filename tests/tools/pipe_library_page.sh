@@ -69,24 +69,24 @@ declarations page.h >page.txt
 same_of() {
     grep "^$1 " headers.txt >kind.headers && grep "^$1 " "$2" >kind.page && diff kind.headers kind.page >&2
 }
-claim "functions, with their arguments" same_of function page.txt
-claim "objects" same_of object page.txt
-claim "structs, with their fields" same_of struct page.txt
-claim "constants, with their values" same_of constant page.txt
+claim "the page has the functions with their arguments" same_of function page.txt
+claim "the objects" same_of object page.txt
+claim "the structs with their fields" same_of struct page.txt
+claim "the constants with their values" same_of constant page.txt
 seen() {
     headers "$RC_SOURCE/libcontact/contact_mpi.h" >all.h && declared all.h >declared.txt &&
         grep -qx rc_ranks_sent declared.txt && grep -qx rc_solver_new declared.txt && grep -qx rc_grid_new declared.txt &&
         sed -nE 's/^(function|object) [^(]*\b(rc_\w+).*/\2/p' headers.txt | sort | diff declared.txt - >&2
 }
-claim "  none of the headers' is overlooked" seen
+claim "  the check finds every declaration of the headers" seen
 lacking() {
     sed "$1" page.h >without.h && ! cmp -s page.h without.h && declarations without.h >without.txt && ! same_of "$2" without.txt
 }
-claim "  a field that is missing is found" lacking 's/double mu;//' struct
-claim "  an argument" lacking 's/double depth, //' function
-claim "  one of contact_mpi.h" lacking '/rc_ranks_rows(/d' function
-claim "  a value" lacking 's/RC_SHORT = 2/RC_SHORT = 3/' constant
-claim "  one that there is no more" lacking 's/double mu;/double mu, m;/' struct
+claim "  the check finds a missing field" lacking 's/double mu;//' struct
+claim "  a missing argument" lacking 's/double depth, //' function
+claim "  a missing function of contact_mpi.h" lacking '/rc_ranks_rows(/d' function
+claim "  a wrong value" lacking 's/RC_SHORT = 2/RC_SHORT = 3/' constant
+claim "  a function that does not exist any more" lacking 's/double mu;/double mu, m;/' struct
 
 # The descriptions.
 bare_items() { awk '/^\.It (Ft|Vt)/ { item = $0; next } item != "" { if (/^\.(It|El)/) print item; item = "" }' "$page"; }

@@ -73,7 +73,7 @@ estimated "rc-render --material-ratio" "rc-render --material-ratio --verbose odd
 rc-synth cone --slope 0.01 --dx 1um --nx 3000 -o large.rcg
 for format in svg pdf; do
     rc-render --debug large.rcg -o large.$format 2>memory.txt
-    claim "rc-render of a large map, $format, within 1.5 maps of memory" awk '/memory: / { exit !($6 < 1.5 * 3000 * 3000 * 8 / 1048576) }' memory.txt
+    claim "rc-render draws a large map, $format, within 1.5 maps of memory" awk '/memory: / { exit !($6 < 1.5 * 3000 * 3000 * 8 / 1048576) }' memory.txt
 done
 rm large.*
 rc-stress --quiet --nu 0.3 --components mises --depths 1um,5um,10um,20um free.rcg -o depths.rcg
@@ -126,8 +126,8 @@ refuses 1 "$more 8 MiB: the file itself takes memory too" "rc-import, for the pr
 refuses 1 "$more 4 MiB" "rc-synth" "rc-synth --memory 4M $rough --nx 1024 -o never.rcg"
 refuses 1 "$more [0-9.]+ MiB" "rc-cost" "rc-cost --memory 3M --limit 60s $load odd.rcg"
 refuses 1 "$more 1 MiB" "a frame that is read" "rc-info --memory 1M odd.rcg"
-claim "nothing is left behind" bash -c '! ls never* 2>/dev/null'
-claim "what is allowed is done" rc-solve --quiet --memory 60M $load odd.rcg -o done.rcg
+claim "no file is left" bash -c '! ls never* 2>/dev/null'
+claim "a run within the limit finishes" rc-solve --quiet --memory 60M $load odd.rcg -o done.rcg
 
 machine=$(awk '/^MemAvailable:|^SwapFree:/ { sum += $2 } END { printf "%.0f", sum / 8 * 1024 }' /proc/meminfo)
 side=$(awk -v n="$machine" 'BEGIN { printf "%d", sqrt(n) * 1.2 }')
@@ -152,7 +152,7 @@ path2=$(sed -n 's/^0:://p' /proc/self/cgroup)
 if group_under /sys/fs/cgroup/memory "$path1" memory.limit_in_bytes || group_under /sys/fs/cgroup "$path2" memory.max; then
     refuses 1 "needs? (about|at least) [0-9.]+ [MG]iB, the group of processes \(cgroup\) leaves [0-9]+ MiB" "more than a group may take" \
         "(echo \$BASHPID >$group/cgroup.procs; exec rc-synth sphere --radius 1m --dx 1um --nx 4000 -o never.rcg)"
-    claim "what it may is done" bash -c "(echo \$BASHPID >$group/cgroup.procs; exec rc-synth sphere --radius 1m --dx 1um --nx 1000 -o done.rcg)"
+    claim "a run within the limit finishes" bash -c "(echo \$BASHPID >$group/cgroup.procs; exec rc-synth sphere --radius 1m --dx 1um --nx 1000 -o done.rcg)"
     rmdir "$group"
 else
     echo "no group of processes can be made here: tests/tools/truth_memory_room.c reads made ones"

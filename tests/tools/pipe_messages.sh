@@ -10,21 +10,21 @@ rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm --seed 3 -o r
 press() { rc-solve --estar 1GPa --output pressure "$@" -o p.rcg rough.rcg; }
 export -f press
 press --load 10mN,10.1mN,10.2mN,10.3mN 2>said.txt
-claim "the first of four cases is warned of in full" says 'selfaffine-seed-3, case 1, load 10 mN: .* on the outer 2 % of the map: .*: take a larger map, a smaller load, or --periodic' cat said.txt
-claim "  once" test "$(grep -c 'on the outer 2 %' said.txt)" = 1
-claim "  the others in a line" says '^rc-solve: cases 2 to 4 too: the contact reaches the edge of the map$' cat said.txt
-claim "one other case is one case" eval 'press --load 10mN,11mN 2>said.txt; says "^rc-solve: case 2 too: the contact reaches" cat said.txt'
+claim "the first of four cases gets the full warning" says 'selfaffine-seed-3, case 1, load 10 mN: .* on the outer 2 % of the map: .*: take a larger map, a smaller load, or --periodic' cat said.txt
+claim "  it is printed once" test "$(grep -c 'on the outer 2 %' said.txt)" = 1
+claim "  the other cases are listed in one line" says '^rc-solve: cases 2 to 4 too: the contact reaches the edge of the map$' cat said.txt
+claim "a single other case is listed as one" eval 'press --load 10mN,11mN 2>said.txt; says "^rc-solve: case 2 too: the contact reaches" cat said.txt'
 # under the first and the last load the contact of the ball reaches the edge, under the two between them it
 # does not
-claim "cases that lie apart" eval 'rc-solve --estar 100GPa --output pressure --load 1500N,1N,1600N,1700N,1N,1800N -o p.rcg ball.rcg 2>said.txt;
+claim "cases that are not consecutive are listed" eval 'rc-solve --estar 100GPa --output pressure --load 1500N,1N,1600N,1700N,1N,1800N -o p.rcg ball.rcg 2>said.txt;
     says "^rc-solve: cases 3 to 4, 6 too: the contact reaches the edge" cat said.txt'
-claim "--quiet holds for them" eval '! press --quiet --load 10mN,11mN 2>&1 | grep .'
+claim "--quiet suppresses the list" eval '! press --quiet --load 10mN,11mN 2>&1 | grep .'
 
 # ---- memory ----
 
-claim "--verbose tells figures and nothing of memory" eval 'rc-solve --verbose --periodic --estar 1GPa --load 1mN -o p.rcg rough.rcg 2>said.txt &&
+claim "--verbose prints figures, but not the memory" eval 'rc-solve --verbose --periodic --estar 1GPa --load 1mN -o p.rcg rough.rcg 2>said.txt &&
     says "force 1 mN" cat said.txt && ! grep -q memory said.txt'
-claim "--debug tells both" eval 'rc-solve --debug --periodic --estar 1GPa --load 1mN -o p.rcg rough.rcg 2>said.txt &&
+claim "--debug prints both" eval 'rc-solve --debug --periodic --estar 1GPa --load 1mN -o p.rcg rough.rcg 2>said.txt &&
     says "force 1 mN" cat said.txt && says "^rc-solve: memory: [0-9.]+ MiB counted, [0-9.]+ MiB taken$" cat said.txt'
 
 # ---- advice ----
@@ -37,9 +37,9 @@ refuses 1 '^rc-solve: none: No such file or directory$' "a word that is no unit"
 refuses 1 'no frame with the channel pressure, only height: rc-solve finds the pressure of heights under a load$' "stresses of heights" \
     "rc-stress --nu 0.3 --depths 0 ball.rcg -o never.rcg"
 rc-synth wave --nx 64 --dx 1um --amplitude 1um --wavelength 16um -o ridges.rcg
-claim "Str of ridges says why it has no value" says '^  Str +not defined: ridges run across the map: ' rc-info --areal ridges.rcg
+claim "an undefined Str of ridges has a reason" says '^  Str +not defined: ridges run across the map: ' rc-info --areal ridges.rcg
 printf '2 2 2\n2 2 2\n2 2 2\n' >flat.txt && rc-import --dx 1um --z-unit um flat.txt -o flat.rcg
-claim "so does that of a flat" says '^  Str +not defined: the map is flat$' rc-info --areal flat.rcg
+claim "an undefined Str of a flat has one too" says '^  Str +not defined: the map is flat$' rc-info --areal flat.rcg
 
 # ---- a misspelt name ----
 
@@ -55,7 +55,7 @@ meant 2 pcg "a word of an option" "rc-solve --method pgc --load 1 --estar 1GPa -
 refuses 1 'there is no channel wear: there are pressure, gap, displacement, height$' "none where no name is near" \
     "rc-render --channel wear -o never.png p.rcg"
 
-claim "--list has digits for people" eval 'perl -e "print \"# Width: 3 um\n# Height: 3 um\n# Value units: nm\n\"; print 1/3, \" 2 3\n4 5 6\n7 8 \", 20/3, \"\n\"" >third.txt &&
+claim "--list prints rounded numbers" eval 'perl -e "print \"# Width: 3 um\n# Height: 3 um\n# Value units: nm\n\"; print 1/3, \" 2 3\n4 5 6\n7 8 \", 20/3, \"\n\"" >third.txt &&
     says " 3.33333e-10 +8e-09 " rc-import --list third.txt'
 
 finish

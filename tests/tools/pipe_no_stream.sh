@@ -16,7 +16,7 @@ rc-render -o ball.png ball.rcg
 
 refuses 1 '^rc-solve: steel.x3p is no grid stream, it looks like a ZIP archive: rc-import steel.x3p [|] rc-solve \.\.\.$' \
     "an instrument's file" "$press steel.x3p"
-claim "  what it says is so" bash -c 'rc-import steel.x3p | rc-info >/dev/null'
+claim "  the message is right" bash -c 'rc-import steel.x3p | rc-info >/dev/null'
 refuses 1 "no grid stream, it looks like a ZIP archive: rc-import 'my steel.x3p' [|] rc-info" "a name with a blank" "rc-info 'my steel.x3p'"
 refuses 1 'heights.txt is no grid stream, it looks like text: rc-import heights.txt [|] rc-detrend' "text" "rc-detrend --plane heights.txt"
 refuses 1 'heights.gz is no grid stream, it looks like GZIP' "something compressed" "rc-stress --nu 0.3 --depths 0 heights.gz"
@@ -48,7 +48,7 @@ done
 refuses 1 'stops inside a header' "a stream cut in its header is one" "head -c 20 ball.rcg | rc-info"
 refuses 1 "frame 2: 'rubbish' stands where a frame" "something behind a frame" \
     "{ sed '/^RCGEND/d' ball.rcg; echo rubbish; } | rc-info"
-claim "nothing was written" test ! -e never.rcg
+claim "no file was written" test ! -e never.rcg
 
 # ---- a stream in place of another file ----
 
@@ -56,7 +56,7 @@ rc-synth sphere --nx 5 --dx 1um --radius 1mm -o ball.rcg
 refuses 1 "ball.rcg: it is a grid stream already and needs no import: give it to the next tool, as in 'rc-info ball.rcg'" \
     "a stream in a file" 'rc-import ball.rcg'
 command=$(rc-import ball.rcg 2>&1 | sed "s/.* as in '\(.*\)'/\1/")
-claim "the command that it names runs" says height bash -c "$command"
+claim "the proposed command runs" says height bash -c "$command"
 refuses 1 "standard input: it is a grid stream already.*as in '... [|] rc-info'" "a stream in a pipe" \
     'rc-synth sphere --nx 5 --dx 1um --radius 1mm | rc-import -'
 refuses 1 "it is a grid stream already" "with --list" 'rc-import --list ball.rcg'

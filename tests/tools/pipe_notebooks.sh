@@ -20,7 +20,7 @@ claim "thirty scans, a table with error bars" drawn many-scans 1
 claim "elastic-plastic indentation" drawn indentation 2
 claim "running-in" drawn running-in 2
 if with_leak; then
-    claim "a seal" drawn seal 2
+    claim "the notebook of a seal runs" drawn seal 2
 fi
 [ -z "${NOTEBOOK_PICTURES-}" ] || cp pictures/*.png "$NOTEBOOK_PICTURES" # to be looked at
 claim "no notebook is left out, and none holds results" bash -c '

@@ -110,13 +110,13 @@ for options in 'sphere --radius 1e-300' 'sphere --radius 1e300' 'cone --slope 1e
         tried "rc-synth $options --nx 16 --dx $d --type f32 -o out.rcg"
     done
 done
-claim "not all were refused: $done_well of $ran done" [ "$done_well" -gt $((ran / 3)) ]
-claim "and not all done" [ "$done_well" -lt "$ran" ]
+claim "some runs succeed: $done_well of $ran" [ "$done_well" -gt $((ran / 3)) ]
+claim "some runs are refused" [ "$done_well" -lt "$ran" ]
 
 # NaN in the input appears in the output.
 printf '1,2,3\n4,nan,6\n7,8,9\n' >holes.csv
-claim "a missing point stays one" bash -c 'rc-import --dx 1um --z-unit 1um holes.csv | rc-detrend --plane | says "\"missing\": 1" rc-info --json'
-claim "an outlier becomes one" bash -c 'rc-synth selfaffine --nx 16 --dx 1um --hurst 0.8 --rms-height 1um | rc-detrend --outliers 1 | says "\"missing\": [1-9]" rc-info --json'
+claim "a missing point stays missing" bash -c 'rc-import --dx 1um --z-unit 1um holes.csv | rc-detrend --plane | says "\"missing\": 1" rc-info --json'
+claim "an outlier becomes missing" bash -c 'rc-synth selfaffine --nx 16 --dx 1um --hurst 0.8 --rms-height 1um | rc-detrend --outliers 1 | says "\"missing\": [1-9]" rc-info --json'
 refuses 1 "values of height came out larger than single precision can hold.*--type f64" "single precision is named" \
     "rc-synth cone --slope 1e50 --nx 16 --dx 1um --type f32 -o out.rcg"
 

@@ -13,22 +13,22 @@ column() {
     awk -F '\t' -v name="$1" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == name) c = k; next } { print $c }' "$2"
 }
 
-claim "loads by ratio, a case each" \
+claim "a range by ratio gives a case for each load" \
     rc-solve --load 10mN:10N:log:4 --estar 114GPa --quiet --report loads.tsv -o loads.rcg ball.rcg
 k=-2
 for load in $(column load/N loads.tsv); do
     near "$load" "1e$k" "$summed" "each ten times the last"
     k=$((k + 1))
 done
-claim "  four of them" test "$k" = 2
-claim "  history has the numbers" says 'rc-solve [^|]*--load 0\.01,0\.1,1,10 ' head -c 2000 loads.rcg
-claim "mean pressures by ratio" \
+claim "  there are four" test "$k" = 2
+claim "  the history has the numbers" says 'rc-solve [^|]*--load 0\.01,0\.1,1,10 ' head -c 2000 loads.rcg
+claim "mean pressures can be a range by ratio" \
     rc-solve --periodic --mean-pressure 1MPa:100MPa:log:3 --estar 114GPa --quiet --report means.tsv -o means.rcg wave.rcg
 near "$(column mean_pressure/Pa means.tsv | sed -n 2p)" 1e7 "$summed" "the middle one"
-claim "approaches by ratio" \
+claim "approaches can be a range by ratio" \
     rc-solve --approach 1nm:100nm:log:3 --tol 1e-6 --estar 114GPa --quiet --report near.tsv -o near.rcg ball.rcg
 near "$(column approach/m near.tsv | sed -n 2p)" 1e-8 "$six_digits" "the middle one"
-claim "depths by ratio" \
+claim "depths can be a range by ratio" \
     rc-stress --nu 0.3 --depths 1um:100um:log:3 --components szz -o depths.rcg loads.rcg
 claim "  the middle one is at 10 um" says '^depth=1e-05$' cat depths.rcg
 
@@ -38,7 +38,7 @@ refuses 2 "a:b:log:n must be a whole number" "half a value" "rc-solve --load 1:2
 refuses 2 "a range is a:b:n, n values from a to b, or a:b:log:n" "no number of values" \
     "rc-solve --load 1:2:log --estar 1GPa ball.rcg"
 for option in 'rc-solve --load' 'rc-cost --load' 'rc-stress --depths' 'rc-cost --depths'; do
-    claim "$option: --help says how" \
+    claim "$option: --help explains the range" \
         bash -c "${option% *} --help | grep -A 1 '^  $(sed 's/.* //' <<<"$option") ' | says a:b:log:n cat"
 done
 
@@ -53,8 +53,8 @@ refuses 2 'load -1 N/m: it must be at least 0' "a negative one, in its own unit"
 # ---- words for numbers ----
 
 steel="--load 1 --E1 210GPa --nu1 0.3 --nu2 0.3"
-claim "a rigid body" rc-solve $steel --E2 rigid --quiet -o rigid.rcg ball.rcg
-claim "  its word is in the history" says 'rc-solve [^|]*--E2 rigid ' head -c 2000 rigid.rcg
+claim "--E2 rigid is accepted" rc-solve $steel --E2 rigid --quiet -o rigid.rcg ball.rcg
+claim "  the history has the word" says 'rc-solve [^|]*--E2 rigid ' head -c 2000 rigid.rcg
 near "$(sed -n '/^estar=/{s///p;q}' rigid.rcg)" 230769230769.23077 "$rounding" "  E* is E1 / (1 - nu1^2)"
 refuses 2 "E2 hard: 'hard' is not a number" "another word" "rc-solve $steel --E2 hard ball.rcg"
 refuses 2 "E1 rigid: 'rigid' is not a number" "an option without the word" \
@@ -65,26 +65,26 @@ refuses 2 "E1 rigid: 'rigid' is not a number" "an option without the word" \
 rc-synth sphere --nx 17 --dx 5um --radius 7.5mm -o ball.rcg
 press="rc-solve --estar 114GPa --output pressure -o out.rcg"
 
-claim "two loads, or one and a half" \
+claim "1,5 gets a warning, because it may mean 1.5" \
     warns 'load 1,5: two values, 1 N and 5 N: for one number write 1\.5$' $press --load 1,5 ball.rcg
-claim "  they are two cases" says '^case=2$' cat out.rcg
-claim "a zero after the comma is kept" warns 'two values, 1 N and 5 N: for one number write 1\.05$' $press --load 1,05 ball.rcg
-claim "other lists too" warns 'depths 2,3: two values, 2 m and 3 m: .* 2\.3$' rc-stress --nu 0.3 --depths 2,3 out.rcg
-claim "and plain numbers in metres" warns 'wavelength 2,5: two values' \
+claim "  it is two cases" says '^case=2$' cat out.rcg
+claim "a zero after the comma is kept in the message" warns 'two values, 1 N and 5 N: for one number write 1\.05$' $press --load 1,05 ball.rcg
+claim "other lists get the warning too" warns 'depths 2,3: two values, 2 m and 3 m: .* 2\.3$' rc-stress --nu 0.3 --depths 2,3 out.rcg
+claim "plain numbers in metres get it too" warns 'wavelength 2,5: two values' \
     rc-synth wave --nx 8 --dx 1 --wavelength 2,5 --amplitude 1 -o wave.rcg
 
 # silent COMMAND...: it succeeds without this warning.
 silent() {
     "$@" 2>silent.err >/dev/null && ! grep 'two values' silent.err >&2
 }
-claim "not with --quiet before it" silent $press --quiet --load 1,5 ball.rcg
-claim "nor with --quiet after it" silent $press --load 1,5 ball.rcg --quiet
-claim "not of three" silent $press --load 1,2,5 ball.rcg
-claim "nor with units" silent $press --load 1N,5N ball.rcg
-claim "nor with points" silent $press --load 1.0,5 ball.rcg
-claim "nor of numbers far apart" silent $press --load 1,10 ball.rcg
-claim "nor of a range" silent $press --load 1:5:2 ball.rcg
-claim "nor of a list that another one replaced" silent $press --load 1,5 --load 2 ball.rcg
+claim "--quiet before it suppresses the warning" silent $press --quiet --load 1,5 ball.rcg
+claim "--quiet after it suppresses the warning" silent $press --load 1,5 ball.rcg --quiet
+claim "three numbers cause no warning" silent $press --load 1,2,5 ball.rcg
+claim "numbers with units cause none" silent $press --load 1N,5N ball.rcg
+claim "numbers with points cause none" silent $press --load 1.0,5 ball.rcg
+claim "very different numbers cause none" silent $press --load 1,10 ball.rcg
+claim "a range causes none" silent $press --load 1:5:2 ball.rcg
+claim "a list replaced by a later one causes none" silent $press --load 1,5 --load 2 ball.rcg
 refuses 2 'with and without a unit .*; the decimal mark is a point' "with one unit it is no list" \
     "$press --load 1,5N ball.rcg"
 

@@ -32,22 +32,22 @@ refuses 2 '^rc-solve: option --re is ambiguous: --report, --resume$' "one that i
 refuses 2 '^rc-solve: option --E is ambiguous: --E1, --E2$' "another" 'rc-solve --E=3'
 refuses 2 '^rc-solve: option --load needs an argument' "one without its argument" 'rc-solve --load'
 refuses 2 '^rc-solve: option --periodic=3 takes no argument' "one with too many" 'rc-solve --periodic=3'
-claim "a cut that leaves one is understood" rc-solve --loa 1 --est 1GPa --out pressure --quiet -o cut.rcg ball.rcg
+claim "a unique abbreviation of an option is accepted" rc-solve --loa 1 --est 1GPa --out pressure --quiet -o cut.rcg ball.rcg
 
 # ---- spelling ----
 
 press="rc-solve --load 1 --estar 114GPa --output pressure --quiet ball.rcg"
 $press --discretization --report american.json -o american.rcg
-claim "--discretisation" $press --discretisation --report british.json -o british.rcg
-claim "  does the same" test "$(field discretization_error_estimate british.json)" = "$(field discretization_error_estimate american.json)"
-claim "  which is not nothing" bash -c '! grep -q "discretization_error_estimate\": null" british.json'
-claim "  both may be cut where they part" $press --disc -o british.rcg
+claim "--discretisation is accepted" $press --discretisation --report british.json -o british.rcg
+claim "  it gives the same result" test "$(field discretization_error_estimate british.json)" = "$(field discretization_error_estimate american.json)"
+claim "  the option has an effect" bash -c '! grep -q "discretization_error_estimate\": null" british.json'
+claim "  both spellings can be abbreviated before they differ" $press --disc -o british.rcg
 rc-render --colormap grey -o american.png ball.rcg
-claim "--colourmap" rc-render --colourmap grey -o british.png ball.rcg
-claim "  does the same" cmp american.png british.png
-claim "and gray is grey, in the history too" rc-render --colormap gray -o gray.png ball.rcg
-claim "  to the byte" cmp american.png gray.png
-claim "--help has one of them" bash -c '! { rc-solve --help; rc-render --help; } | grep -E "discretisation|colourmap|gray" >&2'
+claim "--colourmap is accepted" rc-render --colourmap grey -o british.png ball.rcg
+claim "  it gives the same picture" cmp american.png british.png
+claim "gray is grey, also in the history" rc-render --colormap gray -o gray.png ball.rcg
+claim "  the pictures are equal to the byte" cmp american.png gray.png
+claim "--help has one spelling" bash -c '! { rc-solve --help; rc-render --help; } | grep -E "discretisation|colourmap|gray" >&2'
 refuses 2 'colormap green: it must be one of' "another colour is none" 'rc-render --colormap green -o x.png ball.rcg'
 
 # ---- invalid values ----
@@ -71,6 +71,6 @@ refuses 1 'memory allows 600 KiB: ' "a limit under a mebibyte" "$press -o never.
 refuses 1 'memory allows 2 MiB: ' "a limit above it" "$press -o never.rcg --memory 2M"
 rc-synth sphere --nx 5 --dx 1um --radius 1mm -o small.rcg
 refuses 1 'memory allows 900 bytes: ' "a limit under a kibibyte" "rc-solve --load 1 --estar 1GPa -o never.rcg --memory 900 small.rcg"
-claim "nothing was written" test ! -e never.rcg
+claim "refused commands write no file" test ! -e never.rcg
 
 finish

@@ -14,40 +14,40 @@ fi
 
 # ---- a page ----
 
-claim "a page of a file" warns 'rc-report: no elasticity was given: E\* is that of steel on steel, 114 GPa, and the hardness is 6 GPa' \
+claim "report.sh makes a page from a file" warns 'rc-report: no elasticity was given: E\* is that of steel on steel, 114 GPa, and the hardness is 6 GPa' \
     bash -c 'cd page && rc-report -o brass.html ../brass.txt'
-claim "  leaves nothing else" test "$(ls page) $(ls tmp | wc -l)" = "brass.html 0"
-claim "  it is HTML with all its pictures" parsed '^6 pictures: brass.txt: brass.txt$' page/brass.html
-claim "  units, metadata, parameters, loads, messages" bash -c '
+claim "  no other file is left" test "$(ls page) $(ls tmp | wc -l)" = "brass.html 0"
+claim "  it is HTML with all pictures inside" parsed '^6 pictures: brass.txt: brass.txt$' page/brass.html
+claim "  it has units, metadata, parameters, loads and messages" bash -c '
     for words in "nodes, dx 5 um" "Sq  *[0-9.]* nm" "S10z " "Rsm " "Hurst " "source=brass.txt" "<td>true</td>" "pressure error estimate" \
         "largest patch" "rc-solve: brass.txt, case 1.*the grid does not resolve it" "values of steel on steel"; do
         grep -q "$words" page/brass.html || { echo "$words" >&2; exit 1; }
     done'
 sed -n '/<pre id="commands">/,/<\/pre>/p' page/brass.html | sed 's/<[^>]*>//g; s/&#60;/</g; s/&#62;/>/g; s/&#39;/\x27/g; s/&#38;/\&/g' >commands.sh
-claim "  its commands make it again" bash -c 'cd again && bash -e ../commands.sh 2>/dev/null && [ "$(ls *.png | wc -l)" = 6 ]'
+claim "  the commands on the page make it again" bash -c 'cd again && bash -e ../commands.sh 2>/dev/null && [ "$(ls *.png | wc -l)" = 6 ]'
 sed -n 's/.*base64,\([^"]*\)".*/\1/p' page/brass.html >pictures.txt
 k=0
 for picture in heights ratio spectrum pressure curve section; do
     k=$((k + 1))
-    claim "    $picture, byte for byte" cmp "again/$picture.png" <(sed -n "${k}p" pictures.txt | base64 -d)
+    claim "    $picture is equal byte for byte" cmp "again/$picture.png" <(sed -n "${k}p" pictures.txt | base64 -d)
 done
 contact="--load 0.02N --estar 70GPa"
 rc-report $contact --quiet -o once.html brass.txt 2>said.txt
-claim "--quiet: no message, but on the page" test ! -s said.txt -a "$(grep -c 'does not resolve' once.html)" = 1
-claim "  one load: no curve, no assumption, elastic" bash -c '
+claim "--quiet prints no message, but the page has it" test ! -s said.txt -a "$(grep -c 'does not resolve' once.html)" = 1
+claim "  one load gives no curve, and without a hardness the contact is elastic" bash -c '
     [ "$(grep -c "<img" once.html)" = 5 ] && grep -q "E\* is 70 GPa, the bodies are elastic, and the map ends" once.html && ! grep -q steel once.html'
-claim "  the same page by way of a pipe and two threads" bash -c "rc-report --threads 2 $contact --quiet brass.txt | cmp - once.html"
+claim "  a pipe and two threads give the same page" bash -c "rc-report --threads 2 $contact --quiet brass.txt | cmp - once.html"
 
 # ---- options ----
 
-claim "the options of the contact reach rc-solve" bash -c '
+claim "options of the contact are passed to rc-solve" bash -c '
     rc-report --quiet --outliers 5 --mirror --load 0.01N,0.02N --E1 70GPa --nu1 0.3 --E2 rigid --hardness 2GPa --radius 5mm -o options.html brass.txt &&
     grep -q -- "^rc-detrend --poly 2 --outliers 5 --fill --mirror measured.rcg" options.html &&
     grep -q -- "rc-solve --periodic --load 0.01,0.02 --E1 70000000000 --nu1 0.3 --E2 rigid --hardness 2000000000 --radius 0.005 --output" options.html &&
     grep -q -- "^rc-stress --section" options.html && grep -q "a sphere of radius 5 mm is added, the hardness is 2 GPa, and the map repeats" options.html'
 rc-synth sphere --nx 33 --dx 1um --radius 1mm -o ball.rcg
 rc-report --quiet --load 0.1N --estar 114GPa -o ball.html ball.rcg
-claim "a grid stream keeps its form" bash -c '
+claim "the form of a grid stream is not removed" bash -c '
     grep -q "^<pre id=.commands.>rc-detrend --fill ball.rcg -o surface.rcg" ball.html && ! grep -q -- "--poly" ball.html'
 # Hertz: a^3 = 3 F R / 4 E*
 near "$(grep -o 'contact area  *[0-9.]* um2' ball.html | awk '{ print $3 }')" \
@@ -60,18 +60,18 @@ claim "a profile has a page too" bash -c 'rc-pick --crop 0,16,33,1 ball.rcg | rc
 mark='<script>alert(1)</script>&amp;"'
 rc-import brass.txt | rc-pick --set "file.comment=$mark" -o marked.rcg
 cp marked.rcg -- "-o my 'b' \$(touch hacked) <b>&.rcg"
-claim "a name with quotes, blanks, a leading hyphen and markup" bash -c '
+claim "a file name with quotes, blanks, a leading hyphen and markup is accepted" bash -c '
     rc-report --quiet '"$contact"' -o hostile.html -- "-o my '"'b'"' \$(touch hacked) <b>&.rcg" && [ ! -e hacked ]'
-claim "  is text on the page" parsed "^5 pictures: -o my 'b' \\\$\(touch hacked\) <b>&.rcg: -o my" hostile.html
-claim "  and so are the metadata and the history" bash -c '[ "$(grep -c "&#60;script&#62;alert(1)&#60;/script&#62;&#38;amp;&#34;" hostile.html)" = 2 ]'
-claim "  no script" lacks '<script' hostile.html
+claim "  the page shows it as text" parsed "^5 pictures: -o my 'b' \\\$\(touch hacked\) <b>&.rcg: -o my" hostile.html
+claim "  metadata and history are text too" bash -c '[ "$(grep -c "&#60;script&#62;alert(1)&#60;/script&#62;&#38;amp;&#34;" hostile.html)" = 2 ]'
+claim "  the page has no script" lacks '<script' hostile.html
 claim "  its first command reads this file" bash -c '
     sed -n "s/.*<pre id=.commands.>//p" hostile.html | sed "s/&#60;/</g; s/&#62;/>/g; s/&#39;/\x27/g; s/&#38;/\&/g; s/&#34;/\"/g" >first.sh &&
     bash -e first.sh 2>/dev/null && [ ! -e hacked ] && cmp <(rc-info surface.rcg) <(rc-detrend --fill marked.rcg 2>/dev/null | rc-info)'
-claim "a title" bash -c "rc-report --quiet $contact --title '$mark' -o title.html ball.rcg"
-claim "  is text" parsed '^5 pictures: <script>alert\(1\)</script>&amp;": <script>' title.html
-claim "a name that is not UTF-8" bash -c 'cp ball.rcg "$(printf "b\\377ll.rcg")" && rc-report --quiet '"$contact"' -o latin.html "$(printf "b\\377ll.rcg")"'
-claim "  is shown without that byte" parsed '^5 pictures: b\?ll.rcg' latin.html
+claim "--title sets the title" bash -c "rc-report --quiet $contact --title '$mark' -o title.html ball.rcg"
+claim "  it is text" parsed '^5 pictures: <script>alert\(1\)</script>&amp;": <script>' title.html
+claim "a file name that is not UTF-8 is accepted" bash -c 'cp ball.rcg "$(printf "b\\377ll.rcg")" && rc-report --quiet '"$contact"' -o latin.html "$(printf "b\\377ll.rcg")"'
+claim "  the wrong byte is omitted" parsed '^5 pictures: b\?ll.rcg' latin.html
 
 # ---- failures ----
 
@@ -91,20 +91,20 @@ echo 'no number' >>cut.txt
 refuses 1 '^rc-import: .*cut.txt: ' "a file that a tool refuses, in the words of this tool" "rc-report $contact -o old.html cut.txt"
 claim "  with the way out where it needs options of rc-import" grep -q 'rc-report: if this file needs options of rc-import, write its grid stream' refuses.err
 refuses 1 '^rc-[a-z]*: .*--memory allows' "too little memory" "rc-report $contact --memory 100k -o old.html brass.txt"
-claim "  then the old page stays, and no other file" bash -c '[ "$(cat old.html)" = old ] && [ "$(ls old.html* | wc -l)$(ls tmp | wc -l)" = 10 ]'
+claim "  after a failure the old page stays, and there is no other file" bash -c '[ "$(cat old.html)" = old ] && [ "$(ls old.html* | wc -l)$(ls tmp | wc -l)" = 10 ]'
 
 # ---- the tools beside it ----
 
 mkdir alone
 ln "$RC_BIN/rc-report" alone 2>/dev/null || cp "$RC_BIN/rc-report" alone
-claim "it runs the tools of its own folder, else those of PATH" bash -c "
+claim "it runs the tools of its folder, otherwise those of PATH" bash -c "
     PATH=/nowhere '$RC_BIN/rc-report' --quiet $contact -o nowhere.html ball.rcg && cmp nowhere.html <(alone/rc-report --quiet $contact ball.rcg)"
 refuses 1 'rc-detrend: it cannot be run' "  and says when there are none" "PATH=/nowhere alone/rc-report $contact ball.rcg"
 printf '#!/bin/sh\n"%s/rc-solve" "$@"\nexit 3\n' "$RC_BIN" >alone/rc-solve
 chmod +x alone/rc-solve
 alone/rc-report --quiet $contact -o short.html ball.rcg
-claim "a solution that stopped short: exit status 3" test $? = 3
-claim "  and the whole page" parsed '^5 pictures' short.html
+claim "a solution that stopped short gives exit status 3" test $? = 3
+claim "  the page is complete" parsed '^5 pictures' short.html
 printf '#!/bin/sh\necho $$ >pid.txt\ncp pid.txt "%s"\nexec sleep 100\n' "$PWD" >alone/rc-solve
 stopped() {
     alone/rc-report --quiet $contact -o stopped.html ball.rcg &
@@ -117,7 +117,7 @@ stopped() {
     rm pid.txt
     ! kill -0 "$child" 2>/dev/null && [ -z "$(ls stopped.html* 2>/dev/null)" ] && [ -z "$(ls tmp)" ]
 }
-claim "SIGTERM ends it and the tool that it runs; nothing is left" stopped TERM
-claim "SIGHUP too" stopped HUP
+claim "SIGTERM ends report.sh and its tool, and no file is left" stopped TERM
+claim "SIGHUP does the same" stopped HUP
 
 finish

@@ -23,45 +23,45 @@ export -f values
 
 # ---- choosing ----
 
-claim "a channel, of every case" bash -c '
+claim "--channel takes a channel of every case" bash -c '
     rc-pick --channel gap result.rcg -o gap.rcg && [ "$(frames gap.rcg | tr "\n" ,)" = "1 gap,2 gap," ]'
-claim "its values are those of the solution" bash -c '
+claim "the values are those of the solution" bash -c '
     rc-solve --quiet --tol 1e-9 --load 10mN,20mN --estar 100GPa --hardness 2GPa --output gap surface.rcg -o want.rcg
     values gap.rcg >a && values want.rcg >b && [ -s a ] && cmp a b'
-claim "several channels, in the order of the stream" bash -c '
+claim "several channels come in the order of the stream" bash -c '
     [ "$(rc-pick --channel height,pressure result.rcg | frames | tr "\n" ,)" = "1 pressure,1 height,2 pressure,2 height," ]'
-claim "a case keeps its number" bash -c '[ "$(rc-pick --case 2 --channel gap <result.rcg | frames)" = "2 gap" ]'
-claim "the cases of several files are counted on" bash -c '
+claim "a selected case keeps its number" bash -c '[ "$(rc-pick --case 2 --channel gap <result.rcg | frames)" = "2 gap" ]'
+claim "cases of several files have consecutive numbers" bash -c '
     [ "$(rc-pick --case 1,3 surface.rcg result.rcg | frames | cut -d " " -f 1 | uniq | tr "\n" ,)" = "1,3," ]'
-claim "depths, met within a thousandth" bash -c '
+claim "--depth selects depths to a thousandth" bash -c '
     [ "$(rc-pick --depth 0,10.009um --case 1 --channel szz stress.rcg | frames | tr "\n" ,)" = "1 szz 0,1 szz 1e-05," ]'
 # nearest ASKED EXPECTED: compares the selected depth for mises in case 1 of stress.rcg, which has 0, 5 and 10
 # um
 nearest() { [ "$(rc-pick --depth "$1" --case 1 --channel mises stress.rcg 2>told.txt | frames | tr "\n" ,)" = "$2" ]; }
 export -f nearest
-claim "  the nearest where none is there" bash -c 'nearest 7um "1 mises 5e-06," && nearest 8um "1 mises 1e-05,"'
-claim "  which is told" grep -qx 'rc-pick: --depth: no frame is at 8e-06 m: the nearest depth, 1e-05 m, is taken' told.txt
-claim "  and half a step beyond the last" nearest 12.49um "1 mises 1e-05,"
-claim "  of two the one that is nearer, once" nearest 4um,5um,6um "1 mises 5e-06,"
-claim "  not told where it is what was asked for" bash -c 'nearest 0,10um "1 mises 0,1 mises 1e-05," && [ ! -s told.txt ]'
-claim "  all channels of it, in the order of the stream, whichever order the depths have" bash -c '
+claim "  without an exact match it takes the nearest depth" bash -c 'nearest 7um "1 mises 5e-06," && nearest 8um "1 mises 1e-05,"'
+claim "  a message says so" grep -qx 'rc-pick: --depth: no frame is at 8e-06 m: the nearest depth, 1e-05 m, is taken' told.txt
+claim "  it may be half a step beyond the last depth" nearest 12.49um "1 mises 1e-05,"
+claim "  of two requests for one depth the frame is written once" nearest 4um,5um,6um "1 mises 5e-06,"
+claim "  an exact match causes no message" bash -c 'nearest 0,10um "1 mises 0,1 mises 1e-05," && [ ! -s told.txt ]'
+claim "  all channels of a depth come in the order of the stream, for any order of depths" bash -c '
     rc-stress --nu 0.3 --depths 10um,0,5um --components mises,szz result.rcg |
         rc-pick --depth 9um,1um - 2>/dev/null | frames | tr "\n" , |
         grep -qx "1 szz 1e-05,1 mises 1e-05,1 szz 0,1 mises 0,2 szz 1e-05,2 mises 1e-05,2 szz 0,2 mises 0,"'
 claim "  with their own values" bash -c '
     rc-pick --depth 7um --channel mises stress.rcg 2>/dev/null | values - >a &&
     rc-stress --nu 0.3 --depths 5um --components mises result.rcg | values - >b && [ -s a ] && cmp a b'
-claim "a range of depths" bash -c '[ "$(rc-pick --depth 0:10um:3 stress.rcg | frames | wc -l)" = 12 ]'
-claim "without a choice every frame" bash -c '
+claim "a range of depths is accepted" bash -c '[ "$(rc-pick --depth 0:10um:3 stress.rcg | frames | wc -l)" = 12 ]'
+claim "without a selection every frame is written" bash -c '
     rc-pick --set load= result.rcg -o all.rcg && values all.rcg >a && values result.rcg >b && cmp a b'
-claim "the number of stress frames is not told where it may be another" bash -c '
+claim "the key with the number of frames is removed, because it may be wrong" bash -c '
     rc-pick --channel szz stress.rcg -o s.rcg && lacks "frames=" s.rcg && says frames=6 cat stress.rcg'
-claim "values go out in another type when that is asked for" says '"type": "f32"' bash -c \
+claim "--type changes the type of the values" says '"type": "f32"' bash -c \
     'rc-pick --type f32 --channel gap result.rcg | rc-info --json'
 
 # ---- setting ----
 
-claim "a plastic shape becomes a height that can be pressed" bash -c '
+claim "a plastic shape becomes a height that rc-solve presses" bash -c '
     rc-pick --case 2 --channel plastic --set channel=height result.rcg -o plastic.rcg &&
     [ "$(frames plastic.rcg)" = "2 height" ] &&
     rc-solve --quiet --tol 1e-9 --load 20mN --estar 100GPa --hardness 2GPa --output pressure plastic.rcg -o again.rcg'
@@ -77,14 +77,14 @@ for line in '"load": "7"' '"colour": "blue = sky"' '"unit": "nm"' '"dx": 2e-06' 
     '"hardness": "2000000000"'; do
     claim "  $line" grep -q "$line" set.json
 done
-claim "  and no estar" lacks '"estar"' set.json
+claim "  the key estar is removed" lacks '"estar"' set.json
 near "$(field minimum set.json)" "$(rc-pick --channel gap result.rcg | rc-info --json >g && field minimum g)" "$same" \
     "  with the values as they were"
-claim "history has it, in SI and in order" says \
+claim "the history has the steps, in SI and in their order" says \
     'rc-pick [0-9.]* --channel gap --depth 0 --case 1 --set dx=2e-06 --set load= --set load=7"' bash -c '
     rc-pick --channel gap --set depth=0 result.rcg | rc-pick --channel gap --depth 0um --case 1 --set dx=2um \
         --set load= --set load=7 | rc-info --json'
-claim "a height without results gets its spacing" says 'dx 3 um, dy 1 um' bash -c 'rc-pick --set dx=3um surface.rcg | rc-info'
+claim "the spacing of a height without results can be set" says 'dx 3 um, dy 1 um' bash -c 'rc-pick --set dx=3um surface.rcg | rc-info'
 
 # ---- refusals ----
 
@@ -110,7 +110,7 @@ refuses 2 '--case 1.5: it must be a whole number' "half a case" 'rc-pick --case 
 refuses 2 "--channel 'a,,b': a name is empty" "a list with a hole" 'rc-pick --channel a,,b surface.rcg'
 refuses 1 'no frame with the channel mises, only pressure, gap, height, plastic' "a channel that is not there, naming those that are" \
     'rc-pick --channel pressure,mises -o out.rcg result.rcg'
-claim "  and nothing is left behind" test ! -e out.rcg
+claim "  no file is left" test ! -e out.rcg
 refuses 1 'no case 3: there are cases 1, 2' "nor is a case" 'rc-pick --case 1,3 result.rcg | cat'
 refuses 1 'no frame at depth 1.251e-05 m: there are 0, 5e-06, 1e-05 m' "nor a depth more than half a step beyond the last" \
     'rc-pick --channel mises --depth 12.51um stress.rcg | cat'
@@ -124,7 +124,7 @@ refuses 1 'no frame with the channel szz among the cases and depths' "a channel 
     'rc-pick --channel mises,szz --case 1 mixed.rcg | cat'
 refuses 1 'give pressure and gap of one case the same name: choose one by --channel' "two channels of one name" \
     'rc-pick --set channel=height result.rcg | cat'
-claim "  but one at several depths" says '^6$' bash -c '
+claim "  frames of one name at several depths are accepted" says '^6$' bash -c '
     rc-pick --channel szz --set channel=below stress.rcg | frames | grep -c below'
 refuses 1 'case 1, frame 3 .*: take the height alone' "a spacing of a height beside its pressure" \
     'rc-pick --set dx=2um result.rcg | cat'

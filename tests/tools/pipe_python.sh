@@ -27,53 +27,53 @@ rc-solve --quiet --load 0.5,1.25 --estar 114GPa ball.rcg -o cases.rcg
 rc-stress --nu 0.3 --depths 0:3um:3 cases.rcg -o stress.rcg
 rc-pick --channel nothing ball.rcg -o none.rcg 2>/dev/null || printf 'RCGEND 0\n' >none.rcg
 
-claim "what was read is written as it was, bit for bit" check round_trip ball.rcg single.rcg hole.rcg escaped.rcg cases.rcg \
+claim "a stream that is read and written is equal bit for bit" check round_trip ball.rcg single.rcg hole.rcg escaped.rcg cases.rcg \
     stress.rcg none.rcg
 claim "  a text with a line feed and backslashes is read" check text_is escaped.rcg note 'two\backslashes\\and a
 line, µm, ='
 rc-synth wave --amplitude 1nm --wavelength 16um --nx 64 --dx 1um | rc-info --psd-map waves.rcg - >/dev/null
-claim "  the unit of the spacings" check waves waves.rcg
+claim "  the unit of the spacings is read" check waves waves.rcg
 claim "  a missing point is NaN" check missing hole.rcg 1 1
 rc-export --format npy -o ball.npy ball.rcg
 rc-export --format npy -o single.npy single.rcg
-claim "values are those that rc-export writes, f64" check same_values ball.rcg ball.npy
-claim "  f32" check same_values single.rcg single.npy
+claim "values are those of rc-export, f64" check same_values ball.rcg ball.npy
+claim "  for f32 too" check same_values single.rcg single.npy
 cat cases.rcg ball.rcg stress.rcg >joined.rcg
 rc-pick --case 1:5:5 joined.rcg -o numbered.rcg
-claim "cases of joined streams are numbered on, as the tools do" check joined joined.rcg numbered.rcg
+claim "cases of joined streams have consecutive numbers, as in the tools" check joined joined.rcg numbered.rcg
 
 # ---- damaged streams ----
 
 rc-synth sphere --nx 3 --dx 1um --radius 1mm -o small.rcg
-claim "a stream that is cut off anywhere is refused" check cut small.rcg
-claim "a stream with any byte changed is refused" check changed small.rcg
-claim "headers are refused as rc-info refuses them" check headers
+claim "a stream truncated at any place is refused" check cut small.rcg
+claim "a stream with any changed byte is refused" check changed small.rcg
+claim "rcg refuses the headers that rc-info refuses" check headers
 { sed '/^RCGEND/d' small.rcg && echo 'RCGFAIL rc-solve: disk on fire (exit status 2)'; } >failed.rcg
-claim "the message of a producer that failed is repeated, with its status" check failed failed.rcg
+claim "the message and the status of a failed producer are repeated" check failed failed.rcg
 
 # ---- frames of numpy ----
 
 claim "arrays of all kinds become frames" check arrays
-claim "what is no frame is refused" check no_frames
-claim "a paraboloid of numpy, pressed: Hertz's area and pressure" check hertz "$grid_peak"
+claim "other objects are refused" check no_frames
+claim "rc-solve presses a numpy paraboloid with Hertz's area and pressure" check hertz "$grid_peak"
 
 # ---- tools ----
 
-claim "what rcg.run gives is what the tool writes" check run ball.rcg
-claim "rcg.report gives the lines of --report, and those of rc-info" check report ball.rcg
-claim "options: numbers, lists, flags, letters, files" check options ball.rcg
-claim "a tool that fails: its words and exit status" check fails hole.rcg
-claim "one that stopped short: its best as well" check short
-claim "what a tool warns of is a warning" check warns
+claim "rcg.run returns the frames that the tool writes" check run ball.rcg
+claim "rcg.report returns the lines of --report, and those of rc-info" check report ball.rcg
+claim "options can be numbers, lists, flags, letters and files" check options ball.rcg
+claim "a failed tool raises an error with its message and exit status" check fails hole.rcg
+claim "a result that stopped short is in the exception" check short
+claim "a warning of a tool becomes a Python warning" check warns
 
 # ---- functions ----
 
-claim "functions give what the tools write, from a file, a frame, an array, a result" check functions ball.rcg
-claim "  steps in the order of the keywords" check steps ball.rcg
-claim "  layers, a list of tuples" check layers ball.rcg
-claim "  what is wrong in a call is said before the tool runs" check mistakes ball.rcg
-claim "  one that stopped short, and warnings at the line of the user" check unfinished
-claim "  pictures, curves, files of other programs" check pictures ball.rcg
+claim "functions accept a file, a frame, an array or a result, and return what the tools write" check functions ball.rcg
+claim "  steps act in the order of the keywords" check steps ball.rcg
+claim "  layers are a list of tuples" check layers ball.rcg
+claim "  errors of a call are raised before the tool runs" check mistakes ball.rcg
+claim "  a result that stopped short raises, and warnings have the line of the user" check unfinished
+claim "  functions make pictures, curves and files of other programs" check pictures ball.rcg
 mkdir short
 for tool in "$RC_BIN"/rc-*[a-z]; do
     ln -s "$tool" short
@@ -82,30 +82,30 @@ rm short/rc-report short/rc-solve
 cp "$RC_BIN/rc-report" short
 printf '#!/bin/sh\n"%s/rc-solve" "$@"\nexit 3\n' "$RC_BIN" >short/rc-solve
 chmod +x short/rc-solve
-claim "  a page, of a file and of arrays" check page ball.rcg
-claim "their documentation has every option of --help" check documented
+claim "  a page is made from a file and from arrays" check page ball.rcg
+claim "the documentation of functions has every option of --help" check documented
 mkdir mutated
 printf '#!/bin/sh\n%s "$@" | sed "s/\"hardness\"/\"hardened\"/"\n' "$RC_BIN/rc-solve" >mutated/rc-solve
 chmod +x mutated/rc-solve
-claim "  from the option table and nothing else" check mutated "$PWD/mutated"
+claim "  it comes from the option table alone" check mutated "$PWD/mutated"
 build=$(dirname "$RC_BIN")
 if [ -e "$build/tools/completions/__init__.pyi" ]; then
     claim "type hints have the options of the tables" check hints "$build/tools/completions/__init__.pyi" "$build/tools/completions/tables.json"
 else
     echo "not tried: type hints, which this build does not have: no Python had numpy"
 fi
-claim "progress, for a function and as a line" check progress
+claim "progress can go to a function or to a line" check progress
 version=$(rc-info --version | grep -o '[0-9.]*$')
-claim "its version is that of the tools" says "^$version\$" "$python" -c 'import rcg; print(rcg.__version__)'
+claim "the version is that of the tools" says "^$version\$" "$python" -c 'import rcg; print(rcg.__version__)'
 
 # ---- the script that rcg(5) prints ----
 
 claim "rcg(5) has a script for numpy" bash -c '. "$RC_SOURCE/tests/manual.sh"; blocks "$pages/rcg.5" NUMPY script && [ -s script/1 ]'
-claim "  of 15 lines at the most" bash -c '[ $(grep -c . script/1) -le 15 ]'
+claim "  it has 15 lines at most" bash -c '[ $(grep -c . script/1) -le 15 ]'
 if python_with numpy matplotlib >/dev/null 2>why.txt; then
     claim "  it runs" env MPLBACKEND=Agg "$python" script/1
-    claim "  and draws" says 'PNG image data|PNG' head -c 8 area.png
-    claim "  the area that Hertz finds under every load" check drawn script/1
+    claim "  it draws a figure" says 'PNG image data|PNG' head -c 8 area.png
+    claim "  the area agrees with Hertz under every load" check drawn script/1
 else
     echo "not tried: the script of rcg(5), $(cat why.txt)"
 fi

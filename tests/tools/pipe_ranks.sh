@@ -20,13 +20,13 @@ same() {
         cmp alone.rcg shared.rcg || return
     done
 }
-claim "a list of loads, hardness, periodic" same loads \
+claim "a periodic list of loads with hardness gives the bits of one process" same loads \
     "rc-solve --periodic --estar 1GPa --hardness 60MPa --load 0.1N:0.5N:3 --quiet rough.rcg"
-claim "two cases of a free map, an approach, a sphere added" same approach \
+claim "two cases of a free map with an approach and a sphere do" same approach \
     "rc-solve --estar 1GPa --approach 1um --radius 1mm --tol 1e-5 --quiet two.rcg"
-claim "a loading history, bodies taken apart, the plastic shape" same history \
+claim "a loading history with separation and the plastic shape does" same history \
     "rc-solve --periodic --estar 1GPa --hardness 40MPa --load 0.3N,0.1N,0,0.4N --history --output pressure,plastic,gap --quiet rough.rcg"
-claim "layers, single values in and out, the scheme of the paper" same layers \
+claim "layers, single precision and the method of the paper do" same layers \
     "rc-solve --E1 2GPa --nu1 0.3 --layer 20um,8GPa,0.2 --E2 rigid --load 0.2N --method pk99 --tol 1e-4 --type f32 --quiet sphere.rcg"
 rc-solve --estar 114GPa --load 20N --quiet sphere.rcg -o pressed.rcg
 # Lines longer than the block that is fetched from other ranks at a time: the figures are also the same.
@@ -42,23 +42,23 @@ figures() {
         [ "$(grep -o "\"$n\": [^,}]*" 1.json)" = "$(grep -o "\"$n\": [^,}]*" 2.json)" ] || return
     done
 }
-claim "long lines: the figures of one process" figures
-claim "displacements" same deflect "rc-deflect --kernel fft pressed.rcg"
-claim "stresses at depths given, with friction" same stress \
+claim "long lines give the figures of one process" figures
+claim "displacements are those of one process" same deflect "rc-deflect --kernel fft pressed.rcg"
+claim "stresses at given depths, with friction, are those of one process" same stress \
     "rc-stress --nu 0.3 --mu 0.2 --depths 0,10um,50um --components mises,s1 pressed.rcg"
 pressure() { # prints a frame of this channel without the end line
     rc-pick --channel pressure pressed.rcg | sed "s/^channel=pressure\$/channel=$1/" | reseal | perl -0777 -pe 's/RCGEND 1\n//'
 }
 { pressure pressure && pressure traction-x && pressure traction-y && echo RCGEND 3; } >dragged.rcg
-claim "stresses under tractions" same tractions "rc-stress --nu 0.3 --depths 0,10um,50um --components mises,syz dragged.rcg"
-claim "stresses at depths that are chosen" same depths "rc-stress --nu 0.3 --depths auto --components szz --quiet pressed.rcg"
+claim "stresses under tractions are those of one process" same tractions "rc-stress --nu 0.3 --depths 0,10um,50um --components mises,syz dragged.rcg"
+claim "stresses at automatic depths are those of one process" same depths "rc-stress --nu 0.3 --depths auto --components szz --quiet pressed.rcg"
 
 # ---- reports ----
 
 run() { $MPIRUN -n 2 "$@"; }
 rc-synth wave --nx 254 --ny 256 --dx 1um --wavelength 127um --amplitude 1um | rc-pick --set channel=height -o wave.rcg
 rc-solve --periodic --estar 1GPa --mean-pressure 20MPa --quiet wave.rcg -o wave-pressed.rcg
-claim "what passes between processes" run rc-stress --nu 0.3 --depths 0,1um --components szz \
+claim "the report counts the communication between processes" run rc-stress --nu 0.3 --depths 0,1um --components szz \
     --report sent.json -o sent.rcg wave-pressed.rcg
 # contact-mpi(7): 16 bytes a wave, 128 waves a row, 256 rows, half of them for the other process; one exchange
 # for the pressure and one for each of two depths: three exchanges of 2 messages each
@@ -68,7 +68,7 @@ near "$(field bytes_exchanged sent.json)" $((3 * 16 * 128 * 256 / 2)) 1e-15 "byt
 near "$(field ranks sent.json)" 2 1e-15 "ranks"
 claim "a report on standard output is written once" says '^1$' bash -c \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --quiet --report - rough.rcg | grep -c contact_nodes"
-claim "so is what --debug tells at the end" says '^1$' bash -c \
+claim "the memory of --debug is printed once" says '^1$' bash -c \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --debug -o told.rcg rough.rcg 2>&1 | grep -c 'memory: .* counted'"
 
 # Communication and memory of a contact as in contact-mpi(7): 32 bytes a wave for each equivalent convolution,
@@ -76,7 +76,7 @@ claim "so is what --debug tells at the end" says '^1$' bash -c \
 if [ "$ranks" != 2 ]; then
     rc-synth selfaffine --nx 1024 --ny 1024 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o large.rcg
     for n in $ranks; do
-        claim "1024 x 1024 nodes on $n" $MPIRUN -n "$n" rc-solve --periodic --estar 1GPa --mean-pressure 20MPa --tol 1e-4 \
+        claim "1024 x 1024 nodes on $n processes give the figures of one" $MPIRUN -n "$n" rc-solve --periodic --estar 1GPa --mean-pressure 20MPa --tol 1e-4 \
             --quiet --report large.json -o large-out.rcg large.rcg
         waves=$(awk -v n="$n" -v c="$(field convolutions large.json)" 'BEGIN { print 32 * c * 1024 * 513 * (1 - 1 / n) }')
         between "$waves" "$(field bytes_exchanged large.json)" "$(awk -v w="$waves" 'BEGIN { print 1.07 * w }')" "  bytes"
@@ -112,15 +112,15 @@ fi
 # ---- checkpoints ----
 
 solve="rc-solve --periodic --estar 1GPa --output pressure --quiet"
-claim "a checkpoint of two" run $solve --load 0.1N:0.5N:3 --checkpoint kept.rcg -o whole.rcg rough.rcg
-claim "  is that of one" bash -c "$solve --load 0.1N:0.5N:3 --checkpoint alone-kept.rcg -o alone.rcg rough.rcg && cmp kept.rcg alone-kept.rcg"
+claim "two processes write a checkpoint" run $solve --load 0.1N:0.5N:3 --checkpoint kept.rcg -o whole.rcg rough.rcg
+claim "  it is that of one process" bash -c "$solve --load 0.1N:0.5N:3 --checkpoint alone-kept.rcg -o alone.rcg rough.rcg && cmp kept.rcg alone-kept.rcg"
 for n in 1 3; do
-    claim "  resumed by $n it is the same, one step a case" bash -c "
+    claim "  resumed by $n processes the result is the same, in one step per case" bash -c "
         cp kept.rcg again-kept.rcg &&
         $MPIRUN -n $n $solve --load 0.1N:0.5N:3 --checkpoint again-kept.rcg --resume --report again.json -o again.rcg rough.rcg &&
         cmp whole.rcg again.rcg && [ \$(grep -c '\"iterations\": 1,' again.json) = 3 ]"
 done
-claim "one that was torn is mended by two as by one" bash -c "
+claim "two processes repair an incomplete checkpoint like one" bash -c "
     head -c 500000 kept.rcg >torn.rcg && cp torn.rcg alone-torn.rcg &&
     $MPIRUN -n 2 $solve --load 0.1N:0.5N:3 --checkpoint torn.rcg --resume -o torn-out.rcg rough.rcg &&
     $solve --load 0.1N:0.5N:3 --checkpoint alone-torn.rcg --resume -o alone-out.rcg rough.rcg &&
@@ -136,7 +136,7 @@ anew() {
             -n 1 nice -n 19 $solve --load 1mN --checkpoint new-kept.rcg --resume -o new.rcg small.rcg || return
     done
 }
-claim "--resume where there is none yet begins one, whoever comes first" anew
+claim "--resume without a file creates one, whichever process is first" anew
 
 # ---- refusals ----
 
@@ -158,11 +158,11 @@ refuses 1 "a section is computed by one process" "  in a plan" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 --dry-run wave-pressed.rcg"
 refuses 1 "needs the whole map in one process" "  an engine that is not shared, in a plan" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --kernel mlms --dry-run pressed.rcg"
-claim "a plan for two tells how long it takes" says 'time +about [0-9.e-]+ s' \
+claim "a plan for two processes has the expected time" says 'time +about [0-9.e-]+ s' \
     $MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --tol 1e-3 --dry-run pressed.rcg
-claim "  and what they do not do" grep -q 'coarse_grids *left out: several processes share the map' says.out
+claim "  the refusal of unsupported options" grep -q 'coarse_grids *left out: several processes share the map' says.out
 refuses 2 'give one of --load' "a wrong command line" "$MPIRUN -n 2 rc-solve --estar 1GPa -o no.rcg rough.rcg"
-claim "  is said once" test "$(grep -c 'give one of' refuses.err)" = 1
+claim "  is printed once" test "$(grep -c 'give one of' refuses.err)" = 1
 refuses 1 'checksum' "a damaged stream" "
     { head -c 200000 rough.rcg; printf X; tail -c +200002 rough.rcg; } >damaged.rcg
     $MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg damaged.rcg"
@@ -173,22 +173,22 @@ perl -0777 -ne '/^(.*?\n\n)(.*)crc32/s; $v = $2; substr($v, 8 * (200 * 150 + 7),
     print "$1${v}crc32 00000000\nRCGEND 1\n"' rough.rcg | reseal >nan.rcg
 refuses 1 '1 of 37400 values are NaN or infinite, the first in column 7 of row 150' "NaN in another's rows" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg nan.rcg"
-claim "  is said once" test "$(grep -c 'are NaN' refuses.err)" = 1
+claim "  the message is printed once" test "$(grep -c 'are NaN' refuses.err)" = 1
 rc-solve --periodic --estar 1e60Pa --mean-pressure 1e58Pa --tol 1e-3 --output pressure --quiet wave.rcg -o huge.rcg
 refuses 1 '65024 of 65024 values of mises came out larger than single precision can hold' "values too large, in the rows of both" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0 --components mises --type f32 -o no.rcg huge.rcg"
-claim "  are said once" test "$(grep -c 'came out' refuses.err)" = 1
+claim "  the messages are printed once" test "$(grep -c 'came out' refuses.err)" = 1
 # The output of the launcher shows which process printed the message: the first one if all have agreed, else
 # the one that waited for the others.
 refuses 1 '^\[[^]]*,0\]<stderr>: ?rc-solve: small.rcg, frame 1: .* --memory allows 100 KiB' \
     "a part for which the second process has no memory ends both at once" \
     "$MPIRUN --tag-output -n 1 rc-solve --estar 1GPa --load 1mN -o no.rcg small.rcg : \
         -n 1 rc-solve --memory 100K --estar 1GPa --load 1mN -o no.rcg small.rcg"
-claim "  which is said once" test "$(grep -c 'memory allows' refuses.err)" = 1
+claim "  the message is printed once" test "$(grep -c 'memory allows' refuses.err)" = 1
 refuses 3 'not converged' "short of the accuracy: written, with its exit status" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --tol 1e-30 -o stopped.rcg rough.rcg"
-claim "  and whole" bash -c 'rc-info stopped.rcg >/dev/null; test $? = 3'
-claim "nothing of what failed is left" bash -c '! ls no.rcg* 2>/dev/null'
+claim "  the stream is complete" bash -c 'rc-info stopped.rcg >/dev/null; test $? = 3'
+claim "failed runs leave no file" bash -c '! ls no.rcg* 2>/dev/null'
 
 # If processes are ended from outside, the existing file remains and no part of a new one is left.
 rc-synth selfaffine --nx 1600 --ny 1600 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o long.rcg
@@ -219,7 +219,7 @@ killed() {
     wait "$launcher" && return 1
     nothing_half killed
 }
-claim "a process that is killed leaves nothing" killed
+claim "a killed process leaves no file" killed
 killed_writing() {
     local n=0
     begin $lasting --tol 1e-2 --load 0.4N:16N:400 || return
@@ -228,7 +228,7 @@ killed_writing() {
     wait "$launcher" && return 1
     nothing_half killed
 }
-claim "nor does one that is killed when they write" killed_writing
+claim "a process killed during writing leaves none either" killed_writing
 # Another run tries to write to the checkpoint of a running one, which already has a frame.
 adding() {
     local n=0 status
@@ -240,7 +240,7 @@ adding() {
     wait "$launcher"
     [ $status = 1 ] && grep -q 'adding.rcg: another run is adding to it' adding.err && [ ! -e no.rcg ]
 }
-claim "two runs do not add to one checkpoint" adding
+claim "two runs cannot write to one checkpoint" adding
 # signalled SIGNAL SECONDS: sends the signal to mpirun, which ends its processes and kills them some time later.
 signalled() {
     begin $lasting --load 12N || return
@@ -253,7 +253,7 @@ signalled() {
 export OMPI_MCA_odls_base_sigkill_timeout=2 # by default 1 s, which may be too short for the message on a busy machine
 for signal in TERM INT; do
     for seconds in 3 4.2; do
-        claim "mpirun is ended after $seconds s by $signal: a message, nothing half-written" signalled $signal $seconds
+        claim "mpirun is ended after $seconds s by $signal: there is a message, and no half-written file" signalled $signal $seconds
     done
 done
 patient() {
@@ -265,7 +265,7 @@ patient() {
     [ $? = 3 ] && [ -z "$(ls killed.rcg.* 2>/dev/null)" ]
 }
 export OMPI_MCA_odls_base_sigkill_timeout=5
-claim "where there is time, what was reached is written" patient
+claim "with enough time the current result is written" patient
 unset OMPI_MCA_odls_base_sigkill_timeout
 
 # One allocation after another fails in the second process: the work is done nevertheless, or all end with

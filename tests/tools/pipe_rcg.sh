@@ -3,7 +3,7 @@
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 
-claim "the page holds a program" program "$pages/rcg.5" rcg-scale.c
+claim "the page has a program" program "$pages/rcg.5" rcg-scale.c
 claim "it compiles" ${CC:-cc} -std=c99 -O2 -Wall -Wextra -o rcg-scale rcg-scale.c
 PATH="$scratch:$PATH"
 
@@ -24,17 +24,17 @@ for type in f64 f32; do
     done
     claim "the type stays $type" says "^type=$type$" head -n 8 twice.rcg
 done
-claim "history has one more step" says '^ *rcg-scale 2$' rc-info twice.rcg
+claim "the history has one more step" says '^ *rcg-scale 2$' rc-info twice.rcg
 claim "a factor of 1 keeps every value and key" bash -c "
     $(declare -f bare)
     rcg-scale 1 <rough.rcg >same.rcg && cmp <(bare rough.rcg) <(bare same.rcg)"
 rc-solve --quiet --load 1N --estar 100GPa --output pressure,gap rough.rcg -o contact.rcg
-claim "other channels pass as they are" bash -c "
+claim "other channels are passed on unchanged" bash -c "
     $(declare -f bare)
     rcg-scale 3 <contact.rcg >passed.rcg && cmp <(bare contact.rcg) <(bare passed.rcg) &&
     lacks 'rcg-scale' passed.rcg"
 printf '5 6 7\n6 NaN 8\n7 8 9\n' >hole.txt
-claim "missing points pass" bash -c 'rc-import --dx 1.1um --z-unit nm hole.txt | rcg-scale 2 >hole.rcg'
+claim "missing points are passed on" bash -c 'rc-import --dx 1.1um --z-unit nm hole.txt | rcg-scale 2 >hole.rcg'
 near "$(figure missing hole.rcg)" 1 "$same" "  and stay missing"
 near "$(figure mean hole.rcg)" 14e-9 "$of_sum" "  beside those that are doubled"
 

@@ -33,12 +33,12 @@ fails_on() { ! "${@:2}" "$1"; }
 
 # try NAME READER...: the reader gives the right values, and detects a stream that is cut off.
 try() {
-    claim "$1: every frame of a stream, f64" agrees "$same" f64.rcg "${@:2}"
-    claim "$1:   f32" agrees "$six_digits" f32.rcg "${@:2}"
-    claim "$1:   with a missing point" agrees "$same" hole.rcg "${@:2}"
-    claim "$1:   of a stream without frames, none" agrees "$same" none.rcg "${@:2}"
+    claim "$1: every frame of a stream is read, f64" agrees "$same" f64.rcg "${@:2}"
+    claim "$1:   f32 too" agrees "$six_digits" f32.rcg "${@:2}"
+    claim "$1:   a missing point too" agrees "$same" hole.rcg "${@:2}"
+    claim "$1:   a stream without frames gives none" agrees "$same" none.rcg "${@:2}"
     for file in inside checksum end; do
-        claim "$1:   a stream that is cut off ($file) is seen" fails_on "$file.rcg" "${@:2}"
+        claim "$1:   a truncated stream ($file) is detected" fails_on "$file.rcg" "${@:2}"
     done
 }
 claim "there are frames to read" test "$(expected f64.rcg | awk 'NF == 4 && $4 > 0' | wc -l)" = 8

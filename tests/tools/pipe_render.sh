@@ -51,43 +51,43 @@ stream mises Pa 20 4 "section=y at=0 depths=0,1e-06,3e-06,1e-05" '1e8 * $j' >sec
 
 claim "a raw picture has a pixel for each node" bash -c \
     'rc-render --raw <height.rcg >raw.png'
-claim "33 by 47 of them" size 33 47 raw.png
-claim "pressure is chosen before height and what stands first" rc-render --raw -o p.png three.rcg
-claim "and it is that frame" size 21 20 p.png
-claim "--channel chooses" rc-render --raw --channel gap -o g.png three.rcg
-claim "and it is that frame" size 33 47 g.png
-claim "--case chooses" rc-render --raw --case 2 -o c.png cases.rcg
-claim "and it is that frame" size 10 11 c.png
-claim "several cases get a warning and the first is drawn" bash -c \
+claim "the picture has 33 x 47 pixels" size 33 47 raw.png
+claim "the default channel is pressure, then height, then the first" rc-render --raw -o p.png three.rcg
+claim "the values are those of the frame" size 21 20 p.png
+claim "--channel selects the channel" rc-render --raw --channel gap -o g.png three.rcg
+claim "the values are those of the frame" size 33 47 g.png
+claim "--case selects the case" rc-render --raw --case 2 -o c.png cases.rcg
+claim "the values are those of the frame" size 10 11 c.png
+claim "of several cases the first is drawn, with a warning" bash -c \
     'warns "2 cases match: case 1" rc-render --raw -o c.png cases.rcg'
-claim "and it is that frame" size 8 9 c.png
-claim "--verbose says which channel was chosen" \
+claim "the values are those of the frame" size 8 9 c.png
+claim "--verbose names the chosen channel" \
     warns 'drawing pressure' rc-render --verbose --raw three.rcg
 claim "of several depths the one with the largest value is drawn" \
     warns 'drawing 12.35 µm' rc-render --verbose --raw depths.rcg
-claim "--depth is met to a thousandth" bash -c 'rc-render --depth 12.35um -o d.png depths.rcg 2>told && [ ! -s told ]'
+claim "--depth selects a depth to a thousandth" bash -c 'rc-render --depth 12.35um -o d.png depths.rcg 2>told && [ ! -s told ]'
 for asked in 12um 26um; do
-    claim "  the nearest to $asked is drawn, and told" bash -c "
+    claim "  the nearest depth to $asked is drawn, with a message" bash -c "
         warns 'no frame is at .*: the nearest depth, 1.23456e-05 m, is taken' \
             rc-render --raw --depth $asked -o near.png depths.rcg &&
         [ \"\$(rc-render --raw --depth $asked depths.rcg 2>near.err | pixels)\" = \"\$(rc-render --raw --depth 12.3456um depths.rcg | pixels)\" ]"
 done
 stream szz Pa 8 9 "depth=0 case=1" '$i' szz Pa 8 9 "depth=1e-06 case=1" '-$i' \
     szz Pa 8 9 "depth=0 case=2" '$j' szz Pa 8 9 "depth=1e-05 case=2" '-$j' >two.rcg
-claim "  of the first case that has one" warns 'the nearest depth, 1e-05 m, is taken' rc-render --raw --depth 9um -o near.png two.rcg
-claim "a figure is as wide as it is asked for" rc-render --width 777 -o w.png height.rcg
-claim "777 pixels" size 777 - w.png
+claim "  it comes from the first case with a depth" warns 'the nearest depth, 1e-05 m, is taken' rc-render --raw --depth 9um -o near.png two.rcg
+claim "--size sets the width of a figure" rc-render --width 777 -o w.png height.rcg
+claim "it has 777 pixels" size 777 - w.png
 
 # ---- every kind of picture ----
 
-claim "a figure with contours" rc-render --contour -o f.png three.rcg
-claim "a figure with missing nodes" rc-render -o f.png missing.rcg
-claim "a section with uneven depths" rc-render --contour --section y -o f.png section.rcg
+claim "a figure with contours is drawn" rc-render --contour -o f.png three.rcg
+claim "a figure with missing nodes is drawn" rc-render -o f.png missing.rcg
+claim "a section with uneven depths is drawn" rc-render --contour --section y -o f.png section.rcg
 while read -r nx ny; do
     stream height m "$nx" "$ny" "" '1e-9 * (($i * 7 + $j * 3) % 11)' >shape.rcg
-    claim "a figure of $nx x $ny nodes" rc-render --contour --quiet -o f.png shape.rcg
-    claim "a raw picture of $nx x $ny nodes" rc-render --raw -o f.png shape.rcg
-    claim "of $nx x $ny pixels" size "$nx" "$ny" f.png
+    claim "a figure of $nx x $ny nodes is drawn" rc-render --contour --quiet -o f.png shape.rcg
+    claim "a raw picture of $nx x $ny nodes is drawn" rc-render --raw -o f.png shape.rcg
+    claim "it has $nx x $ny pixels" size "$nx" "$ny" f.png
 done <<'END'
 1000 3
 3 1000
@@ -99,9 +99,9 @@ done <<'END'
 END
 while read -r value; do
     stream height m 9 8 "" "$value" >value.rcg
-    claim "a figure of the values $value" rc-render --contour -o f.png value.rcg
+    claim "a figure of the values $value is drawn" rc-render --contour -o f.png value.rcg
     stream pressure Pa 9 1 "" "$value" >value.rcg
-    claim "a curve of the values $value" rc-render -o f.png value.rcg
+    claim "a curve of the values $value is drawn" rc-render -o f.png value.rcg
 done <<'END'
 0
 3e-6
@@ -120,10 +120,10 @@ END
 
 for kind in --figure --raw "--contour --colormap magma"; do
     # shellcheck disable=SC2086
-    claim "$kind: the same bytes twice" bash -c \
+    claim "$kind: a second run gives the same bytes" bash -c \
         "rc-render $kind height.rcg >a.png && rc-render $kind <height.rcg >b.png && cmp a.png b.png"
 done
-claim "the picture says how it was made" describes "rc-render" a.png
+claim "the picture contains the command that made it" describes "rc-render" a.png
 claim "with its options in SI" bash -c \
     'rc-render --range -1um:2.5um -o a.png height.rcg && grep -aqF -- "--range -1e-06:2.5e-06" a.png'
 
@@ -131,13 +131,13 @@ claim "with its options in SI" bash -c \
 
 # A character at the end of Unicode's private area, which no font has.
 private=$(printf '\364\217\277\275')
-claim "a character that no font has is told, and the figure is drawn" bash -c \
+claim "a character that no font has causes a warning, and the figure is drawn" bash -c \
     "rc-render --title 'No $private here' -o f.png height.rcg 2>warned && grep -q \"no font has the characters '$private'\" warned"
-claim "what fonts have is not" bash -c \
+claim "a character of a font causes none" bash -c \
     'rc-render --title "Rauheit, 10⁻³ m²" -o f.png height.rcg 2>warned && [ ! -s warned ]'
 printf '<?xml version="1.0"?>\n<fontconfig><cachedir>%s/cache</cachedir></fontconfig>\n' "$PWD" >fonts.conf
 refuses 1 'no font can be found' "a figure without any font" "FONTCONFIG_FILE='$PWD/fonts.conf' rc-render -o out.png height.rcg"
-claim "a raw picture needs none" env FONTCONFIG_FILE="$PWD/fonts.conf" rc-render --raw -o f.png height.rcg
+claim "a raw picture needs no font" env FONTCONFIG_FILE="$PWD/fonts.conf" rc-render --raw -o f.png height.rcg
 
 # ---- refusals ----
 
@@ -194,10 +194,10 @@ END
 refuses 1 'standard input is empty, the stream stops before it begins' "a stream of nothing" "head -c 0 three.rcg | $draw"
 refuses 1 'this stream failed: out of load' "a producer that failed" \
     "{ head -c $((whole - 9)) three.rcg; printf 'RCGFAIL out of load\n'; } >out-of.rcg; $draw <out-of.rcg"
-claim "none of these left a picture or a part of one behind" none
+claim "refused commands leave no picture or part of one" none
 cp height.rcg out.png
 refuses 1 'the stream stops inside the values of a frame' "a cut stream over a file that is there" "head -c 1000 three.rcg | $draw"
-claim "leaves that file as it was" cmp height.rcg out.png
+claim "the old file stays" cmp height.rcg out.png
 refuses 1 'the PNG cannot be written: No space left on device' "a full device" "rc-render height.rcg >/dev/full"
 refuses 1 'the PNG cannot be written: No space left on device' "a full device named" "rc-render -o /dev/full height.rcg"
 

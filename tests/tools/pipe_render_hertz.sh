@@ -20,17 +20,17 @@ draw='rc-render --quiet -o out.svg'
 
 # ---- maps and cuts ----
 
-claim "the circle of a ball of rc-synth" eval 'rc-render --hertz --radius 7.5mm --channel pressure -o c.svg p.rcg && says "Hertz, radius 143.6 µm" cat c.svg'
-claim "with the modulus of the stream, or another" eval 'rc-render --hertz --radius 7.5mm --estar 14.25GPa --channel pressure -o c.svg p.rcg && says "Hertz, radius 287.2 µm" cat c.svg'
-claim "a cut has his pressure beside it" rc-render --cut y=0 --hertz --radius 7.5mm --channel pressure --y-unit GPa --x-unit um -o cut.svg p.rcg
+claim "--hertz draws the circle of a ball of rc-synth" eval 'rc-render --hertz --radius 7.5mm --channel pressure -o c.svg p.rcg && says "Hertz, radius 143.6 µm" cat c.svg'
+claim "with the modulus of the stream, or another one" eval 'rc-render --hertz --radius 7.5mm --estar 14.25GPa --channel pressure -o c.svg p.rcg && says "Hertz, radius 287.2 µm" cat c.svg'
+claim "a cut has Hertz's pressure too" rc-render --cut y=0 --hertz --radius 7.5mm --channel pressure --y-unit GPa --x-unit um -o cut.svg p.rcg
 near "$(value_at cut.svg dashed 0)" "$(hertz 0)" 1e-3 "  in the middle"
 near "$(value_at cut.svg dashed 100)" "$(hertz 100)" 1e-3 "  at 100 um"
-claim "  and nothing beyond the contact" awk "BEGIN { exit !($(value_at cut.svg dashed 200) ^ 2 < 1e-6) }"
+claim "  it is 0 outside the contact" awk "BEGIN { exit !($(value_at cut.svg dashed 200) ^ 2 < 1e-6) }"
 near "$(value_at cut.svg solid 100)" "$(hertz 100)" "$coarse_grid" "  which the map follows"
-claim "a cut beside the middle" rc-render --cut x=80um --hertz --radius 7.5mm --channel pressure --y-unit GPa --x-unit um -o side.svg p.rcg
+claim "a cut beside the centre has the right pressure" rc-render --cut x=80um --hertz --radius 7.5mm --channel pressure --y-unit GPa --x-unit um -o side.svg p.rcg
 near "$(value_at side.svg dashed 60)" "$(hertz 100)" 1e-3 "  has it at its own distance"
 rc-solve --quiet --radius 7.5mm --load 60N --estar 114GPa --output pressure -o added.rcg <(rc-synth wave --nx 129 --dx 10um --amplitude 0.01nm --wavelength 100um)
-claim "a ball that rc-solve has added needs no word" eval 'rc-render --cut y=0 --hertz --y-unit GPa --x-unit um -o added.svg added.rcg'
+claim "a sphere added by rc-solve needs no radius" eval 'rc-render --cut y=0 --hertz --y-unit GPa --x-unit um -o added.svg added.rcg'
 near "$(value_at added.svg dashed 100)" "$(hertz 100)" 1e-3 "  and has the same"
 
 # ---- Persson by the table ----

@@ -18,29 +18,29 @@ for kind in ramp curve; do
     done
     pdftotext -layout "$kind.pdf" "$kind.txt"
     claim "$kind.pdf: poppler reads the title" says '^ *Height$' cat "$kind.txt"
-    claim "  and the axis across" says '^ *x \(µm\)' cat "$kind.txt"
-    claim "  and the values' axis, which stands upright" says "Height \($unit\)" cat "$kind.txt"
-    claim "  and a mark with its minus" says '−[0-9]' cat "$kind.txt"
+    claim "  the title of the x axis is text" says '^ *x \(µm\)' cat "$kind.txt"
+    claim "  the upright title of the colour bar is text" says "Height \($unit\)" cat "$kind.txt"
+    claim "  a mark with its minus sign is text" says '−[0-9]' cat "$kind.txt"
     claim "  all fonts are embedded" bash -c \
         "pdffonts $kind.pdf | tail -n +3 | awk '{ n++; bad += \$(NF - 4) != \"yes\" } END { exit !(n > 0 && bad == 0) }'"
     claim "$kind.svg: labels are text" says '<text .*>x \(µm\)</text>' cat "$kind.svg"
-    claim "  and librsvg draws it" rsvg-convert -o "$kind.png" "$kind.svg"
+    claim "  librsvg draws it" rsvg-convert -o "$kind.png" "$kind.svg"
 done
 claim "powers are raised digits in a PDF" bash -c \
     'rc-render --title "q⁻⁴ × 10³" -o power.pdf ramp.rcg && pdftotext power.pdf - | says "q−4 × 103" cat'
-claim "  and in an SVG, lifted, at seven tenths of the size" bash -c \
+claim "  in an SVG they are raised at seven tenths of the size" bash -c \
     'rc-render --title "a < 10³ & b" --width 1200 -o power.svg ramp.rcg &&
      says "a &lt; 10<tspan dy=\"-10.08\" font-size=\"19.6\">3</tspan><tspan dy=\"10.08\"> &amp; b</tspan></text>" cat power.svg'
-claim "another family is used" bash -c \
+claim "--font selects another family" bash -c \
     'rc-render --font "DejaVu Sans Mono" -o mono.pdf ramp.rcg 2>mono.err; [ -s mono.err ] || pdffonts mono.pdf | says Mono cat'
-claim "one that is not there is told" warns "no font of that name, .* is used" rc-render --font Gutenbergia -o no.pdf ramp.rcg
+claim "a missing family causes a message" warns "no font of that name, .* is used" rc-render --font Gutenbergia -o no.pdf ramp.rcg
 
 # ---- the map ----
 
 claim "in a PDF a node is a pixel of the map, not smoothed" bash -c \
     "pdfimages -list ramp.pdf | awk '\$4 == 6 && \$5 == 4 && \$10 == \"no\" { found = 1 } END { exit !found }'"
 # node k of 24 is k 255 / 23 of 255
-claim "  with the colours of its values" bash -c '
+claim "  it has the colours of its values" bash -c '
     rc-render --colormap grey --range 0:23um -o grey.pdf ramp.rcg && pdfimages grey.pdf grey &&
     perl -0777 -ne "s/^P6\s6 4\s255\s// or die q(no map); my @v = unpack q(C*), \$_; @v == 72 or die scalar @v;
         for (0 .. 71) { abs(\$v[\$_] - int(\$_ / 3) * 255 / 23) <= 1 or die qq(value \$_ is \$v[\$_]) }" grey-000.ppm'
@@ -77,12 +77,12 @@ near "$(rc-render --width 640 -o g.svg ramp.rcg && sed -n 's/.*<svg.* width="\([
 # ---- the same bytes ----
 
 for ending in png svg pdf; do
-    claim "two of $ending are the same, and another time has no part in it" bash -c "
+    claim "two runs give the same $ending at any time" bash -c "
         rc-render -o one.$ending ramp.rcg && sleep 1.1 && rc-render -o two.$ending ramp.rcg && cmp one.$ending two.$ending"
 done
 claim "no date is in the PDF" bash -c 'pdfinfo one.pdf >of_pdf && ! grep -q Date of_pdf'
-claim "the PDF says how it was made" bash -c 'pdfinfo one.pdf | says "^Subject: .*rc-import .* rc-render" cat'
-claim "so does the SVG" says '^<desc>rc-import .* rc-render .*</desc>' cat one.svg
+claim "the PDF contains the command that made it" bash -c 'pdfinfo one.pdf | says "^Subject: .*rc-import .* rc-render" cat'
+claim "the SVG does too" says '^<desc>rc-import .* rc-render .*</desc>' cat one.svg
 for ending in svg pdf; do
     ln -sf /dev/full "full.$ending"
     refuses 1 "the ${ending^^} cannot be written: No space left on device" "a full device, $ending" \

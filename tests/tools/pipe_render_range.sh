@@ -35,54 +35,54 @@ marks_lie() {
 }
 
 made 30 height m '($i - 10) * 1e-7' >ramp.rcg
-claim "a ramp" rc-render --width 1200 -o ramp.svg ramp.rcg
+claim "a ramp has the range of its values" rc-render --width 1200 -o ramp.svg ramp.rcg
 marks_lie ramp.svg -1 1.9 0 "marks lie at their values from end to end"
-claim "and nothing is beyond" test "$(arrows ramp.svg)" = 0
-claim "a chosen range" rc-render --width 1200 --range -500nm:3um -o wide.svg ramp.rcg
+claim "no value is outside" test "$(arrows ramp.svg)" = 0
+claim "--range sets the range" rc-render --width 1200 --range -500nm:3um -o wide.svg ramp.rcg
 marks_lie wide.svg -0.5 3 0 "is where the marks say"
-claim "what is below it has an arrow" test "$(arrows wide.svg)" = 1
-claim "  with a dark outline" bash -c 'grep -A 1 "Z\" fill" wide.svg | grep -q "fill=\"none\".*stroke=\"#222222\""'
-claim "symmetric" rc-render --width 1200 --range symmetric -o both.svg ramp.rcg
+claim "values below it have an arrow" test "$(arrows wide.svg)" = 1
+claim "  the arrow has a dark outline" bash -c 'grep -A 1 "Z\" fill" wide.svg | grep -q "fill=\"none\".*stroke=\"#222222\""'
+claim "--range symmetric is symmetric" rc-render --width 1200 --range symmetric -o both.svg ramp.rcg
 marks_lie both.svg -1.9 1.9 0 "is as far to one side of 0 as to the other"
-claim "percentiles" rc-render --width 1200 --range 10%:90% -o part.svg ramp.rcg
+claim "--range accepts percentiles" rc-render --width 1200 --range 10%:90% -o part.svg ramp.rcg
 # 900 values, 30 in each column: rank 89.9 is between the last value of column 2 and the first one of column 3
 marks_lie part.svg -0.71 1.61 0 "end where their columns do"
-claim "  with an arrow at each end" test "$(arrows part.svg)" = 2
-claim "  and a word" says 'colours from 10 % to 90 % of the nodes' cat part.svg
-claim "logarithms" rc-render --width 1200 --log --range 1nm:10um -o log.svg ramp.rcg
+claim "  each end has an arrow" test "$(arrows part.svg)" = 2
+claim "  a note explains them" says 'colours from 10 % to 90 % of the nodes' cat part.svg
+claim "--log-colours takes logarithms" rc-render --width 1200 --log --range 1nm:10um -o log.svg ramp.rcg
 sed -i 's/10<tspan[^>]*>\([−0-9]*\)<\/tspan>/1e\1/' log.svg
 marks_lie log.svg 0.001 10 1 "have their powers where they are"
 
 made 30 height m '$i == 7 && $j == 9 ? 1e-3 : sin($i / 3) * 1e-6' >spike.rcg
-claim "one outlier" rc-render --width 1200 -o spike.svg spike.rcg
-claim "leaves the colours to the others, with a word" says 'colours from 0.5 % to 99.5 % of the nodes' cat spike.svg
-claim "  and an arrow" test "$(arrows spike.svg)" -ge 1
-claim "  and its height in the subtitle" says 'max 1 mm' cat spike.svg
-claim "--range 0%:100% takes it in" rc-render --width 1200 --range 0%:100% -o all.svg spike.rcg
-claim "  without an arrow" test "$(arrows all.svg)" = 0
+claim "one outlier does not set the range" rc-render --width 1200 -o spike.svg spike.rcg
+claim "a note says so" says 'colours from 0.5 % to 99.5 % of the nodes' cat spike.svg
+claim "  it has an arrow" test "$(arrows spike.svg)" -ge 1
+claim "  the subtitle has its height" says 'max 1 mm' cat spike.svg
+claim "--range 0%:100% includes it" rc-render --width 1200 --range 0%:100% -o all.svg spike.rcg
+claim "  there is no arrow" test "$(arrows all.svg)" = 0
 
 made 30 gap m '$i < 9 ? -1e-12 * ($j % 2) : ($i - 8) * 1e-8' >gap.rcg
-claim "a gap" rc-render --width 1200 -o gap.svg gap.rcg
+claim "the range of a gap begins at 0" rc-render --width 1200 -o gap.svg gap.rcg
 marks_lie gap.svg 0 210 0 "begins at 0"
-claim "  and what is rounding is not beyond it" test "$(arrows gap.svg)" = 0
+claim "  values below 0 by rounding are not outside" test "$(arrows gap.svg)" = 0
 made 30 gap m '($i + 5) * 1e-8' >open.rcg
-claim "a gap that is open everywhere" rc-render --width 1200 -o open.svg open.rcg
+claim "the range of a gap without contact is that of its values" rc-render --width 1200 -o open.svg open.rcg
 marks_lie open.svg 0 340 0 "shows 0 too"
 made 30 gap m '($i - 8) * 1e-8' >dent.rcg
-claim "one that yields" rc-render --width 1200 -o dent.svg dent.rcg
+claim "the range of a gap with yield includes negative values" rc-render --width 1200 -o dent.svg dent.rcg
 marks_lie dent.svg -80 210 0 "has its sign"
-claim "  and 0 at a mark" grep -q '^0 ' marks.txt
+claim "  0 is at a mark" grep -q '^0 ' marks.txt
 made 30 sxx Pa '($i - 3) * 1e7' >signed.rcg
-claim "a stress of both signs" rc-render --width 1200 -o signed.svg signed.rcg
+claim "the range of a stress with both signs is symmetric" rc-render --width 1200 -o signed.svg signed.rcg
 marks_lie signed.svg -260 260 0 "has 0 in the middle"
 made 30 pressure Pa '$i < 9 ? 0 : 1e6 * ($i - 8) ** 2' >touch.rcg
-claim "a pressure" rc-render --width 1200 --log -o touch.svg touch.rcg
-claim "by the logarithm begins where it touches, and nothing is below" test "$(arrows touch.svg)" = 0
+claim "the range of a pressure begins at 0" rc-render --width 1200 --log -o touch.svg touch.rcg
+claim "logarithmic colours begin at the lowest pressure in contact" test "$(arrows touch.svg)" = 0
 marks_lie touch.svg 1 441 1 "  nor off its mark"
-claim "a pressure from 10 MPa" rc-render --width 1200 --range 10MPa:500MPa -o touch.svg touch.rcg
-claim "has contact below" test "$(arrows touch.svg)" = 1
+claim "a range from 10 MPa is drawn" rc-render --width 1200 --range 10MPa:500MPa -o touch.svg touch.rcg
+claim "contact below it has an arrow" test "$(arrows touch.svg)" = 1
 made 30 szz Pa '-$i * 1e7' >pressed.rcg
-claim "a stress of one sign" rc-render --width 1200 -o pressed.svg pressed.rcg
+claim "the range of a stress of one sign begins or ends at 0" rc-render --width 1200 -o pressed.svg pressed.rcg
 marks_lie pressed.svg -290 0 0 "ends at 0"
 
 # ---- a forgotten unit ----
@@ -92,13 +92,13 @@ doubted() { # doubted RANGE: a map and a cut with this range give a warning
         warns 'was a unit forgotten' rc-render --range "$1" --cut y=0 -o doubt.png touch.rcg
 }
 for range in 0:6 2GPa:6GPa 0:1000GPa; do
-    claim "--range $range, of which values up to 441 MPa leave next to nothing, is doubted" doubted $range
+    claim "--range $range hides most values up to 441 MPa, and causes a warning" doubted $range
 done
 quiet() { rc-render "$@" -o doubt.png 2>said.txt && ! grep -q forgotten said.txt; }
-claim "one that holds the values is not" quiet --range 0:6GPa touch.rcg
-claim "  nor one that shows a hundredth of them" quiet --range 1MPa:6MPa touch.rcg
+claim "a range that contains the values causes none" quiet --range 0:6GPa touch.rcg
+claim "  a range with a hundredth of the values causes none" quiet --range 1MPa:6MPa touch.rcg
 made 30 height m 1e-6 >flat.rcg
-claim "  nor that of a map with one value in it" quiet --range 0:2um flat.rcg
+claim "  a map with a single value causes none" quiet --range 0:2um flat.rcg
 
 for range in 1%:2 1%:101% 5%:5% 90%:10% -1%:5% 1% %:5% x%:5%; do
     refuses 2 "--range $range: percentiles are P%:Q%" "--range $range" "rc-render --range $range ramp.rcg >no.png"

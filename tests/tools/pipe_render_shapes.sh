@@ -29,27 +29,27 @@ border_length() {
 }
 rc-solve --quiet --load 60mN --estar 100GPa -o free.rcg rough.rcg
 perimeter=$(rc-info --json --patches free.rcg | sed -n 's/.*"perimeter": \([^,]*\),.*/\1/p')
-claim "a map of heights with the border of the contact" rc-render --channel height --border -o border.svg free.rcg
+claim "a map of heights has the border of the contact" rc-render --channel height --border -o border.svg free.rcg
 near "$(border_length border.svg)" "$perimeter" 1e-3 "  as long as the perimeter of the patches"
-claim "  and no other line" eval 'rc-render --channel height --contour -o contour.svg free.rcg && test $(wc -c <contour.svg) -gt $(wc -c <border.svg)'
-claim "  of the second case that of its own pressure" rc-render --channel height --border --case 2 -o second.svg two.rcg
-claim "    which is there" says '>edge of contact<' cat second.svg
-claim "  named in the legend" says '>edge of contact<' cat border.svg
-claim "on a gap, which is dark there, it is bright" eval 'rc-render --channel gap --border -o gap.svg free.rcg && says "stroke=\"#ff8c1a\"" cat gap.svg'
+claim "  it has no other line" eval 'rc-render --channel height --contour -o contour.svg free.rcg && test $(wc -c <contour.svg) -gt $(wc -c <border.svg)'
+claim "  the second case has the border of its own pressure" rc-render --channel height --border --case 2 -o second.svg two.rcg
+claim "    the line is drawn" says '>edge of contact<' cat second.svg
+claim "  the legend names it" says '>edge of contact<' cat border.svg
+claim "it is bright on a gap, which is dark there" eval 'rc-render --channel gap --border -o gap.svg free.rcg && says "stroke=\"#ff8c1a\"" cat gap.svg'
 near "$(border_length gap.svg)" "$perimeter" 1e-3 "  and as long"
 claim "a sheet of gaps has the border of each case" eval 'rc-render --channel gap --sheet 2x1 --border -o sheet.svg two.rcg &&
     test $(grep -o "stroke=\"#ff8c1a\"" sheet.svg | wc -l) -ge 3'
-claim "  with --contour too" eval 'rc-render --channel gap --case 1,2 --contour -o sheet.svg two.rcg && says ">edge of contact<" cat sheet.svg'
-claim "  within a window" rc-render --channel gap --case 1,2 --border --window -10um:10um,-10um:10um -o sheet.svg two.rcg
-claim "  none where the pressure is not there" eval 'rc-pick --channel gap two.rcg | rc-render --sheet 2x1 --border -o sheet.svg && ! says ">edge of contact<" cat sheet.svg'
+claim "  --contour can be added" eval 'rc-render --channel gap --case 1,2 --contour -o sheet.svg two.rcg && says ">edge of contact<" cat sheet.svg'
+claim "  a window can be selected" rc-render --channel gap --case 1,2 --border --window -10um:10um,-10um:10um -o sheet.svg two.rcg
+claim "  without a pressure there is none" eval 'rc-pick --channel gap two.rcg | rc-render --sheet 2x1 --border -o sheet.svg && ! says ">edge of contact<" cat sheet.svg'
 rc-solve --quiet --history --load 60mN,0 --estar 100GPa --hardness 1GPa -o apart.rcg rough.rcg
-claim "  nor where nothing touches" eval 'rc-render --channel gap --case 2 --border -o none.svg apart.rcg && ! says "edge of contact" cat none.svg'
-claim "  of a sheet, whose first map has no contact, it is named" eval 'rc-pick --case 2 apart.rcg >a.rcg && cat a.rcg two.rcg | rc-render --channel gap --border --sheet auto -o sheet.svg && says ">edge of contact<" cat sheet.svg'
+claim "  without contact there is none" eval 'rc-render --channel gap --case 2 --border -o none.svg apart.rcg && ! says "edge of contact" cat none.svg'
+claim "  a sheet names it if the first map has no contact" eval 'rc-pick --case 2 apart.rcg >a.rcg && cat a.rcg two.rcg | rc-render --channel gap --border --sheet auto -o sheet.svg && says ">edge of contact<" cat sheet.svg'
 
 # ---- reliefs ----
 
-claim "a relief ten times as high" eval 'rc-render --channel height --view 30,40 --exaggeration 10 -o r.svg rough.rcg && says "vertical exaggeration 10" cat r.svg'
-claim "  of which the box grows" eval 'h() { rc-render --channel height --view 30,20 --exaggeration $1 --width 600 -o r.svg rough.rcg && sed -n "s/.*viewBox=\"0 0 [0-9]* \([0-9]*\)\".*/\1/p" r.svg; }
+claim "a relief can be ten times as high" eval 'rc-render --channel height --view 30,40 --exaggeration 10 -o r.svg rough.rcg && says "vertical exaggeration 10" cat r.svg'
+claim "  its box grows" eval 'h() { rc-render --channel height --view 30,20 --exaggeration $1 --width 600 -o r.svg rough.rcg && sed -n "s/.*viewBox=\"0 0 [0-9]* \([0-9]*\)\".*/\1/p" r.svg; }
     test "$(h 400)" -gt "$(h 100)"'
 refuses 2 '--exaggeration is for a relief: add --view AZ,EL' "a flat map" "$draw --exaggeration 2 rough.rcg"
 refuses 2 '--exaggeration is for heights and other lengths, this is a pressure' "a relief of pressures" "$draw --channel pressure --view 30,40 --exaggeration 2 one.rcg"
@@ -62,14 +62,14 @@ refuses 2 '--exaggeration 0: it must be above 0' "none" "$draw --view 30,40 --ex
 shape() {
     sed -n 's/.*<image [^>]*width="\([0-9.]*\)" height="\([0-9.]*\)".*/\1 \2/p' "$1" | awk 'NR == 1 { print $1 / $2 }'
 }
-claim "a strip, five times as deep" rc-render --aspect 5 -o strip.svg strip.rcg
+claim "a narrow map can be drawn five times as deep" rc-render --aspect 5 -o strip.svg strip.rcg
 near "$(shape strip.svg)" "$(awk 'BEGIN { print 60 / (5 * 5) }')" "$coarse_grid" "  60 um by 5 um, drawn 60 to 25"
-claim "  as the figure says" says '>depth is drawn 5 times as large as x<' cat strip.svg
-claim "of a map too" rc-render --channel height --aspect 0.5 -o flat.svg rough.rcg
+claim "  the figure says so" says '>depth is drawn 5 times as large as x<' cat strip.svg
+claim "the same holds for a map" rc-render --channel height --aspect 0.5 -o flat.svg rough.rcg
 near "$(shape flat.svg)" "$(awk 'BEGIN { print 60 / 45 }')" "$coarse_grid" "  60 um by 90 um, drawn 60 to 45"
-claim "a sheet of them" eval 'rc-stress --quiet --nu 0.3 --section y=0 --depths 0:5um:6 --components mises two.rcg | rc-render --sheet 1x2 --aspect 5 -o sheet.svg && says ">depth is drawn 5 times" cat sheet.svg'
+claim "the same holds for a sheet" eval 'rc-stress --quiet --nu 0.3 --section y=0 --depths 0:5um:6 --components mises two.rcg | rc-render --sheet 1x2 --aspect 5 -o sheet.svg && says ">depth is drawn 5 times" cat sheet.svg'
 for width in 700 800 900 1000 1100; do # the bar may be below the plot or beside it
-    claim "the bar stays on the page, $width pixels wide" eval 'rc-render --aspect 3.4 --width '$width' -o bar.svg strip.rcg &&
+    claim "the bar of lengths fits the page, $width pixels wide" eval 'rc-render --aspect 3.4 --width '$width' -o bar.svg strip.rcg &&
         perl -0777 -ne "my (\$w) = /viewBox=\"0 0 (\d+)/; while (/<image [^>]*?x=\"([\d.]+)\"[^>]*?width=\"([\d.]+)\"/g) { exit 1 if \$1 + \$2 > \$w }" bar.svg'
 done
 refuses 2 '--aspect 100: the plot would be [0-9.]+ times as high as wide: give one that leaves it at most 12 times' "a tower" "$draw --aspect 100 --channel height rough.rcg"
@@ -79,8 +79,8 @@ refuses 2 '--raw draws nothing but nodes: leave out --border' "raw pixels" "rc-r
 
 # ---- words ----
 
-claim "a histogram is a distribution" eval 'rc-render --histogram --channel height -o d.svg rough.rcg && says ">Height distribution<" cat d.svg'
-claim "what yields is a yielded area" eval 'printf "load/N\tyielded_area/m2\n1\t1e-9\n2\t2e-9\n" | rc-render --curve load:yielded_area -o y.svg && says ">Yielded area against load<" cat y.svg'
-claim "none of what was refused left a picture behind" bash -c '[ ! -e out.svg ] && [ ! -e out.png ]'
+claim "the title of a histogram is a distribution" eval 'rc-render --histogram --channel height -o d.svg rough.rcg && says ">Height distribution<" cat d.svg'
+claim "the yielded nodes are called yielded area" eval 'printf "load/N\tyielded_area/m2\n1\t1e-9\n2\t2e-9\n" | rc-render --curve load:yielded_area -o y.svg && says ">Yielded area against load<" cat y.svg'
+claim "refused commands leave no picture" bash -c '[ ! -e out.svg ] && [ ! -e out.png ]'
 
 finish
