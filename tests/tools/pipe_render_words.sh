@@ -7,28 +7,28 @@
 
 rc-synth sphere --nx 9 --dx 1um --radius 1mm -o map.rcg
 long='The contact of a rough sphere with a half-space under a load that grows from step to step until it yields'
-claim "a long title" rc-render --width 85mm --title "$long" -o long.svg map.rcg
+claim "a long title is drawn" rc-render --width 85mm --title "$long" -o long.svg map.rcg
 sed -n 's/.*font-weight="bold".*>\(.*\)<\/text>/\1/p' long.svg >lines.txt
-claim "has several lines" test "$(wc -l <lines.txt)" -ge 3
-claim "  which are its words, all of them" test "$(paste -s -d ' ' lines.txt)" = "$long"
-claim "one that is too long for four lines" rc-render --width 85mm --title "$long, $long" -o cut.svg map.rcg
+claim "it has several lines" test "$(wc -l <lines.txt)" -ge 3
+claim "  they contain all its words" test "$(paste -s -d ' ' lines.txt)" = "$long"
+claim "a title that is too long for four lines is drawn" rc-render --width 85mm --title "$long, $long" -o cut.svg map.rcg
 sed -n 's/.*font-weight="bold".*>\(.*\)<\/text>/\1/p' cut.svg >lines.txt
-claim "  is cut behind a word" awk -v words=" $long, $long " '
+claim "  it is cut after a word" awk -v words=" $long, $long " '
     END { n = split($0, w, " "); last = w[n]; sub(/…$/, "", last)
           exit !(NR == 4 && $0 ~ /…$/ && index(words, " " last " ") > 0) }' lines.txt
-claim "a long word" rc-render --width 85mm --title 'Kontaktmechanikgrenzflächenuntersuchung' -o word.svg map.rcg
-claim "  is set smaller, not cut" says 'font-weight="bold".*>Kontaktmechanikgrenzflächenuntersuchung</text>' cat word.svg
-claim "  than others" bash -c '
+claim "a long word is drawn" rc-render --width 85mm --title 'Kontaktmechanikgrenzflächenuntersuchung' -o word.svg map.rcg
+claim "  it is set smaller and complete" says 'font-weight="bold".*>Kontaktmechanikgrenzflächenuntersuchung</text>' cat word.svg
+claim "  other titles are larger" bash -c '
     size() { sed -n "s/.*font-size=\"\([0-9.]*\)\" font-weight=\"bold\".*/\1/p" $1 | head -n 1; }
     awk "BEGIN { exit !($(size word.svg) < 0.98 * $(size long.svg)) }"'
 sed 's/^unit=m/unit=m4/; s/^channel=height/channel=psd/' map.rcg | reseal >power.rcg
-claim "m4 is a raised power" bash -c 'rc-render -o power.svg power.rcg && says " m</tspan><tspan dy=\"-[0-9.]*\" font-size=\"[0-9.]*\">4</tspan>" cat power.svg'
+claim "m4 is written with a raised power" bash -c 'rc-render -o power.svg power.rcg && says " m</tspan><tspan dy=\"-[0-9.]*\" font-size=\"[0-9.]*\">4</tspan>" cat power.svg'
 private=$(printf '\364\217\277\275')
 for ending in svg pdf; do
-    claim "a character that no font has is told, $ending" warns "no font has the characters '$private'" \
+    claim "a character that no font has causes a message, $ending" warns "no font has the characters '$private'" \
         rc-render --title "No $private here" -o "no.$ending" map.rcg
 done
-claim "  and is a question mark" says '>No \? here</text>' cat no.svg
+claim "  it is drawn as a question mark" says '>No \? here</text>' cat no.svg
 
 # ---- a solution that did not converge ----
 
@@ -63,20 +63,20 @@ pixels() {
     perl -MCompress::Zlib -e "$rows exit !($1)"
 }
 
-claim "figures of both" eval 'draw --width 400 short && draw --width 400 whole'
-claim "the stamp has its ink" pixels 'red(@short) > 100'
-claim "  which no other figure has" pixels 'red(@whole) == 0'
+claim "figures of a converged and of another result are drawn" eval 'draw --width 400 short && draw --width 400 whole'
+claim "the stamp is drawn" pixels 'red(@short) > 100'
+claim "  the converged one has no stamp" pixels 'red(@whole) == 0'
 # the plot begins at row 80, without a stamp before row 60
-claim "  and none of it is on the plot" pixels 'red(@short[80 .. $#short]) == 0'
-claim "the data are as in the other figure, pixel for pixel" pixels \
+claim "  no part of the stamp is on the plot" pixels 'red(@short[80 .. $#short]) == 0'
+claim "the data of both figures are equal, pixel for pixel" pixels \
     'index(join("", @short), join("", @whole[60 .. 300])) > 0 && @short > @whole'
-claim "the picture's words say it" bash -c 'tr "\0" = <short.png | says "tEXtWarning=not converged" cat'
-claim "  and not of the other" lacks tEXtWarning whole.png
-claim "raw pictures hold nodes only" eval 'draw --raw short && draw --raw whole'
-claim "  the same" pixels 'join("", @short) eq join("", @whole)'
-claim "  but for the words" bash -c 'tr "\0" = <short.png | says "tEXtWarning=not converged" cat'
+claim "the text of the picture says so" bash -c 'tr "\0" = <short.png | says "tEXtWarning=not converged" cat'
+claim "  the text of the converged one does not" lacks tEXtWarning whole.png
+claim "raw pictures contain only nodes" eval 'draw --raw short && draw --raw whole'
+claim "  both have the same pixels" pixels 'join("", @short) eq join("", @whole)'
+claim "  their texts differ" bash -c 'tr "\0" = <short.png | says "tEXtWarning=not converged" cat'
 rc-stress --quiet --nu 0.3 --depths 1um --components mises short.rcg -o stress.rcg
 mv stress.rcg short.rcg
-claim "stresses of it bear the stamp too" eval 'draw --width 400 short && pixels "red(@short) > 100"'
+claim "stresses of the result have the stamp too" eval 'draw --width 400 short && pixels "red(@short) > 100"'
 
 finish

@@ -31,19 +31,19 @@ for f in ramp soft hard elastic; do
     rc-render --window -8um:8um,-6um:6um --range 1GPa:4GPa --width 600 -o $f.svg $f.rcg
 done
 claim "waves of two nodes are not drawn" test "$(drawn soft.svg)" = "$(drawn ramp.svg)"
-claim "  but where the hardening is ten times the yield stress they are" test "$(drawn hard.svg)" != "$(drawn ramp.svg)"
-claim "  as on an elastic body" test "$(drawn hard.svg)" = "$(drawn elastic.svg)"
+claim "  with a hardening of ten times the yield stress they are drawn" test "$(drawn hard.svg)" != "$(drawn ramp.svg)"
+claim "  on an elastic body they are drawn" test "$(drawn hard.svg)" = "$(drawn elastic.svg)"
 one=$(awk 'BEGIN { for (i = 0; i < 24; i++) for (j = 0; j < 20; j++) { p = 1e9 + 2^24 * (3 * i + 5 * j) + 2^20 * ((-1)^i * (7 + j) + (-1)^j * (11 - i)); if (p > m) m = p } printf "%.4g", m / 1e9 }')
 rc-render --range 1GPa:4GPa --width 600 -o whole.svg soft.rcg
 # at an edge the last nodes are repeated beyond it, and means keep the waves along it
 says_both() { words "$1" | grep -q "max $2 GPa in means of 2 .* 2 nodes, $3 GPa at one node" || { words "$1" >&2; return 1; }; }
-claim "both largest values are told" says_both whole.svg "[34].[0-9]*" "$one"
-claim "of others one is" bash -c 'words hard.svg | grep -q "max [0-9.]* GPa$"'
+claim "both largest values are printed" says_both whole.svg "[34].[0-9]*" "$one"
+claim "for other bodies one is printed" bash -c 'words hard.svg | grep -q "max [0-9.]* GPa$"'
 stream "boundary=periodic yield=1e9 hardening=0" '2e9 + 1e8 * (-1)**$i + 5e7 * (-1)**$j' >round.rcg
 stream "boundary=periodic" '2e9' >flat.rcg
 for f in round flat; do rc-render --range 1GPa:4GPa --width 600 -o $f.svg $f.rcg; done
-claim "on a map that repeats means go round" test "$(drawn round.svg)" = "$(drawn flat.svg)"
-claim "  and are told" says_both round.svg 2 2.15
+claim "on a periodic map means continue across the edges" test "$(drawn round.svg)" = "$(drawn flat.svg)"
+claim "  a note says so" says_both round.svg 2 2.15
 # nodes outside of the contact stay outside, nodes in contact stay in contact
 island='$i > 5 && $i < 15 && $j > 5 && $j < 15'
 stream "boundary=periodic yield=1e9 hardening=0" "$island ? 2e9 : 0" >island.rcg
@@ -51,11 +51,11 @@ stream "boundary=periodic" "$island ? 2e9 : 0" >bare.rcg
 for f in island bare; do rc-render --quiet --window all --contour --range 1MPa:100GPa --width 600 -o $f.svg $f.rcg; done
 edge() { grep -o '<path d="[^"]*"' "$1" | sort | sha256sum; }
 export -f edge
-claim "where there is contact is drawn as it is, with its edge" bash -c '
+claim "the border of the contact is that of single nodes" bash -c '
     [ "$(edge island.svg)" = "$(edge bare.svg)" ] && [ "$(edge island.svg)" != "$(edge flat.svg)" ] '
 claim "a sheet has means too" bash -c '
     cat round.rcg soft.rcg >two.rcg && rc-render --sheet 2x1 --width 900 -o sheet.svg two.rcg && words sheet.svg | grep -q "GPa in means of 2 .* 2 nodes, .* GPa at one node"'
-claim "a raw picture has the nodes as they are" bash -c '
+claim "a raw picture has the values of single nodes" bash -c '
     rc-render --raw --range 1GPa:4GPa -o a.png hard.rcg && rc-render --raw --range 1GPa:4GPa -o b.png soft.rcg &&
     perl -0777 -ne "print unpack(q(H*), \$1) while /IDAT(.*?)....IEND/gs" a.png >a.hex &&
     perl -0777 -ne "print unpack(q(H*), \$1) while /IDAT(.*?)....IEND/gs" b.png >b.hex && [ -s a.hex ] && cmp a.hex b.hex'
@@ -67,17 +67,17 @@ solve="rc-solve --quiet --periodic --E1 100GPa --nu1 0.3 --E2 rigid --load 0.4N 
 $solve --yield 0.7GPa --report soft.json -o p.rcg ball.rcg
 rc-render -o p.svg p.rcg
 shown() { awk -v p="$1" 'BEGIN { printf "%.4g", p / 1e9 }'; }
-claim "rc-solve's streams say enough" says_both p.svg "$(shown "$(field max_pressure_mean4 soft.json)")" "$(shown "$(field max_pressure soft.json)")"
+claim "streams of rc-solve have the needed keys" says_both p.svg "$(shown "$(field max_pressure_mean4 soft.json)")" "$(shown "$(field max_pressure soft.json)")"
 between 0.01 "$(awk -v a="$(field max_pressure soft.json)" -v b="$(field max_pressure_mean4 soft.json)" 'BEGIN { print a / b - 1 }')" 0.3 \
     "  there is something to take the mean of"
 $solve --yield 0.7GPa,7GPa --report hard.json -o p.rcg ball.rcg
 rc-render -o p.svg p.rcg
-claim "  also that it hardens" bash -c 'words p.svg | grep -q "max [0-9.]* GPa$"'
+claim "  the hardening too" bash -c 'words p.svg | grep -q "max [0-9.]* GPa$"'
 printf '0 0.7GPa\n0.01 0.7GPa\n1 70GPa\n' >table.tsv
 $solve --yield table.tsv -o p.rcg ball.rcg
-claim "  of a table how it begins to" bash -c '[ "$(LC_ALL=C sed -n "s/^hardening=//p; /^$/q" p.rcg)" = 0 ] && [ "$(LC_ALL=C sed -n "s/^yield=//p; /^$/q" p.rcg)" = 700000000 ]'
+claim "  for a table its first slope" bash -c '[ "$(LC_ALL=C sed -n "s/^hardening=//p; /^$/q" p.rcg)" = 0 ] && [ "$(LC_ALL=C sed -n "s/^yield=//p; /^$/q" p.rcg)" = 700000000 ]'
 $solve --yield 70GPa -o p.rcg ball.rcg
-claim "  and of what has not yielded nothing" bash -c '! LC_ALL=C sed "/^$/q" p.rcg | grep -q "^yield="'
+claim "  without yield there are no such keys" bash -c '! LC_ALL=C sed "/^$/q" p.rcg | grep -q "^yield="'
 
 # ---- warnings go by the means ----
 
@@ -95,6 +95,6 @@ beyond() {
         { if (($2 > tenth) != ($3 > 0)) bad = 1; if ($1 > tenth && $2 < tenth) between++; if ($2 > tenth) above++ }
         END { exit bad || !between || !above }' beyond.txt
 }
-claim "a pressure beyond a tenth of E* is warned of where means are" beyond
+claim "a mean pressure above a tenth of E* causes a warning" beyond
 
 finish

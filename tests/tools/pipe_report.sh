@@ -56,12 +56,12 @@ rc-synth selfaffine --nx 47 --ny 33 --dx 1.1um --dy 1.29um --hurst 0.8 --rms-slo
 # ---- rc-solve ----
 
 press="rc-solve --quiet --estar 114GPa --radius 2.385mm --hardness 6GPa --threads 1 --output pressure"
-claim "rc-solve writes a table of a list of loads" $press --load 0.1:0.5:5 --report loads.tsv -o pressed.rcg rough.rcg
-claim "rc-solve writes the same run as lines" $press --load 0.1:0.5:5 --report loads.json -o again.rcg rough.rcg
-claim "a row for each load, and the names" test "$(wc -l <loads.tsv)" = 6
-claim "rc-solve: the cells are the scalars of the lines" same_cells loads.tsv loads.json peak_memory memory_estimate
+claim "rc-solve writes a table for a list of loads" $press --load 0.1:0.5:5 --report loads.tsv -o pressed.rcg rough.rcg
+claim "rc-solve writes lines of JSON for the same run" $press --load 0.1:0.5:5 --report loads.json -o again.rcg rough.rcg
+claim "the table has a row for each load, and the names" test "$(wc -l <loads.tsv)" = 6
+claim "rc-solve: the cells are the scalars of the JSON lines" same_cells loads.tsv loads.json peak_memory memory_estimate
 rc-pick --set 'source=a, "b".x3p' rough.rcg | $press --load 0.1:0.5:5 --report loads.csv -o again.rcg
-claim "FILE.csv is the same with commas" perl -MText::ParseWords -e '
+claim "FILE.csv is the same table with commas" perl -MText::ParseWords -e '
     open my $t, "<", "loads.tsv" or die; open my $c, "<", "loads.csv" or die;
     while (my $line = <$t>) {
         my $other = <$c>; chomp($line, $other);
@@ -69,11 +69,11 @@ claim "FILE.csv is the same with commas" perl -MText::ParseWords -e '
         die "@commas" if @tabs != @commas;
         for my $k (0 .. $#tabs) { $names[$k] = $tabs[$k] if $. == 1;
             die "$names[$k]: $tabs[$k], $commas[$k]" if $tabs[$k] ne $commas[$k] && $names[$k] !~ /^(source|seconds|.*memory|.*seconds)/ } }'
-claim "  a cell with commas and quotes is in quotes" says '^1,"a, ""b"".x3p",47,33,' cat loads.csv
+claim "  a cell with commas and quotes is written in quotes" says '^1,"a, ""b"".x3p",47,33,' cat loads.csv
 for ending in tsv csv; do
     rc-render --curve load:contact_area --title x --font 9 -o $ending.svg loads.$ending
 done
-claim "  and --curve reads it" diff <(sed 's/loads\.[tc]sv/loads/g' tsv.svg) <(sed 's/loads\.[tc]sv/loads/g' csv.svg)
+claim "  rc-render --curve reads it" diff <(sed 's/loads\.[tc]sv/loads/g' tsv.svg) <(sed 's/loads\.[tc]sv/loads/g' csv.svg)
 printf 'v/m,of\n1,"a ""b"", c"\n2,d\n3,"a ""b"", c"\n' >words.csv
 claim "  quoted words too" bash -c 'rc-render --curve v:v --by of -o words.svg words.csv && says "a &quot;b&quot;, c|a \"b\", c" cat words.svg'
 k=0
@@ -82,38 +82,38 @@ for load in $(cells load/N loads.tsv); do
     near "$load" "0.$k" "$summed" "row $k is load $k"
 done
 for column in load/N mean_pressure/Pa max_pressure/Pa contact_area/m2 approach/m stiffness/N/m dx/m peak_memory/B; do
-    claim "  the unit of $column" bash -c "head -n 1 loads.tsv | tr '\t' '\n' | grep -qx '$column'"
+    claim "  $column has its unit" bash -c "head -n 1 loads.tsv | tr '\t' '\n' | grep -qx '$column'"
 done
-claim "  a plain number has none" bash -c "head -n 1 loads.tsv | tr '\t' '\n' | grep -qx contact_nodes"
-claim "the ending may be in capitals" $press --load 0.5 --report one.TSV -o one.rcg rough.rcg
-claim "  one load is one row" test "$(wc -l <one.TSV)" = 2
-claim "  what is unknown is NaN" test "$(cells stiffness/N/m one.TSV)" = NaN
-claim "an estimate that is an object is no column" bash -c "
+claim "  a plain number has no unit" bash -c "head -n 1 loads.tsv | tr '\t' '\n' | grep -qx contact_nodes"
+claim "the suffix may be in capitals" $press --load 0.5 --report one.TSV -o one.rcg rough.rcg
+claim "  one load gives one row" test "$(wc -l <one.TSV)" = 2
+claim "  an unknown value is NaN" test "$(cells stiffness/N/m one.TSV)" = NaN
+claim "an estimate that is an object has no column" bash -c "
     $press --load 0.3,0.5 --discretization --report coarse.tsv -o /dev/null rough.rcg && lacks discretization coarse.tsv"
-claim "any other ending is JSON" bash -c "$press --load 0.5 --report tsv -o /dev/null rough.rcg && grep -q '^{' tsv"
+claim "with any other suffix the report is JSON" bash -c "$press --load 0.5 --report tsv -o /dev/null rough.rcg && grep -q '^{' tsv"
 
 # A file name with characters that would break lines and cells.
 rc-synth sphere --nx 9 --dx 5um --radius 7.5mm -o ball.rcg
 sed $'/^source=/d; s/^nx=/source=a\tb\\\\nc "d"\\\nnx=/' ball.rcg | reseal >named.rcg
-claim "a source with a tab and a line feed" \
+claim "a source name with a tab and a line feed is accepted" \
     rc-solve --load 1 --estar 114GPa --quiet --report named.tsv -o /dev/null named.rcg
-claim "  is one cell" test "$(cells source named.tsv)" = 'a b c "d"'
-claim "  in a table of two lines" test "$(wc -l <named.tsv)" = 2
+claim "  it is one cell" test "$(cells source named.tsv)" = 'a b c "d"'
+claim "  the table has two lines" test "$(wc -l <named.tsv)" = 2
 
 # ---- rc-stress ----
 
 strain="rc-stress --nu 0.3 --depths 1um,5um --components szz,mises --threads 1 --quiet"
 claim "rc-stress writes a table" $strain --report stress.tsv -o /dev/null pressed.rcg
-claim "rc-stress writes lines" $strain --report stress.json -o /dev/null pressed.rcg
-claim "rc-stress: the cells are the scalars of the lines" same_cells stress.tsv stress.json peak_memory memory_estimate
-claim "  a row for each case" test "$(wc -l <stress.tsv)" = 6
+claim "rc-stress writes lines of JSON" $strain --report stress.json -o /dev/null pressed.rcg
+claim "rc-stress: the cells are the scalars of the JSON lines" same_cells stress.tsv stress.json peak_memory memory_estimate
+claim "  each case has a row" test "$(wc -l <stress.tsv)" = 6
 
 # ---- rc-cost ----
 
 try="rc-cost --load 0.5 --estar 114GPa --kernel fft --method pcg --nu 0.3 --depths 1um --threads 1 --quiet"
 claim "rc-cost writes a table" bash -c "$try --report cost.tsv ball.rcg"
-claim "rc-cost writes lines" bash -c "$try --report cost.json ball.rcg"
-claim "rc-cost: the cells are the scalars of the lines" \
+claim "rc-cost writes lines of JSON" bash -c "$try --report cost.json ball.rcg"
+claim "rc-cost: the cells are the scalars of the JSON lines" \
     same_cells cost.tsv cost.json expected_seconds seconds runs memory front
 
 # ---- a report that cannot be written ----
@@ -122,7 +122,7 @@ refuses 1 'report full: this is a folder' "a folder, before the work" \
     "mkdir full && $press --load 0.5 --report full -o never.rcg rough.rcg"
 refuses 1 'report /dev/full: writing failed' "a full disk" \
     "$press --load 0.5 --report /dev/full -o never.rcg rough.rcg"
-claim "  nothing else is left behind" test ! -e never.rcg
+claim "  no other file is left" test ! -e never.rcg
 
 # ---- --report - ----
 
@@ -135,22 +135,22 @@ only_lines() {
 }
 export -f only_lines
 
-claim "rc-solve: two lines and no stream" bash -c "$press --report - | only_lines 2"
+claim "rc-solve writes two lines and no stream" bash -c "$press --report - | only_lines 2"
 claim "  -o - is standard output too" bash -c "$press --report - -o - | only_lines 2"
-claim "rc-solve: with -o the stream goes there" bash -c "$press --report - -o pressed.rcg | only_lines 2"
+claim "rc-solve: -o gets the stream" bash -c "$press --report - -o pressed.rcg | only_lines 2"
 $press -o plain.rcg
-claim "  and is what it would be" cmp pressed.rcg plain.rcg
-claim "rc-stress: lines and no stream" bash -c "rc-stress --nu 0.3 --depths 5um --report - plain.rcg | only_lines 2"
-claim "rc-stress: with -o the stream goes there" \
+claim "  it is the usual stream" cmp pressed.rcg plain.rcg
+claim "rc-stress writes lines and no stream" bash -c "rc-stress --nu 0.3 --depths 5um --report - plain.rcg | only_lines 2"
+claim "rc-stress: -o gets the stream" \
     bash -c "rc-stress --nu 0.3 --depths 5um --report - -o stress.rcg plain.rcg | only_lines 2"
 rc-stress --nu 0.3 --depths 5um -o plain-stress.rcg plain.rcg
-claim "  and is what it would be" cmp stress.rcg plain-stress.rcg
+claim "  it is the usual stream" cmp stress.rcg plain-stress.rcg
 try="rc-cost --load 1 --estar 114GPa --kernel fft --method pcg --quiet ball.rcg"
-claim "rc-cost: lines and no table" bash -c "$try --report - | only_lines \$($try | grep -c 'pcg')"
-claim "rc-cost: with -o the table goes there" bash -c "$try --report - -o table.txt >cost.json && grep -q pcg table.txt"
-claim "  the lines do not" bash -c "[ -s cost.json ] && lacks '^\{' table.txt"
-claim "--dry-run writes its words and no report" bash -c "$press --report - --dry-run | says 'convolutions' cat"
+claim "rc-cost writes lines and no table" bash -c "$try --report - | only_lines \$($try | grep -c 'pcg')"
+claim "rc-cost: -o gets the table" bash -c "$try --report - -o table.txt >cost.json && grep -q pcg table.txt"
+claim "  it does not get the lines" bash -c "[ -s cost.json ] && lacks '^\{' table.txt"
+claim "--dry-run prints its plan and no report" bash -c "$press --report - --dry-run | says 'convolutions' cat"
 refuses 1 'report -: writing failed' "a full disk is told" "$press --report - >/dev/full"
-claim "no file is called -" test ! -e ./-
+claim "no file has the name -" test ! -e ./-
 
 finish

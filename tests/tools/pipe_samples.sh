@@ -8,7 +8,7 @@ claim "make.sh makes the samples again, bit for bit" bash -c '
     [ "$(ls again | wc -l)" = '"$(wc -w <<<"$samples")"' ] &&
     for sample in '"$samples"'; do cmp "again/$sample" "$RC_SOURCE/sample_surfaces/$sample" || exit 1; done'
 # 0.55 of pi a^2, a^3 = 3 F R / 4 E*; the largest pressure is exactly the hardness
-claim "the rough sphere of the paper: contact area 0.55 of that of Hertz, cut at 6 GPa" bash -c '
+claim "the rough sphere of the paper has 0.55 of Hertz's contact area, with a hardness of 6 GPa" bash -c '
     rc-import "$RC_SOURCE/sample_surfaces/rough-sphere.x3p" |
         rc-solve --radius 7.5mm --load 240N --estar 113.93GPa --hardness 6GPa --output pressure \
             --report sphere.json -o sphere.rcg'
@@ -19,7 +19,7 @@ near "$(field max_pressure sphere.json)" 6e9 "$same" "  the largest pressure is 
 between 1e-9 "$(field plastic_area sphere.json)" 6e-9 "  on a part of it"
 
 for sample in $samples; do
-    claim "$sample goes from file to picture in one line" bash -c "
+    claim "a pipeline of one line draws $sample" bash -c "
         rc-import '$RC_SOURCE/sample_surfaces/$sample' | rc-detrend --fill --poly 2 |
             rc-solve --mean-pressure 30MPa --estar 114GPa --hardness 6GPa --quiet |
             rc-stress --nu 0.3 --depths 0,2um,5um --components mises |
@@ -31,12 +31,12 @@ claim "the demo runs" bash -c '
     says PNG head -c 4 rc-demo/mises.png'
 near "$(sed -n 's/^  load *\([0-9.]*\) N$/\1/p' demo/said.txt)" 60 "$summed" "  and says what it found, with units"
 near "$(sed -n 's/^  pressure *at most \([0-9.]*\) GPa$/\1/p' demo/said.txt)" 6 "$same" "  with the hardness that it gave"
-claim "  on any other file too" bash -c '
+claim "  it runs on another file too" bash -c '
     cd demo && says "^  load +[0-9.]+ N$" bash "$RC_SOURCE/sample_surfaces/demo.sh" ../again/turned-brass.txt'
 
 if [ -d "$RC_CORPUS/corpus" ]; then
     real=$RC_CORPUS/corpus/x3p/bulletxtrctr__Hamby252_Barrel1_Bullet1_Land1.x3p
-    claim "a real X3P goes from file to picture in one line" bash -c "
+    claim "a pipeline of one line draws a real X3P" bash -c "
         rc-import '$real' | rc-detrend --poly 2 --fill |
             rc-solve --mean-pressure 30MPa --estar 114GPa --hardness 6GPa --quiet |
             rc-stress --nu 0.3 --depths 0,5um --components mises |

@@ -16,22 +16,22 @@ apart() { paste -d ' ' <(values "$1" "$3" "$4") <(values "$2" "$3" "$4") | awk '
 
 printf '100N 0 0\n240N 43.2N 0\n240N -20N 30N\n120N 20N 0\n' >way.txt
 slip="rc-slip --quiet --mu 0.3 --history way.txt"
-claim "a path, whole" bash -c "$slip --checkpoint kept.rcg --report whole.tsv -o whole.rcg alike.rcg"
-claim "  is that without a checkpoint" bash -c "$slip -o without.rcg alike.rcg && cmp whole.rcg without.rcg"
+claim "a path is solved without interruption" bash -c "$slip --checkpoint kept.rcg --report whole.tsv -o whole.rcg alike.rcg"
+claim "  a checkpoint does not change the result" bash -c "$slip -o without.rcg alike.rcg && cmp whole.rcg without.rcg"
 states() { rc-info "$1" | grep -c '(state)'; }
 claim "the checkpoint has a state for each corner" test "$(states kept.rcg)" = 4
 cp kept.rcg all.rcg
-claim "resumed, nothing is left to do" bash -c "$slip --checkpoint kept.rcg --resume --report again.tsv -o again.rcg alike.rcg"
+claim "a resumed complete run does no work" bash -c "$slip --checkpoint kept.rcg --resume --report again.tsv -o again.rcg alike.rcg"
 for case in 2 3 4; do between 0 "$(apart again.rcg whole.rcg traction-x $case)" 1e-4 "  to the same tractions, case $case"; done
 near "$(column dissipated_total 4 again.tsv)" "$(column dissipated_total 4 whole.tsv)" 1e-3 "  and the same work"
 between 0 "$(work again.tsv)" "$(awk -v w="$(work whole.tsv)" 'BEGIN { print w / 2 }')" "  in less than half of the convolutions"
 
 head -c $(($(stat -c %s all.rcg) * 5 / 8)) all.rcg >torn.rcg # two of them, and a part of the next
-claim "cut off while it was written, what was whole in it serves" bash -c "$slip --checkpoint torn.rcg --resume --report torn.tsv -o torn-out.rcg alike.rcg"
+claim "the complete states of a truncated checkpoint can be resumed" bash -c "$slip --checkpoint torn.rcg --resume --report torn.tsv -o torn-out.rcg alike.rcg"
 for case in 2 4; do between 0 "$(apart torn-out.rcg whole.rcg traction-x $case)" 1e-4 "  to the same tractions, case $case"; done
 between "$(work again.tsv)" "$(work torn.tsv)" "$(work whole.tsv)" "  in fewer convolutions"
-claim "  and it is whole again" test "$(states torn.rcg)" -ge 4
-claim "nothing to resume is a first run" bash -c "$slip --checkpoint fresh.rcg --resume -o fresh-out.rcg alike.rcg && cmp fresh-out.rcg whole.rcg"
+claim "  the checkpoint is complete again" test "$(states torn.rcg)" -ge 4
+claim "--resume without a file starts a first run" bash -c "$slip --checkpoint fresh.rcg --resume -o fresh-out.rcg alike.rcg && cmp fresh-out.rcg whole.rcg"
 
 # ---- dissimilar bodies, ended by a signal ----
 
@@ -44,10 +44,10 @@ stopped() {
     local status=$?
     [ $status = 143 ] && [ "$(column converged 1 cut.tsv)" = false ]
 }
-claim "a signal leaves the tractions reached" stopped
+claim "after a signal the checkpoint has the current tractions" stopped
 press="$press --quiet"
 $press --report straight.tsv -o straight.rcg rigid.rcg
-claim "and from there it goes on" bash -c "$press --checkpoint cut.rcg --resume --report on.tsv -o on.rcg rigid.rcg"
+claim "--resume continues from them" bash -c "$press --checkpoint cut.rcg --resume --report on.tsv -o on.rcg rigid.rcg"
 for channel in pressure traction-x; do between 0 "$(apart on.rcg straight.rcg $channel 2)" 1e-4 "  to the same $channel"; done
 near "$(column displacement_x 2 on.tsv)" "$(column displacement_x 2 straight.tsv)" 1e-4 "  and displacement"
 near "$(column increment_error_estimate 2 on.tsv)" "$(column increment_error_estimate 2 straight.tsv)" 1e-2 "  and error of the increments"

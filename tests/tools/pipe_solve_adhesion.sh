@@ -16,20 +16,20 @@ soft="rc-solve --quiet --estar 2MPa"
 # ---- a ball: pressed, pulled, pulled off ----
 
 $soft --adhesion 50mJ/m2,jkr --approach=-1um,2um,-1um,0 --pull-off --output pressure,gap,displacement,height,adhesion --report p.tsv ball.rcg -o p.rcg
-claim "a list is a path, and pull-off a case of its own" test "$(wc -l <p.tsv)" = 6
+claim "a list is a path, and pull-off is an additional case" test "$(wc -l <p.tsv)" = 6
 for row in 1 2 3 4 5; do
     near "$(column load $row p.tsv)" "$(sum "$(column repulsive_load $row p.tsv)" "-$(column attractive_load $row p.tsv)")" 1e-9 "state $row: what pushes less what pulls is the load"
-    claim "  it is stable, and converged" test "$(column stable $row p.tsv) $(column converged $row p.tsv)" = "yes true"
+    claim "  the state is stable and converged" test "$(column stable $row p.tsv) $(column converged $row p.tsv)" = "yes true"
 done
 near "$(column approach 2 p.tsv)" 2e-6 1e-9 "the approach that was asked for"
 between "$(times -1.65)" "$(column pull_off_load 5 p.tsv)" "$(times -1.5)" "pulled off at little more than 3/2 pi w R: a range that the grid holds"
 between 0 "$(column pull_off_spread 5 p.tsv)" "$(times 0.02)" "  and that is known to a percent"
-claim "  elsewhere there is none" test "$(column pull_off_load 1 p.tsv)" = NaN
-claim "apart again, the ball holds on where it had not yet touched" awk -v a="$(column contact_area 1 p.tsv)" -v b="$(column contact_area 3 p.tsv)" 'BEGIN { exit !(b >= a) }'
+claim "  without --adhesion the figure is null" test "$(column pull_off_load 1 p.tsv)" = NaN
+claim "on separation the ball stays in contact at approaches without contact before" awk -v a="$(column contact_area 1 p.tsv)" -v b="$(column contact_area 3 p.tsv)" 'BEGIN { exit !(b >= a) }'
 near "$(rc-pick --channel pressure --case 2 p.rcg | rc-info --json | grep -o '"mean": [^,]*' | head -n 1 | sed 's/.* //' | awk '{ print $1 * 4096 * 9e-12 }')" \
     "$(column load 2 p.tsv)" 1e-6 "the pressures in the stream carry the load"
 claim "gaps are never negative" awk -v m="$(rc-pick --channel gap --case 3 p.rcg | rc-info --json | grep -o '"min[a-z]*": [^,]*' | head -n 1 | sed 's/.* //')" 'BEGIN { exit !(m >= 0) }'
-claim "the frames say what attracts" says "adhesion" rc-info p.rcg
+claim "the frames have the key of the attraction" says "adhesion" rc-info p.rcg
 
 $soft --adhesion 50mJ/m2,jkr --approach 2um --pull-off --output pressure ball.rcg -o two.rcg
 claim "one state and its pull-off are two cases" test "$(rc-info --json two.rcg | grep -o '"case": [0-9]' | sort -u | tr -d '\n')" = '"case": 1"case": 2'
@@ -38,10 +38,10 @@ claim "one state and its pull-off are two cases" test "$(rc-info --json two.rcg 
 
 $soft --adhesion 50mN/m,jkr --radius 1mm --approach 2um --report a.json flat.rcg -o a.rcg
 $soft --adhesion 0.05,jkr --radius 1mm --approach 2000nm --report b.json flat.rcg -o b.rcg
-claim "50 mJ/m2, 50 mN/m and 0.05 are one" cmp <(rc-pick --channel pressure a.rcg | rc-export --format csv) <(rc-pick --channel pressure b.rcg | rc-export --format csv)
+claim "50 mJ/m2, 50 mN/m and 0.05 are equal" cmp <(rc-pick --channel pressure a.rcg | rc-export --format csv) <(rc-pick --channel pressure b.rcg | rc-export --format csv)
 near "$(field adhesion_work a.json)" 0.05 "$same" "  and the report says it"
 near "$(field tabor a.json)" "$(awk -v r="$(field adhesion_range a.json)" 'BEGIN { printf "%.12g", (1e-3 * (0.05 / 2e6) ^ 2) ^ (1 / 3) / r }')" 1e-9 "  and Tabor's number is that of the ball"
-claim "without it nothing of it, and why" bash -c '
+claim "without --adhesion its figures are null, with the reason" bash -c '
     rc-solve --quiet --estar 2MPa --load 1mN --report none.json ball.rcg -o none.rcg
     grep -q "\"adhesion\": \"left out: no --adhesion\"" none.json && grep -q "\"adhesion_work\": null" none.json'
 
@@ -51,8 +51,8 @@ $soft --adhesion 50mJ/m2,jkr --load 0.2mN,0,-0.1mN --report l.tsv ball.rcg -o l.
 near "$(column load 3 l.tsv)" -1e-4 1e-3 "a load that pulls is carried, to the tolerance"
 $soft --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN --report s.tsv ball.rcg -o s.rcg
 status=$?
-claim "beyond pull-off the bodies part: said, exit 3" test "$status $(column separated 2 s.tsv)" = "3 yes"
-claim "  in words" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN ball.rcg -o s.rcg 2>said; grep -q 'the bodies have separated, because no state carries this load' said"
+claim "a load below pull-off separates the bodies, with exit status 3" test "$status $(column separated 2 s.tsv)" = "3 yes"
+claim "  a message says so" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN ball.rcg -o s.rcg 2>said; grep -q 'the bodies have separated, because no state carries this load' said"
 
 # ---- an interrupted run ----
 
@@ -74,23 +74,23 @@ refuses 1 'another problem: checkpoint.approach was -1e-06, is -2e-06' "  of ano
 
 # ---- later tools ----
 
-claim "rc-stress takes the net pressure" bash -c "rc-pick --case 2 p.rcg | rc-stress --quiet --nu 0.49 --depths 0 --components szz -o z.rcg"
+claim "rc-stress reads the net pressure" bash -c "rc-pick --case 2 p.rcg | rc-stress --quiet --nu 0.49 --depths 0 --components szz -o z.rcg"
 near "$(rc-info --json z.rcg | grep -o '"max[a-z]*": [^,]*' | head -n 1 | sed 's/.* //')" "$(awk -v m="$(column min_pressure 2 p.tsv)" 'BEGIN { print -m }')" 1e-3 "  tension where it pulls"
-claim "net pressures are drawn about 0" rc-render --case 2 --channel pressure -o net.png p.rcg
-claim "the path as a curve" bash -c "rc-render --curve approach:load -o path.svg p.tsv && grep -q retraction path.svg && grep -q loading path.svg"
+claim "the colours of net pressures are symmetric about 0" rc-render --case 2 --channel pressure -o net.png p.rcg
+claim "the path is drawn as a curve" bash -c "rc-render --curve approach:load -o path.svg p.tsv && grep -q retraction path.svg && grep -q loading path.svg"
 
 # ---- plan, warnings and refusals ----
 
 claim "--dry-run names the law and the cohesive length" says 'adhesion  *on: exponential, 0.05 J/m2 over 300 nm.*cohesive length' rc-solve --dry-run --estar 2MPa --adhesion 50mJ/m2,exponential,300nm --approach 1um ball.rcg
-claim "a grid that does not hold the range is warned of" warns "the grid is too coarse for this law.*lattice pinning" rc-solve --estar 2MPa --adhesion 50mJ/m2,exponential,100nm --approach 1um ball.rcg -o w.rcg
-claim "a range too long for JKR theory is warned of" warns "Tabor's number is 2.2, below 3: .*take a spacing of 1.6" rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --radius 1mm --approach 1um flat.rcg -o w.rcg
+claim "a grid that does not resolve the range causes a warning" warns "the grid is too coarse for this law.*lattice pinning" rc-solve --estar 2MPa --adhesion 50mJ/m2,exponential,100nm --approach 1um ball.rcg -o w.rcg
+claim "a range too long for JKR theory causes a warning" warns "Tabor's number is 2.2, below 3: .*take a spacing of 1.6" rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --radius 1mm --approach 1um flat.rcg -o w.rcg
 rc-synth wave --nx 128 --dx 1.5um --amplitude 1fm --wavelength 192um -o fine.rcg
-claim "  with a finer grid it is not" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --radius 1mm --approach 1um fine.rcg -o w.rcg 2>said; ! grep -q Tabor said"
-claim "without --radius the report says why there is no Tabor's number" grep -q "Tabor's number needs --radius" <(rc-solve --quiet --estar 2MPa --adhesion 50mJ/m2,jkr --approach 1um ball.rcg --report -)
+claim "  a finer grid causes none" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --radius 1mm --approach 1um fine.rcg -o w.rcg 2>said; ! grep -q Tabor said"
+claim "without --radius the report says why Tabor's number is missing" grep -q "Tabor's number needs --radius" <(rc-solve --quiet --estar 2MPa --adhesion 50mJ/m2,jkr --approach 1um ball.rcg --report -)
 $soft --adhesion 50mJ/m2,jkr --approach 1um,2um --history --output gap ball.rcg -o h1.rcg
 $soft --adhesion 50mJ/m2,jkr --approach 1um,2um --output gap ball.rcg -o h2.rcg
-claim "a path is a history, said or not" cmp <(rc-pick --channel gap --case 2 h1.rcg | rc-export --format csv -o h1.csv && cat h1.csv) <(rc-pick --channel gap --case 2 h2.rcg | rc-export --format csv -o h2.csv && cat h2.csv)
-claim "  of gaps" test -s h1.csv
+claim "--history does not change a path" cmp <(rc-pick --channel gap --case 2 h1.rcg | rc-export --format csv -o h1.csv && cat h1.csv) <(rc-pick --channel gap --case 2 h2.rcg | rc-export --format csv -o h2.csv && cat h2.csv)
+claim "  the same holds for approaches" test -s h1.csv
 refused() { # STATUS WORDS ARGS
     refuses "$1" "$2" "refused: $3" "rc-solve --quiet --estar 2MPa $3 ball.rcg -o x.rcg"
 }

@@ -34,7 +34,7 @@ between 0.5 "$(awk -v p="$(field plastic_area soft.json)" -v c="$(field contact_
 near "$(field conductance soft.json)" \
     "$(awk -v c="$(field contact_area soft.json)" 'BEGIN { print 4 * sqrt(c / 3.14159265) / (1 / 45 + 1 / 16.3) }')" "$coarse_grid" \
     "  it conducts as the circle of its area"
-claim "  more than its stiffness says" awk -v c="$(field conductance soft.json)" -v s="$(field stiffness soft.json)" \
+claim "  the conductance is larger than its stiffness implies" awk -v c="$(field conductance soft.json)" -v s="$(field stiffness soft.json)" \
     'BEGIN { exit !(c > 1.05 * 2 * s / (113.93e9 * (1 / 45 + 1 / 16.3))) }'
 
 # ---- a table, histories ----
@@ -43,24 +43,24 @@ $press --load 60N:240N:2 --conductivity 45W/mK,16.3W/mK --report heat.tsv ball.r
 claim "a table has its unit" bash -c "head -n 1 heat.tsv | tr '\t' '\n' | grep -qx conductance/W/K"
 near "$(awk -F '\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "conductance/W/K") c = i } NR == 2 { print $c }' heat.tsv)" \
     "$(awk -v c="$(circle 45 16.3)" 'BEGIN { print c * 0.25 ^ (1 / 3) }')" "$within" "  and its rows grow with the load to the third"
-claim "  it is drawn" bash -c 'rc-render --curve load:conductance -o c.svg heat.tsv && says "Conductance \(W/K\)|Conductance.*W" cat c.svg'
+claim "  rc-render draws it" bash -c 'rc-render --curve load:conductance -o c.svg heat.tsv && says "Conductance \(W/K\)|Conductance.*W" cat c.svg'
 $press --history --load 240N,0,240N --hardness 1.2GPa --conductivity 45,16.3 --report history.json ball.rcg
-claim "bodies that are apart conduct nothing" bash -c \
+claim "separated bodies have conductance 0" bash -c \
     'sed -n 2p history.json >apart.json && grep -q "\"conductance\": 0, \"conductance_lower\": 0" apart.json'
 
 # ---- not asked for, not there ----
 
 $press --load 240N --report none.json ball.rcg
-claim "without the option there is none, and the reason" bash -c '
+claim "without the option it is null, with the reason" bash -c '
     grep -q "\"conductance\": null, \"conductance_lower\": null" none.json &&
     grep -q "\"conductivity\": \"left out: no --conductivity\"" none.json'
-claim "  nor does it cost a convolution" awk -v a="$(field convolutions none.json)" -v b="$(field convolutions plain.json)" \
+claim "  it costs no convolution" awk -v a="$(field convolutions none.json)" -v b="$(field convolutions plain.json)" \
     'BEGIN { exit !(b > a + 2) }'
 coated="--load 240N --E1 208GPa --nu1 0.3 --E2 rigid --layer 5um,400GPa,0.2 --conductivity 45,16.3"
-claim "coated bodies have none, which is told" bash -c "
+claim "for coated bodies it is null, with a warning" bash -c "
     warns 'does not work with --layer, .* the conductance is left out' rc-solve $coated --output pressure --report coat.json ball.rcg -o c.rcg &&
     grep -q '\"conductance\": null, \"conductance_lower\": null' coat.json && grep -q '\"conductivity\": \"left out: layers' coat.json"
-claim "--dry-run counts it" bash -c '
+claim "--dry-run includes its cost" bash -c '
     rc-solve --dry-run --load 1N --estar 1GPa ball.rcg | grep -o "about [0-9]* conv" >without.txt
     rc-solve --dry-run --load 1N --estar 1GPa --conductivity 45,16.3 ball.rcg >plan.txt
     grep -Eq "conductivity +on" plan.txt && ! grep -qf without.txt plan.txt'

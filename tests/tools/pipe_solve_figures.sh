@@ -7,7 +7,7 @@
 
 rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 40um --short-cut 6um --seed 5 -o s.rcg
 rc-solve --verbose --periodic --estar 3GPa --hardness 200MPa --load 20mN,40mN --output pressure --report r.json s.rcg -o p.rcg 2>err
-claim "a line a case" test "$(grep -c '^rc-solve: selfaffine-seed-5, case [12], load' err)" = 2
+claim "each case has a line" test "$(grep -c '^rc-solve: selfaffine-seed-5, case [12], load' err)" = 2
 for case in 1 2; do
     grep "case $case, load" err >line.txt
     sed -n ${case}p r.json >case.json
@@ -25,7 +25,7 @@ sed -n 2p info.json | sed "s/.*\"patches\"/\"patches\"/" >second.json
 near "$(field count case.json)" "$(field count second.json)" "$same" "rc-info --patches counts the same patches"
 near "$(field contact_area_corrected case.json)" "$(field contact_area_corrected second.json)" "$rounding" "  and has the same corrected area"
 near "$(grep -o '"largest_areas": \[[^],]*' case.json | sed 's/.*\[//')" "$(field largest_area second.json)" "$rounding" "  and the same largest patch"
-claim "without it, not a word" bash -c '
+claim "without --verbose there is no output" bash -c '
     rc-solve --periodic --estar 3GPa --hardness 200MPa --load 40mN --output pressure s.rcg -o p.rcg 2>err && ! grep -q force err'
 
 # ---- nodes that yield or reach the hardness; the mean gap ----
@@ -45,7 +45,7 @@ near "$(field mean_gap first.json)" "$mean" "$summed" "mean_gap is the mean of m
 # pressed again: the plastic shape, under the name of a height
 rc-export --channel plastic --format npy first.rcg -o shape.npy
 rc-import shape.npy --dx 1um --z-unit m -o bare.rcg
-claim "the shape says how far off it may be" says 'height\.error=[0-9.e-]+$' rc-info first.rcg
+claim "the plastic shape has a key with its error" says 'height\.error=[0-9.e-]+$' rc-info first.rcg
 error=$(rc-info first.rcg | sed -n 's/.*height\.error=//p' | tail -n 1)
 sed "s/^unit=m\$/unit=m\nheight.error=$error/" bare.rcg | reseal >again.rcg
 press second.json again.rcg -o second.rcg
@@ -59,15 +59,15 @@ near "$(field contact_area second.json)" "$(field contact_area first.json)" 0.01
 for seed in 1 2 3; do rc-synth selfaffine --nx 40 --ny 32 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed $seed; done |
     rc-solve --quiet --mean-pressure 1.1MPa,0.3GPa --E1 71.7GPa --nu1 0.33 --E2 210GPa --nu2 0.28 --hardness 1.9GPa --tol 3e-4 --report t.tsv -o /dev/null
 column() { awk -F '\t' -v name="$1" 'NR == 1 { for (i = 1; i <= NF; i++) { split($i, word, "/"); if (word[1] == name) c = i } next } { print $c }' t.tsv; }
-claim "a mean pressure that was asked for is the same number in every case" test "$(column asked_mean_pressure | sort -u | tr '\n' ' ')" = "1100000 300000000 "
-claim "  where that of the result may differ in its last digits" test "$(column mean_pressure | sort -u | wc -l)" -ge 2
-claim "  and no load was asked for" test "$(column asked_load | sort -u)" = NaN
+claim "a requested mean pressure is the same number in every case" test "$(column asked_mean_pressure | sort -u | tr '\n' ' ')" = "1100000 300000000 "
+claim "  that of the result may differ by rounding" test "$(column mean_pressure | sort -u | wc -l)" -ge 2
+claim "  no load was requested" test "$(column asked_load | sort -u)" = NaN
 near "$(column estar | head -n 1)" "$(awk 'BEGIN { printf "%.17g", 1 / ((1 - 0.33 ^ 2) / 71.7e9 + (1 - 0.28 ^ 2) / 210e9) }')" "$rounding" "E* follows from the bodies"
-claim "the bodies, the hardness and the tolerance stand as given" test "$(for c in e1 nu1 e2 nu2 hardness tol; do column $c | sort -u; done | tr '\n' ' ')" = \
+claim "bodies, hardness and tolerance are as given" test "$(for c in e1 nu1 e2 nu2 hardness tol; do column $c | sort -u; done | tr '\n' ' ')" = \
     "71700000000 0.33 210000000000 0.28 1900000000 0.0003 "
 claim "the source is the shape and its seed" test "$(column source | sort -u | tr '\n' ' ')" = "selfaffine-seed-1 selfaffine-seed-2 selfaffine-seed-3 "
 rc-synth sphere --nx 24 --dx 10um --radius 5mm | rc-solve --quiet --load 1N --E1 200GPa --nu1 0.3 --E2 rigid --layer 2um,400GPa,0.2 --layer 1um,100GPa,0.3 --report layered.json -o /dev/null
-claim "layers are told, and of what they lie under no E*" says '"estar": null, "e1": 200000000000, "nu1": 0.3, "e2": null, "nu2": null, "hardness": null, "radius": null, "layers": "2e-06,400000000000,0.2; 1e-06,100000000000,0.3"' cat layered.json
+claim "layers are reported, and their bodies have no E*" says '"estar": null, "e1": 200000000000, "nu1": 0.3, "e2": null, "nu2": null, "hardness": null, "radius": null, "layers": "2e-06,400000000000,0.2; 1e-06,100000000000,0.3"' cat layered.json
 # ---- contact inside of a taper ----
 
 rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 40um --short-cut 6um --seed 5 |
@@ -80,12 +80,12 @@ for load in 20mN 600mN; do
     near "$(field contact_area_inside r.json)" "${inside}e-12" "$rounding" "contact inside a taper, $load: the nodes there"
     near "$(field contact_fraction_inside r.json)" "$(awk -v n="$inside" 'BEGIN { printf "%.17g", n / (78 * 62) }')" "$rounding" "  their share"
 done
-claim "  the frame touches more than the rest at a large load" test "$(awk -v a="$(field contact_fraction r.json)" \
+claim "  the tapered frame has a larger contact fraction at a large load" test "$(awk -v a="$(field contact_fraction r.json)" \
     -v b="$(field contact_fraction_inside r.json)" 'BEGIN { print (a > b) }')" = 1
-claim "  null without a taper" grep -q '"contact_area_inside": null, "contact_fraction_inside": null' case.json
+claim "  without a taper it is null" grep -q '"contact_area_inside": null, "contact_fraction_inside": null' case.json
 rc-solve --quiet --periodic --estar 3GPa --load 1kN --output pressure --report r.json tapered.rcg -o p.rcg
 near "$(field contact_fraction_inside r.json)" 1 "$rounding" "  all of it when pressed flat"
-claim "  columns of a table, at its end" bash -c '
+claim "  the table has these columns at its end" bash -c '
     rc-solve --quiet --periodic --estar 3GPa --load 20mN,0 --history --output pressure --report r.tsv tapered.rcg -o p.rcg &&
     head -1 r.tsv | grep -qP "\tcontact_area_inside/m2\tcontact_fraction_inside\t" && [ "$(tail -1 r.tsv | cut -f "$(head -1 r.tsv | tr "\t" "\n" | grep -n contact_area_inside | cut -d: -f1)")" = 0 ]'
 

@@ -20,56 +20,56 @@ export -f solve
 map even.rcg 3
 map phases.rcg '$i % 32 < 16 ? 2 : 5'
 map spots.rcg '($i - 48) ** 2 + ($j - 40) ** 2 < 300 ? 2 : "nan"'
-claim "the map is a stream of its own" says 'hardness' rc-info phases.rcg
+claim "the map of hardness is a separate stream" says 'hardness' rc-info phases.rcg
 for order in 'h.rcg even.rcg' 'even.rcg h.rcg'; do
     # shellcheck disable=SC2086
     beside $order >case.rcg
     solve --report map.json --output pressure case.rcg -o map.rcg
     solve --report one.json --hardness 3GPa --output pressure h.rcg -o one.rcg
     for key in max_pressure contact_area plastic_area yielded_area approach; do
-        claim "one hardness everywhere ($order) is --hardness: $key" \
+        claim "one hardness everywhere ($order) equals --hardness: $key" \
             test "$(field $key map.json)" = "$(field $key one.json)"
     done
 done
-claim "a number stands in the keys of the result" says 'hardness=3000000000$' rc-info one.rcg
-claim "  a map does not" bash -c 'rc-info map.rcg >map.txt && lacks "hardness=" map.txt'
+claim "a number is in the keys of the result" says 'hardness=3000000000$' rc-info one.rcg
+claim "  a map is not" bash -c 'rc-info map.rcg >map.txt && lacks "hardness=" map.txt'
 
 beside h.rcg phases.rcg >case.rcg
 solve --report two.json --output pressure,gap,plastic case.rcg -o two.rcg
-claim "two phases: what the report says of them" bash -c 'grep -q "\"hardness_min\": 2000000000, \"hardness_max\": 5000000000" two.json'
+claim "the report has the range of two phases" bash -c 'grep -q "\"hardness_min\": 2000000000, \"hardness_max\": 5000000000" two.json'
 claim "  the effect is on" says '"hardness": "on"' cat two.json
 near "$(field max_pressure two.json)" 5e9 1e-12 "  the largest pressure is the larger hardness"
 soft() { rc-pick --channel pressure --crop 0,0,16,80 two.rcg | rc-info --json | grep -o '"maximum": [^,]*' | cut -d' ' -f2; }
 near "$(soft)" 2e9 1e-12 "  and in the soft phase the smaller one"
 solve --hardness 2GPa --report soft.json h.rcg -o /dev/null
 solve --hardness 5GPa --report hard.json h.rcg -o /dev/null
-claim "  the contact is between those of either phase alone" awk -v a="$(field contact_area soft.json)" \
+claim "  the contact is between those of the single phases" awk -v a="$(field contact_area soft.json)" \
     -v b="$(field contact_area two.json)" -v c="$(field contact_area hard.json)" 'BEGIN { exit !(a > b && b > c) }'
 beside h.rcg spots.rcg >spots-case.rcg
-claim "where it is missing nothing yields" bash -c 'solve --report spots.json spots-case.rcg -o /dev/null && grep -q "\"converged\": true" spots.json'
-claim "  and the largest pressure is beyond the bound" awk -v p="$(field max_pressure spots.json)" 'BEGIN { exit !(p > 2e9) }'
+claim "nodes without a hardness do not yield" bash -c 'solve --report spots.json spots-case.rcg -o /dev/null && grep -q "\"converged\": true" spots.json'
+claim "  the largest pressure is above the hardness of the others" awk -v p="$(field max_pressure spots.json)" 'BEGIN { exit !(p > 2e9) }'
 
 map none.rcg '"nan"'
 beside h.rcg none.rcg >none-case.rcg
 solve --report none.json --output pressure none-case.rcg -o none.rcg
 solve --report elastic.json --output pressure h.rcg -o elastic.rcg
-claim "a map without a number is no bound" test "$(field max_pressure none.json)" = "$(field max_pressure elastic.json)"
-claim "  and the report says so" says '"hardness": "left out: the map of hardness holds no number"' cat none.json
-claim "  as it does of no map" says '"hardness": "left out: no --hardness, and no map' cat elastic.json
+claim "a map without a number has no effect" test "$(field max_pressure none.json)" = "$(field max_pressure elastic.json)"
+claim "  the report says so" says '"hardness": "left out: the map of hardness holds no number"' cat none.json
+claim "  the report says so without a map" says '"hardness": "left out: no --hardness, and no map' cat elastic.json
 
 # ---- histories, checkpoints ----
 
-claim "a history under a map without a number is warned of" says 'nothing yields' bash -c '
+claim "a history with a map without a number causes a warning" says 'nothing yields' bash -c '
     rc-solve --periodic --mean-pressure 0.5GPa --history --estar 100GPa --output pressure none-case.rcg -o /dev/null 2>&1'
-claim "  under one with numbers it is not" bash -c '
+claim "  a map with numbers causes none" bash -c '
     rc-solve --verbose --periodic --mean-pressure 0.5GPa --history --estar 100GPa --output pressure spots-case.rcg -o /dev/null 2>warn.txt &&
     lacks "nothing yields" warn.txt'
 
-claim "a history keeps the shape under a map" bash -c '
+claim "a history with a map keeps the shape" bash -c '
     rc-solve --quiet --periodic --mean-pressure 0.5GPa,1GPa,0,1GPa --history --estar 100GPa --report history.tsv --output pressure case.rcg -o /dev/null &&
     awk -F"\t" "NR == 1 { for (k = 1; k <= NF; k++) c[\$k] = k; next } { y[NR] = \$c[\"yielded_area/m2\"] } END { exit !(y[2] > 0 && y[3] > 0 && y[5] == 0) }" history.tsv'
 solve --checkpoint state --output pressure case.rcg -o first.rcg
-claim "a run goes on from its checkpoint" bash -c 'solve --checkpoint state --resume --output pressure case.rcg -o again.rcg && cmp first.rcg again.rcg'
+claim "a run continues from its checkpoint" bash -c 'solve --checkpoint state --resume --output pressure case.rcg -o again.rcg && cmp first.rcg again.rcg'
 beside h.rcg even.rcg >other.rcg
 refuses 1 'checkpoint.hardness' "  but not under another map" "solve --checkpoint state --resume other.rcg -o /dev/null"
 refuses 1 'checkpoint.hardness' "  nor without one" "solve --checkpoint state --resume h.rcg -o /dev/null"
@@ -87,9 +87,9 @@ rc-pick --crop 0,0,48,80 phases.rcg >half.rcg
 beside h.rcg half.rcg >half-case.rcg
 refuses 1 'bring them to one grid' "another grid" "solve half-case.rcg"
 refuses 1 'no frame with the channel height, only hardness' "no heights" "solve phases.rcg"
-claim "--dry-run knows the map" says 'hardness +on where' bash -c 'solve --dry-run case.rcg'
+claim "--dry-run reports the map" says 'hardness +on where' bash -c 'solve --dry-run case.rcg'
 
-claim "rc-cost takes it too, on coarser grids as well" says '^pcg' rc-cost --periodic --mean-pressure 1GPa --estar 100GPa \
+claim "rc-cost accepts it, also on coarser grids" says '^pcg' rc-cost --periodic --mean-pressure 1GPa --estar 100GPa \
     --method pcg --kernel fft case.rcg
 refuses 1 'leave one out' "  and refuses both" "rc-cost --periodic --mean-pressure 1GPa --estar 100GPa --hardness 1GPa case.rcg"
 
@@ -97,19 +97,19 @@ refuses 1 'leave one out' "  and refuses both" "rc-cost --periodic --mean-pressu
 
 press() { rc-solve --periodic --estar 100GPa --output pressure --report v.json "$@" h.rcg -o v.rcg; }
 export -f press
-claim "600HV says what it is as a pressure" \
+claim "600HV is printed as a pressure" \
     warns '[-]-hardness 600HV is 6.34609 GPa: the mean pressure on the plane of the dent, HV times 9.80665 MPa over sin 68 deg' press --mean-pressure 1GPa --hardness 600HV
 near "$(field hardness_max v.json)" 6.3460876e9 1e-7 "  in the report"
 near "$(field max_pressure v.json)" 6.3460876e9 1e-7 "  and is the bound"
 refuses 2 "Brinell's number is .*: give a pressure, as in 6GPa, or Vickers' number, as in 600HV" "Brinell's is refused" "press --mean-pressure 1GPa --hardness 200HB"
 refuses 2 "Rockwell's number is a depth" "Rockwell's too" "press --mean-pressure 1GPa --hardness 60HRC"
-claim "300 GPa for 3 GPa" warns 'and --hardness, 300 GPa, is above that: is its unit right' press --mean-pressure 5GPa --hardness 300GPa
+claim "300 GPa instead of 3 GPa causes a warning" warns 'and --hardness, 300 GPa, is above that: is its unit right' press --mean-pressure 5GPa --hardness 300GPa
 
 # ---- the output in other tools ----
 
-claim "rc-pick" says 'channel=hardness|hardness' bash -c 'rc-pick --channel hardness case.rcg | rc-info'
-claim "rc-render" bash -c 'rc-render --channel hardness -o hardness.png case.rcg && [ -s hardness.png ]'
-claim "  which knows its name" bash -c 'rc-render --channel hardness -o hardness.svg case.rcg && grep -q "Hardness" hardness.svg'
-claim "rc-export" bash -c 'rc-export --format npy --channel hardness -o hardness.npy case.rcg && [ -s hardness.npy ]'
+claim "rc-pick accepts the map" says 'channel=hardness|hardness' bash -c 'rc-pick --channel hardness case.rcg | rc-info'
+claim "rc-render draws it" bash -c 'rc-render --channel hardness -o hardness.png case.rcg && [ -s hardness.png ]'
+claim "  its title is right" bash -c 'rc-render --channel hardness -o hardness.svg case.rcg && grep -q "Hardness" hardness.svg'
+claim "rc-export writes it" bash -c 'rc-export --format npy --channel hardness -o hardness.npy case.rcg && [ -s hardness.npy ]'
 
 finish

@@ -8,12 +8,12 @@ loads=(50mN 100mN 30mN 0 100mN 70mN 130mN)
 # shellcheck disable=SC2086
 rc-solve $physics --history --load "$(IFS=, && echo "${loads[*]}")" --output pressure,height,plastic \
     --report history.json s.rcg -o history.rcg
-claim "a case each" test "$(wc -l <history.json)" = 7
+claim "each load is a case" test "$(wc -l <history.json)" = 7
 
 of_case() { sed -n "$2p" history.json >case.json && field "$1" case.json; }
 yields() { awk -v a="$(of_case yielded_area "$1")" 'BEGIN { exit !(a > 1e-12) }'; }
 for k in 1 2 7; do
-    claim "case $k, the largest load so far: something yields" yields $k
+    claim "case $k has the largest load so far, and nodes yield" yields $k
 done
 for k in 3 4 5 6; do
     near "$(of_case yielded_area $k)" 0 0 "case $k, no larger than one before: nothing yields"
@@ -23,7 +23,7 @@ near "$(of_case max_pressure 5)" "$(of_case max_pressure 2)" 1e-4 "  its largest
 near "$(of_case mean_gap 5)" "$(of_case mean_gap 2)" 1e-5 "  its mean gap"
 near "$(of_case load 4)" 0 0 "no load: no force"
 near "$(of_case contact_nodes 4)" 0 0 "  no contact"
-claim "  and no approach" test "$(of_case approach 4)" = null
+claim "  the approach is null" test "$(of_case approach 4)" = null
 # for separated bodies the mean gap is the difference between the highest and the mean height of the current
 # shape
 shape=$(rc-info --json history.rcg 2>/dev/null | grep '"channel": "plastic"' | grep '"case": "*4' | head -n 1)
@@ -42,11 +42,11 @@ for k in 0 1 2 4 5 6; do
     near "$(of_case yielded_area $((k + 1)))" "$(field yielded_area hand.json)" 0.01 "  area that yields"
 done
 
-claim "without a hardness it leaves no trace, and says so" warns '--history has no effect, because nothing yields' \
+claim "without a hardness a warning says that --history has no effect" warns '--history has no effect, because nothing yields' \
     rc-solve --periodic --estar 3GPa --history --load 2mN,1mN --output pressure s.rcg -o p.rcg
-claim "--dry-run has it among its effects" says 'history +on: each load acts on the shape' \
+claim "--dry-run lists it among the effects" says 'history +on: each load acts on the shape' \
     rc-solve --periodic --estar 3GPa --hardness 1GPa --history --load 2mN,0 --dry-run s.rcg
-claim "cut off and resumed it ends the same" bash -c '
+claim "an interrupted and resumed run gives the same result" bash -c '
     rc-solve --quiet --periodic --estar 3GPa --hardness 150MPa --tol 1e-7 --history --load 50mN,100mN --checkpoint c.rcg \
         --output pressure --report cut.json s.rcg -o p.rcg &&
     rc-solve --quiet --periodic --estar 3GPa --hardness 150MPa --tol 1e-7 --history --load 50mN,100mN,30mN --checkpoint c.rcg --resume \

@@ -45,17 +45,17 @@ for k in 2 4 8 15 21 23; do
 done
 
 rc-solve --quiet --estar 114GPa --hardness 1GPa --load 1N --report one.json --output pressure ball.rcg -o one.rcg
-claim "without --history there is none" test "$(field indentation one.json) $(field residual_indentation one.json)" = "null null"
+claim "without --history it is null" test "$(field indentation one.json) $(field residual_indentation one.json)" = "null null"
 
 # ---- curves ----
 
 rc-render --curve approach:load --title T -o approach.svg ball.tsv
 rc-render --curve indentation:load --title T -o indentation.svg ball.tsv
 strip() { sed 's/approach:load//; s/indentation:load//' "$1"; }
-claim "curves over the approach of a history are over this one" cmp <(strip approach.svg) <(strip indentation.svg)
-claim "  and the axis says so" grep -q '>Indentation (' approach.svg
+claim "curves of a history over the approach use the indentation" cmp <(strip approach.svg) <(strip indentation.svg)
+claim "  the axis says so" grep -q '>Indentation (' approach.svg
 rc-solve --quiet --estar 114GPa --load 20mN,0.2N --report first.tsv --output pressure ball.rcg -o one.rcg
 rc-render --curve approach:load --title T -o first.svg first.tsv
-claim "of first loadings the approach is what it was" lacks 'Indentation' first.svg
+claim "curves of first loadings use the approach" lacks 'Indentation' first.svg
 
 finish

@@ -25,15 +25,15 @@ rc-detrend --poly 1 rough.rcg | $press --load 0.3N --tilt free --tol 1e-6 --repo
 near "$(field contact_area level.json)" "$(field contact_area rest.json)" "$same" "a plane in the heights does not matter"
 near "$(field max_pressure level.json)" "$(field max_pressure rest.json)" 1e-4 "  to the largest pressure"
 # the moment, summed from the frame
-claim "no moment is left" bash -c "rc-export --format csv rest.rcg | grep -v '^#' | awk -F , '
+claim "the moment is 0" bash -c "rc-export --format csv rest.rcg | grep -v '^#' | awk -F , '
     { for (i = 1; i <= NF; i++) { p += \$i; x += (i - 48.5) * \$i; y += (NR - 40.5) * \$i; f += (i - 48.5) ^ 2 * \$i } }
     END { exit !(NR == 80 && x * x + y * y < 1e-10 * p * f) }'"
 $press --load 0.3N --tilt fixed --tol 1e-6 rough.rcg -o fixed.rcg
 $press --load 0.3N --tol 1e-6 --report none.json rough.rcg -o none.rcg
-claim "fixed is what it is without the option" bash -c 'cmp -s <(rc-export --format csv fixed.rcg) <(rc-export --format csv none.rcg)'
-claim "  which has no angles, and says why" bash -c '
+claim "--tilt fixed equals no option" bash -c 'cmp -s <(rc-export --format csv fixed.rcg) <(rc-export --format csv none.rcg)'
+claim "  its angles are null, with the reason" bash -c '
     grep -q "\"tilt_x\": null, \"tilt_y\": null" none.json && grep -q "\"tilt\": \"left out: no --tilt free\"" none.json'
-claim "  free costs convolutions" awk -v a="$(field convolutions none.json)" -v b="$(field convolutions rest.json)" 'BEGIN { exit !(b > a) }'
+claim "  --tilt free takes more convolutions" awk -v a="$(field convolutions none.json)" -v b="$(field convolutions rest.json)" 'BEGIN { exit !(b > a) }'
 $press --load 0.1N,0.3N --tilt free --tol 1e-6 --report list.tsv rough.rcg -o list.rcg
 near "$(awk -F '\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ "^tilt_x") c = i } NR == 3 { print $c }' list.tsv)" \
     "$(field tilt_x rest.json)" 1e-4 "a list of loads comes to the same angle"
@@ -42,8 +42,8 @@ near "$(field load back.json)" 0.3 1e-4 "an approach comes to the load that make
 $press --load 0.3N --tilt free --tol 1e-6 --checkpoint kept.rcg --report first.json rough.rcg -o first.rcg
 $press --load 0.3N --tilt free --tol 1e-6 --checkpoint kept.rcg --resume --report again.json rough.rcg -o again.rcg
 near "$(field tilt_x again.json)" "$(field tilt_x first.json)" 1e-4 "resumed, it leans as before"
-claim "  and that is found at once" awk -v a="$(field iterations first.json)" -v b="$(field iterations again.json)" 'BEGIN { exit !(4 * b < a) }'
-claim "--dry-run says so" bash -c 'says "tilt +on" rc-solve --dry-run --load 1N --estar 1GPa --tilt free rough.rcg'
+claim "  an impossible equilibrium is detected at once" awk -v a="$(field iterations first.json)" -v b="$(field iterations again.json)" 'BEGIN { exit !(4 * b < a) }'
+claim "--dry-run lists the tilt" bash -c 'says "tilt +on" rc-solve --dry-run --load 1N --estar 1GPa --tilt free rough.rcg'
 
 # ---- refusals ----
 

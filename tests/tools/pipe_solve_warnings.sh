@@ -14,35 +14,35 @@ export -f solve
 # The peak of a case, and the load at which the warning must begin, by bisection with the report only.
 solve 3GPa 1mN --quiet --report soft.json
 between 0 "$(field max_pressure soft.json)" 3e8 "a light load stays below a tenth of E*"
-claim "and says nothing of it" bash -c 'solve 3GPa 1mN 2>err; ! grep -q "E\*" err'
+claim "there is no warning" bash -c 'solve 3GPa 1mN 2>err; ! grep -q "E\*" err'
 solve 3GPa 1 --quiet --report hard.json
 between 3e8 "$(field max_pressure hard.json)" 3e9 "a heavy one is above"
-claim "which is said, with its share of E*" \
+claim "a warning gives the fraction of E*" \
     warns 'case 1, load 1 N: the largest pressure, [0-9.]+ [MG]Pa, is 0\.[0-9]+ of E\*' solve 3GPa 1
-claim "E* without its unit: is named" warns 'above E\*, which is 3 Pa: was its unit forgotten' solve 3 1mN
-claim "the load without its unit: its mean over the map" \
+claim "E* without its unit causes a warning that names it" warns 'above E\*, which is 3 Pa: was its unit forgotten' solve 3 1mN
+claim "a load without its unit causes a warning with its mean over the map" \
     warns 'above E\* = 3 GPa; on a map of 96 um by 80 um the mean is 65[0-9.]+ GPa: are the load, 500 N, and E\* in their right units' solve 3GPa 500
-claim "  or that of E*: both are named" \
+claim "  a wrong unit of E* causes a warning with both values" \
     warns 'above E\* = 3 MPa; .*are the load, 500 mN, and E\* in their right units' solve 3MPa 500mN
 rc-synth sphere --nx 64 --dx 10um --radius 10mm -o ball.rcg
-claim "a layer of metres on a map of micrometres" warns 'thickness of 2 m on a map 640 um wide: .* write 2um' \
+claim "a layer of metres on a map of micrometres causes a warning" warns 'thickness of 2 m on a map 640 um wide: .* write 2um' \
     rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --layer 2,400GPa,0.2 ball.rcg -o p.rcg
-claim "  with its unit it is none" bash -c 'rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --layer 2um,400GPa,0.2 ball.rcg -o p.rcg 2>err; ! grep -q "without a unit" err'
+claim "  with its unit it causes none" bash -c 'rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --layer 2um,400GPa,0.2 ball.rcg -o p.rcg 2>err; ! grep -q "without a unit" err'
 rc-synth wave --nx 64 --dx 10um --amplitude 1nm --wavelength 640um -o flat.rcg
-claim "a radius of metres" warns 'radius of 3.75 m on a map 640 um wide: .* write 3.75mm' rc-solve --load 1mN --estar 114GPa --radius 3.75 flat.rcg -o p.rcg
-claim "  with its unit it is none" bash -c 'rc-solve --load 1mN --estar 114GPa --radius 3.75mm flat.rcg -o p.rcg 2>err; ! grep -q "without a unit" err'
-claim "a ratio of a rigid body" warns 'nu2 has no effect beside --E2 rigid' rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --nu2 0.3 ball.rcg -o p.rcg
-claim "an option that is given twice" warns 'load is given twice: only the last one counts' rc-solve --load 1N --load 1mN --estar 114GPa ball.rcg -o p.rcg
-claim "  layers may be" bash -c 'rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --layer 2um,400GPa,0.2 --layer 1um,300GPa,0.2 ball.rcg -o p.rcg 2>err; ! grep -q twice err'
-claim "  and steps" bash -c 'rc-pick --mirror x --mirror y ball.rcg -o p.rcg 2>err && [ ! -s err ]'
+claim "a radius of metres causes a warning" warns 'radius of 3.75 m on a map 640 um wide: .* write 3.75mm' rc-solve --load 1mN --estar 114GPa --radius 3.75 flat.rcg -o p.rcg
+claim "  with its unit it causes none" bash -c 'rc-solve --load 1mN --estar 114GPa --radius 3.75mm flat.rcg -o p.rcg 2>err; ! grep -q "without a unit" err'
+claim "--nu2 with a rigid body is refused" warns 'nu2 has no effect beside --E2 rigid' rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --nu2 0.3 ball.rcg -o p.rcg
+claim "an option that is given twice causes a warning" warns 'load is given twice: only the last one counts' rc-solve --load 1N --load 1mN --estar 114GPa ball.rcg -o p.rcg
+claim "  several layers cause none" bash -c 'rc-solve --load 1mN --E1 210GPa --nu1 0.3 --E2 rigid --layer 2um,400GPa,0.2 --layer 1um,300GPa,0.2 ball.rcg -o p.rcg 2>err; ! grep -q twice err'
+claim "  several steps cause none" bash -c 'rc-pick --mirror x --mirror y ball.rcg -o p.rcg 2>err && [ ! -s err ]'
 for tool in "rc-solve --load 1mN --estar 114GPa" "rc-pick --mirror x" "rc-detrend --plane"; do
     refuses 2 "writes a grid stream, not a picture: pipe it into rc-render -o x.png" "a picture of ${tool%% *}" "$tool ball.rcg -o x.png"
 done
-claim "  nothing is left of it" [ ! -e x.png ]
+claim "  no file is left" [ ! -e x.png ]
 rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-slope 40 --rolloff 40um --short-cut 6um --seed 5 -o s.rcg
-claim "heights in a wrong unit: their slope" \
+claim "heights in a wrong unit cause a warning about their slope" \
     warns 'above E\* = 3 GPa, and the RMS slope in contact is [0-9.]+: are heights and spacings' solve 3GPa 20mN
-claim "--quiet: nothing" bash -c 'solve 3GPa 1 --quiet 2>err && [ ! -s err ]'
+claim "--quiet suppresses it" bash -c 'solve 3GPa 1 --quiet 2>err && [ ! -s err ]'
 
 # ---- a contact of a few nodes, or of patches of a few nodes ----
 
@@ -51,17 +51,17 @@ press() { rc-solve --estar 100GPa --output pressure --report r.json "$@" -o p.rc
 export -f press
 
 # a^3 = 3 F R / (4 E*): 1 N: a = 42.2 um, about 223 nodes; 0.01 N: 9.1 um, about 10
-claim "a resolved contact: not a word" bash -c 'press --load 1N ball.rcg 2>err && [ ! -s err ]'
+claim "a resolved contact causes no warning" bash -c 'press --load 1N ball.rcg 2>err && [ ! -s err ]'
 between 200 "$(field contact_nodes r.json)" 250 "  of its some 223 nodes"
 near "$(field nodes_per_patch r.json)" "$(field contact_nodes r.json)" "$same" "  in one patch"
-claim "ten nodes" warns 'case 1, load 10 mN: [0-9]+ nodes in contact, in 1 patch: the grid does not resolve it: .*--discretization' \
+claim "a contact of ten nodes causes a warning" warns 'case 1, load 10 mN: [0-9]+ nodes in contact, in 1 patch: the grid does not resolve it: .*--discretization' \
     press --load 10mN ball.rcg
 
 # one node in 64 stands out by 1 um
 awk 'BEGIN { for (j = 0; j < 128; j++) for (i = 0; i < 128; i++)
     printf "%d%s", i % 8 == 0 && j % 8 == 0, i < 127 ? " " : "\n" }' >comb.txt
 rc-import --dx 1um --z-unit um comb.txt -o comb.rcg
-claim "many nodes in patches of one" \
+claim "many patches of one node cause a warning" \
     warns '256 nodes in contact, in 256 patches: the grid does not resolve it' press --periodic --load 1mN comb.rcg
 near "$(field nodes_per_patch r.json)" 1 "$same" "  1 node each"
 
@@ -70,7 +70,7 @@ near "$(field nodes_per_patch r.json)" 1 "$same" "  1 node each"
 rc-synth selfaffine --nx 128 --ny 96 --dx 1um --hurst 0.8 --rms-height 100nm --rolloff 40um --short-cut 8um --seed 5 -o period.rcg
 press() { rc-solve --periodic --load 1N --estar 100GPa --output pressure "$@" -o p.rcg; }
 export -f press
-claim "a period: not a word" bash -c 'press period.rcg 2>err && [ ! -s err ]'
+claim "a periodic map causes no warning" bash -c 'press period.rcg 2>err && [ ! -s err ]'
 
 # A ramp of 1 um over the map, along x or y: the step across the edges is 127/128 um, inside 1/128 um.
 ramp() { # AXIS
@@ -80,29 +80,29 @@ ramp() { # AXIS
 }
 ramp x
 ramp y
-claim "a tilt along x: the last column and the first" \
+claim "a tilt along x causes a warning about the last column and the first" \
     warns 'the edges do not meet: from the last column to the first the heights jump by .*rc-detrend --plane .*--mirror makes a periodic map .*of 4 times the area' press ramp-x.rcg
-claim "  and not the rows" bash -c 'lacks "last row" warns.err'
-claim "a tilt along y: the last row" warns 'from the last row to the first' press ramp-y.rcg
-claim "  a plane mends it" bash -c 'rc-detrend --plane ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
-claim "a free solve has no seam" bash -c 'rc-solve --load 10mN --estar 100GPa --output pressure ramp-x.rcg -o p.rcg 2>err; ! grep -q "do not meet" err'
+claim "  it does not name the rows" bash -c 'lacks "last row" warns.err'
+claim "a tilt along y causes a warning about the last row" warns 'from the last row to the first' press ramp-y.rcg
+claim "  rc-detrend --plane removes the cause" bash -c 'rc-detrend --plane ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
+claim "a free map causes no such warning" bash -c 'rc-solve --load 10mN --estar 100GPa --output pressure ramp-x.rcg -o p.rcg 2>err; ! grep -q "do not meet" err'
 
-claim "so does a mirror" bash -c 'rc-detrend --mirror ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
-claim "so does a taper" bash -c 'rc-detrend --quiet --taper 12um ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
+claim "rc-detrend --mirror removes the cause" bash -c 'rc-detrend --mirror ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
+claim "rc-detrend --taper removes the cause" bash -c 'rc-detrend --quiet --taper 12um ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
 
 # ---- the case and the load in a warning ----
 
 rc-synth sphere --nx 33 --dx 10um --radius 10mm -o ball.rcg
 press() { rc-solve --estar 100GPa --output pressure "$@" ball.rcg -o p.rcg; }
 export -f press
-claim "the third of four loads reaches the edge: case 3" \
+claim "the third of four loads reaches the edge, and the warning names case 3" \
     warns 'sphere, case 3, load 100 N: [0-9.]+ % of the load is on the outer 2 %' press --load 1N,5N,100N
-claim "  and the others do not" bash -c '! grep -E "case [12], .*outer" warns.err'
-claim "a mean pressure, an approach" bash -c '
+claim "  it names no other case" bash -c '! grep -E "case [12], .*outer" warns.err'
+claim "it names a mean pressure or an approach" bash -c '
     warns "case 1, mean pressure 1 GPa: .*outer" press --mean-pressure 1GPa &&
     warns "case 1, approach 10 um: .*outer" press --approach 10um'
-claim "a list that does not rise" warns 'load: the list does not rise, but each value starts from unloaded bodies' press --load 5N,3N,4N
-claim "  and one that does" bash -c 'press --load 3N,4N,5N 2>err; ! grep -q rise err'
+claim "a list that does not rise causes a warning" warns 'load: the list does not rise, but each value starts from unloaded bodies' press --load 5N,3N,4N
+claim "  a rising list causes none" bash -c 'press --load 3N,4N,5N 2>err; ! grep -q rise err'
 refuses 2 '--load 0: it must be above 0 .0 separates the bodies only in a --history.' "no load is no first loading" \
     'rc-solve --estar 1GPa --load 0,3N ball.rcg'
 
@@ -113,7 +113,7 @@ claim "the stream names the sphere" bash -c '
     rc-solve --quiet --radius 2mm --load 1N --estar 100GPa s.rcg -o once.rcg && says "form=sphere 0.002$" rc-info once.rcg'
 refuses 1 'a sphere was already added to these heights \(form=sphere 0.002\): remove --radius' "and refuses a second" \
     'rc-solve --quiet --radius 2mm --load 1N --estar 100GPa once.rcg >/dev/null'
-claim "pressed again without --radius it is the same" bash -c '
+claim "solved again without --radius, the result is the same" bash -c '
     rc-solve --quiet --load 1N --estar 100GPa --report again.json --output pressure once.rcg -o again.rcg &&
     rc-solve --quiet --radius 2mm --load 1N --estar 100GPa --report first.json --output pressure s.rcg -o first.rcg'
 near "$(field max_pressure again.json)" "$(field max_pressure first.json)" "$summed" "  to rounding"
@@ -122,15 +122,15 @@ near "$(field max_pressure again.json)" "$(field max_pressure first.json)" "$sum
 rc-synth sphere --nx 131 --dx 1um --radius 100um -o ball.rcg
 press() { rc-solve --estar 100GPa --output pressure --load "$1" ball.rcg -o p.rcg; }
 export -f press
-claim "a steep flank that nothing touches is no fault" bash -c 'press 1N 2>err; ! grep -q slope err'
+claim "a steep flank outside contact causes no warning" bash -c 'press 1N 2>err; ! grep -q slope err'
 # 1000 N: a = 90.9 um; the RMS over the disc of r/R is a/(R sqrt 2)
 rc-synth sphere --nx 131 --dx 2um --radius 100um -o ball.rcg
-claim "one that is touched is" warns 'RMS slope 0\.[56][0-9]* where the bodies touch' press 1000N
+claim "a steep flank in contact causes one" warns 'RMS slope 0\.[56][0-9]* where the bodies touch' press 1000N
 
 # ---- a solution that did not converge, or was interrupted; last, because of job control ----
 
 rc-synth selfaffine --nx 256 --dx 1um --hurst 0.8 --rms-height 100nm --rolloff 60um --short-cut 4um --seed 5 -o s.rcg
-claim "a tolerance that cannot be reached: said, with exit status 3" bash -c '
+claim "an unreachable tolerance causes a warning and exit status 3" bash -c '
     rc-solve --periodic --load 1N --estar 100GPa --tol 1e-17 s.rcg -o short.rcg 2>err; [ $? = 3 ] &&
     grep -q "case 1, load 1 N: not converged after [0-9]* iterations: its estimated error is [0-9.e-]*: accept it with a larger --tol" err'
 
@@ -148,8 +148,8 @@ interrupted() {
 }
 # a background command of bash without job control ignores SIGINT
 set -m
-claim "an interrupted one: said" interrupted
-claim "  and in the stream" bash -c 'rc-info cut.rcg 2>/dev/null >cut.txt; grep converged=no cut.txt'
+claim "an interrupted run causes a warning" interrupted
+claim "  its stream is marked" bash -c 'rc-info cut.rcg 2>/dev/null >cut.txt; grep converged=no cut.txt'
 # During planning there is no result yet; at any time the signal leaves a complete file or none.
 early() {
     local none=0 k
@@ -169,6 +169,6 @@ early() {
     done
     [ $none -gt 0 ]
 }
-claim "one that plans: ends at once, and leaves nothing" early
+claim "a signal during the plan ends the tool at once, without a file" early
 
 finish

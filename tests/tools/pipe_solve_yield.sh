@@ -13,11 +13,11 @@ column() { # NAME ROW
 $elastic --mean-pressure 20MPa --report elastic.json rough.rcg -o elastic.rcg
 $elastic --mean-pressure 20MPa --yield 100GPa --output pressure,gap,displacement,height --report none.json rough.rcg -o none.rcg
 values() { rc-pick --channel "$2" --case 1 "$1" | rc-export --format csv; }
-claim "far from yield the pressure is that of elastic bodies, to the byte" cmp <(values elastic.rcg pressure) <(values none.rcg pressure)
+claim "far below yield the pressure is that of elastic bodies, byte for byte" cmp <(values elastic.rcg pressure) <(values none.rcg pressure)
 claim "  the gap too" cmp <(values elastic.rcg gap) <(values none.rcg gap)
-claim "  the report says why" grep -q '"yield": "left out: the largest Mises stress is [0-9.]* of the yield stress' none.json
+claim "  the report has the reason" grep -q '"yield": "left out: the largest Mises stress is [0-9.]* of the yield stress' none.json
 near "$(field convolutions none.json)" "$(field convolutions elastic.json)" "$same" "  and it costs no convolution of the contact"
-claim "without --yield there is nothing of it" bash -c '
+claim "without --yield its figures are null" bash -c '
     grep -q "\"yield\": \"left out: no --yield\"" elastic.json && grep -q "\"yield\": null, \"hardening\": null, \"increments\": null" elastic.json'
 # rc-stress gives the same stress
 near "$(awk -v m="$(field max_mises_over_yield none.json)" 'BEGIN { print m * 1e11 }')" "$(rc-pick --channel pressure elastic.rcg |
@@ -27,7 +27,7 @@ near "$(awk -v m="$(field max_mises_over_yield none.json)" 'BEGIN { print m * 1e
 # ---- a load, no load, and the same load again ----
 
 $elastic --mean-pressure 150MPa,0,150MPa --yield 2GPa,10GPa --output pressure,gap,displacement,height,plastic,residual,strain --report r.tsv rough.rcg -o y.rcg
-claim "three cases" test "$(wc -l <r.tsv)" = 4
+claim "there are three cases" test "$(wc -l <r.tsv)" = 4
 between 1e-6 "$(column max_plastic_strain 1 r.tsv)" 0.1 "it yields"
 near "$(column mean_pressure 1 r.tsv)" 150e6 1e-6 "  and carries the load"
 between 0 "$(column pressure_error_estimate 1 r.tsv)" 0.01 "  to 1 %"
@@ -37,15 +37,15 @@ between 0 "$(column residual_indentation 2 r.tsv)" "$(column indentation 1 r.tsv
 near "$(column indentation 2 r.tsv)" "$(column residual_indentation 2 r.tsv)" "$same" "  and all there is when the bodies are apart"
 near "$(column residual_indentation 3 r.tsv)" "$(column residual_indentation 1 r.tsv)" 2e-2 "  the same after the second time"
 # yielding pressures are lower, contacts wider
-claim "the largest pressure is below the elastic one, the contact wider" bash -c "
+claim "the largest pressure is lower and the contact larger than for elastic bodies" bash -c "
     $elastic --mean-pressure 150MPa --report e.json rough.rcg -o e.rcg
     awk -v p=\"\$(grep -o '\"max_pressure\": [^,]*' e.json | sed 's/.* //')\" -v q=$(column max_pressure 1 r.tsv) 'BEGIN { exit !(q < p) }' &&
     awk -v a=\"\$(grep -o '\"contact_area\": [^,]*' e.json | head -n 1 | sed 's/.* //')\" -v b=$(column contact_area 1 r.tsv) 'BEGIN { exit !(b > a) }'"
-claim "frames: six results, and six of each slab, in each case" bash -c "
+claim "each case has six frames of results and six frames of each slab" bash -c "
     test \"\$(rc-info --json y.rcg | grep -o '\"channel\": \"peeq\"' | wc -l)\" = $((3 * $(column slabs 1 r.tsv)))"
 paste -d , <(values y.rcg height | grep -v '^#' | head -n 64 | tr ',' '\n') <(values y.rcg residual | grep -v '^#' | head -n 64 | tr ',' '\n') \
     <(values y.rcg plastic | grep -v '^#' | head -n 64 | tr ',' '\n') >three.txt
-claim "the shape that is left is the height less the residual displacement" awk -F , \
+claim "the shape after yield is the height minus the residual displacement" awk -F , \
     '{ d = $1 - $2 - $3; if (d < 0) d = -d; if (d > m) m = d; if ($2 > u) u = $2 } END { exit !(NR == 4096 && u > 0 && m < 1e-12 * u + 1e-20) }' three.txt
 
 # ---- residual states between the loads of a history ----
@@ -56,7 +56,7 @@ again="$elastic --mean-pressure 100MPa,0,100MPa --yield 1.5GPa,5GPa --output pre
 $again --increments 256 --tol 1e-5 -o truth.rcg
 refuses 3 '1.* come from its increments: give --increments' "errors above the goal: what lowers them" \
     "${again/--quiet/} --increments 8 --report eight.json -o eight.rcg"
-claim "auto meets the goal in each load" $again --report auto.json -o auto.rcg
+claim "--increments auto meets the goal at each load" $again --report auto.json -o auto.rcg
 apart() { # A B CASE: prints the relative L1 distance of two pressures
     paste <(rc-pick --case "$3" "$1" | rc-export --format csv | grep -v '^#' | tr ',' '\n') \
         <(rc-pick --case "$3" "$2" | rc-export --format csv | grep -v '^#' | tr ',' '\n') |
@@ -69,12 +69,12 @@ for run in eight auto; do
     done
 done
 near "$(told eight.json applications 2)" 1 0 "what unloads without flow takes one application"
-claim "  and reloading to the same peak less than ten" test "$(told eight.json applications 3)" -lt 10
-claim "  what it is off it has inherited" grep -q '"error_limited_by": "history"' <(sed -n 3p eight.json)
+claim "  reloading to the same peak takes less than ten" test "$(told eight.json applications 3)" -lt 10
+claim "  its error is inherited" grep -q '"error_limited_by": "history"' <(sed -n 3p eight.json)
 near "$(told eight.json pressure_error_estimate 3)" "$(for part in increment inherited iteration contact image; do told eight.json ${part}_error_estimate 3; done |
     awk '{ s += $1 } END { print s }')" 1e-5 "the estimate is the sum of its parts"
 $again --tol 1e-4 --increments 8 --report tight.json -o tight.rcg && status=0 || status=$?
-claim "converged is what --tol asks for" bash -c "test $status = 3 && sed -n 1p tight.json | grep -q '\"converged\": false'"
+claim "converged compares the error with --tol" bash -c "test $status = 3 && sed -n 1p tight.json | grep -q '\"converged\": false'"
 
 # ---- stresses ----
 
@@ -83,7 +83,7 @@ rc-pick --case 1 y.rcg | rc-stress --quiet --depths auto --components mises --re
 between 1.9e9 "$(grep -o '"mises": {"value": [^,]*' total.json | head -n 1 | sed 's/.* //')" \
     "$(awk -v s="$(column max_plastic_strain 1 r.tsv)" 'BEGIN { print 1.1 * (2e9 + 1e10 * s) }')" "rc-stress: the stress stays at the yield stress"
 rc-pick --channel pressure --case 1 y.rcg >alone.rcg
-claim "  without its strain it is warned of" warns "yielded inside, and nothing of its strain" rc-stress --depths auto --components mises -o m.rcg alone.rcg
+claim "  rc-stress without the strain causes a warning" warns "yielded inside, and nothing of its strain" rc-stress --depths auto --components mises -o m.rcg alone.rcg
 between 2.3e9 "$(rc-stress --quiet --depths 0:5um:21 --components mises --report - alone.rcg -o m.rcg | grep -o '"mises": {"value": [^,]*' | head -n 1 | sed 's/.* //')" 1e10 \
     "  and would be far above it"
 # the stress after unloading is that of --residual before
@@ -106,7 +106,7 @@ near "$(field increments table.json)" 8 0 "  in as many increments as were asked
 $elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 8 --slabs 6 --report six.json --output pressure rough.rcg -o s.rcg
 near "$(field slabs six.json)" 6 0 "so many slabs"
 $elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 2 --verbose --report two.json --output pressure rough.rcg -o s.rcg 2>two.err
-claim "of two increments no error is told" bash -c "grep -q '\"pressure_error_estimate\": null' two.json && grep -q 'converged in 2 increments' two.err"
+claim "two increments give no error estimate" bash -c "grep -q '\"pressure_error_estimate\": null' two.json && grep -q 'converged in 2 increments' two.err"
 # slabs divided evenly: with twice and four times as many the pressure converges, each difference less than
 # half of the one before
 for n in $(($(field slabs line.json) / 2)) $((2 * $(field slabs line.json))) $((4 * $(field slabs line.json))); do
@@ -137,10 +137,10 @@ near "$(rc-stress --quiet --residual --depths 5um --components sxx free.rcg | rc
 
 # ---- warnings ----
 
-claim "too few slabs, strains that are large" bash -c '
+claim "too few slabs and large strains cause warnings" bash -c '
     warns "the lowest slab yields" rc-solve --periodic --E1 210GPa --nu1 0.3 --E2 rigid --mean-pressure 300MPa --yield 0.2GPa --tol 1 --increments 4 --slabs 0.5um,0.5um rough.rcg -o w.rcg &&
     grep -q "largest plastic strain is" warns.err && grep -q "slabs lie in the depth that yields, which is too coarse" warns.err'
-claim "--dry-run says so" bash -c 'says "yield +on where" rc-solve --dry-run --periodic --E1 1GPa --nu1 0.3 --E2 rigid --load 1N --yield 1MPa rough.rcg'
+claim "--dry-run lists the effect" bash -c 'says "yield +on where" rc-solve --dry-run --periodic --E1 1GPa --nu1 0.3 --E2 rigid --load 1N --yield 1MPa rough.rcg'
 
 # ---- refusals ----
 

@@ -27,9 +27,9 @@ ends() {
 history="--mean-pressure 150MPa,0,200MPa --yield 2GPa,10GPa"
 $solve $history --report plain.tsv -o plain.rcg rough.rcg
 $solve $history --checkpoint kept.rcg --interval 0 --report whole.tsv -o whole.rcg rough.rcg
-claim "a checkpoint changes nothing" cmp plain.rcg whole.rcg
-claim "it holds states of each load" bash -c "rc-info kept.rcg >info.txt && [ \"\$(grep -c '(state)' info.txt)\" -gt 20 ]"
-claim "resumed it is the same to the last bit" bash -c "
+claim "a checkpoint does not change the result" cmp plain.rcg whole.rcg
+claim "it has states of each load" bash -c "rc-info kept.rcg >info.txt && [ \"\$(grep -c '(state)' info.txt)\" -gt 20 ]"
+claim "a resumed run gives the same bits" bash -c "
     cp kept.rcg again.rcg && $solve $history --checkpoint again.rcg --resume --report again.tsv -o again-out.rcg rough.rcg &&
     cmp whole.rcg again-out.rcg && cmp kept.rcg again.rcg"
 near "$(apart whole.tsv again.tsv)" 0 "$same" "  and so are its figures, the applications that it took included"
@@ -49,7 +49,7 @@ cut_off() {
     done >apart.txt
     [ "$n" -gt 25 ] && sort -g apart.txt | tail -n 1 >worst.txt
 }
-claim "cut off in any frame it goes on" cut_off
+claim "a checkpoint truncated in any frame can be resumed" cut_off
 between 0 "$(cat worst.txt)" 1e-4 "  to the same figures, within the tolerance of the contacts"
 head -c "$(ends kept.rcg | tail -n 3 | head -n 1)" kept.rcg >late.rcg
 states() { rc-info "$1" | grep -c '(state)'; }
@@ -62,8 +62,8 @@ between 1 "$(($(states late.rcg) - before))" 4 "  and only what is missing is do
 harder="--mean-pressure 250MPa --yield 0.8GPa"
 $solve $harder --checkpoint try.rcg --interval 0 --report try.tsv -o try-out.rcg rough.rcg
 $solve $harder --checkpoint try.rcg --resume --report try2.tsv -o try2-out.rcg rough.rcg
-claim "with more increments than the first try has" test "$(figures_of try.tsv | awk '$1 == "increments" { print $2 }')" -gt 8
-claim "  resumed it is the same" cmp try-out.rcg try2-out.rcg
+claim "with more increments than the first try" test "$(figures_of try.tsv | awk '$1 == "increments" { print $2 }')" -gt 8
+claim "  a resumed run gives the same result" cmp try-out.rcg try2-out.rcg
 head -c "$(ends try.rcg | tail -n 5 | head -n 1)" try.rcg >part.rcg
 $solve $harder --checkpoint part.rcg --resume --report part.tsv -o part-out.rcg rough.rcg
 near "$(figures_of part.tsv | awk '$1 == "increments" { print $2 }')" "$(figures_of try.tsv | awk '$1 == "increments" { print $2 }')" 0 \
@@ -83,9 +83,9 @@ interrupted() {
     status=$?
     [ $status = 143 ] && rc-info --quiet signal.rcg >/dev/null
 }
-claim "a signal leaves a state" interrupted
-claim "  and what is written is said to be on the way" grep -Eq 'interrupted in increment [0-9]+ of 100: the frames hold an intermediate state, not a solution, and its error is unknown$' signal.err
-claim "from which it goes on" bash -c "
+claim "after a signal the checkpoint has a state" interrupted
+claim "  a warning says that the frames hold an intermediate state" grep -Eq 'interrupted in increment [0-9]+ of 100: the frames hold an intermediate state, not a solution, and its error is unknown$' signal.err
+claim "--resume continues from it" bash -c "
     $solve $history --increments 100 --checkpoint signal.rcg --resume --report on.tsv -o on.rcg rough.rcg &&
     $solve $history --increments 100 --report straight.tsv -o straight.rcg rough.rcg"
 # a hundred further contacts, each with a mean error of 1e-4 over the map: a single node may have several
@@ -147,6 +147,6 @@ refuses 1 'case 1 cannot be continued \(.*no state' "one with fewer" \
     "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
 (head -c 500000 kept.rcg && printf X && tail -c +500002 kept.rcg) >spoilt.rcg
 refuses 1 'frame [0-9]* of it cannot be read .*checksum' "a file with a damaged frame" "$solve $history --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"
-claim "no refused run left anything" bash -c '! ls x.rcg* 2>/dev/null'
+claim "refused runs leave no file" bash -c '! ls x.rcg* 2>/dev/null'
 
 finish

@@ -15,9 +15,9 @@ count() { grep -o '"counts": {[^}]*' "$2" | grep -o "\"$1\": [0-9]*" | cut -d' '
 
 # ---- slices ----
 
-claim "slices work" bash -c 'rc-stress --depths 0,100um --report r.json ball.rcg -o s.rcg'
-claim "seven frames a depth" test "$(frames s.rcg)" = 14
-claim "a frame knows its depth and how many there are" \
+claim "slices are computed" bash -c 'rc-stress --depths 0,100um --report r.json ball.rcg -o s.rcg'
+claim "each depth has seven frames" test "$(frames s.rcg)" = 14
+claim "a frame has its depth and the number of depths" \
     bash -c 'says depth=0.0001$ rc-info s.rcg && says frames=14$ rc-info s.rcg'
 # 5e-3: 23 nodes in the radius, solved to 65 x 49 nodes^-0.75 = 2.4e-3
 near "$(least szz value r.json)" "-$p0" 5e-3 "szz at the surface is the pressure"
@@ -25,7 +25,7 @@ near "$(least szz depth r.json)" 0 "$same" "  at depth 0"
 near "$(number mises value r.json)" "$(awk "BEGIN { print 0.6187 * $p0 }")" "$coarse_grid" \
     "Mises at 100 um is what Hertz has there"
 
-claim "--depths auto" bash -c \
+claim "--depths auto is accepted" bash -c \
     'rc-stress --depths auto --components mises,tresca,s1,s2,s3 --report a.json ball.rcg -o a.rcg'
 near "$(number mises value a.json)" "$(awk "BEGIN { print 0.620041 * $p0 }")" "$coarse_grid" \
     "  finds the largest Mises stress"
@@ -33,8 +33,8 @@ near "$(number tresca value a.json)" "$(awk "BEGIN { print 0.620041 * $p0 }")" "
     "  and Tresca's, the same on the axis"
 # the depths have steps of about a tenth of this, and the maximum is flat
 near "$(number mises depth a.json)" "$(awk 'BEGIN { print 0.480864 * 228e-6 }')" 0.15 "  at its depth"
-claim "  and history says auto" says '--depths auto' rc-info a.rcg
-claim "  with depths that rise, first 0" bash -c '
+claim "  the history has auto" says '--depths auto' rc-info a.rcg
+claim "  its depths increase from 0" bash -c '
     grep -o "\"depths\": \[0, [^]]*" a.json | tr "," "\n" | sed "1d" >depths.txt &&
     [ "$(wc -l <depths.txt)" -ge 10 ] && sort -g -c -u depths.txt'
 
@@ -44,15 +44,15 @@ near "$(number mises value f.json)" "$(awk "BEGIN { print 0.64759 * $p0 }")" "$c
 # a node spacing is 0.16 of the shift
 near "$(number mises x f.json)" "$(awk 'BEGIN { print 0.270 * 228e-6 }')" 0.2 \
     "  and moves it ahead"
-claim "  the frame says so" says 'mu=0.25$' rc-info f.rcg
+claim "  the frame has the coefficient of friction" says 'mu=0.25$' rc-info f.rcg
 
 # ---- counts ----
 
 claim "without friction no tangential kernel is evaluated" test "$(count shear_kernels r.json)" = 0
-claim "with it five a depth are" test "$(count shear_kernels f.json)" = 5
+claim "with friction five are evaluated per depth" test "$(count shear_kernels f.json)" = 5
 rc-stress --depths 0:50um:9 --components szz --report c.json ball.rcg -o c.rcg
-claim "--components szz evaluates one kernel a depth" test "$(count normal_kernels c.json)" = 9
-claim "and says what it left out" grep -q '"sxx": "left out: not in --components"' c.json
+claim "--components szz evaluates one kernel per depth" test "$(count normal_kernels c.json)" = 9
+claim "the report lists the omitted ones" grep -q '"sxx": "left out: not in --components"' c.json
 claim "the pressure is transformed once" test "$(count source_transforms c.json)" = 1
 
 # ---- memory ----
@@ -70,21 +70,21 @@ near "$(field peak_memory many.json)" "$(field peak_memory few.json)" 0.05 \
 
 # ---- sections ----
 
-claim "a section" bash -c \
+claim "a section is computed" bash -c \
     'rc-stress --section y=0 --depths 0:200um:21 --components szz,mises --report y.json \
         ball.rcg -o y.rcg'
-claim "  is one frame a component" test "$(frames y.rcg)" = 2
-claim "  of as many rows as depths" says '65 x 21 nodes' rc-info y.rcg
-claim "  that says where it is" bash -c \
+claim "  each component is a frame" test "$(frames y.rcg)" = 2
+claim "  it has a row for each depth" says '65 x 21 nodes' rc-info y.rcg
+claim "  its keys give its place" bash -c \
     'rc-info y.rcg >y.txt && grep -q " section=y$" y.txt && grep -q " at=0$" y.txt && grep -q " depths=0,1e-05" y.txt'
-claim "  and can be drawn" bash -c 'rc-render -o y.png y.rcg && test -s y.png'
-claim "  without a map's transforms" test "$(count field_transforms y.json)" = 0
+claim "  rc-render draws it" bash -c 'rc-render -o y.png y.rcg && test -s y.png'
+claim "  no map is transformed" test "$(count field_transforms y.json)" = 0
 near "$(number mises value y.json)" "$(awk "BEGIN { print 0.620041 * $p0 }")" "$coarse_grid" \
     "  and the largest Mises stress of the contact is in it"
 rc-stress --section x=20um --depths 100um --components szz --report x.json ball.rcg -o x.rcg
 rc-stress --depths 100um --components szz --report xx.json ball.rcg -o xx.rcg
-claim "a section across x has the rows of the map as columns" says '49 x 1 nodes' rc-info x.rcg
-claim "history has its place in SI" says '--section x=2e-05' rc-info x.rcg
+claim "the columns of a section across x are the rows of the map" says '49 x 1 nodes' rc-info x.rcg
+claim "the history has its place in SI" says '--section x=2e-05' rc-info x.rcg
 # x = 2 nodes from the middle column: the map has the same value at this position
 column() { # FILE: prints column 34 of one f64 frame of 65 x 49
     perl -0777 -ne 's/^.*?\n\n//s; my @v = unpack "d<*"; print "$_\n" for map { sprintf "%.9g", $v[65 * $_ + 34] } 0 .. 48' "$1"
@@ -94,8 +94,8 @@ row() { # FILE: prints the values of one f64 frame of 49 x 1
 }
 column xx.rcg >column.txt
 row x.rcg >row.txt
-claim "and the values of the map there" diff column.txt row.txt
-claim "  49 of them" test "$(wc -l <row.txt)" = 49
+claim "it has the values of the map there" diff column.txt row.txt
+claim "  49 values are compared" test "$(wc -l <row.txt)" = 49
 
 # ---- a rough ball: the paper's Fig. 6 ----
 
@@ -121,19 +121,19 @@ by_depth() { grep -o '"by_depth": \[[^]]*' "$2" | sed 's/.*\[//' | tr ',' '\n' |
 near "$(by_depth 41 rough.json)" "$(by_depth 41 smooth.json)" 0.06 \
     "deep below the field is that of the smooth ball"
 for axis in x y; do
-    claim "its plane $axis = 0 is drawn" bash -c \
+    claim "the plane $axis = 0 is drawn" bash -c \
         "rc-stress --depths 0:80um:81 --section $axis=0 --components mises rough.rcg |
          rc-render -o fig6$axis.png && says PNG head -c 4 fig6$axis.png"
 done
 
 # ---- boundaries ----
 
-claim "a periodic pressure has periodic stresses" bash -c \
+claim "the stresses of a periodic pressure are periodic" bash -c \
     'rc-stress --nu 0.3 --depths 0,5um,40um --report p.json wave.rcg -o p.rcg &&
      says boundary=periodic rc-info p.rcg'
 near "$(rc-info --json p.rcg | grep '"szz"' | tail -n 1 | grep -o '"mean": [^,]*' | cut -d' ' -f2)" \
     -1e8 "$summed" "  that carry the load at every depth"
-claim "  at depths of its own" bash -c 'rc-stress --nu 0.3 --depths auto wave.rcg -o p.rcg'
+claim "  its automatic depths differ" bash -c 'rc-stress --nu 0.3 --depths auto wave.rcg -o p.rcg'
 refuses 1 'its boundary is free: --periodic contradicts it' "--periodic against the stream" \
     "rc-stress --periodic --depths 0 ball.rcg"
 refuses 1 'its boundary is periodic, where only fft sums: leave out --kernel mlms' "mlms on a periodic map" \
@@ -145,11 +145,11 @@ rc-stress --kernel mlms --tol 1e-4 --depths 100um --mu 0.25 --report m.json ball
 # requested: 1e-4 of the largest pressure in each component, which is at most seven times as much in Mises'
 # stress
 near "$(number mises value m.json)" "$(number mises value f.json)" 1e-3 "--kernel mlms agrees"
-claim "  with eleven sums" test "$(count engine_sums m.json)" = 11
+claim "  it takes eleven sums" test "$(count engine_sums m.json)" = 11
 
 # ---- dry run ----
 
-claim "--dry-run says what would be done" bash -c \
+claim "--dry-run prints the plan" bash -c \
     'rc-stress --dry-run --depths auto --components szz ball.rcg >dry.txt &&
      grep -q "friction *left out: mu = 0" dry.txt && grep -q "mises *left out" dry.txt &&
      grep -q "memory" dry.txt && grep -q "time *about" dry.txt'
@@ -179,7 +179,7 @@ refuses 1 '--report nowhere/r.json: No such file' "a report that cannot be writt
 # ---- friction on a body that yielded before without friction ----
 
 rc-synth sphere --nx 16 --dx 20um --radius 10mm | rc-solve --quiet --load 20N --E1 210GPa --nu1 0.3 --E2 rigid --yield 500MPa,5GPa --increments 2 --slabs 6 --output pressure,strain -o dent.rcg
-claim "friction on a body that has yielded is warned of" warns "friction was not part of that solution.* yield stress, 500 MPa" rc-stress --mu 0.3 --depths 10um dent.rcg -o x.rcg
-claim "  without it there is nothing to say" bash -c 'rc-stress --depths 10um dent.rcg -o x.rcg 2>err; ! grep -q friction err'
+claim "friction on a yielded body causes a warning" warns "friction was not part of that solution.* yield stress, 500 MPa" rc-stress --mu 0.3 --depths 10um dent.rcg -o x.rcg
+claim "  without friction there is none" bash -c 'rc-stress --depths 10um dent.rcg -o x.rcg 2>err; ! grep -q friction err'
 
 finish

@@ -62,9 +62,9 @@ for my $c (keys %all) {
     }
 }
 END
-claim "largest and least values and their places are those of the closed form, over all and by material" \
+claim "largest and smallest values and their places agree with the closed form, in all and by material" \
     perl judge.pl two.json
-claim "  of a section too" bash -c '
+claim "  the same holds for a section" bash -c '
     rc-stress --section y=0 --depths 0,1um,2.5um,3um,8um --components szz,s1,s3,mises --report s.json \
         two.rcg -o section.rcg && perl judge.pl s.json'
 
@@ -85,11 +85,11 @@ between 0 "$(awk -v x="$(end least x)" -v y="$(end least y)" 'BEGIN { print sqrt
 
 # ---- depths meant in micrometres ----
 
-claim "a depth of 5 m under a map of half a millimetre is told" \
+claim "a depth of 5 m under a map of half a millimetre causes a warning" \
     warns '--depths: 5 m is 9\.8e\+03 times the width of the map, 0\.000512 m.*write 5um' \
     rc-stress --depths 0,5 --components szz -o far.rcg ball.rcg
-claim "  one within ten widths is not" bash -c '
+claim "  a depth within ten widths causes none" bash -c '
     rc-stress --depths 5.1mm --components szz -o far.rcg ball.rcg 2>said.txt && ! test -s said.txt'
-claim "  a little more is" warns 'times the width' rc-stress --depths 5.2mm --components szz -o far.rcg ball.rcg
+claim "  a slightly larger one does" warns 'times the width' rc-stress --depths 5.2mm --components szz -o far.rcg ball.rcg
 
 finish

@@ -66,7 +66,7 @@ for surface in ball rough coated; do
         rc-stress --quiet --depths 0,3um,20um $how --report map.json -o map.rcg after.rcg
         between 0 "$(largest mu.rcg map.rcg)" 1e-12 "$surface, ${how:-slices}: mu p beside the pressure is --mu"
     done
-    claim "  it may stand before the pressure" cmp <(rc-stress --quiet --depths 3um after.rcg) <(rc-stress --quiet --depths 3um before.rcg)
+    claim "  the tractions may precede the pressure" cmp <(rc-stress --quiet --depths 3um after.rcg) <(rc-stress --quiet --depths 3um before.rcg)
 done
 
 # ---- along y ----
@@ -80,18 +80,18 @@ least() { grep -o '"least": {.*' "$1" | grep -o '"value": [^,]*' | head -n 1 | c
 # the pressure is symmetric to the accuracy of its solution
 near "$(least y.json)" "$(least x.json)" 1e-6 "on a ball a traction along y makes the syz that one along x makes of sxz"
 frames x.rcg ty.part | sed 's/^RCGEND 2$/RCGEND 3/' >both.rcg
-claim "both at once" rc-stress --quiet --depths 30um --report both.json -o both_stress.rcg both.rcg
+claim "both tractions are accepted" rc-stress --quiet --depths 30um --report both.json -o both_stress.rcg both.rcg
 
 # ---- messages ----
 
 rc-stress --quiet --depths 30um --report none.json -o none.rcg ball.rcg
-claim "without a map the pressure alone is transformed" test "$(count source_transforms none.json)" = 1
-claim "  and no kernel of the shear is evaluated" test "$(count shear_kernels none.json)" = 0
-claim "with one there are two" test "$(count source_transforms y.json)" = 2
-claim "with both three, and nine kernels more" test "$(count source_transforms both.json) $(count shear_kernels both.json)" = "3 9"
+claim "without a map of traction the pressure alone is transformed" test "$(count source_transforms none.json)" = 1
+claim "  no kernel of the shear is evaluated" test "$(count shear_kernels none.json)" = 0
+claim "with one map two are transformed" test "$(count source_transforms y.json)" = 2
+claim "with both maps three are transformed, with nine more kernels" test "$(count source_transforms both.json) $(count shear_kernels both.json)" = "3 9"
 claim "the report has no mu, and friction is on" grep -q '"mu": null, .*"friction": "on"' y.json
-claim "nor have the frames" bash -c 'rc-info syz.rcg >info.txt && lacks "mu=" info.txt'
-claim "a dry run says so" says 'friction *on$' rc-stress --depths 30um --dry-run y.rcg
+claim "the frames have no mu either" bash -c 'rc-info syz.rcg >info.txt && lacks "mu=" info.txt'
+claim "--dry-run says so" says 'friction *on$' rc-stress --depths 30um --dry-run y.rcg
 
 # ---- refusals ----
 

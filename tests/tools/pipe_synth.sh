@@ -10,7 +10,7 @@ info() {
 
 # ---- the grid ----
 
-claim "a sphere" info rc-synth sphere --radius 2.385mm --nx 33 --ny 47 --dx 1.1um --dy 1um
+claim "a sphere is made" info rc-synth sphere --radius 2.385mm --nx 33 --ny 47 --dx 1.1um --dy 1um
 near "$(field nx info.json)" 33 "$same" "its columns"
 near "$(field ny info.json)" 47 "$same" "its rows"
 near "$(field dx info.json)" 1.1e-6 "$same" "its dx, to the last digit"
@@ -18,16 +18,16 @@ near "$(field dy info.json)" 1e-6 "$same" "its dy"
 near "$(field maximum info.json)" 0 "$same" "its highest point"
 # corner: x = 16 dx = 17.6 um, y = 23 dy = 23 um, -(x^2 + y^2) / 2R
 near "$(field minimum info.json)" -1.7584067085953878e-07 "$converted" "its lowest point"
-claim "it carries channel, unit and history, and is not periodic" bash -c '
+claim "it has channel, unit and history, and is not periodic" bash -c '
     grep -q "\"channel\": \"height\".*\"unit\": \"m\".*\"type\": \"f64\"" info.json &&
     grep -q "\"history\": \"rc-synth [0-9.]* --nx 33 --ny 47 --dx 1.1e-06 --dy 1e-06 --radius 0.002385 sphere\"" info.json &&
     lacks periodic info.json'
 
-claim "rows and dy follow columns and dx" info rc-synth sphere --radius 1mm --nx 9 --dx 2um
+claim "rows and dy default to columns and dx" info rc-synth sphere --radius 1mm --nx 9 --dx 2um
 near "$(field ny info.json)" 9 "$same" "rows"
 near "$(field dy info.json)" 2e-6 "$same" "dy"
 
-claim "a grid like another one" bash -c '
+claim "--like takes the grid of another map" bash -c '
     rc-synth sphere --radius 1mm --nx 7 --ny 5 --dx 1.3um --dy 1.7um --type f32 -o other.rcg &&
     rc-synth wave --amplitude 1um --wavelength 4um --like other.rcg | rc-info --json >info.json &&
     rc-synth wave --amplitude 1um --wavelength 4um --like - <other.rcg | rc-info --json >info2.json'
@@ -35,10 +35,10 @@ near "$(field nx info.json)" 7 "$same" "its columns"
 near "$(field ny info.json)" 5 "$same" "its rows"
 near "$(field dx info.json)" 1.3e-6 "$same" "its dx"
 near "$(field dy info.json)" 1.7e-6 "$same" "its dy"
-claim "also from standard input, and no file name is in it" bash -c '
+claim "the other map may be standard input, and its name is not stored" bash -c '
     cmp info.json info2.json && lacks other info.json'
 
-claim "single precision when asked" says '"type": "f32"' rc-info --json other.rcg
+claim "--type f32 gives single precision" says '"type": "f32"' rc-info --json other.rcg
 
 # ---- indenters ----
 
@@ -47,23 +47,23 @@ claim "a cylinder lies along y" bash -c 'rc-synth cylinder --radius 1mm --nx 21 
     rc-info --json a.rcg >info.json && cmp <(rc-export --format csv a.rcg) <(rc-export --format csv b.rcg)'
 # (10 um)^2 / 2 mm
 near "$(field minimum info.json)" -5e-08 "$converted" "its lowest line"
-claim "a cylinder along the diagonal" info rc-synth cylinder --radius 1mm --nx 21 --dx 1um --direction -45
+claim "a cylinder along the diagonal is made" info rc-synth cylinder --radius 1mm --nx 21 --dx 1um --direction -45
 # the other corners are sqrt(2) 10 um away: 2 (10 um)^2 / 2 mm
 near "$(field minimum info.json)" -1e-07 "$rounding" "its lowest corner"
-claim "a paraboloid" info rc-synth paraboloid --radius 1mm,0.5mm --nx 21 --dx 1um
+claim "a paraboloid is made" info rc-synth paraboloid --radius 1mm,0.5mm --nx 21 --dx 1um
 # (10 um)^2 / 2 mm + (10 um)^2 / 1 mm
 near "$(field minimum info.json)" -1.5e-07 "$rounding" "its lowest corner"
-claim "a cone" info rc-synth cone --slope 0.04 --nx 21 --dx 1um
+claim "a cone is made" info rc-synth cone --slope 0.04 --nx 21 --dx 1um
 near "$(field minimum info.json)" -5.65685424949238e-07 "$rounding" "its lowest corner" # 0.04 sqrt(2) 10 um
-claim "a punch" info rc-synth punch --radius 5um --height 2um --nx 21 --dx 1um
+claim "a punch is made" info rc-synth punch --radius 5um --height 2um --nx 21 --dx 1um
 near "$(field minimum info.json)" -2e-06 "$same" "what is around its end"
 # 81 lattice points within 5 of 441: the mean is -2 um (1 - 81/441)
 near "$(field mean info.json)" -1.6326530612244898e-06 "$rounding" "and how much"
-claim "a punch with an edge" info rc-synth punch --radius 5um --height 20um --edge 50um --nx 21 --dx 1um
+claim "a punch with a rounded edge is made" info rc-synth punch --radius 5um --height 20um --edge 50um --nx 21 --dx 1um
 # corner: (sqrt(200) um - 5 um)^2 / 100 um
 near "$(field minimum info.json)" -8.357864376269047e-07 "$rounding" "its corner"
 
-claim "an indenter at a place" bash -c 'rc-synth cone --slope 0.04 --nx 21 --dx 1um --place 10um,-10um | rc-info --json >info.json'
+claim "an indenter at a given place is made" bash -c 'rc-synth cone --slope 0.04 --nx 21 --dx 1um --place 10um,-10um | rc-info --json >info.json'
 # the far corner is 20 um away on each side
 near "$(field minimum info.json)" -1.1313708498984762e-06 "$rounding" "its far corner"
 rc-synth selfaffine --hurst 0.8 --rms-height 1um --nx 40 --ny 31 --dx 1um -o rough.rcg
@@ -71,46 +71,46 @@ rc-solve --quiet --load 1N --estar 100GPa -o solved.rcg rough.rcg
 highest() {
     rc-export --format xyz "$1" | grep -v '^#' | sort -g -k 3,3 | tail -n 1 | cut -d ' ' -f 1,2
 }
-claim "an indenter on the highest node" bash -c 'rc-synth sphere --radius 1mm --place highest --like rough.rcg -o ball.rcg &&
+claim "an indenter on the highest node is made" bash -c 'rc-synth sphere --radius 1mm --place highest --like rough.rcg -o ball.rcg &&
     rc-synth sphere --radius 1mm --place highest --like - <solved.rcg >ball2.rcg && cmp ball.rcg ball2.rcg'
-claim "  of the same place as that" test "$(highest ball.rcg)" = "$(highest rough.rcg)"
-claim "  which history tells" says 'rc-synth [0-9.]* --radius 0.001 --place -?[0-9.e-]+,-?[0-9.e-]+ sphere' rc-info ball.rcg
+claim "  it equals an indenter at that place" test "$(highest ball.rcg)" = "$(highest rough.rcg)"
+claim "  the history has the place" says 'rc-synth [0-9.]* --radius 0.001 --place -?[0-9.e-]+,-?[0-9.e-]+ sphere' rc-info ball.rcg
 
 # ---- waves ----
 
 # 40 nodes are 4 wavelengths of 11 um: the mean square of a cosine is 1/2, that of a product of two is 1/4
-claim "a wave" info rc-synth wave --amplitude 0.3um --wavelength 11um --nx 40 --ny 3 --dx 1.1um
+claim "a wave is made" info rc-synth wave --amplitude 0.3um --wavelength 11um --nx 40 --ny 3 --dx 1.1um
 near "$(field rms info.json)" 2.1213203435596426e-07 "$rounding" "RMS of a cosine"
-claim "it fits the map" grep -q '"periodic": "yes"' info.json
-claim "two waves" info rc-synth wave --amplitude 0.3um --wavelength 11um,9um --nx 40 --ny 27 \
+claim "it is periodic" grep -q '"periodic": "yes"' info.json
+claim "two waves are made" info rc-synth wave --amplitude 0.3um --wavelength 11um,9um --nx 40 --ny 27 \
     --dx 1.1um --dy 1um
 near "$(field rms info.json)" 1.5e-07 "$rounding" "RMS of the product of two"
-claim "they fit the map" grep -q '"periodic": "yes"' info.json
-claim "a wave along y alone" info rc-synth wave --amplitude 0.3um --wavelength 0,9um --nx 5 \
+claim "they are periodic" grep -q '"periodic": "yes"' info.json
+claim "a wave along y alone is made" info rc-synth wave --amplitude 0.3um --wavelength 0,9um --nx 5 \
     --ny 27 --dx 1um
 near "$(field rms info.json)" 2.1213203435596426e-07 "$rounding" "RMS of a cosine"
-claim "a wave that does not fit" info rc-synth wave --amplitude 0.3um --wavelength 11um --nx 41 \
+claim "a wave that does not fit the map is made" info rc-synth wave --amplitude 0.3um --wavelength 11um --nx 41 \
     --dx 1.1um
-claim "is not periodic" lacks periodic info.json
+claim "it is not periodic" lacks periodic info.json
 
 # ---- roughness ----
 
 rough='rc-synth selfaffine --hurst 0.73 --nx 128 --ny 97 --dx 1.1um --dy 1um'
-claim "roughness of a given height" bash -c "$rough --rms-height 0.42um | rc-info --json >info.json"
+claim "roughness of a given height is made" bash -c "$rough --rms-height 0.42um | rc-info --json >info.json"
 near "$(field rms info.json)" 0.42e-6 "$rounding" "its RMS height"
 claim "it is periodic" grep -q '"periodic": "yes"' info.json
 # waves of 20 nodes and more: differences between nodes give the slope except for a few per cent
-claim "roughness of a given slope" bash -c \
+claim "roughness of a given slope is made" bash -c \
     "$rough --rms-slope 0.23 --short-cut 20um | rc-info --json >info.json"
 near "$(field rms_slope info.json)" 0.23 0.02 "its RMS slope"
-claim "the same seed gives the same bytes, whatever the threads" bash -c "
+claim "the same seed gives the same bytes for any number of threads" bash -c "
     $rough --rms-slope 0.1 --seed 7 --threads 1 -o a.rcg &&
     $rough --rms-slope 0.1 --seed 7 --threads 2 -o b.rcg && cmp a.rcg b.rcg"
-claim "heights of another distribution, and a lay" bash -c "
+claim "heights of another distribution, with a lay, are made" bash -c "
     $rough --rms-height 0.42um --skewness -1.2 --anisotropy 3 --direction 30 | rc-info --json >info.json"
 near "$(field rms info.json)" 0.42e-6 "$rounding" "its RMS height"
-claim "  which history tells" grep -q -- '--direction 30 .*--anisotropy 3 --skewness -1.2 selfaffine' info.json
-claim "heights of Weibull's" bash -c "$rough --rms-height 0.42um --weibull 1.5 | rc-info --json >info.json"
+claim "  the history has them" grep -q -- '--direction 30 .*--anisotropy 3 --skewness -1.2 selfaffine' info.json
+claim "heights of Weibull's distribution are made" bash -c "$rough --rms-height 0.42um --weibull 1.5 | rc-info --json >info.json"
 near "$(field rms info.json)" 0.42e-6 "$rounding" "its RMS height"
 # the lowest value of a Weibull distribution is below the mean by Gamma(1 + 1/k)/sqrt(Gamma(1 + 2/k) - Gamma(1
 # + 1/k)^2) standard deviations: 1.4723 for k = 1.5
@@ -118,22 +118,22 @@ near "$(field minimum info.json)" -6.18e-07 "$three_digits" "its lowest height"
 claim "the lay lies along y" bash -c "
     $rough --rms-height 0.42um --anisotropy 3 -o a.rcg &&
     $rough --rms-height 0.42um --anisotropy 3 --direction 90 -o b.rcg"
-claim "  by default" cmp <(rc-export --format csv a.rcg) <(rc-export --format csv b.rcg)
+claim "  this is the default" cmp <(rc-export --format csv a.rcg) <(rc-export --format csv b.rcg)
 
 # the values only: without the last two lines of 24 bytes
 values() {
     tail -c $((8 * 128 * 97 + 24)) "$1" | head -c $((8 * 128 * 97))
 }
-claim "a seed of more than 32 bits is taken whole, or refused" bash -c "
+claim "a seed of more than 32 bits is used completely, or refused" bash -c "
     $rough --rms-slope 0.1 --seed 9000000000000000 -o large.rcg 2>large.err || grep -q 'counts to 4294967295' large.err"
 for seed in 0 4294967295; do
-    claim "  and is not seed $seed" bash -c "
+    claim "  it differs from seed $seed" bash -c "
         $rough --rms-slope 0.1 --seed $seed -o small.rcg && rc-export --format csv small.rcg >small.csv &&
         ! cmp -s <(rc-export --format csv large.rcg) small.csv"
 done
 claim "the default seed is 1" bash -c "
     $rough --rms-slope 0.1 -o b.rcg && $rough --rms-slope 0.1 --seed 1 -o one.rcg"
-claim "  indeed" cmp <(values b.rcg) <(values one.rcg)
+claim "  the bytes are equal" cmp <(values b.rcg) <(values one.rcg)
 values a.rcg >a.bin
 values b.rcg >b.bin
 claim "another seed gives other heights" perl -e '
@@ -222,6 +222,6 @@ refuses 1 '999999489 x 658812625 nodes need about [0-9]+ MiB, .* [0-9]+ MiB: tak
     "bytes that are nearly more than can be counted" \
     "rc-synth selfaffine --skewness 1 --hurst 0.8 --rms-height 1nm --nx 999999489 --ny 658812625 --dx 1nm"
 refuses 2 '--radius -1 m: it must be above 0' "a bad option leaves no file" "rc-synth sphere $grid --radius -1 -o out.rcg"
-claim "indeed" test ! -e out.rcg
+claim "the values agree" test ! -e out.rcg
 
 finish

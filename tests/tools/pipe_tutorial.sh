@@ -59,7 +59,7 @@ agrees() { perl agrees.pl "$1" "$2"; }
 
 printf 'x 12.5 mm2 (3 of 7), ... at 4e-06 um; ...\n' >said.txt
 printf 'x 12.51 mm2 (3 of 7), here and there at 4.001e-06 um; 0.2 s\n' >done.txt
-claim "what is printed agrees, but for what is left out" agrees said.txt done.txt
+claim "the shown output agrees with the printed one, except for ..." agrees said.txt done.txt
 differs() { # PATTERN "sentence" SUBSTITUTION
     sed "$3" done.txt >other.txt
     refuses 1 "$1" "$2" "perl agrees.pl said.txt other.txt"
@@ -94,7 +94,7 @@ END
 strangers() { perl strangers.pl "$1" "$2"; }
 printf '@@ a\n12.51 um and 3e-6\n@@ b\n77\n' >known.txt
 printf '@@ a\nfrom 12.5 um to 3 um, 1251 per cent, but not 12.6, nor 0.25, nor 77\n@@ b\n77, not 3\n' >quoted.txt
-claim "a sentence quotes what was printed in its section, rounded, or it is seen" \
+claim "a figure in a sentence agrees with the output in its section, rounded" \
     test "$(strangers known.txt quoted.txt | tr '\n' ' ')" = "12.6 0.25 77 3 "
 
 blocks "$page" '' "$scratch/blocks"
@@ -123,8 +123,8 @@ same_calls() { called "$1" bash >bash.said && called "$1" zsh -f -i >zsh.said &&
 if command -v zsh >/dev/null; then
     printf 'two="--load 1N"\nrc-solve $two\n' >typed.1
     printf 'rc-solve --load 1N | # presses\n    rc-info\n' >typed.2
-    claim "two words of a variable are seen" bash -c "$(declare -f called same_calls); scratch=$scratch; ! same_calls $scratch/typed.1"
-    claim "  and a comment inside a pipe" bash -c "$(declare -f called same_calls); scratch=$scratch; ! same_calls $scratch/typed.2"
+    claim "the check finds an unquoted variable of two words" bash -c "$(declare -f called same_calls); scratch=$scratch; ! same_calls $scratch/typed.1"
+    claim "  the check finds a comment inside a pipe" bash -c "$(declare -f called same_calls); scratch=$scratch; ! same_calls $scratch/typed.2"
     displays=0
     for name in "$pages"/*.1 "$pages"/contact*.7 README; do
         rm -rf shell_blocks
@@ -145,7 +145,7 @@ claim "README has no comments among its commands" bash -c "! sed -n 's/^    //p'
 
 sed -n '/^## The pipeline/,/^| tool/s/^    //p' "$RC_SOURCE/README.md" | grep -v '^|' >pipeline
 claim "the README's pipeline runs" bash -c 'cd run && rm -f mises.png && bash -e -u -o pipefail ../pipeline && says PNG head -c 4 mises.png'
-claim "  and is that of the tutorial" bash -c \
+claim "  it equals that of the tutorial" bash -c \
     'for words in "$@"; do sed "s/ *#.*//" pipeline | tr -s "\\\\ \n" " " | grep -qF -- "$words" || { echo "$words" >&2; exit 1; }; done' - \
     "rc-detrend --poly 2 --outliers 5 --fill" "rc-solve --radius 3.75mm --load 60N --estar 114GPa --hardness 6GPa" "rc-stress --nu 0.28"
 # The whole page takes minutes.
@@ -162,13 +162,13 @@ for block in $(cd blocks && ls | grep -v prints | sort -n); do
     claim "display $block runs: $(head -n 1 "blocks/$block")" bash -c \
         "cd run && bash -e -u -o pipefail ../blocks/$block </dev/null >../$block.out 2>&1 || { cat ../$block.out >&2; exit 1; }"
     if [ -e "blocks/$block.prints" ]; then
-        claim "  and prints what is shown" agrees "blocks/$block.prints" "$block.out"
+        claim "  it prints the shown output" agrees "blocks/$block.prints" "$block.out"
     else
-        claim "  and prints nothing" test ! -s "$block.out"
+        claim "  it prints nothing" test ! -s "$block.out"
     fi
 done
-claim "there were displays to run" test "$(ls blocks | grep -vc prints)" -gt 15
-claim "  and to compare" test "$(ls blocks | grep -c prints)" -gt 10
+claim "displays were run" test "$(ls blocks | grep -vc prints)" -gt 15
+claim "  outputs were compared" test "$(ls blocks | grep -c prints)" -gt 10
 
 # ---- its sentences ----
 
@@ -234,7 +234,7 @@ derived "how wide the film's contact is" 'some (N) um across' \
     "$(compute "2e6 * (0.75 * 2 * 1e-3 * 2 * (1 - 0.3 ^ 2) / 208e9) ^ (1 / 3)")" 0.1
 derived "the slope that rc-solve warns of" 'exceeds about (N), the' "$(mandoc -Tutf8 "$pages/rc-solve.1" | col -b |
     tr -s '\n ' ' ' | grep -o 'RMS slope where the bodies touch is above [0-9.]*' | grep -o '[0-9.]*$')" 0
-claim "sentences quote no other figures than what is printed" test -z "$(strangers known.txt sentences.txt | tee strangers.txt)"
+claim "figures in sentences agree with the output" test -z "$(strangers known.txt sentences.txt | tee strangers.txt)"
 cat strangers.txt
 
 # The work in contact-theory(7) for the same contact: on other machines steps may differ by one.
@@ -291,7 +291,7 @@ if [ -d "$RC_CORPUS/corpus" ]; then
         *) row "$fit $steps" ;;
         esac >row.txt
         echo "${line#"$steps"}" >shown.txt
-        claim "the table of steps: $steps" agrees shown.txt row.txt
+        claim "the table of steps is right: $steps" agrees shown.txt row.txt
     done <table.txt
     claim "  has rows" test "$(wc -l <table.txt)" -gt 10
 
@@ -317,10 +317,10 @@ drawn() {
 for picture in $(pictures "$page"); do
     [ "$picture" = leak.png ] && ! with_leak && continue
     claim "$picture is drawn" test -s "run/$picture"
-    claim "  and the one among the samples is this" diff <(drawn "run/$picture") <(drawn "$samples/$picture")
-    claim "  which says how it was made" test -n "$(drawn "$samples/$picture")"
+    claim "  the picture among the samples is the same" diff <(drawn "run/$picture") <(drawn "$samples/$picture")
+    claim "  it contains the command that made it" test -n "$(drawn "$samples/$picture")"
 done
-claim "there are pictures" test "$(pictures "$page" | wc -l)" -ge 5
-claim "  of less than 700 kB together" test "$(cd "$samples" && cat $(pictures "$page") | wc -c)" -lt 700000
+claim "pictures were compared" test "$(pictures "$page" | wc -l)" -ge 5
+claim "  together they have less than 700 kB" test "$(cd "$samples" && cat $(pictures "$page") | wc -c)" -lt 700000
 
 finish

@@ -19,12 +19,12 @@ for radius in 85.2 141.4 249.1 442.1; do
         "the scar after $(column distance $row worn.tsv) m"
     near "$(column wear_volume $row worn.tsv)" "$(awk "BEGIN { print 1e-14 * $(column distance $row worn.tsv) }")" 1e-12 \
         "  its volume is k P s"
-    claim "  and it has converged" test "$(column converged $row worn.tsv)" = true
+    claim "  the result has converged" test "$(column converged $row worn.tsv)" = true
 done
-claim "a row of --steps is a step, and the distance rises" test \
+claim "--steps writes a row for each step, with increasing distance" test \
     "$(awk -F'\t' 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "distance/m") c = k } NR > 1 { bad += $c <= last; last = $c; n++ }
         END { print n, bad + 0 }' steps.tsv)" = "$(column steps 4 worn.tsv) 0"
-claim "worn heights and pressures agree: solved again, they carry the same pressure" bash -c "
+claim "solved again, the worn heights give the same pressure" bash -c "
     rc-pick --case 4 --channel height worn.rcg | rc-solve --quiet --load 10N --estar 114GPa --report again.tsv -o again.rcg"
 near "$(column max_pressure 1 again.tsv)" "$(column max_pressure 4 worn.tsv)" 0.03 "  the largest one"
 near "$(column contact_area 1 again.tsv)" "$(column contact_area 4 worn.tsv)" 0.01 "  and the same area"
@@ -63,7 +63,7 @@ near "$(column approach 1 none.tsv)" "$(column approach 1 elastic.tsv)" 1e-3 "  
 
 $wear --distance 1km,10km,100km --until area=0.5 --report half.tsv -o half.rcg pressed.rcg
 between 0.5 "$(column contact_fraction 1 half.tsv)" 0.6 "--until area"
-claim "  leaves out later distances" test "$(wc -l <half.tsv)" = 2
+claim "  later distances are omitted" test "$(wc -l <half.tsv)" = 2
 $wear --distance 100km --until depth=30nm,uniform=1e-9 --report deep.tsv -o deep.rcg pressed.rcg
 between 30e-9 "$(column max_wear_depth 1 deep.tsv)" 36e-9 "--until depth"
 near "$(column wear_volume 1 deep.tsv)" "$(awk "BEGIN { printf \"%.17g\", 1e-18 * $(column distance 1 deep.tsv) }")" 1e-12 "  with its distance"
@@ -74,10 +74,10 @@ rc-solve --quiet --load 10N --estar 114GPa --hardness 1GPa \
     <(rc-synth sphere --nx 96 --ny 96 --dx 5um --radius 3mm) -o hard.rcg
 $wear --distance 0,1m --report hard.tsv -o hard-worn.rcg hard.rcg
 near "$(column max_pressure 1 hard.tsv)" 1e9 1e-12 "the hardness of the stream bounds the pressure"
-claim "  which then falls" awk "BEGIN { exit !($(column max_pressure 2 hard.tsv) < 7e8) }"
+claim "  the pressure then falls" awk "BEGIN { exit !($(column max_pressure 2 hard.tsv) < 7e8) }"
 near "$(column wear_volume 2 hard.tsv)" 1e-14 1e-12 "  and dents are not worn volume"
 rc-solve --quiet --E1 1GPa --nu1 0.3 --E2 rigid --layer 2um,3GPa,0.3 --load 1mN rough.rcg -o coated.rcg
-claim "a coat wears" bash -c "$wear --distance 1km -o coat.rcg coated.rcg"
+claim "a coated body wears" bash -c "$wear --distance 1km -o coat.rcg coated.rcg"
 refuses 1 'more than the thickness of the coat, 2 um' "  not through" "$wear --distance 1000Mm -o x.rcg coated.rcg"
 
 # ---- stopped, and on ----
@@ -91,29 +91,29 @@ interrupted() {
     wait $!
     [ $? = 143 ]
 }
-claim "a signal in the middle" interrupted
-claim "  and the run goes on" bash -c "
+claim "a signal stops the run" interrupted
+claim "  --resume continues it" bash -c "
     $whole --checkpoint kept.rcg --resume --report on.tsv -o on.rcg ball.rcg && $whole --report straight.tsv -o straight.rcg ball.rcg"
 near "$(column max_wear_depth 2 on.tsv)" "$(column max_wear_depth 2 straight.tsv)" 1e-3 "  to the same depth"
 near "$(column max_pressure 2 on.tsv)" "$(column max_pressure 2 straight.tsv)" 1e-2 "  and the same pressure"
 
 # ---- words ----
 
-claim "the plan beside explicit steps" says 'explicit steps: about 2.53e.04, each at most 0.9 dx/.k E.. = 39.4737 mm' \
+claim "the plan compares with explicit steps" says 'explicit steps: about 2.53e.04, each at most 0.9 dx/.k E.. = 39.4737 mm' \
     $wear --dry-run --distance 1km ball.rcg
 loud='rc-wear --coefficient 1e-6mm3/Nm'
-claim "a distance at which nothing happens" warns 'the last distance, 1 um, hardly changes the contact, which takes about 4.38596 mm' \
+claim "a distance without noticeable wear causes a warning" warns 'the last distance, 1 um, hardly changes the contact, which takes about 4.38596 mm' \
     $loud --distance 1um -o x.rcg ball.rcg
-claim "one after which nothing changes" warns 'the first distance, 1e.09 m, the pressure is even already, which takes about 320 m' \
+claim "a distance after which nothing changes causes a warning" warns 'the first distance, 1e.09 m, the pressure is even already, which takes about 320 m' \
     $loud --distance 1000Mm -o x.rcg pressed.rcg
-claim "  and nothing is left of the surface" grep -q 'largest worn depth, .*, is more than the peak-to-valley height of the surface before wear, .*--until area' warns.err
-claim "  but a periodic map has no edge" bash -c '! grep -q "edge of the map" warns.err'
-claim "  neither has an usual distance a warning" bash -c "$loud --distance 1m,100m -o x.rcg pressed.rcg 2>usual.err && ! [ -s usual.err ]"
-claim "a scar that reaches the edge of a free map" warns 'share of the load at the edge is .*, above 0.01: .*: take a larger map' \
+claim "  a surface that is worn away completely causes a warning" grep -q 'largest worn depth, .*, is more than the peak-to-valley height of the surface before wear, .*--until area' warns.err
+claim "  a periodic map causes no warning about the edge" bash -c '! grep -q "edge of the map" warns.err'
+claim "  a usual distance causes no warning" bash -c "$loud --distance 1m,100m -o x.rcg pressed.rcg 2>usual.err && ! [ -s usual.err ]"
+claim "a scar at the edge of a free map causes a warning" warns 'share of the load at the edge is .*, above 0.01: .*: take a larger map' \
     $loud --distance 20km -o x.rcg ball.rcg
 rc-synth selfaffine --nx 32 --ny 32 --dx 1um --hurst 0.8 --rms-slope 1.2 --short-cut 8um --seed 3 |
     rc-solve --quiet --periodic --load 1mN --estar 1GPa -o steep.rcg
-claim "slopes beyond the theory" warns 'case 1, load 1 mN, distance 1 m: RMS slope 0.[3-9][0-9]* where the bodies touch is beyond the theory of small slopes .0.3.' \
+claim "slopes beyond the theory cause a warning" warns 'case 1, load 1 mN, distance 1 m: RMS slope 0.[3-9][0-9]* where the bodies touch is beyond the theory of small slopes .0.3.' \
     $loud --distance 1m -o x.rcg steep.rcg
 claim "--verbose prints the figures of a case" warns 'case 2, load 10 N, distance 1 m: contact fraction 0.024.*, largest worn depth .* nm, worn volume 1e-14 m3, steps ' \
     rc-wear --verbose --coefficient 1e-6mm3/Nm --distance 0,1m -o x.rcg ball.rcg

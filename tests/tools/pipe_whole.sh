@@ -33,14 +33,14 @@ near "$(field max_pressure paper.json)" 6e9 "$same" "its largest pressure is the
 near "$(rc-info --json paper.rcg | grep -o '"maximum": [^,]*' | cut -d' ' -f2)" 6e9 "$same" \
     "and no pressure in the stream is above it"
 between 1e-12 "$(field plastic_area paper.json)" "$(field contact_area paper.json)" "its plastic area is not zero"
-claim "Poisson's ratio of body 1 reaches rc-stress by itself" \
+claim "rc-stress gets Poisson's ratio of body 1 from the stream" \
     bash -c 'rc-stress --depths 10um --components mises paper.rcg -o mises.rcg'
 claim "the report is JSON that a parser reads" perl -MJSON::PP -e \
     'decode_json($_) for <>' paper.json
 
 # ---- two files are two cases ----
 
-claim "cases are numbered on through the whole pipeline" bash -c '
+claim "cases have consecutive numbers through the whole pipeline" bash -c '
     rc-synth sphere --nx 32 --dx 20um --radius 7.5mm -o one.rcg &&
     cat one.rcg one.rcg |
         rc-solve --load 100N --estar 100GPa --output pressure --report two.json |
@@ -48,7 +48,7 @@ claim "cases are numbered on through the whole pipeline" bash -c '
         rc-info --json >two.txt &&
     [ "$(wc -l <two.txt)" = 8 ] && [ "$(grep -c "\"case\": 2" two.txt)" = 4 ] &&
     [ "$(wc -l <two.json)" = 2 ]'
-claim "the depth of every slice and their number are in the stream" bash -c '
+claim "the stream has the depth of every slice and their number" bash -c '
     [ "$(grep -c "\"frames\": \"4\"" two.txt)" = 8 ] && grep -q "\"depth\": \"5e-05\"" two.txt'
 
 # ---- whole or not at all ----
@@ -59,12 +59,12 @@ solve='rc-solve --load 1mN --estar 100GPa'
 untouched() { [ ! -e out.rcg ] && [ -z "$(ls out.rcg.* 2>/dev/null)" ]; }
 
 refuses 1 'the stream stops inside the values of a frame' "a truncated stream" "head -c $((size - 500)) good.rcg | $solve -o out.rcg"
-claim "  and nothing is left behind" untouched
+claim "  no file is left" untouched
 refuses 1 "the checksum is beef[0-9a-f]{4}, the data's is " "a wrong CRC" \
     "perl -pe 's/crc32 ..../crc32 beef/' good.rcg | $solve -o out.rcg"
-claim "  and nothing is left behind" untouched
+claim "  no file is left" untouched
 refuses 1 'the stream stops without an end line' "a missing end line" "head -c $((size - 9)) good.rcg | $solve -o out.rcg"
-claim "  and nothing is left behind" untouched
+claim "  no file is left" untouched
 refuses 1 'the program that wrote this stream failed: disk on fire' "a producer that failed" \
     "{ head -c $((size - 9)) good.rcg; echo 'RCGFAIL disk on fire'; } >fire.rcg; $solve -o out.rcg <fire.rcg"
 refuses 1 'the stream stops before it begins' "an empty stream" "$solve -o out.rcg </dev/null"
@@ -75,7 +75,7 @@ refuses 2 '--dx -1e-06 m: it must be above 0' "a negative spacing on the command
     "rc-synth sphere --nx 4 --dx -1um --radius 1mm"
 refuses 1 'load 1 N is above hardness times area, 1000000 Pa x 2.56e-10 m2' "a load above hardness times area" \
     "rc-solve --load 1N --estar 100GPa --hardness 1MPa good.rcg -o out.rcg"
-claim "  and nothing is left behind" untouched
+claim "  no file is left" untouched
 refuses 2 "unknown unit 'kip'" "an unknown unit" "rc-solve --load 24kip --estar 1GPa good.rcg"
 refuses 2 "unknown unit 'Pa'" "a unit of the wrong kind" "rc-solve --load 24Pa --estar 1GPa good.rcg"
 refuses 2 '--depths 0,1um,2: numbers with and without a unit' "a list with and without units" \
@@ -92,7 +92,7 @@ refuses 1 'writing failed \(No space left on device\)' "a full disk" "$solve goo
 refuses 1 '16 x 16 nodes need about [0-9]+ [KM]iB, --memory allows 1 KiB: ' "more memory than is allowed" "$solve --memory 1k good.rcg"
 refuses 3 'not converged after .*: accept it with a larger --tol' "an accuracy out of reach" \
     "rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm | $solve --load 100mN --tol 1e-18 | cat >short.rcg"
-claim "  whose best is written and marked" grep -aq '^converged=no' short.rcg
+claim "  the best state is written and marked" grep -aq '^converged=no' short.rcg
 refuses 3 'selfaffine-seed-1, .*\(converged=no\): results from it are no more accurate' "  and what follows from it says so" \
     "rc-stress --nu 0.3 --depths 0 short.rcg | cat >/dev/null"
 
@@ -110,25 +110,25 @@ written() { # written LINK TARGET: the link is still a link, and its target is t
     rc-synth wave --wavelength 16um --amplitude 1um --nx 16 --dx 1um -o "$1" && [ -L "$1" ] && [ ! -L "$2" ] &&
         rc-info --quiet "$2" >/dev/null && ! cmp -s "$2" good.rcg && [ -z "$(find . -name '*.rcg.??????')" ]
 }
-claim "a link to a file stays one, and the file is written" written old_link there/old.rcg
-claim "a link to a link to what is not there yet stays one, and that is made" written new_link there/in/made.rcg
-claim "  the one between too" test -L empty/second
+claim "a link to a file stays a link, and the file is written" written old_link there/old.rcg
+claim "a link to a link to a missing file stays a link, and the file is made" written new_link there/in/made.rcg
+claim "  the second link stays a link too" test -L empty/second
 rm there/in/made.rcg
-claim "  --psd-map does so too" bash -c 'rc-info --psd --psd-map new_link good.rcg >/dev/null && [ -L new_link ] && [ -s there/in/made.rcg ]'
+claim "  --psd-map follows links too" bash -c 'rc-info --psd --psd-map new_link good.rcg >/dev/null && [ -L new_link ] && [ -s there/in/made.rcg ]'
 refuses 1 'No such file or directory' "a link into a folder that is not there" "rc-synth sphere --nx 16 --dx 1um --radius 1mm -o lost_link"
-claim "  stays as it was" test -L lost_link
+claim "  the file stays unchanged" test -L lost_link
 refuses 1 'Too many levels of symbolic links' "links in a circle" "rc-synth sphere --nx 16 --dx 1um --radius 1mm -o circle_a"
-claim "  stay as they were" test -L circle_a -a -L circle_b
-claim "/dev/stdout is a link as well, to a pipe" \
+claim "  the files stay unchanged" test -L circle_a -a -L circle_b
+claim "/dev/stdout is a link to a pipe" \
     says max_pressure bash -c 'rc-solve --load 1mN --estar 100GPa --quiet --report /dev/stdout -o x.rcg good.rcg | cat'
-claim "  and may be -o" says RCGEND bash -c 'rc-synth sphere --nx 16 --dx 1um --radius 1mm -o /dev/stdout | tail -c 20'
+claim "  -o accepts it" says RCGEND bash -c 'rc-synth sphere --nx 16 --dx 1um --radius 1mm -o /dev/stdout | tail -c 20'
 
 # NaN heights
 printf '1 2 3 4\n2 NaN 3 1\n1 3 2 4\n' >hole.txt
 refuses 1 '1 of 12 values are NaN or infinite, the first in column 1 of row 1: fill them with rc-detrend --fill' "missing heights without --fill" \
     "rc-import --dx 1um --z-unit nm hole.txt | $solve -o out.rcg"
-claim "  and nothing is left behind" untouched
-claim "missing heights with --fill" bash -c \
+claim "  no file is left" untouched
+claim "--fill fills missing heights" bash -c \
     "rc-import --dx 1um --z-unit nm hole.txt | rc-detrend --fill | $solve --quiet -o filled.rcg"
 
 # a ZIP archive that is not an X3P file
@@ -139,7 +139,7 @@ cp hello.zip hello.x3p
 refuses 1 "hello.x3p: a ZIP archive, but no X3P: it holds no main.xml .* is 'hello.txt'" "a zip that is no X3P" \
     "rc-import hello.x3p -o out.rcg"
 refuses 1 "hello.zip: a ZIP archive, but no X3P: it holds no main.xml" "a zip under another name" "rc-import hello.zip -o out.rcg"
-claim "  and nothing is left behind" untouched
+claim "  no file is left" untouched
 
 # A terminal as output. `script` gives the command one.
 refuses 1 'standard output is a terminal' "a terminal as output" \
@@ -157,6 +157,6 @@ interrupted() {
     rc-info stopped.rcg >/dev/null
     [ $? = 3 ]
 }
-claim "SIGTERM: the best so far is written, whole, and the signal ends the tool" interrupted
+claim "after SIGTERM the best state is written completely, and the signal ends the tool" interrupted
 
 finish

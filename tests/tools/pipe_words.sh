@@ -17,10 +17,10 @@ harmless() {
 }
 shown() {
     claim "$1" bash -c "{ $2; } >shown.out </dev/null"
-    claim "  and what it shows is plain" plain_words shown.out
+    claim "  the output has no control characters" plain_words shown.out
 }
-claim "an escape is no plain word" eval '! { printf "a\033" >bad.out && plain_words bad.out; }'
-claim "nor is one of two bytes" eval '! { printf "a\302\233" >bad.out && plain_words bad.out; }'
+claim "the check finds an escape character" eval '! { printf "a\033" >bad.out && plain_words bad.out; }'
+claim "the check finds a control character of two bytes" eval '! { printf "a\302\233" >bad.out && plain_words bad.out; }'
 
 rc-synth sphere --nx 5 --dx 1um --radius 1mm -o plain.rcg
 escape=$(printf '\033]0;title\007\033[31m\302\233')
@@ -44,12 +44,12 @@ harmless "the source" "rc-solve --estar 1GPa --load 1N source.rcg -o x.rcg"
 
 printf '# Channel: To%spo\n# Width: 6 um\n# Height: 5 um\n# Value units: nm\n1 2 3\n4 5 6\n' "$escape" >"map$escape.txt"
 shown "rc-import --list" "rc-import --list map*.txt"
-claim "    the name of the file and that of the channel stand there" grep -q 'map.*title.*txt: ascii' shown.out
-claim "    in its line" grep -qE '^[*] +1 +3 +2 .*To.*title.*po$' shown.out
+claim "    the names of file and channel are in the message" grep -q 'map.*title.*txt: ascii' shown.out
+claim "    they are in its line" grep -qE '^[*] +1 +3 +2 .*To.*title.*po$' shown.out
 contact="--estar 1GPa --load 1mN"
 shown "rc-info" "rc-info source.rcg"
 shown "rc-info --json" "rc-info --json source.rcg"
-claim "    which is what the file has" perl -MJSON::PP -0777 -e '
+claim "    the file has this name" perl -MJSON::PP -0777 -e '
     my ($wanted, $json) = map { open my $f, "<", $_; <$f> } @ARGV;
     my $got = decode_json($json)->{keys}{source}; utf8::encode($got);
     exit($wanted ne $got)' <(printf 'x%s\ny' "$escape") shown.out
