@@ -42,8 +42,8 @@ enum {
     LANES = 16
 };
 
-/* Several sums at a time of the first n values, n a multiple of LANES, each with what its additions
- * have rounded away. */
+/* Several sums at once over the first n values, n a multiple of LANES, each with the rounding error of its
+ * additions. */
 RC_CLONES static void
 add_lanes(const double *v, size_t n, double *restrict sum, double *restrict lost)
 {

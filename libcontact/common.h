@@ -1,6 +1,6 @@
 /*
- * What all folders of libcontact share: loops for wide registers, threads that pay, and sums that
- * keep their digits. Internal: never installed.
+ * Shared by all folders of libcontact: loops for wide registers, numbers of threads, and accurate sums.
+ * Internal: never installed.
  */
 #ifndef RC_COMMON_H
 #define RC_COMMON_H
@@ -22,8 +22,8 @@
 #define RC_WIDE_CLONES
 #endif
 
-/* Threads that pay on a grid: waking one costs about what a few thousand nodes do. threads 0: as
- * many as there are. */
+/* The number of threads for a grid: starting a thread costs as much as a few thousand nodes. threads 0: all
+ * cores. */
 int rc_useful_threads(const struct rc_shape *shape, size_t threads);
 
 /* Whether one of n values is not 0. */
@@ -31,7 +31,7 @@ bool rc_any(const double *v, size_t n);
 
 /* The sum of rc_sum, value by value. */
 struct rc_total {
-    double sum, lost; /* lost: what the additions have rounded away */
+    double sum, lost; /* lost: the rounding error of the additions */
 };
 
 static inline void
@@ -49,9 +49,9 @@ rc_total_value(const struct rc_total *total)
     return isfinite(total->sum) ? total->sum + total->lost : total->sum;
 }
 
-/* Sums over a map that depend neither on the number of threads nor on who takes which row (or block): each
- * row is summed by itself, and the rows are added in their order, with compensation for rounding. A row has
- * `sums` numbers that are added, and behind them `mosts` of which the largest counts. */
+/* Sums over a map that do not depend on the number of threads, nor on the thread of a row or block: each row
+ * is summed separately, and the rows are added in their order, with compensation for rounding. A row has
+ * `sums` numbers to add, and after them `mosts` numbers to take the largest of. */
 enum {
     RC_SUMS_MOST = 16 /* numbers that are added */
 };
@@ -74,7 +74,7 @@ void rc_sums_clear(const struct rc_sums *s);
 void rc_sums_add(const struct rc_sums *s, struct rc_total *total, double *most);
 /* `sums` sums and `mosts` largest numbers. */
 void rc_sums_total(const struct rc_sums *s, double *total);
-/* Clears the rows, has each do its work, whatever that is besides its sums, and totals them. */
+/* Clears the sums, calls the function of each row, and totals the sums. */
 typedef void rc_sums_work(void *ctx, size_t j, double *sums);
 void rc_sums_rows(const struct rc_sums *s, rc_sums_work *work, void *ctx, double *total);
 

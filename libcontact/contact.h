@@ -50,10 +50,10 @@ struct rc_ranks;    /* processes that share a map: contact_mpi.h; NULL: none    
 
 /* Messages of all processes that share maps, in total. */
 struct rc_sent {
-    size_t exchanges;       /* exchanges of whole maps: from rows to columns, or back */
+    size_t exchanges;       /* exchanges of whole maps between rows and columns */
     double messages, bytes; /* of these exchanges                                     */
     double other_bytes;     /* bytes of sums, neighbouring rows, coarser grids        */
-    double seconds;         /* in exchanges of maps, of the slowest process           */
+    double seconds;         /* seconds in exchanges, of the slowest process */
 };
 
 /* Version of the library, "0.1.0". */
@@ -69,7 +69,7 @@ RC_API size_t rc_threads_available(void);
 /* Row k = 0, 1, ... of a table; NULL past the last. Options take their words from these tables. */
 struct rc_engine_info { /* a way to sum displacements */
     const char *name, *summary;
-    bool periodic; /* for periodic boundaries too                                 */
+    bool periodic; /* works for periodic boundaries too */
     bool mixed;    /* methods may iterate with it in single precision             */
     bool precise;  /* the engine of the row before in double precision throughout */
     int order;     /* its time grows as this power of the number of nodes         */
@@ -80,7 +80,7 @@ struct rc_engine_info { /* a way to sum displacements */
 struct rc_method_info { /* an iteration of the contact; "auto" is the first */
     const char *name, *summary;
     bool mixed;   /* iterates in single precision if the engine permits it */
-    double bytes; /* a node, beside those of "auto"                        */
+    double bytes; /* bytes a node in addition to those of "auto" */
 };
 RC_API const struct rc_engine_info *rc_engine_info(size_t k);
 RC_API const struct rc_method_info *rc_method_info(size_t k);
@@ -184,7 +184,7 @@ RC_API enum rc_status rc_detrend_rows(const struct rc_shape *shape, size_t degre
  * missing point stays missing and has no weight; a map that is not periodic ends at its edges. */
 struct rc_filter {
     double cutoff; /* m, wavelength with 50 % transmission   */
-    bool high;     /* high-pass: the input less its low-pass */
+    bool high;     /* high-pass: the input minus its low-pass */
     /* ISO 16610-71, 16610-31: weights (1 - (r/c)^2)^2 of the residuals r, c = 4.4478 times the median of |r|,
      * iterated until c converges */
     bool robust;
@@ -402,7 +402,7 @@ struct rc_features {
     double spc; /* 1/m: mean curvature of these peaks, half the sum of both second differences */
     /* m: mean height of the five highest peaks, depth of the five deepest pits, sum */
     double s5p, s5v, s10z;
-    /* m^2: mean area of hills and dales that reach neither an edge nor a missing point */
+    /* m^2: mean area of the hills and dales that touch no edge and no missing point */
     double sha, sda;
 };
 /* h in m; values that are not finite are missing. RC_FAIL when memory is short. */
@@ -536,7 +536,7 @@ struct rc_problem {
     /* m, > 0: approach from first touch, for which the load is found; 0: the load is given */
     double approach;
     double hardness; /* upper bound of the pressure, Pa; 0 or INFINITY: none */
-    /* in its place, Pa, nx ny, copied: NAN or INFINITY where there is none; NULL: hardness holds for all
+    /* Pa, nx ny, copied: hardness of each node, NAN or INFINITY for none; NULL: `hardness` holds for all
      * nodes */
     const double *hardness_map;
     /* m: error of the heights, as the shape_error of the solution that made them; only affects which nodes
@@ -583,8 +583,8 @@ struct rc_contact {
     double approach;
     double tilt[2];  /* slope of the counter body along x and y   */
     double mean_gap; /* m, mean of max(gap, 0) over the whole map */
-    /* J, of both bodies: the integral of p u / 2. On a periodic map without that of the mean pressure, which
-     * depends on the thickness of the bodies */
+    /* J, of both bodies: the integral of p u / 2. On a periodic map without the energy of the mean pressure,
+     * which depends on the thickness of the bodies */
     double elastic_energy;
     /* m: the largest violation of gap >= 0 where p = 0, gap = 0 where elastic, gap <= 0 at the hardness, from
      * a fresh convolution */
@@ -611,7 +611,7 @@ RC_API const char *rc_solver_choice(const struct rc_shape *shape, const struct r
  * method, none for the boundary or the ranks, no solution under the load. */
 struct rc_expected {
     double convolutions, seconds;
-    size_t memory; /* of a rank, without the caller's arrays, code, and FFTW's plans */
+    size_t memory; /* bytes of a rank, without the caller's arrays, code, and FFTW's plans */
 };
 enum { /* further bytes a node of these calls while they run */
     RC_STIFFNESS_BYTES = 12,
@@ -665,8 +665,8 @@ RC_API const double *rc_solver_pressure(const struct rc_solver *solver);
 RC_API void rc_solver_result(struct rc_solver *solver, double *displacement, double *gap,
                              struct rc_contact *contact);
 /* The height map (nx ny m) after elastic unloading: where the hardness was reached, the heights are lower by
- * the overlap; accurate to shape_error. Loaded again to the same load it carries the same pressure, and
- * nothing more yields. After rc_solver_result. */
+ * the overlap; accurate to shape_error. Under the same load again, this shape carries the same pressure
+ * without further yielding. After rc_solver_result. */
 RC_API enum rc_status rc_solver_plastic(const struct rc_solver *solver, double *h,
                                         struct rc_err *err);
 /* For a loading history, where each load acts on the shape that earlier ones left: set each load, step to the
@@ -688,8 +688,8 @@ RC_API enum rc_status rc_solver_stiffness(struct rc_solver *solver, double *stif
 /* Conductance of heat or electric current from one body to the other, by Barber's analogy (Proc. R. Soc. A
  * 459 (2003) 53): for conductivities k1, k2 of the bodies 2 S/(E* (1/k1 + 1/k2)), with S the stiffness if all
  * nodes in contact, also those at the hardness, moved together. It is the flow over the difference of the
- * potentials far away, on a periodic map over that of the mean potentials of the two surfaces. Nothing flows
- * outside of the contact, and there is no film in it. */
+ * potentials far away; on a periodic map, over the difference of the mean potentials of the two surfaces.
+ * Only the contact conducts, and it has no film. */
 struct rc_conductance {
     double stiffness; /* N/m: S; equals rc_solver_stiffness if no node is at the hardness */
     double value;     /* W/K with k1, k2 in W/(m K); S with S/m                           */
@@ -711,7 +711,7 @@ RC_API void rc_solver_free(struct rc_solver *solver);
 /* Optional figures, which cost convolutions. */
 struct rc_elastic_asks {
     bool stiffness;
-    /* of the bodies, as for rc_solver_conductance; both 0: no conductance */
+    /* conductivities of the bodies, as for rc_solver_conductance; both 0: no conductance */
     double conductivity[2];
 };
 struct rc_elastic_figures {
@@ -724,8 +724,8 @@ struct rc_elastic_figures {
     const char *kernel, *method; /* NULL: no load so far   */
 };
 /* A model (model.h) of elastic bodies, with or without a hardness. It takes a load or an approach; load 0:
- * the bodies are apart. Keeping a point adds its plastic dents to the shape. The caller keeps `h` until the
- * first go or restore, and everything that `problem` points to. The load and approach of the problem are
+ * the bodies are separated. Keeping a point adds its plastic dents to the shape. The caller keeps `h` until
+ * the first go or restore, and everything that `problem` points to. The load and approach of the problem are
  * ignored. asks NULL: no optional figures. */
 RC_API struct rc_model *rc_elastic_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem,
@@ -741,7 +741,7 @@ RC_API const struct rc_elastic_figures *rc_elastic_result(const struct rc_model 
 struct rc_yield {
     double stress;  /* Pa, > 0: initial yield stress                      */
     double modulus; /* Pa, >= 0: slope over the equivalent plastic strain */
-    size_t points;  /* of the table; 0: linear                            */
+    size_t points;  /* points of the table; 0: linear law */
     /* from 0, increasing; Pa, not decreasing. Extrapolated beyond the last point */
     const double *strain_at, *stress_at;
 };
@@ -753,9 +753,9 @@ struct rc_plastic_problem {
     /* pair.one is the body that yields, with e and nu; no hardness; load and approach are ignored */
     struct rc_problem contact;
     struct rc_yield yield;
-    size_t slabs;            /* that may yield, from the surface down */
+    size_t slabs;            /* slabs that may yield, from the surface down */
     const double *thickness; /* m, of each; copied                    */
-    size_t increments;       /* of each load; 0: 16                   */
+    size_t increments;       /* increments of each load; 0: 16 */
     /* tolerance of the stress: its lag behind the yield condition (RMS) over the yield stress; 0: 0.02 */
     double lag;
     bool precise; /* strains and stresses in double precision: twice the memory */
@@ -763,8 +763,8 @@ struct rc_plastic_problem {
 
 /* Results of one load; lengths in m. */
 struct rc_plastic_figures {
-    size_t increments;    /* increments of this load: 1 where nothing, or almost nothing, yields */
-    size_t applications;  /* of the volume operator                                              */
+    size_t increments;    /* increments of this load: 1 without or almost without further yield */
+    size_t applications;  /* applications of the volume operator */
     size_t voxels;        /* voxels (a node and a slab) that have yielded                        */
     double depth, volume; /* bottom of the deepest yielded voxel; m^3                            */
     double max_strain;    /* largest equivalent plastic strain                                   */
@@ -799,8 +799,8 @@ RC_API enum rc_status rc_plastic_step(struct rc_plastic *plastic, struct rc_err 
 RC_API void rc_plastic_progress(const struct rc_plastic *plastic, double *load, size_t *increment,
                                 size_t *application);
 RC_API const struct rc_plastic_figures *rc_plastic_result(const struct rc_plastic *plastic);
-/* The contact of the heights less the residual displacement: for its pressure, gap and figures. Its
- * displacement is the elastic part. Meaningless where the load is 0. */
+/* The solver of the contact of the heights minus the residual displacement: for its pressure, gap and
+ * figures. Its displacement is the elastic part. Meaningless where the load is 0. */
 RC_API struct rc_solver *rc_plastic_solver(struct rc_plastic *plastic);
 /* Displacement of the surface due to plastic strain alone, nx ny m, into the body. */
 RC_API const double *rc_plastic_residual(const struct rc_plastic *plastic);
@@ -816,24 +816,26 @@ RC_API void rc_plastic_free(struct rc_plastic *plastic); /* NULL is allowed */
 /* ---- the yielding model: elastic until the first yield ---- */
 
 enum {
-    RC_YIELDING_INCREMENTS = 512 /* of a load, at most */
+    RC_YIELDING_INCREMENTS = 512 /* most increments of a load */
 };
 struct rc_yielding_figures {
     struct rc_contact contact;
-    struct rc_plastic_figures plastic; /* all 0: nothing has yielded                             */
-    bool yielded;                      /* else the solution is elastic                           */
-    size_t slabs;                      /* in use; 0: nothing has yielded                         */
+    struct rc_plastic_figures plastic; /* all 0: no voxel has yielded */
+    bool yielded;                      /* true: the body has yielded; false: the solution is
+                                          elastic */
+    size_t slabs;                      /* slabs in use; 0: no voxel has yielded */
     const double *thickness;           /* m, of each                                             */
     size_t increment, increments;      /* reached, and of the load, as tried                     */
-    double max_mises_over_yield, max_mises_depth; /* of the elastic contact; m; NAN: unknown */
+    double max_mises_over_yield, max_mises_depth; /* of the elastic contact: largest value, and
+                                                     its depth in m; NAN: unknown */
     double indentation, residual_indentation;     /* as in rc_elastic_figures                */
 };
 /* A model (model.h) of a body that may yield, along a history of loads; its heights cannot change. As long as
- * nothing yields, the elastic contact is the solution. In the problem thickness NULL lets this many slabs be
- * chosen (0: as many as needed, from half the spacing at the surface, each a quarter thicker than the last);
- * increments 0: their number for each load, so that its estimated error is at most contact.tol (0: 1e-2); lag
- * 0: a value suited to this. The heights h (nx ny m) are copied; the caller keeps everything that the problem
- * points to. NULL when the problem is invalid, or memory is short. */
+ * no stress reaches the yield stress, the elastic contact is the solution. In the problem thickness NULL lets
+ * this many slabs be chosen (0: as many as needed, from half the spacing at the surface, each a quarter
+ * thicker than the last); increments 0: their number for each load, so that its estimated error is at most
+ * contact.tol (0: 1e-2); lag 0: a value suited to this. The heights h (nx ny m) are copied; the caller keeps
+ * everything that the problem points to. NULL when the problem is invalid, or memory is short. */
 RC_API struct rc_model *rc_yielding_new(const struct rc_shape *shape, const double *h,
                                         const struct rc_plastic_problem *problem,
                                         struct rc_err *err);
@@ -842,7 +844,7 @@ RC_API struct rc_model *rc_yielding_new(const struct rc_shape *shape, const doub
 RC_API void rc_yielding_plan(struct rc_model *model, size_t loads, double largest);
 /* The figures after a look, of a yielding model or of a model with a yielding inner model; NULL: neither. */
 RC_API const struct rc_yielding_figures *rc_yielding_result(const struct rc_model *model);
-/* Plastic strain as rc_plastic_strain finds it; false: nothing has yielded, or there is no such slab. */
+/* Plastic strain as rc_plastic_strain finds it; false: no voxel has yielded, or the slab does not exist. */
 RC_API bool rc_yielding_strain(const struct rc_model *model, size_t slab,
                                double *const e[RC_PLASTIC_STRAINS]);
 
@@ -851,7 +853,7 @@ RC_API bool rc_yielding_strain(const struct rc_model *model, size_t slab,
 /* Row k = 0, 1, ... of the table of laws; NULL past the last. */
 struct rc_adhesion_law_info {
     const char *name, *summary;
-    bool ranged; /* the caller may choose its range; else the grid sets it */
+    bool ranged; /* true: the caller may choose its range; false: the grid determines it */
 };
 RC_API const struct rc_adhesion_law_info *rc_adhesion_law_info(size_t k);
 
@@ -907,8 +909,8 @@ struct rc_adhesion_figures {
     /* The lowest load of the retraction of rc_adhesion_pull_off, N, its approach, m, and the error of the
      * load: twice the misfit of a parabola through neighbouring states, or what a jump hides */
     double pull_off_load, pull_off_approach, pull_off_spread;
-    bool pull_off_at_start; /* at the first state of the retraction */
-    size_t states;          /* of this retraction, else 1           */
+    bool pull_off_at_start; /* the lowest load is at the first state of the retraction */
+    size_t states;          /* states of this retraction, otherwise 1 */
     size_t iterations;      /* steps in the gap                     */
     size_t eigen_steps;     /* steps for the stability              */
     double convolutions; /* equivalents of one in double precision on this grid, padded if free */
@@ -952,7 +954,7 @@ RC_API enum rc_status rc_adhesion_set_heights(struct rc_adhesion *a, const doubl
  * short of tol or the bodies separate; RC_FAIL when no load or approach is set. */
 RC_API enum rc_status rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err);
 struct rc_adhesion_progress {
-    size_t state;      /* of a retraction, from 1                                      */
+    size_t state;      /* number of the state of a retraction, from 1 */
     size_t iterations; /* iterations of this state                                     */
     bool eigenvalue;   /* iterations of its stability                                  */
     double load;       /* N, as set; NAN: an approach was set                          */
@@ -973,7 +975,7 @@ RC_API void rc_adhesion_displacement(const struct rc_adhesion *a, double *displa
 RC_API void rc_adhesion_traction(const struct rc_adhesion *a, double *traction);
 /* Elastic unloading where the hardness was reached: subtracts the overlap from the heights of the path from
  * here on, and from h, nx ny m (or NULL), which holds the first heights less what was subtracted before. No
- * effect if nothing has yielded. rc_adhesion_pull_off begins with it. */
+ * effect if no node has yielded. rc_adhesion_pull_off calls it first. */
 RC_API void rc_adhesion_keep_shape(struct rc_adhesion *a, double *h);
 RC_API void rc_adhesion_free(struct rc_adhesion *a); /* NULL is allowed */
 
@@ -996,7 +998,8 @@ RC_API const struct rc_adhesive_figures *rc_adhesive_result(const struct rc_mode
 struct rc_leak_options {
     /* 'x': from the first column to the last; 'y': from the first row to the last; 0: 'x' */
     char direction;
-    bool around;    /* the sides along the flow join, as on a periodic map; else they are walls */
+    bool around;    /* true: the sides along the flow join, as on a periodic map; false: they are
+                       walls */
     size_t threads; /* 0: all                                                                   */
 };
 
@@ -1004,16 +1007,17 @@ struct rc_leak_options {
  * equation, div(g^3 grad P) = 0. With a viscosity eta and a difference dp the rate is
  * conductance dp/(12 eta). */
 struct rc_leak_figures {
-    double conductance; /* m^3; exactly 0 where nothing percolates */
+    double conductance; /* m^3; exactly 0 if no path percolates */
     /* the same with a gap that varies linearly between nodes; its error has the opposite sign */
     double conductance_linear;
     /* half their difference over the first: estimated relative discretization error; NAN: no flow */
     double error;
     double lower, upper; /* m^3, rigorous bounds of `conductance` on this grid, to rounding */
-    double flow_factor; /* of Patir and Cheng: conductance over that of two flats at the mean gap */
-    double mean_gap;    /* m: over all nodes, 0 in contact                                        */
-    double slope;       /* RMS of the gap's gradient where fluid flows; NAN: nowhere              */
-    bool percolates;    /* through the edges of cells                                             */
+    double flow_factor;  /* of Patir and Cheng: conductance over the conductance of two flats at
+                            the mean gap */
+    double mean_gap; /* m: over all nodes, 0 in contact                                        */
+    double slope;    /* RMS of the gap's gradient where fluid flows; NAN: nowhere              */
+    bool percolates; /* through the edges of cells                                             */
     bool percolates_diagonal; /* through their corners too */
     /* m: critical constriction, the smallest gap of the widest path; 0: no path */
     double critical_gap;
@@ -1053,8 +1057,8 @@ RC_API void rc_leak_free(struct rc_leak *leak); /* NULL is allowed */
 /* Coulomb's law at each node, with history: a node sticks while its traction is below mu times its pressure,
  * or slips against the traction at this limit. Given are the pressure and the tangential motion, in
  * increments. Tractions are those on body 1, and the force is their sum: body 2 pulls body 1 along, and has
- * moved over it by the displacement (on a periodic map their mean planes). Slip is that of body 1 on body 2,
- * against the traction. */
+ * moved over it by the displacement (on a periodic map their mean planes). Slip is the motion of body 1 over
+ * body 2, opposite to the traction. */
 struct rc_slip_problem {
     enum rc_boundary boundary;
     struct rc_pair pair; /* uniform bodies                                                    */
@@ -1074,7 +1078,7 @@ struct rc_slip_figures {
     double limit;    /* N: largest force that friction can carry, at most mu times the load */
     double force[2]; /* N, along x and y                                                    */
     double displacement[2];         /* m, of body 2 over body 1 since first touch                */
-    size_t stick_nodes, slip_nodes; /* of the nodes that carry load                              */
+    size_t stick_nodes, slip_nodes; /* of the nodes with a load */
     double stick_area, slip_area;   /* m^2                                                       */
     double stick_fraction;          /* share of the nodes that carry load; NAN: none             */
     double stiffness;               /* N/m: |force| over |displacement|; NAN where one is 0      */
@@ -1088,7 +1092,7 @@ struct rc_slip_figures {
     bool converged;      /* traction_error <= tol                                                 */
 };
 
-/* NULL when the problem is invalid, or memory is short. The bodies start apart. */
+/* NULL when the problem is invalid, or memory is short. The bodies start separated. */
 RC_API struct rc_slip *rc_slip_new(const struct rc_shape *shape,
                                    const struct rc_slip_problem *problem, struct rc_err *err);
 /* The pressure of this increment (nx ny Pa, copied; NULL: the bodies are apart) and its gap (nx ny m, copied;
@@ -1100,14 +1104,14 @@ RC_API enum rc_status rc_slip_set_pressure(struct rc_slip *slip, const double *p
                                            struct rc_err *err);
 /* Force (N) or displacement (m) at the end of the increment, along x and y; call after its pressure is set.
  * RC_FAIL, with both numbers, when friction cannot carry the force (the bodies slide); the increment is then
- * unchanged. With a displacement, nodes that come into contact start as without a gap. Bodies that are apart
- * have no history: slip and displacement are 0, and count from the next touch. */
+ * unchanged. With a displacement, nodes that come into contact start as without a gap. Separated bodies have
+ * no history: slip and displacement are 0, and count from the next touch. */
 RC_API enum rc_status rc_slip_set_force(struct rc_slip *slip, double fx, double fy,
                                         struct rc_err *err);
 RC_API enum rc_status rc_slip_set_displacement(struct rc_slip *slip, double dx, double dy,
                                                struct rc_err *err);
-/* One step, of 7 to 12 convolutions: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when it
- * cannot get there; RC_FAIL when no force or displacement is set, or memory is short. */
+/* One step, of 7 to 12 convolutions: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when
+ * rounding prevents this; RC_FAIL when no force or displacement is set, or memory is short. */
 RC_API enum rc_status rc_slip_step(struct rc_slip *slip, struct rc_err *err);
 RC_API void rc_slip_result(struct rc_slip *slip, struct rc_slip_figures *figures);
 /* Makes the increment history, on which the next one builds. Before this, pressure and force may be set
@@ -1141,11 +1145,11 @@ enum rc_coupling {
 };
 
 enum {
-    RC_FEWER = 2 /* ways with fewer increments, at most */
+    RC_FEWER = 2 /* most solutions with fewer increments */
 };
 struct rc_friction_problem {
     struct rc_slip_problem
-        slip; /* `uncoupled` is that of `coupling`; the tolerance of an increment */
+        slip; /* `coupling` sets `uncoupled`; tol: the tolerance of an increment */
     enum rc_coupling coupling;
     size_t increments; /* from point to point, in which all axes change in proportion; 0: chosen */
     size_t max_passes; /* passes of pressure and tractions in an increment; 0: 50                */
@@ -1161,7 +1165,8 @@ struct rc_friction_problem {
 };
 
 struct rc_friction_figures {
-    struct rc_slip_figures slip; /* of the last increment; dissipated: since the last point kept */
+    struct rc_slip_figures slip; /* figures of the last increment; dissipated: since the last
+                                    kept point */
     size_t passes;               /* since the last point kept: pressures passed to friction      */
     /* relative L1, of the last pass; 0: only one pass is needed */
     double pressure_change, traction_change;
@@ -1174,7 +1179,7 @@ struct rc_friction_figures {
     bool converged;      /* all contacts, tractions and passes since the last point kept     */
 };
 
-/* What is known of the error that the increments to a point, and to those before, leave. */
+/* How the error of the increments to a point, and to earlier points, is known. */
 enum rc_told {
     RC_TOLD_EXACT,  /* there is none                                        */
     RC_TOLD_MANY,   /* enough increments: the estimate is near the error    */
@@ -1182,12 +1187,12 @@ enum rc_told {
     RC_TOLD_FEW,    /* the largest factor                                   */
     RC_TOLD_UNKNOWN /* fewer than 4 increments, or 8 where the load changes */
 };
-/* The way from one point to the next. */
+/* The leg from one point to the next. */
 struct rc_leg {
     size_t increments;
     enum rc_told told;
     bool carries; /* tractions, at its end                                           */
-    bool late;    /* one increment, or two, the first of which goes most of the way  */
+    bool late;    /* one increment, or two with a large first one */
     bool falls;   /* the load falls                                                  */
 };
 /* The leg that the model takes from a point to the next; before: the leg to `from`. The first leg begins
@@ -1195,12 +1200,12 @@ struct rc_leg {
 RC_API struct rc_leg rc_friction_leg(const struct rc_friction_problem *problem,
                                      const struct rc_leg *before, const struct rc_point *from,
                                      const struct rc_point *to);
-/* A model (model.h) of friction over an inner one of the same bodies, which it owns from here on; NULL
- * where that is NULL. Beside the axes of the inner model it takes two forces or two displacements along
- * the surface. h: the undeformed heights, copied; NULL: unknown, so that only the known contact is
- * possible. Where dissimilar bodies are coupled the inner model must allow other heights, and its
- * tolerance should be a quarter of that of friction. RC_FAIL on the way when friction cannot carry the
- * force, as in rc_slip_set_force. */
+/* A model (model.h) of friction over an inner one of the same bodies, which it owns from here on; NULL where
+ * that is NULL. In addition to the axes of the inner model it takes two forces or two displacements along the
+ * surface. h: the undeformed heights, copied; NULL: unknown, so that only the known contact is possible.
+ * Where dissimilar bodies are coupled the inner model must allow other heights, and its tolerance should be a
+ * quarter of that of friction. RC_FAIL on the way when friction cannot carry the force, as in
+ * rc_slip_set_force. */
 RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
                                         const struct rc_friction_problem *problem,
                                         struct rc_err *err);
@@ -1264,7 +1269,7 @@ struct rc_wear_problem {
         estar; /* Pa, of the bodies: for the first step and the forecast                            */
     double
         tol; /* bound of the estimated relative error of the worn depth; 0: 0.1                   */
-    /* The way ends early where one of these is reached; 0: none. */
+    /* A leg ends early when one of these is reached; 0: no such condition. */
     double until_area;   /* contact fraction                   */
     double until_depth;  /* m: largest worn depth              */
     double until_spread; /* spread of the pressure, from above */
@@ -1282,11 +1287,11 @@ struct rc_wear_figures {
     double wear_error, pressure_error;
     bool converged; /* both are at most tol */
 };
-/* A model (model.h) of bodies that wear at every node by k p per sliding distance, over an inner one that allows
- * other heights and a compliance, and which it owns from here on; NULL where that is NULL. Beside the load it
- * takes the distance. h: the heights at the start, copied. The tolerance of the inner model should be a
- * hundredth of this one. Its frame `height` is the worn height, `wear` the depth that both bodies have lost.
- * Source: Archard 1953 (J. Appl. Phys. 24, 981); steps as in libcontact/wear. */
+/* A model (model.h) of bodies that wear at every node by k p per sliding distance, over an inner one that
+ * allows other heights and a compliance, and which it owns from here on; NULL where that is NULL. In addition
+ * to the load it takes the distance. h: the heights at the start, copied. The tolerance of the inner model
+ * should be a hundredth of this one. Its frame `height` is the worn height, `wear` the depth that both bodies
+ * have lost. Source: Archard 1953 (J. Appl. Phys. 24, 981); steps as in libcontact/wear. */
 RC_API struct rc_model *rc_wear_new(struct rc_model *inner, const double *h,
                                     const struct rc_wear_problem *problem, struct rc_err *err);
 /* The figures of this model, after rc_model_look; NULL: it does not wear. */
@@ -1327,7 +1332,7 @@ struct rc_stress_options {
     /* the surface also carries the traction mu p along +x; 0 if there are maps of traction */
     double mu;
     unsigned wanted;    /* bits of enum rc_component                                   */
-    char section;       /* 'x' or 'y': only the plane x = at, or y = at; 0: whole maps */
+    char section;       /* 'x' or 'y': only the plane x = at, or y = at; 0: maps */
     double at;          /* m, from the middle of the map, within it                    */
     const char *engine; /* a row of engines.list, or NULL or "auto"                    */
     double tol; /* asked error of a component over the largest pressure or traction; 0: rounding */
@@ -1351,7 +1356,7 @@ struct rc_stress_counts {
     size_t depths;
     size_t source_transforms;       /* transforms of the pressure and of maps of traction   */
     size_t normal_kernels;          /* kernels evaluated at a depth, for the pressure       */
-    size_t shear_kernels;           /* and for the traction, if any                         */
+    size_t shear_kernels;           /* the same for the traction, if any */
     size_t coefficients;            /* values of these kernels                              */
     size_t kernel_transforms;       /* two-dimensional, of a quarter                        */
     size_t field_transforms;        /* two-dimensional, from wave numbers to a map          */
@@ -1386,8 +1391,8 @@ RC_API struct rc_stress *rc_stress_new(const struct rc_shape *shape, const doubl
 /* Number of values of a component at one depth: nx ny for maps, nx for the section y = at, ny for x = at. */
 RC_API size_t rc_stress_values(const struct rc_stress *stress);
 /* The wanted components at the depth z >= 0 (m), Pa, tension positive: s[c] for each c of `wanted`; the
- * others are not touched. At an interface sxx, syy and sxy jump: it belongs to the material above it;
- * depth*(1 + 1e-12) selects the material below. RC_FAIL also inside a rigid half-space. */
+ * others stay unchanged. At an interface sxx, syy and sxy jump: it belongs to the material above it; depth*(1
+ * + 1e-12) selects the material below. RC_FAIL also inside a rigid half-space. */
 RC_API enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
                                       double *const s[RC_STRESSES], struct rc_err *err);
 RC_API const char *rc_stress_engine(const struct rc_stress *stress);

@@ -1,5 +1,5 @@
 /*
- * libcontact on several processes: the ranks of an MPI communicator share a map, each with rows of its own.
+ * libcontact on several processes: the ranks of an MPI communicator share a map, each with some of its rows.
  * Only in a library built with MPI (-DRC_MPI=ON).
  *
  *     struct rc_ranks *ranks = rc_ranks_new(MPI_COMM_WORLD, &err);
@@ -31,7 +31,7 @@ RC_API void rc_ranks_free(struct rc_ranks *ranks);
 RC_API void rc_ranks_rows(const struct rc_ranks *ranks, const struct rc_shape *shape, size_t *first,
                           size_t *n);
 
-/* What all ranks together have sent to each other since these were made. */
+/* The data that all ranks have sent to each other since rc_ranks_new. */
 RC_API void rc_ranks_sent(const struct rc_ranks *ranks, struct rc_sent *sent);
 
 #ifdef __cplusplus

@@ -52,7 +52,7 @@ rc_shape_check(const struct rc_shape *s, struct rc_err *err)
     return RC_OK;
 }
 
-/* Header lines that the struct holds as fields. */
+/* Keys of the header that are fields of the struct. */
 static bool
 is_field(const char *name)
 {
@@ -274,7 +274,7 @@ rc_grid_case(const struct rc_grid *g)
     return n;
 }
 
-/* Keeps the first step and as many of the last ones as fit; what falls out leaves "...". */
+/* Keeps the first step and as many of the last steps as fit; "..." replaces the others. */
 static void
 shorten(char *history)
 {
@@ -295,7 +295,8 @@ shorten(char *history)
 enum rc_status
 rc_grid_history(struct rc_grid *g, const char *step, struct rc_err *err)
 {
-    static const size_t most = HISTORY_MAX / 2 - 16; /* of a step: the first and the last fit */
+    static const size_t most = HISTORY_MAX / 2 - 16; /* most bytes of a step, so that the first
+                                                        and the last fit */
     const char *old = rc_grid_get(g, "history");
     size_t n = strlen(step), keep = n <= most ? n : most;
     size_t size = (old == NULL ? 0 : strlen(old)) + keep + 8;
@@ -407,7 +408,7 @@ const char *
 rc_number_read(const char *text, bool special, double *value)
 {
     const char *end = decimal_end(text);
-    char copy[512]; /* 17 digits decide a double; what is longer is cut by strtod's own rule */
+    char copy[512]; /* 17 digits determine a double; strtod rounds longer texts */
     size_t n;
 
     if (end == NULL)

@@ -44,23 +44,24 @@ RC_API enum rc_status rc_err_set(struct rc_err *err, const char *format, ...)
 #endif
     ;
 
-/* What the library and the tools have allocated, in bytes. Code, the stacks of threads, arrays of the
- * caller and what other libraries take for themselves do not count. */
+/* Memory allocated by the library and the tools, in bytes. Code, stacks of threads, arrays of the caller and
+ * memory of other libraries are not included. */
 struct rc_memory {
     size_t held; /* now                                                                         */
     size_t peak; /* the most so far                                                             */
-    size_t
-        refused; /* with the block refused last since the budget was set; 0: none               */
+    size_t refused; /* the memory with the block that was refused last since the budget was set; 0:
+                       none */
 };
 
-/* Bytes that the library may hold in this process; 0, the default: any. What would need more fails as where
- * memory is short: makers and verbs allocate their maps before they iterate. */
+/* Largest number of bytes that the library may allocate in this process; 0, the default: no limit. A call
+ * that would need more fails as if memory were short; makers and verbs allocate their maps before they
+ * iterate. */
 RC_API void rc_memory_budget(size_t bytes);
-/* Whether so much more may be taken. */
+/* True if so many more bytes may be allocated. */
 RC_API bool rc_memory_ask(size_t bytes);
 RC_API struct rc_memory rc_memory_held(void);
 
-/* What physics on arrays needs to know of a grid. Sizes count nodes; spacings are in metres. */
+/* The parts of a grid that computations on arrays need. Sizes count nodes; spacings are in metres. */
 struct rc_shape {
     size_t nx, ny;
     double dx, dy;
@@ -82,20 +83,21 @@ struct rc_key {
 
 struct rc_grid {
     size_t nx, ny;      /* nodes, both > 0                                                     */
-    double dx, dy;      /* metres, but for rc_grid_dunit; both > 0 and finite                  */
+    double dx, dy;      /* metres, unless rc_grid_dunit is another unit; both > 0 and finite */
     char *channel;      /* "height", "pressure", "szz", ...                                    */
     char *unit;         /* "m", "Pa", ...; SI                                                  */
     enum rc_type type;  /* how the values are stored in a stream; in memory always double      */
     struct rc_key *key; /* every other header line, in order: case, source, history, ...       */
     size_t keys;
-    double *v;        /* nx*ny values, row 0 first; NaN where nothing was measured           */
-    size_t elsewhere; /* of the ny rows, those that are not in v: other processes hold them */
+    double *v;        /* nx*ny values, row 0 first; NaN: not measured */
+    size_t elsewhere; /* number of the ny rows that are not in v, because other processes hold
+                         them */
 };
 
 /* A grid with uninitialised values. NULL on a bad shape or when memory is short. */
 RC_API struct rc_grid *rc_grid_new(const struct rc_shape *shape, const char *channel,
                                    const char *unit, struct rc_err *err);
-/* The same for some of its rows only, which may be none. */
+/* The same for some of its rows, or for no row. */
 RC_API struct rc_grid *rc_grid_new_part(const struct rc_shape *shape, size_t rows,
                                         const char *channel, const char *unit, struct rc_err *err);
 /* Values in v. */
@@ -148,8 +150,8 @@ RC_API const char *rc_number_read(const char *text, bool special, double *value)
 /* a*b, or RC_FAIL when it does not fit. */
 RC_API enum rc_status rc_size_mul(size_t a, size_t b, size_t *product, struct rc_err *err);
 
-/* Contact has one meaning: the value of a node in the frame `contact` of its case (1 or 0), or, where the
- * case has none, its pressure, is above 0. Tools learn from contact_frame which of the two tells. */
+/* A node is in contact if its value is above 0: in the frame `contact` of its case (1 or 0) or, if the case
+ * has no such frame, in the pressure. In tools contact_frame chooses between the two frames. */
 static inline bool
 rc_in_contact(double value)
 {

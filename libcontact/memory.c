@@ -19,8 +19,7 @@
 enum {
     LINE = 64,
     SMALL = 1 << 18,
-    LARGE =
-        2 * 1024 * 1024 /* the page that x86-64 and most ARM systems have beside the usual one */
+    LARGE = 2 * 1024 * 1024 /* the large page of x86-64 and most ARM systems */
 };
 
 /* ---- budget ---- */
@@ -104,8 +103,8 @@ lend(size_t bytes)
     atomic_fetch_add(&lent, bytes);
 }
 
-/* What a block counts. The C library maps up to one large page more behind one that is aligned so: rc_alloc
- * leaves the true size at the block's end. */
+/* The bytes that a block counts for. The C library maps up to one large page more after a block with such an
+ * alignment, so that rc_alloc stores the true size at the end of the block. */
 static size_t
 size_of(void *at)
 {
@@ -196,7 +195,8 @@ rc_alloc(size_t n, size_t size)
         return NULL;
     memcpy((char *)at + malloc_usable_size(at) - sizeof bytes, &bytes, sizeof bytes);
 #ifdef MADV_HUGEPAGE
-    (void)madvise(at, bytes / LARGE * LARGE, MADV_HUGEPAGE); /* a wish: refused, nothing is lost */
+    /* only a request: a refusal does no harm */
+    (void)madvise(at, bytes / LARGE * LARGE, MADV_HUGEPAGE);
 #endif
     return add(at);
 }
@@ -216,7 +216,7 @@ rc_copy_past(void *to, const void *from, size_t bytes)
             _mm_stream_si128((__m128i *)(void *)(b + i),
                              _mm_loadu_si128((const __m128i *)(const void *)(a + i)));
     memcpy(b + k, a + k, bytes - k);
-    _mm_sfence(); /* before what others are told */
+    _mm_sfence(); /* before other threads see the result */
 }
 #else
 void

@@ -3,21 +3,19 @@
  *
  * libcontact, formats and tools use malloc, calloc, realloc, aligned_alloc and free of memory.c (see
  * CMakeLists.txt). These call the C library and add up malloc_usable_size: one atomic addition a call, no
- * header and no table. An allocation that would exceed the budget fails as if memory were short, so
- * callers need no forecast of their own. The counter does not see what other libraries allocate (FFTW's
- * planner, GSL, HDF5). Each process has one budget; under MPI each rank has its own, and the ranks agree
- * on a failure. Work that allocates large maps only after a long iteration asks for them before it:
- * rc_memory_ask (grid.h).
+ * header and no table. An allocation that would exceed the budget fails as if memory were short, so callers
+ * need no forecast of their own. The counter does not include memory of other libraries (FFTW's planner, GSL,
+ * HDF5). Each process has one budget; under MPI each rank has its own, and the ranks agree on a failure. Work
+ * that allocates large maps only after a long iteration asks for them before it: rc_memory_ask (grid.h).
  */
 #ifndef RC_MEMORY_H
 #define RC_MEMORY_H
 
 #include "grid.h"
 
-/* Room for n numbers of `size` bytes, not cleared, at the start of a cache line; NULL when there
- * is none or n * size is no size. free() gives it back. What takes megabytes lies in large pages
- * where the system has them: columns of a map are read page by page, and fresh pages are cleared
- * one by one. */
+/* Memory for n numbers of `size` bytes, not cleared, at the start of a cache line. NULL if memory is short or
+ * n * size overflows. free() returns it. Blocks of megabytes use large pages if the system has them, because
+ * columns of a map touch many pages, and the system clears new pages one by one. */
 void *rc_alloc(size_t n, size_t size);
 
 /* malloc, calloc, realloc, aligned_alloc and free. */
@@ -34,8 +32,8 @@ void rc_memory_lend(void);
 size_t rc_memory_lent(void);
 void rc_memory_return(size_t bytes);
 
-/* memcpy for what is read again only after many megabytes of others: it goes past the caches, and
- * the lines it goes to are not fetched before they are overwritten. */
+/* memcpy for data that is next read after many megabytes of other data: it bypasses the caches, and does not
+ * fetch the lines that it overwrites. */
 void rc_copy_past(void *to, const void *from, size_t bytes);
 
 #endif

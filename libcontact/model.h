@@ -1,6 +1,6 @@
 /*
- * A model: two bodies, how they deform, and what has happened to them so far. Each kind of model has its
- * own maker (rc_elastic_new); the verbs of this file drive all of them:
+ * A model: two bodies, the law of their deformation, and their history. Each kind of model has its own maker
+ * (rc_elastic_new); the verbs of this file drive all of them:
  *
  *     struct rc_model *m = rc_elastic_new(&shape, h, &problem, NULL, &err);
  *     struct rc_point to = {0}, at;
@@ -53,8 +53,8 @@ enum rc_axis {
 struct rc_axis_info {
     const char *name, *unit, *title; /* unit NULL: a plain number                             */
     bool rises;           /* a later point has at least the value of the earlier one          */
-    enum rc_axis partner; /* of load and approach, one is given and the other is found; an axis
-                             without a partner is its own                                     */
+    enum rc_axis partner; /* load and approach are partners: one is given and the other is found;
+                             an axis without a partner is its own partner */
 };
 /* Row k of the table; NULL past the last. */
 RC_API const struct rc_axis_info *rc_axis_info(size_t k);
@@ -85,14 +85,14 @@ enum rc_figure_role {
 struct rc_figure {
     enum rc_figure_kind kind;
     size_t at;        /* offset of the member in its struct                                   */
-    const char *name; /* of the column. "object.name" stands inside an object                 */
+    const char *name; /* of the column. "object.name" is inside an object */
     const char *unit, *title; /* SI unit, NULL: a plain number; title of an axis              */
-    const char *says;         /* what it is, a part of a sentence; NULL: the title says it    */
+    const char *says;         /* explanation, a part of a sentence; NULL: the title is enough */
     enum rc_figure_role role;
     const char *by; /* the field of the problem that governs it                          */
-    double limit;   /* the warning holds above it, or below it where `least`; 0: no limit */
+    double limit;   /* a warning is printed above it, or below it if `least` is set; 0: no limit */
     bool least;
-    const char *warning; /* a sentence that says what is wrong, without the name of an option */
+    const char *warning; /* text of this warning, without the name of an option */
 };
 /* {RC_FIGURE(struct rc_leak_figures, mean_gap), "m", "Mean gap"}: the kind follows from the type of the
  * member, and a member that does not exist does not compile. RC_FIGURE_AS: the column has another name. */
@@ -136,7 +136,7 @@ RC_API enum rc_status rc_model_frame(struct rc_model *model, const char *name, d
 /* ---- verbs ---- */
 
 /* Sets out for a point from the last point kept: RC_MORE, or RC_FAIL when the point is impossible or memory
- * is short. What was stepped since the last keep is forgotten. */
+ * is short. This forgets all steps since the last keep. */
 RC_API enum rc_status rc_model_go(struct rc_model *model, const struct rc_point *to,
                                   struct rc_err *err);
 /* RC_MORE until the point is reached; then RC_OK, or RC_SHORT when the accuracy is not. One may stop after
@@ -151,11 +151,11 @@ RC_API enum rc_status rc_model_look(struct rc_model *model, struct rc_point *at,
                                     struct rc_err *err);
 /* The point that was reached becomes history. RC_FAIL when none is reached, or memory is short. */
 RC_API enum rc_status rc_model_keep(struct rc_model *model, struct rc_err *err);
-/* Other heights of the undeformed bodies, nx ny m, copied, from the next go on: worn, moved or warped
+/* Sets other heights of the undeformed bodies, nx ny m, copied, from the next go on: worn, moved or warped
  * surfaces. */
 RC_API enum rc_status rc_model_set_heights(struct rc_model *model, const double *h,
                                            struct rc_err *err);
-/* A compliance c >= 0, m/Pa, of every node for itself, from the next go on: under a pressure p the surface
+/* Sets a compliance c >= 0, m/Pa, of each single node, from the next go on: under a pressure p the surface
  * moves by c p more, as a film would that is worn off or crushed. The answer is that of bodies with the
  * heights h - c p: its gap is K p + c p - h - shift, and its displacement K p, of the elastic bodies alone.
  * The approach is counted from the highest node of h. RC_FAIL where the model cannot. */
@@ -171,8 +171,8 @@ RC_API void rc_model_free(struct rc_model *model);
 /* ---- cost before, progress during ---- */
 
 struct rc_expected;
-/* Expected cost of this point, by which the largest point of a history is meant; an outer model that does not
- * know its own cost tells that of its inner model. RC_FAIL when the point is impossible. */
+/* Expected cost of this point; give the largest point of a history; an outer model that does not know its own
+ * cost tells that of its inner model. RC_FAIL when the point is impossible. */
 RC_API enum rc_status rc_model_plan(const struct rc_model *model, const struct rc_point *most,
                                     struct rc_expected *expected, struct rc_err *err);
 
@@ -187,8 +187,8 @@ struct rc_loop {
 struct rc_loops {
     size_t n;
     struct rc_loop loop[RC_LOOPS];
-    struct rc_shape grid; /* that is iterated, a coarser one at first        */
-    double error, tol;    /* of the innermost; NAN before the first estimate */
+    struct rc_shape grid; /* the present grid, at first a coarser one */
+    double error, tol;    /* error of the innermost model; NAN before the first estimate */
     bool worth;           /* a state is worth keeping now: steps soon add much to it */
     size_t coming;        /* bytes that the next step allocates; 0: none, or few     */
 };
@@ -201,8 +201,8 @@ RC_API void rc_model_progress(const struct rc_model *model, struct rc_loops *loo
  * of all ranks are the same. */
 RC_API size_t rc_model_state_size(struct rc_model *model);
 RC_API void rc_model_state(struct rc_model *model, double *state);
-/* Goes on from there in a model that was made in the same way. *going: a point is set and not reached yet,
- * so that steps follow, and no go. RC_FAIL when the numbers are no state of such a model, which then can
+/* Continues from this state in a model that was made in the same way. *going: a point is set and not reached
+ * yet, so that steps follow, and no go. RC_FAIL when the numbers are no state of such a model, which then can
  * only be freed. */
 RC_API enum rc_status rc_model_restore(struct rc_model *model, const double *state, size_t n,
                                        bool *going, struct rc_err *err);

@@ -72,7 +72,7 @@ rc_pair_check(const struct rc_pair *p, struct rc_err *err)
         (!unsaid(&p->two) && rc_body_type(&p->two)->check(&p->two, RC_SURFACE, err) != RC_OK))
         return RC_FAIL;
     if (!gives_way(&p->one) && !gives_way(&p->two))
-        return rc_err_set(err, "both bodies are rigid: one must give way");
+        return rc_err_set(err, "both bodies are rigid: give one of them a Young's modulus");
     return RC_OK;
 }
 

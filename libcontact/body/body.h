@@ -1,7 +1,6 @@
 /*
  * The response of a body to loads, for any type of body: the interface of this folder. Operators and stresses
- * ask a body, or the pair of both, and do not know which row of bodies.list answers. Internal: never
- * installed.
+ * use a body, or the pair of both, independently of its row of bodies.list. Internal: never installed.
  */
 #ifndef RC_BODY_H
 #define RC_BODY_H
@@ -191,7 +190,8 @@ double rc_pair_modulus(const struct rc_pair *pair);
  * none. */
 double rc_pair_bends(const struct rc_pair *pair, double side);
 
-/* Both bodies, prepared: a single solid if both are uniform, else one for each body that is not rigid. */
+/* Both bodies with precomputed coefficients: a single solid if both are uniform, otherwise one for each body
+ * that is not rigid. */
 struct rc_solids {
     size_t n;
     struct rc_solid *solid[2];
@@ -202,7 +202,8 @@ enum rc_status rc_solids_new(struct rc_solids *solids, const struct rc_pair *pai
                              const struct rc_ranks *ranks, struct rc_err *err);
 void rc_solids_free(struct rc_solids *solids);
 
-/* E*(q) of both, Pa, which may come from tables in the square of q, accurate to 1e-12; and its least. */
+/* E*(q) of both bodies, Pa, possibly from tables in the square of q, accurate to 1e-12; and its smallest
+ * value. */
 double rc_solids_modulus(const struct rc_solids *solids, double q);
 double rc_solids_modulus_of(const struct rc_solids *solids, double q2);
 double rc_solids_softest(const struct rc_solids *solids);

@@ -17,7 +17,7 @@
 
 enum {
     BLOCK = 256, /* points evaluated together: their arrays fit into the first cache */
-    /* from array to array, so that equal places do not share a line of the cache */
+    /* distance from array to array, so that equal places do not share a cache line */
     STRIDE = BLOCK + 24
 };
 

@@ -1,5 +1,5 @@
 /*
- * What the files of the layered body share. Internal: never installed.
+ * Declarations for the files of the layered body. Internal: never installed.
  */
 #ifndef RC_LAYERED_H
 #define RC_LAYERED_H

@@ -16,7 +16,7 @@
  *
  * In the top layer G is the difference between the stack and a half-space of the layer's material, whose
  * closed forms are added elsewhere; it decreases as exp(-q s), s = 2 t - z, t the thickness. Below the top
- * layer G is the whole stress, and decreases as exp(-q z), s = z. The functions are smooth on the scale s,
+ * layer G is the complete stress, and decreases as exp(-q z), s = z. The functions are smooth on the scale s,
  * which replaces the depth in the rules of integration; a cell too near for any rule is halved.
  */
 #include <math.h>
@@ -40,7 +40,7 @@ struct inside {
     struct rc_inside in;
     const struct rc_stack *stack;
     size_t medium;
-    double depth;             /* in the top layer at most its thickness   */
+    double depth;             /* in the top layer: at most its thickness */
     bool shear;               /* also for the tangential load             */
     double scale;             /* s, m                                     */
     struct rc_radial *radial; /* tables of the functions above; NULL: waves only */
@@ -384,8 +384,8 @@ add_line(const struct inside *in, const struct rc_cell *c, unsigned kernels, dou
 
 /* ---- made ---- */
 
-/* The part in closed form: in the top layer that of a half-space of its material; deeper there is none, and
- * all values are 0. */
+/* The part in closed form: in the top layer the stress of a half-space of its material; deeper all values are
+ * 0. */
 static bool
 closed(const struct inside *in, unsigned kernels, size_t n, struct rc_closed *at,
        double *const out[RC_STRESS_KERNELS])

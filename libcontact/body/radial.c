@@ -20,7 +20,7 @@ enum {
     SAMPLES = 2048, /* of ln q                        */
     FINER = 8,      /* steps of ln r per step of ln q */
     POINTS = 6,     /* of the interpolation           */
-    TERMS = 10      /* of the power series            */
+    TERMS = 10      /* terms of the power series */
 };
 
 static const double step = 0.05;    /* of ln q                                         */

@@ -11,7 +11,7 @@
 
 enum {
     RC_NEIGHBOURS = 8,
-    RC_BANDS = 64 /* of rows, at most */
+    RC_BANDS = 64 /* most blocks of rows */
 };
 
 struct rc_field {
@@ -23,15 +23,15 @@ struct rc_field {
     double least;          /* m: hills with a smaller height above their saddle are pruned */
     size_t n;              /* measured nodes */
     int threads;
-    unsigned char *mark; /* of each node: direction of its ascent, and the bit below */
+    unsigned char *mark; /* of each node: direction of its ascent, and a bit */
     uint32_t *hill;      /* of each node; RC_NO_HILL: none */
 };
 
 enum {                       /* marks                                   */
-    RC_PEAK = RC_NEIGHBOURS, /* in place of the direction of the ascent */
+    RC_PEAK = RC_NEIGHBOURS, /* value in place of the direction of the ascent */
     RC_ABSENT,               /* not measured                            */
     RC_ASCENT = 15,          /* the bits of the values above            */
-    RC_BORDER = 16           /* in the first or the last row or column  */
+    RC_BORDER = 16           /* the hill has a node in the first or the last row or column */
 };
 
 static const uint32_t RC_NO_HILL = UINT32_MAX;

@@ -165,7 +165,7 @@ measure_elements(const double *z, size_t n, double mean, double step, struct rc_
 {
     struct elements e = {.from = NAN, .last = NAN};
     double enough = discrimination * p->rz, top = 0, bottom = 0;
-    int side = 0; /* of the last hill (1) or dale (-1) that counts; 0: none yet */
+    int side = 0; /* the last hill (1) or dale (-1) that counts; 0: none yet */
 
     for (size_t k = 0; k < n; k++) {
         double d = z[k] - mean, before = k > 0 ? z[k - 1] - mean : 0;

@@ -31,7 +31,7 @@ struct rc_conv {
     const char *reason;
     void *plan;
     struct rc_solids own;      /* the bodies, unless the caller owns them */
-    struct rc_surface surface; /* of these, in m and Pa                   */
+    struct rc_surface surface; /* in m and Pa */
 };
 
 /* Without a surface, for estimates only: the memory of a plan hardly depends on the bodies. */
@@ -97,8 +97,8 @@ rc_engine_serves(const struct rc_engine *engine, const char *name, enum rc_bound
 
     if (rc_ranks_count(ranks) > 1 && !engine->transforms)
         return rc_err_set(err,
-                          "the engine '%s' needs the whole map in one process: on several leave "
-                          "the choice to auto, or take '%s'",
+                          "the engine '%s' needs the map in one process: with several processes "
+                          "take auto or '%s'",
                           name, other);
     if (boundary == RC_PERIODIC && !engine->info.periodic)
         return rc_err_set(err,
@@ -108,7 +108,7 @@ rc_engine_serves(const struct rc_engine *engine, const char *name, enum rc_bound
     return RC_OK;
 }
 
-/* Bytes of a sum beside p and u. */
+/* The bytes of a sum in addition to p and u. */
 static double
 bytes(const struct rc_engine *engine, const struct rc_sum *sum)
 {
@@ -150,7 +150,7 @@ choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **r
         return &rc_engine_mlms;
     }
     *reason = o->tol > 0 && !o->precise ? "the fastest on a map loaded like this"
-                                        : "the fastest of those that are exact to rounding";
+                                        : "the fastest engine that is exact to rounding";
     return &rc_engine_fft;
 }
 

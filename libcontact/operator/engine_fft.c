@@ -91,14 +91,15 @@ const struct rc_engine rc_engine_fft = {
              .order = 1,
              .sum_bytes = {12.7, 5.4},
              .contact_bytes = {81.3, 59.5}},
-    .precise = {.name = "fft64",
-                .summary = "fast Fourier transforms in double precision: exact to rounding, "
-                           "whatever error is asked for",
-                .periodic = true,
-                .precise = true,
-                .order = 1,
-                .sum_bytes = {24.7, 10.4},
-                .contact_bytes = {97.3, 75.5}},
+    .precise =
+        {.name = "fft64",
+         .summary =
+             "fast Fourier transforms in double precision: exact to rounding for any tolerance",
+         .periodic = true,
+         .precise = true,
+         .order = 1,
+         .sum_bytes = {24.7, 10.4},
+         .contact_bytes = {97.3, 75.5}},
     .transforms = true,
     .seconds = seconds,
     .new = plan_new,

@@ -19,12 +19,12 @@
 #include "libcontact/memory.h"
 #include "libcontact/transform/transform.h"
 
-/* Transforms of half a period of even or odd values. A period of odd length has no node in its middle: only
- * even values, by a transform of the whole period. Odd values on a period of one node are zero. */
+/* Transforms of half a period of even or odd values. For a period of odd length, which has no middle node:
+ * even values only, by a transform of the full period. Odd values on a period of one node are zero. */
 struct half {
     struct rc_dct *dct;   /* of even length                                */
     struct rc_line *line; /* of odd length                                 */
-    size_t length, n;     /* of the period; of half of it                  */
+    size_t length, n;     /* length of the period; of half of it */
     double *scratch;      /* for each thread: the period and its transform */
 };
 
@@ -34,7 +34,7 @@ struct rc_fft {
     struct rc_layout layout;
     const struct rc_fft_ops *ops;
     void *plan;
-    struct half along_x, along_y; /* of a quarter of a kernel                      */
+    struct half along_x, along_y; /* sides of a quarter of a kernel */
     double *columns;              /* COLUMNS columns of a spectrum for each thread */
     /* transpositions of waves and of the rows of a quarter, where ranks share it */
     struct rc_turn turn, quarter;
@@ -43,18 +43,18 @@ struct rc_fft {
 enum {
     /* columns of a quarter transformed together: two cache lines, fetched as a pair */
     COLUMNS = 16,
-    PREFETCH = 8,    /* rows fetched in advance, because they lie pages apart */
-    ROWS = 8,        /* of a kernel evaluated together */
-    LINE_BYTES = 128 /* of waves that are transformed together */
+    PREFETCH = 8,    /* rows fetched in advance, because they are pages apart */
+    ROWS = 8,        /* rows of a kernel that are evaluated together */
+    LINE_BYTES = 128 /* columns of waves that are transformed together */
 };
 
 struct rc_spectrum {
     unsigned parity;
     size_t columns; /* columns from this one on are zero                                      */
-    double total;   /* at wave number 0                                                       */
+    double total;   /* value at wave number 0 */
     void *values;   /* the columns held here, of cy numbers in the order of fft.h, over px py */
-    bool lent;      /* these numbers are those of another spectrum */
-    struct rc_ratio ratio; /* of these numbers: the factor of a chain */
+    bool lent;      /* these numbers belong to another spectrum */
+    struct rc_ratio ratio; /* factor of these numbers in a chain */
 };
 
 static const struct rc_ratio numbers_themselves = {0, 1, 1, 0};
@@ -207,7 +207,8 @@ fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_sha
         l->nx += 2 * frame->x;
         l->rows = l->ny += 2 * frame->y;
     }
-    l->threads = rc_useful_threads(&own, threads); /* of all processes that share these rows */
+    l->threads = rc_useful_threads(&own, threads); /* ranks of all processes that share these
+                                                      rows */
     team = (size_t)l->threads;
     f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
     if (share(f, ranks, precision, err) != RC_OK)

@@ -16,7 +16,7 @@ enum rc_precision {
 };
 
 struct rc_fft;
-struct rc_spectrum; /* of one kernel: a quarter of its values, real */
+struct rc_spectrum; /* transform of a kernel: a quarter of its values, real */
 
 /* `shape` is that of the whole map. Where ranks share the map (NULL: none), maps and rows are those held
  * here, row 0 is the first of them, and spectra have the columns that this rank multiplies. The plan works in
@@ -67,8 +67,8 @@ int rc_fft_threads(const struct rc_fft *fft);
  * when memory is short. */
 struct rc_spectrum *rc_spectrum_new_reciprocal(const struct rc_fft *fft,
                                                const struct rc_spectrum *of, struct rc_err *err);
-/* From now on of K + plus I in chains: the spectrum of a kernel K or, with `inverse`, of K^-1. plus 0: that of
- * K again. */
+/* Changes the spectrum of K, in chains, to that of K + plus I; with `inverse` the spectrum is that of K^-1.
+ * plus 0 restores K. */
 void rc_spectrum_add(struct rc_spectrum *spectrum, const struct rc_fft *fft, bool inverse,
                      double plus);
 /* The transform of the kernel's values on either boundary; on the periodic one each offset counts once, by

@@ -40,8 +40,8 @@ struct map {
 struct plan {
     struct rc_layout l;
     FFTW(plan) row_forward, row_back, column_forward, column_back;
-    COMPLEX *waves;              /* of each row, the columns held here: ny rows of `wide` */
-    COMPLEX *pieces;             /* of the rows held here, for other ranks; NULL: no ranks */
+    COMPLEX *waves;              /* the columns held here, of each row: ny rows of `wide` */
+    COMPLEX *pieces;             /* parts of the rows held here, for other ranks; NULL: no ranks */
     COMPLEX *own;                /* memory of `waves` to be freed; NULL: it was lent */
     COMPLEX *source[RC_SOURCES]; /* transformed columns of a loaded map, in pieces; or NULL */
     COMPLEX *twiddle; /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
@@ -266,7 +266,7 @@ transform_rows(struct plan *f, void *ctx, rc_row *make, bool back, bool forward)
 
 /* ---- columns ---- */
 
-/* Rows lie pages apart, which hardware prefetchers do not follow. */
+/* Rows are pages apart, and hardware prefetchers do not cross pages. */
 static inline void
 prefetch(const COMPLEX *x)
 {

@@ -18,26 +18,26 @@ enum {
 /* Sums over wave numbers from end exp(-k step) to end, 1/Pa; end = 0: the map is no strip. */
 struct strip {
     double end, step, sum[STRIP_STEPS];
-    double width; /* of the map, m */
+    double width; /* width of the map, m */
 };
 
 struct own {
     struct rc_operator op;
     struct rc_solids own;           /* the bodies, except on a coarse grid                  */
-    const struct rc_solids *bodies; /* these, or those of the finer grid                    */
+    const struct rc_solids *bodies; /* this operator, or that of the finer grid */
     bool positive;                  /* the spectrum of their kernel is positive on any map  */
-    double estar;                   /* of the pair, for waves as short as the roughness     */
+    double estar;                   /* E* of the pair, for waves as short as the roughness */
     double bends;                   /* m: the length over which stiff coatings bend         */
     struct rc_conv *conv;           /* K p in double precision; NULL: none                  */
-    struct rc_fft *fft;             /* in single precision, lengths in units of sqrt(dx dy) */
+    struct rc_fft *fft;             /* single precision, lengths in units of sqrt(dx dy) */
     struct rc_fft *framed;          /* the same with the frame; NULL: no frame              */
     struct rc_spectrum *kernel, *inverse;
     struct strip strip;
     struct {
         double norm, diagonal;
-    } bare;        /* of K without its diagonal term */
+    } bare;        /* for K without its diagonal term */
     double *p, *u; /* scratch for engines without single precision: maps */
-    float *row;    /* and a row for each thread; else NULL */
+    float *row;    /* also a row for each thread; otherwise NULL */
     int row_threads;
 };
 

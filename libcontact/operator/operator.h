@@ -3,8 +3,8 @@
  * installed.
  *
  * The solver gets an operator K and asks it for K p, for its inverse as a multiplication in wave numbers, and
- * for a few figures. It does not know the bodies, the engine or the transforms, nor the rows of other ranks:
- * maps and rows are those held here.
+ * for a few figures. Its users need no knowledge of bodies, engine, transforms or other ranks: maps and rows
+ * are those held here.
  */
 #ifndef RC_OPERATOR_H
 #define RC_OPERATOR_H
@@ -17,7 +17,7 @@
  * units: u = unit K' p with K' of about 1, so that no decade of metres or pascals is lost. Lengths beside
  * them are in units of sqrt(dx dy). */
 struct rc_operator {
-    struct rc_shape whole, shape; /* of the whole map, and of the part of it held here */
+    struct rc_shape whole, shape; /* shape of the whole map, and of the rows held here */
     struct rc_rows rows;          /* the rows of that part */
     enum rc_boundary boundary;
     size_t threads;
@@ -32,12 +32,12 @@ struct rc_operator {
     double inverse_near[3][3];
     double neighbour[3][3];
     struct rc_frame frame; /* nodes of the padding in rc_operator_chain_framed */
-    /* no rule gives the pressure of a common shift at the edges of a set: layers, free */
+    /* no rule gives the pressure of a common shift at the edges of a set: true for layers on a free map */
     bool edges;
-    double error;       /* of K p, relative to the sum of |K| |p|                          */
+    double error;       /* error of K p, relative to the sum of |K| |p| */
     double row_error;   /* the same, row by row                                            */
-    double row_cost;    /* of K p row by row, in equivalents of K p in double precision    */
-    double factor_cost; /* of each factor of a chain                                       */
+    double row_cost;    /* cost of K p row by row, in equivalents of K p in double precision */
+    double factor_cost; /* cost of each factor of a chain */
     bool exact;         /* K p is available in double precision                            */
     bool bends;         /* a coating stiffer than its base: the inverse alternates in sign */
     bool mean_free;     /* the mean of u is 0 for any pressure: it has no stiffness        */
@@ -105,7 +105,7 @@ struct rc_whole {
     double length;   /* m: sqrt(dx dy)                                                    */
     double modulus;  /* Pa: E* as the roughness feels it                                  */
     double diagonal; /* displacement of a node under unit pressure on its own cell        */
-    double mean;     /* K of a uniform pressure on the whole grid; 0 where it is periodic */
+    double mean;     /* K times a uniform pressure on the whole grid; 0 on a periodic map */
     double most;     /* largest eigenvalue of K                                           */
 };
 

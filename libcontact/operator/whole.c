@@ -19,7 +19,7 @@ static const size_t halves[SIDES] = {4, 6, 8, 12, 16};
 struct own {
     struct rc_whole whole;
     struct rc_solids bodies;
-    struct rc_fft *fft, *rough; /* in double and single precision */
+    struct rc_fft *fft, *rough; /* transforms in double and in single precision */
     struct rc_spectrum *kernel, *inverse, *rough_kernel, *rough_inverse;
 };
 
@@ -207,8 +207,8 @@ rc_whole_new(const struct rc_shape *shape, const struct rc_operator_options *o, 
         clear(w);
     }
     rc_err_set(err,
-               "these layers bend over lengths beyond the map of %g x %g m: a stiffness of all of "
-               "its waves is not to be had",
+               "these layers bend over lengths beyond the map of %g x %g m, so that its longest "
+               "waves have no positive stiffness: take a larger map or softer layers",
                shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
 fail:
     rc_whole_free(&w->whole);

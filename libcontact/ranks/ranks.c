@@ -14,7 +14,7 @@ rc_rows_block(size_t nx)
 {
     size_t rows = 1;
 
-    /* nx may be 0: such shapes are refused elsewhere */
+    /* nx may be 0; other functions refuse such shapes */
     while (nx > 0 && rows <= RC_BLOCK_NODES / nx / 2)
         rows *= 2;
     return rows;
@@ -148,7 +148,7 @@ struct all {
     struct rc_total total[MOST];
     double most;
 };
-_Static_assert(sizeof(struct all) <= RC_RANKS_ROOM, "what ranks gather has room");
+_Static_assert(sizeof(struct all) <= RC_RANKS_ROOM, "RC_RANKS_ROOM is too small");
 
 void
 rc_ranks_totals(const struct rc_ranks *ranks, size_t n, const struct rc_total *totals, double *sums,

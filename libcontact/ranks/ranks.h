@@ -1,6 +1,6 @@
 /*
  * Processes that share a map, each with its own rows: the lowest folder, and the only one that uses MPI.
- * Internal: never installed (what users need of it is contact_mpi.h).
+ * Internal: never installed (users include contact_mpi.h).
  *
  * Rank r of P owns whole rows, in units that no tile of the projection (16 rows) and no block of the sums
  * (solver/reduce.c) crosses; if a map has few units, some ranks hold no rows and only take part in collective
@@ -41,13 +41,13 @@
 
 struct rc_rows {
     const struct rc_ranks *ranks; /* NULL: one process holds all rows  */
-    size_t ny;                    /* of the whole map                  */
+    size_t ny;                    /* shape of the whole map */
     size_t first, n;              /* held here: first .. first + n - 1 */
 };
 
 enum {
-    RC_BLOCK_NODES = 4096, /* that are summed separately */
-    RC_TILE_ROWS = 16,     /* that are never split */
+    RC_BLOCK_NODES = 4096, /* rows that are summed separately */
+    RC_TILE_ROWS = 16,     /* rows that are never split */
     RC_ROW_PIECE = 1024    /* columns of neighbouring rows that are fetched together */
 };
 /* Rows of nx nodes that make a block; 1 also where a row exceeds a block. */
@@ -90,7 +90,7 @@ void rc_turn_get(const struct rc_turn *turn, size_t j, const void *pieces, void 
 
 /* The data that this rank has sent. */
 struct rc_traffic {
-    size_t turns;            /* exchanges of whole maps: rows to columns, or back               */
+    size_t turns;            /* exchanges of whole maps between rows and columns */
     double turned, messages; /* bytes and messages of these                                     */
     double seconds;          /* in them                                                         */
     double other;            /* bytes of small messages: sums, neighbouring rows, coarser grids */

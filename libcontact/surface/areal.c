@@ -123,7 +123,7 @@ struct slopes {
     double x2, x_pairs, y2, y_pairs, excess, triangles, curved2, curved;
 };
 
-/* What a slope adds to an area or a length, over its projection; g2 is the slope squared. */
+/* The increase of an area or a length by a slope, over its projection; g2 is the squared slope. */
 static inline double
 excess(double g2)
 {

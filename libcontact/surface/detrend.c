@@ -28,8 +28,8 @@
 
 enum {
     BLOCK = 1024,   /* points that are factored together; more than the largest number of terms */
-    ROWS = 512,     /* of the map that are summed together */
-    CORRECTIONS = 4 /* of a solution of the normal equations */
+    ROWS = 512,     /* rows of the map that are summed together */
+    CORRECTIONS = 4 /* corrections of a solution of the normal equations */
 };
 
 /* Reciprocal condition numbers. Below the first one of the normal equations the QR factorisation is used;
@@ -43,7 +43,7 @@ struct fit {
     double mean; /* subtracted first, because a large constant would cost digits */
     size_t nx_terms, ny_terms, degree; /* polynomials along x, along y; largest total degree */
     size_t terms;
-    size_t nx_orders, ny_orders; /* of the products of two of them */
+    size_t nx_orders, ny_orders; /* orders of the products of two polynomials */
     int threads;
     bool missing;
     double *px, *py;         /* Chebyshev polynomials: px[a * nx + i], py[b * ny + j] */

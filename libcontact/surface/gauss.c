@@ -64,7 +64,7 @@ struct gauss {
     double *low;        /* where y uses coarse nodes: the same for each coarse row           */
     size_t stride;      /* from numerators to denominators, and on to the next row           */
     double *room;       /* for each thread: lines, rows of sums and their weights            */
-    const double **row; /* for each thread: the rows that are added                          */
+    const double **row; /* for each thread: addresses of the rows to add */
     size_t per_thread, rows_per_thread;
 };
 

@@ -142,7 +142,7 @@ claim "--resume without a file creates one, whichever process is first" anew
 
 refuses 2 'give -o FILE' "a pipe for output" "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N rough.rcg | cat"
 refuses 2 'name one instead of a pipe' "a pipe for input" "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg"
-refuses 1 "needs the whole map in one process" "an engine that is not shared" \
+refuses 1 "needs the map in one process" "an engine that is not shared" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --kernel mlms -o no.rcg rough.rcg"
 refuses 2 "cannot share its maps among processes" "friction" \
     "$MPIRUN -n 2 rc-slip --mu 0.3 --nu 0.3 --tangential 1uN -o no.rcg rough.rcg"
@@ -156,7 +156,7 @@ refuses 1 "a section is computed by one process" "  of a large map: not for its 
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg rough-pressed.rcg"
 refuses 1 "a section is computed by one process" "  in a plan" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 --dry-run wave-pressed.rcg"
-refuses 1 "needs the whole map in one process" "  an engine that is not shared, in a plan" \
+refuses 1 "needs the map in one process" "  an engine that is not shared, in a plan" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --kernel mlms --dry-run pressed.rcg"
 claim "a plan for two processes has the expected time" says 'time +about [0-9.e-]+ s' \
     $MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --tol 1e-3 --dry-run pressed.rcg

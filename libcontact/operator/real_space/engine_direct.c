@@ -186,7 +186,7 @@ seconds(const struct rc_sum *sum)
 
 const struct rc_engine rc_engine_direct = {
     .info = {.name = "direct",
-             .summary = "the double sum as it is written: exact to rounding, N^2",
+             .summary = "the plain double sum: exact to rounding, time N^2",
              .order = 2,
              .sum_bytes = {16.1},
              .contact_bytes = {98.8}},

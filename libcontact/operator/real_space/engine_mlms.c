@@ -254,12 +254,13 @@ seconds(const struct rc_sum *sum)
 }
 
 const struct rc_engine rc_engine_mlms = {
-    .info = {.name = "mlms",
-             .summary =
-                 "multi-level multi-summation: to the accuracy asked for, N, in little memory",
-             .order = 1,
-             .sum_bytes = {7.7},
-             .contact_bytes = {90}},
+    .info =
+        {.name = "mlms",
+         .summary =
+             "multi-level multi-summation: to the requested accuracy, time N, with little memory",
+         .order = 1,
+         .sum_bytes = {7.7},
+         .contact_bytes = {90}},
     .seconds = seconds,
     .new = plan_new,
     .apply = apply,

@@ -67,7 +67,8 @@ struct rc_mlms_design {
 
 struct rc_mlms_level {
     const struct rc_mlms_axis *axis;
-    double *p, *u;         /* of this level; NULL on the finest, where the caller owns them */
+    double *p, *u;         /* p and u of this level; NULL on the finest, where the caller owns
+                              them */
     unsigned char *loaded; /* tiles with pressure */
     struct rc_mlms_stencil fine[4][4]; /* [target][source], class x + 2 y; target 0 unused */
     struct rc_mlms_stencil coarse[4];  /* [source], to coarse nodes; 0 unused              */

@@ -63,7 +63,7 @@ NAME(block)(int vectors, const struct rc_strip *s, const struct rc_column *colum
     for (int i = 0; i < RC_BLOCK; i++)
 #pragma GCC unroll 4
         for (int x = 0; x < vectors; x++)
-            sum[i][x] = (VECTOR){0}; /* not `out`: small terms would lose digits beside it */
+            sum[i][x] = (VECTOR){0}; /* not added to `out`, where small terms would lose digits */
     for (size_t j = 0; j < s->columns; j++) {
         ptrdiff_t n = column[j].last - column[j].first + 1;
         size_t first = (size_t)((ptrdiff_t)(begin + s->margin) - column[j].last);
