@@ -136,7 +136,7 @@ claim "a character that no font has causes a warning, and the figure is drawn" b
 claim "a character of a font causes none" bash -c \
     'rc-render --title "Rauheit, 10⁻³ m²" -o f.png height.rcg 2>warned && [ ! -s warned ]'
 printf '<?xml version="1.0"?>\n<fontconfig><cachedir>%s/cache</cachedir></fontconfig>\n' "$PWD" >fonts.conf
-refuses 1 'no font can be found' "a figure without any font" "FONTCONFIG_FILE='$PWD/fonts.conf' rc-render -o out.png height.rcg"
+refuses 1 'no font was found' "a figure without any font" "FONTCONFIG_FILE='$PWD/fonts.conf' rc-render -o out.png height.rcg"
 claim "a raw picture needs no font" env FONTCONFIG_FILE="$PWD/fonts.conf" rc-render --raw -o f.png height.rcg
 
 # ---- refusals ----
@@ -148,13 +148,13 @@ stream height m 5 5 "" '"nan"' >empty.rcg
 refuses 1 'none of its 25 values is a finite number: there is nothing to draw' "a map without a number" "$draw empty.rcg"
 refuses 1 'no channel mises: there are height, pressure, gap' "an absent channel" \
     "$draw --channel mises three.rcg"
-refuses 1 'case 7 holds no frame: there are cases 1, 2' "an absent case" "$draw --case 7 cases.rcg"
+refuses 1 'case 7 has no frame: there are cases 1, 2' "an absent case" "$draw --case 7 cases.rcg"
 refuses 1 'there are 0, 1.23456e-05, 4e-05 m' "an absent depth" "$draw --depth 54um depths.rcg"
 stream szz Pa 8 9 "depth=0" 1 mises Pa 8 9 "depth=0" 1 szz Pa 8 9 "depth=1e-05" 1 mises Pa 8 9 "depth=1e-05" 1 >turns.rcg
 refuses 1 'there are 0, 1e-05 m' "an absent depth of the second channel" "$draw --channel mises --depth 16um turns.rcg"
 refuses 1 'no frame at depth 1.3e-05 m: no frame has a depth' "a depth where there is none" "$draw --depth 13um height.rcg"
 refuses 1 'no section across x' "an absent section" "$draw --section x section.rcg"
-refuses 1 'the stream holds no frame' "a stream without frames" "printf 'RCGEND 0\n' | $draw"
+refuses 1 'the stream has no frame' "a stream without frames" "printf 'RCGEND 0\n' | $draw"
 refuses 2 '--range 2um:1um: it must be LO:HI, two values with LO below HI' "a range upside down" "$draw --range 2um:1um height.rcg"
 refuses 2 '--range 1um:1um: it must be LO:HI' "a range without extent" "$draw --range 1um:1um height.rcg"
 refuses 2 '--range 1,2,3: it must be LO:HI' "a range of three" "$draw --range 1,2,3 height.rcg"
@@ -170,12 +170,12 @@ refuses 2 '--width 85m: it must be 320 to 16000 pixels, which is a matter of --d
 refuses 2 '--width 30mm: on paper it must be at least 60mm' "a figure for a stamp" "$draw --width 30mm height.rcg"
 refuses 2 '--width -85mm: on paper it must be at least 60mm' "a width below nothing" "$draw --width -85mm height.rcg"
 refuses 2 '--width 85N: unknown unit' "a width in newtons" "$draw --width 85N height.rcg"
-refuses 2 '--raw holds no text: leave out --font' "letters in a raw picture" "$draw --raw --font serif height.rcg"
+refuses 2 '--raw draws no text: leave out --font' "letters in a raw picture" "$draw --raw --font serif height.rcg"
 refuses 2 '--raw has a pixel for each node, which only a PNG has' "a raw SVG" "rc-render --raw -o out.svg height.rcg"
 refuses 2 '--title: the text is not UTF-8' "a title that is no text" "$draw --title $'\\xff' height.rcg"
 refuses 2 'unknown option --hue: see rc-render --help' "an unknown option" "$draw --hue red height.rcg"
 stream mises Pa 20 4 "section=y depths=0,1e-06" 1 >few.rcg
-refuses 1 'its key depths holds 2 depths for 4 rows' "a section with too few depths" "$draw few.rcg"
+refuses 1 'its key depths has 2 depths, but there are 4 rows' "a section with too few depths" "$draw few.rcg"
 stream mises Pa 20 3 "section=y depths=0,2e-06,1e-06" 1 >falling.rcg
 refuses 1 'its key depths must rise from row to row' "a section whose depths do not rise" "$draw falling.rcg"
 

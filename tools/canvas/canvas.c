@@ -250,9 +250,9 @@ enum rc_status
 canvas_check(const struct canvas *c, struct rc_err *err)
 {
     if (lettering_has_no_font(c->lettering))
-        return rc_err_set(err,
-                          "no font can be found: install one, such as DejaVu Sans, or see that "
-                          "fontconfig knows it");
+        return rc_err_set(
+            err,
+            "no font was found: install one, such as DejaVu Sans, or add its folder to fontconfig");
     if (c->short_of_memory)
         return rc_err_set(err, "the figure cannot be drawn: out of memory");
     return RC_OK;

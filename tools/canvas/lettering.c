@@ -8,7 +8,7 @@
 #include <string.h>
 
 struct lettering {
-    cairo_surface_t *surface; /* nothing is drawn on it, but a layout needs one */
+    cairo_surface_t *surface; /* nothing is drawn on this surface, but a layout needs one */
     cairo_t *cairo;
     PangoLayout *layout;
     char *family, *found;

@@ -130,7 +130,7 @@ picture_write(FILE *file, size_t w, size_t h, double dpi, const struct picture_t
 
     if (w > PNG_UINT_31_MAX || h > PNG_UINT_31_MAX || w > SIZE_MAX / 8)
         return rc_err_set(
-            err, "a picture of %zu by %zu pixels: PNG holds at most 2147483647 a side", w, h);
+            err, "a picture of %zu by %zu pixels: PNG allows at most 2147483647 a side", w, h);
     if ((rgb = malloc(3 * w)) == NULL)
         return rc_err_set(err, "out of memory for a picture of %zu pixels a row", w);
     status = start(&picture, file, w, h, dpi, text, texts, err);

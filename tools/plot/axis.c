@@ -68,7 +68,7 @@ mark_decades(struct axis *a, double most)
         }
 }
 
-/* Omits numbers that would touch the one before; true if there were any. */
+/* Omits numbers that would touch the previous one. Returns true if it omitted any. */
 static bool
 thin_marks(struct page *p, struct axis *a, double length, bool upright)
 {
@@ -94,7 +94,7 @@ thin_marks(struct page *p, struct axis *a, double length, bool upright)
     return thinned;
 }
 
-/* Words are side by side if they fit, else they read upwards. */
+/* Words are horizontal if they fit, otherwise vertical. */
 static void
 mark_words(struct page *p, struct axis *a, double length)
 {

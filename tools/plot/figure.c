@@ -403,7 +403,7 @@ draw_bar(struct page *p)
 
 /* ---- the whole ---- */
 
-/* Above the plot, where it covers nothing. */
+/* The stamp is above the plot, where it covers no data. */
 static void
 draw_stamp(struct page *p, double middle, double y)
 {

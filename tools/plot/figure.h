@@ -39,7 +39,7 @@ struct paper {
 /* The colours of values and their bar. */
 struct bar {
     const char *quantity; /* name of the values: "Gap"       */
-    const char *unit;     /* of the values, as in a stream   */
+    const char *unit;     /* unit of the values, as in a stream */
     const struct colormap *map;
     double lo, hi;    /* values at the ends of the colour bar, lo < hi */
     bool log;         /* logarithmic colours; 0 < lo                   */
@@ -54,7 +54,7 @@ struct extent {
     double left, right, top, bottom; /* outer edges in that unit: left < right, top < bottom */
     bool section;                    /* y is the depth, whose axis has a separate unit   */
     double aspect;                   /* vertical scale over the horizontal one; 0: automatic */
-    double exaggeration;             /* of a relief of lengths; 0: automatic             */
+    double exaggeration;             /* exaggeration of a relief of lengths; 0: automatic */
 };
 
 /* What is drawn over the colours, with its text in the legend (NULL: it is not drawn). */
@@ -94,7 +94,7 @@ struct figure {
     struct mark mark;
     struct edge edge;
     struct nodes nodes;
-    struct medium *medium; /* of a section, the top first; NULL: one medium */
+    struct medium *medium; /* media of a section, the top first; NULL: one medium */
     size_t media;
     bool keep_max;  /* a reduced map shows the largest value in each pixel */
     bool hillshade; /* with light and shadow                               */
@@ -118,8 +118,7 @@ struct panel {
 };
 
 struct panels {
-    const struct figure *figure; /* for the whole: paper, colours, and the numbers of nodes of all
-                                    maps */
+    const struct figure *figure; /* for all maps: paper, colours, and their numbers of nodes */
     const struct panel *panel;
     size_t n, columns;
 };

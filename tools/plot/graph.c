@@ -27,7 +27,7 @@ enum {
     LABELS = 64   /* labels of points of the front                          */
 };
 
-/* What a layout finds about a graph, and its drawing about labels. */
+/* Results of the layout of a graph, and of drawing its labels. */
 struct notes {
     size_t lost;              /* number of points not above 0 on a logarithmic axis */
     size_t sunk;              /* of these, the number at the foot of the plot */

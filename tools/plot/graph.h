@@ -31,7 +31,7 @@ struct graph_series {
     enum graph_kind kind;
     size_t place;             /* counted from 0: chooses colour and marker        */
     size_t mark;              /* 0: the marker follows the colour; else counted from 1, chooses the
-                            marker and the dashes of the line */
+                                 marker and the dashes of the line */
     const double *x, *y;      /* SI; a point that is not finite is a gap */
     const double *low, *high; /* ends of error bars, SI; NULL: none */
     const struct graph_point *point; /* label of each point; NULL: none */
@@ -39,7 +39,7 @@ struct graph_series {
 };
 
 struct graph_axis {
-    const char *quantity, *unit; /* as in a stream                                 */
+    const char *quantity, *unit; /* unit, as in a stream */
     bool log;
     double lo, hi;           /* ends of the axis, SI; NAN: from the points */
     const char *shown;       /* requested unit, see scale_given; NULL: automatic   */

@@ -72,7 +72,7 @@ struct page {
     const struct page_kind *kind;
     void *of; /* what is drawn, for the functions of its kind */
     const struct paper *paper;
-    const struct figure *f; /* of a map; NULL: it is a graph */
+    const struct figure *f; /* figure of a map; NULL: the page is a graph */
     const struct graph *graph;
     const struct rc_grid *g;
     struct canvas *c;
@@ -95,7 +95,7 @@ struct page {
     size_t columns, rows;                 /* of maps                                   */
     double map_w, map_h;                  /* size of each map, whole pixels            */
     double across_step, down_step;        /* distance from one to the next, pixels     */
-    struct box plot;                      /* of all maps, whole pixels                 */
+    struct box plot;                      /* size of all maps, whole pixels */
     size_t w, h;
     double dpi; /* pixels of the page per inch of paper */
 };

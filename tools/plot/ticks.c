@@ -85,7 +85,7 @@ unit_text(char text[TICKS_TEXT], const char *unit)
         bool power = behind && isdigit((unsigned char)*digit) && !isalnum((unsigned char)digit[1]);
 
         if (power) {
-            /* it is 0 to 9; the analyzer does not know this about isdigit */
+            /* 0 to 9; the analyzer cannot conclude this from isdigit */
             /* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) */
             n += (size_t)sprintf(text + n, "%s%s", minus ? "⁻" : "", raised_digits[*digit - '0']);
             s = digit;
@@ -196,8 +196,7 @@ ticks_choose(struct ticks *t, double lo, double hi, double most)
     double least = (hi - lo) / most, step;
     int k = 0;
 
-    /* to the resolution of doubles: a range of one unit in the last place gets a mark too
-     */
+    /* within the resolution of doubles, so that a range of one unit in the last place gets a mark too */
     least = fmax(least, 1e-15 * fmax(fabs(lo), fabs(hi)));
     t->power = (int)floor(log10(least));
     while (k < 3 && digits[k] * pow(10, t->power) < least * (1 - slack))

@@ -49,19 +49,19 @@ check_kinds(struct tool *t, const struct args *a)
         tool_die(t, EXIT_USAGE, "--range is for maps and for --cut: leave it out");
     if (a->curve == NULL && !args_lines(a) && a->style.log != NULL && *a->style.log != '\0')
         tool_die(t, EXIT_USAGE,
-                 "--log %s names an axis of a curve: of a map --log stands alone, or add --curve "
-                 "X:Y",
+                 "--log %s names an axis of a curve: for a map give --log without axes, or add "
+                 "--curve X:Y",
                  a->style.log);
     if (a->curve == NULL)
         leave_out(t, "it is for tables, with --curve X:Y", of_tables);
     if (a->curve == NULL && !args_lines(a))
         leave_out(t, "it is for curves: --curve, --cut, --histogram, --material-ratio", of_curves);
     if (a->curve == NULL && !a->histogram)
-        leave_out(t, "laws stand beside --curve and --histogram", of_laws);
+        leave_out(t, "--law needs --curve or --histogram", of_laws);
     if (a->curve == NULL && !a->histogram && !a->hertz)
         leave_out(t, "they are for laws and --hertz", of_spheres);
     if (a->hertz && (a->curve != NULL || a->histogram || a->material_ratio))
-        tool_die(t, EXIT_USAGE, "--hertz is for a map or --cut; beside --curve it is --law hertz");
+        tool_die(t, EXIT_USAGE, "--hertz is for a map or --cut: with --curve take --law hertz");
 }
 
 bool
@@ -108,7 +108,8 @@ static void
 read_width(struct tool *t, struct args *a)
 {
     const double dpi = 300, inch = 0.0254;
-    const double narrow = 0.06; /* metres: text and axes leave no room for a map on less */
+    const double narrow = 0.06; /* metres: smaller figures have no room for a map beside text and
+                                   axes */
     bool plain = a->width != NULL && a->width[strspn(a->width, "0123456789")] == '\0';
     double width = 0;
     struct rc_err err;
@@ -136,19 +137,19 @@ check_options(struct tool *t, const struct args *a)
     if (a->raw && a->figure)
         tool_die(t, EXIT_USAGE, "--raw and --figure are two kinds of picture: give one");
     if (a->raw && (a->contour || a->border || !isnan(a->aspect)))
-        tool_die(t, EXIT_USAGE, "--raw draws nothing but nodes: leave out --%s",
+        tool_die(t, EXIT_USAGE, "--raw draws only nodes: leave out --%s",
                  a->contour  ? "contour"
                  : a->border ? "border"
                              : "aspect");
     if (a->raw && a->width != NULL)
         tool_die(t, EXIT_USAGE, "--raw is as wide as the map has columns: leave out --width");
     if (a->raw && a->style.paper.family != NULL)
-        tool_die(t, EXIT_USAGE, "--raw holds no text: leave out --font");
+        tool_die(t, EXIT_USAGE, "--raw draws no text: leave out --font");
     if (a->raw && canvas_format(ending_of(t->out_name)) != CANVAS_PNG)
         tool_die(t, EXIT_USAGE,
                  "--raw has a pixel for each node, which only a PNG has: -o must end in .png");
     if (a->raw && a->hertz)
-        tool_die(t, EXIT_USAGE, "--raw draws nothing but nodes: leave out --hertz");
+        tool_die(t, EXIT_USAGE, "--raw draws only nodes: leave out --hertz");
     if (a->clip && a->range != NULL)
         tool_die(t, EXIT_USAGE, "--clip chooses the range: leave out --range");
 }

@@ -446,8 +446,8 @@ take_words(struct curves *c)
             continue;
         if (curve_log(c->style, 'x'))
             tool_die(c->tool, EXIT_USAGE,
-                     "--log: column %s holds words, which have no logarithm: --log y has only the "
-                     "other axis so",
+                     "--log: column %s contains words, which have no logarithm: give the other "
+                     "axis alone, as in --log y",
                      x->name);
         for (size_t w = 0; w < x->word_count; w++) {
             size_t number = word_number(c, 0, x->word[w]);
@@ -729,11 +729,10 @@ given_in_tables(struct curves *c, enum helper which, double option)
             if (isnan(v))
                 continue;
             if (!isnan(value) && fabs(v - value) > 1e-6 * fabs(value))
-                tool_die(
-                    c->tool, EXIT_IMPOSSIBLE,
-                    "%s: %s is not the same in all rows, and a law is for one value: draw them in "
-                    "pictures of their own",
-                    c->table[f].source, helper_name[which]);
+                tool_die(c->tool, EXIT_IMPOSSIBLE,
+                         "%s: %s is not the same in all rows, but a law needs one value: draw "
+                         "separate pictures",
+                         c->table[f].source, helper_name[which]);
             value = v;
         }
     return isnan(option) ? value : option;
@@ -753,8 +752,7 @@ area_in_tables(struct curves *c)
             if (!isnan(area) && fabs(a - area) > 1e-6 * area)
                 tool_die(
                     c->tool, EXIT_IMPOSSIBLE,
-                    "%s: the maps differ in size, and a law is for one size: draw them in pictures "
-                    "of their own",
+                    "%s: the maps differ in size, but a law needs one size: draw separate pictures",
                     t->source);
             area = isnan(a) ? area : a;
         }
@@ -786,7 +784,7 @@ add_law(struct curves *c)
     struct graph_series *s;
 
     if (c->columns > 2 || !law_knows(law, x, y))
-        tool_die(c->tool, EXIT_USAGE, "--law %s: it ties %s%s, not what --curve asks for", law,
+        tool_die(c->tool, EXIT_USAGE, "--law %s relates %s%s, which --curve does not draw", law,
                  law_quantities(law), c->columns > 2 ? ", one at a time" : "");
     settle_given(c);
     if (law_needs_area(law, &c->given, x, y) && isnan(c->given.area))

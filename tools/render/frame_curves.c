@@ -107,8 +107,8 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
 struct line {
     const char *name;
     size_t n;
-    double step, *at; /* at NULL: even steps          */
-    double origin;    /* index of 0, which may be between two nodes */
+    double step, *at; /* `at` NULL: even steps */
+    double origin;    /* index of the origin, which may be between two nodes */
     const char *title, *unit;
 };
 
@@ -210,7 +210,7 @@ add_hertz(struct set *s, const struct line *along, double across)
     struct words words;
 
     if (s->n > 1 || strcmp(g->channel, "pressure") != 0)
-        tool_die(s->tool, EXIT_USAGE, "--hertz beside --cut is for one pressure: leave it out");
+        tool_die(s->tool, EXIT_USAGE, "--hertz with --cut needs a single pressure: leave it out");
     snprintf(s->label[1], LABEL, "%s", words_hertz(s->tool, &words, g, &s->style->given, &radius));
     rc_grid_number(g, "load", &load);
     peak = 1.5 * load / (FIGURE_PI * radius * radius);

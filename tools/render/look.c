@@ -164,11 +164,11 @@ look_aspect(struct tool *t, const struct rc_grid *g, const struct figure *f)
     double aspect = (f->at.right - f->at.left) / (f->at.bottom - f->at.top) / f->at.aspect;
 
     if (f->at.aspect > 0 && !(aspect <= FIGURE_ASPECT && aspect >= 1.0 / FIGURE_ASPECT))
-        tool_die_at(t, g, EXIT_USAGE,
-                    "--aspect %.6g: the plot would be %.3g times as %s: give one that leaves it at "
-                    "most %d times",
-                    f->at.aspect, aspect > 1 ? aspect : 1 / aspect,
-                    aspect > 1 ? "wide as high" : "high as wide", FIGURE_ASPECT);
+        tool_die_at(
+            t, g, EXIT_USAGE,
+            "--aspect %.6g: the plot would be %.3g times as %s: give a value for at most %d times",
+            f->at.aspect, aspect > 1 ? aspect : 1 / aspect,
+            aspect > 1 ? "wide as high" : "high as wide", FIGURE_ASPECT);
 }
 
 bool

@@ -266,7 +266,7 @@ double law_pressure_density(const struct law_given *given, double mean, double p
 /* Properties of all pictures of curves. */
 struct curve_style {
     const char *log;    /* NULL: linear; "" or "xy": both axes, "x", "y"   */
-    struct paper paper; /* title or subtitle NULL: what suits */
+    struct paper paper; /* title or subtitle NULL: automatic */
     const char *law;
     const char *x_label, *y_label, *x_unit, *y_unit, *legend; /* NULL: what suits */
     const char *by, *error;                                   /* columns of tables */
@@ -375,9 +375,9 @@ struct args {
     const char *colormap, *range;
     const char *width, *window, *depths, *keep;
     double dpi;                  /* as given                                 */
-    double aspect, exaggeration; /* as given; NAN: automatic                 */
+    double aspect, exaggeration; /* the given value; NAN: automatic */
     bool contour, border, figure, raw, clip, hertz;
-    struct numbers depth, number; /* as requested: several frames, or the one of wish */
+    struct numbers depth, number; /* the request: several frames, or the one of `wish` */
     const char *curve;            /* X:Y[,Y...]: tables are drawn instead of maps */
     const char *cut;
     const char *view;  /* AZ,EL: a relief */

@@ -29,8 +29,8 @@ section_depths(struct tool *t, const struct rc_grid *g)
     if (unit_numbers(text, UNIT_M, &d, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths: %s", err.text);
     if (d.n != g->ny)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths holds %zu depths for %zu rows", d.n,
-                    g->ny);
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths has %zu depths, but there are %zu rows",
+                    d.n, g->ny);
     for (size_t j = 1; j < g->ny; j++)
         if (!(d.v[j] > d.v[j - 1]))
             tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths must rise from row to row");
