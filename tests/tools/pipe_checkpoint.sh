@@ -53,7 +53,7 @@ near "$(field approach near2.json)" "$(field approach near.json)" "$(awk 'BEGIN 
     "and to the same approach, within the tolerance"
 
 cp kept.rcg other.rcg
-refuses 1 'there is one already.*--resume' "a checkpoint is not written over" \
+refuses 1 'the file exists.*--resume' "a checkpoint is not written over" \
     "$solve --load 0.1N --checkpoint other.rcg -o x.rcg rough.rcg"
 refuses 1 'another problem: checkpoint.load was 0.1, is 0.2' "that of another load" \
     "$solve --load 0.2N --checkpoint other.rcg --resume -o x.rcg rough.rcg"
@@ -87,7 +87,7 @@ claim "a file with a long line in its header is started again too" \
     $solve --load 0.1N --checkpoint noted-first.rcg --resume -o noted-begun.rcg noted.rcg
 (head -c 5000 kept.rcg && printf X && tail -c +5002 kept.rcg) >spoilt.rcg
 cp spoilt.rcg as-it-was.rcg
-refuses 1 'frame 1 of it cannot be read .*checksum' "one that is spoilt, not cut off, is refused" \
+refuses 1 'frame 1 cannot be read .*checksum' "one that is spoilt, not cut off, is refused" \
     "$solve --load 0.1N --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"
 claim "the file stays unchanged" cmp spoilt.rcg as-it-was.rcg
 head -c 500000 kept.rcg >tail.rcg # two frames and a part of the third; a power failure may append zeros
@@ -96,7 +96,7 @@ claim "an incomplete last frame is removed" bash -c "
     $solve --load 0.1N:0.5N:3 --checkpoint tail.rcg --resume --report tail.json -o tail-out.rcg rough.rcg &&
     [ \$(grep -c '\"iterations\": 1,' tail.json) = 2 ] && says '^3$' bash -c \"rc-info tail.rcg | grep -c 'frame . (state)'\""
 if [ -w /dev/full ]; then
-    refuses 1 '--checkpoint /dev/full: there is one already' "nor over a device" \
+    refuses 1 '--checkpoint /dev/full: the file exists' "nor over a device" \
         "$solve --load 0.1N --checkpoint /dev/full -o x.rcg rough.rcg"
 fi
 claim "refused runs leave no file" bash -c '! ls x.rcg* 2>/dev/null'

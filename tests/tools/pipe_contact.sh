@@ -71,7 +71,7 @@ $frames a.rcg:contact e.rcg:pressure e.rcg:gap >both.rcg
 claim "nodes may touch without pressure" test "$(count pressure 'v > 0' both.rcg)" -lt "$nodes"
 near "$(field contact_nodes <(rc-info --json both.rcg | grep '"channel": "pressure"'))" "$nodes" 0 "  the frame counts"
 $frames e.rcg:pressure a.rcg:contact >late.rcg
-refuses 1 "it must stand before the pressure whose contact it tells" "behind its pressure it comes too late" "rc-info late.rcg"
+refuses 1 "the frame contact must precede its pressure" "behind its pressure it comes too late" "rc-info late.rcg"
 $frames c.rcg:pressure c.rcg:contact >late.rcg
 claim "  a contact equal to the pressure is accepted" rc-info late.rcg
 $frames a.rcg:gap=contact a.rcg:pressure >values.rcg
@@ -81,12 +81,12 @@ refuses 1 "neither 0 nor 1" "other values are refused" "rc-info values.rcg"
 
 rc-pick --channel pressure,gap a.rcg -o without.rcg
 claim "without the frame rc-info says that the contact is unknown" says "contact  *unknown" rc-info without.rcg
-claim "  it says why" warns "does not tell where they touch.*keep both frames" rc-info without.rcg
+claim "  it says why" warns "does not determine the contact.*keep both frames" rc-info without.rcg
 claim "  JSON has null" says '"contact_nodes": null, "contact_area": null' rc-info --quiet --json without.rcg
-refuses 1 "does not tell where they touch" "--patches is refused" "rc-info --patches without.rcg"
-with_leak && refuses 1 "does not tell where they touch" "rc-leak is refused" "rc-leak without.rcg -o x.rcg"
-refuses 1 "does not tell where they touch" "--window contact is refused" "rc-render --window contact -o x.png without.rcg"
-refuses 1 "does not tell where they touch" "--histogram is refused" "rc-render --histogram -o x.png without.rcg"
+refuses 1 "does not determine the contact" "--patches is refused" "rc-info --patches without.rcg"
+with_leak && refuses 1 "does not determine the contact" "rc-leak is refused" "rc-leak without.rcg -o x.rcg"
+refuses 1 "does not determine the contact" "--window contact is refused" "rc-render --window contact -o x.png without.rcg"
+refuses 1 "does not determine the contact" "--histogram is refused" "rc-render --histogram -o x.png without.rcg"
 claim "rc-render draws the map" rc-render --quiet -o x.png without.rcg
 $frames e.rcg:gap=pressure >negative.rcg
 claim "other negative pressures cause a warning" bash -c 'rc-info negative.rcg >x.txt 2>said.txt; test "$(grep -c "contact is taken where it is above 0" said.txt)" = 1'

@@ -8,10 +8,10 @@ $solve surface.rcg -o result.rcg
 rc-info --json result.rcg | sed 's/.*"channel": "\([a-z]*\)".*/\1/' | tr '\n' ' ' >order
 claim "rc-solve writes a solution with its height" grep -q '^pressure gap displacement height $' order
 
-refuses 1 'case 1, frame 4 \(height\): .* \(pressure, gap, displacement\).*: take the height alone, rc-pick --channel height' \
+refuses 1 'case 1, frame 4 \(height\): .* \(pressure, gap, displacement\).*: take the height alone with rc-pick --channel height' \
     "results before the height, named" "rc-detrend --plane result.rcg -o out.rcg"
 claim "  no file is left" test ! -e out.rcg
-refuses 1 "case holds a height" "  and a reader fails too" "rc-detrend --plane result.rcg 2>/dev/null | rc-info --verbose - >none"
+refuses 1 "case contains a height" "  and a reader fails too" "rc-detrend --plane result.rcg 2>/dev/null | rc-info --verbose - >none"
 
 # one case of three frames, the height first: without the inner end lines
 $solve --output pressure,gap surface.rcg -o two.rcg

@@ -83,7 +83,7 @@ refuses 1 'the line leaves the map, whose nodes reach 2e-05 m by 2e-05 m' "a lin
 refuses 2 '--profile slant: it must be rows, columns, an angle' "no line" "rc-info --profile slant plane.rcg"
 refuses 2 '--profile 0,0:1: it must be' "half a place" "rc-info --profile 0,0:1 plane.rcg"
 refuses 2 'the line has no length' "a point" "rc-info --profile 0,0:0,0 plane.rcg"
-refuses 2 '--sections are those of a --profile' "sections of nothing" "rc-info --sections 3 plane.rcg"
+refuses 2 '--sections has no effect without --profile' "sections of nothing" "rc-info --sections 3 plane.rcg"
 refuses 2 '--smr: it takes 8 heights at most' "nine heights" "rc-info --smr 0:1um:9 plane.rcg"
 refuses 1 '--profile is of heights, and no frame is a height; there is: pressure' "profiles of a pressure" "rc-info --profile rows p.rcg"
 refuses 1 'writing failed|No space' "a full disk" "rc-info --report /dev/full egg.rcg"

@@ -36,7 +36,7 @@ refuses 1 '^rc-info: steel.x3p is no grid stream' "the second of two files" "rc-
 
 : >empty.rcg
 refuses 1 '^rc-solve: empty.rcg is empty, the stream stops before it begins: make it again$' "an empty file" "$press empty.rcg"
-refuses 1 '^rc-solve: standard input is empty, .*: the program before this one in the pipe wrote nothing$' \
+refuses 1 '^rc-solve: standard input is empty, .*: the program before this one in the pipe wrote no output$' \
     "a pipe whose first program died" "true | $press"
 refuses 1 '^rc-solve: standard input is empty' "no input" "$press"
 

@@ -105,7 +105,7 @@ if ! with_mpi; then
     export OMPI_COMM_WORLD_SIZE=2
     several="rc-solve --quiet --load 10N --estar 114GPa ball.rcg"
     claim "a build without MPI warns that two processes are two runs" \
-        warns 'started 2 times by a launcher: this build knows no MPI' env OMPI_COMM_WORLD_RANK=0 $several
+        warns 'started 2 times by a launcher, but built without MPI' env OMPI_COMM_WORLD_RANK=0 $several
     claim "  the warning is printed once" bash -c "OMPI_COMM_WORLD_RANK=1 $several 2>second.err >/dev/null && [ ! -s second.err ]"
     unset OMPI_COMM_WORLD_SIZE
 fi

@@ -87,9 +87,9 @@ layers_read(const struct rc_grid *p, struct layers *l, struct rc_err *err)
             layers_free(l);
             return rc_err_set(
                 err,
-                "material %zu of its layers '%.200s' cannot be: thickness and Young's "
-                "modulus must be above 0, Poisson's ratio above -1 and at most 0.5, "
-                "and the substrate alone has t = inf and may be rigid, E = inf",
+                "material %zu of its layers '%.200s' is impossible: thickness and Young's modulus "
+                "must be above 0, Poisson's ratio above -1 and at most 0.5, and the substrate "
+                "alone has t = inf and may be rigid, E = inf",
                 k + 1, text);
         }
     l->body = (struct rc_body){.e = l->layer[most - 1].e,
@@ -179,11 +179,11 @@ bodies_read(const struct rc_grid *g, const struct layers *l, struct rc_pair *p, 
                           rc_grid_get(g, "nu2") == NULL ? "" : rc_grid_get(g, "nu2"));
     of_these = estar_of(p);
     if (!isnan(estar) && !(fabs(of_these / estar - 1) < 1e-9))
-        return rc_err_set(
-            err,
-            "its substrate and body 2 (%s) have E* = %.9g Pa, but its estar is %.9g Pa: "
-            "the stream does not say what body 2 is; solve it again",
-            p->two.e == 0 ? "rigid, because there is no e2" : "e2, nu2", of_these, estar);
+        return rc_err_set(err,
+                          "its substrate and body 2 (%s) have E* = %.9g Pa, but its estar is %.9g "
+                          "Pa: the stream does not define body 2; solve the contact again",
+                          p->two.e == 0 ? "rigid, because there is no e2" : "e2, nu2", of_these,
+                          estar);
     return RC_OK;
 }
 

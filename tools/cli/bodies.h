@@ -13,7 +13,7 @@
 struct layers {
     const char *text;       /* the key, owned by the frame; NULL: bare */
     struct rc_layer *layer; /* the substrate last; NULL: bare         */
-    struct rc_body body;    /* for a bare body nothing is known       */
+    struct rc_body body;    /* undefined for a bare body */
     double *residual;       /* Pa, of each layer; NULL: none          */
 };
 

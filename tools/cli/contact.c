@@ -70,8 +70,8 @@ find(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact, boo
         return p;
     if (is_net(p, negative) && demanded)
         tool_die_at(t, p, EXIT_IMPOSSIBLE,
-                    "the net pressure of bodies that attract each other does not tell where they "
-                    "touch, and no frame contact stands beside it: %s",
+                    "the net pressure of bodies that attract each other does not determine the "
+                    "contact, and the case has no frame contact: %s",
                     remedy);
     tool_where(t, p, where, sizeof where);
     if (is_net(p, negative)) {
@@ -82,8 +82,8 @@ find(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact, boo
         return NULL;
     }
     tool_warn(t,
-              "%s: negative at %.0f of %zu nodes: contact is taken where it is above 0: where "
-              "bodies attract each other only a frame contact tells it",
+              "%s: the pressure is negative at %.0f of %zu nodes: nodes with a pressure above 0 "
+              "count as contact; with adhesion a frame contact is needed",
               where, negative, p->nx * p->ny);
     return p;
 }

@@ -1,5 +1,5 @@
 /*
- * What a tool demands of the memory before it begins to work.
+ * The memory that a tool needs, checked before it begins to work.
  */
 #include <math.h>
 #include <string.h>
@@ -118,7 +118,8 @@ tool_leaner_engine(const struct tool *t, bool periodic,
     static char remedy[64];
     const struct rc_engine_info *e;
     size_t left = tool_memory_left(t);
-    bool transforms = periodic || t->ranks != NULL; /* several processes share no other sums */
+    bool transforms = periodic || t->ranks != NULL; /* with several processes the engine must be
+                                                       fft */
 
     for (size_t k = 0; (e = rc_engine_info(k)) != NULL; k++)
         if (e->order == 1 && (e->periodic || !transforms) && bytes(ctx, e->name) <= left) {

@@ -10,7 +10,7 @@ enum {
     ENDINGS = sizeof endings / sizeof *endings
 };
 
-/* The suffix of a picture; NULL: the name has none of them. */
+/* The suffix of a picture; NULL: the name has no such suffix. */
 static const char *
 find(const char *name)
 {

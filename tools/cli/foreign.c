@@ -54,10 +54,13 @@ foreign_message(char *text, size_t size, const char *tool, const char *name, con
     if (kind != NULL)
         what = kind->what;
     if (strncmp(head, "RCG1\r", 5) == 0)
-        snprintf(text, size, "%s: its line ends were changed on the way: copy it as binary", shown);
+        snprintf(text, size,
+                 "%s: a copy in text mode has changed its line ends: copy it in binary mode",
+                 shown);
     else if (kind != NULL && !kind->readable)
-        snprintf(text, size, "%s is no grid stream, it looks like %s: %s reads those of rc-import",
-                 shown, what, tool);
+        snprintf(text, size,
+                 "%s is no grid stream, but looks like %s: %s reads streams of rc-import", shown,
+                 what, tool);
     else
         snprintf(text, size, "%s is no grid stream%s%s: rc-import %s | %s ...", shown,
                  what == NULL ? "" : ", it looks like ", what == NULL ? "" : what,

@@ -16,7 +16,7 @@ struct line {
     struct tool *tool;
     char *text;
     size_t n, size;
-    char between; /* for single words: a blank at the beginning of `a` separates them */
+    char between; /* separator of single words; 0: the blank at the beginning of `a` */
 };
 
 /* Lists of loads and paths may be long: the buffer grows with them. */

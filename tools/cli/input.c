@@ -152,7 +152,7 @@ not_finite(const struct tool *t, const struct rc_grid *g)
 {
     const double most = g->type == RC_F32 ? (double)FLT_MAX : DBL_MAX;
     struct not_finite n = {0, 0};
-    size_t outside = 0; /* the compiler vectorises a count in whole numbers */
+    size_t outside = 0; /* the compiler vectorises an integer count */
 
     for (size_t k = 0; k < rc_grid_nodes(g); k++) /* most frames have none */
         outside += fabs(g->v[k]) <= most ? 0 : 1;
@@ -271,8 +271,7 @@ void
 tool_demand_lengths(struct tool *t, const struct rc_grid *g)
 {
     if (strcmp(rc_grid_dunit(g), "m") != 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "its dx and dy are in %s (key dunit), and lengths in m are needed",
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its dx and dy are in %s (key dunit), but must be in m",
                     rc_grid_dunit(g));
 }
 
@@ -293,7 +292,7 @@ tool_channel_with(struct tool *t, const char *channel, tool_take *take, void *ct
     struct rc_grid *g, *kept = NULL;
 
     if ((g = tool_read(t)) == NULL && t->current.number == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame", t->source);
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream has no frame", t->source);
     if (g == NULL)
         return NULL;
     begin_case(t, rc_grid_case(g));

@@ -65,7 +65,7 @@ tool_note(struct tool *t, const char *format, ...)
     say(t, text);
 }
 
-/* For programs, which know the line by its first key. */
+/* Prints progress for programs, which recognise the line by its first key. */
 static void
 put_progress(const struct tool *t, double done, const char *text)
 {

@@ -24,7 +24,7 @@ static const struct opt common[] = {
     {.name = "quiet", .type = OPT_FLAG, .at = offsetof(struct tool, quiet),
      .help = "no warnings"},
     {.name = "verbose", .type = OPT_FLAG, .at = offsetof(struct tool, verbose),
-     .help = "print what is done"},
+     .help = "print messages about each step"},
     {.name = "debug", .type = OPT_FLAG, .at = offsetof(struct tool, debug),
      .help = "the same, and at the end the memory used"},
     {.name = "progress", .type = OPT_CHOICE, .at = offsetof(struct tool, progress), .optional = true,
@@ -559,7 +559,7 @@ options_read(struct tool *t, int argc, char **argv)
     int what;
 
     add_rows(t, t->info->opts, 0);
-    /* for the build, which installs them; not in the table and not in --help */
+    /* for the build, which installs completions; not in the table and not in --help */
     if (argc == 3 && strcmp(argv[1], "--completions") == 0 && completions_print(t, argv[2]))
         exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
     if ((table = getopt_table(t)) == NULL)

@@ -150,9 +150,10 @@ output_open(struct tool *t)
     bool binary = t->writes != WRITES_TEXT;
 
     together = t->ranks == NULL ? NULL : t;
-    snprintf(no_time, sizeof no_time,
-             "%s: ended by a signal, without time to write what was reached: see contact-mpi(7)\n",
-             t->info->name);
+    snprintf(
+        no_time, sizeof no_time,
+        "%s: ended by a signal, without time to write the current result: see contact-mpi(7)\n",
+        t->info->name);
     if (t->ranks != NULL && t->writes == WRITES_STREAM) {
         demand_shared_file(t);
         return;
@@ -189,17 +190,16 @@ demand_no_new(struct tool *t, const struct rc_grid *g)
     n = not_finite(t, g);
     if (n.infinite > 0 && !t->infinite)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "%zu of %zu values of %s came out larger than %s can hold: are the units of "
-                    "heights, spacings, loads and moduli right?%s",
+                    "%zu of %zu values of %s are too large for %s: are the units of heights, "
+                    "spacings, loads and moduli right?%s",
                     n.infinite, g->nx * g->ny, g->channel,
                     g->type == RC_F32 ? "single precision" : "a number",
                     g->type == RC_F32 ? " --type f64 holds more" : "");
     if (n.missing > 0 && !t->missing)
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
-            "%zu of %zu values of %s came out undefined, of numbers too large or too small: "
-            "are the units of heights, spacings, loads and moduli right?",
-            n.missing, g->nx * g->ny, g->channel);
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "%zu of %zu values of %s are undefined, because numbers were too large or too "
+                    "small: are the units of heights, spacings, loads and moduli right?",
+                    n.missing, g->nx * g->ny, g->channel);
 }
 
 void

@@ -14,7 +14,8 @@
 #include <sys/prctl.h>
 #endif
 
-/* The path of the tool of that name in the folder of this one; else its name alone, for PATH. */
+/* The path of the tool with this name in the folder of this tool; if there is none, its name alone, for
+ * PATH. */
 static const char *
 beside(const char *name, char path[4096])
 {

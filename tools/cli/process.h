@@ -7,8 +7,8 @@
 #include "tool.h"
 
 enum process_end {
-    PROCESS_ENDED,       /* with exit status 0 or 3     */
-    PROCESS_FAILED,      /* with another exit status    */
+    PROCESS_ENDED,       /* ended with exit status 0 or 3 */
+    PROCESS_FAILED,      /* ended with another exit status */
     PROCESS_LATE,        /* exceeded the permitted time */
     PROCESS_INTERRUPTED, /* the tool received a signal  */
     PROCESS_DIED,        /* by a signal                 */
@@ -16,15 +16,15 @@ enum process_end {
 
 struct process {
     int in, out;        /* its standard input and output; out -1: the output goes to `said` */
-    const char *folder; /* where it runs; NULL: here                                        */
+    const char *folder; /* its working folder; NULL: that of this tool */
     double allowed;     /* s */
-    const char *doing;  /* for the progress line                                            */
-    char *said;         /* its standard error, which the caller frees; NULL: nothing        */
+    const char *doing;  /* name for the progress line */
+    char *said;         /* its standard error, which the caller frees; NULL: empty */
     int status;         /* its exit status; -1: none */
 };
 
-/* Runs a command: the tool of that name in the folder of this one, else on PATH. It reads `in` from the
- * beginning, and is killed when this tool ends. */
+/* Runs a command: the tool with this name in the folder of this tool, otherwise on PATH. It reads `in` from
+ * the beginning, and is killed when this tool ends. */
 enum process_end process_run(struct tool *tool, const char *const word[], struct process *process);
 /* Starts a command whose standard output can be read from *out; process_wait awaits its end. */
 int process_start(struct tool *tool, const char *const word[], int in, FILE **out);

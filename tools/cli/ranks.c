@@ -22,7 +22,7 @@ struct part {
 
 struct ranks {
     struct rc_ranks *library;
-    MPI_Comm comm; /* for the calls of the tool */
+    MPI_Comm comm; /* communicator for the calls of the tool */
     MPI_Comm last; /* only for the last messages: other processes may then be in any call */
     int count, own;
     struct part *parts;        /* work space: one per process */
@@ -422,11 +422,10 @@ ranks_start(struct tool *t)
     if (count == NULL)
         count = getenv("PMI_SIZE"), own = getenv("PMI_RANK");
     if (count != NULL && atoi(count) > 1 && (own == NULL || atoi(own) == 0))
-        tool_warn(
-            t,
-            "started %s times by a launcher: this build knows no MPI, so each does all the work by "
-            "itself: see contact-mpi(7)",
-            count);
+        tool_warn(t,
+                  "started %s times by a launcher, but built without MPI, so that each process "
+                  "does all the work: see contact-mpi(7)",
+                  count);
 }
 
 void

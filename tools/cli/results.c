@@ -50,8 +50,8 @@ refuse(struct tool *t, const struct rc_grid *g)
         if (computed(next->channel))
             add_name(t->results.names, sizeof t->results.names, next->channel);
     tool_die(t, EXIT_IMPOSSIBLE,
-             "%s: the case holds a height and what was computed from it (%s), which would not "
-             "belong together any more: take the height alone, rc-pick --channel height",
+             "%s: the case contains a height and results computed from it (%s), which the changed "
+             "height would contradict: take the height alone with rc-pick --channel height",
              where, t->results.names);
 }
 

@@ -46,8 +46,8 @@ enum opt_type {
     OPT_WORDS,  /* size_t: bit k is set if the list contains word k of .words */
     OPT_NUMBERS, /* struct numbers; n = 0 for .word, if the option has such a word */
     OPT_STEP,  /* appended to a struct steps: options whose order on the line matters; with .arg it
-                 takes a whole number or, with a unit or .real, a number, or one of the words in .arg
-                 that '|' separates, whose index is the value */
+                  takes a whole number or, with a unit or .real, a number, or one of the words in .arg
+                  that '|' separates, whose index is the value */
     OPT_TEXTS, /* appended too, in the same order; the argument is kept as text */
 };
 
@@ -85,7 +85,7 @@ struct steps {
     struct step {
         const struct opt *opt;
         double value;
-        const char *text; /* of OPT_TEXTS; goes into the history in its state at that time */
+        const char *text; /* argument of OPT_TEXTS; the history gets its present text */
     } step[TOOL_STEPS];
     size_t n;
 };

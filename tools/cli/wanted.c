@@ -25,7 +25,7 @@ struct wanted_depths {
     size_t number; /* number of the case; 0: none yet */
     double *depth; /* its frames that match except perhaps in depth */
     size_t n, room;
-    bool *met; /* in any case, for each requested depth */
+    bool *met; /* for each requested depth: some case has it */
     struct held *held;
     size_t waiting, space;
     struct place place;
@@ -383,7 +383,7 @@ demand_channels(const struct wanted *w, struct tool *t, bool wanted)
                 break;
         if (i == w->list.n && wanted)
             tool_die(t, EXIT_IMPOSSIBLE,
-                     "%s: no frame with the channel %.*s among the cases and depths asked for",
+                     "%s: no frame with the channel %.*s among the requested cases and depths",
                      t->source, (int)n, name);
         if (i == w->list.n)
             no_channel(w, t, name, n);

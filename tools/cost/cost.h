@@ -60,9 +60,9 @@ struct cost_trial {
     unsigned coarse;        /* nodes of the map per node of the solved grid, along a side */
     double tol;             /* 0: rounding                                                */
     double goal; /* --tol of rc-solve; 0: its default. For a body that yields, the asked error */
-    size_t increments;         /* for a body that yields */
+    size_t increments;         /* only for a body that yields */
     double stack;              /* number of its slabs, relative to rc-solve's default */
-    struct rc_shape shape;     /* of the solved grid */
+    struct rc_shape shape;     /* nodes of the solved grid */
     double planned, mebibytes; /* s and memory by rc-solve --dry-run; NAN: unknown */
     enum cost_state state;
     char why[256];
@@ -74,7 +74,7 @@ struct cost_trial {
 };
 
 enum {
-    COST_WORDS = 192 /* of a command line */
+    COST_WORDS = 192 /* most words of a command line */
 };
 
 struct cost_case {
@@ -85,7 +85,7 @@ struct cost_case {
     const char *word[COST_WORDS]; /* the contact as options of rc-solve */
     size_t words;
     bool periodic;
-    const char *leak, *depths, *nu, *mu; /* as on the command line, or NULL */
+    const char *leak, *depths, *nu, *mu; /* text of the command line, or NULL */
     double limit, began;                 /* s: limit of all trials; start of the first one */
     /* s, relative error: wanted time or accuracy of the command; NAN: not given */
     double budget, error;

@@ -83,7 +83,7 @@ cost_is_near(const struct cost_case *c, const struct cost_trial *m)
 }
 
 /* Seconds beyond which a trial is not needed for the choice: three times those of the fastest trial that is
- * accurate enough, or of the budget, once something has been measured. Expectations may be wrong by this
+ * accurate enough, or of the budget, once something has been measured. Expected times may be wrong by this
  * factor. */
 static double
 too_slow(const struct cost_case *c)

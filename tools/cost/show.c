@@ -144,8 +144,8 @@ put_head(const struct cost_case *c, FILE *out)
                 "to it, each on its own grid\n",
                 c->leak, r->is.flow_conductance);
     fprintf(out, "# error: sum |p - reference| / sum reference, on the map's own grid; area, peak, "
-                 "approach: relative to the reference; estimate: what the solver says of its own "
-                 "grid\n");
+                 "approach: relative to the reference; estimate: error that the solver estimates "
+                 "for its own grid\n");
 }
 
 /* The depths of the stresses, from the report of the exact ones. */
@@ -367,7 +367,7 @@ put_files(const struct tool *t, FILE *out)
 }
 
 /* On a coarser grid rc-pick averages the cells first. A sphere that rc-solve adds equals its cell means on
- * any grid, but for a constant. */
+ * any grid, up to a constant. */
 static void
 put_command(const struct cost_case *c, const struct cost_trial *m, FILE *out)
 {
@@ -432,10 +432,10 @@ cost_command(const struct cost_case *c, FILE *out)
         put_command(c, best, out);
     } else if (nearest != NULL) {
         tool_die(c->tool, EXIT_IMPOSSIBLE,
-                 "nothing measured %s: the best was %s, %.3g s, error %.1e; raise %s",
+                 "no trial was %s: the best was %s, %.3g s, error %.1e; raise %s",
                  timed ? "is so quick" : "is so near", cost_name(name, nearest),
                  nearest->is.seconds, nearest->is.error, timed ? "--budget" : "--error or --limit");
     } else {
-        tool_die(c->tool, EXIT_IMPOSSIBLE, "nothing was measured: raise --limit");
+        tool_die(c->tool, EXIT_IMPOSSIBLE, "no trial was run: raise --limit");
     }
 }

@@ -23,7 +23,7 @@ range_of(size_t method, size_t engine)
     bool sums = e->order > 1;
 
     if ((e->precise && !m->mixed) || (method > 0 && sums))
-        return (struct range){0, 0, 0}; /* for the first kind the row before is the same */
+        return (struct range){0, 0, 0}; /* for the first kind the previous row is the same */
     if (method == 0)
         return (struct range){2, 10, sums ? 4 : engine == 0 ? 1 : 2};
     return (struct range){2, engine == 0 ? 8 : 4, 2};
@@ -40,7 +40,7 @@ static const struct {
 /* Half of rc-solve's slabs, as many, and twice as many. */
 static const double stacks[] = {0.5, 1, 2};
 static const size_t increments[] = {4, 8, 16, 32, 64};
-static const double contact_tol = 1e-4; /* of each contact, as in rc-solve */
+static const double contact_tol = 1e-4; /* tolerance of each contact, as in rc-solve */
 
 /* Stresses: the first engine is exact; with a tolerance it is faster, because deep slices use coarser grids.
  * Other engines whose time grows with the square of the nodes take no tolerance. */

@@ -59,12 +59,12 @@ pick_topography(const struct rc_channel *channel, size_t n, bool any_unit, struc
     struct rc_topography t = rc_format_topography(channel, n, "m");
     char names[IMPORT_NAMES];
 
-    if (t.index == n) /* the reader says what is missing */
+    if (t.index == n) /* the reader names the missing part */
         t = rc_format_topography(channel, n, any_unit ? NULL : "");
     if (t.index == n)
         return rc_err_set(err,
-                          "no channel is a height: there are %s; --channel takes one "
-                          "as it is, --z-unit says how many metres its unit is",
+                          "no channel is a height, the file has %s: take one with --channel, "
+                          "unchanged, or with --z-unit for its unit in metres",
                           names_of(channel, n, "", names));
     pick->index = t.index;
     if (t.alike > 1)

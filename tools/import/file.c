@@ -94,7 +94,7 @@ import_skip(struct rc_file *file, unsigned char *data, size_t lines, struct rc_e
         done += c == '\n' || c == '\r';
     }
     if (done < lines || at >= file->size)
-        return rc_err_set(err, "--skip %zu leaves nothing of the file", lines);
+        return rc_err_set(err, "--skip %zu skips the whole file: give a smaller number", lines);
     if (wide == 2) { /* the byte order mark stays at the start */
         at -= 2;
         memmove(data + at, data, 2);

@@ -35,19 +35,18 @@ import_judge(struct tool *t, const struct rc_grid *g, const struct rc_wish *wish
                   t->source, g->ny > 1 ? "map" : "profile", x, by,
                   g->ny > 1 ? " and --dy give" : " gives");
     if (isnan(wish->z_unit) && span > fmax(x, y))
-        tool_warn(
-            t,
-            "%s: the heights span %.4g m, more than the %.4g m of the longer side, which is "
-            "implausible: if the file means another unit, --z-unit gives that of the heights, "
-            "--dx the spacing",
-            t->source, span, fmax(x, y));
+        tool_warn(t,
+                  "%s: the heights span %.4g m, more than the %.4g m of the longer side, which is "
+                  "implausible: if the unit is wrong, give --z-unit for the heights, or --dx for "
+                  "the spacing",
+                  t->source, span, fmax(x, y));
 }
 
 /* ---- marks of missing points ---- */
 
 /* A value at one end of the range, its number of nodes, and the next value. */
 struct end {
-    double value, next; /* next: the nearest other value */
+    double value, next; /* `next`: the nearest other value */
     size_t n;
 };
 

@@ -44,7 +44,7 @@ info_check(struct info_wanted *w, struct tool *t)
     }
     w->areal = w->areal || w->smr.n > 0;
     if (tool_given(t, "sections") && w->profile == NULL)
-        tool_die(t, EXIT_USAGE, "--sections are those of a --profile: give one");
+        tool_die(t, EXIT_USAGE, "--sections has no effect without --profile: give one");
     info_line_read(t, w->profile, &w->line);
     report_open(&w->out, t, w->report);
     w->psd = w->psd || w->fit.n != 0 || w->window != NULL || w->psd_map != NULL;

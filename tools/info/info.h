@@ -54,7 +54,7 @@ struct info_figures {
     const struct rc_grid *touch; /* the frame that determines the contact of a pressure; NULL:
                                     unknown */
     struct rc_areal *areal;
-    struct rc_features *features; /* with areal, for a map */
+    struct rc_features *features; /* with areal parameters, for a map */
     double smr[INFO_HEIGHTS];     /* fractions            */
     struct info_profile *profile;
     struct rc_psd *psd;

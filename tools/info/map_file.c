@@ -43,11 +43,10 @@ info_file_put(struct info_file *f, const struct rc_grid *g)
 
     for (size_t k = 0; k < g->nx * g->ny; k++)
         if (!isfinite(g->v[k]))
-            tool_die_at(
-                f->tool, g, EXIT_IMPOSSIBLE,
-                "%s: powers came out larger than a number can hold: are the units of heights "
-                "and spacings right?",
-                f->option);
+            tool_die_at(f->tool, g, EXIT_IMPOSSIBLE,
+                        "%s: the powers are too large for a number: are the units of heights and "
+                        "spacings right?",
+                        f->option);
     if (rc_writer_put(f->writer, g, &err) != RC_OK)
         tool_die_at(f->tool, g, EXIT_IMPOSSIBLE, "%s %s: %s", f->option, f->name, err.text);
 }

@@ -8,9 +8,8 @@
 
 static const char end_line[] = "RCGEND 1\n";
 
-/* NULL and errno where the file cannot be opened in this mode. With several processes the first opens it in
- * this mode, the others open the file that the first has found or created; otherwise they could find what the
- * first has just created. All get NULL, or none. */
+/* NULL and errno where the file cannot be opened in this mode. With several processes the first one opens or
+ * creates the file, and the others then open this file. All get NULL, or none. */
 static FILE *
 open_file(const struct journal *j, const char *mode)
 {
@@ -45,12 +44,12 @@ lock(const struct journal *j)
         .l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};
     bool taken = false;
 
-    if (ranks_speak(j->t)) /* of several processes that write together only the first speaks */
+    if (ranks_speak(j->t)) /* of several processes only the first prints messages */
         taken = fcntl(fileno(j->file), set, &behind) != 0 && (errno == EACCES || errno == EAGAIN);
     ranks_share(j->t, 0, &taken, sizeof taken);
     if (taken)
         tool_die(j->t, EXIT_IMPOSSIBLE,
-                 "--checkpoint %s: another run is adding to it: wait until it has ended, or end it",
+                 "--checkpoint %s: another run is writing to it: wait for its end, or end it",
                  j->name);
 }
 
@@ -61,7 +60,7 @@ journal_open(struct journal *j, struct tool *t, const char *name, bool resume, b
     *found = false;
     if (strcmp(name, "-") == 0)
         tool_die(t, EXIT_USAGE,
-                 "--checkpoint -: it is read and added to, which a pipe is not: name a file");
+                 "--checkpoint -: a checkpoint must be a file, not a pipe: give a file name");
     if (resume && (j->file = open_file(j, "r+b")) != NULL) {
         *found = true;
         lock(j);
@@ -71,7 +70,7 @@ journal_open(struct journal *j, struct tool *t, const char *name, bool resume, b
         tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name, strerror(errno));
     if ((j->file = open_file(j, "w+bx")) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name,
-                 errno == EEXIST ? "there is one already: go on from it with --resume, or remove it"
+                 errno == EEXIST ? "the file exists: continue from it with --resume, or remove it"
                                  : strerror(errno));
     lock(j);
 }
@@ -178,7 +177,7 @@ journal_add(struct journal *j, const struct rc_grid *g, off_t *at)
     *at = 0;
     if (find_end(j, at) && put(j, g, *at, &err) == RC_OK)
         return true;
-    tool_warn(j->t, "--checkpoint %s: writing failed: what is in it stays, nothing is added",
+    tool_warn(j->t, "--checkpoint %s: writing failed: earlier states stay, but no more are added",
               j->name);
     journal_close(j);
     return false;

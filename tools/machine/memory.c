@@ -184,7 +184,7 @@ look_at_limits(struct memory_room *room)
 
 /* Names of the files of a control group, by version of the interface. */
 static const struct version {
-    const char *type; /* of the file system */
+    const char *type; /* type of the file system */
     bool named;       /* the controller has the name "memory" */
     const char *bound[2], *usage, *cached;
 } versions[] = {

@@ -171,7 +171,7 @@ static bool
 close_written(FILE *file, bool settle)
 {
     bool fine;
-    int why = EIO; /* of an earlier failed write */
+    int why = EIO; /* error number of an earlier failed write */
 
     if ((fine = !ferror(file)) && !(fine = settle ? file_settle(file) : fflush(file) == 0))
         why = errno;

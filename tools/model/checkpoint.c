@@ -50,13 +50,13 @@ note(struct checkpoint *c, const struct rc_grid *g, off_t at)
                  c->journal.name);
     if (!rc_grid_number(g, "checkpoint.map", &map))
         tool_die(c->t, EXIT_IMPOSSIBLE,
-                 "--checkpoint %s: another version wrote it: remove the file to begin anew",
+                 "--checkpoint %s: another version wrote it: remove the file to start again",
                  c->journal.name);
     c->saved[c->count++] = (struct saved){(size_t)number, (size_t)map,
                                           rc_grid_get(g, "checkpoint.numbers") != NULL, at};
 }
 
-/* Whether the first frame, whole or not, is one of a checkpoint. */
+/* True if the first frame, complete or not, belongs to a checkpoint. */
 static bool
 is_checkpoint(const struct checkpoint *c)
 {
@@ -101,23 +101,23 @@ look_through(struct checkpoint *c)
     if (fseeko(c->journal.file, 0, SEEK_END) == 0 && ftello(c->journal.file) == 0)
         return;
     if (status != RC_OK && c->count == 0 && !is_checkpoint(c))
-        tool_die(t, EXIT_IMPOSSIBLE,
-                 "--checkpoint %s: no pressure can be read from it (%s): remove it to begin anew",
-                 c->journal.name, err.text);
-    if (status != RC_OK && !journal_is_cut_off(&c->journal, end))
         tool_die(
             t, EXIT_IMPOSSIBLE,
-            "--checkpoint %s: frame %zu of it cannot be read (%s): remove the file to begin anew",
-            c->journal.name, c->count + 1, err.text);
+            "--checkpoint %s: no pressure can be read from it (%s): remove the file to start again",
+            c->journal.name, err.text);
+    if (status != RC_OK && !journal_is_cut_off(&c->journal, end))
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "--checkpoint %s: frame %zu cannot be read (%s): remove the file to start again",
+                 c->journal.name, c->count + 1, err.text);
     ranks_wait(t);         /* all ranks have read the file */
     if (!ranks_speak(t)) { /* the first rank shortens the file */
         ranks_wait(t);
         return;
     }
     if (c->count == 0)
-        tool_warn(t,
-                  "--checkpoint %s: the run stopped while it wrote the first frame: it begins anew",
-                  c->journal.name);
+        tool_warn(
+            t, "--checkpoint %s: its first frame is incomplete: this run starts from the beginning",
+            c->journal.name);
     journal_cut(&c->journal, c->count, end);
     ranks_wait(t);
 }
@@ -161,10 +161,10 @@ checkpoint_crc(struct tool *t, const struct rc_grid *g, char text[16])
 void
 checkpoint_refuse(const struct course *c, const char *why)
 {
-    tool_die_at(c->t, c->g, EXIT_IMPOSSIBLE,
-                "--checkpoint %s: case %zu cannot be continued (%s): remove the file to begin "
-                "anew",
-                c->checkpoint->journal.name, c->number, why);
+    tool_die_at(
+        c->t, c->g, EXIT_IMPOSSIBLE,
+        "--checkpoint %s: case %zu cannot be continued (%s): remove the file to start again",
+        c->checkpoint->journal.name, c->number, why);
 }
 
 /* ---- reading ---- */

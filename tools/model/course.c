@@ -1,4 +1,4 @@
-/* The way of a model to a point. */
+/* Steps a model to a point, with progress and checkpoints. */
 #include "model.h"
 
 #include <math.h>

@@ -394,7 +394,7 @@ has_option(const struct tool *t, const char *name)
     return false;
 }
 
-/* A point that stopped short: the largest part of its error, and the option that makes it smaller. */
+/* Warns of a point that stopped short: names the largest part of its error, and the option that lowers it. */
 static void
 judge_end(struct drive *d, const struct rc_model *m, const char *where)
 {

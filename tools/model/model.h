@@ -57,7 +57,7 @@ struct again {
 
 struct course {
     struct tool *t;
-    struct checkpoint *checkpoint; /* NULL: none; nothing is kept and nothing resumed       */
+    struct checkpoint *checkpoint; /* NULL: no checkpoint */
     const struct rc_grid *g;       /* heights of the case                                   */
     size_t number;                 /* of the case                                           */
     struct mark mark[COURSE_MARKS];
@@ -101,7 +101,7 @@ extern const struct opt drive_options[];
 /* An axis and the list that an option gives for it; the last list is NULL. */
 struct drive_axis {
     enum rc_axis axis;
-    const struct numbers *list; /* of n = 0: the option was not given */
+    const struct numbers *list; /* n = 0: the option was not given */
 };
 /* What to do about a figure beyond its limit, naming options; advice NULL: the limit does not hold. The last
  * has no name. */
@@ -114,7 +114,7 @@ struct drive {
     const struct drive_args *args;
     const size_t *output;          /* bits of --output                               */
     const char *(*word)(size_t k); /* its words: names of frames of the model, or "height" */
-    /* of the tool; each may be NULL */
+    /* functions of the tool; each may be NULL */
     const struct drive_advice *advice;
     const char *const *tells; /* names of figures that --verbose prints; the last is NULL */
     void (*keys)(struct drive *d, struct rc_model *m, struct rc_grid *frame);
