@@ -64,8 +64,7 @@ next_second(struct tool *t, struct second *b, const struct rc_grid *a)
 
     if (g == NULL && b->n > 1)
         tool_die_at(t, a, EXIT_IMPOSSIBLE,
-                    "%s holds %zu surfaces, and this is one more: B holds one for all of A, or as "
-                    "many as A",
+                    "%s has only %zu surfaces: B must have one surface, or as many as A",
                     t->operand[1], b->n);
     if (g == NULL)
         return;
@@ -80,9 +79,10 @@ demand_end(struct tool *t, struct second *b, size_t first)
     struct rc_grid *g = read_second(t, b);
 
     if (g != NULL)
-        tool_die(t, EXIT_IMPOSSIBLE,
-                 "%s holds more surfaces than the %zu of %s: put the one that holds several first",
-                 t->operand[1], first, t->operand[0]);
+        tool_die(
+            t, EXIT_IMPOSSIBLE,
+            "%s has more surfaces than the %zu of %s: put the stream with several surfaces first",
+            t->operand[1], first, t->operand[0]);
 }
 
 /* ---- checks ---- */
@@ -146,7 +146,7 @@ set_periodic(struct tool *t, struct rc_grid *a, const struct rc_grid *b, bool cu
     if (!is_periodic(a) || (is_periodic(b) && !cut))
         return RC_OK;
     tool_warn(
-        t, "%s: this surface is periodic, what comes out is not, because %s: periodic=no from here",
+        t, "%s: this surface is periodic, but the result is not, because %s: it gets periodic=no",
         tool_where(t, a, where, sizeof where),
         cut ? "the maps are cut to their overlap" : "the other one is not");
     return rc_grid_set(a, "taper", NULL, err) == RC_OK ? rc_grid_set(a, "periodic", "no", err)

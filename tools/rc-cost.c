@@ -62,7 +62,7 @@ static const struct opt opts[] = {
 
 static const struct tool_info info = {
     .name = "rc-cost",
-    .summary = "What accuracy costs in time, for a surface and a load",
+    .summary = "Time against accuracy, for a surface and a load",
     .operands = "[FILE...]",
     .examples =
         "  rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 1 -o rough.rcg\n"

@@ -179,8 +179,8 @@ taper(struct tool *t, struct rc_grid *g, double width, struct rc_err *err)
         (double)(g->nx - 2 * columns) / (double)g->nx * (double)(g->ny - 2 * rows) / (double)g->ny;
     tool_warn(t,
               "%s: the taper covers %.3g %% of the map, and Sq goes from %s to %s: near the edges "
-              "the surface is smoother, and at a large load that frame carries like a flat: "
-              "--mirror makes a period without one",
+              "the surface is smoother, and under a large load it carries more than the rest: "
+              "--mirror makes a periodic map without a taper",
               tool_where(t, g, where, sizeof where), 100 * (1 - inside),
               shown_in_unit(before, was.rms, "m"), shown_in_unit(after, is.rms, "m"));
     if (rc_grid_number(g, "taper", &widest) && widest > width)
@@ -212,8 +212,8 @@ mirror(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
         return rc_err_set(err, "--mirror: the frame is no map of places: leave it out, with "
                                "rc-pick --channel");
     if (is_periodic(g))
-        return rc_err_set(err, "--mirror: the map repeats as it is (periodic=yes): take the step "
-                               "out");
+        return rc_err_set(
+            err, "--mirror has no effect, because the map is already periodic: leave it out");
     if (from.nx * from.ny == 1)
         return rc_err_set(err, "--mirror: a single node is no map");
     if (rc_shape_check(&to, err) != RC_OK || rc_size_mul(to.nx, to.ny, &nodes, err) != RC_OK ||
@@ -255,12 +255,11 @@ warn_of_holes(struct tool *t, const struct rc_grid *g, size_t missing, struct rc
         return RC_OK;
     if (rc_hole_width(&shape, g->v, &width, err) != RC_OK)
         return RC_FAIL;
-    tool_warn(
-        t,
-        "%s: %.3g %% of the points were missing (%zu of %zu) and are filled from around them; the "
-        "widest hole is %sm wide: what comes out there is a guess",
-        tool_where(t, g, where, sizeof where), 100 * (double)missing / (double)nodes, missing,
-        nodes, shown_number(text, width, 3, "m"));
+    tool_warn(t,
+              "%s: %.3g %% of the points were missing (%zu of %zu) and are filled from their "
+              "neighbours; the widest hole is %sm wide, and heights inside it are uncertain",
+              tool_where(t, g, where, sizeof where), 100 * (double)missing / (double)nodes, missing,
+              nodes, shown_number(text, width, 3, "m"));
     return RC_OK;
 }
 
@@ -340,7 +339,7 @@ check_steps(struct tool *t)
         fitted = fitted || work->fits;
     }
     if (args.robust && !fitted)
-        tool_die(t, EXIT_USAGE, "--robust bears on forms and filters: give one of them");
+        tool_die(t, EXIT_USAGE, "--robust concerns forms and filters: give one of them");
 }
 
 static void
@@ -386,7 +385,7 @@ static const struct opt opts[] = {
     {.name = "highpass", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
      .max = INFINITY, .above = true, .result = true, .arg = "L",
      .of = &(const struct work){.run = highpass, .fits = true},
-     .help = "keep waves shorter than L: the input less its low-pass"},
+     .help = "keep waves shorter than L: the input minus its low-pass"},
     {.name = "outliers", .type = OPT_STEP, .at = offsetof(struct args, steps), .real = true,
      .max = INFINITY, .above = true, .result = true, .arg = "T",
      .of = &(const struct work){.run = outliers},

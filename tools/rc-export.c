@@ -299,15 +299,15 @@ check_frame(struct tool *t, const struct rc_grid *first, const struct rc_grid *g
     const char *channel = args.wanted.channel;
 
     if (first != NULL && !format->several && !(format->stack && is_deeper(first, g)))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "a second frame%s%s, and %s holds one map%s: choose by --channel, --case and "
-                    "--depth",
-                    channel == NULL ? "" : " of channel ", channel == NULL ? "" : channel,
-                    format->name, format->stack ? " or the depths of one channel and case" : "");
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "a second frame%s%s, but %s holds one map%s: choose with --channel, --case and --depth",
+            channel == NULL ? "" : " of channel ", channel == NULL ? "" : channel, format->name,
+            format->stack ? " or the depths of one channel and case" : "");
     if (format->heights && strcmp(g->unit, "m") != 0)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "%s holds heights in metres, these values are in '%s': choose a format that "
-                    "names the unit (gsf, gwy, vti, hdf5)",
+                    "%s holds heights in metres, but these values are in '%s': choose a format "
+                    "that stores the unit (gsf, gwy, vti, hdf5)",
                     format->name, g->unit);
 }
 
@@ -332,7 +332,7 @@ read_frames(struct tool *t, size_t *frames)
     return frame;
 }
 
-/* The libraries that write some formats hold copies that the allocator does not count. */
+/* The libraries for some formats make copies that the allocator does not count. */
 static void
 demand_memory(struct tool *t, struct rc_grid *const *frame, size_t frames)
 {

@@ -42,7 +42,7 @@ static const struct opt opts[] = {
      .arg = "NAME", .help = "channel by number, name or its first letters (default: the topography)"},
     {.name = "dx", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, dx),
      .max = INFINITY, .above = true, .result = true, .arg = "LENGTH",
-     .help = "spacing of columns, whatever the file says"},
+     .help = "spacing of columns, in place of that of the file"},
     {.name = "dy", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, dy),
      .max = INFINITY, .above = true, .result = true, .arg = "LENGTH",
      .help = "spacing of rows (default with --dx: the same)"},
@@ -165,7 +165,7 @@ make_wish(struct tool *t)
 struct source {
     unsigned char *data;
     struct rc_file file; /* describes data; its name is without .gz if it was packed */
-    const char *name;    /* as given, without its folder */
+    const char *name;    /* name of the file, without its folder */
     char inner[256];
     const struct rc_format *format;
     struct rc_channel channel[CHANNELS_MOST];
@@ -394,7 +394,7 @@ check_memory(struct tool *t, const struct source *s, const struct rc_channel *ch
     return tool_ask_memory(t, &shape, bytes, err);
 }
 
-/* Prints by how much the extremes of a profile exceed those of its nodes. */
+/* Prints the difference between the extremes of a profile and those of its nodes. */
 static void
 say_extremes(struct tool *t, const struct rc_notes *notes)
 {
@@ -406,7 +406,8 @@ say_extremes(struct tool *t, const struct rc_notes *notes)
                   t->source, notes->above, notes->below);
 }
 
-/* Resamples a profile to the step of --even, and says where it is unknown and what is lost. */
+/* Resamples a profile to the step of --even, and prints which nodes are unknown and which extremes are
+ * lost. */
 static enum rc_status
 even_out(struct tool *t, const struct source *s, const struct rc_wish *wish, struct rc_grid *g,
          struct rc_notes *notes, struct rc_err *err)
@@ -428,7 +429,7 @@ even_out(struct tool *t, const struct source *s, const struct rc_wish *wish, str
     return RC_OK;
 }
 
-/* The keys that an import adds to those of the reader. */
+/* Sets the keys that an import adds to those of the reader. */
 static enum rc_status
 add_keys(struct tool *t, const struct source *s, size_t number, struct rc_grid *g,
          struct rc_err *err)
@@ -520,7 +521,7 @@ main(int argc, char **argv)
 
     tool_start(&t, &info, argc, argv, &args);
     t.remedy = "the file itself takes memory too";
-    t.missing = t.infinite = true; /* as in the file */
+    t.missing = t.infinite = true; /* unit, as in the file */
     wish = make_wish(&t);
     if (args.formats) {
         print_formats(&t);

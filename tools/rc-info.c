@@ -44,7 +44,7 @@ static const struct opt opts[] = {
 
 static const struct tool_info info = {
     .name = "rc-info",
-    .summary = "Show what is in a grid stream, with its statistics",
+    .summary = "Show the contents of a grid stream, with statistics",
     .operands = "[FILE...]",
     .examples = "  rc-info flat.rcg\n"
                 "  rc-info --areal --psd flat.rcg\n"
@@ -349,11 +349,10 @@ touching(struct tool *t, const struct rc_grid *g, struct beside *b)
     }
     if (strcmp(g->channel, CONTACT_CHANNEL) == 0 && b->without == rc_grid_case(g) &&
         b->nodes != count_contact(g))
-        tool_die_at(
-            t, g, EXIT_IMPOSSIBLE,
-            "%zu nodes are in contact by this frame, %zu by the pressure before it: it must "
-            "stand before the pressure whose contact it tells",
-            count_contact(g), b->nodes);
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "%zu nodes are in contact according to this frame, %zu according to the "
+                    "pressure before it: the frame contact must precede its pressure",
+                    count_contact(g), b->nodes);
     if (strcmp(g->channel, "pressure") != 0)
         return NULL;
     touch = (args.wanted.patches ? contact_demand : contact_frame)(t, g, b->contact);

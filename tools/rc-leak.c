@@ -57,7 +57,7 @@ static const struct opt opts[] = {
 
 static const struct tool_info info = {
     .name = "rc-leak",
-    .summary = "What flows through the gap that the contact leaves",
+    .summary = "Flow through the gap between the bodies",
     .operands = "[FILE...]",
     .examples =
         "  rc-solve --periodic --mean-pressure 1MPa:8MPa:8 --estar 1GPa --output pressure,gap "

@@ -200,8 +200,9 @@ change(struct tool *t, struct rc_grid *g)
         demand_one_channel(t, g);
     if (changes_heights())
         results_demand_none(t, g);
+    /* because the number of depths may be smaller now */
     if (args.wanted.channel != NULL || args.wanted.depth.n > 0)
-        status = rc_grid_set(g, "frames", NULL, &err); /* because their number may be smaller now */
+        status = rc_grid_set(g, "frames", NULL, &err);
     for (size_t k = 0; k < args.steps.n && status == RC_OK; k++)
         if (pick_geometry(&args.steps.step[k]))
             pick_geometry_do(t, g, &args.steps.step[k]);

@@ -46,7 +46,7 @@ static const struct opt opts[] = {
     {.name = "keep", .type = OPT_CHOICE, AT(keep), .arg = "mean|max",
      .help = "value of nodes that share a pixel: their mean (default) or largest"},
     {.name = "figure", .type = OPT_FLAG, AT(figure), .help = "with axes, colour bar and title: the default"},
-    {.name = "raw", .type = OPT_FLAG, AT(raw), .help = "one pixel for each node and nothing else"},
+    {.name = "raw", .type = OPT_FLAG, AT(raw), .help = "one pixel for each node, without axes and text"},
     {.name = "title", .type = OPT_TEXT, AT(style.paper.title), .arg = "TEXT",
      .help = "title of the figure (default: by channel)"},
     {.name = "subtitle", .type = OPT_TEXT, AT(style.paper.subtitle), .arg = "TEXT",
@@ -381,7 +381,7 @@ render(struct tool *t, struct args *a, struct rc_grid *g, const struct beside *b
     if (a->hillshade && !look_is_profile(g))
         subtitle_add(&subtitle, shaded, "");
     if ((a->contour || a->border || a->hertz || a->hillshade) && look_is_profile(g))
-        tool_warn(t, "a profile is drawn as a curve: --%s does nothing",
+        tool_warn(t, "a profile is drawn as a curve, so that --%s has no effect",
                   a->contour  ? "contour"
                   : a->border ? "border"
                   : a->hertz  ? "hertz"
@@ -470,9 +470,10 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
 
     sheet_size(t, a->sheet == NULL ? "auto" : a->sheet, &columns, &rows);
     if (columns > 0 && frames->n > columns * rows)
-        tool_die(t, EXIT_IMPOSSIBLE,
-                 "%zu frames match, --sheet %s holds %zu: choose with --case and --depth",
-                 frames->n, a->sheet, columns * rows);
+        tool_die(
+            t, EXIT_IMPOSSIBLE,
+            "%zu frames match, but --sheet %s has room for %zu: choose with --case and --depth",
+            frames->n, a->sheet, columns * rows);
     for (size_t k = 0; k < frames->n; k++)
         means_take(t, frames->grid[k], &means);
     for (size_t k = 0; k < frames->n; k++) {

@@ -134,7 +134,7 @@ check_arguments(struct run *run)
     read_section(run);
     for (size_t k = 1; args.section != NULL && k < args.depths.n; k++)
         if (!(args.depths.v[k] > args.depths.v[k - 1]))
-            tool_die(t, EXIT_USAGE, "--depths: those of a section must rise from one to the next");
+            tool_die(t, EXIT_USAGE, "--depths: the depths of a section must increase");
     if (args.section != NULL && on_free_maps_only())
         tool_die(t, EXIT_USAGE, "--section is summed by %s: leave out --kernel %s",
                  words_periodic_engines(list, sizeof list), args.kernel);
@@ -301,7 +301,8 @@ refuse_rigid(struct run *run, const struct rc_grid *p)
                         run->depths.v[k]);
 }
 
-/* A plain number is in metres: a depth that was meant in micrometres is far below all contacts. */
+/* Warns of depths far below the contact: a plain number is in metres, and may have been meant in
+ * micrometres. */
 static void
 warn_of_depths(struct run *run, const struct rc_grid *p)
 {
@@ -316,9 +317,9 @@ warn_of_depths(struct run *run, const struct rc_grid *p)
         deepest = fmax(deepest, args.depths.v[k]);
     if (deepest > FAR * width)
         tool_warn(&run->t,
-                  "%s: --depths: %s m is %.2g times the width of the map, %g m, where nothing of "
-                  "the contact is felt but its whole load: a number without a unit is in metres, "
-                  "write %sum for micrometres",
+                  "%s: --depths: %s m is %.2g times the width of the map, %g m, and stresses there "
+                  "depend on the load alone: a number without a unit is in metres, write %sum for "
+                  "micrometres",
                   tool_where(&run->t, p, where, sizeof where), rc_number_text(depth, deepest),
                   deepest / width, width, depth);
 }

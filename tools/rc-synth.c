@@ -231,7 +231,7 @@ wanted_shape(struct tool *t)
 {
     for (const char *const *name = grid_options; strcmp(*name, "like") != 0; name++)
         if (args.like != NULL && tool_given(t, *name))
-            tool_die(t, EXIT_USAGE, "--like gives the whole grid: leave out --%s", *name);
+            tool_die(t, EXIT_USAGE, "--like already defines the grid: leave out --%s", *name);
     if (args.like != NULL)
         return shape_of_file(t);
     if (!tool_given(t, "nx") || !tool_given(t, "dx"))

@@ -98,7 +98,7 @@ refuses 2 '--cut z=0: it must be x=PLACE or y=PLACE, as in y=0' "a cut across no
 refuses 2 '--cut y=0: it must be x=PLACE or depth=PLACE' "a cut of a section across y" "$draw --cut y=0 --case 1 s.rcg"
 refuses 2 "--cut y=3N: unknown unit 'N'|--cut y=3N" "a place in newtons" "$draw --cut y=3N --case 1 p.rcg"
 refuses 1 'it has nodes from y = −320 µm to 320 µm' "a cut beyond the map" "$draw --cut y=1mm --case 1 p.rcg"
-refuses 1 'holds no frame|no frame|no case|case 7' "a case that is not there" "$draw --cut y=0 --case 1,7 p.rcg"
+refuses 1 'has no frame|no frame|no case|case 7' "a case that is not there" "$draw --cut y=0 --case 1,7 p.rcg"
 refuses 2 'kinds of picture: give one' "two kinds of curves" "$draw --cut y=0 --histogram p.rcg"
 refuses 2 'a curve has no colours: leave out --colormap' "colours of a curve" "$draw --cut y=0 --colormap grey p.rcg"
 refuses 2 '--law hertz: a histogram has the law persson' "another law" "$draw --histogram --case 1 --law hertz --radius 1mm p.rcg"

@@ -101,7 +101,7 @@ claim "a taper makes a surface periodic" bash -c '
 # of 40 x 30 nodes 1.1 um x 1 um, 5 columns (4.5 * 1.1 um is below 5 um) and 5 rows on each side: 600 of 1200
 rc-detrend --plane spikes.rcg -o level.rcg
 claim "  a message has the share of the map, and a warning follows if it is 0" \
-    warns 'the taper covers 50 % of the map, and Sq goes from .*--mirror makes a period' rc-detrend --taper 5um level.rcg -o a.rcg
+    warns 'the taper covers 50 % of the map, and Sq goes from .*--mirror makes a periodic map' rc-detrend --taper 5um level.rcg -o a.rcg
 claim "  the printed Sq before and after are those of the maps" bash -c '
     [ "$(sed -n "s/.*Sq goes from \(.*\) to \(.*\): near.*/\1, \2/p" warns.err)" = \
         "$(for f in level a; do rc-info --areal $f.rcg | sed -n "s/^  Sq  *//p"; done | paste -sd, | sed "s/,/, /")" ]'
@@ -128,8 +128,8 @@ claim "  a map of hardness is mirrored too, without a message" bash -c '
     rc-detrend --plane --mirror both.rcg -o b.rcg && rc-info --json b.rcg >b.json && grep -c "\"nx\": 80, \"ny\": 60" b.json | grep -qx 2 &&
     grep "\"hardness\"" b.json | grep -q "rc-detrend [0-9.]* --mirror\"" && rc-pick --channel hardness b.rcg | rc-export --format csv | grep -v "^#" >b.csv &&
     rc-export --format csv m.rcg | grep -v "^#" >m.csv && cmp b.csv m.csv'
-refuses 1 'case 1.*--mirror: the map repeats as it is .periodic=yes.' "a mirror of what repeats" "rc-detrend --mirror m.rcg"
-refuses 1 '--mirror: the map repeats as it is' "two mirrors" "rc-detrend --mirror --mirror level.rcg"
+refuses 1 'case 1.*--mirror has no effect, because the map is already periodic: leave it out' "a mirror of what repeats" "rc-detrend --mirror m.rcg"
+refuses 1 '--mirror has no effect, because the map is already periodic' "two mirrors" "rc-detrend --mirror --mirror level.rcg"
 rc-pick --crop 0,0,1,1 level.rcg -o node.rcg
 refuses 1 '--mirror: a single node is no map' "a mirror of one node" "rc-detrend --mirror node.rcg"
 rc-pick --set channel=psd level.rcg | rc-pick --set dunit=rad/m - -o wave.rcg
@@ -138,7 +138,7 @@ refuses 1 '--mirror: the frame is no map of places: leave it out' "a mirror of a
 claim "the history has all steps in SI" \
     says 'rc-detrend [0-9.]* --outliers 3.5 --sphere --lowpass 9e-06 --fill --taper 5e-06 --robust"' bash -c '
     rc-detrend --robust --outliers 3.5 --sphere --lowpass 9um --fill --taper 5um spikes.rcg | rc-info --json'
-claim "without its sphere a periodic surface is not periodic" warns 'periodic=no from here' \
+claim "without its sphere a periodic surface is not periodic" warns 'it gets periodic=no' \
     rc-detrend --sphere rough.rcg -o a.rcg
 claim "  with a taper it is periodic again" says '"periodic": "yes"' bash -c 'rc-detrend --taper 9um a.rcg | rc-info --json'
 
@@ -156,7 +156,7 @@ printf '1 NaN\n2 3\n' | rc-import --quiet --dx 1um --z-unit nm - -o few.rcg
 refuses 1 'a sphere has 4 unknowns, and only 3 points are there: subtract a plane' "a sphere through three points" "rc-detrend --sphere few.rcg"
 map 9 9 '2 * x - y' plane.rcg
 refuses 1 'do not determine a cylinder: .* no curvature' "a cylinder in a plane" "rc-detrend --cylinder plane.rcg"
-refuses 2 '--robust bears on forms and filters' "--robust with nothing to fit" "rc-detrend --robust --fill few.rcg"
+refuses 2 '--robust concerns forms and filters' "--robust with nothing to fit" "rc-detrend --robust --fill few.rcg"
 refuses 1 '33 x 47 nodes need about .*, --memory allows' "more memory than is allowed" "rc-detrend --memory 20k --lowpass 9um ball.rcg"
 
 finish

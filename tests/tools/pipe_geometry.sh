@@ -139,7 +139,7 @@ refuses 1 'nodes need at least [0-9]{9,} MiB|4294967295 x 3 is more than this ma
 for bad in 1,2,3 1,2,3,4,5 1,2,3um,4 1.5,2,3,4 1um,1um,2um,3 -1,0,1,1 0,0,0,1 0,0,1um,0 '' 1,,2,3 a,b,c,d 1e16,0,1,1; do
     refuses 2 "rc-pick: --crop $bad: " "--crop $bad" "rc-pick --crop '$bad' map.rcg"
 done
-refuses 2 'plain whole numbers are nodes, lengths carry their unit' "  saying what is meant" "rc-pick --crop 1,2,3um,4 map.rcg"
+refuses 2 'give four whole numbers .nodes., or four lengths with a unit' "  saying what is meant" "rc-pick --crop 1,2,3um,4 map.rcg"
 for bad in 0 -1um 0x5 5x 5x5x5 1.5x2 1um,2um,3um x '' 1umx2; do
     refuses 2 "rc-pick: --resample $bad: " "--resample $bad" "rc-pick --resample '$bad' map.rcg"
 done

@@ -129,7 +129,7 @@ claim "  frames of one name at several depths are accepted" says '^6$' bash -c '
 refuses 1 'case 1, frame 3 .*: take the height alone' "a spacing of a height beside its pressure" \
     'rc-pick --set dx=2um result.rcg | cat'
 refuses 1 'this stream failed' "a failed choice fails its reader too" 'rc-pick --channel gap --case 1,9 result.rcg 2>/dev/null >cut; rc-info cut'
-refuses 1 'the stream holds no frame' "an empty stream" 'printf "RCGEND 0\n" | rc-pick --channel height | cat'
+refuses 1 'the stream has no frame' "an empty stream" 'printf "RCGEND 0\n" | rc-pick --channel height | cat'
 refuses 1 'No space left' "a full device" 'rc-pick --channel gap result.rcg >/dev/full'
 
 finish

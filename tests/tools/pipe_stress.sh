@@ -163,7 +163,7 @@ refuses 1 'section y = 0.001 m: the map ends at 0.0002695 m' "a section beyond t
     "rc-stress --section y=1mm --depths 0 ball.rcg"
 refuses 1 'section y = 0.001 m: the map ends at 0.0002695 m' "  which a plan refuses too" \
     "rc-stress --dry-run --section y=1mm --depths 0 ball.rcg"
-refuses 2 '--depths: those of a section must rise' "depths of a section that go up and down" \
+refuses 2 '--depths: the depths of a section must increase' "depths of a section that go up and down" \
     "rc-stress --section y=0 --depths 0,5um,2um ball.rcg"
 refuses 2 '--section is summed by fft: leave out --kernel mlms' "a section by mlms" \
     "rc-stress --section y=0 --kernel mlms --depths 0 ball.rcg"

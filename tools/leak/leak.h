@@ -1,16 +1,16 @@
-/* What rc-leak asks for and tells. */
+/* Options, case and report of rc-leak. */
 #ifndef RC_TOOL_LEAK_H
 #define RC_TOOL_LEAK_H
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 
-/* A case, as far as it is known. */
+/* A case of rc-leak. */
 struct leak_case {
-    const struct rc_grid *gap; /* its values may be gone                                       */
+    const struct rc_grid *gap; /* its values may already be freed */
     char direction;
     bool around;
-    bool pressed;           /* a pressure frame told what is in contact                         */
+    bool pressed;           /* a pressure frame determined the contact */
     double contact, mean;   /* fraction of the nodes, mean pressure in Pa; NAN without it       */
     double drop, viscosity; /* Pa, Pa s; NAN: not given                                        */
     double rate;            /* m^3/s for a conductance of 1 m^3; NAN: not given                 */

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* What flows through the critical constriction as if there were one in each square of the map (Persson and
- * Yang, J. Phys.: Condens. Matter 20, 2008, 315011). */
+/* The flow if each square of the map had one such critical constriction (Persson and Yang, J. Phys.: Condens.
+ * Matter 20, 2008, 315011). */
 static double
 critical_conductance(const struct leak_case *c)
 {
@@ -54,11 +54,11 @@ leak_report(struct report *r, const struct leak_case *c)
 /* ---- what is wrong with it ---- */
 
 static const double steep = 0.3;  /* slope beyond which a film is not thin               */
-static const double rough = 0.05; /* error of the grid that is told                      */
-static const double lifts = 0.1;  /* of the mean contact pressure                        */
+static const double rough = 0.05; /* error of the grid that causes a warning */
+static const double lifts = 0.1;  /* part of the mean contact pressure */
 
 enum {
-    THROAT = 3 /* nodes across, below which it is off by a third */
+    THROAT = 3 /* nodes across the constriction; with fewer the error may be a third */
 };
 
 void
@@ -83,21 +83,19 @@ leak_judge(struct tool *t, const struct leak_case *c)
     if (!f->percolates)
         return;
     if (f->throat_nodes < THROAT)
-        tool_warn(
-            t,
-            "%s: the narrowest place of the widest way, at x = %g m, y = %g m, is %zu node%s wide, "
-            "and fewer than %d may be off by a third: take a finer grid",
-            where, f->critical_x, f->critical_y, f->throat_nodes, f->throat_nodes == 1 ? "" : "s",
-            THROAT);
+        tool_warn(t,
+                  "%s: the critical constriction, at x = %g m, y = %g m, is %zu node%s wide, and "
+                  "with fewer than %d the error of the flow may be a third: take a finer grid",
+                  where, f->critical_x, f->critical_y, f->throat_nodes,
+                  f->throat_nodes == 1 ? "" : "s", THROAT);
     if (f->error > rough)
         tool_warn(t, "%s: the estimated error of the grid is %.0f %% of the flow: take a finer one",
                   where, 100 * f->error);
     if (f->slope > steep)
-        tool_warn(
-            t,
-            "%s: the RMS slope of the gap is %.2g where fluid flows: the theory of thin films "
-            "holds for small ones, below %g",
-            where, f->slope, steep);
+        tool_warn(t,
+                  "%s: the RMS slope of the gap is %.2g where fluid flows, but the theory of thin "
+                  "films needs a slope below %g",
+                  where, f->slope, steep);
     if (c->drop > lifts * c->mean)
         tool_warn(t,
                   "%s: the pressure drop, %g Pa, is more than a tenth of the mean contact "

@@ -67,8 +67,7 @@ read_crop(const char *text, struct request *r, struct rc_err *err)
                                    "height");
         if (r->lengths ? !with_unit[k] && r->v[k] != 0
                        : r->v[k] != floor(r->v[k]) || r->v[k] > 9e15)
-            return rc_err_set(err, "plain whole numbers are nodes, lengths carry their unit: four "
-                                   "of one kind are expected");
+            return rc_err_set(err, "give four whole numbers (nodes), or four lengths with a unit");
     }
     return RC_OK;
 }
@@ -219,7 +218,8 @@ nodes_between(double from, double length, size_t n, double d, size_t *first, siz
     *first = (size_t)floor(from / d + 0.5);
     *count = (size_t)fmin(floor(last / d + 0.5), (double)n);
     if (*count <= *first)
-        return rc_err_set(err, "no node lies in the %g m from %g m on: nodes are %g m apart",
+        return rc_err_set(err,
+                          "the %g m from %g m on contain no node, because nodes are %g m apart",
                           length, from, d);
     *count -= *first;
     return RC_OK;
