@@ -39,7 +39,7 @@ end_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
 
     if (!is_periodic(g))
         return RC_OK;
-    tool_warn(t, "%s: a periodic surface is not periodic without its form: periodic=no from here",
+    tool_warn(t, "%s: a periodic surface is not periodic without its form: it gets periodic=no",
               tool_where(t, g, where, sizeof where));
     return rc_grid_set(g, "periodic", "no", err);
 }

@@ -75,10 +75,10 @@ claim "a point that is missing in one map is missing in the sum, with B mirrored
       "$(printf "NaN 2 3\n4 NaN 6\n" | rc-import --dx 1um --z-unit um - | rc-export --format xyz | grep -v "^#" | cut -d " " -f 3 | tr "\n" " ")" ]'
 claim "the sum of two periodic maps is periodic" bash -c 'rc-add a.rcg b.rcg >sum.rcg 2>err.txt && [ ! -s err.txt ]'
 claim "  its key says so" says periodic=yes cat sum.rcg
-claim "the sum with a map that is not periodic is not periodic" warns 'this surface is periodic, what comes out is not, because the other one is not: periodic=no' bash -c '
+claim "the sum with a map that is not periodic is not periodic" warns 'this surface is periodic, but the result is not, because the other one is not: it gets periodic=no' bash -c '
     rc-synth cone --slope 0.1 --like a.rcg | rc-add a.rcg - -o sum.rcg'
 claim "  its key says so" says periodic=no cat sum.rcg
-claim "a cropped periodic map gives a sum that is not periodic" warns 'what comes out is not, because the maps are cut to their overlap: periodic=no' bash -c '
+claim "a cropped periodic map gives a sum that is not periodic" warns 'but the result is not, because the maps are cut to their overlap: it gets periodic=no' bash -c '
     rc-synth selfaffine --hurst 0.8 --rms-height 1um --nx 60 --ny 47 --dx 1.1um --dy 1um | rc-add a.rcg - -o sum.rcg'
 claim "  its key says so" says periodic=no cat sum.rcg
 claim "maps without the key cause no message about periods" bash -c '
@@ -131,10 +131,10 @@ refuses 1 'selfaffine-seed-3, case 1, frame 1 \(height\): spacings of 1.1e-06 x 
     "other spacings, naming the finer one" "rc-add a.rcg coarse.rcg"
 refuses 1 'rc-pick --resample 2e-06,2e-06 a.rcg' "  which may be B" "rc-add coarse.rcg a.rcg"
 refuses 1 'and in standard input of .* --resample 2e-06,2e-06 -' "  or standard input" "rc-add coarse.rcg - <a.rcg"
-refuses 1 'aa.rcg holds more surfaces than the 1 of a.rcg: put the one that holds several first' "more in B than in A" \
+refuses 1 'aa.rcg has more surfaces than the 1 of a.rcg: put the stream with several surfaces first' "more in B than in A" \
     "cat a.rcg b.rcg >aa.rcg; rc-add a.rcg aa.rcg >out.rcg"
 refuses 1 'the program that wrote it|stopped|fail' "  so that no reader takes it for whole" "rc-info out.rcg"
-refuses 1 'case 3, .*: two.rcg holds 2 surfaces, and this is one more: B holds one for all of A, or as many as A' "two for three" \
+refuses 1 'case 3, .*: two.rcg has only 2 surfaces: B must have one surface, or as many as A' "two for three" \
     "cat a.rcg b.rcg a.rcg | rc-add - two.rcg >/dev/null"
 refuses 1 'computed from it \(pressure, gap, displacement\)' "a case with results" "rc-add solved.rcg b.rcg"
 refuses 1 'no frame with the channel height, only pressure' "no height in B" "rc-pick --channel pressure solved.rcg | rc-add a.rcg -"

@@ -73,7 +73,7 @@ refuses 2 '--resume and --interval need --checkpoint' "--resume alone" "$solve -
 # killed inside the first frame: starting again loses nothing
 head -c 5000 kept.rcg >first.rcg
 claim "a file with an incomplete first frame is started again" \
-    warns 'first.rcg: the run stopped while it wrote the first frame: it begins anew' \
+    warns 'first.rcg: its first frame is incomplete: this run starts from the beginning' \
     $solve --load 0.1N --checkpoint first.rcg --resume -o begun.rcg rough.rcg
 claim "it becomes a normal checkpoint" bash -c "rc-info --quiet first.rcg >/dev/null &&
     $solve --load 0.1N --checkpoint first.rcg --resume --report first.json -o again.rcg rough.rcg"
@@ -83,7 +83,7 @@ rc-pick --set "note=$(printf '%0250d' 0)" rough.rcg -o noted.rcg
 $solve --load 0.1N --checkpoint noted-kept.rcg --quiet -o x.rcg noted.rcg && rm x.rcg
 head -c 5000 noted-kept.rcg >noted-first.rcg
 claim "a file with a long line in its header is started again too" \
-    warns 'noted-first.rcg: the run stopped while it wrote the first frame: it begins anew' \
+    warns 'noted-first.rcg: its first frame is incomplete: this run starts from the beginning' \
     $solve --load 0.1N --checkpoint noted-first.rcg --resume -o noted-begun.rcg noted.rcg
 (head -c 5000 kept.rcg && printf X && tail -c +5002 kept.rcg) >spoilt.rcg
 cp spoilt.rcg as-it-was.rcg

@@ -81,7 +81,7 @@ refuses 1 "neither 0 nor 1" "other values are refused" "rc-info values.rcg"
 
 rc-pick --channel pressure,gap a.rcg -o without.rcg
 claim "without the frame rc-info says that the contact is unknown" says "contact  *unknown" rc-info without.rcg
-claim "  it says why" warns "does not determine the contact.*keep both frames" rc-info without.rcg
+claim "  it says why" warns "does not determine it.*keep both frames" rc-info without.rcg
 claim "  JSON has null" says '"contact_nodes": null, "contact_area": null' rc-info --quiet --json without.rcg
 refuses 1 "does not determine the contact" "--patches is refused" "rc-info --patches without.rcg"
 with_leak && refuses 1 "does not determine the contact" "rc-leak is refused" "rc-leak without.rcg -o x.rcg"
@@ -89,19 +89,19 @@ refuses 1 "does not determine the contact" "--window contact is refused" "rc-ren
 refuses 1 "does not determine the contact" "--histogram is refused" "rc-render --histogram -o x.png without.rcg"
 claim "rc-render draws the map" rc-render --quiet -o x.png without.rcg
 $frames e.rcg:gap=pressure >negative.rcg
-claim "other negative pressures cause a warning" bash -c 'rc-info negative.rcg >x.txt 2>said.txt; test "$(grep -c "contact is taken where it is above 0" said.txt)" = 1'
+claim "other negative pressures cause a warning" bash -c 'rc-info negative.rcg >x.txt 2>said.txt; test "$(grep -c "nodes with a pressure above 0 count as contact" said.txt)" = 1'
 
 # ---- friction ----
 
 rc-synth wave --nx 16 --dx 1um --amplitude 1fm --wavelength 16um | rc-solve --quiet --periodic --estar 50MPa --mean-pressure 1MPa --adhesion 10mJ/m2,exponential,20nm -o full.rcg
 near "$(count pressure 'v < 0' full.rcg)" 0 0 "complete contact with no net tension"
-refuses 1 "the normal force that friction follows in such a contact is not in the stream" "  has no friction of the net pressure" "rc-slip --mu 0.3 --nu 0.3 --tangential 1nN full.rcg -o x.rcg"
+refuses 1 "friction needs the pressure of the touching nodes alone" "  has no friction of the net pressure" "rc-slip --mu 0.3 --nu 0.3 --tangential 1nN full.rcg -o x.rcg"
 refuses 1 "mu 0.3 would turn friction round" "rc-stress --mu of a net pressure" "rc-stress --nu 0.3 --mu 0.3 --depths 1um a.rcg -o x.rcg"
 claim "  rc-stress computes stresses without it" rc-stress --quiet --nu 0.3 --depths 100nm a.rcg -o x.rcg
 $frames e.rcg:pressure a.rcg:contact >more.rcg
 claim "rc-slip accepts nodes that touch without pressure" rc-slip --quiet --nu 0.3 --mu 0.3 --tangential 10nN more.rcg -o x.rcg
 rc-solve --quiet --periodic --mean-pressure 10kPa --estar 50MPa --output contact s.rcg -o less.rcg
 $frames e.rcg:pressure less.rcg:contact >less2.rcg
-refuses 1 "that carry pressure are not in contact by this frame" "  and none that carry pressure apart" "rc-slip --quiet --nu 0.3 --mu 0.3 --tangential 10nN less2.rcg -o x.rcg"
+refuses 1 "have a pressure, but are not in contact according to this frame" "  and none that carry pressure apart" "rc-slip --quiet --nu 0.3 --mu 0.3 --tangential 10nN less2.rcg -o x.rcg"
 
 finish

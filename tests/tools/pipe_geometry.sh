@@ -132,7 +132,7 @@ refuses 1 'map.rcg, case 1, frame 1 \(height\): --crop 3,0,2,1: 2 x 1 nodes from
     "beyond the map" "rc-pick --crop 3,0,2,1 map.rcg"
 refuses 1 'crop 4e-06m,0,5e-06m,1e-06m: a part that begins at 4e-06 m and is 5e-06 m long is beyond the map, which is 8e-06 m there' "  in lengths" \
     "rc-pick --crop 4um,0,5um,1um map.rcg"
-refuses 1 'no node lies in the 2e-07 m from 0 m on: nodes are 2e-06 m apart' "between nodes" "rc-pick --crop 0,0,0.2um,1um map.rcg"
+refuses 1 'the 2e-07 m from 0 m on contain no node, because nodes are 2e-06 m apart' "between nodes" "rc-pick --crop 0,0,0.2um,1um map.rcg"
 refuses 1 'columns 0 to 3' "far beyond" "rc-pick --crop 9000000000000000,0,1,1 map.rcg"
 refuses 1 'nodes need at least [0-9]{9,} MiB|4294967295 x 3 is more than this machine can address' "more nodes than memory has" \
     "rc-pick --resample 858993459200004x3 map.rcg"

@@ -21,7 +21,7 @@ refuses 1 "no grid stream, it looks like a ZIP archive: rc-import 'my steel.x3p'
 refuses 1 'heights.txt is no grid stream, it looks like text: rc-import heights.txt [|] rc-detrend' "text" "rc-detrend --plane heights.txt"
 refuses 1 'heights.gz is no grid stream, it looks like GZIP' "something compressed" "rc-stress --nu 0.3 --depths 0 heights.gz"
 refuses 1 '^rc-info: standard input is no grid stream, it looks like text: rc-import - [|] rc-info' "through a pipe" "cat heights.txt | rc-info"
-refuses 1 'ball.png is no grid stream, it looks like a PNG picture: rc-info reads those of rc-import$' "a picture" "rc-info ball.png"
+refuses 1 'ball.png is no grid stream, but looks like a PNG picture: rc-info reads streams of rc-import$' "a picture" "rc-info ball.png"
 printf '{"case": 1}\n' >report.json
 refuses 1 'report.json is no grid stream: it looks like a table: draw columns of it, as in --curve' "a report" "rc-render -o x.png report.json"
 head -c 3000 /dev/zero >zeros
@@ -29,7 +29,7 @@ refuses 1 'zeros is no grid stream: rc-import zeros [|] rc-info' "zeros" "rc-inf
 tr '\0' 'x' <zeros >exes
 refuses 1 'exes is no grid stream, it looks like text' "a line without an end" "rc-info exes"
 sed 's/$/\r/' ball.rcg >dos.rcg
-refuses 1 'dos.rcg: its line ends were changed on the way' "a stream copied as text" "rc-info dos.rcg"
+refuses 1 'dos.rcg: a copy in text mode has changed its line ends' "a stream copied as text" "rc-info dos.rcg"
 refuses 1 '^rc-info: steel.x3p is no grid stream' "the second of two files" "rc-info ball.rcg steel.x3p"
 
 # ---- empty ----

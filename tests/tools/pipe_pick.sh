@@ -120,7 +120,7 @@ refuses 1 'no frame has a depth' "nor any" 'rc-pick --depth 6um result.rcg | cat
 rc-pick --case 1 --channel mises stress.rcg >one.rcg
 rc-pick --case 2 --channel szz stress.rcg >two.rcg
 { head -c -9 one.rcg; head -c -9 two.rcg; printf 'RCGEND 6\n'; } >mixed.rcg
-refuses 1 'no frame with the channel szz among the cases and depths' "a channel of another case" \
+refuses 1 'no frame with the channel szz among the requested cases and depths' "a channel of another case" \
     'rc-pick --channel mises,szz --case 1 mixed.rcg | cat'
 refuses 1 'give pressure and gap of one case the same name: choose one by --channel' "two channels of one name" \
     'rc-pick --set channel=height result.rcg | cat'

@@ -181,7 +181,7 @@ large="rc-synth selfaffine --hurst 0.8 --rms-height 1um --nx 1000 --dx 1um"
 enough=18 # 7.6 MiB of heights, and the same for the waves
 refuses 1 "needs at least [0-9]* MiB, --memory allows $enough MiB" "a distribution takes more memory" \
     "$large --skewness 1 --memory ${enough}M"
-claim "than none" bash -c "$large --memory ${enough}M >/dev/null"
+claim "a little more memory is enough" bash -c "$large --memory ${enough}M >/dev/null"
 refuses 2 'wave needs --wavelength' "a wave without length" "rc-synth wave --amplitude 1um $grid"
 refuses 2 'selfaffine needs --hurst' "roughness without exponent" "rc-synth selfaffine $grid"
 refuses 2 'selfaffine needs one of --rms-slope and --rms-height' "roughness without size" \

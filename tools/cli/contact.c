@@ -76,8 +76,8 @@ find(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact, boo
     tool_where(t, p, where, sizeof where);
     if (is_net(p, negative)) {
         tool_warn(t,
-                  "%s: contact is unknown: the net pressure of bodies that attract each other does "
-                  "not tell where they touch, and no frame contact stands beside it: %s",
+                  "%s: the contact is unknown: the net pressure of bodies that attract each other "
+                  "does not determine it, and the case has no frame contact: %s",
                   where, remedy);
         return NULL;
     }

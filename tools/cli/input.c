@@ -370,7 +370,7 @@ tool_channel(struct tool *t, const char *channel, bool pass)
     }
     end_case(t, channel);
     if (t->current.number == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame", t->source);
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream has no frame", t->source);
     return NULL;
 }
 

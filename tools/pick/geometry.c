@@ -196,7 +196,7 @@ forget_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
         return RC_FAIL;
     if (!has(g, "periodic", "yes"))
         return RC_OK;
-    tool_warn(t, "%s: a part of a periodic map is not periodic: periodic=no from here",
+    tool_warn(t, "%s: a part of a periodic map is not periodic: it gets periodic=no",
               tool_where(t, g, where, sizeof where));
     return rc_grid_set(g, "periodic", "no", err);
 }
