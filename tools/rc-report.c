@@ -64,9 +64,9 @@ struct run {
     struct text {
         char *text;
         size_t size;
-        FILE *file;   /* writes it */
-    } commands, said; /* what was run; the messages */
-    int nothing;      /* /dev/null */
+        FILE *file;         /* writes it */
+    } commands, said, page; /* what was run; the messages */
+    int nothing;            /* /dev/null */
 };
 
 /* ---- the temporary folder ---- */
@@ -152,7 +152,7 @@ put_base64(FILE *out, FILE *in)
 static void
 show_picture(struct run *run, FILE *in, const char *caption, const char *unused)
 {
-    FILE *out = run->t.out;
+    FILE *out = run->page.file;
 
     (void)unused;
     fprintf(out, "<figure><img alt=\"%s\" src=\"data:image/png;base64,", caption);
@@ -176,13 +176,13 @@ show_lines(struct run *run, FILE *in, const char *from, const char *to)
     size_t room = 0;
     bool shown = false;
 
-    fputs("<pre>", run->t.out);
+    fputs("<pre>", run->page.file);
     for (size_t k = 0; getline(&line, &room, in) > 0; k++) {
         shown = (shown || (from == NULL ? k == 1 : begins(line, from))) && !begins(line, to);
         if (shown)
-            put_text(run->t.out, line);
+            put_text(run->page.file, line);
     }
-    fputs("</pre>\n", run->t.out);
+    fputs("</pre>\n", run->page.file);
     free(line);
 }
 
@@ -190,7 +190,7 @@ show_lines(struct run *run, FILE *in, const char *from, const char *to)
 static void
 show_table(struct run *run, FILE *in, const char *columns, const char *unused)
 {
-    FILE *out = run->t.out;
+    FILE *out = run->page.file;
     bool wanted[WORDS] = {false};
     char *line = NULL, *end;
     size_t room = 0;
@@ -233,7 +233,7 @@ static void
 show_bodies(struct run *run, FILE *in, const char *a, const char *b)
 {
     const struct physics *p = &args.physics;
-    FILE *out = run->t.out;
+    FILE *out = run->page.file;
     char text[SHOWN_NUMBER];
 
     (void)in, (void)a, (void)b;
@@ -256,7 +256,7 @@ show_bodies(struct run *run, FILE *in, const char *a, const char *b)
 static void
 show_messages(struct run *run, FILE *in, const char *a, const char *b)
 {
-    FILE *out = run->t.out;
+    FILE *out = run->page.file;
 
     (void)in, (void)a, (void)b;
     if (run->said.size == 0) {
@@ -271,7 +271,7 @@ show_messages(struct run *run, FILE *in, const char *a, const char *b)
 static void
 show_commands(struct run *run, FILE *in, const char *a, const char *b)
 {
-    FILE *out = run->t.out;
+    FILE *out = run->page.file;
 
     (void)in, (void)a, (void)b;
     fprintf(out,
@@ -604,7 +604,7 @@ static void
 write_page(struct run *run)
 {
     const char *title = args.title == NULL ? run->name : args.title;
-    FILE *out = run->t.out, *in;
+    FILE *out = run->page.file, *in;
 
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
           "<meta http-equiv=\"Content-Security-Policy\" "
@@ -635,6 +635,20 @@ write_page(struct run *run)
     fputs("</body>\n</html>\n", out);
 }
 
+static void
+open_text(struct run *run, struct text *text)
+{
+    if ((text->file = open_memstream(&text->text, &text->size)) == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory");
+}
+
+static void
+close_text(struct run *run, struct text *text)
+{
+    if (ferror(text->file) || fclose(text->file) != 0)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory");
+}
+
 int
 main(int argc, char **argv)
 {
@@ -643,11 +657,11 @@ main(int argc, char **argv)
 
     tool_start(t, &info, argc, argv, &args);
     check_arguments(&run);
-    run.nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
-    run.said.file = open_memstream(&run.said.text, &run.said.size);
-    run.commands.file = open_memstream(&run.commands.text, &run.commands.size);
-    if (run.nothing < 0 || run.said.file == NULL || run.commands.file == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "/dev/null, or memory: %s", strerror(errno));
+    if ((run.nothing = open("/dev/null", O_RDWR | O_CLOEXEC)) < 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "/dev/null: %s", strerror(errno));
+    open_text(&run, &run.commands);
+    open_text(&run, &run.said);
+    open_text(&run, &run.page);
     make_folder(t);
     tool_catch_signals();
     for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
@@ -656,12 +670,15 @@ main(int argc, char **argv)
             if (strcmp(parts[k].file, "surface.rcg") == 0)
                 demand_one_map(&run);
         }
-    if (fclose(run.said.file) != 0 || fclose(run.commands.file) != 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    close_text(&run, &run.commands);
+    close_text(&run, &run.said);
     write_page(&run);
-    remove_folder();
-    free(run.said.text);
+    close_text(&run, &run.page);
+    remove_folder(); /* before the reader of a pipe can end this tool */
+    fwrite(run.page.text, 1, run.page.size, t->out);
     free(run.commands.text);
+    free(run.said.text);
+    free(run.page.text);
     free(run.path);
     return tool_finish(t);
 }

@@ -117,7 +117,9 @@ stopped() {
     rm pid.txt
     ! kill -0 "$child" 2>/dev/null && [ -z "$(ls stopped.html* 2>/dev/null)" ] && [ -z "$(ls tmp)" ]
 }
-claim "SIGTERM ends report.sh and its tool, and no file is left" stopped TERM
+claim "a reader that ends early leaves no folder" bash -c "set +o pipefail
+    rc-report --quiet $contact ball.rcg | head -c 10 >/dev/null; [ -z \"\$(ls tmp)\" ]"
+claim "SIGTERM ends rc-report and its tool, and no file is left" stopped TERM
 claim "SIGHUP does the same" stopped HUP
 
 finish
