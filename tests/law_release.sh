@@ -40,10 +40,14 @@ mkdir modules
 pkg-config --variable pc_path pkg-config | tr : '\n' | while read -r folder; do
     find "$folder" -name '*.pc' ! -name cmocka.pc -exec ln -sf -t modules {} + 2>find.err
 done
-without_cmocka() { PKG_CONFIG_PATH='' PKG_CONFIG_LIBDIR=modules cmake -S "libcontact-$version" -B untested -DCMAKE_C_COMPILER="${CC:-cc}" "$@"; }
+mkdir lent
+: >lent/numpy.py
+without_cmocka() { PYTHONPATH="$PWD/lent" PKG_CONFIG_PATH='' PKG_CONFIG_LIBDIR=modules cmake -S "libcontact-$version" -B untested -DCMAKE_C_COMPILER="${CC:-cc}" "$@"; }
 claim "  without cmocka the configuration succeeds and says that there are no tests" says '^-- Without the tests: ' without_cmocka
 claim "  no test exists" test ! -e untested/tests
 claim "  ctest says so" says 'no_tests_were_built__tests/run.sh_builds_and_runs_them [(]Skipped' ctest --test-dir untested
+claim "  the type hints of Python are made with the numpy of PYTHONPATH, which pip lends to a build" \
+    grep -rqs --include=build.make --include=build.ninja "/python:$PWD/lent " untested
 export -f without_cmocka
 refuses 1 "cmocka" "  where tests are asked for, it does not" "version=$version; without_cmocka -DRC_TESTS=ON >&2"
 

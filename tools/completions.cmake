@@ -28,12 +28,16 @@ endforeach()
 add_custom_command(OUTPUT ${tables} COMMAND ${CMAKE_COMMAND} -E cat ${rows} > ${tables} DEPENDS ${rows} VERBATIM)
 install(FILES ${tables} DESTINATION ${RC_PYTHON_FOLDER}/rcg COMPONENT wheel)
 list(APPEND completions ${tables})
-# The type hints of the package, where a Python has numpy.
+# The type hints of the package, where a Python has numpy, which pip lends to a build by PYTHONPATH.
+set(python_path ${PROJECT_SOURCE_DIR}/python)
+if(DEFINED ENV{PYTHONPATH})
+    string(APPEND python_path ":$ENV{PYTHONPATH}")
+endif()
 foreach(python IN ITEMS ${Python_EXECUTABLE} python3 /usr/bin/python3)
     execute_process(COMMAND ${python} -c "import numpy" RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
     if(failed STREQUAL 0)
         set(hints ${CMAKE_CURRENT_BINARY_DIR}/completions/__init__.pyi)
-        add_custom_command(OUTPUT ${hints} COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_SOURCE_DIR}/python PYTHONDONTWRITEBYTECODE=1
+        add_custom_command(OUTPUT ${hints} COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${python_path} PYTHONDONTWRITEBYTECODE=1
                            ${python} -m rcg.stubs ${tables} > ${hints}
                            DEPENDS ${tables} ${PROJECT_SOURCE_DIR}/python/rcg/stubs.py ${PROJECT_SOURCE_DIR}/python/rcg/tools.py VERBATIM)
         install(FILES ${hints} DESTINATION ${RC_PYTHON_FOLDER}/rcg COMPONENT wheel)
