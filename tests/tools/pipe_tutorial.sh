@@ -262,7 +262,8 @@ while read -r name film_4 steel_4 film_10 steel_10; do
 done <<END
 contact-theory(7) $(tr '\n' ' ' <"$pages/contact-theory.7" |
     sed -nE 's/.* takes ([0-9.]+) convolutions to 1e.-4, ([0-9.]+) without the film, and ([0-9.]+) and ([0-9.]+) to 1e.-10\..*/\1 \2 \3 \4/p')
-rc-cost(1) $(sed -nE 's/^For 1e-4 it takes ([0-9.]+) convolutions, ([0-9.]+) without the film; .* 1e-10 ([0-9.]+) and ([0-9.]+)\.$/\1 \2 \3 \4/p' "$pages/rc-cost.1")
+rc-cost(1) $(tr '\n' ' ' <"$pages/rc-cost.1" |
+    sed -nE 's/.* 1e-4 takes ([0-9.]+) convolutions with the film and ([0-9.]+) without it; an error of 1e-10.{0,60} takes ([0-9.]+) and ([0-9.]+)\..*/\1 \2 \3 \4/p')
 END
 
 # ---- real files ----
