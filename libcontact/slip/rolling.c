@@ -419,8 +419,10 @@ find_figures(struct rolling *f)
     double sums[6];
 
     to->load = rc_sum(f->p, f->n) * f->base.shape.dx * f->base.shape.dy;
-    if (d == NULL || f->stage < ROLLING)
+    if (d == NULL || f->stage < ROLLING || f->again)
         return;
+    for (size_t k = f->level; k > 0; k--) /* the best so far */
+        refine(&f->at[k], &f->at[k - 1]);
     sums_of(f, f->at, sums);
     to->spin = spin_of(f);
     to->moment = sums[2];
@@ -564,16 +566,15 @@ static enum rc_status
 look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 {
     struct rolling *f = (struct rolling *)m;
-    enum rc_status status = RC_MORE;
 
-    while (f->again && m->status != RC_MORE && status == RC_MORE)
+    if (f->again && m->status != RC_MORE) { /* the point of a state, which was reached */
+        enum rc_status status;
         do
             status = step(m, err);
         while (status == RC_MORE);
-    if (status == RC_FAIL)
-        return RC_FAIL;
-    if (status != RC_MORE && rc_model_look(m->inner, at, err) != RC_OK)
-        return RC_FAIL;
+        if (status == RC_FAIL || rc_model_look(m->inner, at, err) != RC_OK)
+            return RC_FAIL;
+    }
     find_figures(f);
     for (int c = 0; c < 2; c++)
         at->at[(f->problem.force ? RC_CREEP_X : RC_FORCE_X) + c] =

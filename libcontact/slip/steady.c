@@ -537,6 +537,8 @@ allocate(struct rc_steady *d, bool force)
     if (rc_sums_new(&d->rows, d->shape.ny, STEPS + 1, 0, d->threads) != RC_OK || d->maps == NULL ||
         d->single == NULL || d->face == NULL)
         return false;
+    memset(d->maps, 0, (1 + 2 * count) * d->n * sizeof *d->maps);
+    memset(d->face, OFF, 2 * d->n);
     d->g = d->maps;
     for (size_t k = 0; k < 2 * count; k++)
         pairs[k / 2][k % 2] = d->maps + (1 + k) * d->n;

@@ -425,6 +425,41 @@ test_small_contacts(void **state)
     }
 }
 
+/* A look on the way shows the best tractions so far, in their bounds, and says that they have not converged. */
+static void
+test_look_on_the_way(void **state)
+{
+    enum {
+        NODES = 48 * 48
+    };
+    double *p, load, x[NODES], y[NODES];
+    struct rc_model *m = ellipse(48, 1, 1e-6, false, &p, &load);
+    struct rc_point to = {0};
+    int looks = 0, rolling = 0;
+
+    (void)state;
+    rc_point_set(&to, RC_LOAD, load);
+    rc_point_set(&to, RC_CREEP_X, 3e-4);
+    rc_point_set(&to, RC_CREEP_Y, 0);
+    assert_int_equal(rc_model_go(m, &to, &err), RC_MORE);
+    while (rc_model_step(m, &err) == RC_MORE) {
+        const struct rc_rolling_figures *f = rc_rolling_result(m);
+        assert_true(rc_model_look(m, NULL, &err) == RC_OK &&
+                    rc_model_frame(m, "traction-x", x, &err) == RC_OK &&
+                    rc_model_frame(m, "traction-y", y, &err) == RC_OK);
+        assert_true(!f->converged && f->traction_error > 1e-6);
+        for (size_t k = 0; k < NODES; k++)
+            assert_true(hypot(x[k], y[k]) <= 0.2 * p[k] * (1 + 1e-9));
+        looks++;
+        rolling += f->force[0] > 0.3 * f->limit && f->force[0] < 0.6 * f->limit;
+    }
+    printf("%d looks, %d of them at tractions near the last ones, %.3f\n", looks, rolling,
+           rc_rolling_result(m)->force[0] / rc_rolling_result(m)->limit);
+    assert_true(rolling >= looks - 3);
+    rc_model_free(m);
+    free(p);
+}
+
 /* ---- increments in a window ---- */
 
 /* A ball rolls from rest under a given creepage, by one column an increment. `moves`: it moves over a longer map,
@@ -530,11 +565,17 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_monotone),          cmocka_unit_test(test_unique),
-        cmocka_unit_test(test_rolling_in_time),   cmocka_unit_test(test_conditions_and_energy),
-        cmocka_unit_test(test_estimate_and_work), cmocka_unit_test(test_spacing_and_curve),
-        cmocka_unit_test(test_force_given),       cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_small_contacts),    cmocka_unit_test(test_window),
+        cmocka_unit_test(test_monotone),
+        cmocka_unit_test(test_unique),
+        cmocka_unit_test(test_rolling_in_time),
+        cmocka_unit_test(test_conditions_and_energy),
+        cmocka_unit_test(test_estimate_and_work),
+        cmocka_unit_test(test_spacing_and_curve),
+        cmocka_unit_test(test_force_given),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_small_contacts),
+        cmocka_unit_test(test_look_on_the_way),
+        cmocka_unit_test(test_window),
         cmocka_unit_test(test_periodic_window),
     };
 
