@@ -139,11 +139,15 @@ rc_percolation(const struct rc_passage *a, struct rc_critical *critical, uint8_t
                struct rc_err *err)
 {
     size_t nodes = (size_t)a->nodes, n = 0;
-    struct opening *open = malloc((nodes + 1) * sizeof *open);
     int32_t *parent = malloc((nodes + 2) * sizeof *parent);
+    struct opening *open;
     enum rc_status status = RC_FAIL;
 
     *critical = (struct rc_critical){.node = -1};
+    for (int32_t k = 0; k < a->nodes; k++)
+        n += a->g[k] > 0;
+    open = malloc((n + 1) * sizeof *open);
+    n = 0;
     if (open == NULL || parent == NULL) {
         rc_err_set(err, "out of memory for the paths through %zu x %zu nodes", a->nx, a->ny);
         goto done;
