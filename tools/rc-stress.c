@@ -425,31 +425,55 @@ new_frame(struct run *run, const struct rc_grid *p, int channel)
 
 /* ---- the work ---- */
 
-/* Bytes of the slices. */
+/* The components that are summed: mises, tresca and the principal stresses need all six. */
 static size_t
-frames_memory(const struct run *run, const struct rc_grid *p)
+summed(void)
 {
-    const struct rc_shape frame = frame_shape(run, p);
+    const bool all = args.components >> RC_COMPONENTS != 0;
+    size_t n = 0;
 
-    return channels() * frame.nx * (run->options.section != 0 ? frame.ny : p->ny - p->elsewhere) *
-           sizeof(double);
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        n += all || wanted(c);
+    return n;
 }
 
-/* Bytes a node of a plan, free and periodic, measured with maps of 1024 x 1024 nodes: for the pressure,
- * each map of tractions and each slab of strain, and for a section. */
-static size_t
-plan_memory(const struct run *run, const struct rc_grid *p)
+/* Bytes a node of what sums the slices, measured on 1024 x 1024 nodes. The index: free, periodic. */
+static double
+plan_bytes(const struct rc_stress_options *o)
 {
-    static const double pressure[] = {154, 69}, traction[] = {77, 10}, slab[] = {279, 71};
-    static const double section = 26; /* both need the same */
-    const struct rc_stress_options *o = &run->options;
-    const bool periodic = o->boundary == RC_PERIODIC;
-    double bytes = o->section != 0 ? section : pressure[periodic];
+    static const double fft[2][2] = {{58, 21.7}, {31, 13.6}}; /* double and single precision   */
+    static const double kernel[] = {8, 0}, waves[] = {0, 2};  /* of each component; each load  */
+    static const double traction[] = {29, 8}, slab[] = {279, 71};
+    static const double section = 26, direct = 16; /* of both boundaries */
+    const int k = o->boundary == RC_PERIODIC, single = o->tol >= RC_SINGLE_FLOOR;
+    const int tractions = (o->traction[0] != NULL) + (o->traction[1] != NULL);
+    const int loads = 1 + (o->mu != 0) + tractions;
+    const bool transforms =
+        o->engine == NULL || strcmp(o->engine, "auto") == 0 || strncmp(o->engine, "fft", 3) == 0;
+    const double coarser = o->tol > 0 && k == 0 ? 1.25 : 1; /* the library keeps room for a grid */
+    const double plastic = o->strain != NULL ? slab[k] * (double)o->strain->slabs : 0;
 
-    for (int k = 0; k < 2 && o->section == 0; k++)
-        bytes += o->traction[k] != NULL ? traction[periodic] : 0;
-    bytes += o->strain != NULL ? slab[periodic] * (double)o->strain->slabs : 0;
-    return (size_t)(bytes * (double)rc_grid_nodes(p));
+    if (o->section != 0)
+        return section + plastic;
+    if (!transforms)
+        return direct + plastic;
+    return coarser * (fft[single][k] + kernel[k] * (double)summed() * loads +
+                      (waves[k] * (loads - 1) + traction[k] * tractions) / (single ? 2 : 1)) +
+           plastic;
+}
+
+/* Bytes of the slices, of the components that no frame holds, and of the plan. */
+static size_t
+memory_for(const struct run *run, const struct rc_grid *p)
+{
+    const struct rc_shape frame = frame_shape(run, p);
+    const bool plane = run->options.section != 0;
+    size_t maps = channels() + (plane ? 0 : summed());
+
+    for (int c = 0; c < RC_COMPONENTS && !plane; c++)
+        maps -= wanted(c);
+    return maps * frame.nx * (plane ? frame.ny : p->ny - p->elsewhere) * sizeof(double) +
+           (size_t)(plan_bytes(&run->options) * (double)rc_grid_nodes(p));
 }
 
 /* Sets the keys of a slice: its depth and, for a coated body, its material. */
@@ -491,8 +515,7 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
 static void
 plan_case(struct run *run, const struct rc_grid *p)
 {
-    double memory = ranks_most(
-        &run->t, (double)tool_memory_with(size_sum(plan_memory(run, p), frames_memory(run, p))));
+    double memory = ranks_most(&run->t, (double)tool_memory_with(memory_for(run, p)));
     struct rc_err err;
 
     tool_must(&run->t, p,
@@ -511,11 +534,11 @@ do_case(struct run *run, const struct rc_grid *p)
               stress_report_begin(&run->report, p, &run->options, &run->depths,
                                   report_wanted(&run->out), &err),
               &err);
+    tool_demand_memory(&run->t, p, memory_for(run, p));
     stress = rc_stress_new(&shape, p->v, &run->options, &err);
     if (stress == NULL)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     stress_report_ready(&run->report);
-    tool_demand_memory(&run->t, p, frames_memory(run, p));
     for (int c = 0; c < RC_STRESSES; c++)
         if (wanted(c))
             run->frame[c] = new_frame(run, p, c);
