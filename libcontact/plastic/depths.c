@@ -14,11 +14,11 @@ enum {
 };
 static const double growth = 1.25;
 
-/* Finds the largest Mises stress at the middle of each slab. */
+/* Finds the largest Mises stress at the middle of each slab, and the number of nodes with more than `yield`. */
 static enum rc_status
 look(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
-     const struct rc_body *body, size_t threads, size_t n, const double *middle, double *mises,
-     struct rc_err *err)
+     const struct rc_body *body, double yield, size_t threads, size_t n, const double *middle,
+     double *mises, size_t *beyond, struct rc_err *err)
 {
     const struct rc_stress_options options = {.boundary = boundary,
                                               .body = *body,
@@ -43,6 +43,9 @@ look(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
             rc_extremes(shape->nx * shape->ny, map, &least, &largest);
             mises[k] = map[largest];
         }
+        beyond[k] = 0;
+        for (size_t i = 0; i < shape->nx * shape->ny && status == RC_OK; i++)
+            beyond[k] += map[i] > yield;
     }
     rc_stress_free(stress);
     free(map);
@@ -59,7 +62,7 @@ rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary, const
     double step = shape->nx == 1   ? shape->dy
                   : shape->ny == 1 ? shape->dx
                                    : fmin(shape->dx, shape->dy);
-    size_t n = 0;
+    size_t n = 0, beyond[MOST];
 
     *d = (struct rc_plastic_depths){0};
     for (double dz = step / 2; n < MOST && z < side / 2; dz *= growth) {
@@ -67,7 +70,7 @@ rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary, const
         middle[n++] = z + dz / 2;
         z += dz;
     }
-    if (look(shape, boundary, p, body, threads, n, middle, mises, err) != RC_OK)
+    if (look(shape, boundary, p, body, yield, threads, n, middle, mises, beyond, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < n; k++) {
         if (mises[k] > d->most) {
@@ -82,8 +85,10 @@ rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary, const
     d->thickness = malloc(d->slabs * sizeof *d->thickness);
     if (d->thickness == NULL)
         return rc_err_set(err, "out of memory for the depths");
-    for (size_t k = 0; k < d->slabs; k++)
+    for (size_t k = 0; k < d->slabs; k++) {
         d->thickness[k] = thickness[k];
+        d->part += (double)beyond[k] / (double)(d->slabs * shape->nx * shape->ny);
+    }
     return RC_OK;
 }
 

@@ -26,8 +26,6 @@ static const double contact_least = 1e-6; /* its smallest tolerance, for a small
 static const double contact_share = 0.1;  /* part of the goal */
 static const double lag_least = 1e-3;     /* the smallest lag that single precision allows */
 static const double for_later = 0.7;      /* part of the goal for a load that others follow */
-static const double expected_part = 0.3;  /* part of the voxels that probably yield, for the
-                                             expected memory */
 static const double order = 1.1;          /* the error falls with this power of the increments */
 
 enum stage {
@@ -56,6 +54,8 @@ struct yielding {
     size_t increments, try;      /* increments of the present try of the load; number of the try,
                                     from 0 */
     struct rc_state_copy before; /* state before the load; empty: there is no further try */
+    double part;                 /* part of the nodes of the slabs with an elastic stress above the
+                                    yield stress */
     double most, deepest;        /* the largest elastic Mises stress over the yield stress; its
                                     depth, m */
     enum stage stage;
@@ -130,6 +130,7 @@ find_slabs(struct yielding *y, struct rc_err *err)
         return RC_FAIL;
     y->most = d.most / yield;
     y->deepest = d.deepest;
+    y->part = d.part;
     y->slabs = d.slabs == 0 || asked->slabs == 0 ? d.slabs : asked->slabs;
     free(y->thickness);
     y->thickness = NULL;
@@ -242,20 +243,35 @@ press_volume(struct yielding *y, struct rc_err *err)
 
 /* ---- memory ---- */
 
-/* The further bytes for the volume and its state, if the next step makes the volume. */
+/* Bytes of the volume and of its state, if this part of the voxels yields. */
 static size_t
-coming(const struct yielding *y)
+volume_bytes(const struct yielding *y, size_t slabs, double part)
 {
     /* bytes a node, measured on 1024 x 1024 nodes: free, periodic */
     static const double body[] = {122, 96}, slab[] = {92.2, 23.1};
     const int periodic = y->problem.contact.boundary == RC_PERIODIC;
-    const double voxels = expected_part * sizeof(struct rc_voxel);
+    const double voxels = part * sizeof(struct rc_voxel);
 
-    if (y->stage != MAKE)
-        return 0;
     /* a state takes at most the memory of the voxels and of a pressure */
     return (size_t)((double)y->n * (body[periodic] + sizeof(double) +
-                                    (double)y->slabs * (slab[periodic] + 2 * voxels)));
+                                    (double)slabs * (slab[periodic] + 2 * voxels)));
+}
+
+/* The elastic contact; of the volume, given slabs before any voxel yields. */
+static enum rc_status
+plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
+     struct rc_err *err)
+{
+    const struct yielding *y = (const struct yielding *)m;
+    struct rc_problem contact = y->problem.contact;
+
+    contact.load = most->at[RC_LOAD];
+    contact.approach = 0;
+    if (rc_solver_expect(&m->shape, &contact, expected, err) != RC_OK)
+        return RC_FAIL;
+    if (y->problem.slabs > 0)
+        expected->memory += volume_bytes(y, y->problem.slabs, 0);
+    return RC_OK;
 }
 
 /* ---- loads ---- */
@@ -482,7 +498,7 @@ progress(const struct rc_model *m, struct rc_loops *l)
     size_t increment, application;
     double load;
 
-    l->coming = coming(y);
+    l->coming = y->stage == MAKE ? volume_bytes(y, y->slabs, y->part) : 0;
     if (y->plastic != NULL) {
         rc_plastic_progress(y->plastic, &load, &increment, &application);
         rc_loops_add(l, "load", "N", load, NAN);
@@ -498,18 +514,6 @@ progress(const struct rc_model *m, struct rc_loops *l)
         l->tol = at.tol;
         l->worth = !at.coarser && at.iterations > 0;
     }
-}
-
-/* The elastic contact: how much of the volume yields is unknown. */
-static enum rc_status
-plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
-     struct rc_err *err)
-{
-    struct rc_problem contact = ((const struct yielding *)m)->problem.contact;
-
-    contact.load = most->at[RC_LOAD];
-    contact.approach = 0;
-    return rc_solver_expect(&m->shape, &contact, expected, err);
 }
 
 /* ---- states: counts and loads; then for an elastic contact the pressure, or for a volume the thicknesses of

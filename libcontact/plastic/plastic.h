@@ -68,6 +68,7 @@ enum rc_status rc_plastic_check(const struct rc_plastic_problem *problem, struct
 struct rc_plastic_depths {
     size_t slabs;         /* 0: no stress reaches the yield stress */
     double *thickness;    /* m, of each slab; the caller frees it; NULL: none */
+    double part;          /* part of the nodes of these slabs whose Mises stress exceeds `yield` */
     double most, deepest; /* Pa, the largest Mises stress; m, its depth */
 };
 /* RC_FAIL as rc_stress_new, and if memory is short. */

@@ -96,6 +96,14 @@ show(struct course *c, const struct rc_loops *l)
 
 /* ---- steps ---- */
 
+size_t
+course_peak(size_t bytes)
+{
+    const size_t plans = 4 << 20; /* of FFTW, in both precisions */
+
+    return tool_memory_with(size_sum(bytes, plans));
+}
+
 enum rc_status
 course_run(struct course *c, struct rc_model *m)
 {

@@ -446,7 +446,7 @@ print_plan(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
             d->points == 1 ? "point" : "points", rc_model_name(m));
     if (!isnan(e.convolutions))
         fprintf(d->t.out, "  about %.0f convolutions, %zu MiB, %.2g s a point\n", e.convolutions,
-                (tool_memory_with(e.memory) >> 20) + 1, e.seconds);
+                (course_peak(e.memory) >> 20) + 1, e.seconds);
 }
 
 /* Warns of what the model found, in the way of all tools. */

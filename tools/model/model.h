@@ -80,6 +80,8 @@ void course_mark_crc(struct course *c, const char *name, uint32_t crc);
 void course_set(struct course *c, struct rc_model *m, const struct rc_point *to);
 /* Steps until the point is reached; RC_MORE: a signal came first. */
 enum rc_status course_run(struct course *c, struct rc_model *m);
+/* The peak of a run whose models take so many more bytes, for --dry-run. */
+size_t course_peak(size_t bytes);
 
 /* ---- again.c ---- */
 

@@ -325,7 +325,7 @@ slip_case(struct slip_run *run)
     set_marks(run);
     slip_judge_plan(run);
     if (run->args->drive.dry_run) {
-        slip_say_plan(run, tool_memory_with(memory_for(run)));
+        slip_say_plan(run, course_peak(memory_for(run)));
     } else {
         tool_demand_memory(&run->d.t, run->p, memory_for(run));
         follow(run);

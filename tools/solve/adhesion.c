@@ -243,8 +243,9 @@ adhesion_memory(const struct run *run, const struct rc_grid *g, const struct rc_
 {
     const struct rc_shape shape = rc_grid_shape(g);
     const struct rc_adhesion_problem problem = problem_of(run, contact);
-    /* heights, state at the last point, frame; shape of dents; state of --checkpoint */
-    const size_t maps = 3u + !isinf(run->hardness_min) + (run->d.checkpoint != NULL);
+    /* heights, frame; state at the last point; shape of dents; state of --checkpoint */
+    const size_t maps = 2u + (run->steps->n > 1 || run->args->pull_off) +
+                        !isinf(run->hardness_min) + (run->d.checkpoint != NULL);
     const size_t kept =
         contact->boundary == RC_PERIODIC ? 32 : 128; /* bytes a node of a retraction */
     struct rc_expected expected = {0};

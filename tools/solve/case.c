@@ -449,7 +449,9 @@ solve_case(struct run *run, const struct rc_grid *hardness)
         checkpoint_crc(&run->d.t, hardness, run->hardness_crc);
     if (run->args->drive.dry_run) {
         struct rc_problem problem = problem_of(run, g, 0);
+        run->model = run->yielding.wanted ? yield_model(run, g, &problem) : NULL;
         solve_plan(run, g, &problem);
+        rc_model_free(run->model);
     } else {
         do_loads(run);
     }

@@ -254,28 +254,28 @@ size_t
 solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
 {
     struct rc_shape shape = rc_grid_shape(g);
-    const bool keeps_heights = solve_wanted(run->args, SOLVE_HEIGHT) || run->args->physics.history,
-               results = solve_wanted(run->args, SOLVE_GAP) ||
-                         solve_wanted(run->args, SOLVE_DISPLACEMENT) ||
-                         solve_wanted(run->args, SOLVE_PLASTIC);
-    const size_t maps = 0U + solve_wanted(run->args, SOLVE_CONTACT) + (keeps_heights && results);
+    const size_t dents = run->args->physics.history && !isinf(run->hardness_min) ? sizeof *g->v : 0;
     const size_t later = run->conductance
                              ? RC_CONDUCTANCE_BYTES /* the map of patches is freed before */
                          : run->stiffness ? RC_STIFFNESS_BYTES
                                           : sizeof *g->v;
     struct rc_expected expected = {0};
+    struct rc_point to = {0};
     struct rc_err err;
 
-    (void)rc_solver_expect(&shape, problem, &expected, &err);
-    return expected.memory + (maps * sizeof *g->v + later) * rc_grid_nodes(g);
+    rc_point_set(&to, RC_LOAD, problem->load);
+    if (run->yielding.wanted)
+        (void)rc_model_plan(run->model, &to, &expected, &err);
+    else
+        (void)rc_solver_expect(&shape, problem, &expected, &err);
+    return expected.memory + (dents + later) * rc_grid_nodes(g);
 }
 
 void
 solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
 {
     enum {
-        STIFFNESS = 12,     /* convolutions for the stiffness */
-        PLANS = 4 * 1 << 20 /* bytes: FFTW's plans, 2 MiB for each precision */
+        STIFFNESS = 12 /* convolutions for the stiffness */
     };
     struct rc_shape shape = rc_grid_shape(g);
     const char *why = NULL, *engine = rc_solver_choice(&shape, problem, &why);
@@ -290,10 +290,9 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
         tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     each = e.convolutions + (run->conductance ? STIFFNESS + 1 : 0) +
            (run->stiffness && !(run->conductance && isinf(run->hardness_min)) ? STIFFNESS : 0);
-    memory = ranks_most(&run->d.t, (double)tool_memory_with(run->adhering.wanted
-                                                                ? adhesion_memory(run, g, problem)
-                                                                : solve_memory(run, g, problem)));
-    memory += PLANS;
+    memory = ranks_most(&run->d.t,
+                        (double)course_peak(run->adhering.wanted ? adhesion_memory(run, g, problem)
+                                                                 : solve_memory(run, g, problem)));
     tool_where(&run->d.t, g, where, sizeof where);
     fprintf(run->d.t.out, "%s: %zu x %zu nodes, %zu %s, engine %s\n", where, g->nx, g->ny,
             run->steps->n, run->steps->n == 1 ? "load" : "loads", engine);
