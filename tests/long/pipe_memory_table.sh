@@ -1,6 +1,7 @@
-# Estimated memory agrees with the measured memory to a tenth: every tool and engine from 256 x 256 to 4096 x
-# 4096 nodes, odd sides, both boundaries, coated, yielding, with lists and error estimates. Arguments select
-# sizes: pipe_memory_table.sh 517x389 2048x2048.
+# --memory and the kernel: the memory that --dry-run plans, or the allocator counts, is within 5 % of the kernel's
+# peak, a limit 5 % below the needed memory is refused before any iteration, and one 5 % above it is enough.
+# Then the counted memory of all tools, to a tenth. Arguments select the sizes of these maps:
+# pipe_memory_table.sh 256x256 517x389 2047x1021 4096x4096.
 . "$(dirname "$0")/../pipe.sh"
 
 skip_with_address_sanitizer "it takes memory of its own"
@@ -14,32 +15,104 @@ row() {
     near "${expected:-none}" "${taken:-none}" 0.1 "$1, $size"
 }
 
-# told "what" 'command': the memory that a refusal tells, before any iteration, against the kernel's peak.
-told() {
-    local needs taken
-    needs=$(bash -c "$2 --memory 40M" 2>&1 >/dev/null | sed -n 's/.* nodes need about \([0-9.]*\) MiB.*/\1/p')
-    taken=$(bash -c "$2 --debug" 2>&1 >/dev/null | sed -n 's/.*, \([0-9.]*\) MiB taken.*/\1/p' | tail -n 1)
-    printf '%-28s %-12s %9s MiB told     %9s MiB taken\n' "$1" "$size" "${needs:-none}" "${taken:-none}" >>table.txt
-    near "${needs:-none}" "${taken:-none}" 0.05 "$1, refused"
+# In mebibytes: the counted memory and the kernel's peak of a command, both with the code.
+peaks() {
+    bash -c "$1 --debug" 2>&1 >/dev/null | sed -n 's/.*memory: \([0-9.]*\) MiB counted, \([0-9.]*\) MiB taken.*/\1 \2/p' | tail -n 1
+}
+
+# kept "what" 'command' KIB: a limit of 0.95 times these kibibytes is refused without any work, one of 1.05
+# times is enough.
+kept() {
+    local start=${EPOCHREALTIME/./} passed refused
+    claim "$1, with 5 % more than it needs" bash -c "$2 --quiet --memory $(($3 * 105 / 100))k -o passed"
+    passed=$((${EPOCHREALTIME/./} - start))
+    start=${EPOCHREALTIME/./}
+    refuses 1 "need.* MiB, --memory allows" "$1, with 5 % less" "$2 --verbose --memory $(($3 * 95 / 100))k -o refused"
+    refused=$((${EPOCHREALTIME/./} - start))
+    claim "  before any iteration: $refused of $passed us" test $refused -lt $passed
+    claim "  of which it says nothing" bash -c '! grep -E "converged|iterations|convolutions" refuses.err && [ ! -e refused ]'
+}
+
+# planned "what" 'command' LIMIT: --dry-run and the refusal at LIMIT, which holds what is read, tell the memory.
+planned() {
+    local dry needs counted taken
+    dry=$(bash -c "$2 --dry-run" 2>/dev/null | sed -n 's/.* \([0-9]*\) MiB.*/\1/p' | head -n 1)
+    needs=$(bash -c "$2 --memory $3" 2>&1 >/dev/null | sed -n 's/.* need about \([0-9.]*\) MiB.*/\1/p')
+    read -r counted taken < <(peaks "$2")
+    printf '%-30s %8s MiB in the plan %8s refused %8s counted %8s of the kernel\n' "$1" "${dry:-none}" "${needs:-none}" "${counted:-none}" "${taken:-none}" >>table.txt
+    near "${dry:-none}" "${taken:-none}" 0.05 "$1, planned"
+    near "${counted:-none}" "${taken:-none}" 0.05 "$1, counted"
+    kept "$1" "$2" $((${needs:-1} * 1024))
+}
+
+# counted "what" 'command': of a tool without --dry-run the count is near the kernel's figure. The same command
+# on a small map, in the folder small, has almost only the code.
+counted() {
+    local code counted taken
+    read -r code _ < <(peaks "cd small; $2")
+    read -r counted taken < <(peaks "$2")
+    printf '%-30s %44s counted %8s of the kernel\n' "$1" "${counted:-none}" "${taken:-none}" >>table.txt
+    near "${counted:-none}" "${taken:-none}" 0.05 "$1, counted"
+    kept "$1" "$2" "$(awk -v a="${counted:-0}" -v b="${code:-0}" 'BEGIN { printf "%d", (a - b) * 1024 }')"
 }
 
 rough="selfaffine --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 100um --short-cut 6um"
 load="--estar 3GPa --mean-pressure 100MPa"
 coat="--layer 5um,200GPa,0.3 --E1 70GPa --nu1 0.3 --E2 rigid --mean-pressure 100MPa"
-size=1600x1400
-rc-synth $rough --nx 1600 --ny 1400 -o s.rcg
-rc-solve --quiet $load --output pressure s.rcg -o p.rcg
-told "rc-solve" "rc-solve $load s.rcg"
-told "rc-solve --kernel fft64" "rc-solve --kernel fft64 $load s.rcg"
-told "rc-solve --kernel mlms" "rc-solve --kernel mlms $load s.rcg"
-told "rc-solve --periodic" "rc-solve --periodic $load s.rcg"
-told "rc-solve --periodic, fft64" "rc-solve --periodic --kernel fft64 $load s.rcg"
-told "rc-solve, coated" "rc-solve $coat s.rcg"
-told "rc-solve --stiffness" "rc-solve --stiffness $load s.rcg"
-told "rc-solve --conductivity" "rc-solve --conductivity 45,16 $load s.rcg"
-told "rc-solve --history" "rc-solve --hardness 300MPa --history --estar 3GPa --mean-pressure 50MPa,100MPa s.rcg"
-told "rc-solve --method pk99" "rc-solve --method pk99 --tol 1e-2 $load s.rcg"
-[ $# -gt 0 ] || set -- 256x256 517x389 1024x1024 2047x1021 2048x2048 4096x4096
+metal="--E1 70GPa --nu1 0.3 --E2 rigid"
+sticky="--estar 3GPa --mean-pressure 10MPa --adhesion 50mJ/m2,exponential,20nm"
+
+# maps NX NY: s, without bodies; p and q, of dissimilar bodies, free and periodic; a and b, of similar ones.
+maps() {
+    rc-synth $rough --nx $1 --ny $2 -o s.rcg
+    rc-solve --quiet --E1 3GPa --nu1 0.3 --E2 rigid --mean-pressure 15MPa s.rcg -o p.rcg
+    rc-solve --quiet --periodic --E1 3GPa --nu1 0.3 --E2 rigid --mean-pressure 15MPa s.rcg -o q.rcg
+    rc-solve --quiet --E1 3GPa --nu1 0.3 --E2 3GPa --nu2 0.3 --mean-pressure 15MPa s.rcg -o a.rcg
+    rc-solve --quiet --periodic --E1 3GPa --nu1 0.3 --E2 3GPa --nu2 0.3 --mean-pressure 15MPa s.rcg -o b.rcg
+}
+
+maps 1024 900
+planned "rc-solve" "rc-solve $load s.rcg" 25M
+planned "rc-solve --approach" "rc-solve --estar 3GPa --approach 2um s.rcg" 25M
+planned "rc-solve, a list" "rc-solve --estar 3GPa --mean-pressure 50MPa,100MPa s.rcg" 25M
+planned "rc-solve --kernel fft64" "rc-solve --kernel fft64 $load s.rcg" 25M
+planned "rc-solve --kernel mlms" "rc-solve --kernel mlms $load s.rcg" 25M
+planned "rc-solve --periodic" "rc-solve --periodic $load s.rcg" 25M
+planned "rc-solve --periodic, fft64" "rc-solve --periodic --kernel fft64 $load s.rcg" 25M
+planned "rc-solve, coated" "rc-solve $coat s.rcg" 25M
+planned "rc-solve --stiffness" "rc-solve --stiffness $load s.rcg" 25M
+planned "rc-solve --conductivity" "rc-solve --conductivity 45,16 $load s.rcg" 25M
+planned "rc-solve --history" "rc-solve --hardness 300MPa --history --estar 3GPa --mean-pressure 50MPa,100MPa s.rcg" 25M
+planned "rc-stress" "rc-stress --nu 0.3 --depths 5um p.rcg" 35M
+planned "rc-stress, of the surface" "rc-stress --nu 0.3 --components sxx --depths 0 p.rcg" 35M
+planned "rc-stress --mu" "rc-stress --nu 0.3 --mu 0.2 --depths 1um,5um p.rcg" 35M
+stress="rc-stress --nu 0.3 --tol 1e-3 --components mises --depths 1um,5um p.rcg" # with room for a coarser grid
+kept "rc-stress --tol" "$stress" "$($stress --memory 35M 2>&1 >/dev/null | awk '{ sub(/.* need about /, ""); print $1 * 1024 }')"
+planned "rc-stress, periodic, mu" "rc-stress --nu 0.3 --mu 0.2 --depths 1um,5um q.rcg" 35M
+planned "rc-wear" "rc-wear --coefficient 1e-6mm3/Nm --distance 1m p.rcg" 60M
+planned "rc-wear --periodic" "rc-wear --coefficient 1e-6mm3/Nm,1e-6mm3/Nm --distance 1m q.rcg" 60M
+maps 512 450
+rc-synth sphere --radius 1mm --dx 1um --nx 256 -o ball.rcg
+planned "rc-solve --adhesion" "rc-solve $sticky s.rcg" 25M
+planned "rc-solve --adhesion --periodic" "rc-solve --periodic $sticky s.rcg" 10M
+planned "rc-solve --yield" "rc-solve $metal --load 1N --yield 300MPa --slabs 6 --increments 1 ball.rcg" 10M
+planned "rc-slip" "rc-slip --mu 0.3 --tangential 0.5N a.rcg" 25M
+planned "rc-slip --periodic" "rc-slip --mu 0.3 --tangential 0.5N b.rcg" 25M
+planned "rc-slip, dissimilar" "rc-slip --mu 0.3 --coupling goodman --tangential 0.3N p.rcg" 25M
+planned "rc-slip, dissimilar, periodic" "rc-slip --mu 0.3 --tol 0.3 --increments 1 --tangential 0.3N q.rcg" 25M
+mkdir small
+(cd small && maps 48 40)
+maps 1400 1200
+counted "rc-synth" "rc-synth $rough --nx 3000 --ny 2000"
+counted "rc-deflect" "rc-deflect --estar 3GPa p.rcg"
+counted "rc-deflect --periodic" "rc-deflect --periodic --estar 3GPa q.rcg"
+counted "rc-leak" "rc-leak --direction y q.rcg"
+counted "rc-detrend --lowpass" "rc-detrend --lowpass 20um s.rcg"
+counted "rc-detrend --outliers --fill" "rc-detrend --outliers 4 --fill s.rcg"
+counted "rc-pick --resample" "rc-pick --resample 0.7um s.rcg"
+counted "rc-add" "rc-add s.rcg s.rcg"
+rm -r small ball.rcg a.rcg b.rcg
+[ $# -gt 0 ] || set -- 1024x1024
 for size in "$@"; do
     rc-synth $rough --nx ${size%x*} --ny ${size#*x} -o s.rcg
     rc-solve --quiet $load --output pressure s.rcg -o p.rcg
