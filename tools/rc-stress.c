@@ -437,6 +437,18 @@ summed(void)
     return n;
 }
 
+/* Whether the engine transforms: it has a form in single precision. "auto" is such a one. */
+static bool
+transforms(const char *engine)
+{
+    const struct rc_engine_info *e;
+
+    for (size_t k = 0; engine != NULL && (e = rc_engine_info(k)) != NULL; k++)
+        if (strcmp(e->name, engine) == 0)
+            return e->mixed || e->precise;
+    return true;
+}
+
 /* Bytes a node of what sums the slices, measured on 1024 x 1024 nodes. The index: free, periodic. */
 static double
 plan_bytes(const struct rc_stress_options *o)
@@ -448,14 +460,12 @@ plan_bytes(const struct rc_stress_options *o)
     const int k = o->boundary == RC_PERIODIC, single = o->tol >= RC_SINGLE_FLOOR;
     const int tractions = (o->traction[0] != NULL) + (o->traction[1] != NULL);
     const int loads = 1 + (o->mu != 0) + tractions;
-    const bool transforms =
-        o->engine == NULL || strcmp(o->engine, "auto") == 0 || strncmp(o->engine, "fft", 3) == 0;
     const double coarser = o->tol > 0 && k == 0 ? 1.25 : 1; /* the library keeps room for a grid */
     const double plastic = o->strain != NULL ? slab[k] * (double)o->strain->slabs : 0;
 
     if (o->section != 0)
         return section + plastic;
-    if (!transforms)
+    if (!transforms(o->engine))
         return direct + plastic;
     return coarser * (fft[single][k] + kernel[k] * (double)summed() * loads +
                       (waves[k] * (loads - 1) + traction[k] * tractions) / (single ? 2 : 1)) +
