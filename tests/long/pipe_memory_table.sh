@@ -95,15 +95,15 @@ maps 512 450
 rc-synth sphere --radius 1mm --dx 1um --nx 256 -o ball.rcg
 planned "rc-solve --adhesion" "rc-solve $sticky s.rcg" 25M
 planned "rc-solve --adhesion --periodic" "rc-solve --periodic $sticky s.rcg" 10M
-planned "rc-solve --yield" "rc-solve $metal --load 1N --yield 300MPa --slabs 6 --increments 1 ball.rcg" 10M
+planned "rc-solve --yield" "rc-solve $metal --load 1N --yield 800MPa --slabs 6 --increments 1 ball.rcg" 10M
 planned "rc-slip" "rc-slip --mu 0.3 --tangential 0.5N a.rcg" 25M
 planned "rc-slip --periodic" "rc-slip --mu 0.3 --tangential 0.5N b.rcg" 25M
-planned "rc-slip, dissimilar" "rc-slip --mu 0.3 --coupling goodman --tangential 0.3N p.rcg" 25M
+planned "rc-slip, dissimilar" "rc-slip --mu 0.3 --tol 0.3 --increments 1 --tangential 0.3N p.rcg" 25M
 planned "rc-slip, dissimilar, periodic" "rc-slip --mu 0.3 --tol 0.3 --increments 1 --tangential 0.3N q.rcg" 25M
 mkdir small
 (cd small && maps 48 40)
 maps 1400 1200
-counted "rc-synth" "rc-synth $rough --nx 3000 --ny 2000"
+counted "rc-info --psd" "rc-info --psd s.rcg"
 counted "rc-deflect" "rc-deflect --estar 3GPa p.rcg"
 counted "rc-deflect --periodic" "rc-deflect --periodic --estar 3GPa q.rcg"
 counted "rc-leak" "rc-leak --direction y q.rcg"
