@@ -1269,6 +1269,9 @@ struct rc_wear_problem {
         estar; /* Pa, of the bodies: for the first step and the forecast                            */
     double
         tol; /* bound of the estimated relative error of the worn depth; 0: 0.1                   */
+    /* nx ny numbers from 0 to 1, by which k is multiplied at each node, the largest 1; NULL: 1 everywhere. The
+     * caller keeps them as long as the model. */
+    const double *part;
     /* A leg ends early when one of these is reached; 0: no such condition. */
     double until_area;   /* contact fraction                   */
     double until_depth;  /* m: largest worn depth              */

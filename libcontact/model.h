@@ -158,8 +158,10 @@ RC_API enum rc_status rc_model_set_heights(struct rc_model *model, const double 
 /* Sets a compliance c >= 0, m/Pa, of each single node, from the next go on: under a pressure p the surface
  * moves by c p more, as a film would that is worn off or crushed. The answer is that of bodies with the
  * heights h - c p: its gap is K p + c p - h - shift, and its displacement K p, of the elastic bodies alone.
- * The approach is counted from the highest node of h. RC_FAIL where the model cannot. */
-RC_API enum rc_status rc_model_set_compliance(struct rc_model *model, double c, struct rc_err *err);
+ * The approach is counted from the highest node of h. part (NULL: all 1): nx ny numbers >= 0, by which c is
+ * multiplied at each node; the caller keeps them until others are set. RC_FAIL where the model cannot. */
+RC_API enum rc_status rc_model_set_compliance(struct rc_model *model, double c, const double *part,
+                                              struct rc_err *err);
 RC_API struct rc_shape rc_model_shape(const struct rc_model *model);
 /* The solver of the contact of this model or of its inner one, for its pressure, names and progress; only the
  * model steps it. NULL: there is none, or no load so far. */

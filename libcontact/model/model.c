@@ -189,12 +189,12 @@ rc_model_set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 }
 
 enum rc_status
-rc_model_set_compliance(struct rc_model *m, double c, struct rc_err *err)
+rc_model_set_compliance(struct rc_model *m, double c, const double *part, struct rc_err *err)
 {
     if (!(c >= 0) || isinf(c))
         return rc_err_set(err, "compliance %g m/Pa: it must be at least 0 and finite", c);
     return m->row->compliance != NULL
-               ? m->row->compliance(m, c, err)
+               ? m->row->compliance(m, c, part, err)
                : rc_err_set(err, "the %s model has no compliance of its nodes", m->row->name);
 }
 

@@ -90,7 +90,8 @@ struct rc_model_row {
     /* The following functions may be NULL. keep is called after look. */
     enum rc_status (*keep)(struct rc_model *m, struct rc_err *err);
     enum rc_status (*heights)(struct rc_model *m, const double *h, struct rc_err *err);
-    enum rc_status (*compliance)(struct rc_model *m, double c, struct rc_err *err);
+    enum rc_status (*compliance)(struct rc_model *m, double c, const double *part,
+                                 struct rc_err *err);
     /* After `go`: starts the iteration from this pressure, Pa, which carries this load, N. */
     enum rc_status (*start)(struct rc_model *m, double load, const double *p, struct rc_err *err);
     /* After `look`: z, Pa, is the approximate change of the pressure if the heights grow by e, m, under the

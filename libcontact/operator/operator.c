@@ -37,7 +37,7 @@ struct own {
         double norm, diagonal;
     } bare;        /* for K without its diagonal term */
     double *p, *u; /* scratch for engines without single precision: maps */
-    float *row;    /* also a row for each thread; otherwise NULL */
+    float *row;    /* a row for each thread, for these and for a diagonal by nodes; otherwise NULL */
     int row_threads;
 };
 
@@ -433,18 +433,25 @@ plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_optio
     return RC_OK;
 }
 
+static enum rc_status
+make_rows(struct own *s, struct rc_err *err)
+{
+    s->row_threads = rc_useful_threads(&s->op.shape, s->op.threads);
+    if (s->row == NULL)
+        s->row = rc_alloc((size_t)s->row_threads * s->op.shape.nx, sizeof *s->row);
+    return s->row != NULL ? RC_OK : rc_err_set(err, "out of memory for rows of displacements");
+}
+
 /* Allocates the maps and rows for an engine that must not be mixed with single precision. */
 static enum rc_status
 make_room(struct own *s, const struct rc_operator_options *o, struct rc_err *err)
 {
     size_t n = s->op.shape.nx * s->op.rows.n;
-    enum rc_status status = RC_OK;
+    enum rc_status status = make_rows(s, err);
 
-    s->row_threads = rc_useful_threads(&s->op.shape, o->threads);
     s->p = rc_alloc(n, sizeof *s->p);
     s->u = rc_alloc(n, sizeof *s->u);
-    s->row = rc_alloc((size_t)s->row_threads * s->op.shape.nx, sizeof *s->row);
-    if (s->p == NULL || s->u == NULL || s->row == NULL)
+    if (status == RC_OK && (s->p == NULL || s->u == NULL))
         status = rc_err_set(err, "out of memory for the displacements of %zu nodes", n);
     return rc_ranks_agree(o->ranks, status, err);
 }
@@ -498,7 +505,7 @@ rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
     if (plan(s, shape, &o, err) == RC_OK) {
         s->op.estar = op->estar;
         if (op->plus > 0)
-            rc_operator_set_diagonal(&s->op, op->plus);
+            (void)rc_operator_set_diagonal(&s->op, op->plus, NULL, err);
         return &s->op;
     }
     rc_operator_free(&s->op);
@@ -534,18 +541,50 @@ rc_operator_seconds(const struct rc_shape *shape, const struct rc_operator_optio
 /* ---- the diagonal term ---- */
 
 void
-rc_operator_set_diagonal(struct rc_operator *op, double plus)
+rc_operator_own_range(const struct rc_operator *op, double *lowest, double *highest)
+{
+    const size_t n = op->part == NULL ? 0 : op->shape.nx * op->shape.ny;
+    double low = op->part == NULL ? op->plus : INFINITY, high = op->part == NULL ? op->plus : 0;
+
+    for (size_t k = 0; k < n; k++) {
+        low = fmin(low, rc_operator_own(op, k));
+        high = fmax(high, rc_operator_own(op, k));
+    }
+    *highest = rc_ranks_most(op->rows.ranks, high);
+    *lowest = -rc_ranks_most(op->rows.ranks, -low);
+}
+
+enum rc_status
+rc_operator_set_diagonal(struct rc_operator *op, double plus, const double *part,
+                         struct rc_err *err)
+{
+    struct own *s = (struct own *)op;
+    double lowest, highest;
+
+    op->plus = op->own = plus;
+    op->part = plus > 0 ? part : NULL;
+    if (op->part != NULL && make_rows(s, err) != RC_OK)
+        return RC_FAIL;
+    rc_operator_own_range(op, &lowest, &highest);
+    if (op->part != NULL)
+        op->plus =
+            sqrt(fmax(lowest, RC_LEAST_OWN * op->unit) * fmax(highest, RC_LEAST_OWN * op->unit));
+    op->norm = s->bare.norm + highest;
+    op->diagonal = s->bare.diagonal + op->plus;
+    op->mean_free = op->boundary == RC_PERIODIC && plus == 0;
+    op->edges = plus > 0 || (op->boundary == RC_FREE && !s->positive);
+    rc_spectrum_add(s->kernel, s->fft, false, op->part == NULL ? plus / op->unit : 0);
+    rc_operator_set_inverse(op, op->plus);
+    set_inverse_near(s);
+    return RC_OK;
+}
+
+void
+rc_operator_set_inverse(struct rc_operator *op, double plus)
 {
     struct own *s = (struct own *)op;
 
-    op->plus = plus;
-    op->norm = s->bare.norm + plus;
-    op->diagonal = s->bare.diagonal + plus;
-    op->mean_free = op->boundary == RC_PERIODIC && plus == 0;
-    op->edges = plus > 0 || (op->boundary == RC_FREE && !s->positive);
-    rc_spectrum_add(s->kernel, s->fft, false, plus / op->unit);
     rc_spectrum_add(s->inverse, s->fft, true, plus / op->unit);
-    set_inverse_near(s);
 }
 
 /* ---- use ---- */
@@ -555,14 +594,13 @@ rc_operator_apply(struct rc_operator *op, const double *p, double *u)
 {
     struct own *s = (struct own *)op;
     const size_t n = op->shape.nx * op->shape.ny;
-    const double plus = op->plus;
 
     rc_conv_apply(s->conv, p, u);
-    if (plus == 0)
+    if (op->plus == 0)
         return;
 #pragma omp parallel for num_threads(rc_useful_threads(&op->shape, op->threads)) schedule(static)
     for (size_t k = 0; k < n; k++)
-        u[k] += plus * p[k];
+        u[k] += rc_operator_own(op, k) * p[k];
 }
 
 /* Gathers rows into a map, sums, and passes the rows of the result. */
@@ -588,17 +626,49 @@ apply_by_map(struct own *s, rc_row *in, rc_row *out, void *ctx)
     }
 }
 
+/* A diagonal that differs by node: `in` writes each row of p a second time, beside that of K p. */
+struct beside {
+    struct own *s;
+    rc_row *in, *out;
+    void *ctx;
+};
+
+static bool
+row_in(void *at, size_t j, void *row)
+{
+    const struct beside *b = at;
+
+    return b->in(b->ctx, j, row);
+}
+
+static bool
+row_out(void *at, size_t j, void *row)
+{
+    const struct beside *b = at;
+    const struct rc_operator *op = &b->s->op;
+    const size_t nx = op->shape.nx;
+    const float *u = row, unit = (float)op->unit;
+    float *own = b->s->row + (size_t)omp_get_thread_num() * nx;
+    const bool any = b->in(b->ctx, j, own);
+
+    for (size_t i = 0; i < nx; i++)
+        own[i] = u[i] + (any ? (float)rc_operator_own(op, j * nx + i) / unit * own[i] : 0);
+    return b->out(b->ctx, j, own);
+}
+
 void
 rc_operator_apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx)
 {
     struct own *s = (struct own *)op;
     const struct rc_spectrum *factors[] = {s->kernel};
-    rc_row *rows[] = {in, out};
+    struct beside beside = {s, in, out, ctx};
+    const bool by_node = op->part != NULL;
+    rc_row *rows[] = {by_node ? row_in : in, by_node ? row_out : out};
 
     if (s->p != NULL)
         apply_by_map(s, in, out, ctx);
     else
-        rc_fft_chain(s->fft, 1, factors, rows, ctx);
+        rc_fft_chain(s->fft, 1, factors, rows, by_node ? (void *)&beside : ctx);
 }
 
 void

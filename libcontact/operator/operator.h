@@ -21,9 +21,12 @@ struct rc_operator {
     struct rc_rows rows;          /* the rows of that part */
     enum rc_boundary boundary;
     size_t threads;
-    double unit;     /* m/Pa                                                             */
-    double estar;    /* Pa, if it is the same for all waves; NAN: it is not              */
-    double plus;     /* m/Pa: D of the diagonal term; K below is K + D I                 */
+    double unit;  /* m/Pa                                                             */
+    double estar; /* Pa, if it is the same for all waves; NAN: it is not              */
+    /* m/Pa: D of the diagonal term, that of a typical node; K below is K + D. With `part` (else NULL, and all
+     * nodes have `plus`) node k has own part[k]. */
+    double plus, own;
+    const double *part;
     double norm;     /* m/Pa: a bound of the largest eigenvalue                          */
     double diagonal; /* m/Pa: displacement of a node under unit pressure on its own cell */
     /* Of the inverse, in the units of rows: the pressures on a node and its eight neighbours that move this
@@ -73,9 +76,24 @@ const char *rc_operator_engine(const struct rc_shape *shape,
 /* Seconds of one K p within a solve, as rc_conv_seconds. */
 double rc_operator_seconds(const struct rc_shape *shape, const struct rc_operator_options *options);
 
-/* Adds D I to K, in place of the last D: a layer without lateral stiffness, displaced by D p, D >= 0 in m/Pa.
- * It applies to everything above and below. 0: none. Keeps the bytes of a K without it. */
-void rc_operator_set_diagonal(struct rc_operator *op, double plus);
+/* Adds a diagonal D >= 0, m/Pa, to K, in place of the last one: a layer without lateral stiffness, displaced
+ * by D p. D is `plus`, times part[k] of each node held here unless `part` is NULL; the caller keeps `part`. It
+ * applies to everything above and below, except that the inverse has the typical D everywhere. 0: none. Keeps
+ * the bytes of a K without it. RC_FAIL when memory is short. */
+enum rc_status rc_operator_set_diagonal(struct rc_operator *op, double plus, const double *part,
+                                        struct rc_err *err);
+/* D of node k, m/Pa. */
+static inline double
+rc_operator_own(const struct rc_operator *op, size_t k)
+{
+    return op->part == NULL ? op->plus : op->own * op->part[k];
+}
+/* The smallest and the largest D of all nodes, m/Pa. */
+void rc_operator_own_range(const struct rc_operator *op, double *lowest, double *highest);
+/* Below this D, in dx / E*, the stiffness of the shortest waves hides the diagonal. */
+#define RC_LEAST_OWN 0.15
+/* The factor `inverse` becomes that of K + plus I. */
+void rc_operator_set_inverse(struct rc_operator *op, double plus);
 
 /* u = K p, in m and Pa, in double precision; only where op->exact. */
 void rc_operator_apply(struct rc_operator *op, const double *p, double *u);

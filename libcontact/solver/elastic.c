@@ -20,7 +20,8 @@ struct elastic {
     const double *given; /* undeformed heights: until the first go the caller's array, then h */
     double *h;           /* a copy of `given`; freed when the solver has its own copy */
     double *dent;        /* present minus undeformed heights; NULL: no dents */
-    double compliance;   /* m/Pa, own compliance of every node */
+    double compliance;   /* m/Pa, own compliance of every node, times its part */
+    const double *part;  /* the caller's array; NULL: 1 everywhere */
     /* m, N: error of the heights; error of the loads that made the dents */
     double height_error, off;
     double first_top, top;    /* m: highest node of the first shape, and of the present one   */
@@ -89,7 +90,8 @@ press(struct elastic *e, double load, double approach, struct rc_err *err)
     e->solver = rc_solver_new(&e->base.shape, e->given, &problem, err);
     if (e->solver == NULL)
         return RC_FAIL;
-    rc_solver_set_diagonal(e->solver, e->compliance);
+    if (rc_solver_set_diagonal(e->solver, e->compliance, e->part, err) != RC_OK)
+        return RC_FAIL;
     e->solver->posed.dents = e->off;
     free(e->h); /* the solver has a copy */
     e->h = NULL;
@@ -283,8 +285,9 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
         memcpy(to, rc_solver_pressure(s), e->n * sizeof *to);
     else
         for (size_t k = 0; k < e->n; k++)
-            to[k] = frame == RC_FRAME_GAP ? s->it.v[k] - s->it.shift
-                                          : s->it.v[k] + s->posed.h[k] - s->op->plus * s->it.p[k];
+            to[k] = frame == RC_FRAME_GAP
+                        ? s->it.v[k] - s->it.shift
+                        : s->it.v[k] + s->posed.h[k] - rc_operator_own(s->op, k) * s->it.p[k];
     for (size_t k = 0; k < e->n && frame == RC_FRAME_CONTACT; k++)
         to[k] = rc_in_contact(to[k]) ? 1 : 0;
     return RC_OK;
@@ -310,17 +313,23 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 }
 
 static enum rc_status
-set_compliance(struct rc_model *m, double c, struct rc_err *err)
+set_compliance(struct rc_model *m, double c, const double *part, struct rc_err *err)
 {
     struct elastic *e = (struct elastic *)m;
+    const size_t n = part != NULL ? e->n : 0;
 
     if (c > 0 && (e->problem.tilt_free || e->asks.stiffness || e->asks.conductivity[0] > 0))
         return rc_err_set(err, "a compliance of the nodes together with a free tilt, the stiffness "
                                "or the conductance is not implemented");
+    for (size_t k = 0; k < n; k++)
+        if (!(part[k] >= 0) || isinf(part[k]))
+            return rc_err_set(err,
+                              "part %g of the compliance at node %zu: it must be at least 0 "
+                              "and finite",
+                              part[k], k);
     e->compliance = c;
-    if (e->solver != NULL)
-        rc_solver_set_diagonal(e->solver, c);
-    return RC_OK;
+    e->part = part;
+    return e->solver != NULL ? rc_solver_set_diagonal(e->solver, c, part, err) : RC_OK;
 }
 
 /* The elastic nodes do not change, and the preconditioner gives their response nearly exactly. */

@@ -8,6 +8,11 @@
 #include "libcontact/memory.h"
 #include "pyramid.h"
 
+enum {
+    LEVELS = 6 /* most values of D, see preconditioner.h */
+};
+static const double apart = 8; /* ratio of two of them, at most, unless that needs more */
+
 struct rc_preconditioner {
     struct rc_operator *op; /* owned by the caller */
     struct rc_pyramid *pyramid;
@@ -20,6 +25,12 @@ struct rc_preconditioner {
         /* a field on the frame, row by row: all nodes of the row, or those left and right of the map; NULL:
          * no frame */
         frame;
+    /* A diagonal that differs by node has `levels` typical values, each `ratio` times the last; else 1. Node k
+     * has place[k] among them, 0 to levels - 1; `sum`: of the fields of all levels. NULL: never needed. */
+    size_t levels;
+    bool used[LEVELS];   /* by a node */
+    double first, ratio; /* m/Pa; see d_of */
+    float *place, *sum;
 };
 
 /* ---- the frame ---- */
@@ -58,8 +69,18 @@ on_map(const struct rc_preconditioner *e, size_t *j, void *row)
     return (float *)row + e->op->frame.x;
 }
 
+/* The field of level 0 is copied, those of others are added. */
 static void
-keep_frame(struct rc_preconditioner *e, size_t j, const float *row)
+put(size_t level, size_t n, const float *row, float *to)
+{
+    if (level == 0)
+        memcpy(to, row, n * sizeof *to);
+    for (size_t i = 0; i < n && level > 0; i++)
+        to[i] += row[i];
+}
+
+static void
+keep_frame(struct rc_preconditioner *e, size_t level, size_t j, const float *row)
 {
     float *to;
     size_t x = e->op->frame.x, nx = e->op->shape.nx;
@@ -68,11 +89,11 @@ keep_frame(struct rc_preconditioner *e, size_t j, const float *row)
         return;
     to = e->frame + frame_before(e, j);
     if (!is_on_map(e, j)) {
-        memcpy(to, row, (nx + 2 * x) * sizeof *to);
+        put(level, nx + 2 * x, row, to);
         return;
     }
-    memcpy(to, row, x * sizeof *to);
-    memcpy(to + x, row + x + nx, x * sizeof *to);
+    put(level, x, row, to);
+    put(level, x, row + x + nx, to + x);
 }
 
 /* Decreases linearly from 1 at the map to 0 beyond the end of the frame. */
@@ -201,6 +222,8 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
                             op->shape.nx, op->shape.ny);
     } else {
         e->op = op;
+        e->levels = 1;
+        e->used[0] = true;
         e->threads = base.threads;
         e->above = op->shape.ny > 0 && op->rows.first == 0 ? op->frame.y : 0;
         e->below = op->shape.ny > 0 && op->rows.first + op->rows.n == op->rows.ny ? op->frame.y : 0;
@@ -214,10 +237,77 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
     return e;
 }
 
-void
-rc_preconditioner_tune(struct rc_preconditioner *e)
+static float
+weight_at(float place, size_t level)
 {
+    return sqrtf(fmaxf(1 - fabsf(place - (float)level), 0));
+}
+
+/* D of a level. Nodes below the least D that matters share the first level. */
+static double
+d_of(const struct rc_preconditioner *e, size_t level)
+{
+    const double d = e->first * pow(e->ratio, (double)level);
+
+    return d <= RC_LEAST_OWN * e->op->unit ? d / 3 : d;
+}
+
+/* The levels of a diagonal that differs by node, and the places of the nodes. */
+static enum rc_status
+set_levels(struct rc_preconditioner *e, double *weight, struct rc_err *err)
+{
+    const struct rc_operator *op = e->op;
+    const size_t n = op->shape.nx * op->shape.ny;
+    const double floor = RC_LEAST_OWN * op->unit;
+    double least, most;
+
+    e->levels = 1;
+    e->ratio = 1;
+    if (op->part == NULL)
+        return RC_OK;
+    rc_operator_own_range(op, &least, &most);
+    e->first = fmax(least, floor);
+    if (!(most > e->first))
+        return RC_OK;
+    e->levels = 1 + (size_t)fmin(ceil(log(most / e->first) / log(apart)), LEVELS - 1);
+    e->ratio = pow(most / e->first, 1 / (double)(e->levels - 1));
+    if (e->place == NULL)
+        e->place = rc_alloc(n, sizeof *e->place);
+    if (e->sum == NULL)
+        e->sum = rc_alloc(n, sizeof *e->sum);
+    if (e->place == NULL || e->sum == NULL)
+        return rc_err_set(err, "out of memory for the compliance of %zu nodes", n);
+    for (size_t k = 0; k < n; k++) {
+        e->place[k] = (float)(log(fmax(rc_operator_own(op, k), floor) / e->first) / log(e->ratio));
+        for (size_t l = 0; l < e->levels; l++)
+            weight[l] = fmax(weight[l], (double)weight_at(e->place[k], l));
+    }
+    return RC_OK;
+}
+
+enum rc_status
+rc_preconditioner_tune(struct rc_preconditioner *e, struct rc_err *err)
+{
+    double weight[LEVELS] = {0};
+
+    if (rc_ranks_agree(e->op->rows.ranks, set_levels(e, weight, err), err) != RC_OK)
+        return RC_FAIL;
+    for (size_t l = 0; l < e->levels; l++)
+        e->used[l] = e->levels == 1 || rc_ranks_most(e->op->rows.ranks, weight[l]) > 1e-3;
+    if (e->levels == 1 && e->op->part != NULL)
+        rc_operator_set_inverse(e->op, d_of(e, 0));
     rc_pyramid_tune(e->pyramid, power, e->op);
+    return RC_OK;
+}
+
+double
+rc_preconditioner_factors(const struct rc_preconditioner *e)
+{
+    double used = 0;
+
+    for (size_t l = 0; l < e->levels; l++)
+        used += e->used[l];
+    return used;
 }
 
 void
@@ -229,6 +319,8 @@ rc_preconditioner_free(struct rc_preconditioner *e)
     free(e->node);
     free(e->row);
     free(e->frame);
+    free(e->place);
+    free(e->sum);
     free(e);
 }
 
@@ -348,7 +440,23 @@ struct correction {
     struct rc_preconditioner *e;
     const float *r;
     float offset, *z;
+    size_t level;
 };
+
+/* Multiplies row j of the framed map by the weights of the level; the frame has those of the nearest nodes of
+ * the map. */
+static void
+weigh(const struct correction *c, size_t j, float *row)
+{
+    const struct rc_preconditioner *e = c->e;
+    const size_t nx = e->op->shape.nx, ny = e->op->shape.ny, x = e->op->frame.x;
+    const size_t of = j < e->above ? 0 : j - e->above < ny ? j - e->above : ny - 1;
+    const float *place = e->place + of * nx;
+
+    for (size_t i = 0; i < nx + 2 * x && e->levels > 1; i++) {
+        row[i] *= weight_at(place[i < x ? 0 : i - x < nx ? i - x : nx - 1], c->level);
+    }
+}
 
 RC_CLONES static void
 extend(size_t n, const unsigned char *w, const float *r, float offset, float *restrict row)
@@ -362,13 +470,14 @@ extended(void *at, size_t j, void *row)
 {
     struct correction *c = at;
     const struct rc_preconditioner *e = c->e;
-    size_t n = e->op->shape.nx;
+    const size_t n = e->op->shape.nx, at_row = j;
     float *field;
 
     rc_pyramid_row(e->pyramid, 0, j, row);
     fade_frame(e, j, row);
     if ((field = on_map(e, &j, row)) != NULL)
         extend(n, e->w + j * n, c->r + j * n, c->offset, field);
+    weigh(c, at_row, row);
     return true;
 }
 
@@ -379,9 +488,10 @@ field_out(void *at, size_t j, void *row)
     size_t n = c->e->op->shape.nx;
     const float *field;
 
-    keep_frame(c->e, j, row);
+    weigh(c, j, row);
+    keep_frame(c->e, c->level, j, row);
     if ((field = on_map(c->e, &j, row)) != NULL)
-        memcpy(c->z + j * n, field, n * sizeof *field);
+        put(c->level, n, field, c->z + j * n);
     return true;
 }
 
@@ -417,14 +527,23 @@ void
 rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offset, float *z,
                         rc_row *done, void *ctx)
 {
-    struct correction c = {.e = e, .r = r, .offset = offset, .z = z};
+    struct correction c = {.e = e, .r = r, .offset = offset, .z = e->levels > 1 ? e->sum : z};
     const struct field residual = {e, e->w, r, offset};
     const struct rc_spectrum *factors[] = {e->op->inverse};
     rc_row *rows[] = {extended, field_out};
     size_t n = e->op->shape.nx;
 
     rc_pyramid_extend(e->pyramid, field_row, &residual, NULL);
-    rc_operator_chain_framed(e->op, 1, factors, rows, &c);
+    for (c.level = 0; c.level < e->levels; c.level++) { /* the first one is used */
+        if (!e->used[c.level])
+            continue;
+        if (e->levels > 1)
+            rc_operator_set_inverse(e->op, d_of(e, c.level));
+        rc_operator_chain_framed(e->op, 1, factors, rows, &c);
+    }
+    if (e->levels > 1) /* r may be z */
+        memcpy(z, e->sum, n * e->op->shape.ny * sizeof *z);
+    c.z = z;
     rc_pyramid_gather(e->pyramid, off_row, &c, NULL);
 #pragma omp parallel for num_threads(e->threads) schedule(static)
     for (size_t j = 0; j < e->op->shape.ny; j++) {

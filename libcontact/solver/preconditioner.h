@@ -6,6 +6,11 @@
  * the operator in wave numbers. A free map lies in the operator's frame, in which E r continues and decreases
  * linearly to the end of the frame. The map r -> z is symmetric. No extension has less energy than the exact
  * one, so r'z >= r' (K_WW)^-1 r: z bounds the error of the pressure on W in the energy norm from above.
+ *
+ * A diagonal D that differs by node has no such factor. A is then the sum over some values d_l of D of
+ * s_l (K + d_l I)^-1 s_l, with weights s_l of the nodes: s_l^2 decreases linearly in log D from 1 at d_l to 0
+ * at the next values, and the sum of all s_l^2 is 1. Where all nodes have D = d_l this is the exact inverse.
+ * Then z is an estimate, not a bound.
  */
 #ifndef RC_PRECONDITIONER_H
 #define RC_PRECONDITIONER_H
@@ -16,8 +21,10 @@ struct rc_preconditioner;
 
 /* The caller owns `op`, which outlives the preconditioner. NULL when memory is short. */
 struct rc_preconditioner *rc_preconditioner_new(struct rc_operator *op, struct rc_err *err);
-/* The diagonal of the operator was changed: applies from the next set on. */
-void rc_preconditioner_tune(struct rc_preconditioner *e);
+/* The diagonal of the operator was changed: applies from the next set on. RC_FAIL when memory is short. */
+enum rc_status rc_preconditioner_tune(struct rc_preconditioner *e, struct rc_err *err);
+/* Factors of a chain in one rc_preconditioner_apply: 1 unless the diagonal differs by node. */
+double rc_preconditioner_factors(const struct rc_preconditioner *e);
 void rc_preconditioner_free(struct rc_preconditioner *e);
 /* The working set: entries 1 of w (0 elsewhere), at least one. w is read until the next set. Costs no factor
  * of a chain. If entries of w change afterwards, the map r -> z stays symmetric but E gets less accurate. */

@@ -75,6 +75,7 @@ enum { /* sums of the first pass, */
     PRESSURE,
     HEIGHT,
     V,
+    OWN, /* of D p */
     /* sums of the second pass */
     SPREAD_H = 0,
     SPREAD_U,
@@ -95,6 +96,7 @@ count_block(void *at, size_t first, size_t n, double *sums)
         sums[PRESSURE] += p;
         sums[HEIGHT] += s->posed.h[k];
         sums[V] += s->it.v[k];
+        sums[OWN] += rc_operator_own(s->op, k) * p;
         sums[RC_MOST] = p > sums[RC_MOST] ? p : sums[RC_MOST];
     }
 }
@@ -106,11 +108,10 @@ spread_block(void *at, size_t first, size_t n, double *sums)
     const struct figures *f = at;
     const struct rc_solver *s = f->s;
     const struct rc_box box = rc_box(s, 0);
-    const double plus = s->op->plus;
 
     for (size_t k = first; k < first + n; k++) {
         double g = s->it.v[k] - s->it.shift, p = s->it.p[k], worst;
-        double u = s->it.v[k] + s->posed.h[k] - plus * p;
+        double u = s->it.v[k] + s->posed.h[k] - rc_operator_own(s->op, k) * p;
         double h = s->posed.h[k] - f->mean_h, around = u - f->mean_u;
 
         sums[SPREAD_H] += h * h;
@@ -240,7 +241,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     for (size_t a = 0; a < 2; a++)
         c->tilt[a] = rc_tilt_slope(s, a);
     f.mean_h = total[HEIGHT] / n;
-    f.mean_u = (total[V] + total[HEIGHT] - s->op->plus * total[PRESSURE]) / n;
+    f.mean_u = (total[V] + total[HEIGHT] - total[OWN]) / n;
     rc_reduce_blocks(s, spread_block, &f, total);
     scale = sqrt(fmax(total[SPREAD_H], total[SPREAD_U]) / n);
     if (total[SPREAD_H] == 0) /* all heights are equal: both figures would be only error */

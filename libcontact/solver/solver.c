@@ -429,14 +429,16 @@ rc_solver_set_load(struct rc_solver *s, double load, double approach, struct rc_
     return RC_OK;
 }
 
-void
-rc_solver_set_diagonal(struct rc_solver *s, double plus)
+enum rc_status
+rc_solver_set_diagonal(struct rc_solver *s, double plus, const double *part, struct rc_err *err)
 {
-    if (plus == s->op->plus)
-        return;
-    rc_operator_set_diagonal(s->op, plus);
-    rc_preconditioner_tune(s->preconditioner);
+    if (plus == s->op->own && part == NULL && s->op->part == NULL)
+        return RC_OK;
+    if (rc_operator_set_diagonal(s->op, plus, part, err) != RC_OK ||
+        rc_preconditioner_tune(s->preconditioner, err) != RC_OK)
+        return RC_FAIL;
     rc_solver_restart(s);
+    return RC_OK;
 }
 
 void

@@ -52,18 +52,30 @@ enum stage {
     LAST /* a step of backward Euler                    */
 };
 
+enum { /* of error[] */
+    VOLUME,
+    OF_P0,
+    OF_STEPS,
+    OF_ALL,   /* relative, of p0: due to all steps of TR-BDF2                                */
+    REPEATED, /* error of the pressure due to all steps over that of the last one            */
+    WEAR_P0,  /* relative, of the wear under p0, pa and p1: that of the pressures, or less */
+    WEAR_PA,
+    WEAR_P1,
+    ERRORS
+};
+
 struct wear {
     struct rc_model base;
     struct rc_wear_problem law;
-    double k; /* 1/Pa: sum of both bodies */
+    double k;     /* 1/Pa: sum of both bodies, at the node that wears most */
+    double least; /* smallest law.part; 1 if that is NULL                  */
     size_t n;
     double *h, *worn;        /* heights at the start, and worn depth of both bodies */
     double *p0, *pa, *p1;    /* pressures of a step                                        */
     double *e, *room;        /* error of a step; heights of the inner model, other numbers */
     size_t stage, last;      /* last: steps of backward Euler since the last point         */
     double s, end, t, tried; /* m: distance slid, end of the leg, next step, present step */
-    double error[6];         /* m3: error of the worn volume; relative: errors of p0, of pa, of
-                                steps */
+    double error[ERRORS];    /* m3: error of the worn volume; relative: errors of p0, of steps ... */
     double c;                /* m/Pa: compliance of the last contact                       */
     bool kept;               /* the inner model has kept its contact                     */
     bool fitted;             /* the heights in contact were replaced by K p minus the shift */
@@ -73,15 +85,6 @@ struct wear {
     double in_contact;       /* part of the nodes in contact */
     struct rc_wear_figures f;
 };
-enum { /* of error[] */
-    VOLUME,
-    OF_P0,
-    OF_PA,
-    OF_STEPS,
-    OF_ALL,  /* relative, of p0: due to all steps of TR-BDF2 */
-    REPEATED /* error of the pressure due to all steps over that of the last one */
-};
-
 const struct rc_figure rc_figures_wear[] = {
 #define FIGURE(member) RC_FIGURE(struct rc_wear_figures, member)
 #define AS(column, member) RC_FIGURE_AS(column, struct rc_wear_figures, member)
@@ -138,6 +141,13 @@ at_distance(const struct wear *v, double s)
     return rc_point_for(v->base.inner, &at);
 }
 
+/* The coefficient of a node over the largest one. */
+static double
+part(const struct wear *v, size_t k)
+{
+    return v->law.part == NULL ? 1 : v->law.part[k];
+}
+
 /* Gives the inner model the heights and the compliance of this stage. */
 static enum rc_status
 pose(struct wear *v, struct rc_err *err)
@@ -148,8 +158,9 @@ pose(struct wear *v, struct rc_err *err)
 
     v->c = v->stage == FIRST || v->stage == SECOND ? d * step : v->stage == LAST ? step : 0;
     for (size_t k = 0; k < v->n; k++)
-        v->room[k] = v->h[k] - v->worn[k] - first * v->p0[k] - second * v->pa[k];
-    return rc_model_set_compliance(v->base.inner, v->c, err) == RC_OK
+        v->room[k] =
+            v->h[k] - v->worn[k] - part(v, k) * first * v->p0[k] - part(v, k) * second * v->pa[k];
+    return rc_model_set_compliance(v->base.inner, v->c, v->law.part, err) == RC_OK
                ? rc_model_set_heights(v->base.inner, v->room, err)
                : RC_FAIL;
 }
@@ -158,8 +169,8 @@ pose(struct wear *v, struct rc_err *err)
 static enum rc_status
 contact(struct wear *v, enum stage stage, struct rc_err *err)
 {
-    const double part = stage == PRESS ? 0 : stage == FIRST ? g : 1;
-    const struct rc_point to = at_distance(v, v->s + part * v->tried);
+    const double along = stage == PRESS ? 0 : stage == FIRST ? g : 1;
+    const struct rc_point to = at_distance(v, v->s + along * v->tried);
 
     if (!v->kept && rc_model_keep(v->base.inner, err) != RC_OK)
         return RC_FAIL;
@@ -176,6 +187,33 @@ size_of(size_t n, const double *a)
     for (size_t k = 0; k < n; k++)
         rc_total_add(&sum, fabs(a[k]));
     return rc_total_value(&sum);
+}
+
+/* Sum of the coefficients times a pressure, over k. */
+static double
+rate(const struct wear *v, const double *p)
+{
+    struct rc_total sum = {0};
+
+    for (size_t k = 0; k < v->n; k++)
+        rc_total_add(&sum, part(v, k) * p[k]);
+    return rc_total_value(&sum);
+}
+
+/* The sum of |e|, that an error e of the heights has, or may get as the bodies slide on. The flow never
+ * increases the sum of |e| over the coefficients; in the end e is even over the contact. */
+static double
+lasting(const struct wear *v, const double *e)
+{
+    double weighted = 0, weights = 0, count = 0;
+
+    for (size_t k = 0; k < v->n && v->law.part != NULL; k++)
+        if (part(v, k) > 0) {
+            weighted += fabs(e[k]) / part(v, k);
+            weights += rc_in_contact(v->p1[k]) / part(v, k);
+            count += rc_in_contact(v->p1[k]);
+        }
+    return fmax(size_of(v->n, e), weights > 0 ? count / weights * weighted : 0);
 }
 
 static double
@@ -234,13 +272,13 @@ last_steps(const struct wear *v)
 static double
 longest(const struct wear *v)
 {
-    static const double part = 0.25; /* part of the remaining distance */
+    static const double quarter = 0.25; /* part of the remaining distance */
     double most = INFINITY, peak = 0;
 
     if (v->law.until_area > 0 || v->law.until_spread > 0)
-        most = fmax(part * v->s, v->t / GROWTH);
+        most = fmax(quarter * v->s, v->t / GROWTH);
     for (size_t k = 0; k < v->n && v->law.until_depth > 0; k++)
-        peak = fmax(peak, v->p0[k]);
+        peak = fmax(peak, part(v, k) * v->p0[k]);
     if (v->law.until_depth > 0)
         most = fmin(most, fmax((v->law.until_depth - v->f.max_wear_depth) / (v->k * peak),
                                last_part * v->s));
@@ -290,7 +328,7 @@ fit(struct wear *v, struct rc_err *err)
     const struct rc_shape *s = &v->base.shape;
     const double side = fmax(s->dx * (double)s->nx, s->dy * (double)s->ny);
 
-    v->fitted = v->c * v->law.estar > long_step * side &&
+    v->fitted = v->c * v->least * v->law.estar > long_step * side &&
                 !(rc_model_number(v->base.inner, "plastic_area") > 0);
     if (!v->fitted)
         return RC_OK;
@@ -317,6 +355,7 @@ take(struct wear *v, const double *less, double error, double of_p1, double of_s
     v->s += v->tried;
     v->error[VOLUME] += error * v->base.shape.dx * v->base.shape.dy;
     v->error[OF_P0] = of_p1;
+    v->error[WEAR_P0] = v->error[WEAR_P1];
     v->error[OF_STEPS] = of_steps;
     v->kept = false;
     v->f.steps += v->stage != PRESS;
@@ -333,7 +372,7 @@ respond(struct wear *v, double *sum, struct rc_err *err)
         return RC_FAIL;
     v->f.convolutions += 1;
     for (size_t k = 0; k < v->n; k++)
-        v->e[k] -= v->c * v->room[k];
+        v->e[k] -= v->c * part(v, k) * v->room[k];
     *sum = size_of(v->n, v->room);
     return RC_OK;
 }
@@ -349,11 +388,21 @@ even(struct wear *v, double of_p1, struct rc_err *err)
     if (respond(v, &z, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < v->n; k++)
-        v->pa[k] = step * v->p1[k];
-    if (take(v, v->pa, step * (change / 2 + of_p1 * sum), of_p1,
+        v->pa[k] = step * part(v, k) * v->p1[k];
+    if (take(v, v->pa, step * (change / 2 + error[WEAR_P1] * sum), of_p1,
              error[OF_P0] + fmax(of_change * change, error[REPEATED] * z) / sum, err) != RC_OK)
         return RC_FAIL;
     return set_out(v, err);
+}
+
+/* The sum of the depths that wear, over k and the length of a step: in this step, or on the average so far.
+ * Where nodes stick, the load leaves the others, and the wear ends. */
+static double
+due(const struct wear *v)
+{
+    const double now = rate(v, v->p1), so_far = size_of(v->n, v->worn) / (v->k * (v->s + v->tried));
+
+    return v->law.part == NULL ? now : fmax(now, so_far);
 }
 
 /* Accepts the step of TR-BDF2, or tries a shorter one. Its local error e is third_order t^3 k p'', with p''
@@ -362,15 +411,15 @@ static enum rc_status
 judge(struct wear *v, double of_p1, struct rc_err *err)
 {
     const double step = v->k * v->tried, sum = size_of(v->n, v->p1), *error = v->error;
-    const double most = of_tol * v->law.tol * step * sum;
+    const double most = of_tol * v->law.tol * step * due(v);
     double e, z = 0, contacts, factor;
 
     for (size_t k = 0; k < v->n; k++)
-        v->e[k] =
-            2 * third_order * step * ((v->p1[k] - v->pa[k]) / (1 - g) - (v->pa[k] - v->p0[k]) / g);
+        v->e[k] = 2 * third_order * step * part(v, k) *
+                  ((v->p1[k] - v->pa[k]) / (1 - g) - (v->pa[k] - v->p0[k]) / g);
     if (respond(v, &z, err) != RC_OK)
         return RC_FAIL;
-    e = size_of(v->n, v->e);
+    e = lasting(v, v->e);
     factor = fmin(GROWTH, 0.9 * sqrt(most / e));
     if (e > most && v->tried > 1e-12 * v->end) {
         v->t = fmax(factor, 1.0 / GROWTH) * v->tried;
@@ -378,9 +427,9 @@ judge(struct wear *v, double of_p1, struct rc_err *err)
         return set_out(v, err);
     }
     /* an error of p0 also acts through p_a, twice: no contact increases a difference of its heights */
-    contacts = step * sum * (3 * w * error[OF_P0] + w * error[OF_PA] + d * of_p1);
+    contacts = step * sum * (3 * w * error[WEAR_P0] + w * error[WEAR_PA] + d * error[WEAR_P1]);
     for (size_t k = 0; k < v->n; k++)
-        v->pa[k] = step * (w * (v->p0[k] + v->pa[k]) + d * v->p1[k]);
+        v->pa[k] = step * part(v, k) * (w * (v->p0[k] + v->pa[k]) + d * v->p1[k]);
     if (v->tried >= v->t ||
         factor < 1) /* a step shortened to end at the point does not limit the next one */
         v->t = fmax(factor, 1.0 / GROWTH) * v->tried;
@@ -414,6 +463,25 @@ go(struct rc_model *m, struct rc_err *err)
     return v->met ? RC_OK : set_out(v, err) == RC_MORE ? RC_OK : RC_FAIL;
 }
 
+/* Sets the error of the wear under p1, relative to k times the load. Where nodes stick, most of the error of the
+ * pressure may be at these. An error z of the pressure moves the heights by D z, and (K + D) z is the gap that
+ * the contact has left open, so that the sum of |D z| is about that of |gap| at most. */
+static enum rc_status
+find_wear_error(struct wear *v, double of_p1, struct rc_err *err)
+{
+    double open = 0;
+
+    v->error[WEAR_P1] = of_p1;
+    if (v->law.part == NULL || v->c == 0)
+        return RC_OK;
+    if (rc_model_frame(v->base.inner, "gap", v->room, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < v->n; k++)
+        open += rc_in_contact(v->p1[k]) ? fabs(v->room[k]) : 0;
+    v->error[WEAR_P1] = fmin(of_p1, caution * open / (v->c * size_of(v->n, v->p1)));
+    return RC_OK;
+}
+
 static enum rc_status
 step(struct rc_model *m, struct rc_err *err)
 {
@@ -434,12 +502,14 @@ step(struct rc_model *m, struct rc_err *err)
     v->f.contacts++;
     v->f.convolutions += rc_model_number(m->inner, "convolutions");
     of_p1 = rc_model_number(m->inner, "pressure_error_estimate");
+    if (find_wear_error(v, of_p1, err) != RC_OK)
+        return RC_FAIL;
     switch (v->stage) {
     case FIRST: {
         double *pa = v->pa;
         v->pa = v->p1;
         v->p1 = pa;
-        v->error[OF_PA] = of_p1;
+        v->error[WEAR_PA] = v->error[WEAR_P1];
         return contact(v, SECOND, err);
     }
     case SECOND:
@@ -471,7 +541,8 @@ height_in(struct wear *v, double *to, struct rc_err *err)
         (v->fitted && rc_model_frame(inner, "gap", v->room, err) != RC_OK))
         return RC_FAIL;
     for (size_t k = 0; k < v->n; k++)
-        to[k] += (v->fitted && rc_in_contact(v->p0[k]) ? v->room[k] : 0) - v->c * v->p0[k];
+        to[k] +=
+            (v->fitted && rc_in_contact(v->p0[k]) ? v->room[k] : 0) - v->c * part(v, k) * v->p0[k];
     return RC_OK;
 }
 
@@ -479,9 +550,9 @@ static enum rc_status
 fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 {
     struct wear *v = (struct wear *)m;
-    const double part = frame == WEAR_1   ? v->law.k[0] / v->k
-                        : frame == WEAR_2 ? v->law.k[1] / v->k
-                                          : 1;
+    const double of_body = frame == WEAR_1   ? v->law.k[0] / v->k
+                           : frame == WEAR_2 ? v->law.k[1] / v->k
+                                             : 1;
 
     if (frame == HEIGHT)
         return height_in(v, to, err);
@@ -489,7 +560,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
         return RC_FAIL;
     for (size_t k = 0; k < v->n; k++)
         if (frame != GAP)
-            to[k] = part * v->worn[k];
+            to[k] = of_body * v->worn[k];
         else if (v->fitted && rc_in_contact(v->p0[k]))
             to[k] = 0;
     return RC_OK;
@@ -555,7 +626,7 @@ state(struct rc_model *m, struct rc_state *s)
         rc_state_count(s, counts[k], (size_t)1 << 40);
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         rc_state_numbers(s, 1, numbers[k]);
-    rc_state_numbers(s, 6, v->error);
+    rc_state_numbers(s, ERRORS, v->error);
     rc_state_map(s, v->n, v->worn);
     rc_state_map(s, v->n, v->p0);
     rc_state_map(s, v->n, v->e);
@@ -630,8 +701,10 @@ const struct rc_model_row rc_model_wear = {
 /* ---- the maker ---- */
 
 static enum rc_status
-check(const struct rc_wear_problem *law, struct rc_err *err)
+check(const struct rc_wear_problem *law, size_t n, struct rc_err *err)
 {
+    double largest = 0;
+
     for (int b = 0; b < 2; b++)
         if (!(law->k[b] >= 0) || isinf(law->k[b]))
             return rc_err_set(
@@ -639,6 +712,16 @@ check(const struct rc_wear_problem *law, struct rc_err *err)
                 law->k[b], b + 1);
     if (law->k[0] + law->k[1] == 0)
         return rc_err_set(err, "no body wears: one of the two wear coefficients must be above 0");
+    for (size_t k = 0; k < n && law->part != NULL; k++) {
+        if (!(law->part[k] >= 0 && law->part[k] <= 1))
+            return rc_err_set(err,
+                              "coefficient of node %zu, %g of the largest: it must be from 0 "
+                              "to 1",
+                              k, law->part[k]);
+        largest = fmax(largest, law->part[k]);
+    }
+    if (law->part != NULL && largest != 1)
+        return rc_err_set(err, "the largest coefficient is %g of itself: it must be 1", largest);
     if (!(law->estar > 0) || isinf(law->estar))
         return rc_err_set(err, "E* %g Pa: it must be above 0 and finite", law->estar);
     if (!(law->tol >= 0 && law->tol < 1))
@@ -652,16 +735,19 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
     struct rc_model *inner = v->base.inner;
     const struct rc_shape *s = &v->base.shape;
 
-    if (check(law, err) != RC_OK)
+    v->n = s->nx * s->ny;
+    if (check(law, v->n, err) != RC_OK)
         return RC_FAIL;
     v->law = *law;
+    v->least = law->part != NULL ? INFINITY : 1;
+    for (size_t k = 0; k < v->n && law->part != NULL; k++)
+        v->least = fmin(v->least, law->part[k]);
     v->law.tol = law->tol > 0 ? law->tol : usual_tol;
     v->k = law->k[0] + law->k[1];
-    v->n = s->nx * s->ny;
     v->t = first_step * s->dx / (v->k * law->estar);
     v->kept = true;
-    if (rc_model_set_compliance(inner, v->k * v->t, err) != RC_OK ||
-        rc_model_set_compliance(inner, 0, err) != RC_OK)
+    if (rc_model_set_compliance(inner, v->k * v->t, law->part, err) != RC_OK ||
+        rc_model_set_compliance(inner, 0, NULL, err) != RC_OK)
         return RC_FAIL;
     if ((v->h = rc_alloc(MAPS * v->n, sizeof *v->h)) == NULL)
         return rc_err_set(err, "out of memory for the wear of %zu x %zu nodes", s->nx, s->ny);

@@ -1,4 +1,4 @@
-/* Random worn maps: the estimated errors of the worn depth and of the pressure are not below the differences
+/* Random worn maps, the last of them with a coefficient of each node: the estimated errors of the worn depth and of the pressure are not below the differences
  * from a run with a tolerance ten times smaller and contacts a thousand times more accurate. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,6 +10,7 @@
 
 enum {
     RUNS = 200,
+    WITH_MAPS = 60, /* more */
     OUTPUTS = 4,
     MOST = 48 * 48
 };
@@ -20,6 +21,7 @@ struct random_run {
     enum rc_boundary boundary;
     double tol, load, k, at[OUTPUTS];
     double *h;
+    double *part; /* NULL: none */
 };
 
 static double
@@ -28,9 +30,40 @@ uniform(uint64_t *seed)
     return random_number(seed) + 0.5;
 }
 
+/* A coefficient of each node over the largest one: two phases, a disc that does not wear, one with a gradual edge,
+ * or log-normal. */
+static void
+draw_parts(struct random_run *r, uint64_t *seed)
+{
+    const int kind = (int)(4 * uniform(seed)), square = 3 + (int)(10 * uniform(seed));
+    const double least = pow(10, -0.3 - 1.3 * uniform(seed)), radius = 2 + 5 * uniform(seed);
+    const size_t nx = r->s.nx, n = nx * r->s.ny;
+    struct rc_selfaffine rough = {.hurst = 0.8,
+                                  .rms_height = 0.2 + 0.8 * uniform(seed),
+                                  .short_cut = 3 * node,
+                                  .seed = *seed};
+    double most = 0;
+
+    r->part = calloc(n, sizeof *r->part);
+    if (kind == 3)
+        assert_int_equal(rc_synth_selfaffine(&r->s, &rough, r->part, NULL), RC_OK);
+    for (size_t k = 0; k < n; k++) {
+        int i = (int)(k % nx), j = (int)(k / nx);
+        double off = hypot(i - (double)nx / 2, j - (double)nx / 2) / radius - 1;
+        r->part[k] = kind == 0   ? (i / square + j / square) % 2 ? 1 : least
+                     : kind == 1 ? off < 0 ? 0 : 1
+                     : kind == 2 ? fmax(off, 0)
+                                 : exp(r->part[k]);
+        most = fmax(most, r->part[k]);
+    }
+    for (size_t k = 0; k < n; k++)
+        r->part[k] /= most;
+}
+
 static struct random_run
 draw(uint64_t seed)
 {
+    const bool maps = seed > RUNS;
     struct random_run r = {.k = 1e-15};
     size_t side = 24 + 8 * (size_t)(4 * uniform(&seed));
     struct rc_selfaffine rough = {
@@ -62,6 +95,8 @@ draw(uint64_t seed)
     for (int q = 0; q < OUTPUTS; q++)
         r.at[q] =
             (q > 0 ? r.at[q - 1] : node / (r.k * estar) * 0.03) * pow(10, 1.5 * uniform(&seed));
+    if (maps)
+        draw_parts(&r, &seed);
     return r;
 }
 
@@ -70,7 +105,8 @@ model(const struct random_run *r, double tol, double contacts)
 {
     const struct rc_problem contact = {
         .boundary = r->boundary, .pair.estar = estar, .tol = contacts, .threads = 1};
-    const struct rc_wear_problem law = {.k = {r->k, 0}, .estar = estar, .tol = tol};
+    const struct rc_wear_problem law = {
+        .k = {r->k, 0}, .estar = estar, .tol = tol, .part = r->part};
     struct rc_err err = {""};
     struct rc_model *m =
         rc_wear_new(rc_elastic_new(&r->s, r->h, &contact, NULL, &err), r->h, &law, &err);
@@ -114,7 +150,7 @@ estimates_are_not_below(void **state)
     size_t short_of = 0;
 
     (void)state;
-    for (uint64_t seed = 1; seed <= RUNS; seed++) {
+    for (uint64_t seed = 1; seed <= RUNS + WITH_MAPS; seed++) {
         struct random_run r = draw(seed);
         struct rc_model *m = model(&r, r.tol, r.tol / 100),
                         *fine = model(&r, r.tol / 10, r.tol / 1e5);
@@ -139,10 +175,11 @@ estimates_are_not_below(void **state)
         rc_model_free(m);
         rc_model_free(fine);
         free(r.h);
+        free(r.part);
     }
     print_message("%d runs, %d outputs: estimates at least %.2f (wear) and %.2f (pressure) of the "
                   "error; %zu outputs short of the tolerance\n",
-                  RUNS, RUNS * OUTPUTS, least[0], least[1], short_of);
+                  RUNS + WITH_MAPS, (RUNS + WITH_MAPS) * OUTPUTS, least[0], least[1], short_of);
     assert_true(least[0] >= 1 && least[1] >= 1);
 }
 

@@ -1,5 +1,5 @@
 /* A compliance c of every node for itself adds c to the diagonal of K: the pressure is that of a dense quadratic
- * program with K + c I, and that of a thin layer without Poisson's ratio, bare and over coats, on both
+ * program with K + c I, or with a c that differs by node, and that of a thin layer without Poisson's ratio, bare and over coats, on both
  * boundaries and by each engine; the estimate of its error is not below the error; gap and displacement are
  * those of the elastic bodies; and c = 0 is the contact without it, to the last bit. */
 #include <setjmp.h>
@@ -11,7 +11,7 @@
 #include "dense.h"
 
 enum {
-    PROBLEMS = 120, /* of random small maps */
+    PROBLEMS = 160, /* of random small maps */
     SIDE = 64,
     NODES = SIDE * SIDE
 };
@@ -48,18 +48,40 @@ fill(struct dense *d, const struct rc_shape *s, const struct rc_problem *problem
 
 /* The contact of these heights under a load, with a compliance. */
 static struct rc_model *
-contact(const struct rc_shape *s, const double *h, const struct rc_problem *problem, double c)
+contact_of(const struct rc_shape *s, const double *h, const struct rc_problem *problem, double c,
+           const double *part)
 {
     struct rc_err err = {""};
     struct rc_model *m = rc_elastic_new(s, h, problem, NULL, &err);
     struct rc_point to = {0};
 
-    if (m == NULL || rc_model_set_compliance(m, c, &err) != RC_OK)
+    if (m == NULL || rc_model_set_compliance(m, c, part, &err) != RC_OK)
         fail_msg("%s", err.text);
     rc_point_set(&to, RC_LOAD, problem->load);
     if (rc_model_run(m, &to, &err) != RC_OK || rc_model_look(m, NULL, &err) != RC_OK)
         fail_msg("compliance %g dx/E*: %s", c * base / cell, err.text);
     return m;
+}
+
+static struct rc_model *
+contact(const struct rc_shape *s, const double *h, const struct rc_problem *problem, double c)
+{
+    return contact_of(s, h, problem, c, NULL);
+}
+
+/* Numbers from 0 to 1 by which c is multiplied: two phases, a disc of 0, or waves over some decades. */
+static void
+parts(uint64_t *seed, const struct rc_shape *s, double *part)
+{
+    const int kind = (int)(3 * uniform(seed)), side = 2 + (int)(6 * uniform(seed));
+    const double least = pow(10, -2 * uniform(seed)), radius = 2 + 5 * uniform(seed);
+
+    for (size_t k = 0; k < s->nx * s->ny; k++) {
+        int i = (int)(k % s->nx), j = (int)(k / s->nx);
+        part[k] = kind == 0   ? (i / side + j / side) % 2 ? 1 : least
+                  : kind == 1 ? hypot(i - 6, j - 6) < radius ? 0 : 1
+                              : pow(least, 0.5 + 0.5 * sin(0.6 * i) * cos(0.4 * j));
+    }
 }
 
 static void
@@ -89,6 +111,7 @@ estimates_are_not_below(void **state)
 {
     static struct dense d;
     static double most[DENSE_NODES], p[DENSE_NODES], h[DENSE_NODES], found[DENSE_NODES];
+    static double part[DENSE_NODES];
     double high = 0;
 
     (void)state;
@@ -111,10 +134,15 @@ estimates_are_not_below(void **state)
         problem.load = pow(10, 7 + uniform(&seed)) * (double)n * s.dx * s.dy;
         problem.hardness = q % 5 == 0 ? 3 * problem.load / ((double)n * s.dx * s.dy) : 0;
         rough(&seed, &s, h);
-        m = contact(&s, h, &problem, c);
+        parts(&seed, &s, part);
+        for (size_t k = 0; k < n && q / 2 % 2 == 0; k++)
+            part[k] = 1;
+        m = contact_of(&s, h, &problem, c, q / 2 % 4 == 0 ? NULL : part);
         frame(m, "pressure", found);
         estimate = rc_model_number(m, "pressure_error_estimate");
-        fill(&d, &s, &problem, c);
+        fill(&d, &s, &problem, 0);
+        for (size_t k = 0; k < n; k++)
+            d.K[k][k] += c * part[k];
         d.value[0] = problem.load / (s.dx * s.dy);
         for (size_t k = 0; k < n; k++) {
             most[k] = problem.hardness > 0 ? problem.hardness : INFINITY;
@@ -257,8 +285,8 @@ none_is_the_contact_without(void **state)
             rc_point_set(&to, RC_LOAD, problem.load);
             assert_int_equal(rc_model_go(m, &to, &err), RC_MORE);
             if (k > 0) {
-                assert_int_equal(rc_model_set_compliance(m, 1e-14, &err), RC_OK);
-                assert_int_equal(rc_model_set_compliance(m, 0, &err), RC_OK);
+                assert_int_equal(rc_model_set_compliance(m, 1e-14, NULL, &err), RC_OK);
+                assert_int_equal(rc_model_set_compliance(m, 0, NULL, &err), RC_OK);
             }
             assert_int_equal(rc_model_run(m, &to, &err), RC_OK);
             frame(m, "pressure", (rc_model_look(m, NULL, &err), p[k]));
@@ -282,10 +310,15 @@ nonsense_is_refused(void **state)
 
     (void)state;
     for (const double *c = (const double[]){-1e-15, NAN, INFINITY, 0}; *c != 0; c++)
-        assert_int_equal(rc_model_set_compliance(m, *c, &err), RC_FAIL);
+        assert_int_equal(rc_model_set_compliance(m, *c, NULL, &err), RC_FAIL);
+    for (const double *bad = (const double[]){-1, NAN, INFINITY, 0}; *bad != 0; bad++) {
+        const double part[16] = {1, 0, 2, *bad};
+        assert_int_equal(rc_model_set_compliance(m, 1e-15, part, &err), RC_FAIL);
+        assert_non_null(strstr(err.text, "node 3"));
+    }
     rc_model_free(m);
     m = rc_elastic_new(&s, h, &problem, NULL, &err);
-    assert_int_equal(rc_model_set_compliance(m, 1e-15, &err), RC_FAIL);
+    assert_int_equal(rc_model_set_compliance(m, 1e-15, NULL, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "tilt"));
     rc_model_free(m);
 }
