@@ -68,7 +68,7 @@ static const struct opt opts[] = {
      .result = true, .arg = "ERROR",
      .help = "relative L1 error of the tractions (default 1e-4 of the iteration, 0.1 in all)"},
     {.name = "output", .type = OPT_WORDS, AT(output), .words = slip_frame_word, .arg = "LIST",
-     .help = "frames to write, of %s (default: all but state)"},
+     .help = "frames to write, of %s (default: the first five)"},
     {.group = drive_options, AT(drive)},
     {.name = NULL},
 };

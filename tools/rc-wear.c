@@ -8,7 +8,7 @@
 
 static struct args {
     const char *coefficient, *energy, *until, *steps;
-    struct numbers archard, distance, load; /* load: of the stream */
+    struct numbers archard, distance, cycles, load; /* load: of the stream */
     double hardness, mu, tol;
     size_t output;
     struct drive_args drive;
@@ -39,6 +39,8 @@ static const struct opt opts[] = {
      .help = "coefficient of friction of --energy"},
     {.name = "distance", .type = OPT_NUMBERS, .unit = UNIT_M, AT(distance), .min = 0, .max = INFINITY,
      .result = true, .arg = "LIST", .help = "sliding distances from the start, each a case"},
+    {.name = "cycles", .type = OPT_NUMBERS, AT(cycles), .min = 0, .max = INFINITY, .result = true,
+     .arg = "LIST", .help = "instead: numbers of cycles, whose slip is the frame slip of rc-slip"},
     {.name = "until", .type = OPT_TEXT, AT(until), .result = true, .arg = "LIST",
      .help = "end earlier at area=FRACTION in contact, depth=LENGTH or uniform=SPREAD of the pressure"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 0.5, .above = true, .result = true,
@@ -67,13 +69,25 @@ static const struct tool_info info = {
     .shares = true, /* to refuse it once */
 };
 
+enum { /* frames beside the heights */
+    COEFFICIENT,
+    HARD,
+    SLIP,
+    MAPS
+};
+
 struct run {
     struct drive d;
     struct rc_wear_problem law;
     struct report steps;
-    double coat;    /* m: thickness of the top layer; 0: none */
-    double relief;  /* m: from the lowest to the highest node before wear */
-    size_t written; /* steps in --steps                      */
+    double coat;                /* m: thickness of the top layer; 0: none */
+    double relief;              /* m: from the lowest to the highest node before wear */
+    size_t written;             /* steps in --steps                      */
+    const struct numbers *list; /* of distances or cycles                              */
+    double path;                /* m: of the node that slips most in a cycle; 1: distances */
+    double k[2];                /* 1/Pa: of the options                                */
+    struct rc_grid *map[MAPS];  /* of the case; NULL: none                             */
+    double *part;               /* k of each node over the largest one; NULL: 1        */
 };
 
 /* ---- the command line ---- */
@@ -107,7 +121,7 @@ static void
 read_coefficients(struct tool *t, const char *name, const char *text, const struct named_unit *unit,
                   const char *why)
 {
-    double *k = ((struct run *)(void *)t)->law.k;
+    double *k = ((struct run *)(void *)t)->k;
     const char *comma = strchr(text, ',');
     const size_t n = comma != NULL ? (size_t)(comma - text) : strlen(text);
 
@@ -115,6 +129,12 @@ read_coefficients(struct tool *t, const char *name, const char *text, const stru
         (comma != NULL && !number_in(comma + 1, strlen(comma + 1), unit, &k[1])))
         tool_die(t, EXIT_USAGE, "--%s %s: it must be K1 or K1,K2, each at least 0 %s", name, text,
                  why);
+}
+
+static bool
+any_law(const struct tool *t)
+{
+    return tool_given(t, "coefficient") || tool_given(t, "archard") || tool_given(t, "energy");
 }
 
 static void
@@ -125,9 +145,9 @@ read_law(struct run *run)
                                                 {NULL, 0}};
     static const struct named_unit of_energy[] = {{"mm3/J", 1e-9}, {"m3/J", 1}, {NULL, 0}};
     struct tool *t = &run->d.t;
-    double *k = run->law.k;
+    double *k = run->k;
 
-    if (tool_given(t, "coefficient") + tool_given(t, "archard") + tool_given(t, "energy") != 1)
+    if (tool_given(t, "coefficient") + tool_given(t, "archard") + tool_given(t, "energy") > 1)
         tool_die(t, EXIT_USAGE,
                  "give one of --coefficient, --archard and --energy: how much wears");
     if (tool_given(t, "archard") != tool_given(t, "hardness"))
@@ -148,6 +168,8 @@ read_law(struct run *run)
         if (args.energy != NULL)
             k[b] *= args.mu;
     }
+    if (!any_law(t))
+        return; /* the frame wear-coefficient has it */
     if (k[0] + k[1] == 0)
         tool_die(t, EXIT_USAGE, "no body wears: give a wear coefficient above 0");
     if (k[0] > 0 && k[1] > 0 && !tool_given(t, "output"))
@@ -212,6 +234,88 @@ refuse_others(struct tool *t, const struct rc_grid *g)
                     "implemented");
 }
 
+/* The largest value of a map; ends the tool where values are not at least 0, or none is above. */
+static double
+largest(struct tool *t, const struct rc_grid *g, const char *unit)
+{
+    const size_t n = rc_grid_nodes(g);
+    double most = 0;
+
+    if (strcmp(g->unit, unit) != 0)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its unit is '%s': it must be %s", g->unit, unit);
+    for (size_t k = 0; k < n; k++) {
+        if (!(g->v[k] >= 0) || isinf(g->v[k]))
+            tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                        "value %g at column %zu, row %zu: it must be at least 0 and finite",
+                        g->v[k], k % g->nx, k / g->nx);
+        most = fmax(most, g->v[k]);
+    }
+    if (most == 0)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "all its values are 0: no node wears");
+    return most;
+}
+
+/* Multiplies the part of each node by a map over `scale`. */
+static void
+multiply(struct run *run, const struct rc_grid *map, double scale)
+{
+    const size_t n = rc_grid_nodes(map);
+
+    if (run->part == NULL && (run->part = malloc(n * sizeof *run->part)) == NULL)
+        tool_die_at(&run->d.t, map, EXIT_IMPOSSIBLE, "out of memory for the wear of %zu nodes", n);
+    for (size_t k = 0; k < n; k++)
+        run->part[k] =
+            map->v[k] / scale *
+            (run->map[COEFFICIENT] == NULL || map == run->map[COEFFICIENT] ? 1 : run->part[k]);
+    run->d.maps = rc_crc32_add(run->d.maps, map->v, n * sizeof *map->v);
+}
+
+/* The law of the case, from the options and its maps. */
+static void
+find_law(struct run *run, const struct rc_grid *g)
+{
+    struct tool *t = &run->d.t;
+    double most = 0, least = INFINITY;
+
+    if (any_law(t) == (run->map[COEFFICIENT] != NULL))
+        tool_die_at(t, g, EXIT_USAGE,
+                    any_law(t) ? "it has a frame wear-coefficient: leave out --%s"
+                               : "give one of --coefficient, --archard and --energy, or a frame "
+                                 "wear-coefficient: how much wears%s",
+                    !any_law(t)                    ? ""
+                    : tool_given(t, "coefficient") ? "coefficient"
+                    : tool_given(t, "archard")     ? "archard"
+                                                   : "energy");
+    if ((run->map[SLIP] != NULL) != (args.cycles.n > 0))
+        tool_die_at(t, g, EXIT_USAGE,
+                    run->map[SLIP] != NULL
+                        ? "it has a frame slip, the path of a cycle: give --cycles"
+                        : "--cycles needs a frame slip, the path of a cycle, as "
+                          "rc-slip --output height,slip writes it");
+    run->d.maps = 0;
+    memcpy(run->law.k, run->k, sizeof run->k);
+    if (run->map[COEFFICIENT] != NULL)
+        multiply(run, run->map[COEFFICIENT],
+                 run->law.k[0] = largest(t, run->map[COEFFICIENT], "1/Pa"));
+    run->path = 1;
+    if (run->map[SLIP] != NULL)
+        multiply(run, run->map[SLIP], run->path = largest(t, run->map[SLIP], "m"));
+    for (size_t k = 0; k < rc_grid_nodes(g) && run->part != NULL; k++) {
+        most = fmax(most, run->part[k]);
+        least = fmin(least, run->part[k]);
+    }
+    if (run->part != NULL && most == 0)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "nodes that slip have the wear coefficient 0: no node wears");
+    for (size_t k = 0; k < rc_grid_nodes(g) && run->part != NULL; k++)
+        run->part[k] /= most;
+    for (int b = 0; b < 2 && run->part != NULL; b++)
+        run->law.k[b] *= most;
+    run->law.part = least < most ? run->part : NULL;
+    for (size_t k = 0; k < run->d.points; k++)
+        rc_point_set(&run->d.point[k], RC_DISTANCE, run->list->v[k] * run->path);
+}
+
 /* E* of the pair for waves as short as the roughness: that of the top layer on body 2. */
 static double
 estar_of(const struct rc_pair *p)
@@ -235,14 +339,16 @@ static void
 suspect_unit(struct run *run, const struct rc_grid *g)
 {
     struct tool *t = &run->d.t;
+    const struct rc_point *point = run->d.point;
     const double side = fmax(g->dx * (double)g->nx, g->dy * (double)g->ny);
     const double k = run->law.k[0] + run->law.k[1], scale = k * run->law.estar;
     char given[SHOWN_NUMBER], usual[SHOWN_NUMBER], where[256];
     double first = INFINITY, last = 0;
 
-    for (size_t i = 0; i < args.distance.n; i++) {
-        first = args.distance.v[i] > 0 ? fmin(first, args.distance.v[i]) : first;
-        last = fmax(last, args.distance.v[i]);
+    for (size_t i = 0; i < run->d.points; i++) {
+        const double s = point[i].at[RC_DISTANCE];
+        first = s > 0 ? fmin(first, s) : first;
+        last = fmax(last, s);
     }
     tool_where(t, g, where, sizeof where);
     if (last > 0 && scale * last < 0.01 * g->dx)
@@ -303,7 +409,9 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
             shown_in_unit(worn, f->max_wear_depth, "m"), shown_in_unit(coat, run->coat, "m"));
     d->ended = d->status != RC_MORE && f->distance < d->point[d->at].at[RC_DISTANCE];
     if (rc_grid_set_number(g, "wear_1", run->law.k[0], &err) != RC_OK ||
-        rc_grid_set_number(g, "wear_2", run->law.k[1], &err) != RC_OK)
+        rc_grid_set_number(g, "wear_2", run->law.k[1], &err) != RC_OK ||
+        (run->map[SLIP] != NULL &&
+         rc_grid_set_number(g, "cycles", f->distance / run->path, &err) != RC_OK))
         tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     judge_map(run, m, g);
 }
@@ -329,11 +437,15 @@ static void
 show_plan(struct run *run, const struct rc_grid *g)
 {
     const double scale = (run->law.k[0] + run->law.k[1]) * run->law.estar;
-    const double limit = 0.9 * g->dx / scale, last = args.distance.v[args.distance.n - 1];
+    const double limit = 0.9 * g->dx / scale;
+    const double last = run->d.point[run->d.points - 1].at[RC_DISTANCE];
     char step[SHOWN_NUMBER];
 
     fprintf(run->d.t.out, "  explicit steps: about %.3g, each at most 0.9 dx/(k E*) = %s\n",
             ceil(last / limit), shown_in_unit(step, limit, "m"));
+    if (run->law.part != NULL)
+        fprintf(run->d.t.out, "  coefficient by node: a contact takes about 12 to 35 convolutions, "
+                              "beside 6 of a uniform one\n");
 }
 
 static void
@@ -366,6 +478,15 @@ do_case(struct run *run, const struct rc_grid *g)
         tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (rc_grid_get(g, "hardness") != NULL)
         problem.hardness = key(&d->t, g, "hardness", "the bound of the pressure");
+    if (run->map[HARD] != NULL)
+        problem.hardness_map = run->map[HARD]->v;
+    else if (rc_grid_get(g, "hardness_map") != NULL)
+        tool_die_at(&d->t, g, EXIT_IMPOSSIBLE,
+                    "its pressure was bounded by a map, and it has no frame hardness: put the map "
+                    "into the case");
+    find_law(run, g);
+    if (run->map[SLIP] != NULL) /* the nodes that stick carry most of the load, but do not wear */
+        problem.tol /= 10;
     run->law.estar = estar_of(&problem.pair);
     run->law.tol = args.tol;
     run->coat = layers.layer != NULL ? layers.layer[0].thickness : 0;
@@ -382,6 +503,76 @@ do_case(struct run *run, const struct rc_grid *g)
     if (args.drive.dry_run)
         show_plan(run, g);
     layers_free(&layers);
+    free(run->part);
+    run->part = NULL;
+}
+
+/* Keeps the maps beside the heights. */
+static bool
+take(void *ctx, struct tool *t, const struct rc_grid *h, struct rc_grid *g)
+{
+    static const char *const name[MAPS] = {"wear-coefficient", "hardness", "slip"};
+    struct run *run = ctx;
+
+    (void)h;
+    for (size_t k = 0; k < MAPS; k++)
+        if (strcmp(g->channel, name[k]) == 0) {
+            tool_keep_frame(t, g, &run->map[k]);
+            return true;
+        }
+    return false;
+}
+
+static void
+drop_maps(struct run *run)
+{
+    for (size_t k = 0; k < MAPS; k++) {
+        rc_grid_free(run->map[k]);
+        run->map[k] = NULL;
+    }
+}
+
+/* The heights of the next case, with the maps beside them. */
+static struct rc_grid *
+next(struct run *run)
+{
+    struct rc_grid *g;
+
+    drop_maps(run);
+    if (tool_interrupted() != 0 || (g = tool_channel_with(&run->d.t, "height", take, run)) == NULL)
+        return NULL;
+    for (size_t k = 0; k < MAPS; k++)
+        if (run->map[k] != NULL)
+            tool_demand_grid_of(&run->d.t, run->map[k], g);
+    return g;
+}
+
+/* A stream is one cycle: the last case has its heights and maps, and the slip is the sum over all cases. */
+static struct rc_grid *
+next_cycle(struct run *run)
+{
+    struct rc_grid *g = next(run), *last = NULL, *map[MAPS];
+
+    while (g != NULL && run->map[SLIP] != NULL) {
+        rc_grid_free(last);
+        last = g;
+        memcpy(map, run->map, sizeof map);
+        memset(run->map, 0, sizeof map);
+        if ((g = next(run)) == NULL)
+            break;
+        tool_demand_grid_of(&run->d.t, g, last);
+        for (size_t k = 0; k < rc_grid_nodes(g) && run->map[SLIP] != NULL; k++)
+            run->map[SLIP]->v[k] += map[SLIP]->v[k];
+        for (size_t k = 0; k < MAPS; k++)
+            rc_grid_free(map[k]);
+    }
+    if (g != NULL) { /* without a slip */
+        rc_grid_free(last);
+        return g;
+    }
+    if (last != NULL)
+        memcpy(run->map, map, sizeof map);
+    return last;
 }
 
 /* ---- main ---- */
@@ -389,7 +580,7 @@ do_case(struct run *run, const struct rc_grid *g)
 int
 main(int argc, char **argv)
 {
-    static const struct drive_axis axes[] = {
+    static struct drive_axis axes[] = {
         {RC_DISTANCE, &args.distance}, {RC_LOAD, &args.load}, {0, NULL}};
     static const char *const tells[] = {"contact_fraction",
                                         "max_pressure",
@@ -412,19 +603,23 @@ main(int argc, char **argv)
                  "wear is not shared among processes: take one process, with --threads");
     read_law(&run);
     read_until(&run);
-    if (args.distance.n == 0)
-        tool_die(&run.d.t, EXIT_USAGE,
-                 "give the sliding distances with --distance, as in --distance 1m,10m");
-    for (size_t k = 1; k < args.distance.n; k++)
-        if (!(args.distance.v[k] > args.distance.v[k - 1]))
+    if ((args.distance.n > 0) == (args.cycles.n > 0))
+        tool_die(
+            &run.d.t, EXIT_USAGE,
+            "give the sliding distances with --distance, as in --distance 1m,10m, or --cycles");
+    axes[0].list = run.list = args.cycles.n > 0 ? &args.cycles : &args.distance;
+    for (size_t k = 1; k < run.list->n; k++)
+        if (!(run.list->v[k] > run.list->v[k - 1]))
             tool_die(&run.d.t, EXIT_USAGE,
-                     "--distance: each distance must be larger than the one before it");
+                     "--%s: each number must be larger than the one before it",
+                     args.cycles.n > 0 ? "cycles" : "distance");
     report_open(&run.steps, &run.d.t, args.steps);
     drive_open(&run.d, axes);
-    while ((g = drive_next(&run.d)) != NULL) {
+    while ((g = args.cycles.n > 0 ? next_cycle(&run) : next(&run)) != NULL) {
         do_case(&run, g);
         rc_grid_free(g);
     }
+    drop_maps(&run);
     report_close(&run.steps);
     return drive_close(&run.d);
 }

@@ -37,7 +37,7 @@ struct own {
         double norm, diagonal;
     } bare;        /* for K without its diagonal term */
     double *p, *u; /* scratch for engines without single precision: maps */
-    float *row;    /* a row for each thread, for these and for a diagonal by nodes; otherwise NULL */
+    float *row; /* a row for each thread, for these and for a diagonal by nodes; otherwise NULL */
     int row_threads;
 };
 

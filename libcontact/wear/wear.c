@@ -75,14 +75,14 @@ struct wear {
     double *e, *room;        /* error of a step; heights of the inner model, other numbers */
     size_t stage, last;      /* last: steps of backward Euler since the last point         */
     double s, end, t, tried; /* m: distance slid, end of the leg, next step, present step */
-    double error[ERRORS];    /* m3: error of the worn volume; relative: errors of p0, of steps ... */
-    double c;                /* m/Pa: compliance of the last contact                       */
-    bool kept;               /* the inner model has kept its contact                     */
-    bool fitted;             /* the heights in contact were replaced by K p minus the shift */
-    bool good;               /* all contacts have converged                              */
-    bool met;                /* one of the conditions law.until_... is met */
-    bool again;              /* a state was read: its contact must be solved again       */
-    double in_contact;       /* part of the nodes in contact */
+    double error[ERRORS]; /* m3: error of the worn volume; relative: errors of p0, of steps ... */
+    double c;             /* m/Pa: compliance of the last contact                       */
+    bool kept;            /* the inner model has kept its contact                     */
+    bool fitted;          /* the heights in contact were replaced by K p minus the shift */
+    bool good;            /* all contacts have converged                              */
+    bool met;             /* one of the conditions law.until_... is met */
+    bool again;           /* a state was read: its contact must be solved again       */
+    double in_contact;    /* part of the nodes in contact */
     struct rc_wear_figures f;
 };
 const struct rc_figure rc_figures_wear[] = {

@@ -2,6 +2,18 @@
 # early ends; both bodies, coats and a hardness; an interrupted run continues; what is not known is refused.
 . "$(dirname "$0")/../pipe.sh"
 
+# map CHANNEL UNIT EXPRESSION: a frame of 32 x 32 nodes, its value at column i of row j
+map() {
+    perl -MCompress::Zlib -e '
+        my ($name, $unit, $expr) = @ARGV; my $v = "";
+        for my $j (0 .. 31) { for my $i (0 .. 31) { $v .= pack("d<", eval $expr) } }
+        my $b = "RCG1\nchannel=$name\nnx=32\nny=32\ndx=1e-06\ndy=1e-06\nunit=$unit\ntype=f64\n\n$v";
+        binmode STDOUT; print $b . sprintf("crc32 %08x\n", crc32($b)) . "RCGEND 1\n"' "$@"
+}
+# beside A B: the frames of both as one case
+beside() { perl -0777 -ne 's/RCGEND (\d+)\n\z//; $n += $1; print; END { print "RCGEND $n\n" }' "$1" "$2"; }
+coefficient() { beside pressed.rcg <(map wear-coefficient 1/Pa "$1" 2>/dev/null); }
+export -f map beside coefficient
 column() { # NAME ROW FILE: a number of a table
     awk -F'\t' -v name="$1" -v row="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub("/.*", "", $k); if ($k == name) c = k } }
         NR == row + 1 { print $c }' "$3"
@@ -79,6 +91,59 @@ near "$(column wear_volume 2 hard.tsv)" 1e-14 1e-12 "  and dents are not worn vo
 rc-solve --quiet --E1 1GPa --nu1 0.3 --E2 rigid --layer 2um,3GPa,0.3 --load 1mN rough.rcg -o coated.rcg
 claim "a coated body wears" bash -c "$wear --distance 1km -o coat.rcg coated.rcg"
 refuses 1 'more than the thickness of the coat, 2 um' "  not through" "$wear --distance 1000Mm -o x.rcg coated.rcg"
+
+rc-solve --quiet --periodic --load 1mN --estar 1GPa \
+    <(beside rough.rcg <(map hardness Pa '$i % 32 < 16 ? 1e7 : "inf"')) -o spots.rcg
+refuses 1 'bounded by a map, and it has no frame hardness' "a map of hardness that is lost" "$wear --distance 1m -o x.rcg spots.rcg"
+beside <(rc-pick --channel height spots.rcg) <(map hardness Pa '$i % 32 < 16 ? 1e7 : "inf"') >spots-hard.rcg
+claim "a map of hardness" $wear --distance 0 --report spots.tsv -o x.rcg spots-hard.rcg
+claim "  bounds the pressure where it is low" test "$(rc-export --channel pressure --format csv x.rcg | grep -v '^#' |
+    awk -F, '{ for (i = 1; i <= 16; i++) if ($i > most) most = $i } END { print most / 1e7 }')" = 1
+
+# ---- a coefficient of each node ----
+
+coefficient 1e-15 >even.rcg
+rc-wear --quiet --distance 10m,1000m --report even.tsv -o even-worn.rcg even.rcg
+$wear --distance 10m,1000m --report same.tsv -o same.rcg pressed.rcg
+near "$(column max_wear_depth 2 even.tsv)" "$(column max_wear_depth 2 same.tsv)" 1e-9 "a map with one value is the coefficient"
+coefficient '($i / 8 % 2 < 1) ? 1e-15 : 2.5e-16' >phases.rcg
+claim "two phases" rc-wear --quiet --distance 1000m --report phases.tsv -o phases-worn.rcg phases.rcg
+claim "  where k p is even in the end" bash -c '
+    rc-wear --quiet --distance 1000km --output pressure phases.rcg | rc-export --format csv | grep -v "^#" |
+        awk -F, "{ for (i = 1; i <= 32; i++) s[int((i - 1) / 8) % 2] += \$i } END { q = s[1] / s[0]; exit !(q > 3.98 && q < 4.02) }"'
+claim "  the plan says what it costs" says 'coefficient by node: a contact takes about' rc-wear --dry-run --distance 1m phases.rcg
+refuses 2 'leave out --coefficient' "a map and a number" "$wear --distance 1m -o x.rcg phases.rcg"
+refuses 1 "value -?nan at column 0, row 0" "a map without a number" "rc-wear --distance 1m -o x.rcg <(coefficient '\"nan\"')"
+refuses 1 'value -1' "a coefficient below 0" "rc-wear --distance 1m -o x.rcg <(coefficient '\$i ? 1e-15 : -1')"
+refuses 1 'all its values are 0' "a map of 0" "rc-wear --distance 1m -o x.rcg <(coefficient 0)"
+refuses 1 "its unit is 'Pa'" "a map in pascals" "rc-wear --distance 1m -o x.rcg <(beside pressed.rcg <(map wear-coefficient Pa 1))"
+refuses 1 'grid' "a map of another size" "rc-wear --distance 1m -o x.rcg <(beside hard.rcg <(map wear-coefficient 1/Pa 1))"
+
+# ---- fretting: a Hertz contact of 20 nodes, F = 0.6 mu P; Cattaneo's stick zone has 14.74 nodes, that of the grid 14.80 by its area ----
+
+rc-synth sphere --nx 64 --ny 64 --dx 1um --radius 1mm | rc-solve --quiet --load 1.0666667N --estar 100GPa -o fretted.rcg
+stuck=
+for cycles in 4000 8000 16000 32000 64000; do
+    rc-slip --quiet --mu 0.3 --nu 0 --tangential 0.192N --output height,slip --report stick.json -o slip.rcg fretted.rcg
+    rc-wear --quiet --coefficient 5e-4mm3/Nm --cycles $cycles --report fretted.tsv -o fretted.rcg slip.rcg
+    stuck="$stuck $(field stick_nodes stick.json)"
+done
+claim "the stick zone does not move" test "$stuck" = " 688 688 688 688 688"
+plain() { rc-export --channel "$1" --format csv "$2" | grep -v '^#'; }
+shares=$(plain slip slip.rcg | paste -d, - <(plain pressure fretted.rcg) | awk -F, '
+    { for (i = 1; i <= 64; i++) { all += $(i + 64); stuck += $i == 0 ? $(i + 64) : 0; r = sqrt((i - 32.5)^2 + (NR - 32.5)^2)
+          if (r < 0.8 * 14.8) { w = sqrt(14.8^2 - r^2); n++
+              q += $(i + 64) / (2e11 / 1000 / 3.14159265 * w + (1.0666667e12 - 4e11 * 14.8^3 / 3000) / (2 * 3.14159265 * 14.8 * w)) } } }
+    END { print stuck / all, q / n }')
+between 0.997 "${shares% *}" 1 "  and takes the load"
+near "${shares#* }" 1 0.01 "  as the ball cut off there: its mean pressure"
+rc-slip --quiet --mu 0.3 --nu 0 --path '1N,0,0; 1N,0.2N,0; 1N,-0.2N,0; 1N,0.2N,0' --output height,slip,slip-x -o loop.rcg \
+    <(rc-pick --case 1 fretted.rcg)
+way() { rc-pick --case "$1" --channel slip loop.rcg | rc-export --format csv | grep -v '^#' | tr , '\n' | awk '{ s += $1 } END { print s }'; }
+near "$(way 3)" "$(way 4)" 0.02 "both ways of a loop slip equally far"
+refuses 2 'cycles needs a frame slip' "cycles without a slip" "$wear --cycles 10 -o x.rcg pressed.rcg"
+refuses 2 'give --cycles' "a slip without cycles" "$wear --distance 1m -o x.rcg slip.rcg"
+refuses 2 'larger than the one before' "cycles that fall" "$wear --cycles 10,1 -o x.rcg slip.rcg"
 
 # ---- stopped, and on ----
 

@@ -141,7 +141,7 @@ mark_case(struct drive *d, const struct rc_grid *g)
 {
     const char *word[2 * TOOL_OPTIONS];
     const size_t n = tool_result_words(&d->t, word, 2 * TOOL_OPTIONS);
-    uint32_t all = 0;
+    uint32_t all = d->maps;
 
     d->course.marks = 0;
     checkpoint_crc(&d->t, g, course_mark(&d->course, "checkpoint.surface"));
@@ -251,7 +251,9 @@ put_frames(struct drive *d, struct rc_model *m, const struct rc_point *at)
             continue;
         frame = *as;                  /* as the reader of the stream sees it */
         frame.channel = (char *)word; /* this, the unit and the values are only read */
-        frame.unit = kind != NULL ? (char *)kind->unit : as->unit;
+        frame.unit = kind != NULL      ? (char *)kind->unit
+                     : d->unit != NULL ? (char *)d->unit
+                                       : as->unit;
         frame.v = (double *)v;
         frame.type = kind == NULL                         ? g->type
                      : strcmp(word, CONTACT_CHANNEL) == 0 ? RC_F32 /* 0 and 1 */

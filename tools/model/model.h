@@ -129,6 +129,7 @@ struct drive {
     void (*all_keys)(struct drive *d, const struct rc_model *m, struct rc_grid *frame);
     const double *(*frame)(struct drive *d, struct rc_model *m, struct rc_grid *frame,
                            const char *word);
+    const char *unit; /* of frames that are not of the model; NULL: that of the heights */
     void (*keep)(struct drive *d, struct rc_model *m);
     void (*row)(struct drive *d, const struct rc_model *m);
     /* set by drive_open and drive_case */
@@ -138,6 +139,7 @@ struct drive {
     const struct drive_axis *axes;
     struct rc_point *point;
     size_t points, at; /* at: the point that is reached */
+    uint32_t maps;     /* set by the tool: CRC-32 of other maps that the model depends on */
     bool ended;        /* set by `keys`: later points of the case are left out */
     bool silent;       /* set by `judge`: the point has no frames and no row */
     bool spare;        /* set by the tool: the values of the heights are free for those of frames */

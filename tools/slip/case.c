@@ -16,6 +16,8 @@ slip_frame_word(size_t k)
                                         [SLIP_SLIP_X] = "slip-x",
                                         [SLIP_SLIP_Y] = "slip-y",
                                         [SLIP_STATE] = "state",
+                                        [SLIP_HEIGHT] = "height",
+                                        [SLIP_LENGTH] = "slip",
                                         [SLIP_FRAMES] = NULL};
 
     return words[k];
@@ -234,6 +236,44 @@ new_model(struct slip_run *run)
     return m;
 }
 
+/* Adds the straight way of slip from the last corner to this one. */
+static void
+add_slip(struct slip_run *run, struct rc_model *m)
+{
+    const size_t n = rc_grid_nodes(run->p);
+    double *x = run->slipped, *y = x + n, *way = y + n, *now;
+    struct rc_err err = {""};
+
+    if (x == NULL)
+        return;
+    if ((now = malloc(2 * n * sizeof *now)) == NULL ||
+        rc_model_frame(m, "slip-x", now, &err) != RC_OK ||
+        rc_model_frame(m, "slip-y", now + n, &err) != RC_OK)
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE, "%s",
+                    now == NULL ? "out of memory for the slip" : err.text);
+    for (size_t k = 0; k < n; k++)
+        way[k] += hypot(now[k] - x[k], now[n + k] - y[k]);
+    memcpy(x, now, 2 * n * sizeof *now);
+    free(now);
+}
+
+/* The heights and the path of slip are those of the tool; NULL: a frame of the model. */
+static const double *
+frame_of(struct drive *d, struct rc_model *m, struct rc_grid *frame, const char *word)
+{
+    struct slip_run *run = (struct slip_run *)(void *)d;
+    const size_t n = rc_grid_nodes(frame);
+
+    (void)m;
+    if (strcmp(word, slip_frame_word(SLIP_HEIGHT)) == 0)
+        return run->height->v;
+    if (strcmp(word, slip_frame_word(SLIP_LENGTH)) != 0)
+        return NULL;
+    memcpy(frame->v, run->slipped + 2 * n, n * sizeof *frame->v);
+    memset(run->slipped + 2 * n, 0, n * sizeof *frame->v);
+    return frame->v;
+}
+
 static void
 begin(struct drive *d, struct rc_model *m)
 {
@@ -250,6 +290,7 @@ judge(struct drive *d, struct rc_model *m)
     struct slip_state *s = &run->state;
 
     find_state(run, m, s);
+    add_slip(run, m);
     if (!s->converged)
         tool_fails_with(&d->t, EXIT_SHORT);
     d->silent = s->corner->silent && tool_interrupted() == 0;
@@ -263,7 +304,12 @@ follow(struct slip_run *run)
 {
     struct drive *d = &run->d;
 
+    if (run->args->output >> SLIP_LENGTH & 1 &&
+        (run->slipped = calloc(3 * rc_grid_nodes(run->p), sizeof *run->slipped)) == NULL)
+        tool_die_at(&d->t, run->p, EXIT_IMPOSSIBLE, "out of memory for the slip");
     run->state = (struct slip_state){.dissipated_total = 0};
+    d->frame = frame_of;
+    d->unit = "m";
     d->begin = begin;
     d->judge = judge;
     d->all_keys = set_keys;
@@ -275,6 +321,8 @@ follow(struct slip_run *run)
         d->point[k] = slip_point(&run->corner[k]);
     drive_points(d, run->p, new_model(run));
     free(d->point);
+    free(run->slipped);
+    run->slipped = NULL;
     d->point = NULL;
 }
 
@@ -315,6 +363,9 @@ slip_case(struct slip_run *run)
     check_beside(run, run->gap);
     check_beside(run, run->height);
     find_boundary(run);
+    if (run->args->output >> SLIP_HEIGHT & 1 && run->height == NULL)
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+                    "--output height: there is no height beside it: take all that rc-solve writes");
     slip_find_bodies(run);
     slip_plan_path(run);
     check_solvable(run);

@@ -14,6 +14,8 @@ enum slip_frame { /* in the order of the words of --output */
     SLIP_SLIP_X,
     SLIP_SLIP_Y,
     SLIP_STATE,
+    SLIP_HEIGHT,
+    SLIP_LENGTH, /* of the path of slip since the last case */
     SLIP_FRAMES
 };
 
@@ -67,6 +69,8 @@ struct slip_run {
     struct slip_corner *corner;
     size_t corners;
     struct slip_state state; /* of the corner that was reached last */
+    /* m, three maps: slip along x and y at the last corner, path of slip since the last case; NULL: not wanted */
+    double *slipped;
     struct rc_friction_problem law;
     bool coupled;    /* the pressure moves the bodies along each other  */
     bool alternates; /* tractions change the pressure too               */

@@ -113,6 +113,8 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     drive_set_number(d, g, "load",
                      run->args->physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);
     drive_set_number(d, g, "hardness", run->args->physics.hardness);
+    if (run->hardness != NULL && rc_grid_set(g, "hardness_map", "yes", &err) != RC_OK)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     drive_set_number(d, g, "approach", c->approach);
     /* slabs: a reader of the stream then expects the frames of plastic strain */
     drive_set_number(d, g, "slabs", yields ? (double)run->yielding.found->slabs : NAN);
