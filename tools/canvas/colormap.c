@@ -113,12 +113,6 @@ colormap_place(double lo, double hi, double value)
     return (0.5 * value - 0.5 * lo) / (0.5 * hi - 0.5 * lo);
 }
 
-struct rgb
-colormap_value(const struct colormap *map, double lo, double hi, double value)
-{
-    return colormap_at(map, colormap_place(lo, hi, value));
-}
-
 bool
 colormap_is_dark(struct rgb c)
 {

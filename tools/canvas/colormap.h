@@ -47,9 +47,8 @@ colormap_look_up(const struct colormap_table *table, double t)
     }
     return colormap_at(table->map, t);
 }
-/* The position of a value (not NaN) when the map spans lo to hi, lo < hi; and its colour. */
+/* The position of a value (not NaN) when the map spans lo to hi, lo < hi. */
 double colormap_place(double lo, double hi, double value);
-struct rgb colormap_value(const struct colormap *map, double lo, double hi, double value);
 /* True if a light line has more contrast to the colour than a dark one. */
 bool colormap_is_dark(struct rgb c);
 

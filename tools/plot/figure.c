@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hillshade.h"
 #include "page.h"
 #include "raster.h"
 #include "ticks.h"

@@ -1,4 +1,4 @@
-#include "hillshade.h"
+#include "raster.h"
 
 #include <math.h>
 #include <stdlib.h>

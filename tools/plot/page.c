@@ -164,8 +164,9 @@ page_bar_right(const struct page *p)
     return fmax(28 * p->u + p->gutter, 0.5 * p->across.widest + 10 * p->u);
 }
 
-double
-page_right(const struct page *p)
+/* Distance from the plot's right edge to that of the page. */
+static double
+right_of_plot(const struct page *p)
 {
     if (p->f->nodes.is != NULL)
         return 24 * p->u + fmax(0.5 * p->across.widest, p->gutter);
@@ -178,8 +179,8 @@ page_bar_below(const struct page *p)
     return page_marks(p) + 18 * p->u;
 }
 
-void
-page_fonts(struct page *p)
+static void
+set_fonts(struct page *p)
 {
     p->small = (struct canvas_font){.size = SMALL * p->u, .colour = page_ink};
     p->large = (struct canvas_font){.size = 23 * p->u, .colour = page_ink};
@@ -248,7 +249,7 @@ set_plot(struct page *p, double width)
     p->plot.h = fmax(round(w / aspect), 1);
     if (width == 0 && paper == 0)
         p->u = fmax(p->plot.w, p->plot.h) / 900;
-    page_fonts(p);
+    set_fonts(p);
     p->bar_below = p->plot.h < 300 * p->u && p->f->nodes.is == NULL && !is_sheet(p);
 }
 
@@ -262,7 +263,7 @@ measure_sides(struct page *p)
     p->left_w = 24 * u + 1.3 * p->large.size + 8 * u + p->down.widest + 14 * u;
     p->gutter = media_gutter(p);
     axis_mark(p, &p->values, p->bar_below ? p->plot.w : p->plot.h, !p->bar_below);
-    p->right_w = page_right(p);
+    p->right_w = right_of_plot(p);
     if (p->bar_below)
         p->right_w =
             24 * u + fmax(fmax(0.5 * p->across.widest, p->gutter), 0.5 * p->values.widest + 14 * u);
@@ -410,8 +411,8 @@ page_words_height(const struct page *p)
            1.4 * p->subheading.size * (double)p->subtitle.n;
 }
 
-double
-page_between_rows(const struct page *p)
+static double
+between_rows(const struct page *p)
 {
     return 2.1 * p->small.size;
 }
@@ -425,7 +426,7 @@ set_page(struct page *p)
     p->map_w = p->plot.w;
     p->map_h = p->plot.h;
     p->across_step += p->map_w;
-    p->down_step = p->map_h + page_between_rows(p);
+    p->down_step = p->map_h + between_rows(p);
     p->plot.w += floor(p->across_step * (double)(p->columns - 1));
     p->plot.h += floor(p->down_step * (double)(p->rows - 1));
     content = p->left_w + p->plot.w + p->right_w;
@@ -435,7 +436,7 @@ set_page(struct page *p)
     text_w = (double)p->w - 48 * u;
     page_words(p, text_w);
     page_legend(p, text_w);
-    p->above = page_words_height(p) + (is_sheet(p) ? page_between_rows(p) : 22 * u) + over;
+    p->above = page_words_height(p) + (is_sheet(p) ? between_rows(p) : 22 * u) + over;
     if (p->bar_below)
         marks = page_bar_below(p) + 28 * u + marks;
     p->below = fmax(marks, over) + p->legend_h + 22 * u;
@@ -502,7 +503,7 @@ set_size(struct page *p)
         w = round(design * (paper > 0 ? paper : 1));
     p->w = (size_t)w;
     p->u = paper > 0 ? paper : fmax(w / design, 0.5);
-    page_fonts(p);
+    set_fonts(p);
     set_dpi(p);
 }
 

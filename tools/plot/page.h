@@ -119,16 +119,9 @@ enum rc_status page_lay_out(struct page *page, struct rc_err *err);
 double page_swatch(const struct page *page, size_t k);
 /* Distance from the plot's right edge to a bar beside it, and from its lower edge to a bar below. */
 double page_bar_right(const struct page *page);
-/* Distance from the plot's right edge to that of the page, with a bar between them or, for categories,
- * without. */
-double page_right(const struct page *page);
-/* Pixels between one row of maps and the next. */
-double page_between_rows(const struct page *page);
 double page_bar_below(const struct page *page);
 /* The height of marks and label below an axis. */
 double page_marks(const struct page *page);
-/* Sets the fonts of the page for its u. */
-void page_fonts(struct page *page);
 /* Cuts a line to `width`. */
 void page_shorten(struct page *page, const struct canvas_font *font, double width, char line[LINE]);
 /* Breaks text at the separators into lines; a piece that is too long for a line is broken between words; the

@@ -54,4 +54,9 @@ enum rc_status raster_contour(const struct raster *raster, double level, struct 
 enum rc_status raster_border(const struct rc_grid *grid, double level, size_t w, size_t h,
                              struct lines *lines, struct rc_err *err);
 
+/* The brightness of each cell of the raster, lit from the upper left: 1 if it is flat or missing. `aspect` is
+ * the height of a cell over its width. Slopes are relative to the RMS slope of the map, so that the shades of
+ * all channels look similar. The caller frees it; NULL: memory is short. In hillshade.c. */
+float *hillshade_new(const struct raster *raster, double aspect, struct rc_err *err);
+
 #endif

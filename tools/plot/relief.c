@@ -223,7 +223,7 @@ surface_colour(const struct scene *s, double value)
 {
     if (s->f->nodes.zero_is_none && value == 0)
         return s->f->bar.map->none;
-    return colormap_value(s->f->bar.map, s->f->bar.lo, s->f->bar.hi, value);
+    return colormap_at(s->f->bar.map, figure_place(s->f, value));
 }
 
 /* Fills the triangle where it is nearer than the surface drawn before; with one colour or, with NULL, the

@@ -92,15 +92,19 @@ law_pressure_density(const struct law_given *g, double mean, double p)
 
 static const struct law {
     const char *name, *title, *x, *y; /* x and y: names between blanks */
+    const char *says;                 /* the same for a message        */
     bool radius, rms_slope;           /* needed beside E*              */
     double (*value)(const struct law_given *given, const char *x, double value, const char *y);
 } laws[] = {
     {"hertz", "Hertz (Johnson 1985, eqs. 4.22 to 4.24)",
      " load mean_pressure approach contact_area contact_fraction max_pressure stiffness ",
-     " load mean_pressure approach contact_area contact_fraction max_pressure stiffness ", true,
-     false, hertz},
+     " load mean_pressure approach contact_area contact_fraction max_pressure stiffness ",
+     "any of load, mean_pressure, approach, contact_area, contact_fraction, max_pressure, "
+     "stiffness over another",
+     true, false, hertz},
     {"persson", "Persson (J. Chem. Phys. 115, 2001, 3840)", " load mean_pressure ",
-     " contact_fraction contact_area ", false, true, persson},
+     " contact_fraction contact_area ",
+     "contact_fraction or contact_area over load or mean_pressure", false, true, persson},
 };
 
 const char *
@@ -158,10 +162,7 @@ law_knows(const char *name, const char *x, const char *y)
 const char *
 law_quantities(const char *name)
 {
-    return strcmp(name, "persson") == 0
-               ? "contact_fraction or contact_area over load or mean_pressure"
-               : "any of load, mean_pressure, approach, contact_area, contact_fraction, "
-                 "max_pressure, stiffness over another";
+    return find(name)->says;
 }
 
 double
