@@ -85,7 +85,7 @@ bcr_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         return rc_err_set(err, "no BCR file: it does not begin with 'fileformat = bcr'");
     wide = kinds[kind].is_wide ? 2 : 1;
     for (size_t at = mark; n < HEADER && at + wide <= file->size; at += wide)
-        header[n++] = (char)file->data[at]; /* the micro sign comes out as in Latin-1 */
+        header[n++] = (char)file->data[at]; /* the micro sign becomes that of Latin-1 */
     lines.end = header + n;
     if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, "=", NULL, &b, err) !=
             RC_OK ||

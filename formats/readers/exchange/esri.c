@@ -1,6 +1,6 @@
 /*
- * ESRI ASCII grid: lines of a key and a number (ncols, nrows, corner, cellsize, NODATA_value), then
- * the values, the top row first. The file holds no unit.
+ * ESRI ASCII grid: lines of a key and a number (ncols, nrows, corner, cellsize, NODATA_value), then the
+ * values, the top row first. The file has no unit.
  */
 #include <math.h>
 #include <string.h>

@@ -1,14 +1,14 @@
 /*
- * Surfer grids, bottom row first, in three kinds: DSAA is text (columns and rows, limits of x, y
- * and z, the values), DSBB the same binary with 32-bit floats, DSRB sections of a name, a length
- * and bytes. Nodes stand on the limits. The files hold no unit.
+ * Surfer grids, bottom row first, in three kinds: DSAA is text (columns and rows, limits of x, y and z, the
+ * values), DSBB the same binary with 32-bit floats, DSRB sections of a name, a length and bytes. The
+ * outermost nodes are on the limits. The files have no unit.
  */
 #include <math.h>
 #include <string.h>
 
 #include "formats/format.h"
 
-#define BLANK 1.70141e38 /* and above: no value */
+#define BLANK 1.70141e38 /* this value and larger ones: missing */
 
 enum {
     SECTION = 8,  /* bytes before a section: name, i32 length */

@@ -62,7 +62,7 @@ step_over(struct rc_bytes *b, size_t end, char type)
 {
     static const struct {
         char one, many;
-        size_t width; /* 0: texts and objects, each of its own length */
+        size_t width; /* 0: texts and objects, whose lengths vary */
     } types[] = {{'b', 0, 1},   {'c', 'C', 1}, {'i', 'I', 4}, {'q', 'Q', 8},
                  {'d', 'D', 8}, {'s', 'S', 0}, {'o', 'O', 0}};
     struct rc_piece text;
@@ -204,7 +204,7 @@ fill_masked(const struct rc_file *file, const struct rc_map *map, double *v, str
     return RC_OK;
 }
 
-/* N and what follows it in "/N/data"; false for another name. */
+/* Splits "/N/data" into N and the rest. Returns false for another name. */
 static bool
 part_name(struct rc_piece name, long *number, struct rc_piece *rest)
 {
@@ -232,7 +232,8 @@ add_field(const struct rc_file *file, const struct item *item, struct rc_maps *m
         rc_map_count("rows (yres)", f.ny, &map->ny, err) != RC_OK)
         return RC_FAIL;
     if ((double)f.count != f.nx * f.ny)
-        return rc_err_set(err, "a field of %zu x %zu values holds %zu", map->nx, map->ny, f.count);
+        return rc_err_set(err, "a field of %zu x %zu values has %zu values", map->nx, map->ny,
+                          f.count);
     map->raw = RC_RAW_F64;
     map->at = f.data;
     rc_map_steps(map, f.width / f.nx, f.height / f.ny, f.xy);
@@ -276,7 +277,7 @@ gwy_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     b.at = 4;
     if (!rc_file_holds(file, 0, "GWYP", 4) || (end = enter(&b, file->size, "GwyContainer")) == 0)
         return rc_err_set(
-            err, "no Gwyddion file, or cut: it does not hold GWYP and a whole GwyContainer");
+            err, "not a Gwyddion file, or cut off: it must have GWYP and a complete GwyContainer");
     start = b.at;
     for (size_t p = 0; p < sizeof parts / sizeof *parts; p++)
         for (b.at = start; next_item(&b, end, &item, &damaged, err);) {
@@ -294,7 +295,7 @@ gwy_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         }
     if (damaged)
         return RC_FAIL;
-    return maps->n > 0 ? RC_OK : rc_err_set(err, "the file holds no image (/0/data and so on)");
+    return maps->n > 0 ? RC_OK : rc_err_set(err, "the file has no image (/0/data and so on)");
 }
 
 const struct rc_format rc_format_gwy = {

@@ -118,7 +118,7 @@ done:
 static int
 hdf5_score(const struct rc_file *file)
 {
-    return rc_hdf_is(file) ? 60 : 0; /* instruments have formats of their own in it */
+    return rc_hdf_is(file) ? 60 : 0; /* files of instruments have other readers */
 }
 
 const struct rc_format rc_format_hdf5 = {

@@ -31,7 +31,7 @@ enum {
     CHAR = 4,
     DOUBLE = 6,
     UINT64 = 15,
-    COMPLEX = 0x800, /* a flag beside the class */
+    COMPLEX = 0x800, /* the flag of complex numbers, next to the class */
 };
 
 /* Classes that are no arrays of numbers. */
@@ -57,21 +57,21 @@ struct element {
 };
 
 struct variable {
-    struct element whole; /* in the file; packed or not */
-    size_t unpacked;      /* bytes that come out of it where it is packed */
+    struct element whole; /* place in the file; packed or not */
+    size_t unpacked;      /* unpacked bytes of a packed variable */
     char name[64];
     unsigned class;
     bool complex;
     size_t dimensions, rows, columns;
     enum rc_raw raw;
-    struct element numbers; /* in the file or, where it is packed, in what comes out of it */
-    double first;           /* of the numbers; NAN: none */
+    struct element numbers; /* place in the file or, for a packed variable, in its unpacked bytes */
+    double first;           /* the single number; NAN: none */
     char text[16];          /* of class CHAR */
 };
 
 /* ---- elements ---- */
 
-/* The element at the cursor, which then stands behind it. Small ones have type and size in one word.
+/* Reads the element at the cursor, and moves the cursor behind it. Small ones have type and size in one word.
  * b->past where it does not fit. */
 static struct element
 next_element(struct rc_bytes *b)
@@ -119,7 +119,7 @@ take_text(struct rc_bytes *b, struct variable *v)
     rc_text_clean(v->text, sizeof v->text, text, length);
 }
 
-/* Reads what stands before the numbers from a window on the variable; whether it is all there. */
+/* Reads the parts before the numbers from a window on the variable. Returns true if they are complete. */
 static bool
 read_head(struct rc_bytes *b, struct variable *v)
 {
@@ -144,7 +144,7 @@ read_head(struct rc_bytes *b, struct variable *v)
     return true;
 }
 
-/* Reads the variable at the cursor, which then stands behind it; RC_FAIL where it is damaged. */
+/* Reads the variable at the cursor, and moves the cursor behind it. RC_FAIL if it is damaged. */
 static enum rc_status
 next_variable(struct rc_bytes *b, struct variable *v, struct rc_err *err)
 {
@@ -167,7 +167,7 @@ next_variable(struct rc_bytes *b, struct variable *v, struct rc_err *err)
             return rc_err_set(err, "the packed variable at byte %zu is damaged or no array", at);
         v->unpacked = (size_t)rc_bytes_u32(&window) + 8;
     } else if (v->whole.type != MATRIX)
-        return RC_OK; /* class 0: nothing to us */
+        return RC_OK; /* class 0: not a variable with values */
     if (!read_head(&window, v))
         return rc_err_set(err, "the array at byte %zu has no class, dimensions and name", at);
     if ((v->class < DOUBLE || v->class > UINT64) && v->class != CHAR)
@@ -245,7 +245,7 @@ next(struct rc_matlab_source *s, struct rc_matlab_array *a, struct rc_err *err)
         *a = (struct rc_matlab_array){.at = m->b.at, .first = NAN};
         if (next_variable(&m->b, &v, err) != RC_OK)
             return RC_FAIL;
-    } while (v.class == 0 || v.name[0] == '\0'); /* what functions need has no name */
+    } while (v.class == 0 || v.name[0] == '\0'); /* data of functions has no name */
     strcpy(a->name, v.name);
     a->is_text = v.class == CHAR;
     a->rows = v.rows;
@@ -339,7 +339,7 @@ mat_score(const struct rc_file *file)
 
     if (has_magic(file, &big))
         return named || rc_file_holds(file, 0, "MATLAB 5.0", 10) ? 95 : 40;
-    return named; /* to say what it lacks */
+    return named; /* to name what is missing */
 }
 
 const struct rc_format rc_format_mat = {

@@ -1,7 +1,7 @@
 /*
- * MATLAB, MAT version 7.3 (save -v7.3): HDF5 behind 512 bytes of MATLAB's own. Each variable is a dataset
- * or group at the top, the attribute MATLAB_class says what it is. Numbers run down the columns, so that
- * to HDF5 an array is the transposed one. What the variables say together is as in version 5 (mat.c).
+ * MATLAB, MAT version 7.3 (save -v7.3): HDF5 behind 512 bytes of MATLAB's own. Each variable is a dataset or
+ * group at the top, the attribute MATLAB_class says what it is. Numbers run down the columns, so that to HDF5
+ * an array is the transposed one. The variables have the same meaning as in version 5 (mat.c).
  */
 #include <math.h>
 #include <stdlib.h>
@@ -35,7 +35,7 @@ start(struct rc_matlab_source *s)
     ((struct mat73 *)s->arg)->at = 0;
 }
 
-/* One number, or a short text, of which HDF5 holds the codes of UTF-16. */
+/* One number, or a short text, which HDF5 stores as codes of UTF-16. */
 static enum rc_status
 read_short(struct mat73 *m, const struct rc_hdf_set *set, struct rc_matlab_array *a,
            struct rc_err *err)
@@ -131,9 +131,8 @@ mat73_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     enum rc_status status = RC_FAIL;
 
     if (!has_magic(file))
-        return rc_err_set(
-            err,
-            "no MAT file of version 7.3: its header has no version 2, or no HDF5 stands behind it");
+        return rc_err_set(err, "not a MAT file of version 7.3: its header lacks version 2, or no "
+                               "HDF5 follows the header");
     if ((m.hdf = rc_hdf_new(file, err)) == NULL)
         return RC_FAIL;
     if ((m.set = calloc(SETS_MOST, sizeof *m.set)) == NULL)

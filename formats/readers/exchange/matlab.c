@@ -15,7 +15,7 @@ struct facts {
     char unit[16], dunit[16];
     struct rc_matlab_array x, y; /* name "": there is none */
     size_t maps, vectors;
-    bool no_axes; /* x and y are channels: there is nothing else */
+    bool no_axes; /* x and y are channels, because there are no others */
     char others[160];
 };
 
@@ -44,7 +44,7 @@ is_channel(const struct facts *f, const struct rc_matlab_array *a)
     return !is_axis(f, a) && (f->maps > 0 ? is_map(a) : is_vector(a));
 }
 
-/* Keeps what an array is that is no channel, for the refusal of a file without one. */
+/* Keeps the kind of an array that is no channel, for the refusal of a file without channels. */
 static void
 remember_other(struct facts *f, const struct rc_matlab_array *a)
 {
@@ -98,8 +98,8 @@ survey(struct rc_matlab_source *s, bool no_axes, struct facts *f, struct rc_err 
     return status;
 }
 
-/* The step of an axis of n points: a vector of so many, or a row (of x) or column of an array of the
- * map's size. NAN where there is none of that size. */
+/* The step of an axis of n points: a vector of so many, or a row (of x) or column of an array of the map's
+ * size. NAN if no array has that size. */
 static enum rc_status
 axis_step(struct rc_matlab_source *s, const struct rc_matlab_array *a, const struct rc_map *map,
           bool is_x, double *step, struct rc_err *err)

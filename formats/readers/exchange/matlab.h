@@ -1,4 +1,4 @@
-/* What the variables of a MATLAB file say together, whichever way they lie in it; see mat.c, mat73.c. */
+/* The map that the variables of a MATLAB file define, in any version of the file; see mat.c, mat73.c. */
 #ifndef RC_MATLAB_H
 #define RC_MATLAB_H
 
@@ -6,10 +6,10 @@
 
 struct rc_matlab_array {
     char name[64];
-    const char *other; /* what it is, where it is no real array of numbers; NULL */
+    const char *other; /* its kind, if it is no real array of numbers; otherwise NULL */
     bool is_text;
     size_t rows, columns, more; /* more: dimensions that are neither */
-    double first;               /* of its numbers; NAN: none         */
+    double first;               /* its single number; NAN: none */
     char text[16];
     size_t at; /* for the source */
 };
@@ -19,7 +19,7 @@ struct rc_matlab_source {
     const struct rc_file *file;
     void *arg;
     void (*start)(struct rc_matlab_source *source);
-    /* The next one: RC_MORE, RC_OK where there is none, RC_FAIL for a damaged file. */
+    /* Reads the next variable: RC_MORE; RC_OK: there is none; RC_FAIL: the file is damaged. */
     enum rc_status (*next)(struct rc_matlab_source *source, struct rc_matlab_array *array,
                            struct rc_err *err);
     /* Its rows*columns numbers, column after column. */

@@ -3,10 +3,10 @@
  * variables, and the values of each variable from its offset on. A variable along the record
  * dimension is spread over the records, which hold a row of each such variable.
  *
- * NetCDF's library would also fetch files from the network and read HDF5; only the header is needed
- * here. A map is a variable of two dimensions, others of length 1 before them. Rows run along the
- * second to last dimension, but for (x, y), which is turned. Spacings are those of the variables that
- * bear the dimensions' names; where some maps have these, variables without them are no maps.
+ * NetCDF's library would also fetch files from the network and read HDF5; only the header is needed here. A
+ * map is a variable of two dimensions, others of length 1 before them. Rows run along the second to last
+ * dimension; a map (x, y) is transposed. The variables with the names of the dimensions give the spacings. If
+ * some maps have them, a variable without them is no map.
  *
  * GXSM keeps the field of a scan as (time, value, dimy, dimx), to be multiplied by the scalar dz, and
  * all its lengths in Angstroms, whatever unit it displays them in.
@@ -60,7 +60,8 @@ has_axes(const struct rc_cdf *f, const struct rc_cdf_variable *v)
     return has_axis(f, v->dimension[0]) && has_axis(f, v->dimension[1]);
 }
 
-/* Whether something in the file has axes, one map or several layers: then what has none is no map. */
+/* True if some variable of the file has axes, one map or several layers. Variables without axes are then no
+ * maps. */
 static bool
 some_have_axes(const struct rc_cdf *f)
 {
@@ -76,7 +77,7 @@ is_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, bool with_axes)
     return could_be_map(f, v) && (!with_axes || has_axes(f, v));
 }
 
-/* Whether each row, or value, is in a record of its own. */
+/* True if each row, or each value, is in a separate record. */
 static bool
 in_records(const struct rc_cdf *f, const struct rc_cdf_variable *v)
 {
@@ -217,7 +218,7 @@ judge_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct map *m
         rc_map_unit(&shown, v->unit.text, v->unit.n);
         if (!isnan(m->heights.metres))
             m->heights.metres = angstrom;
-        else if (shown.si != 1) /* the prefix is that of the display */
+        else if (shown.si != 1) /* the prefix belongs to the display */
             m->unit[0] = '\0';
     }
     m->periodic = along_x && along_y;

@@ -16,7 +16,7 @@ enum {
 
 /* clang-format off */
 static const struct {
-    const char *name; /* behind the mark of the byte order */
+    const char *name; /* the type after the mark of the byte order */
     enum rc_raw raw;
 } types[] = {
     {"f8", RC_RAW_F64}, {"f4", RC_RAW_F32}, {"i1", RC_RAW_I8},  {"i2", RC_RAW_I16},
@@ -31,7 +31,7 @@ has_magic(const struct rc_file *file)
     return rc_file_holds(file, 0, "\x93NUMPY", MAGIC);
 }
 
-/* What follows 'key': in the dictionary; empty when it is not there. */
+/* The text after 'key': in the dictionary; empty if the key is missing. */
 static struct rc_piece
 value_of(struct rc_piece header, const char *key)
 {
@@ -176,7 +176,7 @@ npz_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_zip_read *archive = rc_zip_read_new(file, err);
     size_t members = archive == NULL ? 0 : rc_zip_read_members(archive);
-    struct rc_err why = {"the archive holds no array (NAME.npy)"};
+    struct rc_err why = {"the archive has no array (NAME.npy)"};
 
     for (size_t k = 0; k < members; k++) {
         const char *name = rc_zip_read_name(archive, k);

@@ -86,7 +86,7 @@ read_header(const struct rc_file *file, struct nrrd *h, struct rc_err *err)
             h->data = (size_t)(lines.at - (const char *)file->data);
             return h->file.n == 0 ? RC_OK
                                   : rc_err_set(err, "the values are in another file: only NRRD "
-                                                    "files that hold them are read");
+                                                    "files with their own values are read");
         }
         if (*line.text != '#' && rc_piece_part(line, ":", &key, &value) &&
             (value.n == 0 || *value.text != '='))
@@ -95,7 +95,7 @@ read_header(const struct rc_file *file, struct nrrd *h, struct rc_err *err)
     return rc_err_set(err, "the header does not end: there is no empty line");
 }
 
-/* The next word of a list, of which words in quotes hold blanks. */
+/* The next word of a list; words in quotes may contain blanks. */
 static struct rc_piece
 next_word(struct rc_piece *rest)
 {
@@ -121,7 +121,7 @@ number_of(struct rc_piece word)
     return word.n > 0 && rc_piece_number(word, &value, NULL) ? value : NAN;
 }
 
-/* The two axes that are longer than one value: the first two, where there are no such. */
+/* The two axes that are longer than one value; without such axes, the first two. */
 static enum rc_status
 pick_axes(const struct nrrd *h, size_t axis[2], double size[2], struct rc_err *err)
 {
@@ -159,7 +159,7 @@ word_at(struct rc_piece list, size_t axis)
     return word;
 }
 
-/* The length of the vector that an axis has, "(1.1,0,0)"; NAN where it has none. */
+/* The length of the vector of an axis, "(1.1,0,0)"; NAN: it has no vector. */
 static double
 vector_length(struct rc_piece list, size_t axis)
 {
@@ -229,8 +229,7 @@ set_type(const struct nrrd *h, const struct rc_file *file, struct rc_map *map, s
     while (k < sizeof types / sizeof *types && !rc_piece_is(h->type, types[k].names))
         k++;
     if (k == sizeof types / sizeof *types)
-        return rc_err_set(err, "the type is '%s', which is none that is read",
-                          rc_piece_shown(quote, h->type));
+        return rc_err_set(err, "the type '%s' is not supported", rc_piece_shown(quote, h->type));
     map->raw = types[k].raw;
     map->at = h->data;
     map->big = rc_piece_is(h->endian, "big");

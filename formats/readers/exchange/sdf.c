@@ -122,8 +122,7 @@ find_binary(const struct rc_file *file, struct sdf *s, struct rc_map *map, struc
     return RC_OK;
 }
 
-/* The numbers of the text, behind which nothing but the end of their part may stand: '*' or that of the
- * file. */
+/* Reads the numbers of the text; only the end of their part may follow: '*' or the end of the file. */
 static enum rc_status
 fill_text(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
@@ -151,7 +150,7 @@ sdf_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     bool is_text = begins(file, 'a');
 
     if (!is_text && !begins(file, 'b'))
-        return rc_err_set(err, "no SDF: it begins with neither aISO-, aBCR-, bISO- nor bBCR-");
+        return rc_err_set(err, "not an SDF file: it must begin with aISO-, aBCR-, bISO- or bBCR-");
     if ((is_text ? find_text(file, &s, map, err) : find_binary(file, &s, map, err)) != RC_OK ||
         rc_map_count("columns (NumPoints)", s.columns, &map->nx, err) != RC_OK ||
         rc_map_count("rows (NumProfiles)", s.rows, &map->ny, err) != RC_OK)

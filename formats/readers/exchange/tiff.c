@@ -6,7 +6,7 @@
  *     unit=um
  *     vunit=nm           of the values, where they are calibrated
  *
- * Whole numbers are grey levels of a picture.
+ * Integer values are grey levels of a picture and are refused.
  */
 #include <math.h>
 #include <stdio.h>

@@ -8,11 +8,11 @@
  *
  * The spacing is Length x[A] over Num.X. A count of z is GainZ * ZPiezoconst * 20 V over the counts of the
  * converter, in Angstrom; headers of real files agree, whose Z-Res. [A] is 128 * Imagegrayfactor counts. It
- * is taken where it fits the factor that the file gives to five decimals: Dacto[A]z, which is that of gain
- * 1 (0.00038 at 20 Angstrom per volt, whatever GainZ), or the count itself, or Dactonmz, that in
- * nanometres. Where it does not, x tells. If Delta X times Dacto[A]xy times GainX is the spacing, Dacto[A]z
- * is to be multiplied by GainZ; if Delta X times Dacto[A]xy is, Dacto[A]z is the count. If neither is, the
- * unit of the heights is not known.
+ * is taken where it fits the factor that the file gives to five decimals: Dacto[A]z, which is that of gain 1
+ * (0.00038 at 20 Angstrom per volt, whatever GainZ), or the count itself, or Dactonmz, that in nanometres. If
+ * it does not fit, x decides. If Delta X times Dacto[A]xy times GainX is the spacing, Dacto[A]z is to be
+ * multiplied by GainZ; if Delta X times Dacto[A]xy is, Dacto[A]z is the count. If neither is, the unit of the
+ * heights is not known.
  *
  * Written from how Gwyddion, createc 0.0.3 and others read such files.
  */
@@ -43,7 +43,7 @@ struct createc {
     double step, xy, z;          /* counts from node to node; a count in x, in z */
     double z_nm;                 /* the same, in nm for certain */
     double gain_x, gain, piezo;  /* gain: of z; Angstrom per volt */
-    double bits;                 /* of the converter, whose range is 20 V */
+    double bits;                 /* bits of the converter, whose range is 20 V */
 };
 
 #define TO(member) offsetof(struct createc, member)
@@ -231,7 +231,7 @@ set_unit(const struct createc *c, struct rc_map *map)
     else if (!isnan(c->z) && fits_x(c, 1))
         set_scale(map, c->z, 1e-10);
     else
-        map->scale = isnan(c->z) ? 1 : c->z; /* of what, the user has to say */
+        map->scale = isnan(c->z) ? 1 : c->z; /* the user must give the unit */
 }
 
 static enum rc_status

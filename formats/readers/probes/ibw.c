@@ -38,9 +38,9 @@ static const struct {
 };
 /* clang-format on */
 
-/* Microscopes of Asylum Research keep all channels in one wave, in SI units. The wave has the unit of
- * the first channel, or none; these labels show that a channel has another. Those that want the note
- * are taken only where that has the settings of such a microscope. */
+/* Microscopes of Asylum Research keep all channels in one wave, in SI units. The wave has the unit of the
+ * first channel, or none; these labels show that a channel has another. Rows with a note apply only if the
+ * note has the settings of such a microscope. */
 /* clang-format off */
 static const struct {
     const char *begins, *unit;
@@ -68,7 +68,7 @@ sensor_of(struct rc_piece note)
     return NAN;
 }
 
-/* The unit that the label of a channel has instead of that of the wave, or NULL. A second pass over a
+/* The unit of a channel by its label, which replaces the unit of the wave; or NULL. A second pass over a
  * line, at a distance, puts Nap before the label. */
 static const char *
 other_unit(struct rc_piece label, double sensor)
@@ -76,7 +76,7 @@ other_unit(struct rc_piece label, double sensor)
     if (rc_piece_begins(label, "Nap"))
         label = (struct rc_piece){label.text + 3, label.n - 3};
     if (rc_piece_begins(label, "ZSensor") && !(sensor > 0))
-        return NULL; /* volts, or a unit that only the wave knows */
+        return NULL; /* volts, or the unit of the wave */
     for (size_t k = 0; k < sizeof other_units / sizeof *other_units; k++)
         if (rc_piece_begins(label, other_units[k].begins) &&
             (!other_units[k].wants_note || !isnan(sensor)))
@@ -227,7 +227,7 @@ ibw_score(const struct rc_file *file)
         return 0;
     if (version == 5 && judge(file, &b, &raw, size, NULL) == RC_OK)
         return named ? 95 : 70;
-    return named ? 60 : 0; /* so that the refusal says what is wrong */
+    return named ? 60 : 0; /* so that the refusal names the reason */
 }
 
 const struct rc_format rc_format_ibw = {

@@ -73,7 +73,7 @@ number_in(const struct iso *iso, size_t line)
     return rc_piece_number(iso->line[line], &value, NULL) ? value : NAN;
 }
 
-/* The number of channels; RC_FAIL for what is no regular map. */
+/* The number of channels; RC_FAIL if the data is no regular map. */
 static enum rc_status
 judge_mode(const struct iso *iso, size_t *channels, struct rc_err *err)
 {
@@ -153,7 +153,7 @@ iso28600_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
         rc_size_mul(nx, ny, &least, err) != RC_OK ||
         rc_size_mul(least, channels, &least, err) != RC_OK)
         return RC_FAIL;
-    if (least > (file->size - iso.data + 1) / 2) /* a digit and what parts it */
+    if (least > (file->size - iso.data + 1) / 2) /* a digit and a separator */
         return rc_err_set(
             err,
             "the header promises %zu x %zu points of %zu numbers, the file has %zu bytes for them",

@@ -112,7 +112,7 @@ name_channel(struct rc_tiff *t, struct channel *c)
         strcat(c->name, " (retrace)");
 }
 
-/* Whether the page that the file stands on is a channel; the thumbnail has no slot of pixels. */
+/* True if the present page of the file is a channel; the thumbnail has no slot of pixels. */
 static bool
 read_channel(struct rc_tiff *t, struct channel *c)
 {
@@ -243,7 +243,7 @@ done:
 
 /* ---- the entry in formats.list ---- */
 
-/* Force curves are a ZIP archive of their own, known by this member. */
+/* Force curves are a separate ZIP archive, recognised by this member. */
 static bool
 is_force(const struct rc_file *file)
 {
@@ -260,7 +260,7 @@ static int
 jpk_score(const struct rc_file *file)
 {
     if (is_force(file))
-        return 30; /* to say why it is refused */
+        return 30; /* so that the refusal has a reason */
     return rc_tiff_is(file) && rc_tiff_hints(file, U_LENGTH, TYPE_DOUBLE) &&
                    rc_tiff_hints(file, DEFAULT_SLOT, TYPE_ASCII)
                ? 90

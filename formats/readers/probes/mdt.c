@@ -34,7 +34,7 @@ static const char magic[] = "\x01\xb0\x93\xff";
 static const char *const units[] = {"m",   "cm",  "mm", "um", "nm", "\xc3\x85", "nA", "V",  "",
                                     "kHz", "deg", "%",  "",   "V",  "s",        "ms", "us", "ns"};
 
-/* What is recorded, by the channel of the converter. */
+/* The recorded quantity, by the channel of the converter. */
 static const char *const signals[] = {"Height",  "DFL",    "Lateral F", "Bias V",    "Current",
                                       "FB-Out",  "MAG",    "MAG*Sin",   "MAG*Cos",   "RMS",
                                       "CalcMag", "Phase1", "Phase2",    "CalcPhase", "Ex1",
@@ -137,7 +137,7 @@ struct calibration {
     int type;
 };
 
-/* The calibration at the cursor, which then stands behind it. */
+/* Reads the calibration at the cursor, and moves the cursor behind it. */
 static void
 next_calibration(struct rc_bytes *b, struct calibration *c)
 {
@@ -197,7 +197,7 @@ add_array(struct rc_bytes *b, size_t start, size_t number, struct rc_maps *maps,
     values = b->at;
     axes = (size_t)rc_bytes_at(b, values + 12, RC_RAW_U32);
     if (b->past || fixed > b->size - values)
-        return rc_err_set(err, "frame %zu is too short for the array that it holds", number);
+        return rc_err_set(err, "frame %zu is too short for its array", number);
     if (axes != 2 || rc_bytes_at(b, values + 16, RC_RAW_U32) != 1)
         return RC_OK; /* a curve, or spectra of points */
     b->at = values + fixed;
@@ -220,7 +220,7 @@ add_array(struct rc_bytes *b, size_t start, size_t number, struct rc_maps *maps,
             map->raw = types[k].raw;
             return RC_OK;
         }
-    return rc_err_set(err, "the values of frame %zu are of type %d, which is none that is read",
+    return rc_err_set(err, "the values of frame %zu have the type %d, which is not supported",
                       number, c[2].type);
 }
 

@@ -240,8 +240,8 @@ checksum_of_main_is_only_noted(void **state)
         {main_md5, NULL},
         {"00112233445566778899aabbccddeeff *main.xml\n", "says 00112233445566778899aabbccddeeff"},
         {"00112233445566778899aabbccddeeff *main.xml\n", main_md5},
-        {"what?\n", "holds no MD5 sum"},
-        {"", "holds no MD5 sum"},
+        {"what?\n", "has no MD5 sum"},
+        {"", "has no MD5 sum"},
         {NULL, "has no md5checksum.hex"},
     };
 
@@ -284,7 +284,7 @@ members_under_one_folder(void **state)
     rc_grid_free(read_file(&file, &notes));
     drop_file(&file);
     file = archive_file(member, 1);
-    refuse_file(&file, "it holds no main.xml");
+    refuse_file(&file, "it has no main.xml");
     drop_file(&file);
     free(xml);
 }
@@ -462,7 +462,7 @@ check_resampled(char *xml, const struct bytes *data)
     struct rc_err err;
     struct rc_grid *g;
 
-    refuse_file(&file, "the positions are not evenly apart: the furthest off is point 3");
+    refuse_file(&file, "the positions are not evenly spaced: point 3");
     refuse_file(&file, "--even resamples the profile to even steps");
     g = read_with(&file, &even, &notes, &err);
     if (g == NULL)

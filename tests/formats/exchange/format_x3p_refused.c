@@ -96,7 +96,7 @@ other_archives(void **state)
 
     (void)state;
     assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_x3p);
-    refuse_file(&file, "no X3P: it holds no main.xml (the first of its 1 members is "
+    refuse_file(&file, "no X3P: it has no main.xml (the first of its 1 members is "
                        "'[Content_Types].xml')");
     drop_file(&file);
     file = archive_file(&page, 1);

@@ -159,7 +159,7 @@ refusals(void **state)
         {"<v>-2E1</v>", "", "a formula in sheet 'First', row 4, column 3, has no value"},
         {"<v>-2E1</v>", "<v></v>", "has no value"},
         {"<v>1.5</v>", "<v>wide</v>", "'wide' in sheet 'First', row 4, column 2, is no number"},
-        {"t=\"s\"><v>1</v>", "t=\"s\"><v>9</v>", "a cell has shared text 9, of which there are 3"},
+        {"t=\"s\"><v>1</v>", "t=\"s\"><v>9</v>", "a cell refers to shared text 9, but there are only 3"},
         {"r=\"B3\"", "r=\"C3\"", "out of order"},
         {"r=\"B3\"", "r=\"XFE3\"", "'XFE3' is no place"},
         {"r=\"B3\"", "r=\"B0\"", "'B0' is no place"},
@@ -179,7 +179,7 @@ refusals(void **state)
         free(sheet);
     }
     b = book(none, none);
-    refuse(&rc_format_xlsx, &b, "holds no column of numbers");
+    refuse(&rc_format_xlsx, &b, "has no column of numbers");
     drop(&b);
 }
 

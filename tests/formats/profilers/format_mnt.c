@@ -51,7 +51,7 @@ refusals(void **state)
     refuse(&rc_format_mnt, &b, "no surface as it was measured");
     drop(&b);
     ole_file(&b, "WordDocument", &none);
-    refuse(&rc_format_mnt, &b, "holds no stream 'ScopedContents'");
+    refuse(&rc_format_mnt, &b, "has no stream 'ScopedContents'");
     b.data[30] = 40; /* sectors of 2^40 bytes */
     refuse(&rc_format_mnt, &b, "whose header is damaged");
     drop(&b);

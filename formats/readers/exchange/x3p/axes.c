@@ -1,4 +1,4 @@
-/* X3P: maps whose points bear their place along an axis that is absolute. A point is x and y, where these
+/* X3P: maps with an absolute axis, whose points have their own positions. A point is x and y, where these
  * are, and z. The places must lie on an even grid: then they say no more than its steps and directions. */
 #include <math.h>
 #include <stdlib.h>

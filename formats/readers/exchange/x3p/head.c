@@ -45,7 +45,7 @@ static const struct {
 };
 
 static const char root_name[] = "ISO5436_2";
-static const char old_name[] = "ISO5436"; /* of writers that left the part of the standard out */
+static const char old_name[] = "ISO5436"; /* from writers that omitted a part of the standard */
 
 const char *
 rc_x3p_key(size_t field)
@@ -80,7 +80,7 @@ real(const char *name, const char *text, double otherwise, double *value, struct
     return RC_OK;
 }
 
-/* Makes room in the list for n numbers; it is never longer than the bytes that it comes from. */
+/* Makes memory in the list for n numbers, which never exceeds the bytes of the source. */
 static enum rc_status
 grow(struct rc_x3p *x, size_t n, struct rc_err *err)
 {
@@ -102,7 +102,7 @@ is(const char *text, const char *word)
     return text != NULL && strcmp(text, word) == 0;
 }
 
-/* A profile whose points have positions of their own; the axes stand before the data. */
+/* A profile with a position for each point; the axes precede the data. */
 static bool
 is_absolute(const struct rc_x3p *x)
 {
@@ -207,7 +207,7 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
         if (strcmp(path, fields[f].path) != 0)
             continue;
         if (x->text[f] != NULL && fields[f].key == NULL)
-            return rc_err_set(err, "main.xml holds %s twice", fields[f].path);
+            return rc_err_set(err, "main.xml has %s twice", fields[f].path);
         return rc_text_set(&x->text[f], text, err);
     }
     return RC_OK;
@@ -220,7 +220,7 @@ read_main(struct rc_x3p *x, struct rc_err *err)
                         err) != RC_OK)
         return RC_FAIL;
     if (!x->is_x3p)
-        return rc_err_set(err, "a ZIP archive, but no X3P: its main.xml holds no %s", root_name);
+        return rc_err_set(err, "a ZIP archive, but no X3P: its main.xml has no %s", root_name);
     return RC_OK;
 }
 
@@ -239,7 +239,7 @@ judge_axis(const char *name, const char *type, struct rc_err *err)
                       name, type == NULL ? "" : rc_word_shown(quote, type));
 }
 
-/* The kind of data, judged before all else. */
+/* Checks the kind of the data first. */
 static enum rc_status
 judge_feature(struct rc_x3p *x, struct rc_err *err)
 {

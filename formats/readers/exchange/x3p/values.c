@@ -38,7 +38,7 @@ is_given(const char *text)
     return text != NULL && *text != '\0';
 }
 
-/* The MD5 checksum that the text begins with, in lower case; false when there is none. */
+/* The MD5 checksum at the beginning of the text, in lower case. Returns false if there is none. */
 static bool
 md5_in(const char *text, char md5[RC_MD5_TEXT])
 {
@@ -91,7 +91,7 @@ rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes)
         return;
     }
     if (!md5_in((const char *)bytes, wanted))
-        rc_note(notes, "md5checksum.hex holds no MD5 sum: main.xml is not checked");
+        rc_note(notes, "md5checksum.hex has no MD5 sum: main.xml is not checked");
     else if (strcmp(wanted, x->md5) != 0)
         rc_note(notes,
                 "main.xml was changed after its checksum was written: its MD5 sum is %s, "
@@ -247,7 +247,7 @@ rc_x3p_profile(struct rc_x3p *x, struct rc_notes *notes, struct rc_err *err)
         xz[2 * k + 1] = z[from] * x->increment + x->offset;
         p[k] = xz[2 * from] * x->x_increment + x->x_offset;
         if (!isfinite(p[k]) || (k > 0 && !(p[k] > p[k - 1]))) {
-            rc_err_set(err, "the positions do not go on in one direction at point %zu", from + 1);
+            rc_err_set(err, "the positions change direction at point %zu", from + 1);
             goto failed;
         }
     }

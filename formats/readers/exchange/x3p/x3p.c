@@ -62,11 +62,10 @@ x3p_open(struct rc_x3p *x, const struct rc_file *file, bool wants_list, struct r
     if ((x->archive = rc_zip_read_new(file, err)) == NULL)
         return RC_FAIL;
     if (!find_main(x->archive, &x->main, x->prefix))
-        return rc_err_set(err,
-                          "a ZIP archive, but no X3P: it holds no main.xml (the first of its %zu "
-                          "members is '%s')",
-                          rc_zip_read_members(x->archive),
-                          rc_word_shown(quote, rc_zip_read_name(x->archive, 0)));
+        return rc_err_set(
+            err,
+            "a ZIP archive, but no X3P: it has no main.xml (the first of its %zu members is '%s')",
+            rc_zip_read_members(x->archive), rc_word_shown(quote, rc_zip_read_name(x->archive, 0)));
     return rc_x3p_head(x, err);
 }
 
@@ -99,7 +98,7 @@ x3p_score(const struct rc_file *file)
 
     if (!rc_file_holds(file, 0, "PK", 2))
         return 0;
-    /* Another kind of archive scores a little too, so that its refusal names what it lacks. */
+    /* Another kind of archive gets a low score, so that its refusal names the missing member. */
     if ((archive = rc_zip_read_new(file, NULL)) == NULL)
         return named ? 50 : 5;
     has_main = find_main(archive, &member, prefix);

@@ -1,4 +1,4 @@
-/* X3P: what its readers share; see x3p.c. */
+/* Declarations for the files of the X3P reader; see x3p.c. */
 #ifndef RC_X3P_INTERNAL_H
 #define RC_X3P_INTERNAL_H
 
@@ -10,7 +10,7 @@ enum {
     RC_X3P_NAME = 1024 /* bytes of a member's name */
 };
 
-/* What is kept of main.xml. */
+/* The data taken from main.xml. */
 enum rc_x3p_field {
     RC_X3P_FEATURE,
     RC_X3P_CX_AXIS,
@@ -32,7 +32,7 @@ enum rc_x3p_field {
     RC_X3P_VALID,
     RC_X3P_VALID_MD5,
     RC_X3P_MD5_FILE,
-    RC_X3P_FIRST_KEY, /* from here on: kept as keys */
+    RC_X3P_FIRST_KEY, /* from here on: stored as keys of the frame */
     RC_X3P_FIELDS = RC_X3P_FIRST_KEY + 11
 };
 
@@ -45,28 +45,27 @@ struct rc_x3p {
     bool is_x3p, turned;       /* turned: a rotation that is not the identity                  */
     bool old_root;             /* main.xml calls its root ISO5436, without the part            */
     bool profile;
-    bool binary; /* the heights are in a member of their own                     */
+    bool binary; /* the heights are in a separate member */
     enum rc_raw raw;
     size_t nx, ny, n; /* n = nx*ny                                                    */
     double dx, dy;    /* m, NAN when not given                                        */
     double increment, offset;
-    bool absolute; /* a profile whose points have positions of their own               */
+    bool absolute;               /* a profile with a position for each point */
     bool absolute_x, absolute_y; /* the same of a map                                      */
-    enum rc_raw raw_x,
-        raw_y; /* of the positions: a point is x, y where that is absolute too, and z */
-    size_t before_y, before_z; /* bytes of a point that come before y, before z            */
+    enum rc_raw raw_x, raw_y;    /* numbers of a point: x, y if that axis is absolute too, and z */
+    size_t before_y, before_z;   /* bytes of a point that come before y, before z            */
     double x_increment, x_offset, y_increment;
     bool wants_list;         /* the heights in main.xml are to be kept                       */
     double *list;            /* heights that were in main.xml; positions and heights by turns */
-    size_t listed, capacity; /* data, and numbers that the list can hold              */
+    size_t listed, capacity; /* numbers in the list, and its capacity */
 };
 
-/* Reads main.xml and judges it: RC_FAIL for what is no map on a regular grid. */
+/* Reads and checks main.xml: RC_FAIL if the data is no map on a regular grid. */
 enum rc_status rc_x3p_head(struct rc_x3p *x, struct rc_err *err);
 /* The key of the grid that stores a field, for fields from RC_X3P_FIRST_KEY on. */
 const char *rc_x3p_key(size_t field);
 
-/* Notes what is wrong with main.xml by its checksum. */
+/* Notes a wrong checksum of main.xml. */
 void rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes);
 /* Finds the member of the heights and checks its size before anything is allocated for it. */
 enum rc_status rc_x3p_find_points(struct rc_x3p *x, size_t *member, struct rc_err *err);

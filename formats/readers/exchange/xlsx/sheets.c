@@ -1,4 +1,4 @@
-/* XLSX: what is in the archive, ECMA-376. */
+/* XLSX: the contents of the archive, ECMA-376. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 enum {
     NAME = 128,
     ROWS_MOST = 1 << 20,
-    CELL_BYTES = 96 /* that a cell may take in the end: here, as text, and read from that */
+    CELL_BYTES = 96 /* bytes of memory for a cell: here, as text, and read from the text */
 };
 
 static const char workbook_name[] = "xl/workbook.xml", strings_name[] = "xl/sharedStrings.xml";
@@ -19,14 +19,14 @@ struct link {
     char id[NAME], member[NAME];
 };
 
-/* What is being read. */
+/* The state of the parser. */
 struct reading {
     struct rc_workbook *book;
     const struct rc_file *file;
     struct rc_zip_read *archive;
     struct link link[RC_SHEETS_MOST]; /* id of the sheets in the workbook, then their members */
     char id[NAME], target[NAME];      /* of a relation */
-    uint32_t *shared;                 /* where shared texts begin */
+    uint32_t *shared;                 /* start of each shared text */
     size_t shareds, shared_capacity, cells;
     struct rc_sheet *sheet;
     struct rc_cell cell; /* the current one */
@@ -60,7 +60,7 @@ add_text(struct rc_workbook *b, const char *text, bool is_new, uint32_t *at, str
     return RC_OK;
 }
 
-/* A text that is shared: what is in it comes in one piece or in several. */
+/* Adds to a shared text, whose characters may come in several pieces. */
 static enum rc_status
 take_shared(void *arg, const char *path, const char *text, struct rc_err *err)
 {
@@ -178,7 +178,7 @@ keep_cell(struct reading *r, struct rc_err *err)
     return RC_OK;
 }
 
-/* The cell is at its end: what its type says of its value. */
+/* Called at the end of a cell: interprets its value by its type. */
 static enum rc_status
 end_cell(struct reading *r, struct rc_err *err)
 {
@@ -198,8 +198,8 @@ end_cell(struct reading *r, struct rc_err *err)
         if (rc_xml_whole("the sheet", "a shared text", r->value, &index, err) != RC_OK)
             return RC_FAIL;
         if (index >= r->shareds)
-            return rc_err_set(err, "a cell has shared text %zu, of which there are %zu", index,
-                              r->shareds);
+            return rc_err_set(err, "a cell refers to shared text %zu, but there are only %zu",
+                              index, r->shareds);
         r->cell.text = r->shared[index];
     } else if (strcmp(r->type, "str") == 0 || strcmp(r->type, "b") == 0) {
         if (add_text(r->book, r->value, true, &r->cell.text, err) != RC_OK)
@@ -212,7 +212,7 @@ end_cell(struct reading *r, struct rc_err *err)
                               rc_word_shown(quote, r->value), r->sheet->name, r->cell.row,
                               r->cell.column);
     } else if (strcmp(r->type, "e") != 0 && r->inline_text == 0)
-        return RC_OK; /* a date, or what else there may be */
+        return RC_OK; /* a date or another type */
     return keep_cell(r, err);
 }
 

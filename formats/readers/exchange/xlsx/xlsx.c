@@ -37,12 +37,11 @@ struct blocks {
 
 /* ---- blocks ---- */
 
-/* Rows of a column that numbers fill: the longest run that neither a text breaks nor a row without any
- * number. */
+/* The rows of a column with numbers: the longest run without a text, and without a row that has no number. */
 struct run {
     uint32_t first, last;
-    uint32_t after, before; /* rows between which no text is; 0: there is none below */
-    uint32_t part;          /* of the sheet, between rows without numbers            */
+    uint32_t after, before; /* rows without a text between them; 0: there are no more */
+    uint32_t part;          /* rows of the sheet, between rows without numbers */
     size_t n;
 };
 
@@ -117,7 +116,7 @@ insert(struct blocks *blocks, const struct block *b)
     blocks->block[k] = *b;
 }
 
-/* Adds a column to a block, whose rows end where a text of any column stands. */
+/* Adds a column to a block, which ends at a text in any column. */
 static void
 widen(struct block *b, const struct run *run, uint32_t *after, uint32_t *before)
 {
@@ -151,7 +150,7 @@ find_blocks(const struct rc_sheet *s, const struct columns *c, struct blocks *bl
 
 /* ---- titles ---- */
 
-/* The title over a column of a block, with the unit that may stand under it in a row of its own. */
+/* The title of a column of a block, with the unit that may follow in the next row. */
 static void
 title_of(const struct rc_workbook *w, const struct block *b, uint32_t column, char title[TITLE])
 {
@@ -188,7 +187,7 @@ unit_in(const char *text, char unit[16])
         rc_text_clean(unit, 16, word.text, word.n);
 }
 
-/* The titles of a profile of SurfTest, "" where this is none. */
+/* The titles of a profile of SurfTest; "" for another profile. */
 static void
 mitutoyo_titles(const struct rc_workbook *w, const struct block *b, char x[TITLE], char z[TITLE])
 {
@@ -299,7 +298,7 @@ make_text(const struct rc_workbook *w, const struct block *b, struct text *t, st
     size_t k = 0;
 
     if ((size_t)(b->last - b->first + 1) * (b->right - b->left + 1) > 2 * b->numbers + 64)
-        return rc_err_set(err, "more cells of the block are empty than hold numbers");
+        return rc_err_set(err, "the block has more empty cells than numbers");
     while (k < s->n && s->cell[k].row < b->first)
         k++;
     for (uint32_t row = b->first; good && row <= b->last; row++)
@@ -400,8 +399,7 @@ try_block(const struct rc_workbook *w, const struct block *b, const struct rc_wi
     return status;
 }
 
-/* Goes through the blocks that can be read, up to the one wanted; `channel` then has its list. Gives
- * their number. */
+/* Visits the readable blocks up to the requested one; `channel` then has its list. Gives their number. */
 static size_t
 walk(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
      size_t most, size_t wanted, struct rc_grid **g, struct rc_notes *notes, struct rc_err *err)
@@ -440,8 +438,7 @@ walk(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *
         n++;
     }
     if (n == 0)
-        rc_err_set(err, "%s",
-                   blocks.n == 0 ? "the workbook holds no column of numbers" : first.text);
+        rc_err_set(err, "%s", blocks.n == 0 ? "the workbook has no column of numbers" : first.text);
     else if (g != NULL && *g == NULL && n <= wanted)
         rc_err_set(err, "there is no channel %zu: the file has %zu", wanted + 1, n);
 done:

@@ -13,7 +13,7 @@ enum {
 
 struct rc_cell {
     uint32_t row, column; /* from 1 */
-    uint32_t text;        /* where in the texts its text begins, from 1; 0: it is a number */
+    uint32_t text;        /* position of its text in the texts, from 1; 0: it is a number */
     double number;        /* NAN: an error in the place of one */
 };
 
