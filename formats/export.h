@@ -25,7 +25,7 @@ struct rc_export_wish {
     enum rc_raw raw;     /* type of the values in the file */
     int64_t time;        /* seconds since 1970, for formats with a mandatory date */
     const char *creator; /* program and version, for formats that name it */
-    const char *missing; /* word for a missing point in text; NULL: that of the format */
+    const char *missing; /* word for a missing point in text; NULL: the word of the format */
     /* m: height of a print from its lowest to its highest point; 0: to scale with the map */
     double relief;
 };
@@ -44,9 +44,9 @@ struct rc_export {
                              NAME */
     const char *summary;  /* one line                                                         */
     bool text;            /* readable: may be written to a terminal                           */
-    bool several;         /* accepts several frames; else only one                            */
-    bool stack;           /* or the depths of one channel and case                            */
-    bool uneven;          /* has the depth of each row of a section: depths may be uneven     */
+    bool several;         /* accepts several frames; otherwise only one */
+    bool stack;           /* accepts the depths of one channel and case */
+    bool uneven;          /* stores the depth of each row of a section: depths may be uneven */
     bool lengths;         /* its spacings are lengths: refuses another dunit */
     bool heights;         /* the values of the format are metres: only heights */
     unsigned types;       /* possible types, from the bits above; 0: text */

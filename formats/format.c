@@ -59,18 +59,18 @@ rc_format_read(const struct rc_format *f, const struct rc_file *file, const stru
                            : f->read(file, wish, index, notes, err);
 }
 
-/* Kinds of files that hold no heights, or hold them packed. */
+/* Kinds of files without heights, or with compressed heights. */
 static const char *
 other_file(const struct rc_file *file)
 {
     static const struct {
         const char *magic, *what;
     } kinds[] = {
-        {"\x89PNG", "a PNG picture has colours, no heights: the program that it comes from may "
-                    "save X3P, SDF or text"},
-        {"\xff\xd8\xff", "a JPEG picture has colours, no heights: the program that it comes from "
-                         "may save X3P, SDF or text"},
-        {"%PDF", "a PDF document holds no heights that could be read"},
+        {"\x89PNG", "a PNG picture has colours, no heights: save X3P, SDF or text in the program "
+                    "that made it"},
+        {"\xff\xd8\xff", "a JPEG picture has colours, no heights: save X3P, SDF or text in the "
+                         "program that made it"},
+        {"%PDF", "a PDF document has no readable heights"},
         {"BZh", "the file is packed with bzip2: unpack it first (bunzip2)"},
         {"\xfd"
          "7zXZ",
@@ -109,9 +109,8 @@ rc_format_find(const struct rc_file *file, struct rc_err *err)
     else
         rc_err_set(
             err,
-            "not recognised: it is none of the formats that --formats lists (it begins '%s'); "
-            "--format NAME says which one it is, or the program that it comes from may save X3P, "
-            "SDF or text",
+            "not recognised: it has none of the formats of --formats (it begins '%s'); give "
+            "--format NAME, or save X3P, SDF or text in the program that made it",
             rc_text_shown(first, (const char *)file->data, file->size < 24 ? file->size : 24));
     return NULL;
 }

@@ -50,9 +50,8 @@ struct rc_format {
                             struct rc_notes *notes, struct rc_err *err);
     /* Listing and reading run in a separate process, which also holds the values until it has sent them. */
     bool sandboxed;
-    bool copies;  /* the library of that process holds a copy of the file */
-    bool columns; /* its channels are columns of one table: a message names those that are not
-                     read */
+    bool copies;  /* the library of that process makes a copy of the file */
+    bool columns; /* its channels are columns of one table: a message names the unread columns */
 };
 
 /* The formats of formats.list in its order, ended by NULL. */

@@ -118,8 +118,8 @@ check_arguments(struct costs *run)
         tool_die(t, EXIT_USAGE, "one load at a time: %zu were given", physics_steps(physics)->n);
     if (tool_given(t, "budget") && tool_given(t, "error"))
         tool_die(t, EXIT_USAGE,
-                 "--budget asks for the best in a time, --error for the quickest of an accuracy: "
-                 "give one");
+                 "--budget selects the most accurate trial within a time, --error the fastest with "
+                 "an accuracy: give one of them");
     if (physics->pair.one.layers > 0 && tool_given(t, "nu"))
         tool_die(t, EXIT_USAGE, "--nu: each layer has its own Poisson's ratio: leave it out");
     if (tool_given(t, "depths") && isnan(args.nu) && isnan(physics->nu1))

@@ -143,7 +143,7 @@ take_attribute(struct rc_cdf_variable *v, struct rc_piece name, unsigned type, u
         v->period = rc_cdf_value(at, type);
 }
 
-/* Reads the attributes of a variable; with NULL skips those of the file. */
+/* Reads the attributes of a variable; with NULL, skips the attributes of the file. */
 static enum rc_status
 read_attributes(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
 {

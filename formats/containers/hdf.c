@@ -25,11 +25,11 @@ rc_hdf_new(const struct rc_file *file, struct rc_err *err)
         return NULL;
     }
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* errors are reported here, not by the library */
-    /* opened to be read: nothing is written to the bytes */
+    /* opened for reading: HDF5 does not write to the bytes */
     h->file = H5LTopen_file_image((void *)(uintptr_t)file->data, file->size, as_it_is);
     if (h->file >= 0)
         return h;
-    rc_err_set(err, "no HDF5 file, or one that is damaged or cut off");
+    rc_err_set(err, "not an HDF5 file, or the file is damaged or cut off");
     free(h);
     return NULL;
 }

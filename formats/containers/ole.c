@@ -23,7 +23,7 @@ enum {
     ROOT = 5
 };
 
-#define END UINT32_C(0xfffffffa) /* from here on numbers are not sectors */
+#define END UINT32_C(0xfffffffa) /* larger numbers are no sectors */
 
 static const unsigned char magic[8] = {0xd0, 0xcf, 0x11, 0xe0, 0xa1, 0xb1, 0x1a, 0xe1};
 
@@ -195,7 +195,7 @@ find_stream(const struct ole *o, const char *name, size_t *n, struct rc_err *err
         return all;
     }
     free(directory);
-    rc_err_set(err, "the compound file holds no stream '%s'", name);
+    rc_err_set(err, "the compound file has no stream '%s'", name);
     return NULL;
 }
 

@@ -121,7 +121,7 @@ rc_tiff_exif(struct rc_tiff *t)
 
 /* ---- tags ---- */
 
-/* Bytes of a tag that the library does not know: it returns a count and an array. */
+/* Reads the bytes of a tag that is not in libtiff's table, which then returns a count and an array. */
 static bool
 private_tag(struct rc_tiff *t, const TIFFField *field, const void **bytes, size_t *count)
 {
@@ -300,9 +300,10 @@ rc_tiff_values(struct rc_tiff *t, const struct rc_tiff_shape *shape, double *v, 
     TIFFGetFieldDefaulted(t->tiff, TIFFTAG_PLANARCONFIG, &planar);
     TIFFGetFieldDefaulted(t->tiff, TIFFTAG_SAMPLEFORMAT, &kind);
     if (TIFFIsTiled(t->tiff))
-        return rc_err_set(err, "the page is laid out in tiles: only strips are read");
+        return rc_err_set(err, "the page has tiles, and only pages with strips are read");
     if (kind == SAMPLEFORMAT_IEEEFP && shape->bits != 32 && shape->bits != 64)
-        return rc_err_set(err, "floats of %u bits: only those of 32 and 64 are read", shape->bits);
+        return rc_err_set(err, "floats of %u bits: only floats of 32 and 64 bits are read",
+                          shape->bits);
     stride = planar == PLANARCONFIG_CONTIG ? shape->samples : 1;
     least = (shape->nx * stride * shape->bits + 7) / 8;
     if (size <= 0 || (size_t)size < least)

@@ -40,12 +40,12 @@ judge_steps(const double *x, size_t points, struct rc_err *err)
     }
     if (off <= most)
         return RC_OK;
-    return rc_err_set(err,
-                      "the positions are not evenly apart: the furthest off is point %zu, at %s "
-                      "where even steps of %s lead to %s, %.2g steps away; up to %.2g is accepted: "
-                      "--even resamples the profile to even steps",
-                      worst + 1, rc_number_text(a, x[worst]), rc_number_text(c, step),
-                      rc_number_text(b, x[0] + step * (double)worst), off / step, most / step);
+    return rc_err_set(
+        err,
+        "the positions are not evenly spaced: point %zu is at %s, but even steps of %s lead to %s, "
+        "%.2g steps away; up to %.2g is accepted: --even resamples the profile to even steps",
+        worst + 1, rc_number_text(a, x[worst]), rc_number_text(c, step),
+        rc_number_text(b, x[0] + step * (double)worst), off / step, most / step);
 }
 
 static int
@@ -73,7 +73,7 @@ median_spacing(const double *x, size_t points, double *median, struct rc_err *er
     return RC_OK;
 }
 
-/* The requested step in the unit of the positions, or that of the points. */
+/* The requested step in the unit of the positions, or the step of the points. */
 static enum rc_status
 pick_step(const struct rc_wish *wish, double metres, double length, double median, double *step,
           struct rc_err *err)
@@ -114,7 +114,7 @@ rc_even_new(const double *x, size_t points, double metres, const struct rc_file 
         return rc_err_set(err, "%g nodes are too many: --even STEP gives a wider step", nodes);
     even->n = (size_t)nodes;
     even->widest = RC_EVEN_GAP * fmax(median, even->step) * (1 + 1e-9);
-    return rc_map_fits(file, even->n, 4, err); /* a reader holds several copies */
+    return rc_map_fits(file, even->n, 4, err); /* a reader makes several copies */
 }
 
 static void
@@ -190,7 +190,6 @@ rc_axis_step(const char *name, double *x, size_t n, double *step, struct rc_err 
                               rc_word_shown(quote, name));
     if (*step > 0 && judge_steps(x, n, NULL) == RC_OK)
         return RC_OK;
-    return rc_err_set(err,
-                      "the positions of the axis '%s' are not evenly apart: a map needs even ones",
+    return rc_err_set(err, "the positions of the axis '%s' are not evenly spaced, as a map needs",
                       rc_word_shown(quote, name));
 }

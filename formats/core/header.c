@@ -185,7 +185,7 @@ rc_field_take(const struct rc_field *field, size_t n, struct rc_piece key, struc
             memcpy(at, &value, sizeof value);
         else if (field[k].kind == RC_FIELD_NUMBER ? !rc_piece_number(value, at, NULL)
                                                   : !read_length(value, at))
-            return rc_err_set(err, "%s is '%s': that is no %s", field[k].key,
+            return rc_err_set(err, "%s is '%s', but must be a %s", field[k].key,
                               rc_piece_shown(quote, value),
                               field[k].kind == RC_FIELD_NUMBER ? "number" : "length");
         break;

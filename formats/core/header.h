@@ -8,7 +8,7 @@
 #include "text.h"
 
 struct rc_piece {
-    const char *text; /* not ended by NUL */
+    const char *text; /* without a NUL at its end */
     size_t n;
 };
 
@@ -23,11 +23,12 @@ struct rc_piece rc_piece_trim(struct rc_piece piece);
 struct rc_piece rc_piece_bare(struct rc_piece piece);
 /* A cursor over its lines, before the first one. */
 struct rc_lines rc_piece_lines(struct rc_piece piece);
-/* Parts at the first of the characters `marks`, both trimmed; false when there is none. */
+/* Splits the text at the first of the characters `marks`, and trims both parts. Returns false if there is
+ * none. */
 bool rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *before,
                    struct rc_piece *after);
-/* The number that it begins with and the trimmed rest (which may be NULL); false when there is
- * none. Decimal commas are read as points. */
+/* The number at the beginning of a text, and the trimmed rest (which may be NULL). Returns false without a
+ * number. Decimal commas are read as points. */
 bool rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest);
 /* True if the piece is a word for infinity, as C libraries print one: inf, -Infinity, 1.#INF. */
 bool rc_piece_infinite(struct rc_piece piece, double *value);
@@ -48,7 +49,7 @@ enum rc_field_kind {
 
 /* A key that matters, and where its value goes in a struct. */
 struct rc_field {
-    const char *key; /* in either case, or several between '|' */
+    const char *key; /* in upper or lower case; several keys are separated by '|' */
     enum rc_field_kind kind;
     size_t at;
 };

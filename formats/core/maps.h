@@ -36,12 +36,12 @@ struct rc_map {
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_map *map, double *v,
                            struct rc_err *err);
     size_t more;   /* for fill                                                           */
-    double beside; /* bytes that fill needs beside v: set by rc_map_bound                */
-    const struct rc_wish *wish; /* for fill, and the notes                               */
+    double beside; /* bytes that fill needs in addition to v; rc_map_bound sets them */
+    const struct rc_wish *wish; /* data of fill, and the notes */
     struct rc_notes *notes;
     const char *doubt; /* a doubt about the heights: noted, unless --z-unit is given     */
     double step[2]; /* the spacing if the file gives it without a unit, and a text about it for the
-                message: */
+                       message: */
     char hint[128];
 };
 
@@ -55,7 +55,7 @@ struct rc_maps {
     size_t keys;
 };
 
-/* Adds a map with this name, scale 1 and nothing else known. */
+/* Adds a map with this name and scale 1; all else is unknown. */
 struct rc_map *rc_maps_add(struct rc_maps *maps, const char *name, size_t n);
 /* Adds a cleaned key `file.*` of the grid, unless the text is empty or the key exists. */
 void rc_maps_key(struct rc_maps *maps, const char *key, const char *text, size_t n);

@@ -7,7 +7,7 @@
 #include "header.h"
 
 enum {
-    NUMBER_MOST = 400 /* characters of one number */
+    NUMBER_MOST = 400 /* most characters of one number */
 };
 
 static bool
@@ -40,7 +40,7 @@ ends_field(const struct rc_number_table *t, const char *s)
 /* ---- numbers ---- */
 
 struct number {
-    uint64_t digits; /* all digits as one whole number, while it is exact in a double */
+    uint64_t digits; /* all digits as one integer, as long as it is exact in a double */
     int power;       /* the power of ten for the digits                                        */
     bool exact;      /* true: the two above give the number exactly */
     char mark;       /* decimal mark met, or 0                                                 */
@@ -155,7 +155,7 @@ is_missing(const struct rc_number_table *t, const char *s, size_t n)
 {
     if (t->missing != NULL && strlen(t->missing) == n && memcmp(t->missing, s, n) == 0)
         return true;
-    /* some C libraries print a NaN as one of the last three */
+    /* some C libraries print NaN as one of the last three words */
     return rc_piece_is((struct rc_piece){s, n}, "nan|na|n/a|bad|--|---|-nan|1.#qnan|-1.#ind");
 }
 
@@ -218,20 +218,20 @@ bad_field(const struct rc_number_table *t, size_t line, const char *s, char deci
 
     if (s == NULL)
         return rc_err_set(err,
-                          "line %zu: two values with white space between them, where columns are "
-                          "separated by %s: --separator says what is meant",
+                          "line %zu: two values with white space between them, but columns are "
+                          "separated by %s: give --separator",
                           line, separator_name(t->separator));
     while (!ends_field(t, end))
         end++;
     rc_text_shown(quote, s, (size_t)(end - s));
     if (decimal != 0 && memchr(s, other, (size_t)(end - s)) != NULL)
         return rc_err_set(err,
-                          "line %zu: '%s' is no number where the decimal mark is '%c': --decimal "
-                          "and --separator say what is meant",
+                          "line %zu: '%s' is no number with the decimal mark '%c': give --decimal "
+                          "and --separator",
                           line, quote, decimal);
     return rc_err_set(err,
-                      "line %zu: '%s' is no number: --separator says what stands between the "
-                      "columns, --missing WORD what marks a missing value",
+                      "line %zu: '%s' is no number: give --separator for the columns, or --missing "
+                      "WORD for missing values",
                       line, quote);
 }
 
@@ -270,7 +270,7 @@ read_row(const struct rc_number_table *t, const char *s, size_t most, double *v,
         if (after)
             s++;
         else if (strict && s < t->end && !ends_line(*s)) {
-            *bad = NULL; /* two values with nothing but white space between them */
+            *bad = NULL; /* two values with only white space between them */
             return NULL;
         }
     }
@@ -341,8 +341,8 @@ has_quotes(const struct rc_number_table *t)
     return memchr(t->start, '"', (size_t)(line_end(t, t->start) - t->start)) != NULL;
 }
 
-/* The separator, from the first row. A comma is one when the row also has points, when white space
- * stands beside every comma, or when there is no other white space in it. */
+/* The separator, from the first row. A comma is a separator if the row also has points, if every comma has
+ * white space next to it, or if the row has no other white space. */
 static enum rc_status
 find_separator(struct rc_number_table *t, const char *s, size_t line, struct rc_err *err)
 {
@@ -367,7 +367,7 @@ find_separator(struct rc_number_table *t, const char *s, size_t line, struct rc_
     else
         return rc_err_set(err,
                           "line %zu: some commas look like decimal marks, others like separators: "
-                          "--decimal and --separator say what is meant",
+                          "give --decimal and --separator",
                           line);
     return RC_OK;
 }
@@ -382,10 +382,10 @@ refuse_ambiguous_comma(const struct rc_number_table *t, const struct rc_wish *wi
         wish->decimal != 0 || memchr(t->start, '.', (size_t)(t->end - t->start)) != NULL ||
         memchr(t->start, ' ', (size_t)(t->end - t->start)) != NULL)
         return RC_OK;
-    return rc_err_set(err,
-                      "line %zu: the comma may be a decimal mark or a separator: --decimal or "
-                      "--separator says which",
-                      t->first_line);
+    return rc_err_set(
+        err,
+        "line %zu: the comma may be a decimal mark or a separator: give --decimal or --separator",
+        t->first_line);
 }
 
 enum rc_status
@@ -418,7 +418,7 @@ rc_number_table_open(struct rc_number_table *t, const struct rc_lines *lines,
     if (t->separator == ',' && t->decimal == ',' && !has_quotes(t))
         return rc_err_set(err, "the comma cannot be separator and decimal mark at once");
     if (t->separator == ',' && t->decimal == 0 && !has_quotes(t))
-        t->decimal = '.'; /* in quotes a comma may be the mark */
+        t->decimal = '.'; /* in quotes a comma may be the decimal mark */
     decimal = t->decimal;
     if ((s = read_row(t, s, 0, NULL, &t->columns, &decimal, &bad)) == NULL)
         return bad_field(t, line, bad, decimal, err);
@@ -434,7 +434,7 @@ rc_number_table_size(const struct rc_number_table *t, size_t *n, struct rc_err *
 
     if (rc_size_mul(t->rows, t->columns, n, err) != RC_OK)
         return RC_FAIL;
-    if (*n > bytes + 1) /* a value takes a byte at least, but for the last */
+    if (*n > bytes + 1) /* each value except the last takes at least one byte */
         return rc_err_set(err, "%zu columns and %zu rows in %zu bytes: some row is too short",
                           t->columns, t->rows, bytes);
     return RC_OK;

@@ -1,6 +1,6 @@
 /*
- * A table of numbers in text, with as many columns in every row: read in one pass, with a point or
- * a comma as the decimal mark whatever the locale.
+ * A table of numbers in text, with as many columns in every row: read in one pass, with a point or a comma as
+ * the decimal mark in any locale.
  *
  * One separator separates columns. Runs of white space count once; with other separators an empty field is a
  * missing value, and a separator at the end of a row is ignored. A value may be quoted, and its exponent may

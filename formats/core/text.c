@@ -143,7 +143,7 @@ rc_text_clean(char *to, size_t size, const char *text, size_t n)
     rc_trim(&text, &n);
     kept = n < most ? n : most;
     while (kept < n && kept > 0 && ((unsigned char)text[kept] & 0xc0U) == 0x80)
-        kept--; /* not in the middle of a character */
+        kept--; /* do not cut a character */
     for (size_t k = 0; k < kept; k++)
         to[k] = (char)(text[k] == '\0' ? ' ' : text[k]);
     to[kept] = '\0';

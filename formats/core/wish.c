@@ -52,7 +52,7 @@ rc_spacing(const struct rc_wish *wish, double dx, double dy, struct rc_shape *sh
 void
 rc_lacks_unit(const struct rc_wish *wish, double by_file, struct rc_err *err)
 {
-    static const char more[] = "; nor the unit of its heights: --z-unit UNIT says it";
+    static const char more[] = ", and the unit of its heights is missing too: give --z-unit UNIT";
 
     if (err != NULL && isnan(wish->z_unit) && isnan(by_file) &&
         strlen(err->text) + sizeof more <= sizeof err->text)

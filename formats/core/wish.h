@@ -10,7 +10,7 @@
 
 /* Whether the first row and the first column of a text matrix are labels or positions, not heights. */
 enum rc_label {
-    RC_LABELS_FOUND, /* those that look like labels */
+    RC_LABELS_FOUND, /* rows and columns that look like labels */
     RC_LABELS_KEEP,  /* none                        */
     RC_LABELS_ROW,
     RC_LABELS_COLUMN,
@@ -22,7 +22,7 @@ struct rc_wish {
     double dx, dy;         /* spacing in metres; NAN: as the file says                     */
     double z_unit;         /* metres per unit of the file's heights; NAN: as the file says */
     char decimal;          /* '.' or ','; 0: detected                                      */
-    const char *separator; /* of columns in text; NULL: detected */
+    const char *separator; /* separator of columns in text; NULL: detected */
     const char *missing;   /* a word that marks missing values in text, besides NaN, BAD, ... */
     bool even;             /* resample profiles with uneven points */
     double even_step;      /* m, to this step; 0: to a step from the profile */

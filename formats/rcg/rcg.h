@@ -18,7 +18,7 @@ enum {
     RC_HEADER_MAX = 65536 /* bytes of one frame's header, first to last line feed */
 };
 
-/* Several processes that read or write one file, each the rows that it holds of every map. All call the same
+/* For several processes that read or write one file, each with its rows of every map. All call the same
  * functions with the same headers; if one fails, all fail. */
 struct rc_share {
     void *ctx;
@@ -58,8 +58,8 @@ enum rc_status rc_reader_next(struct rc_reader *reader, struct rc_grid **grid, s
 enum rc_status rc_reader_head(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
 enum rc_status rc_reader_values(struct rc_reader *reader, struct rc_grid *grid, struct rc_err *err);
 
-/* After RC_FAIL: the message of the RCGFAIL that ended the stream, and the exit status of the
- * program that wrote it, 1 or 2; NULL when something else was wrong. Valid as long as the reader. */
+/* After RC_FAIL: the message of the RCGFAIL that ended the stream, and the exit status of the program that
+ * wrote it, 1 or 2; NULL after another failure. Valid as long as the reader. */
 const char *rc_reader_failure(const struct rc_reader *reader, int *exit_status);
 
 /* After RC_FAIL: whether the input is not a stream at all, from its first byte on. `head` is then its

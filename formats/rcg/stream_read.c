@@ -162,7 +162,7 @@ add_line(struct head *head, char *line, struct rc_err *err)
         return rc_err_set(err, "header key '%.60s' is not of the form [a-z][a-z0-9._-]*", line);
     if (!unescape(equals + 1))
         return rc_err_set(
-            err, "the value of header key '%.60s' holds a backslash that is neither \\\\ nor \\n",
+            err, "the value of header key '%.60s' has a backslash that is neither \\\\ nor \\n",
             line);
     if (!rc_utf8_valid(equals + 1))
         return rc_err_set(err, "the value of header key '%.60s' is not UTF-8", line);
@@ -170,7 +170,7 @@ add_line(struct head *head, char *line, struct rc_err *err)
         if (strcmp(line, field_names[f]) != 0)
             continue;
         if (head->field[f] != NULL)
-            return rc_err_set(err, "header key '%s' stands twice", line);
+            return rc_err_set(err, "header key '%s' occurs twice", line);
         head->field[f] = equals + 1;
         return RC_OK;
     }
@@ -195,9 +195,8 @@ read_head(struct rc_reader *r, struct head *head, struct rc_err *err)
         if (n == -2)
             return rc_err_set(err, "the header is longer than %d bytes", RC_HEADER_MAX);
         if (n == -3)
-            return feof(r->file) || ferror(r->file)
-                       ? cut_off(r, "inside a header", err)
-                       : rc_err_set(err, "the header holds a NUL byte");
+            return feof(r->file) || ferror(r->file) ? cut_off(r, "inside a header", err)
+                                                    : rc_err_set(err, "the header has a NUL byte");
         r->crc = rc_crc32_add(r->crc, at, (size_t)n);
         r->crc = rc_crc32_add(r->crc, "\n", 1);
         if (n == 0)
@@ -269,7 +268,7 @@ set_keys(struct rc_grid *g, const struct head *head, struct rc_err *err)
         const char *name = head->extra[k];
 
         if (rc_grid_get(g, name) != NULL)
-            return rc_err_set(err, "header key '%.60s' stands twice", name);
+            return rc_err_set(err, "header key '%.60s' occurs twice", name);
         if (rc_grid_set(g, name, name + strlen(name) + 1, err) != RC_OK)
             return RC_FAIL;
     }
@@ -416,7 +415,8 @@ read_crc(struct rc_reader *r, struct rc_err *err)
             "no crc32 line follows the values: nx, ny or type in the header do not match the data");
     if (strcmp(line, wanted) != 0)
         return rc_err_set(
-            err, "the checksum is %s, the data's is %s: the stream is damaged; make it again",
+            err,
+            "the checksum is %s, but that of the data is %s: the stream is damaged; make it again",
             line + 6, wanted + 6);
     return RC_OK;
 }
@@ -562,8 +562,8 @@ rc_reader_head(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
             return read_failure(r, line + 7, err);
         if (strncmp(line, "RCGEND ", 7) != 0)
             return rc_err_set(err,
-                              "'%.40s' stands where a frame or an end line should: this is no grid "
-                              "stream, or a damaged one",
+                              "'%.40s' is in place of a frame or an end line: this is no grid "
+                              "stream, or it is damaged",
                               line);
         if (read_end(r, line + 7, err) != RC_OK)
             return RC_FAIL;

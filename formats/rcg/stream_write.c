@@ -9,7 +9,7 @@
 
 struct rc_writer {
     FILE *file;                   /* NULL: several processes write */
-    const struct rc_share *share; /* with several; and the position of the next byte */
+    const struct rc_share *share; /* with several processes; position of the next byte */
     uint64_t at;
     size_t frames;
 };

@@ -18,7 +18,7 @@
  * them are in units of sqrt(dx dy). */
 struct rc_operator {
     struct rc_shape whole, shape; /* shape of the whole map, and of the rows held here */
-    struct rc_rows rows;          /* the rows of that part */
+    struct rc_rows rows;          /* rows held here */
     enum rc_boundary boundary;
     size_t threads;
     double unit;  /* m/Pa                                                             */

@@ -14,14 +14,14 @@
  * a node without neighbours in the set always joins, and so do all nodes once the residual of their
  * neighbours is near 0.
  *
- * Under a stiff coating a_ij alternates in sign, and nodes far beyond the neighbours count. There a node
- * joins if its residual would keep its sign when the elastic nodes fit: K z is r on the set, and beside it
- * about the extension E r from the elastic nodes (preconditioner.h), so r_i must exceed that. The sets of a
- * primal-dual active set method, whose systems are solved exactly, are the same except for the error of E; on
- * a map of 128 x 128 under a coating of two nodes with E_1/E_s = 400 that method took four steps. Coatings of
- * one to four nodes, E_1/E_s 100 and 400, 1 to 40 % contact at 512 x 512: 9 to 23 equivalents, against 10 to
- * 25 with neighbours whose residual is smaller weighted less. Taking only nodes with a positive z, from an
- * additional correction, was far worse.
+ * Under a stiff coating a_ij alternates in sign, and nodes far beyond the neighbours count. Under such a
+ * coating a node joins if its residual would keep its sign after the correction of the elastic nodes. K z
+ * equals r on the set, and is about the extension E r outside it (preconditioner.h), so r_i must exceed E r.
+ * The sets of a primal-dual active set method, whose systems are solved exactly, are the same except for the
+ * error of E; on a map of 128 x 128 under a coating of two nodes with E_1/E_s = 400 that method took four
+ * steps. Coatings of one to four nodes, E_1/E_s 100 and 400, 1 to 40 % contact at 512 x 512: 9 to 23
+ * equivalents, against 10 to 25 with neighbours whose residual is smaller weighted less. Taking only nodes
+ * with a positive z, from an additional correction, was far worse.
  *
  * The estimate that ends the iteration uses all nodes that want to leave their bounds.
  */

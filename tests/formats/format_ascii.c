@@ -182,7 +182,7 @@ headers_that_are_refused(void **state)
         const char *text, *why;
     } cases[] = {
         {"1 2 3\n4 5 6\n", "--dx LENGTH"},
-        {"1 2 3\n4 5 6\n", "nor the unit of its heights: --z-unit UNIT"},
+        {"1 2 3\n4 5 6\n", "the unit of its heights is missing too: give --z-unit UNIT"},
         {"# Width: 6 um\n# Height: 5 um\n1 2 3\n4 5 6\n", "--z-unit"},
         {"# Width: 6 um\n# Height: 5 um\n# Value units: V\n1 2 3\n4 5 6\n",
          "'V', which is no length"},
@@ -386,8 +386,8 @@ columns_that_are_refused(void **state)
         {"1 2 3\n4 - 6\n", "line 2: '-' is no number"},
         {"1 2 3\n4 . 6\n", "line 2: '.' is no number"},
         {"1 2 3\n4 1.2.3 6\n", "line 2: '1.2.3' is no number"},
-        {"1.5 2 3\n4 5,5 6\n", "line 2: '5,5' is no number where the decimal mark is '.'"},
-        {"1,5 2 3\n4 5.5 6\n", "line 2: '5.5' is no number where the decimal mark is ','"},
+        {"1.5 2 3\n4 5,5 6\n", "line 2: '5,5' is no number with the decimal mark '.'"},
+        {"1,5 2 3\n4 5.5 6\n", "line 2: '5.5' is no number with the decimal mark ','"},
         {"1;2;3\n4;5 6;7\n", "line 2: two values with white space between them"},
         {"1,5, 2 3\n", "some commas look like decimal marks"},
         {"1,5\n2,5\n", "may be a decimal mark or a separator"},

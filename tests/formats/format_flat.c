@@ -525,15 +525,15 @@ static const struct {
     /* the positions of a stylus drift by a hundredth of a step, and by six hundredths */
     {"x [um] z [um]\n0 1\n1.009 2\n1.995 3\n3 4\n", 4, 1e-6, 1e-6, 4e-6, NULL},
     {"x [um] z [um]\n0 1\n1.00 2\n2.06 3\n3.00 4\n", 0, 0, 0, 0,
-     "point 3, at 2.06 where even steps of 1 lead to 2, 0.06 steps away; up to 0.05"},
+     "point 3 is at 2.06, but even steps of 1 lead to 2, 0.06 steps away; up to 0.05"},
     {"x [um] z [um]\n0 1\n1 2\n2 3\n4 4\n5 5\n", 0, 0, 0, 0,
-     "point 3, at 2 where even steps of 1.25 lead to 2.5, 0.4 steps away"},
+     "point 3 is at 2, but even steps of 1.25 lead to 2.5, 0.4 steps away"},
     {"x [um] z [um]\n5 1\n4 2\n2 3\n1 4\n0 5\n", 0, 0, 0, 0,
-     "point 3, at 2 where even steps of 1.25 lead to 2.5"},
+     "point 3 is at 2, but even steps of 1.25 lead to 2.5"},
     {"x [s] z [um]\n0 1\n1 2\n2 3\n", 0, 0, 0, 0, "'s', which is no length"},
     {"x [um] z [um]\n0 1\n2 2\n1 3\n", 0, 0, 0, 0, "do not go on in one direction at row 3"},
     {"0 1\n1 2\n2 3\n", 0, 0, 0, 0, "its steps are 1"},
-    {"0 1\n1 2\n2 3\n", 0, 0, 0, 0, "nor the unit of its heights: --z-unit UNIT"},
+    {"0 1\n1 2\n2 3\n", 0, 0, 0, 0, "the unit of its heights is missing too: give --z-unit UNIT"},
     {"x [um] z\n0 1\n1 2\n2 3\n", 0, 0, 0, 0, "--z-unit"},
     {"x [um] z [um]\n0 1\n1 2\n", 0, 0, 0, 0, "3 points at least"},
     {"0 1 2\n1 2 3\n2 3 4\n", 0, 0, 0, 0, "without titles"},
@@ -669,7 +669,7 @@ points(void **state)
         {"0 0 1\n0 1 1\n", "the same x"},
         {"0 0 1\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n5 5.1 1\n", "on no raster: 6 of them"},
         {"0 0 1\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n6 6 1\n",
-         "not evenly apart: the furthest off is point 5"},
+         "not evenly spaced: point 5 is at"},
         {"0 0 1\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n4 4 2\n", "on no raster: 6 of them"},
     };
 

@@ -66,7 +66,7 @@ refuses 1 'another grid, 200 x 150' "of another grid" \
 refuses 1 'rough.rcg: a grid stream, but no checkpoint: name another' "a stream that is none" \
     "$solve --load 0.1N --checkpoint rough.rcg --resume -o x.rcg rough.rcg"
 echo "notes of a user" >notes.txt
-refuses 1 'no pressure can be read from it \(.notes of a user. stands where a frame' "a file that is none" \
+refuses 1 'no pressure can be read from it \(.notes of a user. is in place of a frame' "a file that is none" \
     "$solve --load 0.1N --checkpoint notes.txt --resume -o x.rcg rough.rcg"
 claim "the file stays unchanged" grep -qx "notes of a user" notes.txt
 refuses 2 '--resume and --interval need --checkpoint' "--resume alone" "$solve --load 0.1N --resume -o x.rcg rough.rcg"

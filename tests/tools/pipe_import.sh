@@ -161,9 +161,9 @@ if [ -d "$corpus" ]; then
     bad=$corpus/bad
     refuses 1 "sample2.x3p: FeatureType PCL is a cloud of points" "a cloud of points" "rc-import '$bad/x3p__ISO5436-sample2.x3p'"
     refuses 1 "sample3.x3p: axis CY is of type 'A': only incremental axes" "an absolute axis" "rc-import '$bad/x3p__ISO5436-sample3.x3p'"
-    refuses 1 "nonsense_txt_file.txt: not recognised: it is none of the formats" "prose" "rc-import '$bad/SurfaceTopography__nonsense_txt_file.txt'"
+    refuses 1 "nonsense_txt_file.txt: not recognised: it has none of the formats" "prose" "rc-import '$bad/SurfaceTopography__nonsense_txt_file.txt'"
     refuses 1 "9 numbers in one column" "one column" "rc-import '$bad/SurfaceTopography__single_column.txt'"
-    refuses 1 "a ZIP archive, but no X3P: it holds no main.xml" "a ZIP archive of another kind" \
+    refuses 1 "a ZIP archive, but no X3P: it has no main.xml" "a ZIP archive of another kind" \
         "rc-import --format x3p '$bad/SurfaceTopography__mitutoyo_mock.xlsx'"
     claim "a list of points is distinguished from a matrix" says ': xyz$' rc-import --list --dx 1um --z-unit um \
         "$corpus/xyz/SurfaceTopography__xyz-1.txt"
@@ -182,7 +182,7 @@ if [ -d "$corpus" ]; then
         "an absent channel names all" "rc-import --channel Topography '$di'"
     refuses 1 "its steps are 1 and 10 of a unit not given" "steps without a unit are named" \
         "rc-import '$corpus/surfer-grd/fatiando__simple_surfer.grd'"
-    refuses 1 "the positions are not evenly apart: the furthest off is point 61" "an uneven profile" \
+    refuses 1 "the positions are not evenly spaced: point 61" "an uneven profile" \
         "rc-import --z-unit um '$corpus/profile-text/SurfaceTopography__xy-1.txt'"
 else
     echo "not tried: RC_CORPUS names no folder of real files"

@@ -46,7 +46,7 @@ for n in 1 3 4; do
     refuses 1 'the stream stops inside a line, 0 whole frames' "a stream of $n bytes is one that was cut" "head -c $n ball.rcg | rc-info"
 done
 refuses 1 'stops inside a header' "a stream cut in its header is one" "head -c 20 ball.rcg | rc-info"
-refuses 1 "frame 2: 'rubbish' stands where a frame" "something behind a frame" \
+refuses 1 "frame 2: 'rubbish' is in place of a frame" "something behind a frame" \
     "{ sed '/^RCGEND/d' ball.rcg; echo rubbish; } | rc-info"
 claim "no file was written" test ! -e never.rcg
 

@@ -60,7 +60,7 @@ untouched() { [ ! -e out.rcg ] && [ -z "$(ls out.rcg.* 2>/dev/null)" ]; }
 
 refuses 1 'the stream stops inside the values of a frame' "a truncated stream" "head -c $((size - 500)) good.rcg | $solve -o out.rcg"
 claim "  no file is left" untouched
-refuses 1 "the checksum is beef[0-9a-f]{4}, the data's is " "a wrong CRC" \
+refuses 1 "the checksum is beef[0-9a-f]{4}, but that of the data is " "a wrong CRC" \
     "perl -pe 's/crc32 ..../crc32 beef/' good.rcg | $solve -o out.rcg"
 claim "  no file is left" untouched
 refuses 1 'the stream stops without an end line' "a missing end line" "head -c $((size - 9)) good.rcg | $solve -o out.rcg"
@@ -136,9 +136,9 @@ echo hello >hello.txt
 echo again >again.txt
 zip -q hello.zip hello.txt again.txt
 cp hello.zip hello.x3p
-refuses 1 "hello.x3p: a ZIP archive, but no X3P: it holds no main.xml .* is 'hello.txt'" "a zip that is no X3P" \
+refuses 1 "hello.x3p: a ZIP archive, but no X3P: it has no main.xml .* is 'hello.txt'" "a zip that is no X3P" \
     "rc-import hello.x3p -o out.rcg"
-refuses 1 "hello.zip: a ZIP archive, but no X3P: it holds no main.xml" "a zip under another name" "rc-import hello.zip -o out.rcg"
+refuses 1 "hello.zip: a ZIP archive, but no X3P: it has no main.xml" "a zip under another name" "rc-import hello.zip -o out.rcg"
 claim "  no file is left" untouched
 
 # A terminal as output. `script` gives the command one.

@@ -32,8 +32,8 @@ nearest(const struct cost_case *c, const struct cost_trial *t)
 }
 
 /* Convolutions per depth, in units of one for displacements: with the transforms of the first engine all
- * components share a plan; with other engines they do not. The error needs the exact stresses, and those of
- * the trial once more. */
+ * components share a plan; with other engines they do not. The error needs the exact stresses, and a second
+ * computation of the stresses of the trial. */
 static double
 expect_stress(const struct cost_case *c, const struct cost_trial *t)
 {

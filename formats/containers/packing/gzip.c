@@ -12,7 +12,7 @@
 
 enum {
     PIECE = 1 << 16,      /* size of the pieces when bytes are only counted */
-    GZIP = 16 + MAX_WBITS /* tells zlib to expect a header of gzip */
+    GZIP = 16 + MAX_WBITS /* zlib then expects a gzip header */
 };
 
 bool
@@ -55,8 +55,9 @@ look_on(const struct rc_file *file, const z_stream *z, bool *more, struct rc_err
     *more = rc_file_packed(&rest);
     for (size_t k = 0; k < rest.size && !*more; k++)
         if (rest.data[k] != 0)
-            return rc_err_set(err, "behind its gzip data stand %zu bytes that are no gzip data",
-                              rest.size);
+            return rc_err_set(
+                err, "after its gzip data the file has %zu further bytes that are no gzip data",
+                rest.size);
     return RC_OK;
 }
 

@@ -25,9 +25,9 @@ rc_inflate(const char *what, const unsigned char *from, size_t n, unsigned char 
     status = inflate(&z, Z_FINISH);
     inflateEnd(&z);
     if (status != Z_STREAM_END || z.total_out != wanted)
-        return rc_err_set(err, "the compressed %s are damaged: %lu of %zu bytes come out%s%s", what,
-                          z.total_out, wanted, z.msg == NULL ? "" : ", ",
-                          z.msg == NULL ? "" : z.msg);
+        return rc_err_set(
+            err, "the compressed %s are damaged: only %lu of %zu bytes can be unpacked%s%s", what,
+            z.total_out, wanted, z.msg == NULL ? "" : ", ", z.msg == NULL ? "" : z.msg);
     return RC_OK;
 }
 
