@@ -668,8 +668,7 @@ points(void **state)
         {"0 0 1 2\n1 0 2 3\n", "has 3 columns, this table has 4"},
         {"0 0 1\n0 1 1\n", "the same x"},
         {"0 0 1\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n5 5.1 1\n", "on no raster: 6 of them"},
-        {"0 0 1\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n6 6 1\n",
-         "not evenly spaced: point 5 is at"},
+        {"0 0 1\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n6 6 1\n", "not evenly spaced: point 5 is at"},
         {"0 0 1\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n4 4 2\n", "on no raster: 6 of them"},
     };
 

@@ -126,7 +126,8 @@ every_truncation(void **state)
             expect(&cut, data, 1000);
         else
             expect_refusal(&cut, UNPACKED,
-                           n == first + 1 ? "the file has 1 further bytes that are no gzip data" : "cut short");
+                           n == first + 1 ? "the file has 1 further bytes that are no gzip data"
+                                          : "cut short");
     }
     drop(&b);
     free(data);
