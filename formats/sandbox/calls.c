@@ -14,8 +14,8 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
-/* Allowed with any arguments: they affect this process only and reveal nothing. Calls that block and catch
- * signals are not allowed: with them a child could survive SIGALRM. */
+/* Calls allowed with any arguments: they affect only this process and reveal no data. Calls that block and
+ * catch signals are not allowed: with them a child could survive SIGALRM. */
 static const int harmless[] = {SCMP_SYS(exit_group),
                                SCMP_SYS(exit),
                                SCMP_SYS(brk),

@@ -77,7 +77,7 @@ rc_confine(const struct rc_file *file)
     limit(RLIMIT_CPU, (rlim_t)rc_confine_seconds(file) + 2); /* in case the signals are blocked */
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
-    limit(RLIMIT_NOFILE, 0); /* a file cannot make it open others */
+    limit(RLIMIT_NOFILE, 0); /* a malicious file then cannot open other files */
     if (space > 0)
         limit(RLIMIT_AS, (rlim_t)(space + rc_memory_limit(file->size)));
 }

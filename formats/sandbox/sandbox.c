@@ -28,7 +28,7 @@ struct child {
     FILE *result;
 };
 
-/* Starts the child. False with the reason when there is none. */
+/* Starts the child. Returns false, with the reason, if there is none. */
 static bool
 start(struct child *c, const struct rc_file *file, struct rc_err *err)
 {
@@ -121,12 +121,12 @@ finish(const struct child *c, const struct rc_file *file, bool whole, struct rc_
             err, "the file keeps its library busy for more than %.1f s: it is damaged, or made to",
             rc_confine_seconds(file));
     else if (got == c->pid && WIFSIGNALED(how))
-        rc_err_set(err, "the file makes its library fail (%s): it is damaged, or made to",
+        rc_err_set(err, "the library for this file failed (%s): the file is damaged or malicious",
                    strsignal(WTERMSIG(how)));
     else
         rc_err_set(err,
-                   "the file makes its library fail: it is damaged, or needs more than the %zu MiB "
-                   "that %zu bytes may take",
+                   "the library for this file failed: the file is damaged, or needs more than %zu "
+                   "MiB, the limit for %zu bytes",
                    rc_memory_limit(file->size) >> 20, file->size);
 }
 

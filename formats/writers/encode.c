@@ -214,7 +214,7 @@ encode_one(const struct rc_code *c, double value, unsigned char *to, struct rc_e
         number = isnan(value) ? c->missing : rint((value - c->offset) / c->increment);
         most = c->raw == RC_RAW_I16 ? INT16_MAX : INT32_MAX;
         if (number > most || number < -most - 1)
-            return rc_err_set(err, "%g does not fit the whole numbers of the file", value);
+            return rc_err_set(err, "%g is out of the range of the integers in the file", value);
         store(to, (uint64_t)(int64_t)number, rc_raw_width(c->raw));
         return RC_OK;
     }

@@ -87,7 +87,8 @@ object(struct sink *s, const char *name, body *write, const void *what)
     write(&measure, what);
     put(s, name, strlen(name) + 1);
     if (measure.n > UINT32_MAX && s->status == RC_OK)
-        s->status = rc_err_set(s->err, "the frames take more than the 4 GiB that a gwy file holds");
+        s->status =
+            rc_err_set(s->err, "the frames need more than the 4 GiB that a gwy file allows");
     put_word(s, (uint32_t)measure.n);
     if (s->out == NULL)
         s->n += measure.n;

@@ -46,7 +46,7 @@ put_text(hid_t set, const char *name, const char *value)
     return good;
 }
 
-/* Leaves out the key `depth` in a stack, whose scale holds the depths of all its frames. */
+/* Omits the key `depth` in a stack, because its scale has the depths of all its frames. */
 static bool
 put_attributes(hid_t set, const struct rc_grid *g, bool stack)
 {

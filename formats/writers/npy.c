@@ -21,8 +21,8 @@ check_stack(const struct rc_stack *s, size_t stacks, struct rc_err *err)
     double *at, step;
 
     if (stacks > 1)
-        return rc_err_set(err, "npy holds one map or the depths of one channel and case, on one "
-                               "grid: choose by --channel, --case and --depth");
+        return rc_err_set(err, "npy allows one map, or the depths of one channel and case on one "
+                               "grid: choose with --channel, --case and --depth");
     if ((at = malloc(s->n * sizeof *at)) == NULL)
         return rc_err_set(err, "out of memory for %zu depths", s->n);
     for (size_t k = 0; k < s->n; k++)

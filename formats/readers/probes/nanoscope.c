@@ -10,9 +10,9 @@
  *     \@2:Z scale: V [Sens. Zscan] (0.002934346 V/LSB) 192.3024 V
  *     \*File list end
  *
- * A value is number * hard / 2^bits * sensitivity, hard being the value behind the parentheses and
- * bits 8 * Bytes/pixel. Since version 9.2 numbers are stored in 32 bits whatever Bytes/pixel says,
- * so that the length of the data tells how they are stored.
+ * A value is number * hard / 2^bits * sensitivity, hard being the value behind the parentheses and bits 8 *
+ * Bytes/pixel. Since version 9.2 numbers are stored in 32 bits for any Bytes/pixel, so that the length of the
+ * data decides.
  */
 #include <math.h>
 #include <stdio.h>
@@ -68,7 +68,7 @@ part_line(struct rc_piece line, struct rc_piece *key, struct rc_piece *value)
     return true;
 }
 
-/* What stands between two characters; empty when they are not there. */
+/* The text between two characters; empty if they are missing. */
 static struct rc_piece
 between(struct rc_piece piece, char first, char last)
 {
@@ -126,7 +126,7 @@ number_behind_v(struct rc_piece value, double *number, struct rc_piece *unit)
     return rc_piece_number(value, number, unit);
 }
 
-/* Goes behind the parentheses, which may hold others: "(0.00000000745058 log(Arb)/LSB) 32 log(Arb)". */
+/* Moves behind the parentheses, which may be nested: "(0.00000000745058 log(Arb)/LSB) 32 log(Arb)". */
 static void
 skip_parentheses(struct rc_piece *piece)
 {
@@ -221,7 +221,7 @@ add_image(const struct rc_file *file, struct rc_piece header, const struct image
     return set_scale(header, m, map, map->raw == RC_RAW_I16 ? 16 : 32, err);
 }
 
-/* A scan of both ways gives two images of one name: that of the way back says so. */
+/* A scan in both directions gives two images with one name; the name of the backward one gets a mark. */
 static void
 mark_retrace(struct rc_maps *maps, const bool back[RC_MAPS_MOST])
 {

@@ -61,7 +61,7 @@ static const struct rc_keep keys[] = {
     {"Software ver.", "file.version"},
 };
 
-/* Where the data begin: behind the first "#!" that begins a line; 0 when there is none. */
+/* The start of the data, after the first "#!" at the beginning of a line; 0: there is none. */
 static size_t
 data_at(const struct rc_file *file)
 {
@@ -208,7 +208,7 @@ add_all(struct rc_piece header, struct rc_piece table, size_t at, struct rc_maps
             return RC_FAIL;
     }
     if (maps->n == 0)
-        return rc_err_set(err, "the file holds no map, only curves");
+        return rc_err_set(err, "the file has only curves, no map");
     return RC_OK;
 }
 

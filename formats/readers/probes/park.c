@@ -1,8 +1,8 @@
 /*
- * Park Systems TIFF: the image is a thumbnail; the data are the bytes of the private tag 50434, and
- * 50435 is their header. All of it is little-endian, whatever the TIFF is; text is UTF-16; the
- * lowest row comes first. A height is gain * (scale * number + offset) in the header's unit, in
- * micrometres where it names none, and a scale of 0 is 1.
+ * Park Systems TIFF: the image is a thumbnail; the data are the bytes of the private tag 50434, and 50435 is
+ * their header. All values are little-endian in any TIFF; text is UTF-16; the lowest row comes first. A
+ * height is gain * (scale * number + offset) in the header's unit, in micrometres where it names none, and a
+ * scale of 0 is 1.
  */
 #include <math.h>
 #include <string.h>
@@ -19,7 +19,7 @@ enum {
     VERSION_1 = 0x1000001,
     VERSION_2 = 0x1000002,
     HEADER_1 = 284, /* bytes of a header of version 1 */
-    HEADER_2 = 352, /* of version 2, to the type of data */
+    HEADER_2 = 352, /* bytes of version 2, up to the type of data */
     /* places in the header */
     KIND_AT = 0,
     NAME_AT = 4,
@@ -43,7 +43,7 @@ struct park {
     size_t size;
 };
 
-/* UTF-16LE of n characters at `at`, as far as it is Latin-1: names and units here are. */
+/* Converts n characters of UTF-16LE at `at` that are Latin-1, as names and units are. */
 static void
 narrow(const struct rc_bytes *header, size_t at, size_t n, char *to, size_t size)
 {

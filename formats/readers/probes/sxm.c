@@ -6,9 +6,9 @@
  *             Channel Name Unit Direction Calibration Offset          between tabs
  *             14      Z    m    both      -9.000E-9   0.000E+0
  *
- * Values are in that unit already. Where the direction is both, the way back follows the way forward,
- * in the order of measuring, from the right. A scan that went up begins with its lowest line. Lines
- * that were not scanned are NaN.
+ * Values are in that unit already. If the direction is both, the backward scan follows the forward scan, in
+ * the order of measuring, from the right. A scan that went up begins with its lowest line. Lines that were
+ * not scanned are NaN.
  *
  * Written from how Gwyddion and nanonispy read such files.
  */

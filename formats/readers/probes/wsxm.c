@@ -1,7 +1,7 @@
 /*
- * WSxM (Nanotec): a text header that states its size, then the numbers, little-endian, from the bottom
- * right corner backwards. What the numbers mean is said by Z Amplitude only, the height from the
- * lowest to the highest of them: a value is number * amplitude / (highest - lowest).
+ * WSxM (Nanotec): a text header that states its size, then the numbers, little-endian, from the bottom right
+ * corner backwards. Only Z Amplitude, the height from the lowest to the highest number, gives their scale: a
+ * value is number * amplitude / (highest - lowest).
  *
  *     WSxM file copyright ...
  *     SxM Image file

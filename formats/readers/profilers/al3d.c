@@ -78,7 +78,7 @@ al3d_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     map->padding = map->nx % 2 * 4;
     map->dx = a.dx;
     map->dy = a.dy;
-    map->missing_from = a.missing - 1e-6 * fabs(a.missing); /* its digits are those of a float */
+    map->missing_from = a.missing - 1e-6 * fabs(a.missing); /* it has the digits of a float */
     map->missing_to = a.missing + 1e-6 * fabs(a.missing);
     rc_maps_key(maps, "file.creator", a.creator.text, a.creator.n);
     return RC_OK;

@@ -65,8 +65,8 @@ find_surface(struct rc_hdf *h, struct rc_hdf_set *set, struct rc_err *err)
                 *set = all[k];
                 return RC_OK;
             }
-    return rc_err_set(err, "an HDF5 file, but no DATX: neither its table MetaData nor "
-                           "/Data/Surface or /Measurement/Surface leads to heights");
+    return rc_err_set(err, "an HDF5 file, but no DATX: it has no heights in its table MetaData, in "
+                           "/Data/Surface or in /Measurement/Surface");
 }
 
 /* ---- what it says of them ---- */
@@ -86,7 +86,7 @@ take_converter(void *arg, const struct rc_hdf_record *record)
         *(double *)arg = record->number[1];
 }
 
-/* Metres of one unit; NAN for one that is not known. */
+/* Metres of one unit; NAN: unknown unit. */
 static double
 unit_of(const struct surface *s)
 {

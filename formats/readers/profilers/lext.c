@@ -1,8 +1,8 @@
 /*
- * Olympus LEXT (OLS4000): a TIFF with a page for each kind of picture. The description of the first
- * page is XML with the scales, in picometres; those of the other pages are their names. HEIGHT
- * holds the heights, INVALID is 1 where there is none. A second XML text, in the Exif tag of device
- * settings, may hold calibration factors in millionths.
+ * Olympus LEXT (OLS4000): a TIFF with a page for each kind of picture. The description of the first page is
+ * XML with the scales, in picometres; those of the other pages are their names. HEIGHT has the heights;
+ * INVALID is 1 at missing points. A second XML text, in the Exif tag of device settings, may hold calibration
+ * factors in millionths.
  */
 #include <math.h>
 #include <string.h>
@@ -74,9 +74,9 @@ read_xml(struct lext *l, const char *name, const unsigned char *bytes, size_t n,
     n = end == NULL ? n : (size_t)(end - bytes);
     start = memchr(bytes, '<', n);
     if (start == NULL)
-        return rc_err_set(err, "%s holds no XML", name);
+        return rc_err_set(err, "%s has no XML", name);
     n -= (size_t)(start - bytes);
-    while (n > 0 && start[n - 1] != '>') /* what follows the document is padding */
+    while (n > 0 && start[n - 1] != '>') /* the bytes after the document are padding */
         n--;
     return rc_xml_read(name, start, n, take_element, l, err);
 }
@@ -138,7 +138,7 @@ find_pages(struct lext *l, struct rc_err *err)
             l->invalid = page;
     }
     if (l->height == 0)
-        return rc_err_set(err, "the file has no page HEIGHT: it holds pictures only");
+        return rc_err_set(err, "the file has only pictures, no page HEIGHT");
     if (!rc_tiff_page(l->tiff, l->height))
         return rc_err_set(err, "the page HEIGHT cannot be read");
     return rc_tiff_shape(l->tiff, &l->shape, err);
@@ -200,7 +200,7 @@ mask_invalid(struct lext *l, struct rc_grid *g, struct rc_notes *notes, struct r
         return rc_err_set(err, "the page INVALID cannot be read");
     if (page.nx != l->shape.nx || page.ny != l->shape.ny) {
         rc_note(notes,
-                "the page INVALID has %zu x %zu pixels and not those of the heights: it is ignored",
+                "the page INVALID has %zu x %zu pixels, other than the heights: it is ignored",
                 page.nx, page.ny);
         return RC_OK;
     }

@@ -21,7 +21,7 @@ enum {
     AT_LATERAL = 184,
     AT_FINENESS = 218,
     DATE = 30,
-    LEAST = 220, /* bytes of a header that holds all this */
+    LEAST = 220, /* bytes of a header with all these fields */
     MISSING_FROM = 2147483640
 };
 
@@ -55,7 +55,7 @@ metropro_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *e
         return rc_err_set(err, "header and intensities take %g and %g bytes in a file of %zu",
                           header, intensity, file->size);
     if (bytes == 0)
-        return rc_err_set(err, "the file holds no phase, only intensities");
+        return rc_err_set(err, "the file has only intensities, no phase");
     if (rc_map_count("columns", rc_bytes_at(&b, AT_COLUMNS, RC_RAW_I16), &map->nx, err) != RC_OK ||
         rc_map_count("rows", rc_bytes_at(&b, AT_ROWS, RC_RAW_I16), &map->ny, err) != RC_OK)
         return RC_FAIL;

@@ -4,8 +4,8 @@
  * little-endian. Entries of the list of objects have another length before them. Text is the byte 4
  * and UTF-16.
  *
- * Objects are known by the number of their class. Surfaces as measured hold heights; what was made of them
- * by the program is not in the file, but made again from operators when the document is opened.
+ * Objects are known by the number of their class. Measured surfaces have heights. Surfaces computed from them
+ * are not in the file: the program computes them again when it opens the document.
  *
  *     heights   int32 or int16, row 0 first, in zlib streams, each behind its first element (u64), its number
  *               of elements and of bytes (u32); count * step + origin, the origin in the unit shown
@@ -21,13 +21,13 @@
 #include "formats/format.h"
 
 enum {
-    FIRST = 0xffff, /* tag of what an object inherits */
+    FIRST = 0xffff, /* tag of the part that an object inherits */
     SURFACE = 9012,
     MEASURED = 9062,
     HEIGHTS = 9049,
     MASK = 9056,
     IS_MEASURED = 9,
-    TAG = 2 + 8, /* bytes before what an entry holds */
+    TAG = 2 + 8, /* bytes before the contents of an entry */
     WORD = 64
 };
 
@@ -58,7 +58,7 @@ bytes_of(struct part p)
     return (struct rc_bytes){.data = p.data, .size = p.n};
 }
 
-/* The entry at the front of the rest, which then begins behind it; `before` bytes stand before entries. */
+/* Takes the first entry of the rest, which then begins after it; `before` bytes precede entries. */
 static bool
 next_entry(struct part *rest, size_t before, unsigned *tag, struct part *entry)
 {
@@ -78,7 +78,7 @@ next_entry(struct part *rest, size_t before, unsigned *tag, struct part *entry)
     return true;
 }
 
-/* Follows tags into the tree; an empty part where there is no such entry. */
+/* Follows tags into the tree; returns an empty part if there is no such entry. */
 static struct part
 follow(struct part p, const uint16_t *tags, size_t n)
 {
@@ -134,7 +134,7 @@ take_scale(struct part p, struct scale *s)
     take_text(FOLLOW(p, 3), s->shown);
 }
 
-/* What an object of the document is as a surface; false for another kind of object. */
+/* Reads an object of the document as a surface. Returns false for another kind of object. */
 static bool
 take_surface(struct part object, struct surface *s)
 {
@@ -323,8 +323,8 @@ mnt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
             status = add_surface(file, &s, number++, maps, err);
     free(data);
     if (status == RC_OK && maps->n == 0)
-        return rc_err_set(err, "the document holds no surface as it was measured: what the program "
-                               "makes of one is not in its file (save SUR or X3P there)");
+        return rc_err_set(err, "the document has no measured surface, and computed ones are not in "
+                               "the file: save SUR or X3P in the program");
     return status;
 }
 

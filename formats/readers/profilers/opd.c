@@ -39,7 +39,7 @@ has_directory(const struct rc_file *file)
     return rc_file_holds(file, 0, "\1", 2) && rc_file_holds(file, START, "Directory", 10);
 }
 
-/* How a block holds its number: by its type, or as files have it that are known. */
+/* The type of the number of a block: by its type field, or as in known files. */
 static enum rc_raw
 number_of(const struct block *b, enum rc_raw usual)
 {
@@ -123,7 +123,7 @@ opd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     if (read_directory(file, &o, maps, err) != RC_OK)
         return RC_FAIL;
     if (o.heights.n == 0)
-        return rc_err_set(err, "the file holds no block RAW_DATA, RAW DATA or Raw");
+        return rc_err_set(err, "the file has no block RAW_DATA, RAW DATA or Raw");
     map = rc_maps_add(maps, "", 0);
     if (rc_map_count("columns", rc_bytes_at(&bytes, o.heights.at, RC_RAW_U16), &map->nx, err) !=
             RC_OK ||

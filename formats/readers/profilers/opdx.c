@@ -284,7 +284,7 @@ opdx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         if (o.channel[k].n > 0 && add_channel(&o, &o.channel[k], err) != RC_OK)
             return RC_FAIL;
     if (maps->n == 0)
-        return rc_err_set(err, "the file holds neither a profile nor a map");
+        return rc_err_set(err, "the file has neither a profile nor a map");
     return RC_OK;
 }
 

@@ -46,7 +46,7 @@ plu_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         return RC_FAIL;
     type = rc_bytes_at(&b, AT_TYPE, RC_RAW_U32);
     if (type != TOPOGRAPHY)
-        return rc_err_set(err, "the file holds %s (type %g): only topographies are read",
+        return rc_err_set(err, "the file has %s (type %g), but only topographies are read",
                           types[type < 6 ? (size_t)type : 6], type);
     strcpy(map->unit, "m");
     map->si = 1e-6;
@@ -76,7 +76,7 @@ plu_score(const struct rc_file *file)
         return 0;
     if (plu_find(file, &maps, NULL) == RC_OK)
         return has_day ? 80 : 40;
-    return has_day ? 20 : 0; /* so that the refusal says what it holds */
+    return has_day ? 20 : 0; /* so that the refusal names the contents */
 }
 
 const struct rc_format rc_format_plu = {

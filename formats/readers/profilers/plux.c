@@ -31,12 +31,12 @@ struct plux {
     bool sized;
     char date[64];
     char file[LAYERS_MOST][WORD]; /* names of members, "" for none */
-    struct item item[ITEMS_MOST]; /* what the file says of instrument and settings */
+    struct item item[ITEMS_MOST]; /* the data about instrument and settings */
 };
 
 /* ---- index.xml ---- */
 
-/* The number after a prefix, and what follows it: "LAYER_12/FILENAME_Z". */
+/* The number after a prefix, and the rest: "LAYER_12/FILENAME_Z". */
 static bool
 numbered(const char *path, const char *prefix, size_t most, size_t *number, const char **rest)
 {
@@ -57,7 +57,7 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
     const char *rest;
     size_t number;
 
-    path += strcspn(path, "/"); /* the root has no name of its own that counts */
+    path += strcspn(path, "/"); /* the name of the root does not matter */
     path += *path == '/';
     if (strcmp(path, "GENERAL/IMAGE_SIZE_X") == 0) {
         p->sized = true;
@@ -84,7 +84,7 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
 
 /* ---- the archive ---- */
 
-/* A member by the name that index.xml has for it, which may begin with "./". */
+/* The member with this name in index.xml, which may begin with "./". */
 static enum rc_status
 find(const struct rc_zip_read *a, const char *name, size_t *member, struct rc_err *err)
 {
@@ -107,7 +107,7 @@ plux_open(struct plux *p, const struct rc_file *file, struct rc_err *err)
     if ((p->archive = rc_zip_read_new(file, err)) == NULL)
         return RC_FAIL;
     if (find(p->archive, "index.xml", &member, NULL) != RC_OK)
-        return rc_err_set(err, "a ZIP archive, but no PLUX: it holds no index.xml");
+        return rc_err_set(err, "a ZIP archive, but no PLUX: it has no index.xml");
     if (rc_zip_read_xml(p->archive, member, INDEX_MOST, "index.xml", false, take_element, p, NULL,
                         err) != RC_OK)
         return RC_FAIL;
@@ -165,7 +165,7 @@ take_values(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
     double **v = arg;
 
     (void)err;
-    rc_bytes_values(&cursor, RC_RAW_F32, *v, n / 4); /* chunks hold whole numbers */
+    rc_bytes_values(&cursor, RC_RAW_F32, *v, n / 4); /* a chunk ends between two numbers */
     *v += n / 4;
     return RC_OK;
 }

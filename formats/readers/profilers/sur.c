@@ -125,7 +125,7 @@ judge_type(int type, double rows, struct rc_err *err)
     for (size_t k = 0; k < sizeof other_types / sizeof *other_types; k++)
         if (other_types[k].type == type)
             return rc_err_set(err,
-                              "the file holds %s (type %d): only surfaces and profiles are read",
+                              "the file has %s (type %d), but only surfaces and profiles are read",
                               other_types[k].name, type);
     return rc_err_set(err, "the file is of type %d: only surfaces (2) and profiles (1) are read",
                       type);
@@ -149,7 +149,7 @@ sur_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     double bits, comment_n, private_n, columns, rows;
 
     if (!is_packed && !rc_file_holds(file, 0, plain, MAGIC))
-        return rc_err_set(err, "no Digital Surf file: it begins with neither %s nor %s", plain,
+        return rc_err_set(err, "not a Digital Surf file: it must begin with %s or %s", plain,
                           packed);
     if (file->size < HEADER)
         return rc_err_set(err, "the header takes %d bytes, the file has %zu", HEADER, file->size);

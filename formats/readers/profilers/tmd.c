@@ -38,9 +38,8 @@ tmd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     strcpy(map->unit, "m");
     map->si = n == 0 ? 1e-3 : 1e-6;
     if (n > 0)
-        map->doubt =
-            "the file gives no unit and micrometres are taken; other programs take millimetres: if "
-            "the map is 1000 times too small, --z-unit mm and --dx are the mend";
+        map->doubt = "the file gives no unit, and micrometres are assumed; other programs assume "
+                     "millimetres: if the map is 1000 times too small, give --z-unit mm and --dx";
     map->raw = RC_RAW_F32;
     map->at = at + NUMBERS;
     map->dx = rc_bytes_at(&b, at + 8, RC_RAW_F32) * map->si / (double)map->nx;

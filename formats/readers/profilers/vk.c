@@ -56,9 +56,9 @@ unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *
     return rc_zip_read_bytes(archive, member, size, n, NULL, err);
 }
 
-/* The n bytes of the VK4 file in the archive, which the caller frees; NULL with the reason. The
- * offsets in the archive count from the start of the file or from that of the archive, PK 3 4,
- * which the picture may hold by chance too. */
+/* The n bytes of the VK4 file in the archive, which the caller frees; NULL with the reason. The offsets in
+ * the archive count from the start of the file or of the archive, PK 3 4. The picture may contain these bytes
+ * by chance. */
 static unsigned char *
 unpack(const struct rc_file *file, size_t *n, struct rc_err *err)
 {
@@ -81,7 +81,7 @@ unpack(const struct rc_file *file, size_t *n, struct rc_err *err)
         rest = (struct rc_piece){at + 1, file->size - start - 1};
         at = rc_piece_find(rest, "PK\3\4");
     }
-    rc_err_set(err, "the file holds no archive with a member %s", member_name);
+    rc_err_set(err, "the file has no archive with a member %s", member_name);
     return NULL;
 }
 
@@ -159,7 +159,7 @@ find_plain(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     size_t conditions = (size_t)rc_bytes_at(&b, LEAD, RC_RAW_U32), at;
 
     if (!is_plain(file))
-        return rc_err_set(err, "no VK file: it begins with neither VK3_, VK4_, VK6 nor VK7");
+        return rc_err_set(err, "not a VK file: it must begin with VK3_, VK4_, VK6 or VK7");
     if (b.past || conditions > file->size || file->size - conditions < CONDITIONS)
         return rc_err_set(err,
                           "the conditions of the measurement begin at byte %zu of a file of %zu",
@@ -176,7 +176,7 @@ find_plain(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     }
     keep_date(file, conditions, maps);
     if (maps->n == 0)
-        return rc_err_set(err, "the file holds no height image");
+        return rc_err_set(err, "the file has no height image");
     return RC_OK;
 }
 

@@ -1,10 +1,9 @@
 /*
  * Keyence ZON (macroscopes VR): KPK0 or KPK1, the length of a picture (u32), the picture, and a ZIP archive
- * whose members have numbers for names: one is XML with the metres per pixel and per count, one the
- * heights, one a byte a point that says what the height is worth. Such arrays begin with columns,
- * rows, bytes of an element and bytes of a row (i32 each), little-endian; row 0 is the first. A height
- * is int32 * metres per count; where one of the lowest two bits of the byte is set nothing was
- * measured, or was not to be.
+ * whose members have numbers for names: one is XML with the metres per pixel and per count, one the heights,
+ * one a byte a point that says what the height is worth. Such arrays begin with columns, rows, bytes of an
+ * element and bytes of a row (i32 each), little-endian; row 0 is the first. A height is int32 * metres per
+ * count; if one of the two lowest bits of the byte is set, the point is missing or excluded.
  *
  * In files that begin with KPK1 each member is packed by zstd too, which its first bytes say as well.
  *
@@ -41,7 +40,7 @@ is_packed(const struct rc_file *file)
     return rc_file_holds(file, 0, "KPK1", 4);
 }
 
-/* Its offsets count from its own start, or from that of the file. */
+/* Its offsets count from the start of the archive or of the file. */
 static struct rc_zip_read *
 open_archive(const struct rc_file *file, struct rc_err *err)
 {
@@ -51,7 +50,7 @@ open_archive(const struct rc_file *file, struct rc_err *err)
     struct rc_zip_read *a = NULL;
 
     if (!rc_file_holds(file, 0, "KPK0", 4) && !is_packed(file)) {
-        rc_err_set(err, "no ZON file: it begins with neither KPK0 nor KPK1");
+        rc_err_set(err, "not a ZON file: it must begin with KPK0 or KPK1");
         return NULL;
     }
     if (is_packed(file) && !rc_zstd_is_there()) {
@@ -75,7 +74,7 @@ open_archive(const struct rc_file *file, struct rc_err *err)
         rc_zip_read_find(a, heights_name, &member, NULL) == RC_OK)
         return a;
     rc_zip_read_free(a);
-    rc_err_set(err, "the archive in the file holds no heights (member %s)", heights_name);
+    rc_err_set(err, "the archive in the file has no heights (member %s)", heights_name);
     return NULL;
 }
 

@@ -29,11 +29,11 @@
  *     \Scan Size: 10 10 um            NanoScope export of one image
  *     \Exported image units: nm
  *
- * Without a header that is understood, lines of other text above the numbers are passed over, and the first
- * row and column may be labels or positions (labels.h).
+ * Without a known header, lines of other text above the numbers are skipped, and the first row and column may
+ * be labels or positions (labels.h).
  *
- * Two columns whose first rises, and three columns of which two run through a raster, are taken
- * for profiles and lists of points and refused, unless a header says that they are a matrix.
+ * Two columns with a rising first one count as a profile, and three columns with a raster in two of them as a
+ * list of points. Both are refused, unless a header says that they are a matrix.
  */
 #include <math.h>
 #include <string.h>
@@ -48,8 +48,8 @@ struct image {
     struct rc_lines lines; /* its numbers, and comments between them */
 };
 
-/* The next image from *rest on, which then stands at the header of the one after it. A header that
- * stands below numbers begins another image; other comments there do not. */
+/* Takes the next image from *rest on, and moves *rest to the header of the following one. A header below
+ * numbers begins another image; other comments there do not. */
 static void
 next_image(struct rc_lines *rest, struct image *image)
 {
@@ -100,7 +100,7 @@ find_image(const struct rc_file *file, size_t index, struct image *image, size_t
     return rc_err_set(err, "there is no channel %zu: the file has %zu", index + 1, *n);
 }
 
-/* A table of heights with its header, and what of it holds no heights. */
+/* A table of heights with its header, and its rows and columns without heights. */
 struct matrix {
     struct rc_ascii_head head;
     struct rc_number_table table;
@@ -163,8 +163,7 @@ is_damaged_row(const struct rc_titled_table *t)
            !rc_titled_table_is_matrix(t);
 }
 
-/* A matrix below titles or other text, in UTF-16 too. The reason why no header is understood stays where it
- * is none. */
+/* A matrix below titles or other text, in UTF-16 too. Keeps the earlier reason if no header is known. */
 static enum rc_status
 open_below_titles(struct matrix *m, const struct rc_file *file, const struct rc_wish *wish)
 {
@@ -200,7 +199,7 @@ ascii_open(struct matrix *m, const struct rc_file *file, const struct rc_wish *w
     return RC_OK;
 }
 
-/* The same, and what of the table are labels or positions. */
+/* The same, and finds the labels or positions of the table. */
 static enum rc_status
 ascii_open_all(struct matrix *m, const struct rc_file *file, const struct rc_wish *wish,
                size_t index, struct rc_err *err)
@@ -232,9 +231,9 @@ spacing(const struct matrix *m, const struct rc_wish *wish, double *dx, double *
     return RC_OK;
 }
 
-/* Whether two columns run through a raster: column `slow` stays the same while `fast` goes on in
- * one direction, then makes a step, always in one direction too. Four points of one row are a
- * raster, fewer could be anything. */
+/* True if two columns run through a raster: column `slow` is constant while `fast` changes in one direction,
+ * and then makes a step, always in the same direction. Four points of one row are a raster, fewer could be
+ * anything. */
 static bool
 is_raster(const double *v, size_t rows, size_t slow, size_t fast)
 {
@@ -271,12 +270,12 @@ refuse_coordinates(const struct matrix *m, const double *v, struct rc_err *err)
     if (h->nx != 0 || !isnan(h->width) || !isnan(h->pixel) || !isnan(h->step_x))
         return RC_OK;
     if (m->nx == 2 && is_rising(v, m->ny))
-        return rc_err_set(err, "two columns, of which the first rises: that is a profile (x, z), "
-                               "no matrix; a header with a width would say otherwise");
+        return rc_err_set(err, "two columns with a rising first one are a profile (x, z), no "
+                               "matrix: give --format profile, or add a header with a width");
     if (m->nx == 3 && (is_raster(v, m->ny, 0, 1) || is_raster(v, m->ny, 1, 0)))
         return rc_err_set(err,
-                          "three columns, of which two run through a raster: that is a list of "
-                          "points (x, y, z), no matrix; a header with a width would say otherwise");
+                          "three columns with a raster in two of them are a list of points (x, y, "
+                          "z), no matrix: give --format xyz, or add a header with a width");
     return RC_OK;
 }
 
@@ -287,7 +286,7 @@ height_metres(const struct matrix *m)
     return isnan(m->head.z) ? rc_piece_metres(m->labels.height_unit) : m->head.z;
 }
 
-/* The factor from the numbers to SI units; `other` is what they are when they are no heights. */
+/* The factor from the numbers to SI units; `other`: their quantity if they are no heights. */
 static enum rc_status
 get_scales(const struct matrix *m, const struct rc_map *other, const struct rc_wish *wish,
            struct rc_shape *shape, double *si, struct rc_notes *notes, struct rc_err *err)
@@ -309,7 +308,7 @@ get_scales(const struct matrix *m, const struct rc_map *other, const struct rc_w
     return RC_FAIL;
 }
 
-/* What an image among others shows that has a unit of its own, which is no length. */
+/* The quantity of an image whose unit is no length. */
 static bool
 is_other(const struct rc_ascii_head *h, size_t images, const struct rc_wish *wish,
          struct rc_map *other)
@@ -324,7 +323,7 @@ is_other(const struct rc_ascii_head *h, size_t images, const struct rc_wish *wis
     return true;
 }
 
-/* Moves the heights together that stand beside labels or positions. */
+/* Removes labels and positions, so that the heights are contiguous. */
 static void
 leave_out(const struct matrix *m, double *v)
 {
@@ -359,10 +358,8 @@ note_skipped(const struct matrix *m, struct rc_notes *notes)
                 rc_piece_shown(quote, m->titled.first_skipped));
     if (m->is_titled && m->titled.titles == m->table.columns &&
         !rc_titled_table_numbered(&m->titled))
-        rc_note(
-            notes,
-            "the titles, of which the first is '%s', name no axis: the table is read as a matrix",
-            rc_piece_shown(quote, rc_titled_table_name(&m->titled, 0)));
+        rc_note(notes, "the titles, '%s' and so on, name no axis: the table is read as a matrix",
+                rc_piece_shown(quote, rc_titled_table_name(&m->titled, 0)));
     rc_labels_note(&m->labels, notes);
 }
 
@@ -422,7 +419,7 @@ ascii_score(const struct rc_file *file)
         return m.head.known ? 90 : 40;
     if (rc_file_is_utf16(file))
         return 2;
-    /* A low score for what begins like numbers, so that the refusal says what is wrong with them. */
+    /* A low score for a file that begins like numbers, so that the refusal names the error. */
     c = file->data[0];
     return m.head.known ? 30 : (c >= '0' && c <= '9') || strchr("- \"", c) != NULL ? 5 : 0;
 }

@@ -4,25 +4,25 @@
 #include <stddef.h>
 #include <string.h>
 
-/* What a value is, and the type of the member that it goes to. */
+/* The kind of a value, and the type of its member. */
 enum kind {
     TEXT,      /* struct rc_piece                                         */
     LENGTH,    /* double, m                                               */
-    NUMBER,    /* double, of which nothing may follow                     */
+    NUMBER,    /* double, without further text */
     COUNT,     /* size_t                                                  */
     IN_METRES, /* struct rc_ascii_unit: a unit of length                  */
     UNLESS_NO, /* bool                                                    */
     CHARACTER, /* char: the only one                                      */
     PRESENT,   /* bool: that the key is there                             */
-    /* of these the member is not asked: */
-    VALUE_UNIT, /* that of the heights                                    */
+    /* these kinds have no member: */
+    VALUE_UNIT, /* unit of the heights */
     RANGE,      /* a number and that unit                                 */
     SCAN_SIZE,
 };
 
 #define TO(member) offsetof(struct rc_ascii_head, member)
 static const struct {
-    const char *key; /* in either case, or several between '|' */
+    const char *key; /* in upper or lower case; several keys are separated by '|' */
     enum kind kind;
     size_t to;
     bool anywhere; /* profiles and lists of points have such lines too */
@@ -54,8 +54,8 @@ static const struct {
 
 /* ---- values of a header ---- */
 
-/* The number at the start of a value and what follows it; header numbers have the decimal mark of
- * whoever exported them. */
+/* The number at the start of a value and the rest; numbers in a header have the decimal mark of the exporting
+ * program. */
 static bool
 leading_number(struct rc_piece *p, double *value)
 {
@@ -267,7 +267,7 @@ take_line(struct rc_ascii_head *h, const char *s, size_t n)
             s++, n--;
         rc_trim(&s, &n);
         take_entry(h, s, n, &value);
-        h->any_line = false; /* that is for headers whose lines have no mark */
+        h->any_line = false; /* this is for headers without a mark in their lines */
         remember(h, value);
         return true;
     }

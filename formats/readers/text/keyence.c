@@ -12,9 +12,8 @@
  *     "Height"
  *     "12.345","","12.347",...
  *
- * So nothing is known by its key: the size must stand in two rows that follow each other. Nothing
- * between quotes is a missing point. The micro sign comes in UTF-8, Latin-1, Shift-JIS, GBK
- * and CP949.
+ * Keys are therefore not used: the size must be in two successive rows. Empty quotes are a missing point. The
+ * micro sign comes in UTF-8, Latin-1, Shift-JIS, GBK and CP949.
  *
  * Written from how programs of others read and write such files (kcsv2bcr and others).
  */
@@ -26,7 +25,7 @@
 
 enum {
     HEADER_MOST = 200, /* lines */
-    SEEN = 4096        /* bytes in which the magic word stands */
+    SEEN = 4096        /* bytes that contain the magic word */
 };
 
 static const char magic[] = "ImageDataCsv";
@@ -70,7 +69,7 @@ metres_of(struct rc_piece unit)
                : rc_piece_metres(unit);
 }
 
-/* Takes the rows of the header, and stands behind its last one. */
+/* Reads the rows of the header, and moves behind the last one. */
 static enum rc_status
 read_header(struct rc_lines *lines, struct keyence *k, struct rc_lines *header, struct rc_err *err)
 {

@@ -5,18 +5,19 @@
 #include <string.h>
 
 enum {
-    SURE = 8 /* numbers that count are labels, whatever stands beside them */
+    SURE = 8 /* with so many numbers, consecutive integers are labels beside any heights */
 };
 
-/* A table's first row and column, and what is known of them. */
+/* The first row and column of a table, and their properties. */
 struct edges {
     const struct rc_number_table *table;
-    double *top, *left;   /* with the corner; where the titles are numbers, top holds these    */
-    size_t columns, rows; /* of top and left: `rows` counts the titles where they are numbers */
+    double *top, *left;         /* with the corner; if the titles are numbers, top has the titles */
+    size_t columns, rows;       /* lengths of top and left: `rows` includes the titles if they are
+                                   numbers */
     bool numeric_titles, words; /* titles that are numbers, or that are not                   */
     bool open;                  /* the corner is no number */
     struct rc_piece corner;
-    double *v; /* all values of the table, once they are asked for */
+    double *v; /* all values of the table, read when needed */
 };
 
 /* ---- rows of numbers ---- */
@@ -62,7 +63,7 @@ read_all(struct edges *e, struct rc_err *err)
     return rc_number_table_read(&table, e->v, err);
 }
 
-/* Whether a value beside the first row and column is no whole number. */
+/* True if a value outside the first row and column is no integer. */
 static bool
 has_fractions(const struct edges *e)
 {
@@ -202,7 +203,7 @@ corner_units(const struct edges *e, struct rc_labels *l)
         l->metres[!y_first] = rc_piece_metres(unit);
 }
 
-/* Whether the corner leaves room for labels or positions beside `n` and `m` numbers. */
+/* True if the corner allows labels or positions beside `n` and `m` numbers. */
 static bool
 corner_allows(const struct edges *e)
 {
@@ -222,7 +223,7 @@ judge_both(struct edges *e, struct rc_labels *l, const struct rc_wish *wish, str
 
     if (!even)
         return RC_OK;
-    if (!e->open) { /* the corner may be a height, and the whole a plane */
+    if (!e->open) { /* the corner may be a height, and the table a plane */
         if (read_all(e, err) != RC_OK)
             return RC_FAIL;
         if (goes_on(e, true) && goes_on(e, false))
@@ -238,7 +239,7 @@ judge_both(struct edges *e, struct rc_labels *l, const struct rc_wish *wish, str
     return RC_OK;
 }
 
-/* A row of labels over a column that is none. */
+/* A row of labels without a column of labels. */
 static enum rc_status
 judge_row_alone(const struct edges *e, struct rc_err *err)
 {
@@ -344,7 +345,7 @@ rc_labels_spacing(const struct rc_labels *l, const struct rc_wish *wish, double 
     if (isnan(unit) && isnan(wish->dx))
         return rc_err_set(err,
                           "the first row and column are positions, %s and %s apart, without a "
-                          "unit: --xy-unit UNIT says it; --labels keep takes them for heights",
+                          "unit: give --xy-unit UNIT, or --labels keep if they are heights",
                           x, y);
     if (isnan(unit)) {
         unit = unit_between(l->step[0], wish->dx);

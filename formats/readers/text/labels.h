@@ -14,13 +14,15 @@
 #include "titled_table.h"
 
 struct rc_labels {
-    size_t rows, columns; /* of the table that hold no heights, at its start: 0 or 1 each */
+    size_t rows, columns; /* rows and columns without heights at the start of the table: 0 or 1
+                             each */
     bool counted_titles;  /* numbers in the row of titles are labels                     */
     bool positions;       /* then these: */
-    double step[2]; /* in x and y, positive, in the file's unit of positions; a NAN step: single */
-    bool falls[2];  /* the positions fall, so that the map is to be turned   */
-    double metres[2];            /* in their units; NAN where the file does not say       */
-    struct rc_piece height_unit; /* that the corner gives */
+    double step[2];   /* steps in x and y, positive, in the file's unit of positions; NAN: a single
+                         row or column */
+    bool falls[2];    /* the positions fall, so that the map is to be turned   */
+    double metres[2]; /* metres per unit; NAN: not in the file */
+    struct rc_piece height_unit; /* unit from the corner */
     const char *doubtful; /* "row" or "column" that rises evenly and is read as heights; or NULL */
 };
 
@@ -29,11 +31,11 @@ struct rc_labels {
 enum rc_status rc_labels_find(const struct rc_number_table *table,
                               const struct rc_titled_table *titled, const struct rc_wish *wish,
                               struct rc_labels *labels, struct rc_err *err);
-/* The spacings in metres that positions give, NAN where there are none. RC_FAIL where they have no unit and
- * do not agree with --dx and --dy in any. */
+/* The spacings in metres from positions; NAN: there are none. RC_FAIL where they have no unit and do not
+ * agree with --dx and --dy in any. */
 enum rc_status rc_labels_spacing(const struct rc_labels *labels, const struct rc_wish *wish,
                                  double *dx, double *dy, struct rc_err *err);
-/* Says what was decided, and which option decides otherwise. */
+/* Prints the decision, and the option for another one. */
 void rc_labels_note(const struct rc_labels *labels, struct rc_notes *notes);
 
 #endif

@@ -15,7 +15,7 @@ struct profile {
     struct rc_titled_table table;
     size_t x, z, valid;                   /* columns; valid = columns: none */
     bool falls;                           /* the positions do */
-    size_t height[RC_MAPS_MOST], heights; /* columns of heights, of which z is the first */
+    size_t height[RC_MAPS_MOST], heights; /* columns of heights; z is the first */
 };
 
 static const double *
@@ -40,7 +40,7 @@ counts(const struct profile *p, size_t c)
     return rows > 1 && (v[0] == 0 || v[0] == 1) && rc_titled_table_unit(&p->table, c, 'x').n == 0;
 }
 
-/* The column of positions: by its title, else the first that does not count the points. */
+/* The column of positions: by its title, otherwise the first that does not number the points. */
 static size_t
 positions_of(const struct profile *p)
 {
@@ -54,7 +54,7 @@ positions_of(const struct profile *p)
     return columns > 2 && t->titles > 2 && counts(p, 0);
 }
 
-/* The others, but for those that are known to be no heights. */
+/* The other columns, without those that are known to be no heights. */
 static void
 find_heights(struct profile *p)
 {
@@ -122,8 +122,8 @@ judge_direction(struct profile *p, struct rc_err *err)
         double d = k == 0 ? 1 : (x[k * columns] - x[(k - 1) * columns]) * (p->falls ? -1 : 1);
         if (!isfinite(x[k * columns]) || !(d > 0))
             return rc_err_set(err,
-                              "the positions do not go on in one direction at row %zu of the "
-                              "table, which is read as a profile; --format ascii reads a matrix",
+                              "the positions change direction at row %zu of the table, which is "
+                              "read as a profile; for a matrix give --format ascii",
                               k + 1);
     }
     return RC_OK;
@@ -163,9 +163,8 @@ height_of(const struct profile *p, size_t row)
     return p->valid < p->table.numbers.columns && v[p->valid] == 0 ? NAN : v[p->z];
 }
 
-/* Lays even nodes along the profile and, unless v is NULL, puts the heights there into v. A profile
- * whose positions fall is turned round: its last point becomes the first node, at the same place as
- * before. */
+/* Places even nodes along the profile and, unless v is NULL, stores their heights in v. A profile whose
+ * positions fall is turned round: its last point becomes the first node, at the same place as before. */
 static enum rc_status
 lay_nodes(const struct profile *p, const struct rc_file *file, const struct rc_wish *wish,
           struct rc_even *even, double *v, struct rc_notes *notes, struct rc_err *err)
@@ -256,7 +255,7 @@ profile_score(const struct rc_file *file)
     if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
         return 0;
     score = profile_open(&p, file, &rc_no_wish, NULL) == RC_OK ? 60 : 3;
-    /* 3: a table is refused with what is wrong with it; one column could be anything */
+    /* 3: the refusal of a table names its error; one column could have any meaning */
     if (p.table.v == NULL || p.table.numbers.columns < 2)
         score = 0;
     rc_titled_table_close(&p.table);

@@ -35,7 +35,7 @@ is_smd(const struct rc_file *file)
            memchr(file->data, END, file->size) != NULL;
 }
 
-/* Words of a line, at most WORDS, of which the last has what is left; their number. */
+/* Splits a line into at most WORDS words; the last one has the rest. Returns their number. */
 static size_t
 part_words(struct rc_piece line, struct rc_piece word[WORDS])
 {
@@ -86,7 +86,7 @@ take_line(struct smd *s, struct rc_piece line, struct rc_err *err)
             s->name = (struct rc_piece){word[2].text, (size_t)(line.text + line.n - word[2].text)};
     }
     if (n > 0 && rc_piece_is(word[0], "CY|SUR|PCL"))
-        return rc_err_set(err, "the file holds no single profile (%s): that is not read",
+        return rc_err_set(err, "the file is not a single profile (%s), and others are not read",
                           rc_piece_shown(quote, word[0]));
     return RC_OK;
 }
@@ -130,9 +130,8 @@ fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, st
         return RC_FAIL;
     return rc_piece_trim(text).n == 0
                ? RC_OK
-               : rc_err_set(
-                     err, "the record of heights holds more than the %zu that the header promises",
-                     map->nx);
+               : rc_err_set(err, "the record of heights has more values than the %zu of the header",
+                            map->nx);
 }
 
 static enum rc_status

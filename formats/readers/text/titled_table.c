@@ -10,7 +10,7 @@ enum {
     HEADER_MOST = 1000 /* lines before a table */
 };
 
-/* UTF-8 from UTF-16; what is no valid character becomes '?'. */
+/* UTF-8 from UTF-16; an invalid character becomes '?'. */
 static char *
 narrow(const struct rc_file *file, size_t *n)
 {
@@ -52,7 +52,7 @@ next_word(struct rc_piece *line, struct rc_piece *word)
     return true;
 }
 
-/* Whether the line holds at least so many numbers and nothing else. */
+/* True if the line has at least so many numbers, and only numbers. */
 static bool
 is_row(struct rc_piece line, size_t columns)
 {
@@ -72,7 +72,7 @@ is_row(struct rc_piece line, size_t columns)
 
 /* ---- titles and units ---- */
 
-/* The unit in a title: what stands in brackets, else a word that is a length. */
+/* The unit in a title: the text in brackets, otherwise a word that is a length. */
 static struct rc_piece
 unit_of(struct rc_piece title)
 {
@@ -148,7 +148,7 @@ part_at(struct rc_titled_table *t, struct rc_piece line, char separator)
     return t->titles;
 }
 
-/* Titles may stand apart by another mark than the numbers below them. */
+/* Titles may have another separator than the numbers below them. */
 static void
 part_titles(struct rc_titled_table *t, struct rc_piece line)
 {
@@ -167,7 +167,7 @@ part_titles(struct rc_titled_table *t, struct rc_piece line)
     part_at(t, line, t->numbers.separator);
 }
 
-/* Where every title is a unit, their names stand in the line above. */
+/* If every title is a unit, the names are in the line above. */
 static void
 part_names(struct rc_titled_table *t, struct rc_piece line)
 {
@@ -213,7 +213,7 @@ rc_titled_table_unit(const struct rc_titled_table *t, size_t column, char axis)
 
 /* ---- roles ---- */
 
-/* The words of a title that say what its column holds; a single letter comes before others. */
+/* The words of a title that give the kind of its column; a single letter has priority. */
 static const struct {
     const char *words;
     enum rc_role role;

@@ -12,19 +12,20 @@ enum {
 struct rc_titled_table {
     char *own; /* the text, where it was converted */
     struct rc_number_table numbers;
-    struct rc_piece title[RC_TITLES_MOST]; /* of the columns, from the line before the first row */
-    size_t titles;                         /* there, also those that are not kept                */
+    struct rc_piece title[RC_TITLES_MOST]; /* titles of the columns, from the line before the
+                                              first row */
+    size_t titles;                         /* number of titles, also of those that are not kept */
     struct rc_piece over[RC_TITLES_MOST];  /* names above titles that are units alone */
     bool has_over;
     struct rc_piece title_line;
     char title_separator;
-    size_t skipped; /* lines above that are neither empty nor titles nor understood */
+    size_t skipped; /* lines above that are not empty, not titles and unknown */
     struct rc_piece first_skipped;
-    struct rc_piece axis_unit[3]; /* as lines `x-unit = um` and so on above it have them */
+    struct rc_piece axis_unit[3]; /* units from lines `x-unit = um` and so on above it */
     double *v;                    /* numbers.rows * numbers.columns values; NULL: not yet read */
 };
 
-/* What a column holds, as its title says. */
+/* The kind of a column by its title. */
 enum rc_role {
     RC_ROLE_NONE, /* the title does not say */
     RC_ROLE_X,
@@ -41,13 +42,13 @@ enum rc_status rc_titled_table_open(struct rc_titled_table *table, const struct 
 /* Then reads its values. RC_FAIL names the first row that differs from the first one in its
  * columns. */
 enum rc_status rc_titled_table_read(struct rc_titled_table *table, struct rc_err *err);
-/* The unit of a column: what stands in brackets in its title, else a word there that is a length,
- * else that of the axis 'x', 'y' or 'z' by a line of its own. Of no length where there is none. */
+/* The unit of a column: the text in brackets in its title, otherwise a word in the title that is a length,
+ * otherwise the unit of the axis 'x', 'y' or 'z' from a separate line. Empty if there is none. */
 struct rc_piece rc_titled_table_unit(const struct rc_titled_table *table, size_t column, char axis);
 enum rc_role rc_titled_table_role(const struct rc_titled_table *table, size_t column);
-/* The first column of that role; the number of columns where there is none. */
+/* The first column of this kind; without one, the number of columns. */
 size_t rc_titled_table_column(const struct rc_titled_table *table, enum rc_role role);
-/* The title without its unit; of no length where there is none. */
+/* The title without its unit; empty if there is none. */
 struct rc_piece rc_titled_table_name(const struct rc_titled_table *table, size_t column);
 /* Whether the titles, but for that of a first column of row names, are all numbers, or all one word with
  * a number. */
@@ -57,7 +58,7 @@ bool rc_titled_table_numbered(const struct rc_titled_table *table);
 bool rc_titled_table_is_matrix(const struct rc_titled_table *table);
 /* The next title of a row of them, at its separators; false at its end. */
 bool rc_title_next(struct rc_piece *line, char separator, struct rc_piece *title);
-/* Notes the columns that nothing is made of: counters and marks. */
+/* Notes the unused columns: counters and marks. */
 void rc_titled_table_left_out(const struct rc_titled_table *table, struct rc_notes *notes);
 void rc_titled_table_close(struct rc_titled_table *table);
 

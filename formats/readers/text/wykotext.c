@@ -1,7 +1,7 @@
 /*
  * Wyko (Veeco, Bruker) as text: `Wyko ASCII Data File Format 0`, two flags, then names and values between
- * tabs, and the blocks of an OPD file, one a line: name, type, length, value. Behind a block of heights
- * stand its numbers, a column of the map in each line, the lowest first, as in the binary file:
+ * tabs, and the blocks of an OPD file, one a line: name, type, length, value. The numbers of a block of
+ * heights follow it, a column of the map in each line, the lowest first, as in the binary file:
  *
  *     Wyko ASCII Data File Format 0 <tab> 0 <tab> 1
  *     X Size <tab> 640
@@ -26,7 +26,7 @@ static const char magic[] = "Wyko ASCII Data File Format";
 struct wyko {
     double nx, ny, wavelength, pixel, aspect, factor;
     bool nanometres;
-    struct rc_lines heights; /* the lines behind that of their block */
+    struct rc_lines heights; /* the lines after the line of their block */
 };
 
 static const struct rc_field fields[] = {
@@ -73,12 +73,12 @@ read_header(const struct rc_file *file, struct wyko *w, struct rc_maps *maps, st
         if (rc_field_take(fields, sizeof fields / sizeof *fields, key, value, w, err) != RC_OK)
             return RC_FAIL;
     }
-    return rc_err_set(err, "the file holds no block RAW_DATA, OPD or SAMPLE_DATA");
+    return rc_err_set(err, "the file has no block RAW_DATA, OPD or SAMPLE_DATA");
 }
 
 /* ---- points ---- */
 
-/* The next line that holds something. */
+/* The next line that is not empty. */
 static bool
 next_line(struct rc_lines *lines, struct rc_piece *line)
 {
@@ -135,7 +135,7 @@ fill_points(const struct rc_file *file, const struct rc_map *map, double *v, str
     return RC_OK;
 }
 
-/* Where the first column and the one behind it begin, and whether it rises. */
+/* The start of the first column and of the second, and whether the first rises. */
 static enum rc_status
 set_points(struct wyko *w, struct rc_map *map, struct rc_err *err)
 {

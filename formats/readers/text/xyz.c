@@ -18,13 +18,13 @@ struct axis {
 };
 
 struct cloud {
-    struct rc_titled_table table; /* its values are those of x, y and z, once they are picked */
+    struct rc_titled_table table; /* after the choice its values are x, y and z */
     size_t column[2 + RC_MAPS_MOST],
-        heights;   /* those of x, y and the heights, and how many these are */
-    size_t height; /* the one of them that is z                             */
+        heights;   /* columns of x, y and the heights, and the number of height columns */
+    size_t height; /* the height column that is z */
     struct axis x, y;
     struct rc_piece unit[3]; /* of the columns */
-    double *along, *z;       /* of a line, by their places along it; NULL: a raster */
+    double *along, *z;       /* points of a line, sorted by position; NULL: a raster */
 };
 
 static int
@@ -65,7 +65,7 @@ find_axis(const double *v, size_t points, char name, struct axis *axis, struct r
         start = (sorted[k] - axis->first) / axis->step;
         if (!(fabs(start - round(start)) < 0.1))
             status = rc_err_set(
-                err, "the points lie on no raster: %zu different %c from %s on, not evenly apart",
+                err, "the points are on no raster: %zu different %c from %s on, not evenly spaced",
                 axis->n, name, rc_number_text(text, axis->first));
     }
     free(sorted);
@@ -87,8 +87,8 @@ furthest_from(const double *p, size_t points, size_t k)
     return far;
 }
 
-/* Sorts the points by their places along the line between the two that are furthest apart. False
- * when they are not in a line, to a thousandth of its length, or two are at one place. */
+/* Sorts the points by their positions along the line between the two most distant ones. False when they are
+ * not in a line, to a thousandth of its length, or two are at one place. */
 static bool
 find_line(struct cloud *c)
 {
@@ -140,7 +140,7 @@ find_units(struct cloud *c)
         c->unit[1] = c->unit[0];
 }
 
-/* Along an axis, A is what WSxM calls Angstroms. */
+/* Along an axis, A means Angstroms (WSxM). */
 static double
 metres_of(struct rc_piece unit)
 {
@@ -177,8 +177,8 @@ cloud_close(struct cloud *c)
     rc_titled_table_close(&c->table);
 }
 
-/* Which columns are x, y and heights: by their titles, else in this order. Words above them are titles when
- * there is one for each. */
+/* Finds the columns of x, y and heights: by their titles, otherwise in this order. Words above them are
+ * titles when there is one for each. */
 static enum rc_status
 pick_columns(struct cloud *c, struct rc_err *err)
 {
@@ -194,7 +194,8 @@ pick_columns(struct cloud *c, struct rc_err *err)
             err,
             "a list of points has 3 columns, this table has %zu and no titles that name x and y",
             columns);
-    for (size_t k = 0; columns == 3 && k < 3; k++) { /* what no title says is in its usual order */
+    for (size_t k = 0; columns == 3 && k < 3; k++) { /* columns without a title are in the usual
+                                                        order */
         while (next == of[0] || next == of[1] || next == of[2])
             next++;
         if (of[k] == columns)
@@ -211,7 +212,7 @@ pick_columns(struct cloud *c, struct rc_err *err)
                           : role == RC_ROLE_Z || role == RC_ROLE_NONE))
             c->column[2 + c->heights++] = k;
     }
-    return c->heights > 0 ? RC_OK : rc_err_set(err, "no column beside x and y is of heights");
+    return c->heights > 0 ? RC_OK : rc_err_set(err, "there is no column of heights beside x and y");
 }
 
 /* Puts x, y and z of every point together, in place. */
@@ -288,7 +289,7 @@ fill_points(const struct rc_file *file, const struct rc_map *map, double *v, str
         size_t at = (size_t)lround((p[1] - c.y.first) / c.y.step) * map->nx +
                     (size_t)lround((p[0] - c.x.first) / c.x.step);
         if (taken[at]++ != 0) {
-            rc_err_set(err, "point %zu stands where another one does", k + 1);
+            rc_err_set(err, "point %zu has the same position as another one", k + 1);
             goto done;
         }
         v[at] = p[2];

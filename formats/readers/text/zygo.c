@@ -23,7 +23,7 @@
 
 enum {
     HEADER_MOST = 60, /* lines                  */
-    NUMBERS = 8       /* that the eighth one has */
+    NUMBERS = 8       /* numbers in the eighth line */
 };
 
 static const char xyz_magic[] = "Zygo XYZ Data File", ascii_magic[] = "Zygo ASCII Data File";
@@ -33,8 +33,7 @@ struct zygo {
     double system[NUMBERS];
     double resolution;
     struct rc_piece comment;
-    struct rc_lines
-        points; /* behind the last `#` of the header, up to the one that ends the numbers */
+    struct rc_lines points; /* from the last `#` of the header to the `#` that ends the numbers */
 };
 
 static size_t
@@ -53,7 +52,7 @@ is_mark(struct rc_piece line)
     return rc_piece_is(rc_piece_trim(line), "#");
 }
 
-/* Passes over the lines up to the next mark; false where there is none. *end is where that stands. */
+/* Skips the lines up to the next mark. Returns false if there is none. *end is its position. */
 static bool
 next_mark(struct rc_lines *lines, const char **end)
 {
@@ -78,8 +77,8 @@ read_header(const struct rc_file *file, struct zygo *z, bool *xyz, struct rc_err
     *z = (struct zygo){.resolution = NAN, .comment = {"", 0}};
     z->rect[2] = z->rect[3] = z->system[6] = NAN;
     if (!*xyz && !rc_file_holds(file, 0, ascii_magic, strlen(ascii_magic)))
-        return rc_err_set(err, "no text of Zygo: it begins neither with '%s' nor with '%s'",
-                          xyz_magic, ascii_magic);
+        return rc_err_set(err, "not a Zygo text: it must begin with '%s' or '%s'", xyz_magic,
+                          ascii_magic);
     while (lines.number < HEADER_MOST && rc_lines_next(&lines, &line.text, &line.n) &&
            !is_mark(line)) {
         if (lines.number == 4)
