@@ -53,8 +53,8 @@ static struct {
 static const struct {
     const char *file, *refused_for;
 } refused[] = {
-    {"profile-text/SurfaceTopography__xy-1.txt", "the positions are not evenly apart"},
-    {"profile-text/SurfaceTopography__xy-3.txt", "the positions are not evenly apart"},
+    {"profile-text/SurfaceTopography__xy-1.txt", "the positions are not evenly spaced"},
+    {"profile-text/SurfaceTopography__xy-3.txt", "the positions are not evenly spaced"},
 };
 
 /* Rows with sample values under the mask, at points that the same row counts as missing. */
@@ -92,7 +92,7 @@ static const struct {
     {"pySPM__bruker_data_header.001", "begins at byte 40960 of a file of 10685", 0},
     {"pySPM__bruker_data_header.002", "begins at byte 80960 of a file of 43130", 0},
     {"pySPM__bruker_data_header.003", "there are no numbers in the file", 0},
-    {"NSFopen__thermal.nid", "no map, only curves", 0},
+    {"NSFopen__thermal.nid", "only curves, no map", 0},
     {"igor2__mac-textWave.ibw", "of type 0, text", 0},
     {"igor2__win-zeroPointWave.ibw", "the wave has no points", 0},
     {"igor2__mac-version2.ibw", "version 2", 0},

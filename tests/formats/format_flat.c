@@ -360,7 +360,7 @@ doubts(void **state)
         int variant;
         const char *note; /* NULL: the meaning is clear */
     } rows[] = {
-        {"tmd", make_tmd, 0, "no unit and micrometres are taken"},
+        {"tmd", make_tmd, 0, "no unit, and micrometres are assumed"},
         {"tmd", make_tmd, 1, NULL},
         {"wykotext", make_wykotext, 0, "Mult is not 1"},
         {"wykotext", make_wykotext, 1, "Mult is not 1"},
@@ -531,7 +531,7 @@ static const struct {
     {"x [um] z [um]\n5 1\n4 2\n2 3\n1 4\n0 5\n", 0, 0, 0, 0,
      "point 3 is at 2, but even steps of 1.25 lead to 2.5"},
     {"x [s] z [um]\n0 1\n1 2\n2 3\n", 0, 0, 0, 0, "'s', which is no length"},
-    {"x [um] z [um]\n0 1\n2 2\n1 3\n", 0, 0, 0, 0, "do not go on in one direction at row 3"},
+    {"x [um] z [um]\n0 1\n2 2\n1 3\n", 0, 0, 0, 0, "change direction at row 3"},
     {"0 1\n1 2\n2 3\n", 0, 0, 0, 0, "its steps are 1"},
     {"0 1\n1 2\n2 3\n", 0, 0, 0, 0, "the unit of its heights is missing too: give --z-unit UNIT"},
     {"x [um] z\n0 1\n1 2\n2 3\n", 0, 0, 0, 0, "--z-unit"},
@@ -660,7 +660,7 @@ points(void **state)
     static const struct {
         const char *text, *why;
     } rows[] = {
-        {"0 0 1\n1 0 2\n0 1 3\n1 1 4\n0 0 5\n", "point 5 stands where another one does"},
+        {"0 0 1\n1 0 2\n0 1 3\n1 1 4\n0 0 5\n", "point 5 has the same position as another one"},
         {"0 0 1\n1 0 2\n3.3 0 3\n0 1 4\n", "on no raster"},
         {"0 0 1\n1 2 2\n2 4 3\n3 1 4\n4 3 5\n5 5 6\n6 6 7\n7 8 2\n8 7 3\n9 9 4\n10 10 1\n",
          "11 of them have 11 different x"},

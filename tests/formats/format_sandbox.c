@@ -618,15 +618,15 @@ trouble_stays_in_the_child(void **state)
 
     (void)state;
     expect(refusing, "what is wrong: 7");
-    expect(crashing, "makes its library fail (Aborted)");
-    expect(segfaulting, "makes its library fail (Segmentation fault)");
+    expect(crashing, "the library for this file failed (Aborted)");
+    expect(segfaulting, "the library for this file failed (Segmentation fault)");
     expect(endless, "busy for more than 0.8 s");
     expect(waiting, "busy for more than 0.8 s");
     if (rc_calls_can_be_filtered()) { /* blocking is refused */
         expect(stubborn, "busy for more than 0.8 s");
         expect(asleep, "busy for more than 0.8 s");
     } else {
-        expect(stubborn, "makes its library fail (Killed)");
+        expect(stubborn, "the library for this file failed (Killed)");
     }
     expect(nosy, "closed");
     assert_true(now() - before <
@@ -691,7 +691,7 @@ lists_come_back(void **state)
     assert_int_equal(rc_sandbox_list(NULL, none, &file, &rc_no_wish, channel, 2, &err), 0);
     assert_string_equal(err.text, "no channel");
     assert_int_equal(rc_sandbox_list(NULL, crashing_list, &file, &rc_no_wish, channel, 2, &err), 0);
-    assert_non_null(strstr(err.text, "makes its library fail"));
+    assert_non_null(strstr(err.text, "the library for this file failed"));
 }
 
 int

@@ -50,7 +50,7 @@ awk 'BEGIN { print "x [um] z [nm]"
         printf "%.4f %s\n", x, k == 40 ? "nan" : sprintf("%.3f", 1000 * sin(k / 5) + k)
         x += k == 20 ? 4.9 : k == 30 ? 6 : k == 59 ? 0 : k % 3 == 1 ? 1 : 0.7 + 0.6 * ((k * 29) % 60) / 59
     } }' >uneven.txt
-refuses 1 "uneven.txt: the positions are not evenly apart: .* --even resamples the profile to even steps" \
+refuses 1 "uneven.txt: the positions are not evenly spaced: .* --even resamples the profile to even steps" \
     "an uneven profile is refused by the name of the option" 'rc-import uneven.txt'
 
 length=$(awk 'NR == 2 { a = $1 } END { printf "%.17g", $1 - a }' uneven.txt)
@@ -150,7 +150,7 @@ awk 'NR > 1 { printf "7 %.6f %s\n", $1, $2 }' uneven.txt >column.xyz
 awk 'NR > 1 { printf "%.17g %.17g %s\n", 0.6 * $1, 5 - 0.8 * $1, $2 }' uneven.txt >slant.xyz
 tac slant.xyz | awk 'NR == 1 { first = $0; next } { print } END { print first }' >any.xyz
 for file in row.xyz column.xyz slant.xyz; do
-    refuses 1 "$file: the positions are not evenly apart: .*--even" "$file: refused" \
+    refuses 1 "$file: the positions are not evenly spaced: .*--even" "$file: refused" \
         "rc-import --dx 1um --z-unit nm $file"
     rc-import --quiet --even --dx "${step}um" --z-unit nm "$file" -o line.rcg
     claim "$file: it is read along the line" same_heights <(heights line.rcg) even.truth
@@ -170,14 +170,14 @@ refuses 1 "--even 0.001 m is longer than the profile, " "a step that is longer t
 refuses 1 "values need [0-9]+ MiB, more than the|6.75695e.09 nodes are too many" "a step that would need all memory" 'rc-import --even=1e-14 uneven.txt'
 refuses 1 "nodes are too many" "or more" 'rc-import --even=1e-30 uneven.txt'
 printf 'x [um] z [nm]\n0 1\n1 2\n1 3\n2 4\n' >stuck.txt
-refuses 1 "do not go on in one direction at row 3" "positions that stand still" 'rc-import --even stuck.txt'
+refuses 1 "change direction at row 3" "positions that stand still" 'rc-import --even stuck.txt'
 
 # ---- real files ----
 
 corpus="${RC_CORPUS:-}/corpus/profile-text"
 if [ -d "$corpus" ]; then
     for file in SurfaceTopography__xy-1.txt SurfaceTopography__xy-3.txt; do
-        refuses 1 "$file: the positions are not evenly apart: .*--even" "$file" "rc-import --z-unit nm $corpus/$file"
+        refuses 1 "$file: the positions are not evenly spaced: .*--even" "$file" "rc-import --z-unit nm $corpus/$file"
         own=$(rc-import --even --z-unit nm "$corpus/$file" 2>&1 >/dev/null | sed 's/.*its steps are \([^ ]*\) .*/\1/')
         rc-import --quiet --even --z-unit nm --dx "${own}um" "$corpus/$file" -o real.rcg
         (echo; awk 'NF >= 2' "$corpus/$file") >real.txt

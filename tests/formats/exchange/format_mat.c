@@ -140,7 +140,7 @@ refusals(void **state)
     m.data[m.n - 1] = 0x41; /* the last position is far away */
     add_rising(&m, "y", DOUBLE, 1, 3, 1);
     add_rising(&m, "h", DOUBLE, 3, 4, 1);
-    refuse(&rc_format_mat, &m, "the positions of the axis 'x' are not evenly apart");
+    refuse(&rc_format_mat, &m, "the positions of the axis 'x' are not evenly spaced");
     m.n = 128;
     add_rising(&m, "h", DOUBLE, 3, 4, 1);
     set_raw(&m, 128 + 8 + 16 + 8, RC_RAW_I32, 4); /* 4 rows */

@@ -525,10 +525,10 @@ positions_that_are_refused(void **state)
     } wrong[] = {
         {"<Datum>0;1</Datum><Datum>2;1</Datum><Datum>1;1</Datum><Datum>3;1</Datum><Datum>4;1</"
          "Datum>",
-         "the positions do not go on in one direction at point 3"},
+         "the positions change direction at point 3"},
         {"<Datum>0;1</Datum><Datum>0;1</Datum><Datum>1;1</Datum><Datum>3;1</Datum><Datum>4;1</"
          "Datum>",
-         "the positions do not go on in one direction at point 2"},
+         "the positions change direction at point 2"},
         {"<Datum>0;1</Datum><Datum/>", "Datum 2 is '': x;z are expected"},
         {"<Datum>0;1;2</Datum>", "Datum 1 is '0;1;2': x;z are expected"},
         {"<Datum>5</Datum>", "Datum 1 is '5': x;z are expected"},

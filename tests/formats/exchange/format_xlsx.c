@@ -165,7 +165,7 @@ refusals(void **state)
         {"r=\"B3\"", "r=\"XFE3\"", "'XFE3' is no place"},
         {"r=\"B3\"", "r=\"B0\"", "'B0' is no place"},
         {"<row r=\"1\"><c r=\"B1\" t", "<row r=\"0\"><c t", "has a cell in row 0"},
-        {"<v>1.5</v>", "<v>1</v>", "the positions are not evenly apart"},
+        {"<v>1.5</v>", "<v>1</v>", "the positions are not evenly spaced"},
         {"</worksheet>", "", "not well-formed"},
     };
     struct bytes b;

@@ -33,9 +33,9 @@ refusals(void **state)
         uint32_t to;
         const char *why;
     } cases[] = {
-        {"\x34\x23\0", 9013, "no surface as it was measured"}, /* class 9012 */
-        {"\x66\x23\0", 9063, "no surface as it was measured"}, /* 9062 */
-        {"\x59\x23\0", 9050, "no surface as it was measured"}, /* 9049 */
+        {"\x34\x23\0", 9013, "the document has no measured surface"}, /* class 9012 */
+        {"\x66\x23\0", 9063, "the document has no measured surface"}, /* 9062 */
+        {"\x59\x23\0", 9050, "the document has no measured surface"}, /* 9049 */
     };
     struct bytes b = {0}, none = {0};
 
@@ -48,7 +48,7 @@ refusals(void **state)
     }
     add_zeros(&none, 200);
     ole_file(&b, "ScopedContents", &none);
-    refuse(&rc_format_mnt, &b, "no surface as it was measured");
+    refuse(&rc_format_mnt, &b, "the document has no measured surface");
     drop(&b);
     ole_file(&b, "WordDocument", &none);
     refuse(&rc_format_mnt, &b, "has no stream 'ScopedContents'");
@@ -67,7 +67,7 @@ chains(void **state)
     (void)state;
     make_mnt(&b, 1);
     set_raw(&b, 512 + 4 * 4, RC_RAW_U32, 3);
-    refuse(&rc_format_mnt, &b, "no surface as it was measured");
+    refuse(&rc_format_mnt, &b, "the document has no measured surface");
     set_raw(&b, 512 + 4 * 4, RC_RAW_U32, 0xfffffffe);
     refuse(&rc_format_mnt, &b, "is damaged");
     drop(&b);

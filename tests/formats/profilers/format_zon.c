@@ -220,7 +220,7 @@ zon_is_refused(void **state)
     b = zon_file("<a/>", &heights, NULL);
     refuse(&rc_format_zon, &b, "does not give the spacing");
     b.data[3] = '2';
-    refuse(&rc_format_zon, &b, "no ZON file");
+    refuse(&rc_format_zon, &b, "not a ZON file");
     b.data[3] = '0';
     set_raw(&b, 4, RC_RAW_U32, 1e9);
     refuse(&rc_format_zon, &b, "the picture takes 1000000000 bytes");
