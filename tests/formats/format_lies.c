@@ -94,7 +94,7 @@ static const struct {
     int flags;
 } lines[] = {
     {"sdf", make_sdf_text, 0, "NumPoints = 3", "NumPoints = 9", "the file has", 0},
-    {"sdf", make_sdf_text, 0, "NumPoints = 3", "NumPoints = x", "'x': that is no number", 0},
+    {"sdf", make_sdf_text, 0, "NumPoints = 3", "NumPoints = x", "'x', but must be a number", 0},
     {"sdf", make_sdf_text, 0, "BAD", "bed", "'bed': that is no number", 0},
     {"sdf", make_sdf_text, 0, "1.1E-6", "-1.1E6", "spacing in x is -1100000", 0},
     {"al3d", make_al3d, 0, "800\0", "9999", "begins at byte 9999", 0},

@@ -33,7 +33,7 @@ claim "HDF5 has a block for each stress and each case" rc-export stress.rcg -o s
 claim "  rc-import reads these blocks, slices or not" bash -c '
     rc-export --depth 5um --channel szz stress.rcg -o slices.h5 && rc-import --list slices.h5 2>&1 | grep szz_z5e-06'
 
-refuses 1 'a second frame of channel szz, and npy allows one map, or the depths of one channel and case on one grid: choose with --channel, --case and --depth' \
+refuses 1 'a second frame of channel szz, but npy holds one map or the depths of one channel and case: choose with --channel, --case and --depth' \
     "an array is of one case" 'rc-export --channel szz stress.rcg -o no.npy'
 refuses 1 'a second frame, and npy holds' "and of one channel" 'rc-export --case 1 stress.rcg -o no.npy'
 refuses 1 'a second frame of channel szz, and gsf holds one map: choose' "a format of one map takes one depth" \

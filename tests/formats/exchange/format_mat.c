@@ -246,7 +246,7 @@ version_7_3(void **state)
     b = hdf_behind_header(file);
     refuse(&rc_format_mat73, &b, "'l' is of another class");
     b.data[125] = 1;
-    refuse(&rc_format_mat73, &b, "no MAT file of version 7.3");
+    refuse(&rc_format_mat73, &b, "not a MAT file of version 7.3");
     drop(&b);
 }
 

@@ -222,10 +222,10 @@ depths_make_an_array(void **state)
     assert_true(made.n == 128 + 8 * 6 && f64(made.bytes + 128 + 8) == 21);
     free(made.bytes);
     refuse_export("npy", frame, STACK, &plain_export,
-                  "one map or the depths of one channel and case");
+                  "one map, or the depths of one channel and case on one grid");
     rc_grid_set(frame[2], "case", "2", NULL);
     refuse_export("npy", deepest, 3, &plain_export,
-                  "one map or the depths of one channel and case");
+                  "one map, or the depths of one channel and case on one grid");
     drop_stack(frame);
     make_stack(frame, uneven);
     for (size_t k = 0; k < 3; k++)
