@@ -84,7 +84,7 @@ two() {
     status=$?
     kill -KILL $pid
     wait $pid 2>/dev/null
-    [ $status = 1 ] && grep -q 'two.rcg: another run is adding to it' two.err && [ ! -e other.rcg ] &&
+    [ $status = 1 ] && grep -q 'two.rcg: another run is writing to it' two.err && [ ! -e other.rcg ] &&
         $solve --quiet --checkpoint two.rcg --resume -o other.rcg rough.rcg
 }
 claim "two runs cannot write to one checkpoint; after the first is killed the other can" two

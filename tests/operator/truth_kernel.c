@@ -14,7 +14,7 @@
 /* The field at (x, y, z) of a unit force at the origin: Boussinesq (Johnson 1985, eqs. 3.19, 3.22). */
 enum field {
     DISPLACEMENT = -1
-}; /* else an enum rc_component */
+}; /* otherwise: an enum rc_component */
 
 struct where {
     int field;

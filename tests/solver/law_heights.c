@@ -129,7 +129,8 @@ refused(void **state)
     (void)finish(s); /* it is unchanged */
     assert_true(distance(N, rc_solver_pressure(s), p) < 2 * problem.tol);
     assert_int_equal(rc_solver_set_load(s, 0, 1e-3, &err), RC_FAIL);
-    assert_non_null(strstr(err.text, "approach 0.001 m: contact is complete at "));
+    assert_non_null(
+        strstr(err.text, "approach 0.001 m: the contact of this periodic surface is complete at "));
     rc_solver_free(s);
 }
 

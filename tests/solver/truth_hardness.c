@@ -458,7 +458,7 @@ refusals(void **state)
         strstr(err.text, "3 of 48 hardnesses are not above 0, the first in column 3 of row 1"));
     problem.hardness = 1e9;
     assert_null(rc_solver_new(&shape, h, &problem, &err));
-    assert_non_null(strstr(err.text, "hardness 1e+09 Pa beside a map of it"));
+    assert_non_null(strstr(err.text, "hardness 1e+09 Pa and a map of hardness"));
 }
 
 int

@@ -134,7 +134,7 @@ claim "a column with one number counts as numeric" eval 'printf "x\ty\na\t1\n2\t
 
 # ---- refusals ----
 
-refuses 2 '--log: column mat holds words, which have no logarithm: --log y has only the other axis so' "a logarithm of words" "$draw --log --curve mat:y words.tsv"
+refuses 2 '--log: column mat contains words, which have no logarithm: give the other axis alone, as in --log y' "a logarithm of words" "$draw --log --curve mat:y words.tsv"
 refuses 1 'few.tsv: column x holds numbers, that of n.tsv words: draw two pictures' "words and numbers" "printf 'x/N\ty/m2\na\t1\n' >n.tsv && $draw --curve x:y n.tsv few.tsv"
 refuses 1 'column k holds more than 40 different words, too many for an axis' "a word a row" "perl -e 'print \"k\ty\n\"; print \"a\$_\t1\n\" for 1 .. 41' | $draw --curve k:y"
 

@@ -76,7 +76,7 @@ refuses 1 'nowhere.tsv: No such file' "a file that is not there" "$draw --curve 
 refuses 2 'it must be X:Y' "no colon" "$draw --curve load r.tsv"
 refuses 2 'it must be X:Y' "no column" "$draw --curve load:approach, r.tsv"
 refuses 2 '--curve draws tables, not maps: leave out --channel' "an option of maps" "$draw --curve load:approach --channel gap r.tsv"
-refuses 2 'laws stand beside --curve and --histogram: leave out --law' "a law of no curve" "$draw --law hertz p.rcg"
+refuses 2 '--law needs --curve or --histogram: leave out --law' "a law of no curve" "$draw --law hertz p.rcg"
 refuses 2 '--law hertz needs --radius: give it' "a law without its radius" "$draw --curve load:approach --law hertz --estar 1GPa r.tsv"
 refuses 2 '--law persson: it ties contact_fraction or contact_area over load' "a law of something else" \
     "$draw --curve load:approach --law persson --estar 1GPa --rms-slope 0.1 r.tsv"
@@ -109,7 +109,7 @@ refuses 2 '--law persson needs --rms-slope' "a law without its slope" "$draw --h
 claim "a list of cases becomes a sheet" rc-render --case 1,3 -o c.png p.rcg
 claim "a sheet of sections is drawn" rc-render --sheet 1x3 -o c.png s.rcg
 claim "the texts of a sheet come from its frames" bash -c 'grep -aqF -- "--sheet 1x3" c.png'
-refuses 1 '3 frames match, --sheet 1x2 holds 2' "a sheet too small" "$draw --sheet 1x2 p.rcg"
+refuses 1 '3 frames match, but --sheet 1x2 has room for 2' "a sheet too small" "$draw --sheet 1x2 p.rcg"
 refuses 2 '--sheet 2: it must be COLSxROWS, as in 3x2, or auto' "a sheet of one number" "$draw --sheet 2 p.rcg"
 refuses 2 '--sheet 0x2: it must be' "a sheet of no column" "$draw --sheet 0x2 p.rcg"
 refuses 2 '--raw shows one frame' "raw pictures of several" "$draw --raw --case 1,2 p.rcg"

@@ -27,7 +27,7 @@ claim "--estar has priority over the stream" rc-deflect --estar 57GPa solved.rcg
 near "$(statistic maximum soft.rcg)" "$(awk -v m="$maximum" 'BEGIN { printf "%.17g", 2 * m }')" "$rounding" \
     "  and half the modulus gives twice the displacement"
 claim "--verbose names the engine and the reason" \
-    warns 'summed by fft, because the fastest of those that are exact' rc-deflect --verbose solved.rcg -o u.rcg
+    warns 'summed by fft, because the fastest engine that is exact' rc-deflect --verbose solved.rcg -o u.rcg
 
 # a pressure that rc-solve has not written: no boundary, no modulus
 rc-synth sphere --nx 40 --dx 1um --radius 1mm | sed 's/^channel=height/channel=pressure/; s/^unit=m/unit=Pa/' | reseal >bare.rcg

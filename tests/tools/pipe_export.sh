@@ -60,7 +60,7 @@ refuses 1 "a second frame of channel mises" "several of one channel too" \
 claim "--channel selects the channel" rc-export --channel height many.rcg -o height.x3p
 refuses 1 "no frame with the channel strain, only pressure, gap, displacement, height" \
     "an absent channel names those present" 'rc-export -o a.npy --channel strain many.rcg'
-refuses 1 "heights in metres, these values are in 'Pa'" "metres are metres" \
+refuses 1 "heights in metres, but these values are in 'Pa'" "metres are metres" \
     'rc-export -o a.x3p --channel pressure many.rcg'
 claim "the name of the unit is written if it has one" \
     says '^ZUnits = Pa' rc-export --format gsf --channel pressure many.rcg

@@ -65,7 +65,7 @@ claim "  it takes the nodes whose centres are in the part" map '7 8 11 12' --cro
 claim "  it may begin at 0" map '1 2' --crop 0,0,4um,1um
 claim "it may be the whole map" map '1 2 3 4 5 6 7 8 9 10 11 12' --crop 0,0,8um,3um
 claim "  the same holds in nodes" map '1 2 3 4 5 6 7 8 9 10 11 12' --crop 0,0,4,3
-claim "a part of a periodic surface is not periodic, with a warning" warns 'a part of a periodic map is not periodic: periodic=no' \
+claim "a part of a periodic surface is not periodic, with a warning" warns 'a part of a periodic map is not periodic: it gets periodic=no' \
     rc-pick --crop 0,0,66,46 rough.rcg -o part.rcg
 claim "  its key says so" says '^periodic=no' cat part.rcg
 claim "the whole surface stays periodic" bash -c 'rc-pick --crop 0,0,66,47 rough.rcg -o whole.rcg 2>err.txt && [ ! -s err.txt ]'

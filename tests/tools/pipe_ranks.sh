@@ -238,7 +238,7 @@ adding() {
     status=$?
     kill -KILL "$victim"
     wait "$launcher"
-    [ $status = 1 ] && grep -q 'adding.rcg: another run is adding to it' adding.err && [ ! -e no.rcg ]
+    [ $status = 1 ] && grep -q 'adding.rcg: another run is writing to it' adding.err && [ ! -e no.rcg ]
 }
 claim "two runs cannot write to one checkpoint" adding
 # signalled SIGNAL SECONDS: sends the signal to mpirun, which ends its processes and kills them some time later.

@@ -163,7 +163,7 @@ refuses 2 "--range 0:1GPa: unknown unit 'GPa': m is expected" "a range in anothe
 refuses 2 '--range 1:2um: numbers with and without a unit' "a range in two units" "$draw --range 1:2um height.rcg"
 refuses 2 '--colormap jet: it must be one of viridis' "an unknown map of colours" "$draw --colormap jet height.rcg"
 refuses 2 '--raw and --figure are two kinds of picture: give one' "two kinds of picture" "$draw --raw --figure height.rcg"
-refuses 2 '--raw draws nothing but nodes: leave out --contour' "contours in a raw picture" "$draw --raw --contour height.rcg"
+refuses 2 '--raw draws only nodes: leave out --contour' "contours in a raw picture" "$draw --raw --contour height.rcg"
 refuses 2 '--raw is as wide as the map has columns: leave out --width' "a raw picture of some width" "$draw --raw --width 500 height.rcg"
 refuses 2 '--width 100: it must be 320 to 16000 pixels' "a figure too narrow" "$draw --width 100 height.rcg"
 refuses 2 '--width 85m: it must be 320 to 16000 pixels, which is a matter of --dpi' "a figure for a wall" "$draw --width 85m height.rcg"

@@ -192,7 +192,7 @@ refuses 2 '--hurst has no meaning for sphere' "an option of another shape" \
     "rc-synth sphere --radius 1mm --hurst 0.8 $grid"
 refuses 2 'the grid is not known: give --nx and --dx, or --like' "no grid" "rc-synth sphere --radius 1mm"
 refuses 2 'the grid is not known: give --nx and --dx' "half a grid" "rc-synth sphere --radius 1mm --nx 16"
-refuses 2 '--like gives the whole grid: leave out --ny' "two grids" "rc-synth sphere --radius 1mm --like other.rcg --ny 3"
+refuses 2 '--like already defines the grid: leave out --ny' "two grids" "rc-synth sphere --radius 1mm --like other.rcg --ny 3"
 refuses 2 '--radius 0 m: it must be above 0' "a radius of 0" "rc-synth sphere --radius 0 $grid"
 refuses 2 '--nx 0: it must be at least 1' "no columns" "rc-synth sphere --radius 1mm --nx 0 --dx 1um"
 refuses 2 '--nx 1.5: it must be a whole number' "half a column" "rc-synth sphere --radius 1mm --nx 1.5 --dx 1um"

@@ -73,7 +73,7 @@ inside(void **state)
 
     (void)state;
     assert_null(rc_stress_new(&shape, p, &o, &err));
-    assert_string_equal(err.text, "stresses inside a body that is springs are not known");
+    assert_string_equal(err.text, "stresses inside a body that is springs are not implemented");
 }
 
 int

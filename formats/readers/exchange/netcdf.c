@@ -36,7 +36,7 @@ named(const struct rc_cdf *f, struct rc_piece name)
     return NULL;
 }
 
-/* Whether a variable of the dimension's name says where its points are. */
+/* True if a variable with the name of the dimension gives the positions of its points. */
 static bool
 has_axis(const struct rc_cdf *f, size_t dimension)
 {
@@ -129,7 +129,7 @@ scalar(const struct rc_cdf *f, const char *name, double *value)
     return true;
 }
 
-/* Whether it is the field of a scan of GXSM, and the length that one number is. */
+/* True if the variable is the field of a GXSM scan; also gives the length of one count. */
 static bool
 is_gxsm(const struct rc_cdf *f, const struct rc_cdf_variable *v, double *dz)
 {

@@ -186,14 +186,14 @@ fill_plane(const struct rc_file *file, const struct rc_map *map, double *v, stru
     return RC_OK;
 }
 
-/* Whether the file, which has five decimals, gives this one. */
+/* True if the factor agrees with that of the file, which has five decimals. */
 static bool
 is_given(double exact, double given)
 {
     return exact > 0 && fabs(exact - given) <= 5.001e-6;
 }
 
-/* Whether Delta X times Dacto[A]xy is the spacing but for this gain. */
+/* True if Delta X times Dacto[A]xy times this gain is the spacing. */
 static bool
 fits_x(const struct createc *c, double gain)
 {

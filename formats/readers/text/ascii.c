@@ -146,7 +146,7 @@ open_behind_head(struct matrix *m, const struct rc_file *file, const struct rc_w
     return RC_OK;
 }
 
-/* Whether a line above the numbers looks like a row of them that is damaged. */
+/* True if a line above the numbers looks like a row of them that is damaged. */
 static bool
 is_damaged_row(const struct rc_titled_table *t)
 {

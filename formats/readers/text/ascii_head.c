@@ -253,7 +253,7 @@ remember(struct rc_ascii_head *h, struct rc_piece value)
     h->comments++;
 }
 
-/* Whether the line belongs to the header. */
+/* True if the line belongs to the header. */
 static bool
 take_line(struct rc_ascii_head *h, const char *s, size_t n)
 {

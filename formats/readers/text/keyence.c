@@ -95,7 +95,7 @@ read_header(struct rc_lines *lines, struct keyence *k, struct rc_lines *header, 
                            "Calibration) and below it a title alone");
 }
 
-/* Whether two rows that follow each other are the columns and rows of the table. */
+/* True if two rows that follow each other are the columns and rows of the table. */
 static bool
 has_size(struct rc_lines header, const struct rc_number_table *t)
 {

@@ -31,7 +31,7 @@ counts(const double *v, size_t n)
     return n > 1 && v[0] == rint(v[0]);
 }
 
-/* Whether they rise or fall evenly, and the step. */
+/* True if the numbers rise or fall evenly; also gives the step. */
 static bool
 is_even(const double *v, size_t n, double *step)
 {
@@ -77,7 +77,7 @@ has_fractions(const struct edges *e)
     return false;
 }
 
-/* Whether the second row, or column, rises evenly too: then the first is one of heights. */
+/* True if the second row or column rises evenly too: then the first one has heights. */
 static bool
 goes_on(const struct edges *e, bool row)
 {

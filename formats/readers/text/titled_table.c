@@ -377,7 +377,7 @@ rc_titled_table_left_out(const struct rc_titled_table *t, struct rc_notes *notes
 
 /* ---- the table ---- */
 
-/* Whether the only comma of a row, as in 1,5, parts columns because one parts their titles: both name a
+/* True if the only comma of a row, as in 1,5, parts columns because one parts their titles: both name a
  * column or have a unit in brackets. */
 static bool
 comma_parts_titles(struct rc_piece before, struct rc_piece row)

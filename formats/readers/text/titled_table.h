@@ -50,10 +50,10 @@ enum rc_role rc_titled_table_role(const struct rc_titled_table *table, size_t co
 size_t rc_titled_table_column(const struct rc_titled_table *table, enum rc_role role);
 /* The title without its unit; empty if there is none. */
 struct rc_piece rc_titled_table_name(const struct rc_titled_table *table, size_t column);
-/* Whether the titles, but for that of a first column of row names, are all numbers, or all one word with
- * a number. */
+/* True if the titles, except that of a first column of row names, are all numbers, or all one word with a
+ * number. */
 bool rc_titled_table_numbered(const struct rc_titled_table *table);
-/* Whether it is a matrix and no profile or list of points: at least three columns, whose titles are
+/* True if it is a matrix and no profile or list of points: at least three columns, whose titles are
  * numbers, one word with a number each (z1, z2, ...), or name no axis; or four without titles. */
 bool rc_titled_table_is_matrix(const struct rc_titled_table *table);
 /* The next title of a row of them, at its separators; false at its end. */

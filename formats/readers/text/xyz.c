@@ -333,7 +333,7 @@ xyz_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     return status;
 }
 
-/* Whether it is a raster, of several rows or of one: another line may be columns of a matrix. */
+/* True if it is a raster, of several rows or of one: another line may be columns of a matrix. */
 static bool
 runs_straight(const struct cloud *c)
 {

@@ -31,7 +31,7 @@ follow(const struct rc_x3p *x, const char *link, size_t *member, struct rc_err *
 
 /* ---- checksums ---- */
 
-/* Whether main.xml has the element and something in it. */
+/* True if main.xml has the element and something in it. */
 static bool
 is_given(const char *text)
 {

@@ -91,7 +91,7 @@ find_runs(const struct rc_sheet *s, struct columns *c)
         end_run(c, column, 0);
 }
 
-/* Whether two columns belong together: they share half of the rows of the longer one. */
+/* True if two columns belong together: they share half of the rows of the longer one. */
 static bool
 belong(const struct run *a, const struct run *b)
 {

@@ -34,7 +34,7 @@ struct rc_workbook {
 enum rc_status rc_workbook_read(struct rc_workbook *book, const struct rc_file *file,
                                 struct rc_err *err);
 void rc_workbook_free(struct rc_workbook *book);
-/* Whether it is an archive with a workbook in it. */
+/* True if it is an archive with a workbook in it. */
 bool rc_workbook_is(const struct rc_file *file);
 /* A cell; NULL where it is empty. */
 const struct rc_cell *rc_workbook_cell(const struct rc_sheet *sheet, uint32_t row, uint32_t column);
