@@ -26,7 +26,7 @@
  * cores. */
 int rc_useful_threads(const struct rc_shape *shape, size_t threads);
 
-/* Whether one of n values is not 0. */
+/* True if one of n values is not 0. */
 bool rc_any(const double *v, size_t n);
 
 /* The sum of rc_sum, value by value. */

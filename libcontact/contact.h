@@ -620,8 +620,8 @@ enum { /* further bytes a node of these calls while they run */
 RC_API enum rc_status rc_solver_expect(const struct rc_shape *shape,
                                        const struct rc_problem *problem,
                                        struct rc_expected *expected, struct rc_err *err);
-/* `h` (finite) is copied. NULL when load > hardness * area, or more than the sum of the hardness map times
- * the cell (the message has both numbers), when the problem is invalid, or memory is short. */
+/* `h` (finite) is copied. NULL if the load exceeds hardness * area, or the sum of the hardness map times the
+ * cell (the message has both numbers). NULL also if the problem is invalid or memory is short. */
 RC_API struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem, struct rc_err *err);
 /* Another first loading of the same surface, at a load in N or, with approach > 0, to an approach in m; the

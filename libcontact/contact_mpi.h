@@ -25,7 +25,8 @@ extern "C" {
 
 /* By all ranks of comm, which is duplicated. NULL when memory is short. */
 RC_API struct rc_ranks *rc_ranks_new(MPI_Comm comm, struct rc_err *err);
-/* By all, before MPI_Finalize and after all that was made with it. NULL is allowed. */
+/* All ranks call it, before MPI_Finalize, after they have freed all objects that use these ranks. NULL is
+ * allowed. */
 RC_API void rc_ranks_free(struct rc_ranks *ranks);
 /* Rows of a map that this rank holds: `n` from `first` on; n may be 0. */
 RC_API void rc_ranks_rows(const struct rc_ranks *ranks, const struct rc_shape *shape, size_t *first,

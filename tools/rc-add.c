@@ -31,7 +31,7 @@ static const struct tool_info info = {
 };
 
 enum {
-    HISTORY = 4096 /* bytes of B's history in that of the sum */
+    HISTORY = 4096 /* most bytes of the history of B in the history of the sum */
 };
 
 /* ---- the two streams ---- */

@@ -437,7 +437,7 @@ summed(void)
     return n;
 }
 
-/* Whether the engine transforms: it has a form in single precision. "auto" is such a one. */
+/* True if the engine transforms: it has a form in single precision. "auto" is such a one. */
 static bool
 transforms(const char *engine)
 {

@@ -85,8 +85,8 @@ stiffness(const struct rc_retraction *r, const struct rc_retraction_state *s)
     return fmax(2 * s->radius, r->stiffness);
 }
 
-/* Whether a node may have lost contact within a fine step: the load has decreased by less than half of what its
- * slope before the step predicts. */
+/* True if a node may have lost contact within a fine step: the load has decreased by less than half of what
+ * its slope before the step predicts. */
 static bool
 has_flattened(const struct rc_retraction *r, const struct rc_retraction_state *here)
 {

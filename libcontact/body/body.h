@@ -19,7 +19,7 @@ enum {
     RC_WAVE_NUMBERS = 10                          /* largest count of numbers per wave */
 };
 extern const unsigned rc_stress_parity[RC_STRESS_KERNELS];
-/* Whether a kernel belongs to the traction along +y; and the equal kernel of the traction along +x with x and
+/* True if a kernel belongs to the traction along +y; and the equal kernel of the traction along +x with x and
  * y exchanged, or the kernel itself. */
 static inline bool
 rc_stress_turned(int kernel)
@@ -160,7 +160,7 @@ struct rc_body_type {
 #include RC_BODIES_LIST
 #undef RC_BODY
 
-/* Whether a depth is above or at an interface: sums of thicknesses have rounding errors, and a depth meant to
+/* True if a depth is above or at an interface: sums of thicknesses have rounding errors, and a depth meant to
  * be at the interface must not be below it. */
 static inline bool
 rc_within(double depth, double bottom)
@@ -182,7 +182,7 @@ rc_solid_free(struct rc_solid *solid) /* NULL is allowed */
 
 /* RC_FAIL, and *err says which, when a number of the bodies is invalid. */
 enum rc_status rc_pair_check(const struct rc_pair *pair, struct rc_err *err);
-/* Whether the spectrum of their padded kernel is positive, whatever the map. */
+/* True if the spectrum of their padded kernel is positive on any map. */
 bool rc_pair_positive(const struct rc_pair *pair);
 /* E* of both, Pa, if it is the same for all waves; NAN: it varies. For a checked pair. */
 double rc_pair_modulus(const struct rc_pair *pair);

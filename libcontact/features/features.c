@@ -34,7 +34,7 @@ curvature(const struct rc_field *f, size_t k)
     return -0.5 * (xx + yy);
 }
 
-/* Whether a neighbour is missing. */
+/* True if a neighbour is missing. */
 static bool
 on_edge(const struct rc_field *f, size_t k)
 {

@@ -70,7 +70,7 @@ struct rc_conv *rc_conv_new_of(const struct rc_solids *bodies, const struct rc_s
 /* The transforms of its engine; NULL: it uses none. */
 struct rc_fft *rc_conv_fft(struct rc_conv *conv);
 
-/* Whether methods may iterate with it in single precision. */
+/* True if methods may iterate with it in single precision. */
 bool rc_conv_mixed(const struct rc_conv *conv);
 
 #endif

@@ -225,7 +225,7 @@ set_strip(struct own *s)
     }
 }
 
-/* Whether the logarithm exceeds 1, its value for a plane. */
+/* True if the logarithm exceeds 1, its value for a plane. */
 static bool
 is_along_strip(const struct own *s, double q)
 {

@@ -301,7 +301,7 @@ scale_elastic(struct rc_solver *s, double target)
     } while (capped > 0);
 }
 
-/* Whether a node without pressure has a gap between `least` and `most`. */
+/* True if a node without pressure has a gap between `least` and `most`. */
 static bool
 may_join(const struct scale *c, struct rc_box box, size_t k, double least, double most)
 {

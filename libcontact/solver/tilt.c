@@ -746,7 +746,7 @@ rc_tilt_end(struct rc_solver *s, enum rc_status status)
     return status;
 }
 
-/* Whether H must be recomputed before the search ends: it is unknown, or it belongs to another contact and is
+/* True if H must be recomputed before the search ends: it is unknown, or it belongs to another contact and is
  * so much stiffer than springs under the elastic nodes that the error would be underestimated. Nodes at edges
  * are stiffer than others, so a true H exceeds that of springs, but not by much. */
 static bool

@@ -341,7 +341,7 @@ residual_of(struct rc_box box, size_t n, const double *p, const double *v, doubl
         residual_in(box, n, p, v, shift, scale, wants, w, r, sums);
 }
 
-/* Whether one of the nodes wants to join. */
+/* True if one of the nodes wants to join. */
 RC_CLONES static bool
 some_want(size_t n, const double *v, double shift)
 {

@@ -325,7 +325,7 @@ component_field(struct grid *g, int c, double *s, struct rc_err *err)
 
 /* ---- coarser grids ---- */
 
-/* Whether a coarser grid is accurate enough at this depth, and its steps. The errors of all loads add up;
+/* True if a coarser grid is accurate enough at this depth, and its steps. The errors of all loads add up;
  * those of the kernels of the shear are smaller. */
 static bool
 may_be_coarse(const struct rc_stress_task *t, double depth, size_t *sx, size_t *sy)

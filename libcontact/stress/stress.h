@@ -31,7 +31,7 @@ struct rc_stress_task {
     bool precise;                   /* in double precision throughout, as demanded by its name */
     struct rc_stress_counts *counts;
 };
-/* Whether there is a load; the weight of traction relative to pressure: |mu| plus the number of traction
+/* True if there is a load; the weight of traction relative to pressure: |mu| plus the number of traction
  * maps. */
 static inline bool
 rc_stress_has(const struct rc_stress_task *task, int load)

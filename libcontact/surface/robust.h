@@ -36,7 +36,7 @@ rc_biweight(double r, double reach)
     return left > 0 ? left * left : 0;
 }
 
-/* Whether reweighting has converged; `before` is the reach of the last round, `size` that of the heights. */
+/* True if reweighting has converged; `before` is the reach of the last round, `size` that of the heights. */
 static inline bool
 rc_reweighted(double reach, double before, double size)
 {

@@ -4,7 +4,7 @@
 
 #include "libcontact/contact.h"
 
-/* Whether the wanted heights are not Gaussian. */
+/* True if the wanted heights are not Gaussian. */
 bool rc_heights_skewed(const struct rc_selfaffine *what);
 /* RC_FAIL when what->skewness or what->weibull is out of range, or both are given. */
 enum rc_status rc_heights_check(const struct rc_selfaffine *what, struct rc_err *err);

@@ -13,8 +13,8 @@
 enum argument {
     NOTHING,  /* no argument                                         */
     ANYTHING, /* an argument without known values                    */
-    WORD,     /* one of its words                                    */
-    LIST,     /* some of its words, separated by commas              */
+    WORD,     /* one word of the option */
+    LIST,     /* some words of the option, separated by commas */
     NUMBER,   /* numbers with a unit, or the word that may replace them */
     FILE_NAME,
     CHANNELS, /* channels of the streams on the line, separated by commas */

@@ -150,10 +150,10 @@ void cost_solve_reference(struct cost_case *c);
 
 /* Expected seconds, from trials measured on this map, else from the plan. */
 double cost_expect(const struct cost_case *c, const struct cost_trial *trial);
-/* Whether a trial with this many runs and this time is run again. Short trials are repeated in turns: the
+/* True if a trial with this many runs and this time is run again. Short trials are repeated in turns: the
  * shortest time is that of the work; the excess is due to other programs. */
 bool cost_again(double runs, double seconds);
-/* Whether --error may choose it. By the triangle inequality the error is at most the distance from the
+/* True if --error may choose it. By the triangle inequality the error is at most the distance from the
  * reference plus the error of the reference. On a coarser grid it is the error of the pressures there, which
  * are means over its cells. For a body that yields, rc-solve's estimate must be small enough too. */
 bool cost_is_near(const struct cost_case *c, const struct cost_trial *trial);

@@ -131,8 +131,8 @@ left(const struct cost_case *c)
  * Before them fast trials are repeated and the stresses are computed. */
 static const double slow = 1 / 30.0;
 
-/* Whether the trial took longer than one that does the same work and more: then other programs took part of
- * its time. */
+/* True if the trial took longer than another trial with the same and further work: other programs then took
+ * part of its time. */
 static bool
 disturbed(const struct cost_case *c, const struct cost_trial *m)
 {

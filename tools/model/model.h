@@ -184,7 +184,7 @@ void checkpoint_crc(struct tool *t, const struct rc_grid *g, char text[16]);
 double *checkpoint_load(struct course *c, size_t *n);
 /* Appends a state of n numbers. */
 void checkpoint_save(struct course *c, const double *state, size_t n);
-/* Whether a state is due; the next one is due after twice the time. */
+/* True if a state is due; the next one is due after twice the time. */
 bool checkpoint_due(struct checkpoint *checkpoint);
 /* Ends the tool, because the state of this case cannot be used. */
 _Noreturn void checkpoint_refuse(const struct course *c, const char *why);

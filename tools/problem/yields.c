@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether the word cannot begin a number; "nan" counts as a word. */
+/* True if the word cannot begin a number; "nan" counts as a word. */
 static bool
 is_word(const char *text)
 {

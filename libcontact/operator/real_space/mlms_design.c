@@ -139,7 +139,7 @@ set_tiles(struct rc_mlms_axis *a)
     a->tiles = (places + a->tile - 1) / a->tile;
 }
 
-/* Whether a grid is coarsened, and in which direction: that of the smaller spacing until both are equal,
+/* True if a grid is coarsened, and in which direction: that of the smaller spacing until both are equal,
  * because the correction region would otherwise be many nodes long in it. A direction that would not get
  * shorter is kept. */
 static bool

@@ -51,7 +51,7 @@ tile_area(const struct rc_mlms_axis axis[2], size_t tile)
                          least(high, axis[RC_Y].n - y * high)};
 }
 
-/* Whether a tile that carries pressure meets an area of a level's nodes. */
+/* True if a tile that carries pressure meets an area of a level's nodes. */
 static bool
 loaded(const struct rc_mlms_level *l, struct area a)
 {
