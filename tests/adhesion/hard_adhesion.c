@@ -489,7 +489,7 @@ closed_by_a_load(void **state)
             assert_true(fabs(f->load / (load[k] * area) - 1) < 1e-5);
             c = f->approach;
             again = adhesion_new(shape, h, problem);
-            f = adhesion_to_approach(again, c); /* which the error message asks for */
+            f = adhesion_to_approach(again, c); /* the same state, by its approach */
             assert_true(f->converged && fabs(f->load / (load[k] * area) - 1) < 1e-5);
             rc_adhesion_free(a);
             rc_adhesion_free(again);

@@ -193,7 +193,7 @@ complete_contact_has_rounding(void **state)
     assert_true(f->converged && f->contact_nodes == 1024);
     rc_adhesion_pressure(a, p);
     assert_non_null(s);
-    while (rc_solver_step(s) == RC_MORE) /* where no pull-off exists, as without adhesion */
+    while (rc_solver_step(s) == RC_MORE) /* the solution without adhesion, for comparison */
         ;
     assert_true(f->pressure_error > 0 && f->pressure_error < 1e-6);
     assert_true(adhesion_distance(1024, p, rc_solver_pressure(s)) <= 1e-10 + f->pressure_error);

@@ -713,8 +713,8 @@ done:
     return status;
 }
 
-/* Two loads, of which the first does not yield, with increments that are chosen; in the middle of the second
- * one the state goes into another model. */
+/* Two loads with automatic increments; the first does not yield. During the second one the state goes into
+ * another model. */
 static enum rc_status
 may_yield(double *out, struct rc_err *err)
 {

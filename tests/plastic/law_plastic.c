@@ -839,7 +839,8 @@ refuses_states(void **state)
     spoilt = malloc(n * sizeof *spoilt);
     assert_int_equal(rc_model_restore(other, kept, n - 1, &going, &err), RC_FAIL);
     assert_int_equal(rc_model_restore(other, kept, 3, &going, &err), RC_FAIL);
-    for (size_t k = n / 8 * 5; k < n; k += 7, tried++) { /* behind the copy of the last point */
+    /* the numbers after the copy of the last point */
+    for (size_t k = n / 8 * 5; k < n; k += 7, tried++) {
         memcpy(spoilt, kept, n * sizeof *kept);
         spoilt[k] = k % 2 == 0 ? NAN : INFINITY;
         refused += rc_model_restore(other, spoilt, n, &going, &err) == RC_FAIL;
@@ -938,7 +939,7 @@ struct walk {
     size_t made, increments; /* limits of steps and of increments of a load */
 };
 
-/* Steps through the loads from `first` on. After `stop` steps in all it returns the current load; else
+/* Steps through the loads from `first` on. After `stop` steps in total it returns the current load, otherwise
  * TRIED. */
 static size_t
 try_loads(struct rc_model *m, const double *loads, size_t first, bool under_way, size_t stop,

@@ -9,8 +9,8 @@
 
 #include "slip_case.h"
 
-/* Checks a solution: q'.s <= 0 and |q| <= g at every node, s = 0 where |q| < g, and the force. Slip is that
- * of the library, and its accuracy that of the figures. */
+/* Checks a solution: q'.s <= 0 and |q| <= g at every node, s = 0 where |q| < g, and the force. Slip and its
+ * accuracy come from the library. */
 struct problem {
     struct rc_shape shape;
     enum rc_boundary boundary;
@@ -55,7 +55,7 @@ violation(const struct problem *w, struct rc_slip *slip, const struct rc_slip_fi
     for (size_t k = 0; k < n; k++)
         most = fmax(most, hypot(s[0][k], s[1][k]));
     most =
-        fmax(most, hypot(f->displacement[0], f->displacement[1])); /* where almost nothing slips */
+        fmax(most, hypot(f->displacement[0], f->displacement[1])); /* where almost no node slips */
     for (size_t k = 0; k < n; k++) {
         double x = rc_slip_traction(slip, 0)[k], y = rc_slip_traction(slip, 1)[k], q = hypot(x, y);
         double g = fmin(w->mu * w->p[k], w->tau_max > 0 ? w->tau_max : INFINITY);

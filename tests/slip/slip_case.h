@@ -19,7 +19,7 @@ slip_noise(uint64_t *seed)
 
 struct pressed {
     size_t n;
-    double *h, *p, *gap, *apart; /* apart: the gap where the bodies first touch */
+    double *h, *p, *gap, *apart; /* apart: the gap of the bodies at first touch */
     double fraction;
 };
 

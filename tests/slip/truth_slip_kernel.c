@@ -141,7 +141,7 @@ test_coefficients_are_integrals(void **state)
                                   lattice.dy / 2,
                                   0};
                 double *row = malloc((i + 1) * sizeof *row), truth = cell(f), size;
-                /* of the kernel without its angular factor, because the kernel crosses zero */
+                /* relative to the kernel without its angular factor, because the kernel crosses zero */
                 size = (1 + shear.kap) / (exact_pi * shear.estar) * 4 * f.a * f.b /
                        fmax(hypot(f.x, f.y), f.a);
                 if (k >= RC_SHEAR_XZ)
