@@ -4,7 +4,7 @@
 #     packaging/wheel/try.sh SUITE WHEEL [ROOT]
 #
 # SUITE is a release of Debian, such as bookworm; a folder ROOT keeps its root. pip installs the wheel and numpy; then run the
-# pipeline of README, pictures, HDF5 written and read again, and the tests of the Python package. MIRROR names another mirror of
+# pipeline of README, pictures, a page, HDF5 written and read again, and the tests of the Python package. MIRROR names another mirror of
 # Debian. To be run by root, who alone may change into another root.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
@@ -50,6 +50,8 @@ echo "pipeline: $(sha256sum <contact.rcg | cut -c 1-16), $(grep -o '"contact_are
 for format in png svg pdf; do
     rc-render --channel pressure --border contact.rcg -o "pressure.$format"
 done
+rc-report --quiet --load 1N --estar 114GPa -o page.html rough-steel.x3p
+[ "$(grep -c '<img' page.html)" = 5 ] && grep '<title>' page.html
 rc-export --channel height contact.rcg -o heights.h5
 rc-import heights.h5 -o again.rcg
 head -c 3000 heights.h5 >damaged.h5
