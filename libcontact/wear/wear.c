@@ -23,7 +23,7 @@
 enum {
     GROWTH = 4, /* most from one step to the next */
     MAPS = 7,
-    STATE = 4 /* maps of the state at the last kept point */
+    STATE = 5 /* maps of the state at the last kept point */
 };
 static const double g = 0.58578643762690495, d = 0.29289321881345248, w = 0.35355339059327376;
 static const double third_order = 0.0404; /* factor of the local error, t^3 k p'' */
