@@ -227,7 +227,7 @@ sum_phases(const struct sums *s, const double *restrict in, double *restrict out
     }
 }
 
-/* The same for a step above 1, without phases: numbers that are a step apart are first collected in `part`,
+/* The same for a step above 1, without phases. It first collects every step-th number in `part`, which needs
  * out + taps/step + 1 numbers. */
 RC_WIDE_CLONES static void
 sum_steps(const struct sums *s, const double *restrict in, double *restrict part,

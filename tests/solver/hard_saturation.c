@@ -109,8 +109,8 @@ about_the_elastic_maximum(void **state)
                     for (size_t i = 0; i < n; i++)
                         apart += fabs(s.p[i] - elastic.p[i]);
                     assert_int_equal(s.status, RC_OK);
-                    assert_true(apart <=
-                                2 * hard_tol * mean * (double)n); /* each within its tolerance */
+                    /* each pressure is within its tolerance */
+                    assert_true(apart <= 2 * hard_tol * mean * (double)n);
                     assert_int_equal(s.c.plastic_nodes, 0);
                     solved_free(&s);
                 }

@@ -80,8 +80,8 @@ rc-info --json --psd --fit 2um,30um rough.rcg >told.json
 claim "  the fit uses the given range" test "$(ask told.json '$_->{psd}{fit}')" = '[2e-06,3e-05]'
 near_to told.json '$_->{psd}{hurst}' 0.7 0.0714 "  and its exponent"
 claim "  --fit alone selects the spectrum" says '^  Hurst +0\.[67][0-9]+ \+- 0\.0[0-9]+ \(wavelengths from 2 um to 30 um\)$' rc-info --fit 2um,30um rough.rcg
-# a bow as high as the roughness has little effect under a window, and the slope from the spectrum is still
-# the requested 0.14; all waves are counted except the lowest rings, which contain the bow
+# Under a window a bow as high as the roughness has little effect: the slope from the spectrum is still the
+# requested 0.14. All waves are counted except the lowest rings, which contain the bow.
 rc-synth selfaffine --nx 256 --dx 0.5um --hurst 0.8 --rms-slope 0.14 --rolloff 20um --short-cut 2um --seed 3 -o steep.rcg
 rc-synth sphere --nx 256 --dx 0.5um --radius 2mm -o bow.rcg
 rc-add --quiet steep.rcg bow.rcg | rc-pick --set periodic=no -o bowed.rcg

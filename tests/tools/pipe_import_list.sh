@@ -22,7 +22,7 @@ claim "on a terminal lists and messages appear in the order of the files" \
     test "$(grep -oE '^a.txt|b.txt|^c.txt' both.txt | tr '\n' ' ')" = "a.txt b.txt c.txt "
 refuses 1 'b.txt: not recognised' "without --list the first bad file ends it" 'rc-import a.txt b.txt c.txt'
 
-# ---- several images, and units on lines of their own ----
+# ---- several images, and units on separate lines ----
 
 printf '# Channel: %s\n# Width: 4 um\n# Height: 3 um\n# Value units: %s\n1 2 3 4\n5 6 7 8\n9 10 11 12\n' \
     Phase deg Height nm >two.txt

@@ -23,7 +23,8 @@ range_of(size_t method, size_t engine)
     bool sums = e->order > 1;
 
     if ((e->precise && !m->mixed) || (method > 0 && sums))
-        return (struct range){0, 0, 0}; /* for the first kind the previous row is the same */
+        return (struct range){0, 0, 0}; /* under the first condition the trial equals that of the
+                                           previous engine */
     if (method == 0)
         return (struct range){2, 10, sums ? 4 : engine == 0 ? 1 : 2};
     return (struct range){2, engine == 0 ? 8 : 4, 2};

@@ -51,7 +51,7 @@ remember_other(struct facts *f, const struct rc_matlab_array *a)
     const char *what = a->other != NULL ? a->other
                        : a->is_text     ? "text"
                        : a->more > 0    ? "of more than two dimensions"
-                                        : "one number or none";
+                                        : "one number, or empty";
     char quote[RC_SHOWN], text[sizeof f->others];
 
     snprintf(text, sizeof text, "%s'%s' is %s", f->others[0] == '\0' ? ": " : ", ",

@@ -129,7 +129,7 @@ refusals(void **state)
     refuse(&rc_format_mat, &m, "no real array of numbers with two dimensions: save");
     m.n = 128;
     mat_number(&m, "one", 1);
-    refuse(&rc_format_mat, &m, "'one' is one number or none");
+    refuse(&rc_format_mat, &m, "'one' is one number, or empty");
     m.n = 128;
     add_rising(&m, "h", DOUBLE, 3, 4, 1);
     refuse(&rc_format_mat, &m, "--dx LENGTH"); /* and the message asks for the unit too */
