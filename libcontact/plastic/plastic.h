@@ -62,8 +62,8 @@ struct rc_plastic {
 
 /* Checks that the body can yield. */
 enum rc_status rc_plastic_check(const struct rc_plastic_problem *problem, struct rc_err *err);
-/* Slabs for a body that would yield under the elastic contact pressure p (nx ny, Pa): the first is half a
- * node thick, each next one is thicker by a quarter, and the last one lies below the depth where the Mises
+/* Slabs for a body that would yield under the elastic contact pressure p (nx ny, Pa). The first is half a
+ * node thick, and each next one is thicker by a quarter. The last one is below the depth where the Mises
  * stress falls below the yield stress. */
 struct rc_plastic_depths {
     size_t slabs;         /* 0: no stress reaches the yield stress */

@@ -158,7 +158,7 @@ test_pressure_and_tractions_know_each_other(void **state)
 {
     static const struct {
         double mu, nu; /* beta (1 - 2 nu)/(2 (1 - nu)) */
-        size_t passes; /* passes to 1e-4 of an independent program, plus two */
+        size_t passes; /* two more than the passes of an independent program to 1e-4 */
     } cases[] = {{0.2, 0.3, 7}, {0.5, 0.3, 8}, {1, 0.3, 9}, {0.5, 0.1, 9}};
 
     (void)state;

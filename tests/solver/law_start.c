@@ -133,7 +133,7 @@ a_given_start_does_without(void **state)
     assert_int_equal(rc_solver_warm_start(b, posed.load, rc_solver_pressure(a), &err), RC_OK);
     assert_int_equal(rc_solver_step(b), RC_OK);
     assert_int_equal(iterations(b), 1);
-    /* K p by rows, a correction with its weights, and both again in double precision */
+    /* K p by rows, a correction with its weights, and the same in double precision */
     assert_true(rc_solver_convolutions(b) <= 0.5 + 2 + 1 + 2);
     rc_solver_free(a);
     rc_solver_free(b);

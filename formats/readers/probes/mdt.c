@@ -106,7 +106,7 @@ add_scan(struct rc_bytes *b, size_t start, size_t number, size_t variables, stru
         return RC_OK; /* points of spectra alone */
     behind.at = FRAME + variables + MODE + (dots > 0 ? DOTS + DOT * dots : 0);
     if (behind.at > behind.size || nx > (behind.size - behind.at) / 2 / ny)
-        return rc_err_set(err, "frame %zu promises %zu x %zu values, it has %zu bytes in all",
+        return rc_err_set(err, "frame %zu promises %zu x %zu values, but has only %zu bytes",
                           number, nx, ny, b->size);
     b->at = behind.at;
     behind.at += 2 * nx * ny;
