@@ -78,7 +78,7 @@ refuses 2 'it must be X:Y' "no column" "$draw --curve load:approach, r.tsv"
 refuses 2 '--curve draws tables, not maps: leave out --channel' "an option of maps" "$draw --curve load:approach --channel gap r.tsv"
 refuses 2 '--law needs --curve or --histogram: leave out --law' "a law of no curve" "$draw --law hertz p.rcg"
 refuses 2 '--law hertz needs --radius: give it' "a law without its radius" "$draw --curve load:approach --law hertz --estar 1GPa r.tsv"
-refuses 2 '--law persson: it ties contact_fraction or contact_area over load' "a law of something else" \
+refuses 2 '--law persson relates contact_fraction or contact_area over load' "a law of something else" \
     "$draw --curve load:approach --law persson --estar 1GPa --rms-slope 0.1 r.tsv"
 printf 'load/N\tcontact_fraction\n1\t0.5\n' >few.tsv
 refuses 1 'it needs the area of the map, the columns nx, ny, dx and dy' "a law without the area of the map" \

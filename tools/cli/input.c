@@ -140,10 +140,11 @@ cannot_read(struct tool *t, const struct rc_err *err)
                  foreign_message(text, sizeof text, t->info->name,
                                  t->input.file == stdin ? "-" : t->source, head));
     if (rc_reader_foreign(t->input.reader, &head))
-        tool_die(
-            t, EXIT_IMPOSSIBLE, "%s is empty, the stream stops before it begins: %s", t->source,
-            pipe_is(fileno(t->input.file)) ? "the program before this one in the pipe wrote nothing"
-                                           : "make it again");
+        tool_die(t, EXIT_IMPOSSIBLE, "%s is empty, the stream stops before it begins: %s",
+                 t->source,
+                 pipe_is(fileno(t->input.file))
+                     ? "the program before this one in the pipe wrote no output"
+                     : "make it again");
     tool_die(t, EXIT_IMPOSSIBLE, "%s, frame %zu: %s", t->source, t->frame + 1, err->text);
 }
 

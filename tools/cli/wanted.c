@@ -418,7 +418,7 @@ static void
 settle(struct wanted *w, struct tool *t)
 {
     if (w->list.n == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame", t->source);
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream has no frame", t->source);
     demand_channels(w, t, false);
     demand_cases(w, t);
     demand_depths(w, t);

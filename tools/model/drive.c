@@ -474,7 +474,7 @@ drive_keep(struct drive *d, struct rc_model *m)
         tool_die_at(&d->t, d->course.g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* What the model found at a point; then the point becomes history. */
+/* Takes the figures of the model at a point; then the point becomes history. */
 static void
 end_point(struct drive *d, struct rc_model *m)
 {

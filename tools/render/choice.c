@@ -173,7 +173,7 @@ no_case(struct choice *c, struct tool *t)
     struct name_list l = {.n = 0};
 
     seen_cases(&c->list, right_channel, c->wish, &l);
-    tool_die(t, EXIT_IMPOSSIBLE, "%s: case %zu holds no %s: there are cases %s", t->source,
+    tool_die(t, EXIT_IMPOSSIBLE, "%s: case %zu has no %s: there are cases %s", t->source,
              c->wish->number, wished(c), name_list_end(&l));
 }
 
@@ -202,8 +202,7 @@ fail(struct choice *c, struct tool *t)
         section = section || (right_frame(c->wish, s) && right_section(c->wish, s));
     }
     if (c->list.n == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame: there is nothing to draw",
-                 t->source);
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream has no frame to draw", t->source);
     if (!channel)
         no_channel(c, t);
     if (!number)
