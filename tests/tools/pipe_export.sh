@@ -54,7 +54,7 @@ refuses 1 "No space left" "with text too" 'rc-export --format xyz one.rcg >/dev/
 
 # ---- contents of the file ----
 
-refuses 1 "a second frame, and gsf holds one map" "one map is one frame" 'rc-export -o a.gsf many.rcg'
+refuses 1 "a second frame, but gsf holds one map" "one map is one frame" 'rc-export -o a.gsf many.rcg'
 refuses 1 "a second frame of channel mises" "several of one channel too" \
     'rc-export -o a.gsf --channel mises deep.rcg'
 claim "--channel selects the channel" rc-export --channel height many.rcg -o height.x3p

@@ -35,8 +35,8 @@ claim "  rc-import reads these blocks, slices or not" bash -c '
 
 refuses 1 'a second frame of channel szz, but npy holds one map or the depths of one channel and case: choose with --channel, --case and --depth' \
     "an array is of one case" 'rc-export --channel szz stress.rcg -o no.npy'
-refuses 1 'a second frame, and npy holds' "and of one channel" 'rc-export --case 1 stress.rcg -o no.npy'
-refuses 1 'a second frame of channel szz, and gsf holds one map: choose' "a format of one map takes one depth" \
+refuses 1 'a second frame, but npy holds' "and of one channel" 'rc-export --case 1 stress.rcg -o no.npy'
+refuses 1 'a second frame of channel szz, but gsf holds one map: choose' "a format of one map takes one depth" \
     'rc-export --channel szz --case 1 stress.rcg -o no.gsf'
 claim "the nearest depth is taken, with a message" bash -c '
     warns "no frame is at 7e-06 m: the nearest depth, 5e-06 m, is taken" \

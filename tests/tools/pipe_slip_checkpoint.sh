@@ -65,5 +65,5 @@ refuses 1 'no pressure can be read' "a file that is none" "$slip --checkpoint no
 claim "  which stays as it is" grep -qx "notes of a user" notes.txt
 refuses 2 'need --checkpoint' "--resume alone" "$slip --resume -o x.rcg alike.rcg"
 refuses 2 'need --checkpoint' "--interval alone" "$slip --interval 1s -o x.rcg alike.rcg"
-refuses 2 'name a file' "a pipe" "$slip --checkpoint - -o x.rcg alike.rcg"
+refuses 2 'give a file name' "a pipe" "$slip --checkpoint - -o x.rcg alike.rcg"
 finish
