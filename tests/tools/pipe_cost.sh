@@ -125,9 +125,9 @@ claim "with --budget the command is the most accurate in time, right to 1e-6 at 
     rc-cost $contact --method pcg --kernel fft --budget 20s rough.rcg >budget.txt && grep -Eq 'tol 1e-(0[6-9]|10)' budget.txt"
 claim "  its error is printed without a request" \
     warns 's, off by [0-9.e-]+ % of the pressure' rc-cost $contact --method pcg --kernel fft --budget 20s rough.rcg
-refuses 1 'nothing measured is so quick: the best was pcg, .* s, error .*; raise --budget' "a budget that nothing meets, saying what was the quickest" \
+refuses 1 'no trial was fast enough: the best was pcg, .* s, error .*; raise --budget' "a budget that nothing meets, saying what was the quickest" \
     "rc-cost $contact --method pcg --budget 1us rough.rcg"
-refuses 1 'nothing measured is so near: the best was .*; raise --error' "an error below what was measured" "rc-cost $contact --method pcg --error 1e-15 rough.rcg"
+refuses 1 'no trial was accurate enough: the best was .*; raise --error' "an error below what was measured" "rc-cost $contact --method pcg --error 1e-15 rough.rcg"
 refuses 2 '--budget .* --error .*: give one' "a budget and an error" "rc-cost $contact --budget 1s --error 1e-3 rough.rcg"
 refuses 2 'one load at a time: 2 were given' "a list of loads" "rc-cost --load 1N,2N --estar 1GPa rough.rcg"
 refuses 2 "stresses need Poisson's ratio: give --nu" "stresses without Poisson's ratio" "rc-cost $contact --depths 0 rough.rcg"

@@ -433,7 +433,7 @@ cost_command(const struct cost_case *c, FILE *out)
     } else if (nearest != NULL) {
         tool_die(c->tool, EXIT_IMPOSSIBLE,
                  "no trial was %s: the best was %s, %.3g s, error %.1e; raise %s",
-                 timed ? "is so quick" : "is so near", cost_name(name, nearest),
+                 timed ? "fast enough" : "accurate enough", cost_name(name, nearest),
                  nearest->is.seconds, nearest->is.error, timed ? "--budget" : "--error or --limit");
     } else {
         tool_die(c->tool, EXIT_IMPOSSIBLE, "no trial was run: raise --limit");
