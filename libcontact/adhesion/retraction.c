@@ -85,14 +85,6 @@ stiffness(const struct rc_retraction *r, const struct rc_retraction_state *s)
     return fmax(2 * s->radius, r->stiffness);
 }
 
-/* True if a node may have lost contact within a fine step: the load has decreased by less than half of what
- * its slope before the step predicts. */
-static bool
-has_flattened(const struct rc_retraction *r, const struct rc_retraction_state *here)
-{
-    return r->stage == RC_RETRACTION_FINE && r->last.slope > 0 && here->slope < r->last.slope / 2;
-}
-
 /* The lowest load that may occur between the last state and this one. */
 static double
 hidden(const struct rc_retraction *r, const struct rc_retraction_state *here, bool jumped)
@@ -102,8 +94,6 @@ hidden(const struct rc_retraction *r, const struct rc_retraction_state *here, bo
 
     if (jumped || (r->stage == RC_RETRACTION_COARSE && r->states > 2))
         return fmin(least, fmax(last->load - stiffness(r, last) * way, -last->attraction));
-    if (has_flattened(r, here))
-        return fmin(least, fmax(last->load - last->slope * way, -last->attraction));
     if (r->has_prior && here->load > last->load && last->slope > 0)
         return fmin(least, vertex(&r->prior, last, here, &at, &bend));
     return least;
@@ -404,10 +394,8 @@ settle(struct rc_retraction *r)
            bend;
     bool again = r->fine < FINE && !r->short_of, jumped;
 
-    if (!r->has_after) /* nothing attracts after the lowest state; or too few states */
-        return r->fine == 0 && again && counts(r, least)
-                   ? begin_fine(r, r->base, fine_way(r, &r->base))
-                   : end(r, m->load, m->c, m->load - least);
+    if (!r->has_after) /* too few states */
+        return end(r, m->load, m->c, m->load - least);
     if (!r->has_before) { /* the first state has the lowest load, unless the first step was too
                              long */
         r->to = right->c;
@@ -481,8 +469,8 @@ rc_retraction_next(struct rc_retraction *r, struct rc_retraction_state here)
     if (!r->has_after && r->states > 2 && here.slope > convex * fmax(r->last.slope, 0))
         r->rough = true;
     hides = hidden(r, &here, jumped);
-    if (r->stage == RC_RETRACTION_FINE && (jumped || has_flattened(r, &here)) && counts(r, hides) &&
-        hides < here.load && way > least_step * r->range && r->states < STATES) {
+    if (r->stage == RC_RETRACTION_FINE && jumped && counts(r, hides) && hides < here.load &&
+        way > least_step * r->range && r->states < STATES) {
         r->keep = RC_RETRACTION_HERE;
         r->step = way / 2;
         return go(r, &r->last, r->last.c - r->step);

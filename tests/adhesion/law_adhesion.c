@@ -687,53 +687,10 @@ paths_resume(void **state)
     }
 }
 
-/* The pull-off load, found from several approaches, is the lowest load of a dense list of approaches, within
- * the spread. On this surface the last node lets go where the load is lowest. */
-static void
-pull_off_is_the_lowest(void **state)
-{
-    enum {
-        NX = 24,
-        NY = 20,
-        DENSE = 40
-    };
-    const struct rc_shape shape = {NX, NY, 1e-6, 1e-6};
-    const struct rc_selfaffine what = {.hurst = 0.8, .rms_slope = 0.1, .seed = 5};
-    const struct rc_adhesion_problem problem = {
-        .contact = {.pair.estar = 1e9, .tol = 1e-5, .threads = 1}, .work = 0.1};
-    const double starts[] = {10e-9, 3e-9}, step = 0.02e-9;
-    struct rc_adhesion *a;
-    double lowest = 0;
-
-    (void)state;
-    assert_int_equal(rc_synth_selfaffine(&shape, &what, h, &adhesion_err), RC_OK);
-    a = adhesion_new(shape, h, problem);
-    for (size_t k = 0; k < 5; k++)
-        (void)adhesion_to_approach(a, -2e-9 * (double)k);
-    for (size_t k = 0; k < DENSE; k++) {
-        const struct rc_adhesion_figures *f = adhesion_to_approach(a, -8.7e-9 - step * (double)k);
-        assert_true(f->converged);
-        lowest = fmin(lowest, f->load);
-    }
-    rc_adhesion_free(a);
-    for (size_t k = 0; k < sizeof starts / sizeof *starts; k++) {
-        const struct rc_adhesion_figures *f;
-        a = adhesion_new(shape, h, problem);
-        (void)adhesion_to_approach(a, starts[k]);
-        f = adhesion_pull(a);
-        print_message("pull-off from %g m: %g N, give or take %.1e; lowest of the list %g N\n",
-                      starts[k], f->pull_off_load, f->pull_off_spread, lowest);
-        assert_true(f->converged && f->pull_off_spread < 2e-3 * fabs(lowest));
-        assert_true(fabs(f->pull_off_load - lowest) <= f->pull_off_spread);
-        rc_adhesion_free(a);
-    }
-}
-
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pull_off_is_the_lowest),
         cmocka_unit_test(laws_are_whole),
         cmocka_unit_test(errors_are_known),
         cmocka_unit_test(paths_are_stable),
