@@ -71,7 +71,7 @@ claim "vtr has no such arrays" rc-export --format vtr -o a.vtr deep.rcg
 claim "a list of channels is accepted" \
     bash -c 'rc-export --format vtr --channel mises,szz deep.rcg | cmp - a.vtr'
 refuses 1 "the stream has no frame" "an empty stream" 'printf "RCGEND 0\n" | rc-export --format csv'
-refuses 1 "need about [0-9]+ [KM]iB, --memory allows 2 KiB: " "--memory is minded" 'rc-export --memory 2K --format csv one.rcg'
+refuses 1 "need about [0-9.]+ [KM]iB, --memory allows 2 KiB: " "--memory is minded" 'rc-export --memory 2K --format csv one.rcg'
 rc-synth sphere --radius 1m --nx 1000 --dx 1um -o large.rcg
 claim "the memory of one frame is within --memory" bash -c "rc-export --memory 12M --format vti large.rcg >/dev/null"
 refuses 1 "frame 2: 1000 x 1000 nodes need about .*, --memory allows" "by all frames together" \

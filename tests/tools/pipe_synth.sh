@@ -210,7 +210,7 @@ refuses 1 '--like /dev/null: the stream stops before it begins' "a grid like an 
     "rc-synth sphere --radius 1mm --like /dev/null"
 printf 'RCGEND 0\n' >none.rcg
 refuses 1 '--like none.rcg: no frame is in it' "a grid like an empty stream" "rc-synth sphere --radius 1mm --like none.rcg"
-refuses 1 '16 x 16 nodes need about [0-9]+ [KM]iB, --memory allows 1 KiB: ' "more memory than is allowed" "rc-synth sphere --radius 1mm --memory 1k $grid"
+refuses 1 '16 x 16 nodes need about [0-9.]+ [KM]iB, --memory allows 1 KiB: ' "more memory than is allowed" "rc-synth sphere --radius 1mm --memory 1k $grid"
 refuses 1 'No space left' "a full disk" "rc-synth sphere --radius 1mm $grid >/dev/full"
 refuses 1 '1000000000 x 1000000000 (nodes need about [0-9]+ MiB, .* [0-9]+ MiB: take fewer|is more than this machine can address)' \
     "more nodes than any machine holds" \

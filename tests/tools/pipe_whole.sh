@@ -89,7 +89,7 @@ refuses 1 'no frame with the channel pressure, only height' "a stream without pr
     "rc-stress --nu 0.3 --depths 0 good.rcg"
 refuses 2 "Poisson's ratio is not in the stream: give it with --nu" "no Poisson's ratio anywhere" "$solve good.rcg | rc-stress --depths 0"
 refuses 1 'writing failed \(No space left on device\)' "a full disk" "$solve good.rcg >/dev/full"
-refuses 1 '16 x 16 nodes need about [0-9]+ [KM]iB, --memory allows 1 KiB: ' "more memory than is allowed" "$solve --memory 1k good.rcg"
+refuses 1 '16 x 16 nodes need about [0-9.]+ [KM]iB, --memory allows 1 KiB: ' "more memory than is allowed" "$solve --memory 1k good.rcg"
 refuses 3 'not converged after .*: accept it with a larger --tol' "an accuracy out of reach" \
     "rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm | $solve --load 100mN --tol 1e-18 | cat >short.rcg"
 claim "  the best state is written and marked" grep -aq '^converged=no' short.rcg

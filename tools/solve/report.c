@@ -255,6 +255,7 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
 {
     struct rc_shape shape = rc_grid_shape(g);
     const size_t dents = run->args->physics.history && !isinf(run->hardness_min) ? sizeof *g->v : 0;
+    const size_t small = 2 << 20; /* blocks whose size does not grow with the map; measured */
     const size_t later = run->conductance
                              ? RC_CONDUCTANCE_BYTES /* the map of patches is freed before */
                          : run->stiffness ? RC_STIFFNESS_BYTES
@@ -268,7 +269,7 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
         (void)rc_model_plan(run->model, &to, &expected, &err);
     else
         (void)rc_solver_expect(&shape, problem, &expected, &err);
-    return expected.memory + (dents + later) * rc_grid_nodes(g);
+    return expected.memory + small + (dents + later) * rc_grid_nodes(g);
 }
 
 void

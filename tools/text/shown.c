@@ -58,12 +58,14 @@ shown_bytes(char text[SHOWN_NUMBER], double bytes)
 {
     static const char *const name[] = {"bytes", "KiB", "MiB"};
     size_t k = 0;
+    int decimals;
 
     while (k + 1 < sizeof name / sizeof *name && round(bytes) >= 1024) { /* rounded as printed */
         bytes /= 1024;
         k++;
     }
-    snprintf(text, SHOWN_NUMBER, "%.0f %s", round(bytes), name[k]);
+    decimals = round(bytes) < 10 && round(10 * bytes) != 10 * round(bytes);
+    snprintf(text, SHOWN_NUMBER, "%.*f %s", decimals, bytes, name[k]);
     return text;
 }
 

@@ -15,7 +15,7 @@ const char *shown_number(char text[SHOWN_NUMBER], double value, int digits, cons
 const char *shown_in_unit(char text[SHOWN_NUMBER], double value, const char *unit);
 /* Text from a file, up to n bytes, without control characters of a terminal. */
 void shown_words(FILE *out, const char *text, size_t n);
-/* "37 MiB": a whole number of the largest unit not above it. */
+/* "37 MiB", "7.4 MiB": in the largest unit not above it, with one decimal below 10. */
 const char *shown_bytes(char text[SHOWN_NUMBER], double bytes);
 /* "0.163 mm2", for square metres. */
 const char *shown_area(char text[SHOWN_NUMBER], double area);
