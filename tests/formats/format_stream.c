@@ -441,9 +441,9 @@ test_missing_and_doubled_keys(void **state)
         snprintf(text, sizeof text, "no %s= line", names[k]);
         check_refused(with_line(names[k], NULL), 0, text);
         snprintf(text, sizeof text, "note=x\n%s=2", names[k]);
-        check_refused(with_line("note", text), 0, "stands twice");
+        check_refused(with_line("note", text), 0, "occurs twice");
     }
-    check_refused(with_line("note", "note=x\nother=y\nnote=x"), 0, "'note' stands twice");
+    check_refused(with_line("note", "note=x\nother=y\nnote=x"), 0, "'note' occurs twice");
 }
 
 static void

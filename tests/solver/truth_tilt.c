@@ -342,7 +342,7 @@ refused(void **state)
     problem.boundary = RC_FREE;
     problem.force_at[0] = 3.5;
     assert_null(rc_solver_new(&s, h, &problem, &err));
-    assert_non_null(strstr(err.text, "balance"));
+    assert_non_null(strstr(err.text, "must act on the map"));
     problem.force_at[0] = NAN;
     assert_null(rc_solver_new(&s, h, &problem, &err));
 }

@@ -146,7 +146,7 @@ done
 refuses 2 'spacings DX or DX,DY are expected, or numbers of nodes, NXxNY' "  saying what is meant" "rc-pick --resample 5x map.rcg"
 refuses 1 'a cell of 9e-06 m is wider than the map, 8e-06 m' "cells wider than the map" "rc-pick --resample 9um,1um map.rcg"
 refuses 1 '\-\-resample 999999999999x999999999999: ' "more nodes than there can be" "rc-pick --resample 999999999999x999999999999 map.rcg"
-refuses 1 '4 x 3 nodes need about [0-9]+ [KM]iB, --memory allows 10 KiB' "more memory than is allowed" "rc-pick --memory 10k --resample 1000x1000 map.rcg"
+refuses 1 '4 x 3 nodes need about [0-9.]+ [KM]iB, --memory allows 10 KiB' "more memory than is allowed" "rc-pick --memory 10k --resample 1000x1000 map.rcg"
 refuses 2 '--mirror z: it must be x, left to right, or y, top to bottom' "a third axis" "rc-pick --mirror z map.rcg"
 refuses 2 '--rotate 45: it must be 90, 180 or 270 degrees' "half a quarter" "rc-pick --rotate 45 map.rcg"
 refuses 1 'selfaffine-seed-1, case 1, frame 1 \(sxz\): --mirror: stresses would change sign or places: do it to the pressure' "mirrored stresses" \

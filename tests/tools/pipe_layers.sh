@@ -70,7 +70,7 @@ claim "a rigid body 2 has no key" bash -c 'rc-info hard.rcg >hard.txt && says "e
 claim "bodies with E* alone have no keys" bash -c 'rc-solve --estar 1GPa --load 1N ball.rcg | rc-info >estar.txt &&
     says "estar=1000000000$" cat estar.txt && lacks "e1=" estar.txt && lacks "nu=" estar.txt'
 rc-pick --set estar=80e9 hard.rcg -o old.rcg
-refuses 1 'does not say what body 2 is; solve it again' "an E* that bodies 1 and 2 do not have is refused" "rc-deflect old.rcg"
+refuses 1 'the stream does not define body 2; solve the contact again' "an E* that bodies 1 and 2 do not have is refused" "rc-deflect old.rcg"
 claim "rc-stress reads the layers" says 'material' bash -c 'rc-stress --depths 0.5mm,2mm --components mises hard.rcg | rc-info'
 
 refuses 2 '--layer needs a substrate and a body 2: give --E1' "with --estar" "rc-solve --load 1N --estar 1GPa --layer 1um,1GPa,0.3 ball.rcg"

@@ -118,7 +118,7 @@ thick
 END
 while read -r bad; do
     coat ball.rcg "$bad" >bad.rcg
-    refuses 1 'of its layers .* cannot be' "layers '$bad'" "rc-stress --depths 0 bad.rcg"
+    refuses 1 'of its layers .* is impossible' "layers '$bad'" "rc-stress --depths 0 bad.rcg"
 done <<'END'
 -2e-05,4e11,0.2;inf,2e11,0.3
 0,4e11,0.2;inf,2e11,0.3
