@@ -456,15 +456,15 @@ done:
     return status;
 }
 
-/* Both bodies wear; half-way the state is restored in another model. */
+/* Both bodies wear, with a coefficient that differs between two phases; half-way the state is restored in
+ * another model. */
 static enum rc_status
 wear_model(double *out, struct rc_err *err)
 {
     const struct rc_problem contact = {.pair = bare, .hardness = 2e7, .tol = 1e-3, .threads = 1};
-    const struct rc_wear_problem law = {.k = {1e-12, 1e-12}, .estar = 1e9};
-    struct rc_model *m = rc_wear_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough,
-                                     &law, err),
-                    *other = NULL;
+    double phase[N];
+    const struct rc_wear_problem law = {.k = {1e-12, 1e-12}, .estar = 1e9, .part = phase};
+    struct rc_model *m, *other = NULL;
     enum rc_status status = RC_FAIL;
     struct rc_expected expected;
     struct rc_point to = {0};
@@ -472,6 +472,9 @@ wear_model(double *out, struct rc_err *err)
     bool going;
     size_t n;
 
+    for (size_t k = 0; k < N; k++)
+        phase[k] = k < N / 2 ? 1 : 0.05;
+    m = rc_wear_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
     rc_point_set(&to, RC_LOAD, 1e-3);
     rc_point_set(&to, RC_DISTANCE, 1e-3);
     if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK ||
