@@ -1117,9 +1117,9 @@ RC_API void rc_slip_result(struct rc_slip *slip, struct rc_slip_figures *figures
 /* Makes the increment history, on which the next one builds. Before this, pressure and force may be set
  * again. */
 RC_API void rc_slip_keep(struct rc_slip *slip);
-/* After a keep: the map moves by so many columns towards +x over the bodies, to follow a contact that rolls or
- * slides that way. On a free map the columns that come in repeat the last one, and the next increment must not have
- * contact there; on a periodic map they are the columns that leave. */
+/* After a keep: the map moves by so many columns towards +x over the bodies, to follow a contact that
+ * rolls or slides that way. On a free map the columns that come in repeat the last one, and the next
+ * increment must not have contact there; on a periodic map they are the columns that leave. */
 RC_API void rc_slip_shift(struct rc_slip *slip, size_t columns);
 /* Tractions, Pa, nx ny, along x (0) or y (1), valid until the next step; slip since first touch, m, including
  * this increment, 0 out of contact. */
@@ -1214,9 +1214,9 @@ RC_API const struct rc_friction_figures *rc_friction_result(const struct rc_mode
 
 /* ---- steady rolling as a model ---- */
 
-/* The contact rolls towards +x, steadily: at each node tractions and slip are the same at all times. Body 2 moves
- * over body 1 by (creep_x - spin y, creep_y + spin x) per length rolled, x and y from the middle of the map; this
- * is minus the creepage of railway textbooks, where body 1 moves over body 2. */
+/* The contact rolls towards +x, steadily: at each node tractions and slip are the same at all times. Body
+ * 2 moves over body 1 by (creep_x - spin y, creep_y + spin x) per length rolled, x and y from the middle
+ * of the map; this is minus the creepage of railway textbooks, where body 1 moves over body 2. */
 struct rc_rolling_problem {
     /* Friction and bodies, under the free boundary. Pressure moves dissimilar bodies along each other, unless
      * `uncoupled`; tractions do not change the pressure. tol 0: 1e-3; max_steps of each grid. */
@@ -1238,22 +1238,23 @@ struct rc_rolling_figures {
     double power_slip;              /* J/m: tractions times slip; the grid loses the rest     */
     /* Extrapolated from the two finest grids to a spacing of 0; NAN: too few nodes along x. */
     double extrapolated_creep[2], extrapolated_force[2], extrapolated_moment;
-    /* N: Kalker's linear theory for the ellipse of the same area and second moments; NAN: its semi-axes have a
-     * ratio beyond 0.1 to 10. */
+    /* N: Kalker's linear theory for the ellipse of the same area and second moments; NAN: its semi-axes
+     * have a ratio beyond 0.1 to 10. */
     double kalker_force[2];
-    /* Estimated relative errors: L1, of the tractions on this grid; of the force due to the spacing, or of the
-     * creepage if the force is given (NAN: unknown). */
+    /* Estimated relative errors: L1, of the tractions on this grid; of the force due to the spacing, or of
+     * the creepage if the force is given (NAN: unknown). */
     double traction_error, discretization_error;
     size_t steps, fallbacks; /* of Newton's method; steps in time, where it fails      */
     double convolutions;     /* with those of the contact                              */
     bool converged;          /* traction_error <= tol                                  */
 };
-/* A model (model.h) of steady rolling over an inner one of the same bodies, which it owns from here on; NULL
- * where that is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or two forces, and
- * RC_SPIN (0 if it is never given). Frames: pressure, traction-x, traction-y (Pa), slip-x, slip-y (per length
- * rolled), state (as in rc_slip_state). RC_FAIL on the way where no node is in contact, where the contact reaches
- * the last column, the leading edge, or where friction cannot carry the force. Sources: Kalker 1990, Three-dimensional
- * elastic bodies in rolling contact; Newton's method as in libcontact/slip/steady.c. */
+/* A model (model.h) of steady rolling over an inner one of the same bodies, which it owns from here on;
+ * NULL where that is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or two
+ * forces, and RC_SPIN (0 if it is never given). Frames: pressure, traction-x, traction-y (Pa), slip-x,
+ * slip-y (per length rolled), state (as in rc_slip_state). RC_FAIL on the way where no node is in contact,
+ * where the contact reaches the last column, the leading edge, or where friction cannot carry the force.
+ * Sources: Kalker 1990, Three-dimensional elastic bodies in rolling contact; Newton's method as in
+ * libcontact/slip/steady.c. */
 RC_API struct rc_model *rc_rolling_new(struct rc_model *inner,
                                        const struct rc_rolling_problem *problem,
                                        struct rc_err *err);
@@ -1269,8 +1270,8 @@ struct rc_wear_problem {
         estar; /* Pa, of the bodies: for the first step and the forecast                            */
     double
         tol; /* bound of the estimated relative error of the worn depth; 0: 0.1                   */
-    /* nx ny numbers from 0 to 1, by which k is multiplied at each node, the largest 1; NULL: 1 everywhere. The
-     * caller keeps them as long as the model. */
+    /* nx ny numbers from 0 to 1, by which k is multiplied at each node, the largest 1; NULL: 1 everywhere.
+     * The caller keeps them as long as the model. */
     const double *part;
     /* A leg ends early when one of these is reached; 0: no such condition. */
     double until_area;   /* contact fraction                   */

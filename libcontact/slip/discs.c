@@ -201,17 +201,6 @@ find_shift(const struct rc_discs *d, struct moved *m, const double load[2], doub
     return hypot(load[0] - at[0], load[1] - at[1]) <= 1e-9 * size;
 }
 
-static inline void
-on_disc(double g, bool circle, double *x, double *y)
-{
-    double r = sqrt(*x * *x + *y * *y);
-
-    if (r > g || (circle && r > 0)) {
-        *x *= g / r;
-        *y *= g / r;
-    }
-}
-
 /* Moves a node, and projects it on its disc. */
 static inline void
 move_node(const struct rc_discs *d, const struct moved *m, size_t k)
@@ -220,7 +209,7 @@ move_node(const struct rc_discs *d, const struct moved *m, size_t k)
         return;
     m->y[0][k] += m->nu[0];
     m->y[1][k] += m->nu[1];
-    on_disc(d->g[k], m->who == ON_FACES && d->face[k] == SLIP, &m->y[0][k], &m->y[1][k]);
+    rc_onto_disc(d->g[k], m->who == ON_FACES && d->face[k] == SLIP, &m->y[0][k], &m->y[1][k]);
 }
 
 static void
@@ -300,7 +289,7 @@ back(const struct rc_discs *d, double *const y[2])
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t k = 0; k < d->n; k++)
         if (d->face[k] == SLIP)
-            on_disc(d->g[k], true, &y[0][k], &y[1][k]);
+            rc_onto_disc(d->g[k], true, &y[0][k], &y[1][k]);
 #pragma omp parallel for num_threads(d->threads) schedule(static)
     for (size_t t = 0; t < across * down; t++) {
         size_t i = t % across * wide, j = t / across * high;

@@ -12,6 +12,8 @@
 #ifndef RC_DISCS_H
 #define RC_DISCS_H
 
+#include <math.h>
+
 #include "extension.h"
 
 struct rc_discs {
@@ -68,5 +70,17 @@ void rc_discs_begin(struct rc_discs *d);
 /* Takes one step. RC_MORE: not finished; RC_OK: the estimate is below tol; RC_SHORT: rounding prevents
  * that. */
 enum rc_status rc_discs_step(struct rc_discs *d);
+
+/* The nearest traction on the disc of radius g, or on its circle. */
+static inline void
+rc_onto_disc(double g, bool circle, double *x, double *y)
+{
+    double r = sqrt(*x * *x + *y * *y);
+
+    if (r > g || (circle && r > 0)) {
+        *x *= g / r;
+        *y *= g / r;
+    }
+}
 
 #endif

@@ -83,17 +83,6 @@ find_slip(struct rc_steady *d)
                 (k + 1) % nx == 0 ? 0 : d->u[c][k] - d->u[c][k + 1] + d->rigid[c][k] - d->v[c];
 }
 
-static inline void
-cut(double g, bool circle, double *x, double *y)
-{
-    const double r = sqrt(*x * *x + *y * *y);
-
-    if (r > g || (circle && r > 0)) {
-        *x *= g / r;
-        *y *= g / r;
-    }
-}
-
 /* Sums: |q|, natural residual, both components of q, nodes that stick, nodes that slip. */
 static void
 look_at(struct rc_steady *d, size_t k, const void *with, double *sum)
@@ -105,7 +94,7 @@ look_at(struct rc_steady *d, size_t k, const void *with, double *sum)
     (void)with;
     d->face[k] = size >= g * (1 - on_circle) && inwards <= 0 ? SLIP : STICK;
     d->curve[k] = d->face[k] == SLIP ? (float)(-inwards / g) : 0;
-    cut(g, false, &back[0], &back[1]);
+    rc_onto_disc(g, false, &back[0], &back[1]);
     sum[0] += size;
     sum[1] += hypot(x - back[0], y - back[1]);
     sum[2] += x;
@@ -368,7 +357,7 @@ take(struct rc_steady *d, double part)
     for (size_t k = 0; k < d->n; k++) {
         for (int c = 0; c < 2; c++)
             d->q[c][k] = d->g[k] > 0 ? d->old[c][k] + part * d->way[c][k] : 0;
-        cut(d->g[k], d->was[k] == SLIP, &d->q[0][k], &d->q[1][k]);
+        rc_onto_disc(d->g[k], d->was[k] == SLIP, &d->q[0][k], &d->q[1][k]);
     }
     find_slip(d);
     look(d);
@@ -435,7 +424,7 @@ rc_steady_begin(struct rc_steady *d)
             for (size_t m = 0; m < STEPS; m++)
                 d->z[m][c][k] = 0;
         }
-        cut(d->g[k], false, &d->q[0][k], &d->q[1][k]);
+        rc_onto_disc(d->g[k], false, &d->q[0][k], &d->q[1][k]);
     }
     d->run = runs > 0 ? (double)loaded / (double)runs : 0;
     d->found.steps = d->found.fallbacks = 0;

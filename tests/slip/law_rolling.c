@@ -1,6 +1,6 @@
-/* Laws of steady rolling: B is monotone, and the solution is unique; rolling in time never leads away from it;
- * the energies agree; the tractions obey Coulomb's law; the error is within the estimate; the work is bounded;
- * impossible requests are refused with the reason. */
+/* Laws of steady rolling: B is monotone, and the solution is unique; rolling in time never leads away from
+ * it; the energies agree; the tractions obey Coulomb's law; the error is within the estimate; the work is
+ * bounded; impossible requests are refused with the reason. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -207,8 +207,8 @@ ellipse(size_t n, double ratio, double tol, bool force, double **p, double *load
     return rolling_new(&shape, *p, law, &err);
 }
 
-/* Cases from nearly complete stick to nearly complete slip, and the convolutions to 1e-2 and 1e-4 that are enough
- * for 48 and 96 nodes, as estimated. */
+/* Cases from nearly complete stick to nearly complete slip, and the convolutions to 1e-2 and 1e-4 that are
+ * enough for 48 and 96 nodes, as estimated. */
 static const struct {
     double ratio, x, y, spin;
     size_t most[2];
@@ -425,7 +425,8 @@ test_small_contacts(void **state)
     }
 }
 
-/* A look on the way shows the best tractions so far, in their bounds, and says that they have not converged. */
+/* A look on the way shows the best tractions so far, in their bounds, and says that they have not
+ * converged. */
 static void
 test_look_on_the_way(void **state)
 {
@@ -462,8 +463,8 @@ test_look_on_the_way(void **state)
 
 /* ---- increments in a window ---- */
 
-/* A ball rolls from rest under a given creepage, by one column an increment. `moves`: it moves over a longer map,
- * else the map moves with it. Returns the forces over the limit after each column. */
+/* A ball rolls from rest under a given creepage, by one column an increment. `moves`: it moves over a
+ * longer map, else the map moves with it. Returns the forces over the limit after each column. */
 static void
 roll_from_rest(bool moves, const struct rc_shape *window, const double *p, double creep,
                size_t steps, double *force)

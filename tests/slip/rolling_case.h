@@ -1,4 +1,5 @@
-/* Parts shared by the tests of rolling: pressures of ellipses, and models that roll under a known pressure. */
+/* Parts shared by the tests of rolling: pressures of ellipses, and models that roll under a known
+ * pressure. */
 #ifndef ROLLING_CASE_H
 #define ROLLING_CASE_H
 
@@ -40,7 +41,8 @@ rolling_load(const struct rc_shape *s, const double *p)
     return sum * s->dx * s->dy;
 }
 
-/* Rolls under the known pressure p, which must stay as long as the model; there is no contact to be solved. */
+/* Rolls under the known pressure p, which must stay as long as the model; there is no contact to be
+ * solved. */
 static inline struct rc_model *
 rolling_new(const struct rc_shape *s, const double *p, struct rc_rolling_problem o,
             struct rc_err *err)

@@ -1,7 +1,8 @@
-/* A compliance c of every node for itself adds c to the diagonal of K: the pressure is that of a dense quadratic
- * program with K + c I, or with a c that differs by node, and that of a thin layer without Poisson's ratio, bare and over coats, on both
- * boundaries and by each engine; the estimate of its error is not below the error; gap and displacement are
- * those of the elastic bodies; and c = 0 is the contact without it, to the last bit. */
+/* A compliance c of every node for itself adds c to the diagonal of K: the pressure is that of a dense
+ * quadratic program with K + c I, or with a c that differs by node, and that of a thin layer without
+ * Poisson's ratio, bare and over coats, on both boundaries and by each engine; the estimate of its error
+ * is not below the error; gap and displacement are those of the elastic bodies; and c = 0 is the contact
+ * without it, to the last bit. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
