@@ -73,23 +73,7 @@ static const struct rc_figure own_figures[] = {
 static const struct rc_figure_set sets[] = {
     {rc_figures_slip, offsetof(struct friction, figures)}, {own_figures, 0}, {NULL, 0}};
 
-enum {
-    PRESSURE,
-    TRACTION_X,
-    TRACTION_Y,
-    SLIP_X,
-    SLIP_Y,
-    STATE
-};
-static const struct rc_frame_kind frames[] = {
-    [PRESSURE] = {"pressure", "Pa", "Pressure"},
-    [TRACTION_X] = {"traction-x", "Pa", "Traction along x"},
-    [TRACTION_Y] = {"traction-y", "Pa", "Traction along y"},
-    [SLIP_X] = {"slip-x", "m", "Slip along x"},
-    [SLIP_Y] = {"slip-y", "m", "Slip along y"},
-    [STATE] = {"state", "1", "State"},
-    {NULL, NULL, NULL},
-};
+static const struct rc_frame_kind frames[] = {RC_SLIP_FRAME_KINDS("m", ""), {NULL, NULL, NULL}};
 
 /* ---- passes ---- */
 
@@ -601,12 +585,15 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     const struct way *w = f->way;
 
     (void)err;
-    if (frame == STATE)
+    if (frame == RC_SLIP_STATE)
         rc_slip_state(w->slip, to);
-    else if (frame == SLIP_X || frame == SLIP_Y)
-        rc_slip_slip(w->slip, (int)frame - SLIP_X, to);
+    else if (frame == RC_SLIP_SLIP_X || frame == RC_SLIP_SLIP_Y)
+        rc_slip_slip(w->slip, (int)frame - RC_SLIP_SLIP_X, to);
     else
-        memcpy(to, frame == PRESSURE ? w->p : rc_slip_traction(w->slip, (int)frame - TRACTION_X),
+        memcpy(to,
+               frame == RC_SLIP_PRESSURE
+                   ? w->p
+                   : rc_slip_traction(w->slip, (int)frame - RC_SLIP_TRACTION_X),
                f->n * sizeof *to);
     return RC_OK;
 }

@@ -44,9 +44,9 @@ struct rolling {
     struct level at[LEVELS];
     double *p;
     double pressure_error, inner_convolutions, convolutions; /* convolutions: until the last go */
-    double coarse
-        [6]; /* of the second finest grid: force, moment, creepage, and the error of its iteration */
-    bool good;    /* the contact has converged */
+    struct rc_rolling_figures coarse;                        /* of the second finest grid        */
+    double coarse_error;                                     /* N: of the iteration on this grid */
+    bool good;                                               /* the contact has converged */
     bool again;   /* a state was read: its contact must be solved again */
     bool resumes; /* and the grid of the state starts from its tractions */
     struct rc_rolling_figures f;
@@ -101,23 +101,8 @@ const struct rc_figure rc_figures_rolling[] = {
 static const struct rc_figure_set sets[] = {{rc_figures_rolling, offsetof(struct rolling, f)},
                                             {NULL, 0}};
 
-enum {
-    PRESSURE,
-    TRACTION_X,
-    TRACTION_Y,
-    SLIP_X,
-    SLIP_Y,
-    STATE
-};
-static const struct rc_frame_kind frames[] = {
-    [PRESSURE] = {"pressure", "Pa", "Pressure"},
-    [TRACTION_X] = {"traction-x", "Pa", "Traction along x"},
-    [TRACTION_Y] = {"traction-y", "Pa", "Traction along y"},
-    [SLIP_X] = {"slip-x", "1", "Slip along x per length rolled"},
-    [SLIP_Y] = {"slip-y", "1", "Slip along y per length rolled"},
-    [STATE] = {"state", "1", "State"},
-    {NULL, NULL, NULL},
-};
+static const struct rc_frame_kind frames[] = {RC_SLIP_FRAME_KINDS("1", " per length rolled"),
+                                              {NULL, NULL, NULL}};
 
 /* ---- the motion ---- */
 
@@ -321,68 +306,37 @@ begin(struct rolling *f)
 
 /* ---- figures ---- */
 
+/* N: the sum of the lengths of all tractions. */
+static double
+size_of(const struct level *l)
+{
+    return l->d->found.size * l->d->shape.dx * l->d->shape.dy;
+}
+
+/* The figures of one grid. Second moments of the contact are about its middle. */
 static void
-sums_of(const struct rolling *f, const struct level *l, double out[6])
+look_at(const struct rolling *f, const struct level *l, struct rc_rolling_figures *to)
 {
     const struct rc_steady *d = l->d;
-    const double cell = d->shape.dx * d->shape.dy;
-    struct rc_total sum[3] = {{0}};
+    const struct rc_shape *s = &d->shape;
+    const double cell = s->dx * s->dy, spin = spin_of(f);
+    double n = 0, m[4] = {0}, kalker[3];
 
-    for (size_t k = 0; k < d->n; k++) {
-        const double x = l->x + (double)(k % d->shape.nx) * d->shape.dx;
-        const double y = l->y + (double)(k / d->shape.nx) * d->shape.dy;
-        rc_total_add(&sum[0], d->q[0][k]);
-        rc_total_add(&sum[1], d->q[1][k]);
-        rc_total_add(&sum[2], x * d->q[1][k] - y * d->q[0][k]);
-    }
-    for (int c = 0; c < 3; c++)
-        out[c] = rc_total_value(&sum[c]) * cell;
+    *to = (struct rc_rolling_figures){.load = f->f.load, .spin = spin};
     for (int c = 0; c < 2; c++)
-        out[3 + c] = f->problem.force ? d->v[c] / step_of(l) : f->base.to.at[RC_CREEP_X + c];
-    out[5] = d->found.estimate * d->found.size * cell;
-}
-
-/* Extrapolates from the two finest grids. */
-static void
-extrapolate(struct rolling *f, const double fine[6])
-{
-    const double *c = f->coarse, none = f->levels > 1 ? 0 : NAN;
-    const size_t at = f->problem.force ? 3 : 0;
-    const double size = hypot(fine[at], fine[at + 1]);
-    /* relative to the creepage, an error of the force counts as much */
-    const double iteration = (fine[5] + c[5]) / (at == 0 ? size : f->f.limit);
-
-    for (int k = 0; k < 2; k++) {
-        f->f.extrapolated_force[k] = 2 * fine[k] - c[k] + none;
-        f->f.extrapolated_creep[k] = 2 * fine[3 + k] - c[3 + k] + none;
-    }
-    f->f.extrapolated_moment = 2 * fine[2] - c[2] + none;
-    f->f.discretization_error =
-        size > 0
-            ? caution * hypot(fine[at] - c[at], fine[at + 1] - c[at + 1]) / size + iteration + none
-            : NAN;
-}
-
-/* The energies, and the area and second moments of the contact about its middle. */
-static void
-find_sums(struct rolling *f)
-{
-    const struct level *l = f->at;
-    const struct rc_steady *d = l->d;
-    const double cell = d->shape.dx * d->shape.dy, spin = spin_of(f);
-    double power = 0, lost = 0, limit = 0, m[5] = {0}, n = 0, kalker[3];
-
+        to->creep[c] = f->problem.force ? d->v[c] / step_of(l) : f->base.to.at[RC_CREEP_X + c];
     for (size_t k = 0; k < d->n; k++) {
-        const double x = (double)(k % d->shape.nx) * d->shape.dx,
-                     y = (double)(k / d->shape.nx) * d->shape.dy;
+        const double x = l->x + (double)(k % s->nx) * s->dx, y = l->y + (double)(k / s->nx) * s->dy;
         double v[2];
         if (!(d->g[k] > 0))
             continue;
         spin_at(l, spin, k, v);
-        limit += d->g[k] * cell;
+        to->limit += d->g[k] * cell;
+        to->moment += (x * d->q[1][k] - y * d->q[0][k]) * cell;
         for (int c = 0; c < 2; c++) {
-            power += d->q[c][k] * (f->f.creep[c] + v[c]) * cell;
-            lost -= d->q[c][k] * d->s[c][k] / step_of(l) * cell;
+            to->force[c] += d->q[c][k] * cell;
+            to->power += d->q[c][k] * (to->creep[c] + v[c]) * cell;
+            to->power_slip -= d->q[c][k] * d->s[c][k] / step_of(l) * cell;
         }
         n++;
         m[0] += x;
@@ -390,16 +344,37 @@ find_sums(struct rolling *f)
         m[2] += x * x;
         m[3] += y * y;
     }
-    f->f.limit = limit;
-    f->f.power = power;
-    f->f.power_slip = lost;
-    m[2] = m[2] / n - m[0] * m[0] / (n * n);
-    m[3] = m[3] / n - m[1] * m[1] / (n * n);
-    rc_kalker(sqrt(m[2] / m[3]), f->shear.kap / (1 + f->shear.kap), kalker);
+    rc_kalker(sqrt((m[2] - m[0] * m[0] / n) / (m[3] - m[1] * m[1] / n)),
+              f->shear.kap / (1 + f->shear.kap), kalker);
     for (int c = 0; c < 2; c++)
-        f->f.kalker_force[c] =
+        to->kalker_force[c] =
             n * cell / RC_PI * f->shear.estar / (1 + f->shear.kap) *
-            (kalker[c] * f->f.creep[c] + (c == 1 ? kalker[2] * sqrt(n * cell / RC_PI) * spin : 0));
+            (kalker[c] * to->creep[c] + (c == 1 ? kalker[2] * sqrt(n * cell / RC_PI) * spin : 0));
+    to->stick_nodes = d->found.stick;
+    to->slip_nodes = d->found.slipping;
+    to->stick_fraction = (double)d->found.stick / (double)(d->found.stick + d->found.slipping);
+    to->traction_error = d->found.estimate;
+}
+
+/* Extrapolates from the two finest grids. Relative to the creepage an error of the force counts as much. */
+static void
+extrapolate(const struct rolling *f, struct rc_rolling_figures *to)
+{
+    const struct rc_rolling_figures *c = &f->coarse;
+    const double none = f->levels > 1 ? 0 : NAN;
+    const double *fine = f->problem.force ? to->creep : to->force,
+                 *coarse = f->problem.force ? c->creep : c->force, size = hypot(fine[0], fine[1]);
+    const double iteration = f->coarse_error + to->traction_error * size_of(f->at);
+
+    for (int k = 0; k < 2; k++) {
+        to->extrapolated_force[k] = 2 * to->force[k] - c->force[k] + none;
+        to->extrapolated_creep[k] = 2 * to->creep[k] - c->creep[k] + none;
+    }
+    to->extrapolated_moment = 2 * to->moment - c->moment + none;
+    to->discretization_error =
+        size > 0 ? caution * hypot(fine[0] - coarse[0], fine[1] - coarse[1]) / size +
+                       iteration / (f->problem.force ? to->limit : size) + none
+                 : NAN;
 }
 
 static double
@@ -416,36 +391,23 @@ static void
 find_figures(struct rolling *f)
 {
     struct rc_rolling_figures *to = &f->f;
-    const struct rc_steady *d = f->at->d;
-    double sums[6];
 
     to->load = rc_sum(f->p, f->n) * f->base.shape.dx * f->base.shape.dy;
-    if (d == NULL || f->stage < ROLLING || f->again)
+    if (f->at->d == NULL || f->stage < ROLLING || f->again)
         return;
     for (size_t k = f->level; k > 0; k--) /* the best so far */
         refine(&f->at[k], &f->at[k - 1]);
-    sums_of(f, f->at, sums);
-    to->spin = spin_of(f);
-    to->moment = sums[2];
-    for (int c = 0; c < 2; c++) {
-        to->force[c] = sums[c];
-        to->creep[c] = sums[3 + c];
-    }
-    find_sums(f);
-    extrapolate(f, sums);
-    to->stick_nodes = d->found.stick;
-    to->slip_nodes = d->found.slipping;
-    to->stick_fraction = (double)d->found.stick / (double)(d->found.stick + d->found.slipping);
-    to->steps = to->fallbacks = 0;
+    look_at(f, f->at, to);
+    extrapolate(f, to);
     for (size_t k = f->level; k < f->levels; k++) {
         to->steps += f->at[k].d->found.steps;
         to->fallbacks += f->at[k].d->found.fallbacks;
     }
     to->convolutions = all_convolutions(f) - f->convolutions;
-    to->traction_error = f->level > 0 ? INFINITY : d->found.estimate;
-    if (d->found.size > 0)
-        to->traction_error +=
-            f->pressure_error * to->limit / (d->found.size * f->base.shape.dx * f->base.shape.dy);
+    if (f->level > 0)
+        to->traction_error = INFINITY;
+    if (size_of(f->at) > 0)
+        to->traction_error += f->pressure_error * to->limit / size_of(f->at);
     to->converged = f->stage == THERE && f->good && to->traction_error <= f->problem.slip.tol;
 }
 
@@ -491,7 +453,6 @@ go(struct rc_model *m, struct rc_err *err)
                           force ? "creepage" : "force", force ? "force" : "creepage");
     f->convolutions = all_convolutions(f);
     f->again = f->resumes = false;
-    memset(f->coarse, 0, sizeof f->coarse);
     return press(f, err) == RC_MORE ? RC_OK : RC_FAIL;
 }
 
@@ -553,7 +514,8 @@ step(struct rc_model *m, struct rc_err *err)
     if (status == RC_MORE || status == RC_FAIL)
         return status;
     if (f->level > 0) {
-        sums_of(f, &f->at[f->level], f->coarse);
+        look_at(f, &f->at[f->level], &f->coarse);
+        f->coarse_error = f->coarse.traction_error * size_of(&f->at[f->level]);
         f->level--;
         begin(f);
         return RC_MORE;
@@ -601,20 +563,20 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     (void)err;
     for (size_t k = 0; k < f->n; k++)
         switch (frame) {
-        case PRESSURE:
+        case RC_SLIP_PRESSURE:
             to[k] = f->p[k];
             break;
-        case TRACTION_X:
-        case TRACTION_Y:
-            to[k] = d == NULL ? 0 : d->q[frame - TRACTION_X][k];
+        case RC_SLIP_TRACTION_X:
+        case RC_SLIP_TRACTION_Y:
+            to[k] = d == NULL ? 0 : d->q[frame - RC_SLIP_TRACTION_X][k];
             break;
-        case STATE:
+        case RC_SLIP_STATE:
             to[k] = d == NULL || d->g[k] == 0 ? 0 : d->face[k] == RC_FACE_STICK ? 1 : 2;
             break;
         default: /* a node that sticks has none: what is left there is an error */
             to[k] = d == NULL || d->g[k] == 0 || d->face[k] == RC_FACE_STICK
                         ? 0
-                        : d->s[frame - SLIP_X][k] / step_of(f->at);
+                        : d->s[frame - RC_SLIP_SLIP_X][k] / step_of(f->at);
         }
     return RC_OK;
 }
@@ -635,7 +597,10 @@ state(struct rc_model *m, struct rc_state *s)
 
     rc_state_count(s, &f->stage, THERE);
     rc_state_count(s, &f->level, LEVELS - 1);
-    rc_state_numbers(s, 6, f->coarse);
+    rc_state_numbers(s, 2, f->coarse.force);
+    rc_state_numbers(s, 2, f->coarse.creep);
+    rc_state_numbers(s, 1, &f->coarse.moment);
+    rc_state_numbers(s, 1, &f->coarse_error);
     if (rc_state_reads(s)) {
         f->resumes = false;
         f->again = f->stage == ROLLING || f->stage == THERE;

@@ -25,6 +25,25 @@ enum rc_status rc_slip_check(const struct rc_shape *shape, const struct rc_slip_
  * where nu is not in 0 to 0.5. */
 void rc_kalker(double ratio, double nu, double c[3]);
 
+/* The frames of friction and of rolling. */
+enum {
+    RC_SLIP_PRESSURE,
+    RC_SLIP_TRACTION_X,
+    RC_SLIP_TRACTION_Y,
+    RC_SLIP_SLIP_X,
+    RC_SLIP_SLIP_Y,
+    RC_SLIP_STATE
+};
+/* clang-format off */
+#define RC_SLIP_FRAME_KINDS(unit, per)                                                             \
+    [RC_SLIP_PRESSURE] = {"pressure", "Pa", "Pressure"},                                           \
+    [RC_SLIP_TRACTION_X] = {"traction-x", "Pa", "Traction along x"},                               \
+    [RC_SLIP_TRACTION_Y] = {"traction-y", "Pa", "Traction along y"},                               \
+    [RC_SLIP_SLIP_X] = {"slip-x", unit, "Slip along x" per},                                       \
+    [RC_SLIP_SLIP_Y] = {"slip-y", unit, "Slip along y" per},                                       \
+    [RC_SLIP_STATE] = {"state", "1", "State"}
+/* clang-format on */
+
 /* ---- increments.c ---- */
 
 /* The number of increments of a way with half (1) or a quarter (2) of them. */
