@@ -47,6 +47,14 @@ static const struct opt opts[] = {
      .help = "loads and forces, each a case, starting separated: '240N,0,0; 240N,40N,0'"},
     {.name = "history", .type = OPT_TEXT, AT(history), .arg = "FILE",
      .help = "the same path from a file with lines of load, force along x, force along y"},
+    {.name = "creep", .type = OPT_NUMBERS, AT(creep), .min = -INFINITY, .max = INFINITY,
+     .result = true, .arg = "XI,ETA[,SPIN]",
+     .help = "rolling towards +x: motion of body 2 over body 1 per length; spin in rad/m"},
+    {.name = "creep-force", .type = OPT_NUMBERS, .unit = UNIT_N, AT(creep_force), .min = -INFINITY,
+     .max = INFINITY, .result = true, .arg = "FX[,FY]",
+     .help = "rolling under this force of body 2 on body 1: finds the creepages"},
+    {.name = "steady", .type = OPT_FLAG, AT(steady), .result = true,
+     .help = "steady rolling: tractions do not change while the contact rolls"},
     {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N|auto",
      .help = "increments between corners of a path (default auto: an error of about 1 %)"},
     {.name = "coupling", .type = OPT_CHOICE, AT(coupling), .words = coupling_word, .result = true,
@@ -97,29 +105,30 @@ check_arguments(struct slip_run *run)
     struct tool *t = &run->d.t;
     const struct numbers *along = args.tangential.n > 0 ? &args.tangential : &args.displacement;
 
+    run->args = &args;
     if (ranks_count(t) > 1)
         tool_die(t, EXIT_USAGE,
                  "rc-slip cannot share its maps among processes: take one process, with --threads");
     if (isnan(args.mu))
         tool_die(t, EXIT_USAGE, "give the coefficient of friction with --mu, as in --mu 0.3");
     if (tool_given(t, "tangential") + tool_given(t, "displacement") + tool_given(t, "path") +
-            tool_given(t, "history") !=
+            tool_given(t, "history") + tool_given(t, "creep") + tool_given(t, "creep-force") !=
         1)
         tool_die(t, EXIT_USAGE,
-                 "give one of --tangential, --displacement, --path and --history: how the bodies "
-                 "are moved");
+                 "give one of --tangential, --displacement, --path, --history, --creep and "
+                 "--creep-force: how the bodies are moved");
     if (along->n > 2)
         tool_die(t, EXIT_USAGE,
                  "--%s: it must be one value (along x) or two (x and y), as in %s: for several "
                  "steps take --path",
                  along == &args.tangential ? "tangential" : "displacement",
                  along == &args.tangential ? "36N,0" : "1um,0");
-    run->args = &args;
     run->coupling = strcmp(args.coupling, "full") == 0      ? RC_COUPLING_FULL
                     : strcmp(args.coupling, "goodman") == 0 ? RC_COUPLING_GOODMAN
                                                             : RC_COUPLING_NONE;
     slip_read_path(run, &args);
     slip_check_bodies(run);
+    slip_check_rolling(run);
 }
 
 /* ---- main ---- */

@@ -93,7 +93,7 @@ const struct rc_figure rc_figures_rolling[] = {
      .says = "estimated relative L1 error", .role = RC_FIGURE_ERROR, .by = "tol"},
     {FIGURE(discretization_error), NULL, "Error due to the spacing",
      .says = "estimated relative error of the force, or of the creepage if the force is given",
-     .role = RC_FIGURE_ERROR, .by = "grid"},
+     .limit = 0.05, .warning = "the nodes are too far apart for this contact"},
     {FIGURE(converged), NULL, "Converged",
      .says = "traction_error_estimate is within the tolerance"},
     {0},
@@ -647,13 +647,14 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
 {
     const struct rolling *f = (const struct rolling *)m;
     const struct rc_point inner = rc_point_for(m->inner, most);
-    const double work = 100 * (1 + fmax(log10(1e-2 / f->problem.slip.tol), 0) / 2), maps = 30 + 12;
-    double each;
+    double work = 100 * (1 + fmax(log10(1e-2 / f->problem.slip.tol), 0) / 2), each;
+    static const double maps = 30 + 12;
 
     *expected = (struct rc_expected){0, 0, 0};
     if (f->problem.known_p == NULL && rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;
     each = expected->convolutions > 0 ? expected->seconds / expected->convolutions : NAN;
+    work *= f->problem.force ? 2.5 : 1; /* two further right sides */
     expected->seconds += work * each;
     expected->convolutions += work;
     expected->memory += (size_t)(4.0 / 3 * maps * (double)f->n) * sizeof(double);

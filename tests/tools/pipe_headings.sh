@@ -41,6 +41,8 @@ report "rc-solve, one load" "rc-solve $body --load 1mN --discretization --report
 report "rc-solve --yield" "rc-solve $body --yield 1GPa --slabs 6 --increments 8 --load 200uN --report \$r -o y.rcg ball.rcg"
 report "rc-solve --adhesion" "rc-solve $body --adhesion 50mJ/m2 --approach 0 --report \$r -o a.rcg ball.rcg"
 report rc-slip "rc-slip --mu 0.3 --threads 1 --quiet --tangential 0.1mN --report \$r -o q.rcg one.rcg"
+rc-solve $body --load 2uN -o rolls.rcg ball.rcg
+report "rc-slip --steady" "rc-slip --mu 0.3 --threads 1 --quiet --creep 1e-3,0 --steady --report \$r -o q.rcg rolls.rcg"
 report rc-wear "rc-wear --coefficient 1e-6mm3/Nm --distance 1m --threads 1 --quiet --report \$r -o w.rcg one.rcg"
 report rc-stress "rc-stress --depths 0,1um --threads 1 --quiet --report \$r -o s.rcg one.rcg"
 if with_leak; then

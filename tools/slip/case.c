@@ -105,18 +105,13 @@ check_solvable(struct slip_run *run)
 
 /* ---- frames ---- */
 
-static void
-set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
+void
+slip_set_keys(struct slip_run *run, struct rc_grid *g, bool converged, double load, double approach)
 {
-    struct slip_run *run = (struct slip_run *)(void *)d;
-    const struct slip_state *s = &run->state;
-    const struct rc_slip_figures *f = &s->figures.slip;
     const char *own = rc_grid_get(g, "converged");
-    bool converged = s->converged && (own == NULL || strcmp(own, "no") != 0);
-    bool apart = f->stick_nodes + f->slip_nodes == 0;
     struct rc_err err;
 
-    (void)m;
+    converged = converged && (own == NULL || strcmp(own, "no") != 0);
     if (rc_grid_set(g, "converged", converged ? "yes" : "no", &err) != RC_OK ||
         rc_grid_set(g, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free", &err) !=
             RC_OK ||
@@ -124,13 +119,25 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
         rc_grid_history(g, tool_history(&run->d.t), &err) != RC_OK)
         tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (run->bodies.pair.estar > 0)
-        drive_set_number(d, g, "nu", run->bodies.nu);
+        drive_set_number(&run->d, g, "nu", run->bodies.nu);
     if (run->number != rc_grid_case(run->p))
-        drive_set_number(d, g, "case", (double)run->number);
-    drive_set_number(d, g, "load", f->load);
-    drive_set_number(d, g, "approach", s->figures.approach);
-    drive_set_number(d, g, "friction", run->args->mu);
-    drive_set_number(d, g, "tau_max", run->args->tau_max);
+        drive_set_number(&run->d, g, "case", (double)run->number);
+    drive_set_number(&run->d, g, "load", load);
+    drive_set_number(&run->d, g, "approach", approach);
+    drive_set_number(&run->d, g, "friction", run->args->mu);
+    drive_set_number(&run->d, g, "tau_max", run->args->tau_max);
+}
+
+static void
+set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
+{
+    struct slip_run *run = (struct slip_run *)(void *)d;
+    const struct slip_state *s = &run->state;
+    const struct rc_slip_figures *f = &s->figures.slip;
+    bool apart = f->stick_nodes + f->slip_nodes == 0;
+
+    (void)m;
+    slip_set_keys(run, g, s->converged, f->load, s->figures.approach);
     drive_set_number(d, g, "tangential_x", f->force[0]);
     drive_set_number(d, g, "tangential_y", f->force[1]);
     drive_set_number(d, g, "displacement_x", apart ? NAN : f->displacement[0]);
@@ -139,8 +146,8 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
 
 /* ---- marks of a checkpoint ---- */
 
-static void
-set_marks(struct slip_run *run)
+void
+slip_set_marks(struct slip_run *run)
 {
     struct course *c = &run->d.course;
     uint32_t crc = 0;
@@ -258,8 +265,8 @@ add_slip(struct slip_run *run, struct rc_model *m)
 }
 
 /* The heights and the path of slip are those of the tool; NULL: a frame of the model. */
-static const double *
-frame_of(struct drive *d, struct rc_model *m, struct rc_grid *frame, const char *word)
+const double *
+slip_frame(struct drive *d, struct rc_model *m, struct rc_grid *frame, const char *word)
 {
     struct slip_run *run = (struct slip_run *)(void *)d;
     const size_t n = rc_grid_nodes(frame);
@@ -308,7 +315,7 @@ follow(struct slip_run *run)
         (run->slipped = calloc(3 * rc_grid_nodes(run->p), sizeof *run->slipped)) == NULL)
         tool_die_at(&d->t, run->p, EXIT_IMPOSSIBLE, "out of memory for the slip");
     run->state = (struct slip_state){.dissipated_total = 0};
-    d->frame = frame_of;
+    d->frame = slip_frame;
     d->unit = "m";
     d->begin = begin;
     d->judge = judge;
@@ -367,16 +374,20 @@ slip_case(struct slip_run *run)
         tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                     "--output height: there is no height beside it: take all that rc-solve writes");
     slip_find_bodies(run);
+    if (run->rolls) {
+        slip_roll(run);
+        return;
+    }
     slip_plan_path(run);
     check_solvable(run);
     for (size_t k = 0; k < run->corners; k++)
         told += !run->corner[k].silent;
     if (told == 1 && rc_grid_case(run->p) > run->number)
         run->number = rc_grid_case(run->p) - 1;
-    set_marks(run);
+    slip_set_marks(run);
     slip_judge_plan(run);
     if (run->args->drive.dry_run) {
-        slip_say_plan(run, course_peak(memory_for(run)));
+        slip_say_plan(run, course_peak(memory_for(run)), NAN);
     } else {
         tool_demand_memory(&run->d.t, run->p, memory_for(run));
         follow(run);

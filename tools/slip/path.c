@@ -198,9 +198,8 @@ tolerance(const struct slip_run *run)
     return (isnan(run->args->tol) ? usual : run->args->tol) / (double)n;
 }
 
-/* The law of friction without its tolerance. */
-static struct rc_friction_problem
-law_of(const struct slip_run *run)
+struct rc_friction_problem
+slip_law(const struct slip_run *run)
 {
     const struct slip_args *a = run->args;
 
@@ -253,7 +252,7 @@ slip_plan_path(struct slip_run *run)
             c.load = run->load;
         run->corner[run->corners++] = c;
     }
-    run->law = law_of(run);
+    run->law = slip_law(run);
     for (size_t k = 0; k < run->corners; k++)
         plan_leg(run, k == 0 ? &start : &run->corner[k - 1], &run->corner[k]);
     run->law.slip.tol = tolerance(run);

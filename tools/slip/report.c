@@ -12,6 +12,18 @@ coupling_of(const struct slip_run *run)
                                                   : "none";
 }
 
+static void
+end_row(struct drive *d, bool converged)
+{
+    struct report *r = &d->report;
+
+    report_bool(r, "converged", converged);
+    report_object(r, "seconds");
+    report_number(r, "total", tool_now() - d->began, "s");
+    report_end(r);
+    report_memory(r);
+}
+
 void
 slip_report(struct drive *d, const struct rc_model *m)
 {
@@ -19,9 +31,9 @@ slip_report(struct drive *d, const struct rc_model *m)
     const struct slip_state *s = &run->state;
     struct report *r = &d->report;
     struct rc_friction_figures f = s->figures;
-    const struct figures from[] = {{rc_figures("slip"), &f}, {NULL, NULL}};
+    const struct figures from[] = {
+        {rc_figures("slip"), &f}, {rc_figures("rolling"), rc_rolling_result(m)}, {NULL, NULL}};
 
-    (void)m;
     if (f.slip.stick_nodes + f.slip.slip_nodes == 0)
         f.slip.displacement[0] = f.slip.displacement[1] = NAN;
     report_map(r, run->p, run->number);
@@ -31,6 +43,17 @@ slip_report(struct drive *d, const struct rc_model *m)
     report_number(r, "tau_max", run->args->tau_max, "Pa");
     report_number(r, "beta", run->bodies.beta, NULL);
     report_text(r, "coupling", coupling_of(run));
+    if (run->rolls) {
+        report_number(r, "position", run->position, "m");
+        report_named(r, from + 1,
+                     "load limit creep_x creep_y spin force_x force_y moment stick_nodes "
+                     "slip_nodes stick_fraction power power_slip extrapolated_creep_x "
+                     "extrapolated_creep_y extrapolated_force_x extrapolated_force_y "
+                     "extrapolated_moment kalker_force_x kalker_force_y steps convolutions "
+                     "traction_error_estimate discretization_error");
+        end_row(d, d->status == RC_OK);
+        return;
+    }
     report_named(r, from,
                  "load limit tangential_x tangential_y displacement_x displacement_y approach "
                  "stick_nodes slip_nodes stick_area slip_area stick_fraction largest_slip "
@@ -40,11 +63,7 @@ slip_report(struct drive *d, const struct rc_model *m)
     report_named(r, from, "passes convolutions");
     report_number(r, "traction_error_estimate", s->traction_error, NULL);
     errors_report(r, &s->errors);
-    report_bool(r, "converged", s->converged);
-    report_object(r, "seconds");
-    report_number(r, "total", tool_now() - d->began, "s");
-    report_end(r);
-    report_memory(r);
+    end_row(d, s->converged);
 }
 
 /* ---- warnings ---- */
@@ -120,10 +139,10 @@ slip_judge_plan(struct slip_run *run)
                   where, run->bodies.beta);
     else
         tool_warn(&run->d.t,
-                  "%s: the bodies are dissimilar (beta %.3g), and --coupling goodman neglects the "
+                  "%s: the bodies are dissimilar (beta %.3g), and %s neglects the "
                   "effect of tractions on the pressure: on rough surfaces tractions were wrong by "
                   "2 to 13 %%, pressures by 1 to 8 %%",
-                  where, run->bodies.beta);
+                  where, run->bodies.beta, run->rolls ? "rolling" : "--coupling goodman");
 }
 
 void
@@ -163,7 +182,7 @@ expected_passes(const struct slip_run *run)
 }
 
 void
-slip_say_plan(struct slip_run *run, size_t memory)
+slip_say_plan(struct slip_run *run, size_t memory, double convolutions)
 {
     FILE *out = run->d.t.out;
     const struct slip_pair *b = &run->bodies;
@@ -206,5 +225,7 @@ slip_say_plan(struct slip_run *run, size_t memory)
     if (run->law.fewer > 0)
         fprintf(out, "  %-16ssolved also with half of them%s, for the error\n", "increments",
                 run->law.fewer < RC_FEWER ? "" : " and a quarter");
+    if (run->rolls)
+        fprintf(out, "  %-16sabout %.0f convolutions\n", "steady rolling", convolutions);
     fprintf(out, "  %-16sabout %zu MiB\n", "memory", (memory >> 20) + 1);
 }

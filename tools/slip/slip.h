@@ -22,9 +22,10 @@ enum slip_frame { /* in the order of the words of --output */
 struct slip_args {
     double mu, tau_max, nu, e1, nu1, e2, nu2, tol;
     struct numbers tangential, displacement; /* N, m */
+    struct numbers creep, creep_force;       /* 1, 1, rad/m; N */
     const char *path, *history, *increments, *coupling;
     size_t output; /* bits of enum slip_frame */
-    bool periodic;
+    bool periodic, steady;
     struct drive_args drive;
 };
 
@@ -75,6 +76,8 @@ struct slip_run {
     bool coupled;    /* the pressure moves the bodies along each other  */
     bool alternates; /* tractions change the pressure too               */
     bool solves;     /* contacts are solved                             */
+    bool rolls;      /* --creep or --creep-force                        */
+    double position; /* m, of the last case that rolls; NAN: unknown    */
 };
 
 /* ---- path.c ---- */
@@ -84,6 +87,8 @@ void slip_read_path(struct slip_run *run, struct slip_args *args);
 /* The corners of this case, the law of friction with its tolerance, and whether contacts are solved. */
 void slip_plan_path(struct slip_run *run);
 struct rc_point slip_point(const struct slip_corner *c);
+/* The law of friction without its tolerance. */
+struct rc_friction_problem slip_law(const struct slip_run *run);
 
 /* ---- bodies.c ---- */
 
@@ -96,6 +101,20 @@ void slip_find_bodies(struct slip_run *run);
 
 const char *slip_frame_word(size_t k);
 void slip_case(struct slip_run *run);
+/* Keys of a frame, and marks of a checkpoint, under any motion. */
+void slip_set_keys(struct slip_run *run, struct rc_grid *g, bool converged, double load,
+                   double approach);
+void slip_set_marks(struct slip_run *run);
+/* A frame of the tool; NULL: it is one of the model. */
+const double *slip_frame(struct drive *d, struct rc_model *m, struct rc_grid *frame,
+                         const char *word);
+
+/* ---- roll.c ---- */
+
+/* Ends the tool if the options of rolling contradict others. */
+void slip_check_rolling(struct slip_run *run);
+/* Rolls the contact of the case. */
+void slip_roll(struct slip_run *run);
 
 /* ---- report.c ---- */
 
@@ -106,7 +125,7 @@ void slip_judge_plan(struct slip_run *run);
 void slip_judge(struct slip_run *run, const struct slip_state *s);
 /* A row of the report, for tools/model. */
 void slip_report(struct drive *d, const struct rc_model *m);
-/* Prints the plan; memory: bytes. */
-void slip_say_plan(struct slip_run *run, size_t memory);
+/* Prints the plan; memory: bytes; convolutions: of rolling. */
+void slip_say_plan(struct slip_run *run, size_t memory, double convolutions);
 
 #endif

@@ -1,0 +1,88 @@
+# rc-slip --creep and --creep-force: steady rolling against CONTACT's published outputs (Vollebregt, repository
+# eve70a/CONTACT, examples carter2d and bentall), Kalker's table and the laws of power; plan, frames, refusals.
+. "$(dirname "$0")/../pipe.sh"
+
+column() { # NAME FILE [ROW]
+    awk -F '\t' -v n="$1" -v r="${3:-1}" 'NR == 1 { for (i = 1; i <= NF; i++) { split($i, h, "/"); if (h[1] == n) c = i } } NR == r + 1 { print $c }' "$2"
+}
+number() { awk "BEGIN { printf \"%.12g\", ($1) }"; }
+values() { rc-pick --channel "$2" --case "${3:-1}" "$1" | rc-export --format csv | grep -v '^#'; }
+strip() { # NODES DX DY CURVATURE MIDDLE: writes the heights of a cylinder
+    awk -v n="$1" -v dx="$2" -v c="$4" -v m="$5" 'BEGIN { for (i = 0; i < n; i++) printf "%.17g%s", -c * ((i - m) * dx) ^ 2, i < n - 1 ? "," : "\n" }' |
+        rc-import --format ascii --dx "$2" --dy "$3" --z-unit m -
+}
+
+# ---- carter2d: G 82 GPa, nu 0.28; it rolls at 30 m/s ----
+
+steel="--E1 209.92GPa --nu1 0.28 --E2 209.92GPa --nu2 0.28"
+strip 55 4e-5 0.2 1 26.25 | rc-solve --quiet --load 35780N --tol 1e-9 $steel -o carter.rcg
+rc-slip --mu 0.3 --creep 2.4e-4,0 --steady --tol 1e-7 --quiet --report carter.tsv -o rolled.rcg carter.rcg
+near "$(number "$(column force_x carter.tsv) / $(column limit carter.tsv)")" 0.6480 1e-4 "Carter's cylinder has the force of CONTACT"
+near "$(number "30 * $(column power_slip carter.tsv)")" 47.62 1e-4 "  and its friction power"
+claim "  and its nodes that stick and slip" test "$(column stick_nodes carter.tsv) $(column slip_nodes carter.tsv)" = "30 20"
+near "$(column power carter.tsv)" "$(number "2.4e-4 * $(column force_x carter.tsv)")" 1e-9 "power is force times creepage"
+claim "  of which the grid loses a part" test "$(number "$(column power carter.tsv) > $(column power_slip carter.tsv)")" = 1
+
+# ---- bentall: aluminium on steel; rolls freely, driven and braked ----
+
+two="--E1 60.26GPa --nu1 0.31 --E2 209.92GPa --nu2 0.28"
+strip 216 1e-6 1 20 107.5 | rc-solve --quiet --load 16201.9N --tol 1e-8 $two -o rollers.rcg
+for case in "0 4.294e-4" "607.57125N 5.392e-4" "-607.57125N 2.108e-4"; do
+    rc-slip --mu 0.05 --creep-force "${case% *}" --steady --tol 1e-6 --quiet --report bentall.tsv -o x.rcg rollers.rcg
+    near "$(column creep_x bentall.tsv | tr -d -)" "${case#* }" 1e-2 "rollers that differ, under ${case% *}, creep as in CONTACT"
+done
+claim "  and rc-slip warns of what is neglected" warns "rolling neglects the effect of tractions on the pressure" \
+    rc-slip --mu 0.05 --creep-force 0 --steady -o x.rcg rollers.rcg
+claim "  which --coupling none takes for similar bodies" says '"creep_x": -?0,.*"stick_nodes": 200,' \
+    rc-slip --mu 0.05 --creep-force 0 --steady --coupling none --quiet --report - rollers.rcg
+
+# ---- a ball ----
+
+ball() { rc-synth sphere --nx "$1" --dx "$2" --radius 7.5mm | rc-solve --quiet --load 240N --E1 210GPa --nu1 0.25 --E2 210GPa --nu2 0.25 -o "$3"; }
+ball 64 10um ball.rcg
+rc-slip --mu 100 --creep 1e-5,2e-5,0.03 --steady --quiet --report small.tsv -o x.rcg ball.rcg
+# C11 4.12, C22 3.67, C23 1.47 at nu = 0.25; a^3 = 3 P R/(4 E*), G = 84 GPa
+kalker() { awk "BEGIN { a = (3 * 240 * 7.5e-3 / (4 * 112e9)) ^ (1 / 3); print 84e9 * a ^ 2 * ($1) }"; }
+near "$(column extrapolated_force_x small.tsv)" "$(kalker '4.12 * 1e-5')" 2e-2 "small creepages give the force of Kalker's linear theory along x"
+near "$(column extrapolated_force_y small.tsv)" "$(kalker '3.67 * 2e-5 + 1.47 * a * 0.03')" 2e-2 "  and with spin along y"
+near "$(column kalker_force_y small.tsv)" "$(kalker '3.67 * 2e-5 + 1.47 * a * 0.03')" 2e-2 "  which the report has beside it"
+rc-slip --mu 0.3 --creep 1e-3,-5e-4,2 --steady --tol 1e-6 --report both.tsv -o both.rcg ball.rcg
+for c in x:traction-x:force_x y:traction-y:force_y; do
+    field=${c#*:}
+    near "$(values both.rcg "${field%:*}" | tr ',' '\n' | awk '{ f += $1 * 1e-10 } END { printf "%.12g", f }')" "$(column "${field#*:}" both.tsv)" 1e-9 "the tractions along ${c%%:*} add up to the force"
+done
+near "$(number "1e-3 * $(column force_x both.tsv) - 5e-4 * $(column force_y both.tsv) + 2 * ($(column moment both.tsv) + 5e-6 * $(column force_y both.tsv))")" \
+    "$(column power both.tsv)" 1e-9 "power is force times creepage plus moment times spin, in the middle of a step"
+paste -d ' ' <(values both.rcg pressure | tr ',' '\n') <(values both.rcg traction-x | tr ',' '\n') <(values both.rcg traction-y | tr ',' '\n') \
+    <(values both.rcg slip-x | tr ',' '\n') <(values both.rcg slip-y | tr ',' '\n') >five.txt
+claim "tractions are at most mu p, and slip is opposite to them and 0 below this limit" awk '
+    { q = sqrt($2 ^ 2 + $3 ^ 2); s = sqrt($4 ^ 2 + $5 ^ 2); if (q > 0.3 * $1 * (1 + 1e-9)) exit bad = 1
+      if (q < 0.3 * $1 * (1 - 1e-6) && s != 0) exit bad = 1; if (s > 0) { n++; if ($2 * $4 + $3 * $5 > 0) exit bad = 1 } }
+    END { exit bad || NR != 4096 || n < 100 }' five.txt
+rc-slip --mu 0.3 --creep-force "$(column force_x both.tsv),$(column force_y both.tsv)" --steady --tol 1e-6 --report back.tsv -o back.rcg ball.rcg
+rc-slip --mu 0.3 --creep "$(column creep_x back.tsv),$(column creep_y back.tsv)" --steady --tol 1e-6 --report again.tsv -o again.rcg ball.rcg
+near "$(column force_x again.tsv)" "$(column force_x both.tsv)" 1e-4 "the creepages that a force finds give this force"
+claim "frames have the creepages and the force" says 'creep_x=0.001.*creep_y=-0.0005.*spin=2.*tangential_x=[0-9.]+' bash -c "rc-info both.rcg | tr '\\n' ' '"
+claim "--dry-run tells the work" says 'steady rolling +about 150 convolutions' rc-slip --mu 0.3 --creep 1e-3,0 --steady --dry-run ball.rcg
+ball 36 20um coarse.rcg
+claim "a coarse map gets a warning" warns 'error due to the spacing is .*, above 0.05: the nodes are too far apart' \
+    rc-slip --mu 0.3 --creep 0,0,5 --steady -o x.rcg coarse.rcg
+
+# ---- refusals: the reason, and a way out ----
+
+refuses 1 'limit|slide; give the creepage instead' "a force beyond the limit" 'rc-slip --mu 0.3 --creep-force 100N --steady -o x.rcg ball.rcg'
+rc-pick --crop 0,0,53,64 ball.rcg -o edge.rcg
+refuses 1 'leading edge of the map, column 52 of 53: .*leave free columns' "a contact at the leading edge" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady -o x.rcg edge.rcg'
+rc-synth sphere --nx 64 --dx 10um --radius 7.5mm | rc-solve --quiet --periodic --load 240N --E1 210GPa --nu1 0.25 --E2 210GPa --nu2 0.25 -o round.rcg
+refuses 1 'periodic map has no leading edge' "a periodic map" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady -o x.rcg round.rcg'
+for x in 0 1e-5; do rc-pick --set position=$x ball.rcg -o at-$x.rcg; done
+refuses 1 'position is 1e-05 m, that of the case before 0 m: .*leave out --steady' "positions that differ" \
+    'cat at-0.rcg at-1e-5.rcg | rc-slip --mu 0.3 --creep 1e-3,0 --steady -o x.rcg'
+refuses 2 'must be two creepages' "one creepage" 'rc-slip --mu 0.3 --creep 1e-3 --steady -o x.rcg ball.rcg'
+refuses 2 'give one of --tangential' "a creepage and a force" 'rc-slip --mu 0.3 --creep 1e-3,0 --tangential 3N -o x.rcg ball.rcg'
+refuses 2 '--steady needs --creep' "--steady alone" 'rc-slip --mu 0.3 --tangential 3N --steady -o x.rcg ball.rcg'
+refuses 2 'take --coupling goodman' "full coupling" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady --coupling full -o x.rcg ball.rcg'
+refuses 2 '--increments has no effect' "increments" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady --increments 4 -o x.rcg ball.rcg'
+refuses 2 'path of slip' "the path of slip" 'rc-slip --mu 0.3 --creep 1e-3,0 --steady --output slip -o x.rcg ball.rcg'
+
+finish

@@ -1,0 +1,166 @@
+/* Rolling under the pressure of the stream: its options, its model, and its plan. */
+#include "slip.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+static bool
+forced(const struct slip_run *run)
+{
+    return run->args->creep_force.n > 0;
+}
+
+void
+slip_check_rolling(struct slip_run *run)
+{
+    static const char *const none[] = {"increments", "coupling", NULL};
+    const struct slip_args *a = run->args;
+    struct tool *t = &run->d.t;
+    const char *which = forced(run) ? "creep-force" : "creep";
+
+    run->rolls = a->creep.n > 0 || forced(run);
+    run->position = NAN;
+    if (!run->rolls && a->steady)
+        tool_die(t, EXIT_USAGE, "--steady needs --creep or --creep-force");
+    if (!run->rolls)
+        return;
+    if (!a->steady)
+        tool_die(t, EXIT_USAGE, "--%s: rolling must be steady: give --steady too", which);
+    if (forced(run) ? a->creep_force.n > 2 : a->creep.n < 2 || a->creep.n > 3)
+        tool_die(t, EXIT_USAGE, "--%s: it must be %s", which,
+                 forced(run) ? "one value (along x) or two (x and y), as in 36N,0"
+                             : "two creepages (x and y), or these and a spin, as in 1e-3,0,20");
+    if (tool_given(t, none[0]))
+        tool_die(t, EXIT_USAGE, "--increments has no effect with --%s: each case is one", which);
+    if (tool_given(t, none[1]) && run->coupling == RC_COUPLING_FULL)
+        tool_die(t, EXIT_USAGE,
+                 "--coupling full: rolling neglects the effect of tractions on the pressure: take "
+                 "--coupling goodman, or none");
+    if (run->coupling == RC_COUPLING_FULL)
+        run->coupling = RC_COUPLING_GOODMAN;
+    if (a->output >> SLIP_LENGTH & 1)
+        tool_die(t, EXIT_USAGE,
+                 "--output slip: the path of slip needs --tangential, --displacement, --path or "
+                 "--history");
+}
+
+/* ---- a point ---- */
+
+static struct rc_point
+point_of(const struct slip_run *run)
+{
+    const struct numbers *v = forced(run) ? &run->args->creep_force : &run->args->creep;
+    const enum rc_axis x = forced(run) ? RC_FORCE_X : RC_CREEP_X;
+    struct rc_point to = {0};
+
+    rc_point_set(&to, RC_LOAD, run->load);
+    rc_point_set(&to, x, v->v[0]);
+    rc_point_set(&to, x + 1, v->n > 1 ? v->v[1] : 0);
+    if (v->n > 2)
+        rc_point_set(&to, RC_SPIN, v->v[2]);
+    return to;
+}
+
+static void
+begin(struct drive *d, struct rc_model *m)
+{
+    struct slip_run *run = (struct slip_run *)(void *)d;
+
+    (void)m;
+    run->number = d->course.number;
+    slip_set_marks(run);
+    course_mark_crc(&d->course, "checkpoint.rolling",
+                    rc_crc32_add(run->args->steady, d->point->at, sizeof d->point->at));
+}
+
+static void
+set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
+{
+    struct slip_run *run = (struct slip_run *)(void *)d;
+    const struct rc_rolling_figures *f = rc_rolling_result(m);
+    double approach = NAN;
+
+    (void)rc_grid_number(g, "approach", &approach);
+    slip_set_keys(run, g, d->status == RC_OK, f->load, approach);
+    drive_set_number(d, g, "creep_x", f->creep[0]);
+    drive_set_number(d, g, "creep_y", f->creep[1]);
+    drive_set_number(d, g, "spin", f->spin);
+    drive_set_number(d, g, "tangential_x", f->force[0]);
+    drive_set_number(d, g, "tangential_y", f->force[1]);
+}
+
+/* ---- a case ---- */
+
+static void
+check_position(struct slip_run *run)
+{
+    double position = NAN;
+
+    (void)rc_grid_number(run->p, "position", &position);
+    if (run->position < position || run->position > position)
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+                    "its position is %g m, that of the case before %g m: in steady rolling the "
+                    "pressure does not change; leave out --steady to roll from case to case",
+                    position, run->position);
+    run->position = position;
+}
+
+static struct rc_model *
+new_model(struct slip_run *run)
+{
+    const struct rc_shape shape = rc_grid_shape(run->p);
+    const struct rc_problem contact = {
+        .boundary = run->boundary, .pair = run->bodies.pair, .threads = run->d.t.threads};
+    const struct rc_rolling_problem law = {
+        .slip = run->law.slip, .force = forced(run), .known_load = run->load, .known_p = run->p->v};
+    struct rc_err err;
+    struct rc_model *m =
+        rc_rolling_new(rc_elastic_new(&shape, run->p->v, &contact, NULL, &err), &law, &err);
+
+    if (m == NULL)
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+    return m;
+}
+
+static const struct drive_advice advice[] = {
+    {"discretization_error", "take a finer map, or the extrapolated figures of the report"},
+    {NULL, NULL}};
+
+void
+slip_roll(struct slip_run *run)
+{
+    struct drive *d = &run->d;
+    struct rc_point to = point_of(run);
+    struct rc_expected expected;
+    struct rc_model *m;
+    struct rc_err err;
+
+    check_position(run);
+    run->coupled = run->bodies.beta != 0 && run->coupling == RC_COUPLING_GOODMAN;
+    run->law = slip_law(run);
+    run->law.slip.uncoupled = !run->coupled;
+    run->law.slip.tol = isnan(run->args->tol) ? 0 : run->args->tol;
+    slip_judge_plan(run);
+    m = new_model(run);
+    if (rc_model_plan(m, &to, &expected, &err) != RC_OK)
+        tool_die_at(&d->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (d->args->dry_run) {
+        slip_say_plan(run, course_peak(expected.memory), expected.convolutions);
+        rc_model_free(m);
+        return;
+    }
+    tool_demand_memory(&d->t, run->p, expected.memory);
+    d->frame = slip_frame;
+    d->unit = "m";
+    d->advice = advice;
+    d->begin = begin;
+    d->all_keys = set_keys;
+    d->row = slip_report;
+    d->points = 1;
+    d->point = &to;
+    d->course.number = rc_grid_case(run->p) > run->number ? rc_grid_case(run->p) - 1 : run->number;
+    drive_points(d, run->p, m);
+    d->point = NULL;
+}
