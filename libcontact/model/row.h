@@ -92,6 +92,9 @@ struct rc_model_row {
     enum rc_status (*heights)(struct rc_model *m, const double *h, struct rc_err *err);
     enum rc_status (*compliance)(struct rc_model *m, double c, const double *part,
                                  struct rc_err *err);
+    /* From the next go on, the tolerance is this part of the one that the maker was given. A model with
+     * `compliance` has it. */
+    void (*accuracy)(struct rc_model *m, double part);
     /* After `go`: starts the iteration from this pressure, Pa, which carries this load, N. */
     enum rc_status (*start)(struct rc_model *m, double load, const double *p, struct rc_err *err);
     /* After `look`: z, Pa, is the approximate change of the pressure if the heights grow by e, m, under the

@@ -22,6 +22,7 @@ struct elastic {
     double *dent;        /* present minus undeformed heights; NULL: no dents */
     double compliance;   /* m/Pa, own compliance of every node, times its part */
     const double *part;  /* the caller's array; NULL: 1 everywhere */
+    double tol;          /* as the maker was given; problem.tol is that of the next contact */
     /* m, N: error of the heights; error of the loads that made the dents */
     double height_error, off;
     double first_top, top;    /* m: highest node of the first shape, and of the present one   */
@@ -332,6 +333,16 @@ set_compliance(struct rc_model *m, double c, const double *part, struct rc_err *
     return e->solver != NULL ? rc_solver_set_diagonal(e->solver, c, part, err) : RC_OK;
 }
 
+static void
+set_accuracy(struct rc_model *m, double part)
+{
+    struct elastic *e = (struct elastic *)m;
+
+    e->problem.tol = part * e->tol;
+    if (e->solver != NULL && e->tol > 0)
+        rc_solver_set_tol(e->solver, e->problem.tol);
+}
+
 /* The elastic nodes do not change, and the preconditioner gives their response nearly exactly. */
 static enum rc_status
 respond(struct rc_model *m, const double *e, double *z, struct rc_err *err)
@@ -509,6 +520,7 @@ rc_elastic_new(const struct rc_shape *shape, const double *h, const struct rc_pr
     e->problem = *problem;
     e->asks = asks != NULL ? *asks : (struct rc_elastic_asks){false, {0, 0}};
     e->height_error = problem->height_error;
+    e->tol = problem->tol;
     e->n = rc_rows_of(problem->ranks, shape).n * shape->nx;
     e->given = h;
     return m;
@@ -539,6 +551,7 @@ const struct rc_model_row rc_model_elastic = {
     .keep = keep,
     .heights = set_heights,
     .compliance = set_compliance,
+    .accuracy = set_accuracy,
     .start = start,
     .respond = respond,
     .progress = progress,

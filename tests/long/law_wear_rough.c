@@ -28,7 +28,7 @@ static const double usual = 0.1, finer = 100, finer_contacts = 1000;
 /* Relative L1 errors. */
 static const double most_wear = 5e-3, most_pressure = 2e-2;
 static const double most_area = 0.01, most_convolutions = 270;
-/* The largest pressure is that of one node, which no estimate bounds: see bench/README.md for larger maps. */
+/* The largest pressure is that of one node, which no estimate bounds. */
 static const double most_peak = 0.05;
 
 static size_t side[MOST_SIDES] = {128}, sides = 1;

@@ -275,6 +275,36 @@ roughness_is_cut(void **state)
     end(&r);
 }
 
+/* Where the last valleys close, a contact puts several times the mean pressure on a few nodes, within its
+ * tolerance. The largest pressure must be that of the end: the mean. */
+static void
+valleys_close_evenly(void **state)
+{
+    enum {
+        SIDE = 256
+    };
+    const struct rc_shape s = {SIDE, SIDE, node, node};
+    const struct rc_selfaffine rough = {.hurst = 0.8,
+                                        .rms_slope = 0.1,
+                                        .rolloff = SIDE / 4.0 * node,
+                                        .short_cut = 8 * node,
+                                        .seed = 1};
+    const double mean = 0.002 * estar;
+    double *h = calloc((size_t)SIDE * SIDE, sizeof *h), peak;
+    struct run r;
+
+    (void)state;
+    assert_int_equal(rc_synth_selfaffine(&s, &rough, h, NULL), RC_OK);
+    r = start(&s, h, RC_PERIODIC, 0);
+    for (double at = 1; at <= 1000; at *= 10)
+        (void)slide(&r, mean, at);
+    peak = rc_model_number(r.m, "max_pressure") / mean;
+    if (!(peak < 1.02))
+        fail_msg("the largest pressure is %.3f of the mean", peak);
+    end(&r);
+    free(h);
+}
+
 /* ---- a coefficient of each node ---- */
 
 /* Two phases of squares: in the end k p is even, so that p = P / (k sum 1/k), and the heights are K p. */
@@ -383,6 +413,7 @@ main(void)
         cmocka_unit_test(phases_share_the_load), cmocka_unit_test(a_disc_that_sticks_carries_all),
         cmocka_unit_test(waves_decay),           cmocka_unit_test(punches_become_even),
         cmocka_unit_test(a_ball_is_cut),         cmocka_unit_test(roughness_is_cut),
+        cmocka_unit_test(valleys_close_evenly),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
