@@ -44,6 +44,7 @@ struct rc_adhesion; /* contact of bodies that attract each other: a path of stat
 struct rc_leak;     /* flow through a gap                                              */
 struct rc_slip;     /* friction in a contact with a given pressure                     */
 struct rc_stress;   /* stresses below the surface                                      */
+struct rc_fatigue;  /* fatigue under the stresses below the surface                    */
 struct rc_ranks;    /* processes that share a map: contact_mpi.h; NULL: none           */
 
 /* struct rc_model (model.h) drives several of them with the same verbs. */
@@ -1399,6 +1400,10 @@ RC_API size_t rc_stress_values(const struct rc_stress *stress);
  * + 1e-12) selects the material below. RC_FAIL also inside a rigid half-space. */
 RC_API enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
                                       double *const s[RC_STRESSES], struct rc_err *err);
+/* Other maps of pressure and, where the plan has them, of traction, which the caller keeps as those before.
+ * Slices at the last depth then cost no kernels. RC_FAIL for sections and for engines without transforms. */
+RC_API enum rc_status rc_stress_set_loads(struct rc_stress *stress, const double *p,
+                                          const double *const traction[2], struct rc_err *err);
 RC_API const char *rc_stress_engine(const struct rc_stress *stress);
 RC_API const struct rc_stress_counts *rc_stress_counted(const struct rc_stress *stress);
 RC_API void rc_stress_free(struct rc_stress *stress);
@@ -1410,6 +1415,110 @@ RC_API void rc_extremes(size_t n, const double *v, size_t *least, size_t *larges
  * on. */
 RC_API void rc_stress_derive(unsigned wanted, size_t n, const double *const s[RC_COMPONENTS],
                              double *const out[RC_STRESSES]);
+
+/* ---- fatigue ---- */
+
+/* Criteria of high-cycle fatigue under many axes: an index of 1 is the endurance limit. Definitions, constants
+ * and sources are in libcontact/fatigue/criteria.c and contact-theory(7). */
+enum rc_criterion {
+    RC_CROSSLAND,
+    RC_DANG_VAN,
+    RC_PAPADOPOULOS,
+    RC_FINDLEY,
+    RC_SHAKEDOWN, /* above 1 the body never shakes down to elastic cycles; needs the yield stress */
+    RC_CRITERIA,
+    RC_AMPLITUDE = RC_CRITERIA, /* sqrt(J2) of the amplitude of the deviator, Pa            */
+    RC_PLANE_TILT,              /* of Findley's plane: angle of its normal to z, degrees, 0 to 90 */
+    RC_PLANE_TURN, /* the same: angle of the normal to x, about z, -180 to 180            */
+    RC_FATIGUES
+};
+/* Names in that order: "crossland", "dangvan", ... "amplitude", "plane-tilt", "plane-turn" */
+RC_API extern const char *const rc_criterion_names[RC_FATIGUES];
+
+/* Of a material, Pa: endurance limits in fully reversed bending and torsion, and the yield stress in tension;
+ * 0 where no wanted criterion needs it. */
+struct rc_fatigue_limits {
+    double bending, torsion, yield;
+};
+/* RC_FAIL when `wanted`, bits of enum rc_criterion, is empty, a needed limit is not above 0, or torsion over
+ * bending is outside the range of a criterion. */
+RC_API enum rc_status rc_fatigue_check_limits(unsigned wanted,
+                                              const struct rc_fatigue_limits *limits,
+                                              struct rc_err *err);
+/* The wanted values of one history of n > 0 stresses, s[c] with n values each, Pa; the others become NAN. The
+ * history is a closed cycle; the order of its states has no effect. full: in the criterion of Dang Van,
+ * hydrostatic pressure lowers the index; otherwise only hydrostatic tension counts, which is on the safe side.
+ * Shakedown allows residual stresses sxx and syy. RC_FAIL as above, and when memory is short. */
+RC_API enum rc_status rc_fatigue_history(unsigned wanted, const struct rc_fatigue_limits *limits,
+                                         bool full, size_t n, const double *const s[RC_COMPONENTS],
+                                         double values[RC_FATIGUES], struct rc_err *err);
+
+/* Histories below a map. With `pass`, the pressure travels with the contact over a body of uniform
+ * properties: each point of a row along that axis sees all stresses of the row, and has one result. Otherwise
+ * each case is the pressure at a position of the contact, and each node of the body has a result. On a free
+ * map the unloaded state belongs to each history, and a node outside the map of a case is unloaded. On a
+ * periodic map nothing is added, and columns wrap around. */
+struct rc_fatigue_problem {
+    struct rc_stress_options
+        stress;             /* wanted, section and traction are ignored; no ranks, no strain */
+    unsigned wanted;        /* bits of enum rc_criterion */
+    bool full;              /* as for rc_fatigue_history */
+    char pass;              /* 'x', 'y', or 0: cases     */
+    size_t cases;           /* 1 with a pass             */
+    const double *const *p; /* of each case, nx ny values, Pa      */
+    const double *const *traction[2]; /* the same; NULL: none                */
+    const size_t *column; /* of each case: the column of the body below its first column; NULL: 0 */
+    size_t room; /* bytes for histories of cases; 0: all. Little room costs time: stresses are
+                             computed again for each band of rows */
+    /* Stressed volume: the integral of (amplitude - threshold)^power z^-depth_power over points of a depth and
+     * over depths, the amplitude in GPa; of a pass per length of travel. power 0: none */
+    double power, depth_power, threshold;
+};
+/* The largest value of a criterion. */
+struct rc_fatigue_place {
+    double value;       /* index, or Pa for the amplitude; NAN: not wanted, or no depth yet    */
+    double x, y, depth; /* m; x NAN: all of the travel                                         */
+    double
+        sampling_error; /* relative: change of the largest values of this depth when only every second
+                              state is taken */
+};
+struct rc_fatigue_figures {
+    struct rc_fatigue_place largest[RC_CRITERIA + 1];
+    double safety;                 /* 1 over the largest index                       */
+    double sampling_error;         /* the largest one of the wanted criteria         */
+    double plane_tilt, plane_turn; /* degrees: of Findley's plane at its largest index */
+    double dangvan_hydrostatic;    /* Pa, at the point and instant that decide for Dang Van    */
+    double least_hydrostatic, largest_hydrostatic; /* Pa, in all histories           */
+    double stressed_volume; /* GPa^power m^(3 - depth_power), of a pass m^(2 - depth_power)  */
+    size_t depths, histories, states; /* states: of one history                           */
+    size_t bands;                     /* of rows                                        */
+};
+/* RC_FAIL when rc_fatigue_new would refuse the problem, except for short memory. */
+RC_API enum rc_status rc_fatigue_check(const struct rc_shape *shape,
+                                       const struct rc_fatigue_problem *problem,
+                                       struct rc_err *err);
+/* The grid of the results of a depth: of a pass along x, ny columns, one for each row of the map, and one row;
+ * of cases the columns of the body that a case covers. */
+RC_API struct rc_shape rc_fatigue_shape(const struct rc_shape *shape,
+                                        const struct rc_fatigue_problem *problem);
+/* Bytes that rc_fatigue_new allocates for its maps and histories, beside the plan of the stresses. */
+RC_API size_t rc_fatigue_memory(const struct rc_shape *shape,
+                                const struct rc_fatigue_problem *problem);
+/* The caller keeps the maps of the problem. NULL when the problem is refused or memory is short. */
+RC_API struct rc_fatigue *rc_fatigue_new(const struct rc_shape *shape,
+                                         const struct rc_fatigue_problem *problem,
+                                         struct rc_err *err);
+/* The wanted values at the depth z >= 0 for a material with these limits: out[c] (NULL: not needed) for each
+ * bit of `wanted`, on the grid of rc_fatigue_shape. residual: NULL, or a stress that is always there, Pa, six
+ * components of ny values, for a pass along y nx values; NULL in it: 0. */
+RC_API enum rc_status rc_fatigue_depth(struct rc_fatigue *fatigue, double depth,
+                                       const struct rc_fatigue_limits *limits,
+                                       const double *const residual[RC_COMPONENTS],
+                                       double *const out[RC_FATIGUES], struct rc_err *err);
+/* Figures of the last depth, and of all depths so far. */
+RC_API const struct rc_fatigue_figures *rc_fatigue_at_depth(const struct rc_fatigue *fatigue);
+RC_API const struct rc_fatigue_figures *rc_fatigue_result(const struct rc_fatigue *fatigue);
+RC_API void rc_fatigue_free(struct rc_fatigue *fatigue); /* NULL is allowed */
 
 #ifdef __cplusplus
 }

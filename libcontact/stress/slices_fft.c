@@ -441,7 +441,7 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
         g = plan->coarse;
         plan->task.counts->coarse_depths++;
     }
-    if (go_to_depth(g, depth, err) != RC_OK)
+    if ((g->inside == NULL || g->depth != depth) && go_to_depth(g, depth, err) != RC_OK)
         return RC_FAIL;
     for (int k = 0; k < RC_COMPONENTS; k++) {
         int c = (int)order[k];
@@ -455,8 +455,27 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
     return RC_OK;
 }
 
+static enum rc_status
+set_loads(void *at, const double *const source[RC_LOADS], struct rc_err *err)
+{
+    struct plan *plan = at;
+
+    for (size_t k = 0; k < plan->task.sources; k++) {
+        plan->task.source[k] = source[k];
+        if (load(plan->fine, k, source[k], err) != RC_OK)
+            return RC_FAIL;
+        if (plan->coarse == NULL)
+            continue;
+        rc_coarse_reduce(plan->between, source[k], plan->field);
+        if (load(plan->coarse, k, plan->field, err) != RC_OK)
+            return RC_FAIL;
+    }
+    return RC_OK;
+}
+
 const struct rc_stress_evaluator rc_stress_slices_fft = {
     .new = plan_new,
     .slice = slice,
     .free = plan_free,
+    .load = set_loads,
 };

@@ -297,6 +297,23 @@ rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRES
     return RC_OK;
 }
 
+enum rc_status
+rc_stress_set_loads(struct rc_stress *stress, const double *p, const double *const traction[2],
+                    struct rc_err *err)
+{
+    struct rc_stress_task *t = &stress->task;
+
+    if (stress->evaluator->load == NULL)
+        return rc_err_set(err, "other pressures on the same plan need maps by transforms");
+    t->p = p;
+    t->sources = 0;
+    t->source[t->sources++] = p;
+    for (size_t k = 0; k < 2; k++)
+        if (t->options.traction[k] != NULL)
+            t->source[t->sources++] = traction[k];
+    return stress->evaluator->load(stress->plan, t->source, err);
+}
+
 size_t
 rc_stress_values(const struct rc_stress *stress)
 {

@@ -69,6 +69,8 @@ struct rc_stress_evaluator {
     enum rc_status (*slice)(void *plan, double depth, double *const s[RC_COMPONENTS],
                             struct rc_err *err);
     void (*free)(void *plan);
+    /* Other maps of the same loads; NULL: not implemented. Tables of the last depth stay. */
+    enum rc_status (*load)(void *plan, const double *const source[RC_LOADS], struct rc_err *err);
 };
 extern const struct rc_stress_evaluator rc_stress_slices_fft;    /* by transforms of maps    */
 extern const struct rc_stress_evaluator rc_stress_slices_engine; /* by a row of engines.list */

@@ -822,6 +822,41 @@ depths(double *out, struct rc_err *err)
     return status;
 }
 
+/* Two positions, the second beside the first, in bands of rows; each calls rc_stress_set_loads(. */
+static enum rc_status
+fatigued(double *out, struct rc_err *err)
+{
+    static const double residual[NY] = {1e6};
+    const struct rc_fatigue_limits limits = {600e6, 372e6, 0};
+    const double *const maps[2] = {pressure, rough}, *const always[RC_COMPONENTS] = {residual};
+    const double *const one[RC_COMPONENTS] = {rough, rough, rough, rough, rough, rough};
+    const size_t column[2] = {0, 1};
+    const struct rc_fatigue_problem problem = {.stress = {.body = bare.one, .threads = 1},
+                                               .wanted = 1U << RC_DANG_VAN | 1U << RC_FINDLEY,
+                                               .cases = 2,
+                                               .p = maps,
+                                               .column = column,
+                                               .room = 4000};
+    const struct rc_shape r = rc_fatigue_shape(&shape, &problem);
+    double *const to[RC_FATIGUES] = {[RC_DANG_VAN] = out, [RC_FINDLEY] = out + 2 * N};
+    struct rc_fatigue *f = NULL;
+    double values[RC_FATIGUES];
+    enum rc_status status = RC_FAIL;
+
+    if (rc_fatigue_check(&shape, &problem, err) != RC_OK ||
+        rc_fatigue_check_limits(problem.wanted, &limits, err) != RC_OK ||
+        (f = rc_fatigue_new(&shape, &problem, err)) == NULL ||
+        rc_fatigue_depth(f, 1e-6, &limits, always, to, err) != RC_OK ||
+        rc_fatigue_history(1U << RC_DANG_VAN, &limits, true, N, one, values, err) != RC_OK)
+        goto done;
+    out[r.nx * r.ny] = rc_fatigue_result(f)->safety + rc_fatigue_at_depth(f)->sampling_error;
+    out[r.nx * r.ny + 1] = values[RC_DANG_VAN] + (double)rc_fatigue_memory(&shape, &problem);
+    status = RC_OK;
+done:
+    rc_fatigue_free(f);
+    return status;
+}
+
 /* ---- slabs ---- */
 
 static bool
@@ -1024,6 +1059,7 @@ static const struct {
     {.name = "stress, of tractions, a section", .use = traction_section},
     {.name = "stress, of plastic strain", .use = strained_stress},
     {.name = "depths", .use = depths},
+    {.name = "fatigue", .use = fatigued},
     {.name = "slabs", .use = slabs_double},
     {.name = "slabs, single precision", .use = slabs_single},
     {.name = "what a plan takes", .use = plans, .without = true},

@@ -1,0 +1,627 @@
+/*
+ * Stress histories of the points below a map, and the criteria of fatigue for them, depth by depth.
+ *
+ * A pass: the pressure travels with the contact, so each point of a row sees the stresses of the whole row,
+ * and a map of stresses holds one history for each row. Cases: the contact is at other positions over the
+ * same body, and the history of a node has one state for each case. At a depth the stresses of all cases are
+ * stored in single precision, for a band of rows if memory is short; the next band computes them again.
+ */
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fatigue.h"
+#include "libcontact/memory.h"
+
+enum {
+    WORST = 8, /* points of a depth whose sampling error is measured          */
+    TOGETHER = 16
+};
+
+static const unsigned six = (1U << RC_COMPONENTS) - 1;
+
+/* A point with one of the largest values of a depth. */
+struct worst {
+    double value, error;
+    size_t at;
+};
+
+struct rc_fatigue {
+    struct rc_fatigue_problem problem;
+    struct rc_shape shape, result; /* of the map; of the results  */
+    struct rc_stress *stress;
+    size_t states; /* of one history, with the unloaded one     */
+    size_t band;   /* rows of the map for which `store` has room */
+    double *map[RC_COMPONENTS];
+    float *store;             /* of cases: [case][component][row of the band][column] */
+    double *own[RC_FATIGUES]; /* values that are needed but not wanted by the caller */
+    struct rc_history **work; /* of each thread */
+    int threads;
+    double *layer; /* Pa: residual stress of each layer, and 0 of the body below; NULL: none */
+    /* of the present depth */
+    double at;
+    const double *const *residual;
+    double unloaded; /* sxx and syy of a layer without load */
+    size_t first, rows;
+    struct worst worst[RC_CRITERIA + 1][WORST];
+    size_t worsts[RC_CRITERIA + 1];
+    double integral, before, depth_before; /* of the stressed volume */
+    struct rc_fatigue_figures depth, all;
+};
+
+/* ---- shapes ---- */
+
+static size_t
+unloaded_states(const struct rc_fatigue_problem *p)
+{
+    return p->stress.boundary == RC_FREE;
+}
+
+static size_t
+most_column(const struct rc_fatigue_problem *p)
+{
+    size_t most = 0;
+
+    for (size_t t = 0; p->column != NULL && t < p->cases; t++)
+        most = p->column[t] > most ? p->column[t] : most;
+    return most;
+}
+
+struct rc_shape
+rc_fatigue_shape(const struct rc_shape *s, const struct rc_fatigue_problem *p)
+{
+    struct rc_shape result = *s;
+
+    if (p->pass == 'x')
+        return (struct rc_shape){s->ny, 1, s->dy, s->dy};
+    if (p->pass == 'y')
+        return (struct rc_shape){s->nx, 1, s->dx, s->dx};
+    if (p->stress.boundary == RC_FREE)
+        result.nx += most_column(p);
+    return result;
+}
+
+static size_t
+bytes_of_row(const struct rc_shape *s, const struct rc_fatigue_problem *p)
+{
+    return p->pass != 0 ? 0 : p->cases * RC_COMPONENTS * s->nx * sizeof(float);
+}
+
+static size_t
+rows_of_band(const struct rc_shape *s, const struct rc_fatigue_problem *p)
+{
+    const size_t room = p->room == 0 ? SIZE_MAX : p->room, row = bytes_of_row(s, p);
+
+    return row == 0 || room / row >= s->ny ? s->ny : room / row == 0 ? 1 : room / row;
+}
+
+/* The values that are computed: the amplitude always is. */
+static unsigned
+computed(const struct rc_fatigue_problem *p)
+{
+    return p->wanted | 1U << RC_AMPLITUDE;
+}
+
+size_t
+rc_fatigue_memory(const struct rc_shape *s, const struct rc_fatigue_problem *p)
+{
+    const struct rc_shape r = rc_fatigue_shape(s, p);
+    size_t maps = 0;
+
+    for (int c = 0; c < RC_FATIGUES; c++)
+        maps += computed(p) >> c & 1;
+    return RC_COMPONENTS * s->nx * s->ny * sizeof(double) + maps * r.nx * r.ny * sizeof(double) +
+           rows_of_band(s, p) * bytes_of_row(s, p);
+}
+
+enum rc_status
+rc_fatigue_check(const struct rc_shape *shape, const struct rc_fatigue_problem *p,
+                 struct rc_err *err)
+{
+    struct rc_stress_options o = p->stress;
+
+    o.wanted = six;
+    o.section = 0;
+    o.traction[0] = o.traction[1] = NULL;
+    if (rc_stress_check(shape, &o, err) != RC_OK)
+        return RC_FAIL;
+    if (p->pass != 0 && p->pass != 'x' && p->pass != 'y')
+        return rc_err_set(err, "a pass along '%c': it must be along x or y", p->pass);
+    if (p->cases == 0 || (p->pass != 0 && p->cases != 1))
+        return rc_err_set(err, "%zu cases: a pass has one, positions have at least one", p->cases);
+    if (p->pass == 0 && p->wanted >> RC_SHAKEDOWN & 1)
+        return rc_err_set(err, "shakedown of cases is not implemented: it needs a pass, whose "
+                               "residual stresses do not vary along the travel");
+    if (p->wanted == 0 || p->wanted >> RC_FATIGUES != 0)
+        return rc_err_set(err, "the requested criteria are empty or unknown");
+    if (p->stress.ranks != NULL || p->stress.strain != NULL)
+        return rc_err_set(err, "fatigue with %s is not implemented",
+                          p->stress.ranks != NULL ? "several processes" : "plastic strain");
+    if (!(p->power >= 0) || !isfinite(p->power) || !isfinite(p->depth_power) ||
+        !(p->threshold >= 0))
+        return rc_err_set(err,
+                          "stressed volume with the power %g, the power %g of the depth and the "
+                          "threshold %g Pa: they must be finite and not negative",
+                          p->power, p->depth_power, p->threshold);
+    return RC_OK;
+}
+
+/* ---- maker ---- */
+
+static const struct rc_fatigue_figures none = {
+#define NONE                                                                                       \
+    {                                                                                              \
+        NAN, NAN, NAN, NAN, NAN                                                                    \
+    }
+    .largest = {NONE, NONE, NONE, NONE, NONE, NONE},
+#undef NONE
+    .safety = NAN,
+    .sampling_error = NAN,
+    .plane_tilt = NAN,
+    .plane_turn = NAN,
+    .dangvan_hydrostatic = NAN,
+    .least_hydrostatic = NAN,
+    .largest_hydrostatic = NAN,
+    .stressed_volume = NAN};
+
+static enum rc_status
+allocate(struct rc_fatigue *f, struct rc_err *err)
+{
+    const struct rc_fatigue_problem *p = &f->problem;
+    const size_t n = f->shape.nx * f->shape.ny, points = f->result.nx * f->result.ny;
+    const size_t layers = p->stress.body.layers;
+    bool good = true;
+
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        good = (f->map[c] = rc_alloc(n, sizeof(double))) != NULL && good;
+    for (int c = 0; c < RC_FATIGUES; c++)
+        if (computed(p) >> c & 1)
+            good = (f->own[c] = rc_alloc(points, sizeof(double))) != NULL && good;
+    if (p->pass == 0)
+        good = (f->store = rc_alloc(f->band * bytes_of_row(&f->shape, p), 1)) != NULL && good;
+    if (p->stress.residual != NULL) {
+        good = (f->layer = calloc(layers + 1, sizeof *f->layer)) != NULL && good;
+        for (size_t k = 0; f->layer != NULL && k < layers; k++)
+            f->layer[k] = p->stress.residual[k];
+    }
+    f->work = calloc((size_t)f->threads, sizeof(struct rc_history *));
+    for (int k = 0; f->work != NULL && k < f->threads; k++)
+        good = (f->work[k] = rc_history_new(f->states)) != NULL && good;
+    return good && f->work != NULL
+               ? RC_OK
+               : rc_err_set(err, "out of memory for histories of %zu states at %zu points",
+                            f->states, points);
+}
+
+struct rc_fatigue *
+rc_fatigue_new(const struct rc_shape *shape, const struct rc_fatigue_problem *problem,
+               struct rc_err *err)
+{
+    struct rc_stress_options o = problem->stress;
+    struct rc_fatigue *f;
+
+    if (rc_fatigue_check(shape, problem, err) != RC_OK)
+        return NULL;
+    if ((f = calloc(1, sizeof *f)) == NULL) {
+        rc_err_set(err, "out of memory for a plan");
+        return NULL;
+    }
+    f->problem = *problem;
+    f->shape = *shape;
+    f->result = rc_fatigue_shape(shape, problem);
+    f->threads = rc_useful_threads(shape, o.threads);
+    f->band = rows_of_band(shape, problem);
+    f->states = (problem->pass == 'x'   ? shape->nx
+                 : problem->pass == 'y' ? shape->ny
+                                        : problem->cases) +
+                unloaded_states(problem);
+    f->all = none;
+    f->all.stressed_volume = problem->power > 0 ? 0 : NAN;
+    o.wanted = six;
+    o.section = 0;
+    for (int k = 0; k < 2; k++)
+        o.traction[k] = problem->traction[k] != NULL ? problem->traction[k][0] : NULL;
+    if (allocate(f, err) != RC_OK ||
+        (f->stress = rc_stress_new(shape, problem->p[0], &o, err)) == NULL) {
+        rc_fatigue_free(f);
+        return NULL;
+    }
+    return f;
+}
+
+void
+rc_fatigue_free(struct rc_fatigue *f)
+{
+    if (f == NULL)
+        return;
+    for (int k = 0; f->work != NULL && k < f->threads; k++)
+        rc_history_free(f->work[k]);
+    for (int c = 0; c < RC_FATIGUES; c++)
+        free(f->own[c]);
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        free(f->map[c]);
+    rc_stress_free(f->stress);
+    free(f->store);
+    free(f->work);
+    free(f->layer);
+    free(f);
+}
+
+/* ---- stresses ---- */
+
+static enum rc_status
+slice_of(struct rc_fatigue *f, size_t t, struct rc_err *err)
+{
+    const struct rc_fatigue_problem *p = &f->problem;
+    const double *traction[2] = {NULL, NULL};
+    double *s[RC_STRESSES] = {NULL};
+
+    for (int k = 0; k < 2; k++)
+        if (p->traction[k] != NULL)
+            traction[k] = p->traction[k][t];
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        s[c] = f->map[c];
+    if (p->cases > 1 && rc_stress_set_loads(f->stress, p->p[t], traction, err) != RC_OK)
+        return RC_FAIL;
+    return rc_stress_slice(f->stress, f->at, s, err);
+}
+
+/* The stresses of all cases in the rows of the band. */
+static enum rc_status
+fill_band(struct rc_fatigue *f, struct rc_err *err)
+{
+    const size_t nx = f->shape.nx, n = f->rows * nx;
+
+    for (size_t t = 0; t < f->problem.cases; t++) {
+        if (slice_of(f, t, err) != RC_OK)
+            return RC_FAIL;
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+        for (int c = 0; c < RC_COMPONENTS; c++) {
+            float *to = f->store + (t * RC_COMPONENTS + (size_t)c) * f->band * nx;
+            for (size_t k = 0; k < n; k++)
+                to[k] = (float)f->map[c][f->first * nx + k];
+        }
+    }
+    return RC_OK;
+}
+
+/* ---- histories ---- */
+
+/* Appends the unloaded state, and adds the residual stress, which depends on the line only. */
+static void
+finish_history(const struct rc_fatigue *f, struct rc_history *w, size_t n, size_t line)
+{
+    w->n = n + unloaded_states(&f->problem);
+    for (int c = 0; c < RC_COMPONENTS; c++) {
+        const double *r = f->residual == NULL ? NULL : f->residual[c];
+        if (w->n > n)
+            w->s[c][n] = c == RC_SXX || c == RC_SYY ? f->unloaded : 0;
+        for (size_t t = 0; r != NULL && t < w->n; t++)
+            w->s[c][t] += r[line];
+    }
+}
+
+/* The states first, first + step, ... of a line of the map. */
+static void
+take_line(const struct rc_fatigue *f, struct rc_history *w, size_t line, size_t first, size_t step)
+{
+    const bool along_x = f->problem.pass == 'x';
+    const size_t length = along_x ? f->shape.nx : f->shape.ny;
+    const size_t start = along_x ? line * f->shape.nx : line;
+    const size_t stride = along_x ? 1 : f->shape.nx;
+    size_t n = 0;
+
+    for (size_t t = first; t < length; t += step, n++)
+        for (int c = 0; c < RC_COMPONENTS; c++)
+            w->s[c][n] = f->map[c][start + t * stride];
+    finish_history(f, w, n, line);
+}
+
+/* The same for the cases at a node of the body. */
+static void
+take_node(const struct rc_fatigue *f, struct rc_history *w, size_t row, size_t column, size_t first,
+          size_t step)
+{
+    const struct rc_fatigue_problem *p = &f->problem;
+    const size_t nx = f->shape.nx;
+    size_t n = 0;
+
+    for (size_t t = first; t < p->cases; t += step, n++) {
+        const size_t shift = p->column == NULL ? 0 : p->column[t];
+        const size_t i = p->stress.boundary == RC_PERIODIC ? (column + nx - shift % nx) % nx
+                         : column >= shift                 ? column - shift
+                                                           : nx;
+        const float *from =
+            f->store + (t * RC_COMPONENTS * f->band + row - f->first) * nx + (i < nx ? i : 0);
+        for (size_t c = 0; c < RC_COMPONENTS; c++)
+            w->s[c][n] = i < nx                       ? (double)from[c * f->band * nx]
+                         : c == RC_SXX || c == RC_SYY ? f->unloaded
+                                                      : 0;
+    }
+    finish_history(f, w, n, row);
+}
+
+static void
+take(const struct rc_fatigue *f, struct rc_history *w, size_t point, size_t first, size_t step)
+{
+    if (f->problem.pass != 0)
+        take_line(f, w, point, first, step);
+    else
+        take_node(f, w, point / f->result.nx, point % f->result.nx, first, step);
+}
+
+/* ---- the largest values ---- */
+
+/* Keeps the points with the largest values of a depth, and measures their sampling error: the change if only
+ * the even, or only the odd states are taken. */
+static void
+keep_worst(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, int c, size_t point)
+{
+    struct worst *worst = f->worst[c];
+    const double value = f->own[c][point];
+    struct rc_fatigue_rule only = *rule;
+    struct rc_fatigue_values v;
+    size_t k = f->worsts[c], bound = k < WORST ? k : WORST - 1;
+    double error = 0;
+
+    if (isnan(value) || (k == WORST && !(value > worst[WORST - 1].value)))
+        return;
+    only.wanted = c < RC_CRITERIA ? 1U << c : 0;
+    for (size_t half = 0; half < 2 && f->states > 2; half++) {
+        take(f, f->work[0], point, half, 2);
+        rc_history_values(f->work[0], &only, &v);
+        error = fmax(error, fabs(v.of[c] - value));
+    }
+    for (k = bound; k > 0 && value > worst[k - 1].value; k--)
+        worst[k] = worst[k - 1];
+    worst[k] = (struct worst){value, error / value, point};
+    f->worsts[c] = bound + 1;
+}
+
+/* The points of a band that may be among the largest, in their order. */
+static void
+find_worst(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, size_t from, size_t to)
+{
+    for (int c = 0; c <= RC_CRITERIA; c++) {
+        const double *v = f->own[c];
+        double least[WORST]; /* the largest values of the band, falling */
+        size_t n = 0;
+        if (!(f->problem.wanted >> c & 1))
+            continue;
+        for (size_t k = from; k < to; k++) {
+            size_t i = n < WORST ? n : WORST - 1;
+            if (n == WORST && !(v[k] > least[WORST - 1]))
+                continue;
+            for (; i > 0 && v[k] > least[i - 1]; i--)
+                least[i] = least[i - 1];
+            least[i] = v[k];
+            n += n < WORST;
+        }
+        for (size_t k = from; k < to; k++)
+            if (v[k] >= least[n - 1])
+                keep_worst(f, rule, c, k);
+        /* what decides is asked again here, while the band is stored */
+        if (f->worsts[c] > 0 && f->worst[c][0].at >= from && f->worst[c][0].at < to &&
+            (c == RC_DANG_VAN || c == RC_FINDLEY)) {
+            struct rc_fatigue_values decisive;
+            take(f, f->work[0], f->worst[c][0].at, 0, 1);
+            rc_history_values(f->work[0], rule, &decisive);
+            if (c == RC_DANG_VAN) {
+                f->depth.dangvan_hydrostatic = decisive.decides;
+            } else {
+                f->depth.plane_tilt = decisive.of[RC_PLANE_TILT];
+                f->depth.plane_turn = decisive.of[RC_PLANE_TURN];
+            }
+        }
+    }
+}
+
+static struct rc_fatigue_place
+place_of(const struct rc_fatigue *f, const struct worst *worst, size_t n)
+{
+    const size_t nx = f->result.nx, point = worst[0].at;
+    const double along = ((double)(point % nx) - (double)(nx - 1) / 2) * f->result.dx;
+    struct rc_fatigue_place at = {worst[0].value, NAN, NAN, f->at, 0};
+
+    for (size_t k = 0; k < n; k++)
+        at.sampling_error = fmax(at.sampling_error, worst[k].error);
+    if (f->problem.pass != 'x')
+        at.x = along;
+    if (f->problem.pass == 'x')
+        at.y = along;
+    else if (f->problem.pass == 0)
+        at.y = ((double)(point / nx) - (double)(f->result.ny - 1) / 2) * f->result.dy;
+    return at;
+}
+
+static double
+larger(double a, double b)
+{
+    return isnan(b) || a > b ? a : b;
+}
+
+/* The figures of this depth join those of all depths. */
+static void
+gather_figures(struct rc_fatigue *f)
+{
+    struct rc_fatigue_figures *d = &f->depth, *all = &f->all;
+    double index = NAN, least = -d->least_hydrostatic;
+
+    for (int c = 0; c <= RC_CRITERIA; c++) {
+        if (f->worsts[c] > 0)
+            d->largest[c] = place_of(f, f->worst[c], f->worsts[c]);
+        if (f->worsts[c] > 0 && !(d->largest[c].value <= all->largest[c].value)) {
+            all->largest[c] = d->largest[c];
+            if (c == RC_DANG_VAN)
+                all->dangvan_hydrostatic = d->dangvan_hydrostatic;
+            if (c == RC_FINDLEY) {
+                all->plane_tilt = d->plane_tilt;
+                all->plane_turn = d->plane_turn;
+            }
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        struct rc_fatigue_figures *to = k == 0 ? d : all;
+        index = NAN;
+        to->sampling_error = NAN;
+        for (int c = 0; c <= RC_CRITERIA; c++) {
+            to->sampling_error = larger(to->largest[c].sampling_error, to->sampling_error);
+            if (c < RC_CRITERIA)
+                index = larger(to->largest[c].value, index);
+        }
+        to->safety = 1 / index;
+    }
+    all->least_hydrostatic = -larger(least, -all->least_hydrostatic);
+    all->largest_hydrostatic = larger(d->largest_hydrostatic, all->largest_hydrostatic);
+    d->depths = 1;
+    d->histories = f->result.nx * f->result.ny;
+    d->bands = all->bands = (f->shape.ny + f->band - 1) / f->band;
+    d->states = all->states = f->states;
+    all->histories += d->histories;
+    all->depths++;
+}
+
+/* Adds the last interval of depth to the stressed volume. */
+static void
+add_volume(struct rc_fatigue *f)
+{
+    const struct rc_fatigue_problem *p = &f->problem;
+    const double *r = f->own[RC_AMPLITUDE];
+    const double cell = p->pass != 0 ? f->result.dx : f->result.dx * f->result.dy;
+    double sum = 0;
+
+    if (!(p->power > 0))
+        return;
+    for (size_t k = 0; k < f->result.nx * f->result.ny; k++)
+        if (r[k] > p->threshold)
+            sum += pow((r[k] - p->threshold) / 1e9, p->power);
+    f->integral = sum * cell * (p->depth_power == 0 ? 1 : pow(f->at, -p->depth_power));
+    if (f->all.depths > 0)
+        f->all.stressed_volume += (f->integral + f->before) / 2 * fabs(f->at - f->depth_before);
+    f->before = f->integral;
+    f->depth_before = f->at;
+}
+
+/* ---- a depth ---- */
+
+/* The values of the points of a band; *least and *largest: hydrostatic stress. */
+static void
+compute(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, size_t from, size_t to)
+{
+    double low = INFINITY, high = -INFINITY;
+
+#pragma omp parallel for num_threads(f->threads) schedule(dynamic) reduction(min                   \
+                                                                             : low)                \
+    reduction(max                                                                                  \
+              : high)
+    for (size_t first = from; first < to; first += TOGETHER) {
+        struct rc_history *w = f->work[omp_get_thread_num()];
+        for (size_t k = first; k < to && k < first + TOGETHER; k++) {
+            struct rc_fatigue_values v;
+            take(f, w, k, 0, 1);
+            rc_history_values(w, rule, &v);
+            for (int c = 0; c < RC_FATIGUES; c++)
+                if (f->own[c] != NULL)
+                    f->own[c][k] = v.of[c];
+            low = v.least < low ? v.least : low;
+            high = v.largest > high ? v.largest : high;
+        }
+    }
+    f->depth.least_hydrostatic = -larger(-low, -f->depth.least_hydrostatic);
+    f->depth.largest_hydrostatic = larger(high, f->depth.largest_hydrostatic);
+}
+
+static enum rc_status
+do_bands(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, struct rc_err *err)
+{
+    for (f->first = 0; f->first < f->shape.ny; f->first += f->band) {
+        size_t from = f->first * f->result.nx, to;
+        f->rows = f->shape.ny - f->first < f->band ? f->shape.ny - f->first : f->band;
+        to = from + f->rows * f->result.nx;
+        if (f->problem.pass != 0) {
+            if (slice_of(f, 0, err) != RC_OK)
+                return RC_FAIL;
+            to = f->result.nx;
+        } else if (fill_band(f, err) != RC_OK) {
+            return RC_FAIL;
+        }
+        compute(f, rule, from, to);
+        find_worst(f, rule, from, to);
+    }
+    return RC_OK;
+}
+
+enum rc_status
+rc_fatigue_depth(struct rc_fatigue *f, double depth, const struct rc_fatigue_limits *limits,
+                 const double *const residual[RC_COMPONENTS], double *const out[RC_FATIGUES],
+                 struct rc_err *err)
+{
+    const struct rc_fatigue_problem *p = &f->problem;
+    const size_t points = f->result.nx * f->result.ny;
+    struct rc_fatigue_rule rule;
+
+    if (rc_fatigue_check_limits(p->wanted, limits, err) != RC_OK)
+        return RC_FAIL;
+    if (p->depth_power != 0 && p->power > 0 && !(depth > 0))
+        return rc_err_set(err, "depth %g m: a power of the depth needs depths above 0", depth);
+    rule = rc_fatigue_rule_of(p->wanted, p->full, limits);
+    f->at = depth;
+    f->residual = residual;
+    f->unloaded = f->layer == NULL ? 0 : f->layer[rc_body_material(&p->stress.body, depth)];
+    f->depth = none;
+    memset(f->worsts, 0, sizeof f->worsts);
+    if (do_bands(f, &rule, err) != RC_OK)
+        return RC_FAIL;
+    add_volume(f);
+    gather_figures(f);
+    for (int c = 0; c < RC_FATIGUES; c++)
+        if (p->wanted >> c & 1 && out[c] != NULL)
+            memcpy(out[c], f->own[c], points * sizeof *out[c]);
+    return RC_OK;
+}
+
+#define PLACE(c, name, title, of_unit)                                                             \
+    {RC_FIGURE_AS(name, struct rc_fatigue_figures, largest[c].value), of_unit, title},             \
+        {RC_FIGURE_AS(name "_x", struct rc_fatigue_figures, largest[c].x), "m", "Its x"},          \
+        {RC_FIGURE_AS(name "_y", struct rc_fatigue_figures, largest[c].y), "m", "Its y"},          \
+        {RC_FIGURE_AS(name "_depth", struct rc_fatigue_figures, largest[c].depth), "m",            \
+         "Its depth"},                                                                             \
+    {                                                                                              \
+        RC_FIGURE_AS(name "_sampling_error", struct rc_fatigue_figures,                            \
+                     largest[c].sampling_error),                                                   \
+            NULL, "Its sampling error"                                                             \
+    }
+#define FIGURE(member) RC_FIGURE(struct rc_fatigue_figures, member)
+const struct rc_figure rc_figures_fatigue[] = {
+    PLACE(RC_CROSSLAND, "crossland", "Index of Crossland", NULL),
+    PLACE(RC_DANG_VAN, "dangvan", "Index of Dang Van", NULL),
+    PLACE(RC_PAPADOPOULOS, "papadopoulos", "Index of Papadopoulos", NULL),
+    PLACE(RC_FINDLEY, "findley", "Index of Findley", NULL),
+    PLACE(RC_SHAKEDOWN, "shakedown", "Index of shakedown", NULL),
+    PLACE(RC_AMPLITUDE, "amplitude", "Amplitude sqrt(J2)", "Pa"),
+    {FIGURE(safety), NULL, "Safety factor"},
+    {FIGURE(sampling_error), NULL, "Sampling error"},
+    {FIGURE(plane_tilt), "deg", "Angle of the plane's normal to z"},
+    {FIGURE(plane_turn), "deg", "Angle of the plane's normal to x"},
+    {FIGURE(dangvan_hydrostatic), "Pa", "Hydrostatic stress that decides for Dang Van"},
+    {FIGURE(least_hydrostatic), "Pa", "Least hydrostatic stress"},
+    {FIGURE(largest_hydrostatic), "Pa", "Largest hydrostatic stress"},
+    {FIGURE(stressed_volume), NULL, "Stressed volume"},
+    {FIGURE(depths), NULL, "Depths"},
+    {FIGURE(histories), NULL, "Histories"},
+    {FIGURE(states), NULL, "States of a history"},
+    {FIGURE(bands), NULL, "Bands of rows"},
+    {0},
+};
+
+const struct rc_fatigue_figures *
+rc_fatigue_at_depth(const struct rc_fatigue *f)
+{
+    return &f->depth;
+}
+
+const struct rc_fatigue_figures *
+rc_fatigue_result(const struct rc_fatigue *f)
+{
+    return &f->all;
+}
