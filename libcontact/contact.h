@@ -640,7 +640,8 @@ RC_API enum rc_status rc_solver_set_heights(struct rc_solver *solver, const doub
                                             struct rc_err *err);
 /* Starts from this pressure (nx ny Pa; projected onto bounds and load) of an earlier solver of the same
  * problem instead of from coarser grids; load (N) is that of this pressure, needed when the approach is
- * given. RC_FAIL after the first step of a load, and as in rc_solver_set_load. */
+ * given. p NULL: starts from coarser grids, as a new solver does. RC_FAIL after the first step of a load, and
+ * as in rc_solver_set_load. */
 RC_API enum rc_status rc_solver_warm_start(struct rc_solver *solver, double load, const double *p,
                                            struct rc_err *err);
 /* One iteration, on coarser grids first: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when
@@ -1301,6 +1302,36 @@ RC_API struct rc_model *rc_wear_new(struct rc_model *inner, const double *h,
                                     const struct rc_wear_problem *problem, struct rc_err *err);
 /* The figures of this model, after rc_model_look; NULL: it does not wear. */
 RC_API const struct rc_wear_figures *rc_wear_result(const struct rc_model *model);
+
+/* ---- travel as a model ---- */
+
+/* Heights in m; the caller keeps the maps as long as the model. */
+struct rc_travel_problem {
+    struct rc_shape track; /* map of body 1, with the spacings of the inner model */
+    const double *h1;
+    bool repeats;            /* the map of body 1 is periodic along x             */
+    struct rc_shape counter; /* map of body 2, whose rows are those of body 1     */
+    const double *h2;        /* NULL: smooth                                      */
+    bool counter_repeats;
+    double ratio;  /* travel of the heights of body 2 over that of the contact; 0: it rolls */
+    double radius; /* m, of the ball that travels; 0: none                                  */
+};
+struct rc_travel_figures {
+    double
+        position; /* m, x of the middle of the contact on the map of body 1, from its middle          */
+    double
+        height; /* m, of body 2: highest node less the approach, in a datum that stays with body 1 */
+};
+/* A model (model.h) of a contact that travels along x over body 1, over an inner one that allows other heights,
+ * and which it owns from here on; NULL where that is NULL. In addition to the load it takes the position. The
+ * map of the inner model is that of body 1, or a window of it, with fewer columns or rows, that goes along by
+ * whole nodes. In a window each position is a first contact; on the whole map the inner model keeps its
+ * history. Its frame `height` holds the heights of both bodies at the position. The heights of body 2 between
+ * nodes are interpolated by cubic polynomials. RC_FAIL when the window leaves the map of a body. */
+RC_API struct rc_model *rc_travel_new(struct rc_model *inner,
+                                      const struct rc_travel_problem *problem, struct rc_err *err);
+/* The figures of this model, after rc_model_look; NULL: it does not travel. */
+RC_API const struct rc_travel_figures *rc_travel_result(const struct rc_model *model);
 
 /* ---- stress ---- */
 

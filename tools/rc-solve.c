@@ -12,6 +12,8 @@ static struct solve_args args = {
     .physics = PHYSICS_NONE,
     .kernel = "auto",
     .method = "auto",
+    .counter_travel = 1,
+    .passes = 1,
     .drive.interval = 60,
     .output = 1 << SOLVE_PRESSURE | 1 << SOLVE_GAP | 1 << SOLVE_DISPLACEMENT | 1 << SOLVE_HEIGHT,
 };
@@ -26,6 +28,19 @@ static const struct opt opts[] = {
      .help = "layers that may yield: number or thicknesses, from the surface down (default auto)"},
     {.name = "pull-off", .type = OPT_FLAG, AT(pull_off), .result = true,
      .help = "after the last state separate the bodies, and find the pull-off load"},
+    {.name = "travel", .type = OPT_NUMBERS, .unit = UNIT_M, AT(travel), .min = -INFINITY,
+     .max = INFINITY, .result = true, .arg = "LIST",
+     .help = "the contact travels over the map: x of its middle, from that of the map, each a case"},
+    {.name = "counter", .type = OPT_TEXT, AT(counter), .result = true, .arg = "FILE",
+     .help = "heights of body 2, which travels (or a ball: --radius); mirrored as by rc-add"},
+    {.name = "counter-travel", .type = OPT_NUMBER, AT(counter_travel), .min = -INFINITY,
+     .max = INFINITY, .result = true, .arg = "RATIO",
+     .help = "travel of its heights over that of the contact: 1 (default) slides, 0 rolls"},
+    {.name = "window", .type = OPT_TEXT, AT(window), .result = true, .arg = "WxH",
+     .help = "with --travel, solve so many nodes around the contact (default: the whole map)"},
+    {.name = "passes", .type = OPT_COUNT, AT(passes), .min = 1, .max = 1e6, .result = true,
+     .arg = "N",
+     .help = "with --travel and --yield, go through the positions N times (default 1)"},
     {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
      .words = words_engine_or_auto, .help = "engine that sums displacements (default auto)"},
     {.name = "method", .type = OPT_CHOICE, AT(method), .words = words_method_or_auto,
@@ -103,6 +118,7 @@ check_arguments(struct run *run)
     /* each load starts from the last one */
     args.physics.history |= args.yield != NULL || args.adhesion != NULL;
     args.physics.attracts = args.adhesion != NULL;
+    args.physics.travels = args.travel.n > 0;
     physics_check(&run->d.t, &args.physics);
     run->args = &args;
     run->steps = physics_steps(&args.physics);
@@ -111,6 +127,7 @@ check_arguments(struct run *run)
     check_tilt(run);
     yield_read(run);
     adhesion_read(run);
+    travel_read(run);
     if (run->yielding.wanted && !tool_given(&run->d.t, "output"))
         args.output |= 1 << SOLVE_RESIDUAL;
     if (run->adhering.wanted && (args.output & (1 << SOLVE_PRESSURE | 1 << SOLVE_GAP)))

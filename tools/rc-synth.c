@@ -1,7 +1,6 @@
 /* rc-synth: surfaces made from a formula or from a seed. */
 #include "tools/cli/cli.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -144,39 +143,6 @@ check_options(struct tool *t, const struct synth_shape *row)
             tool_die(t, EXIT_USAGE, "--%s has no meaning for %s", o->name, row->name);
 }
 
-/* The first frame of FILE, or the first one with this channel. */
-static struct rc_grid *
-frame_of_file(struct tool *t, const char *channel)
-{
-    bool standard = strcmp(args.like, "-") == 0;
-    FILE *file = standard ? stdin : fopen(args.like, "rb");
-    struct rc_reader *reader;
-    struct rc_grid *g = NULL;
-    struct rc_err err;
-    enum rc_status status;
-
-    if (file == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--like %s: %s", args.like, strerror(errno));
-    if ((reader = rc_reader_new(file, 0, t->memory, &err)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--like %s: %s", args.like, err.text);
-    do {
-        rc_grid_free(g);
-        status = rc_reader_next(reader, &g, &err);
-    } while (status == RC_MORE && channel != NULL && strcmp(g->channel, channel) != 0);
-    if (status == RC_FAIL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--like %s: %s", args.like, err.text);
-    if (g == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--like %s: no %sframe is in it", args.like,
-                 channel == NULL ? "" : "height ");
-    if (strcmp(rc_grid_dunit(g), "m") != 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "--like %s: its dx and dy are in %s (key dunit), not in m",
-                 args.like, rc_grid_dunit(g));
-    rc_reader_free(reader);
-    if (!standard)
-        fclose(file);
-    return g;
-}
-
 /* Uses the position of the highest measured node for --place. */
 static void
 place_highest(struct tool *t, const struct rc_grid *g)
@@ -201,7 +167,7 @@ static struct rc_shape
 shape_of_file(struct tool *t)
 {
     bool highest = tool_given(t, "place") && args.place.n == 0;
-    struct rc_grid *g = frame_of_file(t, highest ? "height" : NULL);
+    struct rc_grid *g = tool_frame_of_file(t, "like", args.like, highest ? "height" : NULL);
     struct rc_shape shape = rc_grid_shape(g);
 
     if (highest)

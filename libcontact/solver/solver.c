@@ -491,6 +491,11 @@ rc_solver_warm_start(struct rc_solver *s, double load, const double *p, struct r
 
     if (s->stage != RC_STAGE_NEW)
         return rc_err_set(err, "a pressure to start from comes before the first step of a load");
+    if (p == NULL) {
+        rc_iterate_level(s);
+        rc_nested_new(s);
+        return RC_OK;
+    }
     if (s->load.target > 0 && rc_load_set(s, load, err) != RC_OK)
         return RC_FAIL;
     if ((bad = first_not_finite(p, s->posed.n)) < s->posed.n)

@@ -503,6 +503,58 @@ done:
     return status;
 }
 
+/* A ball travels over a map; half-way to the third position the state is restored in another model. */
+static enum rc_status
+travel_model(double *out, struct rc_err *err)
+{
+    const struct rc_problem contact = {.pair = bare, .tol = 1e-3, .threads = 1};
+    const struct rc_travel_problem law = {
+        .track = shape, .h1 = rough, .counter = shape, .h2 = rough, .radius = 1e-4};
+    struct rc_model *m =
+        rc_travel_new(rc_elastic_new(&shape, rough, &contact, NULL, err), &law, err);
+    struct rc_model *other = NULL;
+    enum rc_status status = RC_FAIL;
+    struct rc_expected expected;
+    struct rc_point to = {0};
+    double *state = NULL;
+    bool going;
+    size_t n;
+
+    rc_point_set(&to, RC_LOAD, 1e-3);
+    rc_point_set(&to, RC_POSITION, 0);
+    if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK)
+        goto done;
+    for (int k = 0; k < 2; k++) {
+        rc_point_set(&to, RC_POSITION, k * shape.dx);
+        if (rc_model_run(m, &to, err) == RC_FAIL)
+            goto done;
+    }
+    rc_point_set(&to, RC_POSITION, 2 * shape.dx);
+    if (rc_model_go(m, &to, err) != RC_MORE || rc_model_step(m, err) == RC_FAIL)
+        goto done;
+    n = rc_model_state_size(m);
+    if ((state = malloc(n * sizeof *state)) == NULL) {
+        rc_err_set(err, "out of memory");
+        goto done;
+    }
+    rc_model_state(m, state);
+    other = rc_travel_new(rc_elastic_new(&shape, rough, &contact, NULL, err), &law, err);
+    if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK)
+        goto done;
+    while ((status = rc_model_step(other, err)) == RC_MORE)
+        ;
+    if (status == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
+        rc_model_frame(other, "pressure", out, err) != RC_OK)
+        status = RC_FAIL;
+    else
+        out[N] = rc_travel_result(other)->height;
+done:
+    free(state);
+    rc_model_free(m);
+    rc_model_free(other);
+    return status;
+}
+
 /* ---- adhesion ---- */
 
 /* A state by approach, one by load that starts from the state of another path, and a retraction. */
@@ -1041,6 +1093,7 @@ static const struct {
     {.name = "the friction model", .use = friction_model},
     {.name = "rolling", .use = rolling_model},
     {.name = "the wear model", .use = wear_model},
+    {.name = "the travel model", .use = travel_model},
     {.name = "plasticity", .use = yields},
     {.name = "plasticity after elasticity", .use = may_yield},
     {.name = "adhesion", .use = adheres},

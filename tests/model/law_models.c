@@ -140,6 +140,16 @@ wearing(struct rc_err *err)
     return rc_wear_new(rc_elastic_new(&shape, heights, &contact, NULL, err), heights, &law, err);
 }
 
+/* A ball travels over a rough map, which its first load dents. */
+static struct rc_model *
+travelling(struct rc_err *err)
+{
+    static const struct rc_travel_problem law = {
+        .track = {NX, NY, 1e-6, 1e-6}, .h1 = heights, .repeats = true, .radius = 4e-5};
+
+    return rc_travel_new(elastic(err), &law, err);
+}
+
 #ifdef RC_TOYS
 static struct rc_model *
 relaxing(struct rc_err *err)
@@ -177,6 +187,11 @@ static const struct kind {
     {"adhesive", dented, {RC_LOAD}, {{4e-3}, {1e-3}, {3e-3}}, 1e-5},
     {"adhesive", retracted, {RC_APPROACH}, {{2e-8}, {0}, {-INFINITY}}, 1e-4},
     {"wear", wearing, {RC_LOAD, RC_DISTANCE}, {{2e-3, 0}, {1e-3, 2e-3}, {2e-3, 9e-3}}, 1e-5},
+    {"travel",
+     travelling,
+     {RC_LOAD, RC_POSITION},
+     {{2e-3, 1e-6}, {1e-3, 2e-6}, {3e-3, 2.5e-6}},
+     1e-6},
 #ifdef RC_TOYS
     {"relaxing", relaxing, {RC_LOAD, RC_TIME}, {{2e-3, 0.3}, {1e-3, 0.5}, {2e-3, 0.6}}, 1e-6},
 #endif

@@ -375,6 +375,38 @@ tool_channel(struct tool *t, const char *channel, bool pass)
     return NULL;
 }
 
+struct rc_grid *
+tool_frame_of_file(struct tool *t, const char *option, const char *name, const char *channel)
+{
+    bool standard = strcmp(name, "-") == 0;
+    FILE *file = standard ? stdin : fopen(name, "rb");
+    struct rc_reader *reader;
+    struct rc_grid *g = NULL;
+    struct rc_err err;
+    enum rc_status status;
+
+    if (file == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: %s", option, name, strerror(errno));
+    if ((reader = rc_reader_new(file, 0, t->memory, &err)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: %s", option, name, err.text);
+    do {
+        rc_grid_free(g);
+        status = rc_reader_next(reader, &g, &err);
+    } while (status == RC_MORE && channel != NULL && strcmp(g->channel, channel) != 0);
+    if (status == RC_FAIL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: %s", option, name, err.text);
+    if (g == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: no %s%sframe is in it", option, name,
+                 channel == NULL ? "" : channel, channel == NULL ? "" : " ");
+    if (strcmp(rc_grid_dunit(g), "m") != 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "--%s %s: its dx and dy are in %s (key dunit), not in m",
+                 option, name, rc_grid_dunit(g));
+    rc_reader_free(reader);
+    if (!standard)
+        fclose(file);
+    return g;
+}
+
 size_t
 tool_first_row(const struct tool *t, const struct rc_grid *g)
 {

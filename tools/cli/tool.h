@@ -224,6 +224,10 @@ bool tool_take_frames(void *ctx, struct tool *tool, const struct rc_grid *kept, 
 /* The same with the frame of one other channel on its grid; *other is NULL if there is none. */
 struct rc_grid *tool_channel_beside(struct tool *tool, const char *channel, const char *beside,
                                     struct rc_grid **other);
+/* The first frame of the file (- is standard input) that --OPTION names, or the first one with this channel.
+ * Ends the tool if there is none. The caller frees the frame. */
+struct rc_grid *tool_frame_of_file(struct tool *tool, const char *option, const char *name,
+                                   const char *channel);
 /* For `take`: stores the frame in *kept; ends the tool if the case has two of them. */
 void tool_keep_frame(struct tool *tool, struct rc_grid *g, struct rc_grid **kept);
 /* Ends the tool if two frames have different grids. */

@@ -224,7 +224,8 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
     if (form != NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "a sphere was already added to these heights (form=%s): remove --radius", form);
-    add_sphere(t, a, g);
+    if (!a->travels)
+        add_sphere(t, a, g);
     snprintf(name, sizeof name, "sphere %s", rc_number_text(radius, a->radius));
     tool_must(t, g, rc_grid_set(g, "form", name, &err), &err);
 }

@@ -326,13 +326,15 @@ read_string(struct reading *r, const char **start, size_t *n)
     *n = (size_t)(r->at++ - *start);
 }
 
-/* True if the path of a value is the name of a column, or ends in a point and that name. */
+/* True if the path of a value is the name of a column, or ends in a point and that name. Words need the whole
+ * path: the report of rc-solve has the word "effects.height" before the number "height". */
 static bool
-is_named(const char *path, const char *name)
+is_named(const char *path, const char *name, bool words)
 {
     size_t p = strlen(path), n = strlen(name);
 
-    return p >= n && strcmp(path + p - n, name) == 0 && (p == n || path[p - n - 1] == '.');
+    return (p == n || !words) && p >= n && strcmp(path + p - n, name) == 0 &&
+           (p == n || path[p - n - 1] == '.');
 }
 
 /* A value as text in the file; `words`: it is in quotes. */
@@ -344,7 +346,7 @@ take(struct reading *r, const char *text, size_t length, bool words, bool elemen
     for (size_t c = 0; c < r->table->columns; c++) {
         size_t n = r->got[c].n;
 
-        if (!is_named(r->path, r->table->column[c].name) || r->got[c].taken)
+        if (!is_named(r->path, r->table->column[c].name, words && !element) || r->got[c].taken)
             continue;
         r->got[c].v = tool_grown(r->tool, r->got[c].v, n, &r->got[c].capacity, sizeof *r->got[c].v,
                                  "a table");

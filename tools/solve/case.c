@@ -87,6 +87,7 @@ set_marks(struct run *run)
         args->history ? rc_crc32_add(0, run->steps->v, run->step * sizeof *run->steps->v) : 0);
     yield_set_marks(run);
     adhesion_mark(run, course_mark(c, "checkpoint.adhesion"), size);
+    travel_mark(run, course_mark(c, "checkpoint.travel"), size);
 }
 
 /* ---- results ---- */
@@ -121,6 +122,7 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     drive_set_number(d, g, "yield", yields ? rc_yield_stress(law, 0) : NAN);
     drive_set_number(d, g, "hardening", yields ? yield_law_hardening(law) : NAN);
     adhesion_set_key(run, g, c);
+    travel_set_keys(run, g);
 }
 
 /* Values that are not those of a frame of the model. The frames from `plastic` on have the error of the shape. */
@@ -152,7 +154,7 @@ keep_shape(struct drive *d, struct rc_model *m)
 
     if (!run->args->physics.history)
         return;
-    if (s->contact.yielded_nodes > 0) {
+    if (s->contact.yielded_nodes > 0 && !run->travelling.wanted) {
         if (rc_model_frame(m, "plastic", g->v, &err) != RC_OK)
             tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
         g->type = RC_F64;
@@ -265,6 +267,7 @@ judge_load(struct drive *d, struct rc_model *m)
     rc_patches_free(&s->patches);
     *s = (struct solution)SOLUTION_NONE;
     run->solver = rc_model_solver(m);
+    travel_look(run, m);
     if (run->apart)
         look_inside(run, g, NULL, s);
     else if (run->solver != NULL &&
@@ -345,8 +348,8 @@ begin_load(struct drive *d, struct rc_model *m)
     struct rc_problem problem;
     bool plans;
 
-    a->pulling = d->at == run->steps->n;
-    run->step = a->pulling ? d->at - 1 : d->at;
+    a->pulling = a->wanted && d->at == run->steps->n;
+    run->step = run->travelling.wanted ? 0 : a->pulling ? d->at - 1 : d->at;
     run->apart = run->steps->v[run->step] == 0 && !a->wanted;
     problem = problem_of(run, run->g, run->step);
     if (run->yielding.wanted)
@@ -367,13 +370,15 @@ make_points(struct run *run)
     const bool approach = run->args->physics.approach.n > 0;
     struct drive *d = &run->d;
 
-    d->points = run->steps->n + run->args->pull_off;
+    d->points = run->travelling.wanted ? travel_points(run) : run->steps->n + run->args->pull_off;
     if ((d->point = calloc(d->points, sizeof *d->point)) == NULL)
         tool_die(&d->t, EXIT_IMPOSSIBLE, "out of memory for %zu loads", d->points);
-    for (size_t k = 0; k < run->steps->n; k++) {
-        const struct rc_problem problem = problem_of(run, run->g, k);
+    for (size_t k = 0; k < d->points; k++) {
+        const struct rc_problem problem = problem_of(run, run->g, k < run->steps->n ? k : 0);
         rc_point_set(&d->point[k], approach ? RC_APPROACH : RC_LOAD,
                      approach ? problem.approach : problem.load);
+        if (run->travelling.wanted)
+            rc_point_set(&d->point[k], RC_POSITION, travel_position(run, k));
     }
     if (run->args->pull_off)
         rc_point_set(&d->point[run->steps->n], RC_APPROACH, -INFINITY);
@@ -392,6 +397,8 @@ do_loads(struct run *run)
                                         : rc_elastic_new(&shape, run->g->v, &problem, NULL, &err);
     if (run->model == NULL)
         tool_die_at(&d->t, run->g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (run->travelling.wanted)
+        run->model = travel_model(run, run->model);
     d->begin = begin_load;
     d->judge = judge_load;
     d->all_keys = set_keys;
@@ -449,12 +456,14 @@ solve_case(struct run *run, const struct rc_grid *hardness)
         checkpoint_crc(&run->d.t, g, run->crc);
     if (run->d.checkpoint != NULL && hardness != NULL)
         checkpoint_crc(&run->d.t, hardness, run->hardness_crc);
+    travel_begin(run);
     if (run->args->drive.dry_run) {
-        struct rc_problem problem = problem_of(run, g, 0);
-        run->model = run->yielding.wanted ? yield_model(run, g, &problem) : NULL;
-        solve_plan(run, g, &problem);
+        struct rc_problem problem = problem_of(run, run->g, 0);
+        run->model = run->yielding.wanted ? yield_model(run, run->g, &problem) : NULL;
+        solve_plan(run, run->g, &problem);
         rc_model_free(run->model);
     } else {
         do_loads(run);
     }
+    travel_end(run);
 }

@@ -16,8 +16,11 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
 {
     const struct physics *a = &run->args->physics;
     const char *source = rc_grid_get(g, "source"), *name = "approach", *unit = "m";
-    char value[SHOWN_NUMBER];
+    char value[SHOWN_NUMBER], position[SHOWN_NUMBER + 16] = "";
 
+    if (run->travelling.wanted)
+        snprintf(position, sizeof position, ", position %s",
+                 shown_in_unit(value, travel_position(run, run->d.at), "m"));
     if (source == NULL)
         source = run->d.t.source == NULL ? "standard input" : run->d.t.source;
     if (a->load.n > 0) {
@@ -27,8 +30,8 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
         name = "mean pressure";
         unit = "Pa";
     }
-    snprintf(text, size, "%s, case %zu, %s %s", source, run->d.course.number, name,
-             shown_in_unit(value, run->steps->v[run->step], unit));
+    snprintf(text, size, "%s, case %zu, %s %s%s", source, run->d.course.number, name,
+             shown_in_unit(value, run->steps->v[run->step], unit), position);
     return text;
 }
 

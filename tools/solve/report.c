@@ -69,6 +69,7 @@ show_effects(struct run *run, const char *engine, const bool *active,
                                : "left out: no --history"},
         {"yield", yield_state(run)},
         {"adhesion", adhesion_state(run)}, /* also the state of its frame */
+        {"travel", travel_state(run)},
         {"tilt", run->tilt ? "on" : "left out: no --tilt free"},
         {"stiffness", run->stiffness ? "on" : "left out: one load and no --stiffness"},
         {"conductivity", args->conductivity == NULL ? "left out: no --conductivity"
@@ -246,6 +247,7 @@ solve_report(struct drive *d, const struct rc_model *m)
     adhesion_report(r, run);
     report_number(r, "rms_slope", run->rms_slope, NULL);
     report_number(r, "elastic_energy", s->contact.elastic_energy, "J");
+    travel_report(r, run);
 }
 
 /* ---- plan ---- */
@@ -269,7 +271,7 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
         (void)rc_model_plan(run->model, &to, &expected, &err);
     else
         (void)rc_solver_expect(&shape, problem, &expected, &err);
-    return expected.memory + small + (dents + later) * rc_grid_nodes(g);
+    return expected.memory + small + (dents + later + travel_bytes(run)) * rc_grid_nodes(g);
 }
 
 void
@@ -282,6 +284,8 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     const char *why = NULL, *engine = rc_solver_choice(&shape, problem, &why);
     struct rc_expected e;
     struct rc_err err;
+    const bool travels = run->travelling.wanted;
+    const size_t points = travels ? travel_points(run) : run->steps->n;
     double each, memory;
     char where[256];
 
@@ -295,11 +299,13 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
                         (double)course_peak(run->adhering.wanted ? adhesion_memory(run, g, problem)
                                                                  : solve_memory(run, g, problem)));
     tool_where(&run->d.t, g, where, sizeof where);
-    fprintf(run->d.t.out, "%s: %zu x %zu nodes, %zu %s, engine %s\n", where, g->nx, g->ny,
-            run->steps->n, run->steps->n == 1 ? "load" : "loads", engine);
+    fprintf(run->d.t.out, "%s: %zu x %zu nodes, %zu %s%s, engine %s\n", where, g->nx, g->ny, points,
+            travels ? "position" : "load", points == 1 ? "" : "s", engine);
     show_effects(run, why, NULL, print_effect);
     fprintf(run->d.t.out, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n", each,
-            run->steps->n > 1 ? " for the first load, fewer for the next" : "",
-            ((size_t)memory >> 20) + 1, e.seconds * each / e.convolutions * (double)run->steps->n,
+            points == 1 ? ""
+            : travels   ? " for the first position, 5 for the next after a short step"
+                        : " for the first load, fewer for the next",
+            ((size_t)memory >> 20) + 1, e.seconds * each / e.convolutions * (double)points,
             run->d.t.threads);
 }

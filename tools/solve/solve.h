@@ -31,10 +31,14 @@ struct solve_args {
     const char *kernel, *method;
     const char *conductivity; /* of both bodies, or NULL                                  */
     const char *yield, *increments, *slabs; /* words of the command line, or NULL */
-    const char *adhesion; /* words of the command line, or NULL                       */
-    bool pull_off;        /* pull-off is an additional last case */
-    const char *tilt;     /* a word, or NULL                                          */
-    struct numbers at;    /* x and y; none: the middle                                */
+    const char *adhesion;         /* words of the command line, or NULL                       */
+    bool pull_off;                /* pull-off is an additional last case */
+    struct numbers travel;        /* positions; none: the contact stays */
+    const char *counter, *window; /* words of the command line, or NULL */
+    double counter_travel;
+    size_t passes;
+    const char *tilt;  /* a word, or NULL                                          */
+    struct numbers at; /* x and y; none: the middle                                */
     bool stiffness, discretization;
     size_t output; /* bits of enum solve_frame */
     struct drive_args drive;
@@ -64,6 +68,15 @@ struct adhering {
     struct rc_adhesion_scales scales;          /* scales of the law on this grid */
     const struct rc_adhesion_figures *figures; /* figures of the current point; NULL: none */
     bool pulling;                              /* this case is the pull-off */
+};
+
+/* --travel: the contact travels over the map. */
+struct travelling {
+    bool wanted;
+    size_t window[2], passes;
+    struct rc_grid *counter, *track; /* heights of body 2 (NULL: none), and of body 1 */
+    char crc[16];                    /* of body 2, with a checkpoint */
+    const struct rc_travel_figures *found;
 };
 
 /* The figures of a solution. */
@@ -99,6 +112,7 @@ struct run {
     bool stiffness, conductance; /* whether they are computed */
     struct yielding yielding;
     struct adhering adhering;
+    struct travelling travelling;
     bool tilt;                         /* the counter body is free to tilt */
     double k[2];                       /* conductivities of the bodies, SI                  */
     const char *conductance_unit;      /* W/K or S; NULL: the conductivities have no unit   */
@@ -163,6 +177,24 @@ void adhesion_expect(struct run *run, const struct rc_grid *g, const struct rc_p
 void adhesion_mark(const struct run *run, char *value, size_t size);
 const char *adhesion_state(const struct run *run);
 void adhesion_report(struct report *report, const struct run *run);
+
+/* ---- travel.c: all but travel_read do nothing without --travel ---- */
+
+/* Reads --travel and its options; ends the tool if they are invalid. */
+void travel_read(struct run *run);
+/* Puts a map of the heights at a position in the place of the heights of the case, and removes it. */
+void travel_begin(struct run *run);
+void travel_end(struct run *run);
+struct rc_model *travel_model(struct run *run, struct rc_model *inner);
+size_t travel_points(const struct run *run);
+/* Bytes a node of the maps of the model. */
+size_t travel_bytes(const struct run *run);
+double travel_position(const struct run *run, size_t point);
+void travel_mark(struct run *run, char *value, size_t size);
+void travel_look(struct run *run, struct rc_model *m);
+void travel_set_keys(struct run *run, struct rc_grid *as);
+void travel_report(struct report *report, const struct run *run);
+const char *travel_state(const struct run *run);
 
 /* ---- yield.c: all but yield_read do nothing without --yield ---- */
 

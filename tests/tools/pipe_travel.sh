@@ -1,0 +1,52 @@
+# rc-solve --travel: each position is the contact of a map that rc-pick has cut or rc-add has summed; a resumed
+# run writes the same bytes; contradictions are refused.
+. "$(dirname "$0")/../pipe.sh"
+
+rc-synth selfaffine --nx 200 --ny 64 --dx 1um --hurst 0.8 --rms-height 20nm --short-cut 8um --seed 3 -o track.rcg
+rc-synth selfaffine --nx 120 --ny 64 --dx 1um --hurst 0.8 --rms-height 20nm --short-cut 8um --seed 4 -o other.rcg
+solve="rc-solve --load 50mN --radius 2mm --estar 100GPa --tol 1e-6 --quiet"
+window="--travel=-3um:3um:7 --window 64x48"
+
+claim "a ball travels in a window" bash -c "$solve $window --report moving.json -o moving.rcg track.rcg"
+claim "each position is a case of four frames" says '^28$' bash -c "rc-info moving.rcg | grep -c 'case [1-7], frame'"
+claim "the keys are the place of the contact and of body 2" says 'position=3e-06' bash -c "rc-info moving.rcg | tail -30"
+claim "rc-pick cuts the window of the last position" bash -c "
+    rc-pick --crop 71,8,64,48 track.rcg 2>cut.txt | $solve --report still.json -o still.rcg &&
+    tail -1 moving.json >last.json && head -1 moving.json >first.json"
+for name in max_pressure approach contact_area; do
+    near "$(field $name last.json)" "$(field $name still.json)" 1e-5 "its $name"
+done
+claim "the approach is counted anew at each position, the height is not" bash -c "
+    rc-render --curve position:height,approach -o curve.png moving.json && [ -s curve.png ]"
+
+claim "rc-add sums the surfaces at position 0" bash -c "
+    rc-add track.rcg other.rcg 2>cut.txt | $solve --report sum.json --output pressure -o sum.rcg &&
+    $solve --travel 0 --counter other.rcg --window 120x64 --report two.json --output pressure -o two.rcg track.rcg"
+near "$(field max_pressure two.json)" "$(field max_pressure sum.json)" 1e-5 "the largest pressure of two rough bodies"
+
+claim "a run keeps its states" bash -c "$solve $window --checkpoint kept.rcg -o whole.rcg track.rcg"
+claim "the resumed run gives the same bits" bash -c "
+    $solve $window --checkpoint kept.rcg --resume -o again.rcg track.rcg && cmp whole.rcg again.rcg"
+claim "some of its states are enough" bash -c "
+    head -c 200000 kept.rcg >torn.rcg &&
+    $solve $window --checkpoint torn.rcg --resume --report torn.json -o torn-out.rcg track.rcg && tail -1 torn.json >end.json"
+near "$(field max_pressure end.json)" "$(field max_pressure last.json)" 1e-5 "the same largest pressure at the end"
+refuses 1 'another problem: checkpoint.travel' "states of other positions" \
+    "$solve --travel=-2um:3um:7 --window 64x48 --checkpoint kept.rcg --resume -o x.rcg track.rcg"
+
+claim "--dry-run counts the positions" says '64 x 48 nodes, 7 positions' \
+    bash -c "$solve $window --dry-run track.rcg"
+refuses 2 '--travel takes one load, and this list has 2' "a list of loads" \
+    "rc-solve --load 1mN,2mN --radius 2mm --estar 1GPa --travel 0 track.rcg"
+refuses 2 'nothing travels: give a ball' "a contact without a body that travels" \
+    "rc-solve --load 1mN --estar 1GPa --travel 0 track.rcg"
+refuses 2 '--window has no effect without --travel' "a window that stays" \
+    "rc-solve --load 1mN --estar 1GPa --window 8x8 track.rcg"
+refuses 2 '--passes has no effect without --yield' "passes of an elastic body" "$solve --travel 0 --passes 3 track.rcg"
+refuses 2 'must be numbers of nodes, WxH' "a window of one number" "$solve --travel 0 --window 64 track.rcg"
+refuses 1 'take positions from -6.8e-05 to 6.8e-05 m' "a window that leaves the map" \
+    "rc-pick --set periodic=no track.rcg | $solve --travel 70um --window 64x48"
+refuses 1 'does not cover the contact: take a longer map' "a counter surface that is too short" \
+    "rc-pick --set periodic=no other.rcg -o short.rcg; $solve --travel 0 --counter short.rcg track.rcg"
+
+finish

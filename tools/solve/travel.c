@@ -1,0 +1,297 @@
+/*
+ * --travel: the contact travels along x over the map, a case a position. A ball (--radius) or the surface of
+ * --counter is pressed on the whole map, or on a window that goes along. With --yield the plastic strain stays
+ * in body 1, and --passes repeats the positions.
+ */
+#include "solve.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+/* ---- the command line ---- */
+
+static void
+refuse(struct run *run, bool given, const char *what, const char *why)
+{
+    if (given)
+        tool_die(&run->d.t, EXIT_USAGE, "--travel does not work with %s: %s", what, why);
+}
+
+static void
+read_window(struct run *run, const char *text)
+{
+    struct travelling *w = &run->travelling;
+    char *end;
+
+    w->window[0] = strtoul(text, &end, 10);
+    w->window[1] = *end == 'x' ? strtoul(end + 1, &end, 10) : 0;
+    if (*end != '\0' || strchr(text, '-') != NULL || w->window[0] == 0 || w->window[1] == 0)
+        tool_die(&run->d.t, EXIT_USAGE,
+                 "--window %s: it must be numbers of nodes, WxH, as in 256x256", text);
+}
+
+/* Body 2 faces body 1, as in rc-add: its map is mirrored left to right. */
+static void
+read_counter(struct run *run, const char *name)
+{
+    struct tool *t = &run->d.t;
+    struct rc_grid *g = tool_frame_of_file(t, "counter", name, "height");
+    struct rc_shape shape = rc_grid_shape(g);
+
+    if (strcmp(g->unit, "m") != 0)
+        tool_die(
+            t, EXIT_IMPOSSIBLE,
+            "--counter %s: its unit is '%s': heights are in metres; import the file again with "
+            "--z-unit",
+            name, g->unit);
+    tool_demand_finite(t, g, "fill them with rc-detrend --fill");
+    rc_mirror(&shape, 'x', g->v);
+    run->travelling.counter = g;
+}
+
+void
+travel_read(struct run *run)
+{
+    static const char *const others[] = {"counter", "counter-travel", "window", "passes"};
+    const struct solve_args *args = run->args;
+    struct travelling *w = &run->travelling;
+    struct tool *t = &run->d.t;
+
+    w->wanted = args->travel.n > 0;
+    for (size_t k = 0; k < 4; k++)
+        if (!w->wanted && tool_given(t, others[k]))
+            tool_die(t, EXIT_USAGE, "--%s has no effect without --travel", others[k]);
+    if (!w->wanted)
+        return;
+    if (isnan(args->physics.radius) && args->counter == NULL)
+        tool_die(t, EXIT_USAGE,
+                 "--travel: nothing travels: give a ball, --radius, or a surface, "
+                 "--counter FILE");
+    if (args->counter == NULL && tool_given(t, "counter-travel"))
+        tool_die(t, EXIT_USAGE, "--counter-travel has no effect without --counter");
+    if (args->yield == NULL && tool_given(t, "passes"))
+        tool_die(t, EXIT_USAGE,
+                 "--passes has no effect without --yield: an elastic body does not "
+                 "change from pass to pass");
+    if (run->steps->n > 1)
+        tool_die(t, EXIT_USAGE,
+                 "--travel takes one load, and this list has %zu: run rc-solve once "
+                 "for each load",
+                 run->steps->n);
+    refuse(run, args->adhesion != NULL, "--adhesion", "it is not implemented");
+    refuse(run, run->tilt, "--tilt free", "the bodies move along their normal only");
+    refuse(run, args->discretization, "--discretization",
+           "solve one position with it in a second command");
+    refuse(run, args->physics.history && args->yield == NULL, "--history",
+           "the dents of a hardness are not carried from position to position");
+    refuse(run, args->window != NULL && args->yield != NULL, "--window and --yield",
+           "the plastic strain belongs to the whole map");
+    refuse(run, args->window != NULL && args->physics.periodic, "--window and --periodic",
+           "a window is no period");
+    refuse(run, ranks_of(t) != NULL, "several processes", "take one");
+    if (args->window != NULL)
+        read_window(run, args->window);
+    if (args->counter != NULL)
+        read_counter(run, args->counter);
+    w->passes = args->passes;
+}
+
+/* ---- a case ---- */
+
+static bool
+repeats(const struct rc_grid *g)
+{
+    const char *periodic = rc_grid_get(g, "periodic");
+
+    return periodic != NULL && strcmp(periodic, "yes") == 0;
+}
+
+static void
+check_counter(struct run *run, const struct rc_grid *g)
+{
+    const struct rc_grid *other = run->travelling.counter;
+    const double near = 1e-6;
+
+    if (other == NULL)
+        return;
+    if (fabs(other->dx / g->dx - 1) > near || fabs(other->dy / g->dy - 1) > near)
+        tool_die_at(
+            &run->d.t, g, EXIT_IMPOSSIBLE,
+            "spacings of %g x %g m, and of %g x %g m in --counter %s: bring them together by "
+            "rc-pick --resample",
+            g->dx, g->dy, other->dx, other->dy, run->args->counter);
+    if (run->args->physics.periodic && (other->nx != g->nx || other->ny != g->ny))
+        tool_die_at(
+            &run->d.t, g, EXIT_IMPOSSIBLE,
+            "with --periodic both surfaces must have the same period: this one has %zu x %zu "
+            "nodes, --counter %s has %zu x %zu",
+            g->nx, g->ny, run->args->counter, other->nx, other->ny);
+}
+
+/* The heights at a position, in the place of the map. */
+static struct rc_grid *
+window_of(struct run *run, const struct rc_grid *g)
+{
+    const struct travelling *w = &run->travelling;
+    struct rc_err err;
+    struct rc_grid *to;
+
+    if (w->window[0] > g->nx || w->window[1] > g->ny)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE,
+                    "--window %s is larger than the map of %zu x %zu nodes", run->args->window,
+                    g->nx, g->ny);
+    if ((to = rc_grid_like(g, g->channel, g->unit, &err)) == NULL)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (w->window[0] > 0) { /* fewer nodes, in the same memory */
+        to->nx = w->window[0];
+        to->ny = w->window[1];
+    }
+    memset(to->v, 0, rc_grid_nodes(to) * sizeof *to->v);
+    if (w->window[0] > 0)
+        tool_must(&run->d.t, g, rc_grid_set(to, "periodic", NULL, &err), &err);
+    return to;
+}
+
+void
+travel_begin(struct run *run)
+{
+    struct travelling *w = &run->travelling;
+    struct rc_grid *g = run->g;
+
+    if (!w->wanted)
+        return;
+    if (run->hardness != NULL)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE,
+                    "--travel with a map of hardness is not implemented");
+    check_counter(run, g);
+    w->track = g;
+    run->g = window_of(run, g);
+    if (w->counter != NULL && run->d.checkpoint != NULL)
+        checkpoint_crc(&run->d.t, w->counter, w->crc);
+}
+
+void
+travel_end(struct run *run)
+{
+    struct travelling *w = &run->travelling;
+
+    if (!w->wanted)
+        return;
+    rc_grid_free(run->g);
+    run->g = w->track;
+}
+
+struct rc_model *
+travel_model(struct run *run, struct rc_model *inner)
+{
+    const struct travelling *w = &run->travelling;
+    const struct rc_grid *g = w->track, *other = w->counter;
+    struct rc_travel_problem problem = {.track = rc_grid_shape(g),
+                                        .h1 = g->v,
+                                        .repeats = run->args->physics.periodic || repeats(g),
+                                        .ratio = run->args->counter_travel};
+    struct rc_err err;
+    struct rc_model *m;
+
+    if (other != NULL) {
+        problem.counter = rc_grid_shape(other);
+        problem.h2 = other->v;
+        problem.counter_repeats = run->args->physics.periodic || repeats(other);
+    }
+    if (!isnan(run->args->physics.radius))
+        problem.radius = run->args->physics.radius;
+    if ((m = rc_travel_new(inner, &problem, &err)) == NULL)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    return m;
+}
+
+size_t
+travel_points(const struct run *run)
+{
+    return run->args->travel.n * run->travelling.passes;
+}
+
+size_t
+travel_bytes(const struct run *run)
+{
+    const size_t maps = run->yielding.wanted ? 1 : 3;
+
+    return run->travelling.wanted ? maps * sizeof(double) : 0;
+}
+
+double
+travel_position(const struct run *run, size_t point)
+{
+    return run->args->travel.v[point % run->args->travel.n];
+}
+
+/* What a state of a checkpoint must agree in, beside the surface: all positions so far, and body 2. */
+void
+travel_mark(struct run *run, char *value, size_t size)
+{
+    const struct solve_args *args = run->args;
+    const double body[] = {args->physics.radius, args->counter_travel,
+                           (double)run->travelling.window[0], (double)run->travelling.window[1]};
+    uint32_t crc = rc_crc32_add(0, body, sizeof body);
+
+    if (!run->travelling.wanted)
+        return;
+    crc = rc_crc32_add(crc, run->travelling.crc, strlen(run->travelling.crc));
+    for (size_t k = 0; k <= run->d.at; k++) {
+        const double x = travel_position(run, k);
+        crc = rc_crc32_add(crc, &x, sizeof x);
+    }
+    snprintf(value, size, "%08" PRIx32, crc);
+}
+
+/* Takes the heights and the figures of a position. Frames are written in the last pass only. */
+void
+travel_look(struct run *run, struct rc_model *m)
+{
+    struct travelling *w = &run->travelling;
+    struct rc_err err;
+
+    if (!w->wanted)
+        return;
+    if (rc_model_frame(m, "height", run->g->v, &err) != RC_OK)
+        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", err.text);
+    w->found = rc_travel_result(m);
+}
+
+void
+travel_set_keys(struct run *run, struct rc_grid *as)
+{
+    const struct travelling *w = &run->travelling;
+
+    if (!w->wanted)
+        return;
+    drive_set_number(&run->d, as, "position", w->found->position);
+    drive_set_number(&run->d, as, "height", w->found->height);
+}
+
+void
+travel_report(struct report *r, const struct run *run)
+{
+    const struct figures from[] = {{rc_figures("travel"), run->travelling.found}, {NULL, NULL}};
+
+    if (run->travelling.wanted)
+        report_named(r, from, "position height");
+}
+
+const char *
+travel_state(const struct run *run)
+{
+    static char text[128];
+    const struct travelling *w = &run->travelling;
+
+    if (!w->wanted)
+        return "left out: no --travel";
+    snprintf(text, sizeof text, "on: %zu %s%s", run->args->travel.n,
+             run->args->travel.n == 1 ? "position" : "positions",
+             w->window[0] > 0 ? ", in a window" : ", on the whole map");
+    return text;
+}
