@@ -3,7 +3,7 @@
  * to a stationary point (gap.c). Then the smallest eigenvalue shows whether this point is stable under the
  * present control (stability.c). The iteration leaves a saddle along its eigenvector. A small residual does
  * not suffice, because it is also small at a saddle. The error of the pressure is about e/sqrt(mu), where e
- * is the change by the next correction and mu the smallest eigenvalue: the preconditioner underestimates the
+ * is the change by the next correction and mu the smallest eigenvalue. The preconditioner underestimates the
  * response of soft modes. Where nodes yield, the error stays in their dents, and later states add theirs.
  *
  * A retraction goes from state to state until the bodies have separated. Then it repeats the interval from
@@ -460,7 +460,7 @@ begin(struct rc_adhesion *a)
     a->stage = STAGE_DOWN;
 }
 
-/* Takes a step, and counts a jump if the stiffness at its start was negative: on a path of stable states this
+/* Takes a step, and counts a jump if the stiffness at its start was negative. On a path of stable states this
  * happens only where the path has ended. */
 static void
 move(struct rc_adhesion *a)

@@ -1,6 +1,6 @@
 /*
- * sigma = sigma(0) (1 - g/gc)^2 up to gc = 3 w/sigma(0), where sigma and its slope are 0: a smooth law with a
- * finite range.
+ * sigma = sigma(0) (1 - g/gc)^2 up to gc = 3 w/sigma(0), where sigma and its slope are 0. The law is smooth
+ * and has a finite range.
  */
 #include "law.h"
 

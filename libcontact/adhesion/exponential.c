@@ -6,8 +6,8 @@
 
 #include "law.h"
 
-/* exp(x) for -700 <= x <= 0, to 2 units in the last place, in a form that compilers vectorise: x = k ln 2 +
- * r, |r| <= ln(2)/2, and the series of exp(r). */
+/* Computes exp(x) for -700 <= x <= 0, to 2 units in the last place, in a form that compilers vectorise. It
+ * splits x = k ln 2 + r with |r| <= ln(2)/2, and sums the series of exp(r). */
 static inline double
 exponential(double x)
 {

@@ -140,8 +140,8 @@ added(const struct rc_gap *g)
     return (g->control == RC_GAP_LOAD ? g->given : 0) - g->level;
 }
 
-/* Computes r = A u + S + sigma and its sum over open nodes; also the stiffness that the traction subtracts
- * from the softest mode of the last state. */
+/* Computes r = A u + S + sigma and its sum over open nodes. Also computes the stiffness that the traction
+ * subtracts from the softest mode of the last state. */
 static void
 residual_row(void *ctx, size_t j, double *sums)
 {
@@ -407,7 +407,7 @@ find_ad(struct rc_gap *g, double *mean_d)
 
 /* ---- along the direction ---- */
 
-/* Sums of V(x + a d) - V(x) - a sigma(x) d, of (sigma(x + a d) - sigma(x)) d, of D d^2, and of |V|. */
+/* Sums over a row: V(x + a d) - V(x) - a sigma(x) d; (sigma(x + a d) - sigma(x)) d; D d^2; |V|. */
 static void
 line_row(void *ctx, size_t j, double *sums)
 {

@@ -6,11 +6,11 @@
  *
  *     Phi(x) = 1/2 u'A u + sum of V(g) over the map,    u = x + h + c,  h = 0 beyond the map
  *
- * if c is given. If the load is given, A ignores the mean and Phi contains S sum x as well, where S is the
- * load over the area of a cell and the number of nodes of the grid. On a periodic map the mean of x may be
- * given instead. Then p = A u is the net pressure (plus S for a given load; minus the mean of A u + sigma
- * over open nodes for a given mean). p + sigma is the pressure of the contact: >= 0 where g = 0, and 0
- * elsewhere. Units are those of struct rc_whole.
+ * if c is given. If the load is given, A ignores the mean, and Phi contains S sum x as well. S is the load
+ * over the area of a cell and the number of nodes of the grid. On a periodic map the mean of x may be given
+ * instead. Then p = A u is the net pressure, plus S if the load is given. If the mean is given, the mean of A
+ * u + sigma over open nodes is subtracted. p + sigma is the pressure of the contact: it is >= 0 where g = 0,
+ * and 0 elsewhere. Units are those of struct rc_whole.
  */
 #ifndef RC_GAP_H
 #define RC_GAP_H
@@ -116,8 +116,8 @@ void rc_gap_look(struct rc_gap *g);
 void rc_gap_move(struct rc_gap *g);
 /* Finds way.stiffness without a step. */
 void rc_gap_look_along(struct rc_gap *g);
-/* True if the straight line from the start of the state crosses a region where Phi is not convex: Phi has
- * fallen by more than its slope at the start allows. */
+/* True if the straight line from the start of the state crosses a region where Phi is not convex. Phi has
+ * then fallen by more than its slope at the start allows. */
 bool rc_gap_jumped(struct rc_gap *g);
 /* c of the state: the mean of u minus the means of x and h. */
 double rc_gap_shift(const struct rc_gap *g);
@@ -144,8 +144,8 @@ void rc_gap_down(struct rc_gap *g, double first);
 
 /* ---- stability.c ---- */
 
-/* The smallest eigenvalue of (A - D) x = mu (K_FF)^-1 x, F the nodes not in contact, under the control: a
- * step of a locally optimal conjugate gradient iteration (Knyazev 2001). */
+/* Makes a step of a locally optimal conjugate gradient iteration (Knyazev 2001) and returns the smallest
+ * eigenvalue of (A - D) x = mu (K_FF)^-1 x under the control. F are the nodes not in contact. */
 void rc_gap_eigen_begin(struct rc_gap *g);
 void rc_gap_eigen_step(struct rc_gap *g);
 /* Leaves a saddle along the eigenvector, in the direction that lowers Phi. */

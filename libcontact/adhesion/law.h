@@ -1,8 +1,8 @@
 /*
  * A law of attraction: the row type of laws.list. Internal: never installed.
  *
- * Numbers have the units of the operator on the whole grid: gaps and ranges its length, tractions its
- * modulus, so that E* is 1 and work is in modulus times length.
+ * Numbers have the units of the operator on the whole grid: its length for gaps and ranges, its modulus for
+ * tractions. So E* is 1, and work is in modulus times length.
  */
 #ifndef RC_ADHESION_LAW_H
 #define RC_ADHESION_LAW_H

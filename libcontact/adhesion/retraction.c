@@ -11,7 +11,7 @@
  * halved until it cannot hide a relevant load.
  *
  * Vertex, if the path is smooth near the lowest load: the minimum of the parabola through it and its
- * neighbours, repeated until the load does not change.
+ * neighbours. This is repeated until the load does not change.
  */
 #include "retraction.h"
 
@@ -192,8 +192,8 @@ note_vertex(struct rc_retraction *r, struct rc_retraction_state here)
 /* ---- steps ---- */
 
 /* The coarse step from a state. By the present slope, the load falls by a part of the holding force. This
- * force is at most the attraction, and at most the force that opens a circular crack around the contact: for
- * a sphere in the limit of short ranges the lowest load is a quarter of sqrt(8 pi E* w a^3) at load 0. */
+ * force is at most the attraction, and at most the force that opens a circular crack around the contact. In
+ * the limit of short ranges, the lowest load of a sphere is a quarter of sqrt(8 pi E* w a^3) at load 0. */
 static double
 coarse_way(const struct rc_retraction *r, const struct rc_retraction_state *here)
 {
@@ -280,10 +280,10 @@ end(struct rc_retraction *r, double load, double at, double spread)
     return false;
 }
 
-/* On a grid that barely resolves the law, the load over the approach is a saw: it falls with the stiffness of
+/* On a grid that barely resolves the law, the load over the approach is a saw. It falls with the stiffness of
  * the contact, and jumps up where a node separates. The lowest load found then belongs to one tooth. Two
- * states beside it show this, at places where the parabola of the coarse stage is higher by `settled`, and at
- * distances without a simple ratio. If they are off the parabola, six more states measure the height of the
+ * states beside it show this: they lie where the parabola of the coarse stage is higher by `settled`. Their
+ * distances have no simple ratio. If they are off the parabola, six more states measure the height of the
  * teeth. A state far above the parabola is beyond a jump, not on a tooth. */
 static const double places[RC_RETRACTION_CHECKS] = {1,     -0.618, -1.5, 0.382,
                                                     0.854, -0.236, -1.1, 0.56};

@@ -19,8 +19,8 @@ enum {
     RC_WAVE_NUMBERS = 10                          /* largest count of numbers per wave */
 };
 extern const unsigned rc_stress_parity[RC_STRESS_KERNELS];
-/* True if a kernel belongs to the traction along +y; and the equal kernel of the traction along +x with x and
- * y exchanged, or the kernel itself. */
+/* True if a kernel belongs to the traction along +y. rc_stress_unturned returns the equal kernel of the
+ * traction along +x with x and y exchanged, or the kernel itself. */
 static inline bool
 rc_stress_turned(int kernel)
 {
@@ -71,8 +71,9 @@ struct rc_inside_type {
                    double *out);
     /* Its mean on the periodic map, the same at any depth. */
     double (*mean)(const struct rc_inside *inside, int kernel, const struct rc_shape *shape);
-    /* Stresses at (x[i], y[i]), i < n, under unit load on the cell about the origin, for every kernel whose
-     * bit is set, to out[kernel][i]; and the same at (i step, y), faster where step is dx. Free boundary. */
+    /* `coefficients` writes the stresses at (x[i], y[i]), i < n, under unit load on the cell about the
+     * origin, to out[kernel][i], for every kernel whose bit is set. `line` writes the same at (i step, y),
+     * and is faster where step is dx. Free boundary. */
     void (*coefficients)(const struct rc_inside *inside, const struct rc_cell *cell,
                          unsigned kernels, size_t n, const double *x, const double *y,
                          double *const out[RC_STRESS_KERNELS]);
@@ -88,8 +89,8 @@ rc_inside_free(struct rc_inside *inside) /* NULL is allowed */
 /* The symbol, with the mean where q = 0. */
 void rc_inside_symbol(const struct rc_inside *inside, int kernel, const struct rc_waves *waves,
                       const struct rc_shape *shape, double *out);
-/* The kernel of a load and component, or the equal kernel that replaces it; and the kernels (bits) needed for
- * these components (bits) under these loads (bits). */
+/* rc_stress_kernel: the kernel of a load and component, or the equal kernel that replaces it.
+ * rc_stress_distinct: the kernels (bits) needed for these components (bits) under these loads (bits). */
 int rc_stress_kernel(const struct rc_inside_type *type, int load, int component);
 unsigned rc_stress_distinct(const struct rc_inside_type *type, unsigned components, unsigned loads);
 
@@ -113,9 +114,9 @@ struct rc_solid {
     const struct rc_body_type *type;
 };
 
-/* A row of bodies.list. Displacements are those of a half-space whose composite modulus E*(q) depends on the
- * wave, for this body on a rigid one: a pressure wave of wave number q displaces the surface by 2/(E* q)
- * times its amplitude. */
+/* A row of bodies.list. Displacements are those of this body on a rigid one: of a half-space whose composite
+ * modulus E*(q) depends on the wave. A pressure wave of wave number q displaces the surface by 2/(E* q) times
+ * its amplitude. */
 struct rc_body_type {
     const char *name, *summary;
     /* Whether a body without a type name is of this type. */
@@ -160,7 +161,7 @@ struct rc_body_type {
 #include RC_BODIES_LIST
 #undef RC_BODY
 
-/* True if a depth is above or at an interface: sums of thicknesses have rounding errors, and a depth meant to
+/* True if a depth is above or at an interface. Sums of thicknesses have rounding errors, and a depth meant to
  * be at the interface must not be below it. */
 static inline bool
 rc_within(double depth, double bottom)
@@ -208,8 +209,8 @@ double rc_solids_modulus(const struct rc_solids *solids, double q);
 double rc_solids_modulus_of(const struct rc_solids *solids, double q2);
 double rc_solids_softest(const struct rc_solids *solids);
 
-/* The sum of the displacements of both surfaces under unit pressure on a cell, in units of 1/modulus (Pa) and
- * of `length` (m): 1 and 1 give m/Pa. */
+/* The sum of the displacements of both surfaces under unit pressure on a cell. Its unit is `length` (m) over
+ * `modulus` (Pa): with 1 and 1 it is in m/Pa. */
 struct rc_surface {
     const struct rc_solids *solids;
     double length, modulus;

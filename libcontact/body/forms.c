@@ -14,8 +14,8 @@
  *
  * and syy of the normal one is sxx with x and y exchanged.
  *
- * Integrated over a cell these are differences over its corners (Love 1929 for the normal load),
- * with T1 = atan2(XY, zR), T2 = atan2(XY, X^2 + z^2 + zR), LX = asinh(X / sqrt(Y^2 + z^2)):
+ * Integrated over a cell these are differences over its corners (Love 1929 for the normal load). Here T1 =
+ * atan2(XY, zR), T2 = atan2(XY, X^2 + z^2 + zR), LX = asinh(X / sqrt(Y^2 + z^2)):
  *
  *     normal  sxx  -2 nu T1 - c T2 + z XY / (R (X^2 + z^2))
  *             szz  -T1 - z XY / R (1/(X^2 + z^2) + 1/(Y^2 + z^2))
@@ -28,9 +28,9 @@
  * The second argument of both arctangents is never negative, so no branch is crossed.
  *
  * Limits. At z = 0 the terms with a factor z are 0. On an edge or a corner of the cell the arctangents with X
- * = 0 or Y = 0 are 0; the sum over the corners is then the mean of the limits from all sides, so szz is -1/2
+ * = 0 or Y = 0 are 0. The sum over the corners is then the mean of the limits from all sides. So szz is -1/2
  * on an edge and -1/4 at a corner. Logarithms have no limit there (normal: sxy at corners; along x: sxx and
- * syy on the edges across x, sxy on those along it): they are evaluated at a small distance, `floor`.
+ * syy on the edges across x, sxy on those along it). They are evaluated at a small distance, `floor`.
  *
  * The periodic half-space under a wave of pressure or shear: q^2 = qx^2 + qy^2, each times
  * exp(-q z). Under a uniform load the limit q -> 0 depends on the direction of q.

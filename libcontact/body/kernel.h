@@ -21,13 +21,13 @@ struct rc_kernel {
     const void
         *of; /* first argument of the functions; it outlives every plan that uses the kernel */
     unsigned parity; /* RC_ODD_X, RC_ODD_Y                                                   */
-    /* Field at (i sx dx, j sy dy), i < n, first <= j < last, of unit pressure on the cell dx x dy
-     * about the origin: out[(j - first) * n + i]. */
+    /* Computes the field at (i sx dx, j sy dy), i < n, first <= j < last, of unit pressure on the cell dx x
+     * dy about the origin. out[(j - first) * n + i] receives it. */
     void (*rows)(const void *of, const struct rc_lattice *at, size_t n, size_t first, size_t last,
                  double *out);
-    /* Transform of the kernel of the infinite half-space at wave numbers qx, qy (rad/m, not both
-     * zero) of band-limited pressure, over (-i)^(number of odd directions): real, odd where the
-     * kernel is. NULL: it is not known. */
+    /* The transform of the kernel of the infinite half-space under band-limited pressure, at wave numbers qx,
+     * qy (rad/m, not both zero). It is divided by (-i)^(number of odd directions), and is then real, and odd
+     * where the kernel is. NULL: it is not known. */
     double (*symbol)(const void *of, double qx, double qy);
 };
 

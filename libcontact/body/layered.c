@@ -1,10 +1,10 @@
 /*
- * Bonded layers on a half-space. The normal displacement of the surface under unit pressure on a cell dx x dy
- * is that of a half-space of the top material in closed form, plus the integral over the cell of the
- * difference D(r) between the stack and that half-space. D is smooth on the scale s = twice the thickness of
- * the top layer.
+ * Bonded layers on a half-space. A cell dx x dy under unit pressure displaces the surface of the layered body
+ * by the sum of two parts. The first is that of a half-space of the top material, in closed form. The second
+ * is the integral over the cell of D(r), the difference between the stack and that half-space. D is smooth on
+ * the scale s = twice the thickness of the top layer.
  *
- * Gauss's rule integrates D, with fewer points the larger sqrt(r^2 + s^2) is compared with the sides; a cell
+ * Gauss's rule integrates D, with fewer points the larger sqrt(r^2 + s^2) is compared with the sides. A cell
  * too near for any rule is halved. Beyond forty cells means are computed from the values at the nodes, which
  * neighbours share.
  */
@@ -252,7 +252,7 @@ softest_below(const struct rc_body *b, size_t k)
     return soft;
 }
 
-/* Bonded layers from the top down act as a plate of stiffness D about its neutral plane; on a half-space a
+/* Bonded layers from the top down act as a plate of stiffness D about its neutral plane. On a half-space a
  * plate bends over (2 D / E')^(1/3), E' = E/(1 - nu^2). */
 static double
 bends(const struct rc_body *b, double side)

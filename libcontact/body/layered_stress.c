@@ -1,6 +1,6 @@
 /*
- * Stresses at one depth of a layered body: under a wave, from the stack itself; and under a unit load on a
- * cell, the integral over it of functions of the distance,
+ * Stresses at one depth of a layered body. Under a wave they come from the stack itself. Under a unit load on
+ * a cell they are integrals over the cell of functions of the distance,
  *
  *     H_m[G](r) = 1/2 pi integral of G J_m(q r) q dq,     x = r cos(phi), y = r sin(phi):
  *
@@ -15,9 +15,9 @@
  *               sxy  -sin(phi) H_1[(L - N + 2 V)/4] + sin(3 phi) H_3[e]
  *
  * In the top layer G is the difference between the stack and a half-space of the layer's material, whose
- * closed forms are added elsewhere; it decreases as exp(-q s), s = 2 t - z, t the thickness. Below the top
+ * closed forms are added elsewhere. It decreases as exp(-q s), s = 2 t - z, t the thickness. Below the top
  * layer G is the complete stress, and decreases as exp(-q z), s = z. The functions are smooth on the scale s,
- * which replaces the depth in the rules of integration; a cell too near for any rule is halved.
+ * which replaces the depth in the rules of integration. A cell too near for any rule is halved.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -111,7 +111,7 @@ symbol(const struct rc_inside *in, int kernel, const struct rc_waves *w, double 
 }
 
 /* Under a uniform load on a patch that grows without limit the strains along the surface are those of the
- * substrate; on a profile those along y are 0. */
+ * substrate. On a profile those along y are 0. */
 static double
 mean(const struct rc_inside *inside, int kernel, const struct rc_shape *shape)
 {

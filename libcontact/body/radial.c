@@ -1,10 +1,10 @@
 /*
- * The integral is a convolution in the logarithms of q and r, with the kernel exp(x) J_m(exp(x)), whose
+ * The integral is a convolution in the logarithms of q and r with the kernel exp(x) J_m(exp(x)). The kernel's
  * Fourier transform is 2^(iw) Gamma((1 + m + iw)/2) / Gamma((1 + m - iw)/2). So one transform of samples at
- * even steps of ln q gives r f(r) at even steps of ln r. The part that does not decay as q -> 0 is subtracted
- * before and added in closed form: tail exp(-q s)/q, whose integral is tail/sqrt(r^2 + s^2).
+ * even steps of ln q gives r f(r) at even steps of ln r. The part tail exp(-q s)/q, which does not decay as q
+ * -> 0, is subtracted before. Its integral, tail/sqrt(r^2 + s^2), is added in closed form.
  *
- * The table holds f sqrt(r^2 + s^2), which is bounded and smooth in ln r, for six-point interpolation; near
+ * The table holds f sqrt(r^2 + s^2), which is bounded and smooth in ln r, for six-point interpolation. Near
  * the axis, where ln r is unbounded, the power series of the Bessel function is summed.
  */
 #include "radial.h"

@@ -1,7 +1,7 @@
 /*
- * Two uniform half-spaces under tractions along their surfaces. With q the traction on body 1, p the
- * pressure, x = (x, y) the vector from the source, r = |x|, and displacements of body 1 less those of body 2
- * (u_z: the sum of both, as K p),
+ * Two uniform half-spaces under tractions along their surfaces. q is the traction on body 1, p the pressure,
+ * x = (x, y) the vector from the source, and r = |x|. Displacements are those of body 1 less those of body 2
+ * (u_z: the sum of both, as K p):
  *
  *     u_t = 1/(pi E*) [ (1/r + kap x x'/r^3) q - beta x/r^2 p ]
  *     u_z = 1/(pi E*) [ p/r + beta x.q/r^2 ]                           (Johnson 1985, eq. 3.19 and 3.76)

@@ -1,9 +1,9 @@
 /*
  * The frequency response of a stack of bonded isotropic layers, by recursion from the bottom up.
  *
- * In a wave of wave number q along l the displacements are U sin(q l) and W cos(q l), the tractions from
- * above on a plane f = (fx, fz). Everything below a plane responds by (U, W) = Y f. The recursion uses not Y
- * but its minors
+ * In a wave of wave number q along l the displacements are U sin(q l) and W cos(q l). The tractions from
+ * above on a plane are f = (fx, fz). Everything below a plane responds by (U, W) = Y f. The recursion uses
+ * not Y but its minors
  *
  *     y = (a, b, c, d, e):  Y_xx = c/e,  Y_zz = b/e,  Y_xz = -d/e,  det Y = a/e
  *
@@ -87,7 +87,7 @@ third_and_fourth(double x, double th, double *p3, double *p4)
     *p4 = th * s4 / 16;
 }
 
-/* From the bottom of a layer to its top, x = q t. e is divided by its growth and stays 1; *grown is this
+/* Goes from the bottom of a layer to its top, x = q t. e is divided by its growth and stays 1; *grown is this
  * growth times exp(-2x). */
 static struct minors
 through(struct minors y, const struct medium *m, double x, double *grown)
@@ -255,8 +255,8 @@ down_piece(struct traction f, struct below b, const struct medium *m, double x)
                              .across = 2 * decay / ((1 + th) + b.across * (1 - th)) * f.across};
 }
 
-/* Tractions f[0] under the pressure and f[1] under the shear at the bottom of layer j, with the response b
- * below (in the units of layer j): recursion up to the surface and then down. */
+/* Computes tractions at the bottom of layer j: f[0] under the pressure and f[1] under the shear. b is the
+ * response below, in the units of layer j. The recursion goes up to the surface and then down. */
 static void
 go_down(const struct rc_stack *s, double q, size_t j, struct below b, struct traction f[2])
 {
@@ -363,8 +363,8 @@ response_of(const void *ctx, double q2)
     return q * s->material[0].thickness > thick ? s->top : rc_stack_response(s, q);
 }
 
-/* D from the end of its power series to a million times the top layer; g from waves so long that the layers
- * hardly matter to waves so short that only the top layer matters. */
+/* D is tabulated from the end of its power series to a million times the top layer. g is tabulated between
+ * waves so long that the layers hardly matter and waves so short that only the top layer matters. */
 static enum rc_status
 tables(struct rc_stack *s)
 {

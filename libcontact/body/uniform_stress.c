@@ -59,9 +59,9 @@ symbol(const struct rc_inside *in, int kernel, const struct rc_waves *w, double 
     rc_stress_forms[kernel].symbol(w, in->depth, closed_of(in)->nu, out);
 }
 
-/* The mean over the directions of q, which is also the stress under the middle of a uniform load that grows
- * without limit: sxx = syy = -(1 + 2 nu)/2; the sum of the normal stresses is -2 (1 + nu), as for every wave.
- * On a profile q has one direction, and the strain is plane. */
+/* The mean over the directions of q is also the stress under the middle of a uniform load that grows without
+ * limit: sxx = syy = -(1 + 2 nu)/2. The sum of the normal stresses is -2 (1 + nu), as for every wave. On a
+ * profile q has one direction, and the strain is plane. */
 static double
 mean(const struct rc_inside *in, int kernel, const struct rc_shape *shape)
 {

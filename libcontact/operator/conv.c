@@ -21,8 +21,8 @@ enum {
     LARGE = 512 * 512 /* nodes; for more multi-level summation pays on a sparse map */
 };
 
-/* Where multi-level summation beats the transforms (bench-convolution sparse: 0.7 of their time with 5 % of
- * the nodes loaded in one disc, about their time with 300 spots). */
+/* Cases where multi-level summation beats the transforms (bench-convolution sparse). It takes 0.7 of their
+ * time with 5 % of the nodes loaded in one disc, and about their time with 300 spots. */
 static const double sparse = 0.05, sparse_tol = 1e-6;
 
 struct rc_conv {

@@ -1,10 +1,10 @@
 /*
  * Layout of the transforms and spectra of kernels. A kernel that is even or odd in x and in y has a spectrum
- * that is real up to a power of -i and determined by a quarter of its values.
+ * that is real up to a power of -i. A quarter of its values determines it.
  *
  * Free boundary: zero padding to px >= 2 nx, py >= 2 ny is exact; a profile needs no padding across it. The
  * spectrum is the real even or odd transform of a quarter of the kernel's values. At the offset of half a
- * period the kernel has its own value: with 0 there the spectrum of narrow grids gets negative and has no
+ * period the kernel has its own value. With 0 there the spectrum of narrow grids gets negative and has no
  * useful inverse. Periodic boundary: no padding; the spectrum is the kernel's symbol.
  */
 #include "fft.h"
@@ -602,7 +602,7 @@ rc_spectrum_new_reciprocal(const struct rc_fft *f, const struct rc_spectrum *of,
     return k;
 }
 
-/* Stored numbers s are K/N or A/N, N = px py: K + D is s + D/N, 1/(K + D) is N^-2/(s + D/N) of a lent K, and
+/* Stored numbers s are K/N or A/N, N = px py. K + D is s + D/N, 1/(K + D) is N^-2/(s + D/N) of a lent K, and
  * A/(1 + D A) is s/(1 + D N s). */
 void
 rc_spectrum_add(struct rc_spectrum *k, const struct rc_fft *f, bool inverse, double plus)

@@ -1,6 +1,6 @@
 /*
- * The parts of the transform engine: several kernels on one grid with one transform of the source, in double
- * or single precision, on the free or the periodic boundary. Internal: never installed.
+ * The parts of the transform engine. One transform of the source serves several kernels on one grid, in
+ * double or single precision, on the free or the periodic boundary. Internal: never installed.
  *
  * Only fft_body.h, compiled once for each precision, uses FFTW.
  */
@@ -19,16 +19,16 @@ struct rc_fft;
 struct rc_spectrum; /* transform of a kernel: a quarter of its values, real */
 
 /* `shape` is that of the whole map. Where ranks share the map (NULL: none), maps and rows are those held
- * here, row 0 is the first of them, and spectra have the columns that this rank multiplies. The plan works in
- * the memory of `lender`, another plan that outlives it; the two never run at the same time. If `lender` is
- * NULL or its memory too small, the plan allocates its own. */
+ * here, row 0 is the first of them. Spectra have the columns that this rank multiplies. The plan works in the
+ * memory of `lender`, another plan that outlives it; the two never run at the same time. If `lender` is NULL
+ * or its memory too small, the plan allocates its own. */
 struct rc_fft *rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender,
                           const struct rc_shape *shape, enum rc_boundary boundary,
                           enum rc_precision precision, size_t threads, struct rc_err *err);
-/* The same transforms, with the spectra of rc_fft_new, of a free map in a frame: x columns and y rows of the
- * padding on either side of it, at most half of the padding. Row and column 0 are the first of the frame; its
- * rows belong to the ranks with the first and the last row of the map. Within the map a kernel acts as
- * before; over distances that exceed the padding it acts around the period. Chains only. */
+/* The same transforms, with the spectra of rc_fft_new, of a free map in a frame. The frame is x columns and y
+ * rows of the padding on either side of the map, at most half of the padding. Row and column 0 are the first
+ * of the frame. Its rows belong to the ranks with the first and the last row of the map. Within the map a
+ * kernel acts as before; over distances that exceed the padding it acts around the period. Chains only. */
 struct rc_frame {
     size_t x, y;
 };
@@ -48,8 +48,8 @@ double rc_spectrum_total(const struct rc_spectrum *spectrum);
  * its symbol. RC_FAIL when memory is short or the kernel has no symbol. */
 enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                const struct rc_kernel *kernel, struct rc_err *err);
-/* The same for a free map. `each` is called by several threads with the n wave numbers along y of column i
- * along x, and may change them before they are stored. Columns are those held here: rc_fft_columns. */
+/* The same for a free map. Several threads call `each` with the n wave numbers along y of column i along x.
+ * It may change them before they are stored. Columns are those held here: rc_fft_columns. */
 typedef void rc_column(void *ctx, size_t i, size_t n, double *column);
 enum rc_status rc_spectrum_set_by(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                   const struct rc_kernel *kernel, rc_column *each, void *ctx,
@@ -67,7 +67,7 @@ int rc_fft_threads(const struct rc_fft *fft);
  * when memory is short. */
 struct rc_spectrum *rc_spectrum_new_reciprocal(const struct rc_fft *fft,
                                                const struct rc_spectrum *of, struct rc_err *err);
-/* Changes the spectrum of K, in chains, to that of K + plus I; with `inverse` the spectrum is that of K^-1.
+/* Changes the spectrum of K, in chains, to that of K + plus I. With `inverse` the spectrum is that of K^-1.
  * plus 0 restores K. */
 void rc_spectrum_add(struct rc_spectrum *spectrum, const struct rc_fft *fft, bool inverse,
                      double plus);
@@ -78,7 +78,7 @@ enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct
 
 /* The same in steps, for a kernel of this parity. On the free boundary: from a quarter of the kernel's
  * period, its values at the offsets i < *nx, j < *ny. Each row of *nx values is transformed as soon as it is
- * passed, by threads of one OpenMP team; then the spectrum is made from all rows. Ranks compute and pass rows
+ * passed, by threads of one OpenMP team. Then the spectrum is made from all rows. Ranks compute and pass rows
  * *first .. *first + *n - 1 each; RC_FAIL when memory for the rows of the others is short, which cannot
  * happen without ranks. */
 void rc_fft_quarter(const struct rc_fft *fft, size_t *nx, size_t *ny);
@@ -87,8 +87,8 @@ void rc_fft_quarter_row(const struct rc_fft *fft, unsigned parity, double *row);
 enum rc_status rc_spectrum_set_quarter(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                        unsigned parity, const double *rows, struct rc_err *err);
 /* On the periodic boundary: from the kernel's transform, over (-i)^(number of odd directions), at wave
- * numbers qx, qy >= 0 in rad/m. Several threads call it for a column i of equal qx: out[j] at qy[j], j < n;
- * it may return false where all are zero. Waves of two nodes are left out in a direction in which the kernel
+ * numbers qx, qy >= 0 in rad/m. Several threads call it for a column i of equal qx: out[j] at qy[j], j < n.
+ * It may return false where all are zero. Waves of two nodes are left out in a direction in which the kernel
  * is odd: they are zero at all nodes. */
 typedef bool rc_symbol(const void *of, size_t i, double qx, size_t n, const double *qy,
                        double *out);
@@ -106,7 +106,7 @@ enum {
 };
 typedef bool rc_row(void *ctx, size_t j, void *row);
 /* rows[0] writes the source of kernels[0], rows[k] turns its field into the source of kernels[k], and rows[n]
- * reads the last field: n <= RC_CHAIN kernels, n + 1 functions, and no map between them. */
+ * reads the last field. There are n <= RC_CHAIN kernels, n + 1 functions, and no map between them. */
 void rc_fft_chain(struct rc_fft *fft, size_t n, const struct rc_spectrum *const *kernels,
                   rc_row *const *rows, void *ctx);
 /* Keeps the whole transform of p as one of RC_SOURCES; then u = K p for any number of kernels. */

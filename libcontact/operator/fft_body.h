@@ -1,14 +1,14 @@
 /*
- * Rows, columns and multiplication of the transform engine, in one precision: REAL, COMPLEX,
- * FFTW(name) and C99(name) are set by the file that includes this.
+ * Rows, columns and multiplication of the transform engine, in one precision. The file that includes this
+ * sets REAL, COMPLEX, FFTW(name) and C99(name).
  *
  * The padded array is never formed. Each row is transformed separately (real, nx of px values not zero) into
  * `waves`, ny rows of px/2 + 1 complex numbers. Then the columns, one cache line of them at a time, are
- * gathered, transformed to length py, multiplied, transformed back, and the needed ny values are scattered.
- * Then the rows are transformed back. Every pass reads and writes each number once.
+ * gathered, transformed to length py, multiplied, transformed back. The needed ny values are scattered. Then
+ * the rows are transformed back. Every pass reads and writes each number once.
  *
- * Plans are one-dimensional, out of place and estimated (FFTW_ESTIMATE): for the lengths after splitting they
- * are as fast as measured plans within a tenth, take no time to make, and are the same in every run.
+ * Plans are one-dimensional, out of place and estimated (FFTW_ESTIMATE). For the lengths after splitting they
+ * are as fast as measured plans within a tenth. They take no time to make, and are the same in every run.
  */
 #include <complex.h> /* before fftw3.h: its complex numbers are then C's own */
 #include <fftw3.h>
@@ -274,8 +274,8 @@ prefetch(const COMPLEX *x)
     __builtin_prefetch(x + LINE / 2);
 }
 
-/* One butterfly: y_r = w^r sum_s (-i)^(r s) x_s for a whole line of columns; the `have` values x_s are `step`
- * apart, y_r of column b at y + b * column + r * gap. */
+/* One butterfly: y_r = w^r sum_s (-i)^(r s) x_s for a whole line of columns. The `have` values x_s are `step`
+ * apart, and y_r of column b is at y + b * column + r * gap. */
 static inline void
 butterfly(const struct plan *f, const COMPLEX *x, size_t step, int have, const COMPLEX w[3],
           COMPLEX *restrict y)
@@ -418,7 +418,8 @@ put(bool more, REAL weight, REAL there, REAL v)
     return more ? there + weight * v : v;
 }
 
-/* z[k] s[k] for k < n, or z[k] s[-k] when step is -1, times the sign and a power of -i; `to` may be z. */
+/* Computes z[k] s[k] for k < n, or z[k] s[-k] when step is -1, times the sign and a power of -i. `to` may be
+ * z. */
 static inline void
 products(COMPLEX *to, bool more, REAL weight, const COMPLEX *z, size_t n, const REAL *s,
          ptrdiff_t step, int power, REAL sign)

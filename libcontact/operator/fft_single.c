@@ -1,5 +1,5 @@
-/* Single precision: half the memory traffic and twice the numbers in a register, for uses that do not need
- * sixteen digits: the preconditioner, and the residual while it is large. */
+/* Single precision has half the memory traffic and twice the numbers in a register. It serves uses that do
+ * not need sixteen digits: the preconditioner, and the residual while it is large. */
 #define REAL float
 #define COMPLEX float complex
 #define CMPLX_OF CMPLXF

@@ -1,6 +1,6 @@
 /*
- * The operator of two bodies: K p by an engine in double precision, and row by row in single precision by
- * transforms, which the preconditioner uses too. If the engine must not be mixed with single precision, rows
+ * The operator of two bodies. An engine computes K p in double precision; transforms compute it row by row in
+ * single precision, for the preconditioner too. If the engine must not be mixed with single precision, rows
  * are gathered into a map that the engine sums.
  */
 #include "operator.h"
@@ -54,10 +54,10 @@ conv_options(const struct rc_operator_options *o)
 
 /* ---- figures ---- */
 
-/* The norm of K without its diagonal term. On the free boundary the largest row sum of K: the displacement in
- * the middle of a rectangle a x b under uniform pressure, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love
- * 1929; Johnson 1985, eq. 3.25). On a periodic map the eigenvalues are known, and the longest wave has the
- * largest, 2 / (E* q), q = 2 pi / L. E* is the least E*(q) of the bodies. */
+/* The norm of K without its diagonal term. On the free boundary the largest row sum of K is the displacement
+ * in the middle of a rectangle a x b under uniform pressure. This is 2 (a asinh(b/a) + b asinh(a/b)) / (pi
+ * E*) (Love 1929; Johnson 1985, eq. 3.25). On a periodic map the eigenvalues are known, and the longest wave
+ * has the largest, 2 / (E* q), q = 2 pi / L. E* is the least E*(q) of the bodies. */
 static double
 norm(const struct own *s)
 {
@@ -90,10 +90,10 @@ unit_of(const struct rc_shape *s)
     return (struct rc_shape){s->nx, s->ny, s->dx / unit, s->dy / unit};
 }
 
-/* The mean of A / (1 + D A) cos(i qx dx) cos(j qy dy), A = |q| / 2 E*(q) / E*, E* that of the roughness, over
- * the wave numbers of the grid, |qx| <= pi/dx and |qy| <= pi/dy, lengths in units of sqrt(dx dy): a sum over
- * the middles of cells. For i = j = 0 the mean of |q| has a closed form, the mean distance of a rectangle's
- * points from its middle, and where D is 0 only the difference is summed. */
+/* The mean of A / (1 + D A) cos(i qx dx) cos(j qy dy) over the wave numbers of the grid, |qx| <= pi/dx and
+ * |qy| <= pi/dy, as a sum over the middles of cells. A = |q| / 2 E*(q) / E*, with E* that of the roughness;
+ * lengths are in units of sqrt(dx dy). For i = j = 0 the mean of |q| has a closed form, the mean distance of
+ * a rectangle's points from its middle. Where D is 0, only the difference from this form is summed. */
 static void
 set_inverse_near(struct own *s)
 {
@@ -134,10 +134,10 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
 }
 
 /* The frame, as a fraction of the sides of a free map. The preconditioner's extension ends with the frame,
- * which makes edges of contact near the border too stiff: on 1024 x 1024 nodes with 32 % contact the largest
- * eigenvalue is 3.9 without a frame, 1.6, 1.4, 1.26 with a frame of 1/32, 1/16 and 1/8 of the sides (the same
- * at 512 x 512), and 1.15 with all of the padding. A frame of 1/8 costs a quarter of the transforms of rows,
- * a twelfth of the total. */
+ * which makes edges of contact near the border too stiff. On 1024 x 1024 nodes with 32 % contact the largest
+ * eigenvalue is 3.9 without a frame, and 1.15 with all of the padding. It is 1.6, 1.4 and 1.26 with a frame
+ * of 1/32, 1/16 and 1/8 of the sides (the same at 512 x 512). A frame of 1/8 costs a quarter of the
+ * transforms of rows, a twelfth of the total. */
 static const size_t frame_part = 8;
 /* On a strip, where there are few rows: all of the padding. 65536 x 16 nodes, 6 and 41 % contact: 14 and 17
  * steps with an eighth, 9 and 11 with all. */
@@ -145,9 +145,9 @@ static const size_t strip_part = 2;
 /* A strip is at least this many times as long as wide. */
 static const size_t strip = 8;
 
-/* Under a stiff coating: this many times the length over which it bends, at most all of the padding. E1/Es
- * 400, 16 nodes thick, 1024 x 200 nodes, three loads: 38 to 68 equivalents with an eighth of the sides, 14 to
- * 16 with this. */
+/* Under a stiff coating: this many times the length over which it bends, at most all of the padding. For
+ * E1/Es 400, 16 nodes thick, 1024 x 200 nodes, three loads, it took 38 to 68 equivalents with an eighth of
+ * the sides. With this frame it took 14 to 16. */
 static const double frame_bends = 3;
 
 static double
@@ -166,8 +166,8 @@ stiffening(const struct rc_solids *bodies, const struct rc_shape *s)
            rc_solids_modulus(bodies, 2 * RC_PI / longest_side(s));
 }
 
-/* An even number, so that coarser grids begin with the map; for a long side a multiple of the rows that stay
- * together on a rank. `bends`: in nodes. */
+/* An even number, so that coarser grids begin with the map. On a long side it is a multiple of the rows that
+ * stay together on a rank. `bends`: in nodes. */
 static size_t
 frame_of(size_t side, size_t other, double bends)
 {
@@ -203,9 +203,9 @@ rc_operator_frame(const struct rc_shape *s, const struct rc_operator_options *o)
 
 /* ---- strips ---- */
 
-/* The displacement under a line load on the width b of a strip of a free map, for waves along it that are
- * much longer than b, is the integral of 2 / (pi E*(k)) dk/k from q to 5.03 / b, 5.03 = 2 exp(3/2 - 0.577):
- * on uniform bodies a logarithm, which hardly depends on q. */
+/* A line load acts on the width b of a strip of a free map. For waves along the strip that are much longer
+ * than b, the displacement is the integral of 2 / (pi E*(k)) dk/k from q to 5.03 / b. Here 5.03 = 2 exp(3/2 -
+ * 0.577). On uniform bodies this is a logarithm, which hardly depends on q. */
 static void
 set_strip(struct own *s)
 {
@@ -276,8 +276,8 @@ rc_operator_free(struct rc_operator *op)
 /* The spectrum of a padded kernel may be negative for some waves, under stiff coatings that bend over lengths
  * near that of the map. Its inverse is then kept within these bounds of that of a uniform half-space with the
  * stiffness of the bodies for each wave. A positive spectrum, under soft coatings, is used unchanged except
- * for the longest waves: for thin, nearly incompressible coatings it decreases to 0.005 of that half-space at
- * the shortest waves, and with these bounds the estimated error was down to half of the error. */
+ * for the longest waves. For thin, nearly incompressible coatings it decreases to 0.005 of that half-space at
+ * the shortest waves. With these bounds the estimated error was down to half of the error. */
 static const double least = 0.7, most = 1.5;
 static const double long_waves = 6; /* times half the smallest wave number of the padded map */
 

@@ -2,7 +2,7 @@
  * The action of a pressure on the surface, for the solver: the interface of this folder. Internal: never
  * installed.
  *
- * The solver gets an operator K and asks it for K p, for its inverse as a multiplication in wave numbers, and
+ * The solver gets an operator K. It asks K for K p, for its inverse as a multiplication in wave numbers, and
  * for a few figures. Its users need no knowledge of bodies, engine, transforms or other ranks: maps and rows
  * are those held here.
  */
@@ -14,8 +14,8 @@
 #include "libcontact/transform/transform.h"
 
 /* Constant after it is made. Pressures and displacements row by row are in single precision and in their own
- * units: u = unit K' p with K' of about 1, so that no decade of metres or pascals is lost. Lengths beside
- * them are in units of sqrt(dx dy). */
+ * units: u = unit K' p. K' is about 1, so that no decade of metres or pascals is lost. Lengths beside them
+ * are in units of sqrt(dx dy). */
 struct rc_operator {
     struct rc_shape whole, shape; /* shape of the whole map, and of the rows held here */
     struct rc_rows rows;          /* rows held here */
@@ -99,8 +99,8 @@ void rc_operator_set_inverse(struct rc_operator *op, double plus);
 void rc_operator_apply(struct rc_operator *op, const double *p, double *u);
 /* u = K' p row by row: `in` writes the rows of p (floats), `out` reads those of u. Costs op->row_cost. */
 void rc_operator_apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx);
-/* The power a with which the inverse grows, A(q) ~ q^a, at wave number q, in 1/unit of lengths: 1 on uniform
- * bodies, up to 4 where a coating bends. */
+/* The inverse grows as A(q) ~ q^a. Returns a at wave number q, in 1/unit of lengths: 1 on uniform bodies, up
+ * to 4 where a coating bends. */
 double rc_operator_power(const struct rc_operator *op, double q);
 /* Several convolutions in sequence, with rows[k] between factor k - 1 and k, as rc_fft_chain. Each factor
  * costs op->factor_cost. */

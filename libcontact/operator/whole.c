@@ -1,9 +1,9 @@
 /*
  * K and its inverse on the whole transformed grid. The padded grid is treated as periodic, with each offset
- * of the kernel counted once, by the shortest way around: pressures on the map then act on the map as on the
- * half-space, whatever the padding, and each wave has its own factor, whose reciprocal is A.
+ * of the kernel counted once, by the shortest way around. Pressures on the map then act on the map as on the
+ * half-space, whatever the padding. Each wave has its own factor, whose reciprocal is A.
  *
- * A must be positive. For uniform bodies K is positive with twice the sides; for layers that bend over
+ * A must be positive. For uniform bodies K is positive with twice the sides. For layers that bend over
  * lengths near those of the map it becomes so with more padding.
  */
 #include <math.h>

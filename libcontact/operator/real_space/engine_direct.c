@@ -1,9 +1,9 @@
 /*
  * The sum u_ij = sum_kl K_(i-k)(j-l) p_kl, N^2 terms without approximation: the reference for other engines.
  *
- * A kernel is even or odd in y, so rows d above and d below a target row share their coefficients:
- * both are added first, and what remains is one product for each (row, d, k, i), summed in
- * registers for a block of rows and a strip of columns at once.
+ * A kernel is even or odd in y, so rows d above and d below a target row share their coefficients. Both rows
+ * are added first. Then there remains one product for each (row, d, k, i), summed in registers for a block of
+ * rows and a strip of columns at once.
  */
 #include "direct.h"
 

@@ -15,12 +15,12 @@
  *     Q(t, r) = product over k = 1 .. t of (2k-1)^2 / (r^2 - (2k-1)^2)
  *
  * at distance r: exactly for a pole; 1/r has this error along the axes and less elsewhere. So the largest
- * coefficient neglected beyond a region of m_c nodes is Q(t, m_c + 1) times the kernel there; `one`, this
+ * coefficient neglected beyond a region of m_c nodes is Q(t, m_c + 1) times the kernel there. `one`, this
  * over the kernel at the node, is the error under a single loaded node. Pressures on many nodes can have
- * larger errors: many_over_one() times this, relative to the largest sum of |K| |p|, if they follow the signs
- * of the error about a node. For a kernel that decreases faster than 1/r, or is smooth about the node, the
- * relevant figure is `all`: the sum of the neglected coefficients over that of |K| within the region
- * (rc_mlms_left_out).
+ * larger errors if they follow the signs of the error about a node. The error is then many_over_one() times
+ * this, relative to the largest sum of |K| |p|. For a kernel that decreases faster than 1/r, or is smooth
+ * about the node, the relevant figure is `all`. It is the sum of the neglected coefficients over that of |K|
+ * within the region (rc_mlms_left_out).
  *
  * Measured on 256 x 256 nodes: e the error about a loaded node (four, of all parities), pressures
  * |e|^a sign(e) with a = 0, 1/2, 1 where |e| is above one of 19 fractions of its largest, and 1
@@ -43,8 +43,8 @@ many_over_one(double t, double reach)
     return 9 + 3.5 * reach / t;
 }
 
-/* For the displacement kernel on equal spacings: the displacement of a cell by its own pressure is 3.525
- * times that of its load as a point load one spacing away. */
+/* For the displacement kernel on equal spacings. A cell's own pressure displaces it by 3.525 times as much as
+ * its load would, as a point load, one spacing away. */
 static double
 expected_error(size_t t, size_t reach)
 {
@@ -82,10 +82,10 @@ spacing(const struct rc_mlms_axis *a, double cell)
     return (double)a->step * cell;
 }
 
-/* The region: within `reach` coarser spacings (half a node more, in an ellipse) of the source's cell rather
- * than its node, because a long cell is close to the nodes beside its long side. Where both directions are
- * interpolated and the source itself is used, the corners of the ellipse are corrected too, because the
- * source's own coefficient is far from smooth on coarse levels. */
+/* The region lies within `reach` coarser spacings (half a node more, in an ellipse) of the source's cell
+ * rather than its node. A long cell is close to the nodes beside its long side. Where both directions are
+ * interpolated and the source itself is used, the corners of the ellipse are corrected too. The source's own
+ * coefficient is far from smooth on coarse levels. */
 ptrdiff_t
 rc_mlms_extent(const struct rc_mlms_design *d, const struct rc_shape *shape,
                const struct rc_mlms_axis axis[2], size_t k, bool odd)
@@ -139,8 +139,8 @@ set_tiles(struct rc_mlms_axis *a)
     a->tiles = (places + a->tile - 1) / a->tile;
 }
 
-/* True if a grid is coarsened, and in which direction: that of the smaller spacing until both are equal,
- * because the correction region would otherwise be many nodes long in it. A direction that would not get
+/* True if a grid is coarsened, and in which direction: that of the smaller spacing until both are equal.
+ * Otherwise the correction region would be many nodes long in that direction. A direction that would not get
  * shorter is kept. */
 static bool
 halve(struct rc_mlms_axis axis[2], const struct rc_shape *shape, size_t t)

@@ -72,9 +72,9 @@ lattice(const struct rc_sum *sum, const struct rc_mlms_axis axis[2])
     return (struct rc_lattice){sum->shape.dx, sum->shape.dy, axis[RC_X].step, axis[RC_Y].step};
 }
 
-/* error[c]: the kernel less its interpolation in the directions of class c = x + 2 y; (13), (16); at offsets
- * up to the reach plus `beyond`. *about: sum of |K| over the offsets up to the reach, without the node
- * itself. */
+/* error[c]: the kernel less its interpolation in the directions of class c = x + 2 y; equations (13) and
+ * (16). Offsets reach to `reach` plus `beyond`. *about: sum of |K| over the offsets up to the reach, without
+ * the node itself. */
 static bool
 errors(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms_axis axis[2],
        size_t beyond, struct table error[4], double *about)
@@ -122,7 +122,7 @@ done:
 /* ---- neglected coefficients ---- */
 
 /* Largest |K| of the cells that the nodes next to a node of this level represent. At the node itself the
- * kernel is that of a single cell; half a step away it is about that of all step_x step_y cells between. */
+ * kernel is that of a single cell. Half a step away it is about that of all step_x step_y cells between. */
 static double
 local_kernel(const struct rc_sum *sum, const struct rc_mlms_axis axis[2])
 {

@@ -285,8 +285,8 @@ few_nodes(struct area h)
     return h.nx > 0xffff || h.ny > 0xffff ? 0 : (size_t)(break_even * (double)(h.nx * h.ny));
 }
 
-/* Sorts the n listed nodes of a halo by class: values in w->plane[class], places after the list, those of a
- * class from begin[class] to begin[class + 1] - 1. */
+/* Sorts the n listed nodes of a halo by class. Values go to w->plane[class]. Places follow after the list;
+ * those of a class are from begin[class] to begin[class + 1] - 1. */
 static void
 sort_by_class(const struct rc_mlms_axis axis[2], const double *p, struct area h, size_t n,
               struct rc_mlms_scratch *w, size_t begin[5])
