@@ -8,9 +8,8 @@
  *     solver = rc_solver_new(&shape, h, &problem, &err);  shape: the whole map; h: its n rows
  *
  * Shapes are those of whole maps; every array of values holds the rows of this rank only, and may be empty.
- * Calls that take such an object are made by all ranks, with equal arguments but for arrays; what they
- * return, errors included, is the same on all. MPI_THREAD_FUNNELED is enough: MPI is called by the calling
- * thread alone.
+ * Calls that take such an object are made by all ranks, with equal arguments except arrays. Their results and
+ * errors are the same on all ranks. MPI_THREAD_FUNNELED is enough: MPI is called by the calling thread alone.
  */
 #ifndef RC_CONTACT_MPI_H
 #define RC_CONTACT_MPI_H

@@ -122,14 +122,14 @@ RC_API enum rc_status rc_grid_set_number(struct rc_grid *grid, const char *name,
 RC_API bool rc_grid_number(const struct rc_grid *grid, const char *name, double *value);
 /* The unit of dx and dy: the key `dunit`, "m" when it is absent. */
 RC_API const char *rc_grid_dunit(const struct rc_grid *grid);
-/* Column and row at which x and y are 0: the middle of the map, which may lie between two nodes, or of
- * wave numbers (dunit=rad/m) the node (nx/2, ny/2). */
+/* Column and row at which x and y are 0: the middle of the map, which may lie between two nodes. A map of
+ * wave numbers (dunit=rad/m) has them at the node (nx/2, ny/2). */
 RC_API void rc_grid_origin(const struct rc_grid *grid, double *i, double *j);
 /* The case the frame belongs to: the key `case`, 1 when absent, 0 when it is no whole number > 0. */
 RC_API size_t rc_grid_case(const struct rc_grid *grid);
 
-/* Adds one step to the key `history`, steps joined by " | "; past 32 KiB middle steps become
- * "...", and so does the end of a step beyond 16368 bytes. */
+/* Adds one step to the key `history`, steps joined by " | ". Past 32 KiB middle steps become "...", and so
+ * does the end of a step beyond 16368 bytes. */
 RC_API enum rc_status rc_grid_history(struct rc_grid *grid, const char *step, struct rc_err *err);
 
 RC_API bool rc_key_valid(const char *name);
@@ -150,8 +150,8 @@ RC_API const char *rc_number_read(const char *text, bool special, double *value)
 /* a*b, or RC_FAIL when it does not fit. */
 RC_API enum rc_status rc_size_mul(size_t a, size_t b, size_t *product, struct rc_err *err);
 
-/* A node is in contact if its value is above 0: in the frame `contact` of its case (1 or 0) or, if the case
- * has no such frame, in the pressure. In tools contact_frame chooses between the two frames. */
+/* A node is in contact if its value in the frame `contact` of its case (1 or 0) is above 0. If the case has
+ * no such frame, the pressure decides. In tools contact_frame chooses between the two frames. */
 static inline bool
 rc_in_contact(double value)
 {

@@ -103,8 +103,8 @@ lend(size_t bytes)
     atomic_fetch_add(&lent, bytes);
 }
 
-/* The bytes that a block counts for. The C library maps up to one large page more after a block with such an
- * alignment, so that rc_alloc stores the true size at the end of the block. */
+/* The bytes that a block counts for. After a block with such an alignment the C library maps up to one large
+ * page more. So rc_alloc stores the true size at the end of the block. */
 static size_t
 size_of(void *at)
 {

@@ -14,8 +14,8 @@
 #include "grid.h"
 
 /* Memory for n numbers of `size` bytes, not cleared, at the start of a cache line. NULL if memory is short or
- * n * size overflows. free() returns it. Blocks of megabytes use large pages if the system has them, because
- * columns of a map touch many pages, and the system clears new pages one by one. */
+ * n * size overflows. free() returns it. Blocks of megabytes use large pages if the system has them. Columns
+ * of a map touch many pages, and the system clears new pages one by one. */
 void *rc_alloc(size_t n, size_t size);
 
 /* malloc, calloc, realloc, aligned_alloc and free. */
@@ -25,14 +25,14 @@ void *rc_realloc(void *at, size_t bytes);
 void *rc_aligned_alloc(size_t line, size_t bytes);
 void rc_free(void *at);
 
-/* Allocations of this thread between rc_memory_lend and rc_memory_lent do not count: they take the place of
+/* Allocations of this thread between rc_memory_lend and rc_memory_lent do not count. They take the place of
  * pages of larger maps that are still untouched, and are freed before those are touched. rc_memory_lent
- * returns their bytes; pass them to rc_memory_return after freeing. */
+ * returns their bytes. Pass them to rc_memory_return after freeing. */
 void rc_memory_lend(void);
 size_t rc_memory_lent(void);
 void rc_memory_return(size_t bytes);
 
-/* memcpy for data that is next read after many megabytes of other data: it bypasses the caches, and does not
+/* memcpy for data that is next read after many megabytes of other data. It bypasses the caches, and does not
  * fetch the lines that it overwrites. */
 void rc_copy_past(void *to, const void *from, size_t bytes);
 

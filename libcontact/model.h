@@ -95,7 +95,7 @@ struct rc_figure {
     const char *warning; /* text of this warning, without the name of an option */
 };
 /* {RC_FIGURE(struct rc_leak_figures, mean_gap), "m", "Mean gap"}: the kind follows from the type of the
- * member, and a member that does not exist does not compile. RC_FIGURE_AS: the column has another name. */
+ * member. A member that does not exist does not compile. RC_FIGURE_AS: the column has another name. */
 #define RC_KIND_OF(type, member)                                                                   \
     _Generic(((type *)0)->member, double : RC_NUMBER, size_t : RC_COUNT, bool : RC_YESNO,          \
              const char * : RC_WORD, char * : RC_WORD)
@@ -155,11 +155,11 @@ RC_API enum rc_status rc_model_keep(struct rc_model *model, struct rc_err *err);
  * surfaces. */
 RC_API enum rc_status rc_model_set_heights(struct rc_model *model, const double *h,
                                            struct rc_err *err);
-/* Sets a compliance c >= 0, m/Pa, of each single node, from the next go on: under a pressure p the surface
- * moves by c p more, as a film would that is worn off or crushed. The answer is that of bodies with the
- * heights h - c p: its gap is K p + c p - h - shift, and its displacement K p, of the elastic bodies alone.
- * The approach is counted from the highest node of h. part (NULL: all 1): nx ny numbers >= 0, by which c is
- * multiplied at each node; the caller keeps them until others are set. RC_FAIL where the model cannot. */
+/* Sets a compliance c >= 0, m/Pa, of each single node, from the next go on. Under a pressure p the surface
+ * moves by c p more, as if a film were worn off or crushed. The answer is that of bodies with the heights h -
+ * c p. Its gap is K p + c p - h - shift, and its displacement K p, of the elastic bodies alone. The approach
+ * is counted from the highest node of h. part: nx ny numbers >= 0 that multiply c at each node (NULL: all 1).
+ * The caller keeps them until others are set. RC_FAIL where the model cannot. */
 RC_API enum rc_status rc_model_set_compliance(struct rc_model *model, double c, const double *part,
                                               struct rc_err *err);
 RC_API struct rc_shape rc_model_shape(const struct rc_model *model);
@@ -173,8 +173,8 @@ RC_API void rc_model_free(struct rc_model *model);
 /* ---- cost before, progress during ---- */
 
 struct rc_expected;
-/* Expected cost of this point; give the largest point of a history; an outer model that does not know its own
- * cost tells that of its inner model. RC_FAIL when the point is impossible. */
+/* Expected cost of this point; give the largest point of a history. If an outer model does not know its own
+ * cost, it returns the cost of its inner model. RC_FAIL when the point is impossible. */
 RC_API enum rc_status rc_model_plan(const struct rc_model *model, const struct rc_point *most,
                                     struct rc_expected *expected, struct rc_err *err);
 

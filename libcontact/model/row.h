@@ -83,7 +83,7 @@ struct rc_model_row {
     enum rc_status (*look)(struct rc_model *m, struct rc_point *at, struct rc_err *err);
     enum rc_status (*fill)(struct rc_model *m, size_t frame, double *to, struct rc_err *err);
     /* Exchanges the members on which the next step depends. The heights of the undeformed bodies are not
-     * among them: an outer model that sets them, or the compliance, sets them here while it reads, before its
+     * among them. An outer model that sets them, or the compliance, sets them here while it reads, before its
      * inner model reads. */
     void (*state)(struct rc_model *m, struct rc_state *s);
     void (*free)(struct rc_model *m);

@@ -1,6 +1,6 @@
 /*
- * The state of a model and its inner models as numbers, for files and for the copy at each kept point: the
- * count of numbers and maps, the numbers, then the maps.
+ * The state of a model and its inner models as numbers, for files and for the copy at each kept point. The
+ * order is: the count of numbers and maps, the numbers, then the maps.
  */
 #include "row.h"
 
