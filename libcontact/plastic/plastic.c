@@ -8,20 +8,20 @@
  *                F returns the trial stress s + 2 mu x to the yield surface at fixed total strain.
  *
  * F lowers the energy of body and contact together for any load and hardening, and therefore converges
- * without relaxation: it is a proximal gradient step of a convex problem, whose smooth part has no curvature
+ * without relaxation. It is a proximal gradient step of a convex problem, whose smooth part has no curvature
  * above 2 mu. An application of F costs one sweep up, one contact, and one sweep down.
  *
  * A load begins with elastic trials, which change no strain: the contact at its end, and one sweep down. If
  * no stress exceeds the yield stress, the load is done, as in most unloading. If little flow would follow, as
- * in reloading to the same peak, one increment follows, and all of its flow counts as an error of the
- * increments. If this error is small beside the error of earlier loads, the increment stays; otherwise it is
- * undone. Then bisection finds the last load without flow, and the increments start there.
+ * in reloading to the same peak, one increment follows. All of its flow counts as an error of the increments.
+ * If this error is small beside the error of earlier loads, the increment stays; otherwise it is undone. Then
+ * bisection finds the last load without flow, and the increments start there.
  *
  * The increments are not converged one by one. Each starts from the last increment, is applied twice, and
  * takes the mixture of both that Anderson's method with one kept step would take. The next increment sees the
  * true stress and so corrects the lag of this one. If the lag is above 0.04 of the yield stress, the
- * increment is applied again, because a lag changes the path, and no estimate contains this change. The last
- * increment is applied until it lags no more: a load is accepted if |F(x) - x| as a stress is small against
+ * increment is applied again, because a lag changes the path. No estimate contains this change. The last
+ * increment is applied until it lags no more. A load is accepted if |F(x) - x| as a stress is small against
  * the yield stress, not if it is small against x. In time the return is of second order (two steps back,
  * BDF2), with the base
  *
@@ -32,7 +32,7 @@
  * first increment of a load has beta 0 everywhere (backward Euler), because the load has turned.
  *
  * On a free map the contact is exactly that of the half-space. The stresses, and the displacement of the
- * surface by plastic strain, belong to a map that repeats after twice its sides; they differ from those of
+ * surface by plastic strain, belong to a map that repeats after twice its sides. They differ from those of
  * the half-space by some thousandths of the yield stress.
  *
  * The estimated error of a load is a sum of four parts. Increments: the terms that BDF2 adds to Euler's
@@ -472,9 +472,9 @@ apply(struct rc_plastic *p, struct rc_err *err)
     p->mix = 0;
     /* F itself never raises the energy, but a mixture may. A mixture is not taken if the last one did not
      * lower the lag. Comparing energies instead needs one more displacement by the pressure, and is no
-     * better: one increment of 300 random maps of 24 x 24 nodes, Hm from 0 to 100 Y, took 6404 applications
-     * by the energy, 6413 by the lag, 6547 by neither, and 13403 without mixtures, where 7 maps took more
-     * than 200. */
+     * better. One increment of 300 random maps of 24 x 24 nodes, Hm from 0 to 100 Y, took 6404 applications
+     * by the energy, and 6413 by the lag. It took 6547 by neither, and 13403 without mixtures, where 7 maps
+     * took more than 200. */
     if (p->trial > 0 && sums[RC_CHANGE] > 0 && p->figures.lag < last)
         p->mix = sums[RC_NEW_OLD] / sums[RC_CHANGE];
     if (p->trial > 0 && sums[RC_ADVANCE] > 0 && sums[RC_RESISTED] > 0)
@@ -665,7 +665,7 @@ settle(struct rc_plastic *p, struct rc_err *err)
     return RC_OK;
 }
 
-/* Finds how much the contact changes by all terms of second order, and divides it in proportion to the
+/* Finds how much the contact changes by all terms of second order. Divides this change in proportion to the
  * changes by this load alone and by earlier loads alone. */
 static enum rc_status
 compare_order(struct rc_plastic *p, struct rc_err *err)
@@ -699,14 +699,13 @@ compare_order(struct rc_plastic *p, struct rc_err *err)
     return RC_OK;
 }
 
-/* The error of the pressure from the images of a free map, at a distance of twice its sides. Images of
- * the yielded volume: their stress over the mean contact pressure, where the stress is the modulus times
- * the plastic strain spread over a cube on the map. On balls with a contact of 5 to 28 % of the map the
- * error was 0.4 to 0.47 of this ratio. Images of the load: the mean pressure of the padded map over the
- * yield stress. Half of this ratio was enough on 212 balls, pairs of balls and rough balls, and 0.4 on
- * all but one of them. If few nodes touch, one of them carries most of the load, and a change of its
- * limit moves load to the others: this part is larger by 20, 5 and 3 at 3, 6 and 8 nodes, which the
- * factor 1 + (13 / nodes)^2 covers. */
+/* The error of the pressure from the images of a free map, at a distance of twice its sides. Images of the
+ * yielded volume: their stress over the mean contact pressure. The stress is the modulus times the plastic
+ * strain, spread over a cube on the map. On balls with a contact of 5 to 28 % of the map the error was 0.4 to
+ * 0.47 of this ratio. Images of the load: the mean pressure of the padded map over the yield stress. Half of
+ * this ratio was enough on 212 balls, pairs of balls and rough balls, and 0.4 on all but one of them. If few
+ * nodes touch, one of them carries most of the load, and a change of its limit moves load to the others. This
+ * part is larger by 20, 5 and 3 at 3, 6 and 8 nodes, which the factor 1 + (13 / nodes)^2 covers. */
 static double
 image_error(const struct rc_plastic *p)
 {

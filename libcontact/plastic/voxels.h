@@ -16,8 +16,8 @@ struct rc_voxel {
     double x[RC_DEVIATOR];    /* the increment that is tried                                    */
     double f[RC_DEVIATOR];    /* F(x): the increment under the stress of e + x */
     double strain, grown;     /* equivalent strain, and its growth in the last increment */
-    /* Small beside x, so that single precision is enough: sums of the terms of second order over earlier
-     * loads and over this load; the change of x by the last trial; and its f - x. */
+    /* Small beside x, so that single precision is enough. They are the sums of the terms of second order over
+     * earlier loads and over this load, the change of x by the last trial, and its f - x. */
     float before[RC_DEVIATOR], missed[RC_DEVIATOR], moved[RC_DEVIATOR], left[RC_DEVIATOR];
 };
 

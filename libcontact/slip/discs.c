@@ -119,7 +119,7 @@ struct moved {
     double nu[2];
 };
 
-/* Sums for a shift of y by nu. 0, 1: the traction of a node; 2 to 4: xx yy xy of its derivative; 5: the
+/* Sums for a shift of y by nu. 0, 1: the traction of a node. 2 to 4: xx yy xy of its derivative. 5: the
  * function whose gradient is sums 0 and 1. */
 static void
 carried_by(const struct rc_discs *d, size_t k, const void *with, double *sum)
@@ -163,9 +163,9 @@ carried(const struct rc_discs *d, const struct moved *m, double out[SUMS])
 }
 
 /* Finds nu such that the tractions on the discs nearest to y + nu carry `load` within `near`, summed over the
- * moved nodes. nu minimises a convex function; Newton's method finds it, damped after Levenberg and Marquardt
- * because parallel tractions on their circles make the matrix singular. `size`: the largest force that
- * friction can carry on these nodes. Returns false if the nodes cannot carry the load. */
+ * moved nodes. nu minimises a convex function, which Newton's method finds. It is damped after Levenberg and
+ * Marquardt, because parallel tractions on their circles make the matrix singular. `size`: the largest force
+ * that friction can carry on these nodes. Returns false if the nodes cannot carry the load. */
 static bool
 find_shift(const struct rc_discs *d, struct moved *m, const double load[2], double size,
            double near)
@@ -487,7 +487,7 @@ short_of_circle(const struct rc_discs *d, size_t k, double size)
 }
 
 /* Computes the sums that M does not contain. 0, 1: the load that slipping nodes gain on the way to their
- * circles; 2, 3: the load that they lose by turning by z, to second order; 4, 5: the residual, for the
+ * circles. 2, 3: the load that they lose by turning by z, to second order. 4, 5: the residual, for the
  * motion. */
 static void
 left_by_model(const struct rc_discs *d, size_t k, const void *with, double *sum)
@@ -762,7 +762,7 @@ step_along(struct rc_discs *d)
     take(d, length, reach);
 }
 
-/* For complete contact that sticks. Nothing resists the motion of the mean plane of a periodic map, so that
+/* For complete contact that sticks. Nothing resists the motion of the mean plane of a periodic map. So
  * tractions grow along this motion until the first node reaches its circle. */
 static void
 to_first_circle(struct rc_discs *d, const double mean[2])

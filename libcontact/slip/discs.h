@@ -4,7 +4,7 @@
  *     min  q'Tq/2 - w'q   over   |q_i| <= g_i,   sum q = S   (or minus delta'(sum q), if delta is given)
  *
  * T is the tangential operator, g the largest traction of a node, w the displacement that sticking nodes
- * keep, S the force over the area of a cell, and delta, the displacement of the bodies, is the multiplier of
+ * keep. S is the force over the area of a cell. The displacement of the bodies, delta, is the multiplier of
  * the force. s = Tq - w - delta is the slip of a node. It is 0 where |q| < g, and opposite to q elsewhere.
  * Displacements are in units of the cell over E*, and so in Pa: no number is too large or too small for a
  * float. Internal: never installed.

@@ -340,8 +340,8 @@ rc_extension_set(struct rc_extension *e, const unsigned char *face, double *cons
 
 /* ---- E' A E ---- */
 
-/* Replaces v by the part of E' v that the pyramid passes to neighbours, and adds the rest to z; `first`: with
- * the ties in z, else with a shift of -eta. */
+/* Replaces v by the part of E' v that the pyramid passes to neighbours, and adds the rest to z. `first`: the
+ * ties are in z; otherwise it shifts by -eta. */
 static void
 to_neighbours(struct rc_extension *e, bool first, const double eta[2], float *const z[2])
 {

@@ -6,8 +6,8 @@
  * free directions of node i, 0 for a node without load. With A = T^-1 on the whole map the exact inverse is,
  * as a quadratic form,
  *
- *     r'(T + D)^-1 r = least of  v'Av + sum over slipping nodes of (t'(r - v))^2/D     over all fields v with
- * v = r where nodes stick:
+ *     r'(T + D)^-1 r is the least value of v'Av + sum over slipping nodes of (t'(r - v))^2/D. v is any field
+ *     with v = r where nodes stick:
  *
  * The displacement v is unknown outside the contact and along the normals of the circles. Along the tangents,
  * the larger D is, the less v is known. Here v = E r is an explicit approximation,

@@ -2,10 +2,10 @@
  * The model of friction: rc_slip under the pressure of an inner model, or under a known one. Friction depends
  * on the path, so load, force and displacement change in proportion from point to point, in increments.
  *
- * Dissimilar bodies are coupled: tractions move the surface along its normal, so that the inner model gets
- * heights without this displacement, and pressure moves the bodies along each other. Pressure and tractions
- * are found in turn, in passes that contract by about 0.7 mu beta. Where beta is 0, or the coupling neglects
- * the effect of tractions on the pressure (Goodman 1962), the pressure is found once for each load.
+ * Dissimilar bodies are coupled. Tractions move the surface along its normal, so that the inner model gets
+ * heights without this displacement. Pressure moves the bodies along each other. Pressure and tractions are
+ * found in turn, in passes that contract by about 0.7 mu beta. Where beta is 0, or the coupling neglects the
+ * effect of tractions on the pressure (Goodman 1962), the pressure is found once for each load.
  *
  * Two further solutions may be computed, with half and with a quarter of the increments. They give the error
  * of the increments (increments.c). Both start from the tractions of the solution with all increments.
@@ -196,8 +196,8 @@ pose(struct friction *f, struct way *w, struct rc_err *err)
     return RC_MORE;
 }
 
-/* True if the pressure at the end of the increment needs no inner model: it is the pressure of the first way,
- * of the previous increment, the known pressure, or 0. */
+/* True if the pressure at the end of the increment needs no inner model. It is then the pressure of the first
+ * way or of the previous increment, the known pressure, or 0. */
 static bool
 finds_pressure(struct friction *f, struct way *w)
 {
@@ -299,8 +299,8 @@ slide(struct friction *f, struct way *w, struct rc_err *err)
     return status == RC_OK && w->contact_good ? RC_OK : RC_SHORT;
 }
 
-/* Returns the sum of |q| over the map, Pa. add: the errors that this increment adds to the sum: the error of
- * its iteration, and the error due to the pressure, which limits |q|. */
+/* Returns the sum of |q| over the map, Pa. add: the errors that this increment adds to the sum. These are the
+ * error of its iteration, and the error due to the pressure, which limits |q|. */
 static double
 added(const struct friction *f, const struct way *w, double error, double limit, double add[2])
 {

@@ -63,7 +63,7 @@ tangent_changes(const struct rc_point *from, const struct rc_point *to)
 
 /* ---- the choice ---- */
 
-/* One increment is exact between bodies of equal elasticity with nu = 0: all nodes slip along one line,
+/* One increment is exact between bodies of equal elasticity with nu = 0. All nodes slip along one line,
  * provided that all earlier forces were parallel to this line. */
 static bool
 exact(const struct rc_slip_problem *o, const struct rc_shear *shear, bool coupled,
@@ -158,7 +158,7 @@ rc_leg_part(const struct rc_leg *leg, size_t k, size_t n)
 
 /* ---- the error ---- */
 
-/* With half of the increments the error is larger by d, and with a quarter by another d2: their ratio shows
+/* With half of the increments the error is larger by d, and with a quarter by another d2. Their ratio shows
  * how fast the error falls. On a leg of one or two increments, the leg adds `lagged` to d. The error of the
  * previous point stays, also where d and d2 fall because they cancel. */
 double

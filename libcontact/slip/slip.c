@@ -3,12 +3,12 @@
  *
  * While a node with a load sticks, T q + C p - delta keeps its value there. This value is `origin`, a map of
  * all nodes. A node that comes into contact later keeps the value at its first contact. An increment finds
- * the tractions of least energy for w = origin - C p. If the force grows by dF/dP of the load, a node that
- * comes into contact from the gap g0 has moved by dF/dP (1 + kap/2) g0 before its contact. This is exact for
- * kap = 0, where T equals K in both directions.
+ * the tractions of least energy for w = origin - C p. Let the force grow by dF/dP of the load. A node that
+ * comes into contact from the gap g0 has then moved by dF/dP (1 + kap/2) g0 before its contact. This is exact
+ * for kap = 0, where T equals K in both directions.
  *
- * The code uses the unit sqrt(dx dy)/E* for displacements and sqrt(dx dy) for lengths, so that displacements
- * are in Pa and lengths are numbers.
+ * The code uses the unit sqrt(dx dy)/E* for displacements and sqrt(dx dy) for lengths. So displacements are
+ * in Pa, and lengths are numbers.
  */
 #include "slip.h"
 

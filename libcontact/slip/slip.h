@@ -51,8 +51,8 @@ size_t rc_leg_fewer(const struct rc_leg *leg, size_t halvings);
 /* The part of a leg at which increment k of n ends. */
 double rc_leg_part(const struct rc_leg *leg, size_t k, size_t n);
 /* The error of the increments at the end of a leg, as a sum over the map, Pa; NAN: unknown. before: the error
- * at its start. d: distance between the tractions with all increments and with half of them; d2: with half
- * and with a quarter. lagged: the growth of the first distance, as a vector, on this leg. */
+ * at its start. d: distance between the tractions with all increments and with half of them. d2: the same
+ * with half and with a quarter. lagged: the growth of the first distance, as a vector, on this leg. */
 double rc_leg_error(const struct rc_leg *leg, double before, double d, double d2, double lagged);
 
 #endif

@@ -64,8 +64,8 @@ set_spectra(struct rc_tangential *t, struct rc_err *err)
     return RC_OK;
 }
 
-/* The displacement due to a long wave. For a free boundary: the displacement of the middle of the map under a
- * uniform traction; for a periodic map: the displacement of the longest wave. */
+/* The displacement due to a long wave. For a free boundary it is the displacement of the middle of the map
+ * under a uniform traction. For a periodic map it is the displacement of the longest wave. */
 static double
 norm_of(const struct rc_tangential *t)
 {
@@ -295,7 +295,7 @@ quarter_of(const struct pass *p, enum rc_shear_which kernel, size_t i)
 }
 
 /* Computes the real, then the imaginary parts of a x - b y for the requested map x. b is a kernel that is odd
- * in both directions: its transform is (-i)^2 b. */
+ * in both directions, so its transform is (-i)^2 b. */
 RC_CLONES static void
 multiply(const struct rc_tangential *t, const double *a, const double *b, const double *x,
          const double *y, double *to)

@@ -3,8 +3,8 @@
  * the bodies do not attract each other. The upper bound is the hardness: a number, a map, or none.
  *
  * Loops over nodes use a box: the bounds of the nodes that follow a given node. The body of a hot loop is an
- * RC_INLINE function that an RC_CLONES function calls twice: with rc_box_of_numbers, where the compiler sees
- * two numbers and no map, and with the box itself. A map of lower bounds would need code like that for
+ * RC_INLINE function that an RC_CLONES function calls twice. It passes rc_box_of_numbers, where the compiler
+ * sees two numbers and no map, and then the box itself. A map of lower bounds would need code like that for
  * `highs`, here and in tiles.c, which copies a tile of it.
  */
 #ifndef RC_BOUNDS_H
@@ -107,8 +107,8 @@ rc_clip(struct rc_box box, size_t k, double p)
 }
 
 /* rc_clip for a pressure that is kept: a pressure within rounding of a bound is set to it. Without this,
- * nodes could end a few units in the last place below the hardness and count as elastic when the load is a
- * whole number of nodes times the hardness. */
+ * nodes could end a few units in the last place below the hardness and count as elastic. This happens when
+ * the load is a whole number of nodes times the hardness. */
 static inline double
 rc_settled(struct rc_box box, size_t k, double p)
 {

@@ -1,7 +1,7 @@
 /*
- * The elastic model: a contact by rc_solver, under a load or at an approach, with a hardness, a counter body
- * that is free to tilt, and the stiffness and the conductance as figures. Keeping a point adds its plastic
- * dents to the shape.
+ * The elastic model: a contact by rc_solver, under a load or at an approach, with a hardness and a counter
+ * body that is free to tilt. Its figures include the stiffness and the conductance. Keeping a point adds its
+ * plastic dents to the shape.
  */
 #include "solver.h"
 

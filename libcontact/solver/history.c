@@ -3,7 +3,7 @@
  * may be separated.
  *
  * The error of the pressure of a yielding load stays in the dents. The map from one shape to the next does
- * not increase this error, so the errors (N) of all earlier loads add up; their sum over the present load is
+ * not increase this error, so the errors (N) of all earlier loads add up. Their sum over the present load is
  * a part of its relative error.
  */
 #include "solver.h"

@@ -221,7 +221,7 @@ rc_iterate_stiffness(const struct rc_solver *s)
 /* Allowed relative error of the load for the balancing shift, which only selects a working set. */
 static const double unbalanced = 1e-4;
 
-/* Context of the search for the balancing shift: each node moves by its gap times the stiffness of a node
+/* Context of the search for the balancing shift. Each node moves by its gap times the stiffness of a node
  * whose neighbours are fixed, within its bounds. */
 struct balance {
     struct rc_solver *s;

@@ -1,6 +1,6 @@
 /*
  * The load: given, or found for a given approach. The shift grows nearly as a power of the load (2/3 for a
- * sphere, 1 for a punch), so the search is a secant method in logarithms, inside a bracket. Each load starts
+ * sphere, 1 for a punch). So the search is a secant method in logarithms, inside a bracket. Each load starts
  * from the solution of the last one, and the first loads are solved to a loose tolerance, enough for the next
  * guess.
  */
@@ -133,7 +133,7 @@ check_approach(struct rc_solver *s, double approach, struct rc_err *err)
     return RC_OK;
 }
 
-/* Where the load is sought, the given load is a first guess; without one, the guess is the load of a flat
+/* Where the load is sought, the given load is a first guess. Without one, the guess is the load of a flat
  * punch with the area of the surface above the approach. */
 enum rc_status
 rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_err *err)

@@ -1,8 +1,8 @@
 /*
- * A start from coarser grids. The contact is first solved roughly on a grid of half the nodes a side (a
- * profile stays one node wide, and a strip becomes one node wide), which starts from a coarser grid itself.
- * The load of each coarse node is then divided among the fine nodes that it covers. A call of rc_nested_step
- * does one iteration on one coarser grid, or plans one, so the caller sees every iteration.
+ * A start from coarser grids. The contact is first solved roughly on a grid of half the nodes a side, which
+ * starts from a coarser grid itself. A profile stays one node wide, and a strip becomes one node wide. The
+ * load of each coarse node is then divided among the fine nodes that it covers. A call of rc_nested_step does
+ * one iteration on one coarser grid, or plans one, so the caller sees every iteration.
  */
 #include "solver.h"
 
@@ -388,7 +388,7 @@ repeat_at(struct rc_solver *s, const struct known *c, size_t i, size_t j)
             s->it.p[y * nx + x] = rc_clip(box, y * nx + x, c->p[j * c->nx + i]);
 }
 
-/* Divides the load of each coarse node among its fine nodes: the higher a fine node lies above the
+/* Divides the load of each coarse node among its fine nodes. The higher a fine node lies above the
  * interpolated displacement, the larger its pressure, with the stiffness of a node whose neighbours are
  * fixed. Repeating the coarse pressure instead starts with four to five times the error; this is done where
  * the displacement is unknown. */

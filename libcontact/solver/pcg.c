@@ -1,26 +1,26 @@
 /*
  * Projected conjugate gradients with the extension preconditioner (preconditioner.h).
  *
- * Working set W: the elastic nodes, and the nodes at a bound whose gap has the wrong sign, except those that
- * the next step would return to the bound (working_set.c). Residual r = -g on W with zero mean, z = E' A E r
- * with zero mean, direction z + beta delta, conjugate to the last step delta unless much of that step was
- * clipped; restarted when beta is negative. The step is returned to {0 <= p <= H, sum p = S} tile by tile
- * (tiles.c) or, where this does not lower the energy, by one shift of all nodes of W (projection.c). Scaling
- * instead, as in (31b) of Polonsky and Keer, fails near saturation; one shift of all nodes of the map puts
- * every separated node into contact.
+ * Working set W: the elastic nodes, and the nodes at a bound whose gap has the wrong sign. Nodes that the
+ * next step would return to the bound do not belong to it (working_set.c). Residual r = -g on W with zero
+ * mean, z = E' A E r with zero mean. Direction z + beta delta, conjugate to the last step delta unless much
+ * of that step was clipped; it is restarted when beta is negative. The step is returned to {0 <= p <= H, sum
+ * p = S} tile by tile (tiles.c). Where this does not lower the energy, one shift of all nodes of W returns it
+ * (projection.c). Scaling instead, as in (31b) of Polonsky and Keer, fails near saturation. One shift of all
+ * nodes of the map puts every separated node into contact.
  *
- * The length of a step is predicted from earlier steps, so one convolution K delta of the clipped step is
- * enough for three purposes: the new gap, the change of the energy (a quadratic along delta, known exactly)
- * and the conjugacy of the next direction. A clipped step that goes far beyond the lowest energy is repeated
- * with a smaller length; an unclipped one ends at the lowest energy. So no step raises the energy. Every
- * SPACER steps, and where no length lowers the energy, a projected-gradient step is taken instead. By the
- * spacer-step theorem (Luenberger and Ye, Linear and Nonlinear Programming) the iteration then converges to
- * the unique minimum.
+ * The length of a step is predicted from earlier steps. So one convolution K delta of the clipped step is
+ * enough for three purposes. These are the new gap, the change of the energy (a quadratic along delta, known
+ * exactly) and the conjugacy of the next direction. A clipped step that goes far beyond the lowest energy is
+ * repeated with a smaller length; an unclipped one ends at the lowest energy. So no step raises the energy.
+ * Every SPACER steps, and where no length lowers the energy, a projected-gradient step is taken instead. By
+ * the spacer-step theorem (Luenberger and Ye, Linear and Nonlinear Programming) the iteration then converges
+ * to the unique minimum.
  *
  * ||z||_1 / ||p||_1 estimates the error of the pressure at no cost, because z is known.
  *
  * Where the operator allows it, K delta is summed in single precision: its error is relative to delta, which
- * shrinks. `drift` is a bound of the resulting error of p; v is recomputed in double precision before this
+ * shrinks. `drift` is a bound of the resulting error of p. v is recomputed in double precision before this
  * error matters, and always before an estimate ends the iteration.
  */
 #include "solver.h"
@@ -44,9 +44,9 @@ enum {
 static const double longest = 1e6;
 /* The smallest predicted length of a step: the first steps under a stiff coating are as short as this. */
 static const double shortest = 0.15;
-/* A clipped step is taken whole, so that its clipped nodes stay at their bounds, if the lowest energy lies at
- * least this fraction s of the way along it. The whole step then has at least (2 s - 1)/s^2 of the largest
- * possible gain. */
+/* A clipped step is taken whole, so that its clipped nodes stay at their bounds. The condition is that the
+ * lowest energy lies at least this fraction s of the way along it. The whole step then has at least (2 s -
+ * 1)/s^2 of the largest possible gain. */
 static const double enough = 0.75;
 /* An estimate above this at the start means that the heights far exceed the displacements: each node touches
  * or yields nearly independently of the others. A bed of springs, each with the stiffness of its own cell, is
@@ -54,13 +54,13 @@ static const double enough = 0.75;
 static const double apart = 100;
 /* The largest clipped step, relative to the load, for which the next direction is made conjugate. On uniform
  * bodies, where the eigenvalues are near 1, a larger limit saves no steps and makes the estimate less
- * accurate, because it is most accurate for errors along the smallest eigenvalues. */
+ * accurate. The estimate is most accurate for errors along the smallest eigenvalues. */
 static const double conjugate = 1e-2;
-/* In conjugate gradients on a fixed set the factor of the last direction is b = (z'r) / (the previous z'r),
- * about the square of the ratio of two estimates. If nodes joined or left, z'q also contains their residuals,
- * and the next step would repeat the last one: four steps in place of six on uniform bodies at 33 % contact
- * when b is limited to this square (Gilbert and Nocedal, SIAM J. Optim. 2, 1992). But under coatings a few
- * eigenvalues can lie far from the others, and the two values of b differ: seven elastic nodes under a
+/* In conjugate gradients on a fixed set the factor of the last direction is b = (z'r) / (the previous z'r).
+ * This is about the square of the ratio of two estimates. If nodes joined or left, z'q also contains their
+ * residuals, and the next step would repeat the last one. With b limited to this square, uniform bodies at 33
+ * % contact took four steps in place of six (Gilbert and Nocedal, SIAM J. Optim. 2, 1992). But under coatings
+ * a few eigenvalues can lie far from the others, and the two values of b differ. Seven elastic nodes under a
  * coating 10^4 times as stiff as its base took 100 steps. So b is not limited if at most this fraction of the
  * set joined or left. On uniform bodies a larger fraction would save nothing and make the estimate too small:
  * 0.96 of the error at 99 % contact. */
@@ -577,8 +577,8 @@ make_best(struct rc_solver *solver, struct pcg *s, double *alpha, double mean, b
           struct trial *t)
 {
     attempt(solver, s, *alpha, mean, tiles, t);
-    /* The step is too long. A fraction of a clipped step would leave its clipped nodes just off their bounds;
-     * a shorter step that is clipped anew puts them on their bounds. */
+    /* The step is too long. A fraction of a clipped step would leave its clipped nodes just off their bounds.
+     * A shorter step that is clipped anew puts them on their bounds. */
     for (int tries = 0; tries < TRIES && t->clipped && t->best < enough; tries++) {
         undo(solver, s, t->size);
         *alpha *= fmax(t->best, 0.2);
@@ -613,8 +613,8 @@ follow_step(struct rc_solver *solver, struct pcg *s, const struct trial *t, doub
     settle(solver);
 }
 
-/* One step of p along the direction in z with the given mean, and back into the bounds, that lowers the
- * energy; updates v, the working set and the residual. Returns the relative change of p; 0 when no length
+/* Makes one step of p along the direction in z with the given mean, and back into the bounds, that lowers the
+ * energy. Updates v, the working set and the residual. Returns the relative change of p; 0 when no length
  * lowers the energy, and p is unchanged. */
 static double
 advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool tiles)

@@ -1,11 +1,11 @@
 /*
- * The scheme of Polonsky and Keer, Wear 231 (1999), section 3.2: conjugate gradients on the pressure with the
- * contact set and the load enforced in every step. Equation numbers are the paper's; its errors are corrected
- * ((31b) scales by P0/P). The paper has no upper bound; here it is treated like the lower one: a node leaves
- * H where the gap is positive, as it enters contact where the gap is negative.
+ * The scheme of Polonsky and Keer, Wear 231 (1999), section 3.2. It is conjugate gradients on the pressure,
+ * with the contact set and the load enforced in every step. Equation numbers are the paper's; its errors are
+ * corrected ((31b) scales by P0/P). The paper has no upper bound; here it is treated like the lower one. A
+ * node leaves H where the gap is positive, as it enters contact where the gap is negative.
  *
- * Where many nodes join or leave at once the scheme can cycle forever (one high node above a plane; loads
- * close to saturation): safeguard.c reverts a step that raised the energy.
+ * Where many nodes join or leave at once the scheme can cycle forever. Examples are one high node above a
+ * plane, and loads close to saturation. safeguard.c reverts a step that raised the energy.
  */
 #include "solver.h"
 

@@ -365,7 +365,7 @@ field_row(const void *of, int c, size_t j, float weight, float *row)
         add_numbers(n, weight, f->w + j * n, f->r + j * n, f->offset, to);
 }
 
-/* The pressure M 1 of a common shift of W is large at nodes with few neighbours on W: it is nearly
+/* The pressure M 1 of a common shift of W is large at nodes with few neighbours on W. It is nearly
  * proportional to the missing part of their surroundings. */
 RC_CLONES static void
 share(size_t n, const unsigned char *w, const float *part, float *restrict node)

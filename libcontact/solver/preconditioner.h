@@ -1,16 +1,17 @@
 /*
  * An approximate inverse of the influence operator restricted to a set of nodes: z = E' A E r.
  *
- * With K restricted to the working set W, its exact inverse is the Schur complement of A = K^-1: A applied to
- * the extension of r off W with the least energy. Here E is the extension of pyramid.h, and A is a factor of
- * the operator in wave numbers. A free map lies in the operator's frame, in which E r continues and decreases
- * linearly to the end of the frame. The map r -> z is symmetric. No extension has less energy than the exact
- * one, so r'z >= r' (K_WW)^-1 r: z bounds the error of the pressure on W in the energy norm from above.
+ * With K restricted to the working set W, its exact inverse is the Schur complement of A = K^-1. This is A
+ * applied to the extension of r off W with the least energy. Here E is the extension of pyramid.h, and A is a
+ * factor of the operator in wave numbers. A free map lies in the operator's frame, in which E r continues and
+ * decreases linearly to the end of the frame. The map r -> z is symmetric. No extension has less energy than
+ * the exact one, so r'z >= r' (K_WW)^-1 r. Thus z bounds the error of the pressure on W in the energy norm
+ * from above.
  *
- * A diagonal D that differs by node has no such factor. A is then the sum over some values d_l of D of
- * s_l (K + d_l I)^-1 s_l, with weights s_l of the nodes: s_l^2 decreases linearly in log D from 1 at d_l to 0
- * at the next values, and the sum of all s_l^2 is 1. Where all nodes have D = d_l this is the exact inverse.
- * Then z is an estimate, not a bound.
+ * A diagonal D that differs by node has no such factor. A is then the sum over some values d_l of D of s_l (K
+ * + d_l I)^-1 s_l, with weights s_l of the nodes. s_l^2 decreases linearly in log D from 1 at d_l to 0 at the
+ * next values. The sum of all s_l^2 is 1. Where all nodes have D = d_l this is the exact inverse. Then z is
+ * an estimate, not a bound.
  */
 #ifndef RC_PRECONDITIONER_H
 #define RC_PRECONDITIONER_H

@@ -15,7 +15,7 @@ enum {
 
 /* ---- one direction ---- */
 
-/* One direction of a grid of n nodes, of which the coarser grid has `coarse` nodes: its node j lies over
+/* One direction of a grid of n nodes, of which the coarser grid has `coarse` nodes. Its node j lies over
  * nodes 2 j and 2 j + 1 or, where this direction is kept, over node j. */
 struct axis {
     size_t n, coarse;

@@ -1,26 +1,26 @@
 /*
  * The extension E of numbers on a set W of nodes to all nodes, by a pyramid of coarser grids.
  *
- * Each coarser grid has half the nodes a side (the direction with the larger spacing is halved only when the
- * other has reached the same spacing). P interpolates linearly from level l + 1 to level l, P' is its
- * transpose; X are sums of the numbers, w sums of their weights, and y = E r:
+ * Each coarser grid has half the nodes a side. The direction with the larger spacing is halved only when the
+ * other has reached the same spacing. P interpolates linearly from level l + 1 to level l, P' is its
+ * transpose. X are sums of the numbers, w sums of their weights, and y = E r:
  *
  *     X_0 = r on W, w_0 = 1 on W;   X_l+1 = k P' (c X_l),   w_l+1 = k P' min(w_l, 1),   c = min(1, 1/w_l)
  *     y_l = (X_l + t P y_l+1) / (w_l + t);   y_0 = r on W, P y_1 elsewhere
  *
- * A node off W gets the mean over a part of W whose width is about its distance: this is nearly the field of
- * least energy. The constants k and t of a level follow from the power a with which the inverse of the
- * influence operator grows, A(q) ~ q^a, at waves as long as the spacing of the level. Far from a single patch
- * the field of least energy decreases as |x|^(a-d) in d directions, which gives k = 2^(a-d), at most 1. The
- * coarser values have the weight t: 2 for a = 1, 1/2 for a = 2, and half as much for each further unit of a,
- * because bending bodies need a smooth field. On a line t = 32 for a = 0, where E r is near 0 off W, as on a
- * long narrow map (strips in operator.c): with a = 1 a map of 65536 x 16 nodes with 6 % contact took 528
- * steps in place of 9. An alternative, one mean over W with weights |x|^(-5/2) by a convolution, had
- * eigenvalues of E' A E K up to 2.6 at 2 % contact, this one up to 1.15; under coatings 400 times as stiff as
- * their base 9 against 4.
+ * A node off W gets the mean over a part of W whose width is about its distance. This is nearly the field of
+ * least energy. The inverse of the influence operator grows as A(q) ~ q^a. The constants k and t of a level
+ * follow from the power a at waves as long as the spacing of the level. Far from a single patch the field of
+ * least energy decreases as |x|^(a-d) in d directions, which gives k = 2^(a-d), at most 1. The coarser values
+ * have the weight t: 2 for a = 1, 1/2 for a = 2, and half as much for each further unit of a. Bending bodies
+ * need a smooth field. On a line t = 32 for a = 0, where E r is near 0 off W, as on a long narrow map (strips
+ * in operator.c). With a = 1 a map of 65536 x 16 nodes with 6 % contact took 528 steps in place of 9. An
+ * alternative is one mean over W with weights |x|^(-5/2) by a convolution. It had eigenvalues of E' A E K up
+ * to 2.6 at 2 % contact, this one up to 1.15. Under coatings 400 times as stiff as their base these are 9 and
+ * 4.
  *
  * Pairs of numbers, one for each direction along the surface, have symmetric 2 x 2 weights: W_0 between 0 and
- * 1, X_0 = W_0 r; min and max act on the eigenvalues.
+ * 1, X_0 = W_0 r. min and max act on the eigenvalues.
  */
 #ifndef RC_PYRAMID_H
 #define RC_PYRAMID_H

@@ -1,6 +1,6 @@
 /*
- * Sums over all nodes that depend neither on the number of threads nor on that of ranks: each block or row is
- * summed separately, and these sums are added in a fixed order with compensation for rounding. A block is
+ * Sums over all nodes that depend neither on the number of threads nor on the number of ranks. Each block or
+ * row is summed separately. These sums are added in a fixed order with compensation for rounding. A block is
  * some rows, or a part of one row, on one rank.
  */
 #include "solver.h"

@@ -176,7 +176,7 @@ edge_nodes(const struct rc_solver *s)
 }
 
 /* The discretization error, from a comparison with half the nodes a side. Peak pressure and approach converge
- * at least with the first power of the spacing, so their error is at most the difference of the two grids.
+ * at least with the first power of the spacing. So their error is at most the difference of the two grids.
  * The error of the area is erratic, and at most half a cell along the edge. */
 static struct rc_discretization
 left_out(const struct rc_solver *s, const struct rc_contact *c)

@@ -1,7 +1,7 @@
 /*
  * The safeguard that keeps a method from cycling. The energy 1/2 p'Kp - h'p follows from known fields at no
- * cost and must decrease. A step that raised it is reverted and replaced by a projected-gradient step, which
- * lowers the energy by at least |K|/2 times the square of the step's length, so no cycle is possible.
+ * cost and must decrease. A step that raised it is reverted and replaced by a projected-gradient step. That
+ * step lowers the energy by at least |K|/2 times the square of its length, so no cycle is possible.
  */
 #include "solver.h"
 

@@ -68,7 +68,7 @@ tolerance(const struct rc_shape *shape, const struct rc_problem *problem)
 }
 
 /* The residual does not show the engine's own error, so this error must be small beside the tolerance of the
- * pressure: at a tenth of the tolerance, as in the paper, the engine made up to a third of the final
+ * pressure. At a tenth of the tolerance, as in the paper, the engine made up to a third of the final
  * error. */
 static struct rc_operator_options
 operator_options(const struct rc_shape *shape, const struct rc_problem *problem)
@@ -321,7 +321,7 @@ rc_solver_hurried(const struct rc_solver *s)
     return s->posed.hurry != NULL && *s->posed.hurry != 0;
 }
 
-/* When a yielded shape is loaded again, nodes are at their upper bounds with a gap of 0, but the iteration
+/* When a yielded shape is loaded again, nodes are at their upper bounds with a gap of 0. But the iteration
  * leaves their pressures lower by up to the tolerance. This sets them to their bounds and judges the pressure
  * again. */
 static enum rc_status

@@ -2,12 +2,13 @@
  * Declarations for the interface of the solver and its methods. A method is a row of methods.list: it
  * improves the pressure step by step. solver.c judges, counts and reports.
  *
- * The problem: p with 0 <= p <= H and sum p dx dy = load that minimises 1/2 p'Kp - h'p. With the gap g = Kp -
- * h - c, c its mean over the elastic nodes (0 < p < H), the solution has g = 0 there, g >= 0 where p = 0 and
+ * The problem: p with 0 <= p <= H and sum p dx dy = load that minimises 1/2 p'Kp - h'p. The gap is
+ * g = Kp - h - c, c its mean over the elastic nodes (0 < p < H). The solution has g = 0 there, g >= 0 where p = 0 and
  * g <= 0 where p = H. Only bounds.h knows the values of 0 and H.
  *
- * struct rc_solver has four parts, each written by one file: the problem (solver.c), the iterate (iterate.c;
- * methods change its pressure and report it), the working set (working_set.c) and the load (load_search.c).
+ * struct rc_solver has four parts, each written by one file. They are the problem (solver.c), the iterate
+ * (iterate.c; methods change its pressure and report it), the working set (working_set.c) and the load
+ * (load_search.c).
  */
 #ifndef RC_SOLVER_H
 #define RC_SOLVER_H
@@ -175,7 +176,7 @@ enum {
     RC_MOST = RC_SUMS - 1 /* this entry holds the largest value, the others sums */
 };
 /* A pass over nodes first .. first + n - 1, at most RC_BLOCK_NODES, which adds to sums that start at 0. The
- * threads of each rank process its blocks; all ranks get the totals of the whole map, which do not depend on
+ * threads of each rank process its blocks. All ranks get the totals of the whole map, which do not depend on
  * the distribution of the blocks. All ranks call these functions. */
 typedef void rc_block(void *ctx, size_t first, size_t n, double *sums);
 void rc_reduce_blocks(const struct rc_solver *solver, rc_block *block, void *ctx,
@@ -220,8 +221,8 @@ void rc_iterate_unknown(struct rc_solver *solver);
 void rc_iterate_reset(struct rc_solver *solver);
 /* Counts more convolutions, in equivalents. */
 void rc_iterate_count(struct rc_solver *solver, double convolutions);
-/* The shift: mean of v over the elastic nodes, or, when there are none, the middle between the
- * largest v at an upper bound and the smallest at a lower one. Sets `elastic` and `shift`. */
+/* The shift: the mean of v over the elastic nodes. When there are none, it is the middle between the largest
+ * v at an upper bound and the smallest at a lower one. Sets `elastic` and `shift`. */
 void rc_iterate_shift(struct rc_solver *solver);
 /* Sets the balancing shift: with it, steps of all nodes by their gaps, within their bounds, preserve the
  * load. */
@@ -325,8 +326,8 @@ bool rc_stiffness_turning(struct rc_solver *solver, float *room, double k[3][3])
 enum rc_status rc_tilt_new(struct rc_solver *solver, const struct rc_problem *problem,
                            struct rc_err *err);
 void rc_tilt_free(struct rc_solver *solver);
-/* Coordinate of node k (of those held here) from the point of the force along an axis (0: x, 1: y), over the
- * length of the map. */
+/* Coordinate of node k (of those held here) along an axis (0: x, 1: y). It is counted from the point of the
+ * force, and divided by the length of the map. */
 double rc_arm(const struct rc_solver *solver, size_t axis, size_t k);
 /* Call after new heights, or after a new load with the heights of the last tilt. */
 void rc_tilt_heights(struct rc_solver *solver);
@@ -335,7 +336,7 @@ void rc_tilt_load(struct rc_solver *solver);
 double rc_tilt_rise(const struct rc_solver *solver, size_t k);
 /* Call when the iteration on this grid begins. */
 void rc_tilt_begin(struct rc_solver *solver);
-/* After a contact is solved: RC_OK when its moment is 0; else it tilts the counter body, or demands a more
+/* After a contact is solved: RC_OK when its moment is 0. Else it tilts the counter body, or demands a more
  * accurate solution of this contact. */
 enum rc_status rc_tilt_search(struct rc_solver *solver);
 /* Returns `status` of the search; if the search has ended, restores the tolerance of the load. */
@@ -440,7 +441,7 @@ struct rc_safeguard {
 /* True if the energy has risen above that of the last kept p. If it has not risen, keeps this p. */
 bool rc_safeguard_raised(struct rc_safeguard *safeguard, const struct rc_solver *solver);
 /* Resets the pressure to `old` and moves it towards the projection of p - g / |K|, to the lowest energy on
- * that line. t, r: scratch of n. Costs two convolutions. */
+ * that line. t, r: scratch of n numbers. Costs two convolutions. */
 void rc_safeguard_step(struct rc_solver *solver, const double *old, double *t, double *r);
 
 #endif

@@ -6,10 +6,10 @@
  * precision is enough.
  *
  * For d load / d approach the set is that of the elastic nodes, because nodes at their upper bounds carry no
- * further load. For the conductance it is that of all nodes in contact: electrical potential and current
- * density at the surface obey the same equation as displacement and pressure (Barber 2003), and the potential
- * is uniform in the contact. Any t then gives a lower bound, (sum t)^2 / t'K t <= S, by Schwarz's inequality
- * in the scalar product of K.
+ * further load. For the conductance it is that of all nodes in contact. Electrical potential and current
+ * density at the surface obey the same equation as displacement and pressure (Barber 2003). The potential is
+ * uniform in the contact. Any t then gives a lower bound, (sum t)^2 / t'K t <= S, by Schwarz's inequality in
+ * the scalar product of K.
  *
  * Where the counter body may tilt, each node of the set is also displaced by its arm about the force, along x
  * or y.

@@ -2,7 +2,7 @@
  * A step and the return to {0 <= p <= H, sum p = S}, tile by tile.
  *
  * A node that stops at its bound causes a surplus of load. One shift of all nodes removes the surplus but
- * spreads it over the whole map: a remainder with waves as long as the map is left, and K multiplies a wave
+ * spreads it over the whole map. A remainder with waves as long as the map is left, and K multiplies a wave
  * by 2/(E* q). The clipped step is then too long for the energy, the more so the larger the map. Here each
  * tile of 16 x 16 nodes preserves its own load by its own shift, so no remainder has waves longer than a
  * tile. All elastic nodes share only the load that a tile cannot carry because its nodes would have to pull
@@ -10,9 +10,9 @@
  *
  * The step was computed as if the stopped nodes had moved freely, so their neighbours are corrected before
  * the shift. In the quadratic form of the inverse, A, the nearest admissible point is p + d + A mu with
- * multipliers mu on the stopped nodes; one Jacobi sweep with the coefficients of A between a node and its
+ * multipliers mu on the stopped nodes. One Jacobi sweep with the coefficients of A between a node and its
  * eight neighbours gives most of it. Errors after 1, 2, 3, 4 steps at 2048 x 2048, 39 % contact, rough down
- * to 2 nodes: 0.060, 4.2e-3, 3.1e-4, 7.3e-5 without the sweep, 0.047, 2.0e-3, 1.7e-4, 3.6e-5 with it.
+ * to 2 nodes. Without the sweep: 0.060, 4.2e-3, 3.1e-4, 7.3e-5. With it: 0.047, 2.0e-3, 1.7e-4, 3.6e-5.
  *
  * All of this is one pass over the map, with tiles in the cache.
  */
@@ -54,7 +54,7 @@ struct place {
 };
 
 /* A copy of a tile. The pressures after the step, y, are in single precision, in the units of the rows and
- * above the lower bound: only the shift is computed from them; the pressures themselves are computed in
+ * above the lower bound. Only the shift is computed from them; the pressures themselves are computed in
  * double precision. */
 struct copy {
     double p[NODES];
@@ -166,7 +166,7 @@ push_back(struct rc_box box, double (*near)[3], float most, struct copy *c)
 }
 
 /* The shift with which the nodes carry `sum`. Their load is piecewise linear in the shift, which suits
- * Newton's method; with two bounds it is neither convex nor concave, so a bracket is needed. */
+ * Newton's method. With two bounds it is neither convex nor concave, so a bracket is needed. */
 RC_INLINE float
 shift_of(struct rc_box box, const float *y, float most, const float *mosts, float sum)
 {
@@ -497,7 +497,7 @@ struct group {
 };
 
 /* The load that tiles cannot carry goes to the elastic nodes of the smallest group of 2, 4, 8, ... tiles that
- * can carry it. Spread over the whole line, loads would be moved far; on a line this matters, because the
+ * can carry it. Loads spread over the whole line would be moved far. On a line this matters, because the
  * error of the displacement then grows as the square root of the length (on a map only as its logarithm). A
  * random walk of 262144 nodes with 30 % contact takes 8 steps, without groups 62. */
 static struct group

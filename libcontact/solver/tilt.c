@@ -1,27 +1,27 @@
 /*
  * A counter body that is free to tilt: the moment of the pressures about the point of the force is 0. With x
- * the position of a node from that point, a tilt with slopes a raises the counter surface by a x, and the
- * contact is that of the heights h - a x. The two slopes are the multipliers of the two conditions p'x = 0,
- * as the shift is that of the load. So G(a) = min over p of 1/2 p'Kp - p'(h - a x) is concave, its gradient
- * is the moment, and the solution is its maximum.
+ * the position of a node from that point, a tilt with slopes a raises the counter surface by a x. The contact
+ * is that of the heights h - a x. The two slopes are the multipliers of the two conditions p'x = 0, as the
+ * shift is that of the load. So G(a) = min over p of 1/2 p'Kp - p'(h - a x) is concave. Its gradient is the
+ * moment, and the solution is its maximum.
  *
  * Newton's method maximises G: the contact is solved, its moment is computed, and the body is turned by H^-1
  * times the moment. While no node joins or leaves, the derivative of the moment is minus
  *
  *     H = x'K^-1 x - x'K^-1 1 1'K^-1 x / 1'K^-1 1
  *
- * on the elastic nodes (stiffness.c). A coarser grid hands its slopes and its H to the finer one; each turn
+ * on the elastic nodes (stiffness.c). A coarser grid hands its slopes and its H to the finer one. Each turn
  * corrects H by the observed change of the moment, and after a turn that changed the moment too little H is
  * recomputed. If a full turn is too long or too short, a line search between bounds finds its length.
  * Contacts on the way are solved only as accurately as the next turn needs.
  *
  * From such a contact to the solution the pressure changes by at most sqrt(S m'H^-1 m), S = 1'K^-1 1, in the
- * L1 norm: exact for independent springs, by Schwarz's inequality.
+ * L1 norm. This is exact for independent springs, by Schwarz's inequality.
  *
  * Without a coarser grid the start is the facet on which a rigid body would rest, which also defines zero
- * approach. It is the plane above all heights that is lowest at the point of the force: a linear program of
- * three unknowns, solved by the dual simplex method, which moves from one triangle around that point to the
- * next.
+ * approach. It is the plane above all heights that is lowest at the point of the force. This is a linear
+ * program of three unknowns. The dual simplex method solves it by moving from one triangle around that point
+ * to the next.
  *
  * Arms are in units of the length of the map, so that slopes become rises in metres.
  */
@@ -440,8 +440,8 @@ moment_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* Eigenvalues of the symmetric matrix a b, b d, the smaller first; the eigenvector of the smaller, and the
- * other one at a right angle to it. */
+/* Computes eigenvalues of the symmetric matrix a b, b d, the smaller first. Also computes the eigenvector of
+ * the smaller, and the other one at a right angle to it. */
 static void
 eigenvalues(double a, double b, double d, double value[2], double vector[2][2])
 {
@@ -746,9 +746,9 @@ rc_tilt_end(struct rc_solver *s, enum rc_status status)
     return status;
 }
 
-/* True if H must be recomputed before the search ends: it is unknown, or it belongs to another contact and is
- * so much stiffer than springs under the elastic nodes that the error would be underestimated. Nodes at edges
- * are stiffer than others, so a true H exceeds that of springs, but not by much. */
+/* True if H must be recomputed before the search ends. Either it is unknown, or it belongs to another contact
+ * and is much stiffer than springs under the elastic nodes. The error would then be underestimated. Nodes at
+ * edges are stiffer than others, so a true H exceeds that of springs, but not by much. */
 static bool
 doubtful(struct rc_solver *s, double least)
 {

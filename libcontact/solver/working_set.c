@@ -2,26 +2,26 @@
  * The working set, its residual, and the correction from it.
  *
  * The elastic nodes are in the set, and so are nodes at a bound that would leave it. Not every node that
- * penetrates the other body (p = 0 and g < 0, or the reverse at the upper bound) would: beside an edge of
- * contact whose pressure is about to decrease, a node penetrates a little, but once its neighbours fit, its
- * pressure would be negative. With such nodes in the set the preconditioner uses these negative pressures,
- * the bound removes them, and the step is too long: at 2048 x 2048 and 50 % contact this doubled the number
- * of steps.
+ * penetrates the other body (p = 0 and g < 0, or the reverse at the upper bound) would join the contact. A
+ * node beside an edge of contact penetrates a little where the pressure of the edge is about to decrease.
+ * Once its neighbours fit, its pressure would be negative. With such nodes in the set the preconditioner uses
+ * these negative pressures, the bound removes them, and the step is too long. At 2048 x 2048 and 50 % contact
+ * this doubled the number of steps.
  *
- * The pressure that a node would get is z = A r, with A the inverse of the operator and r the residual,
+ * The pressure that a node would get is z = A r, with A the inverse of the operator. r is the residual,
  * extended smoothly: (A r)_i ~ sum_j a_ij (r_i - r_j). On uniform bodies a_ij = |x_i - x_j|^(-3) decreases so
- * fast that the eight neighbours in the set give the sign of the sum. A node joins unless that sign is wrong:
- * a node without neighbours in the set always joins, and so do all nodes once the residual of their
+ * fast that the eight neighbours in the set give the sign of the sum. A node joins unless that sign is wrong.
+ * So a node without neighbours in the set always joins, and so do all nodes once the residual of their
  * neighbours is near 0.
  *
  * Under a stiff coating a_ij alternates in sign, and nodes far beyond the neighbours count. Under such a
  * coating a node joins if its residual would keep its sign after the correction of the elastic nodes. K z
  * equals r on the set, and is about the extension E r outside it (preconditioner.h), so r_i must exceed E r.
  * The sets of a primal-dual active set method, whose systems are solved exactly, are the same except for the
- * error of E; on a map of 128 x 128 under a coating of two nodes with E_1/E_s = 400 that method took four
- * steps. Coatings of one to four nodes, E_1/E_s 100 and 400, 1 to 40 % contact at 512 x 512: 9 to 23
- * equivalents, against 10 to 25 with neighbours whose residual is smaller weighted less. Taking only nodes
- * with a positive z, from an additional correction, was far worse.
+ * error of E. On a map of 128 x 128 under a coating of two nodes with E_1/E_s = 400 that method took four
+ * steps. Coatings of one to four nodes, E_1/E_s 100 and 400, 1 to 40 % contact at 512 x 512, took 9 to 23
+ * equivalents. They took 10 to 25 when neighbours with a smaller residual had a smaller weight. Taking only
+ * nodes with a positive z, from an additional correction, was far worse.
  *
  * The estimate that ends the iteration uses all nodes that want to leave their bounds.
  */
@@ -115,8 +115,8 @@ rows_about(const struct sift *c, size_t j)
     return t;
 }
 
-/* sum_j a_kj (r_k - r_j) over the neighbours of node i of a row that are in the set; `sign` -1: the node is
- * at its upper bound, and the sign is reversed. */
+/* sum_j a_kj (r_k - r_j) over the neighbours of node i of a row that are in the set. `sign` -1 is for a node
+ * at its upper bound: the sign is reversed. */
 static float
 pull(const struct sift *c, const struct three *t, size_t i, float sign)
 {
@@ -221,7 +221,7 @@ settle_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* Removes nodes from the set that the next step would return to their bound, and corrects the sum of the
+/* Removes nodes from the set that the next step would return to their bound. Corrects the sum of the
  * residual, the number of nodes and the number of changes. Uses z. */
 static void
 sift_out(struct rc_solver *s, double *residual, double *count, double *changed)
@@ -514,14 +514,15 @@ size_block(void *at, size_t first, size_t n, double *sums)
            s->z + first, sums);
 }
 
-/* The energy of z is at least that of the error, but its L1 norm can be smaller: where few waves carry the
- * error some of them can cancel. Maps have many waves, profiles have few: for 2212 periodic profiles the norm
- * of z was 0.982 to 2.2 of the error, for 512 free ones 0.96 to 1.11; under coatings, with five elastic
- * nodes, 0.74. Where nearly all loaded nodes yield, there are as few waves as elastic nodes, and one of those
- * may be wrong: for 955 such contacts with 1 to 13 elastic nodes the norm of z was 0.63 (one elastic node),
- * 0.89 (three) to 33 of the error. With a diagonal term E' A E is nearly exact: for 1200 small maps the norm
- * was 0.9998 to 1.8 of the error, half of them below 1.02. Where D differs by node, by a factor of 2 to 100 or
- * from 0 on, it was 0.51 to 2 of the error of 400 small maps, below 1 for a tenth of them. */
+/* The energy of z is at least that of the error, but its L1 norm can be smaller. Where few waves carry the
+ * error some of them can cancel. Maps have many waves, profiles have few. For 2212 periodic profiles the norm
+ * of z was 0.982 to 2.2 of the error. It was 0.96 to 1.11 for 512 free ones, and 0.74 under coatings with
+ * five elastic nodes. Where nearly all loaded nodes yield, there are as few waves as elastic nodes, and one
+ * of those may be wrong. For 955 such contacts with 1 to 13 elastic nodes the norm of z was up to 33 of the
+ * error. The smallest was 0.63 (one elastic node) and 0.89 (three). With a diagonal term E' A E is nearly
+ * exact. For 1200 small maps the norm was 0.9998 to 1.8 of the error, half of them below 1.02. Where D
+ * differs by node, by a factor of 2 to 100 or from 0 on, it was 0.51 to 2 of the error of 400 small maps. It
+ * was below 1 for a tenth of them. */
 static double
 caution(const struct rc_solver *s)
 {
