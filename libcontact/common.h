@@ -49,7 +49,7 @@ rc_total_value(const struct rc_total *total)
     return isfinite(total->sum) ? total->sum + total->lost : total->sum;
 }
 
-/* Sums over a map that do not depend on the number of threads, nor on the thread of a row or block: each row
+/* Sums over a map that depend neither on the number of threads nor on the thread of a row or block. Each row
  * is summed separately, and the rows are added in their order, with compensation for rounding. A row has
  * `sums` numbers to add, and after them `mosts` numbers to take the largest of. */
 enum {

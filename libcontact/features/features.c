@@ -1,6 +1,6 @@
 /*
- * Feature parameters of ISO 25178-2: hills by watershed, pruned by Wolf's rule, their peaks,
- * heights and areas; dales are the hills of the map upside down.
+ * Feature parameters of ISO 25178-2. Hills are found by watershed and pruned by Wolf's rule; then follow
+ * their peaks, heights and areas. Dales are the hills of the map upside down.
  */
 #include <stdlib.h>
 

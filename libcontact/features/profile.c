@@ -10,7 +10,7 @@ static const double discrimination = 0.1;
 
 /* ---- along a line ---- */
 
-/* Weights of four neighbours at a position 0 <= t < 1 between the second and the third: the cubic with the
+/* Weights of four neighbours at a position 0 <= t < 1 between the second and the third. The cubic has the
  * values of both and the central slopes there. */
 static void
 cubic(double t, double w[4])

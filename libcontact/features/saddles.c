@@ -1,9 +1,9 @@
 /*
  * Hills that are too low to count, by Wolf's rule. Where two hills touch, the lower of both nodes is a pass
- * from one to the other, and their highest pass is their saddle. Saddles are processed from the highest down:
- * where one joins two hills that are not joined yet, the hill with the lower peak is pruned if that peak is
- * less than 5 % of Sz above the saddle, and its nodes go to the other hill. The result equals Wolf's rule,
- * which prunes the hill of least height first: that hill always joins one with a higher peak.
+ * from one to the other, and their highest pass is their saddle. Saddles are processed from the highest down.
+ * A saddle may join two hills that are not joined yet. The hill with the lower peak is then pruned if that
+ * peak is less than 5 % of Sz above the saddle. Its nodes go to the other hill. The result equals Wolf's
+ * rule, which prunes the hill of least height first: that hill always joins one with a higher peak.
  *
  * Passes are found row by row, in bands of rows, and only saddles are sorted.
  */
@@ -48,8 +48,8 @@ saddles_add(struct saddles *s, const struct saddle *v)
     return true;
 }
 
-/* Bit d of `other`: neighbour d of a node belongs to another hill and is higher, or is missing; for n nodes
- * of a row from k on that have all neighbours. */
+/* Sets bit d of `other` if neighbour d of a node belongs to another hill and is higher, or is missing. It
+ * does so for n nodes of a row from k on that have all neighbours. */
 RC_CLONES static void
 find_others(const struct rc_field *f, size_t k, size_t n, unsigned char *restrict other)
 {

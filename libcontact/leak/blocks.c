@@ -1,12 +1,12 @@
 /*
- * Distinguishes flowing from still fluid: a node lies on a path from inlet to outlet that passes no node
+ * Distinguishes flowing from still fluid. A node lies on a path from inlet to outlet that passes no node
  * twice if it is in one block with an additional face between inlet and outlet (Hopcroft and Tarjan, Commun.
  * ACM 16, 1973, 372). In all other fluid the velocity is exactly zero: dead ends, which are connected through
  * a single node, and enclosed fluid.
  *
  * The depth-first search starts at the inlet and first crosses that face to the outlet. low[k] is the
- * earliest node that k and the nodes found below it reach by one face other than that to its parent. A node
- * is in the block of its parent when low reaches beyond that parent.
+ * earliest node that k, and the nodes found below it, reach by one face. The face to its own parent does not
+ * count. A node is in the block of its parent when low reaches beyond that parent.
  */
 #include "leak.h"
 

@@ -1,17 +1,17 @@
 /*
  * The conductance of a network between inlet and outlet, by eliminating node after node (star-mesh
- * transformation): a node with conductances c_1 .. c_m to its neighbours is equivalent to faces c_i c_j / d
+ * transformation). A node with conductances c_1 .. c_m to its neighbours is replaced by faces c_i c_j / d
  * between each pair of them, with d the sum of all c. Inlet and outlet are neighbours too; the face that
  * joins them at the end is the conductance.
  *
- * This is Gaussian elimination with factors L D L', but d is a sum of the present conductances, not a
+ * This is Gaussian elimination with factors L D L'. But d is a sum of the present conductances, not a
  * difference of the original and the eliminated ones (Grassmann, Taksar and Heyman, Oper. Res. 33, 1985,
  * 1107). All numbers are positive, and only sums, products and quotients are formed, so each number is
  * accurate to rounding however much conductances differ. Cholesky's method loses pools connected by faces of
  * 1e-16 of those inside.
  *
  * Column by column from the left: column j holds the conductances from node j to nodes that are eliminated
- * later. It collects contributions from the earlier columns that contain node j; each of these waits in a
+ * later. It collects contributions from the earlier columns that contain node j. Each of these waits in a
  * list of the next node that it will reach.
  */
 #include "leak.h"
@@ -90,8 +90,8 @@ done:
     return status;
 }
 
-/* Lengths of the columns. Row i of L contains the places between the neighbours of node i and i in the tree
- * in which the parent of a column is its first row (Liu, SIAM J. Matrix Anal. Appl. 11, 1990, 134). */
+/* Lengths of the columns. Row i of L contains the places between the neighbours of node i and i in a tree. In
+ * this tree the parent of a column is its first row (Liu, SIAM J. Matrix Anal. Appl. 11, 1990, 134). */
 static enum rc_status
 count_columns(struct rc_elimination *e, const struct rc_passage *a, struct rc_err *err)
 {
@@ -300,9 +300,9 @@ rc_elimination_run(struct rc_elimination *e, const struct rc_passage *a, enum rc
     return RC_OK;
 }
 
-/* The level of the node in place j is a weighted mean of its neighbours' levels, computed as a difference
- * from the neighbour with the largest conductance: rounding of the weights then only affects the differences
- * between neighbours. */
+/* The level of the node in place j is a weighted mean of its neighbours' levels. It is computed as a
+ * difference from the neighbour with the largest conductance. So rounding of the weights only affects the
+ * differences between neighbours. */
 static void
 set_level(struct rc_elimination *e, int32_t j)
 {

@@ -1,9 +1,9 @@
 /*
- * Leakage: fluid driven by pressure through the gap from one edge of the map to the opposite one, by
- * Reynolds' equation without sliding, div(g^3 grad P) = 0. The flow is steady and thin: inertia, slip and
- * slopes across the film are neglected, and the fluid does not deform the bodies.
+ * Leakage: pressure drives fluid through the gap from one edge of the map to the opposite one. Reynolds'
+ * equation without sliding holds: div(g^3 grad P) = 0. The flow is steady and thin: inertia, slip and slopes
+ * across the film are neglected, and the fluid does not deform the bodies.
  *
- * A node is a cell of uniform gap; flow passes through the faces of cells (finite volumes, faces.c), and over
+ * A node is a cell of uniform gap. Flow passes through the faces of cells (finite volumes, faces.c), and over
  * half a cell at inlet and outlet. Contact is where the pressure is positive; the gap cannot decide this,
  * because in contact it is 0 only within the tolerance of the contact.
  */

@@ -26,7 +26,7 @@ enum rc_passage_state {
     RC_FLOWS /* fluid on a path from inlet to outlet */
 };
 
-/* Pressures of nodes, 1 at the inlet, 0 at the outlet, each as a sum of two numbers: behind a narrow
+/* Pressures of nodes, 1 at the inlet, 0 at the outlet, each as a sum of two numbers. Behind a narrow
  * constriction they differ by less than the precision of a number near 1. */
 struct rc_levels {
     double *p, *rest;
@@ -112,7 +112,7 @@ struct rc_critical {
 };
 
 /* `tree` gets for each node, as bits, the directions of its edges in the two trees of greatest gaps rooted at
- * inlet and outlet; every node that they reach is in one of them. */
+ * inlet and outlet. Every node that they reach is in one of them. */
 enum rc_status rc_percolation(const struct rc_passage *a, struct rc_critical *critical,
                               uint8_t *tree, struct rc_err *err);
 
@@ -120,8 +120,8 @@ enum rc_status rc_percolation(const struct rc_passage *a, struct rc_critical *cr
 
 /* Distinguishes still and flowing nodes in `state`. */
 enum rc_status rc_blocks(struct rc_passage *a, struct rc_err *err);
-/* Sets still nodes to the fluid pressure of the one node, inlet or outlet through which they are connected,
- * and to NAN if enclosed; sets nodes in contact to NAN. */
+/* Sets still nodes to the fluid pressure of the inlet or outlet through which they are connected, and to NAN
+ * if enclosed. Sets nodes in contact to NAN. */
 enum rc_status rc_blocks_fill(const struct rc_passage *a, const struct rc_levels *levels,
                               struct rc_err *err);
 

@@ -94,7 +94,7 @@ joins_by_corners(const struct rc_passage *a, const struct opening *open, size_t 
     return met(a, parent);
 }
 
-/* Number of fluid nodes in a line through node k, in steps of (i, j), at most once around the map; SIZE_MAX
+/* Number of fluid nodes in a line through node k, in steps of (i, j), at most once around the map. SIZE_MAX
  * if the line ends at inlet or outlet rather than at walls. */
 static size_t
 run_through(const struct rc_passage *a, int32_t k, int i, int j)

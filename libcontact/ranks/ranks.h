@@ -3,13 +3,13 @@
  * Internal: never installed (users include contact_mpi.h).
  *
  * Rank r of P owns whole rows, in units that no tile of the projection (16 rows) and no block of the sums
- * (solver/reduce.c) crosses; if a map has few units, some ranks hold no rows and only take part in collective
+ * (solver/reduce.c) crosses. If a map has few units, some ranks hold no rows and only take part in collective
  * calls. With NULL for the ranks, and in a build without MPI, one process owns all rows: every function is
  * then empty, and nothing is copied.
  *
  * Results are the same for every P, bit for bit, if one process uses transforms too and, for stresses, no
- * coarser grids: each row and each column is transformed separately with the same plan, blocks are added in
- * the same order whichever rank owns them, and their sums are compensated, so that the rounding of the total
+ * coarser grids. Each row and each column is transformed separately with the same plan. Blocks are added in
+ * the same order, whichever rank owns them. Their sums are compensated, so that the rounding of the total
  * does not depend on where ranks begin (except for ties: 1 in 1e15).
  *
  * Operations that are not local to rows:
@@ -76,8 +76,8 @@ struct rc_turn {
 };
 /* Rows are dealt in units of row_unit, columns in units of 1. `frame` rows before the first and after the
  * last one, included in `row`, belong to the ranks that have the first and the last row. RC_FAIL on this rank
- * alone when its memory is short, on all ranks when one of them would hold more than an exchange can count.
- * rc_turn_free in either case. */
+ * alone when its memory is short. RC_FAIL on all ranks when one of them would hold more than an exchange can
+ * count. Call rc_turn_free in either case. */
 enum rc_status rc_turn_new(struct rc_turn *turn, const struct rc_ranks *ranks, size_t rows,
                            size_t row_unit, size_t frame, size_t columns, size_t unit,
                            struct rc_err *err);
@@ -114,11 +114,11 @@ enum rc_status rc_ranks_agree(const struct rc_ranks *ranks, enum rc_status statu
                               struct rc_err *err);
 /* Pieces to columns, or, `back`, columns to pieces. */
 void rc_ranks_turn(const struct rc_turn *turn, bool back, const void *from, void *to);
-/* Moves rows of `bytes`, of which rank r holds from[r] .. from[r + 1] - 1, to the ranks that hold them by
- * `to`; NULL: to all. */
+/* Moves rows of `bytes` to the ranks that hold them by `to`; NULL: to all. Rank r holds rows from[r] ..
+ * from[r + 1] - 1. */
 void rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *from, const size_t *to,
                    const void *v, void *w);
-/* The row before the first one held here and the one after the last; false where there is none: at the ends
+/* The row before the first one held here and the one after the last. False where there is none: at the ends
  * of the map, unless it is periodic (`round`). Ranks without rows take part. */
 void rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void *first,
                      const void *last, void *before, void *after, bool has[2]);

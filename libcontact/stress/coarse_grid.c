@@ -2,8 +2,8 @@
  * Transfers fields between a map and every s-th node of it, by polynomials through eight nodes in each
  * direction.
  *
- * Deep below the surface the kernels are smooth on the scale of the depth, so a coarser grid is enough:
- * pressures are reduced to it by the transpose of the interpolation, the coarse field is the same sum over
+ * Deep below the surface the kernels are smooth on the scale of the depth, so a coarser grid is enough.
+ * Pressures are reduced to it by the transpose of the interpolation, the coarse field is the same sum over
  * fewer nodes, and is interpolated back (the multi-level sum of Polonsky and Keer 1999, eqs. 10 and 15, where
  * no corrections are needed).
  */
@@ -33,8 +33,8 @@ struct rc_coarse {
 };
 
 /* Largest error of this interpolation, of source and field, for any kernel and pressures of size 1 with the
- * worst signs, at this ratio of depth to coarse spacing: measured for s = 4, the worst of all positions of
- * source and field between coarse nodes. */
+ * worst signs, at this ratio of depth to coarse spacing. It was measured for s = 4, at the worst of all
+ * positions of source and field between coarse nodes. */
 static const struct {
     double ratio, error;
 } measured[] = {{1.42, 1.4e-1}, {2, 3.6e-2},    {2.83, 7.1e-3}, {4, 9.7e-4},   {5.66, 9.2e-5},

@@ -8,7 +8,7 @@
 
 struct rc_coarse;
 
-/* Largest spacing (m) of a grid for the kernels of this depth with which the error of a stress is at most tol
+/* Largest spacing (m) of a grid for the kernels of this depth. With it the error of a stress is at most tol
  * times the largest pressure, whatever the signs of the pressures. 0: none. */
 double rc_coarse_spacing(double depth, double tol);
 /* Steps in x and y for that spacing; false when no coarser grid pays. */

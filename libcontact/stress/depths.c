@@ -7,9 +7,9 @@
  *     k(z)^2 = sum of q^2 w^2 |p_q|^2 / sum of w^2 |p_q|^2,      w = (1 + q z) exp(-q z):
  *
  * near the surface the scale of roughness, deep down that of the whole contact. Linear interpolation between
- * two depths dz apart has an error of (k dz)^2 / 8 of the remaining waves, so each step is a fixed fraction
+ * two depths dz apart has an error of (k dz)^2 / 8 of the remaining waves. So each step is a fixed fraction
  * of 1/k, larger where the waves are weaker. On a free half-space the last depth is three radii of the
- * Hertzian contact with the same second moment; on a periodic map it is where the waves have decayed.
+ * Hertzian contact with the same second moment. On a periodic map it is where the waves have decayed.
  *
  * In a layered body the stresses also vary over the thickness of a layer, and jump at its interfaces.
  */

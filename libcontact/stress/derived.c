@@ -139,7 +139,7 @@ between(double B[3][3], const double a[3], const double b[3])
 /*
  * With m the mean of the diagonal and r^2 a sixth of the squared deviator, the eigenvalues of the deviator
  * over r are 2 cos(phi - 2 pi k / 3), cos 3 phi = det / 2 (Smith 1961, Comm. ACM 4, 168). Where two of them
- * are close, phi is accurate to half of the digits only, but the third eigenvalue is accurate; the two are
+ * are close, phi is accurate to half of the digits only. But the third eigenvalue is accurate; the two are
  * then computed from the matrix orthogonal to its eigenvector (Scherzinger and Dohrmann 2008, Comput. Methods
  * Appl. Mech. Eng. 197, 4007).
  */

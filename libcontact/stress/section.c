@@ -1,7 +1,7 @@
 /*
  * Stresses in a plane across the map, line by line of depth. Only the direction along the plane is
- * transformed. On the free boundary a line of the field is the sum, over the lines of pressure, of
- * convolutions with the kernel at the line's distance from the plane; lines at equal distances on both sides
+ * transformed. On the free boundary a line of the field is a sum over the lines of pressure. Each term is a
+ * convolution with the kernel at the line's distance from the plane. Lines at equal distances on both sides
  * share their kernels, and lines without pressure cost nothing. On the periodic boundary the field is the sum
  * of all waves across the plane, for each wave along it.
  *
@@ -20,8 +20,8 @@ enum {
     PARTS = 16 /* partial sums, added in order: the result is the same for any number of threads */
 };
 
-/* The two lines of pressure at one distance from the plane, or the one that is on the map: their sum for
- * kernels that are even across the plane; for odd ones their difference, the line on the positive side of the
+/* The two lines of pressure at one distance from the plane, or the one that is on the map. Kernels that are
+ * even across the plane take their sum. Odd ones take their difference, the line on the positive side of the
  * plane first. */
 struct pair {
     double offset;    /* m, >= 0 */

@@ -1,5 +1,5 @@
 /*
- * Stress maps by a row of engines.list: one sum for each kernel, depth and map that uses the kernel, with
+ * Stress maps by a row of engines.list. Each kernel, depth and map that uses the kernel takes one sum, with
  * little memory besides the maps (Polonsky and Keer 1999, section 3.3).
  */
 #include "stress.h"
@@ -14,7 +14,7 @@ struct plan {
 };
 
 /* An engine's tolerance is relative to the sum of |K| |p|. The sum of |K| grows with the logarithm of the map
- * size, to some 2 under pressure and 8 under shear, and the errors of all loads add up. */
+ * size, to some 2 under pressure and 8 under shear. The errors of all loads add up. */
 static struct rc_sum
 sum_of(const struct rc_stress_task *t, const struct rc_stress_field *field)
 {

@@ -1,13 +1,13 @@
 /*
- * Stress maps by Fourier transforms. The pressure, and maps of traction, are transformed once; then, for each
- * depth, the kernels of all components are tabulated together on a quarter of the padded map, each gives its
- * spectrum by real even or odd transforms, and one transform back gives each component, from the sum of the
+ * Stress maps by Fourier transforms. The pressure, and maps of traction, are transformed once. Then, for each
+ * depth, the kernels of all components are tabulated together on a quarter of the padded map. Each gives its
+ * spectrum by real even or odd transforms. One transform back gives each component, from the sum of the
  * products with the kernels of all loads.
  *
  * Periodic: the kernels have symbols, no padding is needed, and only the decay of the waves is tabulated.
  * Waves that do not reach the depth are left out.
  *
- * Where the tolerance permits, transforms are in single precision; on a free map, where the depth permits
+ * Where the tolerance permits, transforms are in single precision. On a free map, where the depth permits
  * too, the same is done on a coarser grid.
  */
 #include "coarse_grid.h"
@@ -163,7 +163,7 @@ tabulate(struct grid *g)
 
 /* ---- waves ---- */
 
-/* q z beyond which a wave is left out. There each wave is down to (3 + q z) exp(-q z) = 7e-20; even all of
+/* q z beyond which a wave is left out. There each wave is down to (3 + q z) exp(-q z) = 7e-20. Even all of
  * them in phase are then below the rounding of the transforms. */
 static const double deepest = 48;
 

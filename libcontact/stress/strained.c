@@ -1,5 +1,5 @@
 /*
- * Adds the stress due to plastic strain in slabs to the stress of the pressure: one sweep up through the
+ * Adds the stress due to plastic strain in slabs to the stress of the pressure. One sweep goes up through the
  * slabs, and one down for all depths.
  */
 #include <stdlib.h>

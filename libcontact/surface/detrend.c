@@ -6,7 +6,7 @@
  * degrees. So the normal equations follow from sums of the weights times single products, up to twice the
  * degree, which are first summed along rows. The normal equations square the condition number of the problem;
  * the residual of their solution does not suffer from this, and corrects the solution. Where this is not
- * enough, a QR factorisation processes the points' equations block by block (GSL's tall-skinny QR); its
+ * enough, a QR factorisation processes the points' equations block by block (GSL's tall-skinny QR). Its
  * condition number shows whether the points determine the polynomial.
  */
 #include "libcontact/common.h"
@@ -32,8 +32,8 @@ enum {
     CORRECTIONS = 4 /* corrections of a solution of the normal equations */
 };
 
-/* Reciprocal condition numbers. Below the first one of the normal equations the QR factorisation is used;
- * below the second one of the QR factorisation the points do not determine the polynomial. */
+/* Reciprocal condition numbers. Below the first limit for the normal equations the QR factorisation is used.
+ * Below the second one for the QR factorisation the points do not determine the polynomial. */
 static const double too_squared = 1e-10;
 static const double deficient = 1e-12;
 
@@ -409,7 +409,7 @@ put_equation(const struct fit *f, struct blocks *q, size_t k, size_t i, size_t j
     gsl_vector_set(q->heights, k, sqrt(w) * e);
 }
 
-/* Passes the first n equations of the block to GSL, which needs at least as many as there are terms: the
+/* Passes the first n equations of the block to GSL, which needs at least as many as there are terms. The
  * block is filled up with 0 = 0. */
 static int
 factor_block(struct fit *f, struct blocks *q, size_t n)

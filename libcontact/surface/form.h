@@ -6,8 +6,8 @@
 
 #include "libcontact/contact.h"
 
-/* The smallest box with all measured points, columns left to right and rows top to bottom; the number of
- * these points, and how many of them are infinite. */
+/* Finds the smallest box with all measured points, columns left to right and rows top to bottom. Also finds
+ * the number of these points, and how many of them are infinite. */
 struct rc_box {
     size_t left, right, top, bottom, count, infinite;
 };

@@ -5,13 +5,13 @@
  *
  *     s * (w h) / s * w,      s(x, y) = exp(-pi (x^2 + y^2) / a^2),    a = sqrt(ln 2 / pi) L
  *
- * s is a product of a factor in x and one in y, so the sums are computed first along x, line by line, then
+ * s is a product of a factor in x and one in y. So the sums are computed first along x, line by line, then
  * along y, where whole rows are added. Where a is many nodes long, coarser nodes in between are used. The
- * product of two Gaussians of width a / sqrt(2), about the fine nodes x and X, is a Gaussian of width a in x
- * - X times one of width a / 2 about the middle between x and X. Summed over coarse nodes at a spacing s, the
- * second factor is a constant but for a fraction 2 exp(-pi (a / 2s)^2), which is below rounding for s <= a /
- * 7. The sums to the coarse nodes and back take the same time for every L, and all terms are positive, so a
- * weighted mean remains accurate to rounding however few points there are.
+ * product of two Gaussians of width a / sqrt(2), about the fine nodes x and X, is a Gaussian of width a in
+ * x - X times one of width a / 2 about the middle between x and X. Summed over coarse nodes at a spacing s,
+ * the second factor is constant but for a fraction 2 exp(-pi (a / 2s)^2). This fraction is below rounding for
+ * s <= a / 7. The sums to the coarse nodes and back take the same time for every L. All terms are positive,
+ * so a weighted mean remains accurate to rounding however few points there are.
  */
 #include "libcontact/common.h"
 

@@ -58,8 +58,8 @@ rc_reflect_shape(const struct rc_shape *from)
     return to;
 }
 
-/* The image of a node at the edge is its neighbour: reflection about the edge of the cells, not about the
- * outermost nodes, so that the period is twice the map and each height has the same weight. */
+/* The image of a node at the edge is its neighbour: the reflection is about the edge of the cells, not about
+ * the outermost nodes. So the period is twice the map, and each height has the same weight. */
 void
 rc_reflect(const struct rc_shape *from, const double *v, double *out)
 {

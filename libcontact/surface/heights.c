@@ -2,7 +2,7 @@
  * Random surfaces whose heights are not Gaussian.
  *
  * Replacing heights by those of the wanted distribution, in the same order, changes the spectrum of the
- * surface; correcting the amplitude of each wave changes the heights. Alternating both approaches a surface
+ * surface. Correcting the amplitude of each wave changes the heights. Alternating both approaches a surface
  * with both properties (Schreiber and Schmitz 1996, Phys. Rev. Lett. 77, 635; for rough surfaces Perez-Rafols
  * and Almqvist 2019, Tribol. Int. 131, 591). The last step corrects the heights, so their distribution is
  * exact.
@@ -45,8 +45,8 @@ rc_heights_check(const struct rc_selfaffine *what, struct rc_err *err)
 
 /* ---- the distribution ---- */
 
-/* Heights as a function of the normal score z: the height below which lies the same fraction of all heights
- * as lies below z in the normal distribution. */
+/* Heights as a function of the normal score z. The fraction of all heights below such a height equals the
+ * fraction of the normal distribution below z. */
 struct quantiles {
     gsl_spline *spline;
     gsl_interp_accel *near;

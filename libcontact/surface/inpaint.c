@@ -1,8 +1,8 @@
 /*
- * Inpainting: missing values solve Laplace's equation on the five-point stencil, with the measured values as
- * boundary values and no flux across the edge of the map. The solver is conjugate gradients with the modified
- * incomplete Cholesky factor as preconditioner (Gustafsson 1978); its iterations grow only with the square
- * root of the width of a hole.
+ * Inpainting: missing values solve Laplace's equation on the five-point stencil. The measured values are the
+ * boundary values, and no flux crosses the edge of the map. The solver is conjugate gradients with the
+ * modified incomplete Cholesky factor as preconditioner (Gustafsson 1978). Its iterations grow only with the
+ * square root of the width of a hole.
  */
 #include "libcontact/contact.h"
 
@@ -102,7 +102,7 @@ set_up(struct equations *e, const struct rc_shape *shape, const double *h, doubl
 }
 
 /* Pivots that preserve the row sums of A. But for rounding they are positive: each is at least the sum of the
- * weights of the missing neighbours on the right and below; the last unknown, which has neither, keeps the
+ * weights of the missing neighbours on the right and below. The last unknown, which has neither, keeps the
  * weights of its measured neighbours. If rounding leaves next to nothing, the diagonal of A replaces the
  * pivot. */
 static void

@@ -1,11 +1,11 @@
 /*
- * The material ratio curve (Abbott and Firestone 1933): all heights, the highest first. Node k of n
- * stands for the ratios k/n to (k+1)/n, so that areas under the curve are sums, and heights between
- * nodes are interpolated from (k + 1/2)/n.
+ * The material ratio curve (Abbott and Firestone 1933): all heights, the highest first. Node k of n stands
+ * for the ratios k/n to (k+1)/n, so that areas under the curve are sums. Heights between nodes are
+ * interpolated from (k + 1/2)/n.
  *
- * The core's line is that of least squares over the 40 % of smallest secant slope (ISO 25178-2, ISO 13565-2);
- * it meets the ratios 0 and 1 at the top and the bottom of the core. The material above the top, and the void
- * below the bottom, are each replaced by a triangle of the same area and the same range of ratios.
+ * The core's line is that of least squares over the 40 % of smallest secant slope (ISO 25178-2, ISO 13565-2).
+ * It meets the ratios 0 and 1 at the top and the bottom of the core. The material above the top and the void
+ * below the bottom are each replaced by a triangle. It has the same area and the same range of ratios.
  */
 #include "areal.h"
 

@@ -1,6 +1,6 @@
 /*
- * Outliers: erroneous single points, found by the median of the 24 neighbours in a square of 5 x 5, on which
- * a few bad neighbours have no effect.
+ * Outliers: erroneous single points, found by the median of the 24 neighbours in a square of 5 x 5. A few bad
+ * neighbours have no effect on this median.
  */
 #include "libcontact/common.h"
 
@@ -32,8 +32,8 @@ order(double *restrict a, double *restrict b)
     }
 }
 
-/* The two middle values of 24. Among 14 of them neither the smallest nor the largest can be one of the two:
- * both are dropped, another value is added, and so on until all have been added. */
+/* The two middle values of 24. Among 14 of them neither the smallest nor the largest can be one of the two.
+ * Both are dropped, another value is added, and so on until all have been added. */
 static inline void
 middle_two(double v[OTHERS][LANES], double *restrict low, double *restrict high)
 {
@@ -56,10 +56,10 @@ middle_two(double v[OTHERS][LANES], double *restrict low, double *restrict high)
     }
 }
 
-/* Differences of LANES points of a row from the medians of their neighbours; `row` holds the SIDE rows around
- * it, shifted so that the square begins with each. Missing neighbours count alternately as above and below
- * all others, which preserves the middle; with an odd number of them the median is the lower of the two
- * middle values. */
+/* Computes differences of LANES points of a row from the medians of their neighbours. `row` holds the SIDE
+ * rows around it, shifted so that the square begins with each. Missing neighbours count alternately as above
+ * and below all others, which preserves the middle. With an odd number of them the median is the lower of the
+ * two middle values. */
 RC_CLONES static void
 differ(const double *const row[SIDE], double *d)
 {

@@ -179,7 +179,7 @@ struct part {
     size_t nodes, ends, sides;
 };
 
-/* Adds nodes and edges of the runs held here to the first run of their patch, and makes a part for each patch
+/* Adds nodes and edges of the runs held here to the first run of their patch. Makes a part for each patch
  * with nodes, in the order of the first runs. */
 static size_t
 make_parts(const struct field *f, struct runs *r, size_t before, struct part *part)
@@ -213,7 +213,7 @@ struct all {
     size_t parts, pairs;
 };
 
-/* Concatenates the lists of all ranks, of *n entries of `bytes` each here, in memory that the caller frees;
+/* Concatenates the lists of all ranks, of *n entries of `bytes` each here, in memory that the caller frees.
  * *n becomes the total number of entries. NULL when memory is short. */
 static void *
 gather_lists(const struct rc_ranks *ranks, size_t bytes, const void *own, size_t *n)
@@ -300,8 +300,8 @@ gather_all(const struct rc_rows *rows, bool wraps, const struct field *f, struct
 
 /* ---- joining across ranks ---- */
 
-/* Places in increasing order; parent[k]: index in this list of the first place of the patch of place k, or of
- * one nearer to it. */
+/* Places are in increasing order. parent[k]: index in this list of the first place of the patch of place k,
+ * or of one nearer to it. */
 struct places {
     size_t n, *at, *parent;
 };
@@ -535,5 +535,5 @@ rc_patches_free(struct rc_patches *patches)
     *patches = (struct rc_patches){0};
 }
 
-/* Nodes of the map per run of a rough contact (a fifth of the map in contact, in runs of three nodes), and
- * per patch of a surface that is smooth over four nodes. */
+/* Nodes of the map for each run of a rough contact (a fifth of the map in contact, in runs of three nodes).
+ * Also the nodes for each patch of a surface that is smooth over four nodes. */

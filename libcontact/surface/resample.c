@@ -1,7 +1,7 @@
 /*
  * Maps on other grids: means over coarser cells, cubic polynomials between nodes for finer ones.
  *
- * Positions along an axis are in cells of the old grid, from its first edge: old cell i extends from i to i +
+ * Positions along an axis are in cells of the old grid, from its first edge. Old cell i extends from i to i +
  * 1, with its node at i + 1/2. The middles of both grids coincide.
  */
 #include "libcontact/contact.h"
@@ -124,9 +124,9 @@ struct stencil {
     double weight[POINTS];
 };
 
-/* Cubic convolution of Keys 1981 (IEEE Trans. ASSP 29, 1153, section VI) at t from node 2 to node 3 of six:
- * the cubic with the values of these two nodes and the slopes there from five nodes about each, of fourth
- * order. */
+/* Cubic convolution of Keys 1981 (IEEE Trans. ASSP 29, 1153, section VI) at t from node 2 to node 3 of six.
+ * The cubic has the values of these two nodes and the slopes there, of fourth order, from five nodes about
+ * each. */
 static void
 keys(double t, double weight[POINTS])
 {
@@ -143,7 +143,7 @@ keys(double t, double weight[POINTS])
 }
 
 /* Distributes the weight of a node `beyond` the end of a line to the last nodes of the line, end[0] the
- * outermost: extrapolation by a parabola through three nodes, by a line through two. */
+ * outermost. Three nodes extrapolate by a parabola, two by a line. */
 static void
 extend(double beyond, double weight, size_t nodes, double *end[ENDS])
 {

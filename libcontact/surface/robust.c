@@ -1,10 +1,10 @@
 /*
  * The median of a map. For a large map a sample gives two numbers between which the median lies almost
- * surely; one pass counts the numbers below and keeps the few between them (Floyd and Rivest 1975, Commun.
+ * surely. One pass counts the numbers below and keeps the few between them (Floyd and Rivest 1975, Commun.
  * ACM 18, 165). If the sample was wrong, all numbers are kept.
  *
  * The median of the kept numbers is found by counting. The bits of numbers sort like the numbers, so a
- * histogram of the highest bits gives the bin of the median; the second step is a histogram of the next bits
+ * histogram of the highest bits gives the bin of the median. The second step is a histogram of the next bits
  * over the numbers in that bin. When only a small fraction of all numbers is left in the bin, they are
  * sorted.
  */

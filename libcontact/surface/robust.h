@@ -10,17 +10,18 @@
 
 #include "libcontact/grid.h"
 
-/* The median of v - about or, with `magnitude`, of |v - about|, over the values that are not NaN; of an even
- * number of them the mean of the two in the middle. Exact, independent of the number of threads. NAN when all
- * are NaN. */
+/* The median of v - about or, with `magnitude`, of |v - about|, over the values that are not NaN. For an even
+ * number of them it is the mean of the two in the middle. Exact, independent of the number of threads. NAN
+ * when all are NaN. */
 double rc_median(const double *v, size_t n, double about, bool magnitude, int threads);
 
 /* The median of |r| times this is the residual at which a point loses all weight (ISO 16610-31, 16610-71):
  * three standard deviations for Gaussian residuals. */
 static const double rc_biweight_reach = 4.4478;
 
-/* Reweighting stops when the relative change of the reach is below the first; when the reach over the heights
- * is below the second, so that only rounding is left; or after RC_REWEIGHT_MAX rounds. */
+/* Reweighting stops when the relative change of the reach is below the first number. It also stops when the
+ * reach over the heights is below the second, so that only rounding is left, or after RC_REWEIGHT_MAX
+ * rounds. */
 static const double rc_reweight_tol = 1e-3;
 static const double rc_reweight_floor = 1e-13;
 enum {

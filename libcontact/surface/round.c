@@ -8,7 +8,7 @@
  * which for A = 0 is a plane (Pratt 1987): no parameter diverges on shallow caps or where the apex is off the
  * map, and the sign of R distinguishes a bump from a hollow. With q = A (x^2 + y^2) + B x + C y + E the
  * surface is z = -2 q / (1 + sqrt(1 - 4 A q)). A cylinder whose axis runs along v = y cos t - x sin t and
- * rises with the slope s has the same equation in the plane across it, with u = x cos t + y sin t and n = (z
+ * rises with the slope s has the same equation in the plane across it. There u = x cos t + y sin t and n = (z
  * - s v) / sqrt(1 + s^2). On a profile both are circles.
  *
  * The equation is linear in A, B, C, E; the iteration (Levenberg 1944, Marquardt 1963) starts from its
@@ -55,7 +55,7 @@ static const double no_curvature = 1e-11;
 static const double no_pivot = 1e-13;
 
 /* The surface at n positions x of a row y. e holds heights and becomes their distances above the surface, NaN
- * where the surface has no height; d becomes the derivatives with respect to the parameters, n numbers
+ * where the surface has no height. d becomes the derivatives with respect to the parameters, n numbers
  * each. */
 typedef void surface_row(const double *p, size_t n, const double *x, double y, double *e,
                          double *d);

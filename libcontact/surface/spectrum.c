@@ -1,16 +1,16 @@
 /*
  * Power spectral densities, and the Hurst exponent.
  *
- * A map that is not periodic is multiplied by a window, after its windowed mean is subtracted, so that the
- * mean does not leak into the waves. The density is divided by the mean square of the window and by nothing
- * else, so it is unbiased for a statistically homogeneous surface. A factor that made the sum equal Sq^2
- * would scale all waves by the contribution of long waves, or of a remaining form, near the edges.
+ * A map that is not periodic is multiplied by a window, after its windowed mean is subtracted. So the mean
+ * does not leak into the waves. The density is divided by the mean square of the window and by nothing else,
+ * so it is unbiased for a statistically homogeneous surface. A factor that made the sum equal Sq^2 would
+ * scale all waves. It would depend on long waves, or on a remaining form, near the edges.
  *
  * The Hurst exponent is fitted to log c over log q by least squares over 24 bins per decade. The relative
  * error of a bin of n waves is about 1/sqrt(n/2) (squares of waves are distributed exponentially, and
- * opposite waves are equal), and the mean of a logarithm is biased by psi(n/2) - ln(n/2). No real surface
- * follows a power law better than a few per cent, which limits the weight of the many short waves. If no
- * range is given, the chosen range balances the misfit of the line against the number of excluded bins.
+ * opposite waves are equal). The mean of a logarithm is biased by psi(n/2) - ln(n/2). No real surface follows
+ * a power law better than a few per cent, which limits the weight of the many short waves. If no range is
+ * given, the chosen range balances the misfit of the line against the number of excluded bins.
  */
 #include "areal.h"
 
@@ -30,11 +30,11 @@ enum {
  * and the possible Hurst exponents, with an allowance. */
 static const double model_error = 0.05, price = 4, span = 3, fits = 3;
 static const double lowest = -0.05, highest = 1.1;
-/* Relative, so that waves at the ends of a range belong to it; and the fraction of the largest density below
- * which there is only rounding. */
+/* Relative, so that waves at the ends of a range belong to it. The second is the fraction of the largest
+ * density below which there is only rounding. */
 static const double slack = 1e-9, rounded = 1e-27;
 /* The fit ends at this fraction of the wave number of the shortest wave that the grid resolves in all
- * directions: waves of exactly two nodes are only partly seen. */
+ * directions. Waves of exactly two nodes are only partly seen. */
 static const double resolved = 0.98;
 
 double
@@ -92,8 +92,8 @@ weight(const struct window *w, size_t i, size_t n)
     return n == 1 || w->waves == 0 ? 1 : w->a[0] - w->a[1] * cos(x) + w->a[2] * cos(2 * x);
 }
 
-/* For the weights of a side: the mean square, and the number of waves that count as one, because neighbours
- * are correlated: the mean fourth power over the square of that, 35/18 for Hann's. */
+/* For the weights of a side: the mean square, and the number of correlated waves that count as one. This
+ * number is the mean fourth power over the square of the mean square, 35/18 for Hann's. */
 static void
 side_figures(const struct window *w, size_t n, double *square, double *alike)
 {

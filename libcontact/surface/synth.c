@@ -221,8 +221,8 @@ scramble(uint64_t z)
     return z ^ z >> 31;
 }
 
-/* A complex Gaussian number with mean square 1 that depends on seed, kx and ky alone (Box and Muller 1958),
- * with its phase shifted by this number of periods. */
+/* A complex Gaussian number with mean square 1 that depends on seed, kx and ky alone (Box and Muller 1958).
+ * Its phase is shifted by this number of periods. */
 static double complex
 draw(uint64_t seed, long kx, long ky, double periods)
 {
@@ -238,7 +238,7 @@ draw(uint64_t seed, long kx, long ky, double periods)
 }
 
 /* Amplitude of the wave exp(2 pi i (kx x / Lx + ky y / Ly)). The phases refer to the middle of the map, so
- * that they are the same on every grid; the transform counts from node (0, 0), hence the extra phase. Heights
+ * that they are the same on every grid. The transform counts from node (0, 0), hence the extra phase. Heights
  * are real if opposite waves are conjugate: a number is drawn for one of each pair. Waves of two nodes
  * (Nyquist) are left out: they are their own opposites. */
 static double complex

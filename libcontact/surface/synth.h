@@ -9,8 +9,8 @@ bool rc_heights_skewed(const struct rc_selfaffine *what);
 /* RC_FAIL when what->skewness or what->weibull is out of range, or both are given. */
 enum rc_status rc_heights_check(const struct rc_selfaffine *what, struct rc_err *err);
 /* Gives the heights of a periodic surface the wanted distribution, with mean 0 and RMS 1, in this number of
- * steps, while the amplitudes of its waves stay near the original ones: *misfit is the RMS error of the
- * amplitudes over their RMS. RC_FAIL when memory is short. */
+ * steps. The amplitudes of its waves stay near the original ones: *misfit is the RMS error of the amplitudes
+ * over their RMS. RC_FAIL when memory is short. */
 enum rc_status rc_heights_shape(const struct rc_shape *shape, const struct rc_selfaffine *what,
                                 size_t steps, double *h, double *misfit, struct rc_err *err);
 

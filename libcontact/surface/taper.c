@@ -11,8 +11,8 @@ from_edge(size_t i, size_t n, double d)
     return ((double)(i < n - 1 - i ? i : n - 1 - i) + 0.5) * d;
 }
 
-/* Weight of each node of a side: a raised cosine of the node's distance from the edge up to `width`, then 1;
- * 1 on a side of one node. NULL when memory is short. */
+/* Weight of each node of a side: a raised cosine of the node's distance from the edge up to `width`, then 1.
+ * It is 1 on a side of one node. NULL when memory is short. */
 static double *
 weights(size_t n, double d, double width)
 {
