@@ -1,10 +1,10 @@
 /*
  * Correlation length and direction of the texture.
  *
- * The autocorrelation is the mean product of two heights at an offset, over the pairs in the map (circular
- * when it is periodic), over Sq^2; for offsets up to half the map. Sal is the shortest offset at which the
- * correlation has fallen to 0.2; Str is Sal over the longest one. Both are found along rays from 0, a node at
- * a time.
+ * The autocorrelation is the mean product of two heights at an offset, over Sq^2, for offsets up to half the
+ * map. The mean is over the pairs in the map (circular when it is periodic). Sal is the shortest offset at
+ * which the correlation has fallen to 0.2; Str is Sal over the longest one. Both are found along rays from 0,
+ * a node at a time.
  *
  * The direction is the maximum of the angular spectrum, to which each wave contributes its power, spread over
  * the angles up to its neighbours.
@@ -143,9 +143,9 @@ correlation_of(const double *c, const struct rc_offsets *at, double x, double y)
     return c[(size_t)y * (2 * at->mx + 1) + (size_t)(x + (double)at->mx)];
 }
 
-/* The correlation at (x, y) nodes, of which one is whole: by a cubic through four values along the other
- * direction, because linear interpolation would give the smooth maximum a kink; linear where the outer two of
- * the four are missing. */
+/* The correlation at (x, y) nodes, one of which is whole. A cubic goes through four values along the other
+ * direction, because linear interpolation would give the smooth maximum a kink. It is linear where the outer
+ * two of the four are missing. */
 static double
 correlation_at(const double *c, const struct rc_offsets *at, double x, double y)
 {
@@ -250,8 +250,8 @@ add_power(double *bin, double angle, double half_width, double power)
     }
 }
 
-/* Sums over the columns of one part. With `toward` NAN: the angular spectrum into sum[ANGLES]; else cos and
- * sin of twice the angle, weighted with power, within the wedge around that angle. */
+/* Sums over the columns of one part. With `toward` NAN: the angular spectrum into sum[ANGLES]. Otherwise: cos
+ * and sin of twice the angle, weighted with power, within the wedge around that angle. */
 static void
 sum_part(const struct rc_shape *s, const double *power, size_t part, double toward, double wedge,
          double *sum)

@@ -1,5 +1,5 @@
 /*
- * The whole period is laid out and transformed as a real line: FFTW's even and odd transforms of half a
+ * The whole period is laid out and transformed as a real line. FFTW's even and odd transforms of half a
  * period do not use vector registers and take twice as long (1025 values: 5.0 us against 2.5).
  */
 #include "dct.h"

@@ -1,7 +1,7 @@
 /*
- * Two locks. FFTW's own lock, which fftw_make_planner_thread_safe switches on for the whole process, is taken
- * by every call of its planner, also by calls from the program that uses this library. It is switched on when
- * this library is loaded: a thread that is planning at that moment would leave it unlocked for good.
+ * Two locks. fftw_make_planner_thread_safe switches on FFTW's own lock for the whole process. Every call of
+ * its planner then takes the lock, also calls from the program that uses this library. It is switched on when
+ * this library is loaded. A thread that is planning at that moment would leave it unlocked for good.
  * libfftw3_omp has the same function, but there it does nothing. If the program loads libfftw3_omp first,
  * this library's own lock still protects its plans.
  */

@@ -1,6 +1,6 @@
 /*
- * Rows are transformed as they arrive and stored as complex numbers; then columns are transformed a few at a
- * time, two cache lines of each row. Columns are never written back whole: of a spectrum only the squares are
+ * Rows are transformed as they arrive and stored as complex numbers. Then columns are transformed a few at a
+ * time, two cache lines of each row. Columns are never written back whole. Of a spectrum only the squares are
  * written, of an autocorrelation only the rows of y >= 0, which replace the rows of the map.
  */
 #include "power.h"

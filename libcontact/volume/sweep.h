@@ -32,7 +32,7 @@ struct rc_sweep_slab {
     double szz, sxx, syy;           /* mean stresses, added to the first wave of the column */
 };
 
-/* A depth: the slab that contains it, or the number of slabs if it is below all of them; and the parts of
+/* A depth: the slab that contains it, or the number of slabs if it is below all of them. Also the parts of
  * that slab above it (or the distance from the last slab) and below it, m. */
 struct rc_sweep_place {
     size_t slab;
@@ -58,8 +58,8 @@ struct rc_sweep_ops {
      * NULL: there are none, and none are needed. */
     void (*down)(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *slab,
                  double modulus, const void *above, bool any, void *below);
-    /* All six stresses at a depth within n slabs, to `to`, the five and szz; strains and waves are kept:
-     * `above` downward at the top of the slabs, `below` upward at their bottom (NULL: none). */
+    /* Computes all six stresses at a depth within n slabs, the five and szz, to `to`. Strains and waves are
+     * kept: `above` downward at the top of the slabs, `below` upward at their bottom (NULL: none). */
     void (*slice)(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *slab,
                   double modulus, const struct rc_sweep_place *place, const void *above,
                   const void *below, void *const to[RC_SWEEP_STRAINS + 1]);

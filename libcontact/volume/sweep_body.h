@@ -8,10 +8,11 @@
  *     tt = d^2 xx + c^2 yy - 2cd xy                                          tz = -i (c yz - d xz)
  *
  * so that all coefficients below are real. Real parts of ss, tt, zz and st belong to imaginary parts of xz
- * and yz: each half is computed separately, and differs by a sign in these two.
+ * and yz. Each half is computed separately, and differs by a sign in these two.
  *
- * Three waves travel down and three up; w are their amplitudes times q, D the distance from the depth where
- * they are known, x = q D. Their stress over 2 mu exp(-x), with f = 1 for downward and -1 for upward waves:
+ * Three waves travel down and three up. w are their amplitudes times q, D is the distance from the depth
+ * where they are known, and x = q D. Their stress over 2 mu exp(-x), with f = 1 for downward and -1 for
+ * upward waves:
  *
  *     ss = -w1 + (x - 2 nu) w2    zz = w1 - (2 (1 - nu) + x) w2    sz = f (-w1 + (1 - 2 nu + x) w2)
  *     tt = -2 nu w2               st = -w3/2                       tz = -f w3/2

@@ -1,11 +1,11 @@
 /*
  * The sweeps over a stack of slabs: storage and order of the transforms. One map at a time is transformed
  * into waves, which are stored for each slab. At the depths between groups of RC_SWEEP_SLABS slabs the
- * passing waves are stored; those at depths within a group are computed again on the way down.
+ * passing waves are stored. Those at depths within a group are computed again on the way down.
  *
  * Storage per node, in numbers: 5 a slab, which the stresses of the slab replace, 3 a group, and 1 for the
  * map in transform. With slices: another 3 a group (downward waves besides the upward ones) and 6 for the
- * slice; waves between the stored depths are computed for each slice.
+ * slice. Waves between the stored depths are computed for each slice.
  */
 #include "volume.h"
 

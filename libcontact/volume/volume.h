@@ -2,20 +2,21 @@
  * The effect of eigenstrain on a half-space, and of a pressure inside it: a stack of slabs under a periodic
  * map. Internal: never installed.
  *
- * With e an eigenstrain (for example plastic strain, a deviator), uniform over the thickness of a slab at
- * each node, p a pressure on the surface, and stresses averaged over the thickness of a slab,
+ * e is an eigenstrain (for example plastic strain, a deviator), uniform over the thickness of a slab at each
+ * node. p is a pressure on the surface. With stresses averaged over the thickness of a slab,
  *
  * u_r = S' e displacement of the surface due to e, into the body, m
  *     sigma = S p - G e       stress, tension positive, Pa
  *
  * of a linear half-space with shear modulus mu and Poisson's ratio nu. S' is the transpose of S: for a p with
- * mean 0 the sum of p u_r over the nodes equals that of e : S p times h over the voxels. G is symmetric in
- * the same sums, and on deviators 0 <= G + S K_cc^-1 S' <= 2 mu for any set c of nodes in contact.
+ * mean 0 the sum of p u_r over the nodes has a counterpart. It equals that of e : S p times h over the
+ * voxels. G is symmetric in the same sums. On deviators 0 <= G + S K_cc^-1 S' <= 2 mu for any set c of nodes
+ * in contact.
  *
  * A sheet of strain emits three waves of each wave vector down and three up, which decay with distance
  * (nuclei of strain: Mindlin and Cheng, J. Appl. Phys. 21, 1950, 926; their waves: Frerot et al., Comput.
  * Methods Appl. Mech. Engrg. 351, 2019, 951); slabs are integrals of sheets. So one sweep up collects the
- * waves that reach the surface, the surface reflects them and adds the pressure, and one sweep down gives the
+ * waves that reach the surface. The surface reflects them and adds the pressure, and one sweep down gives the
  * stresses: sweep_body.h has the formulae.
  *
  *     rc_slabs_up(v, &strain, u_r);           needs e, gives u_r
@@ -23,11 +24,11 @@
  *     rc_slabs_down(v, p, &stress);           needs p, gives sigma slab by slab
  *
  * Mean: waves of wave number 0 do not decay with depth. A mean pressure causes szz = -p and, as in rc_stress,
- * sxx = syy = -(1 + 2 nu) p/2; on a profile -p in the direction of the profile and -2 nu p in the other. The
- * mean of e causes the stress of a slab fixed in its plane, and no displacement. Waves of two nodes in a
- * direction have no sign: there strain causes only its local stress, and p has no effect.
+ * sxx = syy = -(1 + 2 nu) p/2. On a profile it causes -p in the direction of the profile and -2 nu p in the
+ * other. The mean of e causes the stress of a slab fixed in its plane, and no displacement. Waves of two
+ * nodes in a direction have no sign: there strain causes only its local stress, and p has no effect.
  *
- * For a free map the same sweeps run on a map padded to twice its sides or a little more; the periodic images
+ * For a free map the same sweeps run on a map padded to twice its sides or a little more. The periodic images
  * of the contact then cause errors of some thousandths of the stresses.
  *
  * Every function may be called by ranks that share the map: maps and rows are those held here.
