@@ -74,8 +74,9 @@ struct rc_engine_info { /* a way to sum displacements */
     bool mixed;    /* methods may iterate with it in single precision             */
     bool precise;  /* the engine of the row before in double precision throughout */
     int order;     /* its time grows as this power of the number of nodes         */
-    /* Bytes a node, on free and periodic maps: of a sum beside p and u, in single precision if the engine is
-     * mixed; and of a solver. Measured on 1024 x 1024 nodes; smaller maps need a few percent more. */
+    /* Bytes for each node, on free and periodic maps. First: those of a sum beside p and u, in single
+     * precision if the engine is mixed. Then: those of a solver. Measured on 1024 x 1024 nodes; smaller maps
+     * need a few percent more. */
     double sum_bytes[2], contact_bytes[2];
 };
 struct rc_method_info { /* an iteration of the contact; "auto" is the first */
@@ -97,21 +98,21 @@ struct rc_place {
     double x, y;
 };
 
-/* -s^2 / 2 radius_1 - t^2 / 2 radius_2 about the apex (m); s along `direction`, in degrees counterclockwise
- * from x with row 0 at the top, t across it. A radius of INFINITY makes a cylinder with its axis along that
- * direction. */
+/* The height is -s^2 / 2 radius_1 - t^2 / 2 radius_2 about the apex (m). s runs along `direction`, in degrees
+ * counterclockwise from x with row 0 at the top, and t across it. A radius of INFINITY makes a cylinder with
+ * its axis along that direction. */
 RC_API void rc_synth_paraboloid(const struct rc_shape *shape, struct rc_place apex, double radius_1,
                                 double radius_2, double direction, double *h);
 /* -slope r about the apex. */
 RC_API void rc_synth_cone(const struct rc_shape *shape, struct rc_place apex, double slope,
                           double *h);
-/* A flat circular end of this radius at height 0, surrounded by -height (m); with an edge (m, > 0) the flank
+/* A flat circular end of this radius at height 0, surrounded by -height (m). With an edge (m, > 0) the flank
  * begins as -(r - radius)^2 / 2 edge. Nodes on the rim belong to the end. */
 RC_API void rc_synth_punch(const struct rc_shape *shape, struct rc_place apex, double radius,
                            double edge, double height, double *h);
 
-/* amplitude * cos(2 pi x / wavelength_x) * cos(2 pi y / wavelength_y), with a crest at the middle of the map;
- * a wavelength of INFINITY omits its factor. Metres. */
+/* amplitude * cos(2 pi x / wavelength_x) * cos(2 pi y / wavelength_y), with a crest at the middle of the map.
+ * A wavelength of INFINITY omits its factor. Metres. */
 RC_API void rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_x,
                           double wavelength_y, double *h);
 
@@ -167,17 +168,17 @@ struct rc_form {
 };
 /* Subtracts the form that fits the measured points (not NaN) best, by least squares in z. The radius of a
  * sphere or a cylinder, m, is positive for a bump and negative for a hollow, NAN for a polynomial; radius may
- * be NULL. RC_FAIL when there are fewer points than unknowns, their positions do not determine the form, no
- * sphere or cylinder covers them all, one is infinite, or memory is short; h is then unchanged. Switches off
- * GSL's error handler, which belongs to the process, during the call. */
+ * be NULL. RC_FAIL when there are fewer points than unknowns, or their positions do not determine the form.
+ * Also when no sphere or cylinder covers them all, one is infinite, or memory is short. h is then unchanged.
+ * Switches off GSL's error handler, which belongs to the process, during the call. */
 RC_API enum rc_status rc_detrend_form(const struct rc_shape *shape, const struct rc_form *form,
                                       double *h, double *radius, struct rc_err *err);
 
-/* Levels each row separately, for scan lines: subtracts the median of the row (degree 0), or its best
- * straight line or parabola (1 or 2: by least squares, or with the weights of struct rc_form if `robust`). A
- * row with fewer than twice as many points as coefficients is levelled by its median, an empty row is not
- * changed. RC_FAIL when the degree is above 2, a height is infinite, or memory is short: some rows may then
- * be levelled. */
+/* Levels each row separately, for scan lines. Degree 0 subtracts the median of the row; 1 or 2 subtract its
+ * best straight line or parabola. The fit is by least squares, or with the weights of struct rc_form if
+ * `robust`. A row with fewer than twice as many points as coefficients is levelled by its median, an empty
+ * row is not changed. RC_FAIL when the degree is above 2, a height is infinite, or memory is short: some rows
+ * may then be levelled. */
 RC_API enum rc_status rc_detrend_rows(const struct rc_shape *shape, size_t degree, bool robust,
                                       double *h, struct rc_err *err);
 
@@ -192,39 +193,40 @@ struct rc_filter {
     bool periodic;  /* the map repeats */
     size_t threads; /* 0: all          */
 };
-/* RC_FAIL when the cut-off is below two nodes or longer than the map, no point is measured, a height is
- * infinite, or memory is short; h is then unchanged. */
+/* RC_FAIL when the cut-off is below two nodes or longer than the map. Also when no point is measured, a
+ * height is infinite, or memory is short. h is then unchanged. */
 RC_API enum rc_status rc_filter(const struct rc_shape *shape, const struct rc_filter *what,
                                 double *h, struct rc_err *err);
 
-/* Sets points to missing that differ by more than `times` times the spread from the median of the others in
- * the 5 x 5 nodes around them; *count is their number. The spread is 1.4826 times the median absolute
- * deviation of all such differences, which is the standard deviation for Gaussian noise. Missing neighbours
- * and, unless the map is periodic, those beyond its edges do not count; a point without neighbours is kept.
- * RC_FAIL when `times` is not positive, a height is infinite, or memory is short; h is then unchanged. */
+/* Sets a point to missing if it differs from the median of the others in the 5 x 5 nodes around it by more
+ * than `times` times the spread. *count is the number of such points. The spread is 1.4826 times the median
+ * absolute deviation of all such differences, which is the standard deviation for Gaussian noise. Missing
+ * neighbours and, unless the map is periodic, those beyond its edges do not count; a point without neighbours
+ * is kept. RC_FAIL when `times` is not positive, a height is infinite, or memory is short; h is then
+ * unchanged. */
 RC_API enum rc_status rc_outliers(const struct rc_shape *shape, double times, bool periodic,
                                   size_t threads, double *h, size_t *count, struct rc_err *err);
 
-/* Blends the outer `width` (m) of the map into the mean of all heights: multiplies the difference from the
- * mean by (1 - cos(pi s / width)) / 2 in each direction, s the distance of the node from the edge. The map
- * can then be repeated without a step. RC_FAIL when the width is below a node or above half of the map, no
- * height is measured, one is infinite, or memory is short; h is then unchanged. */
+/* Blends the outer `width` (m) of the map into the mean of all heights. In each direction it multiplies the
+ * difference from the mean by (1 - cos(pi s / width)) / 2, s the distance of the node from the edge. The map
+ * can then be repeated without a step. RC_FAIL when the width is below a node or above half of the map. Also
+ * when no height is measured, one is infinite, or memory is short. h is then unchanged. */
 RC_API enum rc_status rc_taper(const struct rc_shape *shape, double width, double *h,
                                struct rc_err *err);
 /* Columns and rows on each side that a taper of this width (m) changes. */
 RC_API void rc_taper_frame(const struct rc_shape *shape, double width, size_t *columns,
                            size_t *rows);
 
-/* Replaces missing values (NaN) by the solution of Laplace's equation, with the measured values around them
- * as boundary values and zero slope across the edge of the map; *filled is their number. RC_FAIL when no
- * value is measured, one is infinite, or memory is short. */
+/* Replaces missing values (NaN) by the solution of Laplace's equation. Boundary values are the measured
+ * values around them, with zero slope across the edge of the map. *filled is the number of replaced values.
+ * RC_FAIL when no value is measured, one is infinite, or memory is short. */
 RC_API enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled,
                                  struct rc_err *err);
 
-/* Width of the widest hole in m: twice the largest distance of a missing value (NaN) from the nearest
- * measured one, node to node: 2 min(dx, dy) for a single missing node, the diameter for a disc. A hole at the
- * edge of the map counts as if it continued as far beyond the edge. 0 where nothing is missing, INFINITY
- * where everything is. Exact but for rounding; takes 4 bytes a node. RC_FAIL when memory is short. */
+/* Width of the widest hole in m: twice the largest distance, node to node, of a missing value (NaN) from the
+ * nearest measured one. A single missing node has 2 min(dx, dy), a disc its diameter. A hole at the edge of
+ * the map counts as if it continued as far beyond the edge. 0 where nothing is missing, INFINITY where
+ * everything is. Exact but for rounding; takes 4 bytes a node. RC_FAIL when memory is short. */
 RC_API enum rc_status rc_hole_width(const struct rc_shape *shape, const double *h, double *width,
                                     struct rc_err *err);
 
@@ -233,10 +235,10 @@ RC_API enum rc_status rc_hole_width(const struct rc_shape *shape, const double *
 /* Relative difference below which spacings count as equal. */
 #define RC_SAME_SPACING 1e-6
 
-/* Means of v, which is constant in the cells of `from`, over the cells of `to`, a grid with any other number
- * of nodes on the same area (the spacings are ignored). The integral is preserved. For heights to a coarser
- * grid, and for pressures back. Where v is partly missing (NaN) the mean is that of the rest of the cell; a
- * cell is missing if less than half of it is measured. v and out do not overlap. */
+/* Computes means of v, which is constant in the cells of `from`, over the cells of `to`. This grid has any
+ * other number of nodes on the same area; the spacings are ignored. The integral is preserved. For heights to
+ * a coarser grid, and for pressures back. Where v is partly missing (NaN) the mean is that of the rest of the
+ * cell; a cell is missing if less than half of it is measured. v and out do not overlap. */
 RC_API void rc_resample_means(const struct rc_shape *from, const double *v,
                               const struct rc_shape *to, double *out);
 
@@ -250,11 +252,11 @@ RC_API enum rc_status rc_resample_shape(const struct rc_shape *from, double dx, 
 RC_API bool rc_resample_covers(const struct rc_shape *from, const struct rc_shape *to);
 /* v on the grid `to`, with the same middle. Along an axis with larger cells: means over their area, missing
  * (NaN) where less than half of it is measured. Along an axis with smaller cells: cubic convolution with six
- * nodes (Keys 1981), exact for cubic polynomials and smooth to the first derivative; it wraps if `periodic`,
- * else a parabola extrapolates the map. Near a missing value it is bilinear, closer constant in the old cell,
- * and missing in a missing cell. Equal cells are copied. v and out do not overlap. RC_FAIL when `to` exceeds
- * the map or memory is short: it needs another map if one axis becomes coarser and the other finer, else a
- * few rows. */
+ * nodes (Keys 1981), exact for cubic polynomials and smooth to the first derivative. It wraps if `periodic`;
+ * otherwise a parabola extrapolates the map. Near a missing value it is bilinear, closer constant in the old
+ * cell, and missing in a missing cell. Equal cells are copied. v and out do not overlap. RC_FAIL when `to`
+ * exceeds the map or memory is short. It needs another map if one axis becomes coarser and the other finer,
+ * else a few rows. */
 RC_API enum rc_status rc_resample(const struct rc_shape *from, const double *v, bool periodic,
                                   const struct rc_shape *to, double *out, struct rc_err *err);
 
@@ -264,10 +266,10 @@ RC_API enum rc_status rc_crop(const struct rc_shape *from, const double *v, size
                               const struct rc_shape *to, double *out, struct rc_err *err);
 /* Reverses left and right (axis 'x') or top and bottom ('y'), in place. */
 RC_API void rc_mirror(const struct rc_shape *shape, char axis, double *v);
-/* Reflection: the map in the upper left quarter and its images about the right and the lower edge, a period
- * without steps; a side of one node is not reflected. Rotation: quarter turns counterclockwise, row 0 at the
- * top. *_shape: the resulting shape (an odd number of turns exchanges rows and columns). v and out do not
- * overlap. */
+/* Reflection: the upper left quarter holds the map, the others its images about the right and the lower edge.
+ * This is a period without steps. A side of one node is not reflected. Rotation: quarter turns
+ * counterclockwise, row 0 at the top. *_shape: the resulting shape (an odd number of turns exchanges rows and
+ * columns). v and out do not overlap. */
 RC_API struct rc_shape rc_reflect_shape(const struct rc_shape *from);
 RC_API void rc_reflect(const struct rc_shape *from, const double *v, double *out);
 RC_API struct rc_shape rc_rotate_shape(const struct rc_shape *from, size_t quarters);
@@ -304,15 +306,15 @@ RC_API void rc_measure(const struct rc_shape *shape, const double *v, struct rc_
 /* Sum of n doubles with the compensation of Neumaier 1974: its error does not grow with n. */
 RC_API double rc_sum(const double *v, size_t n);
 
-/* RMS of the gradient's magnitude of the heights h (m) over the nodes in contact (rc_in_contact of p, a
- * pressure or a map of 1 and 0; p NULL: over all), by differences to the next node along each side of the
- * map; NAN when there is none. Among ranks (NULL: none) h and p are the rows held here. */
+/* RMS of the gradient's magnitude of the heights h (m) over the nodes in contact, by differences to the next
+ * node along each side of the map. rc_in_contact decides from p, a pressure or a map of 1 and 0; p NULL: all
+ * nodes. NAN when there is none. Among ranks (NULL: none) h and p are the rows held here. */
 RC_API double rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *shape,
                                        const double *h, const double *p);
 
-/* RMS of the steps between neighbours along x, [0], and along y, [1]: inside the map, and across the edge,
- * from its last line to its first. NAN along a side of one node. In the unit of v, which holds no NaN. Among
- * ranks (NULL: none) v is the rows held here. */
+/* RMS of the steps between neighbours along x, [0], and along y, [1]. The first pair is inside the map; the
+ * second is across the edge, from its last line to its first. NAN along a side of one node. In the unit of v,
+ * which holds no NaN. Among ranks (NULL: none) v is the rows held here. */
 struct rc_seam {
     double inside[2], across[2];
 };
@@ -341,7 +343,7 @@ struct rc_patch {
 /* Nodes in contact (rc_in_contact of p, a pressure or a map of 1 and 0), joined through their four
  * neighbours. The perimeter is the sum of the edges between a node in contact and one out of contact, without
  * the border of a free map. The corrected area is smaller by (pi - 1 + ln 2)/24 dx dy for each such edge
- * (Yastrebov, Anciaux and Molinari 2017), because a grid counts every node that the edge of the contact
+ * (Yastrebov, Anciaux and Molinari 2017). The reason: a grid counts every node that the edge of the contact
  * crosses. */
 struct rc_patches {
     size_t count, contact_nodes;
@@ -442,12 +444,13 @@ struct rc_psd_options {
     size_t threads; /* 0: all */
 };
 
-/* Power spectral density |FFT|^2 dx dy/(nx ny), averaged over rings of wave numbers as wide as the lowest one
- * (Persson et al. 2005, J. Phys. Condens. Matter 17, R1; Jacobs, Junge and Pastewka 2017, Surf. Topogr. 5,
- * 013001: C^iso, for a profile C^1D), without the mean. Its sum over all waves, over the area of the map, is
- * Sq^2. With a window w it is |FFT(w h)|^2 dx dy/(nx ny)/mean(w^2), as in Gwyddion and SurfaceTopography; its
- * sum is then the mean square in the window: Sq^2 on average for statistically homogeneous surfaces. The
- * window is applied along each side, to heights less their mean weighted with it. */
+/* Power spectral density |FFT|^2 dx dy/(nx ny), averaged over rings of wave numbers. A ring is as wide as the
+ * lowest wave number (Persson et al. 2005, J. Phys. Condens. Matter 17, R1; Jacobs, Junge and Pastewka 2017,
+ * Surf. Topogr. 5, 013001: C^iso, for a profile C^1D), without the mean. Its sum over all waves, over the
+ * area of the map, is Sq^2. With a window w it is |FFT(w h)|^2 dx dy/(nx ny)/mean(w^2), as in Gwyddion and
+ * SurfaceTopography. Its sum is then the mean square in the window: Sq^2 on average for statistically
+ * homogeneous surfaces. The window is applied along each side, to heights less their mean weighted with
+ * it. */
 struct rc_psd {
     size_t rings;
     double *q;          /* rad/m: mean over the waves of a ring                                */
@@ -462,8 +465,8 @@ struct rc_psd {
 };
 /* Name of window k = 0, 1, ...: none, hann, hamming, blackman; NULL past the last. */
 RC_API const char *rc_window_name(size_t k);
-/* NULL when a height is missing or infinite, the range is invalid or holds too few waves, a side is too long
- * for a Fourier transform, or memory is short. */
+/* NULL when a height is missing or infinite, or the range is invalid or holds too few waves. Also when a side
+ * is too long for a Fourier transform, or memory is short. */
 RC_API struct rc_psd *rc_psd_new(const struct rc_shape *shape, const double *h,
                                  const struct rc_psd_options *options, struct rc_err *err);
 RC_API void rc_psd_free(struct rc_psd *psd); /* NULL is allowed */
@@ -510,8 +513,8 @@ struct rc_conv_options {
 /* The engine that such a plan would use, and the reason; "" when there is none of that name. */
 RC_API const char *rc_conv_choice(const struct rc_shape *shape,
                                   const struct rc_conv_options *options, const char **reason);
-/* Seconds of one such sum within a solve, including the work of the method: measured on a machine of 2026;
- * other machines may differ by several times. NAN when there is no such engine. */
+/* Seconds of one such sum within a solve, including the work of the method. They were measured on a machine
+ * of 2026; other machines may differ by several times. NAN when there is no such engine. */
 RC_API double rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv_options *options);
 /* u = K p: the sum of the displacements of both bodies (m) under the pressure p (Pa). With RC_PERIODIC the
  * mean of u is 0, because the displacement of a periodic half-space under a mean pressure is unbounded. NULL
@@ -556,7 +559,7 @@ struct rc_problem {
     size_t threads;        /* 0: all                                                        */
     bool discretization;   /* estimate the discretization error; also solves a coarser grid */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none */
-    /* If this is not 0 (a signal handler may set it), the caller cannot wait: a step ends before it changes
+    /* If this is not 0 (a signal handler may set it), the caller cannot wait. A step ends before it changes
      * the pressure, and rc_solver_result uses gap and displacement of the last step, in single precision if
      * its convolutions were. NULL: never. Ignored with ranks, and in problems of which a contact is a
      * part. */
@@ -608,8 +611,8 @@ struct rc_contact {
 RC_API const char *rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
                                     const char **reason);
 /* Expected cost of such a solver, from benchmark fits: convolutions (equivalents) and seconds, both NAN where
- * unknown, and bytes. RC_FAIL when the solver would be refused, except for short memory: no such engine or
- * method, none for the boundary or the ranks, no solution under the load. */
+ * unknown, and bytes. RC_FAIL when rc_solver_new would refuse the problem, except for short memory. Examples:
+ * no such engine or method, none for the boundary or the ranks, no solution under the load. */
 struct rc_expected {
     double convolutions, seconds;
     size_t memory; /* bytes of a rank, without the caller's arrays, code, and FFTW's plans */
@@ -625,9 +628,9 @@ RC_API enum rc_status rc_solver_expect(const struct rc_shape *shape,
  * cell (the message has both numbers). NULL also if the problem is invalid or memory is short. */
 RC_API struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem, struct rc_err *err);
-/* Another first loading of the same surface, at a load in N or, with approach > 0, to an approach in m; the
- * last solution is only its start. Resets the counts. RC_FAIL as in rc_solver_new; the solver can then only
- * be freed. */
+/* Starts another first loading of the same surface. Its target is a load in N or, with approach > 0, an
+ * approach in m; the last solution is only its start. Resets the counts. RC_FAIL as in rc_solver_new; the
+ * solver can then only be freed. */
 RC_API enum rc_status rc_solver_set_load(struct rc_solver *solver, double load, double approach,
                                          struct rc_err *err);
 /* Another asked relative L1 error of the pressure, > 0, from the next load on. The engine keeps the tolerance
@@ -638,17 +641,17 @@ RC_API void rc_solver_set_tol(struct rc_solver *solver, double tol);
  * changed), and as in rc_solver_set_load. */
 RC_API enum rc_status rc_solver_set_heights(struct rc_solver *solver, const double *h,
                                             struct rc_err *err);
-/* Starts from this pressure (nx ny Pa; projected onto bounds and load) of an earlier solver of the same
- * problem instead of from coarser grids; load (N) is that of this pressure, needed when the approach is
- * given. p NULL: starts from coarser grids, as a new solver does. RC_FAIL after the first step of a load, and
- * as in rc_solver_set_load. */
+/* Starts from this pressure (nx ny Pa) of an earlier solver of the same problem instead of from coarser
+ * grids. The pressure is projected onto bounds and load. load (N) is the load of this pressure; it is needed
+ * when the approach is given. p NULL: starts from coarser grids, as a new solver does. RC_FAIL after the
+ * first step of a load, and as in rc_solver_set_load. */
 RC_API enum rc_status rc_solver_warm_start(struct rc_solver *solver, double load, const double *p,
                                            struct rc_err *err);
 /* One iteration, on coarser grids first: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when
  * it cannot get there (iteration limit, rounding). */
 RC_API enum rc_status rc_solver_step(struct rc_solver *solver);
-/* Progress: the grid of the present iterations (a coarser one at first), the number of iterations on it, the
- * last estimated error there (NAN before the first) and the asked one. */
+/* Progress: the grid of the present iterations (a coarser one at first), the number of iterations on it, and
+ * two errors. These are the last estimated error there (NAN before the first) and the error asked for. */
 struct rc_progress {
     struct rc_shape grid;
     bool coarser; /* than the map's own grid, whose start it computes */
@@ -673,8 +676,9 @@ RC_API enum rc_status rc_solver_plastic(const struct rc_solver *solver, double *
                                         struct rc_err *err);
 /* For a loading history, where each load acts on the shape that earlier ones left: set each load, step to the
  * end, take the result, then call this. h (nx ny m; in: the loaded heights) and the heights of the solver
- * become the shape after unloading, accurate to contact->shape_error of the rc_contact from rc_solver_result.
- * If no node has yielded, nothing changes. RC_FAIL as in rc_solver_plastic and rc_solver_set_heights. */
+ * become the shape after unloading. Its error is at most contact->shape_error of the rc_contact from
+ * rc_solver_result. If no node has yielded, nothing changes. RC_FAIL as in rc_solver_plastic and
+ * rc_solver_set_heights. */
 RC_API enum rc_status rc_solver_keep_shape(struct rc_solver *solver,
                                            const struct rc_contact *contact, double *h,
                                            struct rc_err *err);
@@ -690,7 +694,7 @@ RC_API enum rc_status rc_solver_stiffness(struct rc_solver *solver, double *stif
 /* Conductance of heat or electric current from one body to the other, by Barber's analogy (Proc. R. Soc. A
  * 459 (2003) 53): for conductivities k1, k2 of the bodies 2 S/(E* (1/k1 + 1/k2)), with S the stiffness if all
  * nodes in contact, also those at the hardness, moved together. It is the flow over the difference of the
- * potentials far away; on a periodic map, over the difference of the mean potentials of the two surfaces.
+ * potentials far away. On a periodic map the difference is that of the mean potentials of the two surfaces.
  * Only the contact conducts, and it has no film. */
 struct rc_conductance {
     double stiffness; /* N/m: S; equals rc_solver_stiffness if no node is at the hardness */
@@ -738,7 +742,7 @@ RC_API const struct rc_elastic_figures *rc_elastic_result(const struct rc_model 
 
 /* ---- plasticity in the volume ---- */
 
-/* Von Mises plasticity with isotropic hardening: the yield stress grows with the equivalent plastic strain
+/* Von Mises plasticity with isotropic hardening. The yield stress grows with the equivalent plastic strain
  * linearly, or by a table of points, which the caller keeps. */
 struct rc_yield {
     double stress;  /* Pa, > 0: initial yield stress                      */
@@ -775,9 +779,9 @@ struct rc_plastic_figures {
      * node */
     double max_pressure_mean4;
     double lag; /* the lag that was reached */
-    /* Estimated relative L1 error of the pressure, the sum of its parts: from the increments of this load,
-     * NAN for fewer than 8; from those of earlier loads, NAN where one had fewer; from the iteration; from
-     * the tolerance of the contacts; and from the periodic images of a free map. */
+    /* Estimated relative L1 error of the pressure, the sum of its parts. In order: from the increments of
+     * this load (NAN for fewer than 8); from those of earlier loads (NAN where one had fewer); from the
+     * iteration; from the tolerance of the contacts; from the periodic images of a free map. */
     double error, increment_error, inherited_error, iteration_error, contact_error, image_error;
     double strained; /* m^3: the integral of the equivalent strain over the volume */
 };
@@ -833,11 +837,12 @@ struct rc_yielding_figures {
     double indentation, residual_indentation;     /* as in rc_elastic_figures                */
 };
 /* A model (model.h) of a body that may yield, along a history of loads; its heights cannot change. As long as
- * no stress reaches the yield stress, the elastic contact is the solution. In the problem thickness NULL lets
- * this many slabs be chosen (0: as many as needed, from half the spacing at the surface, each a quarter
- * thicker than the last); increments 0: their number for each load, so that its estimated error is at most
- * contact.tol (0: 1e-2); lag 0: a value suited to this. The heights h (nx ny m) are copied; the caller keeps
- * everything that the problem points to. NULL when the problem is invalid, or memory is short. */
+ * no stress reaches the yield stress, the elastic contact is the solution. In the problem, thickness NULL
+ * lets this function choose so many slabs. 0: as many as needed, from half the spacing at the surface, each a
+ * quarter thicker than the last. increments 0: it chooses their number for each load, so that the estimated
+ * error is at most contact.tol (0: 1e-2). lag 0: it chooses a value that suits this. The heights h (nx ny m)
+ * are copied; the caller keeps everything that the problem points to. NULL when the problem is invalid, or
+ * memory is short. */
 RC_API struct rc_model *rc_yielding_new(const struct rc_shape *shape, const double *h,
                                         const struct rc_plastic_problem *problem,
                                         struct rc_err *err);
@@ -945,15 +950,15 @@ RC_API enum rc_status rc_adhesion_set_approach(struct rc_adhesion *a, double app
  * load on the way. RC_FAIL when there is no state yet, or memory for three states is short. */
 RC_API enum rc_status rc_adhesion_pull_off(struct rc_adhesion *a, struct rc_err *err);
 /* Sets the state of the path to this pressure (nx ny Pa, net) and approach, m, of an earlier object of the
- * same problem; the next state starts there. RC_FAIL when a value is not finite. */
+ * same problem. The next state starts there. RC_FAIL when a value is not finite. */
 RC_API enum rc_status rc_adhesion_start(struct rc_adhesion *a, const double *pressure,
                                         double approach, struct rc_err *err);
 /* Other heights (nx ny m, copied): the next state starts with the displacement of the last one, and its load
  * or approach must be set. RC_FAIL when one is not a finite number, which leaves all as it was. */
 RC_API enum rc_status rc_adhesion_set_heights(struct rc_adhesion *a, const double *h,
                                               struct rc_err *err);
-/* One step of the gap, or of the eigenvector. RC_MORE until the state is found; RC_OK; RC_SHORT if it stopped
- * short of tol or the bodies separate; RC_FAIL when no load or approach is set. */
+/* One step of the gap, or of the eigenvector. RC_MORE until the state is found, then RC_OK. RC_SHORT if it
+ * stopped short of tol or the bodies separate. RC_FAIL when no load or approach is set. */
 RC_API enum rc_status rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err);
 struct rc_adhesion_progress {
     size_t state;      /* number of the state of a retraction, from 1 */
@@ -976,8 +981,8 @@ RC_API void rc_adhesion_gap(const struct rc_adhesion *a, double *gap);
 RC_API void rc_adhesion_displacement(const struct rc_adhesion *a, double *displacement);
 RC_API void rc_adhesion_traction(const struct rc_adhesion *a, double *traction);
 /* Elastic unloading where the hardness was reached: subtracts the overlap from the heights of the path from
- * here on, and from h, nx ny m (or NULL), which holds the first heights less what was subtracted before. No
- * effect if no node has yielded. rc_adhesion_pull_off calls it first. */
+ * here on, and from h. h, nx ny m (or NULL), holds the first heights less the overlap that was subtracted
+ * before. No effect if no node has yielded. rc_adhesion_pull_off calls it first. */
 RC_API void rc_adhesion_keep_shape(struct rc_adhesion *a, double *h);
 RC_API void rc_adhesion_free(struct rc_adhesion *a); /* NULL is allowed */
 
@@ -1029,14 +1034,15 @@ struct rc_leak_figures {
     size_t unknowns;                /* nodes with flowing fluid */
 };
 
-/* Fluid is where the bodies are not in contact (rc_in_contact of p, a pressure or a map of 1 and 0; NULL: no
- * contact) and the gap g (m) is positive; gaps below 1e-30 of the largest count as closed. Finds the
- * percolating path. NULL when a value is not finite, the map has 2^31 nodes, memory is short, or the library
- * was built without AMD of SuiteSparse. */
+/* Fluid is where the bodies are not in contact and the gap g (m) is positive; gaps below 1e-30 of the largest
+ * count as closed. rc_in_contact decides from p, a pressure or a map of 1 and 0; p NULL: no contact. Finds
+ * the percolating path. NULL when a value is not finite, the map has 2^31 nodes, memory is short, or the
+ * library was built without AMD of SuiteSparse. */
 RC_API struct rc_leak *rc_leak_new(const struct rc_shape *shape, const double *p, const double *g,
                                    const struct rc_leak_options *options, struct rc_err *err);
-/* Another contact and gap of the same map, with the same options and memory: as rc_leak_new, but a value that
- * is not finite leaves all as it was. After RC_FAIL due to short memory the object can only be freed. */
+/* Sets another contact and gap of the same map, with the same options and memory. It works as rc_leak_new,
+ * but a value that is not finite leaves everything unchanged. After RC_FAIL due to short memory the object
+ * can only be freed. */
 RC_API enum rc_status rc_leak_set_gap(struct rc_leak *leak, const double *p, const double *g,
                                       struct rc_err *err);
 /* RC_MORE until the flow is known, then RC_OK: two steps. RC_FAIL when memory is short, before the
@@ -1047,8 +1053,8 @@ RC_API const struct rc_leak_figures *rc_leak_result(const struct rc_leak *leak);
 /* Maps of nx ny values after the last step. Fluid pressure, 1 at the inlet, 0 at the outlet; NAN in contact,
  * and in enclosed fluid. */
 RC_API void rc_leak_pressure(const struct rc_leak *leak, double *pressure);
-/* Magnitude of the flow per width for a pressure difference of 1 and 12 eta = 1, m^2: exactly 0 where fluid
- * is at rest; NAN in contact. */
+/* Magnitude of the flow per width for a pressure difference of 1 and 12 eta = 1, m^2. It is exactly 0 where
+ * fluid is at rest, and NAN in contact. */
 RC_API void rc_leak_flux(const struct rc_leak *leak, double *flux);
 /* 0 in contact, 1 where fluid is at rest (dead ends, enclosed), 2 where it flows. */
 RC_API void rc_leak_channel(const struct rc_leak *leak, double *channel);
@@ -1056,9 +1062,9 @@ RC_API void rc_leak_free(struct rc_leak *leak); /* NULL is allowed */
 
 /* ---- friction in the contact ---- */
 
-/* Coulomb's law at each node, with history: a node sticks while its traction is below mu times its pressure,
+/* Coulomb's law at each node, with history. A node sticks while its traction is below mu times its pressure,
  * or slips against the traction at this limit. Given are the pressure and the tangential motion, in
- * increments. Tractions are those on body 1, and the force is their sum: body 2 pulls body 1 along, and has
+ * increments. Tractions are those on body 1, and the force is their sum. Body 2 pulls body 1 along, and has
  * moved over it by the displacement (on a periodic map their mean planes). Slip is the motion of body 1 over
  * body 2, opposite to the traction. */
 struct rc_slip_problem {
@@ -1100,7 +1106,7 @@ RC_API struct rc_slip *rc_slip_new(const struct rc_shape *shape,
 /* The pressure of this increment (nx ny Pa, copied; NULL: the bodies are apart) and its gap (nx ny m, copied;
  * NULL: unknown). A node that comes into contact in this increment has moved with its body until then. With
  * the gap before, this motion is known to first order, and exactly for nu = 0 and force proportional to load
- * (Jaeger 1998; Ciavarella 1998); without a gap the node keeps its position from before the increment.
+ * (Jaeger 1998; Ciavarella 1998). Without a gap the node keeps its position from before the increment.
  * RC_FAIL when a pressure is negative or not finite. */
 RC_API enum rc_status rc_slip_set_pressure(struct rc_slip *slip, const double *p, const double *gap,
                                            struct rc_err *err);
@@ -1112,19 +1118,20 @@ RC_API enum rc_status rc_slip_set_force(struct rc_slip *slip, double fx, double 
                                         struct rc_err *err);
 RC_API enum rc_status rc_slip_set_displacement(struct rc_slip *slip, double dx, double dy,
                                                struct rc_err *err);
-/* One step, of 7 to 12 convolutions: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when
- * rounding prevents this; RC_FAIL when no force or displacement is set, or memory is short. */
+/* One step, of 7 to 12 convolutions. It returns RC_MORE, RC_OK when the estimated error is below tol, or
+ * RC_SHORT when rounding prevents this. It returns RC_FAIL when no force or displacement is set, or memory is
+ * short. */
 RC_API enum rc_status rc_slip_step(struct rc_slip *slip, struct rc_err *err);
 RC_API void rc_slip_result(struct rc_slip *slip, struct rc_slip_figures *figures);
 /* Makes the increment history, on which the next one builds. Before this, pressure and force may be set
  * again. */
 RC_API void rc_slip_keep(struct rc_slip *slip);
-/* After a keep: the map moves by so many columns towards +x over the bodies, to follow a contact that
- * rolls or slides that way. On a free map the columns that come in repeat the last one, and the next
- * increment must not have contact there; on a periodic map they are the columns that leave. */
+/* After a keep: the map moves by so many columns towards +x over the bodies, to follow a contact that rolls
+ * or slides that way. On a free map the columns that come in repeat the last one, and the next increment must
+ * not have contact there. On a periodic map they are the columns that leave. */
 RC_API void rc_slip_shift(struct rc_slip *slip, size_t columns);
-/* Tractions, Pa, nx ny, along x (0) or y (1), valid until the next step; slip since first touch, m, including
- * this increment, 0 out of contact. */
+/* Tractions, Pa, nx ny, along x (0) or y (1), valid until the next step. Slip since first touch, m, including
+ * this increment; it is 0 out of contact. */
 RC_API const double *rc_slip_traction(const struct rc_slip *slip, int direction);
 RC_API void rc_slip_slip(const struct rc_slip *slip, int direction, double *to);
 /* nx ny: 0 where no load is carried, 1 where a node sticks, 2 where it slips. */
@@ -1160,8 +1167,8 @@ struct rc_friction_problem {
     double known_load;
     const double *known_p, *known_gap;
     /* Further solutions with half of the increments (1) and a quarter (2), which tell the error of the
-     * increments; 0: it is unknown. If tractions change the pressure, each needs a model like the inner
-     * one, of a tenth of its tolerance, which the model of friction owns; else NULL. */
+     * increments; 0: it is unknown. If tractions change the pressure, each needs a model like the inner one,
+     * of a tenth of its tolerance. The model of friction owns it. Otherwise NULL. */
     size_t fewer;
     struct rc_model *inner_of_fewer[RC_FEWER];
 };
@@ -1204,9 +1211,9 @@ RC_API struct rc_leg rc_friction_leg(const struct rc_friction_problem *problem,
                                      const struct rc_point *to);
 /* A model (model.h) of friction over an inner one of the same bodies, which it owns from here on; NULL where
  * that is NULL. In addition to the axes of the inner model it takes two forces or two displacements along the
- * surface. h: the undeformed heights, copied; NULL: unknown, so that only the known contact is possible.
- * Where dissimilar bodies are coupled the inner model must allow other heights, and its tolerance should be a
- * quarter of that of friction. RC_FAIL on the way when friction cannot carry the force, as in
+ * surface. h: the undeformed heights, which it copies. NULL: they are unknown, and only the known contact is
+ * possible. Where dissimilar bodies are coupled the inner model must allow other heights, and its tolerance
+ * should be a quarter of that of friction. RC_FAIL on the way when friction cannot carry the force, as in
  * rc_slip_set_force. */
 RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
                                         const struct rc_friction_problem *problem,
@@ -1216,9 +1223,9 @@ RC_API const struct rc_friction_figures *rc_friction_result(const struct rc_mode
 
 /* ---- steady rolling as a model ---- */
 
-/* The contact rolls towards +x, steadily: at each node tractions and slip are the same at all times. Body
- * 2 moves over body 1 by (creep_x - spin y, creep_y + spin x) per length rolled, x and y from the middle
- * of the map; this is minus the creepage of railway textbooks, where body 1 moves over body 2. */
+/* The contact rolls towards +x, steadily: at each node tractions and slip are the same at all times. Body 2
+ * moves over body 1 by (creep_x - spin y, creep_y + spin x) per length rolled, x and y from the middle of the
+ * map. This is minus the creepage of railway textbooks, where body 1 moves over body 2. */
 struct rc_rolling_problem {
     /* Friction and bodies, under the free boundary. Pressure moves dissimilar bodies along each other, unless
      * `uncoupled`; tractions do not change the pressure. tol 0: 1e-3; max_steps of each grid. */
@@ -1243,8 +1250,8 @@ struct rc_rolling_figures {
     /* N: Kalker's linear theory for the ellipse of the same area and second moments; NAN: its semi-axes
      * have a ratio beyond 0.1 to 10. */
     double kalker_force[2];
-    /* Estimated relative errors: L1, of the tractions on this grid; of the force due to the spacing, or of
-     * the creepage if the force is given (NAN: unknown). */
+    /* Estimated relative errors. First: L1 error of the tractions on this grid. Second: error of the force
+     * due to the spacing, or of the creepage if the force is given (NAN: unknown). */
     double traction_error, discretization_error;
     size_t steps, fallbacks; /* of Newton's method; steps in time, where it fails      */
     double convolutions;     /* with those of the contact                              */
@@ -1293,11 +1300,11 @@ struct rc_wear_figures {
     double wear_error, pressure_error;
     bool converged; /* both are at most tol */
 };
-/* A model (model.h) of bodies that wear at every node by k p per sliding distance, over an inner one that
- * allows other heights and a compliance, and which it owns from here on; NULL where that is NULL. In addition
- * to the load it takes the distance. h: the heights at the start, copied. The tolerance of the inner model
- * should be a hundredth of this one. Its frame `height` is the worn height, `wear` the depth that both bodies
- * have lost. Source: Archard 1953 (J. Appl. Phys. 24, 981); steps as in libcontact/wear. */
+/* A model (model.h) of bodies that wear at every node by k p per sliding distance. The inner model must allow
+ * other heights and a compliance; the model of wear owns it from here on. NULL where the inner model is NULL.
+ * In addition to the load it takes the distance. h: the heights at the start, copied. The tolerance of the
+ * inner model should be a hundredth of this one. Its frame `height` is the worn height, `wear` the depth that
+ * both bodies have lost. Source: Archard 1953 (J. Appl. Phys. 24, 981); steps as in libcontact/wear. */
 RC_API struct rc_model *rc_wear_new(struct rc_model *inner, const double *h,
                                     const struct rc_wear_problem *problem, struct rc_err *err);
 /* The figures of this model, after rc_model_look; NULL: it does not wear. */
@@ -1353,8 +1360,8 @@ enum rc_component {
 /* Names in that order: "sxx", ... */
 RC_API extern const char *const rc_component_names[RC_STRESSES];
 
-/* Plastic strain in slabs from the surface down: five maps of nx ny values for each, exx eyy exy exz eyz,
- * with ezz = -exx - eyy; NULL: 0. */
+/* Plastic strain in slabs from the surface down. Each slab has five maps of nx ny values, exx eyy exy exz
+ * eyz, with ezz = -exx - eyy. NULL: 0. */
 struct rc_eigenstrain {
     size_t slabs;
     const double *thickness; /* m */
@@ -1382,8 +1389,9 @@ struct rc_stress_options {
      * caller keeps them, like p. */
     const double *traction[2];
     /* Stress of each layer without load, Pa, tension positive, uniform and equal in all directions along the
-     * layer: added to sxx and syy there, before stresses are derived; NULL: none. The caller keeps it, and
-     * the layers with it. The half-space below is infinitely thick and balances its force without stress. */
+     * layer. It is added to sxx and syy there before stresses are derived. NULL: none. The caller keeps it,
+     * and the layers with it. The half-space below is infinitely thick and balances its force without
+     * stress. */
     const double *residual;
 };
 
@@ -1407,21 +1415,21 @@ struct rc_stress_counts {
 RC_API enum rc_status rc_stress_check(const struct rc_shape *shape,
                                       const struct rc_stress_options *options, struct rc_err *err);
 /* Suitable depths from 0 down for the stresses under this pressure, *n of them in an array that the caller
- * frees: close together near the surface, where short waves matter, farther apart below, down to three
- * contact radii (free) or to where the waves have decayed to 1 % (periodic). Their distance is a quarter of
- * 1/q of the RMS wave, and in a layer at most a quarter of its thickness; each interface gets two depths,
- * itself and one a millionth deeper; none is in a rigid half-space. Among ranks (NULL: none) p is the rows
- * held here. RC_FAIL, and NULL for the depths, when memory is short. */
+ * frees. They are close together near the surface, where short waves matter, and farther apart below. They
+ * end at three contact radii (free), or where the waves have decayed to 1 % (periodic). Their distance is a
+ * quarter of 1/q of the RMS wave, and in a layer at most a quarter of its thickness. Each interface gets two
+ * depths, itself and one a millionth deeper; none is in a rigid half-space. Among ranks (NULL: none) p is the
+ * rows held here. RC_FAIL, and NULL for the depths, when memory is short. */
 RC_API enum rc_status rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape,
                                        const double *p, enum rc_boundary boundary,
                                        const struct rc_body *body, double **depths, size_t *n,
                                        struct rc_err *err);
 /* Stresses under the pressure p (Pa; the caller keeps it unchanged) in a half-space. Free: the pressure is
- * constant in each cell. Periodic: it is band-limited, and its mean gives szz = -p, sxz = -mu p (with maps of
- * traction minus their means) and sxx = syy = -(1 + 2 nu) p / 2 at every depth, the limit for a loaded patch
- * that grows without end; in a layered body that of the half-space below, whose strains along the surface the
- * layers share. NULL when an option is out of range, there is no such engine or none for the boundary or the
- * section, or memory is short. */
+ * constant in each cell. Periodic: it is band-limited. Its mean gives szz = -p, sxz = -mu p (with maps of
+ * traction minus their means) and sxx = syy = -(1 + 2 nu) p / 2 at every depth. This is the limit for a
+ * loaded patch that grows without end. A layered body has sxx and syy of the half-space below, whose strains
+ * along the surface the layers share. NULL when an option is out of range, there is no such engine or none
+ * for the boundary or the section, or memory is short. */
 RC_API struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
                                        const struct rc_stress_options *options, struct rc_err *err);
 /* Number of values of a component at one depth: nx ny for maps, nx for the section y = at, ny for x = at. */

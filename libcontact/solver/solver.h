@@ -3,8 +3,8 @@
  * improves the pressure step by step. solver.c judges, counts and reports.
  *
  * The problem: p with 0 <= p <= H and sum p dx dy = load that minimises 1/2 p'Kp - h'p. The gap is
- * g = Kp - h - c, c its mean over the elastic nodes (0 < p < H). The solution has g = 0 there, g >= 0 where p = 0 and
- * g <= 0 where p = H. Only bounds.h knows the values of 0 and H.
+ * g = Kp - h - c, c its mean over the elastic nodes (0 < p < H). The solution has g = 0 there, g >= 0 where p
+ * = 0 and g <= 0 where p = H. Only bounds.h knows the values of 0 and H.
  *
  * struct rc_solver has four parts, each written by one file. They are the problem (solver.c), the iterate
  * (iterate.c; methods change its pressure and report it), the working set (working_set.c) and the load
