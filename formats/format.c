@@ -44,7 +44,7 @@ rc_format_list(const struct rc_format *f, const struct rc_file *file, const stru
                struct rc_channel *channel, size_t most, struct rc_err *err)
 {
     if (f->sandboxed)
-        return rc_sandbox_list(f->find, f->list, file, wish, channel, most, err);
+        return rc_sandbox_list(f->find, file, wish, channel, most, err);
     return f->find != NULL ? rc_maps_list(f->find, file, wish, channel, most, err)
                            : f->list(file, wish, channel, most, err);
 }
@@ -54,7 +54,7 @@ rc_format_read(const struct rc_format *f, const struct rc_file *file, const stru
                size_t index, struct rc_notes *notes, struct rc_err *err)
 {
     if (f->sandboxed)
-        return rc_sandbox_read(f->find, f->read, file, wish, index, notes, err);
+        return rc_sandbox_read(f->find, file, wish, index, notes, err);
     return f->find != NULL ? rc_maps_read(f->find, file, wish, index, notes, err)
                            : f->read(file, wish, index, notes, err);
 }

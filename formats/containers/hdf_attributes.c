@@ -42,7 +42,7 @@ rc_hdf_number(struct rc_hdf *h, const char *path, const char *name, double *valu
         return false;
     type = H5Aget_type(attribute);
     n = values_in(attribute);
-    if (n > 0 && rc_hdf_is_number(type) && (v = malloc(n * sizeof *v)) != NULL &&
+    if (n > 0 && rc_hdf_is_number(type) && (v = calloc(n, sizeof *v)) != NULL &&
         H5Aread(attribute, H5T_NATIVE_DOUBLE, v) >= 0) {
         *value = v[0];
         good = true;

@@ -12,7 +12,7 @@
 #include "wish.h"
 
 enum {
-    RC_MAPS_MOST = 64, /* most maps kept of a file; further ones are only counted */
+    RC_MAPS_MOST = 1024, /* most maps kept of a file; further ones are only counted */
     RC_KEYS_MOST = 24
 };
 
@@ -39,7 +39,10 @@ struct rc_map {
     double beside; /* bytes that fill needs in addition to v; rc_map_bound sets them */
     const struct rc_wish *wish; /* data of fill, and the notes */
     struct rc_notes *notes;
-    const char *doubt; /* a doubt about the heights: noted, unless --z-unit is given     */
+    struct rc_piece title; /* of this map, for the key file.title; n = 0: none */
+    bool periodic;         /* the file says that the map repeats */
+    bool heights;          /* the values are heights: a unit that is no length is refused */
+    const char *doubt;     /* a doubt about the heights: noted, unless --z-unit is given     */
     double step[2]; /* the spacing if the file gives it without a unit, and a text about it for the
                        message: */
     char hint[128];
@@ -50,7 +53,7 @@ struct rc_maps {
     struct rc_map map[RC_MAPS_MOST], spare;
     size_t n;
     struct {
-        char name[32], value[256];
+        char name[32], value[2048];
     } key[RC_KEYS_MOST];
     size_t keys;
 };

@@ -197,8 +197,10 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
         rc_err_set(err, "there is no channel %zu: the file has %zu", index + 1, maps.n);
         return NULL;
     }
+    if (map->fill != NULL && rc_map_fits(file, map->nx, map->ny, err) != RC_OK)
+        return NULL;
     is_length = strcmp(map->unit, "m") == 0;
-    is_height = is_length || map->unit[0] == '\0' || !isnan(wish->z_unit);
+    is_height = is_length || map->heights || map->unit[0] == '\0' || !isnan(wish->z_unit);
     si = map->si;
     shape = (struct rc_shape){.nx = map->nx, .ny = map->ny};
     if (rc_spacing(wish, map->dx, map->dy, &shape, notes, err) != RC_OK) {
@@ -223,7 +225,9 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
     scale(map, si, g->v);
     if (rc_heights_finite(g, notes, err) != RC_OK ||
         (strcmp(map->name, "height") != 0 &&
-         rc_word_keep(g, "file.channel", map->name, err) != RC_OK))
+         rc_word_keep(g, "file.channel", map->name, err) != RC_OK) ||
+        rc_piece_keep(g, "file.title", map->title, err) != RC_OK ||
+        (map->periodic && rc_grid_set(g, "periodic", "yes", err) != RC_OK))
         goto failed;
     for (size_t k = 0; k < maps.keys; k++)
         if (rc_grid_set(g, maps.key[k].name, maps.key[k].value, err) != RC_OK)

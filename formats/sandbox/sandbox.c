@@ -131,22 +131,19 @@ finish(const struct child *c, const struct rc_file *file, bool whole, struct rc_
 }
 
 size_t
-rc_sandbox_list(rc_maps_find *find, rc_sandboxed_list *list, const struct rc_file *file,
-                const struct rc_wish *wish, struct rc_channel *channel, size_t most,
-                struct rc_err *err)
+rc_sandbox_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
+                struct rc_channel *channel, size_t most, struct rc_err *err)
 {
     struct rc_result r = {0};
     struct child child;
     bool whole;
 
     if (bypassed)
-        return find != NULL ? rc_maps_list(find, file, wish, channel, most, err)
-                            : list(file, wish, channel, most, err);
+        return rc_maps_list(find, file, wish, channel, most, err);
     if (!start(&child, file, err))
         return 0;
     if (child.pid == 0) {
-        r.n = find != NULL ? rc_maps_list(find, file, wish, channel, most, &r.said)
-                           : list(file, wish, channel, most, &r.said);
+        r.n = rc_maps_list(find, file, wish, channel, most, &r.said);
         leave(&child, rc_result_send_list(child.result, &r, channel, most));
     }
     whole = rc_result_receive(child.result, &r) &&
@@ -158,9 +155,8 @@ rc_sandbox_list(rc_maps_find *find, rc_sandboxed_list *list, const struct rc_fil
 }
 
 struct rc_grid *
-rc_sandbox_read(rc_maps_find *find, rc_sandboxed_read *read, const struct rc_file *file,
-                const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-                struct rc_err *err)
+rc_sandbox_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
+                size_t index, struct rc_notes *notes, struct rc_err *err)
 {
     struct rc_result r = {0};
     struct rc_grid *g = NULL;
@@ -168,13 +164,11 @@ rc_sandbox_read(rc_maps_find *find, rc_sandboxed_read *read, const struct rc_fil
     bool whole;
 
     if (bypassed)
-        return find != NULL ? rc_maps_read(find, file, wish, index, notes, err)
-                            : read(file, wish, index, notes, err);
+        return rc_maps_read(find, file, wish, index, notes, err);
     if (!start(&child, file, err))
         return NULL;
     if (child.pid == 0) {
-        g = find != NULL ? rc_maps_read(find, file, wish, index, &r.noted, &r.said)
-                         : read(file, wish, index, &r.noted, &r.said);
+        g = rc_maps_read(find, file, wish, index, &r.noted, &r.said);
         r.n = g != NULL;
         leave(&child, rc_result_send_grid(child.result, &r, g));
     }

@@ -9,18 +9,12 @@
 
 #include "formats/core/core.h"
 
-/* As those of struct rc_format; the two below call `list` and `read` only where `find` is NULL. */
-typedef size_t rc_sandboxed_list(const struct rc_file *file, const struct rc_wish *wish,
-                                 struct rc_channel *channel, size_t most, struct rc_err *err);
-typedef struct rc_grid *rc_sandboxed_read(const struct rc_file *file, const struct rc_wish *wish,
-                                          size_t index, struct rc_notes *notes, struct rc_err *err);
-
-size_t rc_sandbox_list(rc_maps_find *find, rc_sandboxed_list *list, const struct rc_file *file,
-                       const struct rc_wish *wish, struct rc_channel *channel, size_t most,
-                       struct rc_err *err);
-struct rc_grid *rc_sandbox_read(rc_maps_find *find, rc_sandboxed_read *read,
-                                const struct rc_file *file, const struct rc_wish *wish,
-                                size_t index, struct rc_notes *notes, struct rc_err *err);
+/* The same as rc_maps_list and rc_maps_read. */
+size_t rc_sandbox_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
+                       struct rc_channel *channel, size_t most, struct rc_err *err);
+struct rc_grid *rc_sandbox_read(rc_maps_find *find, const struct rc_file *file,
+                                const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+                                struct rc_err *err);
 
 /* From now on the functions run in this process, without limits: for fuzzers, whose sanitizers must see them.
  * false: in the sandbox again. */

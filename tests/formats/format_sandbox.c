@@ -33,117 +33,119 @@ static int inherited; /* an open file of the parent */
 static pid_t parent;  /* the process that makes the child */
 
 static const struct rc_file file = {.name = "made", .data = (const unsigned char *)"x", .size = 1};
-static struct rc_grid *
-good(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-     struct rc_err *err)
-{
-    struct rc_shape shape = {.nx = 300, .ny = 200, .dx = 1.1e-6, .dy = 0.7e-6};
-    struct rc_grid *g = rc_grid_new(&shape, "height", "m", err);
 
-    assert_ptr_equal(f, &file);
-    (void)wish;
+static enum rc_status
+fill_good(const struct rc_file *f, const struct rc_map *map, double *v, struct rc_err *err)
+{
+    (void)f, (void)err;
     for (size_t k = 0; k < 60000; k++)
-        g->v[k] = k % 7 == 0 ? NAN : 1e-9 * (double)(k + index);
-    rc_grid_set(g, "file.date", "2024\n\xc2\xb5", err);
-    rc_note(notes, "worth saying");
-    return g;
+        v[k] = k % 7 == 0 ? NAN : (double)(k + map->more);
+    rc_note(map->notes, "worth saying");
+    return RC_OK;
 }
 
-static struct rc_grid *
-refusing(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-         struct rc_err *err)
+static enum rc_status
+good(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
-    (void)f, (void)wish, (void)index, (void)notes;
-    rc_err_set(err, "what is wrong: 7");
-    return NULL;
+    (void)err;
+    assert_ptr_equal(f, &file);
+    for (size_t k = 0; k < 4; k++) {
+        struct rc_map *map = rc_maps_add(maps, "height", 6);
+
+        map->nx = 300;
+        map->ny = 200;
+        map->dx = 1.1e-6;
+        map->dy = 0.7e-6;
+        map->fill = fill_good;
+        map->more = k;
+        rc_map_unit(map, "nm", 2);
+    }
+    rc_maps_key(maps, "file.date", "2024\xc2\xb5", 6);
+    return RC_OK;
 }
 
-static struct rc_grid *
-crashing(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-         struct rc_err *err)
+static enum rc_status
+refusing(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
-    (void)f, (void)wish, (void)index, (void)notes, (void)err;
+    (void)f, (void)maps;
+    return rc_err_set(err, "what is wrong: 7");
+}
+
+static enum rc_status
+crashing(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
+{
+    (void)f, (void)maps, (void)err;
     abort();
 }
 
 /* cmocka catches this signal: its handler must not run in the child. */
-static struct rc_grid *
-segfaulting(const struct rc_file *f, const struct rc_wish *wish, size_t index,
-            struct rc_notes *notes, struct rc_err *err)
+static enum rc_status
+segfaulting(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
-    (void)f, (void)wish, (void)index, (void)notes;
+    (void)f, (void)maps;
     raise(SIGSEGV);
-    rc_err_set(err, "alive");
-    return NULL;
+    return rc_err_set(err, "alive");
 }
 
-static struct rc_grid *
-endless(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-        struct rc_err *err)
+static enum rc_status
+endless(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
     volatile size_t k = 0;
 
-    (void)f, (void)wish, (void)index, (void)notes, (void)err;
+    (void)f, (void)maps, (void)err;
     for (;;)
         k++;
-    return NULL;
+    return RC_FAIL;
 }
 
-static struct rc_grid *
-stubborn(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-         struct rc_err *err)
+static enum rc_status
+stubborn(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
     sigset_t all;
 
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, NULL);
-    return endless(f, wish, index, notes, err);
+    return endless(f, maps, err);
 }
 
-static struct rc_grid *
-waiting(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-        struct rc_err *err)
+static enum rc_status
+waiting(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
-    (void)f, (void)wish, (void)index, (void)notes, (void)err;
+    (void)f, (void)maps, (void)err;
     for (;;)
         pause();
-    return NULL;
+    return RC_FAIL;
 }
 
-static struct rc_grid *
-asleep(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-       struct rc_err *err)
+static enum rc_status
+asleep(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
     sigset_t all;
 
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, NULL);
-    return waiting(f, wish, index, notes, err);
+    return waiting(f, maps, err);
 }
 
-static struct rc_grid *
-greedy(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-       struct rc_err *err)
+static enum rc_status
+greedy(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
     size_t got = 0;
 
-    (void)f, (void)wish, (void)index, (void)notes;
+    (void)f, (void)maps;
     for (void *p; (p = malloc(1 << 20)) != NULL; got++)
         memset(p, 1, 1 << 20);
     /* it keeps its memory until it is killed: NOLINTNEXTLINE(clang-analyzer-unix.Malloc) */
-    rc_err_set(err, "memory ended after %zu MiB", got);
-    return NULL;
+    return rc_err_set(err, "memory ended after %zu MiB", got);
 }
 
-static struct rc_grid *
-nosy(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-     struct rc_err *err)
+static enum rc_status
+nosy(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
     int fd = open("/etc/passwd", O_RDONLY);
 
-    (void)f, (void)wish, (void)index, (void)notes;
-    rc_err_set(err, fd < 0 ? "closed" : "open");
-    return NULL;
+    (void)f, (void)maps;
+    return rc_err_set(err, fd < 0 ? "closed" : "open");
 }
 
 /* ---- ways out ---- */
@@ -407,13 +409,12 @@ static const struct {
 };
 
 /* Tries all ways out, and refuses the file with the names of the open ones. */
-static struct rc_grid *
-escaping(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
-         struct rc_err *err)
+static enum rc_status
+escaping(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
     char open_ways[1024] = ""; /* of all their names */
 
-    (void)f, (void)wish, (void)index, (void)notes;
+    (void)f, (void)maps;
     for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
         errno = 0;
         if (ways[k].go() >= 0 || errno != EPERM) {
@@ -421,8 +422,7 @@ escaping(const struct rc_file *f, const struct rc_wish *wish, size_t index, stru
             strcat(open_ways, "; ");
         }
     }
-    rc_err_set(err, "open: %s", open_ways);
-    return NULL;
+    return rc_err_set(err, "open: %s", open_ways);
 }
 
 static void
@@ -446,7 +446,7 @@ there_is_no_way_out(void **state)
     assert_true(fputs("whole\n", f) >= 0 && fflush(f) == 0 && chmod("victim", 0600) == 0);
     inherited = fileno(f);
     parent = getpid();
-    assert_null(rc_sandbox_read(NULL, escaping, &file, &rc_no_wish, 0, &notes, &err));
+    assert_null(rc_sandbox_read(escaping, &file, &rc_no_wish, 0, &notes, &err));
     assert_string_equal(err.text, "open: ");
     rewind(f);
     assert_non_null(fgets(text, sizeof text, f));
@@ -466,8 +466,8 @@ check_good(const struct rc_grid *g)
     assert_non_null(g);
     assert_true(g->nx == 300 && g->ny == 200 && g->dx == 1.1e-6 && g->dy == 0.7e-6);
     for (size_t k = 0; k < 60000; k++)
-        assert_true(k % 7 == 0 ? g->v[k] != g->v[k] : g->v[k] == 1e-9 * (double)(k + 3));
-    assert_string_equal(rc_grid_get(g, "file.date"), "2024\n\xc2\xb5");
+        assert_true(k % 7 == 0 ? g->v[k] != g->v[k] : g->v[k] == (double)(k + 3) * 1e-9);
+    assert_string_equal(rc_grid_get(g, "file.date"), "2024\xc2\xb5");
 }
 
 static void
@@ -475,7 +475,7 @@ a_grid_comes_back_whole(void **state)
 {
     struct rc_notes notes = {0};
     struct rc_err err = {""};
-    struct rc_grid *g = rc_sandbox_read(NULL, good, &file, &rc_no_wish, 3, &notes, &err);
+    struct rc_grid *g = rc_sandbox_read(good, &file, &rc_no_wish, 3, &notes, &err);
 
     (void)state;
     if (g == NULL)
@@ -491,7 +491,7 @@ static char *
 sent_result(size_t *n)
 {
     struct rc_result r = {.n = 1};
-    struct rc_grid *g = good(&file, &rc_no_wish, 3, &r.noted, &r.said);
+    struct rc_grid *g = rc_maps_read(good, &file, &rc_no_wish, 3, &r.noted, &r.said);
     char *bytes = NULL;
     FILE *to = open_memstream(&bytes, n);
 
@@ -592,12 +592,12 @@ a_grid_of_any_size_is_refused(void **state)
 }
 
 static void
-expect(rc_sandboxed_read *read, const char *why)
+expect(rc_maps_find *find, const char *why)
 {
     struct rc_notes notes = {0};
     struct rc_err err = {""};
 
-    assert_null(rc_sandbox_read(NULL, read, &file, &rc_no_wish, 0, &notes, &err));
+    assert_null(rc_sandbox_read(find, &file, &rc_no_wish, 0, &notes, &err));
     if (strstr(err.text, why) == NULL)
         fail_msg("refused for '%s', not for '%s'", err.text, why);
 }
@@ -641,7 +641,7 @@ memory_is_bounded(void **state)
     const char *said;
 
     (void)state;
-    assert_null(rc_sandbox_read(NULL, greedy, &file, &rc_no_wish, 0, &notes, &err));
+    assert_null(rc_sandbox_read(greedy, &file, &rc_no_wish, 0, &notes, &err));
     printf("%s\n", err.text);
     if ((said = strstr(err.text, "ended after ")) != NULL)
         assert_in_range(strtoul(said + 12, NULL, 10), 32, 64);
@@ -649,32 +649,20 @@ memory_is_bounded(void **state)
         assert_non_null(strstr(err.text, "its library"));
 }
 
-static size_t
-three(const struct rc_file *f, const struct rc_wish *wish, struct rc_channel *channel, size_t most,
-      struct rc_err *err)
+static enum rc_status
+three(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
-    (void)f, (void)wish, (void)err;
-    for (size_t k = 0; k < 3 && k < most; k++)
-        channel[k] =
-            (struct rc_channel){.name = "c\033", .unit = "\302\233m", .nx = k + 1, .ny = 1};
-    return 3;
-}
+    (void)f, (void)err;
+    for (size_t k = 0; k < 3; k++) {
+        struct rc_map *map = rc_maps_add(maps, "", 0);
 
-static size_t
-none(const struct rc_file *f, const struct rc_wish *wish, struct rc_channel *channel, size_t most,
-     struct rc_err *err)
-{
-    (void)f, (void)wish, (void)channel, (void)most;
-    rc_err_set(err, "no channel");
-    return 0;
-}
-
-static size_t
-crashing_list(const struct rc_file *f, const struct rc_wish *wish, struct rc_channel *channel,
-              size_t most, struct rc_err *err)
-{
-    (void)f, (void)wish, (void)channel, (void)most, (void)err;
-    abort();
+        strcpy(map->name, "c\033");
+        strcpy(map->unit, "\302\233m");
+        map->nx = k + 1;
+        map->ny = 1;
+        map->fill = fill_good;
+    }
+    return RC_OK;
 }
 
 static void
@@ -684,13 +672,13 @@ lists_come_back(void **state)
     struct rc_err err = {""};
 
     (void)state;
-    assert_int_equal(rc_sandbox_list(NULL, three, &file, &rc_no_wish, channel, 2, &err), 3);
+    assert_int_equal(rc_sandbox_list(three, &file, &rc_no_wish, channel, 2, &err), 3);
     assert_int_equal(channel[1].nx, 2);
     assert_string_equal(channel[1].name, "c "); /* no control characters */
     assert_string_equal(channel[1].unit, "  m");
-    assert_int_equal(rc_sandbox_list(NULL, none, &file, &rc_no_wish, channel, 2, &err), 0);
-    assert_string_equal(err.text, "no channel");
-    assert_int_equal(rc_sandbox_list(NULL, crashing_list, &file, &rc_no_wish, channel, 2, &err), 0);
+    assert_int_equal(rc_sandbox_list(refusing, &file, &rc_no_wish, channel, 2, &err), 0);
+    assert_string_equal(err.text, "what is wrong: 7");
+    assert_int_equal(rc_sandbox_list(crashing, &file, &rc_no_wish, channel, 2, &err), 0);
     assert_non_null(strstr(err.text, "the library for this file failed"));
 }
 

@@ -175,154 +175,86 @@ step_of(const struct rc_cdf *f, size_t dimension, double metres, double *step, b
     return RC_OK;
 }
 
-struct map {
-    const struct rc_cdf_variable *v;
-    bool turned;           /* the dimensions are (x, y), not (y, x)          */
-    bool falls_x, falls_y; /* positions fall, so that the map is to be turned */
-    bool periodic;
-    struct rc_heights heights;
-    double factor, offset; /* of the numbers */
-    char unit[RC_SHOWN];
-    char name[RC_SHOWN];
-};
+static enum rc_status
+fill_values(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
+{
+    struct rc_cdf f;
+    enum rc_status status = rc_cdf_open(&f, file, err);
+    const struct rc_cdf_variable *of = status == RC_OK ? &f.variable[map->more] : NULL;
+    size_t columns = map->by_columns ? map->ny : map->nx;
+    double dz = 1;
+
+    if (status == RC_OK) {
+        is_gxsm(&f, of, &dz);
+        status = check_bytes(&f, of, err);
+    }
+    for (size_t k = 0; status == RC_OK && k < map->nx * map->ny; k++) {
+        double raw = rc_cdf_value(place(&f, of, k / columns, k % columns), of->type);
+
+        v[k] = raw == of->fill ? NAN : raw * (of->factor * dz) + of->offset * dz;
+    }
+    if (map->right_first || map->bottom_first)
+        rc_note(map->notes, "the positions in %s fall: the map is turned so that they rise",
+                map->right_first && map->bottom_first ? "x and y"
+                : map->right_first                    ? "x"
+                                                      : "y");
+    rc_cdf_close(&f);
+    return status;
+}
 
 static enum rc_status
-judge_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct map *m,
-          struct rc_err *err)
+add_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_maps *maps,
+        struct rc_err *err)
 {
+    struct rc_map *map = rc_maps_add(maps, v->name.text, v->name.n);
     double angstrom = 1e-10, dz = 1;
     bool along_x, along_y, gxsm = is_gxsm(f, v, &dz);
     size_t x, y;
 
-    m->v = v;
-    m->turned = rc_cdf_is(f->dimension[v->dimension[0]].name, "x") &&
-                rc_cdf_is(f->dimension[v->dimension[1]].name, "y");
-    x = v->dimension[m->turned ? 0 : 1];
-    y = v->dimension[m->turned ? 1 : 0];
-    m->heights = (struct rc_heights){.nx = (size_t)length(f, x), .ny = (size_t)length(f, y)};
-    m->heights.unit = rc_piece_shown(m->unit, v->unit);
-    m->heights.name = rc_piece_shown(m->name, v->name);
-    m->heights.metres = rc_piece_metres(v->unit);
-    if (step_of(f, x, gxsm ? angstrom : NAN, &m->heights.dx, &along_x, err) != RC_OK ||
-        step_of(f, y, gxsm ? angstrom : NAN, &m->heights.dy, &along_y, err) != RC_OK)
+    map->by_columns = rc_cdf_is(f->dimension[v->dimension[0]].name, "x") &&
+                      rc_cdf_is(f->dimension[v->dimension[1]].name, "y");
+    x = v->dimension[map->by_columns ? 0 : 1];
+    y = v->dimension[map->by_columns ? 1 : 0];
+    map->nx = (size_t)length(f, x);
+    map->ny = (size_t)length(f, y);
+    if (step_of(f, x, gxsm ? angstrom : NAN, &map->dx, &along_x, err) != RC_OK ||
+        step_of(f, y, gxsm ? angstrom : NAN, &map->dy, &along_y, err) != RC_OK)
         return RC_FAIL;
-    m->falls_x = m->heights.dx < 0;
-    m->falls_y = m->heights.dy < 0 && !gxsm; /* there y falls from the top row on */
-    m->heights.dx = fabs(m->heights.dx);
-    m->heights.dy = fabs(m->heights.dy);
-    m->factor = v->factor * dz;
-    m->offset = v->offset * dz;
-    if (gxsm) {
-        struct rc_map shown = {0};
-
-        rc_map_unit(&shown, v->unit.text, v->unit.n);
-        if (!isnan(m->heights.metres))
-            m->heights.metres = angstrom;
-        else if (shown.si != 1) /* the prefix belongs to the display */
-            m->unit[0] = '\0';
+    map->right_first = map->dx < 0;
+    map->bottom_first = map->dy < 0 && !gxsm; /* there y falls from the top row on */
+    map->dx = fabs(map->dx);
+    map->dy = fabs(map->dy);
+    map->fill = fill_values;
+    map->more = (size_t)(v - f->variable);
+    map->title = v->title;
+    map->periodic = along_x && along_y;
+    rc_map_unit(map, v->unit.text, v->unit.n);
+    if (gxsm && strcmp(map->unit, "m") == 0)
+        map->si = angstrom;
+    else if (gxsm && map->si != 1) { /* the prefix belongs to the display */
+        map->unit[0] = '\0';
+        map->si = 1;
     }
-    m->periodic = along_x && along_y;
     return RC_OK;
 }
 
-static size_t
-netcdf_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-            size_t most, struct rc_err *err)
+static enum rc_status
+netcdf_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    char name[sizeof channel->name];
     struct rc_cdf f;
-    struct map m;
-    size_t n = 0;
+    enum rc_status status = rc_cdf_open(&f, file, err);
+    bool with_axes = status == RC_OK && some_have_axes(&f);
 
-    (void)wish;
-    if (rc_cdf_open(&f, file, err) == RC_OK) {
-        bool with_axes = some_have_axes(&f);
-
-        for (size_t k = 0; k < f.variables; k++) {
-            const struct rc_cdf_variable *v = &f.variable[k];
-            if (!is_map(&f, v, with_axes))
-                continue;
-            if (n < most) {
-                if (judge_map(&f, v, &m, err) != RC_OK) {
-                    n = 0;
-                    goto done;
-                }
-                rc_text_clean(name, sizeof name, v->name.text, v->name.n);
-                channel[n] = rc_heights_channel(&m.heights, name);
-            }
-            n++;
-        }
-        if (n == 0)
-            rc_err_set(err,
-                       "none of the file's %zu variables has two dimensions: further ones before "
-                       "them must be of length 1",
-                       f.variables);
-    }
-done:
+    for (size_t k = 0; status == RC_OK && k < f.variables; k++)
+        if (is_map(&f, &f.variable[k], with_axes))
+            status = add_map(&f, &f.variable[k], maps, err);
+    if (status == RC_OK && maps->n == 0)
+        status = rc_err_set(err,
+                            "none of the file's %zu variables has two dimensions: further ones "
+                            "before them must be of length 1",
+                            f.variables);
     rc_cdf_close(&f);
-    return n;
-}
-
-/* ---- values ---- */
-
-static void
-read_values(const struct rc_cdf *f, const struct map *m, double metres, struct rc_grid *g)
-{
-    const struct rc_cdf_variable *v = m->v;
-
-    for (size_t j = 0; j < g->ny; j++)
-        for (size_t i = 0; i < g->nx; i++) {
-            size_t y = m->falls_y ? g->ny - 1 - j : j, x = m->falls_x ? g->nx - 1 - i : i;
-            double raw = rc_cdf_value(place(f, v, m->turned ? x : y, m->turned ? y : x), v->type);
-            g->v[j * g->nx + i] = raw == v->fill ? NAN : (raw * m->factor + m->offset) * metres;
-        }
-}
-
-static const struct rc_cdf_variable *
-pick(const struct rc_cdf *f, size_t index, struct rc_err *err)
-{
-    bool with_axes = some_have_axes(f);
-    size_t n = 0;
-
-    for (size_t k = 0; k < f->variables; k++)
-        if (is_map(f, &f->variable[k], with_axes) && n++ == index)
-            return &f->variable[k];
-    rc_err_set(err, "the file has %zu variables of two dimensions, not %zu", n, index + 1);
-    return NULL;
-}
-
-static struct rc_grid *
-netcdf_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-            struct rc_notes *notes, struct rc_err *err)
-{
-    const struct rc_cdf_variable *v;
-    struct rc_grid *g = NULL;
-    struct rc_cdf f;
-    struct map m;
-    double metres;
-    bool good = false;
-
-    if (rc_cdf_open(&f, file, err) != RC_OK || (v = pick(&f, index, err)) == NULL ||
-        check_bytes(&f, v, err) != RC_OK || judge_map(&f, v, &m, err) != RC_OK)
-        goto done;
-    if ((g = rc_heights_new(&m.heights, file, wish, &metres, notes, err)) == NULL ||
-        rc_piece_keep(g, "file.channel", v->name, err) != RC_OK ||
-        rc_piece_keep(g, "file.title", v->title, err) != RC_OK ||
-        (m.periodic && rc_grid_set(g, "periodic", "yes", err) != RC_OK))
-        goto done;
-    read_values(&f, &m, metres, g);
-    if (m.falls_x || m.falls_y)
-        rc_note(notes, "the positions in %s fall: the map is turned so that they rise",
-                m.falls_x && m.falls_y ? "x and y"
-                : m.falls_x            ? "x"
-                                       : "y");
-    good = rc_heights_finite(g, notes, err) == RC_OK;
-done:
-    rc_cdf_close(&f);
-    if (good)
-        return g;
-    rc_grid_free(g);
-    return NULL;
+    return status;
 }
 
 static int
@@ -339,6 +271,5 @@ const struct rc_format rc_format_netcdf = {
     .suffixes = ".nc .cdf",
     .summary = "NetCDF classic: variables of two dimensions",
     .score = netcdf_score,
-    .list = netcdf_list,
-    .read = netcdf_read,
+    .find = netcdf_find,
 };

@@ -11,7 +11,6 @@
 
 #include "formats/containers/containers.h"
 #include "formats/format.h"
-#include "formats/sandbox/sandbox.h"
 
 enum {
     START_DATE = 0x8003,
@@ -38,14 +37,12 @@ enum {
     SLOTS_MOST = 64,
     TYPE_ASCII = 2,
     TYPE_DOUBLE = 12,
-    KEYS = 6,
 };
 
 struct scan {
     struct rc_tiff *tiff;
     size_t pages;
     double width, height; /* m */
-    char date[64], comment[512], sample[128], account[128], program[64];
 };
 
 struct channel {
@@ -65,14 +62,7 @@ scan_open(struct scan *s, const struct rc_file *file, struct rc_err *err)
         !rc_tiff_number(s->tiff, V_LENGTH, &s->height))
         return rc_err_set(err, "a TIFF, but no JPK scan: its first page gives no size of a grid "
                                "(tags 0x8042 and 0x8043)");
-    if (rc_tiff_pages(s->tiff, &s->pages, err) != RC_OK)
-        return RC_FAIL;
-    rc_tiff_text(s->tiff, START_DATE, s->date, sizeof s->date);
-    rc_tiff_text(s->tiff, COMMENT, s->comment, sizeof s->comment);
-    rc_tiff_text(s->tiff, SAMPLE, s->sample, sizeof s->sample);
-    rc_tiff_text(s->tiff, ACCOUNT, s->account, sizeof s->account);
-    rc_tiff_text(s->tiff, PROGRAM, s->program, sizeof s->program);
-    return RC_OK;
+    return rc_tiff_pages(s->tiff, &s->pages, err);
 }
 
 /* ---- a page ---- */
@@ -136,109 +126,80 @@ read_channel(struct rc_tiff *t, struct channel *c)
     return true;
 }
 
-static struct rc_heights
-heights_of(const struct scan *s, const struct channel *c)
-{
-    return (struct rc_heights){.nx = c->shape.nx,
-                               .ny = c->shape.ny,
-                               .dx = s->width / (double)c->shape.nx,
-                               .dy = s->height / (double)c->shape.ny,
-                               .metres = rc_word_metres(c->unit),
-                               .unit = c->unit,
-                               .name = c->name};
-}
-
-static size_t
-list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-              size_t most, struct rc_err *err)
-{
-    struct channel c;
-    struct scan s;
-    size_t n = 0;
-
-    (void)wish;
-    if (scan_open(&s, file, err) == RC_OK) {
-        for (size_t page = 1; page < s.pages; page++) {
-            if (!rc_tiff_page(s.tiff, page) || !read_channel(s.tiff, &c))
-                continue;
-            if (n < most) {
-                struct rc_heights h = heights_of(&s, &c);
-                channel[n] = rc_heights_channel(&h, c.name);
-            }
-            n++;
-        }
-        if (n == 0)
-            rc_err_set(err, "a JPK file without a channel");
-    }
-    rc_tiff_free(s.tiff);
-    return n;
-}
-
-/* ---- values ---- */
-
-/* Goes to the page of channel `index`. */
-static enum rc_status
-go_to(struct scan *s, size_t index, struct channel *c, struct rc_err *err)
-{
-    size_t n = 0;
-
-    for (size_t page = 1; page < s->pages; page++)
-        if (rc_tiff_page(s->tiff, page) && read_channel(s->tiff, c) && n++ == index)
-            return RC_OK;
-    return rc_err_set(err, "the file has %zu channels, not %zu", n, index + 1);
-}
+/* ---- the file ---- */
 
 static enum rc_status
-keep_words(const struct scan *s, const struct channel *c, struct rc_grid *g, struct rc_err *err)
+fill_channel(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    const struct {
-        const char *key, *text;
-    } words[KEYS] = {
-        {"file.date", s->date},       {"file.comment", s->comment}, {"file.sample", s->sample},
-        {"file.creator", s->account}, {"file.version", s->program}, {"file.channel", c->name},
-    };
-
-    for (size_t k = 0; k < KEYS; k++)
-        if (strcmp(words[k].text, "<empty>") != 0 &&
-            rc_word_keep(g, words[k].key, words[k].text, err) != RC_OK)
-            return RC_FAIL;
-    return RC_OK;
-}
-
-static struct rc_grid *
-read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-            struct rc_notes *notes, struct rc_err *err)
-{
-    struct rc_grid *g = NULL;
-    struct rc_heights h;
+    struct rc_tiff *t = rc_tiff_new(file, err);
+    enum rc_status status = RC_FAIL;
     struct channel c;
-    struct scan s;
-    double metres;
-    bool good = false;
 
-    if (scan_open(&s, file, err) != RC_OK || go_to(&s, index, &c, err) != RC_OK)
-        goto done;
-    if (!c.linear) {
+    if (t != NULL && (!rc_tiff_page(t, map->more) || !read_channel(t, &c)))
+        rc_err_set(err, "page %zu cannot be read again", map->more);
+    else if (t != NULL && !c.linear)
         rc_err_set(
             err, "channel '%s' has no linear scale with a multiplier and an offset: it is not read",
             c.name);
-        goto done;
-    }
-    h = heights_of(&s, &c);
-    if ((g = rc_heights_new(&h, file, wish, &metres, notes, err)) == NULL ||
-        keep_words(&s, &c, g, err) != RC_OK || rc_tiff_values(s.tiff, &c.shape, g->v, err) != RC_OK)
-        goto done;
-    for (size_t k = 0; k < g->nx * g->ny; k++)
-        g->v[k] = (g->v[k] * c.multiply + c.offset) * metres;
-    if (!c.reflected)
-        rc_heights_flip(g);
-    good = rc_heights_finite(g, notes, err) == RC_OK;
-done:
+    else if (t != NULL)
+        status = rc_tiff_values(t, &c.shape, v, err);
+    for (size_t k = 0; status == RC_OK && k < map->nx * map->ny; k++)
+        v[k] = v[k] * c.multiply + c.offset;
+    rc_tiff_free(t);
+    return status;
+}
+
+static void
+add_channel(const struct scan *s, const struct channel *c, size_t page, struct rc_maps *maps)
+{
+    struct rc_map *map = rc_maps_add(maps, c->name, strlen(c->name));
+
+    map->nx = c->shape.nx;
+    map->ny = c->shape.ny;
+    map->dx = s->width / (double)c->shape.nx;
+    map->dy = s->height / (double)c->shape.ny;
+    map->bottom_first = !c->reflected;
+    map->fill = fill_channel;
+    map->more = page;
+    rc_map_unit(map, c->unit, strlen(c->unit));
+}
+
+static enum rc_status
+find_channels(const struct scan *s, struct rc_maps *maps, struct rc_err *err)
+{
+    static const struct {
+        uint32_t tag;
+        const char *key;
+    } words[] = {{START_DATE, "file.date"},
+                 {COMMENT, "file.comment"},
+                 {SAMPLE, "file.sample"},
+                 {ACCOUNT, "file.creator"},
+                 {PROGRAM, "file.version"}};
+    struct channel c;
+    char text[512];
+
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        if (strcmp(rc_tiff_text(s->tiff, words[k].tag, text, sizeof text), "<empty>") != 0)
+            rc_maps_key(maps, words[k].key, text, strlen(text));
+    for (size_t page = 1; page < s->pages; page++)
+        if (rc_tiff_page(s->tiff, page) && read_channel(s->tiff, &c))
+            add_channel(s, &c, page, maps);
+    return maps->n > 0 ? RC_OK : rc_err_set(err, "a JPK file without a channel");
+}
+
+static enum rc_status
+jpk_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
+{
+    enum rc_status status;
+    struct scan s;
+
+    if (rc_file_holds(file, 0, "PK", 2))
+        return rc_err_set(err, "force curves of JPK: only image scans are read");
+    status = scan_open(&s, file, err);
+    if (status == RC_OK)
+        status = find_channels(&s, maps, err);
     rc_tiff_free(s.tiff);
-    if (good)
-        return g;
-    rc_grid_free(g);
-    return NULL;
+    return status;
 }
 
 /* ---- the entry in formats.list ---- */
@@ -267,33 +228,12 @@ jpk_score(const struct rc_file *file)
                : 0;
 }
 
-static size_t
-jpk_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-         size_t most, struct rc_err *err)
-{
-    if (is_force(file)) {
-        rc_err_set(err, "force curves of JPK: only image scans are read");
-        return 0;
-    }
-    return rc_sandbox_list(NULL, list_channels, file, wish, channel, most, err);
-}
-
-static struct rc_grid *
-jpk_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-         struct rc_notes *notes, struct rc_err *err)
-{
-    if (is_force(file)) {
-        rc_err_set(err, "force curves of JPK: only image scans are read");
-        return NULL;
-    }
-    return rc_sandbox_read(NULL, read_values, file, wish, index, notes, err);
-}
-
 const struct rc_format rc_format_jpk = {
     .name = "jpk",
     .suffixes = ".jpk .jpk-qi-image",
     .summary = "JPK (Bruker) image scans",
     .score = jpk_score,
-    .list = jpk_list,
-    .read = jpk_read,
+    .find = jpk_find,
+    .sandboxed = true,
+    .copies = true,
 };

@@ -161,80 +161,40 @@ park_open(struct park *p, const struct rc_file *file, struct rc_err *err)
     return take_header(p, &header, version == VERSION_2, err);
 }
 
-static struct rc_heights
-heights_of(const struct park *p)
-{
-    return (struct rc_heights){.nx = p->nx,
-                               .ny = p->ny,
-                               .dx = p->width / (double)p->nx,
-                               .dy = p->height / (double)p->ny,
-                               .metres = p->unit[0] == '\0' ? 1e-6 : rc_word_metres(p->unit),
-                               .unit = p->unit,
-                               .name = p->name[0] == '\0' ? "values" : p->name};
-}
-
-static size_t
-list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-              size_t most, struct rc_err *err)
+static enum rc_status
+fill_values(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct park p;
-    size_t n = 0;
+    enum rc_status status = park_open(&p, file, err);
+    struct rc_bytes b = {.data = p.data, .size = p.size};
 
-    (void)wish;
-    if (park_open(&p, file, err) == RC_OK) {
-        n = 1;
-        if (most > 0) {
-            struct rc_heights h = heights_of(&p);
-            *channel = rc_heights_channel(&h, p.name[0] == '\0' ? "height" : p.name);
-        }
-    }
+    if (status == RC_OK)
+        rc_bytes_values(&b, p.raw, v, map->nx * map->ny);
+    for (size_t k = 0; status == RC_OK && k < map->nx * map->ny; k++)
+        v[k] = p.gain * (p.scale * v[k] + p.offset);
     rc_tiff_free(p.tiff);
-    return n;
+    return status;
 }
 
 static enum rc_status
-keep_words(const struct park *p, struct rc_grid *g, struct rc_err *err)
+park_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    if (rc_word_keep(g, "file.date", p->date, err) != RC_OK ||
-        rc_word_keep(g, "file.version", p->program, err) != RC_OK ||
-        rc_word_keep(g, "file.mode", p->mode, err) != RC_OK)
-        return RC_FAIL;
-    return rc_word_keep(g, "file.channel", p->name, err);
-}
-
-static struct rc_grid *
-read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-            struct rc_notes *notes, struct rc_err *err)
-{
-    struct rc_grid *g = NULL;
-    struct rc_heights h;
-    struct rc_bytes b;
     struct park p;
-    double metres;
-    bool good = false;
+    enum rc_status status = park_open(&p, file, err);
+    struct rc_map *map = rc_maps_add(maps, p.name, strlen(p.name));
 
-    if (park_open(&p, file, err) != RC_OK)
-        goto done;
-    if (index != 0) {
-        rc_err_set(err, "a TIFF of Park Systems has one channel, not %zu", index + 1);
-        goto done;
-    }
-    h = heights_of(&p);
-    if ((g = rc_heights_new(&h, file, wish, &metres, notes, err)) == NULL ||
-        keep_words(&p, g, err) != RC_OK)
-        goto done;
-    b = (struct rc_bytes){.data = p.data, .size = p.size};
-    for (size_t j = p.ny; j-- > 0;)
-        rc_bytes_values(&b, p.raw, g->v + j * p.nx, p.nx);
-    for (size_t k = 0; k < p.nx * p.ny; k++)
-        g->v[k] = p.gain * (p.scale * g->v[k] + p.offset) * metres;
-    good = rc_heights_finite(g, notes, err) == RC_OK;
-done:
+    map->nx = p.nx;
+    map->ny = p.ny;
+    map->dx = p.width / (double)p.nx;
+    map->dy = p.height / (double)p.ny;
+    rc_map_unit(map, p.unit[0] == '\0' ? "um" : p.unit, p.unit[0] == '\0' ? 2 : strlen(p.unit));
+    map->bottom_first = true;
+    map->fill = fill_values;
+    rc_maps_key(maps, "file.date", p.date, strlen(p.date));
+    rc_maps_key(maps, "file.version", p.program, strlen(p.program));
+    rc_maps_key(maps, "file.mode", p.mode, strlen(p.mode));
     rc_tiff_free(p.tiff);
-    if (good)
-        return g;
-    rc_grid_free(g);
-    return NULL;
+    return status;
 }
 
 /* ---- the entry in formats.list ---- */
@@ -254,8 +214,7 @@ const struct rc_format rc_format_park = {
     .suffixes = ".tif .tiff",
     .summary = "Park Systems TIFF",
     .score = park_score,
-    .list = list_channels,
-    .read = read_values,
+    .find = park_find,
     .sandboxed = true,
     .copies = true,
 };

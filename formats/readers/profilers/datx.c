@@ -127,66 +127,42 @@ surface_open(struct surface *s, const struct rc_file *file, struct rc_err *err)
     return RC_OK;
 }
 
-static struct rc_heights
-heights_of(const struct surface *s)
-{
-    return (struct rc_heights){.nx = s->set.columns,
-                               .ny = s->set.rows,
-                               .dx = s->dx,
-                               .dy = s->dy,
-                               .metres = s->metres,
-                               .unit = s->unit};
-}
-
-static size_t
-list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-              size_t most, struct rc_err *err)
+static enum rc_status
+fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct surface s;
-    size_t n = 0;
+    enum rc_status status = surface_open(&s, file, err);
 
-    (void)wish;
-    if (surface_open(&s, file, err) == RC_OK) {
-        n = 1;
-        if (most > 0) {
-            struct rc_heights h = heights_of(&s);
-            *channel = rc_heights_channel(&h, "height");
-        }
-    }
+    (void)map;
+    if (status == RC_OK)
+        status = rc_hdf_values(s.hdf, &s.set, v, err);
     rc_hdf_free(s.hdf);
-    return n;
+    return status;
 }
 
-static struct rc_grid *
-read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-            struct rc_notes *notes, struct rc_err *err)
+static enum rc_status
+datx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_grid *g = NULL;
-    struct rc_heights h;
+    struct rc_map *map = rc_maps_add(maps, "height", 6);
     struct surface s;
-    double metres;
-    bool good = false;
+    enum rc_status status = surface_open(&s, file, err);
 
-    if (surface_open(&s, file, err) != RC_OK)
-        goto done;
-    if (index != 0) {
-        rc_err_set(err, "a DATX file has one channel of heights, not %zu", index + 1);
-        goto done;
+    map->nx = s.set.columns;
+    map->ny = s.set.rows;
+    map->dx = s.dx;
+    map->dy = s.dy;
+    rc_map_unit(map, s.unit, strlen(s.unit));
+    if (!isnan(s.metres)) {
+        strcpy(map->unit, "m");
+        map->si = s.metres;
     }
-    h = heights_of(&s);
-    if ((g = rc_heights_new(&h, file, wish, &metres, notes, err)) == NULL ||
-        rc_word_keep(g, "file.manufacturer", "Zygo", err) != RC_OK ||
-        rc_hdf_values(s.hdf, &s.set, g->v, err) != RC_OK)
-        goto done;
-    for (size_t k = 0; k < g->nx * g->ny; k++)
-        g->v[k] = g->v[k] >= s.none ? NAN : g->v[k] * metres;
-    good = rc_heights_finite(g, notes, err) == RC_OK;
-done:
+    map->heights = true;
+    map->missing_from = s.none;
+    map->missing_to = INFINITY;
+    map->fill = fill_heights;
+    rc_maps_key(maps, "file.manufacturer", "Zygo", 4);
     rc_hdf_free(s.hdf);
-    if (good)
-        return g;
-    rc_grid_free(g);
-    return NULL;
+    return status;
 }
 
 /* ---- the entry in formats.list ---- */
@@ -208,7 +184,6 @@ const struct rc_format rc_format_datx = {
     .suffixes = ".datx",
     .summary = "Zygo DATX (Mx)",
     .score = datx_score,
-    .list = list_channels,
-    .read = read_values,
+    .find = datx_find,
     .sandboxed = true,
 };

@@ -5,6 +5,7 @@
  * factors in millionths.
  */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "formats/containers/containers.h"
@@ -154,45 +155,15 @@ lext_open(struct lext *l, const struct rc_file *file, struct rc_err *err)
     return scale_of(l, PIXEL_Z, &l->dz, err);
 }
 
-static struct rc_heights
-heights_of(const struct lext *l)
-{
-    return (struct rc_heights){.nx = l->shape.nx,
-                               .ny = l->shape.ny,
-                               .dx = l->dx,
-                               .dy = l->dy,
-                               .metres = l->dz,
-                               .unit = ""};
-}
-
-static size_t
-list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-              size_t most, struct rc_err *err)
-{
-    struct lext l;
-    size_t n = 0;
-
-    (void)wish;
-    if (lext_open(&l, file, err) == RC_OK) {
-        n = 1;
-        if (most > 0) {
-            struct rc_heights h = heights_of(&l);
-            *channel = rc_heights_channel(&h, "height");
-        }
-    }
-    rc_tiff_free(l.tiff);
-    return n;
-}
-
 /* ---- values ---- */
 
 static enum rc_status
-mask_invalid(struct lext *l, struct rc_grid *g, struct rc_notes *notes, struct rc_err *err)
+mask_invalid(struct lext *l, double *v, struct rc_notes *notes, struct rc_err *err)
 {
-    struct rc_shape shape = rc_grid_shape(g);
+    size_t n = l->shape.nx * l->shape.ny;
     struct rc_tiff_shape page;
-    enum rc_status status = RC_FAIL;
-    struct rc_grid *mask;
+    enum rc_status status;
+    double *mask;
 
     if (l->invalid == 0)
         return RC_OK;
@@ -204,49 +175,46 @@ mask_invalid(struct lext *l, struct rc_grid *g, struct rc_notes *notes, struct r
                 page.nx, page.ny);
         return RC_OK;
     }
-    if ((mask = rc_grid_new(&shape, "mask", "", err)) == NULL)
-        return RC_FAIL;
-    if (rc_tiff_values(l->tiff, &page, mask->v, err) == RC_OK) {
-        for (size_t k = 0; k < g->nx * g->ny; k++)
-            if (mask->v[k] != 0)
-                g->v[k] = NAN;
-        status = RC_OK;
-    }
-    rc_grid_free(mask);
+    if ((mask = malloc(n * sizeof *mask)) == NULL)
+        return rc_err_set(err, "out of memory for %zu marks of missing points", n);
+    status = rc_tiff_values(l->tiff, &page, mask, err);
+    for (size_t k = 0; status == RC_OK && k < n; k++)
+        if (mask[k] != 0)
+            v[k] = NAN;
+    free(mask);
     return status;
 }
 
-static struct rc_grid *
-read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-            struct rc_notes *notes, struct rc_err *err)
+static enum rc_status
+fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct rc_grid *g = NULL;
-    struct rc_heights h;
     struct lext l;
-    double metres;
-    bool good = false;
+    enum rc_status status = lext_open(&l, file, err);
 
-    if (lext_open(&l, file, err) != RC_OK)
-        goto done;
-    if (index != 0) {
-        rc_err_set(err, "a LEXT file has one channel of heights, not %zu", index + 1);
-        goto done;
-    }
-    h = heights_of(&l);
-    if ((g = rc_heights_new(&h, file, wish, &metres, notes, err)) == NULL ||
-        rc_word_keep(g, "file.date", l.date, err) != RC_OK ||
-        rc_word_keep(g, "file.version", l.program, err) != RC_OK ||
-        rc_tiff_values(l.tiff, &l.shape, g->v, err) != RC_OK)
-        goto done;
-    for (size_t k = 0; k < g->nx * g->ny; k++)
-        g->v[k] *= metres;
-    good = mask_invalid(&l, g, notes, err) == RC_OK && rc_heights_finite(g, notes, err) == RC_OK;
-done:
+    if (status == RC_OK && (status = rc_tiff_values(l.tiff, &l.shape, v, err)) == RC_OK)
+        status = mask_invalid(&l, v, map->notes, err);
     rc_tiff_free(l.tiff);
-    if (good)
-        return g;
-    rc_grid_free(g);
-    return NULL;
+    return status;
+}
+
+static enum rc_status
+lext_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
+{
+    struct rc_map *map = rc_maps_add(maps, "height", 6);
+    struct lext l;
+    enum rc_status status = lext_open(&l, file, err);
+
+    map->nx = l.shape.nx;
+    map->ny = l.shape.ny;
+    map->dx = l.dx;
+    map->dy = l.dy;
+    strcpy(map->unit, "m");
+    map->si = l.dz;
+    map->fill = fill_heights;
+    rc_maps_key(maps, "file.date", l.date, strlen(l.date));
+    rc_maps_key(maps, "file.version", l.program, strlen(l.program));
+    rc_tiff_free(l.tiff);
+    return status;
 }
 
 /* ---- the entry in formats.list ---- */
@@ -262,7 +230,6 @@ const struct rc_format rc_format_lext = {
     .suffixes = ".lext",
     .summary = "Olympus LEXT (OLS4000)",
     .score = lext_score,
-    .list = list_channels,
-    .read = read_values,
+    .find = lext_find,
     .sandboxed = true,
 };

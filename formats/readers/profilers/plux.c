@@ -121,39 +121,26 @@ plux_open(struct plux *p, const struct rc_file *file, struct rc_err *err)
     return rc_size_mul(p->nx, p->ny, &n, err) == RC_OK ? rc_size_mul(n, 4, &n, err) : RC_FAIL;
 }
 
-static size_t
-layers_of(const struct plux *p)
+static void
+plux_free(struct plux *p)
 {
-    size_t n = 0;
-
-    for (size_t k = 0; k < LAYERS_MOST; k++)
-        n += p->file[k][0] != '\0';
-    return n;
+    if (p != NULL)
+        rc_zip_read_free(p->archive);
+    free(p);
 }
 
-static size_t
-plux_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-          size_t most, struct rc_err *err)
+/* NULL with the reason. */
+static struct plux *
+plux_new(const struct rc_file *file, struct rc_err *err)
 {
     struct plux *p = malloc(sizeof *p);
-    size_t n = 0;
 
-    (void)wish;
-    if (p == NULL) {
+    if (p == NULL)
         rc_err_set(err, "out of memory for reading a PLUX file");
-        return 0;
-    }
-    if (plux_open(p, file, err) == RC_OK && (n = layers_of(p)) == 0)
-        rc_err_set(err, "the file has no layer of heights");
-    for (size_t k = 0, shown = 0; n > 0 && k < LAYERS_MOST && shown < most; k++)
-        if (p->file[k][0] != '\0') {
-            channel[shown] = (struct rc_channel){
-                .unit = "m", .nx = p->nx, .ny = p->ny, .dx = p->dx, .dy = p->dy};
-            snprintf(channel[shown++].name, sizeof channel->name, "Layer %zu", k);
-        }
-    rc_zip_read_free(p->archive);
-    free(p);
-    return n;
+    else if (plux_open(p, file, err) == RC_OK)
+        return p;
+    plux_free(p);
+    return NULL;
 }
 
 /* ---- heights ---- */
@@ -170,84 +157,69 @@ take_values(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
     return RC_OK;
 }
 
-/* Finds the member of a layer and checks its size before anything is allocated for it. */
 static enum rc_status
-find_layer(const struct plux *p, size_t index, size_t *member, struct rc_err *err)
+read_layer(const struct plux *p, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    uint64_t size;
-    size_t n = 0;
-
-    for (size_t k = 0; k < LAYERS_MOST; k++) {
-        if (p->file[k][0] == '\0' || n++ != index)
-            continue;
-        if (find(p->archive, p->file[k], member, err) != RC_OK ||
-            rc_zip_read_size(p->archive, *member, &size, err) != RC_OK)
-            return RC_FAIL;
-        return rc_bytes_agree("heights", (uint64_t)p->nx * p->ny * 4, size, err);
-    }
-    return rc_err_set(err, "the file has %zu layers, not %zu", n, index + 1);
-}
-
-static enum rc_status
-keep_words(const struct plux *p, struct rc_grid *g, struct rc_err *err)
-{
-    if (rc_word_keep(g, "file.date", p->date, err) != RC_OK)
-        return RC_FAIL;
-    for (size_t k = 0; k < ITEMS_MOST; k++) {
-        const struct item *i = &p->item[k];
-        const char *key = strcmp(i->name, "Device") == 0      ? "file.model"
-                          : strcmp(i->name, "Objective") == 0 ? "file.probe"
-                          : strcmp(i->name, "Technique") == 0 ? "file.mode"
-                                                              : NULL;
-        if (key != NULL && rc_word_keep(g, key, i->value, err) != RC_OK)
-            return RC_FAIL;
-    }
-    return rc_word_keep(g, "file.manufacturer", "Sensofar", err);
-}
-
-static struct rc_grid *
-read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wish *wish,
-           size_t index, struct rc_notes *notes, struct rc_err *err)
-{
-    const struct rc_heights h = {p->nx, p->ny, p->dx, p->dy, 1e-6, "um", NULL};
-    struct rc_grid *g = NULL;
-    double metres, *v;
+    uint64_t size, wanted = (uint64_t)map->nx * map->ny * 4;
     size_t member;
 
-    if (find_layer(p, index, &member, err) != RC_OK ||
-        (g = rc_heights_new(&h, file, wish, &metres, notes, err)) == NULL)
-        return NULL;
-    v = g->v;
-    if (keep_words(p, g, err) != RC_OK ||
-        rc_zip_read_member(p->archive, member, (uint64_t)p->nx * p->ny * 4, take_values, &v, NULL,
-                           err) != RC_OK) {
-        rc_grid_free(g);
-        return NULL;
-    }
-    for (size_t k = 0; k < p->nx * p->ny; k++)
-        g->v[k] *= metres;
-    if (rc_heights_finite(g, notes, err) == RC_OK)
-        return g;
-    rc_grid_free(g);
-    return NULL;
+    if (find(p->archive, p->file[map->more], &member, err) != RC_OK ||
+        rc_zip_read_size(p->archive, member, &size, err) != RC_OK ||
+        rc_bytes_agree("heights", wanted, size, err) != RC_OK)
+        return RC_FAIL;
+    return rc_zip_read_member(p->archive, member, wanted, take_values, &v, NULL, err);
 }
 
-static struct rc_grid *
-plux_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-          struct rc_notes *notes, struct rc_err *err)
+static enum rc_status
+fill_layer(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct plux *p = malloc(sizeof *p);
-    struct rc_grid *g = NULL;
+    struct plux *p = plux_new(file, err);
+    enum rc_status status = p == NULL ? RC_FAIL : read_layer(p, map, v, err);
 
-    if (p == NULL) {
-        rc_err_set(err, "out of memory for reading a PLUX file");
-        return NULL;
+    plux_free(p);
+    return status;
+}
+
+static void
+add_layer(const struct plux *p, size_t layer, struct rc_maps *maps)
+{
+    struct rc_map *map;
+    char name[32];
+
+    snprintf(name, sizeof name, "Layer %zu", layer);
+    map = rc_maps_add(maps, name, strlen(name));
+    map->nx = p->nx;
+    map->ny = p->ny;
+    map->dx = p->dx;
+    map->dy = p->dy;
+    map->fill = fill_layer;
+    map->more = layer;
+    rc_map_unit(map, "um", 2);
+}
+
+static enum rc_status
+plux_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
+{
+    static const struct rc_keep keys[] = {
+        {"Device", "file.model"}, {"Objective", "file.probe"}, {"Technique", "file.mode"}};
+    struct plux *p = plux_new(file, err);
+
+    if (p == NULL)
+        return RC_FAIL;
+    rc_maps_key(maps, "file.date", p->date, strlen(p->date));
+    for (size_t k = 0; k < ITEMS_MOST; k++) {
+        const struct item *i = &p->item[k];
+
+        rc_maps_keep(maps, keys, sizeof keys / sizeof *keys,
+                     (struct rc_piece){i->name, strlen(i->name)},
+                     (struct rc_piece){i->value, strlen(i->value)});
     }
-    if (plux_open(p, file, err) == RC_OK)
-        g = read_layer(p, file, wish, index, notes, err);
-    rc_zip_read_free(p->archive);
-    free(p);
-    return g;
+    rc_maps_key(maps, "file.manufacturer", "Sensofar", 8);
+    for (size_t k = 0; k < LAYERS_MOST; k++)
+        if (p->file[k][0] != '\0')
+            add_layer(p, k, maps);
+    plux_free(p);
+    return maps->n > 0 ? RC_OK : rc_err_set(err, "the file has no layer of heights");
 }
 
 /* ---- the entry in formats.list ---- */
@@ -275,6 +247,5 @@ const struct rc_format rc_format_plux = {
     .suffixes = ".plux",
     .summary = "Sensofar PLUX: layers of heights in a ZIP archive",
     .score = plux_score,
-    .list = plux_list,
-    .read = plux_read,
+    .find = plux_find,
 };

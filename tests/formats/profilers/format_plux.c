@@ -76,7 +76,7 @@ plux_is_refused(void **state)
         {"<IMAGE_SIZE_X>3</IMAGE_SIZE_X>", "", "no size of an image"},
         {"SIZE_X>3", "SIZE_X>0", "empty"},
         {"SIZE_X>3", "SIZE_X>-3", "whole number"},
-        {"SIZE_X>3", "SIZE_X>999999999", "promises 7999999992 bytes of heights"},
+        {"SIZE_X>3", "SIZE_X>999999999", "999999999 x 2 values need 15258 MiB"},
         {"SIZE_X>3</IMAGE_SIZE_X><IMAGE_SIZE_Y>2",
          "SIZE_X>999999999999999</IMAGE_SIZE_X><IMAGE_SIZE_Y>999999999999999",
          "more than this machine can address"},
@@ -129,7 +129,7 @@ plux_infinite(void **state)
     check_map(g, 3, 2, 1.25e-6, 0.75e-6, v);
     rc_grid_free(g);
     assert_null(try_read(&rc_format_plux, &b, &rc_no_wish, 2, &err));
-    assert_non_null(strstr(err.text, "has 2 layers, not 3"));
+    assert_non_null(strstr(err.text, "there is no channel 3: the file has 2"));
     drop(&b);
 }
 
