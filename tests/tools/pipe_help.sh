@@ -109,6 +109,17 @@ fi
 
 # ---- examples ----
 
+# sample NAME FILE WIDTH,HEIGHT: a sample surface, with every commit only a part of it.
+sample() {
+    if before_release; then
+        cp "$RC_SOURCE/sample_surfaces/$1.x3p" "$2"
+    else
+        rc-import --quiet "$RC_SOURCE/sample_surfaces/$1.x3p" |
+            rc-pick --crop 70,60,$3 |
+            rc-export --format x3p -o "$2"
+    fi
+}
+
 # The files of the examples, in a separate folder.
 prepare() {
     mkdir "$1" && cd "$1" || return
@@ -116,8 +127,8 @@ prepare() {
         --short-cut 5um --seed 3 -o surface.rcg
     rc-solve --quiet --radius 2mm --load 1N --estar 114GPa --hardness 6GPa surface.rcg -o result.rcg
     cp surface.rcg flat.rcg
-    cp "$RC_SOURCE/sample_surfaces/rough-steel.x3p" surface.x3p
-    cp "$RC_SOURCE/sample_surfaces/rough-sphere.x3p" .
+    sample rough-steel surface.x3p 96,96
+    sample rough-sphere rough-sphere.x3p 242,206
     cp surface.x3p bench.x3p
     printf '0 1 0\n1 3 1\n0 1 0\n' >heights.txt
     cd ..
@@ -141,6 +152,8 @@ for page in "$pages"/*.[15] "$pages/contact-mpi.7"; do
     done
 done
 for tool in $tools; do
+    # those of its page, with other names of files
+    ! before_release && [ "$tool" = rc-report ] && continue
     "$tool" --help | sed -n '/^Examples:/,/^$/s/^  //p' >"$scratch/$tool.help"
     prepare "$scratch/$tool.help.run"
     claim "$tool: the examples of --help run" run_in "$tool.help.run" "$scratch/$tool.help"

@@ -137,9 +137,13 @@ claim "an unreachable tolerance causes a warning and exit status 3" bash -c '
 rc-synth selfaffine --nx 2048 --dx 1um --hurst 0.8 --rms-height 1um --short-cut 2um --seed 5 -o large.rcg
 interrupted() {
     local status
-    rc-solve --periodic --load 40N --estar 100GPa --tol 1e-12 --method pk99 --output pressure large.rcg -o cut.rcg 2>err &
-    local tool=$!
-    sleep 1.5
+    rc-solve --progress line --periodic --load 40N --estar 100GPa --tol 1e-12 --method pk99 --output pressure large.rcg \
+        -o cut.rcg 2>err &
+    local tool=$! _
+    for _ in $(seq 300); do
+        grep -q 'iteration 1$' err && break
+        sleep 0.2
+    done
     kill -INT "$tool"
     wait "$tool"
     status=$?
