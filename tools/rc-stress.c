@@ -10,11 +10,11 @@
 
 static struct args {
     struct numbers depths; /* none: auto */
-    double nu, mu, tol;
-    size_t components; /* bits of enum rc_component */
-    const char *section, *kernel, *report;
-    bool periodic, residual, dry_run;
-} args = {.nu = NAN, .tol = NAN, .kernel = "auto", .components = (2u << RC_MISES) - 1};
+    size_t components;     /* bits of enum rc_component */
+    const char *section, *report;
+    bool dry_run;
+    struct stress_asked asked;
+} args = {.asked = STRESS_ASKED, .components = (2u << RC_MISES) - 1};
 
 #define AT(field) .at = offsetof(struct args, field)
 /* clang-format off */
@@ -24,21 +24,12 @@ static const struct opt opts[] = {
      .help = "depths: a,b,c, a:b:n or a:b:log:n, or auto: dense near the surface"},
     {.name = "components", .type = OPT_WORDS, AT(components), .result = true,
      .words = words_component, .arg = "LIST", .help = "of %s (default: the six and mises)"},
-    {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true,
-     .result = true, .arg = "RATIO", .help = "Poisson's ratio (default: the stream's own)"},
-    {.name = "mu", .type = OPT_NUMBER, AT(mu), .min = -10, .max = 10, .result = true,
-     .arg = "COEFFICIENT", .help = "the surface also carries mu times the pressure along +x"},
+    {.group = stress_body_options, AT(asked)},
     {.name = "section", .type = OPT_TEXT, AT(section), .result = true, .arg = "AXIS=PLACE",
      .help = "only the vertical plane y=PLACE or x=PLACE: one frame whose rows are depths"},
-    {.name = "residual", .type = OPT_FLAG, AT(residual), .result = true,
+    {.name = "residual", .type = OPT_FLAG, AT(asked.residual), .result = true,
      .help = "without the pressure: only the stresses of plastic strain and of layers (rc-solve)"},
-    {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
-     .help = "the map repeats without end (default: the stream's boundary, else free)"},
-    {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
-     .words = words_stress_engine_or_auto, .help = "engine that sums stresses (default auto)"},
-    {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
-     .result = true, .arg = "ERROR",
-     .help = "permitted error of a component, over the largest pressure (default: rounding)"},
+    {.group = stress_sum_options, AT(asked)},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
      .help = "write one JSON object per case, or a row of FILE.tsv or .csv: extreme values, counts, cost"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
@@ -65,9 +56,8 @@ static const struct tool_info info = {
 struct run {
     struct tool t;
     struct rc_stress_options options; /* of the case */
-    struct layers layers;             /* of the case */
+    struct stress_input input;        /* of the case */
     struct stress_strain strain;      /* of the case */
-    struct rc_grid *traction[2];      /* tractions of the case: along x, along y; NULL: none */
     struct numbers depths;            /* of the case */
     struct rc_grid *frame[RC_STRESSES];
     struct stress_report report;
@@ -112,15 +102,6 @@ read_section(struct run *run)
     args.section = si;
 }
 
-/* Engines for periodic maps also compute sections: both are sums of waves. */
-static bool
-on_free_maps_only(void)
-{
-    const struct rc_engine_info *engine = words_engine_named(args.kernel);
-
-    return engine != NULL && !engine->periodic;
-}
-
 static void
 check_arguments(struct run *run)
 {
@@ -135,215 +116,47 @@ check_arguments(struct run *run)
     for (size_t k = 1; args.section != NULL && k < args.depths.n; k++)
         if (!(args.depths.v[k] > args.depths.v[k - 1]))
             tool_die(t, EXIT_USAGE, "--depths: the depths of a section must increase");
-    if (args.section != NULL && on_free_maps_only())
+    if (args.section != NULL && stress_on_free_maps_only(args.asked.kernel))
         tool_die(t, EXIT_USAGE, "--section is summed by %s: leave out --kernel %s",
-                 words_periodic_engines(list, sizeof list), args.kernel);
+                 words_periodic_engines(list, sizeof list), args.asked.kernel);
     report_open(&run->out, t, args.report);
 }
 
 /* ---- a case ---- */
-
-static double
-poisson(struct run *run, const struct rc_grid *p)
-{
-    double nu;
-
-    if (!isnan(args.nu))
-        return args.nu;
-    if (!rc_grid_number(p, "nu", &nu))
-        tool_die_at(&run->t, p, EXIT_USAGE,
-                    "Poisson's ratio is not in the stream: give it with --nu");
-    return nu;
-}
-
-/* Refuses a boundary other than that of the solved pressure. */
-static enum rc_boundary
-boundary(struct run *run, const struct rc_grid *p)
-{
-    const char *own = rc_grid_get(p, "boundary");
-    bool periodic = own == NULL ? args.periodic : strcmp(own, "periodic") == 0;
-
-    if (own != NULL && strcmp(own, "free") != 0 && !periodic)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
-                    "its boundary is '%s': it must be free or "
-                    "periodic",
-                    own);
-    if (args.periodic && !periodic)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "its boundary is %s: --periodic contradicts it",
-                    own);
-    return periodic ? RC_PERIODIC : RC_FREE;
-}
-
-/* Refuses --nu for a coated body, whose materials have their own Poisson's ratios. */
-static void
-set_material(struct run *run, const struct rc_grid *p)
-{
-    struct rc_err err;
-
-    tool_must(&run->t, p, layers_read(p, &run->layers, &err), &err);
-    if (run->layers.text != NULL && !isnan(args.nu))
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
-                    "its body is coated and each material has its own Poisson's ratio: --nu "
-                    "contradicts its layers, leave it out");
-    run->options.body = run->layers.body;
-    run->options.residual = run->layers.residual;
-    if (run->layers.text == NULL)
-        run->options.body.nu = poisson(run, p);
-}
-
-/* Refuses --mu for a pressure with tension, because mu times a tension would be friction in the wrong
- * direction. */
-static void
-refuse_adhesion(struct run *run, const struct rc_grid *p)
-{
-    size_t pulled = 0;
-
-    for (size_t k = 0; k < rc_grid_nodes(p); k++)
-        pulled += p->v[k] < 0;
-    pulled = (size_t)ranks_sum(&run->t, (double)pulled);
-    if (pulled > 0 && rc_grid_get(p, "adhesion") != NULL)
-        tool_die_at(
-            &run->t, p, EXIT_IMPOSSIBLE,
-            "it is the net pressure of bodies that attract each other, negative at %zu of %zu "
-            "nodes, where --mu %g would turn friction round: leave out --mu",
-            pulled, p->nx * p->ny, args.mu);
-}
-
-/* The solution with plastic strain did not include tractions: with their stress added, Mises stresses may
- * exceed the yield stress. */
-static void
-warn_of_yield(struct run *run, const struct rc_grid *p)
-{
-    char where[256], stress[SHOWN_NUMBER];
-    double yield;
-
-    if (!rc_grid_number(p, "yield", &yield))
-        return;
-    tool_warn(&run->t,
-              "%s: the body has yielded under the pressure alone, and friction was not part of "
-              "that solution: it is added elastically, and Mises stresses may exceed the yield "
-              "stress, %s: leave out %s, or take the stresses as those of a body that yields no "
-              "further",
-              tool_where(&run->t, p, where, sizeof where), shown_in_unit(stress, yield, "Pa"),
-              args.mu != 0 ? "--mu" : "the frames of traction");
-}
-
-/* Frames of traction replace --mu. */
-static void
-set_traction(struct run *run, const struct rc_grid *p)
-{
-    if (args.mu != 0)
-        refuse_adhesion(run, p);
-    for (size_t k = 0; k < 2; k++) {
-        const struct rc_grid *g = run->traction[k];
-        run->options.traction[k] = NULL;
-        if (g == NULL || args.residual)
-            continue;
-        if (tool_given(&run->t, "mu"))
-            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
-                        "the case has its own traction, and --mu %g contradicts it: leave it out, "
-                        "or take the pressure alone, rc-pick --channel pressure",
-                        args.mu);
-        tool_demand_grid_of(&run->t, g, p);
-        tool_demand_finite(&run->t, g, "recompute the map");
-        run->options.traction[k] = g->v;
-    }
-    if (!args.residual &&
-        (args.mu != 0 || run->options.traction[0] != NULL || run->options.traction[1] != NULL))
-        warn_of_yield(run, p);
-}
 
 static void
 set_options(struct run *run, const struct rc_grid *p)
 {
     struct rc_shape shape = rc_grid_shape(p);
     struct rc_err err;
-    char list[128];
 
-    run->options.boundary = boundary(run, p);
-    set_material(run, p);
-    run->options.mu = args.mu;
+    stress_input_read(&run->t, p, &args.asked, &run->input, &run->options);
     run->options.wanted = (unsigned)args.components;
-    run->options.engine = args.kernel;
-    run->options.tol = isnan(args.tol) ? 0 : args.tol;
-    run->options.threads = run->t.threads;
-    run->options.ranks = ranks_of(&run->t);
-    run->options.strain = NULL;
-    set_traction(run, p);
     if (stress_strain_whole(&run->t, p, &run->strain)) {
         run->options.strain = &run->strain.strain;
         if (!rc_grid_number(p, "e1", &run->options.body.e))
             tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                         "its key e1, the modulus of the body that has yielded, is not there");
     }
-    if (args.residual && run->options.strain == NULL && run->options.residual == NULL)
+    if (args.asked.residual && run->options.strain == NULL && run->options.residual == NULL)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                     "--residual: the case has no plastic strain: see rc-solve --yield and --output "
                     "strain, or --layer for a residual stress of layers");
-    if (run->options.boundary == RC_PERIODIC && on_free_maps_only())
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
-                    "its boundary is periodic, where only %s sums: leave out --kernel %s",
-                    words_periodic_engines(list, sizeof list), args.kernel);
     tool_must(&run->t, p, rc_stress_check(&shape, &run->options, &err), &err);
-}
-
-/* Refuses depths inside a rigid substrate, where stresses are undefined. */
-static void
-refuse_rigid(struct run *run, const struct rc_grid *p)
-{
-    const struct rc_body *body = &run->options.body;
-
-    for (size_t k = 0; isinf(body->e) && k < run->depths.n; k++)
-        if (rc_body_material(body, run->depths.v[k]) == body->layers)
-            tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
-                        "depth %g m is inside its rigid substrate, where stresses are unknown: "
-                        "give depths down to its face",
-                        run->depths.v[k]);
-}
-
-/* Warns of depths far below the contact: a plain number is in metres, and may have been meant in
- * micrometres. */
-static void
-warn_of_depths(struct run *run, const struct rc_grid *p)
-{
-    enum {
-        FAR = 10 /* depth in widths of the map, at which at most 0.5 % of the mean pressure is
-                    left */
-    };
-    double width = fmax((double)p->nx * p->dx, (double)p->ny * p->dy), deepest = 0;
-    char depth[RC_NUMBER_SIZE], where[256];
-
-    for (size_t k = 0; k < args.depths.n; k++)
-        deepest = fmax(deepest, args.depths.v[k]);
-    if (deepest > FAR * width)
-        tool_warn(&run->t,
-                  "%s: --depths: %s m is %.2g times the width of the map, %g m, and stresses there "
-                  "depend on the load alone: a number without a unit is in metres, write %sum for "
-                  "micrometres",
-                  tool_where(&run->t, p, where, sizeof where), rc_number_text(depth, deepest),
-                  deepest / width, width, depth);
 }
 
 static void
 set_depths(struct run *run, const struct rc_grid *p)
 {
-    struct rc_shape shape = rc_grid_shape(p);
-    struct rc_err err;
-
     run->depths = args.depths;
-    warn_of_depths(run, p);
     if (args.depths.n == 0 && run->options.strain != NULL) {
         run->depths.v = stress_strain_depths(&run->strain, &run->depths.n);
         if (run->depths.v == NULL)
             tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "out of memory for the depths");
-    } else if (args.depths.n == 0 &&
-               rc_stress_depths(run->options.ranks, &shape, p->v, run->options.boundary,
-                                &run->options.body, &run->depths.v, &run->depths.n, &err) != RC_OK)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
-    refuse_rigid(run, p);
-    if (args.depths.n == 0)
         tool_note(&run->t, "%zu depths, down to %g m", run->depths.n,
                   run->depths.v[run->depths.n - 1]);
+    }
+    stress_depths_read(&run->t, p, &run->options, &run->depths);
 }
 
 /* ---- frames ---- */
@@ -391,12 +204,12 @@ set_keys(struct run *run, const struct rc_grid *p, struct rc_grid *g)
     struct rc_err err;
 
     if (rc_grid_set(g, "nu", NULL, &err) != RC_OK ||
-        (run->layers.text == NULL &&
+        (run->input.layers.text == NULL &&
          rc_grid_set_number(g, "nu", run->options.body.nu, &err) != RC_OK) ||
         rc_grid_set(g, "boundary", run->options.boundary == RC_PERIODIC ? "periodic" : "free",
                     &err) != RC_OK ||
         rc_grid_set(g, "mu", NULL, &err) != RC_OK ||
-        (args.mu != 0 && rc_grid_set_number(g, "mu", args.mu, &err) != RC_OK) ||
+        (args.asked.mu != 0 && rc_grid_set_number(g, "mu", args.asked.mu, &err) != RC_OK) ||
         rc_grid_set_number(g, "frames", (double)frames, &err) != RC_OK ||
         (plane && (rc_grid_set(g, "section", section, &err) != RC_OK ||
                    rc_grid_set_number(g, "at", run->options.at, &err) != RC_OK ||
@@ -437,41 +250,6 @@ summed(void)
     return n;
 }
 
-/* True if the engine transforms: it has a form in single precision. "auto" is such a one. */
-static bool
-transforms(const char *engine)
-{
-    const struct rc_engine_info *e;
-
-    for (size_t k = 0; engine != NULL && (e = rc_engine_info(k)) != NULL; k++)
-        if (strcmp(e->name, engine) == 0)
-            return e->mixed || e->precise;
-    return true;
-}
-
-/* Bytes a node of what sums the slices, measured on 1024 x 1024 nodes. The index: free, periodic. */
-static double
-plan_bytes(const struct rc_stress_options *o)
-{
-    static const double fft[2][2] = {{58, 21.7}, {31, 13.6}}; /* double and single precision   */
-    static const double kernel[] = {8, 0}, waves[] = {0, 2};  /* of each component; each load  */
-    static const double traction[] = {29, 8}, slab[] = {279, 71};
-    static const double section = 26, direct = 16; /* of both boundaries */
-    const int k = o->boundary == RC_PERIODIC, single = o->tol >= RC_SINGLE_FLOOR;
-    const int tractions = (o->traction[0] != NULL) + (o->traction[1] != NULL);
-    const int loads = 1 + (o->mu != 0) + tractions;
-    const double coarser = o->tol > 0 && k == 0 ? 1.25 : 1; /* the library keeps room for a grid */
-    const double plastic = o->strain != NULL ? slab[k] * (double)o->strain->slabs : 0;
-
-    if (o->section != 0)
-        return section + plastic;
-    if (!transforms(o->engine))
-        return direct + plastic;
-    return coarser * (fft[single][k] + kernel[k] * (double)summed() * loads +
-                      (waves[k] * (loads - 1) + traction[k] * tractions) / (single ? 2 : 1)) +
-           plastic;
-}
-
 /* Bytes of the slices, of the components that no frame holds, and of the plan. */
 static size_t
 memory_for(const struct run *run, const struct rc_grid *p)
@@ -483,7 +261,7 @@ memory_for(const struct run *run, const struct rc_grid *p)
     for (int c = 0; c < RC_COMPONENTS && !plane; c++)
         maps -= wanted(c);
     return maps * frame.nx * (plane ? frame.ny : p->ny - p->elsewhere) * sizeof(double) +
-           (size_t)(plan_bytes(&run->options) * (double)rc_grid_nodes(p));
+           (size_t)(stress_plan_bytes(&run->options, summed()) * (double)rc_grid_nodes(p));
 }
 
 /* Sets the keys of a slice: its depth and, for a coated body, its material. */
@@ -574,10 +352,7 @@ static bool
 take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
 {
     struct run *run = ctx;
-    struct tool_frame tractions[] = {
-        {"traction-x", &run->traction[0]}, {"traction-y", &run->traction[1]}, {NULL, NULL}};
-
-    return tool_take_frames(tractions, t, p, g) ||
+    return stress_input_take(t, p, g, &run->input) ||
            (p != NULL && stress_strain_take(t, p, g, &run->strain));
 }
 
@@ -586,12 +361,8 @@ forget_case(struct run *run)
 {
     if (run->depths.v != args.depths.v)
         free(run->depths.v);
-    layers_free(&run->layers);
+    stress_input_free(&run->input);
     stress_strain_free(&run->strain);
-    for (size_t k = 0; k < 2; k++) {
-        rc_grid_free(run->traction[k]);
-        run->traction[k] = NULL;
-    }
 }
 
 int
@@ -606,7 +377,7 @@ main(int argc, char **argv)
         tool_demand_finite(&run.t, p, "recompute the map");
         set_options(&run, p);
         set_depths(&run, p);
-        if (args.residual)
+        if (args.asked.residual)
             memset(p->v, 0, rc_grid_nodes(p) * sizeof *p->v);
         if (args.dry_run)
             plan_case(&run, p);

@@ -54,6 +54,41 @@ enum rc_status stress_report_plan(const struct tool *tool, const struct rc_grid 
                                   const struct rc_stress_options *options,
                                   const struct numbers *depths, size_t memory, struct rc_err *err);
 
+/* ---- input.c ---- */
+
+/* Options of all tools that compute stresses; the tables are groups of struct opt. */
+struct stress_asked {
+    double nu, mu, tol; /* NAN: not given */
+    const char *kernel;
+    bool periodic, residual; /* residual: without the pressure */
+};
+#define STRESS_ASKED                                                                               \
+    {                                                                                              \
+        .nu = NAN, .tol = NAN, .kernel = "auto"                                                    \
+    }
+extern const struct opt stress_body_options[], stress_sum_options[];
+
+/* The body and the tractions of a case. */
+struct stress_input {
+    struct rc_grid *traction[2]; /* along x, along y; NULL: none */
+    struct layers layers;
+};
+/* Keeps a frame of traction; false: it is another frame. */
+bool stress_input_take(struct tool *tool, const struct rc_grid *p, struct rc_grid *g,
+                       struct stress_input *input);
+/* Sets all options but `wanted`, the section and the strain. Ends the tool where stream and options contradict
+ * each other. */
+void stress_input_read(struct tool *tool, const struct rc_grid *p, const struct stress_asked *asked,
+                       struct stress_input *input, struct rc_stress_options *options);
+void stress_input_free(struct stress_input *input);
+/* Engines for periodic maps also compute sections: both are sums of waves. */
+bool stress_on_free_maps_only(const char *kernel);
+/* Chooses the depths if there are none; refuses those in a rigid substrate, and warns of those far below. */
+void stress_depths_read(struct tool *tool, const struct rc_grid *p,
+                        const struct rc_stress_options *options, struct numbers *depths);
+/* Bytes a node of a plan for so many components, measured on 1024 x 1024 nodes. */
+double stress_plan_bytes(const struct rc_stress_options *options, size_t components);
+
 /* ---- strain.c ---- */
 
 /* The plastic strain of a case. */

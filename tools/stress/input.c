@@ -1,0 +1,278 @@
+/* The pressure, tractions and body of a case, from the stream and the options that rc-stress and rc-fatigue share. */
+#include "stress.h"
+
+#include <math.h>
+#include <string.h>
+
+#define AT(field) .at = offsetof(struct stress_asked, field)
+/* clang-format off */
+const struct opt stress_body_options[] = {
+    {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true,
+     .result = true, .arg = "RATIO", .help = "Poisson's ratio (default: the stream's own)"},
+    {.name = "mu", .type = OPT_NUMBER, AT(mu), .min = -10, .max = 10, .result = true,
+     .arg = "COEFFICIENT", .help = "the surface also carries mu times the pressure along +x"},
+    {.name = NULL},
+};
+const struct opt stress_sum_options[] = {
+    {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
+     .help = "the map repeats without end (default: the stream's boundary, else free)"},
+    {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
+     .words = words_stress_engine_or_auto, .help = "engine that sums stresses (default auto)"},
+    {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
+     .result = true, .arg = "ERROR",
+     .help = "permitted error of a component, over the largest pressure (default: rounding)"},
+    {.name = NULL},
+};
+/* clang-format on */
+
+bool
+stress_on_free_maps_only(const char *kernel)
+{
+    const struct rc_engine_info *engine = words_engine_named(kernel);
+
+    return engine != NULL && !engine->periodic;
+}
+
+/* ---- a case ---- */
+
+static double
+poisson(struct tool *t, const struct stress_asked *asked, const struct rc_grid *p)
+{
+    double nu;
+
+    if (!isnan(asked->nu))
+        return asked->nu;
+    if (!rc_grid_number(p, "nu", &nu))
+        tool_die_at(t, p, EXIT_USAGE, "Poisson's ratio is not in the stream: give it with --nu");
+    return nu;
+}
+
+/* Refuses a boundary other than that of the solved pressure. */
+static enum rc_boundary
+boundary(struct tool *t, const struct stress_asked *asked, const struct rc_grid *p)
+{
+    const char *own = rc_grid_get(p, "boundary");
+    bool periodic = own == NULL ? asked->periodic : strcmp(own, "periodic") == 0;
+
+    if (own != NULL && strcmp(own, "free") != 0 && !periodic)
+        tool_die_at(t, p, EXIT_IMPOSSIBLE,
+                    "its boundary is '%s': it must be free or "
+                    "periodic",
+                    own);
+    if (asked->periodic && !periodic)
+        tool_die_at(t, p, EXIT_IMPOSSIBLE, "its boundary is %s: --periodic contradicts it", own);
+    return periodic ? RC_PERIODIC : RC_FREE;
+}
+
+/* Refuses --nu for a coated body, whose materials have their own Poisson's ratios. */
+static void
+set_material(struct tool *t, const struct stress_asked *asked, const struct rc_grid *p,
+             struct stress_input *in, struct rc_stress_options *o)
+{
+    struct rc_err err;
+
+    tool_must(t, p, layers_read(p, &in->layers, &err), &err);
+    if (in->layers.text != NULL && !isnan(asked->nu))
+        tool_die_at(t, p, EXIT_IMPOSSIBLE,
+                    "its body is coated and each material has its own Poisson's ratio: --nu "
+                    "contradicts its layers, leave it out");
+    o->body = in->layers.body;
+    o->residual = in->layers.residual;
+    if (in->layers.text == NULL)
+        o->body.nu = poisson(t, asked, p);
+}
+
+/* Refuses --mu for a pressure with tension, because mu times a tension would be friction in the wrong
+ * direction. */
+static void
+refuse_adhesion(struct tool *t, const struct rc_grid *p, double mu)
+{
+    size_t pulled = 0;
+
+    for (size_t k = 0; k < rc_grid_nodes(p); k++)
+        pulled += p->v[k] < 0;
+    pulled = (size_t)ranks_sum(t, (double)pulled);
+    if (pulled > 0 && rc_grid_get(p, "adhesion") != NULL)
+        tool_die_at(
+            t, p, EXIT_IMPOSSIBLE,
+            "it is the net pressure of bodies that attract each other, negative at %zu of %zu "
+            "nodes, where --mu %g would turn friction round: leave out --mu",
+            pulled, p->nx * p->ny, mu);
+}
+
+/* The solution with plastic strain did not include tractions: with their stress added, Mises stresses may
+ * exceed the yield stress. */
+static void
+warn_of_yield(struct tool *t, const struct rc_grid *p, double mu)
+{
+    char where[256], stress[SHOWN_NUMBER];
+    double yield;
+
+    if (!rc_grid_number(p, "yield", &yield))
+        return;
+    tool_warn(t,
+              "%s: the body has yielded under the pressure alone, and friction was not part of "
+              "that solution: it is added elastically, and Mises stresses may exceed the yield "
+              "stress, %s: leave out %s, or take the stresses as those of a body that yields no "
+              "further",
+              tool_where(t, p, where, sizeof where), shown_in_unit(stress, yield, "Pa"),
+              mu != 0 ? "--mu" : "the frames of traction");
+}
+
+/* Frames of traction replace --mu. */
+static void
+set_traction(struct tool *t, const struct stress_asked *asked, const struct rc_grid *p,
+             struct stress_input *in, struct rc_stress_options *o)
+{
+    if (asked->mu != 0)
+        refuse_adhesion(t, p, asked->mu);
+    for (size_t k = 0; k < 2; k++) {
+        const struct rc_grid *g = in->traction[k];
+        o->traction[k] = NULL;
+        if (g == NULL || asked->residual)
+            continue;
+        if (tool_given(t, "mu"))
+            tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                        "the case has its own traction, and --mu %g contradicts it: leave it out, "
+                        "or take the pressure alone, rc-pick --channel pressure",
+                        asked->mu);
+        tool_demand_grid_of(t, g, p);
+        tool_demand_finite(t, g, "recompute the map");
+        o->traction[k] = g->v;
+    }
+    if (!asked->residual && (asked->mu != 0 || o->traction[0] != NULL || o->traction[1] != NULL))
+        warn_of_yield(t, p, asked->mu);
+}
+
+void
+stress_input_read(struct tool *t, const struct rc_grid *p, const struct stress_asked *asked,
+                  struct stress_input *in, struct rc_stress_options *o)
+{
+    char list[128];
+
+    o->boundary = boundary(t, asked, p);
+    set_material(t, asked, p, in, o);
+    o->mu = asked->mu;
+    o->engine = asked->kernel;
+    o->tol = isnan(asked->tol) ? 0 : asked->tol;
+    o->threads = t->threads;
+    o->ranks = ranks_of(t);
+    o->strain = NULL;
+    set_traction(t, asked, p, in, o);
+    if (o->boundary == RC_PERIODIC && stress_on_free_maps_only(asked->kernel))
+        tool_die_at(t, p, EXIT_IMPOSSIBLE,
+                    "its boundary is periodic, where only %s sums: leave out --kernel %s",
+                    words_periodic_engines(list, sizeof list), asked->kernel);
+}
+
+bool
+stress_input_take(struct tool *t, const struct rc_grid *p, struct rc_grid *g,
+                  struct stress_input *in)
+{
+    struct tool_frame tractions[] = {
+        {"traction-x", &in->traction[0]}, {"traction-y", &in->traction[1]}, {NULL, NULL}};
+
+    return tool_take_frames(tractions, t, p, g);
+}
+
+void
+stress_input_free(struct stress_input *in)
+{
+    layers_free(&in->layers);
+    for (size_t k = 0; k < 2; k++) {
+        rc_grid_free(in->traction[k]);
+        in->traction[k] = NULL;
+    }
+}
+
+/* ---- depths ---- */
+
+/* Refuses depths inside a rigid substrate, where stresses are undefined. */
+static void
+refuse_rigid(struct tool *t, const struct rc_grid *p, const struct rc_body *body,
+             const struct numbers *depths)
+{
+    for (size_t k = 0; isinf(body->e) && k < depths->n; k++)
+        if (rc_body_material(body, depths->v[k]) == body->layers)
+            tool_die_at(t, p, EXIT_IMPOSSIBLE,
+                        "depth %g m is inside its rigid substrate, where stresses are unknown: "
+                        "give depths down to its face",
+                        depths->v[k]);
+}
+
+/* Warns of depths far below the contact: a plain number is in metres, and may have been meant in
+ * micrometres. */
+static void
+warn_of_depths(struct tool *t, const struct rc_grid *p, const struct numbers *depths)
+{
+    enum {
+        FAR = 10 /* depth in widths of the map, at which at most 0.5 % of the mean pressure is
+                    left */
+    };
+    double width = fmax((double)p->nx * p->dx, (double)p->ny * p->dy), deepest = 0;
+    char depth[RC_NUMBER_SIZE], where[256];
+
+    for (size_t k = 0; k < depths->n; k++)
+        deepest = fmax(deepest, depths->v[k]);
+    if (deepest > FAR * width)
+        tool_warn(t,
+                  "%s: --depths: %s m is %.2g times the width of the map, %g m, and stresses there "
+                  "depend on the load alone: a number without a unit is in metres, write %sum for "
+                  "micrometres",
+                  tool_where(t, p, where, sizeof where), rc_number_text(depth, deepest),
+                  deepest / width, width, depth);
+}
+
+void
+stress_depths_read(struct tool *t, const struct rc_grid *p, const struct rc_stress_options *o,
+                   struct numbers *depths)
+{
+    struct rc_shape shape = rc_grid_shape(p);
+    const bool automatic = depths->n == 0;
+    struct rc_err err;
+
+    warn_of_depths(t, p, depths);
+    if (automatic && rc_stress_depths(o->ranks, &shape, p->v, o->boundary, &o->body, &depths->v,
+                                      &depths->n, &err) != RC_OK)
+        tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    refuse_rigid(t, p, &o->body, depths);
+    if (automatic)
+        tool_note(t, "%zu depths, down to %g m", depths->n, depths->v[depths->n - 1]);
+}
+
+/* ---- memory ---- */
+
+/* True if the engine transforms: it has a form in single precision. "auto" is such a one. */
+static bool
+transforms(const char *engine)
+{
+    const struct rc_engine_info *e;
+
+    for (size_t k = 0; engine != NULL && (e = rc_engine_info(k)) != NULL; k++)
+        if (strcmp(e->name, engine) == 0)
+            return e->mixed || e->precise;
+    return true;
+}
+
+/* The index: free, periodic. */
+double
+stress_plan_bytes(const struct rc_stress_options *o, size_t components)
+{
+    static const double fft[2][2] = {{58, 21.7}, {31, 13.6}}; /* double and single precision   */
+    static const double kernel[] = {8, 0}, waves[] = {0, 2};  /* of each component; each load  */
+    static const double traction[] = {29, 8}, slab[] = {279, 71};
+    static const double section = 26, direct = 16; /* of both boundaries */
+    const int k = o->boundary == RC_PERIODIC, single = o->tol >= RC_SINGLE_FLOOR;
+    const int tractions = (o->traction[0] != NULL) + (o->traction[1] != NULL);
+    const int loads = 1 + (o->mu != 0) + tractions;
+    const double coarser = o->tol > 0 && k == 0 ? 1.25 : 1; /* the library keeps room for a grid */
+    const double plastic = o->strain != NULL ? slab[k] * (double)o->strain->slabs : 0;
+
+    if (o->section != 0)
+        return section + plastic;
+    if (!transforms(o->engine))
+        return direct + plastic;
+    return coarser * (fft[single][k] + kernel[k] * (double)components * loads +
+                      (waves[k] * (loads - 1) + traction[k] * tractions) / (single ? 2 : 1)) +
+           plastic;
+}
