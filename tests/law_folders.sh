@@ -90,6 +90,7 @@ tools/slip          | formats/core/core.h                      | formats/core fo
 tools/import        | libcontact/grid.h tools/cli/cli.h        | libcontact %cli
 tools/import        | formats/core/core.h formats/format.h     | formats formats/core
 tools/stress        | %public tools/cli/cli.h                  | %physics %cli
+tools/fatigue       | %public tools/cli/cli.h                  | %physics %cli formats/rcg
 tools/leak          | %public tools/cli/cli.h                  | %physics %cli
 tools/pick          | %public tools/cli/cli.h                  | %physics %cli
 tools/synth         | %public tools/cli/cli.h                  | %physics %cli
@@ -99,7 +100,7 @@ tools/render        | tools/plot/plot.h                        | %plot
 tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve
 tools               | tools/stress/stress.h tools/render/render.h | tools/stress tools/render
-tools               | tools/leak/leak.h                        | tools/leak
+tools               | tools/leak/leak.h tools/fatigue/fatigue.h | tools/leak tools/fatigue
 tools               | tools/info/info.h tools/slip/slip.h      | tools/info tools/slip
 tools               | tools/problem/problem.h tools/model/model.h | tools/problem tools/model
 tools               | tools/import/import.h                    | tools/import

@@ -58,6 +58,7 @@ commands=$(
 2 rc-slip --quiet --mu 0.3 --nu 0.3 --tangential 0.1mN --report /dev/null c.rcg -o out
 4 rc-slip --quiet --mu 0.3 --E1 0.91GPa --nu1 0.3 --E2 rigid --path 0.5mN,0,0;1mN,0.1mN,0 --increments 2 c.rcg
 4 rc-wear --quiet --coefficient 1e-6mm3/Nm --distance 1m --steps /dev/null c.rcg -o out
+2 rc-fatigue --quiet --nu 0.3 --bending-limit 6MPa --torsion-limit 4MPa --criteria dangvan,findley --pass x --depths 1um,2um --report /dev/null c.rcg -o out
 5 rc-stress --nu 0.3 --depths auto c.rcg -o out
 2 rc-stress --nu 0.3 --mu 0.1 --depths 1um,2um --components mises,s1 --report /dev/null c.rcg -o out
 3 rc-stress --nu 0.3 --section y=0 --depths 0:4um:4 c.rcg -o out

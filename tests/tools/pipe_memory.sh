@@ -109,6 +109,7 @@ promised "rc-solve --history" "rc-solve --hardness 300MPa --history --estar 3GPa
 promised "rc-solve --yield" "rc-solve $metal --periodic --mean-pressure 300MPa --yield 8GPa --slabs 4 --increments 1 small.rcg" 3M
 promised "rc-stress" "rc-stress --nu 0.3 --depths 1um,5um free.rcg" 9M
 promised "rc-stress, periodic, with friction" "rc-stress --nu 0.3 --mu 0.2 --components mises --depths 1um round.rcg" 9M
+promised "rc-fatigue" "rc-fatigue --nu 0.3 --bending-limit 6MPa --torsion-limit 4MPa --pass x --depths 1um,5um free.rcg" 12M
 promised "rc-wear" "rc-wear --coefficient 1e-6mm3/Nm --distance 1um free.rcg" 20M
 promised "rc-slip" "rc-slip --nu 0.3 --mu 0.3 --tangential 10mN light.rcg" 7M
 

@@ -45,6 +45,12 @@ static const struct channel channels[] = {
     {"s1", "Principal stress " SIGMA "1", "bluered", .from_zero = false},
     {"s2", "Principal stress " SIGMA "2", "bluered", .from_zero = false},
     {"s3", "Principal stress " SIGMA "3", "bluered", .from_zero = false},
+    {"crossland", "Index of Crossland", "magma", .from_zero = true},
+    {"dangvan", "Index of Dang Van", "magma", .from_zero = true},
+    {"papadopoulos", "Index of Papadopoulos", "magma", .from_zero = true},
+    {"findley", "Index of Findley", "magma", .from_zero = true},
+    {"shakedown", "Index of shakedown", "magma", .from_zero = true},
+    {"amplitude", "Amplitude of the shear stress", "magma", .from_zero = true},
 };
 /* clang-format on */
 

@@ -20,7 +20,7 @@ const struct opt stress_sum_options[] = {
      .words = words_stress_engine_or_auto, .help = "engine that sums stresses (default auto)"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",
-     .help = "permitted error of a component, over the largest pressure (default: rounding)"},
+     .help = "permitted error of a component, over the largest pressure (default: rounding; rc-fatigue 1e-5)"},
     {.name = NULL},
 };
 /* clang-format on */

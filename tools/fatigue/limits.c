@@ -1,0 +1,311 @@
+/* Endurance limits of materials or of a table, and residual stresses. */
+#include "fatigue.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- limits ---- */
+
+/* Adds a line "depth bending torsion [yield]" of the table. */
+static void
+add_line(struct tool *t, struct fatigue_limits *l, size_t *room, size_t number, char *line)
+{
+    static const enum unit unit[] = {UNIT_M, UNIT_PA, UNIT_PA, UNIT_PA};
+    const char *name = l->asked->table;
+    double v[4] = {0};
+    struct rc_err err;
+    char *at = NULL, *word = strtok_r(line, " \t,", &at);
+    size_t k = 0, same = *room;
+
+    for (; word != NULL && k < 4; word = strtok_r(NULL, " \t,", &at), k++)
+        if (unit_number(word, unit[k], &v[k], &err) != RC_OK || !(v[k] >= 0) || isinf(v[k])) {
+            if (k == 0 && l->n == 0 && number == 1)
+                return; /* a heading */
+            tool_die(t, EXIT_USAGE,
+                     "--limits %s, line %zu: '%s': it must be a depth and limits, at least 0", name,
+                     number, word);
+        }
+    if (k < 3 || word != NULL)
+        tool_die(t, EXIT_USAGE,
+                 "--limits %s, line %zu: it must hold a depth, the limits in bending and torsion, "
+                 "and at most the yield stress",
+                 name, number);
+    if (l->n > 0 && !(v[0] > l->depth[l->n - 1]))
+        tool_die(t, EXIT_USAGE, "--limits %s, line %zu: depth %g m: the depths must increase", name,
+                 number, v[0]);
+    l->depth = tool_grown(t, l->depth, l->n, room, sizeof *l->depth, "a table of limits");
+    l->at = tool_grown(t, l->at, l->n, &same, sizeof *l->at, "a table of limits");
+    l->depth[l->n] = v[0];
+    l->at[l->n++] = (struct rc_fatigue_limits){v[1], v[2], v[3]};
+}
+
+static void
+read_table(struct tool *t, struct fatigue_limits *l)
+{
+    FILE *file = fopen(l->asked->table, "r");
+    size_t number = 0, room = 0;
+    char line[512];
+
+    if (file == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--limits %s: %s", l->asked->table, strerror(errno));
+    while (fgets(line, sizeof line, file) != NULL) {
+        number++;
+        line[strcspn(line, "#\r\n")] = '\0';
+        if (line[strspn(line, " \t")] != '\0')
+            add_line(t, l, &room, number, line);
+    }
+    if (ferror(file))
+        tool_die(t, EXIT_IMPOSSIBLE, "--limits %s: %s", l->asked->table, strerror(errno));
+    fclose(file);
+    if (l->n == 0)
+        tool_die(t, EXIT_USAGE, "--limits %s: it holds no limits", l->asked->table);
+}
+
+static double
+number_of(const struct numbers *list, size_t k)
+{
+    return list->n == 0 ? 0 : list->v[list->n == 1 ? 0 : k];
+}
+
+static size_t
+larger(size_t a, size_t b)
+{
+    return a > b ? a : b;
+}
+
+/* True if a criterion needs endurance limits. */
+static bool
+needs_limits(unsigned wanted)
+{
+    return (wanted & (1U << RC_SHAKEDOWN | 1U << RC_AMPLITUDE)) != wanted;
+}
+
+void
+fatigue_limits_read(struct tool *t, const struct fatigue_limits_asked *asked, unsigned wanted,
+                    struct fatigue_limits *l)
+{
+    const bool both = asked->bending.n > 0 && asked->torsion.n > 0;
+    const bool any = asked->bending.n + asked->torsion.n + asked->yield.n > 0;
+    struct rc_err err;
+
+    l->asked = asked;
+    if (asked->table != NULL && any)
+        tool_die(t, EXIT_USAGE, "--limits has all limits: leave out the options with numbers");
+    if (asked->table == NULL && needs_limits(wanted) && !both)
+        tool_die(t, EXIT_USAGE,
+                 "give both endurance limits, --bending-limit and --torsion-limit: every criterion "
+                 "needs the two, and their ratio differs between materials");
+    if (asked->table != NULL) {
+        read_table(t, l);
+    } else {
+        l->n = larger(1, larger(asked->bending.n, larger(asked->torsion.n, asked->yield.n)));
+        l->at = tool_room(t, l->n, sizeof *l->at, "limits");
+        for (size_t k = 0; k < l->n; k++) {
+            if ((asked->bending.n > 1 && asked->bending.n != l->n) ||
+                (asked->torsion.n > 1 && asked->torsion.n != l->n) ||
+                (asked->yield.n > 1 && asked->yield.n != l->n))
+                tool_die(t, EXIT_USAGE,
+                         "the limits of materials must be lists of the same length, or one number "
+                         "for all");
+            l->at[k] = (struct rc_fatigue_limits){number_of(&asked->bending, k),
+                                                  number_of(&asked->torsion, k),
+                                                  number_of(&asked->yield, k)};
+        }
+    }
+    for (size_t k = 0; k < l->n; k++)
+        if (rc_fatigue_check_limits(wanted, &l->at[k], &err) != RC_OK)
+            tool_die(t, EXIT_USAGE, "%s: see --criteria", err.text);
+}
+
+void
+fatigue_limits_check(struct tool *t, const struct rc_grid *p, const struct fatigue_limits *l,
+                     const struct rc_body *body)
+{
+    if (l->depth == NULL && l->n > 1 && l->n != body->layers + 1)
+        tool_die_at(t, p, EXIT_IMPOSSIBLE,
+                    "its body has %zu material%s, and there are limits of %zu", body->layers + 1,
+                    body->layers == 0 ? "" : "s", l->n);
+}
+
+static double
+between(double a, double b, double part)
+{
+    return a + (b - a) * part;
+}
+
+struct rc_fatigue_limits
+fatigue_limits_at(const struct fatigue_limits *l, const struct rc_body *body, double depth)
+{
+    size_t k = 0;
+    double part;
+
+    if (l->depth == NULL)
+        return l->at[l->n == 1 ? 0 : rc_body_material(body, depth)];
+    while (k + 1 < l->n && depth > l->depth[k + 1])
+        k++;
+    if (k + 1 == l->n || depth <= l->depth[0])
+        return l->at[k];
+    part = (depth - l->depth[k]) / (l->depth[k + 1] - l->depth[k]);
+    return (struct rc_fatigue_limits){between(l->at[k].bending, l->at[k + 1].bending, part),
+                                      between(l->at[k].torsion, l->at[k + 1].torsion, part),
+                                      between(l->at[k].yield, l->at[k + 1].yield, part)};
+}
+
+void
+fatigue_limits_free(struct fatigue_limits *l)
+{
+    free(l->depth);
+    free(l->at);
+}
+
+/* ---- residual stresses ---- */
+
+static int
+component_of(const char *channel)
+{
+    int c = 0;
+
+    while (c < RC_COMPONENTS && strcmp(channel, rc_component_names[c]) != 0)
+        c++;
+    return c;
+}
+
+/* The index of a depth; n when the file has none there. */
+static size_t
+index_of(const struct fatigue_residual *r, double depth)
+{
+    size_t k = 0;
+
+    while (k < r->n && !(fabs(r->depth[k] - depth) <= 1e-9 * fabs(depth)))
+        k++;
+    return k;
+}
+
+/* The mean along the travel of each line; *varies: the largest deviation from it. */
+static double *
+means(struct tool *t, const struct rc_grid *g, char pass, double *varies)
+{
+    const bool along_x = pass == 'x';
+    const size_t lines = along_x ? g->ny : g->nx, n = along_x ? g->nx : g->ny;
+    double *line = tool_room(t, lines, sizeof *line, "the residual stress");
+
+    *varies = 0;
+    for (size_t j = 0; j < lines; j++) {
+        const double *v = g->v + (along_x ? j * g->nx : j);
+        const size_t step = along_x ? 1 : g->nx;
+        for (size_t i = 0; i < n; i++)
+            line[j] += v[i * step] / (double)n;
+        for (size_t i = 0; i < n; i++)
+            *varies = fmax(*varies, fabs(v[i * step] - line[j]));
+    }
+    return line;
+}
+
+static void
+keep_residual(struct tool *t, struct fatigue_residual *r, const struct rc_grid *g, char pass,
+              double largest[2])
+{
+    const int c = component_of(g->channel);
+    const size_t lines = pass == 'x' ? g->ny : g->nx;
+    double depth, varies;
+    size_t k, room;
+
+    if (c == RC_COMPONENTS)
+        return;
+    if (!rc_grid_number(g, "depth", &depth))
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "--residual %s: it has no key depth: a section will not do", r->name);
+    tool_demand_finite(t, g, "recompute the map");
+    if (r->n > 0 && lines != r->lines)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--residual %s: its maps differ in size", r->name);
+    r->lines = lines;
+    if ((k = index_of(r, depth)) == r->n) {
+        room = r->room;
+        for (int i = 0; i < RC_COMPONENTS; i++) {
+            room = r->room;
+            r->line[i] =
+                tool_grown(t, r->line[i], r->n, &room, sizeof(double *), "the residual stress");
+            r->line[i][k] = NULL;
+        }
+        r->depth = tool_grown(t, r->depth, r->n, &r->room, sizeof *r->depth, "the residual stress");
+        r->depth[r->n++] = depth;
+    }
+    free(r->line[c][k]);
+    r->line[c][k] = means(t, g, pass, &varies);
+    largest[0] = fmax(largest[0], varies);
+    for (size_t j = 0; j < rc_grid_nodes(g); j++)
+        largest[1] = fmax(largest[1], fabs(g->v[j]));
+}
+
+void
+fatigue_residual_read(struct tool *t, const char *name, char pass, struct fatigue_residual *r)
+{
+    static const double uniform = 0.1;
+    FILE *file = fopen(name, "rb");
+    struct rc_reader *reader;
+    struct rc_grid *g = NULL;
+    struct rc_err err;
+    enum rc_status status;
+    double largest[2] = {0, 0}; /* deviation, stress */
+
+    r->name = name;
+    if (file == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--residual %s: %s", name, strerror(errno));
+    if ((reader = rc_reader_new(file, 0, t->memory, &err)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--residual %s: %s", name, err.text);
+    while ((status = rc_reader_next(reader, &g, &err)) == RC_MORE) {
+        keep_residual(t, r, g, pass, largest);
+        rc_grid_free(g);
+    }
+    if (status == RC_FAIL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--residual %s: %s", name, err.text);
+    rc_reader_free(reader);
+    fclose(file);
+    if (r->n == 0)
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "--residual %s: it holds no stresses: see rc-stress --residual --components "
+                 "sxx,syy,szz,sxy,sxz,syz",
+                 name);
+    if (largest[0] > uniform * largest[1])
+        tool_die(
+            t, EXIT_IMPOSSIBLE,
+            "--residual %s: it varies along the travel by %.2g %% of its largest value: more "
+            "than 10 %% cannot stay in a body over which the contact travels; cut out the part "
+            "that is uniform with rc-pick --crop",
+            name, 100 * largest[0] / largest[1]);
+}
+
+const double *const *
+fatigue_residual_at(struct tool *t, const struct fatigue_residual *r, size_t lines, double depth,
+                    const double *at[RC_COMPONENTS])
+{
+    size_t k;
+
+    if (r->name == NULL)
+        return NULL;
+    if (lines != r->lines)
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "--residual %s: it has %zu lines along the travel, and the pressure has %zu",
+                 r->name, r->lines, lines);
+    if ((k = index_of(r, depth)) == r->n)
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "--residual %s: it has no stresses at the depth %g m: give both commands the same "
+                 "--depths",
+                 r->name, depth);
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        at[c] = r->line[c][k];
+    return at;
+}
+
+void
+fatigue_residual_free(struct fatigue_residual *r)
+{
+    for (int c = 0; c < RC_COMPONENTS; c++) {
+        for (size_t k = 0; k < r->n; k++)
+            free(r->line[c][k]);
+        free(r->line[c]);
+    }
+    free(r->depth);
+}

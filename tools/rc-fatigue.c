@@ -1,0 +1,670 @@
+/* Fatigue below a contact that rolls or slides: criteria of the stress history of each point. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
+#include "tools/fatigue/fatigue.h"
+#include "tools/stress/stress.h"
+
+static struct args {
+    struct fatigue_limits_asked limits;
+    struct numbers depths, life; /* depths: none: auto */
+    size_t criteria;             /* bits of enum rc_criterion */
+    const char *pass, *dangvan, *residual, *report, *by_depth;
+    bool planes, dry_run;
+    struct stress_asked asked;
+} args = {.asked = STRESS_ASKED,
+          .dangvan = "cut",
+          .criteria = 1U << RC_CROSSLAND | 1U << RC_DANG_VAN | 1U << RC_AMPLITUDE};
+
+static const char *
+criterion_word(size_t k)
+{
+    return k <= RC_AMPLITUDE ? rc_criterion_names[k] : NULL;
+}
+
+#define AT(field) .at = offsetof(struct args, field)
+/* clang-format off */
+static const struct opt opts[] = {
+    {.name = "bending-limit", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(limits.bending), .min = 0,
+     .max = INFINITY, .above = true, .result = true, .arg = "LIST",
+     .help = "endurance limit in fully reversed bending; of a coated body a list, top layer first"},
+    {.name = "torsion-limit", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(limits.torsion), .min = 0,
+     .max = INFINITY, .above = true, .result = true, .arg = "LIST",
+     .help = "endurance limit in fully reversed torsion, likewise"},
+    {.name = "yield", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(limits.yield), .min = 0, .max = INFINITY,
+     .above = true, .result = true, .arg = "LIST",
+     .help = "yield stress in tension, likewise, for the criterion shakedown"},
+    {.name = "limits", .type = OPT_TEXT, AT(limits.table), .result = true, .arg = "FILE",
+     .help = "instead: a table of depth, bending limit, torsion limit and, if needed, yield stress"},
+    {.name = "criteria", .type = OPT_WORDS, AT(criteria), .result = true, .words = criterion_word,
+     .arg = "LIST", .help = "of %s (default: crossland, dangvan, amplitude)"},
+    {.name = "dangvan", .type = OPT_CHOICE, AT(dangvan), .result = true, .arg = "cut|full",
+     .help = "hydrostatic pressure has no effect in Dang Van's criterion, or lowers it (default cut)"},
+    {.name = "pass", .type = OPT_CHOICE, AT(pass), .result = true, .arg = "x|y",
+     .help = "the pressure travels with the contact along this axis: every point of a line sees the line"},
+    {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0,
+     .max = INFINITY, .result = true, .word = "auto", .arg = "LIST",
+     .help = "depths: a,b,c, a:b:n or a:b:log:n, or auto: dense near the surface"},
+    {.name = "residual", .type = OPT_TEXT, AT(residual), .result = true, .arg = "FILE",
+     .help = "stresses that are always there, as rc-stress --residual writes them at these depths"},
+    {.group = stress_body_options, AT(asked)},
+    {.name = "planes", .type = OPT_FLAG, AT(planes), .result = true,
+     .help = "also write the angles of Findley's plane: frames plane-tilt and plane-turn"},
+    {.name = "life", .type = OPT_NUMBERS, AT(life), .min = 0, .max = INFINITY, .result = true,
+     .arg = "C[,H[,TAU]]", .help = "report the integral of (amplitude - TAU)^C z^-H, TAU in Pa"},
+    {.group = stress_sum_options, AT(asked)},
+    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
+     .help = "write one JSON object per result, or a row of FILE.tsv or .csv: largest indices, safety"},
+    {.name = "by-depth", .type = OPT_REPORT, AT(by_depth), .arg = "FILE",
+     .help = "write the largest indices of each depth, as --report does"},
+    {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
+     .help = "print what would be computed, with its memory, and stop"},
+    {.name = NULL},
+};
+/* clang-format on */
+
+static const struct tool_info info = {
+    .name = "rc-fatigue",
+    .summary = "Fatigue below a contact that rolls or slides: indices and safety factor",
+    .operands = "[FILE...]",
+    .examples =
+        "  rc-solve --load 240N --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 surface.rcg |\n"
+        "      rc-fatigue --bending-limit 600MPa --torsion-limit 372MPa --pass x --depths auto \\\n"
+        "          --report fatigue.json --by-depth depths.tsv -o fatigue.rcg\n"
+        "  rc-render --channel dangvan -o section.png fatigue.rcg\n"
+        "  rc-render --curve depth:dangvan -o curve.png depths.tsv\n",
+    .opts = opts,
+    .reads = READS_STREAM,
+    .writes = WRITES_STREAM,
+    .shares = true, /* to refuse it once */
+};
+
+/* A case of the stream. */
+struct position {
+    struct rc_grid *p, *traction[2];
+};
+
+struct run {
+    struct tool t;
+    struct fatigue_limits limits;
+    struct fatigue_residual residual;
+    struct report report, by_depth;
+    /* of the present history */
+    struct position *position;
+    size_t positions, room;
+    struct stress_input input; /* of the first case; tractions of the next one */
+    struct rc_stress_options options;
+    struct rc_fatigue_problem problem;
+    struct numbers depths;
+    const double **map[3]; /* pressure and tractions of each case */
+    size_t *column;
+    double step; /* m: largest distance of the contact between two states */
+    struct rc_grid *frame[RC_FATIGUES];
+};
+
+static bool
+wanted(int c)
+{
+    return args.criteria >> c & 1;
+}
+
+/* ---- the command line ---- */
+
+static void
+check_arguments(struct run *run)
+{
+    struct tool *t = &run->t;
+
+    if (ranks_count(t) > 1)
+        tool_die(t, EXIT_USAGE,
+                 "fatigue is not shared among processes: take one process, with --threads");
+    if (!tool_given(t, "depths"))
+        tool_die(t, EXIT_USAGE,
+                 "give the depths with --depths, as in --depths 1um,5um or --depths "
+                 "1um:50um:log:20, or leave their choice to --depths auto");
+    for (size_t k = 1; k < args.depths.n; k++)
+        if (!(args.depths.v[k] > args.depths.v[k - 1]))
+            tool_die(t, EXIT_USAGE, "--depths: the depths must increase");
+    if (args.planes)
+        args.criteria |= 1U << RC_FINDLEY | 1U << RC_PLANE_TILT | 1U << RC_PLANE_TURN;
+    if (tool_given(t, "dangvan") && !wanted(RC_DANG_VAN))
+        tool_die(t, EXIT_USAGE, "--dangvan has no effect without the criterion dangvan");
+    if (wanted(RC_SHAKEDOWN) && args.pass == NULL)
+        tool_die(
+            t, EXIT_USAGE,
+            "the criterion shakedown needs --pass: only then the residual stresses do not vary "
+            "along the travel");
+    if (args.life.n > 3 || (args.life.n > 0 && !(args.life.v[0] > 0)))
+        tool_die(t, EXIT_USAGE, "--life: it must be C, C,H or C,H,TAU, with C above 0");
+    fatigue_limits_read(t, &args.limits, (unsigned)args.criteria, &run->limits);
+    if (isnan(args.asked.tol))
+        args.asked.tol = 1e-5; /* stresses in single precision, and on coarser grids below */
+    if (args.residual != NULL)
+        fatigue_residual_read(t, args.residual, args.pass == NULL ? 'x' : args.pass[0],
+                              &run->residual);
+    report_open(&run->report, t, args.report);
+    report_open(&run->by_depth, t, args.by_depth);
+}
+
+/* ---- the cases of a history ---- */
+
+static bool
+take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
+{
+    return stress_input_take(t, p, g, &((struct run *)ctx)->input);
+}
+
+static const char *
+key_text(const struct rc_grid *g, const char *name)
+{
+    const char *text = rc_grid_get(g, name);
+
+    return text == NULL ? "" : text;
+}
+
+/* Adds a case; the next ones must be of the same body on the same grid. */
+static void
+add_case(struct run *run, struct rc_grid *p)
+{
+    static const char *const same[] = {"boundary", "layers", "layers.residual", "nu"};
+    struct tool *t = &run->t;
+    const size_t n = run->positions;
+    const struct rc_grid *first = n > 0 ? run->position[0].p : p;
+    struct position *at;
+
+    tool_demand_finite(t, p, "recompute the map");
+    tool_demand_grid_of(t, p, first);
+    for (size_t k = 0; k < sizeof same / sizeof *same; k++)
+        if (strcmp(key_text(p, same[k]), key_text(first, same[k])) != 0)
+            tool_die_at(t, p, EXIT_IMPOSSIBLE,
+                        "its key %s is '%s', that of the first case '%s': the cases of a history "
+                        "must have the same body",
+                        same[k], key_text(p, same[k]), key_text(first, same[k]));
+    if (rc_grid_get(p, "slabs") != NULL && n == 0)
+        tool_warn(t,
+                  "the body has yielded, and its residual stress is not in the histories: compute "
+                  "it with rc-stress --residual and give the file to --residual");
+    if (n == 0)
+        stress_input_read(t, p, &args.asked, &run->input, &run->options);
+    run->position = tool_grown(t, run->position, n, &run->room, sizeof *run->position, "cases");
+    at = &run->position[run->positions++];
+    at->p = p;
+    for (int k = 0; k < 2; k++) {
+        at->traction[k] = run->input.traction[k];
+        run->input.traction[k] = NULL;
+        if (at->traction[k] != NULL) {
+            tool_demand_grid_of(t, at->traction[k], p);
+            tool_demand_finite(t, at->traction[k], "recompute the map");
+        }
+        if ((at->traction[k] != NULL) != (run->position[0].traction[k] != NULL))
+            tool_die_at(t, p, EXIT_IMPOSSIBLE, "only some of the cases have a frame traction-%c",
+                        k == 0 ? 'x' : 'y');
+    }
+}
+
+/* True if the maps go along with the contact: all with positions but those of rc-solve --travel on the whole
+ * map of the body. */
+static bool
+maps_travel(const struct rc_grid *p)
+{
+    const char *history = rc_grid_get(p, "history"), *travel;
+
+    travel = history == NULL ? NULL : strstr(history, "--travel");
+    return rc_grid_get(p, "position") != NULL &&
+           (travel == NULL || strstr(history, "--window") != NULL);
+}
+
+static double
+position_of(struct run *run, const struct rc_grid *p)
+{
+    double x = 0;
+
+    if (rc_grid_get(p, "position") != NULL && !rc_grid_number(p, "position", &x))
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "its key position is not a number");
+    if ((rc_grid_get(p, "position") != NULL) !=
+        (rc_grid_get(run->position[0].p, "position") != NULL))
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "only some of the cases have the key position");
+    return x;
+}
+
+/* The columns of the body under the maps, and the distance between states. */
+static void
+set_columns(struct run *run)
+{
+    const struct rc_grid *first = run->position[0].p;
+    double least = INFINITY, most = -INFINITY, before = NAN, rounded = 0;
+
+    run->step = args.pass == NULL ? 0 : args.pass[0] == 'x' ? first->dx : first->dy;
+    for (size_t k = 0; k < run->positions; k++)
+        least = fmin(least, position_of(run, run->position[k].p));
+    for (size_t k = 0; k < run->positions && args.pass == NULL; k++) {
+        const double x = position_of(run, run->position[k].p);
+        const double columns = floor(x / first->dx + 0.5) - floor(least / first->dx + 0.5);
+        if (columns > 1e7)
+            tool_die_at(
+                &run->t, run->position[k].p, EXIT_IMPOSSIBLE,
+                "its position, %g m, is %g columns from that of another case: are positions "
+                "in metres?",
+                x, columns);
+        run->column[k] = maps_travel(first) ? (size_t)columns : 0;
+        rounded = fmax(rounded, fabs(x / first->dx - floor(x / first->dx + 0.5)));
+        most = fmax(most, x);
+        if (k > 0)
+            run->step = fmax(run->step, fabs(x - before));
+        before = x;
+    }
+    if (maps_travel(first) && rounded > 0.01)
+        tool_warn(
+            &run->t,
+            "positions are rounded to columns of the map, by up to %.2g of dx: take positions "
+            "at multiples of dx",
+            rounded);
+}
+
+static void
+set_problem(struct run *run)
+{
+    struct tool *t = &run->t;
+    const struct rc_grid *first = run->position[0].p;
+    const struct rc_shape shape = rc_grid_shape(first);
+    const size_t n = run->positions;
+    size_t plan, maps, left = tool_memory_left(t);
+    struct rc_err err;
+
+    run->column = tool_room(t, n, sizeof *run->column, "cases");
+    for (int m = 0; m < 3; m++) {
+        run->map[m] = tool_room(t, n, sizeof(double *), "cases");
+        for (size_t k = 0; k < n; k++) {
+            const struct position *at = &run->position[k];
+            const struct rc_grid *g = m == 0 ? at->p : at->traction[m - 1];
+            run->map[m][k] = g == NULL ? NULL : g->v;
+        }
+    }
+    set_columns(run);
+    run->problem = (struct rc_fatigue_problem){.stress = run->options,
+                                               .wanted = (unsigned)args.criteria,
+                                               .full = strcmp(args.dangvan, "full") == 0,
+                                               .pass = args.pass == NULL ? 0 : args.pass[0],
+                                               .cases = n,
+                                               .p = run->map[0],
+                                               .column = run->column,
+                                               .power = args.life.n > 0 ? args.life.v[0] : 0,
+                                               .depth_power = args.life.n > 1 ? args.life.v[1] : 0,
+                                               .threshold = args.life.n > 2 ? args.life.v[2] : 0};
+    for (int k = 0; k < 2; k++)
+        run->problem.traction[k] = run->map[k + 1][0] == NULL ? NULL : run->map[k + 1];
+    tool_must(t, first, rc_fatigue_check(&shape, &run->problem, &err), &err);
+    /* histories get what the plan, the maps and the frames leave */
+    plan = (size_t)(stress_plan_bytes(&run->options, RC_COMPONENTS) * (double)rc_grid_nodes(first));
+    run->problem.room = 1;
+    maps = plan + 2 * rc_fatigue_memory(&shape, &run->problem);
+    run->problem.room = left > maps ? left - maps : 1;
+}
+
+/* ---- depths and frames ---- */
+
+/* Depths closer to the surface than half a node are left out of a choice: there the stress of a cell is not
+ * that of the pressure. */
+static void
+set_depths(struct run *run)
+{
+    const struct rc_grid *peak = run->position[0].p;
+    struct numbers *d = &run->depths;
+    double largest = -INFINITY, least = fmin(peak->dx, peak->dy) / 2;
+    char given[SHOWN_NUMBER], node[SHOWN_NUMBER];
+    size_t kept = 0, low, high;
+
+    for (size_t k = 0; k < run->positions; k++) {
+        const struct rc_grid *p = run->position[k].p;
+        rc_extremes(rc_grid_nodes(p), p->v, &low, &high);
+        if (p->v[high] > largest) {
+            largest = p->v[high];
+            peak = p;
+        }
+    }
+    *d = args.depths;
+    stress_depths_read(&run->t, peak, &run->options, d);
+    if (args.depths.n > 0) {
+        if (d->v[0] < least)
+            tool_warn(&run->t,
+                      "the first depth, %s, is less than half the distance of nodes, %s: stresses "
+                      "there are those of single cells, and indices are too large or too small",
+                      shown_in_unit(given, d->v[0], "m"), shown_in_unit(node, 2 * least, "m"));
+        return;
+    }
+    for (size_t k = 0; k < d->n; k++)
+        if (d->v[k] >= least)
+            d->v[kept++] = d->v[k];
+    d->n = kept;
+}
+
+static const char *
+unit_of(int c)
+{
+    return c < RC_CRITERIA ? "1" : c == RC_AMPLITUDE ? "Pa" : "deg";
+}
+
+static bool
+needs_endurance(void)
+{
+    return (args.criteria & ((1U << RC_SHAKEDOWN) - 1)) != 0;
+}
+
+/* The limits in the keys, if all depths have the same. */
+static enum rc_status
+set_limits(const struct run *run, struct rc_grid *g, struct rc_err *err)
+{
+    const struct rc_fatigue_limits *l = run->limits.at;
+
+    if (run->limits.n > 1)
+        return RC_OK;
+    return (l->bending > 0 && rc_grid_set_number(g, "bending_limit", l->bending, err) != RC_OK) ||
+                   (l->torsion > 0 &&
+                    rc_grid_set_number(g, "torsion_limit", l->torsion, err) != RC_OK)
+               ? RC_FAIL
+               : RC_OK;
+}
+
+static void
+set_keys(struct run *run, struct rc_grid *g)
+{
+    static const char *const gone[] = {"position", "height", "mu", "approach"};
+    const char pass[2] = {run->problem.pass, '\0'};
+    struct numbers *d = &run->depths;
+    struct rc_err err;
+    size_t frames = 0;
+    bool fine = true;
+
+    for (int c = 0; c < RC_FATIGUES; c++)
+        frames += wanted(c);
+    for (size_t k = 0; k < sizeof gone / sizeof *gone; k++)
+        fine = fine && rc_grid_set(g, gone[k], NULL, &err) == RC_OK;
+    if (pass[0] != '\0') {
+        size_t size = d->n * RC_NUMBER_SIZE + 1, n = 0;
+        char *text = tool_room(&run->t, size, 1, "the depths of a section");
+        char number[RC_NUMBER_SIZE];
+        for (size_t k = 0; k < d->n; k++)
+            n += (size_t)snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",",
+                                  rc_number_text(number, d->v[k]));
+        fine = fine && rc_grid_set(g, "section", pass, &err) == RC_OK &&
+               rc_grid_set(g, "at", "0", &err) == RC_OK &&
+               rc_grid_set(g, "depths", text, &err) == RC_OK;
+        free(text);
+    } else {
+        frames *= d->n;
+    }
+    if (!fine || rc_grid_set_number(g, "frames", (double)frames, &err) != RC_OK ||
+        set_limits(run, g, &err) != RC_OK ||
+        rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+/* A section with a row for each depth, or the map of a depth. */
+static struct rc_grid *
+new_frame(struct run *run, const struct rc_shape *result, int c)
+{
+    const struct rc_grid *first = run->position[0].p;
+    const struct numbers *d = &run->depths;
+    struct rc_shape shape = *result;
+    struct rc_grid *g;
+    struct rc_err err;
+
+    if (run->problem.pass != 0) {
+        shape.ny = d->n;
+        shape.dy = d->n > 1 ? (d->v[d->n - 1] - d->v[0]) / (double)(d->n - 1) : shape.dx;
+    }
+    if ((g = rc_grid_new(&shape, rc_criterion_names[c], unit_of(c), &err)) == NULL)
+        tool_die_at(&run->t, first, EXIT_IMPOSSIBLE, "%s", err.text);
+    for (size_t k = 0; k < first->keys; k++)
+        tool_must(&run->t, first, rc_grid_set(g, first->key[k].name, first->key[k].value, &err),
+                  &err);
+    set_keys(run, g);
+    return g;
+}
+
+/* ---- the report ---- */
+
+static void
+begin_row(struct run *run, struct report *out)
+{
+    const struct rc_grid *first = run->position[0].p;
+    const char pass[2] = {run->problem.pass, '\0'};
+
+    report_begin(out);
+    report_map(out, first, rc_grid_case(first));
+    report_text(out, "boundary", run->options.boundary == RC_PERIODIC ? "periodic" : "free");
+    report_text(out, "pass", pass[0] == '\0' ? NULL : pass);
+    report_count(out, "positions", run->positions, NULL);
+}
+
+static void
+report_depth(struct run *run, const struct rc_fatigue *f, double depth, double **by_depth, size_t k)
+{
+    const struct rc_fatigue_figures *at = rc_fatigue_at_depth(f);
+    const struct rc_fatigue_limits l = fatigue_limits_at(&run->limits, &run->options.body, depth);
+
+    for (int c = 0; c <= RC_CRITERIA; c++)
+        by_depth[c][k] = at->largest[c].value;
+    if (!report_wanted(&run->by_depth))
+        return;
+    begin_row(run, &run->by_depth);
+    report_number(&run->by_depth, "depth", depth, "m");
+    report_count(&run->by_depth, "material", rc_body_material(&run->options.body, depth) + 1, NULL);
+    report_number(&run->by_depth, "bending_limit", l.bending, "Pa");
+    report_number(&run->by_depth, "torsion_limit", l.torsion, "Pa");
+    report_table(&run->by_depth, rc_figures("fatigue"), at);
+    report_finish_row(&run->by_depth);
+}
+
+static void
+report_all(struct run *run, const struct rc_fatigue *f, double **by_depth, double began)
+{
+    struct report *out = &run->report;
+
+    if (!report_wanted(out))
+        return;
+    begin_row(run, out);
+    report_text(out, "dangvan_compression", args.dangvan);
+    report_text(out, "residual", args.residual);
+    report_numbers(out, "depth_list", run->depths.v, sizeof *run->depths.v, run->depths.n);
+    report_table(out, rc_figures("fatigue"), rc_fatigue_result(f));
+    report_object(out, "by_depth");
+    for (int c = 0; c <= RC_CRITERIA; c++)
+        if (wanted(c))
+            report_numbers(out, rc_criterion_names[c], by_depth[c], sizeof(double), run->depths.n);
+    report_end(out);
+    report_number(out, "seconds", tool_now() - began, "s");
+    report_memory(out);
+    report_finish_row(out);
+}
+
+/* ---- judgement ---- */
+
+static void
+judge(struct run *run, const struct rc_fatigue *f)
+{
+    static const double coarse = 0.05;
+    const struct rc_fatigue_figures *r = rc_fatigue_result(f);
+    const struct rc_fatigue_place *at = r->largest;
+    char step[SHOWN_NUMBER], depth[SHOWN_NUMBER];
+    struct tool *t = &run->t;
+
+    for (int c = 0; c <= RC_CRITERIA; c++)
+        if (wanted(c) && at[c].sampling_error > coarse) {
+            tool_warn(
+                t,
+                "%s: its largest value is at the depth %s, and the states of a history are up "
+                "to %s apart: its sampling error is %.2g: take a finer map or more positions, "
+                "or leave out depths above it",
+                rc_criterion_names[c], shown_in_unit(depth, at[c].depth, "m"),
+                shown_in_unit(step, run->step, "m"), at[c].sampling_error);
+            break;
+        }
+    if (run->options.boundary == RC_PERIODIC && needs_endurance())
+        tool_warn(t,
+                  "the map is periodic, and no state of a history is unloaded: the amplitudes are "
+                  "those between contacts, and hydrostatic pressure lowers Crossland's, "
+                  "Papadopoulos's and Findley's index");
+    if (wanted(RC_DANG_VAN) && run->problem.full && r->dangvan_hydrostatic < 0)
+        tool_warn(t, "the instant that decides for Dang Van is under hydrostatic pressure, which "
+                     "lowers the index as far as the limits allow: compare --dangvan cut");
+    if (wanted(RC_SHAKEDOWN) && at[RC_SHAKEDOWN].value > 1)
+        tool_warn(t,
+                  "the index of shakedown is %.3g: the body yields in every cycle, and criteria of "
+                  "elastic cycles do not hold",
+                  at[RC_SHAKEDOWN].value);
+}
+
+/* ---- a history ---- */
+
+static void
+show_plan(struct run *run, const struct rc_shape *shape)
+{
+    const struct rc_grid *first = run->position[0].p;
+    const struct rc_shape r = rc_fatigue_shape(shape, &run->problem);
+    const size_t bytes =
+        rc_fatigue_memory(shape, &run->problem) +
+        (size_t)(stress_plan_bytes(&run->options, RC_COMPONENTS) * (double)rc_grid_nodes(first));
+    const struct numbers *d = &run->depths;
+    FILE *out = run->t.out;
+
+    fprintf(out, "case %zu: %zu x %zu nodes, %s boundary\n", rc_grid_case(first), first->nx,
+            first->ny, run->options.boundary == RC_PERIODIC ? "periodic" : "free");
+    if (args.pass != NULL)
+        fprintf(out, "  %-14salong %s\n", "pass", args.pass);
+    else
+        fprintf(out, "  %-14s%zu\n", "positions", run->positions);
+    fprintf(out, "  %-14s%zu, %g to %g m\n", "depths", d->n, d->v[0], d->v[d->n - 1]);
+    fprintf(out, "  %-14s%zu at each depth\n", "histories", r.nx * r.ny);
+    for (int c = 0; c < RC_FATIGUES; c++)
+        fprintf(out, "  %-14s%s\n", rc_criterion_names[c], wanted(c) ? "on" : "left out");
+    fprintf(out, "  %-14sabout %zu MiB\n", "memory", (tool_memory_with(bytes) >> 20) + 1);
+}
+
+static void
+do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, size_t k)
+{
+    struct tool *t = &run->t;
+    const double depth = run->depths.v[k], *at[RC_COMPONENTS];
+    const struct rc_body *body = &run->options.body;
+    const struct rc_fatigue_limits l = fatigue_limits_at(&run->limits, body, depth);
+    const size_t lines = run->problem.pass == 'y' ? run->position[0].p->nx : run->position[0].p->ny;
+    double *to[RC_FATIGUES] = {NULL};
+    struct rc_err err;
+
+    tool_progress(t, (double)k / (double)run->depths.n, "depth %zu of %zu", k + 1, run->depths.n);
+    for (int c = 0; c < RC_FATIGUES; c++)
+        if (wanted(c))
+            to[c] = run->frame[c]->v + (run->problem.pass != 0 ? k * result->nx : 0);
+    tool_must(t, run->position[0].p,
+              rc_fatigue_depth(f, depth, &l,
+                               fatigue_residual_at(t, &run->residual, lines, depth, at), to, &err),
+              &err);
+    for (int c = 0; c < RC_FATIGUES && run->problem.pass == 0; c++) {
+        if (!wanted(c))
+            continue;
+        if (rc_grid_set_number(run->frame[c], "depth", depth, &err) != RC_OK ||
+            (body->layers > 0 &&
+             rc_grid_set_number(run->frame[c], "material",
+                                (double)rc_body_material(body, depth) + 1, &err) != RC_OK))
+            tool_die_at(t, run->frame[c], EXIT_IMPOSSIBLE, "%s", err.text);
+        tool_write(t, run->frame[c]);
+    }
+}
+
+static void
+do_history(struct run *run)
+{
+    struct tool *t = &run->t;
+    const struct rc_grid *first = run->position[0].p;
+    const struct rc_shape shape = rc_grid_shape(first);
+    const double began = tool_now();
+    struct rc_shape result;
+    struct rc_fatigue *f;
+    double *by_depth[RC_CRITERIA + 1];
+    struct rc_err err;
+
+    set_problem(run);
+    fatigue_limits_check(t, first, &run->limits, &run->options.body);
+    set_depths(run);
+    if (args.dry_run) {
+        show_plan(run, &shape);
+        return;
+    }
+    result = rc_fatigue_shape(&shape, &run->problem);
+    if ((f = rc_fatigue_new(&shape, &run->problem, &err)) == NULL)
+        tool_die_at(t, first, EXIT_IMPOSSIBLE, "%s", err.text);
+    for (int c = 0; c < RC_FATIGUES; c++)
+        run->frame[c] = wanted(c) ? new_frame(run, &result, c) : NULL;
+    for (int c = 0; c <= RC_CRITERIA; c++)
+        by_depth[c] = tool_room(t, run->depths.n, sizeof(double), "the report");
+    for (size_t k = 0; k < run->depths.n; k++) {
+        do_depth(run, f, &result, k);
+        report_depth(run, f, run->depths.v[k], by_depth, k);
+    }
+    tool_progress_end(t);
+    for (int c = 0; c < RC_FATIGUES; c++) {
+        if (run->frame[c] != NULL && run->problem.pass != 0)
+            tool_write(t, run->frame[c]);
+        rc_grid_free(run->frame[c]);
+    }
+    judge(run, f);
+    report_all(run, f, by_depth, began);
+    for (int c = 0; c <= RC_CRITERIA; c++)
+        free(by_depth[c]);
+    rc_fatigue_free(f);
+}
+
+static void
+forget_history(struct run *run)
+{
+    for (size_t k = 0; k < run->positions; k++) {
+        rc_grid_free(run->position[k].p);
+        rc_grid_free(run->position[k].traction[0]);
+        rc_grid_free(run->position[k].traction[1]);
+    }
+    run->positions = 0;
+    for (int m = 0; m < 3; m++)
+        free(run->map[m]);
+    free(run->column);
+    if (run->depths.v != args.depths.v)
+        free(run->depths.v);
+    stress_input_free(&run->input);
+}
+
+int
+main(int argc, char **argv)
+{
+    static struct run run;
+    struct rc_grid *p;
+
+    tool_start(&run.t, &info, argc, argv, &args);
+    check_arguments(&run);
+    while ((p = tool_channel_with(&run.t, "pressure", take, &run)) != NULL) {
+        if (args.pass != NULL && rc_grid_get(p, "position") != NULL)
+            tool_die_at(&run.t, p, EXIT_IMPOSSIBLE,
+                        "it is a position of a contact that travels: leave out --pass %s, which "
+                        "repeats one pressure, or choose a position, as in rc-pick --case 1 and "
+                        "--set position=",
+                        args.pass);
+        add_case(&run, p);
+        if (args.pass == NULL)
+            continue;
+        do_history(&run);
+        forget_history(&run);
+    }
+    if (run.positions > 0) {
+        do_history(&run);
+        forget_history(&run);
+    }
+    report_close(&run.report);
+    report_close(&run.by_depth);
+    fatigue_limits_free(&run.limits);
+    fatigue_residual_free(&run.residual);
+    free(run.position);
+    free(args.depths.v);
+    return tool_finish(&run.t);
+}
