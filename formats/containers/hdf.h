@@ -29,8 +29,8 @@ enum rc_status rc_hdf_values(struct rc_hdf *hdf, const struct rc_hdf_set *set, d
 bool rc_hdf_number(struct rc_hdf *hdf, const char *path, const char *name, double *value);
 char *rc_hdf_text(struct rc_hdf *hdf, const char *path, const char *name, char *to, size_t size);
 
-/* A record of a table, which is a dataset or an attribute of compounds: the texts of its first text members,
- * and the numbers of its first member that is a list of numbers. */
+/* A record of a table, which is a dataset or an attribute of compounds. It has the texts of its first text
+ * members, and the numbers of its first member that is a list of numbers. */
 struct rc_hdf_record {
     char text[3][128];
     double number[4];

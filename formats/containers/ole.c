@@ -60,7 +60,7 @@ take_table(struct ole *o, uint32_t sector, size_t *filled)
     return !b.past || *filled == o->sectors;
 }
 
-/* The table that chains sectors: its own sectors are listed in the header and in further sectors, each of
+/* The table that chains sectors. Its own sectors are listed in the header and in further sectors, each of
  * which ends with the number of the next one. */
 static enum rc_status
 read_table(struct ole *o, struct rc_err *err)

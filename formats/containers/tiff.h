@@ -45,8 +45,8 @@ struct rc_tiff_shape {
     bool floats;
 };
 enum rc_status rc_tiff_shape(struct rc_tiff *tiff, struct rc_tiff_shape *shape, struct rc_err *err);
-/* The first sample of every pixel, row 0 first: whole numbers of 1, 8, 16 or 32 bits, with or without sign,
- * or floats of 32 or 64 bits, according to the page. */
+/* The first sample of every pixel, row 0 first. Samples are whole numbers of 1, 8, 16 or 32 bits, with or
+ * without sign, or floats of 32 or 64 bits, according to the page. */
 enum rc_status rc_tiff_values(struct rc_tiff *tiff, const struct rc_tiff_shape *shape, double *v,
                               struct rc_err *err);
 

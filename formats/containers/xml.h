@@ -12,7 +12,7 @@
 struct rc_xml;
 
 /* Called at the end of every element. `path` has the names from the root on, without namespaces:
- * "ISO5436_2/Record1/FeatureType"; `text` is the trimmed text of the element: complete if the element
+ * "ISO5436_2/Record1/FeatureType". `text` is the trimmed text of the element: complete if the element
  * contains no others, cut at 8 KiB. */
 typedef enum rc_status rc_element(void *arg, const char *path, const char *text,
                                   struct rc_err *err);

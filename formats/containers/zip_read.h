@@ -1,6 +1,6 @@
 /*
  * ZIP archives in memory; only these files use libzip. A member is read only if it is stored or deflated and
- * its packed bytes can give its size, so that a few bytes cannot make a program allocate much memory.
+ * its packed bytes can give its size. So a few bytes cannot make a program allocate much memory.
  */
 #ifndef RC_ZIP_READ_H
 #define RC_ZIP_READ_H

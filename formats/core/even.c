@@ -19,7 +19,7 @@ last_place(const double *x, size_t points)
     return place;
 }
 
-/* Positions count as even if they deviate by their rounding in the file, or by a twentieth of a step: a
+/* Positions count as even if they deviate by their rounding in the file, or by a twentieth of a step. A
  * stylus drifts that much, and such a shift hardly changes the heights. */
 static enum rc_status
 judge_steps(const double *x, size_t points, struct rc_err *err)

@@ -3,7 +3,7 @@
  *
  * Between neighbouring points a profile is interpolated linearly. It is unknown across a gap of more than
  * RC_EVEN_GAP steps (or median spacings, where the step is finer) and next to a missing point. The profile's
- * own step is the median of the spacings, so that a gap or a cluster of points does not change it; it is
+ * own step is the median of the spacings, so that a gap or a cluster of points does not change it. It is
  * fitted so that whole steps fill the length.
  */
 #ifndef RC_EVEN_H
@@ -22,9 +22,9 @@ struct rc_even {
     double widest;      /* largest gap that is interpolated; 0: the points are the nodes */
 };
 
-/* Nodes for points at x[0] < x[1] < ... in units of `metres` (NAN: unknown): at the user's step, or at the
- * points themselves if these are even to a twentieth of a step or to the last decimal in the file. RC_FAIL
- * for uneven points without a wish, and for an unsuitable step. */
+/* Nodes for points at x[0] < x[1] < ... in units of `metres` (NAN: unknown), at the user's step. Without it
+ * the nodes are the points themselves if these are even to a twentieth of a step or to the last decimal in
+ * the file. RC_FAIL for uneven points without a wish, and for an unsuitable step. */
 enum rc_status rc_even_new(const double *x, size_t points, double metres,
                            const struct rc_file *file, const struct rc_wish *wish,
                            struct rc_even *even, struct rc_err *err);

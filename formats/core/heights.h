@@ -14,9 +14,9 @@ struct rc_heights {
     const char *name;
 };
 
-/* Makes a grid for the heights, without values, and sets *metres to the metres per number of the file;
- * options of the user override the file. Values that are not lengths keep their name, and *metres is then the
- * factor to their SI unit. RC_FAIL (NULL) when neither user nor file gives the spacing or the unit, or when
+/* Makes a grid for the heights, without values, and sets *metres to the metres per number of the file.
+ * Options of the user override the file. Values that are not lengths keep their name, and *metres is then the
+ * factor to their SI unit. RC_FAIL (NULL) when neither user nor file gives the spacing or the unit. Also when
  * the map is larger than a file of this size can hold (rc_map_fits). */
 struct rc_grid *rc_heights_new(const struct rc_heights *heights, const struct rc_file *file,
                                const struct rc_wish *wish, double *metres, struct rc_notes *notes,

@@ -1,7 +1,7 @@
 /*
  * Most readers only describe a file as maps of raw numbers at some position in it. A format fills struct
- * rc_maps from its header. Listing, checking the sizes against the bytes of the file, decoding, reordering,
- * scaling and marking of missing points are then the same for all, and are done here.
+ * rc_maps from its header. Then one code does the rest for all. It lists, checks the sizes against the bytes
+ * of the file, decodes, reorders, scales and marks missing points.
  */
 #ifndef RC_MAPS_H
 #define RC_MAPS_H

@@ -341,8 +341,8 @@ has_quotes(const struct rc_number_table *t)
     return memchr(t->start, '"', (size_t)(line_end(t, t->start) - t->start)) != NULL;
 }
 
-/* The separator, from the first row. A comma is a separator if the row also has points, if every comma has
- * white space next to it, or if the row has no other white space. */
+/* The separator, from the first row. A comma is a separator if the row also has points, or if every comma has
+ * white space next to it. It is one, too, if the row has no other white space. */
 static enum rc_status
 find_separator(struct rc_number_table *t, const char *s, size_t line, struct rc_err *err)
 {

@@ -1,9 +1,9 @@
 /*
- * A table of numbers in text, with as many columns in every row: read in one pass, with a point or a comma as
- * the decimal mark in any locale.
+ * A table of numbers in text, with as many columns in every row. It is read in one pass, with a point or a
+ * comma as the decimal mark in any locale.
  *
  * One separator separates columns. Runs of white space count once; with other separators an empty field is a
- * missing value, and a separator at the end of a row is ignored. A value may be quoted, and its exponent may
+ * missing value. A separator at the end of a row is ignored. A value may be quoted, and its exponent may
  * begin with D. Empty lines and lines that begin with '#' or '%' are skipped. Missing values are NaN, NA,
  * N/A, BAD, -- or --- in either case, and the user's word.
  */

@@ -23,14 +23,14 @@ bool rc_utf8_valid(const char *text);
 /* Writes the bytes of a code point below U+10000, 1 to 3 without a NUL; returns their number. */
 size_t rc_utf8_put(char *to, unsigned code);
 
-/* The number of bytes of the control character that text begins with, 0 when it begins with
- * another: 1, or 2 for U+0080 to U+009F in UTF-8, which act on a terminal as well. */
+/* The number of bytes of the control character that text begins with, 0 when it begins with another. It is 1,
+ * or 2 for U+0080 to U+009F in UTF-8, which act on a terminal as well. */
 size_t rc_control_size(const char *text);
 /* Replaces each byte of a control character by `mark`. Returns `text`. */
 char *rc_text_harmless(char *text, char mark);
 
-/* Copies text[0..n) as UTF-8, cut to the size: bytes that are not UTF-8 are read as Latin-1, control
- * characters become spaces, white space at both ends is removed. Returns `to`. */
+/* Copies text[0..n) as UTF-8, cut to the size. Bytes that are not UTF-8 are read as Latin-1, control
+ * characters become spaces, and white space at both ends is removed. Returns `to`. */
 char *rc_text_clean(char *to, size_t size, const char *text, size_t n);
 
 enum {

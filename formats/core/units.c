@@ -45,7 +45,7 @@ rc_prefix_factor(int power)
 }
 
 /* Symbols, which are case-sensitive, and words in upper or lower case, singular and plural, separated by '|'.
- * The micro sign is U+00B5, the Greek mu or a byte of Latin-1, and NanoScope writes ~ for it; Angstrom is a
+ * The micro sign is U+00B5, the Greek mu or a byte of Latin-1, and NanoScope writes ~ for it. Angstrom is a
  * letter, a separate sign or a byte of Latin-1. */
 static const struct {
     double metres;

@@ -10,7 +10,7 @@ struct rc_prefix {
     int power;        /* of ten */
 };
 
-/* From femto to tera, "" for none, and centi, in the order of their powers; the usual spelling of a power
+/* From femto to tera, "" for none, and centi, in the order of their powers. The usual spelling of a power
  * comes first ("u", then U+00B5, then U+03BC). The last has text NULL. */
 extern const struct rc_prefix rc_prefixes[];
 
@@ -21,8 +21,8 @@ const char *rc_prefix_of(int power);
 /* Ten to the power of a prefix, rounded correctly: the double 1e-06 for -6. */
 double rc_prefix_factor(int power);
 
-/* Metres per unit of "nm", "um", "µm" (UTF-8 or Latin-1, either code point), "Å", "in", ..., and of words in
- * upper or lower case, singular or plural: "Micrometers", "mil", "inches"; false when it is not a unit of
+/* Metres per unit of "nm", "um", "µm" (UTF-8 or Latin-1, either code point), "Å", "in", ... Words may be in
+ * upper or lower case, singular or plural: "Micrometers", "mil", "inches". False when it is not a unit of
  * length. */
 bool rc_length_unit(const char *text, size_t n, double *metres);
 /* The same for a word that ends with NUL; NAN if it is no unit of length. */

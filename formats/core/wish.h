@@ -65,7 +65,7 @@ enum rc_status rc_spacing(const struct rc_wish *wish, double dx, double dy, stru
 enum rc_status rc_height_unit(const struct rc_wish *wish, double by_file, const char *unit,
                               double *metres, struct rc_notes *notes, struct rc_err *err);
 
-/* For a file that is refused because its spacing is missing: if the unit of its heights is missing too, the
+/* For a file that is refused because its spacing is missing. If the unit of its heights is missing too, the
  * message says so, so that the user can give both at once. */
 void rc_lacks_unit(const struct rc_wish *wish, double by_file, struct rc_err *err);
 

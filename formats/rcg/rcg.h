@@ -51,15 +51,15 @@ typedef enum rc_status rc_reader_allow(void *ctx, const struct rc_shape *shape, 
                                        struct rc_err *err);
 /* From now on asks `allow` before it allocates a frame. */
 void rc_reader_ask(struct rc_reader *reader, rc_reader_allow *allow, void *ctx);
-/* RC_MORE and the next frame, which the caller frees; RC_OK and NULL after the last end line; or
- * RC_FAIL: damaged, cut off, or ended by RCGFAIL, whose message is repeated. */
+/* Returns RC_MORE and the next frame, which the caller frees; RC_OK and NULL after the last end line.
+ * RC_FAIL: the stream is damaged, cut off, or ended by RCGFAIL, whose message is repeated. */
 enum rc_status rc_reader_next(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
 /* The same in two steps: first the next frame without values; then, before the next head, its values. */
 enum rc_status rc_reader_head(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
 enum rc_status rc_reader_values(struct rc_reader *reader, struct rc_grid *grid, struct rc_err *err);
 
 /* After RC_FAIL: the message of the RCGFAIL that ended the stream, and the exit status of the program that
- * wrote it, 1 or 2; NULL after another failure. Valid as long as the reader. */
+ * wrote it, 1 or 2. NULL after another failure. Valid as long as the reader. */
 const char *rc_reader_failure(const struct rc_reader *reader, int *exit_status);
 
 /* After RC_FAIL: whether the input is not a stream at all, from its first byte on. `head` is then its
@@ -83,8 +83,8 @@ enum rc_status rc_writer_put(struct rc_writer *writer, const struct rc_grid *gri
 enum rc_status rc_writer_end(struct rc_writer *writer, struct rc_err *err);
 void rc_writer_free(struct rc_writer *writer);
 
-/* Ends a stream, whether begun or not, with RCGFAIL, the message and the exit status of this program, 1 or 2:
- * the reader of the stream then fails too. Silent when even that cannot be written. */
+/* Ends a stream, whether begun or not, with RCGFAIL, the message and the exit status of this program, 1 or 2.
+ * The reader of the stream then fails too. Silent when even that cannot be written. */
 void rc_stream_fail(FILE *file, const char *message, int exit_status);
 
 #endif

@@ -1,7 +1,7 @@
 /*
- * Gzip files (RFC 1952) with one or several members. A few packed bytes can give any number of bytes;
- * therefore the data are unpacked twice: first piece by piece to count and check them, then into memory of
- * exactly their size.
+ * Gzip files (RFC 1952) with one or several members. A few packed bytes can give any number of bytes, so the
+ * data are unpacked twice. The first pass counts and checks them piece by piece; the second unpacks into
+ * memory of exactly their size.
  */
 #include "gzip.h"
 

@@ -1,8 +1,7 @@
 /*
- * BCR and BCRF (ImageMet): a header of key = value lines, filled up to 2048 bytes, then numbers,
- * row 0 first: 16-bit ones in bit2nm nanometres, or 32-bit floats in zunit; where zmin is given,
- * the lowest of them is there. In the "unicode" kind the header is of two-byte characters in 4096
- * bytes.
+ * BCR and BCRF (ImageMet): a header of key = value lines, filled up to 2048 bytes, then numbers, row 0 first.
+ * They are 16-bit in bit2nm nanometres, or 32-bit floats in zunit. Where zmin is given, the lowest of them is
+ * at that height. In the "unicode" kind the header is of two-byte characters in 4096 bytes.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /*
- * Surfer grids, bottom row first, in three kinds: DSAA is text (columns and rows, limits of x, y and z, the
- * values), DSBB the same binary with 32-bit floats, DSRB sections of a name, a length and bytes. The
+ * Surfer grids, bottom row first, in three kinds. DSAA is text: columns and rows, limits of x, y and z, the
+ * values. DSBB is the same in binary with 32-bit floats. DSRB has sections of a name, a length and bytes. The
  * outermost nodes are on the limits. The files have no unit.
  */
 #include <math.h>

@@ -1,6 +1,6 @@
 /*
- * Gwyddion Simple Field: a line that says so, `key = value` lines, 1 to 4 NUL up to a multiple of 4
- * bytes, then 32-bit floats, little-endian, the top row first; NaN is a missing point.
+ * Gwyddion Simple Field: a line that says so, `key = value` lines, and 1 to 4 NUL up to a multiple of 4
+ * bytes. Then follow 32-bit floats, little-endian, the top row first; NaN is a missing point.
  */
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,8 @@
 /*
- * Gwyddion's own format: GWYP and a tree of objects, little-endian. An object is its name, a NUL,
- * its size in 32 bits and its items; an item is its name, a NUL, a letter for the type and the
- * value. At the top, items /N/data are fields of doubles, /N/data/title their titles, and a field
- * /N/mask is 1 where a point is masked, which is taken for missing here unless the user wishes
- * otherwise.
+ * Gwyddion's own format: GWYP and a tree of objects, little-endian. An object is its name, a NUL, its size in
+ * 32 bits and its items. An item is its name, a NUL, a letter for the type and the value. At the top, items
+ * /N/data are fields of doubles, /N/data/title their titles. A field /N/mask is 1 where a point is masked,
+ * which is taken for missing here unless the user wishes otherwise.
  */
 #include <math.h>
 #include <stdio.h>

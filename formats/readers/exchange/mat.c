@@ -1,7 +1,7 @@
 /*
- * MATLAB and Octave, MAT version 5 (save -v6, and -v7, which packs each variable with zlib): 128 bytes
- * of header, then variables, each an element of 8 bytes of type and size and what it holds. An array is
- * four elements: class and flags, dimensions, name, numbers, which run down the columns.
+ * MATLAB and Octave, MAT version 5 (save -v6, and -v7, which packs each variable with zlib): 128 bytes of
+ * header, then variables. Each is an element: 8 bytes of type and size, and the content. An array is four
+ * elements: class and flags, dimensions, name, numbers, which run down the columns.
  *
  * Real arrays of two dimensions are channels, vectors where there is no such array. Their spacing comes
  * from scalars dx and dy, or from x and y: vectors, or arrays of the map's size as meshgrid makes them.

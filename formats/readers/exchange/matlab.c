@@ -98,8 +98,8 @@ survey(struct rc_matlab_source *s, bool no_axes, struct facts *f, struct rc_err 
     return status;
 }
 
-/* The step of an axis of n points: a vector of so many, or a row (of x) or column of an array of the map's
- * size. NAN if no array has that size. */
+/* The step of an axis of n points. The axis is a vector of n numbers, or a row (of x) or column of an array
+ * of the map's size. NAN if no array has that size. */
 static enum rc_status
 axis_step(struct rc_matlab_source *s, const struct rc_matlab_array *a, const struct rc_map *map,
           bool is_x, double *step, struct rc_err *err)

@@ -8,8 +8,8 @@
  * dimension; a map (x, y) is transposed. The variables with the names of the dimensions give the spacings. If
  * some maps have them, a variable without them is no map.
  *
- * GXSM keeps the field of a scan as (time, value, dimy, dimx), to be multiplied by the scalar dz, and
- * all its lengths in Angstroms, whatever unit it displays them in.
+ * GXSM keeps the field of a scan as (time, value, dimy, dimx), to be multiplied by the scalar dz. All its
+ * lengths are in Angstroms, whatever unit it displays them in.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -137,8 +137,8 @@ is_gxsm(const struct rc_cdf *f, const struct rc_cdf_variable *v, double *dz)
            rc_cdf_is(f->dimension[v->dimension[1]].name, "dimx") && scalar(f, "dz", dz);
 }
 
-/* The step of a coordinate in metres, NAN where the file does not give it; `metres` in one of its
- * numbers, NAN where its unit says so. */
+/* The step of a coordinate in metres, NAN where the file does not give it. `metres` is the length of 1 of its
+ * numbers, NAN where the file has no unit for them. */
 static enum rc_status
 step_of(const struct rc_cdf *f, size_t dimension, double metres, double *step, bool *periodic,
         struct rc_err *err)

@@ -1,7 +1,7 @@
 /*
- * NumPy array: 93 4e 55 4d 50 59, a version, the length of the header, and the header, a dictionary
- * as text: {'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }. The array is [row, column];
- * it has neither spacing nor unit. One dimension is a profile. NPZ is a ZIP archive of such files.
+ * NumPy array: 93 4e 55 4d 50 59, a version, the length of the header, and the header. The header is a
+ * dictionary as text: {'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }. The array is [row,
+ * column]; it has neither spacing nor unit. One dimension is a profile. NPZ is a ZIP archive of such files.
  */
 #include <math.h>
 #include <stdlib.h>

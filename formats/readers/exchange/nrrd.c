@@ -1,11 +1,12 @@
 /*
- * NRRD of Teem: lines `field: value` behind NRRD000n up to an empty one, then the values, the first
- * axis fastest, which is x; row 0 is the first. They are raw, packed with gzip, or text. Axes of one
- * value beyond two are passed over.
+ * NRRD of Teem: lines `field: value` after NRRD000n up to an empty one, then the values. The first axis,
+ * which is x, runs fastest; row 0 is the first. They are raw, packed with gzip, or text. Axes of one value
+ * beyond two are passed over.
  *
- * The step of an axis is its spacing, the length of its direction in space, or comes from its least
- * and greatest place: between nodes where it is centred on nodes, else between the borders of cells.
- * `units` or `space units` have the units of the axes, in quotes, `sample units` that of the values.
+ * The step of an axis is its spacing or the length of its direction in space. Otherwise it comes from the
+ * least and the greatest position on the axis. These are at nodes where the axis is centred on nodes, else at
+ * the borders of cells. `units` or `space units` have the units of the axes, in quotes, `sample units` that
+ * of the values.
  *
  * Written from Teem's description of the format, and from files of Gwyddion.
  */

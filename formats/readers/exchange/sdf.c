@@ -54,8 +54,8 @@ static const struct rc_field fields[] = {
     {"CheckType", RC_FIELD_NUMBER, offsetof(struct sdf, check)},
 };
 
-/* By DataType; missing is the least number of the signed types and of floats, which may be NaN too, and
- * the largest of the unsigned ones. */
+/* By DataType. Missing is the least number of the signed types and of floats, which may be NaN too, and the
+ * largest of the unsigned ones. */
 /* clang-format off */
 static const struct {
     enum rc_raw raw;

@@ -7,12 +7,12 @@
  *     [Paramco32]   the same in a zlib stream, behind the word DATA, which may end a shorter header
  *
  * The spacing is Length x[A] over Num.X. A count of z is GainZ * ZPiezoconst * 20 V over the counts of the
- * converter, in Angstrom; headers of real files agree, whose Z-Res. [A] is 128 * Imagegrayfactor counts. It
- * is taken where it fits the factor that the file gives to five decimals: Dacto[A]z, which is that of gain 1
- * (0.00038 at 20 Angstrom per volt, whatever GainZ), or the count itself, or Dactonmz, that in nanometres. If
- * it does not fit, x decides. If Delta X times Dacto[A]xy times GainX is the spacing, Dacto[A]z is to be
- * multiplied by GainZ; if Delta X times Dacto[A]xy is, Dacto[A]z is the count. If neither is, the unit of the
- * heights is not known.
+ * converter, in Angstrom. Headers of real files agree, whose Z-Res. [A] is 128 * Imagegrayfactor counts. The
+ * file gives a factor to five decimals, and the count is taken where it fits. The factor is Dacto[A]z, which
+ * is that of gain 1 (0.00038 at 20 Angstrom per volt, whatever GainZ). It may also be the count itself, or
+ * Dactonmz, the count in nanometres. If it does not fit, x decides. If Delta X times Dacto[A]xy times GainX
+ * is the spacing, Dacto[A]z is to be multiplied by GainZ. If Delta X times Dacto[A]xy is, Dacto[A]z is the
+ * count. If neither is, the unit of the heights is not known.
  *
  * Written from how Gwyddion, createc 0.0.3 and others read such files.
  */

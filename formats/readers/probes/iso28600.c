@@ -1,7 +1,7 @@
 /*
- * ISO 28600, the data transfer format of ISO/TC 201 for scanning probes: text, 128 lines of header,
- * each known by its number alone, then a line a point with the values of its channels between commas,
- * then "end of experiment". A map is of one channel (MAP_SC) or of several (MAP_MC).
+ * ISO 28600, the data transfer format of ISO/TC 201 for scanning probes. It is text with 128 lines of header,
+ * each known by its number alone. Then comes a line for each point with the values of its channels between
+ * commas, and then "end of experiment". A map is of one channel (MAP_SC) or of several (MAP_MC).
  *
  * Written from how Gwyddion writes and reads such files.
  */

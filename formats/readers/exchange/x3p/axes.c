@@ -17,8 +17,8 @@ place_of(struct points *p, size_t point, size_t skip, enum rc_raw raw)
     return rc_bytes_at(&p->b, point * p->stride + skip, raw);
 }
 
-/* The step along an axis of n points, `apart` from each other in the file, and whether they fall;
- * every point of the map must lie within a tenth of a step of its place on even ones. */
+/* The step along an axis of n points, `apart` from each other in the file, and whether they fall. Every point
+ * of the map must lie within a tenth of a step of its place on even ones. */
 static enum rc_status
 find_step(const struct rc_x3p *x, struct points *p, bool is_x, double *step, bool *falls,
           struct rc_err *err)

@@ -6,9 +6,9 @@
  *     bindata/valid.bin  one bit a point, lowest bit first, 1 where the height is valid
  *     md5checksum.hex    MD5 checksum of main.xml
  *
- * A height is number * increment + offset of the axis CZ, in metres. Damage that reaches a height
- * (a wrong checksum of data.bin or valid.bin) refuses the file; a wrong one of main.xml is noted
- * only, because programs that edit the header are known to leave the old checksum behind.
+ * A height is number * increment + offset of the axis CZ, in metres. Damage that reaches a height (a wrong
+ * checksum of data.bin or valid.bin) refuses the file. A wrong one of main.xml is noted only, because
+ * programs that edit the header are known to leave the old checksum behind.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -108,8 +108,8 @@ x3p_score(const struct rc_file *file)
 
 /* ---- profiles with positions ---- */
 
-/* Lays even nodes along a profile whose points have positions of their own, sets x->nx and the
- * spacings, and gives the heights at the nodes, which the caller frees; NULL with the reason. */
+/* Lays even nodes along a profile whose points have positions of their own. Sets x->nx and the spacings, and
+ * returns the heights at the nodes, which the caller frees. NULL with the reason. */
 static double *
 lay_nodes(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wish,
           struct rc_notes *notes, struct rc_err *err)

@@ -1,11 +1,10 @@
 /*
- * Workbooks (XLSX): a ZIP archive of XML. In each sheet, blocks of numbers are looked for:
- * neighbouring columns that are filled over the same rows. A block is read as the text would be that
- * it is when it is copied out of the sheet, with the titles above it: two columns as a profile, three
- * as points or a matrix, more as a matrix, whose first row and column may be positions. The largest is the
- * first channel.
+ * Workbooks (XLSX): a ZIP archive of XML. In each sheet, blocks of numbers are looked for: neighbouring
+ * columns that are filled over the same rows. A block is read as the text would be that it is when it is
+ * copied out of the sheet, with the titles above it. Two columns as a profile, three as points or a matrix,
+ * more as a matrix, whose first row and column may be positions. The largest is the first channel.
  *
- * SurfTest of Mitutoyo gives a profile without titles: its positions are then in the unit of the cut-off, its
+ * SurfTest of Mitutoyo gives a profile without titles. Its positions are then in the unit of the cut-off, its
  * heights in that of the first roughness in column A.
  *
  * Written from ECMA-376, and for SurfTest from how SurfaceTopography reads it.
@@ -234,8 +233,8 @@ put(struct text *t, const char *word, char end)
     return true;
 }
 
-/* Puts a row of numbers behind a text in its first column, the corner of positions; false where the row above
- * the block is no such row, or memory is out. */
+/* Puts a row of numbers behind a text in its first column, the corner of positions. False where the row above
+ * the block is no such row, or memory is short. */
 static bool
 put_positions(const struct rc_workbook *w, const struct block *b, struct text *t)
 {
