@@ -8,9 +8,10 @@
 bool rc_calls_can_be_filtered(void);
 
 /* Restricts the calling process, for the rest of its life, to computing and to writing to the file descriptor
- * `out`: memory that is not executable, the clock, its exit. All else fails with EPERM: opening, creating,
- * removing and changing files, sockets, processes, signals to others, also with descriptors that it has
- * inherited. False where the filter cannot be set although the system filters calls. */
+ * `out`. Allowed are also memory that is not executable, the clock, and its exit. All else fails with EPERM:
+ * opening, creating, removing and changing files, sockets, processes, signals to others, also with
+ * descriptors that it has inherited. False where the filter cannot be set although the system filters
+ * calls. */
 bool rc_calls_filter(int out);
 
 #endif

@@ -1,7 +1,7 @@
 /*
  * A separate process for libraries that are not safe with malicious files (libhdf5, libtiff). They run in a
  * child with limited memory and time that cannot open files and, where the system can filter calls, can only
- * compute. The child sends its result through a pipe; if it dies, the file is refused and nothing else is
+ * compute. The child sends its result through a pipe. If it dies, the file is refused and nothing else is
  * affected. confine.h and calls.h have the limits. Call from one thread.
  */
 #ifndef RC_SANDBOX_H

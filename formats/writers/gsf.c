@@ -1,5 +1,5 @@
-/* Gwyddion Simple Field: a header of `key = value`, one to four NUL bytes up to a multiple of four,
- * and the values as float, little-endian, top row first; NaN for a missing point. */
+/* Gwyddion Simple Field: a header of `key = value`, one to four NUL bytes up to a multiple of four, and the
+ * values. These are float, little-endian, top row first; NaN for a missing point. */
 #include <string.h>
 
 #include "encode.h"

@@ -1,8 +1,8 @@
 /*
- * HDF5: a dataset for each frame, rows by columns, named by its channel; the depths of one channel and
- * case are one dataset, depth by rows by columns. Its attributes are dx and dy (m), unit, channel, and
- * every key of the frame as text; a missing point is NaN. If rows or slices are depths, the depths are a
- * dataset too, the dimension scale of their axis. The library must seek, so it makes the file in memory.
+ * HDF5: a dataset for each frame, rows by columns, named by its channel. The depths of one channel and case
+ * are one dataset, depth by rows by columns. Its attributes are dx and dy (m), unit, channel, and every key
+ * of the frame as text; a missing point is NaN. If rows or slices are depths, the depths are a dataset too,
+ * the dimension scale of their axis. The library must seek, so it makes the file in memory.
  */
 #include <hdf5.h>
 #include <hdf5_hl.h>

@@ -1,6 +1,6 @@
-/* SDF in its text form, ISO 25178-71 (earlier EUNA 15178): a header of `key = value`, the
- * heights row by row, and a trailer, with an asterisk after each. A missing point is the word
- * BAD; a resolution of -1 is unknown. */
+/* SDF in its text form, ISO 25178-71 (earlier EUNA 15178). A header of `key = value`, the heights row by row,
+ * and a trailer, with an asterisk after each. A missing point is the word BAD; a resolution of -1 is
+ * unknown. */
 #include <math.h>
 #include <string.h>
 

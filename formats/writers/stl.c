@@ -70,8 +70,8 @@ cell(struct relief *r, size_t i, size_t j)
     triangle(r, a, d, b);
 }
 
-/* The wall below the edge between two adjacent nodes of the border, with the outside on the right, and the
- * part of the floor between this edge and the middle. */
+/* The wall below the edge between two adjacent nodes of the border, with the outside on the right. It
+ * includes the part of the floor between this edge and the middle. */
 static void
 wall(struct relief *r, size_t i, size_t j, size_t i1, size_t j1)
 {

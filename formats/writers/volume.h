@@ -1,9 +1,9 @@
 /*
- * Frames as one block of nodes, for the formats of VTK: maps on one grid beside each other, maps at
- * several depths above each other, or a section with its depths.
+ * Frames as one block of nodes, for the formats of VTK. The block has maps on one grid beside each other,
+ * maps at several depths above each other, or a section with its depths.
  *
- * x, y and z are those of the grid stream: the origin in the middle of the map, y down the picture,
- * z into the body; together they are right-handed.
+ * x, y and z are those of the grid stream: the origin in the middle of the map, y down the picture, z into
+ * the body. Together they are right-handed.
  */
 #ifndef RC_VOLUME_H
 #define RC_VOLUME_H

@@ -1,6 +1,6 @@
 /*
- * JPK image scans (.jpk, .jpk-qi-image): a TIFF whose first page is a thumbnail with the data of
- * the scan in private tags, and whose other pages are one channel each.
+ * JPK image scans (.jpk, .jpk-qi-image): a TIFF whose first page is a thumbnail with the data of the scan in
+ * private tags. Each other page is one channel.
  *
  * A channel has several slots, each a scale for the raw numbers: the one that the file names as
  * default is used. The first line of a scan is the lowest, unless the page says that the grid is

@@ -1,7 +1,7 @@
 /*
- * PicoView MI (Molecular Imaging, Agilent): lines with the key in the first 14 columns, a line
- * "data" with how the numbers are stored, then the numbers of all buffers back to back,
- * little-endian, the bottom row first. A value is number / 2^(bits-1) * bufferRange in bufferUnit.
+ * PicoView MI (Molecular Imaging, Agilent): lines with the key in the first 14 columns, and a line "data"
+ * that says how the numbers are stored. Then come the numbers of all buffers in sequence, little-endian, the
+ * bottom row first. A value is number / 2^(bits-1) * bufferRange in bufferUnit.
  */
 #include <math.h>
 #include <string.h>

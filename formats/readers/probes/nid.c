@@ -1,6 +1,6 @@
 /*
- * Nanosurf: an INI header that ends in "#!", then the data of all channels back to back in the
- * order of their groups, the bottom row first.
+ * Nanosurf: an INI header that ends in "#!". Then come the data of all channels in sequence, in the order of
+ * their groups, the bottom row first.
  *
  *     [DataSet]
  *     Gr0-Ch1=DataSet-0:1       channel 1 of group 0 is described in section [DataSet-0:1]

@@ -1,6 +1,6 @@
 /*
- * Nanonis SXM (SPECS): `:KEY:` lines, each with lines of values below it, up to `:SCANIT_END:` and the
- * bytes 1a 04; then floats, channel after channel, as the table DATA_INFO has them:
+ * Nanonis SXM (SPECS): `:KEY:` lines, each with lines of values below it, up to `:SCANIT_END:` and the bytes
+ * 1a 04. Then come floats, channel after channel, as the table DATA_INFO lists them:
  *
  *     :DATA_INFO:
  *             Channel Name Unit Direction Calibration Offset          between tabs

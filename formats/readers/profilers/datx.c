@@ -1,12 +1,11 @@
 /*
- * Zygo DATX: an HDF5 file with a table /MetaData of (group, key, value); a value in braces is the
- * name of another group. Root > Measurement > Surface > Path names the dataset of heights, rows by
- * columns; where the table does not lead there, it is the first one of /Data/Surface, or
- * /Measurement/Surface.
+ * Zygo DATX: an HDF5 file with a table /MetaData of (group, key, value); a value in braces is the name of
+ * another group. Root > Measurement > Surface > Path names the dataset of heights, rows by columns. Where the
+ * table does not lead there, the heights are the first dataset of /Data/Surface, or /Measurement/Surface.
  *
- * Its attributes: Unit of the heights, No Data (a value not below it is missing), X and Y Converter
- * with the metres of a pixel as the second of their numbers, 0 where none was calibrated. Heights in
- * fringes are turned into metres by Wavelength, Interferometric Scale Factor and Obliquity Factor.
+ * Its attributes are Unit of the heights and No Data (a value not below it is missing). X and Y Converter
+ * have the metres of a pixel as the second of their numbers, 0 where none was calibrated. Heights in fringes
+ * are turned into metres by Wavelength, Interferometric Scale Factor and Obliquity Factor.
  */
 #include <math.h>
 #include <string.h>

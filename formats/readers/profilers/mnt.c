@@ -1,8 +1,7 @@
 /*
- * Digital Surf Mountains, MNT: a compound file whose stream ScopedContents holds the document: 8 bytes
- * of length, then a tree of entries, each a tag (u16), a length (u64) and what it holds,
- * little-endian. Entries of the list of objects have another length before them. Text is the byte 4
- * and UTF-16.
+ * Digital Surf Mountains, MNT: a compound file whose stream ScopedContents holds the document. It has 8 bytes
+ * of length, then a tree of entries. An entry is a tag (u16), a length (u64) and its content, little-endian.
+ * Entries of the list of objects have another length before them. Text is the byte 4 and UTF-16.
  *
  * Objects are known by the number of their class. Measured surfaces have heights. Surfaces computed from them
  * are not in the file: the program computes them again when it opens the document.

@@ -1,7 +1,7 @@
 /*
- * Wyko OPD: a directory of blocks, which follow each other from byte 2 on in its order. The heights
- * are in one of them column by column, the bottom row first, in units of the wavelength over Mult;
- * the other blocks that matter hold one number or text each.
+ * Wyko OPD: a directory of blocks, which follow each other from byte 2 on in its order. The heights are in
+ * one of them column by column, the bottom row first, in units of the wavelength over Mult. Each of the other
+ * relevant blocks holds one number or text.
  */
 #include <math.h>
 #include <string.h>

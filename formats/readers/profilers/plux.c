@@ -1,7 +1,7 @@
 /*
- * Sensofar PLUX: a ZIP archive with index.xml, which gives the size of the image, the step of a
- * pixel in micrometres (called FOV), and for each layer the member that holds its heights: float,
- * little-endian, micrometres, row 0 first, NaN where nothing was measured.
+ * Sensofar PLUX: a ZIP archive with index.xml, which gives the size of the image, the step of a pixel in
+ * micrometres (called FOV), and the member of each layer. A member holds heights: float, little-endian,
+ * micrometres, row 0 first, NaN where nothing was measured.
  */
 #include <math.h>
 #include <stdio.h>

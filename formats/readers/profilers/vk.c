@@ -1,7 +1,7 @@
 /*
- * Keyence VK: VK3_ and VK4_ begin with a table of offsets, little-endian, to the conditions of the
- * measurement and to up to three height images of whole numbers, row 0 first, lengths in
- * picometres. VK6 and VK7 are a picture and a ZIP archive whose member Vk4File is a VK4 file.
+ * Keyence VK: VK3_ and VK4_ begin with a table of offsets, little-endian. They lead to the conditions of the
+ * measurement and to up to three height images of whole numbers, row 0 first, lengths in picometres. VK6 and
+ * VK7 are a picture and a ZIP archive whose member Vk4File is a VK4 file.
  */
 #include <math.h>
 #include <stdio.h>

@@ -32,8 +32,8 @@
  * Without a known header, lines of other text above the numbers are skipped, and the first row and column may
  * be labels or positions (labels.h).
  *
- * Two columns with a rising first one count as a profile, and three columns with a raster in two of them as a
- * list of points. Both are refused, unless a header says that they are a matrix.
+ * Two columns with a rising first one count as a profile. Three columns with a raster in two of them count as
+ * a list of points. Both are refused, unless a header says that they are a matrix.
  */
 #include <math.h>
 #include <string.h>
@@ -231,7 +231,7 @@ spacing(const struct matrix *m, const struct rc_wish *wish, double *dx, double *
     return RC_OK;
 }
 
-/* True if two columns run through a raster: column `slow` is constant while `fast` changes in one direction,
+/* True if two columns run through a raster. Column `slow` is constant while `fast` changes in one direction,
  * and then makes a step, always in the same direction. Four points of one row are a raster, fewer could be
  * anything. */
 static bool

@@ -1,8 +1,7 @@
 /*
- * Profiles as text: a column of positions, evenly apart, and one of heights, behind a header of whatever
- * kind, whose units and roles are found as titled_table.h says; a column that counts the points is passed
- * over, one titled "valid" marks missing points by 0, further ones are channels. A single column is of
- * heights.
+ * Profiles as text: a column of positions, evenly apart, and one of heights, after a header of any kind.
+ * titled_table.h describes how units and roles are found. A column that counts the points is ignored, one
+ * titled "valid" marks missing points by 0, and further ones are channels. A single column is of heights.
  */
 #include <math.h>
 #include <stdlib.h>

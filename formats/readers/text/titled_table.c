@@ -377,8 +377,8 @@ rc_titled_table_left_out(const struct rc_titled_table *t, struct rc_notes *notes
 
 /* ---- the table ---- */
 
-/* True if the only comma of a row, as in 1,5, parts columns because one parts their titles: both name a
- * column or have a unit in brackets. */
+/* True if the only comma of a row, as in 1,5, separates columns. It does if one comma separates their titles,
+ * and both titles name a column or have a unit in brackets. */
 static bool
 comma_parts_titles(struct rc_piece before, struct rc_piece row)
 {

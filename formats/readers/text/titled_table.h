@@ -42,8 +42,8 @@ enum rc_status rc_titled_table_open(struct rc_titled_table *table, const struct 
 /* Then reads its values. RC_FAIL names the first row that differs from the first one in its
  * columns. */
 enum rc_status rc_titled_table_read(struct rc_titled_table *table, struct rc_err *err);
-/* The unit of a column: the text in brackets in its title, otherwise a word in the title that is a length,
- * otherwise the unit of the axis 'x', 'y' or 'z' from a separate line. Empty if there is none. */
+/* The unit of a column is the text in brackets in its title, otherwise a word in the title that is a length.
+ * Otherwise it is the unit of the axis 'x', 'y' or 'z' from a separate line. Empty if there is none. */
 struct rc_piece rc_titled_table_unit(const struct rc_titled_table *table, size_t column, char axis);
 enum rc_role rc_titled_table_role(const struct rc_titled_table *table, size_t column);
 /* The first column of this kind; without one, the number of columns. */
@@ -53,8 +53,9 @@ struct rc_piece rc_titled_table_name(const struct rc_titled_table *table, size_t
 /* True if the titles, except that of a first column of row names, are all numbers, or all one word with a
  * number. */
 bool rc_titled_table_numbered(const struct rc_titled_table *table);
-/* True if it is a matrix and no profile or list of points: at least three columns, whose titles are
- * numbers, one word with a number each (z1, z2, ...), or name no axis; or four without titles. */
+/* True if it is a matrix and no profile or list of points. It has at least three columns, whose titles are
+ * numbers, one word with a number each (z1, z2, ...), or name no axis. Without titles it has at least four
+ * columns. */
 bool rc_titled_table_is_matrix(const struct rc_titled_table *table);
 /* The next title of a row of them, at its separators; false at its end. */
 bool rc_title_next(struct rc_piece *line, char separator, struct rc_piece *title);

@@ -1,6 +1,6 @@
 /*
  * Wyko (Veeco, Bruker) as text: `Wyko ASCII Data File Format 0`, two flags, then names and values between
- * tabs, and the blocks of an OPD file, one a line: name, type, length, value. The numbers of a block of
+ * tabs. Then come the blocks of an OPD file, one a line: name, type, length, value. The numbers of a block of
  * heights follow it, a column of the map in each line, the lowest first, as in the binary file:
  *
  *     Wyko ASCII Data File Format 0 <tab> 0 <tab> 1
@@ -13,8 +13,8 @@
  *
  * Numbers are in units of the wavelength over Mult, or, where the first flag is 1, nanometres. `Bad` is
  * missing. Other files have a point a line instead, x and y in millimetres and z in nanometres, column by
- * column. Written from how Gwyddion and SurfaceTopography read such files: the former multiplies by Mult
- * since a version between 2.50 and 2.71, in nanometres too, and divided by it before, as the latter does.
+ * column. Written from how Gwyddion and SurfaceTopography read such files. Gwyddion multiplies by Mult since
+ * a version between 2.50 and 2.71, in nanometres too. Before, it divided by Mult, as SurfaceTopography does.
  */
 #include <math.h>
 #include <string.h>

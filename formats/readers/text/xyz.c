@@ -1,9 +1,9 @@
 /*
- * Lists of points: columns x, y, z in any order of the points, which must lie on a raster,
- * or in one line. The least x and y come first; a point of the raster that the list leaves out is
- * missing. A line of any direction is a profile, from its end that is nearer to the first point.
- * Units are found as titled_table.h says, and which column is which: of three without titles the order is x,
- * y, z; titled ones may be more, of which further heights are channels.
+ * Lists of points: columns x, y, z in any order of the points, which must lie on a raster, or in one line.
+ * The least x and y come first; a point of the raster that the list leaves out is missing. A line of any
+ * direction is a profile, from its end that is nearer to the first point. titled_table.h describes how units,
+ * and the roles of columns, are found. Three columns without titles are x, y, z in this order. Titled ones
+ * may be more; further heights are channels.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -9,10 +9,10 @@
  *          magnification, size of a pixel (m; 0: not calibrated), time
  *     11   phase resolution, ...
  *
- * Format 1: then lines of column, row and micrometres, or `No Data`, up to `#`. Format 2: intensities up
- * to `#`, and phases up to `#`, row by row: whole numbers of S O wavelength / R, where R is 4096, 32768 or
- * 131072 by the phase resolution, and missing from 2147483640 on. The first row is the top one, as in
- * MetroPro's binary files.
+ * Format 1: then lines of column, row and micrometres, or `No Data`, up to `#`. Format 2: intensities up to
+ * `#`, and phases up to `#`, row by row. Phases are whole numbers of S O wavelength / R, where R is 4096,
+ * 32768 or 131072 by the phase resolution. They are missing from 2147483640 on. The first row is the top one,
+ * as in MetroPro's binary files.
  *
  * Written from how programs of others read and write such files (prysm and others).
  */
