@@ -31,8 +31,8 @@ show_text(struct canvas *c, cairo_t *cairo, const struct item *i)
 }
 
 /* Lines are stroked in pieces of this number of points, because cairo's memory for a stroke drawn as pixels
- * grows with its points, and its time grows faster. Ends and corners are round, so that the seams are
- * invisible; dashed lines are stroked at once, because each stroke begins with a dash. */
+ * grows with its points. Its time grows faster. Ends and corners are round, so that the seams are invisible;
+ * dashed lines are stroked at once, because each stroke begins with a dash. */
 enum {
     STROKE = 100
 };

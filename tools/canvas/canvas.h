@@ -1,7 +1,7 @@
 /*
  * The interface of this folder: a page for figures, in pixels from the upper left corner. It stores shapes
  * and texts, and converts them to pixels, a PDF or an SVG when it is written. Text is UTF-8 in the sans serif
- * font of the system or in the requested font; characters that this font lacks are set in other fonts.
+ * font of the system or in the requested font. Characters that this font lacks are set in other fonts.
  */
 #ifndef RC_CANVAS_H
 #define RC_CANVAS_H
@@ -35,7 +35,7 @@ struct canvas_font {
 };
 
 double canvas_text_width(struct canvas *canvas, const struct canvas_font *font, const char *text);
-/* The fraction `part` of the text is left of x: with 0 it begins there, with 0.5 it is centred, with 1 it
+/* The fraction `part` of the text is left of x. With 0 it begins there, with 0.5 it is centred, with 1 it
  * ends there. y is the base line. */
 void canvas_text(struct canvas *canvas, const struct canvas_font *font, double x, double y,
                  double part, const char *text);

@@ -1,7 +1,7 @@
 /*
- * Colours for values. A colour map is a list of colours at even steps, interpolated in sRGB; the steps are
+ * Colours for values. A colour map is a list of colours at even steps, interpolated in sRGB. The steps are
  * small enough that the lightness (CIELAB L*) is monotonic. viridis and magma follow the maps of these names
- * by N. Smith, S. van der Walt and E. Firing (2015, in the public domain). bluered was made for this tool: it
+ * by N. Smith, S. van der Walt and E. Firing (2015, in the public domain). bluered was made for this tool. It
  * has equal lightness at equal distance from its middle, so that a picture in grey still shows the size of a
  * signed value.
  */

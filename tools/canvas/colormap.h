@@ -24,7 +24,7 @@ const char *colormap_name(size_t k);
 const struct colormap *colormap_find(const char *name);
 /* The colour at t from 0 to 1; other t get the colour of the nearer end. */
 struct rgb colormap_at(const struct colormap *map, double t);
-/* The same, faster, from a table: if all t of a cell have one colour, the table contains it; otherwise the
+/* The same, faster, from a table: if all t of a cell have one colour, the table contains it. Otherwise the
  * colour is computed as above. */
 enum {
     COLORMAP_CELLS = 1 << 14

@@ -20,8 +20,8 @@ struct lettering {
 #include <fontconfig/fontconfig.h>
 #include <unistd.h>
 
-/* Fonts that come with the program, for machines without any: the settings of the system, where it has some,
- * and the files in the folder RC_OWN_FONTS, which starts at the folder of the program. */
+/* Fonts that come with the program, for machines without any. They come from the settings of the system,
+ * where it has some, and the files in the folder RC_OWN_FONTS, a path from the folder of the program. */
 static void
 own_fonts(void)
 {

@@ -26,8 +26,8 @@ const char *lettering_unknown(const struct lettering *lettering);
 bool lettering_has_no_font(const struct lettering *lettering);
 
 /* Divides the text into raised and other pieces. For the piece that begins at *at it gives the letters, and
- * whether they are raised: set at LETTERING_RAISED times the size and LETTERING_RISE times the size higher.
- * False at the end. The caller frees `letters` with free(). */
+ * whether they are raised. Raised letters have LETTERING_RAISED times the size and are LETTERING_RISE times
+ * the size higher. False at the end. The caller frees `letters` with free(). */
 bool lettering_piece(const struct lettering *lettering, const char *text, size_t *at,
                      char **letters, bool *raised);
 

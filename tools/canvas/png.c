@@ -57,7 +57,7 @@ is_ascii(const char *s)
     return *s == '\0';
 }
 
-/* tEXt is Latin-1 by the standard; text beyond ASCII goes into iTXt, which is UTF-8. libpng copies the texts,
+/* tEXt is Latin-1 by the standard. Text beyond ASCII goes into iTXt, which is UTF-8. libpng copies the texts,
  * although its pointers are not to const. */
 static void
 put_texts(struct picture *p, const struct picture_text *text, size_t texts)

@@ -1,8 +1,9 @@
 /*
- * The bodies of a contact in the keys of a stream: `e1 nu e2 nu2` and, for a layered body 1, `layers`:
- * "t,E,nu" of each material in SI, the top first, joined by ";", the substrate last with t = inf. e2 and nu2
- * are absent when body 2 is rigid; all four are absent when only the composite modulus `estar` is known.
- * Residual stresses of layers, in Pa, the top first and joined by ";", are in `layers.residual`.
+ * The bodies of a contact in the keys of a stream: `e1 nu e2 nu2` and, for a layered body 1, `layers`.
+ * `layers` has "t,E,nu" of each material in SI, the top first, joined by ";", the substrate last with t =
+ * inf. e2 and nu2 are absent when body 2 is rigid. All four are absent when only the composite modulus
+ * `estar` is known. Residual stresses of layers, in Pa, the top first and joined by ";", are in
+ * `layers.residual`.
  */
 #ifndef RC_TOOL_BODIES_H
 #define RC_TOOL_BODIES_H

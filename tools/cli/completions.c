@@ -1,7 +1,7 @@
 /*
- * Completions of bash, zsh and fish, made from the option tables: names of options, their words, units after
- * numbers, files, and the channels of the streams on the command line; and the tables themselves as JSON,
- * from which the Python package makes its functions.
+ * Completions of bash, zsh and fish, made from the option tables. They contain names of options, their words,
+ * units after numbers, files, and the channels of the streams on the command line. The tables are also
+ * written as JSON, from which the Python package makes its functions.
  */
 #include "parts.h"
 

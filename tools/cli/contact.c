@@ -1,6 +1,6 @@
 /*
  * The nodes in contact. A pressure determines them, except the net pressure of bodies that attract each
- * other: it is not 0 at almost all nodes, and may be negative where the gap is closed. rc-solve writes the
+ * other. It is not 0 at almost all nodes, and may be negative where the gap is closed. rc-solve writes the
  * frame `contact` with it.
  */
 #include "contact.h"

@@ -458,8 +458,8 @@ could_be_argument(const struct opt *o, const char *word)
     return unit_number(word, o->unit, &value, NULL) == RC_OK;
 }
 
-/* The optional argument of an option: after its "=", or the next word if it is a number or, for a choice, one
- * of its words; NULL without an argument. */
+/* The optional argument of an option. It follows the "=", or is the next word if that is a number or, for a
+ * choice, one of its words. NULL without an argument. */
 static const char *
 optional_argument_of(const struct opt *o, int argc, char **argv)
 {

@@ -1,6 +1,6 @@
 /*
- * A tool under mpirun: its processes share every map, each process with some rows. In a build without MPI,
- * and in a tool that was not started by a launcher of MPI, `ranks` of struct tool is NULL, and the functions
+ * A tool under mpirun: its processes share every map, each process with some rows. `ranks` of struct tool is
+ * NULL in a build without MPI, and in a tool that was not started by a launcher of MPI. The functions then
  * work for one process. All processes do the same and get the same results; only the first one prints
  * messages and writes reports.
  */
@@ -49,10 +49,9 @@ void ranks_close(struct tool *tool, const struct rc_share *share);
 /* After a signal: makes SIGALRM come before the launcher kills its processes. Safe in a signal handler. */
 void ranks_hurry(const struct tool *tool);
 
-/* Ends this process, which cannot continue, and the others. It waits a moment for the others to call it too:
- * then the first one prints the reason, and all end with the largest status; if some do not call it, this
- * process prints the reason, and the others are killed. `say` prints the message and removes incomplete
- * files. */
+/* Ends this process, which cannot continue, and the others. It waits a moment for the others to call it too.
+ * Then the first one prints the reason, and all end with the largest status; if some do not call it, this
+ * process prints the reason. The others are killed. `say` prints the message and removes incomplete files. */
 _Noreturn void ranks_die(struct tool *tool, int status, const char *text,
                          void (*say)(struct tool *tool, int status, const char *text));
 

@@ -1,7 +1,7 @@
 /*
  * The report of --report: a row for each case as soon as it is done, with figures in SI units. A row is a
- * JSON object in one line; in a file with the suffix .tsv or .csv it is a line of a table, with tabs or
- * commas between the cells and the names of the columns in the first line. A table holds only scalars,
+ * JSON object in one line. In a file with the suffix .tsv or .csv it is a line of a table, with tabs or
+ * commas between the cells. The names of the columns are in the first line. A table holds only scalars,
  * without objects and arrays. Unknown values are null, in a table NaN, so that programs that split lines at
  * blanks find all columns.
  */

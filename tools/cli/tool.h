@@ -114,7 +114,7 @@ struct tool_info {
     const struct opt *opts; /* ended by a row without a name and group                     */
     enum tool_reads reads;
     enum tool_writes writes;
-    /* NULL, or returns advice for an input that is not a grid stream and begins with `head`; if it returns
+    /* NULL, or returns advice for an input that is not a grid stream and begins with `head`. If it returns
      * NULL, the common advice is printed. */
     const char *(*foreign)(const char *head);
     /* NULL, or called between reading the options and opening the output: may change tool->writes. */
@@ -232,7 +232,7 @@ struct rc_grid *tool_frame_of_file(struct tool *tool, const char *option, const 
 void tool_keep_frame(struct tool *tool, struct rc_grid *g, struct rc_grid **kept);
 /* Ends the tool if two frames have different grids. */
 void tool_demand_grid_of(struct tool *tool, const struct rc_grid *g, const struct rc_grid *of);
-/* Ends the tool if dx and dy of a frame are not lengths (key `dunit`); tool_channel and the similar functions
+/* Ends the tool if dx and dy of a frame are not lengths (key `dunit`). tool_channel and the similar functions
  * check this for the frames that they return. */
 void tool_demand_lengths(struct tool *tool, const struct rc_grid *grid);
 /* The first row of a map on this process: 0 for a single process. */
@@ -244,8 +244,8 @@ int tool_finish(struct tool *tool);
 /* Sets the exit status at the end, unless a higher one follows. */
 void tool_fails_with(struct tool *tool, int status);
 
-/* Prints "rc-solve: message" on standard error, writes RCGFAIL into a stream that has begun and
- * into a pipe that waits for one, and removes half-written files. */
+/* Prints "rc-solve: message" on standard error, and removes half-written files. It writes RCGFAIL into a
+ * stream that has begun and into a pipe that waits for one. */
 _Noreturn void tool_die(struct tool *tool, int status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* The same, naming source, case and channel of the faulty frame. */
@@ -268,18 +268,18 @@ void tool_fail(struct tool *tool, const char *format, ...) __attribute__((format
 void tool_warn(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Only with --verbose. */
 void tool_note(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Prints a line that replaces the last one, at most ten times a second, if progress is shown; `done`: the
+/* Prints a line that replaces the last one, at most ten times a second, if progress is shown. `done`: the
  * finished fraction of the case, NAN: unknown. tool_progress_end ends it. */
 void tool_progress(struct tool *tool, double done, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void tool_progress_end(struct tool *tool);
 
-/* By default Ctrl-C and SIGTERM remove incomplete files and end the tool; after this call the first signal
+/* By default Ctrl-C and SIGTERM remove incomplete files and end the tool. After this call the first signal
  * only sets the result of tool_interrupted (the number of the signal), and tool_finish ends the tool by it.
  * Processes that share maps call tool_interrupted together. */
 void tool_catch_signals(void);
 /* The first signal ends the tool again, at once if it has already arrived, until tool_catch_signals is called
- * again: for long work before there is a result. Not for processes that share maps. */
+ * again. Call it before long work, when there is no result yet. Not for processes that share maps. */
 void tool_release_signals(void);
 int tool_interrupted(void);
 /* The same for this process only, at the address that the handler sets. */
@@ -299,8 +299,8 @@ void tool_budget(struct tool *tool);
 /* If the budget refused memory, extends the message "out of memory ..." by the bytes needed, the limit and
  * the advice; g: NULL, or the map. */
 void tool_add_refusal(const struct tool *tool, const struct rc_grid *g, char *text, size_t size);
-/* Checks that the budget allows this number of further bytes; otherwise RC_FAIL, and *err names what needs
- * them (shape NULL: the work), the limit, and tool->remedy. */
+/* Checks that the budget allows this number of further bytes. Otherwise RC_FAIL, and *err names the purpose
+ * (shape NULL: the work), the limit, and tool->remedy. */
 enum rc_status tool_ask_memory(const struct tool *tool, const struct rc_shape *shape, size_t bytes,
                                struct rc_err *err);
 /* Before long work that will allocate this number of bytes: ends the tool if they exceed the budget. */

@@ -1,7 +1,7 @@
 /*
- * The interface of this folder: rc-cost. A trial is one way to solve the contact, or to compute the stresses
- * of the reference, the most accurate solution. rc-solve, rc-stress and rc-leak do the work, one process per
- * trial, and rc-pick makes the coarser maps; the cost of each trial is in the reports of these tools.
+ * The interface of this folder: rc-cost. A trial is one way to solve the contact, or to compute its stresses.
+ * The reference is the most accurate solution. rc-solve, rc-stress and rc-leak do the work, one process per
+ * trial, and rc-pick makes the coarser maps. The cost of each trial is in the reports of these tools.
  */
 #ifndef RC_COST_H
 #define RC_COST_H

@@ -346,8 +346,8 @@ find_slabs(struct cost_case *c)
     c->reference.is.slabs = ceil(c->base_slabs * c->reference.stack);
 }
 
-/* Memory of the largest process, and of the maps of this one: the reference, the pressure of the trial, and
- * the same on the map's grid. */
+/* Memory of the largest process, and of the maps of this one. These are the reference, the pressure of the
+ * trial, and the same on the map's grid. */
 static size_t
 memory_for(const struct cost_case *c)
 {

@@ -11,7 +11,7 @@
 /* ---- expected times ---- */
 
 /* The measured trial on the map's own grid with the nearest tolerance, the same engine and, if there is one,
- * the same method; else the reference. */
+ * the same method. Without such a trial it is the reference. */
 static const struct cost_trial *
 nearest(const struct cost_case *c, const struct cost_trial *t)
 {
@@ -32,7 +32,7 @@ nearest(const struct cost_case *c, const struct cost_trial *t)
 }
 
 /* Convolutions per depth, in units of one for displacements: with the transforms of the first engine all
- * components share a plan; with other engines they do not. The error needs the exact stresses, and a second
+ * components share a plan. With other engines they do not. The error needs the exact stresses, and a second
  * computation of the stresses of the trial. */
 static double
 expect_stress(const struct cost_case *c, const struct cost_trial *t)
@@ -82,9 +82,9 @@ cost_is_near(const struct cost_case *c, const struct cost_trial *m)
     return error + c->reference.is.estimate <= c->error;
 }
 
-/* Seconds beyond which a trial is not needed for the choice: three times those of the fastest trial that is
- * accurate enough, or of the budget, once something has been measured. Expected times may be wrong by this
- * factor. */
+/* Seconds beyond which a trial is not needed for the choice, once something has been measured. They are three
+ * times those of the fastest trial that is accurate enough, or of the budget. Expected times may be wrong by
+ * this factor. */
 static double
 too_slow(const struct cost_case *c)
 {

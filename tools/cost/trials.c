@@ -1,8 +1,8 @@
 /*
  * The trials in the order of the table: every method with every engine of libcontact's tables. The first of
- * each, which "auto" uses, are tried in small steps of the tolerance and on coarser grids, the others in
- * larger steps for comparison. For a body that yields: every number of slabs with every number of increments.
- * For bodies that attract each other: the only method. Then the stresses, with every engine.
+ * each, which "auto" uses, are tried in small steps of the tolerance and on coarser grids. The others are
+ * tried in larger steps for comparison. For a body that yields: every number of slabs with every number of
+ * increments. For bodies that attract each other: the only method. Then the stresses, with every engine.
  */
 #include "cost.h"
 

@@ -33,11 +33,11 @@ enum rc_status import_even(const struct rc_file *file, const struct rc_wish *wis
 
 /* ---- plausible.c ---- */
 
-/* Warns of a map with a side above 1 m or below 10 nm, and of heights whose range exceeds its longer side,
- * unless the user gave the spacing or the unit. */
+/* Warns of a map with a side above 1 m or below 10 nm, unless the user gave the spacing. Warns of heights
+ * whose range exceeds the longer side, unless the user gave the unit. */
 void import_judge(struct tool *tool, const struct rc_grid *grid, const struct rc_wish *wish);
 /* Warns when the smallest or largest value occurs often and far from all others, or is a number that programs
- * write for missing points: `unit` is the value of 1 of the file in the grid's unit. */
+ * write for missing points. `unit` is the value of 1 of the file in the grid's unit. */
 void import_judge_marks(struct tool *tool, const struct rc_grid *grid, double unit);
 
 /* ---- channel.c ---- */

@@ -1,5 +1,5 @@
 /*
- * Rows of figures. Rows of --report are flat, so that the parameters of many scans form one table: all rows
+ * Rows of figures. Rows of --report are flat, so that the parameters of many scans form one table. All rows
  * have the columns of the requested options, and figures that a frame lacks are unknown. In --json the
  * figures of each option are an object.
  */

@@ -30,7 +30,7 @@ open_file(const struct journal *j, const char *mode)
 
 /* Locks the file, because two runs that add to one file would damage it. The lock ends with the process, also
  * when it is killed; on a file system without locks there is none. Where the system has them, locks of the
- * open file are used: a lock of the process would end when the process closes the file anywhere, as MPI-IO
+ * open file are used. A lock of the process would end when the process closes the file anywhere, as MPI-IO
  * does after each frame. The lock is on a byte beyond all data, because MPI-IO locks what it writes. */
 static void
 lock(const struct journal *j)

@@ -2,9 +2,9 @@
  * The interface of this folder: a file to which a run adds frames, and from which another run continues
  * (--checkpoint).
  *
- * Each frame is a grid stream of its own with its end line, so that the file stays readable except for a
- * frame that was being written when the machine stopped. Processes that share maps all call these functions,
- * and all get the same result.
+ * Each frame is a grid stream of its own with its end line, so that the file stays readable. Only a frame
+ * that was being written when the machine stopped is lost. Processes that share maps all call these
+ * functions, and all get the same result.
  */
 #ifndef RC_JOURNAL_H
 #define RC_JOURNAL_H

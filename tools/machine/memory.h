@@ -16,7 +16,7 @@ size_t memory_peak(void);
 enum {
     MEMORY_APART = 1 << 17 /* bytes; larger maps are allocated apart */
 };
-/* Returns the memory of a map to the system when it is freed; otherwise maps of one size leave holes in which
+/* Returns the memory of a map to the system when it is freed. Otherwise maps of one size leave holes in which
  * those of the next size do not fit. */
 void memory_keep_maps_apart(void);
 /* Returns free memory to the system, including holes between smaller blocks. */
@@ -27,9 +27,9 @@ struct memory_room {
     const char *why; /* what limits it, as in "the machine has" */
 };
 
-/* The least of the following: free memory of the machine (swap included), what the control groups of this
- * process may still use (cgroups, versions 1 and 2, up to the outermost), and what its own limits of address
- * space and data (ulimit -v, -d) leave. `root` precedes /proc and /sys: "". */
+/* The least of the following: free memory of the machine (swap included), the rest that the control groups of
+ * this process allow (cgroups, versions 1 and 2, up to the outermost), and the rest of its own limits of
+ * address space and data (ulimit -v, -d). `root` precedes /proc and /sys: "". */
 struct memory_room memory_room(const char *root);
 
 #endif

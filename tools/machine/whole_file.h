@@ -15,7 +15,7 @@ struct whole_file {
     char destination[WHOLE_PATH];
 };
 
-/* The place of the file with that name, whether it exists or not: follows symbolic links, also those whose
+/* The place of the file with that name, whether it exists or not. Follows symbolic links, also those whose
  * targets do not exist. false with errno. */
 bool whole_file_place(const char *name, char place[WHOLE_PATH]);
 /* Opens a file for writing; a device or a FIFO directly. Follows symbolic links, so that a link stays a link.

@@ -3,9 +3,9 @@
  *
  * A state has one frame for each map; the header of the last one holds the numbers. A state without maps is
  * one frame of numbers. Each frame is a grid stream with its own end line and is only appended, so that a
- * crash damages at most the last frame. A state is written when a case is done, when a signal ends the run,
- * and on the way after 1, 2, 4, 8 ... intervals, so that at most half of the time of a case is lost. The
- * last state of a case counts. If the disk is full, the tool warns once and the run continues.
+ * crash damages at most the last frame. A state is written when a case is done and when a signal ends the
+ * run. On the way it is written after 1, 2, 4, 8 ... intervals, so that at most half of the time of a case is
+ * lost. The last state of a case counts. If the disk is full, the tool warns once and the run continues.
  */
 #include "model.h"
 

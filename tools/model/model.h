@@ -22,7 +22,7 @@
  *     return drive_close(&d);
  *
  * drive_case starts each point from the last one, with a progress line, signals and --checkpoint. It writes
- * the frames of --output, a row of --report with the figures of the model and its inner ones, and warns of
+ * the frames of --output, and a row of --report with the figures of the model and its inner ones. It warns of
  * figures beyond their limits and of errors above the tolerance. With --dry-run it prints what it would do.
  * tests/toys/rc-toy.c is such a tool. A tool with more to say calls course_set, course_run and course_warn
  * itself.

@@ -293,7 +293,7 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
     return status;
 }
 
-/* In a PDF or SVG a node is a pixel of the image at any size; the chequers of missing nodes need the pixels
+/* In a PDF or SVG a node is a pixel of the image at any size. The chequers of missing nodes need the pixels
  * of the page. Contours pass through the nodes of an enlarged map and through the pixels of a reduced one. */
 static enum rc_status
 draw_map(struct page *p, struct rc_err *err)

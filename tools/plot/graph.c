@@ -490,8 +490,8 @@ is_free(const struct page *p, const struct box *b)
     return notes_of(p)->labels < LABELS;
 }
 
-/* A label is at the lower left of its point, where no other point of the front can be; if this place is
- * taken, the other places are tried in turn; if all are taken the label is omitted. */
+/* A label is at the lower left of its point, where no other point of the front can be. If this place is
+ * taken, the other places are tried in turn; if all are taken, the label is omitted. */
 static void
 draw_labels(struct page *p, const struct graph_series *s)
 {

@@ -82,7 +82,7 @@ fit(struct page *p, const struct canvas_font *font, double width, const char *se
     return n;
 }
 
-/* Breaks text at the separators into lines; a piece that is too long for a line is broken between words; the
+/* Breaks text at the separators into lines; a piece that is too long for a line is broken between words. The
  * last line is cut if necessary. */
 void
 page_wrap(struct page *p, const struct canvas_font *font, double width, const char *separator,
@@ -202,8 +202,8 @@ set_dpi(struct page *p)
     p->dpi = p->paper->dpi > 0 ? p->paper->dpi : 72 * p->small.size / FIGURE_POINTS;
 }
 
-/* Pixels of the longer side of a plot of n nodes: a whole number of pixels per node, or of nodes per pixel,
- * so that all cells look equal. */
+/* Pixels of the longer side of a plot of n nodes. It is a whole number of pixels per node, or of nodes per
+ * pixel, so that all cells look equal. */
 static double
 natural_side(size_t n, double u)
 {

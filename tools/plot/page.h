@@ -124,7 +124,7 @@ double page_bar_below(const struct page *page);
 double page_marks(const struct page *page);
 /* Cuts a line to `width`. */
 void page_shorten(struct page *page, const struct canvas_font *font, double width, char line[LINE]);
-/* Breaks text at the separators into lines; a piece that is too long for a line is broken between words; the
+/* Breaks text at the separators into lines; a piece that is too long for a line is broken between words. The
  * last line is cut if necessary. */
 void page_wrap(struct page *page, const struct canvas_font *font, double width,
                const char *separator, const char *text, struct text *lines);

@@ -32,7 +32,7 @@ struct raster *raster_new(const struct rc_grid *grid, bool zero_is_none, size_t 
 /* Only some of its h rows, from `first` on. */
 struct raster *raster_rows(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
                            size_t first, size_t rows, struct rc_err *err);
-/* The same with the largest value of the nodes of a cell in place of their mean; a cell is in contact, or
+/* The same with the largest value of the nodes of a cell in place of their mean. A cell is in contact, or
  * measured, if one of its nodes is. */
 struct raster *raster_rows_max(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
                                size_t first, size_t rows, struct rc_err *err);
@@ -45,12 +45,12 @@ struct lines {
     size_t n, capacity;
 };
 
-/* Adds the line on which the map, linear between the centres of its cells, has the value `level`; parts
+/* Adds the line on which the map, linear between the centres of its cells, has the value `level`. Parts
  * without contact count as 0, missing cells have no line. */
 enum rc_status raster_contour(const struct raster *raster, double level, struct lines *lines,
                               struct rc_err *err);
-/* Adds the borders between nodes with at least `level` (for level 0: above 0) and the others, along the edges
- * of nodes, in units of cells of a raster of w by h. */
+/* Adds the borders between nodes with at least `level` (for level 0: above 0) and the others. They run along
+ * the edges of nodes, in units of cells of a raster of w by h. */
 enum rc_status raster_border(const struct rc_grid *grid, double level, size_t w, size_t h,
                              struct lines *lines, struct rc_err *err);
 

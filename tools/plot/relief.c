@@ -9,8 +9,8 @@
 #include "raster.h"
 #include "ticks.h"
 
-/* The coordinates of the box: X to the right and Y upwards in the picture of the map, Z towards the viewer of
- * the map, divided by the longer side of the map; the origin is the middle of the floor. */
+/* The coordinates of the box, divided by the longer side of the map. X is to the right and Y upwards in the
+ * picture of the map, Z towards its viewer. The origin is the middle of the floor. */
 struct vec {
     double x, y, z;
 };
@@ -226,7 +226,7 @@ surface_colour(const struct scene *s, double value)
     return colormap_at(s->f->bar.map, figure_place(s->f, value));
 }
 
-/* Fills the triangle where it is nearer than the surface drawn before; with one colour or, with NULL, the
+/* Fills the triangle where it is nearer than the surface drawn before. It has one colour or, with NULL, the
  * colours of the values between its corners. */
 static void
 triangle(struct scene *s, const struct corner *a, const struct corner *b, const struct corner *c,

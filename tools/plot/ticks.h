@@ -18,8 +18,8 @@ struct scale {
 const char *power_text(char text[TICKS_TEXT], int power);
 /* A unit for print, with raised powers and the Greek mu: "m³/s". */
 const char *unit_text(char text[TICKS_TEXT], const char *unit);
-/* A unit in which the magnitude of `largest` (SI) has one to three digits before the point: with a prefix, or
- * with a power of ten if the unit takes no prefix. `unit` is as in a stream. */
+/* A unit in which the magnitude of `largest` (SI) has one to three digits before the point. It has a prefix,
+ * or a power of ten if the unit takes no prefix. `unit` is as in a stream. */
 void scale_choose(struct scale *scale, double largest, const char *unit);
 /* "5.83 GPa": four digits of the value in a suitable unit; "0" has no unit. */
 const char *scale_value(char text[TICKS_TEXT], double value, const char *unit);
