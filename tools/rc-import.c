@@ -302,7 +302,7 @@ number_or_dash(char text[RC_NUMBER_SIZE], double value)
     return text;
 }
 
-/* Smallest and largest value of a channel, in its unit or, if the file gives none, as stored; false, after a
+/* Smallest and largest value of a channel, in its unit or, if the file gives none, as stored. false, after a
  * message, when it cannot be read. */
 static bool
 range_of(struct tool *t, const struct source *s, const struct rc_wish *wish, size_t index,
@@ -442,7 +442,7 @@ add_keys(struct tool *t, const struct source *s, size_t number, struct rc_grid *
     return rc_grid_history(g, tool_history(t), err);
 }
 
-/* Sets values equal to the number of --missing in the file, which is not text any more, to missing: `unit` is
+/* Sets values equal to the number of --missing in the file, which is not text any more, to missing. `unit` is
  * the value of 1 of the file in the grid's unit. */
 static void
 take_missing(const char *missing, struct rc_grid *g, double unit)

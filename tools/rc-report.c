@@ -167,8 +167,8 @@ begins(const char *line, const char *word)
            strncmp(line + 2, word, strlen(word)) == 0;
 }
 
-/* Shows the lines of a text of rc-info from the one with this first word (NULL: from the second line) to the
- * one before that with the other. */
+/* Shows some lines of a text of rc-info. The first is the line with this first word (NULL: the second line),
+ * the last is the one before the line with the other word. */
 static void
 show_lines(struct run *run, FILE *in, const char *from, const char *to)
 {

@@ -37,8 +37,8 @@ void physics_check(struct tool *tool, struct physics *physics);
 /* The loads, mean pressures or approaches. */
 const struct numbers *physics_steps(const struct physics *physics);
 
-/* Ends the tool when a frame does not hold heights suitable for contact; else adds the sphere, which the key
- * `form` then names, and warns when the map does not suit the boundary. */
+/* Ends the tool when a frame does not hold heights suitable for contact. Otherwise adds the sphere, which the
+ * key `form` then names, and warns when the map does not suit the boundary. */
 void physics_heights(struct tool *tool, const struct physics *physics, struct rc_grid *heights);
 /* Ends the tool when a frame of hardness beside the heights (or NULL) is invalid, or --hardness is given
  * too. */

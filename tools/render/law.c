@@ -1,12 +1,12 @@
 /*
  * Published laws of contact that a figure can show beside its points.
  *
- * Hertz: an elastic sphere of radius R on a half-space. K. L. Johnson, Contact Mechanics (1985),
- * eqs. 4.22 to 4.24: a^3 = 3 F R / (4 E*), approach = a^2 / R, p0 = 3 F / (2 pi a^2); the stiffness
- * dF / d approach is 2 E* a (Pharr, Oliver and Brotzen 1992). Each quantity is a power of the load.
+ * Hertz: an elastic sphere of radius R on a half-space. K. L. Johnson, Contact Mechanics (1985), eqs. 4.22 to
+ * 4.24: a^3 = 3 F R / (4 E*), approach = a^2 / R, p0 = 3 F / (2 pi a^2). The stiffness dF / d approach is 2
+ * E* a (Pharr, Oliver and Brotzen 1992). Each quantity is a power of the load.
  *
- * Persson: a rough half-space under the mean pressure p, whose pressures have the variance s^2 = (E* h')^2 /
- * 4, h' the RMS gradient of the height. B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840; closed form by W.
+ * Persson: a rough half-space under the mean pressure p. Its pressures have the variance s^2 = (E* h')^2 / 4,
+ * h' the RMS gradient of the height. B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840; closed form by W.
  * Manners and J. A. Greenwood, Wear 261 (2006) 600: the contact fraction is erf(p / (sqrt(2) s)), and the
  * density of the pressure is the difference of two normal distributions about p and -p.
  */

@@ -152,7 +152,7 @@ around(const double *touch, const struct rc_grid *g, size_t node)
 }
 
 /* True if one value of a map takes more than half of the range and is isolated, far from the values around
- * it, which does not happen in a well resolved solution. */
+ * it. This does not happen in a well resolved solution. */
 static bool
 has_outlier(const struct frames_of *f, const struct survey *s)
 {
@@ -239,8 +239,8 @@ range_text(const struct range *r)
     return si;
 }
 
-/* Warns of a range in which values cannot be distinguished, for example because a unit was forgotten: it does
- * not overlap the values, or one of the two is less than a thousandth of the other. */
+/* Warns of a range in which values cannot be distinguished, for example because a unit was forgotten. Either
+ * it does not overlap the values, or one of the two is less than a thousandth of the other. */
 void
 range_doubt(struct tool *t, const char *text, const char *unit, const struct survey *s,
             const struct range *r)

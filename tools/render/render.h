@@ -65,9 +65,9 @@ struct window {
     bool contact;                    /* the window is that of the contact */
 };
 
-/* Cuts the map, and the frames beside it, to the window of `text`: X0:X1,Y0:Y1, contact, all, or NULL: about
- * the contact if it is a small part of a pressure map, except for a raw picture (`raw`). `touch` determines
- * the contact (NULL: unknown). The values move to the front of the grids. */
+/* Cuts the map, and the frames beside it, to the window of `text`: X0:X1,Y0:Y1, contact, all, or NULL. NULL
+ * cuts to the contact if it is a small part of a pressure map, except for a raw picture (`raw`). `touch`
+ * determines the contact (NULL: unknown). The values move to the front of the grids. */
 void window_cut(struct tool *tool, const char *text, bool raw, struct rc_grid *grid,
                 const struct beside *beside, const struct rc_grid *touch, struct window *window);
 
@@ -89,9 +89,9 @@ double *section_depths(struct tool *tool, const struct rc_grid *grid);
 /* The depths to draw: all, or those of `text`, Z0:Z1. */
 void section_range(struct tool *tool, const char *text, const struct rc_grid *grid,
                    const double *depth, double *top, double *bottom);
-/* The section from top to bottom on even rows: interpolated between its rows by a smooth curve that stays
- * between the adjacent values, and linearly between columns. Between rows in two media a point has the value
- * of the row in its own medium. */
+/* The section from top to bottom on even rows. A smooth curve interpolates between its rows and stays between
+ * the adjacent values; between columns it is linear. Between rows in two media a point has the value of the
+ * row in its own medium. */
 struct rc_grid *section_even(struct tool *tool, const struct rc_grid *grid, const double *depth,
                              const struct layers *layers, double top, double bottom);
 
@@ -133,7 +133,7 @@ void range_read(struct tool *tool, const char *text, const struct rc_grid *grid,
 /* "LO:HI" in SI, valid until the next call. */
 const char *range_text(const struct range *range);
 /* The ends of the colours for all values of n frames; a given end is kept. A percentile is the value below
- * which this per cent of the finite values lie, with linear interpolation; for a pressure only values in
+ * which this per cent of the finite values lie, with linear interpolation. For a pressure only values in
  * contact count, which touch[k] determines (NULL: all count). */
 void range_choose(struct rc_grid *const *grid, const struct rc_grid *const *touch, size_t n,
                   const struct survey *survey, const struct colormap *map,
@@ -227,8 +227,8 @@ enum {
  * inside the existing pieces. */
 void groups_sort(struct table *table, struct tool *tool, const size_t *by, size_t n, bool pieces);
 
-/* Rows with the same x, to a millionth, as one point: the mean of y, and one standard deviation to both sides
- * of it (n - 1; NaN for one row). */
+/* Makes one point of rows with the same x, to a millionth. It has the mean of y, and one standard deviation
+ * to both sides of it (n - 1; NaN for one row). */
 struct spread {
     double *x, *y, *low, *high; /* one allocation, at x, which the caller frees */
     size_t n, least, most;      /* number of points; rows in each */
@@ -424,7 +424,7 @@ void look_aspect(struct tool *tool, const struct rc_grid *grid, const struct fig
 /* True if a frame of rc-leak has a critical constriction inside the figure: the cross marks it. */
 bool look_throat(const struct rc_grid *grid, struct figure *figure);
 /* The position of a section between the requested depths, and its materials; returns it on even rows, and the
- * media of the figure; the caller frees both. */
+ * media of the figure. The caller frees both. */
 struct rc_grid *look_section(struct tool *tool, const struct args *args, const struct rc_grid *grid,
                              struct figure *figure);
 

@@ -39,8 +39,8 @@ section_depths(struct tool *t, const struct rc_grid *g)
 
 /* ---- between rows ---- */
 
-/* The slope at row j of a smooth monotonic curve through the values (Fritsch and Butland 1984): a weighted
- * harmonic mean of the slopes beside it, 0 at an extreme. */
+/* The slope at row j of a smooth monotonic curve through the values (Fritsch and Butland 1984). It is a
+ * weighted harmonic mean of the slopes beside it, and 0 at an extreme. */
 static double
 slope(const double *z, const double *v, size_t n, size_t j)
 {
@@ -103,8 +103,9 @@ struct rows {
     size_t n;
 };
 
-/* The value at depth `at`, between rows j and j + 1: on the curve through the neighbouring rows in the same
- * medium or, if the two rows are in different media, the value of the row in the medium of `at`. */
+/* The value at depth `at`, between rows j and j + 1. It lies on the curve through the neighbouring rows in
+ * the same medium. If the two rows are in different media, it is the value of the row in the medium of
+ * `at`. */
 static double
 value_at(const struct rows *r, size_t j, double at)
 {

@@ -1,6 +1,6 @@
 /*
- * The plastic strain that follows the pressure in a case, as rc-solve --yield writes it: for each slab, from
- * the surface down, exx eyy exy exz eyz, and peeq, which causes no stress.
+ * The plastic strain that follows the pressure in a case, as rc-solve --yield writes it. For each slab, from
+ * the surface down, it has exx eyy exy exz eyz, and peeq, which causes no stress.
  */
 #include "stress.h"
 

@@ -70,7 +70,7 @@ same_letter(char a, char b)
     return tolower((unsigned char)a) == tolower((unsigned char)b);
 }
 
-/* Damerau-Levenshtein distance, row by row of its table: d[i][j] is the distance of the first i letters of a
+/* Damerau-Levenshtein distance, row by row of its table. d[i][j] is the distance of the first i letters of a
  * from the first j of b. */
 static size_t
 mistakes(const char *a, size_t n, const char *b, size_t m)
@@ -114,9 +114,9 @@ is_part(const char *part, size_t n, const char *name)
 }
 
 /* Distance of a typed name from a name: the number of letters left out, added, changed, or exchanged with
- * their neighbour; upper and lower case are equal. If the typed name is a whole part of the name, as
- * "pressure" of "mean-pressure" and "area" of "contact_area", the distance is slightly larger than for the
- * most mistakes allowed. SIZE_MAX: too different. */
+ * their neighbour. Upper and lower case are equal. The typed name may be a whole part of the name, as
+ * "pressure" of "mean-pressure" and "area" of "contact_area". Its distance is then slightly larger than for
+ * the most mistakes allowed. SIZE_MAX: too different. */
 static size_t
 distance(const char *typed, const char *name)
 {

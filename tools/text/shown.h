@@ -9,7 +9,7 @@ enum {
 };
 
 /* "1.29 u" for 1.29e-6 and "m": this many digits, and the prefix of the unit that brings the number to
- * 1..1000; the caller adds the unit. Only m, Pa and N get prefixes. */
+ * 1..1000. The caller adds the unit. Only m, Pa and N get prefixes. */
 const char *shown_number(char text[SHOWN_NUMBER], double value, int digits, const char *unit);
 /* "1.29 um": six digits and the unit. */
 const char *shown_in_unit(char text[SHOWN_NUMBER], double value, const char *unit);
