@@ -16,7 +16,7 @@ struct solved {
     struct rc_err err;
 };
 
-/* Every method of the library passes the same tests: main runs its group once for each method, or for the one
+/* Every method of the library passes the same tests. Main runs its group once for each method, or for the one
  * that RC_METHOD in the environment names. */
 static const char *contact_method = "pcg";
 
@@ -161,7 +161,7 @@ node_r(struct rc_shape s, size_t k)
     return hypot(node_x(s, k), node_y(s, k));
 }
 
-/* If the numbers of columns and rows are even, no node lies at the apex of a sphere in the middle: the four
+/* If the numbers of columns and rows are even, no node lies at the apex of a sphere in the middle. The four
  * nearest nodes are lower by this depth, and the approach counts from them. */
 static inline double
 below_apex(struct rc_shape s, double radius)

@@ -22,17 +22,17 @@ static const double three_digits = 5e-3; /* and of three                        
 static const double coarse_grid = 0.01;  /* against a closed form, tens of nodes in the contact */
 
 /* Permitted error of a solution with constant pressure in each cell against Hertz's, with n nodes in the
- * radius of the contact: this constant over n^2 for approach and peak, over n for the area (its edge is a
- * line of nodes). About five times the published numerical errors: 2e-5 and 5e-5 with 21.5 nodes in the
- * radius. */
+ * radius of the contact. It is this constant over n^2 for approach and peak, and over n for the area (its
+ * edge is a line of nodes). About five times the published numerical errors: 2e-5 and 5e-5 with 21.5 nodes in
+ * the radius. */
 static const double grid_approach = 0.1;
 static const double grid_peak = 0.5;
 static const double grid_area = 1;
 /* The same for a rigid cone: a cell blunts its apex; approach over n. */
 static const double grid_cone = 0.2;
 
-/* Gives the first number in the tests before a release (RC_LONG, tests/CMakeLists.txt), the second one in the
- * tests of every commit: numbers of cases, or steps from one case to the next. */
+/* Returns the first number in the tests before a release (RC_LONG, tests/CMakeLists.txt), the second one in
+ * the tests of every commit. The numbers count cases, or steps from one case to the next. */
 static inline size_t
 thorough(size_t release, size_t commit)
 {
@@ -128,8 +128,8 @@ love_displacement(double x, double y, double a, double b, double estar)
            (exact_pi * estar);
 }
 
-/* Westergaard 1939 (Johnson 1985, section 13.2): a wave of amplitude A and wavelength L pressed
- * against a flat; at the mean pressure `full` it touches everywhere. */
+/* Westergaard 1939 (Johnson 1985, section 13.2): a wave of amplitude A and wavelength L pressed against a
+ * flat. At the mean pressure `full` it touches everywhere. */
 static inline double
 wave_full(double amplitude, double wavelength, double estar)
 {
@@ -186,9 +186,9 @@ point_stress(bool shear, double nu, double x, double y, double z, double s[6])
         s[k] *= scale;
 }
 
-/* Stresses under uniform pressure (Love 1929, sections 6 and 7) or uniform shear along +x of 1 on
- * the rectangle |x| <= a, |y| <= b, z > 0, in the same order; in extended precision, because far
- * away the terms cancel. */
+/* Stresses under uniform pressure (Love 1929, sections 6 and 7) or uniform shear along +x of 1 on the
+ * rectangle |x| <= a, |y| <= b, z > 0, in the same order. They are in extended precision, because far away
+ * the terms cancel. */
 static inline long double
 rectangle_corner(bool shear, int component, long double nu, long double x, long double y,
                  long double z)
@@ -240,13 +240,12 @@ rectangle_stress(bool shear, int component, double nu, double x, double y, doubl
 }
 
 /*
- * Sliding sphere: pressure p0 sqrt(1 - r^2/a^2) and the traction mu times it along +x (Hamilton
- * 1983, Proc. Inst. Mech. Eng. 197C, 53; Sackfield and Hills 1983, J. Strain Anal. 18, 107), z > 0
- * or, at the surface, r < a. The potential of that pressure is that of point sources at the depths
- * z + it, |t| < a, of strength a^2 - t^2, so each stress is -p0 (Re F2 - Im F3 / a) where F2, F3
- * are the second and third antiderivative in z of what a point source does, at the depth z + ia.
- * With w = R + z, f1 = ln w, f2 = z f1 - R, fn the antiderivative of f(n-1), the derivatives of fn
- * by x and y are those of gn = fn'/r, hn = gn'/r, kn = hn'/r.
+ * Sliding sphere: pressure p0 sqrt(1 - r^2/a^2) and the traction mu times it along +x (Hamilton 1983, Proc.
+ * Inst. Mech. Eng. 197C, 53; Sackfield and Hills 1983, J. Strain Anal. 18, 107), z > 0 or, at the surface, r
+ * < a. The potential of that pressure is that of point sources at the depths z + it, |t| < a, of strength
+ * a^2 - t^2. So each stress is -p0 (Re F2 - Im F3 / a). F2 and F3 are the second and third antiderivative in
+ * z of the stress of a point source, at the depth z + ia. Let w = R + z, f1 = ln w, f2 = z f1 - R, fn the
+ * antiderivative of f(n-1). The derivatives of fn by x and y are those of gn = fn'/r, hn = gn'/r, kn = hn'/r.
  */
 static inline void
 sliding_sphere(struct hertz s, double nu, double mu, double x, double y, double depth,
@@ -305,8 +304,8 @@ mises_of(const double s[6])
     return sqrt((a * a + b * b + c * c) / 2 + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-/* Depth of the largest Mises stress under a sliding sphere, to a thousandth of a: sought in the
- * plane y = 0 by steps of 0.002 a along x. */
+/* Depth of the largest Mises stress under a sliding sphere, to a thousandth of a. It is sought in the plane
+ * y = 0 by steps of 0.002 a along x. */
 static inline double
 mises_depth(struct hertz h, double nu, double mu)
 {

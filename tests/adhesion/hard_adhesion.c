@@ -496,7 +496,7 @@ closed_by_a_load(void **state)
         }
 }
 
-/* Two planes on a periodic map, so close that all nodes touch at the start: the gap must be the requested
+/* Two planes on a periodic map, so close that all nodes touch at the start. The gap must be the requested
  * one, and the pressure the traction of the law. */
 static void
 planes(void **state)

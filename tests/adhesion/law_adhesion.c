@@ -1,6 +1,6 @@
-/* Laws of every adhesive state: its error is within the estimate, it is stable, its cost is within the
- * documented one, other units and mirrored maps give the corresponding state, loads equal sums of pressures,
- * and the number of threads does not change a path. */
+/* Laws of every adhesive state. Its error is within the estimate, it is stable, and its cost is within the
+ * documented one. Other units and mirrored maps give the corresponding state, and loads equal sums of
+ * pressures. The number of threads does not change a path. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -145,9 +145,9 @@ errors_of_dents_are_known(void **state)
     assert_true(worst >= 0.99);
 }
 
-/* The iteration for the eigenvector may converge to another mode than the softest one: here, a profile of 18
- * nodes of which nine touch, to 0.49 although the smallest eigenvalue is 0.14. The last steps of the descent
- * show the smaller one. */
+/* The iteration for the eigenvector may converge to another mode than the softest one. Here it converges to
+ * 0.49 on a profile of 18 nodes of which nine touch, although the smallest eigenvalue is 0.14. The last steps
+ * of the descent show the smaller one. */
 static void
 soft_modes_are_seen(void **state)
 {
@@ -286,8 +286,8 @@ paths_are_stable(void **state)
     assert_true(jumps > 0);
 }
 
-/* The eigenvalue compared with that of the dense matrix (A - D) K_FF, by inverse iteration on small maps;
- * unit pressures on one node after another give the matrices. */
+/* The eigenvalue compared with that of the dense matrix (A - D) K_FF, by inverse iteration on small maps.
+ * Unit pressures on one node after another give the matrices. */
 static void
 eigenvalues_are_right(void **state)
 {
@@ -417,7 +417,7 @@ eigenvalues_are_right(void **state)
 /* ---- cost ---- */
 
 /* Convolutions from undeformed bodies to true errors of 1e-2, 1e-4 and 1e-6 are at most 1.2 times those of an
- * independent program: periodic maps with a given mean gap, and a sphere. */
+ * independent program. The cases are periodic maps with a given mean gap, and a sphere. */
 static const struct {
     size_t n;
     double strength, ell, contact, counts[3];

@@ -1,6 +1,6 @@
-/* Adhesion against closed forms: Maugis' sphere, the limits of JKR and DMT, Bradley's rigid sphere,
- * Johnson's wave; and against Newton's method for the pressures of a small map, with an influence matrix from
- * closed forms. */
+/* Adhesion against closed forms: Maugis' sphere, the limits of JKR and DMT, Bradley's rigid sphere, Johnson's
+ * wave. A small map is compared with Newton's method for the pressures, with an influence matrix from closed
+ * forms. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -40,7 +40,7 @@ sphere_of(size_t n, double nodes)
 }
 
 /* Bounds: of the load that should be 0, over pi w R; of the lowest load, relative. They are errors of the
- * grid. If the attracting ring is 4, 1.6 or 0.6 nodes wide, load against approach is a saw-tooth curve; its
+ * grid. If the attracting ring is 4, 1.6 or 0.6 nodes wide, load against approach is a saw-tooth curve. Its
  * lowest tooth, in 200 states, is 0.2, 0.26 or 0.71 % below Maugis' lowest load. */
 static const struct {
     double lambda, nodes;
@@ -93,7 +93,7 @@ sphere_of_maugis(void **state)
 
 /* On a grid that hardly resolves the law the load is a saw-tooth curve, whose teeth depend on the position of
  * the apex. The result of the search differs from the lowest tooth of a path with small steps by at most the
- * reported spread, and the spread is of the size of the teeth. */
+ * reported spread. The spread is of the size of the teeth. */
 static void
 spread_holds_the_saw(void **state)
 {
@@ -262,7 +262,7 @@ wave_of_johnson(void **state)
 
 /* ---- another formulation ---- */
 
-/* Solves min(g, p + sigma) = 0, g = K p - h - c, for the pressures by Newton's method: a node with the
+/* Solves min(g, p + sigma) = 0, g = K p - h - c, for the pressures by Newton's method. A node with the
  * smaller gap has the row of K, the others that of 1 - D K. The matrix is not symmetric; the elimination has
  * pivots. */
 enum {

@@ -115,8 +115,8 @@ others() {
     done
 }
 
-# costs_of FILE: prints settings and errors of a table of rc-cost, without times and memory, which change from
-# run to run; prints nothing for other files.
+# costs_of FILE: prints settings and errors of a table of rc-cost. It omits times and memory, which change
+# from run to run, and prints nothing for other files.
 costs_of() {
     awk '$1 ~ /^(pcg|pk99)$/ { print $1, $2, $3, $4, $5, $8, $10, $11, $12, $13, $14 }
         $1 ~ /^(fft|mlms|direct)$/ { print $1, $2, $5, $7, $8, $9 }' "$1" 2>/dev/null
@@ -135,7 +135,7 @@ same_costs() {
     [ -n "$(costs_of "$1")" ] && [ "$extra" = 0 ] && [ "$missing" = $(($(without_result "$1") - $(without_result "$2"))) ]
 }
 
-# same_work A B: equal files, or streams with equal headers and values equal to rounding: without memory for
+# same_work A B: equal files, or streams with equal headers and values equal to rounding. Without memory for
 # sorting the C library uses another algorithm, and the order of sums changes.
 same_work() {
     cmp -s "$1" "$2" || same_costs "$1" "$2" || perl -e '
@@ -159,15 +159,15 @@ same_work() {
         }' "$1" "$2"
 }
 
-# same_said FILE FILE: equal standard output, except for the mebibytes of a plan: they include the memory of
+# same_said FILE FILE: equal standard output, except for the mebibytes of a plan. They include the memory of
 # the process, and with it that of the preloaded library. law_memory tests that the plan itself needs no
 # memory.
 same_said() {
     cmp -s "$1" "$2" || cmp -s <(sed -E 's/, [0-9]+ MiB(,|$)/, MiB\1/' "$1") <(sed -E 's/, [0-9]+ MiB(,|$)/, MiB\1/' "$2")
 }
 
-# judge STATUS OUT WHERE: checks that a disturbed run has either done all of its work or has failed cleanly;
-# otherwise prints the reason and fails.
+# judge STATUS OUT WHERE: checks that a disturbed run has either done all of its work or has failed cleanly.
+# Otherwise it prints the reason and fails.
 judge() {
     local status=$1 out=$2 where=$3 tool=${4%% *}
     whole_beside || {

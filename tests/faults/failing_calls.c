@@ -1,8 +1,8 @@
 /*
  * failing_calls [-n NUMBER] [-f FAULT] [-c COUNT] COMMAND...: runs the command and makes its system call
- * number NUMBER fail, counted among the calls that FAULT affects: 1 is the first, 0 none. With -c the number
- * of such calls is written to the file COUNT. The exit status is that of the command, 128 plus the signal
- * that ended it, or 77 if the system does not allow calls to be watched.
+ * number NUMBER fail. It counts the calls that FAULT affects: 1 is the first, 0 none. With -c the number of
+ * such calls is written to the file COUNT. The exit status is that of the command, or 128 plus the signal
+ * that ended it. It is 77 if the system does not allow calls to be watched.
  *
  *     enospc eio    write, fsync, ftruncate, close, rename and open fail so
  *     fsync nosync  fsync alone fails: of a broken disk (EIO), of a file system without the call (EINVAL)
@@ -11,11 +11,10 @@
  *     emfile        open, pipe, socketpair, mmap of a file and fork fail so
  *     term int kill the signal comes at the call, of any that is watched
  *
- * Counted are calls that concern the command's own files: those in the working folder, pipes, sockets and
- * standard input and output, in the command itself and its children, but not what the loader, fonts and
- * locales take from the system's folders. The kernel asks this program about each (seccomp's
- * notifications, Linux 5.6), so that also calls from inside the C library are reached, whatever sanitizer
- * is built in.
+ * Counted are calls that concern the command's own files, in the command itself and its children. These files
+ * are those in the working folder, pipes, sockets and standard input and output. Files that the loader, fonts
+ * and locales take from the system's folders do not count. The kernel asks this program about each (seccomp's
+ * notifications, Linux 5.6). So calls from inside the C library are reached too, with any sanitizer.
  */
 #define _GNU_SOURCE /* syscall */
 #include <errno.h>
@@ -140,7 +139,7 @@ filter_calls(void)
 }
 
 /* Passes the descriptor of the kernel's notifications to the parent as shared[0] - 1, and waits until the
- * parent has it, because the command must not inherit it. No watched call may come before. */
+ * parent has it. The command must not inherit it. No watched call may come before. */
 static _Noreturn void
 start_command(char **command, volatile int *shared)
 {
@@ -252,7 +251,7 @@ send_answer(int listener, const struct seccomp_notif_resp *say)
 }
 
 /* A read from a pipe may wait until a child of the command has written, and the calls of the child are
- * answered here too: therefore the read runs in a separate thread. There is at most one such thread, because
+ * answered here too. Therefore the read runs in a separate thread. There is at most one such thread, because
  * only one call has the number -n. */
 static struct half {
     int listener;

@@ -1,4 +1,4 @@
-/* Each allocation in a public function of libcontact fails, alone or with all later ones: the result must
+/* Each allocation in a public function of libcontact fails, alone or with all later ones. The result must
  * still be right, or the function fails with a reason, leaves its arguments unchanged and holds no memory.
  * The list of functions is read from the headers; a function without a test is an error. */
 #include <setjmp.h>
@@ -1134,8 +1134,8 @@ same_numbers(const double *a, const double *b)
     return true;
 }
 
-/* GSL does not free its first blocks if a later allocation fails: the head of a matrix without its block, the
- * work space of its tridiagonal solver (2.7). */
+/* GSL does not free its first blocks if a later allocation fails. These are the head of a matrix without its
+ * block, and the work space of its tridiagonal solver (2.7). */
 static const size_t lost_by_gsl = 3;
 
 static size_t tried, refused;

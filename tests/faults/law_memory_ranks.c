@@ -1,7 +1,7 @@
-/* Each allocation in libcontact on one of the processes that share a map fails, alone or with all later ones:
- * all processes must return the same, either the right result or one failure with its reason; none may wait
- * for another, and no memory may be held. RC_STRIDE in the environment is the step from one failing
- * allocation to the next; by default it is large enough for the default set of tests. */
+/* Each allocation in libcontact on one of the processes that share a map fails, alone or with all later ones.
+ * All processes must return the same: the right result, or one failure with its reason. None may wait for
+ * another, and no memory may be held. RC_STRIDE in the environment is the step from one failing allocation to
+ * the next. By default it is large enough for the default set of tests. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

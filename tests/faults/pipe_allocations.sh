@@ -1,7 +1,7 @@
-# Every allocation of every tool fails in turn, n = 1, 2, ... to the last, alone and with all later ones: the
-# tool must still do its work, or exit with status 1 and a message, leave the old file unchanged and leave no
-# other file. failing_malloc.c defines which allocations are counted. RC_STRIDE in the environment is the step
-# from one failing allocation to the next; above 1 only every second command is tested.
+# Every allocation of every tool fails in turn, n = 1, 2, ... to the last, alone and with all later ones. The
+# tool must still do its work, or exit with status 1 and a message. It must leave the old file unchanged and
+# leave no other file. failing_malloc.c defines which allocations are counted. RC_STRIDE in the environment is
+# the step from one failing allocation to the next; above 1 only every second command is tested.
 . "$RC_SOURCE/tests/pipe.sh"
 . "$RC_SOURCE/tests/faults/commands.sh"
 

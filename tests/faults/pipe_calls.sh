@@ -1,12 +1,12 @@
-# Every system call on a file fails in turn, n = 1, 2, ... to the last, in every tool: full disk, broken disk,
-# interruption, no descriptors left. The tool must still do its work, or exit with status 1 and a message,
-# leave the old file unchanged and leave no other file. If reads and writes do half of the requested bytes,
-# the work must be done. failing_calls.c defines the calls. The file of -o is on the disk (fsync) before it
-# replaces the old one; if the disk refuses, the old file remains; if the file system does not support fsync,
-# the work is done. Signals also arrive at each of these calls: after SIGTERM and SIGINT there is the
-# unchanged old file or the complete new one and nothing else; after SIGKILL the same holds for every file
-# with a final name. RC_STRIDE in the environment is the step from one failing call to the next; above 1 only
-# every fourth command is tested.
+# Every system call on a file fails in turn, n = 1, 2, ... to the last, in every tool. The faults are a full
+# disk, a broken disk, an interruption, and no descriptors left. The tool must still do its work, or exit with
+# status 1 and a message, leave the old file unchanged and leave no other file. If reads and writes do half of
+# the requested bytes, the work must be done. failing_calls.c defines the calls. The file of -o is on the disk
+# (fsync) before it replaces the old one. If the disk refuses, the old file remains; if the file system does
+# not support fsync, the work is done. Signals also arrive at each of these calls. After SIGTERM and SIGINT
+# there is the unchanged old file or the complete new one and nothing else. After SIGKILL the same holds for
+# every file with a final name. RC_STRIDE in the environment is the step from one failing call to the next;
+# above 1 only every fourth command is tested.
 . "$RC_SOURCE/tests/pipe.sh"
 . "$RC_SOURCE/tests/faults/commands.sh"
 

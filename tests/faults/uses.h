@@ -11,8 +11,8 @@
 /* A use calls some functions and writes their results to the front of out, which holds zeros before. */
 typedef enum rc_status use(double *out, struct rc_err *err);
 
-/* Uses of the functions convolved, solved or stressed, which each test defines for its own maps, with these
- * options: for two bodies, bare or layered, or for the first body only. */
+/* Uses of the functions convolved, solved or stressed, which each test defines for its own maps. The options
+ * are two bodies, bare or layered, or the first body only. */
 #define CONVOLUTION(name, bodies, ...)                                                             \
     static enum rc_status name(double *out, struct rc_err *err)                                    \
     {                                                                                              \

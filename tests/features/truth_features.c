@@ -1,6 +1,6 @@
-/* Feature parameters of ISO 25178-2 equal closed forms for waves and posts, and on rough maps a literal
- * implementation of Wolf's rule: the hill of least height joins the hill across its highest saddle, again and
- * again. */
+/* Feature parameters of ISO 25178-2 equal closed forms for waves and posts. On rough maps they equal a
+ * literal implementation of Wolf's rule: the hill of least height joins the hill across its highest saddle,
+ * again and again. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -69,7 +69,7 @@ test_wave(void **state)
 }
 
 /* Posts of 3 x 3 nodes with flat tops, 5 nodes apart: each has one peak although no node is above its
- * neighbours, and all have the same curvature; the floor is one unbounded pit. */
+ * neighbours. All have the same curvature. The floor is one unbounded pit. */
 static void
 test_posts(void **state)
 {
@@ -91,7 +91,7 @@ test_posts(void **state)
     assert_true(isnan(a.s5v) && isnan(a.s10z));
 }
 
-/* A cap, and beside it a small one with its saddle at a given depth below its peak: at 4.9 % of Sz it belongs
+/* A cap, and beside it a small one with its saddle at a given depth below its peak. At 4.9 % of Sz it belongs
  * to the other hill, at 5.1 % it is a separate hill. */
 static void
 test_threshold(void **state)

@@ -1,5 +1,5 @@
 /* Parameters of ISO 21920-2 equal closed forms for waves, triangles and steps, with ripples above and below
- * the limit for elements; along a line of a map cubic interpolation reproduces second-degree surfaces and the
+ * the limit for elements. Along a line of a map cubic interpolation reproduces second-degree surfaces and the
  * values at nodes. */
 #include <setjmp.h>
 #include <stdarg.h>

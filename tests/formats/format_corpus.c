@@ -266,7 +266,7 @@ check_grid(char *column[COLUMNS], struct rc_grid *g)
         fault("%s: %zu missing", file, s.missing);
     check_near(file, "the minimum", s.min, strtod(column[Z_MIN], NULL), rounding * fabs(s.min));
     check_near(file, "the maximum", s.max, strtod(column[Z_MAX], NULL), rounding * fabs(s.max));
-    /* the error of a mean near zero is relative to the heights that cancel in it; the error of an rms height
+    /* the error of a mean near zero is relative to the heights that cancel in it. The error of an rms height
      * of zero is the last digit of the heights */
     check_near(file, "the mean", s.mean, mean, bound * fmax(fabs(mean), rms));
     check_near(file, "the rms height", s.rms, rms, fmax(bound * rms, 1e-15 * fabs(mean)));

@@ -159,7 +159,7 @@ createc_scans(void **state)
     drop(&m);
 }
 
-/* Reads a synthetic scan of Createc whose header ends in these lines; every height must be the given number
+/* Reads a synthetic scan of Createc whose header ends in these lines. Every height must be the given number
  * of nanometres per count, with a relative error of at most `most`. */
 static void
 createc_counts_are(const char *lines, double count, double most)
@@ -182,9 +182,9 @@ createc_counts_are(const char *lines, double count, double most)
     drop(&m);
 }
 
-/* A count of z, where the header has the factor 0.00038: 20 V over 2^20 counts, amplified 10 times, on a
- * piezo of 20 Angstrom per volt, are 4000 / 2^20 Angstrom. If the piezo constant contradicts the factor, the
- * factor of the file is used, times the gain. */
+/* A count of z, where the header has the factor 0.00038. The converter has 20 V over 2^20 counts, amplified
+ * 10 times, on a piezo of 20 Angstrom per volt: 4000 / 2^20 Angstrom. If the piezo constant contradicts the
+ * factor, the factor of the file is used, times the gain. */
 static void
 createc_counts(void **state)
 {
@@ -275,8 +275,8 @@ labels_of_waves(void **state)
 }
 
 /* If the note has the settings of an Asylum microscope, which stores all values in SI units, the labels
- * determine the units, also if the wave has another unit or none. A sensor that is not calibrated has no
- * unit. */
+ * determine the units. They do so also if the wave has another unit or none. A sensor that is not calibrated
+ * has no unit. */
 static void
 labels_with_a_note(void **state)
 {

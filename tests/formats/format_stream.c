@@ -1,4 +1,4 @@
-/* A grid stream is read back bit by bit, and a damaged one is refused with the reason, without a crash and
+/* A grid stream is read back bit by bit. A damaged one is refused with the reason, without a crash and
  * without a frame that was not written. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -67,7 +67,7 @@ by_hand(const char *header, size_t n)
     return b;
 }
 
-/* The same with a changed line in a valid 2 x 1 header: `line` replaces the line with its key or is added;
+/* The same with a changed line in a valid 2 x 1 header: `line` replaces the line with its key or is added.
  * NULL removes the line of that key. */
 static struct stream
 with_line(const char *key, const char *line)
@@ -399,7 +399,7 @@ check_failure(const char *message, int status, const char *expected)
     free(b.data);
 }
 
-/* A stream that fails before its first frame: its reader gets the message and the exit status; a message that
+/* A stream that fails before its first frame: its reader gets the message and the exit status. A message that
  * is too long is cut between characters. */
 static void
 test_failure_and_its_status(void **state)

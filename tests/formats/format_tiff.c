@@ -1,4 +1,4 @@
-/* JPK and LEXT files made by this test are read in both byte orders; damaged files, and files that would take
+/* JPK and LEXT files made by this test are read in both byte orders. Damaged files, and files that would take
  * much memory or time, are refused. */
 #include <stdarg.h>
 #include <stddef.h>

@@ -116,7 +116,7 @@ hdf5_bombs(void **state)
     }
 }
 
-/* Sizes have 64 bits in a file and may have 32 bits in memory: a number of rows whose lower half is 2 must
+/* Sizes have 64 bits in a file and may have 32 bits in memory. A number of rows whose lower half is 2 must
  * not count as 2. */
 static void
 hdf5_sizes_are_whole(void **state)

@@ -269,8 +269,8 @@ other_units_stay(void **state)
 
 /* ---- scans of GXSM ---- */
 
-/* A file as GXSM writes it: the field over (time, value, dimy, dimx) with 2 rows of 3 nodes, dz, the
- * coordinates, and before these a log over two other dimensions. */
+/* A file as GXSM writes it. The field is over (time, value, dimy, dimx) with 2 rows of 3 nodes; dz and the
+ * coordinates follow. Before these comes a log over two other dimensions. */
 struct gxsm {
     uint64_t times;
     unsigned field_type;

@@ -354,7 +354,7 @@ profiles(void **state)
 }
 
 /* A map of the six heights whose points have x (32 bits, nm), y (floats, um) or both; falling positions start
- * at the far end; the last position is wrong by `off`. */
+ * at the far end. The last position is wrong by `off`. */
 static struct rc_file
 placed_map(bool has_x, bool has_y, bool falls, double off)
 {
@@ -451,7 +451,7 @@ profile_xml(const char *data, const char *y_axis)
     return xml;
 }
 
-/* Heights 1, 2, 3, 5, 6 at 0, 1, 2, 4 and 5 um lie on a straight line; resampled at even nodes they stay on
+/* Heights 1, 2, 3, 5, 6 at 0, 1, 2, 4 and 5 um lie on a straight line. Resampled at even nodes they stay on
  * it. */
 static void
 check_resampled(char *xml, const struct bytes *data)

@@ -190,7 +190,7 @@ lying_sizes(void **state)
     free(xml);
 }
 
-/* Reads the file in every way, in a block of memory of exactly its size: it is refused with a reason or gives
+/* Reads the file in every way, in a block of memory of exactly its size. It is refused with a reason or gives
  * the original map, and no byte outside the block is accessed. Returns true if it was read. */
 static bool
 survives(const unsigned char *data, size_t n)

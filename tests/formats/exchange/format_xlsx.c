@@ -93,8 +93,8 @@ blocks_are_read(void **state)
     drop(&b);
 }
 
-/* A profile of SurfTest: its positions have the unit of the cut-off, its heights that of the first roughness;
- * it has no titles, and shorter columns are beside it. */
+/* A profile of SurfTest: its positions have the unit of the cut-off, its heights that of the first roughness.
+ * It has no titles, and shorter columns are beside it. */
 static void
 surftest(void **state)
 {

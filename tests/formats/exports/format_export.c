@@ -1,5 +1,5 @@
-/* Written files hold the given numbers: checked by a decoder of each format that shares no code with the
- * writer, and by the project's reader if one exists. */
+/* A decoder of each format that shares no code with the writer reads the written files. So does the project's
+ * reader if there is one. Both find the given numbers. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -14,7 +14,7 @@
 #include "decoders.h"
 #include "formats/format.h"
 
-/* Permitted errors: of a number `step` times the range and `part` times the largest; of a spacing; and the
+/* Permitted errors: of a number `step` times the range and `part` times the largest; of a spacing. Then the
  * smallest number of nodes of an axis whose spacing the file holds. */
 /* clang-format off */
 static const struct {
@@ -112,7 +112,7 @@ compare_reader(size_t f, const struct rc_grid *g, const struct written *made)
     rc_grid_free(back);
 }
 
-/* The readers of text ask the user in some cases: a matrix of one column could be a profile, three points
+/* The readers of text ask the user in some cases. A matrix of one column could be a profile, three points
  * could be a list, and one line is no raster. In MATLAB a column is a profile too, and one number is no
  * map. */
 static bool

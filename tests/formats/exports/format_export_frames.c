@@ -271,7 +271,7 @@ hdf5_values(hid_t set, int rank, hsize_t *size)
     return v;
 }
 
-/* The scale of the first axis is the dataset of these depths, found by the attribute DIMENSION_LIST, whose
+/* The scale of the first axis is the dataset of these depths. The attribute DIMENSION_LIST leads to it; its
  * entries are lists of references (specification of dimension scales). Returns its name. */
 static void
 check_scale(hid_t set, int rank, const double *depth, size_t n, char *name, size_t size)

@@ -1,4 +1,4 @@
-/* A relief is a closed block: every edge occurs once in each direction, its volume is the volume under the
+/* A relief is a closed block. Every edge occurs once in each direction, its volume is the volume under the
  * map, and its upper face is the map to scale. */
 #include <stdarg.h>
 #include <stddef.h>

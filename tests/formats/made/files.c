@@ -1,6 +1,6 @@
 /*
  * Small files of every flat format, byte by byte according to its specification, without the project's
- * writers: 3 columns, 2 rows, and every variant that the readers support.
+ * writers. They have 3 columns, 2 rows, and every variant that the readers support.
  */
 #include "made.h"
 

@@ -40,7 +40,7 @@ void drop(struct bytes *b);
 struct rc_file file_of(const struct bytes *b, const char *name);
 
 /*
- * The numbers of the maps in made_files, but -20 and -60 if the type has a sign; 50 is missing if the format
+ * The numbers of the maps in made_files, but -20 and -60 if the type has a sign. 50 is missing if the format
  * can mark missing points:
  *
  *     10 20 30
@@ -100,8 +100,8 @@ made_maker make_bcr, make_frt, make_tmd, make_grd, make_esri, make_npy, make_opd
 /* arrays.c */
 made_maker make_mat, make_nrrd;
 /* These functions add to a MAT file: the header, which sets the byte order of m; a variable with class and
- * flags of the format; a variable of one number; a text; and a compressed variable in place of the bytes from
- * `at` on. */
+ * flags of the format; a variable of one number; and a text. The last one puts a compressed variable in place
+ * of the bytes from `at` on. */
 void mat_header(struct bytes *m, bool big);
 void mat_array(struct bytes *m, const char *name, unsigned flags, size_t rows, size_t columns,
                unsigned type, const void *numbers, size_t n);
@@ -198,7 +198,7 @@ struct tag number_tag(unsigned tag, unsigned type, double number);
 void tiff_start(struct bytes *b, bool big);
 /* One directory with its data before it; returns its offset. The list ends with tag 0. */
 size_t tiff_directory(struct bytes *b, const struct tag *tag);
-/* A page of nx x ny pixels in one strip, with further tags, which must be above 339; `last` is the offset of
+/* A page of nx x ny pixels in one strip, with further tags, which must be above 339. `last` is the offset of
  * the word that points to this page. Returns the offset of the word for the next page. */
 size_t tiff_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits,
                  unsigned samples, const char *description, const void *pixels, size_t n,

@@ -12,7 +12,7 @@ enum {
     FIRST = 0xffff
 };
 
-/* An entry of the directory, which is a binary tree: names to the right of an entry come after it in the
+/* An entry of the directory, which is a binary tree. Names to the right of an entry come after it in the
  * order, and the child of the root entry is the top of the tree. */
 static void
 ole_entry(struct bytes *b, const char *name, int type, unsigned right, unsigned child,
@@ -44,8 +44,8 @@ ole_chain(struct bytes *b, size_t start, unsigned first, size_t n)
         add_raw(b, RC_RAW_U32, 0xffffffff);
 }
 
-/* Sectors: 0 is the table, 1 the directory, 2 the table of small sectors; from 3 on the stream, or the root's
- * stream of small sectors that contains it. */
+/* Sectors: 0 is the table, 1 the directory, 2 the table of small sectors. From 3 on there is the stream, or
+ * the root's stream of small sectors that contains it. */
 void
 ole_file(struct bytes *b, const char *name, const struct bytes *stream)
 {

@@ -1,4 +1,4 @@
-/* DATX files made by this test are read with and without the table that names their heights; other HDF5
+/* DATX files made by this test are read with and without the table that names their heights. Other HDF5
  * files, damaged files and heights in an unknown unit are refused. */
 #include <stdarg.h>
 #include <stddef.h>

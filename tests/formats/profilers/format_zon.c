@@ -25,7 +25,7 @@ static const char device[] = "<Device><DeviceModelName>VR-3200</DeviceModelName>
 
 static const char scan[] = "<Scan><ScanDateTime>2024-02-29T10:00:00</ScanDateTime></Scan>";
 
-/* An array of NX x NY, each row followed by `padding` bytes; an array of marks has 1, 2 and 0x80 at points 1
+/* An array of NX x NY, each row followed by `padding` bytes. An array of marks has 1, 2 and 0x80 at points 1
  * to 3. */
 static struct bytes
 array(size_t width, size_t padding)
