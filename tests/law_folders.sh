@@ -1,15 +1,16 @@
 # The dependencies of the folders have one direction. From other folders a file includes only the public
-# header of a lower folder; it calls no function of a higher folder; solver, stress, surface and tools do not
+# header of a lower folder; it calls no function of a higher folder. Solver, stress, surface and tools do not
 # name an engine, and no file outside libcontact/body names a row of its list.
 . "$(dirname "$0")/pipe.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
 # ---- rules ----
 
-# Columns: a folder, or one of its files; the headers that it may include beside those of its own folder; the
-# folders whose functions and data it may use. X=rc_y_: from X only names that begin with rc_y_, the rows of a
-# list. %base: shared by all folders of libcontact; %public: headers for other folders of the project;
-# %physics: the folders that define them; %reader, %formats: the same for readers of files.
+# Columns: a folder, or one of its files; then the headers that it may include beside those of its own folder.
+# The last column has the folders whose functions and data it may use. X=rc_y_: from X only names that begin
+# with rc_y_, the rows of a list. %base: shared by all folders of libcontact. %public: headers for other
+# folders of the project. %physics: the folders that define them. %reader, %formats: the same for readers of
+# files.
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/model    | %base                                    | libcontact libcontact/solver=rc_figures_

@@ -1,6 +1,7 @@
-/* The peak that the allocator counts agrees with the kernel's figure to a twentieth, and work that needs more
- * than the budget is refused and frees its memory: solver, stresses, friction, adhesion, plasticity, sums,
- * flow and slabs, each in a separate process, on maps so large that code and plans are negligible. */
+/* The peak that the allocator counts agrees with the kernel's figure to a twentieth. Work that needs more
+ * than the budget is refused and frees its memory. The work is solver, stresses, friction, adhesion,
+ * plasticity, sums, flow and slabs. Each runs in a separate process, on maps so large that code and plans are
+ * negligible. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

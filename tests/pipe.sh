@@ -1,8 +1,7 @@
-# Sourced by every pipe_*.sh and law_*.sh: puts the built tools on PATH, makes a temporary folder, and defines
-# claims and the tolerances of tests/exact.h by their names ($rounding, ...). A pipeline fails if any of its
-# commands fails, here and in every bash that a claim starts. Therefore grep -q and head, which may stop
-# reading early, must not end a pipeline in a claim: `says` and `warns` check the output after the command has
-# ended.
+# Sourced by every pipe_*.sh and law_*.sh. It puts the built tools on PATH, makes a temporary folder, and
+# defines claims and the tolerances of tests/exact.h by their names ($rounding, ...). A pipeline fails if any
+# of its commands fails, here and in every bash that a claim starts. grep -q and head may stop reading early,
+# so they must not end a pipeline in a claim. `says` and `warns` check the output after the command has ended.
 set -u -o pipefail
 export SHELLOPTS
 PATH="$RC_BIN:$PATH"

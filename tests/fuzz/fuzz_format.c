@@ -1,5 +1,5 @@
 /* For any bytes the reader named in RC_FORMAT must refuse them with a reason or return a valid map, within a
- * second and within rc_memory_limit; without RC_FORMAT the content chooses the reader. With RC_FUZZ_BYPASS
+ * second and within rc_memory_limit. Without RC_FORMAT the content chooses the reader. With RC_FUZZ_BYPASS
  * readers run without their sandbox in this process, so that the sanitizers see them. With
  * RC_FUZZ_BYPASS=library memory is not counted: the library may request any amount, and the sanitizer limits
  * it (max_allocation_size_mb). */
@@ -107,7 +107,7 @@ try_file(const uint8_t *data, size_t size)
     }
 }
 
-/* The file itself, or unpacked: with RC_GZIP in the environment this function puts the header of a gzip
+/* The file itself, or unpacked. With RC_GZIP in the environment this function puts the header of a gzip
  * member before the bytes, so that mutations do not destroy it. */
 static void
 try_packed(const uint8_t *data, size_t size)

@@ -1,10 +1,10 @@
 #!/bin/bash
-# run.sh BUILD SECONDS [FORMAT[:HARNESS]...]: fuzzes each reader for this time, starting from the files of the
-# tests (RC_TESTS names the folder of the built tests) and real files (RC_CORPUS, the first 64 KiB of each;
-# the whole file if the format is a container). Prints executions and findings, which are kept in
-# BUILD/findings; the corpus that the fuzzer has built up stays in BUILD/corpus for the next run. Limits:
-# rc_memory_limit of memory held at a time; one second of the processor, ten by the clock because the machine
-# may be busy; the slowest file is named.
+# run.sh BUILD SECONDS [FORMAT[:HARNESS]...]: fuzzes each reader for this time. It starts from the files of
+# the tests (RC_TESTS names the folder of the built tests) and from real files in RC_CORPUS. Of each it takes
+# the first 64 KiB, or the whole file if the format is a container. Prints executions and findings, which are
+# kept in BUILD/findings; the corpus that the fuzzer has built up stays in BUILD/corpus for the next run.
+# Limits: rc_memory_limit of memory held at a time, and one second of the processor. By the clock the limit is
+# ten seconds, because the machine may be busy. The slowest file is named.
 #
 #     format   the reader in this process
 #     zip      the same, changing the members of the archive

@@ -1,5 +1,5 @@
-/* Changes files inside ZIP archives: in three of four cases it unpacks a member, changes it and packs it
- * again, so that the fuzzing gets past the archive; else it changes the bytes of the file. In half of the
+/* Changes files inside ZIP archives. In three of four cases it unpacks a member, changes it and packs it
+ * again, so that the fuzzing gets past the archive. Else it changes the bytes of the file. In half of the
  * cases it corrects the MD5 checksums in other members. */
 #include <stdbool.h>
 #include <stdint.h>

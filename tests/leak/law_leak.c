@@ -1,6 +1,6 @@
-/* Laws of the flow: rotation, mirroring, shifts and other units do not change it; wider gaps have more flow;
- * it equals a dense solution of the same network; flowing and stagnant fluid are those found by removing
- * nodes; the critical gap is that found by closing narrower nodes; the proven bounds agree at any
+/* Laws of the flow: rotation, mirroring, shifts and other units do not change it. Wider gaps have more flow,
+ * and the flow equals a dense solution of the same network. Flowing and stagnant fluid are those found by
+ * removing nodes. The critical gap is that found by closing narrower nodes. The proven bounds agree at any
  * contrast. */
 #include <setjmp.h>
 #include <stdarg.h>

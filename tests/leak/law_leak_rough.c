@@ -1,5 +1,5 @@
 /* Flow through the gaps of small rough contacts: the errors of the two rules for faces have opposite signs
- * and converge to 0; little contact leaves paths open, much contact closes all. Larger contacts and the
+ * and converge to 0. Little contact leaves paths open, much contact closes all. Larger contacts and the
  * threshold are in tests/long. */
 #include <setjmp.h>
 #include <stdarg.h>

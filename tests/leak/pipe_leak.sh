@@ -2,8 +2,8 @@
 # refusals, one sentence each.
 . "$(dirname "$0")/../pipe.sh"
 
-# made KEYS NX NY DX DY CHANNEL EXPRESSION...: writes a stream of one case, with values computed by perl from
-# $i, $j; KEYS are header lines.
+# made KEYS NX NY DX DY CHANNEL EXPRESSION...: writes a stream of one case. perl computes the values from $i,
+# $j; KEYS are header lines.
 cat >made.pl <<'END'
 use Compress::Zlib;
 my ($keys, $nx, $ny, $dx, $dy, @frames) = @ARGV;

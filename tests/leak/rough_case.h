@@ -45,7 +45,7 @@ rough_contact(struct rc_shape s, const struct solved *c)
 
 /* ---- the grid ---- */
 
-/* The flow on a grid of every step-th node of an n x n map; step is odd, so that the coarse cells have the
+/* The flow on a grid of every step-th node of an n x n map. step is odd, so that the coarse cells have the
  * same centres. */
 static inline struct rc_leak_figures
 rough_sampled(const struct solved *s, size_t fine, size_t step, char direction)
@@ -102,8 +102,8 @@ rough_beside(struct rough_grid *grid, const struct solved *c, size_t fine, size_
 }
 
 /* Compares grids of every 9th and every 3rd node with the full grid, extrapolated to the limit at second
- * order with harmonic faces only, so that the reference does not depend on linear faces. Both directions,
- * contact fractions of 0.11 to 0.23. */
+ * order with harmonic faces only. So the reference does not depend on linear faces. Both directions, contact
+ * fractions of 0.11 to 0.23. */
 static inline struct rough_grid
 rough_converges(size_t fine, size_t shortest, uint64_t seed, size_t seeds)
 {

@@ -1,5 +1,5 @@
 /* Flow through gaps with closed-form solutions: waves along and across, parallel channels, narrow
- * constrictions, distant discs, the checkerboard; with the order of convergence of the grid. */
+ * constrictions, distant discs, the checkerboard. The order of convergence of the grid is checked too. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,7 +8,7 @@
 
 #include "leak_case.h"
 
-/* g0 (1 + A cos): along the flow each line is a channel, <(1 + A cos)^3> = 1 + 3 A^2/2; across it the
+/* g0 (1 + A cos): along the flow each line is a channel, <(1 + A cos)^3> = 1 + 3 A^2/2. Across it the
  * resistances add up, <(1 + A cos)^-3> = (1 + A^2/2) (1 - A^2)^-5/2. Patir and Cheng's factors are these. */
 static void
 waves(void **state)
@@ -105,8 +105,8 @@ channels(void **state)
     }
 }
 
-/* A channel with the gap (1 - (2y/w)^2)^(3/2), as at contact edges of elastic bodies; w in cells, for any
- * position of its middle between nodes: the integral of (1 - t^2)^(9/2) from -1 to 1 is 63 pi/256. */
+/* A channel with the gap (1 - (2y/w)^2)^(3/2), as at contact edges of elastic bodies; w is in cells, and its
+ * middle is at any position between nodes. The integral of (1 - t^2)^(9/2) from -1 to 1 is 63 pi/256. */
 static double
 throat_error(double cells)
 {
@@ -141,8 +141,8 @@ throats(void **state)
                 0.1); /* therefore a constriction of fewer than 3 nodes gets a warning */
 }
 
-/* Impermeable discs in a square array, a tenth of the area, in a constant gap: (1 - f)/(1 + f); the array
- * changes this by 1e-4 (Rayleigh 1892). The gap jumps at their rims, so the order is the first; the number of
+/* Impermeable discs in a square array, a tenth of the area, in a constant gap: (1 - f)/(1 + f). The array
+ * changes this by 1e-4 (Rayleigh 1892). The gap jumps at their rims, so the order is the first. The number of
  * nodes in a disc depends on its position between them, so the mean over positions is compared. */
 static void
 discs(void **state)

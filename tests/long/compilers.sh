@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Results do not depend on the compiler, the processor and the number of threads: tests/long/compilers.sh
-# [FOLDER] Builds the tools with gcc and clang, each with -O3 and -O0, in FOLDER (by default a temporary one),
-# runs the pipelines of pipelines.sh and compares. qemu emulates the processors without AVX-512 and without
-# AVX2; there the program, FFTW and the C library use other code paths. The same build with the same number of
+# [FOLDER] Builds the tools with gcc and clang, each with -O3 and -O0, in FOLDER (by default a temporary one).
+# Runs the pipelines of pipelines.sh and compares. qemu emulates the processors without AVX-512 and without
+# AVX2. There the program, FFTW and the C library use other code paths. The same build with the same number of
 # threads must give the same bytes twice.
 set -uo pipefail
 here=$(cd "$(dirname "$0")" && pwd)

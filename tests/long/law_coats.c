@@ -1,5 +1,5 @@
-/* Iterations on coated bodies: coats 0.01 to 100 times as stiff as their substrate, from one to 64 nodes
- * thick, 2 and 40 % contact of a periodic surface of 512 x 512 nodes. */
+/* Iterations on coated bodies. The coats are 0.01 to 100 times as stiff as their substrate, and one to 64
+ * nodes thick. A periodic surface of 512 x 512 nodes has 2 and 40 % contact. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

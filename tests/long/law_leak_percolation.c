@@ -1,5 +1,6 @@
-/* Flow through the gaps of rough contacts: the order of convergence, with the true flow between those of the
- * two rules in at least 18 of 20 cases; and the contact fraction at which the last path closes. */
+/* Flow through the gaps of rough contacts. The order of convergence is checked, with the true flow between
+ * those of the two rules in at least 18 of 20 cases. So is the contact fraction at which the last path
+ * closes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 # rc-slip: its estimated errors, compared with paths of 192 increments, on random maps and paths with both
-# boundaries: constant, growing and falling loads, forces that turn, reverse or grow with the load,
-# displacements. It takes about 8 minutes; SECONDS_MOST=60 limits it for a first impression.
+# boundaries. The paths have constant, growing and falling loads, and displacements. Their forces turn,
+# reverse or grow with the load. It takes about 8 minutes; SECONDS_MOST=60 limits it for a first impression.
 . "$(dirname "$0")/../pipe.sh"
 command -v python3 >/dev/null || exit 77
 

@@ -1,6 +1,7 @@
-/* Random problems of friction against a dense solution by another method: forces of 0.1 to 0.999 of what
- * friction carries and displacements, free and periodic maps, 10 to 82 % contact, cells of 1:1 to 1:100,
- * with a history. None stops short, and no estimate is below the error at any step. About 5 minutes. */
+/* Random problems of friction against a dense solution by another method. They have forces of 0.1 to 0.999 of
+ * what friction carries, or displacements, on free and periodic maps. 10 to 82 % of the nodes touch, cells
+ * are 1:1 to 1:100, and there is a history. None stops short, and no estimate is below the error at any step.
+ * About 5 minutes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

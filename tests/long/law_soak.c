@@ -1,5 +1,5 @@
-/* A thousand solves of different sizes in one process leave its memory unchanged, and two solvers in two
- * threads at a time give the same results as alone, to the last bit. */
+/* A thousand solves of different sizes in one process leave its memory unchanged. Two solvers in two threads
+ * at a time give the same results as alone, to the last bit. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,8 +20,8 @@ enum {
     N = SIDE * SIDE
 };
 
-/* The memory, in MiB, that a run may hold more than the run before: fragments, not maps (one leaked map per
- * solve would be 12 MiB at the end). */
+/* The memory, in MiB, that a run may hold more than the run before. It is fragments, not maps (one leaked map
+ * per solve would be 12 MiB at the end). */
 static const double growth_most = 4;
 
 static size_t

@@ -1,5 +1,5 @@
-/* A hundred thousand frames take no more memory than a thousand, in every tool that passes frames on; and a
- * profile of 2^31 + 9 nodes passes through them with every node at its place: no index has 32 bits. */
+/* A hundred thousand frames take no more memory than a thousand, in every tool that passes frames on. A
+ * profile of 2^31 + 9 nodes passes through them with every node at its place. So no index has 32 bits. */
 #define _DEFAULT_SOURCE /* wait4 */
 #include <setjmp.h>
 #include <stdarg.h>

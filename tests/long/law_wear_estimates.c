@@ -1,5 +1,6 @@
-/* Random worn maps, the last of them with a coefficient of each node: the estimated errors of the worn depth and of the pressure are not below the differences
- * from a run with a tolerance ten times smaller and contacts a thousand times more accurate. */
+/* Random worn maps, the last of them with a coefficient of each node. They are compared with a run with a
+ * tolerance ten times smaller and contacts a thousand times more accurate. The estimated errors of the worn
+ * depth and of the pressure are not below the differences. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

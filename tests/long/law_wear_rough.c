@@ -1,6 +1,6 @@
 /* Rough periodic maps wear over four decades of distance under the usual tolerance of rc-wear. Worn depth,
- * pressure, largest pressure and contact area are compared with those of a run whose tolerance is 100 times
- * smaller and whose contacts are 1000 times more accurate.
+ * pressure, largest pressure and contact area are compared with those of a reference run. Its tolerance is
+ * 100 times smaller, and its contacts are 1000 times more accurate.
  *
  *     law_wear_rough [SIDE ...]        sides of the map in nodes (default 128)
  *

@@ -4,11 +4,11 @@
 #     tests/long/other_machines.sh [--keep FOLDER] ARCH...
 #
 # ARCH is Debian's name: s390x (most significant byte first), arm64, i386 (32 bits). For each, mmdebstrap
-# makes a root with its libraries, with packages from the environment's MIRROR if it is set; Debian's cross
-# compiler builds everything with warnings as errors; the tests run, foreign ones under qemu's user emulation;
-# and the results of the pipelines of pipelines.sh must equal those of this machine, where each machine reads
-# the files of the other. FOLDER keeps root, build and logs for the next run. The script needs no privileges
-# if mmdebstrap needs none (user namespaces). The table below lists the omitted tests with the reason, and the
+# makes a root with its libraries, with packages from the environment's MIRROR if it is set. Debian's cross
+# compiler builds everything with warnings as errors. The tests run, foreign ones under qemu's user emulation.
+# The results of the pipelines of pipelines.sh must equal those of this machine, and each machine reads the
+# files of the other. FOLDER keeps root, build and logs for the next run. The script needs no privileges if
+# mmdebstrap needs none (user namespaces). The table below lists the omitted tests with the reason, and the
 # script prints them. A test that takes longer than 9000 s (or RC_LIMIT seconds) is named and counts as a
 # failure; RC_TESTS_OF, a regular expression, selects tests. Under emulation all tests take about three hours
 # on two cores.

@@ -1,6 +1,6 @@
-# --memory and the kernel: the memory that --dry-run plans, or the allocator counts, is within 5 % of the kernel's
-# peak, a limit 5 % below the needed memory is refused before any iteration, and one 5 % above it is enough.
-# Then the counted memory of all tools, to a tenth. Arguments select the sizes of these maps:
+# --memory and the kernel. The memory that --dry-run plans, or that the allocator counts, is within 5 % of the
+# kernel's peak. A limit 5 % below the needed memory is refused before any iteration, and one 5 % above it is
+# enough. Then the counted memory of all tools, to a tenth. Arguments select the sizes of these maps:
 # pipe_memory_table.sh 256x256 517x389 2047x1021 4096x4096.
 . "$(dirname "$0")/../pipe.sh"
 

@@ -1,5 +1,5 @@
 /* Tables of figures: names, units and titles are valid for columns and axes, a name has one meaning in all
- * tables, and values are those of the members. */
+ * tables. Values are those of the members. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
-/* Laws of every model: a run that is stopped after any step and continued from its state in another model
- * gives the same result as a run without a stop; points that were not kept have no effect; other data are
- * refused as a state; figures and frames have names. The test runs for every row of models.list, and also
- * with the model of tests/toys. */
+/* Laws of every model. A run may be stopped after any step and continued from its state in another model. The
+ * result is the same as that of a run without a stop. Points that were not kept have no effect. Other data
+ * are refused as a state, and figures and frames have names. The test runs for every row of models.list, and
+ * also with the model of tests/toys. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -443,8 +443,8 @@ reached(void **state)
     }
 }
 
-/* Half-way to the last point the model is sent to the second point, with the result of going there directly:
- * in the same model, and in another one that was restored from the state half-way. */
+/* Half-way to the last point the model is sent to the second point. The result is that of going there
+ * directly, in the same model and in another one that was restored from the state half-way. */
 static void
 forgets(void **state)
 {

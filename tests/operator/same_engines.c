@@ -1,5 +1,5 @@
-/* Every engine agrees with the double sum for every kernel, size and spacing; on periodic maps, if it
- * supports them, with the sum over all waves. Bodies and engines are those of the lists. */
+/* Every engine agrees with the double sum for every kernel, size and spacing. On periodic maps it agrees, if
+ * it supports them, with the sum over all waves. Bodies and engines are those of the lists. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -106,8 +106,8 @@ double_sum(const struct rc_sum *s, const double *p, double *u)
     return most;
 }
 
-/* The same on a periodic map, from the kernel's symbol, for p of mean 0 and odd sizes: K' is
- * (-i)^d symbol with d odd directions, and the sum over q of it and p' e^(iqr) is real. */
+/* The same on a periodic map, from the kernel's symbol, for p of mean 0 and odd sizes. K' is (-i)^d symbol
+ * with d odd directions. The sum over q of it and p' e^(iqr) is real. */
 static double
 wave_sum(const struct rc_sum *s, const double *p, double *u)
 {
@@ -143,7 +143,7 @@ wave_sum(const struct rc_sum *s, const double *p, double *u)
 
 /* ---- the comparison ---- */
 
-/* The permitted difference between an engine and the double sum, over the sum of |K| |p|: the requested
+/* The permitted difference between an engine and the double sum, over the sum of |K| |p|. It is the requested
  * error, else rounding, and twice this for an engine that interpolates. */
 static double
 allowed(const struct rc_engine *engine, double tol, bool precise)

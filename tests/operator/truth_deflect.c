@@ -1,5 +1,5 @@
-/* Displacements have closed forms: Love's loaded rectangle on the free boundary, waves on the
- * periodic one; and their bits are the same for any number of threads. */
+/* Displacements have closed forms: Love's loaded rectangle on the free boundary, waves on the periodic one.
+ * Their bits are the same for any number of threads. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -124,8 +124,9 @@ what_an_engine_cannot_do_is_said(void **state)
     assert_non_null(strstr(err.text, "dx=-1 dy=1 m: both must be positive"));
 }
 
-/* "auto" chooses the direct sum for small grids; mlms for sparse maps if the accuracy allows it, and for maps
- * that do not fit into memory; transforms for the others and for all periodic maps. */
+/* "auto" chooses the direct sum for small grids. It chooses mlms for sparse maps if the accuracy allows it,
+ * and for maps that do not fit into memory. It chooses transforms for the others and for all periodic
+ * maps. */
 static void
 the_choice_and_its_reason(void **state)
 {

@@ -199,8 +199,8 @@ stresses_under_a_square(void **state)
     }
 }
 
-/* At z = 0 inside the cell szz = -p, outside it is 0; at the middle of a square sxx = syy =
- * -(1 + 2 nu) p / 2; the trace is -2 (1 + nu) times that of szz's arctangent. */
+/* At z = 0 inside the cell szz = -p, outside it is 0. At the middle of a square sxx = syy = -(1 + 2 nu) p /
+ * 2; the trace is -2 (1 + nu) times that of szz's arctangent. */
 static void
 stresses_at_the_surface(void **state)
 {

@@ -57,8 +57,8 @@ response(void **state)
     }
 }
 
-/* The response to long waves is that of the substrate, to short ones that of the top layer, and the limits of
- * these ranges are right for ratios of stiffness of 1e-6 to 1e6; for one material it is 1/E* for all
+/* The response to long waves is that of the substrate, to short ones that of the top layer. The limits of
+ * these ranges are right for ratios of stiffness of 1e-6 to 1e6. For one material it is 1/E* for all
  * waves. */
 static void
 ends(void **state)
@@ -101,8 +101,8 @@ table(void **state)
     }
 }
 
-/* Displacements at nodes (0,0), (1,0), (0,1), (2,1), (10,7), (100,30) of a cell dx = 1 under unit
- * pressure; by direct integration over the wave number. */
+/* Displacements at nodes (0,0), (1,0), (0,1), (2,1), (10,7), (100,30) of a cell dx = 1 under unit pressure.
+ * They come from direct integration over the wave number. */
 static void
 coefficients(void **state)
 {
@@ -174,8 +174,8 @@ one_material(void **state)
     body_case_free(&bare);
 }
 
-/* The displacement of two bodies is the sum of their separate displacements: for two equal bodies twice that
- * of one against a rigid body, for a layered and a uniform body the sum of both. */
+/* The displacement of two bodies is the sum of their separate displacements. For two equal bodies it is twice
+ * that of one against a rigid body; for a layered and a uniform body it is the sum of both. */
 static void
 both_bodies(void **state)
 {
@@ -204,8 +204,8 @@ both_bodies(void **state)
     assert_true(fabs(symbol[3] / (symbol[0] + symbol[2]) - 1) < rounding);
 }
 
-/* Extreme coatings: contacts with coats of a thousandth of a node and of a thousand maps, with ratios of
- * stiffness of 1e-4 to 1e4, are solved to the tolerance, and a thick coat equals a uniform body. */
+/* Contacts with extreme coatings are solved to the tolerance. The coats are a thousandth of a node to a
+ * thousand maps thick, with ratios of stiffness of 1e-4 to 1e4. A thick coat equals a uniform body. */
 static void
 thin_and_thick(void **state)
 {
@@ -241,7 +241,7 @@ thin_and_thick(void **state)
                 for (size_t i = 0; i < N * N; i++)
                     off += fabs(a.p[i] - b.p[i]);
                 /* a soft coat of a thousandth of a node deforms as much as the nodes, and a stiff one
-                 * prevents displacements along the surface: only the thick coat equals one material */
+                 * prevents displacements along the surface. Only the thick coat equals one material */
                 if (k == 1)
                     assert_true(off * 1e-12 / on.load < of_thick_coat);
                 solved_free(&a);

@@ -1,6 +1,6 @@
-/* Known results for bodies that yield in their volume: the place and the load of first yielding, the hardness
- * in the fully plastic state, residual stresses after unloading, and the limit of shakedown under rolling.
- * Also: the estimated error is not below the error. */
+/* Known results for bodies that yield in their volume. They are the place and the load of first yielding, the
+ * hardness in the fully plastic state, residual stresses after unloading, and the limit of shakedown under
+ * rolling. Also: the estimated error is not below the error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -232,7 +232,7 @@ ball_hardness(void **state)
     }
 }
 
-/* In the fully plastic state the mean pressure is 2.8 to 3.2 Y; and the means of 2 x 2 nodes are smooth: an
+/* In the fully plastic state the mean pressure is 2.8 to 3.2 Y, and the means of 2 x 2 nodes are smooth. An
  * even polynomial of the radius fits them to 1 % (RMS, within 0.75 a), in contrast to the single
  * pressures. */
 static void
@@ -400,8 +400,8 @@ free_maps(void **state)
     rc_plastic_free(plastic[1]);
 }
 
-/* A ball whose apex is not at a symmetric place between the nodes, with 3 and 8 touching nodes, on a map and
- * on one three times as wide. */
+/* A ball whose apex is not at a symmetric place between the nodes, with 3 and 8 touching nodes. It is pressed
+ * on a map and on one three times as wide. */
 static void
 free_maps_of_few_nodes(void **state)
 {
@@ -585,7 +585,7 @@ estimate(void **state)
     free(h);
 }
 
-/* Later loads inherit the error of a load: in lists with 16 increments no estimate is below the error, and
+/* Later loads inherit the error of a load. In lists with 16 increments no estimate is below the error, and
  * unloading or reloading to the same peak takes few applications. */
 static void
 inherits(void **state)
@@ -866,7 +866,7 @@ refuses_states(void **state)
 
 /* ---- the elastic contact first ---- */
 
-/* Under Hertz's ball the stress reaches the yield stress at P = (pi p0)^3 R^2/(6 E*^2), p0 the stress over
+/* Under Hertz's ball the stress reaches the yield stress at P = (pi p0)^3 R^2/(6 E*^2). p0 is the stress over
  * the largest Mises stress of under_circle. Below that load the elastic contact is the solution, bit for
  * bit. */
 static void
@@ -979,9 +979,9 @@ planned_new(struct rc_shape shape, const double *h, struct rc_plastic_problem pr
     return m;
 }
 
-/* With increments that are chosen for each load: the estimate is at most what is asked for and no less than
- * the error against many increments, tries that had too few leave nothing behind, and a state from anywhere
- * on the way, elastic or not, is gone on with. */
+/* With increments that are chosen for each load, the estimate is at most the requested error. It is no less
+ * than the error against many increments. Tries that had too few increments leave nothing behind. A state
+ * from anywhere on the way, elastic or not, can be continued. */
 static void
 chooses(void **state)
 {

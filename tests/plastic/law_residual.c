@@ -1,9 +1,9 @@
-/* The residual stress of an unloaded body that has yielded in its volume is in equilibrium: its divergence is
+/* The residual stress of an unloaded body that has yielded in its volume is in equilibrium. Its divergence is
  * 0, the surface is free, no plane carries a force, and tractions do not jump between slabs. The stresses are
  * computed at Chebyshev points of each slab, where they are smooth functions (exponentials times
- * polynomials), and differentiated there: along z by the polynomial through these points, along x and y by
- * the waves through the nodes. Waves of two nodes along a direction have no derivative at the nodes and are
- * removed first; they cause only the local stress of their strain. */
+ * polynomials), and differentiated there. Along z they are differentiated by the polynomial through these
+ * points, along x and y by the waves through the nodes. Waves of two nodes along a direction have no
+ * derivative at the nodes and are removed first. They cause only the local stress of their strain. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* Plasticity in the volume, compared with a minimum of the same convex energy that another method finds, with
- * a dense quadratic program for the contact; and the return to the yield surface, compared with its closed
+ * a dense quadratic program for the contact. The return to the yield surface is compared with its closed
  * form. */
 #include <setjmp.h>
 #include <stdarg.h>

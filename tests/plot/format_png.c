@@ -1,5 +1,5 @@
-/* The pixels of a picture are the values of the map in the documented colours, and its chunks describe how it
- * was made: decoded by libpng, compared with colour tables from the literature. */
+/* The pixels of a picture are the values of the map in the documented colours. Its chunks describe how it was
+ * made: decoded by libpng, compared with colour tables from the literature. */
 #include <math.h>
 #include <png.h>
 #include <setjmp.h>
@@ -334,7 +334,7 @@ channels_get_their_colours(void **state)
 }
 
 /* Each category has its own colour, and a pixel of many nodes never gets the colour of a category that is not
- * there: half no contact (0) and half slip (2) is not stick (1). */
+ * there. Half no contact (0) and half slip (2) is not stick (1). */
 static void
 categories_are_three_colours(void **state)
 {
@@ -527,8 +527,8 @@ difference(const struct colormap *map, double s, double t, size_t by)
     return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
 }
 
-/* The lightness rises or falls monotonically along a colour map, or along each half of a diverging one, and
- * colours at a distance of a tenth of the range look different: 5 is twice the just noticeable difference. */
+/* The lightness rises or falls monotonically along a colour map, or along each half of a diverging one.
+ * Colours at a distance of a tenth of the range look different: 5 is twice the just noticeable difference. */
 static void
 other_eyes_tell_values_apart(void **state)
 {

@@ -90,7 +90,7 @@ arrays_of_json(void **state)
     free(p.rgb);
 }
 
-/* Hertz: the approach is proportional to the load to the power 2/3, so the law is a straight line on
+/* Hertz: the approach is proportional to the load to the power 2/3. So the law is a straight line on
  * logarithmic axes, and both points, calculated by hand, lie on it. */
 static void
 law_is_drawn_through(void **state)
