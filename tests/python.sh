@@ -1,8 +1,8 @@
 # Sourced by the tests that run Python, after pipe.sh.
 
 # python_with MODULE...: the first Python that has these modules, searched in RC_PYTHON, in PATH and in the
-# system, because another Python on PATH does not see the packages of the system. If no Python has them, the
-# reason goes to standard error.
+# system. Another Python on PATH does not see the packages of the system. If no Python has them, the reason
+# goes to standard error.
 python_with() {
     local modules python tried=(python3 /usr/bin/python3)
     [ -z "${RC_PYTHON-}" ] || tried=("$RC_PYTHON")

@@ -1,5 +1,5 @@
-/* In a relief higher parts hide the parts behind them, the map rotates with the azimuth of the viewer, and
- * heights are exaggerated by the factor in the figure. In a hillshade the slopes that face the upper left are
+/* In a relief higher parts hide the parts behind them, the map rotates with the azimuth of the viewer.
+ * Heights are exaggerated by the factor in the figure. In a hillshade the slopes that face the upper left are
  * bright. */
 #include "pictures.h"
 
@@ -147,7 +147,7 @@ step(size_t i, size_t j)
     return i < N / 2 ? 1 : -1;
 }
 
-/* 2 um over a map of 200 um: a height of 0.4 times the side would be an exaggeration of 40, of which the next
+/* 2 um over a map of 200 um. A height of 0.4 times the side would be an exaggeration of 40, of which the next
  * lower round number is 20. The height of 40 um, seen at 30 degrees, is a fifth of the width times cos 30. */
 static void
 heights_are_exaggerated(void **state)

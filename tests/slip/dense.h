@@ -1,5 +1,5 @@
-/* Tractions of minimal energy by another method: dense matrices, one node after another minimised exactly
- * on its disc until nothing changes, and Newton's method for the displacement of a force. */
+/* Tractions of minimal energy by another method with dense matrices. One node after another is minimised
+ * exactly on its disc until nothing changes. Newton's method finds the displacement of a force. */
 #ifndef DENSE_H
 #define DENSE_H
 
@@ -22,7 +22,7 @@ struct dense {
 };
 
 /* The columns of T from the closed form for a uniform rectangle, E* = 1 (Love 1929, as in Johnson 1985,
- * section 3.5); truth_slip_kernel compares them with integrals of point loads. */
+ * section 3.5). truth_slip_kernel compares them with integrals of point loads. */
 static inline double
 corner(int kind, double x, double y)
 {
@@ -55,8 +55,8 @@ dense_matrix(struct dense *d, const struct rc_shape *s, double kap)
         }
 }
 
-/* The same on a periodic map, from the response to a wave: 2/k along it and 2(1 + kap)/k across it; 0 for the
- * mean, and 0 across for waves of two nodes. */
+/* The same on a periodic map, from the response to a wave. It is 2/k along it and 2(1 + kap)/k across it; 0
+ * for the mean, and 0 across for waves of two nodes. */
 static inline void
 periodic_matrix(struct dense *d, const struct rc_shape *s, double kap)
 {
@@ -84,8 +84,8 @@ periodic_matrix(struct dense *d, const struct rc_shape *s, double kap)
     }
 }
 
-/* min q'A q/2 - b'q over |q| <= g, A 2 x 2: (A + m)q = b, with the m >= 0 that puts it on the circle, m is
- * found by bisection to the last bit. */
+/* min q'A q/2 - b'q over |q| <= g, A 2 x 2. (A + m)q = b, with the m >= 0 that puts q on the circle;
+ * bisection finds m to the last bit. */
 static inline void
 on_disc(const double a[3], const double b[2], double g, double q[2])
 {

@@ -1,6 +1,6 @@
-/* Laws of steady rolling: B is monotone, and the solution is unique; rolling in time never leads away from
- * it; the energies agree; the tractions obey Coulomb's law; the error is within the estimate; the work is
- * bounded; impossible requests are refused with the reason. */
+/* Laws of steady rolling. B is monotone, and the solution is unique; rolling in time never leads away from
+ * it; the energies agree. The tractions obey Coulomb's law. The error is within the estimate, the work is
+ * bounded, and impossible requests are refused with the reason. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -207,7 +207,7 @@ ellipse(size_t n, double ratio, double tol, bool force, double **p, double *load
     return rolling_new(&shape, *p, law, &err);
 }
 
-/* Cases from nearly complete stick to nearly complete slip, and the convolutions to 1e-2 and 1e-4 that are
+/* Cases from nearly complete stick to nearly complete slip. Then the convolutions to 1e-2 and 1e-4 that are
  * enough for 48 and 96 nodes, as estimated. */
 static const struct {
     double ratio, x, y, spin;

@@ -1,6 +1,6 @@
 /* Laws of every contact with friction: tractions are within their bounds and carry the force, slip is
- * opposite to them, and the error is within the estimate; the work does not grow with the map; invalid
- * requests are refused. */
+ * opposite to them. The error is within the estimate. The work does not grow with the map; invalid requests
+ * are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -177,9 +177,9 @@ test_hard_cases(void **state)
     free(rough);
 }
 
-/* 50 problems, at every step with an error above 1e-6: the estimate is never below the error, and below 1e-2
- * at most 2.5 times the error. The reference is the end of the same iteration, at 1e-11; same_slip compares
- * it with another method. */
+/* 50 problems, at every step with an error above 1e-6. The estimate is never below the error, and below 1e-2
+ * it is at most 2.5 times the error. The reference is the end of the same iteration, at 1e-11; same_slip
+ * compares it with another method. */
 static void
 test_estimate_bounds_the_error(void **state)
 {
@@ -254,7 +254,7 @@ test_estimate_bounds_the_error(void **state)
 }
 
 /* Two nodes with long cells under a turning force near sliding: if both nodes slip only two pairs of
- * tractions carry the force; if neither pair is a solution the method must first let both nodes stick. */
+ * tractions carry the force. If neither pair is a solution the method must first let both nodes stick. */
 static void
 test_two_nodes_next_to_sliding(void **state)
 {
@@ -303,8 +303,8 @@ test_two_nodes_next_to_sliding(void **state)
 }
 
 /* Convolutions until the true error is below 1e-2, 1e-4, 1e-6, at half of the friction limit, without a
- * starting value: at most these numbers, and hardly more on larger maps, on the free boundary, on profiles
- * and on long cells. */
+ * starting value. They are at most these numbers, and hardly more on larger maps, on the free boundary, on
+ * profiles and on long cells. */
 static void
 test_work_does_not_grow(void **state)
 {
@@ -503,9 +503,9 @@ test_periodic_displacement_gives_the_force(void **state)
     free(even);
 }
 
-/* The errors of the iterations accumulate along a path: with a coarse tolerance their sum is not below the
- * error, at any increment of a turning path, although the part of the last increment alone is. When the
- * bodies separate the sum becomes 0. */
+/* The errors of the iterations accumulate along a path. With a coarse tolerance their sum is not below the
+ * error, at any increment of a turning path. The part of the last increment alone is below the error. When
+ * the bodies separate the sum becomes 0. */
 static void
 test_errors_of_a_path_add_up(void **state)
 {

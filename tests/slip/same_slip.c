@@ -1,7 +1,7 @@
-/* Tractions of minimal energy equal those of another method: one node after another is minimised exactly on
- * its disc until nothing changes, and Newton's method finds the displacement for the force; dense matrices,
- * up to 24 nodes, with a history; also given displacements on periodic maps, where the contact may be
- * complete. */
+/* Tractions of minimal energy equal those of another method with dense matrices, up to 24 nodes, with a
+ * history. It minimises one node after another exactly on its disc until nothing changes, and Newton's method
+ * finds the displacement for the force. Displacements are also given on periodic maps, where the contact may
+ * be complete. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* Contact and friction together: a sticking punch is stiffer by Mossakovskii's factor; pressure and tractions
- * after the alternating passes are consistent; the change decreases from pass to pass; for identical
+ * after the alternating passes are consistent. The change decreases from pass to pass; for identical
  * materials nothing is solved twice. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -18,8 +18,8 @@ rolled(struct rc_model *m, double load, double x, double y, double spin, bool fo
     return rc_rolling_result(m);
 }
 
-/* The cylinder of carter2d: 55 cells of 0.04 mm along x and one of 200 mm across, G 82 GPa, nu 0.28, on
- * each of the two bodies; it rolls at 30 m/s. */
+/* The cylinder of carter2d has 55 cells of 0.04 mm along x and one of 200 mm across. On each of the two
+ * bodies G is 82 GPa and nu 0.28; it rolls at 30 m/s. */
 static void
 test_carter_of_contact(void **state)
 {
@@ -211,7 +211,7 @@ test_kalker_figures(void **state)
     free(p);
 }
 
-/* bentall: a roller of aluminium (G 23 GPa, nu 0.31) on one of steel (82 GPa, 0.28), 200 nodes, mu 0.05,
+/* bentall: a roller of aluminium (G 23 GPa, nu 0.31) on one of steel (82 GPa, 0.28), 200 nodes, mu 0.05. It
  * rolls freely, driven and braked. CONTACT rolls towards -x there, so that its forces have the other sign. */
 static void
 test_dissimilar_rollers(void **state)

@@ -49,8 +49,8 @@ slip_on(const struct rc_shape *shape, enum rc_boundary boundary, double nu, doub
     return slip;
 }
 
-/* Bodies that stick on a disc of radius a: force over displacement is 4 a E* / (2 + kap), or 8 a G* (Mindlin
- * 1949); on the grid the radius a is uncertain by a fraction of a node. */
+/* Bodies that stick on a disc of radius a. Force over displacement is 4 a E* / (2 + kap), or 8 a G* (Mindlin
+ * 1949). On the grid the radius a is uncertain by a fraction of a node. */
 static void
 test_stiffness_of_a_disc(void **state)
 {
@@ -232,9 +232,9 @@ test_strip_by_superposition(void **state)
         }
 }
 
-/* Rough bodies at nu = 0 under a force that grows in proportion to the load carry q = (F/P) p: in one
- * increment from separated bodies, and in two, the second on growing contact (Jaeger 1998; Ciavarella 1998).
- * Without the gap the second result would be far off. */
+/* Rough bodies at nu = 0 under a force that grows in proportion to the load carry q = (F/P) p. They do so in
+ * one increment from separated bodies, and in two, the second on growing contact (Jaeger 1998; Ciavarella
+ * 1998). Without the gap the second result would be far off. */
 static void
 test_oblique_loading_in_one_step(void **state)
 {

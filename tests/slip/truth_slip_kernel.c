@@ -1,5 +1,5 @@
-/* Influence coefficients of shear equal the integrals of Cerruti's and Boussinesq's solutions over a cell;
- * responses to waves equal those of plane and antiplane strain; sums by transforms equal plain double
+/* Influence coefficients of shear equal the integrals of Cerruti's and Boussinesq's solutions over a cell.
+ * Responses to waves equal those of plane and antiplane strain. Sums by transforms equal plain double
  * sums. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -28,8 +28,8 @@ enum {
 
 /* ---- a force on a body ---- */
 
-/* Displacements at (x, y) by unit forces along x on body 1 and along -x on body 2: Johnson 1985, eq. 3.77, z
- * into each body; along x: body 1 minus body 2; along z: the sum of both. */
+/* Displacements at (x, y) by unit forces along x on body 1 and along -x on body 2 (Johnson 1985, eq. 3.77, z
+ * into each body). Along x it is body 1 minus body 2, along z the sum of both. */
 struct force {
     const struct rc_pair *pair;
     int kernel;
@@ -298,8 +298,8 @@ test_free_sums_are_double_sums(void **state)
 
 /* ---- in single precision ---- */
 
-/* The inverse applied to T q gives q minus its mean, in single precision; on a periodic map, also on one
- * without waves of two nodes. */
+/* The inverse applied to T q gives q minus its mean, in single precision. On a periodic map this is tested
+ * also on a map without waves of two nodes. */
 static void
 test_the_inverse_in_single_precision(void **state)
 {
@@ -337,7 +337,7 @@ test_the_inverse_in_single_precision(void **state)
     assert_true(tried > 0 && worst < in_floats);
 }
 
-/* The response of T to waves on a free plane is (2 + kap)/(q E*), and 0.84 of that at q = 1.5/dx is the
+/* The response of T to waves on a free plane is (2 + kap)/(q E*). 0.84 of that at q = 1.5/dx is the
  * displacement of a node under its own traction. Along a strip the response decreases slowly with q, like a
  * logarithm: by 2/pi for each factor of e. */
 static void
@@ -375,8 +375,8 @@ test_waves_of_planes_and_strips(void **state)
 
 /* ---- waves ---- */
 
-/* Plane strain, and antiplane, of a wave k along s: a unit traction along s displaces the surface by (1 -
- * nu)/(G k) along s and by (1 - 2 nu)/(2 G k) along z, a quarter of a wave later; a unit traction across s
+/* Plane strain, and antiplane, of a wave k along s. A unit traction along s displaces the surface by (1 -
+ * nu)/(G k) along s and by (1 - 2 nu)/(2 G k) along z, a quarter of a wave later. A unit traction across s
  * displaces it by 1/(G k). */
 static void
 test_waves_are_plane_and_antiplane(void **state)

@@ -21,9 +21,9 @@ struct dense {
 
 static double dense_factor[DENSE_NODES][DENSE_NODES];
 
-/* The displacement i columns and j rows away from a unit pressure on one cell: Love's rectangle or, on a
- * periodic map, the sum of the waves of the grid plus the mean of one cell, which only changes the shift and
- * makes K definite. */
+/* The displacement i columns and j rows away from a unit pressure on one cell. It is that of Love's
+ * rectangle. On a periodic map it is the sum of the waves of the grid plus the mean of one cell. This mean
+ * only changes the shift and makes K definite. */
 static inline double
 dense_influence(const struct rc_shape *s, enum rc_boundary boundary, double estar, size_t i,
                 size_t j)

@@ -1,4 +1,4 @@
-/* Hard contacts as tables: each row is a contact; one function solves all of them and checks them against the
+/* Hard contacts as tables: each row is a contact. One function solves all of them and checks them against the
  * same bounds and, if it is known, the exact answer. */
 #ifndef HARD_CASE_H
 #define HARD_CASE_H
@@ -91,8 +91,8 @@ hard_problem(const struct hard_case *c, enum rc_boundary boundary)
     };
 }
 
-/* u = K p by independent methods: the direct sum on small free maps, on periodic maps 2 / (E* |q|) with a
- * transform that the solver does not use. */
+/* u = K p by independent methods. On small free maps it is the direct sum; on periodic maps it is 2 / (E*
+ * |q|) with a transform that the solver does not use. */
 static inline void
 hard_displace(const struct hard_case *c, const struct rc_problem *problem, const double *p,
               double *u)
@@ -127,8 +127,8 @@ hard_displace(const struct hard_case *c, const struct rc_problem *problem, const
     free(f);
 }
 
-/* The displacement by a uniform pressure: in the middle of a free map (Love); on a periodic map that of a
- * wave of the map's length. */
+/* The displacement by a uniform pressure. It is that in the middle of a free map (Love), and on a periodic
+ * map that of a wave of the map's length. */
 static inline double
 hard_depth(const struct hard_case *c, const struct rc_problem *problem)
 {
@@ -144,9 +144,9 @@ hard_depth(const struct hard_case *c, const struct rc_problem *problem)
                                         : mean * fmax(a, b) / (exact_pi * estar);
 }
 
-/* The bound of the KKT residual: if the heights differ by less than 1e-7 of the displacement, the rounding
- * error of the displacement exceeds 1e-9 of this difference, and no solver can do better. The bound is then
- * 200 units of rounding. */
+/* The bound of the KKT residual. If the heights differ by less than 1e-7 of the displacement, the rounding
+ * error of the displacement exceeds 1e-9 of this difference. No solver can do better. The bound is then 200
+ * units of rounding. */
 static inline double
 hard_bound(const struct hard_case *c, const struct rc_problem *problem, const double *h)
 {

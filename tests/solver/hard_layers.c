@@ -1,5 +1,5 @@
-/* Contact of coated bodies is solved to 1e-8, for coats from a thousandth of a node to a thousand maps thick,
- * 1e-4 to 1e4 times as stiff as the material below, elastic and with a hardness. */
+/* Contact of coated bodies is solved to 1e-8, elastic and with a hardness. Coats are a thousandth of a node
+ * to a thousand maps thick, and 1e-4 to 1e4 times as stiff as the material below. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
-/* Random contacts: sizes from one node up, thin maps, cells of any aspect ratio, heights from white noise to
- * steps, loads over three decades, a hardness that nearly every node reaches. Two independent methods, pcg
- * and pk99, give the same pressure, and pcg takes few steps. */
+/* Random contacts: sizes from one node up, thin maps, cells of any aspect ratio, and heights from white noise
+ * to steps. The loads cover three decades, and a hardness is one that nearly every node reaches. Two
+ * independent methods, pcg and pk99, give the same pressure, and pcg takes few steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* Contacts with a hardness, from a load at which nearly all nodes yield to a hardness that is just not
- * reached; and waves that approach full contact. */
+ * reached. Waves that approach full contact are solved too. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

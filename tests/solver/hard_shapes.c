@@ -165,7 +165,7 @@ disc_answer(const struct hard_case *c, const struct rc_problem *problem, const d
                     0.5 * c->shape.dx / c->a);
 }
 
-/* A rigid square punch is analogous to a charged square plate: its capacity is 0.36679 times the side; that
+/* A rigid square punch is analogous to a charged square plate. Its capacity is 0.36679 times the side; that
  * of a disc is 2/pi times the radius (Read 1997; Hwang and Mascagni 2004). */
 static double
 square_answer(const struct hard_case *c, const struct rc_problem *problem, const double *h,
@@ -180,9 +180,9 @@ square_answer(const struct hard_case *c, const struct rc_problem *problem, const
         0.5 * c->shape.dx / side);
 }
 
-/* Rigid flat strips of width 2 w, one in each period L, at a mean pressure m: p = m cos(pi x /
- * L) / sqrt(sin^2(pi w / L) - sin^2(pi x / L)) (Johnson 1985, section 13.2: the periodic form of
- * the flat punch). Compared in the middle of the strip, with an error of a node in its width. */
+/* Rigid flat strips of width 2 w, one in each period L, at a mean pressure m. p = m cos(pi x / L) /
+ * sqrt(sin^2(pi w / L) - sin^2(pi x / L)) (Johnson 1985, section 13.2: the periodic form of the flat punch).
+ * Compared in the middle of the strip, with an error of a node in its width. */
 static double
 strips_answer(const struct hard_case *c, const struct rc_problem *problem, const double *h,
               const struct solved *s)

@@ -1,5 +1,5 @@
-/* Soft coats, from a thirtieth of a cell to five cells thick, compressible or not: the pressure equals that
- * of a dense quadratic program with the influence coefficients of the engines, and the estimated error is not
+/* Soft coats, from a thirtieth of a cell to five cells thick, compressible or not. The pressure equals that
+ * of a dense quadratic program with the influence coefficients of the engines. The estimated error is not
  * below the error. */
 #include <setjmp.h>
 #include <stdarg.h>

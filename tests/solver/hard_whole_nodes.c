@@ -1,6 +1,6 @@
-/* A load equal to the hardness times a whole number of nodes: if this number of nodes yields and no other
- * node carries pressure, they are exactly at the hardness, they are counted, and the solution is recognised
- * as such. All other cases agree with a dense quadratic program. */
+/* The load equals the hardness times a whole number of nodes. If this number of nodes yields and no other
+ * node carries pressure, they are exactly at the hardness and are counted. The solution is recognised as
+ * such. All other cases agree with a dense quadratic program. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -113,7 +113,7 @@ all_of_them_yield(void **state)
 }
 
 /* Heights far above the displacements, and a hardness a tenth above the mean pressure: a few nodes are
- * elastic, and a wrong one among them causes most of the error. The reference is the other method. */
+ * elastic. A wrong one among them causes most of the error. The reference is the other method. */
 static void
 few_are_elastic(void **state)
 {

@@ -1,5 +1,5 @@
 /* Only bounds.h uses that the lower bound of the pressure is 0. On a periodic map a constant pressure causes
- * no displacement: if both bounds and the mean pressure increase by the same amount, so does the pressure
+ * no displacement. If both bounds and the mean pressure increase by the same amount, so does the pressure
  * everywhere. */
 #include <setjmp.h>
 #include <stdarg.h>

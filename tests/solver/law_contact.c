@@ -10,7 +10,7 @@
 
 static const double estar = 114e9;
 
-/* The paper's section 4.2: 483 x 412 nodes, composite radius 7.5 mm, 240 N; Hertz's maximum is 2.2 GPa; with
+/* The paper's section 4.2: 483 x 412 nodes, composite radius 7.5 mm, 240 N; Hertz's maximum is 2.2 GPa. With
  * the roughness the pressure reaches a hardness of 6 GPa. */
 static double *
 paper_surface(struct rc_shape shape, double radius)

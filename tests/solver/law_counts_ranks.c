@@ -1,4 +1,4 @@
-/* MPI counts in ints: a size that one rank cannot count is refused on all ranks, and a size that can be sent
+/* MPI counts in ints. A size that one rank cannot count is refused on all ranks, and a size that can be sent
  * in pieces is sent. The test allocates no map: it records messages instead of sending them. */
 #include <setjmp.h>
 #include <stdarg.h>

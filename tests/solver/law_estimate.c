@@ -1,5 +1,6 @@
-/* The error estimate is never below the true error, in any iteration, and not far above it: below 1e-3 and at
- * the end of a solve at most 1.5 times, with an active hardness 1.6 times, before about 4 times. */
+/* The error estimate is never below the true error, in any iteration, and not far above it. Below 1e-3 and at
+ * the end of a solve it is at most 1.5 times the error, and 1.6 times with an active hardness. Before, it is
+ * at most about 4 times the error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +20,7 @@ struct row {
     bool scattered;    /* hardly any node is elastic                                            */
 };
 
-/* A gap far from that of the solution leaves many nodes that would leave their bound, and the estimate counts
+/* A gap far from that of the solution leaves many nodes that would leave their bound. The estimate counts
  * each of them: 33 times the error before the first step, 2.6 times at 1e-3. */
 static const double scattered_early = 40, scattered_small = 3;
 

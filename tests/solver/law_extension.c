@@ -1,5 +1,5 @@
-/* The preconditioner E' A E is symmetric and positive, at least as large as the exact inverse, and close to
- * it: eigenvalues of E' A E K on given contact sets. */
+/* The preconditioner E' A E is symmetric and positive. It is at least as large as the exact inverse and close
+ * to it: eigenvalues of E' A E K on given contact sets show this. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -247,11 +247,11 @@ extremes(const gsl_matrix *k, const gsl_matrix *b, double *least, double *most)
     gsl_matrix_free(z);
 }
 
-/* If all eigenvalues are at least 1, r'z >= r' (K_WW)^-1 r holds, and the error estimate is not below the
+/* If all eigenvalues are at least 1, r'z >= r' (K_WW)^-1 r holds. The error estimate is then not below the
  * error in the energy norm. The largest eigenvalue is 1.28 on one material (free, contact of a rough
  * surface), and 1.61, 2.52 and 1.23 under these coats on periodic maps. On the free boundary A of a stiff
- * coat is not exact, because its padded kernel may be negative: on this small map, whose margin is as narrow
- * as the bending length of the coats, the eigenvalues are 0.98 to 13. */
+ * coat is not exact, because its padded kernel may be negative. The margin of this small map is as narrow as
+ * the bending length of the coats, and the eigenvalues are 0.98 to 13. */
 static void
 spectrum(void **state)
 {

@@ -1,4 +1,4 @@
-/* Other heights in the same solver: the result is that of a new solver, whatever the heights before; and a
+/* Other heights in the same solver. The result is that of a new solver, whatever the heights before. A
  * loading history in one solver equals the same history in new solvers, step by step. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -36,8 +36,8 @@ problem_of(int boundary, bool plastic)
                                .method = contact_method};
 }
 
-/* Heights of another shape, a thousand times as high or low, and far from 0; set before the first step, in
- * the middle, and after the last one. */
+/* Heights of another shape, a thousand times as high or low, and far from 0. They are set before the first
+ * step, in the middle, and after the last one. */
 static void
 as_a_new_solver(void **state)
 {
@@ -197,7 +197,7 @@ history(void **state)
 }
 
 /* Loaded again to the same load, directly or after a smaller one, a yielded shape is at the hardness in the
- * same places: the same nodes are counted; at a tolerance of 1e-4 one node may differ. */
+ * same places. The same nodes are counted; at a tolerance of 1e-4 one node may differ. */
 static void
 reload_reaches_the_same_nodes(void **state)
 {

@@ -1,6 +1,6 @@
-/* If the caller sets the flag `hurry`, a solver stops at once in any state: it does no further convolution
- * unless no gap exists yet, carries the load, gives the displacement of the pressure to single precision, and
- * never reports a wrong convergence. Without the flag nothing changes. */
+/* If the caller sets the flag `hurry`, a solver stops at once in any state. It does no further convolution
+ * unless no gap exists yet. It carries the load, gives the displacement of the pressure to single precision,
+ * and never reports a wrong convergence. Without the flag nothing changes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* For coated bodies as for one material: the estimated error is not below the error, load and bounds hold, a
- * mirrored surface has mirrored pressures, and a layer divided in two gives the same result. */
+ * mirrored surface has mirrored pressures. A layer divided in two gives the same result. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -26,8 +26,8 @@ make_surface(double *h)
     assert_int_equal(rc_synth_selfaffine(&shape, &what, h, &err), RC_OK);
 }
 
-/* The bound of the ratio of estimate and error: the largest here is 1.42 if the coat is at most twice as
- * stiff as the material below, and 2.5 at 10 times; the ratio is never below 1. */
+/* The bound of the ratio of estimate and error. The largest ratio here is 1.42 if the coat is at most twice
+ * as stiff as the material below, and 2.5 at 10 times. It is never below 1. */
 static const double over_soft = 1.6, over_stiff = 3;
 
 static void

@@ -95,7 +95,7 @@ loads_are_independent(void **state)
 }
 
 /* The load found for an approach gives this approach when it is prescribed. Both solutions are within their
- * tolerance, and the approach is met to a tenth of it; the load grows more slowly than the square of the
+ * tolerance, and the approach is met to a tenth of it. The load grows more slowly than the square of the
  * approach. */
 static void
 approach_is_inverted(void **state)
@@ -288,7 +288,7 @@ history_of(struct rc_shape own, const double *form, struct rc_problem problem, c
     free(h);
 }
 
-/* The errors of loads remain in their dents: compared with the same list solved to 1e-9, the estimates of
+/* The errors of loads remain in their dents. Compared with the same list solved to 1e-9, the estimates of
  * later loads are not below the errors, and every load has the requested accuracy. */
 static void
 errors_of_histories_are_known(void **state)

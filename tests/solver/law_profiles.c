@@ -1,6 +1,6 @@
-/* The work on a profile, or on a strip of a few rows, hardly grows with its length, as a row or a column,
- * periodic or free, uniform or coated: a line has its own extension, and load that a tile cannot carry is
- * shared with nearby tiles. */
+/* The work hardly grows with the length of a profile, or of a strip of a few rows. This holds as a row or a
+ * column, periodic or free, uniform or coated. A line has its own extension, and load that a tile cannot
+ * carry is shared with nearby tiles. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -91,8 +91,8 @@ pressure_for(const struct kind *kind, struct rc_shape s, const double *h, double
     return mean;
 }
 
-/* The work is limited from 1024 nodes on, and from there to 16384 nodes (to `most` for a random walk) it
- * grows at most by the factor `growth`. Tests of every commit use one contact fraction, up to 4096 nodes. */
+/* The work is limited from 1024 nodes on. From there to 16384 nodes (to `most` for a random walk) it grows at
+ * most by the factor `growth`. Tests of every commit use one contact fraction, up to 4096 nodes. */
 static void
 works(const struct kind *kind, size_t most, double most_work, double growth)
 {

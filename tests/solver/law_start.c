@@ -1,5 +1,5 @@
 /* Making a solver does not iterate; its first steps run on coarser grids, where it can be stopped; with a
- * given start it omits them; calls in the wrong order are refused. */
+ * given start it omits them. Calls in the wrong order are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

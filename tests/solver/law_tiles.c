@@ -1,5 +1,5 @@
-/* Moves of the working set in any direction: the load does not change, pressures stay within the bounds,
- * nodes outside of the set do not change, and the report of the move is true. With tiles, each tile keeps the
+/* Moves of the working set in any direction. The load does not change, pressures stay within the bounds, and
+ * nodes outside of the set do not change. The report of the move is true. With tiles, each tile keeps the
  * load of the unclipped step if it can carry it. */
 #include <setjmp.h>
 #include <stdarg.h>

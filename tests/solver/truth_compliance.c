@@ -1,8 +1,8 @@
-/* A compliance c of every node for itself adds c to the diagonal of K: the pressure is that of a dense
- * quadratic program with K + c I, or with a c that differs by node, and that of a thin layer without
- * Poisson's ratio, bare and over coats, on both boundaries and by each engine; the estimate of its error
- * is not below the error; gap and displacement are those of the elastic bodies; and c = 0 is the contact
- * without it, to the last bit. */
+/* A compliance c of every node for itself adds c to the diagonal of K. The pressure is that of a dense
+ * quadratic program with K + c I, or with a c that differs by node. It is also that of a thin layer without
+ * Poisson's ratio, bare and over coats, on both boundaries and by each engine. The estimate of its error is
+ * not below the error. Gap and displacement are those of the elastic bodies. With c = 0 the contact is the
+ * one without compliance, to the last bit. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -222,7 +222,7 @@ a_thin_layer_is_the_same(void **state)
 
 /* ---- figures of the answer ---- */
 
-/* The displacement is K p; the gap, with the displaced film, that of heights less c p: those heights have the
+/* The displacement is K p; the gap, with the displaced film, that of heights less c p. Those heights have the
  * same pressure without a compliance. */
 static void
 figures_are_those_of_the_bodies(void **state)

@@ -1,5 +1,5 @@
-/* The conductance of a contact: closed forms for a circle, several circles, a circle in a periodic cell and
- * Hertz's contact; a dense system of equations for any contact, yielding or not. */
+/* The conductance of a contact, compared with closed forms for a circle, several circles, a circle in a
+ * periodic cell and Hertz's contact. A dense system of equations serves for any contact, yielding or not. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -191,7 +191,7 @@ radius_of(const struct found *f, const struct circles *c)
 }
 
 /* The difference, in spacings, between the radius of the circle with the area of the cells and the radius
- * with their conductance: the pressure is constant in each cell and cannot follow the infinite pressure at
+ * with their conductance. The pressure is constant in each cell and cannot follow the infinite pressure at
  * the edge. Dense systems of 45 to 716 cells give 0.09 to 0.13. */
 static const double edge = 0.117, edge_scatter = 0.02;
 
@@ -223,9 +223,9 @@ one_circle(void **state)
         (void)circle(radius);
 }
 
-/* 1/S of equal circles with a common potential: each contributes 1/(2 a) to itself, and to another circle at
- * the distance s 1/(pi s), if it is treated as a point (Greenwood 1966), or asin(a/s)/(pi a), its potential
- * at the centre of the other. */
+/* 1/S of equal circles with a common potential. Each contributes 1/(2 a) to itself. To another circle at the
+ * distance s it contributes 1/(pi s), if it is treated as a point (Greenwood 1966), or asin(a/s)/(pi a), its
+ * potential at the centre of the other. */
 static double
 circles_resist(const struct circles *c, double a, double spacing, bool points)
 {
@@ -313,12 +313,11 @@ several_circles(void **state)
     }
 }
 
-/* A circle in each square cell of side L: to the mean plane 1/S = 1/(2 a) - M/(pi L) + N a^2/(3 pi
- * L^3). M is the lattice sum of 1/r minus that of a uniform charge, -4 zeta(1/2) beta(1/2),
- * and N is the lattice sum of 1/r^3, 4 zeta(3/2) beta(3/2): the potential of the other circles is (-M/L + N
- * r^2/(4 L^3))/pi, and the mean of r^2 over the charge of a circle is 2 a^2/3, for source and field. The
- * neglected terms are of the order (a/L)^5. The waves that the nodes can represent have an edge that differs
- * by a hundredth of a spacing. */
+/* A circle in each square cell of side L: to the mean plane 1/S = 1/(2 a) - M/(pi L) + N a^2/(3 pi L^3). M is
+ * the lattice sum of 1/r minus that of a uniform charge, -4 zeta(1/2) beta(1/2). N is the lattice sum of
+ * 1/r^3, 4 zeta(3/2) beta(3/2). The potential of the other circles is (-M/L + N r^2/(4 L^3))/pi. The mean of
+ * r^2 over the charge of a circle is 2 a^2/3, for source and field. The neglected terms are of the order
+ * (a/L)^5. The waves that the nodes can represent have an edge that differs by a hundredth of a spacing. */
 static void
 periodic_cell(void **state)
 {
@@ -342,8 +341,8 @@ periodic_cell(void **state)
     }
 }
 
-/* Hertz: a sphere conducts like a circle of Hertz's radius, for any position of its centre between the nodes,
- * without a correction of the area: the excess of the computed area compensates the error at the edge. */
+/* Hertz: a sphere conducts like a circle of Hertz's radius, for any position of its centre between the nodes.
+ * No correction of the area is needed: the excess of the computed area compensates the error at the edge. */
 static void
 sphere(void **state)
 {

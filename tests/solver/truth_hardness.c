@@ -1,5 +1,5 @@
-/* A map of hardness: the pressure is that of a dense quadratic program with an individual bound for each
- * node, and obeys the laws of contact in hard cases: two phases, equal heights, saturation, nodes without a
+/* A map of hardness. The pressure is that of a dense quadratic program with an individual bound for each
+ * node. It obeys the laws of contact in hard cases: two phases, equal heights, saturation, nodes without a
  * hardness. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
-/* Contact of coated bodies compared with solutions of the dual integral equations of layers: paraboloids,
- * flat punches and waves on hard, soft and incompressible coats, thin and thick, on elastic and rigid
- * bases; the error decreases with finer grids. */
+/* Contact of coated bodies compared with solutions of the dual integral equations of layers. The cases are
+ * paraboloids, flat punches and waves on hard, soft and incompressible coats, thin and thick, on elastic and
+ * rigid bases. The error decreases with finer grids. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -266,8 +266,8 @@ glued_punch(const struct rc_pair *c, double over, size_t m)
     return load;
 }
 
-/* The pressure is singular at the edge, so the error is of first order, at most half a node in the radius;
- * extrapolation from two grids leaves a fourth of it. Under stiff coats the middle of the punch separates,
+/* The pressure is singular at the edge, so the error is of first order, at most half a node in the radius.
+ * Extrapolation from two grids leaves a fourth of it. Under stiff coats the middle of the punch separates,
  * which the integral equations do not include: there the punch is bonded. */
 static const double half_a_node = 0.5 * 2.2;
 
@@ -306,8 +306,8 @@ punches(void **state)
     assert_true(sum[1] < 0.6 * sum[0]);
 }
 
-/* Hayes, Keer, Herrmann and Mockros 1972: P (1 - nu)/(4 G a approach) on a layer on a rigid base, here with
- * more digits than in the paper. */
+/* Hayes, Keer, Herrmann and Mockros 1972 give P (1 - nu)/(4 G a approach) on a layer on a rigid base. Here it
+ * has more digits than in the paper. */
 static void
 punches_on_rigid_base(void **state)
 {
@@ -332,8 +332,8 @@ punches_on_rigid_base(void **state)
 /* ---- limits ---- */
 
 /* A thin compressible layer on a rigid base is an elastic foundation, p = M u/t; an incompressible one must
- * flow sideways. P over pi M a^4/4Rt or pi G a^6/32Rt^3, and the approach over a^2/2R or a^2/4R, tend to 1 as
- * t goes to 0. `off`: the grid is coarse where t is 2.4 cells and the layer is incompressible. */
+ * flow sideways. P over pi M a^4/4Rt or pi G a^6/32Rt^3 tends to 1 as t goes to 0. So does the approach over
+ * a^2/2R or a^2/4R. `off`: the grid is coarse where t is 2.4 cells and the layer is incompressible. */
 static void
 thin_on_rigid(void **state)
 {
@@ -388,7 +388,7 @@ beside_one(const struct solved *bare, struct rc_problem problem, const double *h
 }
 
 /* The effect of a thin coat is proportional to its thickness. The effect of the substrate below a thick coat
- * is proportional to a/t, because the whole coat sinks; the change of the shape is proportional to the third
+ * is proportional to a/t, because the whole coat sinks. The change of the shape is proportional to the third
  * power. */
 static void
 thick_and_thin(void **state)

@@ -1,5 +1,5 @@
-/* A counter body that is free to tilt, compared with a dense quadratic program with two further constraints
- * for the moments; its first touch is compared with a search over all triangles of nodes. */
+/* A counter body that is free to tilt is compared with a dense quadratic program with two further constraints
+ * for the moments. Its first touch is compared with a search over all triangles of nodes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -273,9 +273,9 @@ resumed(void **state)
     free(h);
 }
 
-/* The estimate uses the stiffness of the contact at the end of the search: also if the face was not tilted on
- * this grid, and not that of an earlier contact, which may have few elastic nodes. Compared with the same
- * contact at a low tolerance. */
+/* The estimate uses the stiffness of the contact at the end of the search, also if the face was not tilted on
+ * this grid. It does not use that of an earlier contact, which may have few elastic nodes. Compared with the
+ * same contact at a low tolerance. */
 static void
 ends_with_its_stiffness(void **state)
 {

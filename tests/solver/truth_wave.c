@@ -1,5 +1,5 @@
-/* Flattened waves on a periodic map: Westergaard's area and pressure from a tenth of the load of full contact
- * to the full one, and the two-dimensional wave of Johnson, Greenwood and Higginson. */
+/* Flattened waves on a periodic map. Westergaard's area and pressure are tested from a tenth of the load of
+ * full contact to the full one. The two-dimensional wave is that of Johnson, Greenwood and Higginson. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -81,9 +81,9 @@ full_contact(void **state)
     solved_free(&s);
 }
 
-/* Surface A cos cos: full contact at sqrt 2 pi E* A / L. Johnson, Greenwood and Higginson 1985;
- * the fractions at 0.2, 0.5 and 0.8 of it are from an independent computation at 512 x 512,
- * corrected for the perimeter, +-0.001. */
+/* Surface A cos cos: full contact at sqrt 2 pi E* A / L. Johnson, Greenwood and Higginson 1985. The fractions
+ * at 0.2, 0.5 and 0.8 of it are from an independent computation at 512 x 512, corrected for the perimeter,
+ * +-0.001. */
 static void
 two_dimensional_wave(void **state)
 {
