@@ -30,8 +30,8 @@ stack(void)
     return s;
 }
 
-/* Stresses of one load, and displacements along the wave and downwards, times 2 G q: from Hooke's law in
- * plane strain, and from the shear along the wave, dU/d(qz) - W = T/G. */
+/* Stresses of one load, and displacements along the wave and downwards, times 2 G q. They follow from Hooke's
+ * law in plane strain, and from the shear along the wave, dU/d(qz) - W = T/G. */
 struct wave {
     double s, t, l, n, u, w, r, v;
 };
@@ -109,8 +109,8 @@ slope(const double v[7], double step)
     return (45 * (v[4] - v[2]) - 9 * (v[5] - v[1]) + (v[6] - v[0])) / (60 * step);
 }
 
-/* dS/d(qz) = -T, dT/d(qz) = L, dR/d(qz) = -V, dV/d(qz) = -R, and compatibility: with U, W from Hooke's law
- * d2U = dT + dW, dW = (1 - nu) S - nu L (times 2). All by central differences of sixth order. */
+/* dS/d(qz) = -T, dT/d(qz) = L, dR/d(qz) = -V, dV/d(qz) = -R, and compatibility. With U, W from Hooke's law it
+ * is d2U = dT + dW, dW = (1 - nu) S - nu L (times 2). All by central differences of sixth order. */
 static void
 wave_in_equilibrium(void **state)
 {
@@ -151,8 +151,8 @@ wave_in_equilibrium(void **state)
     rc_stack_free(s);
 }
 
-/* The same for layers a million times thinner, stiffer or softer than others: all values are finite, and at
- * small wave numbers every depth carries the load. */
+/* The same for layers a million times thinner, stiffer or softer than others: all values are finite. At small
+ * wave numbers every depth carries the load. */
 static void
 extreme_stacks(void **state)
 {
@@ -217,9 +217,9 @@ bump_mean(double x, double w, double d)
 }
 
 /* Free boundary: each cell carries the value of a smooth pressure at its centre. Periodic boundary: the
- * pressure is band-limited; the same field results from the means over cells on a much larger map, because
- * the pressure has no moments below the fourth, so that the effect of its images falls as the sixth power of
- * width over distance. At depths of a few cells waves shorter than those of the grid have decayed. */
+ * pressure is band-limited. The same field results from the means over cells on a much larger map. The
+ * pressure has no moments below the fourth, so the effect of its images falls as the sixth power of width
+ * over distance. At depths of a few cells waves shorter than those of the grid have decayed. */
 static void
 free_is_periodic_far_apart(void **state)
 {
@@ -275,9 +275,9 @@ rough(struct rc_shape shape, double radius, double *p)
     }
 }
 
-/* In each medium d sxj/dx + d syj/dy + d szj/dz = 0 and the sum of the normal stresses is harmonic, by
- * differences in the slice and between seven slices, with friction, away from the edges of a map. Sources are
- * at least eight nodes away: differences of sixth order have an error of 1e-4 of the terms. */
+/* In each medium d sxj/dx + d syj/dy + d szj/dz = 0 and the sum of the normal stresses is harmonic.
+ * Differences in the slice and between seven slices test this, with friction, away from the edges of a map.
+ * Sources are at least eight nodes away: differences of sixth order have an error of 1e-4 of the terms. */
 static void
 maps_in_equilibrium(void **state)
 {
@@ -340,8 +340,8 @@ maps_in_equilibrium(void **state)
     free(s);
 }
 
-/* The sum of szz over a plane is the load less the part outside of the map, which falls as the third power of
- * the size: on a map twice as large it is an eighth. */
+/* The sum of szz over a plane is the load less the part outside of the map. This part falls as the third
+ * power of the size. So on a map twice as large it is an eighth. */
 static void
 every_depth_carries_the_load(void **state)
 {
@@ -425,7 +425,7 @@ largest_of(size_t n, const double *v)
     return v[largest];
 }
 
-/* Automatic depths: they rise, include both sides of each interface and several depths in each layer, and the
+/* Automatic depths: they rise, include both sides of each interface and several depths in each layer. The
  * largest Mises stress on them is that of a dense scan. */
 static void
 chosen_depths(void **state)

@@ -1,6 +1,6 @@
-/* The stress of plastic strain in slices: its mean over a slab equals that of the sweeps through the volume,
- * also over a thin slab cut out of another; it adds to the stress of the pressure; a section is a row of a
- * map; and all depths together cost one sweep. */
+/* The stress of plastic strain in slices. Its mean over a slab equals that of the sweeps through the volume,
+ * also over a thin slab cut out of another. It adds to the stress of the pressure, and a section is a row of
+ * a map. All depths together cost one sweep. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -130,7 +130,7 @@ slices_average_to_slabs(void **state)
     free(s.e.v);
 }
 
-/* The mean over a thin slab about a depth, from *first to *last, in a separate stack: one slab is divided in
+/* The mean over a thin slab about a depth, from *first to *last, in a separate stack. One slab is divided in
  * three, or two slabs are added below. */
 static void
 piece(const struct strained *s, bool padded, double depth, struct voxels *to, double *first,

@@ -90,8 +90,8 @@ curvature(double a3, double a2, double a1, double v, double b1, double b2, doubl
     return (2 * (a3 + b3) - 27 * (a2 + b2) + 270 * (a1 + b1) - 490 * v) / (180 * d * d);
 }
 
-/* d sxj/dx + d syj/dy + d szj/dz = 0, by differences in the slice and between seven slices, and the
- * sum of the normal stresses is harmonic, away from the edges of a map. With sources about 8 nodes away the
+/* d sxj/dx + d syj/dy + d szj/dz = 0, and the sum of the normal stresses is harmonic. Differences in the
+ * slice and between seven slices test this, away from the edges of a map. With sources about 8 nodes away the
  * differences of sixth order have an error of 1e-4 of the terms. */
 static void
 in_equilibrium(void **state)
@@ -193,8 +193,8 @@ every_layer_carries_the_load(void **state)
 }
 
 /* Free boundary: the force on the part of a plane below the map. A coefficient is the mean of the point
- * load's field over a cell, so the sum over a slice is the integral of the fields of point loads at the nodes
- * over the map: by reciprocity this is Love's rectangle of the whole map, evaluated at each node. */
+ * load's field over a cell. So the sum over a slice is the integral of the fields of point loads at the nodes
+ * over the map. By reciprocity this is Love's rectangle of the whole map, evaluated at each node. */
 static void
 the_window_catches_the_load(void **state)
 {
@@ -284,8 +284,8 @@ uniform_and_plane(void **state)
     }
 }
 
-/* A wave of pressure on a periodic map: exp(-qz) (1 + qz) and the other components (Johnson 1985,
- * section 13.2, from Airy's stress function in plane strain). */
+/* A wave of pressure on a periodic map: exp(-qz) (1 + qz) and the other components. They are in Johnson 1985,
+ * section 13.2, from Airy's stress function in plane strain. */
 static void
 one_wave(void **state)
 {
@@ -320,7 +320,7 @@ one_wave(void **state)
 
 /* ---- symmetry ---- */
 
-/* The mirror image of a pressure has the mirrored stresses; with friction the traction is mirrored too, and
+/* The mirror image of a pressure has the mirrored stresses. With friction the traction is mirrored too, and
  * its stresses are mu times a field that is added. */
 static void
 mirrors_and_sums(void **state)

@@ -227,8 +227,8 @@ threads_agree(void **state)
 }
 
 /* A slice costs the same with layers, except for one kernel that is shared in a uniform body (szz of the
- * traction is sxz of the pressure), and without friction no kernels of traction are computed; coarser grids
- * are not used. */
+ * traction is sxz of the pressure). Without friction no kernels of traction are computed. Coarser grids are
+ * not used. */
 static void
 only_what_is_asked(void **state)
 {

@@ -1,5 +1,5 @@
-/* Different ways to compute the same stress agree, and each computes only what is needed: sections and
- * slices, engines, threads, one component or all; a table of counts. */
+/* Different ways to compute the same stress agree. Each computes only what is needed: sections and slices,
+ * engines, threads, one component or all; a table of counts. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -114,8 +114,8 @@ engines_agree(void **state)
         }
 }
 
-/* fft, fft64 and auto use the same code here: results are equal to the last bit, also on periodic maps, and
- * each reports its own name. */
+/* fft, fft64 and auto use the same code here: results are equal to the last bit, also on periodic maps. Each
+ * reports its own name. */
 static void
 transforms_by_any_name(void **state)
 {
@@ -164,9 +164,9 @@ engines_refused(void **state)
 
 /* ---- tolerances ---- */
 
-/* With a sufficient tolerance slices are summed in single precision, deep ones of free maps on coarser grids,
- * with an error of at most the tolerance, also for pressures with the worst signs. With a smaller tolerance,
- * or with fft64, no bit differs. */
+/* With a sufficient tolerance slices are summed in single precision, and deep ones of free maps on coarser
+ * grids. The error is at most the tolerance, also for pressures with the worst signs. With a smaller
+ * tolerance, or with fft64, no bit differs. */
 static void
 within_tolerance(void **state)
 {
@@ -264,8 +264,8 @@ sections_are_lines_of_slices(void **state)
             }
 }
 
-/* Between the rows: the plane y = 0 of a map with an even number of rows equals the middle row of the same
- * pressure on a map with half the spacing of rows. */
+/* The section lies between the rows. The plane y = 0 of a map with an even number of rows equals the middle
+ * row of the same pressure on a map with half the spacing of rows. */
 static void
 sections_between_rows(void **state)
 {

@@ -1,5 +1,5 @@
-/* Maps of traction in several ways: a traction of mu times the pressure equals friction; a traction along y
- * equals one along x on the map with x and y exchanged; all loads together give the sum of their fields; and
+/* Maps of traction in several ways. A traction of mu times the pressure equals friction. A traction along y
+ * equals one along x on the map with x and y exchanged. All loads together give the sum of their fields, and
  * each load costs only what it needs. Bare and coated bodies, free and periodic, maps and sections, all
  * engines. */
 #include <setjmp.h>

@@ -152,8 +152,8 @@ on_axis(const struct cap *c, double z, size_t medium, bool radial)
     return each_panel(40 / z, 0.5, axis_wave, &a) / p0;
 }
 
-/* Published with nine decimals, szz and srr over p(0) at z/t = .25, .5, .9, 1-, 1+, 1.5, 3: an independent
- * solution of the dual integral equations. */
+/* szz and srr over p(0) at z/t = .25, .5, .9, 1-, 1+, 1.5, 3, published with nine decimals. They are an
+ * independent solution of the dual integral equations. */
 static const double depth[] = {.25, .5, .9, 1, 1, 1.5, 3};
 static const struct {
     double e, p0, szz[7], srr[7];
@@ -303,7 +303,7 @@ one_material_periodic(void **state)
 
 /* ---- the mean pressure of a periodic map ---- */
 
-/* A uniform pressure everywhere: the in-plane strains of the layer are those of the substrate, which is under
+/* A uniform pressure everywhere. The in-plane strains of the layer are those of the substrate, which is under
  * an unbounded loaded patch: sxx = -(1 + 2 nu_s) p/2 in the substrate. On a profile the strain along y is
  * 0. */
 static void
@@ -354,9 +354,9 @@ uniform_pressure(void **state)
 
 /* ---- coefficients of a cell ---- */
 
-/* The integral over all waves of the response to a unit load on the cell dx x dy, in polar coordinates:
- * panels in q, and even steps of the angle, which converge very fast. In the top layer without the part of
- * one material. */
+/* The integral over all waves of the response to a unit load on the cell dx x dy, in polar coordinates. It
+ * uses panels in q, and even steps of the angle, which converge very fast. In the top layer without the part
+ * of one material. */
 struct wave_sum {
     const struct rc_stack *stack;
     size_t medium;
@@ -369,8 +369,8 @@ sinc(double x)
     return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
 }
 
-/* Stresses of a wave exp(i(qx x + qy y)) of pressure, and of traction along x, which has the component c
- * along the wave and -s across it. */
+/* Stresses of a wave exp(i(qx x + qy y)) of pressure, and of traction along x. This traction has the
+ * component c along the wave and -s across it. */
 static void
 stresses_of_wave(double c, double s, const double *f, double complex out[12])
 {

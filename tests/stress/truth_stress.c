@@ -92,7 +92,7 @@ coefficient(int kernel, double nu, double x, double y, double z, double dx, doub
     return value;
 }
 
-/* The largest stress of a load of this size at this distance, up to a factor of about 1; the error of a
+/* The largest stress of a load of this size at this distance, up to a factor of about 1. The error of a
  * kernel that passes through 0 is relative to this. */
 static double
 scale_at(double x, double y, double z, double dx, double dy)
@@ -167,9 +167,9 @@ coefficients_near_the_surface(void **state)
                 double truth = quadrature(w);
                 double value = coefficient(k, 0.3, w.x, w.y, w.z, 1, 1);
                 double by = fabs(value - truth);
-                /* Beyond the neighbours of the cell the error is relative to the value itself; only for sxx
-                 * and sxy, which change their sign there, and syy, whose usual forms cancel, it is relative
-                 * to their size elsewhere. */
+                /* Beyond the neighbours of the cell the error is relative to the value itself. sxx and sxy
+                 * change their sign there, and the usual forms of syy cancel. Only for these three is it
+                 * relative to their size elsewhere. */
                 bool crosses = k % 6 == RC_SXX || k % 6 == RC_SXY || k % 6 == RC_SYY;
                 double allowed = p < 2     ? 1e-15
                                  : crosses ? 1e-13 * scale_at(w.x, w.y, w.z, 1, 1)
@@ -196,8 +196,8 @@ coefficients_have_no_steps(void **state)
             }
 }
 
-/* Values along a line of cells equal those of single cells, also far away, where neighbouring cells share
- * quadrature points, and in steps of several cells. */
+/* Values along a line of cells equal those of single cells. This holds also far away, where neighbouring
+ * cells share quadrature points, and in steps of several cells. */
 static void
 lines_are_places(void **state)
 {
@@ -227,7 +227,7 @@ lines_are_places(void **state)
         }
 }
 
-/* z = 0: -1 inside the cell, the mean of all sides on its edges and corners, 0 outside; all values are
+/* z = 0: -1 inside the cell, the mean of all sides on its edges and corners, 0 outside. All values are
  * finite, and close to their limit if it exists. */
 static void
 coefficients_at_the_surface(void **state)
@@ -396,7 +396,7 @@ sliding_sphere_is_the_integral(void **state)
 }
 
 /* Fig. 1 of the paper: the relative error of Mises' stress in the slice at that depth, after solving for the
- * pressure, is at most M^-2 (2 M^-2 in the paper). bench-paper fig1 continues to M = 1024. */
+ * pressure. It is at most M^-2 (2 M^-2 in the paper). bench-paper fig1 continues to M = 1024. */
 static void
 paper_figure_1(void **state)
 {
@@ -453,9 +453,9 @@ largest_mises(struct rc_stress *stress, double depth, double *s[RC_STRESSES])
     return s[RC_MISES][largest];
 }
 
-/* Automatic depths find the largest Mises stress of Hertz's contact (0.620041 p0) within 1 %, and under a
- * rough ball within 2 % of a scan twenty times as dense; there are few, and they are closer near a rough
- * surface. */
+/* Automatic depths find the largest Mises stress of Hertz's contact (0.620041 p0) within 1 %. Under a rough
+ * ball they find it within 2 % of a scan twenty times as dense. There are few, and they are closer near a
+ * rough surface. */
 static void
 chosen_depths(void **state)
 {

@@ -1,6 +1,6 @@
-/* Stresses under maps of traction agree with closed forms: partial slip of a sphere with the integral of
- * Cerruti's point loads, a wave of traction in any direction with plane and antiplane strain, a mean traction
- * with a uniform shear at all depths. */
+/* Stresses under maps of traction agree with closed forms. These are partial slip of a sphere (the integral
+ * of Cerruti's point loads) and a wave of traction in any direction (plane and antiplane strain). A mean
+ * traction gives a uniform shear at all depths. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -36,7 +36,7 @@ slice(struct rc_shape shape, enum rc_boundary boundary, const double *p, const d
 
 /* ---- Cattaneo and Mindlin ---- */
 
-/* A sphere with the pressure p0 sqrt(1 - r^2/a^2), pulled in the direction phi, carries the traction mu p
+/* A sphere with the pressure p0 sqrt(1 - r^2/a^2), pulled in the direction phi. It carries the traction mu p
  * where it slips, and this less mu p0 c/a sqrt(1 - r^2/c^2) where it sticks, r < c (Johnson 1985, 7.2). */
 static const double contact = 1, stick = 0.6, friction = 0.4, direction = 0.7;
 
@@ -163,9 +163,9 @@ partial_slip(void **state)
 
 /* ---- a wave ---- */
 
-/* Stresses of the traction cos(q s) along the direction s of the wave, in plane strain from Airy's function z
- * exp(-q z) sin(q s)/q, and across it, along t, in antiplane strain. Divided by exp(-q z), in the axes s, t,
- * z. */
+/* Stresses of the traction cos(q s). Along the direction s of the wave they are in plane strain from Airy's
+ * function z exp(-q z) sin(q s)/q. Across it, along t, they are in antiplane strain. Divided by exp(-q z), in
+ * the axes s, t, z. */
 static void
 wave_stress(bool across, double qs, double qz, double s[3][3])
 {

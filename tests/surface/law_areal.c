@@ -119,8 +119,8 @@ test_units_and_datum(void **state)
     }
 }
 
-/* A rotation by 180 degrees changes nothing; mirroring left to right reflects the direction about y;
- * exchanging x and y reflects it about the diagonal of the picture. */
+/* A rotation by 180 degrees changes nothing; mirroring left to right reflects the direction about y.
+ * Exchanging x and y reflects it about the diagonal of the picture. */
 static void
 test_turned(void **state)
 {

@@ -1,5 +1,5 @@
 /* Rotated and mirrored maps obey the laws of rotation and reflection, bit for bit; a cropped map equals the
- * part; the sum of a surface and its replica is flat, and the order of two surfaces does not matter. */
+ * part. The sum of a surface and its replica is flat, and the order of two surfaces does not matter. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -243,7 +243,7 @@ other_spacings_are_refused(void **state)
     free(v);
 }
 
-/* A reflected map is even about its edges and periodic: a cosine with its crests at the edges is again a
+/* A reflected map is even about its edges and periodic. A cosine with its crests at the edges is again a
  * cosine of the whole period, and heights and slopes are unchanged. */
 static void
 reflections_repeat(void **state)

@@ -1,5 +1,5 @@
 /* Threads that call GSL through the library at the same time never call the error handler that the caller has
- * set, and it is still set afterwards. */
+ * set. It is still set afterwards. */
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <pthread.h>

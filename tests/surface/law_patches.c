@@ -1,5 +1,5 @@
-/* Patches equal those of a plain flood fill: count, area and perimeter of each, on free maps and across the
- * edges of periodic ones, for any number of threads; and the search is fast. */
+/* Patches equal those of a plain flood fill. Count, area and perimeter of each are tested on free maps and
+ * across the edges of periodic ones, for any number of threads. The search is fast. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -173,7 +173,7 @@ test_flood_fill(void **state)
 }
 
 /* A frame around the map is one patch, periodic or not; four corners are one patch if the map is periodic,
- * else four; the arms of a cross join across the edges; two spirals remain two patches. */
+ * else four. The arms of a cross join across the edges; two spirals remain two patches. */
 static void
 test_edges(void **state)
 {

@@ -88,7 +88,7 @@ integrals_are_kept_and_the_way_back_is_the_transpose(void **state)
 }
 
 /* If one size is a multiple of the other, the mean of a plane over a block is its value at the centre of the
- * block; a constant is kept for all sizes. */
+ * block. A constant is kept for all sizes. */
 static void
 planes_and_constants_stay_what_they_are(void **state)
 {

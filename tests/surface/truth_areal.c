@@ -1,5 +1,5 @@
 /* The parameters of ISO 25178-2 equal closed forms for waves, ramps, chequerboards, posts, caps, grooves and
- * given height distributions, and plain double sums for maps with holes. */
+ * given height distributions. For maps with holes they equal plain double sums. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,8 +14,8 @@
 #include "tests/exact.h"
 #include "libcontact/contact.h"
 
-/* Tolerance against closed forms of continuous surfaces, with n nodes in a length, where |h| has a kink or
- * the correlation is a straight line between nodes: this constant over n^2. For |cos| with n nodes in a
+/* Tolerance against closed forms of continuous surfaces, with n nodes in a length: this constant over n^2.
+ * There |h| has a kink or the correlation is a straight line between nodes. For |cos| with n nodes in a
  * period the constant is pi^2/3. */
 static const double node_square = 4;
 

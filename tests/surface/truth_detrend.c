@@ -1,5 +1,5 @@
 /* The residual of the least-squares polynomial is orthogonal to every polynomial of its degree over the
- * measured points, and is 0 if the surface was such a polynomial. */
+ * measured points. It is 0 if the surface was such a polynomial. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit.h>
 #include <math.h>

@@ -1,6 +1,6 @@
-/* rc_filter is the Gaussian regression filter of order 0: its weighting function and its
- * transmission are the formulas of ISO 16610-61; with missing points, at edges and with robust weights it
- * agrees with explicit sums. */
+/* rc_filter is the Gaussian regression filter of order 0: its weighting function and its transmission are the
+ * formulas of ISO 16610-61. With missing points, at edges and with robust weights it agrees with explicit
+ * sums. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,8 +47,8 @@ filter(const struct rc_shape *s, struct rc_filter what, double *h)
 
 /* ---- the sums written out ---- */
 
-/* The factor of the weighting function along one side at a distance of `steps` nodes; on a periodic map the
- * sum over all repetitions within its range. */
+/* The factor of the weighting function along one side at a distance of `steps` nodes. On a periodic map it is
+ * the sum over all repetitions within its range. */
 static double
 factor(long steps, double d, size_t n, double cutoff, bool periodic)
 {

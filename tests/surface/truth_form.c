@@ -368,8 +368,8 @@ test_noisy_cylinder_is_least_squares(void **state)
 
 /* ---- spikes ---- */
 
-/* Every form again, with noise and with spikes at every tenth point: the robust fit finds the form to half of
- * the noise, the other fit does not. */
+/* Every form again, with noise and with spikes at every tenth point. The robust fit finds the form to half of
+ * the noise; the other fit does not. */
 static void
 check_spikes(struct rc_form form, const double *made, double noise, double spike)
 {

@@ -1,5 +1,5 @@
 /* Random surfaces with non-Gaussian heights have the requested distribution and size, and nearly the waves of
- * the Gaussian surface; on another grid they are the same surface. */
+ * the Gaussian surface. On another grid they are the same surface. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -65,8 +65,8 @@ moment(const double *h, size_t n, int power)
     return (double)(sum / n / powl(square / n, power / 2.0L));
 }
 
-/* Closed forms: the gamma distribution of shape k has a skewness of 2/sqrt(k) and a kurtosis of
- * 3 + 6/k, the Weibull distribution the moments Gamma(1 + n/k). */
+/* Closed forms. The gamma distribution of shape k has a skewness of 2/sqrt(k) and a kurtosis of 3 + 6/k. The
+ * Weibull distribution has the moments Gamma(1 + n/k). */
 static void
 own_moments(size_t k, double *mean, double *rms, double *skewness, double *kurtosis)
 {
@@ -109,9 +109,9 @@ below(size_t k, double x)
     return gsl_cdf_gamma_Q(fmax(mean - rms * x, 0), 4 / (s * s), 1);
 }
 
-/* The part of the tails that a finite map does not contain: a few per cent of the fourth moment if the tails
- * are long; a few thousandths of mean and RMS, which are corrected. A height may differ by this from the same
- * quantile of the distribution. */
+/* The part of the tails that a finite map does not contain. It is a few per cent of the fourth moment if the
+ * tails are long, and a few thousandths of mean and RMS, which are corrected. A height may differ by this
+ * from the same quantile of the distribution. */
 static void
 check_heights(const struct rc_shape *s, size_t k)
 {

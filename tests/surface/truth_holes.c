@@ -90,7 +90,7 @@ every_pair_of_nodes(void **state)
         }
 }
 
-/* A disc of radius 120.3 dx about a node: the nearest measured node is 121 steps away along an axis, or
+/* A disc of radius 120.3 dx about a node. The nearest measured node is 121 steps away along an axis, or
  * nearer in other directions, but at most a cell beyond the radius. */
 static void
 a_disc(void **state)

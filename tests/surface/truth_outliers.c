@@ -1,5 +1,5 @@
 /* rc_outliers removes the same points as a method that sorts every neighbourhood, also at edges and beside
- * missing points; rc_taper multiplies the heights above the mean by a raised cosine. */
+ * missing points. rc_taper multiplies the heights above the mean by a raised cosine. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* The corrected area of a contact is nearer to Hertz's than the area of its nodes, by more than half on
- * average over twelve positions of the sphere between the nodes. */
+/* The corrected area of a contact is nearer to Hertz's than the area of its nodes. It is nearer by more than
+ * half on average over twelve positions of the sphere between the nodes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
-/* Power spectra: the power of a wave is in the right ring, Parseval's theorem holds to 1e-9 with each window
- * and without, a known spectrum is recovered for any shape of the map, and the Hurst exponent is that of the
- * surface to 0.05. */
+/* Power spectra. The power of a wave is in the right ring, and Parseval's theorem holds to 1e-9 with each
+ * window and without. A known spectrum is recovered for any shape of the map. The Hurst exponent is that of
+ * the surface to 0.05. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -167,7 +167,7 @@ seen_through(size_t k, const struct rc_shape *s, const double *h, double *mean, 
     }
 }
 
-/* The sum over all waves is the mean square under the window divided by that of the window; it is not scaled
+/* The sum over all waves is the mean square under the window divided by that of the window. It is not scaled
  * to Sq^2, which is a separate figure. */
 static void
 test_parseval(void **state)
@@ -242,8 +242,8 @@ test_window(void **state)
     }
 }
 
-/* A wave of whole periods under a Hann window: A^2/2 in total, of which (mean w)^2/mean(w^2) = 4/9 is at its
- * own wave number and the rest at the neighbours. */
+/* A wave of whole periods under a Hann window. It has A^2/2 in total, of which (mean w)^2/mean(w^2) = 4/9 is
+ * at its own wave number and the rest at the neighbours. */
 static void
 test_wave_under_hann(void **state)
 {
@@ -266,8 +266,8 @@ test_wave_under_hann(void **state)
 /* ---- a known spectrum ---- */
 
 /* A quarter of a periodic surface with c = C0 up to the wave number of the roll-off and C0 (q/q0)^(-2-2H)
- * beyond, with a remaining bow, large or small, which must not change the waves. Over the rings from twice
- * the roll-off up to half the shortest wave, the mean squares of heights and of slopes are the known ones,
+ * beyond. A remaining bow, large or small, must not change the waves. Over the rings from twice the roll-off
+ * up to half the shortest wave, the mean squares of heights and of slopes are the known ones. They are so
  * within the scatter of 8 surfaces: about 1200 independent waves of the heights, 3 %. */
 static void
 test_known(void **state)

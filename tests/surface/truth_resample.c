@@ -1,5 +1,5 @@
 /* On finer grids cubic polynomials are reproduced inside, parabolas up to the edge, and periodic maps like
- * their repetitions; on coarser grids each cell gets the mean of its measured points, and is missing if less
+ * their repetitions. On coarser grids each cell gets the mean of its measured points, and is missing if less
  * than half of it was measured. */
 #include <stdlib.h>
 #include <string.h>
@@ -129,7 +129,7 @@ power(double x, int n)
     return n == 0 ? 1 : x * power(x, n - 1);
 }
 
-/* The monomials x^m y^n on the old and the new grid, over their largest values; nodes within `edge` old nodes
+/* The monomials x^m y^n on the old and the new grid, over their largest values. Nodes within `edge` old nodes
  * of the edges are not compared. */
 static void
 check_monomial(struct rc_shape from, double dx, double dy, int m, int n, size_t edge)
@@ -259,8 +259,8 @@ the_error_is_of_the_fourth_order(void **state)
     assert_true(log2(coarse / fine) > 3.8 && log2(coarse / fine) < 4.2);
 }
 
-/* A plane with holes: new nodes in a missing cell are missing, all others are on the plane, except nodes with
- * a missing one among their four old neighbours, which get the value of their old cell. */
+/* A plane with holes. New nodes in a missing cell are missing, and all others are on the plane. Exceptions
+ * are nodes with a missing one among their four old neighbours, which get the value of their old cell. */
 static void
 holes_stay_what_they_are(void **state)
 {
@@ -390,8 +390,8 @@ whole_maps_keep_their_integral(void **state)
     free(v);
 }
 
-/* One axis coarser, one finer: a plane is kept if the sizes are multiples, and functions of one coordinate do
- * not depend on the order of the axes. */
+/* One axis coarser, one finer: a plane is kept if the sizes are multiples. Functions of one coordinate do not
+ * depend on the order of the axes. */
 static void
 one_axis_each_way(void **state)
 {

@@ -1,5 +1,5 @@
-/* Synthetic surfaces follow their formulas: indenters, waves, and random roughness, in which every wave has
- * the requested power and depends only on the seed, and whose RMS is the requested one. */
+/* Synthetic surfaces follow their formulas: indenters, waves, and random roughness. Every wave of the
+ * roughness has the requested power and depends only on the seed. Its RMS is the requested one. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -404,9 +404,9 @@ enum {
 };
 
 /* Mean square and mean fourth power of each wave over the seeds. Each surface is first normalised by its
- * waves with law[k] > 0, whose power should be law[k], because the fixed RMS of the surface depends on the
- * strong waves. The inverse of a mean of n exponential variates is n / (n - 1) on average; a wave and its
- * conjugate count once. */
+ * waves with law[k] > 0, whose power should be law[k]. The reason is that the fixed RMS of the surface
+ * depends on the strong waves. The inverse of a mean of n exponential variates is n / (n - 1) on average; a
+ * wave and its conjugate count once. */
 static void
 ensemble(const struct rc_shape *s, struct rc_selfaffine what, long m, long n, const double *law,
          double *square, double *fourth)

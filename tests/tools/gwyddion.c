@@ -1,6 +1,5 @@
-/* Opens FILE with Gwyddion's libraries and compares its first channel with the array of an NPY
- * file: gwyddion FILE NPY DX DY PART, where heights may differ by PART of the largest. Built by
- * pipe_gwyddion.sh. */
+/* Opens FILE with Gwyddion's libraries and compares its first channel with the array of an NPY file: gwyddion
+ * FILE NPY DX DY PART. Heights may differ by PART of the largest. Built by pipe_gwyddion.sh. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

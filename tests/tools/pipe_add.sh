@@ -1,5 +1,5 @@
-# rc-add adds two facing surfaces: the sum of a surface and its replica is flat, two balls are equivalent to
-# one with the composite radius, and maps that do not match are refused with the command that helps.
+# rc-add adds two facing surfaces. The sum of a surface and its replica is flat, two balls are equivalent to
+# one with the composite radius. Maps that do not match are refused with the command that helps.
 . "$(dirname "$0")/../pipe.sh"
 
 info() {

@@ -1,5 +1,5 @@
 # The example of coated bodies, a hard film on steel under a rough ball, runs as printed in rc-solve(1) and
-# rc-stress(1), and gives the figures in these pages.
+# rc-stress(1). It gives the figures in these pages.
 . "$(dirname "$0")/../pipe.sh"
 
 # block PAGE 'first words': prints the literal block that begins with these words, as a user types it

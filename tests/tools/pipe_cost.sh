@@ -1,5 +1,5 @@
 # The errors of rc-cost are those of the pressures of rc-solve with the same settings, computed here
-# independently; its reference agrees with Hertz and Westergaard; and the proposed command has the stated
+# independently. Its reference agrees with Hertz and Westergaard; and the proposed command has the stated
 # error.
 . "$(dirname "$0")/../pipe.sh"
 
@@ -221,7 +221,7 @@ coarse_sphere() {
 claim "the sphere of a coarser grid can be solved separately" coarse_sphere
 near "$(awk '$5 == "48x48" && $4 == "1e-03" { print $11 }' hertz.txt)" "$(cat coarse.txt)" "$three_and" \
     "the error of a coarser grid is that of the same sphere on fewer nodes, spread over its cells"
-# The same ball, 480 um, on 512 x 512 nodes: an eighth of the nodes a side gives an error of 20 % in a
+# The same ball, 480 um, on 512 x 512 nodes. An eighth of the nodes a side gives an error of 20 % in a
 # fiftieth of the time.
 rc-synth sphere --nx 512 --dx 0.9375um --radius 7.5mm -o large.rcg
 rc-cost --load 20N --estar 114GPa --method pcg --kernel fft --error 0.2 -o coarser large.rcg

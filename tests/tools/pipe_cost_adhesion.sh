@@ -1,5 +1,5 @@
 # rc-cost --adhesion: its errors are those of the net pressures of rc-solve with these tolerances and grids,
-# computed here independently; the proposed command has the stated error; the cohesive length in nodes is that
+# computed here independently. The proposed command has the stated error; the cohesive length in nodes is that
 # of each grid.
 . "$(dirname "$0")/../pipe.sh"
 

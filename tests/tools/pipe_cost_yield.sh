@@ -1,5 +1,5 @@
 # rc-cost --yield: its errors are those of the pressures of rc-solve with these increments and slabs, computed
-# here independently, and the proposed command has the stated error.
+# here independently. The proposed command has the stated error.
 . "$(dirname "$0")/../pipe.sh"
 
 # Prints the values of a stream of one f64 frame, one per line, without the checksum and the end line after

@@ -1,4 +1,4 @@
-# Tables and reports become curves: rc-render reads the reports of rc-solve in both forms, and refuses other
+# Tables and reports become curves. rc-render reads the reports of rc-solve in both forms. It refuses other
 # files, missing columns and tables without a curve, with the right exit status and without a picture.
 . "$(dirname "$0")/../pipe.sh"
 

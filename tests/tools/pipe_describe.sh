@@ -106,8 +106,8 @@ near "$(sed -n 37p row.txt)" 7.68e-28 "$summed" "  and left of it"
 
 # ---- the unit of its spacings ----
 
-# Of 64 x 48 nodes at 1 um the steps are 2 pi/64 um = 98174.77 and 2 pi/48 um = 130899.69 rad/m, and the wave
-# is 4 steps to either side of wave number 0: at q = 2 pi/16 um = 392699.08 rad/m
+# Of 64 x 48 nodes at 1 um the steps are 2 pi/64 um = 98174.77 and 2 pi/48 um = 130899.69 rad/m. The wave is 4
+# steps to either side of wave number 0: at q = 2 pi/16 um = 392699.08 rad/m
 claim "the spacings of a spectrum are in rad/m" test "$(rc-info --json ridge.rcg | perl -MJSON::PP -ne '$_ = decode_json($_); print "$_->{dunit} $_->{keys}{dunit}"')" = "rad/m rad/m"
 claim "  rc-info prints this unit" says '^  grid +64 x 48 nodes, dx 98174.8 rad/m, dy 130900 rad/m$' rc-info ridge.rcg
 claim "  rc-info prints the size" says '^  size +6\.28319e\+06 rad/m x 6\.28319e\+06 rad/m$' rc-info ridge.rcg

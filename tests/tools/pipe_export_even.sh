@@ -2,8 +2,8 @@
 # resampled on request.
 . "$(dirname "$0")/../pipe.sh"
 
-# rows at 0, 1, 3, 10 um with the value 2 + z/um + 100 i, except in the last column: a straight line down to
-# 10 um
+# rows at 0, 1, 3, 10 um with the value 2 + z/um + 100 i, except in the last column. That one is a straight
+# line down to 10 um
 printf '2 102 202\n3 103 203\n5 105 205\n12 112 NaN\n' | rc-import --dx 1um --z-unit m - |
     sed 's/^channel=height/channel=height\nsection=y\nat=0\ndepths=0,1e-06,3e-06,1e-05/; s/^dy=.*/dy=3.3333333333333333e-06/' |
     reseal >uneven.rcg
