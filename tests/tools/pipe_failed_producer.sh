@@ -1,5 +1,5 @@
-# A pipe that fails gives the reason once, in the tool that failed; all later tools end with the exit status of
-# that tool and leave nothing behind. Only streams carry the reason.
+# A pipe that fails gives the reason once, in the tool that failed. All later tools end with the exit status
+# of that tool and leave nothing behind. Only streams carry the reason.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 17 --dx 5um --radius 7.5mm -o ball.rcg

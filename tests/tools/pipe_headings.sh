@@ -1,6 +1,6 @@
-# Scripts read reports by their headings and keys, which headings.txt records: for each command below the
-# first line of its table, and all keys of its JSON lines in alphabetical order, an outer key before the inner
-# ones. Add a new column at the end of its list; no column changes its name, unit or position.
+# Scripts read reports by their headings and keys, which headings.txt records. For each command it has the
+# first line of its table. Below are all keys of its JSON lines in alphabetical order, an outer key before the
+# inner ones. Add a new column at the end of its list; no column changes its name, unit or position.
 . "$(dirname "$0")/../pipe.sh"
 
 # keys FILE.json: prints the keys "a", "a.b", ... of all objects of the lines, each once.

@@ -1,4 +1,4 @@
-# The manual agrees with the tools: it has every option of --help and no other, correct mdoc, references to
+# The manual agrees with the tools. It has every option of --help and no other, correct mdoc, references to
 # existing pages only, and examples that run as printed.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"

@@ -1,5 +1,5 @@
-# rc-import --list prints for each of many files its format, or the reason why it cannot be read, and finally
-# fails if there was a bad file.
+# rc-import --list prints for each of many files its format, or the reason why it cannot be read. It fails at
+# the end if there was a bad file.
 . "$(dirname "$0")/../pipe.sh"
 
 printf '# Channel: Topo\n# Width: 6 um\n# Height: 5 um\n# Value units: nm\n1 2 3\n4 5 6\n' >a.txt

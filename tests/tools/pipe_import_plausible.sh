@@ -1,5 +1,5 @@
-# rc-import reads the lengths of the file, and warns of implausible maps: a side above 1 m or below 10 nm,
-# heights that span more than the longer side.
+# rc-import reads the lengths of the file, and warns of implausible maps. They have a side above 1 m or below
+# 10 nm, or heights that span more than the longer side.
 . "$(dirname "$0")/../pipe.sh"
 
 # an X3P file whose writer used micrometres instead of the metres of the standard: 300 x 200 points with a

@@ -1,5 +1,5 @@
-# Feature and profile parameters of a sample surface, and of a surface that is rough down to its nodes, equal
-# those of a numpy program written from the standards.
+# Feature and profile parameters of a sample surface equal those of a numpy program written from the
+# standards. So do those of a surface that is rough down to its nodes.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/python.sh"
 

@@ -1,4 +1,4 @@
-# An installation works in its folder, after it was moved, and under a name with a blank: tools run, man finds
+# An installation works in its folder, after it was moved, and under a name with a blank. Tools run, man finds
 # the pages, and other programs are built with the library, shared and static, by pkg-config and by
 # find_package.
 . "$(dirname "$0")/../pipe.sh"

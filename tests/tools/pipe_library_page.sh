@@ -1,14 +1,14 @@
-# libcontact(3) has the declarations of contact.h, contact_mpi.h and grid.h: every function with its
-# arguments, every struct with its fields, every constant with its value; and it describes each of them.
+# libcontact(3) has the declarations of contact.h, contact_mpi.h and grid.h. It has every function with its
+# arguments, every struct with its fields, and every constant with its value, and it describes each of them.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
 page=$pages/libcontact.3
 
-# Prints the declarations in preprocessed C from standard input: "function TYPE NAME(ARGUMENTS)", "object TYPE
-# NAME", "struct NAME: FIELD" for each field, "constant ENUM PLACE: NAME = VALUE"; only names that begin with
-# rc_ or RC_.
+# Prints the declarations in preprocessed C from standard input. The lines are "function TYPE
+# NAME(ARGUMENTS)", "object TYPE NAME", "struct NAME: FIELD" for each field, and "constant ENUM PLACE: NAME =
+# VALUE". Only names that begin with rc_ or RC_ are printed.
 cat >declarations.pl <<'END'
 my $round;
 $round = qr/\((?:[^()]++|(??{ $round }))*\)/;

@@ -1,13 +1,14 @@
-# The memory that the allocator counts, with the code, is the peak of the tool within a tenth; a run that
-# needs more than --memory allows, or than the machine has, is refused before the work, at 5 % less than the
-# need that the refusal tells, and not at 5 % more; and the peak in a report is that of the tool itself.
+# The memory that the allocator counts, with the code, is the peak of the tool within a tenth. A run that
+# needs more than --memory allows, or than the machine has, is refused before the work. It is refused at 5 %
+# less than the need that the refusal tells, and not at 5 % more. The peak in a report is that of the tool
+# itself.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
 skip_with_address_sanitizer "it takes memory of its own"
 
 # estimated "sentence" 'shell command': the memory of its last tool agrees with the counted one, within a
-# tenth or the third argument; --verbose is replaced by --debug.
+# tenth or the third argument. --verbose is replaced by --debug.
 estimated() {
     local counted taken
     bash -c "${2//--verbose/--debug}" 2>&1 >/dev/null | grep 'memory: ' | tail -n 1 >memory.txt
@@ -90,8 +91,8 @@ near "$(awk -v mib="$(sed -n 's/.*, \([0-9]*\) MiB, .*/\1/p' plan.txt)" 'BEGIN {
 
 # ---- the promise ----
 
-# promised "what" 'command' LIMIT: at the limit, which holds what is read, the refusal tells the memory; 5 % less is
-# refused before any iteration too, and 5 % more is enough.
+# promised "what" 'command' LIMIT: at the limit, which holds what is read, the refusal tells the memory. 5 %
+# less is refused before any iteration too, and 5 % more is enough.
 promised() {
     local needs
     needs=$(bash -c "$2 --memory $3 -o never.rcg" 2>&1 >/dev/null | sed -n 's/.* need about \([0-9.]*\) MiB.*/\1/p')

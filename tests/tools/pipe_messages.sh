@@ -1,5 +1,5 @@
 # Messages help: a message names the next step, a warning about a list of loads is printed once with its
-# cases, and the memory is printed on request.
+# cases. The memory is printed on request.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 33 --dx 20um --radius 7.5mm -o ball.rcg

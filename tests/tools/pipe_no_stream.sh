@@ -1,6 +1,6 @@
-# A tool that gets another file than a grid stream names the kind of file and the command that converts it;
-# the message for a pipe whose first program wrote nothing is different. rc-import, given a stream, names the
-# command to use instead, and that command works.
+# A tool that gets another file than a grid stream names the kind of file and the command that converts it.
+# The message for a pipe whose first program wrote nothing is different. If rc-import gets a stream, it names
+# the command to use instead, and that command works.
 . "$(dirname "$0")/../pipe.sh"
 
 # ---- another file in place of a stream ----

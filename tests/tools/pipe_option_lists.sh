@@ -1,6 +1,6 @@
-# Every list of numbers may have equal ratios, a:b:log:n, and --help says so; a word in place of a number is
+# Every list of numbers may have equal ratios, a:b:log:n, and --help says so. A word in place of a number is
 # written to the history as this word. Two whole numbers with a comma between them may be one number with a
-# decimal comma: they are read as a list, with a warning that explains how to write the number.
+# decimal comma. They are read as a list, with a warning that explains how to write the number.
 . "$(dirname "$0")/../pipe.sh"
 
 # ---- by ratio ----

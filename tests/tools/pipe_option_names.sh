@@ -1,6 +1,6 @@
-# The message for a misspelt option names the intended option, that for an ambiguous abbreviation all matching
-# options; British and American spelling are both accepted; and a value out of bounds never counts as a
-# missing one.
+# The message for a misspelt option names the intended option. The message for an ambiguous abbreviation names
+# all matching options. British and American spelling are both accepted, and a value out of bounds never
+# counts as a missing one.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 200 --dx 1um --radius 1mm -o ball.rcg

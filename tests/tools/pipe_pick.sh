@@ -67,7 +67,7 @@ claim "a plastic shape becomes a height that rc-solve presses" bash -c '
     rc-solve --quiet --tol 1e-9 --load 20mN --estar 100GPa --hardness 2GPa --output pressure plastic.rcg -o again.rcg'
 rc-info --json again.rcg >again.json
 rc-pick --case 2 --channel pressure result.rcg | rc-info --json >first.json
-# the error of a pressure map is 1e-9 of its sum, which is 1024 times the mean of 19.5 MPa; if all of it is at
+# the error of a pressure map is 1e-9 of its sum, which is 1024 times the mean of 19.5 MPa. If all of it is at
 # one node, the error of the rms is 2e-9 1024 19.5 MPa / 32
 near "$(field rms again.json)" "$(field rms first.json)" 2e-8 "  and it carries what it carried"
 claim "keys are set, replaced and removed" bash -c '

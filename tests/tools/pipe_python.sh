@@ -1,5 +1,5 @@
 # The Python package rcg reads and writes streams like the tools, bit for bit, refuses the same streams, and
-# runs the tools: the output is that in a shell, and a failure has the message and the exit status of the
+# runs the tools. The output is that in a shell, and a failure has the message and the exit status of the
 # tool.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"

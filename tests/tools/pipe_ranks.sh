@@ -1,5 +1,5 @@
 # Under mpirun rc-solve, rc-deflect and rc-stress write the same bytes as one process; their report counts the
-# communication; if one process fails all end, with one message and without an incomplete file. RC_RANKS: the
+# communication. If one process fails all end, with one message and without an incomplete file. RC_RANKS: the
 # numbers of processes to compare with one, by default "2".
 . "$(dirname "$0")/../pipe.sh"
 export RC_THREADS=1
@@ -71,8 +71,8 @@ claim "a report on standard output is written once" says '^1$' bash -c \
 claim "the memory of --debug is printed once" says '^1$' bash -c \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --debug -o told.rcg rough.rcg 2>&1 | grep -c 'memory: .* counted'"
 
-# Communication and memory of a contact as in contact-mpi(7): 32 bytes a wave for each equivalent convolution,
-# and up to 5 % for spectra; 83 bytes a node, and at most 40 MiB more.
+# Communication and memory of a contact as in contact-mpi(7): 32 bytes a wave for each equivalent convolution.
+# Up to 5 % for spectra; 83 bytes a node, and at most 40 MiB more.
 if [ "$ranks" != 2 ]; then
     rc-synth selfaffine --nx 1024 --ny 1024 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o large.rcg
     for n in $ranks; do
@@ -178,8 +178,8 @@ rc-solve --periodic --estar 1e60Pa --mean-pressure 1e58Pa --tol 1e-3 --output pr
 refuses 1 '65024 of 65024 values of mises are too large for single precision' "values too large, in the rows of both" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0 --components mises --type f32 -o no.rcg huge.rcg"
 claim "  the messages are printed once" test "$(grep -c 'are too large for' refuses.err)" = 1
-# The output of the launcher shows which process printed the message: the first one if all have agreed, else
-# the one that waited for the others.
+# The output of the launcher shows which process printed the message. It is the first one if all have agreed,
+# else the one that waited for the others.
 refuses 1 '^\[[^]]*,0\]<stderr>: ?rc-solve: small.rcg, frame 1: .* --memory allows 100 KiB' \
     "a part for which the second process has no memory ends both at once" \
     "$MPIRUN --tag-output -n 1 rc-solve --estar 1GPa --load 1mN -o no.rcg small.rcg : \
@@ -268,8 +268,8 @@ export OMPI_MCA_odls_base_sigkill_timeout=5
 claim "with enough time the current result is written" patient
 unset OMPI_MCA_odls_base_sigkill_timeout
 
-# One allocation after another fails in the second process: the work is done nevertheless, or all end with
-# exit status 1 and a message, and no other file is left. short_of N: prints the exit status.
+# One allocation after another fails in the second process. The work is done nevertheless, or all end with
+# exit status 1 and a message. No other file is left. short_of N: prints the exit status.
 short_of() {
     echo old >short.rcg
     timeout -s KILL 60 $MPIRUN --tag-output -n 1 $short_command : -n 1 env LD_PRELOAD="$RC_FAILING_MALLOC" RC_FAULT_AT="$1" RC_FAULT_COUNT="$PWD/count" \

@@ -1,5 +1,5 @@
-# The readers in rcg(5) run as printed: for every frame of a stream each prints channel, size and largest
-# value as rc-info does, for both types, and each fails if the stream is cut off.
+# The readers in rcg(5) run as printed. For every frame of a stream each prints channel, size and largest
+# value as rc-info does, for both types. Each fails if the stream is cut off.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 . "$RC_SOURCE/tests/python.sh"

@@ -1,4 +1,4 @@
-# The contacts of the sample surfaces do not change: area, peak pressure, approach, plastic area and largest
+# The contacts of the sample surfaces do not change. Area, peak pressure, approach, plastic area and largest
 # Mises stress equal those of the table, which other engines and methods computed.
 . "$(dirname "$0")/../pipe.sh"
 

@@ -1,5 +1,5 @@
-# Hertz's contact drawn on a map and on a cut, for a ball of rc-synth and for one added by rc-solve, and
-# Persson's law with the table of rc-solve: the curves follow the formulas.
+# Hertz's contact drawn on a map and on a cut, for a ball of rc-synth and for one added by rc-solve. Persson's
+# law is drawn with the table of rc-solve. The curves follow the formulas.
 . "$(dirname "$0")/../pipe.sh"
 
 # The value at x of a curve in an SVG: its points, with linear interpolation between them.

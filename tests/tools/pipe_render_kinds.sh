@@ -79,7 +79,7 @@ sheet x --sheet 2x1 --contour p.rcg
 relief x --view 30,35 ball.rcg
 END
 
-# Words lie at addresses of the command line, which with 32 bits can equal the first half of a number: without
+# Words lie at addresses of the command line, which with 32 bits can equal the first half of a number. Without
 # address randomisation they always do.
 fixed=$(setarch -R true 2>setarch.err && echo setarch -R)
 claim "the file contains the command with its options" bash -c "

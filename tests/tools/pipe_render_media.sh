@@ -1,6 +1,6 @@
-# A section of a coated body shows its materials: a line at each interface, visible on every colour, the
-# number of each medium beside the plot, its material in the legend; values jump only at interfaces, and
-# slices name their medium.
+# A section of a coated body shows its materials. It has a line at each interface, visible on every colour,
+# the number of each medium beside the plot, and its material in the legend. Values jump only at interfaces,
+# and slices name their medium.
 . "$(dirname "$0")/../pipe.sh"
 
 # made DEPTHS LAYERS 'perl expression of the depth $z in um': writes a section with 21 columns of 2 um

@@ -1,5 +1,5 @@
-# The colour bar shows the range of its colours: marks lie at the positions of their values, values beyond an
-# end have an arrow with a dark outline, visible on white paper, and gaps begin at 0.
+# The colour bar shows the range of its colours. Marks lie at the positions of their values, values beyond an
+# end have an arrow with a dark outline, visible on white paper. Gaps begin at 0.
 . "$(dirname "$0")/../pipe.sh"
 
 # made NX CHANNEL UNIT 'perl expression of $i, $j': writes a stream of NX by NX nodes
@@ -11,8 +11,8 @@ made() {
         printf "%scrc32 %08x\nRCGEND 1\n", $f, crc32($f)' "$@"
 }
 
-# bar FILE: prints "top height" of the colour bar, the image of one column; marks FILE: "number y" of each
-# mark to its right; arrows FILE: the number of arrows, and "inked" if each has a dark outline.
+# bar FILE: prints "top height" of the colour bar, the image of one column. marks FILE: prints "number y" of
+# each mark to its right. arrows FILE: prints the number of arrows, and "inked" if each has a dark outline.
 bar() {
     sed -n 's/.*<image x="[0-9.]*" y="\([0-9.]*\)" width="28" height="\([0-9.]*\)".*/\1 \2/p' "$1"
 }

@@ -1,4 +1,4 @@
-# A section shows each depth at its position on the axis, for any steps between its rows, without bands; its
+# A section shows each depth at its position on the axis, for any steps between its rows, without bands. Its
 # largest value is marked, with its position.
 . "$(dirname "$0")/../pipe.sh"
 

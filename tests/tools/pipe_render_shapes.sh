@@ -1,6 +1,6 @@
-# Shapes of figures: reliefs with a given exaggeration, strips with a stretched vertical axis, and the border
-# of the contact on maps of other channels, single or in a sheet; titles for a journal. Lengths are measured
-# in the SVG.
+# Shapes of figures: reliefs with a given exaggeration, and strips with a stretched vertical axis. The border
+# of the contact is drawn on maps of other channels, single or in a sheet. Titles are for a journal. Lengths
+# are measured in the SVG.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 60 --ny 45 --dx 1um --dy 2um --hurst 0.8 --rms-height 20nm --rolloff 30um --seed 4 -o rough.rcg

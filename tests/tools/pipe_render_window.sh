@@ -1,5 +1,5 @@
-# A window shows only this part of the map, with the coordinates of the map; a contact that is small compared
-# with its map gets a window by default, and the title says so; the lines over a map lie at the border of the
+# A window shows only this part of the map, with the coordinates of the map. A contact that is small compared
+# with its map gets a window by default. The title says so; the lines over a map lie at the border of the
 # contact.
 . "$(dirname "$0")/../pipe.sh"
 

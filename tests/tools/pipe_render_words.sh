@@ -1,4 +1,4 @@
-# Text on a figure: long titles break between words, units have their usual notation, and characters that no
+# Text on a figure. Long titles break between words, and units have their usual notation. Characters that no
 # font has give a warning for every kind of picture. The figure of an unconverged solution has a stamp beside
 # the data, not over them.
 . "$(dirname "$0")/../pipe.sh"

@@ -1,4 +1,4 @@
-# rc-render on the pressure of a body that yields in its volume with little hardening: it draws means about
+# rc-render on the pressure of a body that yields in its volume with little hardening. It draws means about
 # the nodes, in which the alternation from node to node cancels, and prints both largest values.
 . "$(dirname "$0")/../pipe.sh"
 

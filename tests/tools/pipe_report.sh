@@ -1,13 +1,13 @@
-# --report FILE.tsv writes a table with the names and units of the columns in its first line, a row for each
-# case, and in its cells the scalars of the JSON lines that --report FILE writes for the same run. --report -
-# writes only these lines to standard output; the stream goes to the file of -o, and a file named `-` is never
-# made.
+# --report FILE.tsv writes a table with the names and units of the columns in its first line, and a row for
+# each case. Its cells have the scalars of the JSON lines that --report FILE writes for the same run.
+# --report - writes only these lines to standard output; the stream goes to the file of -o, and a file named
+# `-` is never made.
 . "$(dirname "$0")/../pipe.sh"
 
 # ---- --report FILE.tsv ----
 
 # same_cells TABLE LINES [NAME...]: the columns are the scalars of the JSON lines in the order of the first
-# line, and every cell has the text of its line; null, and keys that only other lines have, are NaN. Named
+# line, and every cell has the text of its line. null, and keys that only other lines have, are NaN. Named
 # columns change from run to run: they must only be filled.
 same_cells() {
     perl -MJSON::PP -e '

@@ -1,5 +1,6 @@
-# Every tool accepts maps of one node, one row or one column or refuses them with the reason; if a map of
-# 46,400 x 46,400 nodes, more than 32 bits count, does not fit into memory, the message gives the right size.
+# Every tool accepts maps of one node, one row or one column or refuses them with the reason. A map of 46,400
+# x 46,400 nodes has more nodes than 32 bits count. If it does not fit into memory, the message gives the
+# right size.
 . "$(dirname "$0")/../pipe.sh"
 
 # answers "sentence" command...: exit status 0, or 1 if the map is too small for the task.

@@ -1,5 +1,5 @@
-# The figures of rc-solve for a case: --verbose prints the main figures of the report; nodes that yield under
-# this load differ from nodes at the hardness; the mean gap is that between the bodies; the requested value is
+# The figures of rc-solve for a case: --verbose prints the main figures of the report. Nodes that yield under
+# this load differ from nodes at the hardness. The mean gap is that between the bodies; the requested value is
 # in the report beside the result.
 . "$(dirname "$0")/../pipe.sh"
 
@@ -91,7 +91,7 @@ claim "  the table has these columns at its end" bash -c '
 
 # ---- a period made by mirror images ----
 
-# Half a wave from crest to trough, mirrored, is the whole wave, whose contact under a mean pressure is
+# Half a wave from crest to trough, mirrored, is the whole wave. Its contact under a mean pressure is
 # Westergaard's (Johnson 1985, 13.7): 2/pi asin(sqrt(p/p*)) of the period, p* = pi E* A/lambda = 3.14 MPa.
 rc-synth wave --nx 512 --ny 4 --dx 1um --wavelength 512um --amplitude 0.512um -o whole.rcg
 rc-export --format csv whole.rcg | grep -v '^#' | cut -d, -f1-256 | tr ',' ' ' | rc-import --quiet --dx 1um --z-unit m - -o first.rcg

@@ -1,4 +1,4 @@
-# --history: each load acts on the shape after the earlier loads; unloading, and loading again up to the
+# --history: each load acts on the shape after the earlier loads. Unloading, and loading again up to the
 # largest load so far, is elastic; and the result equals that of the same sequence in separate runs.
 . "$(dirname "$0")/../pipe.sh"
 

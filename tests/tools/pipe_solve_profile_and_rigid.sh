@@ -1,9 +1,9 @@
-# The force on a profile may be given per unit width; for a plain force the report has the width; a rigid body
+# The force on a profile may be given per unit width. For a plain force the report has the width; a rigid body
 # needs no modulus.
 . "$(dirname "$0")/../pipe.sh"
 
 # A cylinder on a half-space in plane strain: p0 = sqrt(P E*/(pi R)), a = 2 sqrt(P R/(pi E*)) (Johnson 1985,
-# section 4.2c); P = 5 kN/m, R = 10 mm, E* = 100 GPa: p0 = 126.157 MPa, a = 25.2313 um; a period of 2 mm.
+# section 4.2c). With P = 5 kN/m, R = 10 mm, E* = 100 GPa: p0 = 126.157 MPa, a = 25.2313 um; a period of 2 mm.
 rc-synth sphere --nx 4096 --ny 1 --dx 500nm --radius 10mm -o ridge.rcg
 press() { rc-solve --periodic --estar 100GPa --output pressure --report r.json "$@" ridge.rcg -o p.rcg; }
 export -f press

@@ -1,5 +1,5 @@
-# rc-solve --tilt free: a ball rolls to the point where the load acts, planes in the heights do not matter,
-# and without the option nothing changes; --at, checkpoints, lists; refusals.
+# rc-solve --tilt free. A ball rolls to the point where the load acts, and planes in the heights do not
+# matter. Without the option nothing changes. --at, checkpoints, lists and refusals are tested too.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth paraboloid --nx 129 --ny 101 --dx 1um --radius 1mm,1mm -o ball.rcg

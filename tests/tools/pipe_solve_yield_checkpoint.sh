@@ -1,4 +1,4 @@
-# rc-solve --yield with --checkpoint and --resume: a history of a yielding body that is interrupted at any
+# rc-solve --yield with --checkpoint and --resume. A history of a yielding body that is interrupted at any
 # point continues with the result of an uninterrupted one.
 . "$(dirname "$0")/../pipe.sh"
 
@@ -35,7 +35,7 @@ claim "a resumed run gives the same bits" bash -c "
 near "$(apart whole.tsv again.tsv)" 0 "$same" "  and so are its figures, the applications that it took included"
 
 # Killed anywhere: after each frame, with a part of the next. The contacts are solved to 1e-4, and a contact
-# that continues from a saved pressure has another first step: therefore later results agree within this
+# that continues from a saved pressure has another first step. Therefore later results agree within this
 # tolerance.
 cut_off() {
     local end last=0 n=0
