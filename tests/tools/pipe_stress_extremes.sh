@@ -1,10 +1,10 @@
 # The report of rc-stress gives the largest and the smallest value of each component with its position, over
-# all materials and in each, equal to the closed form for two waves; depths far below the map get a warning.
+# all materials and in each. They equal the closed form for two waves. Depths far below the map get a warning.
 . "$(dirname "$0")/../pipe.sh"
 
 # p = cos t + 0.5 cos 2t with t = 2 pi x/L in plane strain, from 1.5 Pa down to -0.75 Pa, on a coat of the
-# substrate's material: for each wave of amplitude a and wave number q szz is -a (1 + q z) e^(-q z) cos q x,
-# sxx -a (1 - q z) e^(-q z) cos q x, sxz -a q z e^(-q z) sin q x, syy is nu (sxx + szz).
+# substrate's material. For each wave of amplitude a and wave number q szz is -a (1 + q z) e^(-q z) cos q x,
+# sxx is -a (1 - q z) e^(-q z) cos q x. sxz is -a q z e^(-q z) sin q x, and syy is nu (sxx + szz).
 rc-synth wave --nx 33 --dx 1um --ny 1 --amplitude 1 --wavelength 33um -o a.rcg
 rc-synth wave --nx 33 --dx 1um --ny 1 --amplitude 0.5 --wavelength 16.5um -o b.rcg
 rc-add a.rcg b.rcg | rc-pick --set channel=pressure --set unit=Pa --set boundary=periodic \

@@ -1,5 +1,5 @@
-# rc-stress with frames of traction beside the pressure: a traction of mu p is equivalent to --mu, at any
-# place in the case; the report; refusals.
+# rc-stress with frames of traction beside the pressure. A traction of mu p is equivalent to --mu, at any
+# place in the case. The report and refusals are tested too.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 48 --ny 48 --dx 10um --radius 7.5mm |

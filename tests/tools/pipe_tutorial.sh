@@ -1,13 +1,13 @@
 # The pipeline of README runs, and commands have the same meaning in bash and in zsh. Before a release the
 # tutorial of contact(7) runs as printed: its commands print the text on the page, the figures in its
-# sentences are in that text or are computed here, and its commands draw its pictures.
+# sentences are in that text or are computed here. Its commands draw its pictures.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 page=$pages/contact.7
 samples=$RC_SOURCE/sample_surfaces
 
 # agrees PAGE OUTPUT: the words are the same, and every number agrees to one unit of the last digit on the
-# page; "..." matches anything. In longer numbers the first six digits count: solutions with the default
+# page; "..." matches anything. In longer numbers the first six digits count. Solutions with the default
 # tolerance agree on all machines to about 1e-7, because sums in another order round differently. The page has
 # no numbers of nodes, steps and seconds.
 cat >agrees.pl <<'END'
@@ -70,7 +70,7 @@ differs "not 'at 4e-06" "  nor another word after what is left out" 's/at 4/of 4
 differs "not 'at 4e-06" "  nor what ends too early" 's/ at.*//'
 
 # strangers NUMBERS SENTENCES: prints the numbers of the sentences that are not among these, rounded, with
-# another SI prefix or in per cent; section by section, each after a line "@@ name".
+# another SI prefix or in per cent. It goes section by section, each after a line "@@ name".
 cat >strangers.pl <<'END'
 my $number = qr/(?<![\w.])\d+(?:\.\d+)?(?:[eE][-+]?\d+)?/;
 sub sections { # the numbers by the name of the section
@@ -111,8 +111,8 @@ chmod +x stand_ins/mpirun
 for main in "$RC_SOURCE"/tools/rc-*.c; do
     cp stand_ins/mpirun "stand_ins/$(basename "$main" .c)"
 done
-# called COMMANDS SHELL...: prints the calls that these commands make, sorted because the commands of a pipe
-# have no order, and comments that the shell takes for commands.
+# called COMMANDS SHELL...: prints the calls that these commands make, and comments that the shell takes for
+# commands. They are sorted, because the commands of a pipe have no order.
 called() {
     rm -f said
     (mkdir -p typed && cd typed && PATH="$scratch/stand_ins:$PATH" SAID=$scratch/said timeout 60 "${@:2}" <"$1" >/dev/null 2>called.err)

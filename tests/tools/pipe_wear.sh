@@ -1,5 +1,6 @@
-# rc-wear: a ball that wears over four decades, in SI, and its running-in curve; the three ways to say how much wears;
-# early ends; both bodies, coats and a hardness; an interrupted run continues; what is not known is refused.
+# rc-wear: a ball that wears over four decades, in SI, and its running-in curve. Tested are the three ways to
+# say how much wears, early ends, both bodies, coats and a hardness. An interrupted run continues, and unknown
+# settings are refused.
 . "$(dirname "$0")/../pipe.sh"
 
 # map CHANNEL UNIT EXPRESSION: a frame of 32 x 32 nodes, its value at column i of row j

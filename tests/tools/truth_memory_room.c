@@ -1,5 +1,5 @@
 /* The free memory is the minimum of that of the machine, the rest of each control group of the process, and
- * its own limits: read from files like those of the kernel. */
+ * its own limits. The test reads them from files like those of the kernel. */
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -88,8 +88,8 @@ static const char mounts2[] =
     "22 1 8:1 / / rw - ext4 /dev/root rw\n"
     "30 22 0:26 / /sys/fs/cgroup rw,nosuid shared:4 - cgroup2 cgroup2 rw,nsdelegate\n";
 
-/* The group of the process has a high limit, its parent a lower one: the group nearest to its limit counts,
- * and cached pages of files do not count as used. */
+/* The group of the process has a high limit, its parent a lower one: the group nearest to its limit counts.
+ * Cached pages of files do not count as used. */
 static void
 test_version_2(void **state)
 {
@@ -163,7 +163,7 @@ test_container(void **state)
     assert_true(memory_room(root).bytes == 10 * mib);
 }
 
-/* A group whose name only begins like that of the mounted group lies outside of it: then only the limits of
+/* A group whose name only begins like that of the mounted group lies outside of it. Then only the limits of
  * the mounted group are visible. */
 static void
 test_names_that_begin_alike(void **state)

@@ -1,8 +1,8 @@
 /*
- * A body that is not part of the library, in one file and one row of a list: springs on a rigid base, coupled
- * to their neighbours within a range L. The displacement by a unit pressure on a cell is K(x, y) = 1/(pi E*
- * L) times the integral of exp(-r / L) over the cell, approximated by its value at the centre. One layer on a
- * rigid half-space selects this body; L is its thickness, E* its modulus.
+ * A body that is not part of the library, in one file and one row of a list. It has springs on a rigid base,
+ * coupled to their neighbours within a range L. The displacement by a unit pressure on a cell is K(x, y) =
+ * 1/(pi E* L) times the integral of exp(-r / L) over the cell. The value at the centre approximates the
+ * integral. One layer on a rigid half-space selects this body; L is its thickness, E* its modulus.
  */
 #include "libcontact/body/body.h"
 
@@ -50,7 +50,7 @@ toy_free(struct rc_solid *solid)
     free(solid);
 }
 
-/* The transform of exp(-r / L) over the plane is 2 pi L^2 / (1 + q^2 L^2)^(3/2), and is 2/(E*(q) q) here. */
+/* The transform of exp(-r / L) over the plane is 2 pi L^2 / (1 + q^2 L^2)^(3/2). Is 2/(E*(q) q) here. */
 static double
 modulus_of(const struct rc_solid *solid, double q2)
 {

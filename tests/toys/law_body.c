@@ -1,4 +1,4 @@
-/* A body from one file and one row of a list works like any other: the solver finds its contact with an error
+/* A body from one file and one row of a list works like any other. The solver finds its contact with an error
  * estimate, free and periodic, with yielding; stresses, which this body does not define, are refused. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,8 +1,8 @@
 /*
- * A model that is not part of the library, in one file and one row of a list: under the contact is a layer of
+ * A model that is not part of the library, in one file and one row of a list. Under the contact is a layer of
  * springs, which settles at each node by s towards the compliance c times the pressure, ds/dt = (c p - s) /
- * tau, while the inner model finds the pressure p for the heights h - s. A step uses the mean of the
- * pressures at both its ends; if they differ too much it is repeated with half the time.
+ * tau. The inner model finds the pressure p for the heights h - s. A step uses the mean of the pressures at
+ * both its ends; if they differ too much it is repeated with half the time.
  */
 #include "relaxing.h"
 

@@ -1,5 +1,5 @@
-/* A method that is not part of the library, in one file and one row of a list: steepest descent in the metric
- * of the preconditioner; each step goes to the minimum along its direction and is projected onto the
+/* A method that is not part of the library, in one file and one row of a list. It is steepest descent in the
+ * metric of the preconditioner. Each step goes to the minimum along its direction and is projected onto the
  * bounds. */
 #include "libcontact/solver/solver.h"
 

@@ -1,5 +1,5 @@
 /* Laws of strain in slabs: reciprocity, symmetry, bounds of the stiffness with and without contact,
- * equilibrium, a free surface, a load that every plane carries, and the predicted memory. */
+ * equilibrium, a free surface, and a load that every plane carries. The predicted memory is checked too. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -106,7 +106,7 @@ along_unit(const struct voxels *s, size_t slab, size_t i, size_t m)
 }
 
 /* Eigenvalues of G, and of G + S K_cc^-1 S' for sets c of nodes in contact, lie between 0 and 2 mu, for all
- * voxels of a small stack. c may be any set; K belongs to the same body. */
+ * voxels of a small stack. c may be any set. K belongs to the same body. */
 static void
 is_bounded(void **state)
 {
@@ -215,9 +215,8 @@ slope(const double *m, size_t step, size_t n, size_t i, double d)
     return sum * 2 * exact_pi / ((double)n * d);
 }
 
-/* Mean stresses of equal slabs without strain, between slabs with strain: d sxi/dx + d syi/dy
- * + d szi/dz = 0, by differences of tenth order; and the surface is free, or carries p: a slab of
- * no thickness on top. */
+/* Mean stresses of equal slabs without strain, between slabs with strain: d sxi/dx + d syi/dy + d szi/dz = 0,
+ * by differences of tenth order. The surface is free, or carries p: a slab of no thickness on top. */
 static void
 in_equilibrium(void **state)
 {

@@ -1,5 +1,5 @@
 /* Different ways to compute the same slabs agree: threads, precisions, rotated maps, slabs divided in two, an
- * explicit sum of plane waves; and omitting components does not change the others. */
+ * explicit sum of plane waves. Omitting components does not change the others. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -175,8 +175,8 @@ turned(void **state)
     }
 }
 
-/* A slab equals two halves with the same strain, and its stress is their mean: for one or several groups of
- * slabs in a sweep, and for thick and thin slabs. */
+/* A slab equals two halves with the same strain. Its stress is their mean: for one or several groups of slabs
+ * in a sweep, and for thick and thin slabs. */
 static void
 split(void **state)
 {
@@ -295,7 +295,7 @@ only_what_is_asked(void **state)
 }
 
 /* The displacement as a sum over waves, with the closed form of a sheet of strain integrated over depth by
- * quadrature: u = - exp(-qz) [ss + zz + 2 nu tt + qz (zz - ss - 2 sz)] e dz. */
+ * quadrature. u = - exp(-qz) [ss + zz + 2 nu tt + qz (zz - ss - 2 sz)] e dz. */
 static void
 of_plane_waves(void **state)
 {

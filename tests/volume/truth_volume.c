@@ -1,5 +1,5 @@
-/* Stresses and displacements by strain in slabs and by pressure agree with finite elements in depth, with
- * point stresses averaged by quadrature, and with Eshelby's sphere. */
+/* Stresses and displacements by strain in slabs and by pressure agree with finite elements in depth. They
+ * agree with point stresses averaged by quadrature, and with Eshelby's sphere. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -341,9 +341,9 @@ equals_elements(void **state)
 
 /* ---- pressure ---- */
 
-/* Stresses of pressure equal those of rc_stress at quadrature points, including the mean: on odd and prime
- * maps, on profiles along x and y, on an even map without waves of two nodes (which have no effect on slabs
- * here). */
+/* Stresses of pressure equal those of rc_stress at quadrature points, including the mean. Tested are odd and
+ * prime maps, profiles along x and y, and an even map without waves of two nodes (which have no effect on
+ * slabs here). */
 static void
 equals_point_stresses(void **state)
 {
@@ -428,9 +428,9 @@ mean_inside(const struct voxels *s, size_t slab, size_t r, enum rc_component c)
     return sum / n;
 }
 
-/* Deviator stress in the middle of a sphere with a uniform deviator strain e, deep below the
- * surface, is -2 mu (1 - b) e, b = 2 (4 - 5 nu)/(15 (1 - nu)) (Eshelby 1957): the sphere is made of cubes, 10
- * in its radius; agreement to 1 %. */
+/* Deviator stress in the middle of a sphere with a uniform deviator strain e, deep below the surface, is -2
+ * mu (1 - b) e, b = 2 (4 - 5 nu)/(15 (1 - nu)) (Eshelby 1957). The sphere is made of cubes, 10 in its radius,
+ * and the agreement is to 1 %. */
 static void
 equals_sphere(void **state)
 {

@@ -1,7 +1,7 @@
 /* Compares worn heights and pressures with closed forms. Each wave in full contact decays at its own rate.
  * The pressure of a circular and of a strip punch becomes even by the modes of the operator. A ball wears to
- * the rigid limit, and stiff roughness to its Abbott curve. In the end the pressure is even, or k p is where k
- * differs; a part that does not wear carries the load in the end. The worn volume of an even k is k P s. */
+ * the rigid limit, and stiff roughness to its Abbott curve. In the end the pressure is even, or k p is where
+ * k differs. A part that does not wear carries the load in the end. The worn volume of an even k is k P s. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -152,8 +152,9 @@ enum {
     TIMES = 5
 };
 /* k E* s / a, and the RMS of p over its mean, less 1, of a flat punch. They are sums over the modes of the
- * operator on a disc (rates 2.06065, 3.67104, 5.25854, 6.83864 E* k/a ...) and on a strip in plane strain
- * (1.72667, 3.31431, 4.89197, 6.46651 ...), from 40 Legendre functions. */
+ * operator on a disc and on a strip in plane strain, from 40 Legendre functions. The rates on the disc are
+ * 2.06065, 3.67104, 5.25854, 6.83864 E* k/a ...; those on the strip are 1.72667, 3.31431, 4.89197, 6.46651
+ * ... */
 static const double times[TIMES] = {0.1, 0.25, 0.5, 1, 2};
 static const double on_disc[TIMES] = {0.41210, 0.24875, 0.13259, 0.044623, 0.0056115};
 static const double on_strip[TIMES] = {0.43244, 0.28019, 0.16419, 0.065626, 0.011534};
@@ -201,7 +202,7 @@ punches_become_even(void **state)
 
 /* ---- the rigid limit ---- */
 
-/* The scar of a ball of radius R has the area of a plane cut of volume V, a^4 = 4 R V/pi; the pressure is
+/* The scar of a ball of radius R has the area of a plane cut of volume V, a^4 = 4 R V/pi. The pressure is
  * even. */
 static void
 a_ball_is_cut(void **state)
@@ -352,8 +353,8 @@ phases_share_the_load(void **state)
     rc_conv_free(conv);
 }
 
-/* A ball of which the nodes nearer than c to the middle do not wear: its scar is cut off at c, and it carries
- * 2 E* sqrt(c^2 - r^2) / (pi R) + (P - 4 E* c^3/3 R) / (2 pi c sqrt(c^2 - r^2)). */
+/* A ball of which the nodes nearer than c to the middle do not wear. Its scar is cut off at c. It carries 2
+ * E* sqrt(c^2 - r^2) / (pi R) + (P - 4 E* c^3/3 R) / (2 pi c sqrt(c^2 - r^2)). */
 static void
 a_disc_that_sticks_carries_all(void **state)
 {
