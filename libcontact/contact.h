@@ -1221,31 +1221,38 @@ RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
 /* The figures of this model, after rc_model_look; NULL: it has no friction. */
 RC_API const struct rc_friction_figures *rc_friction_result(const struct rc_model *model);
 
-/* ---- steady rolling as a model ---- */
+/* ---- rolling as a model ---- */
 
-/* The contact rolls towards +x, steadily: at each node tractions and slip are the same at all times. Body 2
- * moves over body 1 by (creep_x - spin y, creep_y + spin x) per length rolled, x and y from the middle of the
- * map. This is minus the creepage of railway textbooks, where body 1 moves over body 2. */
+/* A contact that is not solved, in a map with its middle at x, m, where RC_POSITION is counted. */
+struct rc_rolling_contact {
+    const double *p; /* pressure, nx ny Pa */
+    double x;
+};
+/* The contact rolls towards +x. Body 2 moves over body 1 by (creep_x - spin y, creep_y + spin x) per length
+ * rolled, x and y from the middle of the contact, which is at RC_POSITION (0 if it is never given); this is
+ * minus the creepage of railway textbooks, where body 1 moves over body 2.
+ * Steady: at each place of the contact tractions and slip are the same at all times. A path: at the first point
+ * the bodies are pressed together, and each further one is a step of rolling from the last point kept. */
 struct rc_rolling_problem {
-    /* Friction and bodies, under the free boundary. Pressure moves dissimilar bodies along each other, unless
-     * `uncoupled`; tractions do not change the pressure. tol 0: 1e-3; max_steps of each grid. */
+    /* Friction and bodies; a steady state needs the free boundary. Pressure moves dissimilar bodies along each
+     * other, unless `uncoupled`; tractions do not change the pressure. tol 0: 1e-3, on a path 1e-2; max_steps
+     * of each grid. */
     struct rc_slip_problem slip;
-    bool
-        force; /* points give the forces RC_FORCE_X, RC_FORCE_Y, and RC_CREEP_X, RC_CREEP_Y are found */
-    /* A known contact: its load (N) and pressure (nx ny, Pa), which the caller keeps; NULL: the inner model
-     * solves it. */
-    double known_load;
-    const double *known_p;
+    bool force; /* points give RC_FORCE_X, RC_FORCE_Y, and RC_CREEP_X, RC_CREEP_Y are found */
+    bool path;  /* each point is a step; else a steady state, whatever comes before */
+    /* NULL: the inner model solves the contact. The caller keeps it, and may change it from point to point.
+     * On a path the map moves by whole columns. */
+    const struct rc_rolling_contact *known;
 };
 struct rc_rolling_figures {
     double load, limit;             /* N: normal; the largest that friction can carry         */
-    double creep[2], spin;          /* per length rolled: 1; rad/m                            */
-    double force[2], moment;        /* N, on body 1; N m, about the middle of the map         */
+    double creep[2], spin;          /* per length rolled: 1; rad/m. NAN: not yet              */
+    double force[2], moment;        /* N, on body 1; N m, about the middle of the contact     */
     size_t stick_nodes, slip_nodes; /* of the nodes that carry load                    */
     double stick_fraction;          /* share of the nodes that carry load                     */
     double power;                   /* J/m: tractions times the motion of the bodies          */
     double power_slip;              /* J/m: tractions times slip; the grid loses the rest     */
-    /* Extrapolated from the two finest grids to a spacing of 0; NAN: too few nodes along x. */
+    /* Extrapolated from the two finest grids to a spacing of 0; NAN: too few nodes along x, or a path. */
     double extrapolated_creep[2], extrapolated_force[2], extrapolated_moment;
     /* N: Kalker's linear theory for the ellipse of the same area and second moments; NAN: its semi-axes
      * have a ratio beyond 0.1 to 10. */
@@ -1257,11 +1264,11 @@ struct rc_rolling_figures {
     double convolutions;     /* with those of the contact                              */
     bool converged;          /* traction_error <= tol                                  */
 };
-/* A model (model.h) of steady rolling over an inner one of the same bodies, which it owns from here on;
- * NULL where that is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or two
- * forces, and RC_SPIN (0 if it is never given). Frames: pressure, traction-x, traction-y (Pa), slip-x,
- * slip-y (per length rolled), state (as in rc_slip_state). RC_FAIL on the way where no node is in contact,
- * where the contact reaches the last column, the leading edge, or where friction cannot carry the force.
+/* A model (model.h) of rolling over an inner one of the same bodies, which it owns from here on; NULL where that
+ * is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or two forces, RC_SPIN, and
+ * RC_POSITION, which may not fall on a path. Frames: pressure, traction-x, traction-y (Pa), slip-x, slip-y (per
+ * length rolled), state (as in rc_slip_state). RC_FAIL on the way where no node is in contact, where the contact
+ * reaches the last column, the leading edge, or one that comes in, or where friction cannot carry the force.
  * Sources: Kalker 1990, Three-dimensional elastic bodies in rolling contact; Newton's method as in
  * libcontact/slip/steady.c. */
 RC_API struct rc_model *rc_rolling_new(struct rc_model *inner,

@@ -154,5 +154,6 @@ main(int argc, char **argv)
         run.p = run.gap = run.height = run.contact = NULL;
     }
     free(run.given);
+    rc_model_free(run.path);
     return drive_close(&run.d);
 }

@@ -363,36 +363,102 @@ take(struct rc_steady *d, double part)
     look(d);
 }
 
-enum rc_status
-rc_steady_roll(struct rc_steady *d, struct rc_err *err)
+/* Poses a step in time: `before` is the displacement of the surfaces until now, in the map that then moves by
+ * some columns. Surface that comes in is free, so that its displacement does not matter. */
+static enum rc_status
+set_out(struct rc_steady *d, double *const before[2], size_t columns, double tol,
+        struct rc_err *err)
 {
     const size_t nx = d->shape.nx;
+    const bool round = d->t->boundary == RC_PERIODIC;
     struct rc_discs *discs = d->discs;
-    enum rc_status status;
 
     if (discs == NULL && (discs = d->discs = rc_discs_new(d->t, err)) == NULL)
         return RC_FAIL;
-    rc_tangential_apply(d->t, d->q, d->u);
     memcpy(discs->g, d->g, d->n * sizeof *d->g);
     for (int c = 0; c < 2; c++)
         for (size_t k = 0; k < d->n; k++) {
+            const size_t i = k % nx + columns;
             discs->q[c][k] = d->q[c][k];
-            discs->w[c][k] = (k + 1) % nx == 0 ? 0 : d->u[c][k + 1] - d->rigid[c][k] + d->v[c];
+            discs->w[c][k] =
+                (i < nx || round ? before[c][k - k % nx + i % nx] : 0) - d->rigid[c][k] + d->v[c];
         }
     discs->asked.given = !d->asked.force;
     memcpy(discs->asked.sum, d->asked.sum, sizeof d->asked.sum);
-    discs->asked.tol = fmax(d->found.estimate / 100, d->asked.tol / 10);
+    discs->asked.tol = tol;
     discs->delta[0] = discs->delta[1] = 0;
     rc_discs_begin(discs);
-    while ((status = rc_discs_step(discs)) == RC_MORE)
+    return RC_OK;
+}
+
+enum rc_status
+rc_steady_roll(struct rc_steady *d, struct rc_err *err)
+{
+    rc_tangential_apply(d->t, d->q, d->u);
+    if (set_out(d, d->u, 1, fmax(d->found.estimate / 100, d->asked.tol / 10), err) != RC_OK)
+        return RC_FAIL;
+    while (rc_discs_step(d->discs) == RC_MORE)
         ;
     for (int c = 0; c < 2; c++) {
-        memcpy(d->q[c], discs->q[c], d->n * sizeof(double));
-        d->v[c] += d->asked.force ? discs->delta[c] : 0;
+        memcpy(d->q[c], d->discs->q[c], d->n * sizeof(double));
+        d->v[c] += d->asked.force ? d->discs->delta[c] : 0;
     }
     find_slip(d);
     look(d);
     return RC_OK;
+}
+
+/* Takes the tractions and the slip of a step in time. */
+static void
+take_step(struct rc_steady *d)
+{
+    const struct rc_discs *discs = d->discs;
+
+    for (int c = 0; c < 2; c++) {
+        const double delta = discs->delta[c];
+        memcpy(d->q[c], discs->q[c], d->n * sizeof(double));
+        memcpy(d->u[c], discs->u[c], d->n * sizeof(double));
+        for (size_t k = 0; k < d->n; k++)
+            d->s[c][k] = discs->u[c][k] - discs->w[c][k] - delta;
+        d->v[c] = d->asked.force ? delta : d->v[c];
+    }
+    look(d);
+    memcpy(d->face, discs->face, d->n);
+    d->found.stick = discs->found.stick;
+    d->found.slipping = discs->found.slipping;
+    d->found.steps = discs->found.steps;
+    d->found.fallbacks = discs->found.fallbacks;
+    d->found.estimate = discs->found.estimate;
+}
+
+enum rc_status
+rc_steady_set_out(struct rc_steady *d, size_t columns, struct rc_err *err)
+{
+    for (int c = 0; c < 2 && d->asked.force; c++)
+        d->v[c] = 0;
+    if (set_out(d, d->old, columns, d->asked.tol, err) != RC_OK)
+        return RC_FAIL;
+    d->discs->asked.most = d->asked.most;
+    take_step(d);
+    d->found.estimate = INFINITY;
+    return RC_OK;
+}
+
+enum rc_status
+rc_steady_follow(struct rc_steady *d)
+{
+    const enum rc_status status = rc_discs_step(d->discs);
+
+    take_step(d);
+    return status;
+}
+
+void
+rc_steady_arrive(struct rc_steady *d)
+{
+    for (int c = 0; c < 2; c++)
+        for (size_t k = 0; k < d->n; k++)
+            d->old[c][k] = d->u[c][k] + d->way[c][k];
 }
 
 void
@@ -512,16 +578,19 @@ rc_steady_free(struct rc_steady *d)
 }
 
 static bool
-allocate(struct rc_steady *d, bool force)
+allocate(struct rc_steady *d)
 {
     double **const pairs[] = {d->q,   d->rigid, d->u,         d->s,
                               d->way, d->old,   d->way_of[0], d->way_of[1]};
-    const size_t count = force ? 8 : 6,
-                 grid = (d->shape.nx + 2 * d->t->frame.x) * (d->shape.ny + 2 * d->t->frame.y);
+    const bool path = d->asked.path;
+    const size_t count = d->asked.force && !path ? 8 : 6, vectors = path ? 1 : 3 + 4 * STEPS,
+                 grid = path
+                            ? 0
+                            : (d->shape.nx + 2 * d->t->frame.x) * (d->shape.ny + 2 * d->t->frame.y);
     float *at;
 
     d->maps = rc_alloc((1 + 2 * count) * d->n, sizeof *d->maps);
-    d->single = rc_alloc((3 + 4 * STEPS) * d->n + 2 * grid, sizeof *d->single);
+    d->single = rc_alloc(vectors * d->n + 2 * grid, sizeof *d->single);
     d->face = rc_alloc(2 * d->n, 1);
     if (rc_sums_new(&d->rows, d->shape.ny, STEPS + 1, 0, d->threads) != RC_OK || d->maps == NULL ||
         d->single == NULL || d->face == NULL)
@@ -533,21 +602,21 @@ allocate(struct rc_steady *d, bool force)
         pairs[k / 2][k % 2] = d->maps + (1 + k) * d->n;
     at = d->single;
     d->curve = at;
-    for (size_t c = 0; c < 2; c++) {
+    d->was = d->face + d->n;
+    for (size_t c = 0; c < 2 && !path; c++) {
         for (size_t m = 0; m <= STEPS; m++)
             d->basis[m][c] = at += d->n;
         for (size_t m = 0; m < STEPS; m++)
             d->z[m][c] = at += d->n;
     }
-    d->frame[0] = at + d->n;
-    d->frame[1] = d->frame[0] + grid;
-    d->was = d->face + d->n;
+    d->frame[0] = path ? NULL : at + d->n;
+    d->frame[1] = path ? NULL : d->frame[0] + grid;
     return true;
 }
 
 struct rc_steady *
-rc_steady_new(const struct rc_shape *shape, const struct rc_shear *shear, bool force,
-              size_t threads, struct rc_err *err)
+rc_steady_new(const struct rc_shape *shape, enum rc_boundary boundary, const struct rc_shear *shear,
+              bool force, bool path, size_t threads, struct rc_err *err)
 {
     struct rc_steady *d = calloc(1, sizeof *d);
 
@@ -558,13 +627,14 @@ rc_steady_new(const struct rc_shape *shape, const struct rc_shear *shear, bool f
     d->shape = *shape;
     d->n = shape->nx * shape->ny;
     d->asked.force = force;
-    if ((d->t = rc_tangential_new(shape, RC_FREE, shear, threads, err)) == NULL) {
+    d->asked.path = path;
+    if ((d->t = rc_tangential_new(shape, boundary, shear, threads, err)) == NULL) {
         rc_steady_free(d);
         return NULL;
     }
     d->threads = d->t->threads;
     d->self = self_of(d->t);
-    if (!allocate(d, force)) {
+    if (!allocate(d)) {
         rc_err_set(err, "out of memory for rolling of %zu x %zu nodes", shape->nx, shape->ny);
         rc_steady_free(d);
         return NULL;

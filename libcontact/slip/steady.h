@@ -1,5 +1,5 @@
 /*
- * Steady rolling on one grid. Internal: never installed.
+ * Rolling on one grid, steady or step by step. Internal: never installed.
  *
  * The contact rolls towards +x, by one column of nodes in a step. Body 2 moves over body 1 by -rigid + v in a
  * step. With S the shift by one node, (S f)_i = f_(i+1), the slip of body 1 on body 2 in a step is
@@ -8,6 +8,10 @@
  *
  * The symmetric part of B = (1 - S) T is positive definite, because q'Bq is the sum of T(k) (1 - cos kx dx)
  * |q_k|^2. So there is exactly one q. Displacements are in units of the cell over E*, and so in Pa.
+ *
+ * On a path each step has its own pressure and length, and moves the map by any number m of columns:
+ *
+ *     s = T q - S^m before + rigid - v,     before: displacement of the surfaces at the end of the last step.
  */
 #ifndef RC_STEADY_H
 #define RC_STEADY_H
@@ -27,14 +31,16 @@ struct rc_steady {
     double run;  /* mean number of loaded nodes one behind the other   */
     /* The caller sets g (0 in the last column), rigid, v, and q, then calls rc_steady_begin. */
     double *g, *q[2], *rigid[2], v[2];
-    double *u[2], *s[2];     /* T q or T of a vector; slip     */
-    double *way[2], *old[2]; /* correction; q before it       */
-    double *way_of[2][2];    /* for a given force: corrections due to v, else NULL */
-    float *curve;            /* D of nodes that slip           */
+    double *u[2], *s[2]; /* T q or T of a vector; slip     */
+    double *way[2],
+        *old[2]; /* correction; q before it. On a path: displacement due to the pressure; before */
+    double *way_of[2][2]; /* for a given force: corrections due to v, else NULL */
+    float *curve;         /* D of nodes that slip           */
     float *basis[RC_STEADY_STEPS + 1][2], *z[RC_STEADY_STEPS][2], *frame[2];
     unsigned char *face, *was; /* enum rc_face; those before the step */
     struct {
-        bool force;    /* v is found                        */
+        bool force; /* v is found                        */
+        bool path;
         double sum[2]; /* then: of q, Pa                    */
         double tol;    /* relative L1 error of q            */
         size_t most;   /* steps                             */
@@ -53,9 +59,11 @@ struct rc_steady {
     float *single;
 };
 
-/* T in units of the cell over E*. NULL when memory is short. */
-struct rc_steady *rc_steady_new(const struct rc_shape *shape, const struct rc_shear *shear,
-                                bool force, size_t threads, struct rc_err *err);
+/* T in units of the cell over E*. path: for rc_steady_set_out, else for rc_steady_step. NULL when memory is
+ * short. */
+struct rc_steady *rc_steady_new(const struct rc_shape *shape, enum rc_boundary boundary,
+                                const struct rc_shear *shear, bool force, bool path, size_t threads,
+                                struct rc_err *err);
 void rc_steady_free(struct rc_steady *d); /* NULL is allowed */
 /* A first q: half of what friction can carry, along the motion; 0 where the force is given. */
 void rc_steady_guess(struct rc_steady *d);
@@ -66,5 +74,10 @@ void rc_steady_begin(struct rc_steady *d);
 enum rc_status rc_steady_step(struct rc_steady *d, struct rc_err *err);
 /* One step of rolling in time from q, which never increases the distance to the solution. */
 enum rc_status rc_steady_roll(struct rc_steady *d, struct rc_err *err);
+/* Begins a step of a path, from q, after the map has moved by these columns; then one step of its iteration,
+ * with a status as above; then the end of the step becomes the start of the next one. */
+enum rc_status rc_steady_set_out(struct rc_steady *d, size_t columns, struct rc_err *err);
+enum rc_status rc_steady_follow(struct rc_steady *d);
+void rc_steady_arrive(struct rc_steady *d);
 
 #endif

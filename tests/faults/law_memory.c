@@ -405,11 +405,11 @@ done:
 
 /* A ball rolls, with the force given; half-way the state is restored in another model. */
 static enum rc_status
-rolling_model(double *out, struct rc_err *err)
+rolling_model_of(bool path, double *out, struct rc_err *err)
 {
     const struct rc_problem contact = {.pair = bare, .tol = 1e-3, .threads = 1};
     const struct rc_rolling_problem law = {
-        .slip = {.pair = bare, .mu = 0.3, .tol = 1e-2, .threads = 1}, .force = true};
+        .slip = {.pair = bare, .mu = 0.3, .tol = 1e-2, .threads = 1}, .force = true, .path = path};
     struct rc_model *m, *other = NULL;
     enum rc_status status = RC_FAIL;
     double ball[N], *state = NULL;
@@ -426,14 +426,16 @@ rolling_model(double *out, struct rc_err *err)
     m = rc_rolling_new(rc_elastic_new(&shape, ball, &contact, NULL, err), &law, err);
     rc_point_set(&to, RC_LOAD, 1e-3);
     rc_point_set(&to, RC_FORCE_X, 1e-4);
+    rc_point_set(&to, RC_POSITION, 0);
     rc_point_set(&to, RC_FORCE_Y, 0);
     if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK ||
         rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
         goto done;
     rc_point_set(&to, RC_FORCE_Y, 1e-4);
+    rc_point_set(&to, RC_POSITION, 2e-6);
     if (rc_model_go(m, &to, err) != RC_MORE)
         goto done;
-    for (int k = 0; k < 25; k++)
+    for (int k = 0; k < (path ? 4 : 25); k++)
         if (rc_model_step(m, err) == RC_FAIL)
             goto done;
     n = rc_model_state_size(m);
@@ -454,6 +456,18 @@ done:
     rc_model_free(m);
     rc_model_free(other);
     return status;
+}
+
+static enum rc_status
+rolling_model(double *out, struct rc_err *err)
+{
+    return rolling_model_of(false, out, err);
+}
+
+static enum rc_status
+rolling_path(double *out, struct rc_err *err)
+{
+    return rolling_model_of(true, out, err);
 }
 
 /* Both bodies wear, with a coefficient that differs between two phases; half-way the state is restored in
@@ -1092,6 +1106,7 @@ static const struct {
     {.name = "the yielding model", .use = yielding_model},
     {.name = "the friction model", .use = friction_model},
     {.name = "rolling", .use = rolling_model},
+    {.name = "rolling along a path", .use = rolling_path},
     {.name = "the wear model", .use = wear_model},
     {.name = "the travel model", .use = travel_model},
     {.name = "plasticity", .use = yields},

@@ -24,7 +24,7 @@ rough(uint64_t way, double tol)
 {
     const struct rc_shape shape = {NX, NY, 1, 1};
     const struct rc_shear shear = {1, 0.4, 0};
-    struct rc_steady *d = rc_steady_new(&shape, &shear, false, 1, &err);
+    struct rc_steady *d = rc_steady_new(&shape, RC_FREE, &shear, false, false, 1, &err);
     uint64_t seed = 3;
 
     assert_non_null(d);
@@ -371,7 +371,6 @@ test_refusals(void **state)
     (void)state;
     p[67] = p[68] = 1e6;
     load = rolling_load(&shape, p);
-    refused(rolling_new(&shape, p, law, &err), 2 * load, 1e-3, 0, false, "is known");
     refused(rolling_new(&shape, none, law, &err), 0, 1e-3, 0, false, "no node is in contact");
     refused(rolling_new(&shape, p, law, &err), load, 1, 0, true,
             "needs the creepage along x and y");
@@ -459,6 +458,230 @@ test_look_on_the_way(void **state)
     assert_true(rolling >= looks - 3);
     rc_model_free(m);
     free(p);
+}
+
+/* ---- a path ---- */
+
+/* The pressure of a step: that of the window, some columns further on a longer map. */
+static void
+lay(const struct rc_shape *window, const double *p, const struct rc_shape *map, size_t column,
+    double *to)
+{
+    memset(to, 0, map->nx * map->ny * sizeof *to);
+    for (size_t n = 0; n < window->nx * window->ny; n++)
+        to[n / window->nx * map->nx + n % window->nx + column] = p[n];
+}
+
+enum {
+    WAY = 70, /* steps of a path */
+    SIDE = 24
+};
+/* A ball that is followed by its map, which has WAY columns more if it `stays`. */
+struct path {
+    struct rc_shape window, map;
+    double *window_p, *p, load;
+    bool stays;
+    struct rc_rolling_contact known;
+    struct rc_model *m;
+};
+
+static const struct rc_body soft = {.e = 2e9, .nu = 0.3}, hard = {.e = 6e9, .nu = 0.2};
+
+static void
+begin_path(struct path *a, bool stays, bool coupled, enum rc_boundary boundary, double tol)
+{
+    const struct rc_pair pair = {.one = soft, .two = coupled ? hard : soft};
+    const struct rc_problem contact = {.pair = pair, .boundary = boundary, .threads = 1};
+    const struct rc_rolling_problem law = {
+        .slip = {.pair = pair, .boundary = boundary, .mu = 0.2, .tol = tol, .threads = 1},
+        .path = true,
+        .known = &a->known};
+
+    a->stays = stays;
+    a->window = a->map = ellipse_shape(SIDE, 1, 1);
+    a->map.nx += stays ? WAY : 0;
+    a->window_p = hertz_ellipse(&a->window, 1, 1, 5e6);
+    a->p = malloc(a->map.nx * a->map.ny * sizeof *a->p);
+    assert_true(a->window_p != NULL && a->p != NULL);
+    a->known.p = a->p;
+    a->known.x = stays ? WAY / 2.0 * a->map.dx : 0;
+    a->m = rc_rolling_new(rc_elastic_new(&a->map, a->p, &contact, NULL, &err), &law, &err);
+    assert_non_null(a->m);
+}
+
+static void
+end_path(struct path *a)
+{
+    rc_model_free(a->m);
+    free(a->p);
+    free(a->window_p);
+}
+
+/* Goes to step k, without keeping it. */
+static const struct rc_rolling_figures *
+roll_on(struct path *a, size_t k, const double creep[3])
+{
+    struct rc_point to = {0};
+
+    lay(&a->window, a->window_p, &a->map, a->stays ? k : 0, a->p);
+    rc_point_set(&to, RC_POSITION, (double)k * a->map.dx);
+    if (!a->stays)
+        a->known.x = to.at[RC_POSITION];
+    rc_point_set(&to, RC_CREEP_X, creep[0]);
+    rc_point_set(&to, RC_CREEP_Y, creep[1]);
+    rc_point_set(&to, RC_SPIN, creep[2]);
+    if (rc_model_run(a->m, &to, &err) != RC_OK || rc_model_look(a->m, NULL, &err) != RC_OK)
+        fail_msg("step %zu: %s", k, err.text);
+    return rc_rolling_result(a->m);
+}
+
+static void
+tractions(struct path *a, double *q)
+{
+    const size_t n = a->map.nx * a->map.ny;
+
+    assert_true(rc_model_frame(a->m, "traction-x", q, &err) == RC_OK &&
+                rc_model_frame(a->m, "traction-y", q + n, &err) == RC_OK);
+}
+
+static const double turns[3] = {3e-4, 2e-4, 3e-4};
+
+/* A map that follows the contact and one that stays give the same; in the end both roll steadily, dissimilar
+ * bodies too. On the way the true error is within its estimate, and that within the tolerance. */
+static void
+test_path(void **state)
+{
+    (void)state;
+    for (int coupled = 0; coupled < 2; coupled++) {
+        struct path a[3];
+        double q[2][2 * SIDE * SIDE], least = INFINITY, worst = 0, apart = 0, most = 0;
+        struct rc_rolling_problem law = {
+            .slip = {.pair = {.one = soft, .two = coupled ? hard : soft},
+                     .mu = 0.2,
+                     .tol = 1e-7,
+                     .threads = 1}};
+        const struct rc_rolling_figures *f[3];
+        struct rc_model *steady;
+
+        for (int w = 0; w < 3; w++)
+            begin_path(&a[w], w == 1, coupled, RC_FREE, w == 2 ? 1e-2 : 1e-7);
+        for (size_t k = 0; k <= WAY; k++) {
+            double off = 0, all = 0;
+            for (int w = 0; w < 3; w++) {
+                if (w == 1 && k % 7 == 3) /* a step that is not kept is forgotten */
+                    roll_on(&a[w], k + 1 < WAY ? k + 1 : k, (const double[]){2e-3, 0, 0});
+                f[w] = roll_on(&a[w], k, turns);
+            }
+            apart = fmax(apart, fabs(f[0]->force[0] - f[1]->force[0]) / f[0]->limit);
+            apart = fmax(apart, fabs(f[0]->moment - f[1]->moment) / f[0]->limit);
+            tractions(&a[0], q[0]);
+            tractions(&a[2], q[1]);
+            for (size_t n = 0; n < SIDE * SIDE; n++) {
+                off += hypot(q[0][n] - q[1][n], q[0][n + SIDE * SIDE] - q[1][n + SIDE * SIDE]);
+                all += hypot(q[0][n], q[0][n + SIDE * SIDE]);
+            }
+            worst = fmax(worst, k > 0 ? off / all : 0);
+            most = fmax(most, f[2]->convolutions);
+            if (off > 1e-6 * all)
+                least = fmin(least, f[2]->traction_error / (off / all));
+            for (int w = 0; w < 3; w++)
+                assert_int_equal(rc_model_keep(a[w].m, &err), RC_OK);
+        }
+        steady = rolling_new(&a->window, a->window_p, law, &err);
+        assert_int_equal(roll(steady, rolling_load(&a->window, a->window_p), turns[0], turns[1],
+                              turns[2], false, &err),
+                         RC_OK);
+        printf("error %.1e, estimate over error %.2f or more, %.0f convolutions a step or less; "
+               "%.1e apart; "
+               "F/limit %.5f, steady %.5f\n",
+               worst, least, most, apart, f[0]->force[0] / f[0]->limit,
+               rc_rolling_result(steady)->force[0] / rc_rolling_result(steady)->limit);
+        assert_true(worst < 1e-2 && least > 1 && apart < 1e-6);
+        for (int c = 0; c < 2; c++)
+            assert_true(fabs(f[0]->force[c] - rc_rolling_result(steady)->force[c]) <
+                        5e-3 * f[0]->limit);
+        rc_model_free(steady);
+        for (int w = 0; w < 3; w++)
+            end_path(&a[w]);
+    }
+}
+
+/* A state in the middle of a step continues in another model, to the same tractions. On a periodic map the
+ * contact leaves on one side and returns on the other. */
+static void
+test_path_state(void **state)
+{
+    (void)state;
+    for (int periodic = 0; periodic < 2; periodic++) {
+        struct path a, b;
+        double q[2][2 * SIDE * SIDE], *saved, off = 0;
+        struct rc_point to = {0};
+        size_t n;
+        bool going;
+
+        begin_path(&a, false, true, periodic ? RC_PERIODIC : RC_FREE, 1e-6);
+        begin_path(&b, false, true, periodic ? RC_PERIODIC : RC_FREE, 1e-6);
+        for (size_t k = 0; k < 9; k++) {
+            roll_on(&a, k, turns);
+            assert_int_equal(rc_model_keep(a.m, &err), RC_OK);
+        }
+        lay(&a.window, a.window_p, &a.map, 0, a.p);
+        a.known.x = 9 * a.map.dx;
+        to = (struct rc_point){0};
+        rc_point_set(&to, RC_POSITION, a.known.x);
+        rc_point_set(&to, RC_CREEP_X, -1e-3);
+        assert_int_equal(rc_model_go(a.m, &to, &err), RC_MORE);
+        for (int k = 0; k < 3; k++)
+            assert_int_equal(rc_model_step(a.m, &err), RC_MORE);
+        n = rc_model_state_size(a.m);
+        assert_non_null(saved = malloc(n * sizeof *saved));
+        rc_model_state(a.m, saved);
+        memcpy(b.p, a.p, SIDE * SIDE * sizeof *b.p);
+        b.known.x = a.known.x;
+        assert_int_equal(rc_model_restore(b.m, saved, n, &going, &err), RC_OK);
+        assert_true(going);
+        for (int w = 0; w < 2; w++) {
+            struct rc_model *m = w == 0 ? a.m : b.m;
+            while (rc_model_step(m, &err) == RC_MORE)
+                ;
+            assert_int_equal(rc_model_look(m, NULL, &err), RC_OK);
+            tractions(w == 0 ? &a : &b, q[w]);
+        }
+        for (size_t k = 0; k < 2 * SIDE * SIDE; k++)
+            off = fmax(off, fabs(q[0][k] - q[1][k]));
+        printf("after a state the tractions are %.1e Pa apart\n", off);
+        assert_true(off < 1e-5 * 0.2 * 5e6);
+        free(saved);
+        end_path(&a);
+        end_path(&b);
+    }
+}
+
+static void
+test_path_refusals(void **state)
+{
+    struct path a;
+    struct rc_point to = {0};
+
+    (void)state;
+    begin_path(&a, false, false, RC_FREE, 0);
+    rc_point_set(&to, RC_CREEP_X, 1e-3);
+    rc_point_set(&to, RC_CREEP_Y, 0);
+    assert_int_equal(rc_model_run(a.m, &to, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "needs the position"));
+    roll_on(&a, 4, turns);
+    assert_int_equal(rc_model_keep(a.m, &err), RC_OK);
+    rc_point_set(&to, RC_POSITION, 3 * a.map.dx);
+    assert_int_equal(rc_model_run(a.m, &to, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "rolling is towards +x"));
+    rc_point_set(&to, RC_POSITION, 9 * a.map.dx); /* there is one free column */
+    a.known.x = 9 * a.map.dx;
+    assert_int_equal(rc_model_run(a.m, &to, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "as many free columns as the map moves"));
+    a.known.x = 3 * a.map.dx;
+    assert_int_equal(rc_model_run(a.m, &to, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "moves back by 1 columns"));
+    end_path(&a);
 }
 
 /* ---- increments in a window ---- */
@@ -576,6 +799,9 @@ main(void)
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_small_contacts),
         cmocka_unit_test(test_look_on_the_way),
+        cmocka_unit_test(test_path),
+        cmocka_unit_test(test_path_state),
+        cmocka_unit_test(test_path_refusals),
         cmocka_unit_test(test_window),
         cmocka_unit_test(test_periodic_window),
     };

@@ -1,5 +1,5 @@
-# rc-slip --creep and --creep-force: steady rolling against CONTACT's published outputs (Vollebregt, repository
-# eve70a/CONTACT, examples carter2d and bentall), Kalker's table and the laws of power; plan, frames, refusals.
+# rc-slip --creep and --creep-force: rolling, steady and from case to case, against CONTACT's published outputs
+# (Vollebregt, repository eve70a/CONTACT, examples carter2d, bentall and catt_to_cart), Kalker's table and the laws of power; plan, frames, refusals.
 . "$(dirname "$0")/../pipe.sh"
 
 column() { # NAME FILE [ROW]
@@ -68,6 +68,33 @@ ball 36 20um coarse.rcg
 claim "a coarse map gets a warning" warns 'error due to the spacing is .*, above 0.05: the nodes are too far apart' \
     rc-slip --mu 0.3 --creep 0,0,5 --steady -o x.rcg coarse.rcg
 
+# ---- catt_to_cart: two balls are pushed, and roll under the same force. G 1, nu 0.28, mu 0.4013; 0.25 a step ----
+
+awk 'BEGIN { for (j = 0; j < 33; j++) for (i = 0; i < 34; i++)
+    printf "%.17g%s", -0.002963 * ((i - 16) ^ 2 + (j - 16) ^ 2) / 16, i < 33 ? "," : "\n" }' |
+    rc-import --format ascii --dx 0.25 --dy 0.25 --z-unit m - |
+    rc-solve --quiet --load 0.4705N --tol 1e-9 --E1 2.56 --nu1 0.28 --E2 2.56 --nu2 0.28 --output pressure -o balls.rcg
+for k in 0 1 2 3 4; do
+    rc-pick --set position=$(number "$k / 4") --set window_x=$(number "$k / 4") balls.rcg
+done >way.rcg
+push="--mu 0.4013 --creep-force 0.1240496N --quiet"
+rc-slip $push --report way.tsv -o way-q.rcg way.rcg
+claim "a stream of positions is a path: each is a case" test "$(wc -l <way.tsv) $(column position way.tsv 5) $(rc-info --json way-q.rcg | grep -c traction-x)" = "6 1 5"
+claim "  before the first step there is no creepage" test "$(column creep_x way.tsv 1)" = NaN
+k=1
+for creepage in 1.824e-3 1.882e-3 1.955e-3 2.050e-3; do
+    k=$((k + 1))
+    near "$(column creep_x way.tsv $k)" $creepage 1e-2 "  after step $((k - 1)) the creepage is that of CONTACT, within the default accuracy"
+done
+rc-slip $push --tol 1e-5 --report fine.tsv -o fine.rcg way.rcg
+near "$(column creep_x fine.tsv 5)" 2.050e-3 3e-4 "  to all its digits with a smaller --tol"
+claim "  and its first step the nodes that stick and slip" test "$(number "$(column stick_nodes fine.tsv 2) == 422 && $(column slip_nodes fine.tsv 2) == 199")" = 1
+rc-slip $push --checkpoint path.ck -o three.rcg <(rc-pick --case 1,2,3 way.rcg)
+rc-slip $push --checkpoint path.ck --resume --report again.tsv -o again-q.rcg way.rcg
+near "$(column creep_x again.tsv 5)" "$(column creep_x way.tsv 5)" 1e-3 "a path continues from its checkpoint"
+claim "  whose cases are not solved again" test "$(number "$(column convolutions again.tsv 2) < $(column convolutions way.tsv 2)")" = 1
+claim "--dry-run tells the work of a position" says 'each position +about 25 convolutions' rc-slip $push --dry-run way.rcg
+
 # ---- refusals: the reason, and a way out ----
 
 refuses 1 'limit|slide; give the creepage instead' "a force beyond the limit" 'rc-slip --mu 0.3 --creep-force 100N --steady -o x.rcg ball.rcg'
@@ -78,6 +105,12 @@ refuses 1 'periodic map has no leading edge' "a periodic map" 'rc-slip --mu 0.3 
 for x in 0 1e-5; do rc-pick --set position=$x ball.rcg -o at-$x.rcg; done
 refuses 1 'position is 1e-05 m, that of the case before 0 m: .*leave out --steady' "positions that differ" \
     'cat at-0.rcg at-1e-5.rcg | rc-slip --mu 0.3 --creep 1e-3,0 --steady -o x.rcg'
+refuses 1 'no key position.*give --steady' "a path without positions" 'rc-slip --mu 0.3 --creep 1e-3,0 -o x.rcg ball.rcg'
+refuses 1 'position 0 m after 1e-05 m: rolling is towards' "a path backwards" \
+    'cat at-1e-5.rcg at-0.rcg | rc-slip --mu 0.3 --creep 1e-3,0 -o x.rcg'
+rc-pick --set position=1e-4 --crop 0,0,60,64 ball.rcg -o other.rcg
+refuses 1 'differ from those of the case before' "a path over other maps" \
+    'cat at-0.rcg other.rcg | rc-slip --mu 0.3 --creep 1e-3,0 -o x.rcg'
 refuses 2 'must be two creepages' "one creepage" 'rc-slip --mu 0.3 --creep 1e-3 --steady -o x.rcg ball.rcg'
 refuses 2 'give one of --tangential' "a creepage and a force" 'rc-slip --mu 0.3 --creep 1e-3,0 --tangential 3N -o x.rcg ball.rcg'
 refuses 2 '--steady needs --creep' "--steady alone" 'rc-slip --mu 0.3 --tangential 3N --steady -o x.rcg ball.rcg'

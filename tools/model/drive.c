@@ -515,7 +515,8 @@ drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m)
         d->status = course_run(c, m);
         end_point(d, m);
     }
-    rc_model_free(m);
+    if (!d->lasts)
+        rc_model_free(m);
 }
 
 void

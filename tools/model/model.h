@@ -141,6 +141,7 @@ struct drive {
     size_t points, at; /* at: the point that is reached */
     uint32_t maps;     /* set by the tool: CRC-32 of other maps that the model depends on */
     bool ended;        /* set by `keys`: later points of the case are left out */
+    bool lasts;        /* set by the tool, which frees the model: it serves further cases */
     bool silent;       /* set by `judge`: the point has no frames and no row */
     bool spare;        /* set by the tool: the values of the heights are free for those of frames */
     enum rc_status status;

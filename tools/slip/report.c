@@ -226,6 +226,7 @@ slip_say_plan(struct slip_run *run, size_t memory, double convolutions)
         fprintf(out, "  %-16ssolved also with half of them%s, for the error\n", "increments",
                 run->law.fewer < RC_FEWER ? "" : " and a quarter");
     if (run->rolls)
-        fprintf(out, "  %-16sabout %.0f convolutions\n", "steady rolling", convolutions);
+        fprintf(out, "  %-16sabout %.0f convolutions\n",
+                run->args->steady ? "steady rolling" : "each position", convolutions);
     fprintf(out, "  %-16sabout %zu MiB\n", "memory", (memory >> 20) + 1);
 }

@@ -26,8 +26,6 @@ slip_check_rolling(struct slip_run *run)
         tool_die(t, EXIT_USAGE, "--steady needs --creep or --creep-force");
     if (!run->rolls)
         return;
-    if (!a->steady)
-        tool_die(t, EXIT_USAGE, "--%s: rolling must be steady: give --steady too", which);
     if (forced(run) ? a->creep_force.n > 2 : a->creep.n < 2 || a->creep.n > 3)
         tool_die(t, EXIT_USAGE, "--%s: it must be %s", which,
                  forced(run) ? "one value (along x) or two (x and y), as in 36N,0"
@@ -60,6 +58,8 @@ point_of(const struct slip_run *run)
     rc_point_set(&to, x + 1, v->n > 1 ? v->v[1] : 0);
     if (v->n > 2)
         rc_point_set(&to, RC_SPIN, v->v[2]);
+    if (!isnan(run->position))
+        rc_point_set(&to, RC_POSITION, run->position);
     return to;
 }
 
@@ -93,18 +93,26 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
 
 /* ---- a case ---- */
 
+/* Takes the position of the contact and that of the map, and checks them against the case before. */
 static void
-check_position(struct slip_run *run)
+find_position(struct slip_run *run)
 {
+    const bool steady = run->args->steady;
     double position = NAN;
 
     (void)rc_grid_number(run->p, "position", &position);
-    if (run->position < position || run->position > position)
+    if (!steady && isnan(position))
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
+                    "it has no key position, and rolling from case to case needs the positions of "
+                    "rc-solve --travel: give --steady for steady rolling under one pressure");
+    if (steady && (run->position < position || run->position > position))
         tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                     "its position is %g m, that of the case before %g m: in steady rolling the "
                     "pressure does not change; leave out --steady to roll from case to case",
                     position, run->position);
     run->position = position;
+    run->known = (struct rc_rolling_contact){.p = run->p->v};
+    (void)rc_grid_number(run->p, "window_x", &run->known.x);
 }
 
 static struct rc_model *
@@ -113,8 +121,10 @@ new_model(struct slip_run *run)
     const struct rc_shape shape = rc_grid_shape(run->p);
     const struct rc_problem contact = {
         .boundary = run->boundary, .pair = run->bodies.pair, .threads = run->d.t.threads};
-    const struct rc_rolling_problem law = {
-        .slip = run->law.slip, .force = forced(run), .known_load = run->load, .known_p = run->p->v};
+    const struct rc_rolling_problem law = {.slip = run->law.slip,
+                                           .force = forced(run),
+                                           .path = !run->args->steady,
+                                           .known = &run->known};
     struct rc_err err;
     struct rc_model *m =
         rc_rolling_new(rc_elastic_new(&shape, run->p->v, &contact, NULL, &err), &law, &err);
@@ -122,6 +132,27 @@ new_model(struct slip_run *run)
     if (m == NULL)
         tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
     return m;
+}
+
+/* The model of a path serves all its cases, which differ in pressure and position only. */
+static struct rc_model *
+model_of(struct slip_run *run)
+{
+    const struct rc_grid *p = run->p;
+    const struct slip_pair *b = &run->bodies;
+    const double now[] = {(double)p->nx, (double)p->ny, p->dx,  p->dy,
+                          run->boundary, b->kap,        b->beta};
+
+    if (run->args->steady)
+        return new_model(run);
+    if (run->path == NULL)
+        run->path = new_model(run);
+    else if (memcmp(now, run->first, sizeof now) != 0)
+        tool_die_at(&run->d.t, p, EXIT_IMPOSSIBLE,
+                    "its grid, boundary or bodies differ from those of the case before: roll over "
+                    "the cases of one rc-solve --travel");
+    memcpy(run->first, now, sizeof now);
+    return run->path;
 }
 
 static const struct drive_advice advice[] = {
@@ -132,26 +163,30 @@ void
 slip_roll(struct slip_run *run)
 {
     struct drive *d = &run->d;
-    struct rc_point to = point_of(run);
+    struct rc_point to;
     struct rc_expected expected;
     struct rc_model *m;
     struct rc_err err;
 
-    check_position(run);
+    find_position(run);
+    to = point_of(run);
     run->coupled = run->bodies.beta != 0 && run->coupling == RC_COUPLING_GOODMAN;
     run->law = slip_law(run);
     run->law.slip.uncoupled = !run->coupled;
     run->law.slip.tol = isnan(run->args->tol) ? 0 : run->args->tol;
-    slip_judge_plan(run);
-    m = new_model(run);
+    if (run->path == NULL)
+        slip_judge_plan(run);
+    m = model_of(run);
     if (rc_model_plan(m, &to, &expected, &err) != RC_OK)
         tool_die_at(&d->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
     if (d->args->dry_run) {
         slip_say_plan(run, course_peak(expected.memory), expected.convolutions);
-        rc_model_free(m);
+        if (m != run->path)
+            rc_model_free(m);
         return;
     }
-    tool_demand_memory(&d->t, run->p, expected.memory);
+    tool_demand_memory(&d->t, run->p, m == run->path && run->number > 0 ? 0 : expected.memory);
+    d->lasts = m == run->path;
     d->frame = slip_frame;
     d->unit = "m";
     d->advice = advice;

@@ -73,10 +73,13 @@ struct slip_run {
     /* m, three maps: slip along x and y at the last corner, path of slip since the last case; NULL: not wanted */
     double *slipped;
     struct rc_friction_problem law;
-    bool coupled;    /* the pressure moves the bodies along each other  */
-    bool alternates; /* tractions change the pressure too               */
-    bool solves;     /* contacts are solved                             */
-    bool rolls;      /* --creep or --creep-force                        */
+    bool coupled;          /* the pressure moves the bodies along each other  */
+    bool alternates;       /* tractions change the pressure too               */
+    bool solves;           /* contacts are solved                             */
+    bool rolls;            /* --creep or --creep-force                        */
+    struct rc_model *path; /* rolls from case to case; NULL: not yet */
+    double first[7];       /* its grid, boundary and bodies */
+    struct rc_rolling_contact known;
     double position; /* m, of the last case that rolls; NAN: unknown    */
 };
 
