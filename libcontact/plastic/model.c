@@ -61,6 +61,7 @@ struct yielding {
     enum stage stage;
     enum rc_status reached; /* status of the elastic contact */
     bool looked;
+    bool travels, moved; /* the heights may change; they have changed since the last load */
     struct rc_yielding_figures figures;
 };
 
@@ -175,6 +176,7 @@ make(struct yielding *y, struct rc_err *err)
 
     if ((y->plastic = rc_plastic_new(&y->base.shape, y->h, &problem, err)) == NULL)
         return RC_FAIL;
+    y->plastic->travels = y->travels;
     rc_solver_free(y->elastic);
     y->elastic = NULL;
     y->stage = VOLUME;
@@ -190,10 +192,21 @@ try_load(struct yielding *y, struct rc_err *err)
     return rc_plastic_set_load(y->plastic, y->load, err);
 }
 
-/* Begins the first try of a load. */
+/* Begins the first try of a load. On other heights the same load is one more increment. */
 static enum rc_status
 begin(struct yielding *y, struct rc_err *err)
 {
+    const bool follows = y->moved && y->load > 0 && y->load == y->plastic->from;
+
+    y->moved = false;
+    if (follows) {
+        y->increments = 1;
+        y->try = 0;
+        rc_state_forget(&y->before);
+        y->plastic->thorough = false;
+        rc_plastic_follow(y->plastic);
+        return rc_plastic_set_load(y->plastic, y->load, err);
+    }
     y->increments = y->problem.increments > 0 ? y->problem.increments : FIRST;
     y->try = 0;
     rc_state_forget(&y->before);
@@ -516,6 +529,20 @@ progress(const struct rc_model *m, struct rc_loops *l)
     }
 }
 
+static enum rc_status
+set_heights(struct rc_model *m, const double *h, struct rc_err *err)
+{
+    struct yielding *y = (struct yielding *)m;
+
+    memcpy(y->h, h, y->n * sizeof *h);
+    y->travels = y->moved = true;
+    if (m->from.given == 0 && y->plastic == NULL)
+        y->first_top = highest(y);
+    if (y->plastic != NULL)
+        rc_plastic_set_heights(y->plastic, h);
+    return y->elastic != NULL ? rc_solver_set_heights(y->elastic, h, err) : RC_OK;
+}
+
 /* ---- states: counts and loads; then for an elastic contact the pressure, or for a volume the thicknesses of
  * its slabs, the state before the load, and the state of the volume ---- */
 
@@ -600,6 +627,7 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_count(s, &slabs, SIZE_MAX / sizeof(double));
     rc_state_number(s, &y->load, 0);
     rc_state_number(s, &solved, 0);
+    rc_state_numbers(s, 1, &y->first_top);
     if (slabs > 0)
         exchange_volume(y, s, slabs);
     else
@@ -634,6 +662,7 @@ const struct rc_model_row rc_model_yielding = {
     .fill = fill,
     .state = state,
     .free = release,
+    .heights = set_heights,
     .progress = progress,
     .plan = plan,
     .solver = solver,

@@ -41,6 +41,8 @@ struct rc_plastic {
     bool elastic;    /* no voxel flows up to this load */
     bool once;       /* one increment follows, and all of its flow counts as an error */
     bool thorough;   /* increments also for little flow */
+    bool follows;    /* the load is one more increment of the last one, on other heights */
+    bool travels;    /* such loads may come */
     bool few;        /* some load was reached in too few increments to know their error */
     bool failed;     /* a row had no memory */
     bool pressed;    /* a load was solved: the next contact starts from its pressure */
@@ -54,6 +56,7 @@ struct rc_plastic {
     size_t taken;             /* increments of all loads so far                                */
     double tol, asked_tol;    /* tolerance of the contacts of this load, and the requested one */
     double kept;              /* error from tolerances of earlier contacts, kept by plastic flow */
+    double worst;             /* largest error of the increments at the positions of this load */
     double order, resistance;
     double mix; /* Anderson's weight of the previous trial */
     enum rc_plastic_stage stage;
@@ -78,6 +81,8 @@ enum rc_status rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary 
                                  struct rc_err *err);
 /* n thicknesses that reach the depth found by rc_plastic_depths. */
 void rc_plastic_stack(const struct rc_plastic_depths *found, size_t n, double *thickness);
+/* The next load, equal to the last one, is one more increment of it, on other heights. */
+void rc_plastic_follow(struct rc_plastic *plastic);
 /* Sets the tolerance of the contacts from the next load on. */
 void rc_plastic_solve_to(struct rc_plastic *plastic, double tol);
 /* Keeps the pressure for comparison with the next one. */

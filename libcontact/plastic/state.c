@@ -3,7 +3,8 @@
  * numbers of a voxel depend on what the next step needs:
  *
  *     a load is reached        place, e, equivalent strain, the terms of second order in e
- *     between two increments   also the last increment, from which the next one starts
+ *     between two increments,  also the last increment, from which the next one starts
+ *     or two positions
  *     within an increment      also the trial, and the changes by the previous trial
  *
  * All other values are computed again. All numbers are finite, also in single precision.
@@ -24,9 +25,11 @@ enum { /* numbers of a voxel after its place */
 static size_t
 columns_of(const struct rc_plastic *p)
 {
-    if (p->stage <= RC_PLASTIC_PROBE || p->stage >= RC_PLASTIC_AGAIN)
+    const bool rests = p->stage <= RC_PLASTIC_PROBE || p->stage >= RC_PLASTIC_AGAIN;
+
+    if (rests && !p->travels)
         return REACHED;
-    return p->trial == 0 ? BETWEEN : WITHIN;
+    return rests || p->trial == 0 ? BETWEEN : WITHIN;
 }
 
 /* ---- voxels ---- */
@@ -126,6 +129,7 @@ exchange_figures(struct rc_plastic *p, struct rc_state *s)
     flag(s, &p->few);
     flag(s, &p->once);
     flag(s, &p->thorough);
+    flag(s, &p->follows);
     flag(s, &p->alone);
     flag(s, &p->stopped);
     flag(s, &p->pressed);
@@ -142,6 +146,7 @@ exchange_figures(struct rc_plastic *p, struct rc_state *s)
     rc_state_number(s, &f->iteration_error, 0);
     number_or(s, &f->increment_error, -1, NAN);
     number_or(s, &f->inherited_error, -1, NAN);
+    rc_state_number(s, &p->worst, 0);
 }
 
 /* ---- the state ---- */
@@ -153,7 +158,10 @@ resume(struct rc_plastic *p, struct rc_state *s, enum rc_plastic_stage stage, do
     struct rc_err err;
 
     p->stage = stage == RC_PLASTIC_DONE ? RC_PLASTIC_AGAIN : stage;
-    p->order = stage != RC_PLASTIC_PROBE && p->increment > 1 ? RC_PLASTIC_BETA : 0;
+    p->order = stage != RC_PLASTIC_PROBE && (p->increment > 1 || p->follows) ? RC_PLASTIC_BETA : 0;
+    for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows && stage == RC_PLASTIC_DONE; r++)
+        for (size_t k = 0; k < p->voxels.row[r].n; k++)
+            memset(p->voxels.row[r].v[k].x, 0, sizeof p->voxels.row[r].v[k].x);
     p->figures.increments = p->count;
     p->moved = true; /* the displacement due to the strain is computed again */
     rc_plastic_solve_to(p, p->tol);

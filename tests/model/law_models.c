@@ -150,6 +150,16 @@ travelling(struct rc_err *err)
     return rc_travel_new(elastic(err), &law, err);
 }
 
+/* A ball travels over a body that yields, which keeps its strain. */
+static struct rc_model *
+rolling_out(struct rc_err *err)
+{
+    static const struct rc_travel_problem law = {
+        .track = {NX, NY, 1e-6, 1e-6}, .h1 = heights, .repeats = true, .radius = 4e-5};
+
+    return rc_travel_new(yielding(err), &law, err);
+}
+
 #ifdef RC_TOYS
 static struct rc_model *
 relaxing(struct rc_err *err)
@@ -192,6 +202,7 @@ static const struct kind {
      {RC_LOAD, RC_POSITION},
      {{2e-3, 1e-6}, {1e-3, 2e-6}, {3e-3, 2.5e-6}},
      1e-6},
+    {"travel", rolling_out, {RC_LOAD, RC_POSITION}, {{2e-3, 0}, {2e-3, 1e-6}, {2e-3, 2e-6}}, 1e-3},
 #ifdef RC_TOYS
     {"relaxing", relaxing, {RC_LOAD, RC_TIME}, {{2e-3, 0.3}, {1e-3, 0.5}, {2e-3, 0.6}}, 1e-6},
 #endif

@@ -34,6 +34,23 @@ near "$(field max_pressure end.json)" "$(field max_pressure last.json)" 1e-5 "th
 refuses 1 'another problem: checkpoint.travel' "states of other positions" \
     "$solve --travel=-2um:3um:7 --window 64x48 --checkpoint kept.rcg --resume -o x.rcg track.rcg"
 
+# ---- passes ----
+
+rc-synth wave --nx 48 --ny 1 --dx 1um --wavelength 48um --amplitude 1nm -o wave.rcg
+rc-add --subtract wave.rcg wave.rcg 2>cut.txt >flat.rcg
+# p0/k 3.8 with a half width of 8 nodes
+line="rc-solve --periodic --load 27571N/m --radius 401um --E1 200GPa --nu1 0.3 --E2 rigid --yield 1GPa --tol 0.05 \
+    --travel=-24um:22um:24 --output pressure,residual --quiet"
+claim "a body that yields is passed three times" bash -c "$line --passes 3 --checkpoint passes.rcg --report passes.tsv -o third.rcg flat.rcg"
+claim "  frames are those of the last pass" says '^48$' bash -c "rc-info third.rcg | grep -c ', frame [0-9]* ('"
+claim "  it shakes down, as a line contact below p0 = 4 k does" says '^null no yes$' bash -c "
+    awk -F'\t' 'NR == 1 { for (k = 1; k <= NF; k++) at[\$k] = k }
+        NR > 1 && \$at[\"strain_gain\"] != \"NaN\" { print \$at[\"shakedown\"] }' passes.tsv | sed 's/NaN/null/' | xargs"
+claim "  the resumed run gives the same bits" bash -c "
+    $line --passes 3 --checkpoint passes.rcg --resume --report resumed.tsv -o resumed.rcg flat.rcg && cmp third.rcg resumed.rcg"
+claim "  the gains make a curve" bash -c "rc-render --curve pass:strain_gain --log y -o gains.png passes.tsv && [ -s gains.png ]"
+refuses 2 'does not work with --window and --yield' "a window over plastic strain" "$line --window 8x1 flat.rcg"
+
 claim "--dry-run counts the positions" says '64 x 48 nodes, 7 positions' \
     bash -c "$solve $window --dry-run track.rcg"
 refuses 2 '--travel takes one load, and this list has 2' "a list of loads" \

@@ -418,6 +418,8 @@ static const struct rc_figure own[] = {
     {.name = "hardness", .unit = "Pa", .title = "Hardness"},
     {.name = "radius", .unit = "m", .title = "Radius"},
     {.name = "depth", .unit = "m", .title = "Depth"},
+    {.name = "pass", .title = "Pass"},
+    {.name = "strain_gain", .title = "Plastic strain of a pass"},
     {.name = "q", .unit = "rad/m", .title = "Wavenumber"},
     {.name = "c", .unit = "m4", .title = "Power spectral density"},
 };

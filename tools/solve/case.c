@@ -286,6 +286,7 @@ judge_load(struct drive *d, struct rc_model *m)
                                  .inherited = s->contact.inherited_error,
                                  .contact = s->contact.pressure_error - s->contact.inherited_error};
     yield_look(run, s);
+    travel_end_pass(run, m);
     run->done = tool_now();
     run->result = run->apart ? 0 : run->done - start;
     if (run->adhering.wanted)

@@ -77,6 +77,9 @@ struct travelling {
     struct rc_grid *counter, *track; /* heights of body 2 (NULL: none), and of body 1 */
     char crc[16];                    /* of body 2, with a checkpoint */
     const struct rc_travel_figures *found;
+    double *row; /* mean equivalent plastic strain of each row of each slab, after the last pass */
+    size_t rows; /* 0: nothing has yielded */
+    double gain, first_gain; /* largest growth of such a mean in a pass, and in the first one */
 };
 
 /* The figures of a solution. */
@@ -192,6 +195,7 @@ size_t travel_bytes(const struct run *run);
 double travel_position(const struct run *run, size_t point);
 void travel_mark(struct run *run, char *value, size_t size);
 void travel_look(struct run *run, struct rc_model *m);
+void travel_end_pass(struct run *run, const struct rc_model *m);
 void travel_set_keys(struct run *run, struct rc_grid *as);
 void travel_report(struct report *report, const struct run *run);
 const char *travel_state(const struct run *run);

@@ -319,7 +319,11 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
 
     snprintf(first, sizeof first, "its estimated error is %.2g %%, above %.2g %%",
              100 * s->contact.pressure_error, 100 * asked);
-    if (limit == 'i')
+    if (limit == 'i' && run->travelling.wanted)
+        snprintf(what, sizeof what,
+                 "%.2g %% come from the steps from position to position: take shorter ones",
+                 100 * e->increment);
+    else if (limit == 'i')
         snprintf(what, sizeof what, "%.2g %% come from its increments: give --increments %.0f",
                  100 * e->increment, more);
     else if (limit == 'h')

@@ -1,0 +1,177 @@
+/* Repeated passes over a body that yields, without hardening. A line contact shakes down below p0 = 4 k (Johnson
+ * 1962) and ratchets above. Plastic work never falls. A contact that travels the other way leaves the mirror
+ * image of the strain. The estimated error of the steps is above the difference from much shorter steps. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "tests/contact_case.h"
+
+enum {
+    NX = 64, /* nodes of the period, */
+    HALF = 8 /* and of the half width of the contact */
+};
+static const double node = 1e-6, e1 = 200e9, nu = 0.3, yield = 1e9;
+static const double flat[NX];
+
+struct line {
+    struct rc_model *m;
+    double load, work;
+};
+
+static struct line
+line_contact(double p0_over_k)
+{
+    const struct rc_shape s = {NX, 1, node, node};
+    const double p0 = p0_over_k * yield / sqrt(3), estar = e1 / (1 - nu * nu), a = HALF * node;
+    const struct rc_plastic_problem problem = {
+        .contact = {.boundary = RC_PERIODIC,
+                    .pair = {.one = {e1, nu}, .two.e = INFINITY},
+                    .threads = 1},
+        .yield = {.stress = yield}};
+    const struct rc_travel_problem travel = {
+        .track = s, .h1 = flat, .repeats = true, .radius = a * estar / (2 * p0)};
+    struct line line = {.load = acos(-1) * a * p0 / 2 * node};
+    struct rc_err err = {""};
+
+    line.m = rc_travel_new(rc_yielding_new(&s, flat, &problem, &err), &travel, &err);
+    if (line.m == NULL)
+        fail_msg("%s", err.text);
+    return line;
+}
+
+static void
+move(struct line *line, double nodes)
+{
+    struct rc_point to = {0};
+    struct rc_err err = {""};
+    double work;
+
+    rc_point_set(&to, RC_LOAD, line->load);
+    rc_point_set(&to, RC_POSITION, nodes * node);
+    if (rc_model_run(line->m, &to, &err) == RC_FAIL ||
+        rc_model_look(line->m, NULL, &err) != RC_OK || rc_model_keep(line->m, &err) != RC_OK)
+        fail_msg("position %g: %s", nodes, err.text);
+    work = rc_yielding_result(line->m)->plastic.work;
+    assert_true(work >= line->work * (1 - 1e-12));
+    line->work = work;
+}
+
+/* A pass in steps of so many nodes: the largest gain of the mean equivalent strain of a slab, over Y/E. */
+static double
+pass(struct line *line, double step, double *mean)
+{
+    double peeq[NX], *to[RC_PLASTIC_STRAINS] = {NULL}, most = 0;
+
+    for (double x = 0; x < NX - 1e-9; x += step)
+        move(line, x - NX / 2.0);
+    to[RC_PEEQ] = peeq;
+    for (size_t q = 0; rc_yielding_strain(line->m, q, to); q++) {
+        const double before = mean[q];
+        mean[q] = 0;
+        for (size_t k = 0; k < NX; k++)
+            mean[q] += peeq[k] / NX;
+        most = fmax(most, mean[q] - before);
+    }
+    return most * e1 / yield;
+}
+
+static void
+shakedown_limit(void **state)
+{
+    static const double ratio[] = {3.64, 3.94, 4.45}; /* p0/k; the limit is 4 */
+    double gain[3][3];
+
+    (void)state;
+    for (size_t r = 0; r < 3; r++) {
+        struct line line = line_contact(ratio[r]);
+        double mean[64] = {0};
+        for (size_t k = 0; k < 3; k++)
+            gain[r][k] = pass(&line, 2, mean);
+        print_message("p0/k %g: %.3g %.3g %.3g\n", ratio[r], gain[r][0], gain[r][1], gain[r][2]);
+        rc_model_free(line.m);
+    }
+    assert_true(gain[0][1] < 0.01 * gain[0][0]);
+    assert_true(gain[1][1] < 0.1 * gain[1][0] && gain[1][2] < 0.7 * gain[1][1]);
+    assert_true(gain[2][2] > 0.9 * gain[2][1] && gain[2][2] > 1);
+}
+
+static void
+strain_of(const struct line *line, size_t slab, double *exx)
+{
+    double *to[RC_PLASTIC_STRAINS] = {exx};
+
+    assert_true(rc_yielding_strain(line->m, slab, to));
+}
+
+static void
+mirror_image(void **state)
+{
+    struct line there = line_contact(4.2), back = line_contact(4.2);
+    double a[NX], b[NX], off = 0, most = 0;
+
+    (void)state;
+    for (int x = -10; x <= 10; x += 2) {
+        move(&there, x);
+        move(&back, -x);
+    }
+    for (size_t q = 0; q < rc_yielding_result(there.m)->slabs; q++) {
+        strain_of(&there, q, a);
+        strain_of(&back, q, b);
+        for (size_t k = 0; k < NX; k++) {
+            most = fmax(most, fabs(a[k]));
+            off = fmax(off, fabs(a[k] - b[NX - 1 - k]));
+        }
+    }
+    assert_true(most > 0.1 * yield / e1);
+    if (off > 1e-3 * most)
+        fail_msg("strains off by %g of the largest", off / most);
+    rc_model_free(there.m);
+    rc_model_free(back.m);
+}
+
+/* At x = 12 nodes after a way of 24. */
+static void
+way(double step, double *p, double *error)
+{
+    struct line line = line_contact(4.45);
+    struct rc_err err = {""};
+
+    for (double x = -12; x <= 12 + 1e-9; x += step)
+        move(&line, x);
+    assert_int_equal(rc_model_frame(line.m, "pressure", p, &err), RC_OK);
+    *error = rc_yielding_result(line.m)->plastic.error;
+    rc_model_free(line.m);
+}
+
+static void
+error_of_the_steps(void **state)
+{
+    static double fine[NX], p[NX];
+    double error;
+
+    (void)state;
+    way(0.25, fine, &error);
+    for (double step = 1; step <= 4; step *= 2) {
+        double off = 0, sum = 0;
+        way(step, p, &error);
+        for (size_t k = 0; k < NX; k++) {
+            off += fabs(p[k] - fine[k]);
+            sum += fine[k];
+        }
+        print_message("step %g: error %.3g, estimated %.3g\n", step, off / sum, error);
+        assert_true(error >= off / sum && error < 12 * off / sum);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(shakedown_limit),
+                                       cmocka_unit_test(mirror_image),
+                                       cmocka_unit_test(error_of_the_steps)};
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
