@@ -85,7 +85,7 @@ enum rc_figure_role {
 struct rc_figure {
     enum rc_figure_kind kind;
     size_t at;        /* offset of the member in its struct                                   */
-    const char *name; /* of the column. "object.name" is inside an object */
+    const char *name; /* name of the column. "object.name" is inside an object */
     const char *unit, *title; /* SI unit, NULL: a plain number; title of an axis              */
     const char *says;         /* explanation, a part of a sentence; NULL: the title is enough */
     enum rc_figure_role role;
@@ -183,7 +183,7 @@ enum {
 };
 struct rc_loop {
     const char *what, *unit; /* unit NULL: a count */
-    double at, of;           /* of NAN: unknown    */
+    double at, of;           /* position, and the total; total NAN: unknown */
 };
 /* From the outermost loop to the innermost: time 0.3 of 1 s, increment 3 of 16, iteration 5. */
 struct rc_loops {

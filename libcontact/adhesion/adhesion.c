@@ -733,8 +733,8 @@ enum {
     MOST = RC_GAP_MOST
 };
 
-/* Sums of a row: p, sigma, the area of sigma, nodes in contact, nodes below 0, the gap. Largest values: p,
- * -p, violation, correction of the gap. */
+/* The sums of a row are: p, sigma, the area of sigma, nodes in contact, nodes below 0, the gap. Largest
+ * values: p, -p, violation, correction of the gap. */
 static void
 figures_row(void *ctx, size_t j, double *sums)
 {

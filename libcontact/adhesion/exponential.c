@@ -1,5 +1,5 @@
 /*
- * sigma = (w/rho) exp(-g/rho): a smooth law with an infinite range.
+ * sigma = (w/rho) exp(-g/rho). The law is smooth and has an infinite range.
  */
 #include <stdint.h>
 #include <string.h>

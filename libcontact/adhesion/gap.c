@@ -13,7 +13,7 @@
 
 static const double clipped_anew =
     0.02; /* part of the free nodes: if more reach 0 in a step, CG restarts */
-static const double curvature = 0.05; /* of d'A d: the least curvature that a step assumes */
+static const double curvature = 0.05; /* factor of d'A d: the least curvature that a step assumes */
 static const double shorter = 0.4;
 static const double single = 1e-6;           /* error of A d in single precision */
 static const double float_rounding = 1.2e-7; /* error of the pressures of a step, L1 */
@@ -237,7 +237,7 @@ r_in(void *ctx, size_t j, void *to)
     return any;
 }
 
-/* Sums: r z, r times the z of the previous step, z, and |z|. */
+/* The sums are: r z, r times the z of the previous step, z, and |z|. */
 static bool
 z_out(void *ctx, size_t j, void *from)
 {
@@ -494,7 +494,7 @@ step_in(void *ctx, size_t j, void *to)
     return to_single(g->step + j * g->px, g->px, 1 / g->way.unit, to);
 }
 
-/* A s for the step s; sums: s'A s/2, s'A u, A s, and s. */
+/* Computes A s for the step s. The sums are s'A s/2, s'A u, A s, and s. */
 static bool
 step_out(void *ctx, size_t j, void *from)
 {

@@ -25,7 +25,8 @@ enum rc_gap_control {
 };
 
 enum {
-    RC_GAP_MOST = 12, /* from here on the largest values of the rows, before it their sums */
+    RC_GAP_MOST = 12, /* this and the following entries: the largest values of the rows; the entries
+                       * before: their sums */
     RC_GAP_SUMS = 16,
     RC_GAP_FLOATS = 9, /* maps of the softest mode */
     RC_GAP_LINE = 512  /* most nodes of a row in one call of a law */
@@ -82,7 +83,7 @@ struct rc_gap {
     /* x, A u, residual, its correction K r, direction d, A d; memory for a step */
     double *x, *au, *r, *z, *d, *ad, *step;
     double *a_step;       /* A times a step, in the memory of r, which is computed again */
-    unsigned char *off;   /* 1: held at 0; on the whole grid                       */
+    unsigned char *off;   /* 1: the node is held at 0; the array covers the whole grid */
     struct rc_sums sums;  /* sums over the rows of the grid */
     double level;         /* p is A u + S minus this */
     double lift;          /* factor of the preconditioner for the mean */
@@ -136,7 +137,7 @@ rc_gap_on_map(const struct rc_gap *g, size_t j)
 {
     return j < g->ny ? g->nx : 0;
 }
-/* V, sigma and D at n <= RC_GAP_LINE gaps of row j from node i on, with the hardness. */
+/* Computes V, sigma and D at n <= RC_GAP_LINE gaps of row j from node i on, with the hardness. */
 void rc_gap_law(const struct rc_gap *g, size_t j, size_t i, size_t n, const double *gap, double *v,
                 double *s, double *d);
 /* Descends along d, a direction of negative curvature, whose largest value is way.unit. */

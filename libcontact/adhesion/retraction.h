@@ -34,7 +34,8 @@ enum rc_retraction_stage {
 };
 
 struct rc_retraction {
-    double work, range, parted; /* of the law; `parted`: the mean gap without attraction */
+    double work, range, parted; /* work and range of the law; `parted`: the mean gap without
+                                 * attraction */
     enum rc_retraction_stage stage;
     /* states in the order of the retraction; the fine stage begins at `base` */
     struct rc_retraction_state base, prior, last, before, lowest, after;
@@ -56,14 +57,14 @@ struct rc_retraction {
     double beside_way[RC_RETRACTION_CHECKS + 1], beside_load[RC_RETRACTION_CHECKS + 1];
     size_t beside_n;
     size_t states, fine, vertices, checks;
-    /* what to do next: keep the state as `keep`, unless that is below 0; is_lowest: it has the lowest load so
-     * far; start from state `from`, which has from_c, and go to c */
+    /* the next step: keep the state as `keep`, unless that is below 0; start from state `from`, which has
+     * from_c, and go to c. is_lowest: the state has the lowest load so far */
     int keep, from;
     bool is_lowest;
     double from_c, c;
     /* at the end */
     double load, at, spread;
-    bool short_of; /* of states */
+    bool short_of; /* the search ran out of states */
 };
 
 /* Lengths are over the length of the grid, the work over this length and E*. */

@@ -1,7 +1,8 @@
 /*
- * The smallest eigenvalue of the stiffness: of A minus the softening by the traction, on the nodes outside
- * contact. It solves (A - D) x = mu W x, where W is the inverse of K on these nodes. All eigenvalues are at
- * most about 1, and the number of far smaller ones is the number of soft modes of the traction.
+ * The smallest eigenvalue of the stiffness, on the nodes outside contact. The stiffness is A minus the
+ * softening by the traction. It solves (A - D) x = mu W x, where W is the inverse of K on these nodes. All
+ * eigenvalues are at most about 1, and the number of far smaller ones is the number of soft modes of the
+ * traction.
  *
  * Each step takes the best x in the space of x, of its residual times K, and of the last change of x. W x and
  * (A - D) x of these vectors are updated with them, in single precision. Every mu on the way is above the

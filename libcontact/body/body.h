@@ -203,8 +203,8 @@ enum rc_status rc_solids_new(struct rc_solids *solids, const struct rc_pair *pai
                              const struct rc_ranks *ranks, struct rc_err *err);
 void rc_solids_free(struct rc_solids *solids);
 
-/* E*(q) of both bodies, Pa, possibly from tables in the square of q, accurate to 1e-12; and its smallest
- * value. */
+/* E*(q) of both bodies, Pa, possibly from tables in the square of q, accurate to 1e-12. The last function
+ * returns the smallest value. */
 double rc_solids_modulus(const struct rc_solids *solids, double q);
 double rc_solids_modulus_of(const struct rc_solids *solids, double q2);
 double rc_solids_softest(const struct rc_solids *solids);
@@ -230,8 +230,8 @@ struct rc_shear {
 enum rc_status rc_pair_shear(const struct rc_pair *pair, double nu, struct rc_shear *shear,
                              struct rc_err *err);
 
-/* Displacement along x and y under a unit traction on a cell, m/Pa; XY for both orders; XZ and YZ: that along
- * z under a traction along x and y, which is minus that along x and y under a pressure. */
+/* Displacement along x and y under a unit traction on a cell, m/Pa. XY serves both orders. XZ and YZ are the
+ * displacement along z under a traction along x and y, which is minus that along x and y under a pressure. */
 enum rc_shear_which {
     RC_SHEAR_XX,
     RC_SHEAR_YY,

@@ -2,11 +2,11 @@
  * Stresses inside a half-space under unit load on a cell of its surface, from the closed forms of
  * forms.c.
  *
- * No single form is accurate everywhere. On and next to the cell: Love's differences over its four corners,
- * down to z = 0. Their error is absolute, some 1e-16 of the load, so they lose relative accuracy farther
- * away, where the stress decreases as 1/R^2. There Gauss's rule for the integral of point loads over the cell
- * is exact to rounding, with fewer points at larger distances. At the largest distances, on a line of nodes,
- * neighbours share their points: means over cells are computed from the values at the nodes.
+ * No single form is accurate everywhere. On and next to the cell, Love's differences over its four corners
+ * apply, down to z = 0. Their error is absolute, some 1e-16 of the load, so they lose relative accuracy
+ * farther away, where the stress decreases as 1/R^2. There Gauss's rule for the integral of point loads over
+ * the cell is exact to rounding, with fewer points at larger distances. At the largest distances, on a line
+ * of nodes, neighbours share their points: means over cells are computed from the values at the nodes.
  */
 #include "forms.h"
 
@@ -89,7 +89,7 @@ take_means(size_t n, const double *restrict f, double *restrict out)
                  rc_mean_of[2] * (f[i + 1] + f[i + 5]) + rc_mean_of[3] * (f[i] + f[i + 6]);
 }
 
-/* Stresses at x = (first + i) dx, i < n: Gauss's rule across the line, and along it the means. */
+/* Computes stresses at x = (first + i) dx, i < n: Gauss's rule across the line, and along it the means. */
 static void
 by_means(const struct rc_closed *at, const struct rc_cell *c, unsigned kernels, double y,
          size_t first, size_t n, double *const out[RC_STRESS_KERNELS])

@@ -29,7 +29,7 @@ struct part {
     const struct rc_stack *stack;
     double unit;   /* m^2 per unit of squared length */
     double scale;  /* s in these units               */
-    double factor; /* of the result                  */
+    double factor; /* factor of the result */
 };
 
 /* Adds up weight * D over n <= BLOCK points. */

@@ -40,7 +40,7 @@ struct inside {
     struct rc_inside in;
     const struct rc_stack *stack;
     size_t medium;
-    double depth;             /* in the top layer: at most its thickness */
+    double depth;             /* depth in the top layer; at most its thickness */
     bool shear;               /* also for the tangential load             */
     double scale;             /* s, m                                     */
     struct rc_radial *radial; /* tables of the functions above; NULL: waves only */
@@ -242,7 +242,7 @@ add_stresses(const struct inside *in, const struct place *p, double weight, bool
 
 /* Points of one rule, looked up together. */
 struct block {
-    bool turned; /* for the traction along y too */
+    bool turned; /* the traction along y is needed too */
     size_t n;
     double x[BLOCK], y[BLOCK], r[BLOCK], weight[BLOCK];
 };

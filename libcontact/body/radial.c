@@ -17,13 +17,13 @@
 #include "libcontact/memory.h"
 
 enum {
-    SAMPLES = 2048, /* of ln q                        */
+    SAMPLES = 2048, /* number of samples of ln q */
     FINER = 8,      /* steps of ln r per step of ln q */
-    POINTS = 6,     /* of the interpolation           */
+    POINTS = 6,     /* number of points of the interpolation */
     TERMS = 10      /* terms of the power series */
 };
 
-static const double step = 0.05;    /* of ln q                                         */
+static const double step = 0.05;    /* step of ln q */
 static const double near = 0.125;   /* the table starts at this s                      */
 static const double farthest = 1e6; /* beyond this s, the value at the end of the table */
 

@@ -101,7 +101,7 @@ point(int integral, double x, double y)
     }
 }
 
-/* Over the cell of half sides a, b with its middle at (x, y) from the point. */
+/* The integral over the cell of half sides a, b with its middle at (x, y) from the point. */
 static double
 near(int integral, double x, double y, double a, double b)
 {

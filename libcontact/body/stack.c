@@ -165,7 +165,7 @@ rc_stack_top(const struct rc_stack *s, size_t medium)
     return top;
 }
 
-/* Tractions on a plane along the wave and down, and across the wave, per unit load. */
+/* Tractions per unit load: on a plane along the wave and down, and across the wave. */
 struct traction {
     double x, z, across;
 };
@@ -192,7 +192,7 @@ seen_from(const struct rc_material *above, const struct rc_material *m, struct b
     return (struct below){change_medium(b.y, r), b.across * r};
 }
 
-/* At the top of a piece, x = q h, from the response below it. */
+/* Goes from below a piece, x = q h, to its top. */
 static struct below
 above_piece(struct below b, const struct medium *m, double x)
 {
@@ -241,7 +241,7 @@ carried(const struct medium *m, double x, struct state v)
                              .z = k0 * v.fz + k1 * v1.fz + k2 * v2.fz + k3 * v3.fz};
 }
 
-/* From the top of a piece, x = q h, to its bottom, with the response b below. */
+/* Goes from the top of a piece, x = q h, to its bottom, with the response b below. */
 static struct traction
 down_piece(struct traction f, struct below b, const struct medium *m, double x)
 {

@@ -31,7 +31,7 @@ void rc_stack_free(struct rc_stack *stack); /* NULL is allowed */
 /* g(q), 1/Pa: a pressure wave of wave number q (rad/m) displaces the surface by 2 g/q times its amplitude. On
  * a half-space g is 1/E*. */
 double rc_stack_response(const struct rc_stack *stack, double q);
-/* The same, and D(r), for n squares of q or r: from tables, accurate to 1e-12. */
+/* The same, and D(r), for n squares of q or r. The values come from tables and are accurate to 1e-12. */
 void rc_stack_responses(const struct rc_stack *stack, size_t n, const double *q2, double *g);
 void rc_stack_far(const struct rc_stack *stack, size_t n, const double *r2, double *d);
 /* g(q) - g(infinity). */
@@ -43,8 +43,8 @@ size_t rc_stack_medium(const struct rc_stack *stack, double depth);
 double rc_stack_top(const struct rc_stack *stack, size_t medium);
 
 /* Stresses inside under waves, over the amplitude of the load at the surface, with l along the wave. Under a
- * pressure cos(q l): szz = S cos, slz = T sin, sll = L cos, and across it snn = N cos. The same letters under
- * a traction sin(q l) along the wave; under a traction across it szn = -R, sln = V. */
+ * pressure cos(q l) the stresses are szz = S cos, slz = T sin, sll = L cos, and across it snn = N cos. Under
+ * a traction sin(q l) along the wave the same letters hold. Under a traction across it szn = -R, sln = V. */
 enum {
     RC_P_S,
     RC_P_T,

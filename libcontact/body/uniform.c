@@ -3,10 +3,10 @@
  *
  *     K(x, y) = 1/(pi E*) integral over the cell of 1/|r - r'|       (Johnson 1985, eq. 3.25)
  *
- * Three forms, because no single one is accurate everywhere. Near the cell: Love's closed form (Johnson eq.
- * 3.25). Its four terms grow with r while their sum decreases as 1/r, so its relative error grows as (r/h)^2.
- * From five cells: Gauss's rule with 6 x 6 points, whose error is below rounding. From forty cells: Taylor's
- * series of 1/r about the centre of the cell to sixth order, whose next term is below rounding.
+ * Three forms, because no single one is accurate everywhere. Near the cell Love's closed form holds (Johnson
+ * eq. 3.25). Its four terms grow with r while their sum decreases as 1/r, so its relative error grows as
+ * (r/h)^2. From five cells: Gauss's rule with 6 x 6 points, whose error is below rounding. From forty cells:
+ * Taylor's series of 1/r about the centre of the cell to sixth order, whose next term is below rounding.
  */
 #include "uniform.h"
 

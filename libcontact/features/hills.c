@@ -57,7 +57,7 @@ ascents(const double *h, ptrdiff_t nx, double sign, const double length[RC_NEIGH
     }
     for (int d = 0; d < RC_NEIGHBOURS; d++) {
         const double *other = h + rc_down[d] * nx + rc_across[d], far = length[d];
-        const bool first = d < RC_NEIGHBOURS / 2; /* of equal heights */
+        const bool first = d < RC_NEIGHBOURS / 2; /* the first of equal heights */
 
         for (size_t i = 0; i < n; i++) {
             double z = sign * h[i], up = sign * other[i], slope = (up - z) / far;

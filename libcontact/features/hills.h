@@ -23,8 +23,8 @@ struct rc_field {
     double least;          /* m: hills with a smaller height above their saddle are pruned */
     size_t n;              /* measured nodes */
     int threads;
-    unsigned char *mark; /* of each node: direction of its ascent, and a bit */
-    uint32_t *hill;      /* of each node; RC_NO_HILL: none */
+    unsigned char *mark; /* for each node: direction of its ascent, and a bit */
+    uint32_t *hill;      /* hill of each node; RC_NO_HILL: none */
 };
 
 enum {                       /* marks                                   */

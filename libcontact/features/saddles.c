@@ -61,7 +61,7 @@ find_others(const struct rc_field *f, size_t k, size_t n, unsigned char *restric
 
     for (int d = 0; d < RC_NEIGHBOURS; d++) {
         const ptrdiff_t by = rc_down[d] * (ptrdiff_t)f->shape.nx + rc_across[d];
-        const bool first = d < RC_NEIGHBOURS / 2; /* of equal heights */
+        const bool first = d < RC_NEIGHBOURS / 2; /* the first of equal heights */
         const double *above = h + by, bit = (double)(1U << d);
         const uint32_t *beyond = hill + by;
         for (size_t i = 0; i < n; i++) {
@@ -106,7 +106,7 @@ see_pass(struct search *s, double z, size_t pass, uint32_t a, uint32_t b)
     struct saddle *at = &s->slot[(low * 3 + high * 5) % SLOTS];
 
     if (at->a == low && at->b == high) {
-        if (z > at->z) /* of equal heights the first stays */
+        if (z > at->z) /* the first of equal heights stays */
             *at = (struct saddle){z, pass, low, high};
         return;
     }

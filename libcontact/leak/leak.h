@@ -14,7 +14,7 @@
 struct rc_passage {
     size_t nx, ny; /* along the flow, across it                                            */
     int32_t nodes, inlet, outlet;
-    double aspect; /* of a cell: across over along      */
+    double aspect; /* length of a cell across over its length along */
     bool around;   /* the two sides join                */
     double *g;     /* gap over the largest; 0: no fluid */
     uint8_t *state;

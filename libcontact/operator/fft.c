@@ -22,10 +22,10 @@
 /* Transforms of half a period of even or odd values. For a period of odd length, which has no middle node:
  * even values only, by a transform of the full period. Odd values on a period of one node are zero. */
 struct half {
-    struct rc_dct *dct;   /* of even length                                */
-    struct rc_line *line; /* of odd length                                 */
+    struct rc_dct *dct;   /* transform of even length */
+    struct rc_line *line; /* transform of odd length */
     size_t length, n;     /* length of the period; of half of it */
-    double *scratch;      /* for each thread: the period and its transform */
+    double *scratch;      /* memory for each thread: the period and its transform */
 };
 
 struct rc_fft {

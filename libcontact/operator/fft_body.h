@@ -44,9 +44,10 @@ struct plan {
     COMPLEX *pieces;             /* parts of the rows held here, for other ranks; NULL: no ranks */
     COMPLEX *own;                /* memory of `waves` to be freed; NULL: it was lent */
     COMPLEX *source[RC_SOURCES]; /* transformed columns of a loaded map, in pieces; or NULL */
-    COMPLEX *twiddle; /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
-    COMPLEX *scratch; /* for each thread: LINE columns, one more, a row, and a spectrum's column */
-    size_t column;    /* complex numbers of one column in scratch: radix pieces and gaps    */
+    COMPLEX *twiddle;    /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
+    COMPLEX *scratch;    /* memory for each thread: LINE columns, one more, a row, and a spectrum's
+                       * column */
+    size_t column;       /* complex numbers of one column in scratch: radix pieces and gaps    */
     size_t scratch_size; /* complex numbers of scratch of one thread                           */
 };
 

@@ -29,9 +29,9 @@ struct rc_operator {
     const double *part;
     double norm;     /* m/Pa: a bound of the largest eigenvalue                          */
     double diagonal; /* m/Pa: displacement of a node under unit pressure on its own cell */
-    /* Of the inverse, in the units of rows: the pressures on a node and its eight neighbours that move this
-     * node by 1 and no other node; and the coupling of this node to each of the eight in smooth motions, up
-     * to a factor. */
+    /* Members of the inverse, in the units of rows. First: the pressures on a node and its eight neighbours
+     * that move this node by 1 and no other node. Second: the coupling of this node to each of the eight in
+     * smooth motions, up to a factor. */
     double inverse_near[3][3];
     double neighbour[3][3];
     struct rc_frame frame; /* nodes of the padding in rc_operator_chain_framed */

@@ -847,7 +847,7 @@ rc_discs_begin(struct rc_discs *d)
 /* ---- memory ---- */
 
 enum {
-    MAPS = 11, /* of doubles */
+    MAPS = 11, /* number of maps of doubles */
     SINGLE = 5
 };
 

@@ -34,7 +34,7 @@ struct rc_discs {
         size_t most;   /* steps                           */
     } asked;
     struct {
-        double estimate; /* of the relative L1 error of q                                        */
+        double estimate; /* estimated relative L1 error of q */
         double residual; /* m: largest slip where no node may slip                               */
         double slip;     /* m: the smaller of the largest slip and the motion of the bodies */
         size_t steps, fallbacks, stick, slipping;

@@ -27,7 +27,7 @@ struct rc_tangential {
     double *quarter[RC_SHEAR_KERNELS];
     float *single[3];    /* XX, YY, XY of the inverse */
     void *waves[2];      /* transforms of both maps */
-    size_t *wave;        /* for place t of a column: its row in the quarter */
+    size_t *wave;        /* the row in the quarter of place t of a column */
     signed char *mirror; /* -1 where this row is the mirror image, else 1 */
 };
 

@@ -19,7 +19,8 @@ struct rc_direct {
     const struct rc_simd *simd;
     /* ny rows at y offsets 0 .. ny-1, each of `width`: x offsets -(nx-1) .. nx-1, padded to whole strips */
     double *k;
-    double *scratch; /* of each thread: rows of a block, added and interleaved; and the result */
+    double *scratch; /* memory of each thread: rows of a block, added and interleaved; and the
+                      * result */
     double mirror;   /* factor for negative y offsets */
 };
 

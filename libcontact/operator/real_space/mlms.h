@@ -36,7 +36,7 @@ enum {
 struct rc_mlms_stencil {
     size_t columns;
     struct rc_column *column;
-    double *values; /* of all columns                                              */
+    double *values; /* values of all columns */
     double *sparse; /* the same unfolded, rows of `width` from the lowest l and k   */
     size_t width, rows;
     ptrdiff_t first_x, first_y; /* places of the lowest k and l */
@@ -95,7 +95,7 @@ struct rc_mlms {
     size_t plane_stride, plane_size, out_stride, out_size; /* doubles, enough on every level */
     size_t ring_size, mid_stride, mid_size, zeros_size, out_lead;
     struct rc_mlms_scratch *scratch;
-    void *scratch_memory; /* of all threads */
+    void *scratch_memory; /* memory of all threads */
 };
 
 /* mlms_design.c */

@@ -26,8 +26,8 @@ struct rc_column {
 struct rc_strip {
     const double *src; /* the row `margin` above the first target row */
     size_t stride, margin;
-    size_t rows,
-        n; /* of targets; computed to multiples of RC_BLOCK and RC_SIMD_WIDTH, n <= RC_STRIP */
+    size_t rows, n; /* number of targets; computed to multiples of RC_BLOCK and RC_SIMD_WIDTH, n <=
+            * RC_STRIP */
     /* Column j uses src[x - near - j] + sign src[x - far + j], or the one value if both are the same. */
     size_t columns;
     ptrdiff_t near, far;
@@ -46,8 +46,8 @@ struct rc_scatter {
     size_t n;
     const double *c; /* rows of `width`, a multiple of RC_SIMD_WIDTH */
     size_t width, rows;
-    ptrdiff_t left, top; /* from a source to its lowest target */
-    size_t wide, high;   /* of the targets                     */
+    ptrdiff_t left, top; /* distances from a source to its lowest target */
+    size_t wide, high;   /* columns and rows of the targets */
     double *out;
     size_t out_stride;
 };
