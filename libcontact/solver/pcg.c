@@ -398,7 +398,7 @@ enum {
     GAP,       /* sum of v over the elastic nodes */
     PULL,      /* sum of q over the elastic nodes */
     ELASTIC,   /* number of elastic nodes     */
-    CARRIED    /* of p                        */
+    CARRIED    /* sum of p */
 };
 
 RC_INLINE void

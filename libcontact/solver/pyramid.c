@@ -124,11 +124,11 @@ spread(const struct axis *a, const float *row, float *out)
 /* ---- levels ---- */
 
 struct level {
-    struct axis x, y; /* from the finer level to this one         */
-    float k, t;       /* of this level                            */
+    struct axis x, y; /* axes from the finer level to this one */
+    float k, t;       /* constants of this level */
     float whole;      /* P' of 1: 4, or 2 where one side is kept  */
     float *weight[3]; /* w; w; for pairs (w + t)^-1, xx yy xy */
-    float *most[3];   /* for pairs max(w, 1)^-1 */
+    float *most[3];   /* pairs: max(w, 1)^-1 */
     float *value[3];  /* X, then y; and the same of the transpose */
     int threads;
     /* Each rank that shares the finer level computes the rows of this level over its own rows. If this level
@@ -136,7 +136,7 @@ struct level {
     bool parts, shared;
     size_t own_first, own; /* computed here */
     size_t first, n;       /* held here     */
-    float *beside; /* on a shared level: values of the rows before and after those held here */
+    float *beside;         /* shared level: values of the rows before and after those held here */
 };
 
 struct rc_pyramid {
@@ -414,7 +414,7 @@ pull(struct rc_pyramid *p, size_t m, rc_pyramid_add *add, const void *of, int c,
 /* The factor of the values of a level on the way up. */
 enum up {
     AS_THEY_ARE,
-    AT_MOST_ONE, /* of weights: min(w, 1) */
+    AT_MOST_ONE, /* least of a weight and 1: min(w, 1) */
     AT_MOST,     /* c                     */
     COARSER      /* t / (w + t)           */
 };
@@ -672,7 +672,7 @@ rc_pyramid_row(const struct rc_pyramid *p, int c, size_t j, float *row)
 
 /* A symmetric matrix, xx yy xy, as a function f of it: the same axes, eigenvalues f(...). */
 struct eigen {
-    float mean, half; /* of both eigenvalues: their mean and half of their difference */
+    float mean, half; /* mean of both eigenvalues, and half of their difference */
 };
 
 static inline struct eigen

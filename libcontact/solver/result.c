@@ -75,7 +75,7 @@ enum { /* sums of the first pass, */
     PRESSURE,
     HEIGHT,
     V,
-    OWN, /* of D p */
+    OWN, /* sum of D p */
     /* sums of the second pass */
     SPREAD_H = 0,
     SPREAD_U,

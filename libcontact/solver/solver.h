@@ -72,7 +72,7 @@ struct rc_posed {
     double tol;            /* asked relative L1 error of the pressure                             */
     double history_part;   /* fraction of tol for a yielding load of a history; 0 stands for 1 */
     double dents;          /* N: error of the pressures of the earlier loads that made this shape */
-    size_t max_iterations; /* per load                                                            */
+    size_t max_iterations; /* most iterations per load */
     int threads;
     /* a grid of a nested start: its operator is not exact, and its estimate needs no check in double
      * precision */
@@ -400,7 +400,7 @@ struct rc_move {
     struct rc_solver *solver;
     const float *d; /* direction, times per_pressure; nodes where it is 0 do not get the mean */
     double alpha;   /* over per_pressure                                                      */
-    double mean;    /* of d                                                                   */
+    double mean;    /* mean of d */
     float *delta;
     struct rc_tile *tiles;           /* rc_tiles of them: scratch                               */
     const struct rc_tile_line *line; /* scratch                                                 */
@@ -422,7 +422,7 @@ struct rc_tile {
 size_t rc_tiles(const struct rc_shape *shape);
 /* The tiles of a map of one row or one column that ranks share; else empty. */
 struct rc_tile_line {
-    struct rc_tile *tiles; /* of all ranks                                  */
+    struct rc_tile *tiles; /* tiles of all ranks */
     size_t *from;          /* the first tile of each rank, and their number */
 };
 /* RC_FAIL when memory is short; rc_tile_line_free in either case. */

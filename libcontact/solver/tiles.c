@@ -64,7 +64,7 @@ struct copy {
     double sum;                /* the load of the tile after the step, counted like y          */
     bool out;                  /* a node left its bounds                                       */
     bool held_in;              /* a node at its bound would leave its bounds, and is not moved */
-    /* with a map of bounds only: the upper bounds, and the largest y */
+    /* map of bounds only: the upper bounds, and the largest y */
     double high[NODES];
     float most[NODES];
 };
@@ -295,7 +295,7 @@ move_tile(struct rc_box box, const struct place *t, const struct rc_move *m, dou
 
 struct tiles {
     struct rc_move *m;
-    size_t nx, ny; /* of tiles */
+    size_t nx, ny; /* columns and rows of tiles */
     struct rc_tile *tiles;
     double shift; /* sum of the loads that tiles could not carry */
 };

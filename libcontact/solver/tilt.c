@@ -38,8 +38,8 @@ enum {
     PIVOTS = 200,
     TURNS = 200,
     EVEN = 6, /* trials of the line search, after which the interval is halved */
-    /* trials, each four times as long as the last, after which the upper bounds cannot carry such a load
-     * there: then the moment about some axis keeps its sign at any tilt */
+    /* number of trials, each four times as long as the last. After them the upper bounds cannot carry such a
+     * load there: the moment about some axis keeps its sign at any tilt */
     FAR = 12
 };
 static const double loose = 1e-2; /* tolerance of the first contacts */
@@ -61,7 +61,7 @@ struct rc_tilt {
     double goal; /* final tolerance of this search */
     size_t
         turned; /* times                                                                        */
-    double moment[2]; /* of p, divided by its sum */
+    double moment[2]; /* moment of p, divided by its sum */
     double error;     /* error of the pressure from that moment */
     bool known;       /* H and S are known */
     double h[2][2], s;

@@ -484,7 +484,7 @@ rc_working_set_correct(struct rc_solver *s, rc_row *done, void *ctx)
 
 struct size {
     struct rc_solver *s;
-    double share; /* of M 1 in z                                   */
+    double share; /* share of M 1 in z */
 };
 
 /* Takes the pressure of the common shift out of z. */

@@ -29,7 +29,7 @@ struct rc_coarse {
     struct axis x, y;
     int threads;
     double *rows;    /* ny rows of x.coarse, after the first direction of a reduction */
-    double *scratch; /* for each thread: a coarse row, and the fine nodes of one residue */
+    double *scratch; /* memory for each thread: a coarse row, and the fine nodes of one residue */
 };
 
 /* Largest error of this interpolation, of source and field, for any kernel and pressures of size 1 with the

@@ -41,7 +41,7 @@ struct bins {
 struct scan {
     const struct rc_shape *s;
     struct bins *b;
-    double low, step; /* of the bins: the lowest q, and the step of log q */
+    double low, step; /* lowest q of the bins, and their step of log q */
 };
 
 static struct scan

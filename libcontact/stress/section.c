@@ -26,7 +26,7 @@ enum {
 struct pair {
     double offset;    /* m, >= 0 */
     size_t even, odd; /* lines of each source */
-    double sign;      /* of odd */
+    double sign;      /* sign of odd kernels */
 };
 
 struct plan {
@@ -35,15 +35,15 @@ struct plan {
     size_t n, m;              /* nodes along and across                   */
     double d_along, d_across; /* their spacings, m                        */
     size_t waves;             /* along: 0 .. waves - 1                    */
-    size_t length;            /* of a transform                           */
+    size_t length;            /* length of a transform */
     int threads;
     struct rc_line *line;
-    struct rc_dct *dct;     /* of a kernel along; NULL when periodic */
+    struct rc_dct *dct;     /* transform of a kernel along the section; NULL when periodic */
     double complex *source; /* m lines of `waves` for each map; periodic: the waves across */
     struct pair *pair;
     size_t pairs;
     size_t kernels;  /* number of kernels with scratch */
-    double *scratch; /* for each thread: a line of each kernel, and its positions or waves */
+    double *scratch; /* memory for each thread: a line of each kernel, and its positions or waves */
     size_t scratch_size;
     double complex *sum;      /* `waves` for each part and component */
     struct rc_inside *inside; /* at the depth */

@@ -24,14 +24,16 @@ struct grid {
     struct rc_shape shape;
     struct rc_fft *fft;
     int threads;
-    size_t cx, cy;                          /* of a quarter of a kernel's period                */
+    size_t cx, cy;                          /* columns and rows of a quarter of a kernel's period */
     size_t first_row, rows;                 /* rows computed here */
     size_t first_column, columns;           /* columns held here */
-    double *quarter[RC_STRESS_KERNELS];     /* free: these rows of cx values, transformed in x  */
-    double *known;                          /* periodic: `numbers` for each wave, columns of cy */
+    double *quarter[RC_STRESS_KERNELS];     /* free map: these rows of cx values, transformed in
+                                             * x */
+    double *known;                          /* periodic map: `numbers` for each wave, columns of
+                                             * cy */
     size_t numbers;                         /* numbers that describe a wave at the depth */
     struct rc_inside *inside;               /* at the depth                                     */
-    double depth;                           /* of all tables above, m                           */
+    double depth;                           /* depth of all tables above, m */
     struct rc_spectrum *spectrum[RC_LOADS]; /* the last ones, one per load                      */
     int kernel[RC_LOADS];                   /* the kernel of each; -1: none                     */
 };
@@ -41,7 +43,7 @@ struct plan {
     struct grid *fine, *coarse; /* coarse: the grid of the last depth that had one; or NULL */
     struct rc_coarse *between;  /* between fine and coarse                              */
     size_t sx, sy;              /* fine nodes per coarse node                           */
-    double *field;              /* of one component on the coarse grid                  */
+    double *field;              /* field of one component on the coarse grid */
 };
 
 static size_t

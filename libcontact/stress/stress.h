@@ -28,7 +28,7 @@ struct rc_stress_task {
     unsigned components;
     unsigned kernels;               /* bits: the kernels needed, one of each set of equal ones */
     const struct rc_engine *engine; /* requested or chosen; NULL: there is none of that name */
-    bool precise;                   /* in double precision throughout, as demanded by its name */
+    bool precise;                   /* true: double precision throughout, as its name demands */
     struct rc_stress_counts *counts;
 };
 /* True if there is a load; the weight of traction relative to pressure: |mu| plus the number of traction

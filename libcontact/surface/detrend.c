@@ -50,10 +50,11 @@ struct fit {
     double *c;               /* coefficients; in a row, of b + a for all a, then the next b */
     double *step;            /* their correction */
     double *residual, reach; /* robust: h - mean - polynomial, for the weights; else NULL */
-    double *rows;            /* of ROWS rows: nx_orders sums of w px, nx_terms sums of w e px */
+    double *rows;            /* sums of ROWS rows: nx_orders sums of w px, nx_terms sums of w e
+                              * px */
     double *of_weights;      /* sums over the map of w T_k(x) T_l(y): at l nx_orders + k */
-    double *of_residuals;    /* and of w e T_k(x) T_l(y): at l nx_terms + k */
-    double *lines;           /* for each thread: e, w and w e of a row */
+    double *of_residuals;    /* sums of w e T_k(x) T_l(y): at l nx_terms + k */
+    double *lines;           /* memory for each thread: e, w and w e of a row */
     gsl_matrix *normal;
     gsl_vector *scale, *right;
 };
@@ -200,7 +201,7 @@ multiply_sum(size_t n, size_t orders, const double *restrict v, const double *re
     }
 }
 
-/* to = from - mean - sum of c_a px_a */
+/* computes to = from - mean - sum of c_a px_a */
 RC_CLONES static void
 subtract_row(size_t n, size_t terms, const double *c, const double *restrict px, double mean,
              const double *from, double *to, double *restrict value)
@@ -276,7 +277,7 @@ sum_rows(const struct fit *f, size_t first, size_t count, bool weights)
     }
 }
 
-/* to[l n + k] += T_l(y) times row[k], for all l */
+/* adds T_l(y) times row[k] to to[l n + k], for all l */
 static void
 add_row(const struct fit *f, size_t j, const double *row, size_t n, size_t orders, double *to)
 {

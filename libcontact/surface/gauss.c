@@ -60,10 +60,10 @@ struct gauss {
     bool periodic;
     int threads;
     struct way x, y;
-    double *mid;        /* for each row of the map x.m numerators, then as many denominators */
+    double *mid;        /* each row of the map has x.m numerators, then as many denominators */
     double *low;        /* where y uses coarse nodes: the same for each coarse row           */
-    size_t stride;      /* from numerators to denominators, and on to the next row           */
-    double *room;       /* for each thread: lines, rows of sums and their weights            */
+    size_t stride;      /* distance of numerators and denominators, and of the next row */
+    double *room;       /* memory for each thread: lines, rows of sums and their weights */
     const double **row; /* for each thread: addresses of the rows to add */
     size_t per_thread, rows_per_thread;
 };

@@ -20,7 +20,7 @@
 
 enum {
     TABLE = 2049,     /* quantiles that are computed; a spline interpolates them */
-    CLASSES = 1 << 16 /* of heights; ranks are interpolated within a class */
+    CLASSES = 1 << 16 /* number of classes of heights; ranks are interpolated within a class */
 };
 
 bool
@@ -56,7 +56,7 @@ static double
 quantile(const struct rc_selfaffine *what, double z)
 {
     double below = gsl_cdf_ugaussian_P(z), above = gsl_cdf_ugaussian_Q(z);
-    double shape = 4 / (what->skewness * what->skewness); /* of the gamma distribution */
+    double shape = 4 / (what->skewness * what->skewness); /* shape of the gamma distribution */
 
     if (what->weibull != 0)
         return z < 0 ? gsl_cdf_weibull_Pinv(below, 1, what->weibull)

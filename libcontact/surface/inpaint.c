@@ -15,7 +15,7 @@ enum {
     RIGHT = 2,
     ABOVE = 4,
     BELOW = 8,
-    VECTORS = 7, /* of the length of the unknowns, in doubles */
+    VECTORS = 7, /* number of arrays of the length of the unknowns, in doubles */
 };
 
 /* A x = b. Unknowns are numbered along rows: the missing neighbour on the left of k is k - 1. */
@@ -24,7 +24,7 @@ struct equations {
     double wx, wy; /* weights of a neighbour along x, along y in the stencil              */
     unsigned char *sides;
     size_t *above;             /* number of the neighbour above, where sides has ABOVE  */
-    double *diagonal;          /* of A: sum of the weights of all neighbours in the map */
+    double *diagonal;          /* diagonal of A: sum of the weights of all neighbours in the map */
     double *pivot;             /* 1 / diagonal of the incomplete factor                 */
     double *x, *r, *z, *d, *q; /* solution, residual, preconditioned, direction, A direction     */
 };

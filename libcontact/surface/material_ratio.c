@@ -19,7 +19,7 @@
 
 enum {
     DIGIT = 11,
-    PASSES = 6, /* of DIGIT bits make 64 */
+    PASSES = 6, /* number of passes: so many of DIGIT bits make 64 */
     BUCKETS = 1 << DIGIT
 };
 

@@ -329,7 +329,7 @@ rc_measure_seam(const struct rc_ranks *ranks, const struct rc_shape *shape, cons
         if (j > 0)
             add_steps(&squares[INSIDE_Y], row - nx, row, nx);
     }
-    /* from the row before those held here */
+    /* differences to the row before those held here */
     for (size_t first = 0; first < nx; first += RC_ROW_PIECE) {
         size_t n = piece_of(nx, first);
         const double *before = v + (rows.n > 0 ? (rows.n - 1) * nx + first : 0);

@@ -91,8 +91,8 @@ differ(const double *const row[SIDE], double *d)
 struct square {
     const struct rc_shape *shape;
     bool periodic;
-    size_t width;  /* of a row with its margins */
-    double *lines; /* for each thread: SIDE such rows */
+    size_t width;  /* width of a row with its margins */
+    double *lines; /* memory for each thread: SIDE such rows */
 };
 
 /* Copies row j, which may lie outside the map, with HALF more nodes at its start and enough at its end. */

@@ -14,7 +14,7 @@
 
 struct axis {
     size_t from, to;
-    double step; /* of the new cells                        */
+    double step; /* step of the new cells */
     bool whole;  /* the new cells cover the old map exactly */
 };
 

@@ -27,11 +27,11 @@
 
 enum {
     UNKNOWNS = 6, /* largest number; that of a quadratic polynomial */
-    PAIRS =
-        (UNKNOWNS + 1) * (UNKNOWNS + 2) / 2, /* of the columns of the unknowns and the heights */
-    TOGETHER = 4,                            /* sums of products that one loop computes */
-    GROUPS = 256,                            /* of rows that one thread sums */
-    SEGMENT = 256,                           /* nodes of a row that are processed together */
+    PAIRS = (UNKNOWNS + 1) * (UNKNOWNS + 2) / 2, /* products of the columns of the unknowns and the
+                                              * heights */
+    TOGETHER = 4,                                /* sums of products that one loop computes */
+    GROUPS = 256,                                /* number of groups of rows that one thread sums */
+    SEGMENT = 256,                               /* nodes of a row that are processed together */
     STEPS = 100,
     START_WEIGHTS = 6 /* rounds of them */
 };
@@ -65,7 +65,7 @@ struct round {
     const struct rc_form *form;
     const char *name;
     const double *h;
-    double mean, size; /* of the heights, m; size: root of their mean square about the mean */
+    double mean, size; /* mean of the heights, m; size: root of their mean square about the mean */
     double scale;      /* m; lengths are in units of it                                     */
     double middle_x, middle_y; /* nodes                                        */
     double *residual, reach;   /* robust: residual of each height, for weights */
@@ -78,7 +78,7 @@ struct round {
 /* Sums over the points. */
 struct normal {
     double matrix[UNKNOWNS][UNKNOWNS], right[UNKNOWNS];
-    double squares; /* of the residuals                  */
+    double squares; /* squares of the residuals */
     double outside; /* points with weight but no surface */
 };
 
@@ -120,7 +120,7 @@ sphere_row(const double *p, size_t n, const double *restrict x, double y, double
 
 /* The parameters of a cylinder in its own directions. */
 struct across {
-    double cos, sin, rise, root; /* of the axis: s, sqrt(1 + s^2) */
+    double cos, sin, rise, root; /* direction of the axis, its slope s, and sqrt(1 + s^2) */
     double slope, b;             /* slope across it at the middle, and its B */
 };
 
@@ -566,7 +566,7 @@ start_cylinder(const struct round *f, double *p, struct rc_err *err)
             return undetermined(f, err);
         mean = 0.5 * (x[3] + x[5]);
         half = 0.5 * hypot(x[3] - x[5], x[4]);
-        p[T] = 0.5 * atan2(x[4], x[3] - x[5]); /* of the curvature mean + half */
+        p[T] = 0.5 * atan2(x[4], x[3] - x[5]); /* direction of the curvature mean + half */
         if (fabs(mean - half) > fabs(mean + half))
             p[T] += acos(0);
         p[B] = x[1];

@@ -205,7 +205,7 @@ struct rings {
     struct rc_shape shape;
     double width; /* rad/m */
     size_t n;
-    double low, high; /* of the fit, rad/m                     */
+    double low, high; /* low and high of the fit, rad/m */
     int steep;        /* c q^steep hardly varies across a ring */
     struct ring *ring;
 };

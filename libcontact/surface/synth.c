@@ -107,7 +107,7 @@ struct spectrum {
     double rolloff;   /* flat below                                      */
     double power;     /* amplitudes fall as q^-power above               */
     uint64_t seed;
-    double anisotropy, c, s; /* of the lay: its ratio, cosine and sine of its direction */
+    double anisotropy, c, s; /* ratio of the lay, cosine and sine of its direction */
 };
 
 /* 0 means not given. */
@@ -193,7 +193,7 @@ spectrum_of(const struct rc_shape *shape, const struct rc_selfaffine *what)
     struct spectrum s = {
         .low = what->long_cut == 0 ? 0 : (1 - slack) / what->long_cut,
         .high = (1 + slack) / shortest,
-        /* without a flat part: below all other wave numbers */
+        /* no flat part: below all other wave numbers */
         .rolloff = 1 / (what->rolloff == 0 ? size : what->rolloff),
         .power = what->hurst + (profile ? 0.5 : 1),
         .seed = what->seed,

@@ -250,8 +250,9 @@ add_power(double *bin, double angle, double half_width, double power)
     }
 }
 
-/* Sums over the columns of one part. With `toward` NAN: the angular spectrum into sum[ANGLES]. Otherwise: cos
- * and sin of twice the angle, weighted with power, within the wedge around that angle. */
+/* Sums over the columns of one part. With `toward` NAN, writes the angular spectrum into sum[ANGLES].
+ * Otherwise writes cos and sin of twice the angle, weighted with power, within the wedge around that
+ * angle. */
 static void
 sum_part(const struct rc_shape *s, const double *power, size_t part, double toward, double wedge,
          double *sum)

@@ -17,9 +17,9 @@
 
 struct rc_dct {
     size_t n;
-    fftw_plan plan;    /* of the whole period; NULL for a single value, which needs none */
+    fftw_plan plan;    /* plan of the whole period; NULL for a single value, which needs none */
     size_t per_thread; /* doubles of scratch of one thread                               */
-    double *scratch;   /* for each thread: the period, and its transform                 */
+    double *scratch;   /* memory for each thread: the period, and its transform */
 };
 
 /* FFTW uses vector registers only on aligned data: both arrays begin a cache line. */

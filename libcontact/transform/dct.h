@@ -10,8 +10,8 @@
 
 #include "libcontact/grid.h"
 
-/* For lines of n values, v_0 .. v_(n-1) of a period 2n - 2, and this number of threads. NULL when memory is
- * short. */
+/* Transforms lines of n values, v_0 .. v_(n-1) of a period 2n - 2, with this number of threads. NULL when
+ * memory is short. */
 struct rc_dct;
 struct rc_dct *rc_dct_new(size_t n, size_t threads, struct rc_err *err);
 /* In place: an even line becomes the sum of v_j cos(pi j k / (n-1)) over the whole period. An odd line, whose

@@ -33,7 +33,7 @@ struct work {
     double complex *room; /* COLUMNS columns and one more for each thread */
     double *line;         /* px values for each thread                    */
     struct rc_line *along_x;
-    fftw_plan down, back; /* of a column: its waves, and the sums of their squares        */
+    fftw_plan down, back; /* plans of a column: its waves, and the sums of their squares */
 };
 
 /* Scratch of a row in doubles, of a column in complex numbers: whole cache lines. */

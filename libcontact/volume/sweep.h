@@ -47,8 +47,8 @@ struct rc_sweep_ops {
      * waves enter. */
     void (*through)(const struct rc_sweep_column *column, size_t n,
                     const struct rc_sweep_slab *slab, bool down, const void *from, void *to);
-    /* At the surface: from upward to downward waves, plus the contribution of p over 2 mu (NULL: none).
-     * `any`: whether there are upward waves; otherwise they are 0. */
+    /* Turns upward waves at the surface into downward waves, and adds the contribution of p over 2 mu (NULL:
+     * none). `any`: whether there are upward waves; otherwise they are 0. */
     void (*reflect)(const struct rc_sweep_column *column, bool any, const void *p, double over_2mu,
                     void *waves);
     /* Displacement of the surface due to upward waves, in units of a length: m. */

@@ -29,9 +29,9 @@ struct rc_slabs {
     const struct rc_sweep_ops *ops;
     size_t length, first, columns; /* waves of a column; columns held here             */
     size_t map;                    /* numbers of a map, as waves or as rows            */
-    double *qy, *alive;            /* for the waves of a column */
+    double *qy, *alive;            /* numbers of the waves of a column */
     void *strain;                  /* 5 maps a slab: strain, then stress               */
-    void *zz;                      /* whole: a map for each slab of a group            */
+    void *zz;                      /* whole maps: one for each slab of a group */
     void *waves;                   /* 3 maps a group: the waves at its top */
     void *down;                    /* slices: 3 maps a group: the downward waves there */
     void *slice;                   /* slices: 6 maps                                   */

@@ -39,7 +39,7 @@
 #include "libcontact/operator/operator.h"
 
 struct rc_slabs_options {
-    size_t slabs;                 /* from the surface down, at least one                */
+    size_t slabs;                 /* number of slabs from the surface down, at least one */
     const double *thickness;      /* m, thickness of each slab; only rc_slabs_new needs it */
     double shear, nu;             /* mu, Pa; Poisson's ratio, above -1 and at most 0.5  */
     bool padded;                  /* the map is free: padded                            */
