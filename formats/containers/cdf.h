@@ -6,7 +6,7 @@
 
 enum {
     RC_CDF_CHAR = 2,  /* type of text */
-    RC_CDF_FLOAT = 5, /* of 32 bits   */
+    RC_CDF_FLOAT = 5, /* float of 32 bits */
     RC_CDF_TYPES = 12
 };
 

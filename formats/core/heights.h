@@ -8,7 +8,7 @@
 struct rc_heights {
     size_t nx, ny;
     double dx, dy;    /* m; NAN when the file does not say                      */
-    double metres;    /* per number of the file; NAN when the file does not say */
+    double metres;    /* metres per number of the file; NAN when the file does not say */
     const char *unit; /* the file's unit as text; "": none                      */
     /* NULL, or the name of the values: other units than lengths are then permitted */
     const char *name;

@@ -39,7 +39,7 @@ struct rc_map {
     double beside; /* bytes that fill needs in addition to v; rc_map_bound sets them */
     const struct rc_wish *wish; /* data of fill, and the notes */
     struct rc_notes *notes;
-    struct rc_piece title; /* of this map, for the key file.title; n = 0: none */
+    struct rc_piece title; /* title of this map, for the key file.title; n = 0: none */
     bool periodic;         /* the file says that the map repeats */
     bool heights;          /* the values are heights: a unit that is no length is refused */
     const char *doubt;     /* a doubt about the heights: noted, unless --z-unit is given     */

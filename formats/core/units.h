@@ -7,7 +7,7 @@
 
 struct rc_prefix {
     const char *text; /* UTF-8 */
-    int power;        /* of ten */
+    int power;        /* power of ten */
 };
 
 /* From femto to tera, "" for none, and centi, in the order of their powers. The usual spelling of a power

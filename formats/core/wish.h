@@ -47,7 +47,7 @@ struct rc_channel {
 struct rc_notes {
     char text[8][200];
     size_t n;
-    double metres; /* per unit of height of the file; 0: heights are not lengths */
+    double metres; /* metres per unit of height of the file; 0: heights are not lengths */
     size_t held;   /* private memory of the process that read the file; 0: this process read it */
     /* for a resampled profile: height of its highest point above the highest node, and depth of its lowest
      * point below the lowest node, over the range of its heights */

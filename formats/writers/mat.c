@@ -9,7 +9,7 @@
 
 enum {
     TYPES = RC_TYPE_F32 | RC_TYPE_F64,
-    TEXT_SIZE = 116, /* of the header */
+    TEXT_SIZE = 116, /* size of the text of the header */
     NAME_MOST = 63,
     /* types of elements */
     INT8 = 1,

@@ -21,7 +21,7 @@ enum {
 
 struct plan {
     struct rc_code code; /* in the units of the frame */
-    const char *unit;    /* of the values in the file */
+    const char *unit;    /* unit of the values in the file */
     double worth;        /* SI value of one unit      */
     float step, offset;  /* in that unit              */
     int32_t most;        /* largest number            */

@@ -227,7 +227,7 @@ output_end(struct tool *t)
     struct rc_err err;
 
     if (t->ranks != NULL && t->writes == WRITES_STREAM && t->output.writer == NULL)
-        open_shared(t); /* of no frame */
+        open_shared(t); /* the file holds no frame */
     if (t->output.writer != NULL && rc_writer_end(t->output.writer, &err) != RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, err.text);
     t->output.ended = true; /* an end line was written: nothing may follow it */

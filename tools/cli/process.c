@@ -1,4 +1,4 @@
-#define _GNU_SOURCE /* of Linux: prctl */
+#define _GNU_SOURCE /* for prctl of Linux */
 #include "process.h"
 
 #include <errno.h>

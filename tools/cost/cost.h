@@ -56,7 +56,7 @@ struct cost_trial {
     unsigned about; /* COST_STRESS; else COST_PRESSURE and the bits of the case */
     bool reference;
     const char *method, *kernel;
-    const char *arithmetic; /* of the convolutions                                        */
+    const char *arithmetic; /* arithmetic of the convolutions */
     unsigned coarse;        /* nodes of the map per node of the solved grid, along a side */
     double tol;             /* 0: rounding                                                */
     double goal; /* --tol of rc-solve; 0: its default. For a body that yields, the asked error */
@@ -92,11 +92,11 @@ struct cost_case {
     bool choosing, shown; /* a command is wanted; all trials are shown nevertheless */
     double around;        /* s of a process besides its solution */
     struct cost_trial reference;
-    double *pressure;         /* of the reference */
+    double *pressure;         /* pressure of the reference */
     char *solved;             /* its report */
     char *stressed;           /* the report of the most accurate stresses, or NULL */
     double base_slabs;        /* slabs by default of rc-solve; NAN: not known yet */
-    struct cost_trial *trial; /* of pressures, then of stresses */
+    struct cost_trial *trial; /* trials of pressures, then of stresses */
     size_t pressures, trials, room;
     /* files: the map, and the map with 1/2, 1/4, 1/8 of its nodes a side; -1: not made */
     int grid[4];

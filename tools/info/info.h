@@ -11,7 +11,7 @@
 
 enum {
     INFO_BINS = 50,
-    INFO_HEIGHTS = 8 /* of --smr */
+    INFO_HEIGHTS = 8 /* info heights of --smr */
 };
 
 /* The profiles of a map to evaluate. */
@@ -34,7 +34,7 @@ struct info_wanted {
     bool areal, psd, patches;
     struct numbers smr;  /* heights above the mean, m      */
     const char *profile; /* the text on the command line; NULL: none     */
-    size_t sections;     /* of a profile                   */
+    size_t sections;     /* sections of a profile */
     const char *report;  /* a file, or NULL                */
     struct numbers fit;  /* shortest and longest wavelength, m; n = 0: automatic */
     const char *window;  /* window of the spectrum; NULL: from the boundary        */

@@ -44,7 +44,7 @@ lock(const struct journal *j)
         .l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};
     bool taken = false;
 
-    if (ranks_speak(j->t)) /* of several processes only the first prints messages */
+    if (ranks_speak(j->t)) /* only the first of several processes prints messages */
         taken = fcntl(fileno(j->file), set, &behind) != 0 && (errno == EACCES || errno == EAGAIN);
     ranks_share(j->t, 0, &taken, sizeof taken);
     if (taken)

@@ -26,7 +26,7 @@ struct checkpoint {
     struct journal journal;
     struct saved {          /* a frame */
         size_t number, map; /* the case; which map of a state, from 0  */
-        bool last;          /* of the state                            */
+        bool last;          /* last of the state */
         off_t at;           /* where it begins                         */
     } * saved;
     size_t count;

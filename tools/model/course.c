@@ -99,7 +99,7 @@ show(struct course *c, const struct rc_loops *l)
 size_t
 course_peak(size_t bytes)
 {
-    const size_t plans = 4 << 20; /* of FFTW, in both precisions */
+    const size_t plans = 4 << 20; /* plans of FFTW, in both precisions */
 
     return tool_memory_with(size_sum(bytes, plans));
 }

@@ -59,7 +59,7 @@ struct course {
     struct tool *t;
     struct checkpoint *checkpoint; /* NULL: no checkpoint */
     const struct rc_grid *g;       /* heights of the case                                   */
-    size_t number;                 /* of the case                                           */
+    size_t number;                 /* number of the case */
     struct mark mark[COURSE_MARKS];
     size_t marks;
     bool resumed;   /* the point continues from the checkpoint                               */
@@ -129,7 +129,7 @@ struct drive {
     void (*all_keys)(struct drive *d, const struct rc_model *m, struct rc_grid *frame);
     const double *(*frame)(struct drive *d, struct rc_model *m, struct rc_grid *frame,
                            const char *word);
-    const char *unit; /* of frames that are not of the model; NULL: that of the heights */
+    const char *unit; /* unit of frames that are not of the model; NULL: that of the heights */
     void (*keep)(struct drive *d, struct rc_model *m);
     void (*row)(struct drive *d, const struct rc_model *m);
     /* set by drive_open and drive_case */

@@ -12,7 +12,7 @@
 struct request {
     bool lengths;
     double v[4];
-    size_t n; /* of v */
+    size_t n; /* n of v */
 };
 
 struct geometry {

@@ -23,7 +23,7 @@ enum {
 /* A medium between two depths of a section. */
 struct medium {
     double bottom;  /* m; INFINITY: the last */
-    char text[128]; /* of the legend        */
+    char text[128]; /* text of the legend */
 };
 
 /* The words above a plot, and the size of the picture. */
@@ -32,7 +32,8 @@ struct paper {
     const char *subtitle; /* below the title; lines break at " · "                          */
     const char *stamp;    /* a warning in a separate frame; NULL: none                      */
     size_t width;         /* pixels of the whole picture; 0: automatic                      */
-    double dpi;           /* per inch, for text of its size on paper; 0: marks of FIGURE_POINTS  */
+    double dpi;           /* dpi per inch, for text of its size on paper; 0: marks of
+                           * FIGURE_POINTS */
     const char *family;   /* font of the text; NULL: sans */
 };
 
@@ -44,7 +45,8 @@ struct bar {
     double lo, hi;    /* values at the ends of the colour bar, lo < hi */
     bool log;         /* logarithmic colours; 0 < lo                   */
     const char *note; /* about the colours, in the legend; NULL: none  */
-    double min, max;  /* of the values: the bar has an arrow towards values beyond its end */
+    double min, max;  /* min and max of the values: the bar has an arrow towards values beyond its
+                       * end */
 };
 
 /* The position of a map, and its axes. */

@@ -30,7 +30,7 @@ enum {
 /* Results of the layout of a graph, and of drawing its labels. */
 struct notes {
     size_t lost;              /* number of points not above 0 on a logarithmic axis */
-    size_t sunk;              /* of these, the number at the foot of the plot */
+    size_t sunk;              /* sunk of these, the number at the foot of the plot */
     struct box taken[LABELS]; /* by labels */
     size_t labels;
 };

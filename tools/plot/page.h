@@ -15,7 +15,7 @@ enum {
     LINE = 1024, /* bytes of a line of text */
     LINES = 4,
     NOTES = 16,
-    MARKS = 256,   /* of an axis */
+    MARKS = 256,   /* marks of an axis */
     MEDIA_TOLD = 8 /* most numbered media in the legend; further media are lines only */
 };
 
@@ -92,7 +92,7 @@ struct page {
     double stamp_h;                       /* 0 without one */
     double left_w, right_w, above, below; /* space around the plot, margins included   */
     double top;                           /* position of the page on its canvas        */
-    size_t columns, rows;                 /* of maps                                   */
+    size_t columns, rows;                 /* columns and rows of maps */
     double map_w, map_h;                  /* size of each map, whole pixels            */
     double across_step, down_step;        /* distance from one to the next, pixels     */
     struct box plot;                      /* size of all maps, whole pixels */

@@ -19,7 +19,7 @@ struct scene {
     const struct figure *f;
     const struct view *view;
     struct page *page;
-    double lx, ly, lz;            /* of the box                                              */
+    double lx, ly, lz;            /* lx and ly and lz of the box */
     struct vec right, up, toward; /* direction towards the viewer, in the box                */
     double scale, ox, oy;         /* pixels per unit, and the position of the origin */
     double left, top;             /* size of the image, pixels                               */

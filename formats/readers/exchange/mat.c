@@ -66,7 +66,7 @@ struct variable {
     enum rc_raw raw;
     struct element numbers; /* place in the file or, for a packed variable, in its unpacked bytes */
     double first;           /* the single number; NAN: none */
-    char text[16];          /* of class CHAR */
+    char text[16];          /* text of class CHAR */
 };
 
 /* ---- elements ---- */

@@ -273,7 +273,7 @@ mdt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         if (status != RC_OK)
             return RC_FAIL;
         if (type == SCAN || type == ARRAY)
-            keep_date(&frame, maps); /* of the first one */
+            keep_date(&frame, maps); /* keeps the date of the first one */
         at += size;
     }
     if (maps->n == 0)

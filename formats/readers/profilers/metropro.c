@@ -14,7 +14,7 @@ enum {
     AT_INTENSITY = 60, /* bytes of the intensity image */
     AT_COLUMNS = 68,
     AT_ROWS = 70,
-    AT_BYTES = 72, /* of the phase */
+    AT_BYTES = 72, /* number of bytes of the phase */
     AT_SCALE = 164,
     AT_WAVELENGTH = 168,
     AT_OBLIQUITY = 176,

@@ -19,7 +19,7 @@
 
 enum {
     FIRST = 8, /* byte of the picture */
-    HEAD = 16, /* of an array */
+    HEAD = 16, /* size of the head of an array */
     NOT_MEASURED = 3,
     XML_MOST = 1 << 20
 };

@@ -107,7 +107,7 @@ struct matrix {
     struct rc_titled_table titled; /* has the table where is_titled */
     bool is_titled;
     struct rc_labels labels;
-    size_t nx, ny; /* of heights */
+    size_t nx, ny; /* columns and rows of heights */
     size_t images;
 };
 

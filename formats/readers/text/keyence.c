@@ -33,7 +33,7 @@ static const char magic[] = "ImageDataCsv";
 struct keyence {
     struct rc_number_table table;
     double pitch, metres;  /* NAN: not given */
-    struct rc_piece title; /* of the heights */
+    struct rc_piece title; /* title of the heights */
     bool sized;            /* the header has the size of the table */
 };
 

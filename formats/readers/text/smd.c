@@ -16,7 +16,7 @@
 #include "formats/format.h"
 
 enum {
-    END = 3, /* of a record */
+    END = 3, /* size of the end of a record */
     WORDS = 7
 };
 

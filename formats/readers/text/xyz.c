@@ -23,7 +23,7 @@ struct cloud {
         heights;   /* columns of x, y and the heights, and the number of height columns */
     size_t height; /* the height column that is z */
     struct axis x, y;
-    struct rc_piece unit[3]; /* of the columns */
+    struct rc_piece unit[3]; /* unit of the columns */
     double *along, *z;       /* points of a line, sorted by position; NULL: a raster */
 };
 

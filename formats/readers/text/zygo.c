@@ -29,7 +29,7 @@ enum {
 static const char xyz_magic[] = "Zygo XYZ Data File", ascii_magic[] = "Zygo ASCII Data File";
 
 struct zygo {
-    double rect[4]; /* of the phases */
+    double rect[4]; /* rectangle of the phases */
     double system[NUMBERS];
     double resolution;
     struct rc_piece comment;

@@ -40,7 +40,7 @@ struct rc_x3p {
     struct rc_zip_read *archive;
     size_t main;               /* member                                                       */
     char prefix[RC_X3P_NAME];  /* the folder that main.xml lies in, with its slash, or ""      */
-    char md5[RC_MD5_TEXT];     /* of main.xml                                                  */
+    char md5[RC_MD5_TEXT];     /* MD5 of main.xml */
     char *text[RC_X3P_FIELDS]; /* NULL: not in the file                                        */
     bool is_x3p, turned;       /* turned: a rotation that is not the identity                  */
     bool old_root;             /* main.xml calls its root ISO5436, without the part            */

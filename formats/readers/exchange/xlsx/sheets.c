@@ -25,7 +25,7 @@ struct reading {
     const struct rc_file *file;
     struct rc_zip_read *archive;
     struct link link[RC_SHEETS_MOST]; /* id of the sheets in the workbook, then their members */
-    char id[NAME], target[NAME];      /* of a relation */
+    char id[NAME], target[NAME];      /* id and target of a relation */
     uint32_t *shared;                 /* start of each shared text */
     size_t shareds, shared_capacity, cells;
     struct rc_sheet *sheet;

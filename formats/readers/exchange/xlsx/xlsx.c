@@ -164,7 +164,7 @@ title_of(const struct rc_workbook *w, const struct block *b, uint32_t column, ch
                  rc_piece_bare(unit).text);
     else if (low != NULL)
         snprintf(text, sizeof text, "%s", low);
-    rc_text_clean(title, TITLE, text, strlen(text)); /* of one line */
+    rc_text_clean(title, TITLE, text, strlen(text)); /* title of one line */
     for (char *s = title; *s != '\0'; s++)
         if (*s == '\t' || *s == '"')
             *s = ' ';

@@ -8,7 +8,7 @@
 
 enum {
     RC_SHEETS_MOST = 32,
-    RC_COLUMNS_MOST = 16384 /* of a sheet */
+    RC_COLUMNS_MOST = 16384 /* most columns of a sheet */
 };
 
 struct rc_cell {
