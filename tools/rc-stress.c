@@ -55,10 +55,10 @@ static const struct tool_info info = {
 
 struct run {
     struct tool t;
-    struct rc_stress_options options; /* of the case */
-    struct stress_input input;        /* of the case */
-    struct stress_strain strain;      /* of the case */
-    struct numbers depths;            /* of the case */
+    struct rc_stress_options options; /* options of the case */
+    struct stress_input input;        /* input of the case */
+    struct stress_strain strain;      /* strain of the case */
+    struct numbers depths;            /* depths of the case */
     struct rc_grid *frame[RC_STRESSES];
     struct stress_report report;
     struct report out;

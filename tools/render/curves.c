@@ -14,7 +14,7 @@ enum {
     SERIES = 64,
     WORDS = 40, /* most categories of an axis */
     NAME = 256,
-    SAMPLES = 200 /* of a law */
+    SAMPLES = 200 /* samples of a law */
 };
 
 /* Columns that are read from every table, after those of the curves. */

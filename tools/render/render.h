@@ -175,7 +175,7 @@ void subtitle_write(struct subtitle *subtitle, const struct rc_grid *grid,
                     const struct survey *survey, const struct means *means, double part,
                     bool largest);
 
-struct words { /* of the legend */
+struct words { /* words of the legend */
     char largest[256], circle[96];
 };
 
@@ -317,7 +317,7 @@ struct frames {
     size_t left;  /* number of frames beyond the limit */
     bool border;  /* true: pressures of the cases are kept beside frames of another channel */
     bool demands; /* true: the contact must be known */
-    struct rc_grid *pressure[FRAMES], *contact[FRAMES]; /* of cases */
+    struct rc_grid *pressure[FRAMES], *contact[FRAMES]; /* pressure and contact of cases */
     size_t pressures, contacts;
     const struct rc_grid *touch[FRAMES]; /* the contact in each frame; NULL: unknown */
 };

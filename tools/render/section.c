@@ -99,7 +99,7 @@ struct rows {
     const double *depth;
     const struct layers *layers;
     size_t *medium;
-    double *v; /* of one column */
+    double *v; /* values of one column */
     size_t n;
 };
 

@@ -259,9 +259,10 @@ double
 stress_plan_bytes(const struct rc_stress_options *o, size_t components)
 {
     static const double fft[2][2] = {{58, 21.7}, {31, 13.6}}; /* double and single precision   */
-    static const double kernel[] = {8, 0}, waves[] = {0, 2};  /* of each component; each load  */
+    static const double kernel[] = {8, 0}, waves[] = {0, 2};  /* work of each component, then of
+                                                               * each load */
     static const double traction[] = {29, 8}, slab[] = {279, 71};
-    static const double section = 26, direct = 16; /* of both boundaries */
+    static const double section = 26, direct = 16; /* work on both boundaries */
     const int k = o->boundary == RC_PERIODIC, single = o->tol >= RC_SINGLE_FLOOR;
     const int tractions = (o->traction[0] != NULL) + (o->traction[1] != NULL);
     const int loads = 1 + (o->mu != 0) + tractions;

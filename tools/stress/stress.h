@@ -94,7 +94,7 @@ double stress_plan_bytes(const struct rc_stress_options *options, size_t compone
 /* The plastic strain of a case. */
 struct stress_strain {
     struct rc_eigenstrain strain;
-    struct rc_grid **frame; /* of its maps */
+    struct rc_grid **frame; /* frames of its maps */
     const double **map;
     double *thickness;
     size_t slabs, maps;
