@@ -40,8 +40,8 @@ contact_take(size_t m)
         failed += ran_ == 0;                                                                       \
     }
 
-/* The largest permitted ratio of estimated and true error: below estimate_small, for elastic contacts or with
- * an active hardness, and above it. The smallest permitted ratio is 1. */
+/* The largest permitted ratio of estimated and true error. There is one number below estimate_small, for
+ * elastic contacts or with an active hardness, and one above it. The smallest permitted ratio is 1. */
 static const double estimate_small = 1e-3;
 static const double estimate_elastic = 1.5, estimate_plastic = 1.6, estimate_early = 4;
 

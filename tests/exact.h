@@ -136,7 +136,7 @@ wave_full(double amplitude, double wavelength, double estar)
     return exact_pi * estar * amplitude / wavelength;
 }
 
-/* Fraction in contact, pressure at x from a crest, at the mean pressure `mean` < full. */
+/* Fraction in contact, and pressure at x from a crest, at the mean pressure `mean` < full. */
 static inline double
 wave_fraction(double mean, double full)
 {

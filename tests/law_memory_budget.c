@@ -400,7 +400,7 @@ measured(const struct work *w)
     return 1;
 }
 
-static const size_t transforms = 3 << 20; /* of one precision */
+static const size_t transforms = 3 << 20; /* bytes of transforms of one precision */
 
 static void
 holds(void **state)

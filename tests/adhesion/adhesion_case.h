@@ -1,4 +1,4 @@
-/* Shared by the tests of adhesion: the solution of the states of a path, and Maugis' closed forms. */
+/* Shared by the tests of adhesion. It has the solution of the states of a path, and Maugis' closed forms. */
 #ifndef ADHESION_CASE_H
 #define ADHESION_CASE_H
 

@@ -142,7 +142,7 @@ sphere_of(size_t n, double tabor)
     return s;
 }
 
-/* Retraction by approach: no jump until the bodies separate, and one jump then. Under the same loads the
+/* Retraction by approach has no jump until the bodies separate, and one jump then. Under the same loads the
  * states beyond pull-off are saddle points. A residual does not distinguish them from minima, but the solver
  * must leave them. */
 static void
@@ -460,8 +460,8 @@ hardness(void **state)
 
 /* ---- no node apart ---- */
 
-/* Rough free maps under a load that closes the gap everywhere: the pressures are A h plus a constant, they
- * carry the load, and the number of steps is as usual. */
+/* Rough free maps under a load that closes the gap everywhere. The pressures are A h plus a constant and
+ * carry the load. The number of steps is as usual. */
 static void
 closed_by_a_load(void **state)
 {

@@ -203,8 +203,8 @@ complete_contact_has_rounding(void **state)
 
 /* ---- laws ---- */
 
-/* By differences: V' = sigma, D = -sigma', V(0) = -w. The reported sigma(0), largest D and reach are right,
- * and a range that is computed from a cohesive length gives this length. */
+/* Differences show that V' = sigma, D = -sigma', V(0) = -w. The reported sigma(0), largest D and reach are
+ * right, and a range that is computed from a cohesive length gives this length. */
 static void
 laws_are_whole(void **state)
 {

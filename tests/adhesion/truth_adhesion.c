@@ -50,7 +50,8 @@ static const struct {
     {0.1, 20, 128, 1.5e-3, 3e-4}, {0.5, 40, 128, 1.6e-3, 8.4e-4}, {1, 40, 120, 2.3e-3, 2.5e-3},
     {3, 40, 104, 1.2e-3, 3e-3},   {5, 40, 104, 2.6e-3, 7.5e-3},
 };
-static const double of_radius = 0.02; /* in units of Maugis; less than a node */
+static const double of_radius = 0.02; /* error of the radius in units of Maugis; it is less than a
+                                       * node */
 
 static void
 sphere_of_maugis(void **state)

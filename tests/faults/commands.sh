@@ -1,6 +1,6 @@
-# Sourced by the tests of this folder, after pipe.sh: small inputs, and command lines for every kind of work
-# of every tool. Each writes only `out` or standard output. The number before a command line multiplies the
-# step from one failing allocation to the next.
+# The tests of this folder source this file after pipe.sh. It has small inputs, and command lines for every
+# kind of work of every tool. Each writes only `out` or standard output. The number before a command line
+# multiplies the step from one failing allocation to the next.
 
 # All commands use one thread, so that the n-th allocation or call is always the same one.
 export RC_THREADS=1
@@ -24,7 +24,7 @@ make_inputs() {
     rc-import --dx 1um --z-unit nm hole.txt -o hole.rcg
 }
 
-# Each line: the factor of the step between faults; the command.
+# Each line has the factor of the step between faults, then the command.
 commands=$(
     cat <<'LIST'
 1 rc-synth selfaffine --nx 16 --dx 1um --hurst 0.8 --rms-slope 0.1 --weibull 2 -o out

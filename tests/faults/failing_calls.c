@@ -188,7 +188,7 @@ concerns(const struct seccomp_notif *ask, const struct call *call)
 
     if (call->path >= 0) {
         size_t room =
-            4096 - (size_t)(ask->data.args[call->path] % 4096); /* to the end of the page */
+            4096 - (size_t)(ask->data.args[call->path] % 4096); /* bytes to the end of the page */
 
         read_memory((pid_t)ask->pid, ask->data.args[call->path], path, room - (room == 4096), &got);
         path[sizeof path - 1] = '\0';

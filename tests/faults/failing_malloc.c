@@ -3,11 +3,11 @@
  *
  * Counted are the allocations of the program itself, and those of libraries that handle a failure. These are
  * the C library, GSL with its handler off, zlib, libdeflate, libpng, libzip, libmd. Not counted are those of
- * libraries that end the process when memory is short (GLib, and with it Pango; OpenMP; FFTW's planner),
- * because a program cannot handle that. Those of libxml2, libhdf5 and libtiff, which guarantee nothing, do
- * not count either. The last two run in a separate process (formats/sandbox). The return address of the call
- * shows who allocates; if it lies in a library that handles failures, the caller of the library decides. As a
- * preloaded library it reads the environment: RC_FAULT_AT=n, 0 for none. RC_FAULT_STAY=1: all later
+ * libraries that end the process when memory is short, because a program cannot handle that. These are GLib,
+ * and with it Pango; OpenMP; FFTW's planner. Those of libxml2, libhdf5 and libtiff, which guarantee nothing,
+ * do not count either. The last two run in a separate process (formats/sandbox). The return address of the
+ * call shows who allocates; if it lies in a library that handles failures, the caller of the library decides.
+ * As a preloaded library it reads the environment: RC_FAULT_AT=n, 0 for none. RC_FAULT_STAY=1: all later
  * allocations fail too. RC_FAULT_COUNT=FILE: the number of allocations is written there when the process
  * exits. Child processes are not affected. The address sanitizer comes after it
  * (ASAN_OPTIONS=verify_asan_link_order=0).

@@ -943,7 +943,7 @@ some_stress(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
         memcpy(out + (slab + 1) * N + j * NX, s[RC_SXZ], NX * sizeof *out);
 }
 
-/* With this precision, with or without all six stresses. */
+/* Runs with this precision, with or without all six stresses. */
 static enum rc_status
 strained(enum rc_precision precision, bool whole, double *out, struct rc_err *err)
 {

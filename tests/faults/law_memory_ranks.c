@@ -21,7 +21,7 @@
 #include "uses.h"
 
 enum {
-    NX = 96, /* of two processes one has 32 rows and the other 64 */
+    NX = 96, /* columns: one of two processes has 32 rows and the other 64 */
     NY = 96,
     N = NX * NY,
     FIELDS = 4,

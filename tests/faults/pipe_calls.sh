@@ -121,7 +121,7 @@ turn=0
 for fault in enospc eio fsync nosync eintr short emfile term int kill; do
     turn=$((turn + 1))
     while read -r _ command; do
-        # with a stride: every fourth command, others for each fault
+        # with a stride: every fourth command, and the others for each fault
         [ "$stride" = 1 ] || [ $((++turn % 4)) = 0 ] || continue
         sweep "$fault" "$command"
     done <<<"$commands"

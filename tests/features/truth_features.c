@@ -37,7 +37,7 @@ measured(const struct rc_shape *shape, const double *h, enum rc_boundary boundar
 
 /* ---- closed forms ---- */
 
-/* A cos(qx x) cos(qy y): two equal crests and two equal troughs in each of its cells. The curvature by
+/* A cos(qx x) cos(qy y) has two equal crests and two equal troughs in each of its cells. The curvature by
  * differences is 2 A (1 - cos(q dx))/dx^2 along each side. */
 static void
 test_wave(void **state)

@@ -67,7 +67,7 @@ test_wave(void **state)
     assert_int_equal(p.elements, 9); /* the first element begins at the first rising crossing */
     assert_near(p, rdq, sqrt(gradient), summed);
     assert_near(p, rdq, A * q / dx / sqrt(2),
-                coarse_grid); /* of the wave itself, over about 10 periods */
+                coarse_grid); /* parameters of the wave itself, over about 10 periods */
 }
 
 /* Saw teeth of 10 steps up and 10 down, from -1 to 1 um; one peak and one pit in a flat. */
@@ -96,7 +96,8 @@ test_sections(void **state)
     p = measured(N, z, 5);
     assert_near(p, rt, 8e-6, summed);
     assert_near(p, rz, 8e-6 / 5, summed);
-    /* about the mean of 2/200 um: 5 um less the mean in one section, and minus the mean in the other four */
+    /* depths about the mean of 2/200 um: 5 um less the mean in one section, and minus the mean in the other
+     * four */
     assert_near(p, rp, (5e-6 - 5 * 2e-6 / N) / 5, summed);
     p = measured(N, z, 1);
     assert_near(p, rz, 8e-6, summed);

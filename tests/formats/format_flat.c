@@ -412,7 +412,7 @@ profile_of_a_wave(void **state)
         fail_msg("%s", err.text);
     assert_true(g->nx == NX * NY && g->ny == 1);
     assert_true(fabs(g->dx - 1.1e-6) <= last_digit * g->dx && g->dy == g->dx);
-    for (size_t k = 0; k < NX * NY; k++) { /* in the order of the file: the lower row first */
+    for (size_t k = 0; k < NX * NY; k++) { /* the file has the lower row first */
         size_t at = (k + NX) % (NX * NY);
 
         assert_true(at == MISSING_AT

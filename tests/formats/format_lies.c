@@ -89,7 +89,7 @@ static const struct {
     const char *format;
     void (*make)(struct bytes *m, int variant);
     int variant;
-    const char *from, *to; /* of the same length */
+    const char *from, *to; /* words of the same length */
     const char *why;
     int flags;
 } lines[] = {

@@ -412,7 +412,7 @@ static const struct {
 static enum rc_status
 escaping(const struct rc_file *f, struct rc_maps *maps, struct rc_err *err)
 {
-    char open_ways[1024] = ""; /* of all their names */
+    char open_ways[1024] = ""; /* list of all their names */
 
     (void)f, (void)maps;
     for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {

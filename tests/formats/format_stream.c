@@ -17,7 +17,7 @@
 #include "formats/rcg/rcg.h"
 #include "made/made.h"
 
-/* Also with the address sanitizer an impossible allocation returns NULL. */
+/* With the address sanitizer, too, an impossible allocation returns NULL. */
 const char *__asan_default_options(void);
 const char *
 __asan_default_options(void)

@@ -320,7 +320,7 @@ endless_directories(void **state)
 
     (void)state;
     memcpy(&first, b.data + 4, 4);
-    set_raw(&b, b.n - 4, RC_RAW_U32, first); /* of the last page */
+    set_raw(&b, b.n - 4, RC_RAW_U32, first); /* offset of the last page */
     refuse(&rc_format_lext, &b, "no end to the pages");
     drop(&b);
 }

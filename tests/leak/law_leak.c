@@ -24,8 +24,8 @@ random_gap(struct rc_shape s, double decades, double contact, uint64_t *seed, do
 
 /* ---- a dense solve ---- */
 
-/* An independent network: the conductance between neighbours with gaps a and b, from the mean of 1/g^3 of the
- * rule. */
+/* An independent network. The conductance between neighbours with gaps a and b comes from the mean of 1/g^3
+ * of the rule. */
 static double
 joined(double a, double b, bool linear)
 {
@@ -34,8 +34,8 @@ joined(double a, double b, bool linear)
     return linear ? 2 * a * a * b * b / (a + b) : 2 / (pow(a, -3) + pow(b, -3));
 }
 
-/* Gaussian elimination without reordering, on all nodes connected to the inlet or the outlet; flow from x
- * edge to x edge. */
+/* Gaussian elimination without reordering, on all nodes connected to the inlet or the outlet. The fluid flows
+ * from x edge to x edge. */
 static double
 dense_conductance(struct rc_shape s, const double *g, bool around, bool linear)
 {

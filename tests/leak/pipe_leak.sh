@@ -1,5 +1,5 @@
-# rc-leak: gaps with closed-form solutions, given as frames; rates and units; a list of loads; warnings and
-# refusals, one sentence each.
+# rc-leak on gaps with closed-form solutions, given as frames. Tested are rates and units, a list of loads,
+# and warnings and refusals of one sentence each.
 . "$(dirname "$0")/../pipe.sh"
 
 # made KEYS NX NY DX DY CHANNEL EXPRESSION...: writes a stream of one case. perl computes the values from $i,
@@ -23,7 +23,7 @@ column() { # NAME ROW FILE
 
 # ---- known flows ----
 
-# 12 columns with a gap of 2 um in 3 of 4 rows and a wall of contact in the fourth: 3 g^3 dy/(12 dx)
+# 12 columns have a gap of 2 um in 3 of 4 rows and a wall of contact in the fourth: 3 g^3 dy/(12 dx)
 made 'boundary=free
 load=3' 12 4 2e-6 1e-6 gap '$j < 3 ? 2e-6 : 1e-12' pressure '$j < 3 ? 0 : 8e7' >channel.rcg
 rc-leak --viscosity 2mPas --pressure-drop 100kPa --report channel.json channel.rcg -o flow.rcg 2>flow.err

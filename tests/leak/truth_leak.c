@@ -141,7 +141,7 @@ throats(void **state)
                 0.1); /* therefore a constriction of fewer than 3 nodes gets a warning */
 }
 
-/* Impermeable discs in a square array, a tenth of the area, in a constant gap: (1 - f)/(1 + f). The array
+/* Impermeable discs in a square array, a tenth of the area, in a constant gap give (1 - f)/(1 + f). The array
  * changes this by 1e-4 (Rayleigh 1892). The gap jumps at their rims, so the order is the first. The number of
  * nodes in a disc depends on its position between them, so the mean over positions is compared. */
 static void
@@ -176,8 +176,8 @@ discs(void **state)
     }
 }
 
-/* A checkerboard of squares with g^3 = 1 and c, with edges along lines of symmetry: sqrt(c) (Keller 1964,
- * Dykhne 1971). */
+/* A checkerboard of squares with g^3 = 1 and c, with edges along lines of symmetry, gives sqrt(c) (Keller
+ * 1964, Dykhne 1971). */
 static void
 checkerboard(void **state)
 {

@@ -1,7 +1,7 @@
-/* Random cases of steady rolling: smooth and rough contacts, white noise, flat punches, long cells, any
- * nu, mu, creepage and spin, to several tolerances. Each is compared with its solution to 1e-10: no error
- * is above its estimate, and the work stays bounded. The force of the grid is compared with that of a grid
- * of four times as many nodes a side, on ellipses. Arguments: seed, cases, 1 to print each. */
+/* Random cases of steady rolling, to several tolerances. The contacts are smooth, rough, white noise or flat
+ * punches, with long cells and any nu, mu, creepage and spin. Each is compared with its solution to 1e-10: no
+ * error is above its estimate, and the work stays bounded. The force of the grid is compared with that of a
+ * grid of four times as many nodes a side, on ellipses. Arguments: seed, cases, 1 to print each. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -14,7 +14,7 @@
 
 enum {
     PROBLEMS = 150,
-    INCREMENTS = 3, /* of each: 450 in all */
+    INCREMENTS = 3, /* increments of each problem: 450 in all */
     DISPLACEMENTS = 200
 };
 static const double tight = 1e-9, noise_of_truth = 1e-7;
@@ -100,7 +100,7 @@ distance_to(const struct rc_slip *slip, size_t n, const double *truth)
     return size > 0 ? far / size : 0;
 }
 
-/* Steps to the end; the estimate of each step against the error, down to the error of the truth. */
+/* Steps to the end. Compares the estimate of each step with the error, down to the error of the truth. */
 static void
 solve(struct rc_slip *slip, size_t n, const double *truth, const char *what, struct tally *t)
 {

@@ -22,7 +22,7 @@ enum {
     MOST_SIDES = 8
 };
 static const double estar = 1e9, node = 1e-6, k_wear = 1e-15;
-static const double mean[LOADS] = {0.002, 0.005, 0.02}; /* of E*            */
+static const double mean[LOADS] = {0.002, 0.005, 0.02}; /* mean pressures in units of E* */
 static const double at[OUTPUTS] = {1, 10, 100, 1000};   /* in dx/(k E*)     */
 static const double usual = 0.1, finer = 100, finer_contacts = 1000;
 /* Relative L1 errors. */

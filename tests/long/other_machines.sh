@@ -22,7 +22,8 @@ surfaces=$source/sample_surfaces
 suite=${SUITE:-bookworm}
 limit=${RC_LIMIT:-9000}
 
-# Omitted tests: `all`, or only under emulation; a regular expression of whole names; the reason.
+# Each line has an omitted test (`all`, or only under emulation), a regular expression of whole names, and the
+# reason.
 left_out() {
     cat <<'END'
 all       pipe_installed    pkg-config and find_package would find the libraries of this machine
@@ -56,7 +57,8 @@ else
     trap 'rm -rf --one-file-system "$work"' EXIT
 fi
 
-# The prefix of its tools, the folder of its libraries, its emulator, compiler flags; the omitted tests.
+# Each line has the prefix of its tools, the folder of its libraries, its emulator, compiler flags and the
+# omitted tests.
 describe() {
     emulator='' flags=''
     case $1 in

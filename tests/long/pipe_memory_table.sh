@@ -1,7 +1,7 @@
 # --memory and the kernel. The memory that --dry-run plans, or that the allocator counts, is within 5 % of the
 # kernel's peak. A limit 5 % below the needed memory is refused before any iteration, and one 5 % above it is
-# enough. Then the counted memory of all tools, to a tenth. Arguments select the sizes of these maps:
-# pipe_memory_table.sh 256x256 517x389 2047x1021 4096x4096.
+# enough. Then it compares the counted memory of all tools, to a tenth. Arguments select the sizes of these
+# maps: pipe_memory_table.sh 256x256 517x389 2047x1021 4096x4096.
 . "$(dirname "$0")/../pipe.sh"
 
 skip_with_address_sanitizer "it takes memory of its own"

@@ -1,6 +1,6 @@
 # Sourced by compilers.sh and other_machines.sh. It has pipelines that use every part of the tools, and the
-# permitted differences of their results with another compiler, processor or number of threads. One pipeline
-# per line: the name of its result, the kind of comparison, the commands. A pipeline reads the results of the
+# permitted differences of their results with another compiler, processor or number of threads. Each line is a
+# pipeline: the name of its result, the kind of comparison, the commands. A pipeline reads the results of the
 # reference in $from, so that a difference comes from this step only.
 #
 #   exact   the same bytes

@@ -57,7 +57,7 @@ elastic(struct rc_err *err)
     return rc_elastic_new(&shape, heights, &problem, &asks, err);
 }
 
-/* Bodies with the same nu, under forces, on a dented shape. */
+/* Bodies with the same nu are tested under forces, on a dented shape. */
 static struct rc_model *
 friction(struct rc_err *err)
 {

@@ -382,7 +382,7 @@ scans_of_gxsm(void **state)
             v[k] = counts[k] * 0.25e-10;
         map = read_well(&rc_format_netcdf, &b, 0);
         assert_true(map->nx == 3 && map->ny == 2);
-        assert_true(fabs(map->dx - 1587.3e-10) <= 2e-6 * map->dx); /* of floats near 5e4 */
+        assert_true(fabs(map->dx - 1587.3e-10) <= 2e-6 * map->dx); /* rounding of floats near 5e4 */
         assert_true(fabs(map->dy - 500e-10) <= float_rounding * map->dy);
         check_map(map, 3, 2, map->dx, map->dy, v);
         rc_grid_free(map);

@@ -1,4 +1,4 @@
-/* X3P files: types, missing points, positions and checksums. */
+/* X3P files are tested with their types, missing points, positions and checksums. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -170,8 +170,10 @@ valid_points(void **state)
 }
 
 /* These checksums were computed by md5sum(1). */
-static const char plain_md5[] = "50DA13748603A71B2A148AB7B8EE9DC2"; /* of the bytes of 1.0 to 6.0 */
-static const char main_md5[] = "a6dfd3c456eb1c49b3391fa8dc64551d";  /* of main.xml around them */
+static const char plain_md5[] = "50DA13748603A71B2A148AB7B8EE9DC2"; /* MD5 of the bytes of 1.0 to
+                                                                     * 6.0 */
+static const char main_md5[] = "a6dfd3c456eb1c49b3391fa8dc64551d";  /* MD5 of main.xml around
+                                                                     * them */
 
 static void
 checksums(void **state)
@@ -470,7 +472,7 @@ check_resampled(char *xml, const struct bytes *data)
     assert_int_equal(g->nx, 6);
     assert_int_equal(g->ny, 1);
     assert_true(fabs(g->dx - 1e-6) <= rounding * 7e-3 &&
-                g->dy == g->dx); /* to the rounding of 7 mm + 1 um */
+                g->dy == g->dx); /* equal to the rounding of 7 mm + 1 um */
     for (size_t k = 0; k < 6; k++)
         assert_true(fabs(g->v[k] - (-1.75 + 0.25 * (double)k)) <= rounding * 7e-3 / 1e-6);
     rc_grid_free(g);
@@ -547,7 +549,7 @@ positions_that_are_refused(void **state)
     }
 }
 
-/* As numbers of both lengths, as a datum, and as multiples of the increment. */
+/* The positions are numbers of both lengths, a datum, and multiples of the increment. */
 static void
 infinite_heights_are_missing(void **state)
 {

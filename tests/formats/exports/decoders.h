@@ -260,7 +260,7 @@ decode_xyz(const struct written *made)
         first_y = k == 0 ? y : first_y;
         m.nx += y == first_y;
         if (k == 0)
-            m.dx = -x; /* of the first two sides in the middle */
+            m.dx = -x; /* differences of the first two sides in the middle */
         assert_int_equal(*at++, '\n');
     }
     assert_true(m.nx > 0);

@@ -188,8 +188,8 @@ bool noted(const struct rc_notes *notes, const char *words);
 struct tag {
     uint16_t tag, type; /* 2 text, 3 u16, 4 u32, 7 bytes, 8 i16, 12 f64 */
     uint32_t count;
-    const char *text; /* of types 2 and 7 */
-    double number;    /* of the others */
+    const char *text; /* text of types 2 and 7 */
+    double number;    /* number of the others */
 };
 extern const int raw_counts[6];
 

@@ -123,7 +123,7 @@ make_esri(struct bytes *m, int variant)
                                "DY 1.29\r\n 10 -20 30 40\r\n-9999 -60");
 }
 
-/* By type; 10: the first transposed, 11: version 2 of the header, big */
+/* Variants 0 to 9 differ in the type. 10: the first transposed; 11: version 2 of the header, big */
 void
 make_npy(struct bytes *m, int variant)
 {
