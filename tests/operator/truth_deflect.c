@@ -156,7 +156,7 @@ the_choice_and_its_reason(void **state)
     }
 }
 
-/* A map large enough to use threads: the same bits for 1, 2 and 5 threads, and from plan to plan. */
+/* A map large enough to use threads gives the same bits for 1, 2 and 5 threads, and from plan to plan. */
 static void
 threads_change_no_bit(void **state)
 {

@@ -180,7 +180,7 @@ stresses_are_the_integrals(void **state)
                 }
 }
 
-/* On the axis of a uniformly loaded square of half side 1, nu = 0.3 (Love 1929). */
+/* Stresses on the axis of a uniformly loaded square of half side 1, nu = 0.3 (Love 1929). */
 static void
 stresses_under_a_square(void **state)
 {

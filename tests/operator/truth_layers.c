@@ -1,5 +1,5 @@
-/* Displacements of coated bodies: responses to waves and influence coefficients of cells, compared with
- * independent solutions; from thin films to coats a thousand maps thick. */
+/* Displacements of coated bodies, from thin films to coats a thousand maps thick. Responses to waves and
+ * influence coefficients of cells are compared with independent solutions. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 
 /* Known responses have twelve digits, known coefficients eleven. */
 static const double twelve_digits = 1e-11, eleven_digits = 1e-10;
-/* The difference between a coat a thousand maps thick and one material: of the order of map over
+/* The difference between a coat a thousand maps thick and one material is of the order of map over
  * thickness. */
 static const double of_thick_coat = 1e-3;
 

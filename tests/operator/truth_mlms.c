@@ -339,7 +339,7 @@ any_order(void **state)
         }
 }
 
-/* Long grids, long cells, odd and prime sizes, profiles: all as accurate as a square. */
+/* Long grids, long cells, odd and prime sizes, and profiles are all as accurate as a square. */
 static void
 any_shape(void **state)
 {

@@ -137,7 +137,7 @@ onset(void **state)
     (void)state;
     for (size_t q = 0; q < 3; q += thorough(1, 2))
         for (int ball = 0; ball < 2; ball++) {
-            /* on a cylinder with a low Poisson's ratio the surface yields at almost the same load */
+            /* a cylinder with a low Poisson's ratio yields at the surface at almost the same load */
             size_t n = ball ? 192 : 1536;
             double a = ball ? 12 : 24, nu = nus[q] + (ball ? 0 : 0.05);
             double most = largest(ball ? under_circle : under_strip, nu, &at);
@@ -461,7 +461,7 @@ roll(double p0_over_k, double gained[2])
         SIDE = 64,
         SLABS = 20,
         PASSES = 6,
-        STEPS = 32 /* of two nodes */
+        STEPS = 32 /* most steps of two nodes */
     };
     const struct rc_shape shape = {SIDE, 1, 1, 1};
     const double a = 8, estar = 1 / (1 - 0.09), yield = 1e-3, k = yield / sqrt(3);

@@ -18,7 +18,7 @@
 enum {
     SLABS = 9,
     BELOW = 2,   /* number of intervals below the slabs */
-    POINTS = 32, /* of an interval            */
+    POINTS = 32, /* number of points of an interval */
     NODES = 1200 /* at most                   */
 };
 static const double poisson = 0.3;
@@ -184,7 +184,7 @@ slice(const struct body *b, double depth, double (*to)[NODES])
 static const enum rc_component row_of[3][3] = {
     {RC_SXX, RC_SXY, RC_SXZ}, {RC_SXY, RC_SYY, RC_SYZ}, {RC_SXZ, RC_SYZ, RC_SZZ}};
 
-/* The errors over the yield stress: of the divergence times dx, ... */
+/* The errors are over the yield stress. The first is that of the divergence times dx, ... */
 struct wrong {
     double divergence, surface, plane, face;
 };
@@ -284,7 +284,7 @@ under_a_ball(void **state)
     forget(&b);
 }
 
-/* Without hardening; odd rows, oblong cells. */
+/* The bodies have no hardening, odd rows and oblong cells. */
 static void
 rough(void **state)
 {

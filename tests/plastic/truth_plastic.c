@@ -151,7 +151,8 @@ compare(struct rc_plastic *plastic, const struct state *t, double load)
     print_message("\n");
 }
 
-/* A load, a higher one, unloading by half, separation, and loading again, each in one increment. */
+/* The loads, each in one increment: a load, a higher one, unloading by half, separation, and loading
+ * again. */
 static void
 convex_minimum(void **state)
 {

@@ -146,7 +146,7 @@ longest_run(const struct picture *p, size_t y, size_t *start)
 
 /* The frame of the plot: the first and the last of the long dark rows, which an axis mark may lengthen. */
 struct frame {
-    size_t left, right, top, bottom; /* of the ink */
+    size_t left, right, top, bottom; /* extent of the ink */
 };
 
 static inline struct frame

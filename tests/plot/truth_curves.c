@@ -27,7 +27,7 @@ marks_of_decades(void **state)
     for (size_t k = 1; k + 1 < n; k++)
         assert_near(major[k + 1] - major[k], major[k] - major[k - 1], 1.1);
     n = find_marks(&p, 1, f.bottom + 4, f.left, f.right, mark, 64);
-    assert_true(n > 36); /* 2 to 9 of four decades, and the marks beyond the ends */
+    assert_true(n > 36); /* marks at 2 to 9 of four decades, and the marks beyond the ends */
     for (size_t k = 0, found = 0; k < n; k++) {
         for (int d = 2; d < 10; d++)
             found += fabs(mark[k] - major[1] - log10(d) * (major[2] - major[1])) < 1;
@@ -53,7 +53,7 @@ points_of_two_files(void **state)
     n = find_marks(&p, 1, f.bottom + 8, f.left, f.right, major, 16);
     assert_int_equal(n, 3); /* 1 10 100 N */
     assert_int_equal(find_marks(&p, 0, f.left - 8, f.top, f.bottom, up, 16), 3);
-    /* up from below: 10 nm, 100 nm, 1 um */
+    /* from bottom to top: 10 nm, 100 nm, 1 um */
     assert_true(find_colour(&p, &f, blue, &x, &y) > 50);
     assert_near(x, major[0] + log10(0.2) * (major[2] - major[0]) / 2, 1);
     assert_near(y, up[2] - log10(3e-9 / 1e-8) * (up[2] - up[0]) / 2, 1);
@@ -223,7 +223,7 @@ histogram_of_few(void **state)
              "g.rcg 2>&1 | grep -q 'out of contact: 60 %'");
     f = find_frame(&p);
     assert_int_equal(find_marks(&p, 1, f.bottom + 8, f.left - 1, f.right, major, 16), 9);
-    for (int k = 0; k < 2; k++) { /* GPa: between 1 and 1.1, between 3.9 and 4 */
+    for (int k = 0; k < 2; k++) { /* GPa: one value lies between 1 and 1.1, one between 3.9 and 4 */
         x[k] = (size_t)(major[0] + (k == 0 ? 1.05 : 3.95) / 0.5 * (major[1] - major[0]));
         for (size_t j = f.top + 1; j < f.bottom; j++) {
             unsigned c = pixel(&p, x[k], j);
@@ -251,7 +251,7 @@ hertz_by_hand(void **state)
     (void)state;
     for (size_t k = 0; k < 4; k++)
         assert_near(law_value("hertz", &steel, "load", load, name[k]) / expected[k], 1, rounding);
-    /* from the approach back to the load: F = 4/3 E* sqrt(R) d^(3/2) */
+    /* the law from the approach back to the load: F = 4/3 E* sqrt(R) d^(3/2) */
     assert_near(law_value("hertz", &steel, "approach", 1e-6, "load") /
                     (4.0 / 3 * 114e9 * sqrt(7.5e-3) * pow(1e-6, 1.5)),
                 1, rounding);

@@ -154,7 +154,7 @@ heights_are_exaggerated(void **state)
 {
     struct picture p;
     struct spot high, low;
-    size_t far_edge = 0; /* of the low half */
+    size_t far_edge = 0; /* edge of the low half */
     double width;
 
     (void)state;
@@ -229,8 +229,8 @@ upper_left_is_bright(void **state)
     }
     assert_near(bright[0], bright[1], 2); /* heights differ by a node */
     assert_near(bright[2], bright[3], 2);
-    /* slopes of 0.7, light at 45 degrees: cosines (0.71 + 0.35) / 1.22 and (0.71 - 0.35) / 1.22, relative to
-     * that of a flat map; a grey of 127.5 to 140 */
+    /* for slopes of 0.7 and light at 45 degrees the cosines are (0.71 + 0.35) / 1.22 and (0.71 - 0.35) /
+     * 1.22, relative to that of a flat map. The grey is 127.5 to 140 */
     assert_near((double)bright[0] / bright[2],
                 (0.35 + 0.65 * 1.4950 / 1.2207) / (0.35 + 0.65 * 0.5050 / 1.2207), 0.05);
     free(p.rgb);

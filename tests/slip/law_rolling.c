@@ -57,7 +57,7 @@ solve(struct rc_steady *d)
     assert_int_equal(status, RC_OK);
 }
 
-/* a'T b over both directions; shift: of q - S q, else q. */
+/* Computes a'T b over both directions. shift: of q - S q, else of q. */
 static double
 product(struct rc_steady *d, const double *const q[2], bool shift)
 {
@@ -77,7 +77,8 @@ product(struct rc_steady *d, const double *const q[2], bool shift)
     return sum;
 }
 
-/* q'Bq = |q - Sq|_T^2/2 for tractions off the edges: positive for any of them, and smallest for even ones. */
+/* q'Bq = |q - Sq|_T^2/2 holds for tractions off the edges. It is positive for any of them, and smallest for
+ * even ones. */
 static void
 test_monotone(void **state)
 {
@@ -156,7 +157,7 @@ test_rolling_in_time(void **state)
     rc_steady_free(d);
 }
 
-/* Slip, opposite to the traction, only where |q| = g; F.v = energy of slip + |q - Sq|_T^2/2. */
+/* Slip is opposite to the traction, and occurs only where |q| = g. F.v = energy of slip + |q - Sq|_T^2/2. */
 static void
 test_conditions_and_energy(void **state)
 {
@@ -397,7 +398,7 @@ test_refusals(void **state)
     refused(rolling_new(&shape, p, law, &err), load, 1e-3, 0, false, "periodic");
 }
 
-/* One node, one column of nodes, a line of nodes, and no creepage. */
+/* The cases are one node, one column of nodes, a line of nodes, and no creepage. */
 static void
 test_small_contacts(void **state)
 {

@@ -104,7 +104,7 @@ test_another_method_finds_the_same(void **state)
     assert_true(stuck > 100 && slid > 100);
 }
 
-/* A periodic map moved by three displacements, small or large, for partial and complete contact. If all nodes
+/* Three displacements, small or large, move a periodic map, for partial and complete contact. If all nodes
  * stick nothing resists the mean motion, and with continuing motion they slide. */
 static void
 test_displacements_of_periodic_maps(void **state)
@@ -208,7 +208,8 @@ by_hand_new(const struct rc_shape *shape, const double *h, const struct rc_probl
     return b;
 }
 
-/* One increment, in so many passes of pressure and tractions; its approach from first touch of h. */
+/* One increment, in so many passes of pressure and tractions. It returns the approach from first touch of
+ * h. */
 static double
 by_hand_go(struct by_hand *b, const double to[3], bool moved, bool full, struct rc_slip_figures *f)
 {
@@ -239,7 +240,7 @@ by_hand_go(struct by_hand *b, const double to[3], bool moved, bool full, struct 
     return contact.approach + top - less;
 }
 
-/* Largest distance of the results at points of a path, relative, under loads, and forces or displacements. */
+/* Largest relative distance of the results at points of a path, under loads, and forces or displacements. */
 static double
 apart_from_hand(const struct rc_problem *contact, const struct rc_friction_problem *law,
                 const double (*at)[3], size_t points, bool moved)

@@ -149,7 +149,7 @@ test_partial_slip_of_a_ball(void **state)
 }
 
 /* A cycle between forces +-F* dissipates 4 F* d(F*) - 8 integral of d dF to F* (Mindlin and Deresiewicz
- * 1953): with the displacement d above. The second cycle repeats the first. */
+ * 1953). d is the displacement above. The second cycle repeats the first. */
 static void
 test_loop_of_a_ball(void **state)
 {
@@ -187,7 +187,7 @@ test_loop_of_a_ball(void **state)
     pressed_free(&b.c);
 }
 
-/* On a strip, q = mu (p(P) - p(P - F/mu)), along it and across it, for any nu (Ciavarella 1998, Jaeger
+/* On a strip q = mu (p(P) - p(P - F/mu)) holds, along it and across it, for any nu (Ciavarella 1998, Jaeger
  * 1998). */
 static void
 test_strip_by_superposition(void **state)

@@ -69,8 +69,8 @@ test_increments_converge(void **state)
         const char *name;
         size_t corners;
         struct corner at[4];
-        double most
-            [3]; /* error of q with 1, 2, 4 increments per line: from an independent program, plus a fifth */
+        double most[3]; /* error of q with 1, 2, 4 increments per line; it is that of an independent
+                  * program, plus a fifth */
     } paths[] = {
         {"P constant, F to 0.7", 2, {{1, 0, 0}, {1, 0.7, 0}}, {6e-3, 6e-3, 4e-3}},
         {"and back to 0", 3, {{1, 0, 0}, {1, 0.7, 0}, {1, 0, 0}}, {1.3e-2, 1.3e-2, 9e-3}},
@@ -114,8 +114,8 @@ test_increments_converge(void **state)
 
 /* ---- dissimilar bodies ---- */
 
-/* A ball on a flat, one of them rigid, pressed in equal increments of the contact radius. Goodman: tractions
- * do not change the pressure. Returns c/a, the stick radius from the areas. */
+/* A ball on a flat, one of them rigid. It is pressed in equal increments of the contact radius. Goodman:
+ * tractions do not change the pressure. Returns c/a, the stick radius from the areas. */
 static double
 press_ball(double mu, size_t increments, bool goodman, size_t *passes, double *lighter)
 {
@@ -211,7 +211,7 @@ test_a_load_alone_sticks_inside(void **state)
             "of %.3f\n",
             mus[k], coarse, fine, 2 * fine - coarse, exact, full, whole, shrunk, area);
         assert_true(fabs(2 * fine - coarse - exact) < 0.01);
-        /* full coupling: from an independent program */
+        /* full coupling: the numbers are from an independent program */
         assert_true(fabs(full - (k == 0 ? 0.46 : 0.83)) < 0.03);
         assert_true(shrunk / area > 0.96 && shrunk / area < 0.995);
     }

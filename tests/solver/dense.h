@@ -7,7 +7,7 @@
 
 enum {
     DENSE_NODES = 576,
-    DENSE_SUMS = 3 /* of constraints */
+    DENSE_SUMS = 3 /* number of sums of constraints */
 };
 
 struct dense {

@@ -55,7 +55,7 @@ hard(void **state)
     assert_int_equal(sweep(BOTH, 2), 0);
 }
 
-/* Stiff films in soft material, a graded coat, and a rigid base. */
+/* The bodies have stiff films in soft material, a graded coat, and a rigid base. */
 static void
 stacks(void **state)
 {

@@ -16,7 +16,7 @@ sphere(struct rc_shape s, size_t k, double a, uint64_t *seed)
     return -(x * x + y * y) + a * random_number(seed);
 }
 
-/* Smooth and rough surfaces: a few waves with different phases. */
+/* Smooth and rough surfaces consist of a few waves with different phases. */
 static double
 waves(struct rc_shape s, size_t k, double a, uint64_t *seed)
 {
@@ -136,9 +136,9 @@ crossed(struct rc_shape s, size_t k, double a, uint64_t *seed)
     return cosine(s, k, a, seed) * cos(2 * exact_pi * node_y(s, k) / (s.dy * (double)s.ny));
 }
 
-/* Westergaard: the contact fraction to a node at each edge, the largest pressure, the mean error of the
- * pressure. The resolution of the grid is the width of a node over that of the contact or of the gap,
- * whichever is smaller. */
+/* Compares with Westergaard: the contact fraction to a node at each edge, the largest pressure, and the mean
+ * error of the pressure. The resolution of the grid is the width of a node over that of the contact or of the
+ * gap, whichever is smaller. */
 static double
 westergaard(const struct hard_case *c, const struct rc_problem *problem, const double *h,
             const struct solved *s)

@@ -88,7 +88,7 @@ cauchy(struct rc_shape s, size_t k, double a, uint64_t *seed)
     return tan(exact_pi * random_number(seed));
 }
 
-/* Blocks of a x a nodes, each flat, with different heights: plateaus and equal heights. */
+/* Blocks of a x a nodes, each flat, with different heights. The surface has plateaus of equal heights. */
 static double
 blocks(struct rc_shape s, size_t k, double a, uint64_t *seed)
 {
@@ -201,7 +201,7 @@ strips_answer(const struct hard_case *c, const struct rc_problem *problem, const
     return relative(s->p[middle], truth, 1.0 / (double)nodes);
 }
 
-/* A flat map on a flat: the same pressure everywhere. */
+/* A flat map on a flat has the same pressure everywhere. */
 static double
 even_answer(const struct hard_case *c, const struct rc_problem *problem, const double *h,
             const struct solved *s)

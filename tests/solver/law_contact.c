@@ -190,7 +190,7 @@ engines_agree(void **state)
     free(h);
 }
 
-/* More load: more contact, more approach; less hardness: more contact, more approach. */
+/* More load gives more contact and more approach. Less hardness gives more contact and more approach. */
 static void
 monotone(void **state)
 {

@@ -12,7 +12,7 @@
 struct row {
     enum rc_boundary boundary;
     double sphere;     /* sag of a sphere at the map's edge over the map's length; 0: none      */
-    double slope;      /* of the roughness                                                     */
+    double slope;      /* slope of the roughness */
     double hurst, cut; /* shortest wave in nodes                                               */
     double mean;       /* mean pressure over E*                                                */
     double hardness;   /* over the mean pressure; 0: none                                      */

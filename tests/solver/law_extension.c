@@ -92,7 +92,7 @@ enum {
     SHAPES = sizeof shapes / sizeof *shapes
 };
 
-/* a'(E'AE b) = b'(E'AE a) in single precision, relative to the norms of both; a'(E'AE a) > 0. */
+/* a'(E'AE b) = b'(E'AE a) holds in single precision, relative to the norms of both; a'(E'AE a) > 0. */
 static void
 symmetric_and_positive(void **state)
 {
@@ -226,7 +226,7 @@ projected(const gsl_matrix *m, const gsl_matrix *q)
     return c;
 }
 
-/* On vectors of zero mean, as in the solver: the smallest and the largest eigenvalue of B K. With K = L L',
+/* The smallest and the largest eigenvalue of B K on vectors of zero mean, as in the solver. With K = L L',
  * the matrix L' B L has the same eigenvalues. */
 static void
 extremes(const gsl_matrix *k, const gsl_matrix *b, double *least, double *most)

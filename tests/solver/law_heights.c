@@ -134,8 +134,8 @@ refused(void **state)
     rc_solver_free(s);
 }
 
-/* Touch, load, separation, a higher load, a lower one, and again: by keep_shape, and by new solvers with the
- * kept shapes. */
+/* The history is touch, load, separation, a higher load, a lower one, and again. It runs by keep_shape, and
+ * by new solvers with the kept shapes. */
 static void
 history(void **state)
 {
@@ -191,7 +191,7 @@ history(void **state)
             assert_true(distance(N, h, g) < 8 * problem.tol);
             rc_solver_free(t);
         }
-        assert_int_equal(yielded, 3); /* 0.3, 0.8 and 1.4, each once */
+        assert_int_equal(yielded, 3); /* the values are 0.3, 0.8 and 1.4, each once */
         rc_solver_free(s);
     }
 }

@@ -1,5 +1,5 @@
-/* Loads in sequence, approaches, stiffness, yielding and discretization error: each compared with a separate
- * solution, Hertz, or its definition. */
+/* Loads in sequence, approaches, stiffness, yielding and discretization error. Each is compared with a
+ * separate solution, Hertz, or its definition. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -331,7 +331,8 @@ errors_of_histories_are_known(void **state)
     assert_true(states > 40);
 }
 
-/* Hertz: d load / d approach = 2 E* a. Rough: the difference quotient over a small step. */
+/* By Hertz d load / d approach = 2 E* a. On rough surfaces it is the difference quotient over a small
+ * step. */
 static void
 stiffness_is_the_slope(void **state)
 {

@@ -190,7 +190,7 @@ wrong_order_is_refused(void **state)
     assert_int_equal(rc_solver_plastic(s, p, &err), RC_OK);
     assert_int_equal(rc_solver_stiffness(s, &stiffness, &err), RC_OK);
     assert_int_equal(rc_solver_step(s), RC_MORE);
-    assert_int_equal(rc_solver_plastic(s, p, &err), RC_FAIL); /* of another pressure */
+    assert_int_equal(rc_solver_plastic(s, p, &err), RC_FAIL); /* p is the map of another pressure */
     assert_int_equal(rc_solver_set_load(s, 0.1, 0, &err), RC_OK);
     assert_int_equal(rc_solver_warm_start(s, 0.1, rc_solver_pressure(s), &err), RC_OK);
     rc_solver_free(s);

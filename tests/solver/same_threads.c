@@ -119,7 +119,7 @@ own_single(size_t k, double *out)
 struct worker {
     work *run;
     size_t number;
-    double (*got)[N]; /* of each piece */
+    double (*got)[N]; /* got of each piece */
     size_t differ;    /* number of later rounds with another result */
 };
 

@@ -12,7 +12,7 @@
 #include "dense.h"
 
 enum {
-    PROBLEMS = 160, /* of random small maps */
+    PROBLEMS = 160, /* number of random small maps */
     SIDE = 64,
     NODES = SIDE * SIDE
 };
@@ -265,7 +265,7 @@ figures_are_those_of_the_bodies(void **state)
     rc_conv_free(conv);
 }
 
-/* Set to 0 again, and never set: the same bytes and as many convolutions. */
+/* Compliance set to 0 again, and never set, gives the same bytes and as many convolutions. */
 static void
 none_is_the_contact_without(void **state)
 {

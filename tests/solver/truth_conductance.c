@@ -108,8 +108,8 @@ dense_stiffness(struct rc_shape shape, enum rc_boundary boundary, const double *
     return sum * shape.dx * shape.dy;
 }
 
-/* Rough contacts of 10 to 23 nodes, elastic and with some nodes at the hardness, free and periodic. The
- * conjugate gradients stop at 1e-8 of the sum, and single precision adds an error. */
+/* Rough contacts of 10 to 23 nodes are tested, elastic and with some nodes at the hardness, free and
+ * periodic. The conjugate gradients stop at 1e-8 of the sum, and single precision adds an error. */
 static void
 any_contact(void **state)
 {
@@ -156,7 +156,7 @@ enum {
 
 struct circles {
     size_t n;
-    double x[CIRCLES], y[CIRCLES]; /* of the middles, in spacings */
+    double x[CIRCLES], y[CIRCLES]; /* positions of the middles, in spacings */
 };
 
 /* Flat punches with this radius in spacings, under load. */
@@ -195,8 +195,8 @@ radius_of(const struct found *f, const struct circles *c)
  * the edge. Dense systems of 45 to 716 cells give 0.09 to 0.13. */
 static const double edge = 0.117, edge_scatter = 0.02;
 
-/* One circle: 4 a/(1/k1 + 1/k2), with a reduced by that difference. Returns the radius with the conductance
- * of the cells, by a dense system, in spacings. */
+/* For one circle it is 4 a/(1/k1 + 1/k2), with a reduced by that difference. Returns the radius with the
+ * conductance of the cells, by a dense system, in spacings. */
 static double
 circle(double radius)
 {
@@ -313,8 +313,8 @@ several_circles(void **state)
     }
 }
 
-/* A circle in each square cell of side L: to the mean plane 1/S = 1/(2 a) - M/(pi L) + N a^2/(3 pi L^3). M is
- * the lattice sum of 1/r minus that of a uniform charge, -4 zeta(1/2) beta(1/2). N is the lattice sum of
+/* For a circle in each square cell of side L, to the mean plane, 1/S = 1/(2 a) - M/(pi L) + N a^2/(3 pi L^3).
+ * M is the lattice sum of 1/r minus that of a uniform charge, -4 zeta(1/2) beta(1/2). N is the lattice sum of
  * 1/r^3, 4 zeta(3/2) beta(3/2). The potential of the other circles is (-M/L + N r^2/(4 L^3))/pi. The mean of
  * r^2 over the charge of a circle is 2 a^2/3, for source and field. The neglected terms are of the order
  * (a/L)^5. The waves that the nodes can represent have an edge that differs by a hundredth of a spacing. */

@@ -92,8 +92,8 @@ radius_pressure_and_approach(void **state)
     assert_true(e[2].peak < 5e-5 && e[2].approach < 2e-5);
 }
 
-/* Largest Mises stress: 0.620041 p0 at a depth of 0.480864 a for nu = 0.3 (the maximum of
- * Johnson's eq. 3.45 on the axis). */
+/* The largest Mises stress is 0.620041 p0 at a depth of 0.480864 a for nu = 0.3 (the maximum of Johnson's eq.
+ * 3.45 on the axis). */
 static void
 stress_under_the_contact(void **state)
 {

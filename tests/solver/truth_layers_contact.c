@@ -186,7 +186,7 @@ second_order(void **state)
 /* A punch on m by m nodes over 1.1 times its radius a along each side. */
 struct disc {
     struct rc_shape shape;
-    double *h;     /* 0 under the punch, far below elsewhere */
+    double *h;     /* the values are 0 under the punch, and far below elsewhere */
     size_t under;  /* nodes                           */
     double radius; /* radius of the circle with the area of these nodes */
 };

@@ -81,9 +81,9 @@ full_contact(void **state)
     solved_free(&s);
 }
 
-/* Surface A cos cos: full contact at sqrt 2 pi E* A / L. Johnson, Greenwood and Higginson 1985. The fractions
- * at 0.2, 0.5 and 0.8 of it are from an independent computation at 512 x 512, corrected for the perimeter,
- * +-0.001. */
+/* The surface A cos cos has full contact at sqrt 2 pi E* A / L. Johnson, Greenwood and Higginson 1985. The
+ * fractions at 0.2, 0.5 and 0.8 of it are from an independent computation at 512 x 512, corrected for the
+ * perimeter, +-0.001. */
 static void
 two_dimensional_wave(void **state)
 {

@@ -99,7 +99,7 @@ bonded(void **state)
                   tractions, displacements);
     assert_true(most > 0);
     assert_true(tractions <= rounding);
-    assert_true(displacements <= 1e-9); /* of differences */
+    assert_true(displacements <= 1e-9); /* error of differences */
     rc_stack_free(s);
 }
 

@@ -185,8 +185,8 @@ piece(const struct strained *s, bool padded, double depth, struct voxels *to, do
     free(all.v);
 }
 
-/* Depths in any order, and several with the same plan: faces between slabs, the first and the last slab, and
- * below. */
+/* Depths in any order, and several with the same plan. They are faces between slabs, in the first and the
+ * last slab, and below. */
 static void
 slices_are_pieces(void **state)
 {
@@ -235,7 +235,8 @@ costs_one_sweep(void **state)
 
     (void)state;
     make(&s);
-    for (int q = 0; q < 4; q++) { /* one component, five, six for derived stresses, no strain */
+    for (int q = 0; q < 4; q++) { /* the requests are one component, five, six for derived stresses,
+                                   * no strain */
         static const unsigned wanted[] = {1U << RC_SXZ, 0x2f, 1U << RC_MISES, 1U << RC_MISES};
         static const size_t components[] = {1, 5, 6, 0};
         struct rc_stress_options o = options_of(&s, q < 3, wanted[q]);
@@ -267,7 +268,7 @@ adds_to_the_pressure(void **state)
 
     (void)state;
     make(&s);
-    for (int q = 0; q < 3; q++) { /* the surface, a slab, below all */
+    for (int q = 0; q < 3; q++) { /* depths at the surface, in a slab, below all */
         double depth = q == 0 ? 0 : q == 1 ? 1.3e-6 : 11e-6, most = 0;
         slice(&s, s.p, true, depth, both);
         slice(&s, zero, true, depth, alone);
@@ -304,7 +305,7 @@ sections(void **state)
     (void)state;
     make(&s);
     slice(&s, zero, true, 1.4e-6, map);
-    for (int q = 0; q < 3; q++) { /* a row; a column; between two columns */
+    for (int q = 0; q < 3; q++) { /* sections along a row, a column, between two columns */
         struct rc_stress_options o = options_of(&s, true, 1U << RC_SXX);
         double *const to[RC_STRESSES] = {line};
         o.section = q == 0 ? 'y' : 'x';

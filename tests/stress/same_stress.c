@@ -417,7 +417,8 @@ nothing_is_done_unasked(void **state)
         {"periodic with friction", RC_PERIODIC, 0.2, SIX, 0, NULL,
          {.depths = 1, .source_transforms = 1, .normal_kernels = 6, .shear_kernels = 5,
           .coefficients = 11 * WAVES, .field_transforms = 6}},
-        /* 40 lines, 20 pairs of them: a quarter of the coefficients of a slice, and no map */
+        /* 40 lines are 20 pairs, so the section computes a quarter of the coefficients of a slice, and no
+         * map */
         {"section", RC_FREE, 0, SIX, 'y', NULL,
          {.depths = 1, .normal_kernels = 6, .coefficients = 6 * 51 * 20,
           .line_transforms = 40 + 6 * 20 + 6}},
