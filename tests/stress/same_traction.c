@@ -1,7 +1,7 @@
 /* Maps of traction in several ways. A traction of mu times the pressure equals friction. A traction along y
  * equals one along x on the map with x and y exchanged. All loads together give the sum of their fields, and
- * each load costs only what it needs. Bare and coated bodies, free and periodic, maps and sections, all
- * engines. */
+ * each load costs only what it needs. Bare and coated bodies, free and periodic, are tested on maps and
+ * sections with all engines. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -252,8 +252,8 @@ alone_as_in_company(void **state)
 static void
 nothing_is_done_unasked(void **state)
 {
-    /* quarters of the padded map; of the 6 kernels of each traction, szz is a kernel of the pressure, and sxz
-     * along y is syz along x */
+    /* transforms of quarters of the padded map. Of the 6 kernels of each traction, szz is a kernel of the
+     * pressure, and sxz along y is syz along x */
     static const struct {
         const char *what;
         int maps; /* bits: along x, along y */

@@ -16,7 +16,7 @@
 /* ---- a paraboloid on one layer, on the axis ---- */
 
 enum {
-    NODES = 64, /* of chi on (0, a)              */
+    NODES = 64, /* number of nodes of chi on (0, a) */
     PANEL = 20  /* points in a panel of wave numbers */
 };
 
@@ -242,7 +242,8 @@ slice_of(const double *p, struct rc_stress_options o, double z, double *s)
     rc_stress_free(stress);
 }
 
-/* Above, at, between and below the interfaces; the sum over cells in extended precision (Love 1929). */
+/* Depths are above, at, between and below the interfaces. The sum over cells is in extended precision (Love
+ * 1929). */
 static void
 one_material_free(void **state)
 {
@@ -355,8 +356,8 @@ uniform_pressure(void **state)
 /* ---- coefficients of a cell ---- */
 
 /* The integral over all waves of the response to a unit load on the cell dx x dy, in polar coordinates. It
- * uses panels in q, and even steps of the angle, which converge very fast. In the top layer without the part
- * of one material. */
+ * uses panels in q, and even steps of the angle, which converge very fast. The values in the top layer omit
+ * the part of one material. */
 struct wave_sum {
     const struct rc_stack *stack;
     size_t medium;
@@ -378,7 +379,8 @@ stresses_of_wave(double c, double s, const double *f, double complex out[12])
     double along[2][4] = {{f[RC_P_S], f[RC_P_T], f[RC_P_L], f[RC_P_N]}, {t[0], t[1], t[2], t[3]}};
 
     for (int load = 0; load < 2; load++) {
-        /* a pressure as cos: szz, sll, snn as cos, slz as sin = -i; a traction as sin, i.e. times i */
+        /* a pressure varies as cos: szz, sll, snn as cos, slz as sin = -i. A traction varies as sin, that is,
+         * times i */
         double complex even = load == 0 ? 1 : I * c, odd = load == 0 ? -I : c;
         double complex zz = even * along[load][0], lz = odd * along[load][1];
         double complex ll = even * along[load][2], nn = even * along[load][3];
@@ -432,8 +434,8 @@ sum_waves(const struct wave_sum *w, double sum[12])
     gsl_integration_glfixed_table_free(g);
 }
 
-/* Cells from many times to a fraction of the thickness of the top layer, on stiff, soft and several layers,
- * on both sides of interfaces. */
+/* Cells measure from many times to a fraction of the thickness of the top layer. They lie on stiff, soft and
+ * several layers, on both sides of interfaces. */
 static void
 coefficients(void **state)
 {

@@ -102,7 +102,7 @@ scale_at(double x, double y, double z, double dx, double dy)
 
 /* ---- coefficients ---- */
 
-/* Near and far, in the plane, on the axis and between, from shallow to deep. */
+/* Points lie near and far, in the plane, on the axis and between, from shallow to deep. */
 static void
 coefficients_are_integrals(void **state)
 {
@@ -227,8 +227,8 @@ lines_are_places(void **state)
         }
 }
 
-/* z = 0: -1 inside the cell, the mean of all sides on its edges and corners, 0 outside. All values are
- * finite, and close to their limit if it exists. */
+/* At z = 0 it is -1 inside the cell, the mean of all sides on its edges and corners, and 0 outside. All
+ * values are finite, and close to their limit if it exists. */
 static void
 coefficients_at_the_surface(void **state)
 {

@@ -164,8 +164,8 @@ partial_slip(void **state)
 /* ---- a wave ---- */
 
 /* Stresses of the traction cos(q s). Along the direction s of the wave they are in plane strain from Airy's
- * function z exp(-q z) sin(q s)/q. Across it, along t, they are in antiplane strain. Divided by exp(-q z), in
- * the axes s, t, z. */
+ * function z exp(-q z) sin(q s)/q. Across it, along t, they are in antiplane strain. Values are divided by
+ * exp(-q z), in the axes s, t, z. */
 static void
 wave_stress(bool across, double qs, double qz, double s[3][3])
 {
@@ -187,7 +187,7 @@ waves(void **state)
     static const struct {
         size_t nx, ny;
         double dx, dy;
-        double i, j; /* of the wave */
+        double i, j; /* components of the wave */
     } cases[] = {{24, 19, 1, 1.3, 3, -2},
                  {16, 21, 0.7, 1, 0, 4},
                  {25, 18, 1, 1, -5, 0},

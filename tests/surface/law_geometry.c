@@ -149,7 +149,7 @@ a_part_is_the_part(void **state)
 
 /* ---- face to face ---- */
 
-/* The numbers of nodes cut on each side of each axis, by hand: maps of na and of nb nodes. */
+/* The numbers of nodes cut on each side of each axis, computed by hand, for maps of na and of nb nodes. */
 static void
 check_sum(struct rc_shape a, struct rc_shape b)
 {

@@ -58,7 +58,7 @@ room(const struct rc_shape *s)
 
 /* ---- waves ---- */
 
-/* A cos(qx x) cos(qy y), q the same in both directions: whole periods of 40 x 44 nodes. */
+/* A cos(qx x) cos(qy y) with q the same in both directions, whole periods of 40 x 44 nodes. */
 static void
 test_wave(void **state)
 {
@@ -130,7 +130,7 @@ test_ridges(void **state)
     assert_near(a, std, 180 - atan2(5 / Ly, 6 / Lx) * 180 / exact_pi, summed);
     assert_true(isnan(a.str));
     assert_near(a, sal, acos(0.2) / (2 * exact_pi * hypot(5 / Ly, 6 / Lx)), coarse_grid);
-    /* with a window, and not a whole number of periods on the map */
+    /* correlation with a window, where the map has no whole number of periods */
     a = oblique(&s, 20.4, 13.7, RC_FREE);
     assert_near(a, std, 180 - atan2(13.7 / Ly, 20.4 / Lx) * 180 / exact_pi, coarse_grid);
     assert_near(a, sal, acos(0.2) / (2 * exact_pi * hypot(13.7 / Ly, 20.4 / Lx)), 3 * coarse_grid);

@@ -242,7 +242,7 @@ test_refusals(void **state)
     h[3] = h[70] = 1;
     check_refused(shape, 1, h, "only 2 points");
     for (size_t k = 0; k < NX; k++)
-        h[k * NX + k] = (double)(k * k); /* on a line across the map */
+        h[k * NX + k] = (double)(k * k); /* heights on a line across the map */
     h[3] = h[70] = NAN;
     check_refused(shape, 1, h, "do not determine");
     for (size_t k = 0; k < N; k++)

@@ -133,7 +133,7 @@ test_hole_across_the_map(void **state)
     free(h);
 }
 
-/* In a profile: a straight line between two points, constant beyond the last one. */
+/* In a profile it is a straight line between two points, and constant beyond the last one. */
 static void
 check_profile(struct rc_shape s)
 {
@@ -246,7 +246,7 @@ test_large_hole_is_quick(void **state)
             h[j * s.nx + i] = NAN;
     begin = clock();
     check_restored(&s, h, whole);
-    /* about half a second; the bound detects another order of growth */
+    /* it takes about half a second; the bound detects another order of growth */
     assert_true((double)(clock() - begin) / CLOCKS_PER_SEC < 30);
     free(whole);
     free(h);

@@ -83,7 +83,7 @@ claim "the history has the steps with their values, in their order" \
 # ---- other frames and cases ----
 
 sed 's/^channel=height/channel=weight/' step.rcg | reseal >weight.rcg
-# one case of two frames: without the end line of the first
+# one case of two frames, without the end line of the first
 { head -c -9 weight.rcg; head -c -9 plane.rcg; printf 'RCGEND 2\n'; } >both.rcg
 claim "another channel of the case is passed on unchanged" bash -c '
     rc-detrend --plane both.rcg -o out.rcg && [ "$(rc-info --json out.rcg | wc -l)" = 2 ] &&

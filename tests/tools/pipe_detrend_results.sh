@@ -13,7 +13,7 @@ refuses 1 'case 1, frame 4 \(height\): .* \(pressure, gap, displacement\).*: tak
 claim "  no file is left" test ! -e out.rcg
 refuses 1 "case contains a height" "  and a reader fails too" "rc-detrend --plane result.rcg 2>/dev/null | rc-info --verbose - >none"
 
-# one case of three frames, the height first: without the inner end lines
+# one case of three frames, the height first, without the inner end lines
 $solve --output pressure,gap surface.rcg -o two.rcg
 { head -c -9 surface.rcg; head -c -9 two.rcg; printf 'RCGEND 3\n'; } >first.rcg
 refuses 1 'case 1, frame 2 \(pressure\): .* \(pressure, gap\)' "results behind it, all named" "rc-detrend --fill first.rcg"

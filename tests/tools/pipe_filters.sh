@@ -98,7 +98,8 @@ claim "many outliers cause a warning" warns '[0-9.]+ % of the points \([0-9]+ of
     rc-detrend --outliers 0.5 spikes.rcg -o c.rcg
 claim "a taper makes a surface periodic" bash -c '
     rc-detrend --plane --taper 5um spikes.rcg -o a.rcg && says "\"periodic\": \"yes\"" rc-info --json a.rcg'
-# of 40 x 30 nodes 1.1 um x 1 um, 5 columns (4.5 * 1.1 um is below 5 um) and 5 rows on each side: 600 of 1200
+# the taper covers, of 40 x 30 nodes 1.1 um x 1 um, 5 columns (4.5 * 1.1 um is below 5 um) and 5 rows on each
+# side: 600 of 1200
 rc-detrend --plane spikes.rcg -o level.rcg
 claim "  a message has the share of the map, and a warning follows if it is 0" \
     warns 'the taper covers 50 % of the map, and Sq goes from .*--mirror makes a periodic map' rc-detrend --taper 5um level.rcg -o a.rcg

@@ -2,7 +2,7 @@
 # columns and oblique lines, and the material ratio at given heights, equal closed forms for waves.
 . "$(dirname "$0")/../pipe.sh"
 
-# 10 ridges along y with 24 nodes per wave; and crests and troughs of 24 x 20 nodes
+# there are 10 ridges along y with 24 nodes per wave; the other map has crests and troughs of 24 x 20 nodes
 rc-synth wave --nx 240 --ny 200 --dx 1um --amplitude 1um --wavelength 24um -o ridges.rcg
 perl -e 'print "# Width: 240 um\n# Height: 200 um\n# Value units: um\n"; for $j (0 .. 199) {
     print join(" ", map { cos(2 * 3.14159265358979 * $_ / 24) * cos(2 * 3.14159265358979 * $j / 20) } 0 .. 239), "\n" }' >egg.txt

@@ -14,7 +14,7 @@ values='0 1e9 2e9\n3e9 3e9 0\n'
 
 printf "$values" | pressure "hardness=3e9 approach=1.25e-07 converged=yes load=77" >hand.rcg
 rc-info hand.rcg >hand.txt
-# 9 GPa times 2 um2; four nodes of six; two at 3 GPa
+# the load is 9 GPa times 2 um2; four nodes of six touch, two of them at 3 GPa
 for line in '  load       18 mN' '  contact    8 um2, 66.7 % of the map (4 of 6 nodes)' '  pressure   at most 3 GPa' \
     '  approach   125 nm' '  hardness   3 GPa, reached on 4 um2 (2 nodes)' '  converged  yes'; do
     claim "$line" grep -qxF -- "$line" hand.txt

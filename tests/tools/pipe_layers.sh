@@ -34,7 +34,7 @@ claim "  the key of the layers does not change" says 'layers=0.001,1000000000000
 claim "  history and report have the residual stress" eval 'says "rc-solve .*--layer 0.001,1000000000000,0.3,-3000000000" rc-info pressed.rcg && says "0.001,1000000000000,0.3,-3000000000; 0.0005" cat pressed.json'
 claim "  it changes no pressure" test "$(pressures pressed.rcg)" = "$(pressures free.rcg)"
 extreme() { rc-info --json "$2" | grep "\"channel\": \"$3\"" | sed "s/.*\"$1\": \([^,]*\),.*/\1/"; }
-# in the top layer, in the one below, in the substrate
+# positions are in the top layer, in the one below, in the substrate
 for depth in 0.5mm 1.2mm 2mm; do
     for file in pressed free; do rc-stress --depths $depth --components sxx,syy,szz,sxz $file.rcg -o $file-stress.rcg; done
     for c in sxx syy szz sxz; do

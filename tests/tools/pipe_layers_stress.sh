@@ -1,4 +1,5 @@
-# rc-stress on coated bodies as a command: its input from the stream, its output and report, and refusals.
+# rc-stress on coated bodies as a command. Tested are its input from the stream, its output and report, and
+# refusals.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 65 --ny 49 --dx 10um --dy 11um --radius 7.5mm |

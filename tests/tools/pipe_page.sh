@@ -1,5 +1,5 @@
-# rc-report: a page of a surface is complete in itself, its commands make it again, no name or key of a file acts as markup,
-# and a step that fails leaves nothing.
+# rc-report: a page of a surface is complete in itself, and its commands make it again. No name or key of a
+# file acts as markup. A step that fails leaves nothing.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/python.sh"
 

@@ -1,5 +1,5 @@
-# Pictures for papers: SVG and PDF with text as text, the requested size on paper, the unchanged map, and the
-# same bytes at any time.
+# Pictures for papers are SVG and PDF with text as text. They have the requested size on paper, the unchanged
+# map, and the same bytes at any time.
 . "$(dirname "$0")/../pipe.sh"
 
 # a ramp of 6 by 4 nodes: node (i, j) is i + 6 j um, from 0 to 23

@@ -1,5 +1,5 @@
-# rc-solve --conductivity: the conductance of Hertz's contact in both units, and with yielding; none for
-# coated bodies, and none without the option; refusals.
+# rc-solve --conductivity prints the conductance of Hertz's contact in both units, and with yielding. It
+# prints none for coated bodies, and none without the option. Refusals are tested too.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 129 --dx 5um --radius 7.5mm -o ball.rcg

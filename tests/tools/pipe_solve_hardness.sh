@@ -1,4 +1,5 @@
-# rc-solve on a case with a map of hardness beside the heights: two phases, spots without a hardness.
+# rc-solve on a case with a map of hardness beside the heights. The maps have two phases, or spots without a
+# hardness.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-height 0.2um --seed 4 -o h.rcg

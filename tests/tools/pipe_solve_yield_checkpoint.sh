@@ -34,9 +34,9 @@ claim "a resumed run gives the same bits" bash -c "
     cmp whole.rcg again-out.rcg && cmp kept.rcg again.rcg"
 near "$(apart whole.tsv again.tsv)" 0 "$same" "  and so are its figures, the applications that it took included"
 
-# Killed anywhere: after each frame, with a part of the next. The contacts are solved to 1e-4, and a contact
-# that continues from a saved pressure has another first step. Therefore later results agree within this
-# tolerance.
+# The run is killed anywhere, that is, after each frame and with a part of the next. The contacts are solved
+# to 1e-4, and a contact that continues from a saved pressure has another first step. Therefore later results
+# agree within this tolerance.
 cut_off() {
     local end last=0 n=0
     for end in $(ends kept.rcg); do

@@ -1,5 +1,5 @@
 # The pipeline of README runs, and commands have the same meaning in bash and in zsh. Before a release the
-# tutorial of contact(7) runs as printed: its commands print the text on the page, the figures in its
+# tutorial of contact(7) runs as printed. Its commands print the text on the page. The figures in its
 # sentences are in that text or are computed here. Its commands draw its pictures.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"

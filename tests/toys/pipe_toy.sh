@@ -1,4 +1,5 @@
-# A tool of options and a maker, over tools/model: history, report, frames, warnings, checkpoint, plan.
+# A tool of options and a maker, over tools/model. Tested are history, report, frames, warnings, checkpoint
+# and plan.
 . "$(dirname "$0")/../pipe.sh"
 toy="$RC_TOY --quiet --estar 1GPa --compliance 2e-15 --tau 2s"
 

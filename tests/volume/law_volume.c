@@ -1,5 +1,5 @@
 /* Laws of strain in slabs: reciprocity, symmetry, bounds of the stiffness with and without contact,
- * equilibrium, a free surface, and a load that every plane carries. The predicted memory is checked too. */
+ * equilibrium, and a free surface. Every plane carries the load. The predicted memory is checked too. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -352,7 +352,7 @@ of_plane_waves(void **state)
         for (size_t i = 0; i < n; i++)
             most = fmax(most, fabs(u[i]));
         print_message("%zu x %zu: %.1e\n", s.nx, s.ny, apart(n, a.u, u));
-        assert_true(apart(n, a.u, u) < 1e-8); /* of the quadrature */
+        assert_true(apart(n, a.u, u) < 1e-8); /* error of the quadrature */
         assert_true(most > 0 || n == 4);
         all_free(&a);
         free(u);

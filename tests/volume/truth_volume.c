@@ -258,8 +258,8 @@ random_complex(uint64_t *seed)
     return CMPLX(re, im);
 }
 
-/* Several waves of strain in slabs of very different thickness, some of them without strain, in more than one
- * group, and waves of pressure. */
+/* The cases are several waves of strain in slabs of very different thickness, some of them without strain, in
+ * more than one group, and waves of pressure. */
 static void
 equals_elements(void **state)
 {

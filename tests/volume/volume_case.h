@@ -1,4 +1,4 @@
-/* Shared by the tests of the volume: strains and stresses of all voxels, and a stack of slabs. */
+/* Shared by the tests of the volume. It has strains and stresses of all voxels, and a stack of slabs. */
 #ifndef VOLUME_CASE_H
 #define VOLUME_CASE_H
 
@@ -60,7 +60,7 @@ voxels_stress(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
         for (size_t i = 0; i < x->nx; i++) /* it belongs to this stack now */
             s[c][i] = NAN;
     }
-    if (s[RC_SZZ] == NULL) /* of a deviator */
+    if (s[RC_SZZ] == NULL) /* a deviator has no szz */
         for (size_t i = j * x->nx; i < (j + 1) * x->nx; i++)
             voxels_map(x, slab, RC_SZZ)[i] =
                 -voxels_map(x, slab, RC_SXX)[i] - voxels_map(x, slab, RC_SYY)[i];
