@@ -52,7 +52,7 @@ struct rc_ranks;    /* processes that share a map: contact_mpi.h; NULL: none    
 /* Messages of all processes that share maps, in total. */
 struct rc_sent {
     size_t exchanges;       /* exchanges of whole maps between rows and columns */
-    double messages, bytes; /* of these exchanges                                     */
+    double messages, bytes; /* messages and bytes of these exchanges */
     double other_bytes;     /* bytes of sums, neighbouring rows, coarser grids        */
     double seconds;         /* seconds in exchanges, of the slowest process */
 };
@@ -236,9 +236,9 @@ RC_API enum rc_status rc_hole_width(const struct rc_shape *shape, const double *
 #define RC_SAME_SPACING 1e-6
 
 /* Computes means of v, which is constant in the cells of `from`, over the cells of `to`. This grid has any
- * other number of nodes on the same area; the spacings are ignored. The integral is preserved. For heights to
- * a coarser grid, and for pressures back. Where v is partly missing (NaN) the mean is that of the rest of the
- * cell; a cell is missing if less than half of it is measured. v and out do not overlap. */
+ * other number of nodes on the same area; the spacings are ignored. The integral is preserved. It brings
+ * heights to a coarser grid, and pressures back. Where v is partly missing (NaN) the mean is that of the rest
+ * of the cell; a cell is missing if less than half of it is measured. v and out do not overlap. */
 RC_API void rc_resample_means(const struct rc_shape *from, const double *v,
                               const struct rc_shape *to, double *out);
 
@@ -251,12 +251,12 @@ RC_API enum rc_status rc_resample_shape(const struct rc_shape *from, double dx, 
  * stays periodic. */
 RC_API bool rc_resample_covers(const struct rc_shape *from, const struct rc_shape *to);
 /* v on the grid `to`, with the same middle. Along an axis with larger cells: means over their area, missing
- * (NaN) where less than half of it is measured. Along an axis with smaller cells: cubic convolution with six
- * nodes (Keys 1981), exact for cubic polynomials and smooth to the first derivative. It wraps if `periodic`;
- * otherwise a parabola extrapolates the map. Near a missing value it is bilinear, closer constant in the old
- * cell, and missing in a missing cell. Equal cells are copied. v and out do not overlap. RC_FAIL when `to`
- * exceeds the map or memory is short. It needs another map if one axis becomes coarser and the other finer,
- * else a few rows. */
+ * (NaN) where less than half of it is measured. Along an axis with smaller cells it is cubic convolution with
+ * six nodes (Keys 1981), exact for cubic polynomials and smooth to the first derivative. It wraps if
+ * `periodic`; otherwise a parabola extrapolates the map. Near a missing value it is bilinear, closer constant
+ * in the old cell, and missing in a missing cell. Equal cells are copied. v and out do not overlap. RC_FAIL
+ * when `to` exceeds the map or memory is short. It needs another map if one axis becomes coarser and the
+ * other finer, else a few rows. */
 RC_API enum rc_status rc_resample(const struct rc_shape *from, const double *v, bool periodic,
                                   const struct rc_shape *to, double *out, struct rc_err *err);
 
@@ -295,7 +295,7 @@ struct rc_statistics {
     size_t missing;                /* NaN                                            */
     size_t infinite;               /* +-inf, left out of all other figures, like NaN */
     double minimum, maximum, mean; /* NAN when all values are missing                */
-    double rms;                    /* about the mean (for heights: Sq)               */
+    double rms;                    /* deviation from the mean (for heights: Sq) */
     /* magnitude of the gradient (Sdq), by forward differences between measured neighbours */
     double rms_slope;
     double sum; /* compensated */
@@ -457,7 +457,7 @@ struct rc_psd {
     double *c;          /* m^4; for a profile m^3                                              */
     size_t *modes;      /* number of waves in a ring, opposite ones both counted: at least one */
     const char *window; /* its name                                                            */
-    double sum;         /* m^2: of c over all waves, over the area of the map                  */
+    double sum;         /* m^2: sum of c over all waves, over the area of the map */
     double mean_square; /* m^2: Sq^2, of the heights themselves                                */
     double hurst;       /* H of c ~ q^(-2-2H), for a profile q^(-1-2H); NAN: no power law      */
     double hurst_error; /* its standard error                                                  */
@@ -748,7 +748,7 @@ struct rc_yield {
     double stress;  /* Pa, > 0: initial yield stress                      */
     double modulus; /* Pa, >= 0: slope over the equivalent plastic strain */
     size_t points;  /* points of the table; 0: linear law */
-    /* from 0, increasing; Pa, not decreasing. Extrapolated beyond the last point */
+    /* strains from 0, increasing; stresses in Pa, not decreasing. Extrapolated beyond the last point */
     const double *strain_at, *stress_at;
 };
 
@@ -832,8 +832,8 @@ struct rc_yielding_figures {
     size_t slabs;                      /* slabs in use; 0: no voxel has yielded */
     const double *thickness;           /* m, of each                                             */
     size_t increment, increments;      /* reached, and of the load, as tried                     */
-    double max_mises_over_yield, max_mises_depth; /* of the elastic contact: largest value, and
-                                                     its depth in m; NAN: unknown */
+    double max_mises_over_yield, max_mises_depth; /* elastic contact: largest Mises stress over the
+                                                     yield stress, and its depth in m; NAN: unknown */
     double indentation, residual_indentation;     /* as in rc_elastic_figures                */
 };
 /* A model (model.h) of a body that may yield, along a history of loads; its heights cannot change. As long as
@@ -1020,7 +1020,7 @@ struct rc_leak_figures {
     /* half their difference over the first: estimated relative discretization error; NAN: no flow */
     double error;
     double lower, upper; /* m^3, rigorous bounds of `conductance` on this grid, to rounding */
-    double flow_factor;  /* of Patir and Cheng: conductance over the conductance of two flats at
+    double flow_factor;  /* factor of Patir and Cheng: conductance over that of two flats at
                             the mean gap */
     double mean_gap; /* m: over all nodes, 0 in contact                                        */
     double slope;    /* RMS of the gap's gradient where fluid flows; NAN: nowhere              */
@@ -1050,7 +1050,7 @@ RC_API enum rc_status rc_leak_set_gap(struct rc_leak *leak, const double *p, con
 RC_API enum rc_status rc_leak_step(struct rc_leak *leak, struct rc_err *err);
 /* Percolation is known at once, conductances after the last step. */
 RC_API const struct rc_leak_figures *rc_leak_result(const struct rc_leak *leak);
-/* Maps of nx ny values after the last step. Fluid pressure, 1 at the inlet, 0 at the outlet; NAN in contact,
+/* Maps of nx ny values after the last step. Fluid pressure: 1 at the inlet, 0 at the outlet; NAN in contact,
  * and in enclosed fluid. */
 RC_API void rc_leak_pressure(const struct rc_leak *leak, double *pressure);
 /* Magnitude of the flow per width for a pressure difference of 1 and 12 eta = 1, m^2. It is exactly 0 where
@@ -1086,7 +1086,7 @@ struct rc_slip_figures {
     double limit;    /* N: largest force that friction can carry, at most mu times the load */
     double force[2]; /* N, along x and y                                                    */
     double displacement[2];         /* m, of body 2 over body 1 since first touch                */
-    size_t stick_nodes, slip_nodes; /* of the nodes with a load */
+    size_t stick_nodes, slip_nodes; /* numbers of nodes among those with a load */
     double stick_area, slip_area;   /* m^2                                                       */
     double stick_fraction;          /* share of the nodes that carry load; NAN: none             */
     double stiffness;               /* N/m: |force| over |displacement|; NAN where one is 0      */
@@ -1136,8 +1136,8 @@ RC_API const double *rc_slip_traction(const struct rc_slip *slip, int direction)
 RC_API void rc_slip_slip(const struct rc_slip *slip, int direction, double *to);
 /* nx ny: 0 where no load is carried, 1 where a node sticks, 2 where it slips. */
 RC_API void rc_slip_state(const struct rc_slip *slip, double *to);
-/* Normal displacement due to the tractions, nx ny m, into the bodies: 0 for identical bodies. Subtracted from
- * the heights, it gives the contact under these tractions. */
+/* Normal displacement due to the tractions, nx ny m, into the bodies; it is 0 for identical bodies.
+ * Subtracted from the heights, it gives the contact under these tractions. */
 RC_API void rc_slip_normal(struct rc_slip *slip, double *uz);
 /* Dundurs' constant of the pair: 0 if pressure and tractions are uncoupled. */
 RC_API double rc_slip_beta(const struct rc_slip *slip);
@@ -1246,9 +1246,10 @@ struct rc_rolling_problem {
 };
 struct rc_rolling_figures {
     double load, limit;             /* N: normal; the largest that friction can carry         */
-    double creep[2], spin;          /* per length rolled: 1; rad/m. NAN: not yet              */
+    double creep[2], spin;          /* creepage per length rolled, and spin in rad/m. NAN: not
+                                       yet */
     double force[2], moment;        /* N, on body 1; N m, about the middle of the contact     */
-    size_t stick_nodes, slip_nodes; /* of the nodes that carry load                    */
+    size_t stick_nodes, slip_nodes; /* numbers of the nodes that carry load */
     double stick_fraction;          /* share of the nodes that carry load                     */
     double power;                   /* J/m: tractions times the motion of the bodies          */
     double power_slip;              /* J/m: tractions times slip; the grid loses the rest     */
@@ -1260,7 +1261,7 @@ struct rc_rolling_figures {
     /* Estimated relative errors. First: L1 error of the tractions on this grid. Second: error of the force
      * due to the spacing, or of the creepage if the force is given (NAN: unknown). */
     double traction_error, discretization_error;
-    size_t steps, fallbacks; /* of Newton's method; steps in time, where it fails      */
+    size_t steps, fallbacks; /* steps of Newton's method; steps in time, where it fails */
     double convolutions;     /* with those of the contact                              */
     bool converged;          /* traction_error <= tol                                  */
 };
@@ -1357,7 +1358,7 @@ enum rc_component {
     RC_SXZ,
     RC_SYZ,
     RC_COMPONENTS,
-    RC_MISES = RC_COMPONENTS, /* from here on derived from all six  */
+    RC_MISES = RC_COMPONENTS, /* this and the following ones are derived from all six */
     RC_TRESCA,                /* s1 - s3                            */
     RC_S1,                    /* principal stresses, s1 >= s2 >= s3 */
     RC_S2,
@@ -1537,7 +1538,7 @@ struct rc_fatigue_figures {
     double least_hydrostatic, largest_hydrostatic; /* Pa, in all histories           */
     double stressed_volume; /* GPa^power m^(3 - depth_power), of a pass m^(2 - depth_power)  */
     size_t depths, histories, states; /* states: of one history                           */
-    size_t bands;                     /* of rows                                        */
+    size_t bands;                     /* most bands of rows */
 };
 /* RC_FAIL when rc_fatigue_new would refuse the problem, except for short memory. */
 RC_API enum rc_status rc_fatigue_check(const struct rc_shape *shape,

@@ -12,7 +12,7 @@
  * (rc_adhesion_start). */
 struct rc_adhesion_past {
     double dents[2]; /* error of their dents relative to the pressures; this error times the sum of
-                      *                         the pressures */
+                        the pressures */
     bool begun;      /* there was a state */
 };
 struct rc_adhesion_past *rc_adhesion_past(struct rc_adhesion *a);

@@ -26,7 +26,7 @@ enum rc_gap_control {
 
 enum {
     RC_GAP_MOST = 12, /* this and the following entries: the largest values of the rows; the entries
-                       * before: their sums */
+                         before: their sums */
     RC_GAP_SUMS = 16,
     RC_GAP_FLOATS = 9, /* maps of the softest mode */
     RC_GAP_LINE = 512  /* most nodes of a row in one call of a law */

@@ -28,9 +28,9 @@ static const double load_step = 0.3;   /* part of the attraction by which a step
 static const double growth = 1.5;      /* growth of a step over the last one while the load falls */
 static const double growth_after = 2;  /* the same while the load rises */
 static const double fine_step = 0.05;  /* fraction of the lowest load: a fine step may hide so
-                                        * much */
+                                          much */
 static const double settled = 1e-3;    /* fraction of the lowest load: smaller differences do not
-                                        * count */
+                                          count */
 static const double unsteady = 1.5;    /* change of the rate of attraction that counts as a jump */
 static const double convex = 1.1;      /* a larger growth of the slope means a jump */
 static const double least_step = 1e-6; /* relative to the range */

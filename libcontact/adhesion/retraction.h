@@ -35,7 +35,7 @@ enum rc_retraction_stage {
 
 struct rc_retraction {
     double work, range, parted; /* work and range of the law; `parted`: the mean gap without
-                                 * attraction */
+                                   attraction */
     enum rc_retraction_stage stage;
     /* states in the order of the retraction; the fine stage begins at `base` */
     struct rc_retraction_state base, prior, last, before, lowest, after;

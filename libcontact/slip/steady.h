@@ -34,7 +34,7 @@ struct rc_steady {
     double *u[2], *s[2]; /* T q or T of a vector; slip     */
     double *way[2],
         *old[2]; /* correction; q before it. On a path: displacement due to the pressure; before */
-    double *way_of[2][2]; /* for a given force: corrections due to v, else NULL */
+    double *way_of[2][2]; /* if the force is given: corrections due to v, else NULL */
     float *curve;         /* D of nodes that slip           */
     float *basis[RC_STEADY_STEPS + 1][2], *z[RC_STEADY_STEPS][2], *frame[2];
     unsigned char *face, *was; /* enum rc_face; those before the step */
@@ -48,7 +48,7 @@ struct rc_steady {
     struct {
         double size;     /* sum of |q|                                                     */
         double residual; /* relative: change of q by a projected step of length 1/self     */
-        double estimate; /* of the relative L1 error of q                                  */
+        double estimate; /* estimated relative L1 error of q */
         double sum[2];   /* of q                                                           */
         double change;   /* sum of |x| of the last step                                    */
         size_t stick, slipping, steps, fallbacks;

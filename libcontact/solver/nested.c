@@ -16,7 +16,7 @@ enum {
     ROUNDS = 8,       /* most rounds of Newton's method for the fine nodes of a coarse node */
     COARSEST = 24,    /* nodes along the map; a smaller coarse grid does not pay */
     FEW_NODES = 16384 /* limit of nodes of a rank; with fewer, each rank solves the whole grid
-                       * itself */
+                         itself */
 };
 /* Tolerances of the coarse solution. A more accurate start saves no steps, unless nodes are at their upper
  * bounds. */

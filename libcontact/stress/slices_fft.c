@@ -28,9 +28,9 @@ struct grid {
     size_t first_row, rows;                 /* rows computed here */
     size_t first_column, columns;           /* columns held here */
     double *quarter[RC_STRESS_KERNELS];     /* free map: these rows of cx values, transformed in
-                                             * x */
+                                               x */
     double *known;                          /* periodic map: `numbers` for each wave, columns of
-                                             * cy */
+                                               cy */
     size_t numbers;                         /* numbers that describe a wave at the depth */
     struct rc_inside *inside;               /* at the depth                                     */
     double depth;                           /* depth of all tables above, m */

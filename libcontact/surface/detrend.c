@@ -51,7 +51,7 @@ struct fit {
     double *step;            /* their correction */
     double *residual, reach; /* robust: h - mean - polynomial, for the weights; else NULL */
     double *rows;            /* sums of ROWS rows: nx_orders sums of w px, nx_terms sums of w e
-                              * px */
+                                px */
     double *of_weights;      /* sums over the map of w T_k(x) T_l(y): at l nx_orders + k */
     double *of_residuals;    /* sums of w e T_k(x) T_l(y): at l nx_terms + k */
     double *lines;           /* memory for each thread: e, w and w e of a row */

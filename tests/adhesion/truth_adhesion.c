@@ -51,7 +51,7 @@ static const struct {
     {3, 40, 104, 1.2e-3, 3e-3},   {5, 40, 104, 2.6e-3, 7.5e-3},
 };
 static const double of_radius = 0.02; /* error of the radius in units of Maugis; it is less than a
-                                       * node */
+                                         node */
 
 static void
 sphere_of_maugis(void **state)

@@ -427,7 +427,7 @@ a_table_has_the_colours_of_the_map(void **state)
         colormap_tabulate(&table, map);
         for (size_t k = 0; k <= n + 1; k++) {
             double t = ((double)k - 0.5) / (double)(n / 2) - 0.5; /* goes from before 0 to beyond
-                                                                   * 1 */
+                                                                     1 */
             struct rgb a = colormap_at(map, t), b = colormap_look_up(&table, t);
             assert_true(a.r == b.r && a.g == b.g && a.b == b.b);
             t = nextafter((double)k / (double)n, k % 2 == 0 ? -1 : 1);

@@ -544,7 +544,7 @@ test_errors_of_a_path_add_up(void **state)
             struct rc_friction_figures f[2];
             double error;
             for (int c = 0; c < 2; c++) /* the force turns on a square of 0.06 to 0.26 of the
-                                         * friction limit */
+                                           friction limit */
                 force[c] += (slip_noise(&seed) - 0.5) * 0.15 * load;
             for (int c = 0; c < 2; c++)
                 force[c] = fmax(-0.18 * load, fmin(0.18 * load, force[c]));

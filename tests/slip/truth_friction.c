@@ -133,7 +133,7 @@ check_each_other(struct rc_model *m, const double *h, const struct rc_friction_p
     slip = rc_slip_new(&shape, &alone, NULL);
     assert_non_null(slip);
     rc_contact_apart(NULL, &shape, h, less, &apart); /* the path starts from separated bodies, as in
-                                                      * the model */
+                                                        the model */
     assert_int_equal(rc_slip_set_pressure(slip, NULL, less, NULL), RC_OK);
     assert_int_equal(rc_slip_set_force(slip, 0, 0, NULL), RC_OK);
     assert_int_equal(slip_solve(slip, &figures), RC_OK);

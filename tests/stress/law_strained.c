@@ -236,7 +236,7 @@ costs_one_sweep(void **state)
     (void)state;
     make(&s);
     for (int q = 0; q < 4; q++) { /* the requests are one component, five, six for derived stresses,
-                                   * no strain */
+                                     no strain */
         static const unsigned wanted[] = {1U << RC_SXZ, 0x2f, 1U << RC_MISES, 1U << RC_MISES};
         static const size_t components[] = {1, 5, 6, 0};
         struct rc_stress_options o = options_of(&s, q < 3, wanted[q]);

@@ -33,7 +33,7 @@ struct paper {
     const char *stamp;    /* a warning in a separate frame; NULL: none                      */
     size_t width;         /* pixels of the whole picture; 0: automatic                      */
     double dpi;           /* dpi per inch, for text of its size on paper; 0: marks of
-                           * FIGURE_POINTS */
+                             FIGURE_POINTS */
     const char *family;   /* font of the text; NULL: sans */
 };
 
@@ -46,7 +46,7 @@ struct bar {
     bool log;         /* logarithmic colours; 0 < lo                   */
     const char *note; /* about the colours, in the legend; NULL: none  */
     double min, max;  /* min and max of the values: the bar has an arrow towards values beyond its
-                       * end */
+                         end */
 };
 
 /* The position of a map, and its axes. */

@@ -260,7 +260,7 @@ stress_plan_bytes(const struct rc_stress_options *o, size_t components)
 {
     static const double fft[2][2] = {{58, 21.7}, {31, 13.6}}; /* double and single precision   */
     static const double kernel[] = {8, 0}, waves[] = {0, 2};  /* work of each component, then of
-                                                               * each load */
+                                                                 each load */
     static const double traction[] = {29, 8}, slab[] = {279, 71};
     static const double section = 26, direct = 16; /* work on both boundaries */
     const int k = o->boundary == RC_PERIODIC, single = o->tol >= RC_SINGLE_FLOOR;

@@ -13,7 +13,7 @@ enum {
     LABEL = 32, /* bytes of one */
     AT_FORMULA = 8,
     AT_LENGTHS = 12, /* lengths of the note, data unit, units of 4 dimensions, labels of 4
-                      * dimensions */
+                        dimensions */
     AT_TYPE = 80,
     AT_NAME = 92,
     AT_SIZES = 132,

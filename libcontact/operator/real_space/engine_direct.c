@@ -20,7 +20,7 @@ struct rc_direct {
     /* ny rows at y offsets 0 .. ny-1, each of `width`: x offsets -(nx-1) .. nx-1, padded to whole strips */
     double *k;
     double *scratch; /* memory of each thread: rows of a block, added and interleaved; and the
-                      * result */
+                        result */
     double mirror;   /* factor for negative y offsets */
 };
 

@@ -171,9 +171,9 @@ valid_points(void **state)
 
 /* These checksums were computed by md5sum(1). */
 static const char plain_md5[] = "50DA13748603A71B2A148AB7B8EE9DC2"; /* MD5 of the bytes of 1.0 to
-                                                                     * 6.0 */
+                                                                       6.0 */
 static const char main_md5[] = "a6dfd3c456eb1c49b3391fa8dc64551d";  /* MD5 of main.xml around
-                                                                     * them */
+                                                                       them */
 
 static void
 checksums(void **state)
