@@ -1290,6 +1290,9 @@ struct rc_wear_problem {
     /* nx ny numbers from 0 to 1, by which k is multiplied at each node, the largest 1; NULL: 1 everywhere.
      * The caller keeps them as long as the model. */
     const double *part;
+    /* m: body 1 stays in contact and body 2 passes it along x, on a track of this length, each point of which
+     * it wears once per this distance; 0: the same points of both bodies stay in contact */
+    double track;
     /* A leg ends early when one of these is reached; 0: no such condition. */
     double until_area;   /* contact fraction                   */
     double until_depth;  /* m: largest worn depth              */

@@ -159,9 +159,10 @@ RC_API enum rc_status rc_model_set_heights(struct rc_model *model, const double 
  * moves by c p more, as if a film were worn off or crushed. The answer is that of bodies with the heights h -
  * c p. Its gap is K p + c p - h - shift, and its displacement K p, of the elastic bodies alone. The approach
  * is counted from the highest node of h. part: nx ny numbers >= 0 that multiply c at each node (NULL: all 1).
- * The caller keeps them until others are set. RC_FAIL where the model cannot. */
+ * The caller keeps them until others are set. Each row, along x, also moves by `along`, 1/Pa, times the
+ * integral of its pressure, as a track does that a body passes and wears. RC_FAIL where the model cannot. */
 RC_API enum rc_status rc_model_set_compliance(struct rc_model *model, double c, const double *part,
-                                              struct rc_err *err);
+                                              double along, struct rc_err *err);
 RC_API struct rc_shape rc_model_shape(const struct rc_model *model);
 /* The solver of the contact of this model or of its inner one, for its pressure, names and progress; only the
  * model steps it. NULL: there is none, or no load so far. */

@@ -7,7 +7,7 @@
 #include "tools/model/model.h"
 
 static struct args {
-    const char *coefficient, *energy, *until, *steps;
+    const char *coefficient, *energy, *motion, *until, *steps;
     struct numbers archard, distance, cycles, load; /* load: of the stream */
     double hardness, mu, tol;
     size_t output;
@@ -41,6 +41,8 @@ static const struct opt opts[] = {
      .result = true, .arg = "LIST", .help = "sliding distances from the start, each a case"},
     {.name = "cycles", .type = OPT_NUMBERS, AT(cycles), .min = 0, .max = INFINITY, .result = true,
      .arg = "LIST", .help = "instead: numbers of cycles, whose slip is the frame slip of rc-slip"},
+    {.name = "motion", .type = OPT_TEXT, AT(motion), .result = true, .arg = "same|track:LENGTH",
+     .help = "the same points stay in contact (default), or body 2 passes along x on a track of this length"},
     {.name = "until", .type = OPT_TEXT, AT(until), .result = true, .arg = "LIST",
      .help = "end earlier at area=FRACTION in contact, depth=LENGTH or uniform=SPREAD of the pressure"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 0.5, .above = true, .result = true,
@@ -174,6 +176,27 @@ read_law(struct run *run)
         tool_die(t, EXIT_USAGE, "no body wears: give a wear coefficient above 0");
     if (k[0] > 0 && k[1] > 0 && !tool_given(t, "output"))
         args.output |= 48;
+}
+
+static void
+read_motion(struct run *run)
+{
+    const char *text = args.motion;
+    struct rc_err err;
+
+    if (text == NULL || strcmp(text, "same") == 0)
+        return;
+    if (strncmp(text, "track:", 6) != 0 ||
+        unit_number(text + 6, UNIT_M, &run->law.track, &err) != RC_OK || !(run->law.track > 0) ||
+        isinf(run->law.track))
+        tool_die(&run->d.t, EXIT_USAGE,
+                 "--motion %s: it must be same or track:LENGTH, with a length above 0, as in "
+                 "track:60mm; two rough bodies that slide over each other are not implemented",
+                 text);
+    if (args.cycles.n > 0)
+        tool_die(&run->d.t, EXIT_USAGE,
+                 "--motion track and --cycles exclude each other: in a cycle of fretting the same "
+                 "points stay in contact");
 }
 
 static void
@@ -334,6 +357,31 @@ estar_of(const struct rc_pair *p)
     return 1 / compliance;
 }
 
+/* 1/Pa: the depth that a node loses under its own pressure and sliding distance. */
+static double
+rate(const struct run *run, const struct rc_grid *g)
+{
+    const double *k = run->law.k;
+
+    return k[0] + (run->law.track > 0 ? k[1] * g->dx / run->law.track : k[1]);
+}
+
+/* On a periodic map the body in contact is repeated along the track. */
+static void
+suspect_track(struct run *run, const struct rc_grid *g)
+{
+    const double period = g->dx * (double)g->nx, track = run->law.track;
+    char given[SHOWN_NUMBER], usual[SHOWN_NUMBER], where[256];
+
+    tool_where(&run->d.t, g, where, sizeof where);
+    if (track > 0 && run->law.k[1] > 0 && fabs(track - period) > 1e-6 * period &&
+        strcmp(rc_grid_get(g, "boundary"), "periodic") == 0)
+        tool_warn(&run->d.t,
+                  "%s: the map is periodic, so that each point of the track is passed every %s and "
+                  "not every %s: give the period as the length of the track, or solve a free map",
+                  where, shown_in_unit(usual, period, "m"), shown_in_unit(given, track, "m"));
+}
+
 /* Distances that change nothing, or after which nothing changes: a unit may be wrong. */
 static void
 suspect_unit(struct run *run, const struct rc_grid *g)
@@ -341,7 +389,7 @@ suspect_unit(struct run *run, const struct rc_grid *g)
     struct tool *t = &run->d.t;
     const struct rc_point *point = run->d.point;
     const double side = fmax(g->dx * (double)g->nx, g->dy * (double)g->ny);
-    const double k = run->law.k[0] + run->law.k[1], scale = k * run->law.estar;
+    const double scale = rate(run, g) * run->law.estar;
     char given[SHOWN_NUMBER], usual[SHOWN_NUMBER], where[256];
     double first = INFINITY, last = 0;
 
@@ -436,13 +484,14 @@ put_step(struct course *c, struct rc_model *m)
 static void
 show_plan(struct run *run, const struct rc_grid *g)
 {
-    const double scale = (run->law.k[0] + run->law.k[1]) * run->law.estar;
+    const double scale = rate(run, g) * run->law.estar;
     const double limit = 0.9 * g->dx / scale;
     const double last = run->d.point[run->d.points - 1].at[RC_DISTANCE];
     char step[SHOWN_NUMBER];
 
-    fprintf(run->d.t.out, "  explicit steps: about %.3g, each at most 0.9 dx/(k E*) = %s\n",
-            ceil(last / limit), shown_in_unit(step, limit, "m"));
+    if (run->law.track == 0 || run->law.k[1] == 0)
+        fprintf(run->d.t.out, "  explicit steps: about %.3g, each at most 0.9 dx/(k E*) = %s\n",
+                ceil(last / limit), shown_in_unit(step, limit, "m"));
     if (run->law.part != NULL)
         fprintf(run->d.t.out,
                 "  coefficient by node: a contact takes about 12 to 35 convolutions, more than 100 "
@@ -497,6 +546,7 @@ do_case(struct run *run, const struct rc_grid *g)
     for (size_t k = 0; k < d->points; k++)
         rc_point_set(&d->point[k], RC_LOAD, load);
     suspect_unit(run, g);
+    suspect_track(run, g);
     drive_case(
         d, g,
         rc_wear_new(rc_elastic_new(&shape, g->v, &problem, NULL, &err), g->v, &run->law, &err),
@@ -603,6 +653,7 @@ main(int argc, char **argv)
         tool_die(&run.d.t, EXIT_USAGE,
                  "wear is not shared among processes: take one process, with --threads");
     read_law(&run);
+    read_motion(&run);
     read_until(&run);
     if ((args.distance.n > 0) == (args.cycles.n > 0))
         tool_die(

@@ -189,12 +189,16 @@ rc_model_set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 }
 
 enum rc_status
-rc_model_set_compliance(struct rc_model *m, double c, const double *part, struct rc_err *err)
+rc_model_set_compliance(struct rc_model *m, double c, const double *part, double along,
+                        struct rc_err *err)
 {
     if (!(c >= 0) || isinf(c))
         return rc_err_set(err, "compliance %g m/Pa: it must be at least 0 and finite", c);
+    if (!(along >= 0) || isinf(along))
+        return rc_err_set(err, "compliance of rows %g 1/Pa: it must be at least 0 and finite",
+                          along);
     return m->row->compliance != NULL
-               ? m->row->compliance(m, c, part, err)
+               ? m->row->compliance(m, c, part, along, err)
                : rc_err_set(err, "the %s model has no compliance of its nodes", m->row->name);
 }
 

@@ -90,7 +90,7 @@ struct rc_model_row {
     /* The following functions may be NULL. keep is called after look. */
     enum rc_status (*keep)(struct rc_model *m, struct rc_err *err);
     enum rc_status (*heights)(struct rc_model *m, const double *h, struct rc_err *err);
-    enum rc_status (*compliance)(struct rc_model *m, double c, const double *part,
+    enum rc_status (*compliance)(struct rc_model *m, double c, const double *part, double along,
                                  struct rc_err *err);
     /* From the next go on, the tolerance is this part of the one that the maker was given. A model with
      * `compliance` has it. */

@@ -54,7 +54,7 @@ struct rc_spectrum {
     double total;   /* value at wave number 0 */
     void *values;   /* the columns held here, of cy numbers in the order of fft.h, over px py */
     bool lent;      /* these numbers belong to another spectrum */
-    struct rc_ratio ratio; /* factor of these numbers in a chain */
+    struct rc_ratio ratio, first; /* factors of these numbers in a chain; of the first column */
 };
 
 static const struct rc_ratio numbers_themselves = {0, 1, 1, 0};
@@ -295,7 +295,7 @@ rc_spectrum_new(const struct rc_fft *f, struct rc_err *err)
         k->values = rc_alloc(l->columns * l->cy, f->ops->real_size);
     if (k != NULL) {
         k->columns = l->cx;
-        k->ratio = numbers_themselves;
+        k->ratio = k->first = numbers_themselves;
     }
     if (k == NULL || k->values == NULL)
         rc_err_set(err, "out of memory for a kernel's spectrum of %zu x %zu numbers", l->cx, l->cy);
@@ -597,24 +597,31 @@ rc_spectrum_new_reciprocal(const struct rc_fft *f, const struct rc_spectrum *of,
     }
     *k = *of;
     k->lent = true;
-    k->ratio = (struct rc_ratio){1 / (size * size), 0, 0, 1}; /* both are divided by size */
+    k->ratio = k->first =
+        (struct rc_ratio){1 / (size * size), 0, 0, 1}; /* both are divided by size */
     k->total = of->total == 0 ? 0 : 1 / of->total;
     return k;
 }
 
 /* Stored numbers s are K/N or A/N, N = px py. K + D is s + D/N, 1/(K + D) is N^-2/(s + D/N) of a lent K, and
- * A/(1 + D A) is s/(1 + D N s). */
+ * A/(1 + D A) is s/(1 + D N s). R'R multiplies waves along y by px, and all others by 0. */
 void
-rc_spectrum_add(struct rc_spectrum *k, const struct rc_fft *f, bool inverse, double plus)
+rc_spectrum_add(struct rc_spectrum *k, const struct rc_fft *f, bool inverse, double plus,
+                double row)
 {
     const double size = (double)f->layout.px * (double)f->layout.py;
+    const double all = plus + row * (double)f->layout.px;
 
-    if (!inverse)
+    if (!inverse) {
         k->ratio.a = plus / size;
-    else if (k->lent)
+        k->first.a = all / size;
+    } else if (k->lent) {
         k->ratio.c = plus / size;
-    else
+        k->first.c = all / size;
+    } else {
         k->ratio.d = plus * size;
+        k->first.d = all * size;
+    }
 }
 
 /* ---- use ---- */
@@ -622,7 +629,7 @@ rc_spectrum_add(struct rc_spectrum *k, const struct rc_fft *f, bool inverse, dou
 static struct rc_factor
 factor_of(const struct rc_spectrum *k)
 {
-    return (struct rc_factor){k->values, k->parity, k->ratio};
+    return (struct rc_factor){k->values, k->parity, k->ratio, k->first};
 }
 
 void

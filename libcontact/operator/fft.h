@@ -67,10 +67,10 @@ int rc_fft_threads(const struct rc_fft *fft);
  * when memory is short. */
 struct rc_spectrum *rc_spectrum_new_reciprocal(const struct rc_fft *fft,
                                                const struct rc_spectrum *of, struct rc_err *err);
-/* Changes the spectrum of K, in chains, to that of K + plus I. With `inverse` the spectrum is that of K^-1.
- * plus 0 restores K. */
+/* Changes the spectrum of K, in chains, to that of K + plus I + row R'R, where R sums each row. With
+ * `inverse` the spectrum is that of K^-1. plus and row 0 restore K. */
 void rc_spectrum_add(struct rc_spectrum *spectrum, const struct rc_fft *fft, bool inverse,
-                     double plus);
+                     double plus, double row);
 /* The transform of the kernel's values on either boundary; on the periodic one each offset counts once, by
  * the shortest way around the map. */
 enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct rc_fft *fft,
@@ -174,7 +174,7 @@ struct rc_ratio {
 struct rc_factor {
     const void *spectrum;
     unsigned parity;
-    struct rc_ratio ratio;
+    struct rc_ratio ratio, first; /* `first`: of the first column, of waves along y */
 };
 /* A row function, and the factor of its row's transform. */
 struct rc_link {

@@ -506,7 +506,6 @@ static void
 convolve_columns(struct plan *f, const struct rc_factor *factor)
 {
     const struct rc_layout *l = &f->l;
-    const bool itself = factor->ratio.a == 0 && factor->ratio.d == 0;
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t c = 0; c < l->columns; c += LINE) {
@@ -517,8 +516,9 @@ convolve_columns(struct plan *f, const struct rc_factor *factor)
         gather(f, c, y);
         for (size_t b = 0; b < n; b++) {
             const REAL *s = (const REAL *)factor->spectrum + (c + b) * l->cy;
-            if (!itself) {
-                divide(l->cy, s, &factor->ratio, ratio);
+            const struct rc_ratio *of = l->first + c + b == 0 ? &factor->first : &factor->ratio;
+            if (of->a != 0 || of->d != 0) {
+                divide(l->cy, s, of, ratio);
                 s = ratio;
             }
             for (size_t r = 0; r < l->radix; r++) {

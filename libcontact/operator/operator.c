@@ -268,6 +268,7 @@ rc_operator_free(struct rc_operator *op)
     free(s->p);
     free(s->u);
     free(s->row);
+    free(s->op.sunk);
     free(s);
 }
 
@@ -504,9 +505,9 @@ rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
     s->bends = fine->bends;
     if (plan(s, shape, &o, err) == RC_OK) {
         s->op.estar = op->estar;
-        if (op->plus > 0)
-            (void)rc_operator_set_diagonal(&s->op, op->plus, NULL, err);
-        return &s->op;
+        if ((op->plus == 0 && op->row == 0) ||
+            rc_operator_set_diagonal(&s->op, op->plus, NULL, op->row, err) == RC_OK)
+            return &s->op;
     }
     rc_operator_free(&s->op);
     return NULL;
@@ -555,7 +556,7 @@ rc_operator_own_range(const struct rc_operator *op, double *lowest, double *high
 }
 
 enum rc_status
-rc_operator_set_diagonal(struct rc_operator *op, double plus, const double *part,
+rc_operator_set_diagonal(struct rc_operator *op, double plus, const double *part, double row,
                          struct rc_err *err)
 {
     struct own *s = (struct own *)op;
@@ -565,15 +566,21 @@ rc_operator_set_diagonal(struct rc_operator *op, double plus, const double *part
     op->part = plus > 0 ? part : NULL;
     if (op->part != NULL && make_rows(s, err) != RC_OK)
         return RC_FAIL;
+    op->row = row;
+    free(op->sunk);
+    op->sunk = row > 0 ? rc_alloc(op->shape.ny, sizeof *op->sunk) : NULL;
+    if (row > 0 && op->sunk == NULL)
+        return rc_err_set(err, "out of memory for the motion of %zu rows", op->shape.ny);
     rc_operator_own_range(op, &lowest, &highest);
     if (op->part != NULL)
         op->plus =
             sqrt(fmax(lowest, RC_LEAST_OWN * op->unit) * fmax(highest, RC_LEAST_OWN * op->unit));
-    op->norm = s->bare.norm + highest;
-    op->diagonal = s->bare.diagonal + op->plus;
-    op->mean_free = op->boundary == RC_PERIODIC && plus == 0;
-    op->edges = plus > 0 || (op->boundary == RC_FREE && !s->positive);
-    rc_spectrum_add(s->kernel, s->fft, false, op->part == NULL ? plus / op->unit : 0);
+    op->norm = s->bare.norm + highest + row * op->shape.dx * (double)op->shape.nx;
+    op->diagonal = s->bare.diagonal + op->plus + row * op->shape.dx;
+    op->mean_free = op->boundary == RC_PERIODIC && plus == 0 && row == 0;
+    op->edges = plus > 0 || row > 0 || (op->boundary == RC_FREE && !s->positive);
+    rc_spectrum_add(s->kernel, s->fft, false, op->part == NULL ? plus / op->unit : 0,
+                    row * op->shape.dx / op->unit);
     rc_operator_set_inverse(op, op->plus);
     set_inverse_near(s);
     return RC_OK;
@@ -584,10 +591,17 @@ rc_operator_set_inverse(struct rc_operator *op, double plus)
 {
     struct own *s = (struct own *)op;
 
-    rc_spectrum_add(s->inverse, s->fft, true, plus / op->unit);
+    rc_spectrum_add(s->inverse, s->fft, true, plus / op->unit, op->row * op->shape.dx / op->unit);
 }
 
 /* ---- use ---- */
+
+void
+rc_operator_sink(struct rc_operator *op, const double *p)
+{
+    for (size_t j = 0; j < op->shape.ny && op->sunk != NULL; j++)
+        op->sunk[j] = op->row * op->shape.dx * rc_sum(p + j * op->shape.nx, op->shape.nx);
+}
 
 void
 rc_operator_apply(struct rc_operator *op, const double *p, double *u)
@@ -596,11 +610,12 @@ rc_operator_apply(struct rc_operator *op, const double *p, double *u)
     const size_t n = op->shape.nx * op->shape.ny;
 
     rc_conv_apply(s->conv, p, u);
-    if (op->plus == 0)
+    if (op->plus == 0 && op->row == 0)
         return;
+    rc_operator_sink(op, p);
 #pragma omp parallel for num_threads(rc_useful_threads(&op->shape, op->threads)) schedule(static)
     for (size_t k = 0; k < n; k++)
-        u[k] += rc_operator_own(op, k) * p[k];
+        u[k] += rc_operator_own_motion(op, k, p[k]);
 }
 
 /* Gathers rows into a map, sums, and passes the rows of the result. */

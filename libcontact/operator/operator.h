@@ -27,6 +27,9 @@ struct rc_operator {
      * nodes have `plus`) node k has own part[k]. */
     double plus, own;
     const double *part;
+    /* 1/Pa: each row also moves by this times the integral of p along it, which is part of K below */
+    double row;
+    double *sunk;    /* m: motion of each row held here, see rc_operator_sink; NULL: row is 0 */
     double norm;     /* m/Pa: a bound of the largest eigenvalue                          */
     double diagonal; /* m/Pa: displacement of a node under unit pressure on its own cell */
     /* Members of the inverse, in the units of rows. First: the pressures on a node and its eight neighbours
@@ -78,21 +81,30 @@ double rc_operator_seconds(const struct rc_shape *shape, const struct rc_operato
 
 /* Adds a diagonal D >= 0, m/Pa, to K, in place of the last one: a layer without lateral stiffness, displaced
  * by D p. D is `plus`, times part[k] of each node held here unless `part` is NULL; the caller keeps `part`. It
- * applies to everything above and below, except that the inverse has the typical D everywhere. 0: none. Keeps
- * the bytes of a K without it. RC_FAIL when memory is short. */
+ * applies to everything above and below, except that the inverse has the typical D everywhere. And adds the
+ * motion of whole rows, `row`, 1/Pa, times the integral of p along the row. 0: none. Keeps the bytes of a K
+ * without them. RC_FAIL when memory is short. */
 enum rc_status rc_operator_set_diagonal(struct rc_operator *op, double plus, const double *part,
-                                        struct rc_err *err);
+                                        double row, struct rc_err *err);
+/* Finds the motion of the rows under a pressure, for rc_operator_own_motion. */
+void rc_operator_sink(struct rc_operator *op, const double *p);
 /* D of node k, m/Pa. */
 static inline double
 rc_operator_own(const struct rc_operator *op, size_t k)
 {
     return op->part == NULL ? op->plus : op->own * op->part[k];
 }
+/* Motion of node k under the pressure p on it, m, without that of the bodies. */
+static inline double
+rc_operator_own_motion(const struct rc_operator *op, size_t k, double p)
+{
+    return rc_operator_own(op, k) * p + (op->sunk == NULL ? 0 : op->sunk[k / op->shape.nx]);
+}
 /* The smallest and the largest D of all nodes, m/Pa. */
 void rc_operator_own_range(const struct rc_operator *op, double *lowest, double *highest);
 /* Below this D, in dx / E*, the stiffness of the shortest waves hides the diagonal. */
 #define RC_LEAST_OWN 0.15
-/* The factor `inverse` becomes that of K + plus I. */
+/* The factor `inverse` becomes that of K + plus I, with the motion of rows. */
 void rc_operator_set_inverse(struct rc_operator *op, double plus);
 
 /* u = K p, in m and Pa, in double precision; only where op->exact. */

@@ -22,6 +22,7 @@ struct elastic {
     double *dent;        /* present minus undeformed heights; NULL: no dents */
     double compliance;   /* m/Pa, own compliance of every node, times its part */
     const double *part;  /* the caller's array; NULL: 1 everywhere */
+    double along;        /* 1/Pa, compliance of the rows */
     double tol;          /* as the maker was given; problem.tol is that of the next contact */
     /* m, N: error of the heights; error of the loads that made the dents */
     double height_error, off;
@@ -91,7 +92,7 @@ press(struct elastic *e, double load, double approach, struct rc_err *err)
     e->solver = rc_solver_new(&e->base.shape, e->given, &problem, err);
     if (e->solver == NULL)
         return RC_FAIL;
-    if (rc_solver_set_diagonal(e->solver, e->compliance, e->part, err) != RC_OK)
+    if (rc_solver_set_diagonal(e->solver, e->compliance, e->part, e->along, err) != RC_OK)
         return RC_FAIL;
     e->solver->posed.dents = e->off;
     free(e->h); /* the solver has a copy */
@@ -288,7 +289,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
         for (size_t k = 0; k < e->n; k++)
             to[k] = frame == RC_FRAME_GAP
                         ? s->it.v[k] - s->it.shift
-                        : s->it.v[k] + s->posed.h[k] - rc_operator_own(s->op, k) * s->it.p[k];
+                        : s->it.v[k] + s->posed.h[k] - rc_operator_own_motion(s->op, k, s->it.p[k]);
     for (size_t k = 0; k < e->n && frame == RC_FRAME_CONTACT; k++)
         to[k] = rc_in_contact(to[k]) ? 1 : 0;
     return RC_OK;
@@ -314,14 +315,18 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
 }
 
 static enum rc_status
-set_compliance(struct rc_model *m, double c, const double *part, struct rc_err *err)
+set_compliance(struct rc_model *m, double c, const double *part, double along, struct rc_err *err)
 {
     struct elastic *e = (struct elastic *)m;
     const size_t n = part != NULL ? e->n : 0;
 
-    if (c > 0 && (e->problem.tilt_free || e->asks.stiffness || e->asks.conductivity[0] > 0))
+    if ((c > 0 || along > 0) &&
+        (e->problem.tilt_free || e->asks.stiffness || e->asks.conductivity[0] > 0))
         return rc_err_set(err, "a compliance of the nodes together with a free tilt, the stiffness "
                                "or the conductance is not implemented");
+    if (part != NULL && along > 0)
+        return rc_err_set(err, "a compliance that differs by node together with one of the rows is "
+                               "not implemented");
     for (size_t k = 0; k < n; k++)
         if (!(part[k] >= 0) || isinf(part[k]))
             return rc_err_set(err,
@@ -330,7 +335,8 @@ set_compliance(struct rc_model *m, double c, const double *part, struct rc_err *
                               part[k], k);
     e->compliance = c;
     e->part = part;
-    return e->solver != NULL ? rc_solver_set_diagonal(e->solver, c, part, err) : RC_OK;
+    e->along = along;
+    return e->solver != NULL ? rc_solver_set_diagonal(e->solver, c, part, along, err) : RC_OK;
 }
 
 static void

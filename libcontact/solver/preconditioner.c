@@ -12,6 +12,9 @@ enum {
     LEVELS = 6 /* most values of D, see preconditioner.h */
 };
 static const double apart = 8; /* ratio of two of them, at most, unless that needs more */
+/* Stiffness of the bodies for waves of two nodes, in dx/E*. Where rows move by more than this under the load
+ * of sqrt(nx) nodes, they are split off, see preconditioner.h. */
+static const double shortest = 0.6;
 
 struct rc_preconditioner {
     struct rc_operator *op; /* owned by the caller */
@@ -31,6 +34,8 @@ struct rc_preconditioner {
     bool used[LEVELS];   /* by a node */
     double first, ratio; /* m/Pa; see d_of */
     float *place, *sum;
+    /* Where rows are split off: the residual less its mean on each row, and these means. NULL: never needed. */
+    float *flat, *mean;
 };
 
 /* ---- the frame ---- */
@@ -207,6 +212,26 @@ base_of(const struct rc_shape *whole, enum rc_boundary boundary, struct rc_frame
                                     .round = boundary == RC_PERIODIC};
 }
 
+static bool
+splits(const struct rc_preconditioner *e)
+{
+    return e->op->row * e->op->shape.dx * sqrt((double)e->op->shape.nx) > shortest * e->op->unit;
+}
+
+static enum rc_status
+make_split(struct rc_preconditioner *e, struct rc_err *err)
+{
+    const size_t ny = e->op->shape.ny;
+
+    if (!splits(e) || e->mean != NULL)
+        return RC_OK;
+    e->flat = rc_alloc(e->op->shape.nx * ny, sizeof *e->flat);
+    e->mean = rc_alloc(ny, sizeof *e->mean);
+    return e->flat != NULL && e->mean != NULL
+               ? RC_OK
+               : rc_err_set(err, "out of memory for the motion of %zu rows", ny);
+}
+
 struct rc_preconditioner *
 rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
 {
@@ -227,7 +252,7 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
         e->threads = base.threads;
         e->above = op->shape.ny > 0 && op->rows.first == 0 ? op->frame.y : 0;
         e->below = op->shape.ny > 0 && op->rows.first + op->rows.n == op->rows.ny ? op->frame.y : 0;
-        status = make_room(e, err);
+        status = make_room(e, err) == RC_OK ? make_split(e, err) : RC_FAIL;
     }
     if (rc_ranks_agree(op->rows.ranks, status, err) != RC_OK ||
         (e->pyramid = rc_pyramid_new(&base, power, op, err)) == NULL) {
@@ -289,8 +314,11 @@ enum rc_status
 rc_preconditioner_tune(struct rc_preconditioner *e, struct rc_err *err)
 {
     double weight[LEVELS] = {0};
+    enum rc_status status = set_levels(e, weight, err);
 
-    if (rc_ranks_agree(e->op->rows.ranks, set_levels(e, weight, err), err) != RC_OK)
+    if (status == RC_OK)
+        status = make_split(e, err);
+    if (rc_ranks_agree(e->op->rows.ranks, status, err) != RC_OK)
         return RC_FAIL;
     for (size_t l = 0; l < e->levels; l++)
         e->used[l] = e->levels == 1 || rc_ranks_most(e->op->rows.ranks, weight[l]) > 1e-3;
@@ -321,6 +349,8 @@ rc_preconditioner_free(struct rc_preconditioner *e)
     free(e->frame);
     free(e->place);
     free(e->sum);
+    free(e->flat);
+    free(e->mean);
     free(e);
 }
 
@@ -523,16 +553,59 @@ add(size_t n, const unsigned char *w, const float *row, float *restrict z)
         z[i] = w[i] ? z[i] + row[i] : 0;
 }
 
+/* Takes the mean over W off `from`, and adds `more` there; returns the mean, and *count nodes. */
+static float
+level(size_t n, const unsigned char *w, const float *from, float more, float *to, size_t *count)
+{
+    double sum = 0, in = 0;
+    float mean;
+
+    for (size_t i = 0; i < n; i++) {
+        sum += w[i] ? (double)from[i] : 0;
+        in += w[i] != 0;
+    }
+    mean = in > 0 ? (float)(sum / in) : 0;
+    for (size_t i = 0; i < n; i++)
+        to[i] = w[i] ? from[i] - mean + more : 0;
+    *count = (size_t)in;
+    return mean;
+}
+
+/* Row j of z, from the residual without its mean: without its own mean, and with the pressure that moves the
+ * row by the mean of the residual. The stiffness of the bodies for such rows lies between that of the
+ * shortest waves and that of a wave as long as the row. */
+static void
+join(const struct rc_preconditioner *e, size_t j, float *z)
+{
+    const struct rc_operator *op = e->op;
+    const size_t n = op->shape.nx;
+    size_t count = 0;
+    float more = 0;
+
+    for (size_t i = 0; i < n; i++)
+        count += e->w[j * n + i] != 0;
+    if (count > 0)
+        more = e->mean[j] / (float)((op->plus + op->row * op->shape.dx * (double)count) / op->unit +
+                                    shortest * sqrt((double)count));
+    (void)level(n, e->w + j * n, z, more, z, &count);
+}
+
 void
 rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offset, float *z,
                         rc_row *done, void *ctx)
 {
-    struct correction c = {.e = e, .r = r, .offset = offset, .z = e->levels > 1 ? e->sum : z};
-    const struct field residual = {e, e->w, r, offset};
+    const bool split = splits(e);
+    struct correction c = {.e = e,
+                           .r = split ? e->flat : r,
+                           .offset = split ? 0 : offset,
+                           .z = e->levels > 1 ? e->sum : z};
+    const struct field residual = {e, e->w, c.r, c.offset};
     const struct rc_spectrum *factors[] = {e->op->inverse};
     rc_row *rows[] = {extended, field_out};
-    size_t n = e->op->shape.nx;
+    size_t n = e->op->shape.nx, in;
 
+    for (size_t j = 0; j < e->op->shape.ny && split; j++)
+        e->mean[j] = level(n, e->w + j * n, r + j * n, 0, e->flat + j * n, &in) - offset;
     rc_pyramid_extend(e->pyramid, field_row, &residual, NULL);
     for (c.level = 0; c.level < e->levels; c.level++) { /* the first one is used */
         if (!e->used[c.level])
@@ -550,6 +623,8 @@ rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offse
         float *row = e->row + (size_t)omp_get_thread_num() * framed_nx(e);
         rc_pyramid_row(e->pyramid, 0, e->above + j, row);
         add(n, e->w + j * n, row + e->op->frame.x, z + j * n);
+        if (split)
+            join(e, j, z + j * n);
         if (done != NULL)
             (void)done(ctx, j, row + e->op->frame.x);
     }

@@ -12,6 +12,10 @@
  * + d_l I)^-1 s_l, with weights s_l of the nodes. s_l^2 decreases linearly in log D from 1 at d_l to 0 at the
  * next values. The sum of all s_l^2 is 1. Where all nodes have D = d_l this is the exact inverse. Then z is
  * an estimate, not a bound.
+ *
+ * Rows that move as a whole, by row R'R, are in A, in the waves along y. Where that motion is stiff, this is
+ * too soft for the part of a row that is on W. Then M = Q E' A E Q + (I - Q) C, where Q takes the mean over W
+ * off each row, and C is the inverse of the stiffness of a row.
  */
 #ifndef RC_PRECONDITIONER_H
 #define RC_PRECONDITIONER_H

@@ -96,7 +96,7 @@ count_block(void *at, size_t first, size_t n, double *sums)
         sums[PRESSURE] += p;
         sums[HEIGHT] += s->posed.h[k];
         sums[V] += s->it.v[k];
-        sums[OWN] += rc_operator_own(s->op, k) * p;
+        sums[OWN] += rc_operator_own_motion(s->op, k, p);
         sums[RC_MOST] = p > sums[RC_MOST] ? p : sums[RC_MOST];
     }
 }
@@ -111,7 +111,7 @@ spread_block(void *at, size_t first, size_t n, double *sums)
 
     for (size_t k = first; k < first + n; k++) {
         double g = s->it.v[k] - s->it.shift, p = s->it.p[k], worst;
-        double u = s->it.v[k] + s->posed.h[k] - rc_operator_own(s->op, k) * p;
+        double u = s->it.v[k] + s->posed.h[k] - rc_operator_own_motion(s->op, k, p);
         double h = s->posed.h[k] - f->mean_h, around = u - f->mean_u;
 
         sums[SPREAD_H] += h * h;
@@ -225,6 +225,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     else if (stopped)
         rc_iterate_displace(s);
     rc_iterate_shift(s);
+    rc_operator_sink(s->op, s->it.p);
     rc_reduce_blocks(s, count_block, &f, total);
     c->contact_nodes = (size_t)total[CONTACT];
     c->plastic_nodes = (size_t)total[PLASTIC];

@@ -430,11 +430,12 @@ rc_solver_set_load(struct rc_solver *s, double load, double approach, struct rc_
 }
 
 enum rc_status
-rc_solver_set_diagonal(struct rc_solver *s, double plus, const double *part, struct rc_err *err)
+rc_solver_set_diagonal(struct rc_solver *s, double plus, const double *part, double row,
+                       struct rc_err *err)
 {
-    if (plus == s->op->own && part == NULL && s->op->part == NULL)
+    if (plus == s->op->own && part == NULL && s->op->part == NULL && row == s->op->row)
         return RC_OK;
-    if (rc_operator_set_diagonal(s->op, plus, part, err) != RC_OK ||
+    if (rc_operator_set_diagonal(s->op, plus, part, row, err) != RC_OK ||
         rc_preconditioner_tune(s->preconditioner, err) != RC_OK)
         return RC_FAIL;
     rc_solver_restart(s);

@@ -284,7 +284,7 @@ bool rc_solver_hurried(const struct rc_solver *solver);
 /* Adds a diagonal to the operator, as rc_operator_set_diagonal, from the next load or heights on. Not with a
  * free tilt. */
 enum rc_status rc_solver_set_diagonal(struct rc_solver *solver, double plus, const double *part,
-                                      struct rc_err *err);
+                                      double row, struct rc_err *err);
 /* z (n Pa) = E' A E e on the elastic nodes, e (n m), less the pressure of a common shift. Costs two factors of a
  * chain. */
 void rc_solver_respond(struct rc_solver *solver, const double *e, double *z);

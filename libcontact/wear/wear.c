@@ -1,15 +1,17 @@
 /*
  * The model of wear: while the bodies slide by ds, the heights lose k p ds, with the pressure p of an inner
- * model and k = k1 + k2 (Archard 1953).
+ * model and k = k1 + k2 (Archard 1953). Or body 1 stays in contact, and body 2 passes it along x on a track
+ * of length L: then k is k1, and each row also loses k2/L times the integral of p along it. W p is all that
+ * the heights lose per distance.
  *
- * Phi(h) is the largest h'p - 1/2 p'Kp of all pressures that carry the load, and dh/ds = -k grad Phi(h). Phi
+ * Phi(h) is the largest h'p - 1/2 p'Kp of all pressures that carry the load, and dh/ds = -W grad Phi(h). Phi
  * is convex. The distance between two histories therefore never grows, errors of steps at most add, and the
  * pressure becomes even. The equation is stiff, because short waves decay by exp(-k E* q s/2). The steps are
- * implicit: the contact of the heights h under a compliance D = k ds has the pressure of the heights h - D p.
+ * implicit: the contact of the heights h under a compliance D = ds W has the pressure of the heights h - D p.
  *
  * A step of length t is TR-BDF2 (Bank et al. 1985, IEEE Trans. CAD 4, 436; Hosea and Shampine 1996, Appl.
  * Numer. Math. 20, 21), with g = 2 - sqrt 2, d = g/2, w = sqrt(2)/4. The pressure p_a is that of the heights
- * h - d t k p0, and p1 that of h - w t k (p0 + p_a), both with D = d t k. The heights lose t k (w p0 + w p_a
+ * h - d t W p0, and p1 that of h - w t W (p0 + p_a), both with D = d t W. The heights lose t W (w p0 + w p_a
  * + d p1). The step leaves ripples in the pressure where nodes have just come into contact. Steps of backward
  * Euler in the last part of the distance damp them.
  */
@@ -72,16 +74,19 @@ enum { /* of error[] */
 struct wear {
     struct rc_model base;
     struct rc_wear_problem law;
-    double k;     /* 1/Pa: sum of both bodies, at the node that wears most */
-    double least; /* smallest law.part; 1 if that is NULL                  */
+    double k;        /* 1/Pa: sum of the bodies that stay, at the node that wears most */
+    double row;      /* 1/Pa: k2/L of the body that passes; 0: none         */
+    double share[2]; /* of the bodies in `worn`                             */
+    double least;    /* smallest law.part; 1 if that is NULL                  */
     size_t n;
-    double *h, *worn;        /* heights at the start, and worn depth of both bodies */
+    double *h, *worn;        /* heights at the start, and worn depth of the bodies that stay */
+    double *deep;            /* worn depth of each row of the body that passes               */
     double *p0, *pa, *p1;    /* pressures of a step                                        */
     double *e, *room;        /* error of a step; heights of the inner model, other numbers */
     size_t stage, last;      /* last: steps of backward Euler since the last point         */
     double s, end, t, tried; /* m: distance slid, end of the leg, next step, present step */
     double error[ERRORS]; /* m3: error of the worn volume; relative: errors of p0, of steps ... */
-    double c;             /* m/Pa: compliance of the last contact                       */
+    double over;          /* m: the compliance of the last contact is W times this      */
     bool kept;            /* the inner model has kept its contact                     */
     bool fitted;          /* the heights in contact were replaced by K p minus the shift */
     bool good;            /* all contacts have converged                              */
@@ -153,19 +158,52 @@ part(const struct wear *v, size_t k)
     return v->law.part == NULL ? 1 : v->law.part[k];
 }
 
+/* The depth that all bodies have lost at a node. */
+static double
+depth(const struct wear *v, size_t k)
+{
+    return v->worn[k] + (v->row > 0 ? v->deep[k / v->base.shape.nx] : 0);
+}
+
+/* Adds t W p to `to`. With `deep`, m of each row, adds the part of the rows there instead. */
+static void
+lose(const struct wear *v, double t, const double *p, double *to, double *deep)
+{
+    const struct rc_shape *s = &v->base.shape;
+
+    for (size_t k = 0; k < v->n; k++)
+        to[k] += t * v->k * part(v, k) * p[k];
+    for (size_t j = 0; j < s->ny && v->row > 0; j++) {
+        const double sunk = t * v->row * s->dx * rc_sum(p + j * s->nx, s->nx);
+        for (size_t i = 0; i < s->nx && deep == NULL; i++)
+            to[j * s->nx + i] += sunk;
+        if (deep != NULL)
+            deep[j] += sunk;
+    }
+}
+
+/* The largest sum of W p over the map, over the sum of p. */
+static double
+most_lost(const struct wear *v)
+{
+    return v->k + v->row * v->base.shape.dx * (double)v->base.shape.nx;
+}
+
 /* Gives the inner model the heights and the compliance of this stage. */
 static enum rc_status
 pose(struct wear *v, struct rc_err *err)
 {
-    const double step = v->k * v->tried;
-    const double first = v->stage == FIRST ? d * step : v->stage == SECOND ? w * step : 0;
-    const double second = v->stage == SECOND ? first : 0;
+    const bool halves = v->stage == FIRST || v->stage == SECOND;
 
-    v->c = v->stage == FIRST || v->stage == SECOND ? d * step : v->stage == LAST ? step : 0;
+    v->over = halves ? d * v->tried : v->stage == LAST ? v->tried : 0;
     for (size_t k = 0; k < v->n; k++)
-        v->room[k] =
-            v->h[k] - v->worn[k] - part(v, k) * first * v->p0[k] - part(v, k) * second * v->pa[k];
-    if (rc_model_set_compliance(v->base.inner, v->c, v->law.part, err) != RC_OK)
+        v->room[k] = v->h[k] - depth(v, k);
+    if (halves)
+        lose(v, -(v->stage == FIRST ? d : w) * v->tried, v->p0, v->room, NULL);
+    if (v->stage == SECOND)
+        lose(v, -w * v->tried, v->pa, v->room, NULL);
+    if (rc_model_set_compliance(v->base.inner, v->k * v->over, v->law.part, v->row * v->over,
+                                err) != RC_OK)
         return RC_FAIL;
     v->base.inner->row->accuracy(v->base.inner, v->stage == LAST ? accurate : 1);
     return rc_model_set_heights(v->base.inner, v->room, err);
@@ -195,15 +233,24 @@ size_of(size_t n, const double *a)
     return rc_total_value(&sum);
 }
 
-/* Sum of the coefficients times a pressure, over k. */
+/* The sum of W p. */
 static double
 rate(const struct wear *v, const double *p)
 {
     struct rc_total sum = {0};
 
     for (size_t k = 0; k < v->n; k++)
-        rc_total_add(&sum, part(v, k) * p[k]);
+        rc_total_add(&sum, (most_lost(v) - v->k + v->k * part(v, k)) * p[k]);
     return rc_total_value(&sum);
+}
+
+/* The sum of the worn depths. */
+static double
+lost(const struct wear *v)
+{
+    const struct rc_shape *s = &v->base.shape;
+
+    return rc_sum(v->worn, v->n) + (v->row > 0 ? (double)s->nx * rc_sum(v->deep, s->ny) : 0);
 }
 
 /* The sum of |e|, that an error e of the heights has, or may get as the bodies slide on. The flow never
@@ -245,16 +292,19 @@ find_figures(struct wear *v)
     f->wear_volume = rc_sum(v->worn, v->n) * cell;
     f->max_wear_depth = 0;
     for (size_t k = 0; k < v->n; k++) {
-        f->max_wear_depth = fmax(f->max_wear_depth, v->worn[k]);
+        f->max_wear_depth = fmax(f->max_wear_depth, depth(v, k));
         sum += v->p0[k];
         squares += v->p0[k] * v->p0[k];
         in += rc_in_contact(v->p0[k]);
     }
-    f->wear_volume_1 = v->law.k[0] / v->k * f->wear_volume;
-    f->wear_volume_2 = v->law.k[1] / v->k * f->wear_volume;
-    f->mean_wear_depth = f->wear_volume / (cell * (double)v->n);
+    f->wear_volume_1 = v->share[0] * f->wear_volume;
+    f->wear_volume_2 = v->share[1] * f->wear_volume;
+    if (v->row > 0)
+        f->wear_volume += f->wear_volume_2 =
+            rc_sum(v->deep, v->base.shape.ny) * v->base.shape.dy * v->law.track;
+    f->mean_wear_depth = lost(v) / (double)v->n;
     f->pressure_spread = sqrt(fmax(in * squares / (sum * sum) - 1, 0));
-    f->wear_error = f->wear_volume > 0 ? v->error[VOLUME] / f->wear_volume : 0;
+    f->wear_error = f->wear_volume > 0 ? v->error[VOLUME] / (lost(v) * cell) : 0;
     f->pressure_error = v->error[OF_STEPS] + v->error[OF_P0];
     f->converged = v->good && f->wear_error <= v->law.tol && f->pressure_error <= v->law.tol;
     v->in_contact = in / (double)v->n;
@@ -276,18 +326,21 @@ last_steps(const struct wear *v)
 /* The longest step that does not pass far beyond a condition. The depth grows at most with the largest
  * pressure; the other figures grow with the logarithm of the distance. */
 static double
-longest(const struct wear *v)
+longest(struct wear *v)
 {
     static const double quarter = 0.25; /* part of the remaining distance */
     double most = INFINITY, peak = 0;
 
     if (v->law.until_area > 0 || v->law.until_spread > 0)
         most = fmax(quarter * v->s, v->t / GROWTH);
-    for (size_t k = 0; k < v->n && v->law.until_depth > 0; k++)
-        peak = fmax(peak, part(v, k) * v->p0[k]);
-    if (v->law.until_depth > 0)
-        most = fmin(most, fmax((v->law.until_depth - v->f.max_wear_depth) / (v->k * peak),
-                               last_part * v->s));
+    if (v->law.until_depth > 0) {
+        memset(v->room, 0, v->n * sizeof *v->room);
+        lose(v, 1, v->p0, v->room, NULL);
+        for (size_t k = 0; k < v->n; k++)
+            peak = fmax(peak, v->room[k]);
+        most =
+            fmin(most, fmax((v->law.until_depth - v->f.max_wear_depth) / peak, last_part * v->s));
+    }
     return most;
 }
 
@@ -334,7 +387,7 @@ fit(struct wear *v, struct rc_err *err)
     const struct rc_shape *s = &v->base.shape;
     const double side = fmax(s->dx * (double)s->nx, s->dy * (double)s->ny);
 
-    v->fitted = v->c * v->least * v->law.estar > long_step * side &&
+    v->fitted = v->over * v->k * v->least * v->law.estar > long_step * side &&
                 !(rc_model_number(v->base.inner, "plastic_area") > 0);
     if (!v->fitted)
         return RC_OK;
@@ -345,15 +398,19 @@ fit(struct wear *v, struct rc_err *err)
     return RC_OK;
 }
 
-/* A step has lowered the heights by `less`; p1 is their pressure. `error`, m: sum of errors at the nodes. */
+/* A step has lowered the heights by that distance times W (first (p0 + pa) + last p1); p1 is their pressure.
+ * `error`, m: sum of errors at the nodes. */
 static enum rc_status
-take(struct wear *v, const double *less, double error, double of_p1, double of_steps,
+take(struct wear *v, double first, double last, double error, double of_p1, double of_steps,
      struct rc_err *err)
 {
     double *p = v->p0;
 
-    for (size_t k = 0; k < v->n; k++)
-        v->worn[k] += less[k];
+    if (first > 0) {
+        lose(v, first * v->tried, v->p0, v->worn, v->deep);
+        lose(v, first * v->tried, v->pa, v->worn, v->deep);
+    }
+    lose(v, last * v->tried, v->p1, v->worn, v->deep);
     if (fit(v, err) != RC_OK)
         return RC_FAIL;
     v->p0 = v->p1;
@@ -377,53 +434,51 @@ respond(struct wear *v, double *sum, struct rc_err *err)
     if (rc_model_respond(v->base.inner, v->e, v->room, err) != RC_OK)
         return RC_FAIL;
     v->f.convolutions += 1;
-    for (size_t k = 0; k < v->n; k++)
-        v->e[k] -= v->c * part(v, k) * v->room[k];
+    lose(v, -v->over, v->room, v->e, NULL);
     *sum = size_of(v->n, v->room);
     return RC_OK;
 }
 
-/* Accepts the step of backward Euler, whose local error is t^2 k p'/2. */
+/* Accepts the step of backward Euler, whose local error is t^2 W p'/2. */
 static enum rc_status
 even(struct wear *v, double of_p1, struct rc_err *err)
 {
-    const double step = v->k * v->tried, sum = size_of(v->n, v->p1);
+    const double step = most_lost(v) * v->tried, sum = size_of(v->n, v->p1);
     const double change = distance(v->n, v->p1, v->p0), *error = v->error;
     double z;
 
     if (respond(v, &z, err) != RC_OK)
         return RC_FAIL;
-    for (size_t k = 0; k < v->n; k++)
-        v->pa[k] = step * part(v, k) * v->p1[k];
-    if (take(v, v->pa, step * (change / 2 + error[WEAR_P1] * sum), of_p1,
+    if (take(v, 0, 1, step * (change / 2 + error[WEAR_P1] * sum), of_p1,
              fmax(error[OF_P0], error[LEFT]) + fmax(of_change * change, error[REPEATED] * z) / sum,
              err) != RC_OK)
         return RC_FAIL;
     return set_out(v, err);
 }
 
-/* The sum of the depths that wear, over k and the length of a step: in this step, or on the average so far.
+/* The sum of the depths that wear, over the length of a step: in this step, or on the average so far.
  * Where nodes stick, the load leaves the others, and the wear ends. */
 static double
 due(const struct wear *v)
 {
-    const double now = rate(v, v->p1), so_far = size_of(v->n, v->worn) / (v->k * (v->s + v->tried));
+    const double now = rate(v, v->p1), so_far = lost(v) / (v->s + v->tried);
 
     return v->law.part == NULL ? now : fmax(now, so_far);
 }
 
-/* Accepts the step of TR-BDF2, or tries a shorter one. Its local error e is third_order t^3 k p'', with p''
+/* Accepts the step of TR-BDF2, or tries a shorter one. Its local error e is third_order t^3 W p'', with p''
  * from the three pressures. */
 static enum rc_status
 judge(struct wear *v, double of_p1, struct rc_err *err)
 {
-    const double step = v->k * v->tried, sum = size_of(v->n, v->p1), *error = v->error;
-    const double most = of_tol * v->law.tol * step * due(v);
+    const double step = most_lost(v) * v->tried, sum = size_of(v->n, v->p1), *error = v->error;
+    const double most = of_tol * v->law.tol * v->tried * due(v);
     double e, z = 0, contacts, factor;
 
+    memset(v->e, 0, v->n * sizeof *v->e);
     for (size_t k = 0; k < v->n; k++)
-        v->e[k] = 2 * third_order * step * part(v, k) *
-                  ((v->p1[k] - v->pa[k]) / (1 - g) - (v->pa[k] - v->p0[k]) / g);
+        v->room[k] = (v->p1[k] - v->pa[k]) / (1 - g) - (v->pa[k] - v->p0[k]) / g;
+    lose(v, 2 * third_order * v->tried, v->room, v->e, NULL);
     if (respond(v, &z, err) != RC_OK)
         return RC_FAIL;
     e = lasting(v, v->e);
@@ -435,15 +490,13 @@ judge(struct wear *v, double of_p1, struct rc_err *err)
     }
     /* an error of p0 also acts through p_a, twice: no contact increases a difference of its heights */
     contacts = step * sum * (3 * w * error[WEAR_P0] + w * error[WEAR_PA] + d * error[WEAR_P1]);
-    for (size_t k = 0; k < v->n; k++)
-        v->pa[k] = step * part(v, k) * (w * (v->p0[k] + v->pa[k]) + d * v->p1[k]);
     if (v->tried >= v->t ||
         factor < 1) /* a step shortened to end at the point does not limit the next one */
         v->t = fmax(factor, 1.0 / GROWTH) * v->tried;
     /* the errors of earlier steps decay as sliding continues */
     v->error[OF_ALL] = v->error[OF_ALL] * v->s / (v->s + v->tried) + z / sum;
     v->error[REPEATED] = z > 0 ? v->error[OF_ALL] * sum / z : 1;
-    if (take(v, v->pa, caution * e + contacts, of_p1, v->error[OF_ALL], err) != RC_OK)
+    if (take(v, w, d, caution * e + contacts, of_p1, v->error[OF_ALL], err) != RC_OK)
         return RC_FAIL;
     see_conditions(v);
     return set_out(v, err);
@@ -479,13 +532,13 @@ find_wear_error(struct wear *v, double of_p1, struct rc_err *err)
     double open = 0;
 
     v->error[WEAR_P1] = of_p1;
-    if (v->law.part == NULL || v->c == 0)
+    if (v->law.part == NULL || v->over == 0)
         return RC_OK;
     if (rc_model_frame(v->base.inner, "gap", v->room, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < v->n; k++)
         open += rc_in_contact(v->p1[k]) ? fabs(v->room[k]) : 0;
-    v->error[WEAR_P1] = fmin(of_p1, caution * open / (v->c * size_of(v->n, v->p1)));
+    v->error[WEAR_P1] = fmin(of_p1, caution * open / (v->k * v->over * size_of(v->n, v->p1)));
     return RC_OK;
 }
 
@@ -526,8 +579,7 @@ step(struct rc_model *m, struct rc_err *err)
     case LAST:
         return even(v, of_p1, err);
     default: /* PRESS */
-        memset(v->pa, 0, v->n * sizeof *v->pa);
-        if (take(v, v->pa, 0, of_p1, 0, err) != RC_OK)
+        if (take(v, 0, 0, 0, of_p1, 0, err) != RC_OK)
             return RC_FAIL;
         see_conditions(v);
         return set_out(v, err);
@@ -543,15 +595,15 @@ height_in(struct wear *v, double *to, struct rc_err *err)
 
     if (v->stage != REST) {
         for (size_t k = 0; k < v->n; k++)
-            to[k] = v->h[k] - v->worn[k];
+            to[k] = v->h[k] - depth(v, k);
         return RC_OK;
     }
     if (rc_model_frame(inner, "plastic", to, err) != RC_OK ||
         (v->fitted && rc_model_frame(inner, "gap", v->room, err) != RC_OK))
         return RC_FAIL;
     for (size_t k = 0; k < v->n; k++)
-        to[k] +=
-            (v->fitted && rc_in_contact(v->p0[k]) ? v->room[k] : 0) - v->c * part(v, k) * v->p0[k];
+        to[k] += v->fitted && rc_in_contact(v->p0[k]) ? v->room[k] : 0;
+    lose(v, -v->over, v->p0, to, NULL);
     return RC_OK;
 }
 
@@ -559,9 +611,8 @@ static enum rc_status
 fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 {
     struct wear *v = (struct wear *)m;
-    const double of_body = frame == WEAR_1   ? v->law.k[0] / v->k
-                           : frame == WEAR_2 ? v->law.k[1] / v->k
-                                             : 1;
+    const double of_worn = frame == WEAR ? 1 : v->share[frame == WEAR_2];
+    const bool track = v->row > 0 && frame != WEAR_1;
 
     if (frame == HEIGHT)
         return height_in(v, to, err);
@@ -569,7 +620,7 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
         return RC_FAIL;
     for (size_t k = 0; k < v->n; k++)
         if (frame != GAP)
-            to[k] = of_body * v->worn[k];
+            to[k] = of_worn * v->worn[k] + (track ? v->deep[k / m->shape.nx] : 0);
         else if (v->fitted && rc_in_contact(v->p0[k]))
             to[k] = 0;
     return RC_OK;
@@ -637,6 +688,8 @@ state(struct rc_model *m, struct rc_state *s)
         rc_state_numbers(s, 1, numbers[k]);
     rc_state_numbers(s, ERRORS, v->error);
     rc_state_map(s, v->n, v->worn);
+    if (v->row > 0)
+        rc_state_numbers(s, m->shape.ny, v->deep);
     rc_state_map(s, v->n, v->p0);
     rc_state_map(s, v->n, v->e);
     if (v->stage == SECOND)
@@ -669,7 +722,8 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
 {
     const struct wear *v = (const struct wear *)m;
     const struct rc_point inner = rc_point_for(m->inner, most);
-    const double nodes = most->at[RC_DISTANCE] * v->k * v->law.estar / m->shape.dx;
+    const double nodes =
+        most->at[RC_DISTANCE] * (v->k + v->row * m->shape.dx) * v->law.estar / m->shape.dx;
     const double steps = 4 * fmax(log10(nodes / first_step), 0) + 2;
     const double contacts = most->at[RC_DISTANCE] > 0 ? 1 + 2 * steps + (double)last_steps(v) : 1;
 
@@ -731,6 +785,11 @@ check(const struct rc_wear_problem *law, size_t n, struct rc_err *err)
     }
     if (law->part != NULL && largest != 1)
         return rc_err_set(err, "the largest coefficient is %g of itself: it must be 1", largest);
+    if (!(law->track >= 0) || isinf(law->track))
+        return rc_err_set(err, "track of %g m: it must be at least 0 and finite", law->track);
+    if (law->track > 0 && law->k[1] > 0 && law->part != NULL)
+        return rc_err_set(err, "a track that wears beside a coefficient of each node is not "
+                               "implemented");
     if (!(law->estar > 0) || isinf(law->estar))
         return rc_err_set(err, "E* %g Pa: it must be above 0 and finite", law->estar);
     if (!(law->tol >= 0 && law->tol < 1))
@@ -752,15 +811,18 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
     for (size_t k = 0; k < v->n && law->part != NULL; k++)
         v->least = fmin(v->least, law->part[k]);
     v->law.tol = law->tol > 0 ? law->tol : usual_tol;
-    v->k = law->k[0] + law->k[1];
-    v->t = first_step * s->dx / (v->k * law->estar);
+    v->row = law->track > 0 ? law->k[1] / law->track : 0;
+    v->k = law->k[0] + (law->track > 0 ? 0 : law->k[1]);
+    v->share[0] = law->track > 0 ? 1 : law->k[0] / v->k;
+    v->share[1] = law->track > 0 ? 0 : law->k[1] / v->k;
+    v->t = first_step * s->dx / ((v->k + v->row * s->dx) * law->estar);
     v->kept = true;
-    if (rc_model_set_compliance(inner, v->k * v->t, law->part, err) != RC_OK ||
-        rc_model_set_compliance(inner, 0, NULL, err) != RC_OK)
+    if (rc_model_set_compliance(inner, v->k * v->t, law->part, v->row * v->t, err) != RC_OK ||
+        rc_model_set_compliance(inner, 0, NULL, 0, err) != RC_OK)
         return RC_FAIL;
-    if ((v->h = rc_alloc(MAPS * v->n, sizeof *v->h)) == NULL)
+    if ((v->h = rc_alloc(MAPS * v->n + s->ny, sizeof *v->h)) == NULL)
         return rc_err_set(err, "out of memory for the wear of %zu x %zu nodes", s->nx, s->ny);
-    memset(v->h, 0, MAPS * v->n * sizeof *v->h);
+    memset(v->h, 0, (MAPS * v->n + s->ny) * sizeof *v->h);
     memcpy(v->h, h, v->n * sizeof *h);
     v->worn = v->h + v->n;
     v->p0 = v->h + 2 * v->n;
@@ -768,6 +830,7 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
     v->p1 = v->h + 4 * v->n;
     v->e = v->h + 5 * v->n;
     v->room = v->h + 6 * v->n;
+    v->deep = v->h + MAPS * v->n;
     return RC_OK;
 }
 

@@ -310,7 +310,7 @@ elastic_model(double *out, struct rc_err *err)
     if ((other = rc_elastic_new(&shape, rough, &o, &asks, err)) == NULL ||
         rc_model_restore(other, state, n, &going, err) != RC_OK ||
         rc_model_set_heights(other, rough, err) != RC_OK ||
-        rc_model_set_compliance(other, 0, NULL, err) != RC_OK ||
+        rc_model_set_compliance(other, 0, NULL, 0, err) != RC_OK ||
         rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, &at, err) != RC_OK ||
         rc_model_frame(other, rc_model_frame_kind(other, 1)->name, out, err) != RC_OK)
         goto done;

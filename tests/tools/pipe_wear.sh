@@ -72,6 +72,29 @@ claim "the contact before any wear is that of rc-solve" bash -c "
 near "$(column max_pressure 1 none.tsv)" "$(column max_pressure 1 elastic.tsv)" 1e-3 "  its largest pressure"
 near "$(column approach 1 none.tsv)" "$(column approach 1 elastic.tsv)" 1e-3 "  its approach"
 
+# ---- a ball on a track: the half width of the groove is (3 R k2 P s / (2 L))^(1/3), here 13.6 um ----
+
+rc-synth sphere --nx 48 --ny 48 --dx 1um --radius 100um | rc-solve --quiet --load 0.853333mN --estar 1GPa -o pin.rcg
+track='rc-wear --quiet --coefficient 0,1e-6mm3/Nm --motion track:1mm'
+claim "a ball wears a track" bash -c "$track --distance 19653m --output pressure,height,wear,wear-2 --report groove.tsv -o groove.rcg pin.rcg"
+near "$(column wear_volume_2 1 groove.tsv)" 1.67706e-14 1e-5 "  which loses k P s"
+claim "  and the ball nothing" test "$(column wear_volume_1 1 groove.tsv)" = 0
+claim "  the groove is as wide as that of a rigid ball" test "$(rc-export --channel pressure --format csv groove.rcg |
+    grep -v '^#' | awk -F, '{ for (i = 1; i <= NF; i++) if ($i > 0) { n++; next } } END { print n }')" = 28
+claim "  and as deep along each row" test "$(rc-export --channel wear-2 --format csv groove.rcg |
+    grep -v '^#' | awk -F, '{ for (i = 2; i <= NF; i++) bad += $i != $1 } END { print bad + 0 }')" = 0
+$wear --distance 1km -o same.rcg pin.rcg
+$wear --motion track:1mm --distance 1km -o alone.rcg pin.rcg
+claim "a track that does not wear changes nothing" cmp <(rc-export --channel pressure --format csv same.rcg | grep -v '^#') \
+    <(rc-export --channel pressure --format csv alone.rcg | grep -v '^#')
+claim "a periodic map is its own track" warns 'passed every 32 um and not every 1 mm: give the period as the length of the track' \
+    rc-wear --coefficient 0,1e-6mm3/Nm --motion track:1mm --distance 1m -o x.rcg pressed.rcg
+claim "  whose length is then no warning" bash -c "
+    rc-wear --coefficient 0,1e-6mm3/Nm --motion track:32um --distance 1m -o x.rcg pressed.rcg 2>own.err && ! [ -s own.err ]"
+refuses 2 'same or track:LENGTH.*slide over each other are not' "two rough bodies that slide" "$wear --motion sliding --distance 1m -o x.rcg pin.rcg"
+refuses 2 'with a length above 0' "a track without a length" "$wear --motion track:0 --distance 1m -o x.rcg pin.rcg"
+refuses 2 'exclude each other' "a track in fretting" "$wear --motion track:1mm --cycles 10 -o x.rcg pin.rcg"
+
 # ---- early ends ----
 
 $wear --distance 1km,10km,100km --until area=0.5 --report half.tsv -o half.rcg pressed.rcg

@@ -1,7 +1,8 @@
 /* Compares worn heights and pressures with closed forms. Each wave in full contact decays at its own rate.
  * The pressure of a circular and of a strip punch becomes even by the modes of the operator. A ball wears to
  * the rigid limit, and stiff roughness to its Abbott curve. In the end the pressure is even, or k p is where
- * k differs. A part that does not wear carries the load in the end. The worn volume of an even k is k P s. */
+ * k differs. A part that does not wear carries the load in the end. The worn volume of an even k is k P s. A
+ * ball that passes on a track cuts a groove of the rigid width, with the same load on all rows. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -276,6 +277,85 @@ roughness_is_cut(void **state)
     end(&r);
 }
 
+enum {
+    GROOVE = 64
+};
+
+/* A ball of radius 100 nodes, with a Hertz radius of 4, slides on a track, of which body 2 loses k P s.
+ * Returns the model at the distance after which the rigid ball has cut a groove of half width a. */
+static struct rc_model *
+cut_groove(size_t side, double a, double of_ball, double track, double *frame[3])
+{
+    static const char *const name[] = {"pressure", "wear-1", "wear-2"};
+    const double radius = 100, length = 1000 * node,
+                 load = 256 / (3 * radius) * estar * node * node;
+    const double s = 2 * length * pow(a * node, 3) / (3 * radius * node * k_wear * load);
+    const struct rc_shape shape = {side, side, node, node};
+    const struct rc_problem contact = {.pair.estar = estar, .tol = 1e-3, .threads = 1};
+    const struct rc_wear_problem law = {.k = {of_ball * k_wear, fmax(track, 0) * k_wear},
+                                        .estar = estar,
+                                        .track = track >= 0 ? length : 0};
+    static double h[GROOVE * GROOVE];
+    const struct rc_wear_figures *f;
+    struct rc_err err = {""};
+    struct rc_point to = {0};
+    struct rc_model *m;
+
+    for (size_t k = 0; k < side * side; k++) {
+        double x = (double)(k % side) - (double)(side - 1) / 2;
+        double y = (double)(k / side) - (double)(side - 1) / 2;
+        h[k] = -node * (x * x + y * y) / (2 * radius);
+    }
+    m = rc_wear_new(rc_elastic_new(&shape, h, &contact, NULL, &err), h, &law, &err);
+    rc_point_set(&to, RC_LOAD, load);
+    rc_point_set(&to, RC_DISTANCE, s);
+    if (m == NULL || rc_model_run(m, &to, &err) != RC_OK || rc_model_look(m, NULL, &err) != RC_OK)
+        fail_msg("%s", err.text);
+    for (int q = 0; q < 3; q++)
+        assert_int_equal(rc_model_frame(m, name[q], frame[q], &err), RC_OK);
+    f = rc_wear_result(m);
+    assert_true(fabs(f->wear_volume_1 - of_ball * k_wear * load * s) <= summed * f->wear_volume &&
+                fabs(f->wear_volume_2 - fmax(track, 0) * k_wear * load * s) <=
+                    summed * f->wear_volume);
+    return m;
+}
+
+static void
+a_ball_cuts_a_groove(void **state)
+{
+    static double p[GROOVE * GROOVE], ball[GROOVE * GROOVE], track[GROOVE * GROOVE],
+        again[GROOVE * GROOVE];
+    const double rigid[] = {13.6, 19.6}, found[] = {14, 20}, even[] = {0.03, 0.015};
+    const size_t side[] = {48, 64};
+
+    (void)state;
+    for (int q = 0; q < 2; q++) {
+        const size_t n = side[q];
+        double half = 0, mean = 0, most = 0, least = INFINITY, count = 0;
+        rc_model_free(cut_groove(n, rigid[q], 0, 1, (double *[]){p, ball, track}));
+        for (size_t j = 0; j < n; j++) {
+            double load = 0, off = fabs((double)j - (double)(n - 1) / 2);
+            for (size_t i = 0; i < n; i++) {
+                load += p[j * n + i];
+                assert_true(ball[j * n + i] == 0 && track[j * n + i] == track[j * n]);
+            }
+            half += load > 0 ? 0.5 : 0;
+            if (off > 0.8 * rigid[q])
+                continue;
+            mean += load;
+            count++;
+            most = fmax(most, load);
+            least = fmin(least, load);
+        }
+        if (!(half == found[q] && (most - least) * count < even[q] * mean))
+            fail_msg("half width %g nodes, %g when rigid; row loads %.3f to %.3f of their mean",
+                     half, rigid[q], least * count / mean, most * count / mean);
+    }
+    rc_model_free(cut_groove(48, 13.6, 1, 0, (double *[]){p, ball, track}));
+    rc_model_free(cut_groove(48, 13.6, 1, -1, (double *[]){again, ball, track}));
+    assert_memory_equal(p, again, sizeof *p * 48 * 48); /* a track that does not wear is none */
+}
+
 /* Where the last valleys close, a contact puts several times the mean pressure on a few nodes, within its
  * tolerance. The largest pressure must be that of the end: the mean. */
 static void
@@ -414,7 +494,7 @@ main(void)
         cmocka_unit_test(phases_share_the_load), cmocka_unit_test(a_disc_that_sticks_carries_all),
         cmocka_unit_test(waves_decay),           cmocka_unit_test(punches_become_even),
         cmocka_unit_test(a_ball_is_cut),         cmocka_unit_test(roughness_is_cut),
-        cmocka_unit_test(valleys_close_evenly),
+        cmocka_unit_test(valleys_close_evenly),  cmocka_unit_test(a_ball_cuts_a_groove),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
