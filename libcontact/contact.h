@@ -1339,6 +1339,7 @@ struct rc_travel_figures {
         position; /* m, x of the middle of the contact on the map of body 1, from its middle          */
     double
         height; /* m, of body 2: highest node less the approach, in a datum that stays with body 1 */
+    double window_x; /* m, x of the middle of the window on this map; 0: the whole map */
 };
 /* A model (model.h) of a contact that travels along x over body 1, over an inner one that allows other heights,
  * and which it owns from here on; NULL where that is NULL. In addition to the load it takes the position. The

@@ -41,6 +41,8 @@ const struct rc_figure rc_figures_travel[] = {
      .says = "x of the middle of the contact on the map of body 1"},
     {RC_FIGURE(struct rc_travel_figures, height), "m", "Height of body 2",
      .says = "highest node less the approach: in a datum that stays with body 1"},
+    {RC_FIGURE(struct rc_travel_figures, window_x), "m", "Middle of the window",
+     .says = "x on the map of body 1"},
     {0},
 };
 static const struct rc_figure_set sets[] = {{rc_figures_travel, offsetof(struct travel, figures)},
@@ -266,6 +268,9 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
 
     (void)err;
     v->figures.position = at->at[RC_POSITION];
+    v->figures.window_x =
+        (column_of(v) - ((double)v->problem.track.nx - (double)v->base.shape.nx) / 2) *
+        v->base.shape.dx;
     v->figures.height = v->first_top - rc_model_number(m->inner, "indentation");
     return RC_OK;
 }

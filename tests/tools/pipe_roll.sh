@@ -95,6 +95,20 @@ near "$(column creep_x again.tsv 5)" "$(column creep_x way.tsv 5)" 1e-3 "a path 
 claim "  whose cases are not solved again" test "$(number "$(column convolutions again.tsv 2) < $(column convolutions way.tsv 2)")" = 1
 claim "--dry-run tells the work of a position" says 'each position +about 25 convolutions' rc-slip $push --dry-run way.rcg
 
+# ---- rc-solve --travel: a ball over a rough map, on the whole map and in a window ----
+
+rc-synth selfaffine --nx 96 --ny 40 --dx 10um --hurst 0.8 --rms-height 0.2um --short-cut 60um --seed 3 -o rough.rcg
+travel="--radius 7.5mm --load 60N --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 --quiet --tol 1e-6 --travel -60um:60um:13"
+roll="--mu 0.3 --creep 2e-3,5e-4,3 --tol 1e-4 --quiet"
+rc-solve $travel rough.rcg | rc-slip $roll --report whole.tsv -o x.rcg
+rc-solve $travel --window 50x40 rough.rcg | rc-slip $roll --report window.tsv -o x.rcg
+for f in force_x force_y moment power_slip; do
+    near "$(column $f window.tsv 13)" "$(column $f whole.tsv 13)" 1e-3 "a ball that travels: $f in a window is that on the whole map"
+done
+claim "  and rolls on from case to case" test "$(number "$(column force_x whole.tsv 13) > 2 * $(column force_x whole.tsv 5)")" = 1
+rc-solve $travel --window 16x40 rough.rcg -o narrow.rcg
+refuses 1 'leading edge of the map' "a window that the contact fills" 'rc-slip --mu 0.3 --creep 1e-3,0 -o x.rcg narrow.rcg'
+
 # ---- refusals: the reason, and a way out ----
 
 refuses 1 'limit|slide; give the creepage instead' "a force beyond the limit" 'rc-slip --mu 0.3 --creep-force 100N --steady -o x.rcg ball.rcg'
