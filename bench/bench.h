@@ -35,8 +35,8 @@ struct work {
     void *what;
 };
 void take_turns(size_t count, const struct work *work, int runs, double seconds, double *least);
-/* True if work that began at `start` should run again for its shortest time: at least twice and for half a
- * second, unless this takes long. */
+/* True if work that began at `start` should run again for its shortest time. It runs at least twice and for
+ * half a second, unless this takes long. */
 bool once_more(double start, int runs);
 
 /* One application of a plan, as work for the functions above. */

@@ -77,8 +77,8 @@ duel(struct work a, struct work b, double least[2])
     take_turns(2, (struct work[2]){a, b}, 5, 4, least);
 }
 
-/* Prints the bytes per node for planning and applying beyond p and u: the growth of the peak resident set, in
- * a separate process (below), because memory freed before would hide it. */
+/* Prints the bytes per node for planning and applying beyond p and u. They are the growth of the peak
+ * resident set, in a separate process (below), because memory freed before would hide it. */
 static void
 peak_bytes(const struct rc_engine *e, const struct rc_sum *sum)
 {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The cost of files: a frame of 64 MB is written in every binary format and read back if a reader exists, in
-# milliseconds, best of three, through a pipe; compared with `cat` through a pipe with a CRC.
+# The cost of files. A frame of 64 MB is written in every binary format and read back if a reader exists, in
+# milliseconds, best of three, through a pipe. It is compared with `cat` through a pipe with a CRC.
 #
 #     bench/formats.sh BUILD [FOLDER]      BUILD holds the tools, FOLDER takes 500 MB
 set -euo pipefail

@@ -12,7 +12,7 @@
  * section5  errors of periodic transforms for a contact on the free half-space as the domain grows, and the
  *           cost of the same accuracy with them, with padded transforms and with MLMS
  *
- * -n, -m: only the grids of fig3 with these numbers of columns, or only pk99+mlms, pcg+mlms or pcg+fft; -s: a
+ * -n, -m: only the grids of fig3 with these numbers of columns, or only pk99+mlms, pcg+mlms or pcg+fft. -s: a
  * solution of fig3 that takes longer (default 100) is stopped. RC_THREADS sets the threads.
  */
 #include "paper.h"

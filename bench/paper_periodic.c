@@ -1,13 +1,13 @@
 /*
  * Section 5 of the paper: transforms without padding solve a periodic problem; a larger grid moves the images
  * away. For Hertz's contact of radius a in a domain of side L the images add the displacement P / (pi E*) S /
- * (4 L^3) r^2 + const, S = sum of 1/|n|^3 = 9.0336 over the lattice. This is a curvature: the radius
- * decreases by 2 S / (9 pi) (a/L)^3 = 0.639 (a/L)^3, and the relative L1 error of the pressure is 4 / sqrt(3)
- * of that, 1.475 (a/L)^3.
+ * (4 L^3) r^2 + const. Here S = sum of 1/|n|^3 = 9.0336 over the lattice. This is a curvature. The radius
+ * decreases by 2 S / (9 pi) (a/L)^3 = 0.639 (a/L)^3. The relative L1 error of the pressure is 4 / sqrt(3) of
+ * that, 1.475 (a/L)^3.
  *
  * Periodic pressure is band-limited, free pressure constant in each cell. To isolate the effect of the
- * images, a periodic solution is compared with the limit of periodic solutions: extrapolated from the widest
- * domain and half of it, with an error proportional to L^-3.
+ * images, a periodic solution is compared with the limit of periodic solutions. The limit is extrapolated
+ * from the widest domain and half of it, with an error proportional to L^-3.
  */
 #include "paper.h"
 

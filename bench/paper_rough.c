@@ -2,8 +2,8 @@
 #include "paper.h"
 
 /* Self-affine roughness that gives 0.55 of Hertz's area on the largest grid of the paper
- * (sample_surfaces/make.sh), cut at the edges for the smaller grids, generated again for larger ones; the
- * radius of the sphere grows with the map and the load with its area. */
+ * (sample_surfaces/make.sh). It is cut at the edges for the smaller grids, and generated again for larger
+ * ones. The radius of the sphere grows with the map, and the load with its area. */
 static double *
 rough_sphere(struct rc_shape shape, struct rc_problem *problem)
 {

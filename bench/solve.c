@@ -11,9 +11,9 @@
  *           roll-off, and of 8 nodes: equivalents to the true error, and of the certified solution
  * whole     seconds of certified solutions, compared with those of a convolution on the same grid
  *
- * Surfaces of the first two: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an
- * eighth of the map) and a sphere with such roughness on the free half-space. The reference is the same
- * solver at 1e-9. RC_THREADS sets the threads.
+ * Surfaces of the first two: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an eighth of the
+ * map). The other is a sphere with such roughness on the free half-space. The reference is the same solver at
+ * 1e-9. RC_THREADS sets the threads.
  */
 #include "bench.h"
 

@@ -3,10 +3,10 @@
  *
  *     bench-spectrum [-n SIZE,SIZE...]
  *
- * Extreme eigenvalues of M K between the nodes of contact, on vectors of zero mean, for M = E' A E
- * (preconditioner.h) and for A cut to those nodes (E the extension by zero), by the Lanczos process:
- * the eigenvalues of the tridiagonal matrix from conjugate gradients with a random right-hand side.
- * Contact sets are those of solved rough surfaces, and a disc.
+ * Extreme eigenvalues of M K between the nodes of contact, on vectors of zero mean. M is E' A E
+ * (preconditioner.h), or A cut to those nodes (E the extension by zero). The Lanczos process finds them: they
+ * are eigenvalues of the tridiagonal matrix from conjugate gradients with a random right-hand side. Contact
+ * sets are those of solved rough surfaces, and a disc.
  */
 #include "bench.h"
 

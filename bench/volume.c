@@ -1,5 +1,5 @@
 /*
- * The cost of the sweeps through slabs of plastic strain, in convolutions: a convolution is a real transform
+ * The cost of the sweeps through slabs of plastic strain, in convolutions. A convolution is a real transform
  * of the map and back, including the product with a kernel, by the same transforms.
  *
  *     bench-volume [applications]       (default: all)

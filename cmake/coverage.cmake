@@ -1,5 +1,5 @@
-# cmake -D SOURCE=... -D BUILD=... -P coverage.cmake: runs the tests of a build with RC_COVERAGE and prints,
-# for each file, how many lines of libcontact and formats they have run; BUILD/coverage.txt has the numbers of
+# cmake -D SOURCE=... -D BUILD=... -P coverage.cmake: runs the tests of a build with RC_COVERAGE. For each
+# file it prints how many lines of libcontact and formats they have run. BUILD/coverage.txt has the numbers of
 # the other lines.
 find_program(GCOVR gcovr REQUIRED)
 file(GLOB_RECURSE counts ${BUILD}/*.gcda)

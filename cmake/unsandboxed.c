@@ -1,7 +1,7 @@
 /*
  * Part of every program of a build with RC_COVERAGE. With RC_UNSANDBOXED in the environment the process
- * itself does the reading of the sandbox, whose child may not write files and therefore cannot record its
- * coverage.
+ * itself does the reading of the sandbox. The child of the sandbox may not write files and therefore cannot
+ * record its coverage.
  */
 #include <signal.h>
 #include <stdlib.h>

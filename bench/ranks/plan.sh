@@ -6,8 +6,8 @@
 #     + sums latency log2 M
 #
 # C n0^2: seconds of one equivalent at n0 x n0 on one machine, including all other work of the iteration. The
-# environment sets: C (1.1e-8 s a node), N0 (4096), BANDWIDTH (12.5e9 bytes/s a machine), LATENCY (2e-6 s),
-# SUMS (25 an equivalent), EQUIVALENTS (20 a contact).
+# environment sets C (1.1e-8 s a node), N0 (4096), BANDWIDTH (12.5e9 bytes/s a machine) and LATENCY (2e-6 s).
+# It also sets SUMS (25 an equivalent) and EQUIVALENTS (20 a contact).
 case ${1-} in
 strong | weak) ;;
 *)

@@ -3,10 +3,10 @@
 #
 #     packaging/wheel/build.sh OUT [ROOT]
 #
-# The wheel for Linux appears in the folder OUT. It needs glibc 2.31 (Debian 11, Ubuntu 20.04, RHEL 9) and nothing
-# else. It is built by this machine's gcc (12 or later) with headers and libraries of Debian 11, in a root that
-# debootstrap makes; a folder ROOT keeps this root for the next time. MIRROR names another mirror of Debian.
-# To be run by root, who alone may change into another root.
+# The wheel for Linux appears in the folder OUT. It needs glibc 2.31 (Debian 11, Ubuntu 20.04, RHEL 9) and
+# nothing else. It is built by this machine's gcc (12 or later) with headers and libraries of Debian 11, in a
+# root that debootstrap makes. A folder ROOT keeps this root for the next time. MIRROR names another mirror of
+# Debian. To be run by root, who alone may change into another root.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
 . "$top/packaging/root.sh"

@@ -1,5 +1,6 @@
-# Run in the root, in /libraries: from Debian's sources, libraries without what the tools do not use (ICU, OpenSSL,
-# curl, X11, JPEG and others), into /opt/rc. fontconfig also because the one of Debian 11 writes into folders of fonts.
+# Run in the root, in /libraries. It builds libraries from Debian's sources into /opt/rc, without the parts
+# that the tools do not use (ICU, OpenSSL, curl, X11, JPEG and others). fontconfig is built too, because the
+# one of Debian 11 writes into folders of fonts.
 set -euo pipefail
 prefix=/opt/rc
 export PKG_CONFIG_PATH=$prefix/lib/pkgconfig

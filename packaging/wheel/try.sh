@@ -3,9 +3,10 @@
 #
 #     packaging/wheel/try.sh SUITE WHEEL [ROOT]
 #
-# SUITE is a release of Debian, such as bookworm; a folder ROOT keeps its root. pip installs the wheel and numpy; then run the
-# pipeline of README, pictures, a page, HDF5 written and read again, and the tests of the Python package. MIRROR names another mirror of
-# Debian. To be run by root, who alone may change into another root.
+# SUITE is a release of Debian, such as bookworm; a folder ROOT keeps its root. pip installs the wheel and
+# numpy. Then it runs the pipeline of README, pictures, a page, HDF5 written and read again, and the tests of
+# the Python package. MIRROR names another mirror of Debian. To be run by root, who alone may change into
+# another root.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
 . "$top/packaging/root.sh"
