@@ -35,7 +35,7 @@ bool rc_piece_infinite(struct rc_piece piece, double *value);
 
 /* Metres in one unit of the length that the piece names; NAN for another word. */
 double rc_piece_metres(struct rc_piece piece);
-/* For quoting in a message; as rc_text_shown. */
+/* Makes a text safe to quote in a message, as rc_text_shown does. */
 const char *rc_piece_shown(char to[RC_SHOWN], struct rc_piece piece);
 /* Sets a key of the grid; as rc_text_keep. */
 enum rc_status rc_piece_keep(struct rc_grid *grid, const char *key, struct rc_piece piece,
