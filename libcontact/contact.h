@@ -45,6 +45,7 @@ struct rc_leak;     /* flow through a gap                                       
 struct rc_slip;     /* friction in a contact with a given pressure                     */
 struct rc_stress;   /* stresses below the surface                                      */
 struct rc_fatigue;  /* fatigue under the stresses below the surface                    */
+struct rc_heat;     /* temperatures of the contact                                     */
 struct rc_ranks;    /* processes that share a map: contact_mpi.h; NULL: none           */
 
 /* struct rc_model (model.h) drives several of them with the same verbs. */
@@ -1351,6 +1352,76 @@ RC_API struct rc_model *rc_travel_new(struct rc_model *inner,
                                       const struct rc_travel_problem *problem, struct rc_err *err);
 /* The figures of this model, after rc_model_look; NULL: it does not travel. */
 RC_API const struct rc_travel_figures *rc_travel_result(const struct rc_model *model);
+
+/* ---- heat ---- */
+
+/* The material of a body, which moves past the contact. */
+struct rc_heat_body {
+    double conductivity; /* W/(m K), > 0                              */
+    double diffusivity;  /* m2/s, > 0                                 */
+    double velocity[2];  /* m/s along x and y; the contact stands still */
+    double bulk;         /* K: temperature far below the contact      */
+};
+/* How the bodies share the heat. */
+enum rc_heat_partition {
+    RC_HEAT_MATCHED, /* equal temperatures at every node in contact                            */
+    RC_HEAT_BLOK,    /* one number, for equal largest temperatures (Blok 1937)                 */
+    RC_HEAT_CHARRON, /* one number, k1/(k1 + k2): exact without motion (Charron 1943)          */
+    RC_HEAT_SHARE    /* one given number                                                       */
+};
+struct rc_heat_problem {
+    enum rc_boundary boundary;
+    struct rc_heat_body body[2];
+    double time; /* s since heating began, with heat shared as at its end; 0: the steady state */
+    enum rc_heat_partition partition;
+    double share;   /* of body 1, for RC_HEAT_SHARE                */
+    double tol;     /* of the mismatch; 0: 1e-3                    */
+    size_t threads; /* 0: all                                      */
+};
+/* The Peclet number of a body is V a/(2 kap), with a the radius of a circle of the area of the largest patch, and
+ * for a cell the side of the cell along the motion. */
+struct rc_heat_figures {
+    double heat_power, heat_power_1;           /* W: of the contact, into body 1               */
+    double share_1, share_blok, share_charron; /* of body 1; NAN: no heat                      */
+    double peclet_1, peclet_2, cell_peclet_1, cell_peclet_2;
+    double max_temperature, max_x,
+        max_y;               /* K above the bulk of body 1, and its place, m           */
+    double mean_temperature; /* K above the bulk of body 1, in contact                 */
+    /* largest difference of the temperatures in contact over the largest rise of a body above its bulk */
+    double mismatch;
+    size_t
+        hot_nodes; /* contact nodes in a row along the motion through the hottest node: with few of them and
+                           a cell_peclet above 1 the grid misses the temperature at the trailing edge */
+    double steady_time; /* s: contact area over the smaller diffusivity          */
+    size_t iterations;
+    double convolutions;
+    bool converged; /* mismatch <= tol; always true for one number */
+};
+/* RC_FAIL when rc_heat_new would refuse the problem for its numbers. */
+RC_API enum rc_status rc_heat_check(const struct rc_shape *shape,
+                                    const struct rc_heat_problem *problem, struct rc_err *err);
+/* Temperatures of the surfaces of two half-spaces due to the heat flux q of their contact, nx ny W/m2. Exact for
+ * all speeds for a flux that is constant in each cell, on a periodic map for a band-limited one: Jaeger 1942 (J.
+ * Proc. R. Soc. N.S.W. 76, 203). A profile (ny = 1) continues along y without end. rc_in_contact decides from
+ * `contact`, a pressure or a map of 1 and 0; NULL: contact is where q is not 0. Heat can flow from body to body
+ * only in contact. NULL when q is not finite or not 0 out of contact, no node is in contact, a steady state does
+ * not exist (periodic maps, profiles with a body at rest), or memory is short. The maps are copied. */
+RC_API struct rc_heat *rc_heat_new(const struct rc_shape *shape,
+                                   const struct rc_heat_problem *problem, const double *q,
+                                   const double *contact, struct rc_err *err);
+/* One step, of 2 convolutions: RC_MORE; RC_OK when the temperatures match; RC_SHORT after 100 steps, or when
+ * rounding prevents this. RC_FAIL when memory is short. */
+RC_API enum rc_status rc_heat_step(struct rc_heat *heat, struct rc_err *err);
+/* After the last step, like the following. */
+RC_API const struct rc_heat_figures *rc_heat_result(const struct rc_heat *heat);
+/* Heat flux into body 0 or 1, nx ny W/m2. It may be negative, or larger than q, where cold material enters the
+ * contact. */
+RC_API const double *rc_heat_flux(const struct rc_heat *heat, int body);
+/* Temperature of body 0 or 1 at a depth, m, nx ny K above the bulk of body 1. RC_FAIL when the depth is negative or
+ * memory is short. */
+RC_API enum rc_status rc_heat_temperature(struct rc_heat *heat, int body, double depth, double *to,
+                                          struct rc_err *err);
+RC_API void rc_heat_free(struct rc_heat *heat); /* NULL is allowed */
 
 /* ---- stress ---- */
 

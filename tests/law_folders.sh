@@ -15,7 +15,7 @@ cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/model    | %base                                    | libcontact libcontact/solver=rc_figures_
 libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/adhesion=rc_model_ libcontact/leak=rc_figures_ libcontact/plastic=rc_figures_
-libcontact/model    |                                          | libcontact/slip=rc_figures_ libcontact/slip=rc_model_ libcontact/wear=rc_figures_ libcontact/wear=rc_model_ libcontact/travel=rc_figures_ libcontact/travel=rc_model_ libcontact/stress=rc_figures_ libcontact/fatigue=rc_figures_ libcontact/surface=rc_figures_ libcontact/features=rc_figures_
+libcontact/model    |                                          | libcontact/slip=rc_figures_ libcontact/slip=rc_model_ libcontact/wear=rc_figures_ libcontact/wear=rc_model_ libcontact/travel=rc_figures_ libcontact/travel=rc_model_ libcontact/stress=rc_figures_ libcontact/fatigue=rc_figures_ libcontact/heat=rc_figures_ libcontact/surface=rc_figures_ libcontact/features=rc_figures_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
 libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
@@ -29,6 +29,8 @@ libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libc
 libcontact/stress   |                                          | libcontact/transform libcontact/body
 libcontact/stress   | libcontact/volume/volume.h               | libcontact/volume
 libcontact/fatigue  | %base                                    | libcontact libcontact/stress libcontact/body
+libcontact/heat     | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/transform libcontact/body libcontact/surface
+libcontact/heat     | libcontact/body/quadrature.h             | libcontact/body
 libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform
 libcontact/plastic  | libcontact/model/row.h                   | libcontact/model
 libcontact/plastic  | %base libcontact/volume/volume.h         | libcontact libcontact/volume libcontact/solver libcontact/stress
@@ -113,7 +115,7 @@ END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
 public='libcontact/contact.h libcontact/grid.h libcontact/model.h'
 physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/plastic'
-physics="$physics libcontact/model libcontact/adhesion libcontact/leak libcontact/slip libcontact/wear libcontact/travel libcontact/fatigue libcontact/surface libcontact/features"
+physics="$physics libcontact/model libcontact/adhesion libcontact/leak libcontact/slip libcontact/wear libcontact/travel libcontact/fatigue libcontact/heat libcontact/surface libcontact/features"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
 reader='libcontact/grid.h formats/core/core.h formats/format.h formats/containers/containers.h formats/sandbox/sandbox.h'

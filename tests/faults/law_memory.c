@@ -923,6 +923,29 @@ done:
     return status;
 }
 
+/* ---- heat ---- */
+
+static enum rc_status
+heated(double *out, struct rc_err *err)
+{
+    const struct rc_heat_problem problem = {.body = {{45, 1e-5, {0, 0}, 0}, {16, 4e-6, {1, 2}, 10}},
+                                            .threads = 1};
+    struct rc_heat *h = NULL;
+    enum rc_status status = RC_FAIL;
+
+    if (rc_heat_check(&shape, &problem, err) != RC_OK ||
+        (h = rc_heat_new(&shape, &problem, pressure, pressure, err)) == NULL)
+        return RC_FAIL;
+    while ((status = rc_heat_step(h, err)) == RC_MORE)
+        continue;
+    if (status == RC_OK)
+        status = rc_heat_temperature(h, 1, 1e-6, out, err);
+    memcpy(out + N, rc_heat_flux(h, 0), N * sizeof *out);
+    out[2 * N] = rc_heat_result(h)->max_temperature;
+    rc_heat_free(h);
+    return status;
+}
+
 /* ---- slabs ---- */
 
 static bool
@@ -1128,6 +1151,7 @@ static const struct {
     {.name = "stress, of plastic strain", .use = strained_stress},
     {.name = "depths", .use = depths},
     {.name = "fatigue", .use = fatigued},
+    {.name = "heat", .use = heated},
     {.name = "slabs", .use = slabs_double},
     {.name = "slabs, single precision", .use = slabs_single},
     {.name = "what a plan takes", .use = plans, .without = true},

@@ -1,0 +1,270 @@
+/*
+ * Temperatures of maps of heat flux by Fourier transforms. A free map is padded; the coefficients are transformed
+ * by their even and odd parts, of which a quarter determines the whole. A periodic map needs only the symbol.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "heat.h"
+#include "libcontact/memory.h"
+
+struct rc_conduction {
+    struct rc_shape shape;
+    enum rc_boundary boundary;
+    int threads;
+    struct rc_fft *fft;
+    size_t columns, length, cy; /* columns of waves; numbers in a column; rows of a quarter of it */
+    double *waves;              /* transform of the loaded map                                    */
+    size_t *wave;               /* for place t of a column: its row in the quarter                */
+    signed char *mirror;        /* -1 where this row is the mirror image, else 1                  */
+    double count;
+};
+
+/* ---- plan ---- */
+
+void
+rc_conduction_free(struct rc_conduction *c)
+{
+    if (c == NULL)
+        return;
+    rc_fft_free(c->fft);
+    free(c->waves);
+    free(c->wave);
+    free(c->mirror);
+    free(c);
+}
+
+struct rc_conduction *
+rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary, size_t threads,
+                  struct rc_err *err)
+{
+    struct rc_conduction *c = calloc(1, sizeof *c);
+
+    if (c == NULL) {
+        rc_err_set(err, "out of memory for a plan");
+        return NULL;
+    }
+    c->shape = *shape;
+    c->boundary = boundary;
+    c->threads = rc_useful_threads(shape, threads);
+    if ((c->fft = rc_fft_new(NULL, NULL, shape, boundary, RC_DOUBLE, threads, err)) == NULL)
+        goto fail;
+    rc_fft_waves(c->fft, &c->columns, &c->cy);
+    c->length = rc_fft_length(c->fft);
+    c->waves = rc_alloc(2 * c->columns * c->length, sizeof *c->waves);
+    c->wave = rc_alloc(c->length, sizeof *c->wave);
+    c->mirror = rc_alloc(c->length, sizeof *c->mirror);
+    if (c->waves == NULL || c->wave == NULL || c->mirror == NULL) {
+        rc_err_set(err, "out of memory for the heat of %zu x %zu nodes", shape->nx, shape->ny);
+        goto fail;
+    }
+    for (size_t t = 0; t < c->length; t++) {
+        const size_t j = rc_fft_wave(c->fft, t);
+        c->wave[t] = 2 * j <= c->length ? j : c->length - j;
+        c->mirror[t] = 2 * j <= c->length ? 1 : -1;
+    }
+    return c;
+fail:
+    rc_conduction_free(c);
+    return NULL;
+}
+
+double
+rc_conduction_count(const struct rc_conduction *c)
+{
+    return c->count;
+}
+
+/* ---- the spectrum of a body ---- */
+
+void
+rc_warming_free(struct rc_warming *w)
+{
+    for (int k = 0; k < RC_HEAT_PARTS; k++)
+        free(w->part[k]);
+    *w = (struct rc_warming){{NULL}};
+}
+
+/* From C at (qx, qy) and (qx, -qy), where C(-q) is the conjugate of C(q). */
+static void
+sample(struct rc_warming *w, const struct rc_conduction *c, const struct rc_heated *body)
+{
+    const struct rc_heat_waves waves = rc_heat_waves_of(body);
+    const size_t nx = c->shape.nx, ny = c->shape.ny;
+
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t i = 0; i < c->columns; i++)
+        for (size_t j = 0; j < c->cy; j++) {
+            const double qx = rc_fft_qx(c->fft, i), qy = rc_fft_qy(c->fft, j);
+            const double complex on = rc_heat_symbol(&waves, qx, qy);
+            const double complex back =
+                w->part[RC_ODD_Y] == NULL ? on : rc_heat_symbol(&waves, qx, -qy);
+            const double part[RC_HEAT_PARTS] = {
+                [0] = creal(on + back) / 2,
+                [RC_ODD_X] = -cimag(on + back) / 2,
+                [RC_ODD_Y] = -cimag(on - back) / 2,
+                [RC_ODD_X | RC_ODD_Y] = -creal(on - back) / 2,
+            };
+            /* a wave of two nodes is 0 at all nodes in a direction in which the part is odd */
+            for (unsigned k = 0; k < RC_HEAT_PARTS; k++)
+                if (w->part[k] != NULL)
+                    w->part[k][i * c->cy + j] =
+                        (2 * i == nx && k & RC_ODD_X) || (2 * j == ny && k & RC_ODD_Y) ? 0
+                                                                                       : part[k];
+        }
+}
+
+struct keeper {
+    double *to;
+    size_t cy;
+};
+
+static void
+keep_column(void *ctx, size_t i, size_t n, double *column)
+{
+    const struct keeper *k = ctx;
+
+    memcpy(k->to + i * k->cy, column, n * sizeof *column);
+}
+
+static enum rc_status
+transform(struct rc_warming *w, const struct rc_conduction *c, const struct rc_heated *body,
+          struct rc_err *err)
+{
+    struct rc_shape offsets = {.dx = c->shape.dx, .dy = c->shape.dy};
+    struct rc_heat_cells *cells;
+    struct rc_spectrum *passing = NULL;
+    enum rc_status status = RC_FAIL;
+
+    rc_fft_quarter(c->fft, &offsets.nx, &offsets.ny);
+    if ((cells = rc_heat_cells_new(&offsets, body, err)) == NULL ||
+        (passing = rc_spectrum_new(c->fft, err)) == NULL)
+        goto done;
+    status = RC_OK;
+    for (unsigned k = 0; k < RC_HEAT_PARTS && status == RC_OK; k++) {
+        const struct rc_heat_part part = {cells, k};
+        const struct rc_kernel kernel = rc_heat_kernel(&part);
+        struct keeper keeper = {w->part[k], c->cy};
+        if (w->part[k] != NULL)
+            status = rc_spectrum_set_by(passing, c->fft, &kernel, keep_column, &keeper, err);
+    }
+done:
+    rc_spectrum_free(passing);
+    rc_heat_cells_free(cells);
+    return status;
+}
+
+enum rc_status
+rc_warming_set(struct rc_warming *w, struct rc_conduction *c, const struct rc_heated *body,
+               struct rc_err *err)
+{
+    *w = (struct rc_warming){{NULL}};
+    for (unsigned k = 0; k < RC_HEAT_PARTS; k++) {
+        if ((k & RC_ODD_X && body->px == 0) || (k & RC_ODD_Y && body->py == 0))
+            continue;
+        if ((w->part[k] = rc_alloc(c->columns * c->cy, sizeof(double))) == NULL)
+            return rc_err_set(err, "out of memory for the heat of %zu x %zu nodes", c->shape.nx,
+                              c->shape.ny);
+    }
+    if (c->boundary == RC_FREE)
+        return transform(w, c, body, err);
+    sample(w, c, body);
+    return RC_OK;
+}
+
+/* ---- use ---- */
+
+struct pass {
+    struct rc_conduction *c;
+    const double *from;
+    double *to;
+    size_t n;
+    const struct rc_warming *const *warming;
+    bool inverse;
+};
+
+static bool
+row_in(void *ctx, size_t j, void *row)
+{
+    const struct pass *p = ctx;
+    const size_t nx = p->c->shape.nx;
+
+    memcpy(row, p->from + j * nx, nx * sizeof(double));
+    return rc_any(p->from + j * nx, nx);
+}
+
+static bool
+row_out(void *ctx, size_t j, void *row)
+{
+    const struct pass *p = ctx;
+    const size_t nx = p->c->shape.nx;
+
+    memcpy(p->to + j * nx, row, nx * sizeof(double));
+    return true;
+}
+
+/* The real, then the imaginary parts of the spectrum of all bodies; a part with one odd direction has the factor
+ * -i, one with two has -1. */
+RC_CLONES static void
+add_spectra(const struct pass *p, size_t i, double *to)
+{
+    const struct rc_conduction *c = p->c;
+    const size_t n = c->length;
+
+    memset(to, 0, 2 * n * sizeof *to);
+    for (size_t b = 0; b < p->n; b++)
+        for (unsigned k = 0; k < RC_HEAT_PARTS; k++) {
+            const bool odd = k == RC_ODD_X || k == RC_ODD_Y;
+            const double sign = k == 0 ? 1 : -1, *part = p->warming[b]->part[k];
+            double *out = odd ? to + n : to;
+            if (part == NULL)
+                continue;
+            part += i * c->cy;
+            for (size_t t = 0; t < n; t++)
+                out[t] += sign * (k & RC_ODD_Y ? (double)c->mirror[t] : 1) * part[c->wave[t]];
+        }
+}
+
+RC_CLONES static void
+multiply(size_t n, const double *x, bool inverse, double *to)
+{
+    for (size_t t = 0; t < n; t++) {
+        double re = to[t], im = to[n + t];
+        if (inverse) {
+            const double over = re != 0 || im != 0 ? 1 / (re * re + im * im) : 0;
+            re *= over;
+            im *= -over;
+        }
+        to[t] = re * x[t] - im * x[n + t];
+        to[n + t] = re * x[n + t] + im * x[t];
+    }
+}
+
+static void
+field_column(void *ctx, size_t i, void *column)
+{
+    const struct pass *p = ctx;
+    const size_t n = p->c->length;
+
+    add_spectra(p, i, column);
+    multiply(n, p->c->waves + 2 * i * n, p->inverse, column);
+}
+
+void
+rc_conduction_load(struct rc_conduction *c, const double *q)
+{
+    struct pass pass = {.c = c, .from = q};
+
+    rc_fft_forward(c->fft, row_in, &pass, c->waves, NULL);
+    c->count += 0.5;
+}
+
+void
+rc_conduction_field(struct rc_conduction *c, size_t n, const struct rc_warming *const *w,
+                    bool inverse, double *out)
+{
+    struct pass pass = {.c = c, .to = out, .n = n, .warming = w, .inverse = inverse};
+
+    rc_fft_back(c->fft, NULL, field_column, row_out, &pass);
+    c->count += 0.5;
+}

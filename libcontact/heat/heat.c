@@ -1,0 +1,537 @@
+/*
+ * Temperatures of two bodies that share the heat of their contact. With f the heat flux into body 1, of any sign,
+ * q - f that into body 2, and D = bulk of body 2 - bulk of body 1, equal temperatures in the contact need
+ *
+ *     (C1 + C2) f = C2 q + D   at the nodes in contact,   f = 0 elsewhere.
+ *
+ * C1 + C2 is not symmetric where a body moves, but its symmetric part is positive. GMRES without restart (Saad and
+ * Schultz 1986), preconditioned on the right by the reciprocal of the spectrum of C1 + C2 on the padded map. Its
+ * residual is then the difference of the temperatures, and its largest value decides when to stop.
+ */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "heat.h"
+#include "libcontact/memory.h"
+
+enum {
+    STEPS = 100 /* of the iteration, at most */
+};
+
+struct rc_heat {
+    struct rc_shape shape;
+    struct rc_heat_problem problem;
+    struct rc_conduction *c;
+    struct rc_warming warming[2];
+    double drop;     /* K: bulk temperature of body 2 less that of body 1 */
+    double scale;    /* K: largest rise of a body above its bulk          */
+    size_t n, *node; /* in contact                                        */
+    double *map;     /* the block of all maps                             */
+    double *q, *flux[2],
+        *rise[2]; /* heat and rise above their bulk, nx ny; heat is 0 out of contact */
+    double *work; /* nx ny */
+    /* At the nodes in contact: C1 z = V h, with V orthonormal, z = M v */
+    double *right, *v[STEPS + 1], *z[STEPS];
+    double h[STEPS][STEPS + 1]; /* column by column; its first rows are rotated to a triangle */
+    double turn[STEPS][2], g[STEPS + 1];
+    size_t steps;
+    bool begun;
+    struct rc_heat_figures figures;
+};
+
+#define FIGURE(member) RC_FIGURE(struct rc_heat_figures, member)
+const struct rc_figure rc_figures_heat[] = {
+    {FIGURE(heat_power), "W", "Heat", .says = "of the contact"},
+    {FIGURE(heat_power_1), "W", "Heat into body 1"},
+    {FIGURE(share_1), NULL, "Share of body 1"},
+    {FIGURE(share_blok), NULL, "Share of body 1 of Blok",
+     .says = "one number, for equal largest temperatures"},
+    {FIGURE(share_charron), NULL, "Share of body 1 without motion"},
+    {FIGURE(peclet_1), NULL, "Peclet number of body 1", .says = "of the largest patch"},
+    {FIGURE(peclet_2), NULL, "Peclet number of body 2", .says = "of the largest patch"},
+    {FIGURE(cell_peclet_1), NULL, "Peclet number of a cell of body 1"},
+    {FIGURE(cell_peclet_2), NULL, "Peclet number of a cell of body 2"},
+    {FIGURE(max_temperature), "K", "Largest temperature", .says = "above the bulk of body 1"},
+    {FIGURE(max_x), "m", "Place of the largest temperature along x"},
+    {FIGURE(max_y), "m", "Place of the largest temperature along y"},
+    {FIGURE(mean_temperature), "K", "Mean temperature in contact"},
+    {FIGURE(mismatch), NULL, "Mismatch of the temperatures",
+     .says = "largest difference of the bodies over the largest rise", .role = RC_FIGURE_ERROR,
+     .by = "tol"},
+    {FIGURE(hot_nodes), NULL, "Nodes of the hottest spot along the motion"},
+    {FIGURE(steady_time), "s", "Time to a steady state"},
+    {FIGURE(iterations), NULL, "Iterations", .role = RC_FIGURE_COST},
+    {FIGURE(convolutions), NULL, "Convolutions", .role = RC_FIGURE_COST},
+    {FIGURE(converged), NULL, "Converged"},
+    {0},
+};
+
+/* ---- the problem ---- */
+
+enum rc_status
+rc_heat_check(const struct rc_shape *shape, const struct rc_heat_problem *p, struct rc_err *err)
+{
+    if (rc_shape_check(shape, err) != RC_OK)
+        return RC_FAIL;
+    for (int b = 0; b < 2; b++) {
+        const struct rc_heat_body *body = &p->body[b];
+        if (!(body->conductivity > 0) || isinf(body->conductivity))
+            return rc_err_set(err, "conductivity of body %d, %g W/(m K): it must be above 0", b + 1,
+                              body->conductivity);
+        if (!(body->diffusivity > 0) || isinf(body->diffusivity))
+            return rc_err_set(err, "diffusivity of body %d, %g m2/s: it must be above 0", b + 1,
+                              body->diffusivity);
+        if (!isfinite(body->velocity[0]) || !isfinite(body->velocity[1]) || !isfinite(body->bulk))
+            return rc_err_set(err, "velocity or bulk temperature of body %d is not a number",
+                              b + 1);
+        if (shape->ny == 1 && p->boundary == RC_FREE && !(p->time > 0) && body->velocity[0] == 0)
+            return rc_err_set(err,
+                              "body %d stands still, and a profile has no end along y: it becomes "
+                              "warmer without end: give a time",
+                              b + 1);
+    }
+    if (!(p->time >= 0) || isinf(p->time))
+        return rc_err_set(err, "time %g s: it must be above 0, or 0 for the steady state", p->time);
+    if (p->boundary == RC_PERIODIC && p->time == 0)
+        return rc_err_set(err, "a periodic map becomes warmer without end, and has no steady "
+                               "temperature: give a time");
+    if (p->partition == RC_HEAT_SHARE && !(p->share >= 0 && p->share <= 1))
+        return rc_err_set(err, "share of body 1, %g: it must be from 0 to 1", p->share);
+    if (!(p->tol >= 0 && p->tol < 1))
+        return rc_err_set(err, "tolerance %g: it must be from 0 to 1", p->tol);
+    return RC_OK;
+}
+
+/* Body b at a depth. */
+static struct rc_heated
+heated(const struct rc_heat *h, int b, double depth)
+{
+    const struct rc_heat_body *body = &h->problem.body[b];
+    const double time = h->problem.time;
+
+    return (struct rc_heated){
+        .k = body->conductivity,
+        .px = body->velocity[0] / (2 * body->diffusivity),
+        .py = h->shape.ny == 1 ? 0 : body->velocity[1] / (2 * body->diffusivity),
+        .diffusion = time > 0 ? 2 * sqrt(body->diffusivity * time) : INFINITY,
+        .depth = depth,
+    };
+}
+
+static enum rc_status
+set_contact(struct rc_heat *h, const double *q, const double *contact, struct rc_err *err)
+{
+    const struct rc_shape *s = &h->shape;
+
+    for (size_t k = 0; k < s->nx * s->ny; k++) {
+        const bool in = contact != NULL ? rc_in_contact(contact[k]) : q[k] != 0;
+        if (!isfinite(q[k]) || (q[k] != 0 && !in))
+            return rc_err_set(
+                err,
+                "heat flux %g W/m2 at column %zu, row %zu: it must be finite, and 0 out of "
+                "contact",
+                q[k], k % s->nx, k / s->nx);
+        h->q[k] = q[k];
+        h->n += in;
+    }
+    if (h->n == 0)
+        return rc_err_set(err, "no node is in contact, so no heat flows");
+    if ((h->node = rc_alloc(h->n, sizeof *h->node)) == NULL)
+        return rc_err_set(err, "out of memory for %zu nodes in contact", h->n);
+    for (size_t k = 0, n = 0; k < s->nx * s->ny; k++)
+        if (contact != NULL ? rc_in_contact(contact[k]) : q[k] != 0)
+            h->node[n++] = k;
+    return RC_OK;
+}
+
+/* Figures that need no temperature. */
+static enum rc_status
+set_figures(struct rc_heat *h, const double *contact, struct rc_err *err)
+{
+    const struct rc_patch_options options = {
+        .boundary = h->problem.boundary, .each = true, .threads = h->problem.threads};
+    const struct rc_heat_body *body = h->problem.body;
+    struct rc_heat_figures *f = &h->figures;
+    struct rc_patches patches;
+
+    double peclet[2], of_cell[2];
+    enum rc_status status = rc_patches_find(&h->shape, contact, &options, &patches, err);
+
+    for (int b = 0; b < 2 && status == RC_OK; b++) {
+        const struct rc_heated p = heated(h, b, 0);
+        peclet[b] = hypot(p.px, p.py) * sqrt(patches.patch[0].area / RC_PI);
+        of_cell[b] = fmax(fabs(p.px) * h->shape.dx, fabs(p.py) * h->shape.dy);
+    }
+    if (status == RC_OK) {
+        f->peclet_1 = peclet[0];
+        f->peclet_2 = peclet[1];
+        f->cell_peclet_1 = of_cell[0];
+        f->cell_peclet_2 = of_cell[1];
+        f->heat_power = rc_sum(h->q, h->shape.nx * h->shape.ny) * h->shape.dx * h->shape.dy;
+        f->steady_time = patches.contact_area / fmin(body[0].diffusivity, body[1].diffusivity);
+        f->share_charron = body[0].conductivity / (body[0].conductivity + body[1].conductivity);
+    }
+    rc_patches_free(&patches);
+    return status;
+}
+
+void
+rc_heat_free(struct rc_heat *h)
+{
+    if (h == NULL)
+        return;
+    rc_conduction_free(h->c);
+    for (int b = 0; b < 2; b++)
+        rc_warming_free(&h->warming[b]);
+    for (size_t k = 0; k < STEPS; k++) {
+        free(h->v[k]);
+        free(h->z[k]);
+    }
+    free(h->v[STEPS]);
+    free(h->right);
+    free(h->node);
+    free(h->map);
+    free(h);
+}
+
+struct rc_heat *
+rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem, const double *q,
+            const double *contact, struct rc_err *err)
+{
+    const size_t nodes = shape->nx * shape->ny;
+    struct rc_heat *h;
+
+    if (rc_heat_check(shape, problem, err) != RC_OK)
+        return NULL;
+    if ((h = calloc(1, sizeof *h)) == NULL ||
+        (h->map = rc_alloc(6 * nodes, sizeof *h->map)) == NULL) {
+        rc_err_set(err, "out of memory for the heat of %zu x %zu nodes", shape->nx, shape->ny);
+        goto fail;
+    }
+    h->shape = *shape;
+    h->problem = *problem;
+    if (h->problem.tol == 0)
+        h->problem.tol = 1e-3;
+    h->drop = problem->body[1].bulk - problem->body[0].bulk;
+    h->q = h->map;
+    for (int b = 0; b < 2; b++) {
+        h->flux[b] = h->map + (size_t)(1 + b) * nodes;
+        h->rise[b] = h->map + (size_t)(3 + b) * nodes;
+    }
+    h->work = h->map + 5 * nodes;
+    memset(h->map, 0, 6 * nodes * sizeof *h->map);
+    if (set_contact(h, q, contact, err) != RC_OK)
+        goto fail;
+    if ((h->right = rc_alloc(h->n, sizeof *h->right)) == NULL) {
+        rc_err_set(err, "out of memory for %zu nodes in contact", h->n);
+        goto fail;
+    }
+    for (size_t k = 0; k < h->n; k++)
+        h->work[h->node[k]] = 1;
+    if (set_figures(h, h->work, err) != RC_OK ||
+        (h->c = rc_conduction_new(shape, problem->boundary, problem->threads, err)) == NULL)
+        goto fail;
+    for (int b = 0; b < 2; b++) {
+        const struct rc_heated body = heated(h, b, 0);
+        if (rc_warming_set(&h->warming[b], h->c, &body, err) != RC_OK)
+            goto fail;
+    }
+    return h;
+fail:
+    rc_heat_free(h);
+    return NULL;
+}
+
+/* ---- temperatures and figures ---- */
+
+static void
+field(struct rc_heat *h, int b, double *out)
+{
+    const struct rc_warming *const one[] = {&h->warming[b]};
+
+    rc_conduction_field(h->c, 1, one, false, out);
+}
+
+static double
+largest(const struct rc_heat *h, const double *map)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < h->n; k++)
+        most = fmax(most, fabs(map[h->node[k]]));
+    return most;
+}
+
+/* Nodes in contact in a row through node k, along the faster direction of the body that moves faster. */
+static size_t
+row_of_nodes(struct rc_heat *h, size_t k)
+{
+    const struct rc_shape *s = &h->shape;
+    const struct rc_heated one = heated(h, 0, 0), two = heated(h, 1, 0);
+    const bool along_y = fmax(fabs(one.py), fabs(two.py)) > fmax(fabs(one.px), fabs(two.px));
+    const size_t step = along_y ? s->nx : 1, n = along_y ? s->ny : s->nx;
+    const size_t at = along_y ? k / s->nx : k % s->nx;
+    size_t first = at, last = at;
+
+    memset(h->work, 0, s->nx * s->ny * sizeof *h->work);
+    for (size_t i = 0; i < h->n; i++)
+        h->work[h->node[i]] = 1;
+    while (first > 0 && h->work[k - (at - first + 1) * step] > 0)
+        first--;
+    while (last + 1 < n && h->work[k + (last + 1 - at) * step] > 0)
+        last++;
+    return last - first + 1;
+}
+
+/* Temperatures for the heat in flux[0], and the figures. */
+static void
+finish(struct rc_heat *h)
+{
+    const struct rc_shape *s = &h->shape;
+    const size_t nodes = s->nx * s->ny;
+    struct rc_heat_figures *f = &h->figures;
+    double sum = 0, most = -INFINITY, differs = 0;
+    size_t hottest = 0;
+
+    for (size_t k = 0; k < nodes; k++)
+        h->flux[1][k] = h->q[k] - h->flux[0][k];
+    for (int b = 0; b < 2; b++) {
+        rc_conduction_load(h->c, h->flux[b]);
+        field(h, b, h->rise[b]);
+    }
+    h->scale = fmax(fmax(largest(h, h->rise[0]), largest(h, h->rise[1])), DBL_MIN);
+    for (size_t i = 0; i < h->n; i++) {
+        const size_t k = h->node[i];
+        const double one = h->rise[0][k], two = h->rise[1][k] + h->drop;
+        sum += (one + two) / 2;
+        differs = fmax(differs, fabs(one - two));
+        if (fmax(one, two) > most) {
+            most = fmax(one, two);
+            hottest = k;
+        }
+    }
+    f->max_temperature = most;
+    f->max_x = ((double)(hottest % s->nx) - (double)(s->nx - 1) / 2) * s->dx;
+    f->max_y = ((double)(hottest / s->nx) - (double)(s->ny - 1) / 2) * s->dy;
+    f->mean_temperature = sum / (double)h->n;
+    f->hot_nodes = row_of_nodes(h, hottest);
+    f->heat_power_1 = rc_sum(h->flux[0], nodes) * s->dx * s->dy;
+    f->share_1 = f->heat_power != 0 ? f->heat_power_1 / f->heat_power : NAN;
+    f->mismatch = differs / h->scale;
+    f->iterations = h->steps;
+    f->convolutions = rc_conduction_count(h->c);
+    f->converged = h->problem.partition != RC_HEAT_MATCHED || f->mismatch <= h->problem.tol;
+}
+
+/* ---- the iteration ---- */
+
+static double *
+vector_new(const struct rc_heat *h, struct rc_err *err)
+{
+    double *v = rc_alloc(h->n, sizeof *v);
+
+    if (v == NULL)
+        rc_err_set(err, "out of memory for %zu nodes in contact", h->n);
+    return v;
+}
+
+static double
+product(const struct rc_heat *h, const double *a, const double *b)
+{
+    struct rc_total sum = {0, 0};
+
+    for (size_t k = 0; k < h->n; k++)
+        rc_total_add(&sum, a[k] * b[k]);
+    return rc_total_value(&sum);
+}
+
+/* to = the field of `from` at the nodes in contact, of C1 + C2 or of its inverse. */
+static void
+apply(struct rc_heat *h, bool inverse, const double *from, double *to)
+{
+    const struct rc_warming *const both[] = {&h->warming[0], &h->warming[1]};
+
+    memset(h->work, 0, h->shape.nx * h->shape.ny * sizeof *h->work);
+    for (size_t k = 0; k < h->n; k++)
+        h->work[h->node[k]] = from[k];
+    rc_conduction_load(h->c, h->work);
+    rc_conduction_field(h->c, 2, both, inverse, h->work);
+    for (size_t k = 0; k < h->n; k++)
+        to[k] = h->work[h->node[k]];
+}
+
+/* The right side, Blok's share, and a first guess of the largest rise. */
+static enum rc_status
+begin(struct rc_heat *h, struct rc_err *err)
+{
+    double most[2], size;
+
+    rc_conduction_load(h->c, h->q);
+    for (int b = 0; b < 2; b++) {
+        field(h, b, h->work);
+        most[b] = largest(h, h->work);
+    }
+    for (size_t k = 0; k < h->n; k++)
+        h->right[k] = h->work[h->node[k]] + h->drop;
+    h->figures.share_blok = most[0] + most[1] > 0 ? most[1] / (most[0] + most[1]) : NAN;
+    h->scale = most[0] + most[1] > 0 ? most[0] * most[1] / (most[0] + most[1]) : 0;
+    h->scale = fmax(h->scale, fabs(h->drop) / 2);
+    if ((h->v[0] = vector_new(h, err)) == NULL)
+        return RC_FAIL;
+    size = h->g[0] = sqrt(product(h, h->right, h->right));
+    for (size_t k = 0; k < h->n; k++)
+        h->v[0][k] = size > 0 ? h->right[k] / size : 0;
+    h->begun = true;
+    return RC_OK;
+}
+
+/* One vector more: C z = V h by the modified Gram-Schmidt process, and h rotated to a triangle. */
+static enum rc_status
+extend(struct rc_heat *h, struct rc_err *err)
+{
+    const size_t m = h->steps;
+    double *column = h->h[m], *next, size, c, s;
+
+    if ((h->z[m] = vector_new(h, err)) == NULL || (next = h->v[m + 1] = vector_new(h, err)) == NULL)
+        return RC_FAIL;
+    apply(h, true, h->v[m], h->z[m]);
+    apply(h, false, h->z[m], next);
+    for (size_t i = 0; i <= m; i++) {
+        column[i] = product(h, h->v[i], next);
+        for (size_t k = 0; k < h->n; k++)
+            next[k] -= column[i] * h->v[i][k];
+    }
+    size = column[m + 1] = sqrt(product(h, next, next));
+    for (size_t k = 0; k < h->n; k++)
+        next[k] = size > 0 ? next[k] / size : 0;
+    for (size_t i = 0; i < m; i++) {
+        const double a = column[i], b = column[i + 1];
+        column[i] = h->turn[i][0] * a + h->turn[i][1] * b;
+        column[i + 1] = h->turn[i][0] * b - h->turn[i][1] * a;
+    }
+    size = hypot(column[m], column[m + 1]);
+    c = h->turn[m][0] = size > 0 ? column[m] / size : 1;
+    s = h->turn[m][1] = size > 0 ? column[m + 1] / size : 0;
+    column[m] = size;
+    h->g[m + 1] = -s * h->g[m];
+    h->g[m] *= c;
+    h->steps++;
+    return RC_OK;
+}
+
+/* The largest value of the residual V Q'(0, ..., 0, g). */
+static double
+largest_residual(struct rc_heat *h)
+{
+    double y[STEPS + 1] = {0}, most = 0;
+    const size_t m = h->steps;
+
+    y[m] = h->g[m];
+    for (size_t i = m; i-- > 0;) {
+        const double a = y[i], b = y[i + 1];
+        y[i] = h->turn[i][0] * a - h->turn[i][1] * b;
+        y[i + 1] = h->turn[i][1] * a + h->turn[i][0] * b;
+    }
+    for (size_t k = 0; k < h->n; k++) {
+        double r = 0;
+        for (size_t i = 0; i <= m; i++)
+            r += y[i] * h->v[i][k];
+        most = fmax(most, fabs(r));
+    }
+    return most;
+}
+
+/* f = Z y with the least residual. */
+static void
+take_solution(struct rc_heat *h)
+{
+    double y[STEPS];
+
+    for (size_t i = h->steps; i-- > 0;) {
+        y[i] = h->g[i];
+        for (size_t j = i + 1; j < h->steps; j++)
+            y[i] -= h->h[j][i] * y[j];
+        y[i] = h->h[i][i] != 0 ? y[i] / h->h[i][i] : 0;
+    }
+    for (size_t k = 0; k < h->n; k++) {
+        double f = 0;
+        for (size_t i = 0; i < h->steps; i++)
+            f += y[i] * h->z[i][k];
+        h->flux[0][h->node[k]] = f;
+    }
+}
+
+static void
+share_heat(struct rc_heat *h)
+{
+    const enum rc_heat_partition by = h->problem.partition;
+    const double share = by == RC_HEAT_BLOK      ? h->figures.share_blok
+                         : by == RC_HEAT_CHARRON ? h->figures.share_charron
+                                                 : h->problem.share;
+
+    for (size_t k = 0; k < h->n; k++)
+        h->flux[0][h->node[k]] = share * h->q[h->node[k]];
+}
+
+enum rc_status
+rc_heat_step(struct rc_heat *h, struct rc_err *err)
+{
+    bool last;
+
+    if (!h->begun && begin(h, err) != RC_OK)
+        return RC_FAIL;
+    if (h->problem.partition != RC_HEAT_MATCHED) {
+        share_heat(h);
+        finish(h);
+        return RC_OK;
+    }
+    if (extend(h, err) != RC_OK)
+        return RC_FAIL;
+    last = h->steps == STEPS || fabs(h->g[h->steps]) <= 16 * DBL_EPSILON * fabs(h->g[0]);
+    if (!last && largest_residual(h) > h->problem.tol * h->scale)
+        return RC_MORE;
+    take_solution(h);
+    finish(h); /* finds the scale too */
+    return h->figures.converged ? RC_OK : last ? RC_SHORT : RC_MORE;
+}
+
+/* ---- results ---- */
+
+const struct rc_heat_figures *
+rc_heat_result(const struct rc_heat *h)
+{
+    return &h->figures;
+}
+
+const double *
+rc_heat_flux(const struct rc_heat *h, int body)
+{
+    return h->flux[body];
+}
+
+enum rc_status
+rc_heat_temperature(struct rc_heat *h, int b, double depth, double *to, struct rc_err *err)
+{
+    const size_t nodes = h->shape.nx * h->shape.ny;
+    const struct rc_heated body = heated(h, b, depth);
+    struct rc_warming warming;
+    const struct rc_warming *const one[] = {&warming};
+    enum rc_status status = RC_OK;
+
+    if (!(depth >= 0) || isinf(depth))
+        return rc_err_set(err, "depth %g m: it must be at least 0", depth);
+    if (depth == 0) {
+        memcpy(to, h->rise[b], nodes * sizeof *to);
+    } else {
+        status = rc_warming_set(&warming, h->c, &body, err);
+        if (status == RC_OK) {
+            rc_conduction_load(h->c, h->flux[b]);
+            rc_conduction_field(h->c, 1, one, false, to);
+        }
+        rc_warming_free(&warming);
+    }
+    for (size_t k = 0; k < nodes && status == RC_OK; k++)
+        to[k] += b == 1 ? h->drop : 0;
+    return status;
+}

@@ -1,0 +1,82 @@
+/*
+ * Conduction of heat from a contact into a body whose material moves past it. Internal: never installed.
+ *
+ * The heat flux q(x, y) stands still, and the body moves with the velocity V = 2 kap P. With the conductivity k
+ * and the diffusivity kap, its temperature T = C q obeys
+ *
+ *     dT/dt + V . grad T = kap lap T,   -k dT/dz = q at z = 0.
+ *
+ * At P = 0 the steady C is the operator of an elastic half-space with E* = 2 k.
+ */
+#ifndef RC_HEAT_H
+#define RC_HEAT_H
+
+#include <complex.h>
+
+#include "libcontact/operator/operator.h"
+
+/* A body, and where its temperature is wanted. */
+struct rc_heated {
+    double k;         /* W/(m K)                                                     */
+    double px, py;    /* 1/m: P along x and y                                        */
+    double diffusion; /* m: 2 sqrt(kap t), t since heating began; INFINITY: steady   */
+    double depth;     /* m                                                           */
+};
+
+/* ---- coefficients.c: temperatures of cells ---- */
+
+struct rc_heat_cells;
+/* Coefficients of cells of this shape, for offsets up to nx - 1 and ny - 1 nodes. With ny = 1 they are those of
+ * strips without end along y. NULL when memory is short. */
+struct rc_heat_cells *rc_heat_cells_new(const struct rc_shape *offsets,
+                                        const struct rc_heated *body, struct rc_err *err);
+void rc_heat_cells_free(struct rc_heat_cells *cells); /* NULL is allowed */
+/* The part of this parity; the sum of the four parts is the coefficient. */
+struct rc_heat_part {
+    const struct rc_heat_cells *cells;
+    unsigned parity;
+};
+struct rc_kernel rc_heat_kernel(const struct rc_heat_part *part);
+
+/* ---- symbol.c: temperatures of waves ---- */
+
+enum {
+    RC_ERFC_TERMS = 40
+};
+struct rc_heat_waves {
+    struct rc_heated body;
+    double length, series[RC_ERFC_TERMS]; /* of erfc */
+};
+struct rc_heat_waves rc_heat_waves_of(const struct rc_heated *body);
+/* The transform of C at a wave number, rad/m. */
+double complex rc_heat_symbol(const struct rc_heat_waves *waves, double qx, double qy);
+/* exp(z^2) erfc(z), Re z >= 0 */
+double complex rc_scaled_erfc(const struct rc_heat_waves *waves, double complex z);
+
+/* ---- conduction.c: convolutions ---- */
+
+enum {
+    RC_HEAT_PARTS = 4 /* even and odd in x, and in y: the index is the parity */
+};
+/* The spectrum of C: its parts over (-i)^(number of odd directions); NULL: 0. */
+struct rc_warming {
+    double *part[RC_HEAT_PARTS];
+};
+
+struct rc_conduction;
+struct rc_conduction *rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary,
+                                        size_t threads, struct rc_err *err);
+void rc_conduction_free(struct rc_conduction *c); /* NULL is allowed */
+/* Sets the spectrum of a body. RC_FAIL when memory is short; rc_warming_free in either case. */
+enum rc_status rc_warming_set(struct rc_warming *w, struct rc_conduction *c,
+                              const struct rc_heated *body, struct rc_err *err);
+void rc_warming_free(struct rc_warming *w);
+/* Keeps the transform of a map of nx ny values. */
+void rc_conduction_load(struct rc_conduction *c, const double *q);
+/* The sum of the fields of the loaded map, or with `inverse` the map on the whole padded grid that has it. */
+void rc_conduction_field(struct rc_conduction *c, size_t n, const struct rc_warming *const *w,
+                         bool inverse, double *out);
+/* In equivalents of one convolution. */
+double rc_conduction_count(const struct rc_conduction *c);
+
+#endif

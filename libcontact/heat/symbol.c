@@ -1,0 +1,61 @@
+/*
+ * Temperature of a wave of heat flux 1 exp(i q x) on a body that moves. With m = sqrt(q^2 + 2 i P . q), Re m > 0,
+ * it is exp(-m z)/(k m) in the steady state, and with s = sqrt(kap t), a = z/(2 s) at a time t after heating began
+ * (Carslaw and Jaeger 1959, section 2.9)
+ *
+ *     [exp(-m z) erfc(a - m s) - exp(m z) erfc(a + m s)]/(2 k m).
+ */
+#include "heat.h"
+
+/* Coefficients a_n of
+ *
+ *     exp(z^2) erfc(z) = 1/(sqrt(pi) (L + z)) + 2/(L + z)^2 sum of a_n Z^n,   Z = (L - z)/(L + z):
+ *
+ * those of the Fourier series of (L^2 + t^2) exp(-t^2), t = L tan(theta/2). Z is in the unit disc where Re z >= 0.
+ * Error with 40 terms: below 1e-13 (Weideman 1994, SIAM J. Numer. Anal. 31, 1497). */
+struct rc_heat_waves
+rc_heat_waves_of(const struct rc_heated *body)
+{
+    enum {
+        HALF = 2 * RC_ERFC_TERMS
+    };
+    struct rc_heat_waves w = {.body = *body, .length = sqrt(RC_ERFC_TERMS / sqrt(2))};
+
+    for (int n = 0; n < RC_ERFC_TERMS; n++)
+        for (int k = 1 - HALF; k < HALF; k++) {
+            const double theta = k * RC_PI / HALF, t = w.length * tan(theta / 2);
+            w.series[n] +=
+                (w.length * w.length + t * t) * exp(-t * t) * cos((n + 1) * theta) / (2 * HALF);
+        }
+    return w;
+}
+
+double complex
+rc_scaled_erfc(const struct rc_heat_waves *w, double complex z)
+{
+    const double complex over = 1 / (w->length + z), to = (w->length - z) * over;
+    double complex sum = 0;
+
+    for (int n = RC_ERFC_TERMS; n-- > 0;)
+        sum = sum * to + w->series[n];
+    return over / sqrt(RC_PI) + 2 * over * over * sum;
+}
+
+double complex
+rc_heat_symbol(const struct rc_heat_waves *w, double qx, double qy)
+{
+    const struct rc_heated *b = &w->body;
+    const double complex m = csqrt(CMPLX(qx * qx + qy * qy, 2 * (b->px * qx + b->py * qy)));
+    const double s = b->diffusion / 2, a = b->depth / b->diffusion, z = b->depth;
+    double complex below, above, fall;
+
+    if (isinf(s))
+        return cexp(-m * z) / (b->k * m);
+    if (m == 0)
+        return (b->diffusion / sqrt(RC_PI) * exp(-a * a) - z * erfc(a)) / b->k;
+    fall = cexp(-a * a - m * m * s * s);
+    above = fall * rc_scaled_erfc(w, a + m * s);
+    below = a >= creal(m) * s ? fall * rc_scaled_erfc(w, a - m * s)
+                              : 2 * cexp(-m * z) - fall * rc_scaled_erfc(w, m * s - a);
+    return (below - above) / (2 * b->k * m);
+}

@@ -1,0 +1,294 @@
+/* Bodies in contact have equal temperatures, and the mismatch bounds the error of the largest one. */
+#include <math.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <setjmp.h> /* after stdarg.h and stddef.h: cmocka needs them */
+
+#include <cmocka.h>
+
+#include "libcontact/contact.h"
+#include "libcontact/heat/heat.h"
+#include "tests/exact.h"
+
+enum {
+    N = 48,
+    MOST = 128
+};
+static const struct rc_shape shape = {N, N, 1.1e-6, 1e-6};
+static double q[MOST * MOST];
+
+static void
+near(double value, double truth, double tolerance, const char *what)
+{
+    if (!(fabs(value - truth) <= tolerance))
+        fail_msg("%s: %.15g instead of %.15g, off by %.2g, allowed %.2g", what, value, truth,
+                 value - truth, tolerance);
+}
+
+static struct rc_heat *
+run(const struct rc_shape *s, const struct rc_heat_problem *problem, const double *heat,
+    const double *contact)
+{
+    struct rc_err err = {""};
+    struct rc_heat *h = rc_heat_new(s, problem, heat, contact, &err);
+    enum rc_status status;
+
+    if (h == NULL)
+        fail_msg("%s", err.text);
+    while ((status = rc_heat_step(h, &err)) == RC_MORE)
+        continue;
+    assert_int_equal(status, RC_OK);
+    return h;
+}
+
+static struct rc_heat_problem
+steel(double speed)
+{
+    return (struct rc_heat_problem){.body = {{45, 1.2e-5, {0, 0}, 0}, {45, 1.2e-5, {speed, 0}, 0}},
+                                    .threads = 1};
+}
+
+/* Heat of an ellipse, larger at one end. */
+static void
+set_heat(void)
+{
+    for (int k = 0; k < N * N; k++) {
+        const double x = (k % N - 20) / 15.0, y = (k / N - 25) / 12.0, r = x * x + y * y;
+        q[k] = r < 1 ? 1e9 * (1 + 0.5 * x) * sqrt(1 - r) : 0;
+    }
+}
+
+/* ---- the operator ---- */
+
+/* At P = 0 it is the operator of an elastic half-space with E* = 2 k. */
+static void
+elastic(void **state)
+{
+    const struct rc_pair pair = {.estar = 90};
+    const struct rc_operator_options options = {
+        .boundary = RC_FREE, .pair = &pair, .engine = "fft", .threads = 1};
+    struct rc_heat_problem problem = steel(0);
+    static double u[N * N], t[N * N];
+    struct rc_err err = {""};
+    struct rc_operator *op = rc_operator_new(&shape, &options, &err);
+    struct rc_heat *h;
+    double most = 0;
+    (void)state;
+
+    set_heat();
+    rc_operator_apply(op, q, u);
+    problem.partition = RC_HEAT_SHARE;
+    problem.share = 1;
+    h = run(&shape, &problem, q, NULL);
+    assert_int_equal(rc_heat_temperature(h, 0, 0, t, &err), RC_OK);
+    for (int k = 0; k < N * N; k++)
+        most = fmax(most, u[k]);
+    for (int k = 0; k < N * N; k++)
+        near(t[k], u[k], 1e-12 * most, "elastic operator");
+    rc_heat_free(h);
+    rc_operator_free(op);
+}
+
+/* Motion along -x, along y and along a diagonal: the map mirrored, turned, or rotated by 90 degrees. */
+static void
+directions(void **state)
+{
+    static double turned[N * N], t[2][N * N];
+    const struct rc_shape square = {N, N, 1e-6, 1e-6};
+    struct rc_err err = {""};
+    (void)state;
+
+    set_heat();
+    for (int way = 0; way < 3; way++) {
+        struct rc_heat_problem problem = steel(20);
+        struct rc_heat *h;
+        if (way == 2)
+            problem.body[1].velocity[1] = 8;
+        h = run(&square, &problem, q, NULL);
+        assert_int_equal(rc_heat_temperature(h, 0, 0, t[0], &err), RC_OK);
+        rc_heat_free(h);
+        for (int k = 0; k < N * N; k++) /* of node (i, j): (N-1-i, j); (j, i); (N-1-j, i) */
+            turned[way == 0   ? k / N * N + N - 1 - k % N
+                   : way == 1 ? k % N * N + k / N
+                              : k % N * N + N - 1 - k / N] = q[k];
+        problem.body[1].velocity[0] = way == 0 ? -20 : way == 1 ? 0 : -8;
+        problem.body[1].velocity[1] = way == 0 ? 0 : 20;
+        h = run(&square, &problem, turned, NULL);
+        assert_int_equal(rc_heat_temperature(h, 1, 0, t[1], &err), RC_OK);
+        for (int k = 0; k < N * N; k++)
+            near(t[1][way == 0   ? k / N * N + N - 1 - k % N
+                      : way == 1 ? k % N * N + k / N
+                                 : k % N * N + N - 1 - k / N],
+                 t[0][k], q[k] > 0 ? 2e-3 * rc_heat_result(h)->max_temperature : INFINITY,
+                 "turned motion");
+        rc_heat_free(h);
+    }
+}
+
+/* Before heat of the images arrives, a periodic map is a free one; depths too. */
+static void
+periodic(void **state)
+{
+    static double t[2][N * N];
+    struct rc_err err = {""};
+    (void)state;
+
+    for (int k = 0; k < N * N; k++) /* smooth: for it cells and waves agree */
+        q[k] = 1e9 * exp(-(pow(k % N - 20, 2) + pow(k / N - 24, 2)) / 50);
+    for (int depth = 0; depth < 2; depth++) {
+        for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
+            struct rc_heat_problem problem = steel(10);
+            struct rc_heat *h;
+            problem.boundary = (enum rc_boundary)boundary;
+            problem.body[1].velocity[1] = -6;
+            problem.time = 5e-7;
+            problem.partition = RC_HEAT_SHARE;
+            h = run(&shape, &problem, q, NULL);
+            assert_int_equal(rc_heat_temperature(h, 1, depth * 2e-6, t[boundary], &err), RC_OK);
+            rc_heat_free(h);
+        }
+        for (int k = 0; k < N * N; k++)
+            near(t[1][k], t[0][k], 4e-3 * t[0][20 + 24 * N], "periodic and free");
+    }
+}
+
+/* ---- partition ---- */
+
+/* Without motion each node gives body 1 the share k1/(k1 + k2); heat is conserved. */
+static void
+charron(void **state)
+{
+    struct rc_heat_problem problem = steel(0);
+    struct rc_heat *h;
+    (void)state;
+
+    set_heat();
+    problem.body[0].conductivity = 16;
+    problem.tol = 1e-12;
+    h = run(&shape, &problem, q, NULL);
+    near(rc_heat_result(h)->share_1, 16.0 / 61, 1e-11, "share without motion");
+    near(rc_heat_result(h)->share_blok, 16.0 / 61, 1e-11, "Blok's share without motion");
+    for (int k = 0; k < N * N; k++) {
+        near(rc_heat_flux(h, 0)[k], 16.0 / 61 * q[k], 1e-9 * 1e9, "heat into body 1");
+        near(rc_heat_flux(h, 0)[k] + rc_heat_flux(h, 1)[k], q[k], 1e-15 * 1e9, "sum of the heat");
+    }
+    rc_heat_free(h);
+}
+
+/* Bulk temperatures alone: the conductance of Barber's analogy, from the stiffness of the elastic contact. */
+static void
+conductance(void **state)
+{
+    static double heights[N * N], zero[N * N];
+    const struct rc_selfaffine what = {.hurst = 0.8, .rms_slope = 0.05, .seed = 3};
+    const struct rc_problem contact = {
+        .pair = {.estar = 1e11}, .load = 0.05, .tol = 1e-9, .threads = 1};
+    struct rc_heat_problem problem = steel(0);
+    struct rc_conductance truth;
+    struct rc_contact result;
+    struct rc_solver *s;
+    struct rc_heat *h;
+    struct rc_err err = {""};
+    (void)state;
+
+    assert_int_equal(rc_synth_selfaffine(&shape, &what, heights, &err), RC_OK);
+    s = rc_solver_new(&shape, heights, &contact, &err);
+    while (rc_solver_step(s) == RC_MORE)
+        continue;
+    rc_solver_result(s, NULL, NULL, &result);
+    assert_int_equal(rc_solver_conductance(s, 45, 16, &truth, &err), RC_OK);
+    problem.body[1] = (struct rc_heat_body){16, 4e-6, {0, 0}, 1};
+    problem.body[0].bulk = 11;
+    problem.tol = 1e-10;
+    h = run(&shape, &problem, zero, rc_solver_pressure(s));
+    near(-rc_heat_result(h)->heat_power_1 / 10, truth.value, 1e-7 * truth.value, "conductance");
+    rc_heat_free(h);
+    rc_solver_free(s);
+}
+
+/* ---- estimates ---- */
+
+static uint64_t seed;
+
+static double
+number(void) /* 0 to 1 */
+{
+    seed = seed * 6364136223846793005U + 1442695040888963407U;
+    return (double)(seed >> 11) / 9007199254740992.0;
+}
+
+/* Spots of 2 to 10 nodes radius, on a tenth of the map, each with Hertz's pressure. */
+static void
+set_spots(size_t n, double radius)
+{
+    memset(q, 0, n * n * sizeof *q);
+    for (double area = 0; area < 0.1 * (double)(n * n); area += RC_PI * radius * radius) {
+        const double x = number() * (double)n, y = number() * (double)n;
+        for (size_t k = 0; k < n * n; k++) {
+            const double r =
+                (pow((double)(k % n) - x, 2) + pow((double)(k / n) - y, 2)) / (radius * radius);
+            q[k] = r < 1 ? fmax(q[k], 1e9 * sqrt(1 - r)) : q[k];
+        }
+    }
+}
+
+static void
+estimates(void **state)
+{
+    const size_t cases = thorough(100, 4), n = 64;
+    const struct rc_shape s = {n, n, 1e-6, 1e-6};
+    double largest = 0;
+    size_t most = 0;
+    (void)state;
+
+    for (size_t c = 0; c < cases; c++) {
+        const double k[2] = {pow(10, 1 + number()), pow(10, 1 + number())};
+        const double spot = 2 + 8 * number(), speed = pow(10, 4 * number() - 2);
+        struct rc_heat_problem problem = {.boundary = c % 4 == 3 ? RC_PERIODIC : RC_FREE,
+                                          .body = {{k[0], 1e-5 * (0.2 + number()), {0, 0}, 0},
+                                                   {k[1],
+                                                    1e-5 * (0.2 + number()),
+                                                    {speed, c % 3 == 2 ? speed * number() : 0},
+                                                    0}},
+                                          .threads = 1};
+        struct rc_heat *rough, *tight;
+        double error;
+        seed += c;
+        set_spots(n, spot);
+        if (problem.boundary == RC_PERIODIC || c % 8 == 1)
+            problem.time = 1e-5 * pow(100, number());
+        if (c % 5 == 4)
+            problem.body[1].bulk = 20 * number() - 10;
+        if (c % 7 == 6)
+            problem.body[0].velocity[0] = -speed * number();
+        rough = run(&s, &problem, q, NULL);
+        problem.tol = 1e-8;
+        tight = run(&s, &problem, q, NULL);
+        error = fabs(
+            rc_heat_result(rough)->max_temperature / rc_heat_result(tight)->max_temperature - 1);
+        if (!(error <= rc_heat_result(rough)->mismatch))
+            fail_msg("case %zu: the largest temperature is off by %g, the mismatch is %g", c, error,
+                     rc_heat_result(rough)->mismatch);
+        largest = fmax(largest, error / rc_heat_result(rough)->mismatch);
+        most = rc_heat_result(rough)->iterations > most ? rc_heat_result(rough)->iterations : most;
+        rc_heat_free(rough);
+        rc_heat_free(tight);
+    }
+    print_message("%zu cases: largest error %.2f of the mismatch, at most %zu iterations\n", cases,
+                  largest, most);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(elastic), cmocka_unit_test(directions),  cmocka_unit_test(periodic),
+        cmocka_unit_test(charron), cmocka_unit_test(conductance), cmocka_unit_test(estimates),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
