@@ -76,7 +76,7 @@ const struct rc_export *rc_export_named(const char *name);
 /* The first format with the suffix of the file name, or NULL. */
 const struct rc_export *rc_export_suffixed(const char *file);
 
-/* The type of the values: as requested, else that of the frame, else the widest of `types`. */
+/* The type of the values is the requested one, else that of the frame, else the widest of `types`. */
 enum rc_raw rc_export_raw(const struct rc_grid *grid, const struct rc_export_wish *wish,
                           unsigned types);
 

@@ -44,8 +44,8 @@ struct rc_format {
     /* Fills at most `most` channels and returns their number in the file; 0 and *err on failure. */
     size_t (*list)(const struct rc_file *file, const struct rc_wish *wish,
                    struct rc_channel *channel, size_t most, struct rc_err *err);
-    /* Channel `index` of the list: values, spacing, unit, and keys `file.*`. Its name is "height" if its unit
-     * is metres. */
+    /* Reads channel `index` of the list: values, spacing, unit, and keys `file.*`. Its name is "height" if
+     * its unit is metres. */
     struct rc_grid *(*read)(const struct rc_file *file, const struct rc_wish *wish, size_t index,
                             struct rc_notes *notes, struct rc_err *err);
     /* Listing and reading run in a separate process, which also holds the values until it has sent them. */

@@ -17,7 +17,7 @@ enum {
 
 const unsigned char rc_cdf_width[RC_CDF_TYPES] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
 
-/* A count or a size: 64 bits in version 5. */
+/* A count or a size. It has 64 bits in version 5. */
 static uint64_t
 count(struct rc_cdf *f)
 {

@@ -25,7 +25,7 @@ struct rc_cdf_variable {
     uint64_t lead;    /* product of the dimensions before the last two, 1 without any */
     unsigned type;
     uint64_t size, at;           /* size: bytes, of one record if it has records */
-    double fill, factor, offset; /* NAN, 1, 0 when not given */
+    double fill, factor, offset; /* NAN, 1 and 0 when not given */
     double period;               /* not 0: the axis is periodic */
 };
 

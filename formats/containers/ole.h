@@ -9,8 +9,8 @@
 
 /* True if it begins like such a file. */
 bool rc_ole_is(const struct rc_file *file);
-/* The *n bytes of the first stream with this name (ASCII) in any folder, which the caller frees; NULL with
- * the reason. No stream is longer than the file. */
+/* Returns the *n bytes of the first stream with this name (ASCII) in any folder. The caller frees them. NULL
+ * with the reason. No stream is longer than the file. */
 unsigned char *rc_ole_stream(const struct rc_file *file, const char *name, size_t *n,
                              struct rc_err *err);
 

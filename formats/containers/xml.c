@@ -32,7 +32,8 @@ stop(struct rc_xml *x)
     xmlStopParser(x->parser);
 }
 
-/* Attribute k of an element in the layout of libxml2: five pointers, with the value between the last two. */
+/* Attribute k of an element in the layout of libxml2. It has five pointers, with the value between the last
+ * two. */
 static void
 on_attribute(struct rc_xml *x, const xmlChar *const *attribute)
 {

@@ -44,8 +44,8 @@ enum rc_status rc_zip_read_member(struct rc_zip_read *archive, size_t member, ui
                                   rc_zip_take *take, void *arg, char md5[RC_MD5_TEXT],
                                   struct rc_err *err);
 
-/* All bytes of a member of at most `most` bytes, followed by a NUL, which the caller frees; NULL with the
- * reason. `md5` as above. */
+/* Returns all bytes of a member of at most `most` bytes, followed by a NUL. The caller frees them. NULL with
+ * the reason. `md5` as above. */
 unsigned char *rc_zip_read_bytes(struct rc_zip_read *archive, size_t member, uint64_t most,
                                  size_t *n, char md5[RC_MD5_TEXT], struct rc_err *err);
 

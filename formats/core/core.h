@@ -1,6 +1,6 @@
 /*
- * The interface of this folder: bytes, text, numbers in tables, maps of raw numbers, the checksum of a
- * stream.
+ * The interface of this folder. It has bytes, text, numbers in tables, maps of raw numbers, and the checksum
+ * of a stream.
  */
 #ifndef RC_CORE_H
 #define RC_CORE_H

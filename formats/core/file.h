@@ -1,5 +1,5 @@
-/* A file in memory: its format by name and first bytes, positions in it, and its limit of memory; and writing
- * to a file. */
+/* A file in memory. It has its format by name and first bytes, positions in it, and its limit of memory. A
+ * file is written here too. */
 #ifndef RC_FILE_H
 #define RC_FILE_H
 

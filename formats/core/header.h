@@ -1,4 +1,4 @@
-/* Headers of text: `key = value` lines, numbers with units, tables of the keys that matter. */
+/* Headers of text. They have `key = value` lines, numbers with units, and tables of the relevant keys. */
 #ifndef RC_HEADER_H
 #define RC_HEADER_H
 

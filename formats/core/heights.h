@@ -1,4 +1,4 @@
-/* One map of heights: from the description of its file to a grid. */
+/* One map of heights is made from the description of its file to a grid. */
 #ifndef RC_HEIGHTS_H
 #define RC_HEIGHTS_H
 

@@ -69,7 +69,7 @@ struct rc_keep {
 /* Keeps the value if one of keep[0..n) has this name. */
 void rc_maps_keep(struct rc_maps *maps, const struct rc_keep *keep, size_t n, struct rc_piece name,
                   struct rc_piece value);
-/* Sets unit and si from the file's word for it: a length, a unit with an SI prefix, or the word. */
+/* Sets unit and si from the file's word for it. The word may be a length or a unit with an SI prefix. */
 void rc_map_unit(struct rc_map *map, const char *text, size_t n);
 /* The smallest and the largest raw number that is not missing; false if the file lacks some numbers, or if
  * all are missing. */

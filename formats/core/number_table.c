@@ -86,7 +86,7 @@ gather_power(const struct rc_number_table *t, const char *s, struct number *n)
     return digit;
 }
 
-/* The slow way: any number of digits, correctly rounded. */
+/* The slow way takes any number of digits and rounds correctly. */
 static bool
 read_slowly(const char *start, const char *end, const char *mark_at, const char *power_at,
             double *value)

@@ -60,8 +60,8 @@ void rc_note(struct rc_notes *notes, const char *format, ...) __attribute__((for
  * overrules the file. */
 enum rc_status rc_spacing(const struct rc_wish *wish, double dx, double dy, struct rc_shape *shape,
                           struct rc_notes *notes, struct rc_err *err);
-/* Sets *metres, the metres per unit of the file's heights: the user's, else the file's. RC_FAIL when neither
- * gives it; `unit` is then the file's text for it, "": none. */
+/* Sets *metres, the metres per unit of the file's heights. The user's value has precedence over the file's.
+ * RC_FAIL when neither gives it; `unit` is then the file's text for it, "": none. */
 enum rc_status rc_height_unit(const struct rc_wish *wish, double by_file, const char *unit,
                               double *metres, struct rc_notes *notes, struct rc_err *err);
 

@@ -54,7 +54,8 @@ void rc_reader_ask(struct rc_reader *reader, rc_reader_allow *allow, void *ctx);
 /* Returns RC_MORE and the next frame, which the caller frees; RC_OK and NULL after the last end line.
  * RC_FAIL: the stream is damaged, cut off, or ended by RCGFAIL, whose message is repeated. */
 enum rc_status rc_reader_next(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
-/* The same in two steps: first the next frame without values; then, before the next head, its values. */
+/* The same in two steps. First read the next frame without values; then, before the next head, read its
+ * values. */
 enum rc_status rc_reader_head(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
 enum rc_status rc_reader_values(struct rc_reader *reader, struct rc_grid *grid, struct rc_err *err);
 

@@ -1,4 +1,4 @@
-/* Shared by reading and writing of a stream: byte order and checksum. */
+/* Reading and writing of a stream share this file: byte order and checksum. */
 #ifndef RC_STREAM_BYTES_H
 #define RC_STREAM_BYTES_H
 

@@ -8,8 +8,8 @@
 
 /* True for a gzip file. */
 bool rc_file_packed(const struct rc_file *file);
-/* Unpacks the file into *size bytes, at most `most`, which the caller frees. NULL, before memory is
- * allocated, if there would be more, or if the data are cut off or damaged. */
+/* Unpacks the file into *size bytes, at most `most`. The caller frees them. NULL, before memory is allocated,
+ * if there would be more, or if the data are cut off or damaged. */
 unsigned char *rc_file_unpack(const struct rc_file *file, size_t most, size_t *size,
                               struct rc_err *err);
 

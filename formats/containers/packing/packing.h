@@ -1,4 +1,4 @@
-/* The interface of this folder: unpacking of gzip, zlib and Zstandard, as whole files or inside a file. */
+/* The interface of this folder. It unpacks gzip, zlib and Zstandard, as whole files or inside a file. */
 #ifndef RC_PACKING_H
 #define RC_PACKING_H
 

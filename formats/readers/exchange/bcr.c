@@ -45,7 +45,7 @@ static const struct {
     {"f\0i\0l\0e\0f\0o\0r\0m\0a\0t\0 \0=\0 \0b\0c\0r\0s\0t\0m\0", 38, true, false},
 };
 
-/* The index into kinds; their number for another file. *mark: the bytes of the byte order mark. */
+/* The index into kinds, or their number for another file. *mark: the bytes of the byte order mark. */
 static size_t
 kind_of(const struct rc_file *file, size_t *mark)
 {

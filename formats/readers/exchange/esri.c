@@ -1,6 +1,6 @@
 /*
- * ESRI ASCII grid: lines of a key and a number (ncols, nrows, corner, cellsize, NODATA_value), then the
- * values, the top row first. The file has no unit.
+ * ESRI ASCII grid. Lines of a key and a number (ncols, nrows, corner, cellsize, NODATA_value) come first.
+ * Then come the values, the top row first. The file has no unit.
  */
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /*
- * Surfer grids, bottom row first, in three kinds. DSAA is text: columns and rows, limits of x, y and z, the
+ * Surfer grids, bottom row first, have three kinds. DSAA is text: columns and rows, limits of x, y and z, the
  * values. DSBB is the same in binary with 32-bit floats. DSRB has sections of a name, a length and bytes. The
  * outermost nodes are on the limits. The files have no unit.
  */

@@ -35,7 +35,7 @@ start(struct rc_matlab_source *s)
     ((struct mat73 *)s->arg)->at = 0;
 }
 
-/* One number, or a short text, which HDF5 stores as codes of UTF-16. */
+/* Reads one number, or a short text, which HDF5 stores as codes of UTF-16. */
 static enum rc_status
 read_short(struct mat73 *m, const struct rc_hdf_set *set, struct rc_matlab_array *a,
            struct rc_err *err)

@@ -1,4 +1,5 @@
-/* The map that the variables of a MATLAB file define, in any version of the file; see mat.c, mat73.c. */
+/* Finds the map that the variables of a MATLAB file define, in any version of the file; see mat.c,
+ * mat73.c. */
 #ifndef RC_MATLAB_H
 #define RC_MATLAB_H
 

@@ -1,7 +1,7 @@
 /*
- * NetCDF classic (versions 1, 2 and 5): all big-endian. A header with dimensions, attributes and
- * variables, and the values of each variable from its offset on. A variable along the record
- * dimension is spread over the records, which hold a row of each such variable.
+ * NetCDF classic (versions 1, 2 and 5) is big-endian throughout. It has a header with dimensions, attributes
+ * and variables. The values of each variable follow from its offset on. A variable along the record dimension
+ * is spread over the records, which hold a row of each such variable.
  *
  * NetCDF's library would also fetch files from the network and read HDF5; only the header is needed here. A
  * map is a variable of two dimensions, others of length 1 before them. Rows run along the second to last

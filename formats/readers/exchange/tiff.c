@@ -1,6 +1,6 @@
 /*
- * TIFF of floats, one sample a pixel: a map a page, the first row on top. Programs that save heights so give
- * no unit; the spacing is that of ImageJ, whose description names the unit of the resolution,
+ * TIFF of floats has one sample a pixel and a map a page, with the first row on top. Programs that save
+ * heights so give no unit; the spacing is that of ImageJ, whose description names the unit of the resolution,
  *
  *     ImageJ=1.54f
  *     unit=um

@@ -1,6 +1,6 @@
 /*
- * Createc DAT (STMAFM): 16384 bytes of `key=value` lines, some keys twice ("Num.X / Num.X"), then the planes
- * behind each other, the top row first:
+ * Createc DAT (STMAFM) has 16384 bytes of `key=value` lines, some keys twice ("Num.X / Num.X"). Then come the
+ * planes in sequence, the top row first:
  *
  *     [Parameter]   int16, behind 2 bytes of nothing
  *     [Paramet32]   float, behind 4

@@ -1,7 +1,7 @@
 /*
- * Igor binary wave, version 5, in either byte order: 64 bytes of lengths, 320 of wave header, the numbers,
- * then texts of those lengths. A wave of one dimension is a profile, of two a map. The third one counts
- * channels, whose names are the labels of that dimension. x runs fastest, the bottom row comes first.
+ * Igor binary wave, version 5, in either byte order. It has 64 bytes of lengths, 320 of wave header, the
+ * numbers, then texts of those lengths. A wave of one dimension is a profile, of two a map. The third one
+ * counts channels, whose names are the labels of that dimension. x runs fastest, the bottom row comes first.
  */
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /*
- * NT-MDT (Nova): 33 bytes of header, then frames of any kind, each with its size, type and date. Two
+ * NT-MDT (Nova) has 33 bytes of header. Then come frames of any kind, each with its size, type and date. Two
  * kinds are maps, little-endian, the lowest row first:
  *
  *     0    a scan: steps, offsets and codes of units of the three axes, the signal, then size and int16

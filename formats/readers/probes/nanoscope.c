@@ -1,5 +1,5 @@
 /*
- * NanoScope (Digital Instruments, Veeco, Bruker): a text header in sections, then images of whole
+ * NanoScope (Digital Instruments, Veeco, Bruker) has a text header in sections. Then come images of whole
  * numbers, little-endian, the bottom row first.
  *
  *     \*Scanner list

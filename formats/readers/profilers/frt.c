@@ -1,6 +1,6 @@
 /*
- * FRT MicroProf: a magic line, the number of blocks, and blocks of a 16-bit kind, a length and that
- * many bytes, little-endian. Heights are whole numbers from the bottom row on, of which 1 is
+ * FRT MicroProf has a magic line, the number of blocks, and the blocks. A block has a 16-bit kind, a length
+ * and that many bytes, little-endian. Heights are whole numbers from the bottom row on, of which 1 is
  * missing.
  */
 #include <math.h>

@@ -1,5 +1,5 @@
 /*
- * Olympus LEXT (OLS4000): a TIFF with a page for each kind of picture. The description of the first page is
+ * Olympus LEXT (OLS4000) is a TIFF with a page for each kind of picture. The description of the first page is
  * XML with the scales, in picometres; those of the other pages are their names. HEIGHT has the heights;
  * INVALID is 1 at missing points. A second XML text, in the Exif tag of device settings, may hold calibration
  * factors in millionths.

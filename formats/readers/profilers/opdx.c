@@ -1,7 +1,7 @@
 /*
- * Dektak OPDx (Bruker Vision64): "VCA DATA" and a tree of items, little-endian. An item is a name
- * (32 bits of length, the bytes), a byte for the type, and a value. Profiles are doubles below
- * 1D_Data, maps are floats below 2D_Data; extents reach from the first point to the last.
+ * Dektak OPDx (Bruker Vision64) has "VCA DATA" and a tree of items, little-endian. An item is a name (32 bits
+ * of length, the bytes), a byte for the type, and a value. Profiles are doubles below 1D_Data, maps are
+ * floats below 2D_Data; extents reach from the first point to the last.
  */
 #include <math.h>
 #include <string.h>

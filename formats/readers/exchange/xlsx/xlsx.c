@@ -1,5 +1,5 @@
 /*
- * Workbooks (XLSX): a ZIP archive of XML. In each sheet, blocks of numbers are looked for: neighbouring
+ * Workbooks (XLSX) are ZIP archives of XML. In each sheet, blocks of numbers are looked for: neighbouring
  * columns that are filled over the same rows. A block is read as the text would be that it is when it is
  * copied out of the sheet, with the titles above it. Two columns as a profile, three as points or a matrix,
  * more as a matrix, whose first row and column may be positions. The largest is the first channel.
@@ -102,7 +102,7 @@ belong(const struct run *a, const struct run *b)
     return last >= first && last - first + 1 >= (longer + 1) / 2;
 }
 
-/* In the order of their sizes, the largest first. */
+/* They are in the order of their sizes, the largest first. */
 static void
 insert(struct blocks *blocks, const struct block *b)
 {
@@ -287,7 +287,7 @@ put_titles(const struct rc_workbook *w, const struct block *b, struct text *t)
     return good;
 }
 
-/* The block with its titles, columns between tabs, which the caller frees. */
+/* Returns the block with its titles, with tabs between columns. The caller frees it. */
 static enum rc_status
 make_text(const struct rc_workbook *w, const struct block *b, struct text *t, struct rc_err *err)
 {

@@ -30,7 +30,7 @@ struct rc_workbook {
     size_t text_n, text_capacity;
 };
 
-/* Reads the sheets of a file; RC_FAIL with the reason. To be freed in either case. */
+/* Reads the sheets of a file; RC_FAIL with the reason. The caller frees it in either case. */
 enum rc_status rc_workbook_read(struct rc_workbook *book, const struct rc_file *file,
                                 struct rc_err *err);
 void rc_workbook_free(struct rc_workbook *book);
