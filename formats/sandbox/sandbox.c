@@ -63,8 +63,8 @@ start(struct child *c, const struct rc_file *file, struct rc_err *err)
     return false;
 }
 
-/* The number of kB after `key` at the beginning of a line of /proc/CHILD/NAME; 0: no such line. Does not
- * allocate, because the next child would inherit the memory. */
+/* The number of kB after `key` at the beginning of a line of /proc/CHILD/NAME. 0: there is no such line. Does
+ * not allocate, because the next child would inherit the memory. */
 static size_t
 kilobytes(pid_t child, const char *name, const char *key)
 {

@@ -1,5 +1,5 @@
-/* A matrix as text: a header of four comment lines as in Gwyddion, then one line per row, values separated by
- * commas. Every number has a point, so that no reader takes the comma for a decimal mark. */
+/* A matrix as text. It has a header of four comment lines as in Gwyddion, then one line per row, with commas
+ * between values. Every number has a point, so that no reader takes the comma for a decimal mark. */
 #include <math.h>
 #include <string.h>
 

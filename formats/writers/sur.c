@@ -1,5 +1,5 @@
 /*
- * Digital Surf: a 512-byte header and whole numbers, little-endian, row 0 first. Lengths are in mm, as in
+ * Digital Surf has a 512-byte header and whole numbers, little-endian, row 0 first. Lengths are in mm, as in
  * Digital Surf's programs; value = number * step + offset.
  *
  * Some readers subtract the smallest number first and others do not, so it is 0 here. Step and offset are

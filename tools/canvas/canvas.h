@@ -1,5 +1,5 @@
 /*
- * The interface of this folder: a page for figures, in pixels from the upper left corner. It stores shapes
+ * The interface of this folder. A page for figures is in pixels from the upper left corner. It stores shapes
  * and texts, and converts them to pixels, a PDF or an SVG when it is written. Text is UTF-8 in the sans serif
  * font of the system or in the requested font. Characters that this font lacks are set in other fonts.
  */

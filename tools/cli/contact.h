@@ -1,5 +1,5 @@
 /*
- * The nodes in contact from the frames of a case: one definition for all tools.
+ * Finds the nodes in contact from the frames of a case. All tools use this one definition.
  */
 #ifndef RC_TOOL_CONTACT_H
 #define RC_TOOL_CONTACT_H

@@ -1,5 +1,5 @@
 /*
- * Input: the frames of all streams, one after another, and checks of them.
+ * Reads input: the frames of all streams, one after another, with checks of them.
  */
 #include "tool.h"
 

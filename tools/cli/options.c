@@ -1,5 +1,5 @@
 /*
- * Option tables: reading a command line with them, and printing --help.
+ * Reads a command line by an option table, and prints --help.
  */
 #include "tool.h"
 

@@ -1,5 +1,5 @@
 /*
- * Shared by options.c, input.c, output.c and tool.c; not for the tools themselves.
+ * Only options.c, input.c, output.c and tool.c share this header, not the tools themselves.
  */
 #ifndef RC_PARTS_H
 #define RC_PARTS_H

@@ -62,7 +62,7 @@ void report_end(struct report *report);
 /* An array of n numbers, `step` bytes apart. */
 void report_numbers(struct report *report, const char *name, const double *v, size_t step,
                     size_t n);
-/* In place of an unknown object. */
+/* The text in place of an unknown object. */
 void report_no_object(struct report *report, const char *name);
 /* A column for each figure of the table, in its order; `data`: the struct with the values, or NULL if they
  * are unknown. Adjacent figures "object.name" are in one object, which is null if all are unknown. */

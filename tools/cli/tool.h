@@ -1,6 +1,6 @@
 /*
- * Shared by all rc-* tools: options, input and output streams, messages, signals, exit. Every main does:
- * start, read, *work*, write, finish; only the work differs.
+ * All rc-* tools share this header: options, input and output streams, messages, signals, exit. Every main
+ * does: start, read, *work*, write, finish; only the work differs.
  *
  *     struct args args = {.tol = NAN};
  *     struct tool t;
@@ -248,7 +248,7 @@ void tool_fails_with(struct tool *tool, int status);
  * stream that has begun and into a pipe that waits for one. */
 _Noreturn void tool_die(struct tool *tool, int status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* The same, naming source, case and channel of the faulty frame. */
+/* The same, with source, case and channel of the faulty frame in the message. */
 _Noreturn void tool_die_at(struct tool *tool, const struct rc_grid *grid, int status,
                            const char *format, ...) __attribute__((format(printf, 4, 5)));
 /* Ends the tool with the message of a failure, at a frame or, with NULL, without a place. */
@@ -258,7 +258,8 @@ void tool_must(struct tool *tool, const struct rc_grid *grid, enum rc_status sta
  * with the message "out of memory for WHAT". */
 void *tool_room(struct tool *tool, size_t n, size_t size, const char *what)
     __attribute__((returns_nonnull));
-/* The array `v` of n elements with room for one more: the same, or a larger one in its place. */
+/* Returns the array `v` of n elements with room for one more. It is the same, or a larger one in its
+ * place. */
 void *tool_grown(struct tool *tool, void *v, size_t n, size_t *room, size_t size, const char *what)
     __attribute__((returns_nonnull));
 char *tool_copy(struct tool *tool, const char *text) __attribute__((returns_nonnull));
@@ -279,7 +280,8 @@ void tool_progress_end(struct tool *tool);
  * Processes that share maps call tool_interrupted together. */
 void tool_catch_signals(void);
 /* The first signal ends the tool again, at once if it has already arrived, until tool_catch_signals is called
- * again. Call it before long work, when there is no result yet. Not for processes that share maps. */
+ * again. Call it before long work, when there is no result yet. Must not be used for processes that share
+ * maps. */
 void tool_release_signals(void);
 int tool_interrupted(void);
 /* The same for this process only, at the address that the handler sets. */

@@ -61,8 +61,8 @@ void wanted_check(const struct wanted *wanted, struct tool *tool);
  * their case if a later frame may be nearer to the requested depth. */
 struct rc_grid *wanted_read(struct wanted *wanted, struct tool *tool);
 
-/* The one of n depths that `asked` selects: the nearest, within half the step to the next one, or within a
- * thousandth; NAN: none. */
+/* The one of n depths that `asked` selects. It is the nearest, within half the step to the next one, or
+ * within a thousandth. NAN: none. */
 double wanted_depth(const double *depth, size_t n, double asked);
 /* Warns if the selected depth differs from the requested one by more than a thousandth. */
 void wanted_tell(struct tool *tool, double asked, double taken);

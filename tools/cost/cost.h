@@ -30,7 +30,7 @@ enum { /* subjects of a trial and of a case */
     COST_STRESS = 16,
 };
 
-/* A figure: its source and its format. */
+/* A figure has a source and a format. */
 struct cost_column {
     struct rc_figure figure;   /* in rc-cost's report; without a name: the end        */
     unsigned of;               /* bits: its subjects                                  */
@@ -148,7 +148,7 @@ void cost_solve_reference(struct cost_case *c);
 
 /* ---- schedule.c ---- */
 
-/* Expected seconds, from trials measured on this map, else from the plan. */
+/* Expected seconds. They come from trials measured on this map, else from the plan. */
 double cost_expect(const struct cost_case *c, const struct cost_trial *trial);
 /* True if a trial with this many runs and this time is run again. Short trials are repeated in turns: the
  * shortest time is that of the work; the excess is due to other programs. */

@@ -74,8 +74,8 @@ leave_out(struct cost_trial *m, const char *why)
     snprintf(m->why, sizeof m->why, "left out: %.240s", why);
 }
 
-/* Applications of the volume operator: two per increment and some at the end, each of some convolutions per
- * slab; relative to the elastic solution. */
+/* Applications of the volume operator, relative to the elastic solution. There are two per increment and some
+ * at the end, each of some convolutions per slab. */
 static double
 yielding_work(const struct cost_trial *m, double elastic)
 {
@@ -398,8 +398,8 @@ stress_line(struct cost_case *c, const struct cost_trial *m, struct line *l,
     put(l, "--quiet", NULL);
 }
 
-/* Over all frames: the largest error, the sum of squares and the number of values; the largest Mises stress,
- * and the exact one. */
+/* Sums over all frames: the largest error, the sum of squares and the number of values. Also the largest
+ * Mises stress, and the exact one. */
 struct errors {
     double worst, squares, n, mises, exact;
 };

@@ -1,7 +1,7 @@
 /*
- * Selection, order and repetition of the trials; and the expected time of each: rc-solve's, corrected by the
- * measured times of earlier trials on this map. A machine may differ by several times, and a surface may need
- * fewer or more convolutions.
+ * Selects, orders and repeats the trials. The expected time of each is rc-solve's, corrected by the measured
+ * times of earlier trials on this map. A machine may differ by several times, and a surface may need fewer or
+ * more convolutions.
  */
 #include "cost.h"
 

@@ -1,4 +1,4 @@
-/* The results as a table, as a report, and as the one command for a time or an accuracy. */
+/* Prints the results as a table, as a report, and as the one command for a time or an accuracy. */
 #include "cost.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
  * The trials in the order of the table: every method with every engine of libcontact's tables. The first of
  * each, which "auto" uses, are tried in small steps of the tolerance and on coarser grids. The others are
  * tried in larger steps for comparison. For a body that yields: every number of slabs with every number of
- * increments. For bodies that attract each other: the only method. Then the stresses, with every engine.
+ * increments. For bodies that attract each other: the only method. Then come the stresses, with every engine.
  */
 #include "cost.h"
 
@@ -38,7 +38,7 @@ static const struct {
 } coarser[] = {{8, {2, 2, 1}}, {4, {2, 2, 1}}, {2, {2, 3, 1}}},
   attracting[] = {{4, {3, 3, 1}}, {2, {3, 4, 1}}, {1, {3, 6, 1}}, {1, {8, 8, 1}}};
 
-/* Half of rc-solve's slabs, as many, and twice as many. */
+/* The numbers of slabs are half of rc-solve's, as many, and twice as many. */
 static const double stacks[] = {0.5, 1, 2};
 static const size_t increments[] = {4, 8, 16, 32, 64};
 static const double contact_tol = 1e-4; /* tolerance of each contact, as in rc-solve */

@@ -79,7 +79,7 @@ pick_topography(const struct rc_channel *channel, size_t n, bool any_unit, struc
     return RC_OK;
 }
 
-/* The channels of exactly that name, with or without regard to case: their number, and the first. */
+/* The channels of exactly that name, with or without regard to case. Returns their number, and the first. */
 static size_t
 named(const struct rc_channel *channel, size_t n, const char *wanted, bool either_case,
       size_t *first)

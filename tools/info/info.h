@@ -22,7 +22,7 @@ struct info_line_wanted {
     struct rc_place from, to;
 };
 
-/* Parameters of the profiles: means and standard deviations over the lines. */
+/* Parameters of the profiles. They are means and standard deviations over the lines. */
 struct info_profile {
     size_t lines, skipped; /* skipped: lines with missing points */
     size_t points, sections, elements;

@@ -1,5 +1,5 @@
 /*
- * Profiles of a map: all rows, all columns, or one line at any angle, and their parameters.
+ * Profiles of a map and their parameters. The profiles are all rows, all columns, or one line at any angle.
  */
 #include "info.h"
 

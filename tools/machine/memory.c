@@ -55,7 +55,7 @@ next_byte(struct text *text, char *byte)
     return true;
 }
 
-/* As fgets: the next line, or as much of it as fits; false: no more lines. */
+/* Works as fgets: reads the next line, or as much of it as fits. false: no more lines. */
 static bool
 next_line(struct text *text, char *line, size_t size)
 {
@@ -232,7 +232,7 @@ has_word(const char *list, const char *word)
     return false;
 }
 
-/* From /proc/self/cgroup: the path of the process in the tree of this version. */
+/* Reads from /proc/self/cgroup the path of the process in the tree of this version. */
 static bool
 group_path(const char *root, const struct version *v, char *path)
 {
@@ -284,8 +284,8 @@ is_inside(const char *path, const char *group, size_t n)
     return strncmp(path, group, n) == 0 && (path[n] == '/' || path[n] == '\0');
 }
 
-/* From the process's own group to the outermost visible one. In a container only the inner part of the tree
- * is mounted; the path does not show what lies outside. */
+/* Goes from the process's own group to the outermost visible one. In a container only the inner part of the
+ * tree is mounted; the path does not show what lies outside. */
 static void
 look_at_groups(const char *root, const struct version *v, struct memory_room *room)
 {

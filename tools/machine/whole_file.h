@@ -27,7 +27,7 @@ bool whole_file_is_half(const struct whole_file *w);
 const char *whole_file_name(const struct whole_file *w);
 /* Registers a half-written file of another process, to remove it if this process fails; "": no more. */
 void whole_file_share(struct whole_file *w, const char *name);
-/* Closes the file, and renames it after the data has reached the disk: even a power failure leaves the old
+/* Closes the file, and renames it after the data has reached the disk. Even a power failure leaves the old
  * file or the new one. false with errno, for the caller's message; the old file is then unchanged. */
 bool whole_file_put(struct whole_file *w, FILE *file);
 /* Waits until the data is on the disk; false with errno. Returns true at once for a device or a file system

@@ -1,4 +1,4 @@
-/* A tool with a model: its points, frames, report, warnings and --dry-run. */
+/* A tool with a model has points, frames, a report, warnings and --dry-run. */
 #include "model.h"
 
 #include <ctype.h>

@@ -106,7 +106,7 @@ member_bytes(const struct zon *z, const struct rc_file *file, size_t member, con
     return bytes;
 }
 
-/* An array: its head, and its bytes, which the caller frees. */
+/* Reads an array: its head, and its bytes, which the caller frees. */
 struct array {
     size_t nx, ny, row;
     unsigned char *bytes;

@@ -117,7 +117,7 @@ matrix_close(struct matrix *m)
     rc_titled_table_close(&m->titled);
 }
 
-/* Image `index` of the file: a table behind its header. */
+/* Finds image `index` of the file, a table behind its header. */
 static enum rc_status
 open_behind_head(struct matrix *m, const struct rc_file *file, const struct rc_wish *wish,
                  size_t index, struct rc_err *err)

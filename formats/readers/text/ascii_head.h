@@ -4,7 +4,7 @@
 
 #include "formats/core/core.h"
 
-/* One `# key: value` line, by the form of its value. */
+/* Reads one `# key: value` line, by the form of its value. */
 struct rc_ascii_comment {
     struct rc_piece value;
     double length; /* a number with a unit of length, in m; NAN: something else  */

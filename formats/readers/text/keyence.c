@@ -1,5 +1,5 @@
 /*
- * Keyence's image data as text (VK-X, VR, VHX): rows of values in quotes, between commas, semicolons or
+ * Keyence's image data as text (VK-X, VR, VHX). Rows of values are in quotes, between commas, semicolons or
  * tabs. A header of keys in the user's language, then a title alone and the heights:
  *
  *     "Data type","ImageDataCsv"
@@ -60,7 +60,7 @@ cells_of(struct rc_piece line, struct rc_piece *cell, size_t most)
     return n;
 }
 
-/* As rc_piece_metres, with the micrometres of Shift-JIS, GBK and CP949, and those of one letter. */
+/* Works as rc_piece_metres, with the micrometres of Shift-JIS, GBK and CP949, and those of one letter. */
 static double
 metres_of(struct rc_piece unit)
 {

@@ -1,6 +1,6 @@
 /*
- * SMD, the file of software measurement standards (ISO 5436-2:2001): records of text, each ended by the
- * byte 3,
+ * SMD is the file of software measurement standards (ISO 5436-2:2001). It has records of text, each ended by
+ * the byte 3,
  *
  *     ISO 5436 - 2 - 2001         revision
  *     PRF 0 line                  a profile, its number and name

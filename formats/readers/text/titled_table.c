@@ -30,7 +30,7 @@ narrow(const struct rc_file *file, size_t *n)
     return text;
 }
 
-/* The next word of a row: in quotes, or up to a separator. False at the end of the line. */
+/* Reads the next word of a row, which is in quotes, or ends at a separator. False at the end of the line. */
 static bool
 next_word(struct rc_piece *line, struct rc_piece *word)
 {

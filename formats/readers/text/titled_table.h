@@ -57,7 +57,7 @@ bool rc_titled_table_numbered(const struct rc_titled_table *table);
  * numbers, one word with a number each (z1, z2, ...), or name no axis. Without titles it has at least four
  * columns. */
 bool rc_titled_table_is_matrix(const struct rc_titled_table *table);
-/* The next title of a row of them, at its separators; false at its end. */
+/* Reads the next title of a row of them, at its separators. false at its end. */
 bool rc_title_next(struct rc_piece *line, char separator, struct rc_piece *title);
 /* Notes the unused columns: counters and marks. */
 void rc_titled_table_left_out(const struct rc_titled_table *table, struct rc_notes *notes);
