@@ -158,12 +158,14 @@ void
 yield_plan(struct run *run, struct rc_model *m, double load)
 {
     const double *v = run->steps->v; /* in units of `unit` */
+    /* the slabs of a contact that travels must be deep enough for higher spots, and for later passes */
+    const double deeper = run->travelling.wanted ? 2 : 1;
     double most = 0;
 
     for (size_t k = run->step; k < run->steps->n; k++)
         most = fmax(most, v[k]);
     if (!run->yielding.on && load > 0)
-        rc_yielding_plan(m, run->steps->n - run->step, most * load / v[run->step]);
+        rc_yielding_plan(m, run->steps->n - run->step, deeper * most * load / v[run->step]);
 }
 
 void
