@@ -122,7 +122,7 @@ check_arguments(struct run *run)
     physics_check(&run->d.t, &args.physics);
     run->args = &args;
     run->steps = physics_steps(&args.physics);
-    run->stiffness = args.stiffness || run->steps->n > 1;
+    run->stiffness = args.stiffness || (run->steps->n > 1 && args.adhesion == NULL);
     read_conductivity(run);
     check_tilt(run);
     yield_read(run);

@@ -459,7 +459,11 @@ solve_case(struct run *run, const struct rc_grid *hardness)
         checkpoint_crc(&run->d.t, hardness, run->hardness_crc);
     travel_begin(run);
     if (run->args->drive.dry_run) {
-        struct rc_problem problem = problem_of(run, run->g, 0);
+        size_t first = 0; /* a load of 0 costs nothing */
+        struct rc_problem problem;
+        while (!run->adhering.wanted && first + 1 < run->steps->n && run->steps->v[first] == 0)
+            first++;
+        problem = problem_of(run, run->g, first);
         run->model = run->yielding.wanted ? yield_model(run, run->g, &problem) : NULL;
         solve_plan(run, run->g, &problem);
         rc_model_free(run->model);

@@ -71,7 +71,9 @@ show_effects(struct run *run, const char *engine, const bool *active,
         {"adhesion", adhesion_state(run)}, /* also the state of its frame */
         {"travel", travel_state(run)},
         {"tilt", run->tilt ? "on" : "left out: no --tilt free"},
-        {"stiffness", run->stiffness ? "on" : "left out: one load and no --stiffness"},
+        {"stiffness", run->stiffness         ? "on"
+                      : run->adhering.wanted ? "left out: the bodies attract each other"
+                                             : "left out: one load and no --stiffness"},
         {"conductivity", args->conductivity == NULL ? "left out: no --conductivity"
                          : run->conductance         ? "on"
                                             : "left out: layers, for which no analogy holds"},
