@@ -129,10 +129,6 @@ take_point(struct rc_x3p *x, const char *text, struct rc_err *err)
     if (end == NULL || *end != '\0' || k != n || !isfinite(value[0]))
         return rc_err_set(err, "Datum %zu is '%s': %s are expected", x->listed + 1,
                           rc_word_shown(quote, text), n == 3 ? "x;y;z" : "x;z");
-    if (!x->wants_list) {
-        x->listed++;
-        return RC_OK;
-    }
     if (grow(x, 2 * x->listed + 2, err) != RC_OK)
         return RC_FAIL;
     x->list[2 * x->listed] = value[0];
@@ -150,10 +146,6 @@ take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
 
     if (is_absolute(x))
         return take_point(x, text, err);
-    if (!x->wants_list) {
-        x->listed++;
-        return RC_OK;
-    }
     if (end != NULL && *end == ';')
         return rc_err_set(
             err, "Datum %zu is '%s': lists with coordinates are not read, only matrices of heights",

@@ -260,17 +260,17 @@ failed:
 }
 
 enum rc_status
-rc_x3p_values(struct rc_x3p *x, const struct rc_file *file, size_t member, double metres,
-              struct rc_grid *g, struct rc_notes *notes, struct rc_err *err)
+rc_x3p_values(struct rc_x3p *x, const struct rc_file *file, size_t member, double *v,
+              struct rc_notes *notes, struct rc_err *err)
 {
     if (!x->binary)
-        memcpy(g->v, x->list, x->n * sizeof *g->v);
-    else if (x->absolute_x || x->absolute_y ? rc_x3p_axes(x, file, g->v, notes, err) != RC_OK
-                                            : read_points(x, member, g->v, notes, err) != RC_OK)
+        memcpy(v, x->list, x->n * sizeof *v);
+    else if (x->absolute_x || x->absolute_y ? rc_x3p_axes(x, file, v, notes, err) != RC_OK
+                                            : read_points(x, member, v, notes, err) != RC_OK)
         return RC_FAIL;
-    if (apply_mask(x, g->v, notes, err) != RC_OK)
+    if (apply_mask(x, v, notes, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < x->n; k++)
-        g->v[k] = (g->v[k] * x->increment + x->offset) * metres;
-    return rc_heights_finite(g, notes, err);
+        v[k] = v[k] * x->increment + x->offset;
+    return RC_OK;
 }

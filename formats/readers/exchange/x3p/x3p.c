@@ -54,11 +54,11 @@ x3p_close(struct rc_x3p *x)
 }
 
 static enum rc_status
-x3p_open(struct rc_x3p *x, const struct rc_file *file, bool wants_list, struct rc_err *err)
+x3p_open(struct rc_x3p *x, const struct rc_file *file, struct rc_err *err)
 {
     char quote[RC_SHOWN];
 
-    *x = (struct rc_x3p){.wants_list = wants_list};
+    *x = (struct rc_x3p){0};
     if ((x->archive = rc_zip_read_new(file, err)) == NULL)
         return RC_FAIL;
     if (!find_main(x->archive, &x->main, x->prefix))
@@ -67,23 +67,6 @@ x3p_open(struct rc_x3p *x, const struct rc_file *file, bool wants_list, struct r
             "a ZIP archive, but no X3P: it has no main.xml (the first of its %zu members is '%s')",
             rc_zip_read_members(x->archive), rc_word_shown(quote, rc_zip_read_name(x->archive, 0)));
     return rc_x3p_head(x, err);
-}
-
-static struct rc_grid *
-make_grid(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wish, double *metres,
-          struct rc_notes *notes, struct rc_err *err)
-{
-    const struct rc_heights h = {x->nx, x->ny, x->dx, x->dy, 1, "m", NULL};
-    struct rc_grid *g = rc_heights_new(&h, file, wish, metres, notes, err);
-
-    if (g == NULL)
-        return NULL;
-    for (size_t f = RC_X3P_FIRST_KEY; f < RC_X3P_FIELDS; f++)
-        if (x->text[f] != NULL && rc_word_keep(g, rc_x3p_key(f), x->text[f], err) != RC_OK) {
-            rc_grid_free(g);
-            return NULL;
-        }
-    return g;
 }
 
 /* ---- what it is ---- */
@@ -108,122 +91,90 @@ x3p_score(const struct rc_file *file)
 
 /* ---- profiles with positions ---- */
 
-/* Lays even nodes along a profile whose points have positions of their own. Sets x->nx and the spacings, and
- * returns the heights at the nodes, which the caller frees. NULL with the reason. */
-static double *
-lay_nodes(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wish,
+/* Lays even nodes along a profile whose points have positions of their own. Sets x->nx and the spacings.
+ * Unless v is NULL, puts the heights at the nodes into v. */
+static enum rc_status
+lay_nodes(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wish, double *v,
           struct rc_notes *notes, struct rc_err *err)
 {
-    double *points = NULL, *v = NULL;
+    enum rc_status status = RC_FAIL;
+    double *points = NULL;
     struct rc_even even;
 
-    if (x->n < 2) {
-        rc_err_set(err, "a profile of one point with a position has no spacing");
-        return NULL;
+    if (x->n < 2)
+        return rc_err_set(err, "a profile of one point with a position has no spacing");
+    if (rc_map_fits(file, x->n, 16, err) == RC_OK &&
+        (points = rc_x3p_profile(x, notes, err)) != NULL)
+        status = rc_even_new(points, x->n, 1, file, wish, &even, err);
+    if (status == RC_OK) {
+        x->nx = even.n;
+        x->dx = x->dy = even.step;
+        if (v != NULL)
+            rc_even_heights(&even, points, points + x->n, x->n, v, notes);
     }
-    if (rc_map_fits(file, x->n, 16, err) != RC_OK ||
-        (points = rc_x3p_profile(x, notes, err)) == NULL ||
-        rc_even_new(points, x->n, 1, file, wish, &even, err) != RC_OK)
-        goto done;
-    if ((v = malloc(even.n * sizeof *v)) == NULL) {
-        rc_err_set(err, "out of memory for %zu nodes", even.n);
-        goto done;
-    }
-    rc_even_heights(&even, points, points + x->n, x->n, v, notes);
-    x->nx = even.n;
-    x->dx = x->dy = even.step;
-done:
     free(points);
-    return v;
-}
-
-static struct rc_grid *
-read_profile(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wish,
-             struct rc_notes *notes, struct rc_err *err)
-{
-    double *v = lay_nodes(x, file, wish, notes, err), metres;
-    struct rc_grid *g = v == NULL ? NULL : make_grid(x, file, wish, &metres, notes, err);
-    bool good = g != NULL;
-
-    for (size_t k = 0; good && k < g->nx; k++)
-        g->v[k] = v[k] * metres;
-    good = good && rc_heights_finite(g, notes, err) == RC_OK;
-    free(v);
-    if (good)
-        return g;
-    rc_grid_free(g);
-    return NULL;
+    return status;
 }
 
 /* ---- the entry in formats.list ---- */
 
-static size_t
-x3p_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-         size_t most, struct rc_err *err)
+static enum rc_status
+fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_x3p x;
-    enum rc_status status = x3p_open(&x, file, false, err);
-    double *v = NULL;
-    size_t n = 0;
+    enum rc_status status = x3p_open(&x, file, err);
+    size_t points = 0;
 
-    if (status == RC_OK && x.absolute) {
-        x3p_close(&x);
-        status = x3p_open(&x, file, true, err);
+    if (status == RC_OK && !x.absolute && x.binary)
+        status = rc_x3p_find_points(&x, &points, err);
+    if (status == RC_OK) {
+        rc_x3p_check_main(&x, map->notes);
+        if (x.old_root)
+            rc_note(map->notes,
+                    "the root of its main.xml is ISO5436, where the standard has ISO5436_2: it "
+                    "is read as if it were that");
+        if (x.turned)
+            rc_note(map->notes, "the file turns its axes by a rotation matrix: it is not applied");
+        status = x.absolute ? lay_nodes(&x, file, map->wish, v, map->notes, err)
+                            : rc_x3p_values(&x, file, points, v, map->notes, err);
     }
-    if (status == RC_OK && (x.absolute_x || x.absolute_y))
-        status = rc_x3p_axes(&x, file, NULL, NULL, err);
-    if (status == RC_OK && (!x.absolute || (v = lay_nodes(&x, file, wish, NULL, err)) != NULL)) {
-        if (most > 0)
-            *channel = (struct rc_channel){
-                .name = "height", .unit = "m", .nx = x.nx, .ny = x.ny, .dx = x.dx, .dy = x.dy};
-        n = 1;
-    }
-    free(v);
     x3p_close(&x);
-    return n;
+    return status;
 }
 
-static struct rc_grid *
-x3p_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-         struct rc_notes *notes, struct rc_err *err)
+static void
+add_map(const struct rc_x3p *x, struct rc_maps *maps)
 {
-    struct rc_grid *g = NULL;
-    struct rc_x3p x;
-    size_t points = 0;
-    double metres;
-    bool good = false;
+    struct rc_map *map = rc_maps_add(maps, "height", 6);
 
-    if (x3p_open(&x, file, true, err) != RC_OK)
-        goto done;
-    if (index != 0) {
-        rc_err_set(err, "an X3P file has one channel, not %zu", index + 1);
-        goto done;
-    }
-    if (!x.absolute && ((x.binary && rc_x3p_find_points(&x, &points, err) != RC_OK) ||
-                        rc_map_fits(file, x.nx, x.ny, err) != RC_OK))
-        goto done;
-    if ((x.absolute_x || x.absolute_y) && rc_x3p_axes(&x, file, NULL, NULL, err) != RC_OK)
-        goto done;
-    rc_x3p_check_main(&x, notes);
-    if (x.old_root)
-        rc_note(notes, "the root of its main.xml is ISO5436, where the standard has ISO5436_2: it "
-                       "is read as if it were that");
-    if (x.turned)
-        rc_note(notes, "the file turns its axes by a rotation matrix: it is not applied");
-    if (x.absolute) {
-        g = read_profile(&x, file, wish, notes, err);
-        good = g != NULL;
-        goto done;
-    }
-    if ((g = make_grid(&x, file, wish, &metres, notes, err)) == NULL)
-        goto done;
-    good = rc_x3p_values(&x, file, points, metres, g, notes, err) == RC_OK;
-done:
+    map->nx = x->nx;
+    map->ny = x->ny;
+    map->dx = x->dx;
+    map->dy = x->dy;
+    map->fill = fill_heights;
+    strcpy(map->unit, "m");
+    for (size_t f = RC_X3P_FIRST_KEY; f < RC_X3P_FIELDS; f++)
+        if (x->text[f] != NULL)
+            rc_maps_key(maps, rc_x3p_key(f), x->text[f], strlen(x->text[f]));
+}
+
+static enum rc_status
+x3p_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
+{
+    struct rc_x3p x;
+    enum rc_status status = x3p_open(&x, file, err);
+    size_t points;
+
+    if (status == RC_OK && x.absolute)
+        status = lay_nodes(&x, file, maps->wish, NULL, NULL, err);
+    else if (status == RC_OK && x.binary)
+        status = rc_x3p_find_points(&x, &points, err);
+    if (status == RC_OK && (x.absolute_x || x.absolute_y))
+        status = rc_x3p_axes(&x, file, NULL, NULL, err);
+    if (status == RC_OK)
+        add_map(&x, maps);
     x3p_close(&x);
-    if (good)
-        return g;
-    rc_grid_free(g);
-    return NULL;
+    return status;
 }
 
 const struct rc_format rc_format_x3p = {
@@ -231,6 +182,5 @@ const struct rc_format rc_format_x3p = {
     .suffixes = ".x3p",
     .summary = "ISO 25178-72 (ISO 5436-2): maps and profiles",
     .score = x3p_score,
-    .list = x3p_list,
-    .read = x3p_read,
+    .find = x3p_find,
 };

@@ -55,7 +55,6 @@ struct rc_x3p {
     enum rc_raw raw_x, raw_y;    /* numbers of a point: x, y if that axis is absolute too, and z */
     size_t before_y, before_z;   /* bytes of a point that come before y, before z            */
     double x_increment, x_offset, y_increment;
-    bool wants_list;         /* the heights in main.xml are to be kept                       */
     double *list;            /* heights that were in main.xml; positions and heights by turns */
     size_t listed, capacity; /* numbers in the list, and its capacity */
 };
@@ -70,7 +69,7 @@ void rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes);
 /* Finds the member of the heights and checks its size before anything is allocated for it. */
 enum rc_status rc_x3p_find_points(struct rc_x3p *x, size_t *member, struct rc_err *err);
 /* Reads the x->n positions of a profile that is `absolute`, rising and in metres, and behind them
- * its heights; the caller frees them. NULL with the reason. A list must have been wanted. */
+ * its heights; the caller frees them. NULL with the reason. */
 double *rc_x3p_profile(struct rc_x3p *x, struct rc_notes *notes, struct rc_err *err);
 /* The points of a map or profile, as they lie in their member of `size` bytes, which the caller frees; NULL
  * with the reason. */
@@ -80,9 +79,8 @@ unsigned char *rc_x3p_unpack_points(struct rc_x3p *x, size_t member, size_t size
  * NULL. RC_FAIL where the places are no even grid. */
 enum rc_status rc_x3p_axes(struct rc_x3p *x, const struct rc_file *file, double *v,
                            struct rc_notes *notes, struct rc_err *err);
-/* Puts the heights into the grid, in metres; missing ones are NAN. */
-enum rc_status rc_x3p_values(struct rc_x3p *x, const struct rc_file *file, size_t member,
-                             double metres, struct rc_grid *grid, struct rc_notes *notes,
-                             struct rc_err *err);
+/* Puts the heights into v, in metres; missing ones are NAN. */
+enum rc_status rc_x3p_values(struct rc_x3p *x, const struct rc_file *file, size_t member, double *v,
+                             struct rc_notes *notes, struct rc_err *err);
 
 #endif
