@@ -186,6 +186,7 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
 {
     struct rc_maps maps;
     const struct rc_map *map = &maps.map[index < RC_MAPS_MOST ? index : 0];
+    struct rc_wish said = *wish;
     struct rc_shape shape;
     struct rc_grid *g = NULL;
     bool is_length, is_height;
@@ -203,7 +204,9 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
     is_height = is_length || map->heights || map->unit[0] == '\0' || !isnan(wish->z_unit);
     si = map->si;
     shape = (struct rc_shape){.nx = map->nx, .ny = map->ny};
-    if (rc_spacing(wish, map->dx, map->dy, &shape, notes, err) != RC_OK) {
+    if (map->own_dy)
+        said.dy = map->dy;
+    if (rc_spacing(&said, map->dx, map->dy, &shape, notes, err) != RC_OK) {
         if (isnan(map->dx) && err != NULL &&
             strlen(err->text) + strlen(map->hint) < sizeof err->text)
             strcat(err->text, map->hint);

@@ -36,11 +36,16 @@
  * a list of points. Both are refused, unless a header says that they are a matrix.
  */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "ascii_head.h"
 #include "labels.h"
 #include "formats/format.h"
+
+enum {
+    IMAGES_MOST = 64 /* images that are read from one file */
+};
 
 /* One of the images of a file. */
 struct image {
@@ -279,71 +284,27 @@ refuse_coordinates(const struct matrix *m, const double *v, struct rc_err *err)
     return RC_OK;
 }
 
-/* Metres in one number, as the header or the corner says; NAN for neither. */
-static double
-height_metres(const struct matrix *m)
-{
-    return isnan(m->head.z) ? rc_piece_metres(m->labels.height_unit) : m->head.z;
-}
-
-/* The factor from the numbers to SI units; `other`: their quantity if they are no heights. */
+/* Puts the heights into v, without labels and positions. */
 static enum rc_status
-get_scales(const struct matrix *m, const struct rc_map *other, const struct rc_wish *wish,
-           struct rc_shape *shape, double *si, struct rc_notes *notes, struct rc_err *err)
-{
-    const struct rc_ascii_head *h = &m->head;
-    double dx, dy, z = height_metres(m);
-    struct rc_wish said = *wish;
-
-    if (spacing(m, wish, &dx, &dy, err) != RC_OK)
-        return RC_FAIL;
-    if (m->labels.positions && isnan(m->labels.metres[0]) && isnan(wish->dy) && !isnan(wish->dx))
-        said.dy = dy; /* --dx gives the unit of the positions, of y too */
-    if (rc_spacing(&said, dx, dy, shape, notes, err) == RC_OK) {
-        *si = other == NULL ? NAN : other->si;
-        return other != NULL ? RC_OK : rc_height_unit(wish, z, h->unit, si, notes, err);
-    }
-    if (isnan(dx) && h->unit[0] == '\0')
-        rc_lacks_unit(wish, z, err);
-    return RC_FAIL;
-}
-
-/* The quantity of an image whose unit is no length. */
-static bool
-is_other(const struct rc_ascii_head *h, size_t images, const struct rc_wish *wish,
-         struct rc_map *other)
-{
-    *other = (struct rc_map){0};
-    if (images == 1 || !isnan(wish->z_unit) || !isnan(h->z) || h->unit[0] == '\0')
-        return false;
-    rc_text_clean(other->name, sizeof other->name, h->channel.text, h->channel.n);
-    if (other->name[0] == '\0')
-        strcpy(other->name, "values");
-    rc_map_unit(other, h->unit, strlen(h->unit));
-    return true;
-}
-
-/* Removes labels and positions, so that the heights are contiguous. */
-static void
-leave_out(const struct matrix *m, double *v)
+read_heights(struct matrix *m, double *v, struct rc_err *err)
 {
     const struct rc_labels *l = &m->labels;
+    size_t n = m->table.rows * m->table.columns;
+    double *all;
 
-    for (size_t j = 0; j < m->ny && l->rows + l->columns > 0; j++)
-        memmove(v + j * m->nx, v + (j + l->rows) * m->table.columns + l->columns,
-                m->nx * sizeof *v);
-}
-
-static void
-turn_columns(double *v, size_t nx, size_t ny)
-{
-    for (size_t j = 0; j < ny; j++)
-        for (size_t i = 0; i < nx / 2; i++) {
-            double *a = &v[j * nx + i], *b = &v[j * nx + nx - 1 - i], kept = *a;
-
-            *a = *b;
-            *b = kept;
-        }
+    if (l->rows + l->columns == 0)
+        return rc_number_table_read(&m->table, v, err);
+    if ((all = malloc(n * sizeof *all)) == NULL)
+        return rc_err_set(err, "out of memory for %zu values", n);
+    if (rc_number_table_read(&m->table, all, err) != RC_OK) {
+        free(all);
+        return RC_FAIL;
+    }
+    for (size_t j = 0; j < m->ny; j++)
+        memcpy(v + j * m->nx, all + (j + l->rows) * m->table.columns + l->columns,
+               m->nx * sizeof *v);
+    free(all);
+    return RC_OK;
 }
 
 static void
@@ -361,45 +322,6 @@ note_skipped(const struct matrix *m, struct rc_notes *notes)
         rc_note(notes, "the titles, '%s' and so on, name no axis: the table is read as a matrix",
                 rc_piece_shown(quote, rc_titled_table_name(&m->titled, 0)));
     rc_labels_note(&m->labels, notes);
-}
-
-static struct rc_grid *
-read_matrix(struct matrix *m, const struct rc_wish *wish, struct rc_notes *notes,
-            struct rc_err *err)
-{
-    struct rc_shape shape = {.nx = m->table.columns, .ny = m->table.rows, .dx = 1, .dy = 1};
-    struct rc_map map, *other = is_other(&m->head, m->images, wish, &map) ? &map : NULL;
-    struct rc_grid *g = NULL;
-    double si;
-    size_t n;
-
-    if (rc_number_table_size(&m->table, &n, err) != RC_OK ||
-        (g = rc_grid_new(&shape, other == NULL ? "height" : map.name,
-                         other == NULL ? "m" : map.unit, err)) == NULL)
-        return NULL;
-    if (rc_number_table_read(&m->table, g->v, err) != RC_OK)
-        goto failed;
-    leave_out(m, g->v);
-    g->nx = m->nx;
-    g->ny = m->ny;
-    if (refuse_coordinates(m, g->v, err) != RC_OK ||
-        get_scales(m, other, wish, &shape, &si, notes, err) != RC_OK ||
-        rc_piece_keep(g, "file.channel", m->head.channel, err) != RC_OK)
-        goto failed;
-    g->dx = shape.dx;
-    g->dy = shape.dy;
-    for (size_t k = 0; k < m->nx * m->ny; k++)
-        g->v[k] *= si;
-    note_skipped(m, notes);
-    if (m->labels.falls[0])
-        turn_columns(g->v, g->nx, g->ny);
-    if (m->labels.falls[1])
-        rc_heights_flip(g);
-    if (rc_heights_finite(g, notes, err) == RC_OK)
-        return g;
-failed:
-    rc_grid_free(g);
-    return NULL;
 }
 
 /* ---- the entry in formats.list ---- */
@@ -424,48 +346,77 @@ ascii_score(const struct rc_file *file)
     return m.head.known ? 30 : (c >= '0' && c <= '9') || strchr("- \"", c) != NULL ? 5 : 0;
 }
 
-static size_t
-ascii_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-           size_t most, struct rc_err *err)
+static enum rc_status
+fill_matrix(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    size_t images = 1;
+    struct matrix m;
+    enum rc_status status = ascii_open_all(&m, file, map->wish, map->more, err);
 
-    for (size_t k = 0; k < images && k < (most == 0 ? 1 : most); k++) {
-        struct rc_channel c = {.name = "height"};
-        struct matrix m;
-        struct rc_map other;
-        enum rc_status status = ascii_open_all(&m, file, wish, k, err);
-
-        if (status == RC_OK && m.head.channel.n > 0)
-            rc_text_clean(c.name, sizeof c.name, m.head.channel.text, m.head.channel.n);
-        strcpy(c.unit, isnan(height_metres(&m)) ? m.head.unit : "m");
-        if (status == RC_OK && is_other(&m.head, m.images, &rc_no_wish, &other))
-            strcpy(c.unit, other.unit);
-        c.nx = m.nx;
-        c.ny = m.ny;
-        if (status == RC_OK)
-            status = spacing(&m, wish, &c.dx, &c.dy, err);
-        images = m.images;
-        matrix_close(&m);
-        if (status != RC_OK)
-            return 0;
-        if (most > 0)
-            channel[k] = c;
-    }
-    return images;
+    if (status == RC_OK)
+        status = read_heights(&m, v, err);
+    if (status == RC_OK)
+        status = refuse_coordinates(&m, v, err);
+    if (status == RC_OK)
+        note_skipped(&m, map->notes);
+    matrix_close(&m);
+    return status;
 }
 
-static struct rc_grid *
-ascii_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-           struct rc_notes *notes, struct rc_err *err)
+/* The unit is a length, or another one of a file with several images; of a single image it is refused. */
+static void
+set_unit(const struct matrix *m, struct rc_map *map)
 {
-    struct rc_grid *g = NULL;
-    struct matrix m;
+    const struct rc_ascii_head *h = &m->head;
+    double metres = isnan(h->z) ? rc_piece_metres(m->labels.height_unit) : h->z;
 
-    if (ascii_open_all(&m, file, wish, index, err) == RC_OK)
-        g = read_matrix(&m, wish, notes, err);
-    matrix_close(&m);
-    return g;
+    map->heights = m->images == 1;
+    strcpy(map->unit, isnan(metres) ? h->unit : "m");
+    if (!isnan(metres))
+        map->si = metres;
+    else if (m->images > 1)
+        rc_map_unit(map, h->unit, strlen(h->unit));
+}
+
+static enum rc_status
+add_matrix(const struct matrix *m, size_t image, struct rc_maps *maps, struct rc_err *err)
+{
+    const struct rc_labels *l = &m->labels;
+    const struct rc_wish *wish = maps->wish;
+    struct rc_map *map = rc_maps_add(maps, m->head.channel.text, m->head.channel.n);
+    size_t n;
+
+    if (rc_number_table_size(&m->table, &n, err) != RC_OK)
+        return RC_FAIL;
+    map->nx = m->nx;
+    map->ny = m->ny;
+    map->fill = fill_matrix;
+    map->more = image;
+    map->right_first = l->falls[0];
+    map->bottom_first = l->falls[1];
+    if (l->rows + l->columns > 0)
+        map->beside = 8 * (double)n;
+    set_unit(m, map);
+    /* --dx gives the unit of the positions, of y too */
+    map->own_dy = l->positions && isnan(l->metres[0]) && isnan(wish->dy) && !isnan(wish->dx);
+    return spacing(m, wish, &map->dx, &map->dy, err);
+}
+
+static enum rc_status
+ascii_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
+{
+    enum rc_status status = RC_OK;
+    size_t images = 1;
+
+    for (size_t k = 0; status == RC_OK && k < images && k < IMAGES_MOST; k++) {
+        struct matrix m;
+
+        status = ascii_open_all(&m, file, maps->wish, k, err);
+        if (status == RC_OK)
+            status = add_matrix(&m, k, maps, err);
+        images = m.images;
+        matrix_close(&m);
+    }
+    return status;
 }
 
 const struct rc_format rc_format_ascii = {
@@ -473,6 +424,5 @@ const struct rc_format rc_format_ascii = {
     .suffixes = ".txt .asc .csv",
     .summary = "matrices of heights as text, with or without a header",
     .score = ascii_score,
-    .list = ascii_list,
-    .read = ascii_read,
+    .find = ascii_find,
 };
