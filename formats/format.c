@@ -43,20 +43,14 @@ size_t
 rc_format_list(const struct rc_format *f, const struct rc_file *file, const struct rc_wish *wish,
                struct rc_channel *channel, size_t most, struct rc_err *err)
 {
-    if (f->sandboxed)
-        return rc_sandbox_list(f->find, file, wish, channel, most, err);
-    return f->find != NULL ? rc_maps_list(f->find, file, wish, channel, most, err)
-                           : f->list(file, wish, channel, most, err);
+    return (f->sandboxed ? rc_sandbox_list : rc_maps_list)(f->find, file, wish, channel, most, err);
 }
 
 struct rc_grid *
 rc_format_read(const struct rc_format *f, const struct rc_file *file, const struct rc_wish *wish,
                size_t index, struct rc_notes *notes, struct rc_err *err)
 {
-    if (f->sandboxed)
-        return rc_sandbox_read(f->find, file, wish, index, notes, err);
-    return f->find != NULL ? rc_maps_read(f->find, file, wish, index, notes, err)
-                           : f->read(file, wish, index, notes, err);
+    return (f->sandboxed ? rc_sandbox_read : rc_maps_read)(f->find, file, wish, index, notes, err);
 }
 
 /* Kinds of files without heights, or with compressed heights. */

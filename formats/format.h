@@ -39,15 +39,7 @@ struct rc_format {
     /* For other formats: the certainty that the file has this format, 0 to 100, first by content, then by
      * name. */
     int (*score)(const struct rc_file *file);
-    /* Describes the maps of a file (core/maps.h); if it is NULL the two functions below are used. */
-    rc_maps_find *find;
-    /* Fills at most `most` channels and returns their number in the file; 0 and *err on failure. */
-    size_t (*list)(const struct rc_file *file, const struct rc_wish *wish,
-                   struct rc_channel *channel, size_t most, struct rc_err *err);
-    /* Reads channel `index` of the list: values, spacing, unit, and keys `file.*`. Its name is "height" if
-     * its unit is metres. */
-    struct rc_grid *(*read)(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-                            struct rc_notes *notes, struct rc_err *err);
+    rc_maps_find *find; /* describes the maps of a file (core/maps.h) */
     /* Listing and reading run in a separate process, which also holds the values until it has sent them. */
     bool sandboxed;
     bool copies;  /* the library of that process makes a copy of the file */

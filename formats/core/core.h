@@ -10,7 +10,6 @@
 #include "even.h"
 #include "file.h"
 #include "header.h"
-#include "heights.h"
 #include "maps.h"
 #include "number_table.h"
 #include "text.h"

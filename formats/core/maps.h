@@ -1,7 +1,8 @@
 /*
- * Most readers only describe a file as maps of raw numbers at some position in it. A format fills struct
- * rc_maps from its header. Then one code does the rest for all. It lists, checks the sizes against the bytes
- * of the file, decodes, reorders, scales and marks missing points.
+ * A reader describes a file as maps: it fills struct rc_maps from the header, with the position and the type
+ * of raw numbers or with a function that fills in the values. Listing, checking the sizes against the bytes of
+ * the file, decoding, reordering, scaling and marking of missing points are the same for all readers, and are
+ * done here.
  */
 #ifndef RC_MAPS_H
 #define RC_MAPS_H
@@ -95,6 +96,10 @@ enum rc_status rc_map_is_text(struct rc_map *map, const struct rc_file *file, si
 typedef enum rc_status rc_maps_find(const struct rc_file *file, struct rc_maps *maps,
                                     struct rc_err *err);
 
+/* Calls it, names maps without a name, and checks all maps. */
+enum rc_status rc_maps_describe(rc_maps_find *find, const struct rc_file *file,
+                                const struct rc_wish *wish, struct rc_maps *maps,
+                                struct rc_err *err);
 size_t rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
                     struct rc_channel *channel, size_t most, struct rc_err *err);
 struct rc_grid *rc_maps_read(rc_maps_find *find, const struct rc_file *file,

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "heights.h"
-
 /* ---- checking ---- */
 
 static enum rc_status
@@ -37,9 +35,9 @@ check_map(const struct rc_map *map, const struct rc_file *file, struct rc_err *e
     return RC_OK;
 }
 
-static enum rc_status
-describe(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
-         struct rc_maps *maps, struct rc_err *err)
+enum rc_status
+rc_maps_describe(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
+                 struct rc_maps *maps, struct rc_err *err)
 {
     maps->n = maps->keys = 0;
     maps->wish = wish;
@@ -78,7 +76,7 @@ rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
 {
     struct rc_maps maps;
 
-    if (describe(find, file, wish, &maps, err) != RC_OK)
+    if (rc_maps_describe(find, file, wish, &maps, err) != RC_OK)
         return 0;
     for (size_t k = 0; k < maps.n && k < most && k < RC_MAPS_MOST; k++) {
         const struct rc_map *map = &maps.map[k];
@@ -180,6 +178,33 @@ scale(const struct rc_map *map, double si, double *v)
     }
 }
 
+/* Sets infinite values, which some programs write for missing points, to missing and notes their number. RC_FAIL
+ * when no finite value is left. */
+static enum rc_status
+drop_infinite(struct rc_grid *g, struct rc_notes *notes, struct rc_err *err)
+{
+    size_t infinite = 0, finite = 0, first = 0;
+
+    for (size_t k = 0; k < g->nx * g->ny; k++) {
+        finite += isfinite(g->v[k]) != 0;
+        if (!isinf(g->v[k]))
+            continue;
+        if (infinite++ == 0)
+            first = k;
+        g->v[k] = NAN;
+    }
+    if (infinite > 0 && finite == 0)
+        return rc_err_set(err, "every value that is there is infinite (%zu of %zu x %zu)", infinite,
+                          g->nx, g->ny);
+    if (infinite > 0)
+        rc_note(notes,
+                "%zu of %zu values %s infinite and read as missing, the first at column %zu, row "
+                "%zu (from 0)",
+                infinite, g->nx * g->ny, infinite == 1 ? "is" : "are", first % g->nx,
+                first / g->nx);
+    return RC_OK;
+}
+
 struct rc_grid *
 rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
              size_t index, struct rc_notes *notes, struct rc_err *err)
@@ -192,7 +217,7 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
     bool is_length, is_height;
     double si;
 
-    if (describe(find, file, wish, &maps, err) != RC_OK)
+    if (rc_maps_describe(find, file, wish, &maps, err) != RC_OK)
         return NULL;
     if (index >= maps.n || index >= RC_MAPS_MOST) {
         rc_err_set(err, "there is no channel %zu: the file has %zu", index + 1, maps.n);
@@ -226,7 +251,7 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
     if ((map->fill == NULL ? decode(map, file, g->v, err) : fill(map, file, g->v, err)) != RC_OK)
         goto failed;
     scale(map, si, g->v);
-    if (rc_heights_finite(g, notes, err) != RC_OK ||
+    if (drop_infinite(g, notes, err) != RC_OK ||
         (strcmp(map->name, "height") != 0 &&
          rc_word_keep(g, "file.channel", map->name, err) != RC_OK) ||
         rc_piece_keep(g, "file.title", map->title, err) != RC_OK ||

@@ -109,6 +109,44 @@ is_absolute(const struct rc_x3p *x)
     return is(x->text[RC_X3P_FEATURE], "PRF") && is(x->text[RC_X3P_CX_AXIS], "A");
 }
 
+static enum rc_status
+judge_axis(const char *name, const char *type, struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+
+    if (type != NULL && strcmp(type, "I") == 0)
+        return RC_OK;
+    return rc_err_set(err,
+                      "axis %s is of type '%s': only incremental axes (I), a regular grid, are "
+                      "read where main.xml lists the heights",
+                      name, type == NULL ? "" : rc_word_shown(quote, type));
+}
+
+/* Checks the kind of the data first. */
+static enum rc_status
+judge_feature(struct rc_x3p *x, struct rc_err *err)
+{
+    const char *feature = x->text[RC_X3P_FEATURE] == NULL ? "" : x->text[RC_X3P_FEATURE];
+    char quote[RC_SHOWN];
+
+    x->profile = strcmp(feature, "PRF") == 0;
+    if (strcmp(feature, "PCL") == 0)
+        return rc_err_set(err, "FeatureType PCL is a cloud of points: only maps (SUR) and profiles "
+                               "(PRF) on a regular grid are read");
+    if (!x->profile && strcmp(feature, "SUR") != 0)
+        return rc_err_set(err, "FeatureType is '%s': it must be SUR or PRF",
+                          rc_word_shown(quote, feature));
+    x->absolute = is_absolute(x);
+    x->binary = x->text[RC_X3P_POINTS] != NULL && *x->text[RC_X3P_POINTS] != '\0';
+    if (!x->profile && x->binary) {
+        x->absolute_x = is(x->text[RC_X3P_CX_AXIS], "A");
+        x->absolute_y = is(x->text[RC_X3P_CY_AXIS], "A");
+    }
+    if (!x->absolute && !x->absolute_x && judge_axis("CX", x->text[RC_X3P_CX_AXIS], err) != RC_OK)
+        return RC_FAIL;
+    return x->profile || x->absolute_y ? RC_OK : judge_axis("CY", x->text[RC_X3P_CY_AXIS], err);
+}
+
 /* "x;z", or "x;y;z" where y is absolute too; z may be missing, x may not. */
 static enum rc_status
 take_point(struct rc_x3p *x, const char *text, struct rc_err *err)
@@ -144,6 +182,8 @@ take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
     double value = NAN; /* an empty one is a missing point */
     const char *end = *text == '\0' ? text : rc_number_read(text, true, &value);
 
+    if (x->listed == 0 && x->text[RC_X3P_FEATURE] != NULL && judge_feature(x, err) != RC_OK)
+        return RC_FAIL; /* a clearer reason than that of a number */
     if (is_absolute(x))
         return take_point(x, text, err);
     if (end != NULL && *end == ';')
@@ -217,44 +257,6 @@ read_main(struct rc_x3p *x, struct rc_err *err)
 }
 
 /* ---- what main.xml says ---- */
-
-static enum rc_status
-judge_axis(const char *name, const char *type, struct rc_err *err)
-{
-    char quote[RC_SHOWN];
-
-    if (type != NULL && strcmp(type, "I") == 0)
-        return RC_OK;
-    return rc_err_set(err,
-                      "axis %s is of type '%s': only incremental axes (I), a regular grid, are "
-                      "read where main.xml lists the heights",
-                      name, type == NULL ? "" : rc_word_shown(quote, type));
-}
-
-/* Checks the kind of the data first. */
-static enum rc_status
-judge_feature(struct rc_x3p *x, struct rc_err *err)
-{
-    const char *feature = x->text[RC_X3P_FEATURE] == NULL ? "" : x->text[RC_X3P_FEATURE];
-    char quote[RC_SHOWN];
-
-    x->profile = strcmp(feature, "PRF") == 0;
-    if (strcmp(feature, "PCL") == 0)
-        return rc_err_set(err, "FeatureType PCL is a cloud of points: only maps (SUR) and profiles "
-                               "(PRF) on a regular grid are read");
-    if (!x->profile && strcmp(feature, "SUR") != 0)
-        return rc_err_set(err, "FeatureType is '%s': it must be SUR or PRF",
-                          rc_word_shown(quote, feature));
-    x->absolute = is_absolute(x);
-    x->binary = x->text[RC_X3P_POINTS] != NULL && *x->text[RC_X3P_POINTS] != '\0';
-    if (!x->profile && x->binary) {
-        x->absolute_x = is(x->text[RC_X3P_CX_AXIS], "A");
-        x->absolute_y = is(x->text[RC_X3P_CY_AXIS], "A");
-    }
-    if (!x->absolute && !x->absolute_x && judge_axis("CX", x->text[RC_X3P_CX_AXIS], err) != RC_OK)
-        return RC_FAIL;
-    return x->profile || x->absolute_y ? RC_OK : judge_axis("CY", x->text[RC_X3P_CY_AXIS], err);
-}
 
 static enum rc_status
 judge_sizes(struct rc_x3p *x, struct rc_err *err)

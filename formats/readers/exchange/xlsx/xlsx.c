@@ -341,17 +341,6 @@ block_name(const struct block *b, char name[64])
     rc_text_clean(name, 64, text, strlen(text));
 }
 
-/* A block as the file of text that it is read as; NULL with the reason. */
-static const struct rc_format *
-open_block(const struct rc_workbook *w, const struct block *b, struct text *t, struct rc_file *file,
-           struct rc_err *err)
-{
-    if (make_text(w, b, t, err) != RC_OK)
-        return NULL;
-    *file = (struct rc_file){"sheet.txt", (const unsigned char *)t->bytes, t->n};
-    return b->right - b->left < 2 ? rc_format_named("profile") : rc_format_find(file, err);
-}
-
 /* Puts the place of the block before the reason. */
 static void
 say_where(const struct block *b, struct rc_err *err)
@@ -365,103 +354,140 @@ say_where(const struct block *b, struct rc_err *err)
     rc_err_set(err, "%s: %.400s", name, why);
 }
 
-/* Reads one block as a channel of a list, and as a grid unless `g` is NULL. */
-static enum rc_status
-try_block(const struct rc_workbook *w, const struct block *b, const struct rc_wish *wish,
-          struct rc_channel *channel, struct rc_grid **g, struct rc_notes *notes,
-          struct rc_err *err)
-{
-    struct rc_wish tabs = *wish;
-    struct text t = {0};
+/* A block as a file of text, and the map in it. */
+struct opened {
+    struct text text;
     struct rc_file file;
-    const struct rc_format *format = open_block(w, b, &t, &file, err);
-    enum rc_status status = RC_FAIL;
-    char name[64];
+    struct rc_wish wish;
+    struct rc_maps maps;
+};
 
-    tabs.separator = "\t";
-    tabs.decimal = '.';
-    tabs.missing = NULL;
-    block_name(b, name);
-    if (format != NULL && rc_format_list(format, &file, &tabs, channel, 1, err) > 0) {
-        strcpy(channel->name, name);
-        status = RC_OK;
-        if (g != NULL && ((*g = rc_format_read(format, &file, &tabs, 0, notes, err)) == NULL ||
-                          rc_word_keep(*g, "file.channel", name, err) != RC_OK)) {
-            rc_grid_free(*g);
-            *g = NULL;
-            status = RC_FAIL;
-        }
+static void
+opened_free(struct opened *o)
+{
+    if (o != NULL)
+        free(o->text.bytes);
+    free(o);
+}
+
+static enum rc_status
+describe(const struct rc_workbook *w, const struct block *b, struct opened *o, struct rc_err *err)
+{
+    const struct rc_format *format;
+
+    if (make_text(w, b, &o->text, err) != RC_OK)
+        return RC_FAIL;
+    o->file = (struct rc_file){"sheet.txt", (const unsigned char *)o->text.bytes, o->text.n};
+    format = b->right - b->left < 2 ? rc_format_named("profile") : rc_format_find(&o->file, err);
+    return format == NULL ? RC_FAIL
+                          : rc_maps_describe(format->find, &o->file, &o->wish, &o->maps, err);
+}
+
+/* NULL with the reason. */
+static struct opened *
+open_block(const struct rc_workbook *w, const struct block *b, const struct rc_wish *wish,
+           struct rc_err *err)
+{
+    struct opened *o = calloc(1, sizeof *o);
+
+    if (o == NULL) {
+        rc_err_set(err, "out of memory for a block of a workbook");
+        return NULL;
     }
-    if (status != RC_OK)
-        say_where(b, err);
-    free(t.bytes);
+    o->wish = *wish;
+    o->wish.separator = "\t";
+    o->wish.decimal = '.';
+    o->wish.missing = NULL;
+    if (describe(w, b, o, err) == RC_OK)
+        return o;
+    say_where(b, err);
+    opened_free(o);
+    return NULL;
+}
+
+/* A workbook and its blocks. */
+struct book {
+    struct rc_workbook workbook;
+    struct columns columns;
+    struct blocks blocks;
+};
+
+static void
+book_free(struct book *k)
+{
+    if (k != NULL)
+        rc_workbook_free(&k->workbook);
+    free(k);
+}
+
+/* NULL with the reason. */
+static struct book *
+book_new(const struct rc_file *file, struct rc_err *err)
+{
+    struct book *k = calloc(1, sizeof *k);
+
+    if (k == NULL) {
+        rc_err_set(err, "out of memory for reading a workbook");
+        return NULL;
+    }
+    if (rc_workbook_read(&k->workbook, file, err) != RC_OK) {
+        book_free(k);
+        return NULL;
+    }
+    for (size_t s = 0; s < k->workbook.sheets; s++) {
+        find_runs(&k->workbook.sheet[s], &k->columns);
+        find_blocks(&k->workbook.sheet[s], &k->columns, &k->blocks);
+    }
+    return k;
+}
+
+static enum rc_status
+fill_block(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
+{
+    struct book *k = book_new(file, err);
+    struct opened *o =
+        k == NULL ? NULL : open_block(&k->workbook, &k->blocks.block[map->more], map->wish, err);
+    enum rc_status status = RC_FAIL;
+
+    if (o != NULL) {
+        struct rc_map *inner = &o->maps.map[0];
+
+        inner->wish = &o->wish;
+        inner->notes = map->notes;
+        if ((status = inner->fill(&o->file, inner, v, err)) != RC_OK)
+            say_where(&k->blocks.block[map->more], err);
+    }
+    opened_free(o);
+    book_free(k);
     return status;
 }
 
-/* Visits the readable blocks up to the requested one; `channel` then has its list. Gives their number. */
-static size_t
-walk(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-     size_t most, size_t wanted, struct rc_grid **g, struct rc_notes *notes, struct rc_err *err)
+/* Each block that can be read as text is a channel. */
+static enum rc_status
+xlsx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_workbook *w = malloc(sizeof *w);
-    struct columns *columns = malloc(sizeof *columns);
-    struct blocks blocks = {.n = 0};
-    struct rc_channel one;
-    struct rc_err why = {""}, first = {""};
-    size_t n = 0;
+    struct rc_err why = {""}, first = {"the workbook has no column of numbers"};
+    struct book *k = book_new(file, err);
 
-    if (w == NULL || columns == NULL) {
-        rc_err_set(err, "out of memory for reading a workbook");
-        free(w);
-        free(columns);
-        return 0;
-    }
-    if (rc_workbook_read(w, file, err) != RC_OK)
-        goto done;
-    for (size_t k = 0; k < w->sheets; k++) {
-        find_runs(&w->sheet[k], columns);
-        find_blocks(&w->sheet[k], columns, &blocks);
-    }
-    for (size_t k = 0; k < blocks.n && n <= wanted; k++) {
-        bool is_it = g != NULL && n == wanted;
+    for (size_t n = 0; k != NULL && n < k->blocks.n; n++) {
+        const struct block *b = &k->blocks.block[n];
+        struct opened *o = open_block(&k->workbook, b, maps->wish, &why);
+        struct rc_map *map = o == NULL ? NULL : rc_maps_add(maps, "", 0);
 
-        if (try_block(w, &blocks.block[k], wish, &one, NULL, NULL, &why) != RC_OK) {
-            if (first.text[0] == '\0')
-                first = why;
+        if (n == 0)
+            first = why;
+        if (map == NULL)
             continue;
-        }
-        if (is_it)
-            try_block(w, &blocks.block[k], wish, &one, g, notes, err);
-        if (n < most)
-            channel[n] = one;
-        n++;
+        *map = o->maps.map[0];
+        block_name(b, map->name);
+        map->fill = fill_block;
+        map->more = n;
+        opened_free(o);
     }
-    if (n == 0)
-        rc_err_set(err, "%s", blocks.n == 0 ? "the workbook has no column of numbers" : first.text);
-    else if (g != NULL && *g == NULL && n <= wanted)
-        rc_err_set(err, "there is no channel %zu: the file has %zu", wanted + 1, n);
-done:
-    rc_workbook_free(w);
-    free(w);
-    free(columns);
-    return n;
-}
-
-static size_t
-xlsx_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-          size_t most, struct rc_err *err)
-{
-    return walk(file, wish, channel, most, SIZE_MAX - 1, NULL, NULL, err);
-}
-
-static struct rc_grid *
-xlsx_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-          struct rc_notes *notes, struct rc_err *err)
-{
-    struct rc_grid *g = NULL;
-
-    walk(file, wish, NULL, 0, index, &g, notes, err);
-    return g;
+    if (k != NULL && maps->n == 0)
+        rc_err_set(err, "%s", first.text);
+    book_free(k);
+    return maps->n > 0 ? RC_OK : RC_FAIL;
 }
 
 const struct rc_format rc_format_xlsx = {
@@ -470,6 +496,5 @@ const struct rc_format rc_format_xlsx = {
     .summary = "workbooks (XLSX): blocks of numbers as profiles and maps",
     .is = rc_workbook_is,
     .sure = 90,
-    .list = xlsx_list,
-    .read = xlsx_read,
+    .find = xlsx_find,
 };
