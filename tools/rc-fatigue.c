@@ -101,7 +101,8 @@ struct run {
     struct numbers depths;
     const double **map[3]; /* pressure and tractions of each case */
     size_t *column;
-    double step; /* m: largest distance of the contact between two states */
+    double step;  /* m: largest distance of the contact between two states */
+    size_t needs; /* bytes of all work, beside the maps that are read */
     struct rc_grid *frame[RC_FATIGUES];
 };
 
@@ -264,6 +265,31 @@ set_columns(struct run *run)
             rounded);
 }
 
+static size_t
+count_wanted(void)
+{
+    size_t n = 0;
+
+    for (int c = 0; c < RC_FATIGUES; c++)
+        n += wanted(c);
+    return n;
+}
+
+/* Lines along the travel. */
+static size_t
+lines_of(const struct run *run)
+{
+    return run->problem.pass == 'y' ? run->position[0].p->nx : run->position[0].p->ny;
+}
+
+static size_t
+columns_of(const struct run *run)
+{
+    const struct rc_shape shape = rc_grid_shape(run->position[0].p);
+
+    return rc_fatigue_shape(&shape, &run->problem).nx;
+}
+
 static void
 set_problem(struct run *run)
 {
@@ -271,7 +297,7 @@ set_problem(struct run *run)
     const struct rc_grid *first = run->position[0].p;
     const struct rc_shape shape = rc_grid_shape(first);
     const size_t n = run->positions;
-    size_t plan, maps, left = tool_memory_left(t);
+    size_t frames, least, left = tool_memory_left(t);
     struct rc_err err;
 
     run->column = tool_room(t, n, sizeof *run->column, "cases");
@@ -298,10 +324,15 @@ set_problem(struct run *run)
         run->problem.traction[k] = run->map[k + 1][0] == NULL ? NULL : run->map[k + 1];
     tool_must(t, first, rc_fatigue_check(&shape, &run->problem, &err), &err);
     /* histories get what the plan, the maps and the frames leave */
-    plan = (size_t)(stress_plan_bytes(&run->options, RC_COMPONENTS) * (double)rc_grid_nodes(first));
+    frames = run->problem.pass != 0 ? run->depths.n * lines_of(run) : columns_of(run) * first->ny;
+    frames *= count_wanted() * sizeof(double);
     run->problem.room = 1;
-    maps = plan + 2 * rc_fatigue_memory(&shape, &run->problem);
-    run->problem.room = left > maps ? left - maps : 1;
+    run->needs =
+        (size_t)(stress_plan_bytes(&run->options, RC_COMPONENTS) * (double)rc_grid_nodes(first)) +
+        frames;
+    least = run->needs + rc_fatigue_memory(&shape, &run->problem);
+    run->problem.room = left > least ? left - least : 1;
+    run->needs += rc_fatigue_memory(&shape, &run->problem);
 }
 
 /* ---- depths and frames ---- */
@@ -375,11 +406,9 @@ set_keys(struct run *run, struct rc_grid *g)
     const char pass[2] = {run->problem.pass, '\0'};
     struct numbers *d = &run->depths;
     struct rc_err err;
-    size_t frames = 0;
+    size_t frames = count_wanted();
     bool fine = true;
 
-    for (int c = 0; c < RC_FATIGUES; c++)
-        frames += wanted(c);
     for (size_t k = 0; k < sizeof gone / sizeof *gone; k++)
         fine = fine && rc_grid_set(g, gone[k], NULL, &err) == RC_OK;
     if (pass[0] != '\0') {
@@ -525,9 +554,6 @@ show_plan(struct run *run, const struct rc_shape *shape)
 {
     const struct rc_grid *first = run->position[0].p;
     const struct rc_shape r = rc_fatigue_shape(shape, &run->problem);
-    const size_t bytes =
-        rc_fatigue_memory(shape, &run->problem) +
-        (size_t)(stress_plan_bytes(&run->options, RC_COMPONENTS) * (double)rc_grid_nodes(first));
     const struct numbers *d = &run->depths;
     FILE *out = run->t.out;
 
@@ -541,7 +567,7 @@ show_plan(struct run *run, const struct rc_shape *shape)
     fprintf(out, "  %-14s%zu at each depth\n", "histories", r.nx * r.ny);
     for (int c = 0; c < RC_FATIGUES; c++)
         fprintf(out, "  %-14s%s\n", rc_criterion_names[c], wanted(c) ? "on" : "left out");
-    fprintf(out, "  %-14sabout %zu MiB\n", "memory", (tool_memory_with(bytes) >> 20) + 1);
+    fprintf(out, "  %-14sabout %zu MiB\n", "memory", (tool_memory_with(run->needs) >> 20) + 1);
 }
 
 static void
@@ -551,7 +577,6 @@ do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, s
     const double depth = run->depths.v[k], *at[RC_COMPONENTS];
     const struct rc_body *body = &run->options.body;
     const struct rc_fatigue_limits l = fatigue_limits_at(&run->limits, body, depth);
-    const size_t lines = run->problem.pass == 'y' ? run->position[0].p->nx : run->position[0].p->ny;
     double *to[RC_FATIGUES] = {NULL};
     struct rc_err err;
 
@@ -561,7 +586,8 @@ do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, s
             to[c] = run->frame[c]->v + (run->problem.pass != 0 ? k * result->nx : 0);
     tool_must(t, run->position[0].p,
               rc_fatigue_depth(f, depth, &l,
-                               fatigue_residual_at(t, &run->residual, lines, depth, at), to, &err),
+                               fatigue_residual_at(t, &run->residual, lines_of(run), depth, at), to,
+                               &err),
               &err);
     for (int c = 0; c < RC_FATIGUES && run->problem.pass == 0; c++) {
         if (!wanted(c))
@@ -587,13 +613,14 @@ do_history(struct run *run)
     double *by_depth[RC_CRITERIA + 1];
     struct rc_err err;
 
-    set_problem(run);
     fatigue_limits_check(t, first, &run->limits, &run->options.body);
     set_depths(run);
+    set_problem(run);
     if (args.dry_run) {
         show_plan(run, &shape);
         return;
     }
+    tool_demand_memory(t, first, run->needs);
     result = rc_fatigue_shape(&shape, &run->problem);
     if ((f = rc_fatigue_new(&shape, &run->problem, &err)) == NULL)
         tool_die_at(t, first, EXIT_IMPOSSIBLE, "%s", err.text);
