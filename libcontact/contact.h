@@ -1598,11 +1598,11 @@ struct rc_fatigue_problem {
 };
 /* The largest value of a criterion. */
 struct rc_fatigue_place {
-    double value;       /* index, or Pa for the amplitude; NAN: not wanted, or no depth yet    */
-    double x, y, depth; /* m; x NAN: all of the travel                                         */
-    double
-        sampling_error; /* relative: change of the largest values of this depth when only every second
-                              state is taken */
+    double value;       /* index, or Pa for the amplitude; NAN: not wanted, or no depth yet */
+    double x, y, depth; /* m; x NAN: all of the travel                                      */
+    /* Relative: estimated from the change of the largest values of this depth when only every second state is
+     * taken. */
+    double sampling_error;
 };
 struct rc_fatigue_figures {
     struct rc_fatigue_place largest[RC_CRITERIA + 1];

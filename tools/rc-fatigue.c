@@ -419,7 +419,6 @@ set_keys(struct run *run, struct rc_grid *g)
             n += (size_t)snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",",
                                   rc_number_text(number, d->v[k]));
         fine = fine && rc_grid_set(g, "section", pass, &err) == RC_OK &&
-               rc_grid_set(g, "at", "0", &err) == RC_OK &&
                rc_grid_set(g, "depths", text, &err) == RC_OK;
         free(text);
     } else {

@@ -14,9 +14,13 @@
 #include "libcontact/memory.h"
 
 enum {
-    WORST = 8, /* points of a depth whose sampling error is measured          */
+    WORST = 16, /* points of a depth whose sampling error is measured          */
     TOGETHER = 16
 };
+
+/* Of 60 rough contacts the true sampling error was at most 1.12 times the change due to half of the states if
+ * the states are at most half a depth apart, and 2.1 times down to a depth of half their distance. */
+static const double caution = 1.25, caution_near = 2.5;
 
 static const unsigned six = (1U << RC_COMPONENTS) - 1;
 
@@ -352,6 +356,20 @@ take(const struct rc_fatigue *f, struct rc_history *w, size_t point, size_t firs
 
 /* ---- the largest values ---- */
 
+/* Largest distance of the contact between two states. */
+static double
+spacing(const struct rc_fatigue *f)
+{
+    const struct rc_fatigue_problem *p = &f->problem;
+    double most = 0;
+
+    if (p->pass != 0)
+        return p->pass == 'x' ? f->shape.dx : f->shape.dy;
+    for (size_t t = 1; p->column != NULL && t < p->cases; t++)
+        most = fmax(most, fabs((double)p->column[t] - (double)p->column[t - 1]));
+    return most * f->shape.dx;
+}
+
 /* Keeps the points with the largest values of a depth, and measures their sampling error: the change if only
  * the even, or only the odd states are taken. */
 static void
@@ -374,6 +392,7 @@ keep_worst(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, int c, size
     }
     for (k = bound; k > 0 && value > worst[k - 1].value; k--)
         worst[k] = worst[k - 1];
+    error *= spacing(f) > f->at / 2 * (1 + 1e-9) ? caution_near : caution;
     worst[k] = (struct worst){value, error / value, point};
     f->worsts[c] = bound + 1;
 }

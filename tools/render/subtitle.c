@@ -32,7 +32,7 @@ say_where(struct subtitle *w, const struct rc_grid *g, bool largest)
     if (section != NULL) {
         snprintf(name, sizeof name, "section %.1s = ", section);
         subtitle_add(w, name,
-                     rc_grid_number(g, "at", &number) ? scale_value(text, number, "m") : "?");
+                     rc_grid_number(g, "at", &number) ? scale_value(text, number, "m") : "all");
     } else if (rc_grid_number(g, "depth", &number)) {
         scale_value(text, number, "m");
         snprintf(name, sizeof name, "%s%s", text, largest ? " (where it is largest)" : "");
