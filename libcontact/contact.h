@@ -199,12 +199,12 @@ struct rc_filter {
 RC_API enum rc_status rc_filter(const struct rc_shape *shape, const struct rc_filter *what,
                                 double *h, struct rc_err *err);
 
-/* Sets a point to missing if it differs from the median of the others in the 5 x 5 nodes around it by more
- * than `times` times the spread. *count is the number of such points. The spread is 1.4826 times the median
- * absolute deviation of all such differences, which is the standard deviation for Gaussian noise. Missing
- * neighbours and, unless the map is periodic, those beyond its edges do not count; a point without neighbours
- * is kept. RC_FAIL when `times` is not positive, a height is infinite, or memory is short; h is then
- * unchanged. */
+/* Sets a point to missing if it differs too much from the median of the others in the 5 x 5 nodes around it.
+ * The limit is `times` times the spread. *count is the number of such points. The spread is 1.4826 times the
+ * median absolute deviation of all such differences, which is the standard deviation for Gaussian noise.
+ * Missing neighbours and, unless the map is periodic, those beyond its edges do not count; a point without
+ * neighbours is kept. RC_FAIL when `times` is not positive, a height is infinite, or memory is short; h is
+ * then unchanged. */
 RC_API enum rc_status rc_outliers(const struct rc_shape *shape, double times, bool periodic,
                                   size_t threads, double *h, size_t *count, struct rc_err *err);
 
@@ -419,14 +419,14 @@ struct rc_profile {
     double ra, rq, rsk, rku; /* m, m, skewness and kurtosis                                    */
     double rpt, rvt, rt;     /* m: highest peak, deepest pit, their sum, over the whole length */
     double rp, rv, rz;       /* m: the same in each section, then means over the sections      */
-    /* m: mean spacing and height of the elements: a hill and the following dale, each at least 10 % of rz,
-     * from one rising crossing of the mean line to the next; NAN: none is complete */
+    /* m: mean spacing and height of the elements. An element is a hill and the following dale, each at least
+     * 10 % of rz, from one rising crossing of the mean line to the next. NAN: none is complete */
     double rsm, rc;
     double rdq; /* RMS slope by the seven-point formula; NAN: fewer points */
     size_t elements;
 };
-/* For n heights z (m), a step (m) apart, in this number of sections (usually 5). RC_FAIL when one is missing
- * or there are fewer heights than sections. */
+/* Takes n heights z (m), a step (m) apart, in this number of sections (usually 5). RC_FAIL when one is
+ * missing or there are fewer heights than sections. */
 RC_API enum rc_status rc_profile_measure(size_t n, double step, const double *z, size_t sections,
                                          struct rc_profile *profile, struct rc_err *err);
 /* n heights along the line between two positions on a map, both included, by cubics through the nodes; NAN
@@ -672,7 +672,7 @@ RC_API void rc_solver_result(struct rc_solver *solver, double *displacement, dou
                              struct rc_contact *contact);
 /* The height map (nx ny m) after elastic unloading: where the hardness was reached, the heights are lower by
  * the overlap; accurate to shape_error. Under the same load again, this shape carries the same pressure
- * without further yielding. After rc_solver_result. */
+ * without further yielding. Call it after rc_solver_result. */
 RC_API enum rc_status rc_solver_plastic(const struct rc_solver *solver, double *h,
                                         struct rc_err *err);
 /* For a loading history, where each load acts on the shape that earlier ones left: set each load, step to the
@@ -693,8 +693,8 @@ RC_API void rc_contact_apart(const struct rc_ranks *ranks, const struct rc_shape
 RC_API enum rc_status rc_solver_stiffness(struct rc_solver *solver, double *stiffness,
                                           struct rc_err *err);
 /* Conductance of heat or electric current from one body to the other, by Barber's analogy (Proc. R. Soc. A
- * 459 (2003) 53): for conductivities k1, k2 of the bodies 2 S/(E* (1/k1 + 1/k2)), with S the stiffness if all
- * nodes in contact, also those at the hardness, moved together. It is the flow over the difference of the
+ * 459 (2003) 53). For conductivities k1, k2 of the bodies it is 2 S/(E* (1/k1 + 1/k2)). S is the stiffness if
+ * all nodes in contact, also those at the hardness, moved together. It is the flow over the difference of the
  * potentials far away. On a periodic map the difference is that of the mean potentials of the two surfaces.
  * Only the contact conducts, and it has no film. */
 struct rc_conductance {
@@ -702,9 +702,9 @@ struct rc_conductance {
     double value;     /* W/K with k1, k2 in W/(m K); S with S/m                           */
     double lower; /* lower bound for these nodes; its difference from `value` shows the accuracy */
 };
-/* At the solution, after rc_solver_result. NAN for layered bodies, to which the analogy does not apply, and
- * where a periodic surface is in complete contact. Takes 10 to 20 convolutions; RC_FAIL when a conductivity
- * is not positive and finite, and when memory is short. */
+/* Call it at the solution, after rc_solver_result. NAN for layered bodies, to which the analogy does not
+ * apply, and where a periodic surface is in complete contact. Takes 10 to 20 convolutions; RC_FAIL when a
+ * conductivity is not positive and finite, and when memory is short. */
 RC_API enum rc_status rc_solver_conductance(struct rc_solver *solver, double k1, double k2,
                                             struct rc_conductance *conductance, struct rc_err *err);
 /* Names of engine and method, and the reason for the engine. */
@@ -780,9 +780,9 @@ struct rc_plastic_figures {
      * node */
     double max_pressure_mean4;
     double lag; /* the lag that was reached */
-    /* Estimated relative L1 error of the pressure, the sum of its parts. In order: from the increments of
-     * this load (NAN for fewer than 8); from those of earlier loads (NAN where one had fewer); from the
-     * iteration; from the tolerance of the contacts; from the periodic images of a free map. */
+    /* Estimated relative L1 error of the pressure, the sum of its parts. The parts are: from the increments
+     * of this load (NAN for fewer than 8); from those of earlier loads (NAN where one had fewer). Then: from
+     * the iteration; from the tolerance of the contacts; from the periodic images of a free map. */
     double error, increment_error, inherited_error, iteration_error, contact_error, image_error;
     double strained; /* m^3: the integral of the equivalent strain over the volume */
 };
@@ -907,7 +907,7 @@ struct rc_adhesion_figures {
     double max_pressure, min_pressure;      /* Pa                                               */
     double edge_traction; /* largest sigma over sigma(0) at the edge of a free map; else 0 */
     /* The smallest eigenvalue of A - D on the nodes off contact, A = 1/K and D = -sigma', in units of A as
-     * the contact leaves it: above 0 the state is stable under the control in use, below 0 it is a saddle */
+     * the contact leaves it. Above 0 the state is stable under the control in use; below 0 it is a saddle */
     double stability;
     bool stable;    /* stability > 0, to the accuracy of the iteration                  */
     bool separated; /* under this load the bodies separate, and no stable state is left */
@@ -915,7 +915,8 @@ struct rc_adhesion_figures {
      * the curvatures during the iteration; several in a row may count as one */
     size_t jumps;
     /* The lowest load of the retraction of rc_adhesion_pull_off, N, its approach, m, and the error of the
-     * load: twice the misfit of a parabola through neighbouring states, or what a jump hides */
+     * load. This is twice the misfit of a parabola through neighbouring states, or the error that a jump
+     * hides */
     double pull_off_load, pull_off_approach, pull_off_spread;
     bool pull_off_at_start; /* the lowest load is at the first state of the retraction */
     size_t states;          /* states of this retraction, otherwise 1 */
@@ -981,9 +982,9 @@ RC_API void rc_adhesion_pressure(const struct rc_adhesion *a, double *pressure);
 RC_API void rc_adhesion_gap(const struct rc_adhesion *a, double *gap);
 RC_API void rc_adhesion_displacement(const struct rc_adhesion *a, double *displacement);
 RC_API void rc_adhesion_traction(const struct rc_adhesion *a, double *traction);
-/* Elastic unloading where the hardness was reached: subtracts the overlap from the heights of the path from
- * here on, and from h. h, nx ny m (or NULL), holds the first heights less the overlap that was subtracted
- * before. No effect if no node has yielded. rc_adhesion_pull_off calls it first. */
+/* Elastic unloading where the hardness was reached. It subtracts the overlap from the heights of the path
+ * from here on, and from h. h, nx ny m (or NULL), holds the first heights less the overlap that was
+ * subtracted before. No effect if no node has yielded. rc_adhesion_pull_off calls it first. */
 RC_API void rc_adhesion_keep_shape(struct rc_adhesion *a, double *h);
 RC_API void rc_adhesion_free(struct rc_adhesion *a); /* NULL is allowed */
 
@@ -1180,9 +1181,9 @@ struct rc_friction_figures {
     size_t passes;               /* since the last point kept: pressures passed to friction      */
     /* relative L1, of the last pass; 0: only one pass is needed */
     double pressure_change, traction_change;
-    /* Estimated relative L1 errors of the tractions: of the last increment, with what further passes
-     * would change; of the iteration of earlier increments; of the contacts of this and earlier
-     * increments; of too few increments (NAN: unknown) */
+    /* Estimated relative L1 errors of the tractions. First: of the last increment, with the change by further
+     * passes. Then: of the iteration of earlier increments; of the contacts of this and earlier increments;
+     * of too few increments (NAN: unknown) */
     double traction_error, inherited_error, contact_error, increment_error;
     double approach;     /* m, as in rc_contact; NAN: unknown                                */
     double convolutions; /* convolutions of friction and contacts, since the last point kept */

@@ -1,6 +1,6 @@
 /*
  * libcontact on several processes: the ranks of an MPI communicator share a map, each with some of its rows.
- * Only in a library built with MPI (-DRC_MPI=ON).
+ * It exists only in a library built with MPI (-DRC_MPI=ON).
  *
  *     struct rc_ranks *ranks = rc_ranks_new(MPI_COMM_WORLD, &err);
  *     rc_ranks_rows(ranks, &shape, &first, &n);           which rows are this rank's

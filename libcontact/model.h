@@ -186,7 +186,7 @@ struct rc_loop {
     const char *what, *unit; /* unit NULL: a count */
     double at, of;           /* position, and the total; total NAN: unknown */
 };
-/* From the outermost loop to the innermost: time 0.3 of 1 s, increment 3 of 16, iteration 5. */
+/* The order is from the outermost loop to the innermost: time 0.3 of 1 s, increment 3 of 16, iteration 5. */
 struct rc_loops {
     size_t n;
     struct rc_loop loop[RC_LOOPS];
@@ -199,9 +199,9 @@ RC_API void rc_model_progress(const struct rc_model *model, struct rc_loops *loo
 
 /* ---- states: numbers that a file may keep ---- */
 
-/* After any step. Fewest right after a keep; no heights of the undeformed bodies. The first two tell how many
- * numbers and maps there are; the maps come behind the numbers, each with the nodes of this rank. The numbers
- * of all ranks are the same. */
+/* Call these after any step. Fewest right after a keep; no heights of the undeformed bodies. The first two
+ * tell how many numbers and maps there are; the maps come behind the numbers, each with the nodes of this
+ * rank. The numbers of all ranks are the same. */
 RC_API size_t rc_model_state_size(struct rc_model *model);
 RC_API void rc_model_state(struct rc_model *model, double *state);
 /* Continues from this state in a model that was made in the same way. *going: a point is set and not reached

@@ -145,8 +145,8 @@ void rc_gap_down(struct rc_gap *g, double first);
 
 /* ---- stability.c ---- */
 
-/* Makes a step of a locally optimal conjugate gradient iteration (Knyazev 2001) and returns the smallest
- * eigenvalue of (A - D) x = mu (K_FF)^-1 x under the control. F are the nodes not in contact. */
+/* Makes a step of a locally optimal conjugate gradient iteration (Knyazev 2001) under the control. Returns
+ * the smallest eigenvalue of (A - D) x = mu (K_FF)^-1 x. F are the nodes not in contact. */
 void rc_gap_eigen_begin(struct rc_gap *g);
 void rc_gap_eigen_step(struct rc_gap *g);
 /* Leaves a saddle along the eigenvector, in the direction that lowers Phi. */

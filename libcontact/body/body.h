@@ -71,9 +71,9 @@ struct rc_inside_type {
                    double *out);
     /* Its mean on the periodic map, the same at any depth. */
     double (*mean)(const struct rc_inside *inside, int kernel, const struct rc_shape *shape);
-    /* `coefficients` writes the stresses at (x[i], y[i]), i < n, under unit load on the cell about the
-     * origin, to out[kernel][i], for every kernel whose bit is set. `line` writes the same at (i step, y),
-     * and is faster where step is dx. Free boundary. */
+    /* `coefficients` writes the stresses at (x[i], y[i]), i < n, to out[kernel][i], for every kernel whose
+     * bit is set. The unit load is on the cell about the origin. `line` writes the same at (i step, y), and
+     * is faster where step is dx. Free boundary. */
     void (*coefficients)(const struct rc_inside *inside, const struct rc_cell *cell,
                          unsigned kernels, size_t n, const double *x, const double *y,
                          double *const out[RC_STRESS_KERNELS]);
@@ -185,7 +185,7 @@ rc_solid_free(struct rc_solid *solid) /* NULL is allowed */
 enum rc_status rc_pair_check(const struct rc_pair *pair, struct rc_err *err);
 /* True if the spectrum of their padded kernel is positive on any map. */
 bool rc_pair_positive(const struct rc_pair *pair);
-/* E* of both, Pa, if it is the same for all waves; NAN: it varies. For a checked pair. */
+/* E* of both, Pa, if it is the same for all waves; NAN: it varies. The pair must be checked before. */
 double rc_pair_modulus(const struct rc_pair *pair);
 /* The larger of the lengths (m) over which layers of either body bend that are thin compared with `side`; 0:
  * none. */

@@ -37,8 +37,8 @@ void rc_stack_far(const struct rc_stack *stack, size_t n, const double *r2, doub
 /* g(q) - g(infinity). */
 double rc_stack_excess(const struct rc_stack *stack, double q);
 
-/* The medium at a depth, 0 on top: an interface belongs to the medium above it. And the depth of a medium's
- * upper side. */
+/* The medium at a depth, 0 on top: an interface belongs to the medium above it. Also returns the depth of a
+ * medium's upper side. */
 size_t rc_stack_medium(const struct rc_stack *stack, double depth);
 double rc_stack_top(const struct rc_stack *stack, size_t medium);
 

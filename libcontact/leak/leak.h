@@ -98,7 +98,7 @@ enum rc_face_rule {
 };
 
 /* Conductance from node k in this direction, where rc_passage_beside has a node; to inlet and outlet over
- * half a cell. In units of the cube of the largest gap. */
+ * half a cell. The unit is the cube of the largest gap. */
 double rc_face(const struct rc_passage *a, enum rc_face_rule rule, int32_t k, int32_t other,
                enum rc_direction d);
 
@@ -142,7 +142,7 @@ struct rc_elimination *rc_elimination_new(const struct rc_passage *a, struct rc_
 /* The conductance from inlet to outlet. RC_FAIL when memory is short. */
 enum rc_status rc_elimination_run(struct rc_elimination *e, const struct rc_passage *a,
                                   enum rc_face_rule rule, double *conductance, struct rc_err *err);
-/* After a run: the levels of flowing nodes. */
+/* Writes the levels of flowing nodes, after a run. */
 void rc_elimination_levels(struct rc_elimination *e, const struct rc_levels *levels);
 void rc_elimination_free(struct rc_elimination *e); /* NULL is allowed */
 

@@ -76,20 +76,20 @@ void rc_spectrum_add(struct rc_spectrum *spectrum, const struct rc_fft *fft, boo
 enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                       const struct rc_kernel *kernel, struct rc_err *err);
 
-/* The same in steps, for a kernel of this parity. On the free boundary: from a quarter of the kernel's
- * period, its values at the offsets i < *nx, j < *ny. Each row of *nx values is transformed as soon as it is
- * passed, by threads of one OpenMP team. Then the spectrum is made from all rows. Ranks compute and pass rows
- * *first .. *first + *n - 1 each; RC_FAIL when memory for the rows of the others is short, which cannot
- * happen without ranks. */
+/* The same in steps, for a kernel of this parity. On the free boundary the spectrum comes from a quarter of
+ * the kernel's period, its values at the offsets i < *nx, j < *ny. Each row of *nx values is transformed as
+ * soon as it is passed, by threads of one OpenMP team. Then the spectrum is made from all rows. Ranks compute
+ * and pass rows *first .. *first + *n - 1 each; RC_FAIL when memory for the rows of the others is short,
+ * which cannot happen without ranks. */
 void rc_fft_quarter(const struct rc_fft *fft, size_t *nx, size_t *ny);
 void rc_fft_quarter_rows(const struct rc_fft *fft, size_t *first, size_t *n);
 void rc_fft_quarter_row(const struct rc_fft *fft, unsigned parity, double *row);
 enum rc_status rc_spectrum_set_quarter(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                        unsigned parity, const double *rows, struct rc_err *err);
-/* On the periodic boundary: from the kernel's transform, over (-i)^(number of odd directions), at wave
- * numbers qx, qy >= 0 in rad/m. Several threads call it for a column i of equal qx: out[j] at qy[j], j < n.
- * It may return false where all are zero. Waves of two nodes are left out in a direction in which the kernel
- * is odd: they are zero at all nodes. */
+/* On the periodic boundary it comes from the kernel's transform, over (-i)^(number of odd directions). Wave
+ * numbers are qx, qy >= 0 in rad/m. Several threads call it for a column i of equal qx: out[j] at qy[j], j <
+ * n. It may return false where all are zero. Waves of two nodes are left out in a direction in which the
+ * kernel is odd: they are zero at all nodes. */
 typedef bool rc_symbol(const void *of, size_t i, double qx, size_t n, const double *qy,
                        double *out);
 void rc_spectrum_sample(struct rc_spectrum *spectrum, const struct rc_fft *fft, unsigned parity,

@@ -247,7 +247,7 @@ transform_some(struct plan *f, size_t columns, void *ctx, rc_row *make, bool bac
     }
 }
 
-/* From rows to columns, and back. */
+/* Moves data from rows to columns, and back. */
 static void
 turn(struct plan *f, bool back)
 {

@@ -543,8 +543,10 @@ set_heights(struct rc_model *m, const double *h, struct rc_err *err)
     return y->elastic != NULL ? rc_solver_set_heights(y->elastic, h, err) : RC_OK;
 }
 
-/* ---- states: counts and loads; then for an elastic contact the pressure, or for a volume the thicknesses of
- * its slabs, the state before the load, and the state of the volume ---- */
+/* ---- states ---- */
+
+/* A state has counts and loads first. Then comes the pressure of an elastic contact. For a volume come the
+ * thicknesses of its slabs, the state before the load, and its own state. */
 
 /* Forgets the volume, because the state that was read has none. */
 static void

@@ -165,7 +165,7 @@ rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *from, co
     __builtin_memcpy(w, v, (from[1] - from[0]) * bytes);
 }
 
-/* Not reached with one rank. */
+/* This line is not reached with one rank. */
 static inline void *
 rc_ranks_room(const struct rc_ranks *ranks)
 {

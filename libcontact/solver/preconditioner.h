@@ -43,7 +43,7 @@ void rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float 
 void rc_preconditioner_extend(struct rc_preconditioner *e, const unsigned char *w, const float *r,
                               float *out);
 
-/* For each node on W: minus its share of the load of a common shift of W. */
+/* For each node on W it is minus the node's share of the load of a common shift of W. */
 #define RC_LEAST_SHARE 1e-3F
 static inline float
 rc_load_share(float node)

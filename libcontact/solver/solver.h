@@ -281,8 +281,8 @@ void rc_working_set_forget(struct rc_solver *solver);
 void rc_solver_restart(struct rc_solver *solver);
 /* True if the caller cannot wait. */
 bool rc_solver_hurried(const struct rc_solver *solver);
-/* Adds a diagonal to the operator, as rc_operator_set_diagonal, from the next load or heights on. Not with a
- * free tilt. */
+/* Adds a diagonal to the operator, as rc_operator_set_diagonal, from the next load or heights on. It does not
+ * work with a free tilt. */
 enum rc_status rc_solver_set_diagonal(struct rc_solver *solver, double plus, const double *part,
                                       double row, struct rc_err *err);
 /* z (n Pa) = E' A E e on the elastic nodes, e (n m), less the pressure of a common shift. Costs two factors of a

@@ -12,7 +12,8 @@
  * the shift. In the quadratic form of the inverse, A, the nearest admissible point is p + d + A mu with
  * multipliers mu on the stopped nodes. One Jacobi sweep with the coefficients of A between a node and its
  * eight neighbours gives most of it. Errors after 1, 2, 3, 4 steps at 2048 x 2048, 39 % contact, rough down
- * to 2 nodes. Without the sweep: 0.060, 4.2e-3, 3.1e-4, 7.3e-5. With it: 0.047, 2.0e-3, 1.7e-4, 3.6e-5.
+ * to 2 nodes. The errors without the sweep are 0.060, 4.2e-3, 3.1e-4, 7.3e-5. With it: 0.047, 2.0e-3, 1.7e-4,
+ * 3.6e-5.
  *
  * All of this is one pass over the map, with tiles in the cache.
  */

@@ -130,7 +130,7 @@ excess(double g2)
     return g2 / (1 + sqrt(1 + g2));
 }
 
-/* From n steps v[i] to v[i + 1]. */
+/* Adds the steps from v[i] to v[i + 1], for n nodes. */
 RC_CLONES static void
 add_steps(const double *v, size_t n, double per_dx, struct slopes *to)
 {
@@ -147,7 +147,7 @@ add_steps(const double *v, size_t n, double per_dx, struct slopes *to)
     to->x_pairs += pairs;
 }
 
-/* From n steps v[i] to below[i]. */
+/* Adds the steps from v[i] to below[i], for n nodes. */
 RC_CLONES static void
 add_steps_down(const double *v, const double *below, size_t n, double per_dy, struct slopes *to)
 {

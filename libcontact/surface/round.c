@@ -5,8 +5,8 @@
  *
  *     A (x^2 + y^2 + z^2) + B x + C y + z + E = 0,        R = sqrt(B^2 + C^2 + 1 - 4 A E) / 2 A,
  *
- * which for A = 0 is a plane (Pratt 1987): no parameter diverges on shallow caps or where the apex is off the
- * map, and the sign of R distinguishes a bump from a hollow. With q = A (x^2 + y^2) + B x + C y + E the
+ * which for A = 0 is a plane (Pratt 1987). So no parameter diverges on shallow caps or where the apex is off
+ * the map. The sign of R distinguishes a bump from a hollow. With q = A (x^2 + y^2) + B x + C y + E the
  * surface is z = -2 q / (1 + sqrt(1 - 4 A q)). A cylinder whose axis runs along v = y cos t - x sin t and
  * rises with the slope s has the same equation in the plane across it. There u = x cos t + y sin t and n = (z
  * - s v) / sqrt(1 + s^2). On a profile both are circles.

@@ -25,9 +25,9 @@ enum {
     PER_DECADE = 24 /* bins of the fit                                            */
 };
 
-/* Relative error of a power law; the cost of an excluded bin, equal to a misfit of twice the expected one;
- * the smallest ratio of the wavelengths at the ends of a power law; its largest misfit over the expected one;
- * and the possible Hurst exponents, with an allowance. */
+/* Relative error of a power law; cost of an excluded bin, equal to a misfit of twice the expected one. Then:
+ * the smallest ratio of the wavelengths at the ends of a power law, and its largest misfit over the expected
+ * one. Last: the possible Hurst exponents, with an allowance. */
 static const double model_error = 0.05, price = 4, span = 3, fits = 3;
 static const double lowest = -0.05, highest = 1.1;
 /* Relative, so that waves at the ends of a range belong to it. The second is the fraction of the largest

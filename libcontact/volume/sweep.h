@@ -32,8 +32,8 @@ struct rc_sweep_slab {
     double szz, sxx, syy;           /* mean stresses, added to the first wave of the column */
 };
 
-/* A depth: the slab that contains it, or the number of slabs if it is below all of them. Also the parts of
- * that slab above it (or the distance from the last slab) and below it, m. */
+/* A depth: the slab that contains it, or the number of slabs if it is below all of them. The parts of that
+ * slab above it (or the distance from the last slab) and below it, m, follow. */
 struct rc_sweep_place {
     size_t slab;
     double above, below;

@@ -4,7 +4,7 @@
  * passing waves are stored. Those at depths within a group are computed again on the way down.
  *
  * Storage per node, in numbers: 5 a slab, which the stresses of the slab replace, 3 a group, and 1 for the
- * map in transform. With slices: another 3 a group (downward waves besides the upward ones) and 6 for the
+ * map in transform. Slices need another 3 a group (downward waves besides the upward ones) and 6 for the
  * slice. Waves between the stored depths are computed for each slice.
  */
 #include "volume.h"

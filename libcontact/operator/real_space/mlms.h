@@ -74,7 +74,7 @@ struct rc_mlms_level {
     struct rc_mlms_stencil coarse[4];  /* [source], to coarse nodes; 0 unused              */
 };
 
-/* Of one thread. */
+/* The scratch memory of one thread. */
 struct rc_mlms_scratch {
     double *plane[4]; /* pressures by class, with margins    */
     double *out[4];   /* results by class, with margins in x */

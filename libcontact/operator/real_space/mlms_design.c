@@ -43,8 +43,8 @@ many_over_one(double t, double reach)
     return 9 + 3.5 * reach / t;
 }
 
-/* For the displacement kernel on equal spacings. A cell's own pressure displaces it by 3.525 times as much as
- * its load would, as a point load, one spacing away. */
+/* It holds for the displacement kernel on equal spacings. A cell's own pressure displaces it by 3.525 times
+ * as much as its load would, as a point load, one spacing away. */
 static double
 expected_error(size_t t, size_t reach)
 {

@@ -237,7 +237,7 @@ unfold(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms_
     return true;
 }
 
-/* From class source to class target with the table of errors e. */
+/* Goes from class source to class target with the table of errors e. */
 static bool
 stencil(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
         const struct rc_shape *shape, size_t target, size_t source, const struct table *e)
