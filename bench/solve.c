@@ -48,7 +48,7 @@ static const struct roughness roughnesses[] = {{2, 0.25}, {2, 1}, {8, 0.25}};
 /* Mean pressures over E* and RMS slope for contact of about 1, 11, 39, 83 and 97 %. */
 static const double pressures[] = {0.004, 0.049, 0.2, 0.6, 1.05};
 
-/* From the command line. */
+/* The command line sets these. */
 static size_t threads, sizes[16] = {512, 1024, 2048}, count = 3;
 static double wanted = 1e-4;
 static const char *method = "pcg";

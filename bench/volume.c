@@ -35,7 +35,7 @@ strain_row(void *ctx, size_t slab, enum rc_component c, size_t j, double *row)
     return true;
 }
 
-/* About the memory traffic of a return map. */
+/* Loads a row of stresses: about the memory traffic of a return map. */
 static void
 stress_row(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
 {

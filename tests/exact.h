@@ -23,8 +23,8 @@ static const double coarse_grid = 0.01;  /* against a closed form, tens of nodes
 
 /* Permitted error of a solution with constant pressure in each cell against Hertz's, with n nodes in the
  * radius of the contact. It is this constant over n^2 for approach and peak, and over n for the area (its
- * edge is a line of nodes). About five times the published numerical errors: 2e-5 and 5e-5 with 21.5 nodes in
- * the radius. */
+ * edge is a line of nodes). The numbers are about five times the published numerical errors: 2e-5 and 5e-5
+ * with 21.5 nodes in the radius. */
 static const double grid_approach = 0.1;
 static const double grid_peak = 0.5;
 static const double grid_area = 1;

@@ -10,8 +10,8 @@ struct rc_prefix {
     int power;        /* power of ten */
 };
 
-/* From femto to tera, "" for none, and centi, in the order of their powers. The usual spelling of a power
- * comes first ("u", then U+00B5, then U+03BC). The last has text NULL. */
+/* The prefixes run from femto to tera, with "" for none, and centi, in the order of their powers. The usual
+ * spelling of a power comes first ("u", then U+00B5, then U+03BC). The last has text NULL. */
 extern const struct rc_prefix rc_prefixes[];
 
 /* The power of the prefix text[0..n); false when it is not a prefix. */

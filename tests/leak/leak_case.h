@@ -62,7 +62,7 @@ leak_figures(struct rc_shape s, const double *p, const double *g, char direction
     return flow.f;
 }
 
-/* From 0 up to 1. */
+/* A random number from 0 up to 1. */
 static inline double
 leak_random(uint64_t *seed)
 {

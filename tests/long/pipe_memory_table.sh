@@ -15,7 +15,7 @@ row() {
     near "${expected:-none}" "${taken:-none}" 0.1 "$1, $size"
 }
 
-# In mebibytes: the counted memory and the kernel's peak of a command, both with the code.
+# Prints in mebibytes the counted memory and the kernel's peak of a command, both with the code.
 peaks() {
     bash -c "$1 --debug" 2>&1 >/dev/null | sed -n 's/.*memory: \([0-9.]*\) MiB counted, \([0-9.]*\) MiB taken.*/\1 \2/p' | tail -n 1
 }

@@ -301,7 +301,7 @@ as_exact_as_asked(void **state)
     }
 }
 
-/* Without a tolerance: rounding. */
+/* Without a tolerance the engine is exact to rounding. */
 static void
 as_exact_as_rounding(void **state)
 {

@@ -44,7 +44,7 @@ grid_nodes(const struct rc_solver *s)
     return p.grid.nx * p.grid.ny;
 }
 
-/* On the map's own grid. */
+/* The number of iterations on the map's own grid. */
 static size_t
 iterations(const struct rc_solver *s)
 {

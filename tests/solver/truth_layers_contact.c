@@ -223,8 +223,8 @@ punch(const struct rc_pair *c, double over, size_t m)
     return load;
 }
 
-/* The same for a bonded punch: under it the displacement is 1 m, and pressures may have any sign. By plain
- * conjugate gradients. */
+/* The same for a bonded punch: under it the displacement is 1 m, and pressures may have any sign. The method
+ * is plain conjugate gradients. */
 static double
 glued_punch(const struct rc_pair *c, double over, size_t m)
 {

@@ -146,7 +146,8 @@ weight(size_t k, const struct rc_shape *s, size_t node)
     return (s->nx == 1 ? 1 : windows[k].at(x)) * (s->ny == 1 ? 1 : windows[k].at(y));
 }
 
-/* For heights under window k: their mean, the mean square about it, and the mean square of the window. */
+/* Computes for heights under window k: their mean, the mean square about it, and the mean square of the
+ * window. */
 static void
 seen_through(size_t k, const struct rc_shape *s, const double *h, double *mean, double *square,
              double *power)

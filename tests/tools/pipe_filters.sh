@@ -31,8 +31,8 @@ for form in ball hollow; do
         near "$radius" -150e-6 1e-7 "  its radius, negative"
     fi
 done
-# the horizontal section of a rod with the slope s is an ellipse; across the rod the profile is a circle of
-# radius 80 um / sqrt(1.01) with r^2 (1 + s^2) in place of r^2
+# the horizontal section of a rod with the slope s is an ellipse. Across the rod the profile is a circle of
+# radius 80 um / sqrt(1.01), with r^2 (1 + s^2) in place of r^2
 claim "--cylinder removes a tilted rod" rc-detrend --cylinder rod.rcg -o left.rcg
 between 0 "$(figure rms left.rcg)" 1e-12 "  nothing is left"
 near "$(figure form.radius left.rcg)" "$(awk 'BEGIN { print 80e-6 / sqrt(1.01) }')" 1e-6 "  its radius"

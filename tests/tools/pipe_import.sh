@@ -132,8 +132,8 @@ claim "no file is left" bash -c '! ls half2.rcg* 2>/dev/null'
 
 corpus="${RC_CORPUS:-}/corpus"
 if [ -d "$corpus" ]; then
-    # file, format, nx, ny, dx, dy and the value at the first point from the manifest, with the units of x and
-    # z in the file; tests/formats/format_corpus.c reads the other files
+    # the manifest gives file, format, nx, ny, dx, dy and the value at the first point, with the units of x
+    # and z in the file. tests/formats/format_corpus.c reads the other files
     awk -F '\t' '$2 ~ /^(x3p|ascii-matrix|sdf-ascii|digitalsurf-sur|wyko-opd|metropro-dat|alicona-al3d|sensofar-plu|nanoscope|nanosurf-nid|gsf|igor-ibw|mi-picoview|wsxm-stp|wsxm-top|bcrf|frt)$/ &&
         $11 == "m" && $13 == "m" && $1 !~ / / { print $1, $7, $8, $9, $10, $19 }' \
         "$RC_CORPUS/manifest.tsv" >rows.txt

@@ -13,8 +13,8 @@ heights() {
     tail -c +$((start + 2)) "$1" | head -c $((8 * n)) | od -An -v -w8 -t fD | tr -d ' '
 }
 
-# resampled STEP GAP FILE: prints the expected values, by a search through all pairs of neighbours; STEP and
-# GAP in the unit of the file, heights in nm
+# resampled STEP GAP FILE: prints the expected values, by a search through all pairs of neighbours. STEP and
+# GAP are in the unit of the file, heights in nm
 resampled() {
     awk -v step="$1" -v gap="$2" 'BEGIN { n = 0 } NR > 1 { x[n] = $1; z[n++] = $2 }
         END {

@@ -60,8 +60,8 @@ rc-synth wave --nx 254 --ny 256 --dx 1um --wavelength 127um --amplitude 1um | rc
 rc-solve --periodic --estar 1GPa --mean-pressure 20MPa --quiet wave.rcg -o wave-pressed.rcg
 claim "the report counts the communication between processes" run rc-stress --nu 0.3 --depths 0,1um --components szz \
     --report sent.json -o sent.rcg wave-pressed.rcg
-# contact-mpi(7): 16 bytes a wave, 128 waves a row, 256 rows, half of them for the other process; one exchange
-# for the pressure and one for each of two depths: three exchanges of 2 messages each
+# contact-mpi(7): 16 bytes a wave, 128 waves a row, 256 rows, half of them for the other process. One exchange
+# for the pressure and one for each of two depths make three exchanges of 2 messages each
 near "$(field exchanges sent.json)" 3 1e-15 "exchanges"
 near "$(field messages sent.json)" 6 1e-15 "messages"
 near "$(field bytes_exchanged sent.json)" $((3 * 16 * 128 * 256 / 2)) 1e-15 "bytes"

@@ -20,8 +20,9 @@ near "$(field load c.json)" 2.5e-3 "$summed" "  its load too"
 refuses 1 "in N/m is for profiles, and this map has 33 rows: give the whole force, in N" "a map carries a force" \
     "rc-synth sphere --nx 33 --dx 1um --radius 1mm | rc-solve --load 1N/m --estar 1GPa | cat >/dev/null"
 
-# A wave in contact over 2 a: sin^2(pi a/l) = p/p*, p* = pi E* A/l, largest 2 p/sin(pi a/l) (Westergaard). Of 400
-# nodes, p = 10 MPa, E* = 100 GPa, A = 0.1 um, l = 400 um: p* = 78.53982 MPa, 2 a = 92.911 um, largest 56.04991 MPa.
+# A wave in contact over 2 a: sin^2(pi a/l) = p/p*, p* = pi E* A/l, largest 2 p/sin(pi a/l) (Westergaard). The
+# map has 400 nodes, p = 10 MPa, E* = 100 GPa, A = 0.1 um, l = 400 um. Then p* = 78.53982 MPa, 2 a = 92.911
+# um, and the largest pressure is 56.04991 MPa.
 rc-synth wave --nx 400 --ny 1 --dx 1um --amplitude 100nm --wavelength 400um -o wave.rcg
 claim "93 nodes in contact resolve a profile, without a message" bash -c '
     rc-solve --periodic --estar 100GPa --mean-pressure 10MPa --discretization --output pressure --report w.json wave.rcg -o w.rcg 2>err && [ ! -s err ]'

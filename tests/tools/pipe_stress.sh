@@ -99,7 +99,7 @@ claim "  49 values are compared" test "$(wc -l <row.txt)" = 49
 
 # ---- a rough ball: the paper's Fig. 6 ----
 
-# the map has 121 x 103 nodes as in section 4.2 of the paper; the real contact is about 0.55 of Hertz's, whose
+# the map has 121 x 103 nodes as in section 4.2 of the paper. The real contact is about 0.55 of Hertz's, whose
 # largest Mises stress is 1.37 GPa
 ball="--radius 1.88mm --load 15.06N --E1 210GPa --nu1 0.28 --E2 210GPa --nu2 0.28 --hardness 6GPa"
 rc-synth selfaffine --nx 121 --ny 103 --dx 1.1um --dy 1.29um --hurst 0.8 --rms-height 130nm \

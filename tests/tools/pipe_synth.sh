@@ -1,7 +1,7 @@
 # rc-synth makes the requested surface on the requested grid, and refuses options that are missing, contradict
 # each other or have no meaning.
 . "$(dirname "$0")/../pipe.sh"
-# Also with the address sanitizer an impossible allocation returns NULL.
+# With the address sanitizer, too, an impossible allocation returns NULL.
 export ASAN_OPTIONS=allocator_may_return_null=1
 
 info() {

@@ -1,5 +1,5 @@
-# rc-solve --travel: each position is the contact of a map that rc-pick has cut or rc-add has summed; a resumed
-# run writes the same bytes; contradictions are refused.
+# rc-solve --travel: each position is the contact of a map that rc-pick has cut or rc-add has summed. A
+# resumed run writes the same bytes, and contradictions are refused.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 200 --ny 64 --dx 1um --hurst 0.8 --rms-height 20nm --short-cut 8um --seed 3 -o track.rcg

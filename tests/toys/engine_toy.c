@@ -78,7 +78,7 @@ apply(void *at, const double *p, double *u)
     }
 }
 
-/* As for the engine direct. */
+/* The same error as that of the engine direct. */
 static double
 error(const void *plan)
 {

@@ -267,7 +267,7 @@ char *tool_copy(struct tool *tool, const char *text) __attribute__((returns_nonn
  * end. */
 void tool_fail(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void tool_warn(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Only with --verbose. */
+/* Prints a note, only with --verbose. */
 void tool_note(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Prints a line that replaces the last one, at most ten times a second, if progress is shown. `done`: the
  * finished fraction of the case, NAN: unknown. tool_progress_end ends it. */

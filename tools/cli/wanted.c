@@ -413,7 +413,7 @@ demand_depths(const struct wanted *w, struct tool *t)
             no_depth(w, t, w->depth.v[k]);
 }
 
-/* After the last frame. */
+/* Decides after the last frame. */
 static void
 settle(struct wanted *w, struct tool *t)
 {

@@ -369,7 +369,7 @@ figure_of(const struct rc_model *m, const char *name)
     return f;
 }
 
-/* With --verbose: the figures that the tool names. */
+/* --verbose prints the figures that the tool names. */
 static void
 tell(struct drive *d, const struct rc_model *m, const char *where)
 {

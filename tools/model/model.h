@@ -121,9 +121,9 @@ struct drive {
     const char *const *tells; /* names of figures that --verbose prints; the last is NULL */
     void (*keys)(struct drive *d, struct rc_model *m, struct rc_grid *frame);
     void (*columns)(struct drive *d, const struct rc_model *m); /* before those of the model */
-    /* Of a tool with more to say, in place of the usual: what comes before a point (marks, plan), warnings,
-     * all keys of the frames, the values of a frame (NULL: those of the model), how a point becomes history,
-     * and the columns of the report. */
+    /* For a tool with more output than usual. It adds text before a point (marks, plan), warnings, and all
+     * keys of the frames. It sets the values of a frame (NULL: those of the model) and the columns of the
+     * report. It also says how a point becomes history. */
     void (*begin)(struct drive *d, struct rc_model *m);
     void (*judge)(struct drive *d, struct rc_model *m);
     void (*all_keys)(struct drive *d, const struct rc_model *m, struct rc_grid *frame);

@@ -670,7 +670,7 @@ count_lost(const struct graph *g, struct notes *notes)
                                !is_point(g, &g->series[s], k);
 }
 
-/* From the plot to the legend. */
+/* The height from the plot to the legend. */
 static double
 axis_height(const struct page *p)
 {

@@ -29,7 +29,7 @@ struct raster {
 /* With `zero_is_none` the value 0 means no contact and is excluded from the means. NULL: memory is short. */
 struct raster *raster_new(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
                           struct rc_err *err);
-/* Only some of its h rows, from `first` on. */
+/* Makes only some of its h rows, from `first` on. */
 struct raster *raster_rows(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
                            size_t first, size_t rows, struct rc_err *err);
 /* The same with the largest value of the nodes of a cell in place of their mean. A cell is in contact, or

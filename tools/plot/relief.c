@@ -432,7 +432,7 @@ struct side {
     bool keep_off; /* no number at the nearest corner: another axis has one there */
 };
 
-/* Of all axes. */
+/* The widest number of all axes. */
 static double
 widest_number(const struct page *p)
 {

@@ -7,8 +7,8 @@
  *
  * Persson: a rough half-space under the mean pressure p. Its pressures have the variance s^2 = (E* h')^2 / 4,
  * h' the RMS gradient of the height. B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840; closed form by W.
- * Manners and J. A. Greenwood, Wear 261 (2006) 600: the contact fraction is erf(p / (sqrt(2) s)), and the
- * density of the pressure is the difference of two normal distributions about p and -p.
+ * Manners and J. A. Greenwood, Wear 261 (2006) 600: the contact fraction is erf(p / (sqrt(2) s)). The density
+ * of the pressure is the difference of two normal distributions about p and -p.
  */
 #include "render.h"
 

@@ -50,8 +50,8 @@ hardness_state(const struct run *run, const bool *active)
     return *active ? "on" : "left out: the largest elastic pressure is below it";
 }
 
-/* Shows each effect and each frame of --output with its state: `on`, or why it is left out. engine: the reason
- * for it; active: whether the hardness was reached (NULL: unknown before the solution). */
+/* Shows each effect and each frame of --output with its state: `on`, or why it is left out. engine: the
+ * reason for the engine. active: whether the hardness was reached (NULL: unknown before the solution). */
 static void
 show_effects(struct run *run, const char *engine, const bool *active,
              void (*show)(struct run *run, const char *name, const char *state))

@@ -103,7 +103,8 @@ struct stress_strain {
  * before the first. */
 bool stress_strain_take(struct tool *tool, const struct rc_grid *p, struct rc_grid *g,
                         struct stress_strain *strain);
-/* After the case. False: the body has not yielded, or the stream lacks some of the strain, with a warning. */
+/* Call it after the case. False: the body has not yielded, or the stream lacks some of the strain, with a
+ * warning. */
 bool stress_strain_whole(struct tool *tool, const struct rc_grid *p, struct stress_strain *strain);
 void stress_strain_free(struct stress_strain *strain);
 /* Chooses *n depths, which the caller frees; NULL when memory is short. */

@@ -1,5 +1,5 @@
 /*
- * Sensofar PLUX: a ZIP archive with index.xml, which gives the size of the image, the step of a pixel in
+ * Sensofar PLUX: a ZIP archive with index.xml. It gives the size of the image, the step of a pixel in
  * micrometres (called FOV), and the member of each layer. A member holds heights: float, little-endian,
  * micrometres, row 0 first, NaN where nothing was measured.
  */
