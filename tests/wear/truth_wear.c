@@ -184,8 +184,8 @@ punch(const struct rc_shape *s, double radius, double half, enum rc_boundary bou
         slide(&r, mean, times[t] * half);
         for (size_t k = 0; k < n; k++)
             sum += h[k] == 0 ? pow(r.p[k] / (1e-3 * estar) - 1, 2) : 0;
-        /* an edge of nodes: 1 % of the radius is 4 % in the last and smallest number */
-        if (!(fabs(sqrt(sum / (double)in) / want[t] - 1) < (times[t] > 1 ? 0.08 : 0.015)))
+        /* the last number is small: 5 % of it is 3e-4 of the pressure, far below the tolerance */
+        if (!(fabs(sqrt(sum / (double)in) / want[t] - 1) < (times[t] > 1 ? 0.05 : 0.015)))
             fail_msg("%zu x %zu, k E* s/a = %g: RMS %.4g, not %.4g", s->nx, s->ny, times[t],
                      sqrt(sum / (double)in), want[t]);
     }
@@ -425,7 +425,7 @@ phases_share_the_load(void **state)
             relief = fmax(relief, fabs(u[k] - r.h[k] - level));
             size = fmax(size, fabs(u[k]));
         }
-        if (!(off < 5e-4 && relief < 6e-4 * size))
+        if (!(off < 1e-4 && relief < 1e-6 * size))
             fail_msg("phases 1:%g: the pressure differs by %.2g, the relief by %.2g", 1 / soft[q],
                      off, relief / size);
         end(&r);
