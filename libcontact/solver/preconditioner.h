@@ -28,18 +28,19 @@ struct rc_preconditioner;
 struct rc_preconditioner *rc_preconditioner_new(struct rc_operator *op, struct rc_err *err);
 /* The diagonal of the operator was changed: applies from the next set on. RC_FAIL when memory is short. */
 enum rc_status rc_preconditioner_tune(struct rc_preconditioner *e, struct rc_err *err);
-/* Factors of a chain in one rc_preconditioner_apply: 1 unless the diagonal differs by node. */
+/* Convolutions in one rc_preconditioner_apply: 1 unless the diagonal differs by node. */
 double rc_preconditioner_factors(const struct rc_preconditioner *e);
 void rc_preconditioner_free(struct rc_preconditioner *e);
-/* The working set: entries 1 of w (0 elsewhere), at least one. w is read until the next set. Costs no factor
- * of a chain. If entries of w change afterwards, the map r -> z stays symmetric but E gets less accurate. */
+/* The working set: entries 1 of w (0 elsewhere), at least one. w is read until the next set. The call does no
+ * convolution. If entries of w change afterwards, the map r -> z stays symmetric but E gets less accurate. */
 void rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w);
 /* z = E' A E (r - offset) on the working set, zero elsewhere, in the units of the operator's rows. `done`
- * (NULL: none) is called for each row of z as soon as it is complete. Costs one factor of a chain. */
+ * (NULL: none) is called for each row of z as soon as it is complete. It takes
+ * rc_preconditioner_factors() convolutions. */
 void rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offset, float *z,
                              rc_row *done, void *ctx);
 /* E r, with W the nodes where w is 1, in `out` at all other nodes. The working set must be set again
- * afterwards. Costs no factor of a chain. */
+ * afterwards. The call does no convolution. */
 void rc_preconditioner_extend(struct rc_preconditioner *e, const unsigned char *w, const float *r,
                               float *out);
 

@@ -7,7 +7,7 @@
 #include "libcontact/contact.h"
 
 struct attraction {
-    struct rc_adhesion_problem problem; /* without the contact; its law points to `name` */
+    struct rc_adhesion_problem problem; /* the contact in it is not set; its law points to `name` */
     char name[64];
 };
 
