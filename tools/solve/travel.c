@@ -132,24 +132,24 @@ check_counter(struct run *run, const struct rc_grid *g)
             g->nx, g->ny, run->args->counter, other->nx, other->ny);
 }
 
-/* The heights at a position, in the place of the map. */
+/* A map for the heights at a position, with the keys of the whole map. */
 static struct rc_grid *
 window_of(struct run *run, const struct rc_grid *g)
 {
     const struct travelling *w = &run->travelling;
+    struct rc_grid of = *g, *to;
     struct rc_err err;
-    struct rc_grid *to;
 
     if (w->window[0] > g->nx || w->window[1] > g->ny)
         tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE,
                     "--window %s is larger than the map of %zu x %zu nodes", run->args->window,
                     g->nx, g->ny);
-    if ((to = rc_grid_like(g, g->channel, g->unit, &err)) == NULL)
-        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (w->window[0] > 0) { /* fewer nodes, in the same memory */
-        to->nx = w->window[0];
-        to->ny = w->window[1];
+    if (w->window[0] > 0) {
+        of.nx = w->window[0];
+        of.ny = w->window[1];
     }
+    if ((to = rc_grid_like(&of, g->channel, g->unit, &err)) == NULL)
+        tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     memset(to->v, 0, rc_grid_nodes(to) * sizeof *to->v);
     if (w->window[0] > 0)
         tool_must(&run->d.t, g, rc_grid_set(to, "periodic", NULL, &err), &err);
