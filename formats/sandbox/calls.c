@@ -1,7 +1,8 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include "calls.h"
 
-/* Not on s390x, where mmap has one argument, the address of the others, which a filter cannot read. */
+/* There is no filter on s390x: mmap has one argument there, the address of the others, which a filter cannot
+ * read. */
 #if defined(__linux__) && defined(__LP64__) &&                                                     \
     (defined(__x86_64__) || defined(__aarch64__) || defined(__riscv) || defined(__powerpc64__)) && \
     __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__

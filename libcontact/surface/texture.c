@@ -328,7 +328,7 @@ measure_direction(const struct rc_relief *r, const double *power, double (*sums)
         wedge = fmax(WEDGE * RC_PI / ANGLES, fmin(2 * cell * sums[0][3] / sums[0][2], RC_PI / 4));
     }
     angle = fmod(angle * 180 / RC_PI + 180, 180);
-    a->std = 180 - angle < 1e-9 ? 0 : angle; /* rounded just below a half turn */
+    a->std = 180 - angle < 1e-9 ? 0 : angle; /* rounding error */
 }
 
 /* Makes the window and the mean weighted by it. */

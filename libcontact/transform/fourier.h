@@ -16,7 +16,7 @@
 /* Complex numbers in one row of the spectrum, and in all of it. */
 size_t rc_fourier_columns(const struct rc_shape *shape);
 size_t rc_fourier_size(const struct rc_shape *shape);
-/* Signed wave number of place k of n; and in rad/m, for n nodes d metres apart. */
+/* Signed wave number of place k of n. The second function gives it in rad/m, for n nodes d metres apart. */
 static inline long
 rc_fourier_number(size_t k, size_t n)
 {
