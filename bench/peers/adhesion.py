@@ -71,7 +71,7 @@ class Case:
 
 
 def first(found):
-    """Of (error, cost) in order of cost: the cost from which on the error stays below each level."""
+    """Returns, from (error, cost) in order of cost, the cost from which on the error stays below each level."""
     at = [None] * len(LEVELS)
     for error, cost in found:
         for k, level in enumerate(LEVELS):

@@ -62,7 +62,7 @@ class Sweep:
 
 
 def climb(sweep, rungs, least):
-    """From loose to tight tolerances until `least` is reached, or until three tolerances with more steps have not reduced the error."""
+    """Goes from loose to tight tolerances until `least` is reached, or until three tolerances with more steps have not reduced the error."""
     best, steps, idle = np.inf, -1, 0
     for settings in rungs:
         r = sweep(settings)

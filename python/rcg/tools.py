@@ -228,7 +228,7 @@ def _feed(pipe, data):
 
 
 def _reported(command, data, has_report, timeout=None, progress=False):
-    """As execute(), with the lines of the tool's report: exit status, output, messages, list of dicts."""
+    """Works as execute(), with the lines of the tool's report: exit status, output, messages, list of dicts."""
     if not has_report:
         return execute(command, data, timeout, progress) + ([],)
     with tempfile.TemporaryDirectory() as folder:
@@ -752,5 +752,5 @@ def run(tool, frames=None, *args, **options):
 
 
 def lines_of(tool, frames, *args, **options):
-    """As run(), with the lines of the tool's report: the frames and a list of dicts. rcg.report() calls it."""
+    """Works as run(), with the lines of the tool's report: the frames and a list of dicts. rcg.report() calls it."""
     return _named(tool, frames, args, options, True)
