@@ -34,7 +34,7 @@ struct rc_preconditioner {
     bool used[LEVELS];   /* by a node */
     double first, ratio; /* m/Pa; see d_of */
     float *place, *sum;
-    /* Where rows are split off: the residual less its mean on each row, and these means. NULL: never needed. */
+    /* Where rows are split off: the residual less its mean on each row, and these means. NULL: not needed. */
     float *flat, *mean;
 };
 

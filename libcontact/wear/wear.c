@@ -34,9 +34,9 @@ static const double usual_tol = 0.1;
  * pressure changes by at most about 0.1/n of itself; n grows with the inverse of the tolerance. */
 static const double last_part = 0.1, per_tolerance = 0.4;
 static const double fewest = 4;
-/* The tolerance of their contacts, over that of the others. Where the last valleys close, a few nodes can carry
- * several times the mean pressure within the usual tolerance, and the next contact, which starts there, keeps it.
- * The largest pressure was wrong by 165 %; with a tenth of the tolerance by 1.4 %. */
+/* The tolerance of their contacts, over that of the others. Where the last valleys close, a few nodes can
+ * carry several times the mean pressure within the usual tolerance. The next contact starts there and keeps
+ * it. The largest pressure was wrong by 165 %, and with a tenth of the tolerance by 1.0 %. */
 static const double accurate = 0.1;
 static const double of_tol = 0.8; /* part of the tolerance for the steps; the rest is for the
                                      contacts */
@@ -49,8 +49,8 @@ static const double of_change = 2;
 /* Times the side of the map over E*: above this compliance the error of the contact changes the heights more
  * than elasticity does. */
 static const double long_step = 1.0 / 3;
-/* For the forecast: work of a contact where the coefficient differs by node, over that of a uniform one. It is 2
- * to 6. */
+/* For the forecast: work of a contact where the coefficient differs by node, over that of a uniform one. It
+ * is 2 to 6. */
 static const double by_node = 3;
 
 enum stage {

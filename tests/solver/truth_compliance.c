@@ -1,8 +1,8 @@
 /* A compliance c of every node for itself adds c to the diagonal of K. The pressure is that of a dense
- * quadratic program with K + c I, with a c that differs by node, or with rows that move. It is also that of a thin layer without
- * Poisson's ratio, bare and over coats, on both boundaries and by each engine. The estimate of its error is
- * not below the error. Gap and displacement are those of the elastic bodies. With c = 0 the contact is the
- * one without compliance, to the last bit. */
+ * quadratic program with K + c I, with a c that differs by node, or with rows that move. It is also that of a
+ * thin layer without Poisson's ratio, bare and over coats, on both boundaries and by each engine. The estimate
+ * of its error is not below the error. Gap and displacement are those of the elastic bodies. With c = 0 the
+ * contact is the one without compliance, to the last bit. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -227,8 +227,8 @@ a_thin_layer_is_the_same(void **state)
 
 /* ---- figures of the answer ---- */
 
-/* The displacement is K p; the gap, with the displaced film, that of heights less c p and the motion of rows. Those heights have the
- * same pressure without a compliance. */
+/* The displacement is K p. The gap, with the displaced film, is that of heights less c p and the motion of
+ * rows. Those heights have the same pressure without a compliance. */
 static void
 figures_are_those_of_the_bodies(void **state)
 {
