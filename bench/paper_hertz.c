@@ -93,7 +93,7 @@ fig1(void)
         ROWS = 5
     };
     static const char *const title[] = {"converged: pcg and transforms, to a hundredth of M^(-3/2)",
-                                        "as they did: pk99 and MLMS, stopped when the pressure "
+                                        "as in the paper: pk99 and MLMS, stopped when the pressure "
                                         "changes by less than M^(-3/2), (32)"};
 
     printf("\nFig. 1: Hertz's contact, the map 2.1 a wide; Mises' stress at %.3f a, mu = %g, nu = "

@@ -174,7 +174,7 @@ struct rc_ratio {
 struct rc_factor {
     const void *spectrum;
     unsigned parity;
-    struct rc_ratio ratio, first; /* `first`: of the first column, of waves along y */
+    struct rc_ratio ratio, first; /* `first`: ratio of the first column, of waves along y */
 };
 /* A row function, and the factor of its row's transform. */
 struct rc_link {

@@ -167,7 +167,7 @@ stiffening(const struct rc_solids *bodies, const struct rc_shape *s)
 }
 
 /* An even number, so that coarser grids begin with the map. On a long side it is a multiple of the rows that
- * stay together on a rank. `bends`: in nodes. */
+ * stay together on a rank. `bends` is in nodes. */
 static size_t
 frame_of(size_t side, size_t other, double bends)
 {
@@ -179,7 +179,7 @@ frame_of(size_t side, size_t other, double bends)
     return n / unit * unit;
 }
 
-/* `bends`: in m. */
+/* `bends` is in m. */
 static struct rc_frame
 frame_around(const struct rc_shape *s, enum rc_boundary boundary, double bends)
 {

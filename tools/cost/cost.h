@@ -171,7 +171,7 @@ void cost_mark(struct cost_case *c);
 /* Prints the command for a time or an accuracy; ends the tool when there is none. */
 void cost_command(const struct cost_case *c, FILE *out);
 void cost_table(const struct cost_case *c, FILE *out);
-/* "2 layers" after `between`; empty for uniform bodies. */
+/* Writes "2 layers" after `between`; nothing for uniform bodies. */
 const char *cost_body(const struct cost_case *c, const char *between, char text[COST_BODY]);
 void cost_report(const struct cost_case *c, struct report *out);
 /* A plot of error against time as a PNG, SVG or PDF (`ending`: "png", ...) in memory, which the caller

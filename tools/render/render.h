@@ -170,7 +170,7 @@ bool subtitle_same(struct rc_grid *const *grid, size_t n, const char *key);
 void frame_label(char *text, size_t size, struct rc_grid *const *grid, size_t n, size_t k);
 /* The fraction `part` of the map is drawn. */
 void subtitle_part(struct subtitle *subtitle, double part);
-/* `largest`: of several depths this one was chosen because its magnitude is largest. */
+/* `largest`: this depth was chosen because its magnitude is the largest of several. */
 void subtitle_write(struct subtitle *subtitle, const struct rc_grid *grid,
                     const struct survey *survey, const struct means *means, double part,
                     bool largest);

@@ -17,7 +17,7 @@ bool name_same(const char *a, size_t n, const char *b, size_t m);
 
 /* Replaces `nearest`, initially "", by the name if the name is nearer to the typed one. */
 void name_nearer(const char *typed, const char *name, char nearest[NAME_SIZE]);
-/* ": did you mean NAME?" for the end of a message; "" where no name is near. */
+/* Returns ": did you mean NAME?" for the end of a message; "" where no name is near. */
 const char *name_meant(const char *nearest, char text[NAME_MEANT]);
 
 #endif

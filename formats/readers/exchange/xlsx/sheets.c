@@ -133,7 +133,7 @@ take_relation(void *arg, const char *path, const char *text, struct rc_err *err)
 
 /* ---- cells ---- */
 
-/* "AB12" into column and row; false where it is no such thing. */
+/* Splits "AB12" into column and row; false where the text has another form. */
 static bool
 read_place(const char *text, struct rc_cell *c)
 {
