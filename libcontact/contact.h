@@ -391,8 +391,8 @@ struct rc_areal {
     double rms_curvature;
 };
 /* h in m; values that are not finite are missing. The line of the material ratio curve is the least-squares
- * line over the 40 % of smallest secant slope (ISO 25178-2, ISO 13565-2), the first of equal ones. RC_FAIL
- * when a side is too long for a Fourier transform, or memory is short. */
+ * line over the 40 % of smallest secant slope (ISO 25178-2, ISO 13565-2). Of equal slopes it is the first.
+ * RC_FAIL when a side is too long for a Fourier transform, or memory is short. */
 RC_API enum rc_status rc_areal(const struct rc_shape *shape, const double *h,
                                const struct rc_surface_options *options, struct rc_areal *areal,
                                struct rc_err *err);

@@ -1,8 +1,8 @@
 /*
- * A reader describes a file as maps: it fills struct rc_maps from the header, with the position and the type
- * of raw numbers or with a function that fills in the values. Listing, checking the sizes against the bytes of
- * the file, decoding, reordering, scaling and marking of missing points are the same for all readers, and are
- * done here.
+ * A reader describes a file as maps. It fills struct rc_maps from the header, with the position and the type
+ * of raw numbers, or with a function that fills in the values. The rest is the same for all readers, and is
+ * done here. It lists, checks the sizes against the bytes of the file, decodes, reorders, scales and marks
+ * missing points.
  */
 #ifndef RC_MAPS_H
 #define RC_MAPS_H

@@ -1,6 +1,6 @@
 /*
- * The stresses of a half-space of one material in closed form: under a unit force, under a uniform load on a
- * cell (a sum over its corners), under a wave. Internal: never installed.
+ * The stresses of a half-space of one material in closed form. The loads are a unit force, a uniform load on
+ * a cell (a sum over its corners), and a wave. Internal: never installed.
  */
 #ifndef RC_FORMS_H
 #define RC_FORMS_H

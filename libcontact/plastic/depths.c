@@ -92,7 +92,7 @@ rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary, const
     return RC_OK;
 }
 
-/* Keeps the growth of the computed stack: each slab is divided or joined alike, so that the ratio of
+/* Keeps the growth of the computed stack. Each slab is divided or joined alike, so that the ratio of
  * thicknesses changes with the number of slabs. */
 void
 rc_plastic_stack(const struct rc_plastic_depths *found, size_t n, double *thickness)

@@ -13,7 +13,7 @@
  * energy most. If the energy does not fall, a projected gradient step follows, which lowers it. If rounding
  * hides the change of the energy, the length is Newton's alone. M applied to the residual also gives the
  * estimate of the error, together with three parts that M does not contain. The first is the load of nodes
- * inside their circles. The second is the load of turns: near sliding all tangents are nearly parallel, so
+ * inside their circles. The second is the load of turns. Near sliding all tangents are nearly parallel, so
  * that only large turns carry a small load along the force. The third are nodes on their circles that would
  * stick under another delta.
  */

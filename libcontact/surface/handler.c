@@ -1,7 +1,7 @@
 /*
  * GSL has one error handler for all threads, and the default one ends the process: it is off while at least
  * one thread uses GSL. If each thread restored the handler that it found, the last could leave it off for
- * good, and another could switch it on while a third thread still uses GSL.
+ * good. Another could also switch it on while a third thread still uses GSL.
  */
 #include "handler.h"
 

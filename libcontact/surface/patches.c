@@ -246,8 +246,8 @@ patches_of_row(struct runs *r, size_t j, size_t before, size_t *at)
         *at++ = before + find(r->run, k);
 }
 
-/* The pairs of this rank: runs of the row before its own, as it sees them and as the rank that holds the row
- * sees them. */
+/* The pairs of this rank are runs of the row before its own. They are listed as it sees them and as the rank
+ * that holds the row sees them. */
 static enum rc_status
 make_pairs(const struct rc_rows *rows, bool wraps, const struct field *f, struct runs *r,
            size_t before, struct pair **pairs, size_t *n)

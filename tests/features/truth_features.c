@@ -1,6 +1,6 @@
 /* Feature parameters of ISO 25178-2 equal closed forms for waves and posts. On rough maps they equal a
- * literal implementation of Wolf's rule: the hill of least height joins the hill across its highest saddle,
- * again and again. */
+ * literal implementation of Wolf's rule. By this rule the hill of least height joins the hill across its
+ * highest saddle, again and again. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
-/* For any bytes the reader of grid streams must refuse them with a reason or return valid frames, within a
- * second and the memory of one frame. The frames, written and read again, must be unchanged. Bytes are
- * changed anywhere, also in values and sizes. Then, in three quarters of the cases, checksums and counts of
- * frames are corrected, so that the fuzzing gets past the first frame. */
+/* For any bytes the reader of grid streams must refuse them with a reason or return valid frames. It must do
+ * so within a second and the memory of one frame. The frames, written and read again, must be unchanged.
+ * Bytes are changed anywhere, also in values and sizes. Then, in three quarters of the cases, checksums and
+ * counts of frames are corrected, so that the fuzzing gets past the first frame. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdint.h>

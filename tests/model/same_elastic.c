@@ -1,6 +1,6 @@
 /* The elastic model gives the results of rc_solver to the last bit. The cases are loads and approaches, a
- * history with a hardness, a counter body that tilts, layers, stiffness and conductance, and heights that are
- * set later. */
+ * history with a hardness, a counter body that tilts, and layers. Others are stiffness and conductance, and
+ * heights that are set later. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

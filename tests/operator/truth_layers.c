@@ -83,7 +83,7 @@ ends(void **state)
     }
 }
 
-/* The table of symbols compared with the recursion, over 16 decades of wave numbers, for coats a thousand
+/* Compares the table of symbols with the recursion over 16 decades of wave numbers. The coats are a thousand
  * times stiffer and softer than the material below. */
 static void
 table(void **state)

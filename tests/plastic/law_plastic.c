@@ -1,6 +1,6 @@
-/* Known results for bodies that yield in their volume. They are the place and the load of first yielding, the
- * hardness in the fully plastic state, residual stresses after unloading, and the limit of shakedown under
- * rolling. Also: the estimated error is not below the error. */
+/* Known results for bodies that yield in their volume. They are the place and the load of first yielding, and
+ * the hardness in the fully plastic state. They are also residual stresses after unloading, and the limit of
+ * shakedown under rolling. Also: the estimated error is not below the error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* Threads that use the library at the same time, in a program that plans its own transforms with FFTW, get
- * the same results as one thread. */
+/* Threads that use the library at the same time get the same results as one thread. Their program plans its
+ * own transforms with FFTW. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -226,9 +226,9 @@ threads_agree(void **state)
     free(b);
 }
 
-/* A slice costs the same with layers, except for one kernel that is shared in a uniform body (szz of the
- * traction is sxz of the pressure). Without friction no kernels of traction are computed. Coarser grids are
- * not used. */
+/* A slice costs the same with layers, except for one kernel. In a uniform body this kernel is shared (szz of
+ * the traction is sxz of the pressure). Without friction no kernels of traction are computed. Coarser grids
+ * are not used. */
 static void
 only_what_is_asked(void **state)
 {

@@ -264,8 +264,8 @@ sections_are_lines_of_slices(void **state)
             }
 }
 
-/* The section lies between the rows. The plane y = 0 of a map with an even number of rows equals the middle
- * row of the same pressure on a map with half the spacing of rows. */
+/* The section lies between the rows. The plane y = 0 of a map with an even number of rows lies between rows.
+ * It equals the middle row of the same pressure on a map with half the spacing of rows. */
 static void
 sections_between_rows(void **state)
 {

@@ -1,6 +1,6 @@
-# bash, zsh and fish complete the options and words of --help and of the manual: every option of every tool
-# and every word that an option takes. They also complete units after a number, files, and the channels of the
-# file on the line.
+# bash, zsh and fish complete the options and words of --help and of the manual. These are every option of
+# every tool and every word that an option takes. They also complete units after a number, files, and the
+# channels of the file on the line.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 completions=$RC_BIN/completions

@@ -258,8 +258,8 @@ random_complex(uint64_t *seed)
     return CMPLX(re, im);
 }
 
-/* The cases are several waves of strain in slabs of very different thickness, some of them without strain, in
- * more than one group, and waves of pressure. */
+/* The cases are several waves of strain in slabs of very different thickness, and waves of pressure. Some
+ * slabs have no strain, and there is more than one group. */
 static void
 equals_elements(void **state)
 {
@@ -342,8 +342,8 @@ equals_elements(void **state)
 /* ---- pressure ---- */
 
 /* Stresses of pressure equal those of rc_stress at quadrature points, including the mean. Tested are odd and
- * prime maps, profiles along x and y, and an even map without waves of two nodes (which have no effect on
- * slabs here). */
+ * prime maps, and profiles along x and y. Tested is also an even map without waves of two nodes (which have
+ * no effect on slabs here). */
 static void
 equals_point_stresses(void **state)
 {

@@ -21,7 +21,7 @@ struct lettering {
 #include <unistd.h>
 
 /* Fonts that come with the program, for machines without any. They come from the settings of the system,
- * where it has some, and the files in the folder RC_OWN_FONTS, a path from the folder of the program. */
+ * where it has some, and from the folder RC_OWN_FONTS. This is a path from the folder of the program. */
 static void
 own_fonts(void)
 {

@@ -100,8 +100,8 @@ made_maker make_bcr, make_frt, make_tmd, make_grd, make_esri, make_npy, make_opd
 /* arrays.c */
 made_maker make_mat, make_nrrd;
 /* These functions add to a MAT file: the header, which sets the byte order of m; a variable with class and
- * flags of the format; a variable of one number; and a text. The last one puts a compressed variable in place
- * of the bytes from `at` on. */
+ * flags of the format. Others add a variable of one number, and a text. The last one puts a compressed
+ * variable in place of the bytes from `at` on. */
 void mat_header(struct bytes *m, bool big);
 void mat_array(struct bytes *m, const char *name, unsigned flags, size_t rows, size_t columns,
                unsigned type, const void *numbers, size_t n);
