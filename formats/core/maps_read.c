@@ -85,7 +85,7 @@ rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
         strcpy(channel[k].name, map->name);
         strcpy(channel[k].unit, map->unit);
         channel[k].beside = map->beside;
-        if (map->fill != NULL && is_turned(map)) /* the map itself is not used during filling */
+        if (map->fill != NULL && map->by_columns) /* the map itself is not used during filling */
             channel[k].beside = fmax(map->beside, 8 * (double)map->nx * (double)map->ny);
     }
     return maps.n;
@@ -142,26 +142,43 @@ decode(const struct rc_map *map, const struct rc_file *file, double *v, struct r
     return RC_OK;
 }
 
+/* Turns a map of rows round in place. */
+static void
+turn(const struct rc_map *map, double *v)
+{
+    for (size_t k = 0; k < map->nx * map->ny && is_turned(map); k++) {
+        size_t j = k / map->nx, i = k % map->nx;
+        size_t to = (map->bottom_first ? map->ny - 1 - j : j) * map->nx +
+                    (map->right_first ? map->nx - 1 - i : i);
+        double kept = v[k];
+
+        if (to <= k)
+            continue; /* these two were exchanged before */
+        v[k] = v[to];
+        v[to] = kept;
+    }
+}
+
 /* Calls map->fill, and reorders its values for a grid. */
 static enum rc_status
 fill(const struct rc_map *map, const struct rc_file *file, double *v, struct rc_err *err)
 {
-    size_t outer = map->by_columns ? map->nx : map->ny;
-    size_t inner = map->by_columns ? map->ny : map->nx, n = map->nx * map->ny;
+    enum rc_status status;
     double *raw;
 
-    if (!is_turned(map))
-        return map->fill(file, map, v, err);
-    if ((raw = malloc(n * sizeof *raw)) == NULL)
-        return rc_err_set(err, "out of memory for %zu values", n);
-    if (map->fill(file, map, raw, err) != RC_OK) {
-        free(raw);
-        return RC_FAIL;
+    if (!map->by_columns) {
+        status = map->fill(file, map, v, err);
+        if (status == RC_OK)
+            turn(map, v);
+        return status;
     }
-    for (size_t k = 0; k < outer; k++)
-        place(map, raw + k * inner, k, v);
+    if ((raw = malloc(map->nx * map->ny * sizeof *raw)) == NULL)
+        return rc_err_set(err, "out of memory for %zu values", map->nx * map->ny);
+    status = map->fill(file, map, raw, err);
+    for (size_t k = 0; k < map->nx && status == RC_OK; k++)
+        place(map, raw + k * map->ny, k, v);
     free(raw);
-    return RC_OK;
+    return status;
 }
 
 static void
