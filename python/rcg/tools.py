@@ -20,7 +20,7 @@ from .stream import Error, Frame
 
 # The functions and their tools. An import of files is `open`: import is a word of Python.
 FUNCTIONS = {name: 'rc-' + name for name in
-             'add cost deflect detrend export fatigue info leak pick render report slip solve stress synth wear'.split()}
+             'add cost deflect detrend export fatigue heat info leak pick render report slip solve stress synth wear'.split()}
 FUNCTIONS['open'] = 'rc-import'
 # Options that the functions set themselves, or that print text for people at a terminal.
 HIDDEN = {'o', 'report', 'json', 'help', 'version', 'verbose', 'debug', 'progress', 'formats', 'list', 'dry-run'}

@@ -60,6 +60,7 @@ commands=$(
 4 rc-solve --quiet --estar 1GPa --load 1mN --radius 1mm --travel 0,1um --counter h.rcg --window 12x12 h.rcg -o out
 4 rc-wear --quiet --coefficient 1e-6mm3/Nm --distance 1m --steps /dev/null c.rcg -o out
 2 rc-fatigue --quiet --nu 0.3 --bending-limit 6MPa --torsion-limit 4MPa --criteria dangvan,findley --pass x --depths 1um,2um --report /dev/null c.rcg -o out
+2 rc-heat --quiet --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1e-5,1e-5 --depths 0,1um --report /dev/null c.rcg -o out
 5 rc-stress --nu 0.3 --depths auto c.rcg -o out
 2 rc-stress --nu 0.3 --mu 0.1 --depths 1um,2um --components mises,s1 --report /dev/null c.rcg -o out
 3 rc-stress --nu 0.3 --section y=0 --depths 0:4um:4 c.rcg -o out
