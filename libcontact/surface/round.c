@@ -178,7 +178,7 @@ sphere_equation(const double *p, size_t n, const double *x, double y, double *e,
     }
 }
 
-/* In the plane across the axis, whose direction and slopes are known. */
+/* Works in the plane across the axis, whose direction and slopes are known. */
 static void
 cylinder_equation(const double *p, size_t n, const double *x, double y, double *e, double *d)
 {

@@ -156,7 +156,7 @@ struct rc_grid *drive_next(struct drive *d);
 /* Leads the model, which it frees, through the points. m NULL: ends the tool with the error. */
 void drive_case(struct drive *d, const struct rc_grid *g, struct rc_model *m,
                 const struct rc_err *err);
-/* The same without plan and marks: `begin` has them. */
+/* The same without plan and marks, which `begin` has handled. */
 void drive_points(struct drive *d, const struct rc_grid *g, struct rc_model *m);
 /* The point becomes history, unless a signal came first. */
 void drive_keep(struct drive *d, struct rc_model *m);

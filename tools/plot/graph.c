@@ -395,7 +395,7 @@ draw_sunk(struct page *p, double x, double y, struct rgb colour)
     canvas_triangle(p->c, at, colour);
 }
 
-/* They are complete even on the frame. */
+/* Draws the markers of a series. A marker on the frame is drawn whole. */
 static void
 draw_markers(struct page *p, const struct graph_series *s)
 {

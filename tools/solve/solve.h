@@ -29,7 +29,7 @@ struct solve_args {
     struct physics physics;
     double tol;
     const char *kernel, *method;
-    const char *conductivity; /* of both bodies, or NULL                                  */
+    const char *conductivity; /* conductivities of both bodies, or NULL                   */
     const char *yield, *increments, *slabs; /* words of the command line, or NULL */
     const char *adhesion;         /* words of the command line, or NULL                       */
     bool pull_off;                /* pull-off is an additional last case */
