@@ -155,6 +155,12 @@ static void
 find_heat(struct run *run, struct rc_grid *g)
 {
     tool_demand_finite(&run->t, g, "recompute the map");
+    if (rc_grid_get(g, "layers") != NULL)
+        tool_die_at(
+            &run->t, g, EXIT_IMPOSSIBLE,
+            "its body 1 has layers, and rc-heat supports only bodies of one material: where "
+            "the layers conduct as the substrate does, remove the key with rc-pick --set "
+            "layers=");
     if (!run->friction && strcmp(g->unit, "W/m2") != 0)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "its unit is '%s': it must be W/m2", g->unit);
     for (size_t k = 0; k < rc_grid_nodes(g) && run->friction; k++) {
@@ -224,21 +230,19 @@ judge(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f)
         tool_warn(
             t,
             "%s: the hottest spot has %zu node%s along the motion, and the Peclet number of a cell "
-            "is "
-            "%.3g: its trailing edge is up to %.0f %% hotter than its last node: take a finer grid",
+            "is %.3g: its trailing edge is up to %.0f %% hotter than its last node: take a finer "
+            "grid",
             where, f->hot_nodes, f->hot_nodes == 1 ? "" : "s",
             fmax(f->cell_peclet_1, f->cell_peclet_2), 100 * (sqrt(m / (m - 0.5)) - 1));
     if (f->max_temperature > 1000)
         tool_warn(t,
                   "%s: the largest temperature is %.4g K above the bulk of body 1: friction, "
-                  "conductivity and "
-                  "hardness change far below it, and are constant here",
+                  "conductivity and hardness change far below it, and are constant here",
                   where, f->max_temperature);
     if (!f->converged) {
         tool_warn(t,
                   "%s: the temperatures of the bodies differ by %.2g of the largest rise, asked "
-                  "was %g: the "
-                  "best solution is written",
+                  "was %g: the best solution is written",
                   where, f->mismatch, args.tol);
         tool_fails_with(t, EXIT_SHORT);
     }

@@ -39,6 +39,7 @@ refuses 2 "one of --diffusivity and --heat-capacity" "no diffusivity" "rc-heat -
 refuses 2 "two numbers, for body 1 and body 2" "one diffusivity" "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1e-5 ball.rcg"
 refuses 2 "must be thermal" "electrical conductivity" "rc-heat --mu 0.3 --speed 1 --conductivity 58MS/m,7MS/m --diffusivity 1e-5,1e-5 ball.rcg"
 refuses 2 "--speed is 0" "no speed" "rc-heat --mu 0.3 --speed 0 $steel ball.rcg"
+refuses 1 "only bodies of one material: .*rc-pick --set layers=" "a body with layers" "rc-pick --set 'layers=1e-6,2e11,0.3;inf,7e10,0.3' ball.rcg | $heat"
 refuses 1 "heat" "no frame heat" "rc-heat --speed 1 $steel rough.rcg"
 rc-synth wave --nx 32 --dx 1um --amplitude 10nm --wavelength 32um | rc-solve --quiet --periodic --estar 114GPa --mean-pressure 100MPa -o wave.rcg
 refuses 1 "no steady temperature: give a time" "periodic without a time" "$heat wave.rcg"
