@@ -147,14 +147,14 @@ claim "--dry-run prints the expected time and runs no trial" bash -c '
 rc-synth sphere --nx 200 --dx 5um --radius 7.5mm -o large.rcg
 interrupted() {
     local tool status children
-    rc-cost --load 20N --estar 114GPa --quiet --limit 5min --kernel fft,direct large.rcg >cut.txt &
+    rc-cost --progress line --load 20N --estar 114GPa --limit 5min --kernel fft,direct large.rcg >cut.txt 2>told.txt &
     tool=$!
     # it measures in a separate process
     children=
-    for _ in $(seq 300); do
+    for _ in $(seq 6000); do
         children=$(pgrep -P "$tool" | tr '\n' ' ')
-        [ -n "$children" ] && grep -q '^pcg' cut.txt && break
-        sleep 0.2
+        [ -n "$children" ] && grep -q 'tol 1e-04, 200 x 200' told.txt && break
+        sleep 0.01
     done
     kill -TERM "$tool"
     wait "$tool"
