@@ -206,18 +206,6 @@ add_case(struct run *run, struct rc_grid *p)
     }
 }
 
-/* True if the maps go along with the contact: all with positions but those of rc-solve --travel on the whole
- * map of the body. */
-static bool
-maps_travel(const struct rc_grid *p)
-{
-    const char *history = rc_grid_get(p, "history"), *travel;
-
-    travel = history == NULL ? NULL : strstr(history, "--travel");
-    return rc_grid_get(p, "position") != NULL &&
-           (travel == NULL || strstr(history, "--window") != NULL);
-}
-
 static double
 position_of(struct run *run, const struct rc_grid *p)
 {
@@ -231,33 +219,43 @@ position_of(struct run *run, const struct rc_grid *p)
     return x;
 }
 
+/* Where the map of a case lies on the body: its key window_x, without it the position. */
+static double
+place_of(struct run *run, const struct rc_grid *p)
+{
+    double x = position_of(run, p);
+
+    (void)rc_grid_number(p, "window_x", &x);
+    return x;
+}
+
 /* The columns of the body under the maps, and the distance between states. */
 static void
 set_columns(struct run *run)
 {
     const struct rc_grid *first = run->position[0].p;
-    double least = INFINITY, most = -INFINITY, before = NAN, rounded = 0;
+    double least = INFINITY, before = NAN, rounded = 0;
 
     run->step = args.pass == NULL ? 0 : args.pass[0] == 'x' ? first->dx : first->dy;
     for (size_t k = 0; k < run->positions; k++)
-        least = fmin(least, position_of(run, run->position[k].p));
+        least = fmin(least, place_of(run, run->position[k].p));
     for (size_t k = 0; k < run->positions && args.pass == NULL; k++) {
-        const double x = position_of(run, run->position[k].p);
-        const double columns = floor(x / first->dx + 0.5) - floor(least / first->dx + 0.5);
+        const double x = place_of(run, run->position[k].p);
+        const double at = position_of(run, run->position[k].p);
+        const double moved = (x - least) / first->dx, columns = floor(moved + 0.5);
         if (columns > 1e7)
             tool_die_at(
                 &run->t, run->position[k].p, EXIT_IMPOSSIBLE,
                 "its position, %g m, is %g columns from that of another case: are positions "
                 "in metres?",
                 x, columns);
-        run->column[k] = maps_travel(first) ? (size_t)columns : 0;
-        rounded = fmax(rounded, fabs(x / first->dx - floor(x / first->dx + 0.5)));
-        most = fmax(most, x);
+        run->column[k] = (size_t)columns;
+        rounded = fmax(rounded, fabs(moved - columns));
         if (k > 0)
-            run->step = fmax(run->step, fabs(x - before));
-        before = x;
+            run->step = fmax(run->step, fabs(at - before));
+        before = at;
     }
-    if (maps_travel(first) && rounded > 0.01)
+    if (rounded > 0.01)
         tool_warn(
             &run->t,
             "positions are rounded to columns of the map, by up to %.2g of dx: take positions "

@@ -76,6 +76,14 @@ claim "a picture of a depth" rc-render --channel dangvan -o map.png moved.rcg
 claim "positions between nodes cause a warning" warns 'rounded to columns' bash -c "
     rc-pick --set position=7e-7 moved-3.rcg |
     rc-fatigue $limits --depths 5um -o x.rcg moved-1.rcg -"
+# A window follows the contact, and the whole map stays: the same histories.
+rc-synth wave --nx 64 --ny 24 --dx 3um --wavelength 192um --amplitude 1nm -o flat.rcg
+travel="rc-solve --quiet $steel --radius 1mm --load 1N --tol 1e-6 --output pressure --travel=-30um:30um:21 flat.rcg"
+$travel | rc-fatigue --quiet $limits --depths 5um --report whole.json -o whole.rcg
+$travel --window 24x24 | rc-fatigue --quiet $limits --depths 5um --report window.json -o window.rcg
+near "$(json .dangvan window.json)" "$(json .dangvan whole.json)" 1e-4 "rc-solve --travel: a window and the whole map"
+claim "  the whole map is not shifted" [ "$(rc-info whole.rcg | grep -c '64 x 24 nodes')" = 3 ]
+claim "  the window is" [ "$(rc-info window.rcg | grep -c '44 x 24 nodes')" = 3 ]
 claim "cases without a position stay" bash -c "
     rc-solve --quiet $steel --load 0.5N,1N ball.rcg | rc-fatigue --quiet $limits --depths 5um --report stay.json -o stay.rcg"
 claim "  and are two states and the unloaded one" [ "$(json .states stay.json)" = 3 ]

@@ -338,8 +338,7 @@ travel_set_keys(struct run *run, struct rc_grid *as)
         return;
     drive_set_number(&run->d, as, "position", w->found->position);
     drive_set_number(&run->d, as, "height", w->found->height);
-    if (w->window[0] > 0)
-        drive_set_number(&run->d, as, "window_x", w->found->window_x);
+    drive_set_number(&run->d, as, "window_x", w->found->window_x);
 }
 
 void
