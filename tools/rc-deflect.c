@@ -45,18 +45,6 @@ static const struct tool_info info = {
     .shares = true,
 };
 
-/* A pressure solved for one boundary has no displacement for the other. */
-static enum rc_boundary
-boundary(struct tool *t, const struct rc_grid *p)
-{
-    const char *own = rc_grid_get(p, "boundary");
-    bool periodic = own == NULL ? args.periodic : strcmp(own, "periodic") == 0;
-
-    if (args.periodic && !periodic)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE, "its boundary is %s: --periodic contradicts it", own);
-    return periodic ? RC_PERIODIC : RC_FREE;
-}
-
 /* The bodies that the pressure was solved for; for uniform ones --estar overrides them. */
 static struct rc_pair
 pair_of(struct tool *t, const struct rc_grid *p, struct layers *layers)
@@ -124,7 +112,7 @@ static void
 do_case(struct tool *t, const struct rc_grid *p)
 {
     struct rc_shape shape = rc_grid_shape(p);
-    struct rc_conv_options options = {.boundary = boundary(t, p),
+    struct rc_conv_options options = {.boundary = contact_boundary(t, p, args.periodic),
                                       .engine = args.kernel,
                                       .tol = isnan(args.tol) ? 0 : args.tol,
                                       .order = args.order,

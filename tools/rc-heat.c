@@ -139,17 +139,6 @@ read_options(struct run *run)
 
 /* ---- a case ---- */
 
-static enum rc_boundary
-boundary_of(const struct rc_grid *g)
-{
-    const char *boundary = rc_grid_get(g, "boundary"), *own = rc_grid_get(g, "periodic");
-
-    return (boundary != NULL && strcmp(boundary, "periodic") == 0) ||
-                   (boundary == NULL && own != NULL && strcmp(own, "yes") == 0)
-               ? RC_PERIODIC
-               : RC_FREE;
-}
-
 /* Makes the heat flux of friction, or checks the given one. */
 static void
 find_heat(struct run *run, struct rc_grid *g)
@@ -265,7 +254,7 @@ do_case(struct run *run, struct rc_grid *g)
         contact = tool_room(&run->t, rc_grid_nodes(g), sizeof *contact, "the contact");
         memcpy(contact, touch->v, rc_grid_nodes(g) * sizeof *contact);
     }
-    run->problem.boundary = boundary_of(g);
+    run->problem.boundary = map_boundary(g);
     find_heat(run, g);
     h = rc_heat_new(&shape, &run->problem, g->v, contact, &err);
     free(contact);

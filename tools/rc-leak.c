@@ -80,9 +80,8 @@ struct run {
 static bool
 sides_meet(struct run *run, const struct rc_grid *g)
 {
-    const char *boundary = rc_grid_get(g, "boundary"), *own = rc_grid_get(g, "periodic");
-    bool meet = boundary != NULL ? strcmp(boundary, "periodic") == 0
-                                 : own != NULL && strcmp(own, "yes") == 0;
+    const char *boundary = rc_grid_get(g, "boundary");
+    bool meet = map_boundary(g) == RC_PERIODIC;
 
     if (args.sides == NULL)
         return meet;

@@ -134,7 +134,7 @@ claim "the stresses of a periodic pressure are periodic" bash -c \
 near "$(rc-info --json p.rcg | grep '"szz"' | tail -n 1 | grep -o '"mean": [^,]*' | cut -d' ' -f2)" \
     -1e8 "$summed" "  that carry the load at every depth"
 claim "  its automatic depths differ" bash -c 'rc-stress --nu 0.3 --depths auto wave.rcg -o p.rcg'
-refuses 1 'its boundary is free: --periodic contradicts it' "--periodic against the stream" \
+refuses 1 'its boundary is free, which contradicts --periodic' "--periodic against the stream" \
     "rc-stress --periodic --depths 0 ball.rcg"
 refuses 1 'its boundary is periodic, where only fft sums: leave out --kernel mlms' "mlms on a periodic map" \
     "rc-stress --kernel mlms --nu 0.3 --depths 0 wave.rcg"

@@ -6,8 +6,8 @@
 #include "contact.h"
 
 #include <math.h>
+#include <string.h>
 
-#include "libcontact/contact.h"
 #include "ranks.h"
 
 static const double rounding =
@@ -98,4 +98,40 @@ const struct rc_grid *
 contact_demand(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact)
 {
     return find(t, p, contact, true);
+}
+
+/* ---- the boundary ---- */
+
+static bool
+says(const struct rc_grid *g, const char *key, const char *value)
+{
+    const char *own = rc_grid_get(g, key);
+
+    return own != NULL && strcmp(own, value) == 0;
+}
+
+enum rc_boundary
+map_boundary(const struct rc_grid *g)
+{
+    if (rc_grid_get(g, "boundary") != NULL)
+        return says(g, "boundary", "periodic") ? RC_PERIODIC : RC_FREE;
+    return says(g, "periodic", "yes") ? RC_PERIODIC : RC_FREE;
+}
+
+enum rc_boundary
+contact_boundary(struct tool *tool, const struct rc_grid *p, bool periodic)
+{
+    const char *own = rc_grid_get(p, "boundary");
+
+    if (own == NULL)
+        return periodic ? RC_PERIODIC : RC_FREE;
+    if (says(p, "boundary", "periodic"))
+        return RC_PERIODIC;
+    if (!says(p, "boundary", "free"))
+        tool_die_at(tool, p, EXIT_IMPOSSIBLE, "its boundary is '%s': it must be free or periodic",
+                    own);
+    if (periodic)
+        tool_die_at(tool, p, EXIT_IMPOSSIBLE,
+                    "its boundary is %s, which contradicts --periodic: leave out --periodic", own);
+    return RC_FREE;
 }

@@ -1,9 +1,10 @@
 /*
- * Finds the nodes in contact from the frames of a case. All tools use this one definition.
+ * The nodes in contact and the boundary, from the frames of a case. All tools use these definitions.
  */
 #ifndef RC_TOOL_CONTACT_H
 #define RC_TOOL_CONTACT_H
 
+#include "libcontact/contact.h"
 #include "tool.h"
 
 #define CONTACT_CHANNEL "contact"
@@ -19,5 +20,12 @@ const struct rc_grid *contact_frame(struct tool *tool, const struct rc_grid *p,
  * "--patches needs to know"). */
 const struct rc_grid *contact_demand(struct tool *tool, const struct rc_grid *p,
                                      const struct rc_grid *contact);
+
+/* The boundary of a result is in its key `boundary`; without it, a map whose key `periodic` is yes is
+ * periodic. */
+enum rc_boundary map_boundary(const struct rc_grid *g);
+/* The boundary of the contact that p was solved for; if p does not say, `periodic` (--periodic) does. Ends
+ * the tool if the two contradict each other. */
+enum rc_boundary contact_boundary(struct tool *tool, const struct rc_grid *p, bool periodic);
 
 #endif

@@ -12,23 +12,6 @@ is(const struct rc_grid *g, const char *channel)
     return strcmp(g->channel, channel) == 0;
 }
 
-static bool
-says(const struct rc_grid *g, const char *key, const char *value)
-{
-    const char *is_value = rc_grid_get(g, key);
-
-    return is_value != NULL && strcmp(is_value, value) == 0;
-}
-
-/* A result has a boundary; a surface is periodic or is not. */
-static enum rc_boundary
-boundary_of(const struct rc_grid *g)
-{
-    if (rc_grid_get(g, "boundary") != NULL)
-        return says(g, "boundary", "periodic") ? RC_PERIODIC : RC_FREE;
-    return says(g, "periodic", "yes") ? RC_PERIODIC : RC_FREE;
-}
-
 void
 info_check(struct info_wanted *w, struct tool *t)
 {
@@ -95,7 +78,7 @@ static void
 find_areal(const struct info_wanted *w, struct tool *t, const struct rc_grid *g,
            struct info_figures *f)
 {
-    const struct rc_surface_options options = {.boundary = boundary_of(g), .threads = t->threads};
+    const struct rc_surface_options options = {.boundary = map_boundary(g), .threads = t->threads};
     const struct rc_shape shape = rc_grid_shape(g);
     size_t missing = 0;
     struct rc_err err;
@@ -141,7 +124,7 @@ static void
 find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct info_figures *f)
 {
     struct rc_psd_options options = {
-        .boundary = boundary_of(g), .window = w->window, .threads = t->threads};
+        .boundary = map_boundary(g), .window = w->window, .threads = t->threads};
     const struct rc_shape shape = rc_grid_shape(g);
     struct rc_grid *map = NULL;
     struct rc_err err;
@@ -195,7 +178,7 @@ static void
 find_patches(struct tool *t, const struct rc_grid *g, const double *touch, struct info_figures *f)
 {
     const struct rc_patch_options options = {
-        .boundary = boundary_of(g), .each = true, .threads = t->threads};
+        .boundary = map_boundary(g), .each = true, .threads = t->threads};
     const struct rc_shape shape = rc_grid_shape(g);
     struct rc_err err;
 

@@ -60,22 +60,6 @@ check_pressure(struct slip_run *run)
     run->load = rc_sum(run->p->v, n) * run->p->dx * run->p->dy;
 }
 
-/* Friction takes the boundary of the pressure. */
-static void
-find_boundary(struct slip_run *run)
-{
-    const char *own = rc_grid_get(run->p, "boundary");
-    bool periodic = own == NULL ? run->args->periodic : strcmp(own, "periodic") == 0;
-
-    if (own != NULL && strcmp(own, "free") != 0 && !periodic)
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
-                    "its boundary is '%s': it must be free or periodic", own);
-    if (run->args->periodic && !periodic)
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
-                    "its boundary is %s, which contradicts --periodic: leave out --periodic", own);
-    run->boundary = periodic ? RC_PERIODIC : RC_FREE;
-}
-
 /* A new contact can be solved only for elastic bodies with known heights. */
 static void
 check_solvable(struct slip_run *run)
@@ -369,7 +353,7 @@ slip_case(struct slip_run *run)
     check_pressure(run);
     check_beside(run, run->gap);
     check_beside(run, run->height);
-    find_boundary(run);
+    run->boundary = contact_boundary(&run->d.t, run->p, run->args->periodic);
     if (run->args->output >> SLIP_HEIGHT & 1 && run->height == NULL)
         tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE,
                     "--output height: there is no height beside it: take all that rc-solve writes");

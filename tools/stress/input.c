@@ -47,23 +47,6 @@ poisson(struct tool *t, const struct stress_asked *asked, const struct rc_grid *
     return nu;
 }
 
-/* Refuses a boundary other than that of the solved pressure. */
-static enum rc_boundary
-boundary(struct tool *t, const struct stress_asked *asked, const struct rc_grid *p)
-{
-    const char *own = rc_grid_get(p, "boundary");
-    bool periodic = own == NULL ? asked->periodic : strcmp(own, "periodic") == 0;
-
-    if (own != NULL && strcmp(own, "free") != 0 && !periodic)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE,
-                    "its boundary is '%s': it must be free or "
-                    "periodic",
-                    own);
-    if (asked->periodic && !periodic)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE, "its boundary is %s: --periodic contradicts it", own);
-    return periodic ? RC_PERIODIC : RC_FREE;
-}
-
 /* Refuses --nu for a coated body, whose materials have their own Poisson's ratios. */
 static void
 set_material(struct tool *t, const struct stress_asked *asked, const struct rc_grid *p,
@@ -150,7 +133,7 @@ stress_input_read(struct tool *t, const struct rc_grid *p, const struct stress_a
 {
     char list[128];
 
-    o->boundary = boundary(t, asked, p);
+    o->boundary = contact_boundary(t, p, asked->periodic);
     set_material(t, asked, p, in, o);
     o->mu = asked->mu;
     o->engine = asked->kernel;
