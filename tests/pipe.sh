@@ -113,10 +113,15 @@ field() {
     grep -o "\"$1\": [^,}]*" "$2" | head -n 1 | sed 's/^[^:]*: //; s/"//g'
 }
 
+# with_address_sanitizer: true if the tools have it; it takes memory of its own and keeps what is freed.
+with_address_sanitizer() {
+    nm -D "$(command -v rc-solve)" >symbols.txt 2>/dev/null
+    grep -q __asan symbols.txt
+}
+
 # skip_with_address_sanitizer "why": ends a test that the memory of the sanitizer would disturb.
 skip_with_address_sanitizer() {
-    nm -D "$(command -v rc-solve)" >symbols.txt 2>/dev/null
-    if grep -q __asan symbols.txt; then
+    if with_address_sanitizer; then
         echo "skipped with the address sanitizer: $1"
         exit 77
     fi

@@ -99,7 +99,7 @@ rc-synth sphere --nx 1024 --dx 1um --radius 7.5mm -o large.rcg
 claim "all frames together need memory for one map, and the pressure needs none" bash -c '
     rc-solve --quiet --periodic --load 1N --estar 100GPa --tol 0.1 --report all.json large.rcg -o all.rcg &&
     rc-solve --quiet --periodic --load 1N --estar 100GPa --tol 0.1 --report one.json --output pressure large.rcg -o one.rcg'
-claim "a map is 8 MiB here" [ "$(($(field peak_memory all.json) - $(field peak_memory one.json)))" -lt $((12 << 20)) ]
+with_address_sanitizer || claim "a map is 8 MiB here" [ "$(($(field peak_memory all.json) - $(field peak_memory one.json)))" -lt $((12 << 20)) ]
 
 if ! with_mpi; then
     export OMPI_COMM_WORLD_SIZE=2
