@@ -1230,15 +1230,16 @@ struct rc_rolling_contact {
     const double *p; /* pressure, nx ny Pa */
     double x;
 };
-/* The contact rolls towards +x. Body 2 moves over body 1 by (creep_x - spin y, creep_y + spin x) per length
- * rolled, x and y from the middle of the contact, which is at RC_POSITION (0 if it is never given); this is
- * minus the creepage of railway textbooks, where body 1 moves over body 2.
- * Steady: at each place of the contact tractions and slip are the same at all times. A path: at the first point
- * the bodies are pressed together, and each further one is a step of rolling from the last point kept. */
+/* The contact rolls towards +x. Body 2 moves over body 1 by (creep_x - spin y, creep_y + spin x) per
+ * length rolled, with x and y from the middle of the contact. The middle is at RC_POSITION (0 if it is
+ * never given). This is minus the creepage of railway textbooks, where body 1 moves over body 2. In a
+ * steady state, tractions and slip at each place of the contact do not change with time. On a path, the
+ * bodies are pressed together at the first point, and each further point is a step of rolling from the
+ * last point kept. */
 struct rc_rolling_problem {
-    /* Friction and bodies; a steady state needs the free boundary. Pressure moves dissimilar bodies along each
-     * other, unless `uncoupled`; tractions do not change the pressure. tol 0: 1e-3, on a path 1e-2; max_steps
-     * of each grid. */
+    /* Friction and bodies. A steady state needs the free boundary. Pressure moves dissimilar bodies along
+     * each other, unless `uncoupled`; tractions do not change the pressure. tol 0 is 1e-3, on a path
+     * 1e-2. max_steps holds for each grid. */
     struct rc_slip_problem slip;
     bool force; /* points give RC_FORCE_X, RC_FORCE_Y, and RC_CREEP_X, RC_CREEP_Y are found */
     bool path;  /* each point is a step; else a steady state, whatever comes before */
@@ -1267,13 +1268,13 @@ struct rc_rolling_figures {
     double convolutions;     /* with those of the contact                              */
     bool converged;          /* traction_error <= tol                                  */
 };
-/* A model (model.h) of rolling over an inner one of the same bodies, which it owns from here on; NULL where that
- * is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or two forces, RC_SPIN, and
- * RC_POSITION, which may not fall on a path. Frames: pressure, traction-x, traction-y (Pa), slip-x, slip-y (per
- * length rolled), state (as in rc_slip_state). RC_FAIL on the way where no node is in contact, where the contact
- * reaches the last column, the leading edge, or one that comes in, or where friction cannot carry the force.
- * Sources: Kalker 1990, Three-dimensional elastic bodies in rolling contact; Newton's method as in
- * libcontact/slip/steady.c. */
+/* A model (model.h) of rolling over an inner model of the same bodies, which it owns from here on. NULL
+ * if the inner model is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or
+ * two forces, and RC_SPIN and RC_POSITION. The position may not fall on a path. Frames: pressure,
+ * traction-x, traction-y (Pa), slip-x, slip-y (per length rolled), state (as in rc_slip_state). RC_FAIL
+ * on the way if no node is in contact, or friction cannot carry the force. RC_FAIL too if the contact
+ * reaches the last column (the leading edge), or a column that comes in. Sources: Kalker 1990, Three-
+ * dimensional elastic bodies in rolling contact; Newton's method as in libcontact/slip/steady.c. */
 RC_API struct rc_model *rc_rolling_new(struct rc_model *inner,
                                        const struct rc_rolling_problem *problem,
                                        struct rc_err *err);
@@ -1337,18 +1338,20 @@ struct rc_travel_problem {
     double radius; /* m, of the ball that travels; 0: none                                  */
 };
 struct rc_travel_figures {
-    double
-        position; /* m, x of the middle of the contact on the map of body 1, from its middle          */
-    double
-        height; /* m, of body 2: highest node less the approach, in a datum that stays with body 1 */
-    double window_x; /* m, x of the middle of the window on this map; 0: the whole map */
+    /* m: x of the middle of the contact on the map of body 1, from the middle of that map */
+    double position;
+    /* m: height of body 2, the highest node less the approach, in a datum that stays with body 1 */
+    double height;
+    /* m: x of the middle of the window on that map; 0 for the whole map */
+    double window_x;
 };
-/* A model (model.h) of a contact that travels along x over body 1, over an inner one that allows other heights,
- * and which it owns from here on; NULL where that is NULL. In addition to the load it takes the position. The
- * map of the inner model is that of body 1, or a window of it, with fewer columns or rows, that goes along by
- * whole nodes. In a window each position is a first contact; on the whole map the inner model keeps its
- * history. Its frame `height` holds the heights of both bodies at the position. The heights of body 2 between
- * nodes are interpolated by cubic polynomials. RC_FAIL when the window leaves the map of a body. */
+/* A model (model.h) of a contact that travels along x over body 1. It owns the inner model from here on,
+ * which must allow other heights. NULL if the inner model is NULL. In addition to the load it takes the
+ * position. The map of the inner model is that of body 1, or a window with fewer columns or rows, which
+ * goes along by whole nodes. In a window each position is a first contact; on the whole map the inner
+ * model keeps its history. The frame `height` holds the heights of both bodies at the position. The
+ * heights of body 2 between nodes are interpolated by cubic polynomials. RC_FAIL when the window leaves
+ * the map of a body. */
 RC_API struct rc_model *rc_travel_new(struct rc_model *inner,
                                       const struct rc_travel_problem *problem, struct rc_err *err);
 /* The figures of this model, after rc_model_look; NULL: it does not travel. */
@@ -1379,20 +1382,21 @@ struct rc_heat_problem {
     double tol;     /* of the mismatch; 0: 1e-3                    */
     size_t threads; /* 0: all                                      */
 };
-/* The Peclet number of a body is V a/(2 kap), with a the radius of a circle of the area of the largest patch, and
- * for a cell the side of the cell along the motion. */
+/* The Peclet number of a body is V a/(2 kap). a is the radius of a circle of the area of the largest
+ * patch; for a cell it is the side of the cell along the motion. */
 struct rc_heat_figures {
     double heat_power, heat_power_1;           /* W: of the contact, into body 1               */
     double share_1, share_blok, share_charron; /* of body 1; NAN: no heat                      */
     double peclet_1, peclet_2, cell_peclet_1, cell_peclet_2;
-    double max_temperature, max_x,
-        max_y;               /* K above the bulk of body 1, and its place, m           */
-    double mean_temperature; /* K above the bulk of body 1, in contact                 */
-    /* largest difference of the temperatures in contact over the largest rise of a body above its bulk */
+    double max_temperature;  /* K above the bulk of body 1             */
+    double max_x, max_y;     /* its place, m                           */
+    double mean_temperature; /* K above the bulk of body 1, in contact */
+    /* The largest difference of the temperatures in contact, over the largest rise of a body above its
+     * bulk. */
     double mismatch;
-    size_t
-        hot_nodes; /* contact nodes in a row along the motion through the hottest node: with few of them and
-                           a cell_peclet above 1 the grid misses the temperature at the trailing edge */
+    /* Number of contact nodes in a row, along the motion, through the hottest node. With few of them and a
+     * cell_peclet above 1 the grid misses the temperature at the trailing edge. */
+    size_t hot_nodes;
     double steady_time; /* s: contact area over the smaller diffusivity          */
     size_t iterations;
     double convolutions;
@@ -1401,25 +1405,26 @@ struct rc_heat_figures {
 /* RC_FAIL when rc_heat_new would refuse the problem for its numbers. */
 RC_API enum rc_status rc_heat_check(const struct rc_shape *shape,
                                     const struct rc_heat_problem *problem, struct rc_err *err);
-/* Temperatures of the surfaces of two half-spaces due to the heat flux q of their contact, nx ny W/m2. Exact for
- * all speeds for a flux that is constant in each cell, on a periodic map for a band-limited one: Jaeger 1942 (J.
- * Proc. R. Soc. N.S.W. 76, 203). A profile (ny = 1) continues along y without end. rc_in_contact decides from
- * `contact`, a pressure or a map of 1 and 0; NULL: contact is where q is not 0. Heat can flow from body to body
- * only in contact. NULL when q is not finite or not 0 out of contact, no node is in contact, a steady state does
- * not exist (periodic maps, profiles with a body at rest), or memory is short. The maps are copied. */
+/* Temperatures of the surfaces of two half-spaces due to the heat flux q of their contact, nx ny W/m2
+ * (Jaeger 1942, J. Proc. R. Soc. N.S.W. 76, 203). They are exact at all speeds for a flux that is
+ * constant in each cell, and on a periodic map for a band-limited flux. A profile (ny = 1) continues
+ * along y without end. rc_in_contact finds the contact from `contact`, a pressure or a map of 1 and 0;
+ * with NULL, contact is where q is not 0. Heat can flow from body to body only in contact. NULL when q is
+ * not finite, or is not 0 out of contact; when no node is in contact; when there is no steady state
+ * (periodic maps, profiles with a body at rest); or when memory is short. The maps are copied. */
 RC_API struct rc_heat *rc_heat_new(const struct rc_shape *shape,
                                    const struct rc_heat_problem *problem, const double *q,
                                    const double *contact, struct rc_err *err);
 /* One step, of 2 convolutions: RC_MORE; RC_OK when the temperatures match; RC_SHORT after 100 steps, or when
  * rounding prevents this. RC_FAIL when memory is short. */
 RC_API enum rc_status rc_heat_step(struct rc_heat *heat, struct rc_err *err);
-/* After the last step, like the following. */
+/* The figures. Call this and the following functions after the last step. */
 RC_API const struct rc_heat_figures *rc_heat_result(const struct rc_heat *heat);
-/* Heat flux into body 0 or 1, nx ny W/m2. It may be negative, or larger than q, where cold material enters the
- * contact. */
+/* Heat flux into body 0 or 1, nx ny W/m2. Where cold material enters the contact, it may be negative, or
+ * larger than q. */
 RC_API const double *rc_heat_flux(const struct rc_heat *heat, int body);
-/* Temperature of body 0 or 1 at a depth, m, nx ny K above the bulk of body 1. RC_FAIL when the depth is negative or
- * memory is short. */
+/* Temperature of body 0 or 1 at a depth in m: nx ny values, K above the bulk of body 1. RC_FAIL when the
+ * depth is negative or memory is short. */
 RC_API enum rc_status rc_heat_temperature(struct rc_heat *heat, int body, double depth, double *to,
                                           struct rc_err *err);
 RC_API void rc_heat_free(struct rc_heat *heat); /* NULL is allowed */
@@ -1541,7 +1546,7 @@ RC_API void rc_stress_derive(unsigned wanted, size_t n, const double *const s[RC
 
 /* ---- fatigue ---- */
 
-/* Criteria of high-cycle fatigue under many axes: an index of 1 is the endurance limit. Definitions, constants
+/* Criteria of multiaxial high-cycle fatigue: an index of 1 is the endurance limit. Definitions, constants
  * and sources are in libcontact/fatigue/criteria.c and contact-theory(7). */
 enum rc_criterion {
     RC_CROSSLAND,
@@ -1568,10 +1573,10 @@ struct rc_fatigue_limits {
 RC_API enum rc_status rc_fatigue_check_limits(unsigned wanted,
                                               const struct rc_fatigue_limits *limits,
                                               struct rc_err *err);
-/* The wanted values of one history of n > 0 stresses, s[c] with n values each, Pa; the others become NAN. The
- * history is a closed cycle; the order of its states has no effect. full: in the criterion of Dang Van,
- * hydrostatic pressure lowers the index; otherwise only hydrostatic tension counts, which is on the safe side.
- * Shakedown allows residual stresses sxx and syy. RC_FAIL as above, and when memory is short. */
+/* The wanted values of one history of n > 0 stresses, s[c] with n values each, Pa; the others become NAN.
+ * The history is a closed cycle; the order of its states has no effect. full: in the criterion of Dang
+ * Van, hydrostatic pressure lowers the index. Otherwise only hydrostatic tension counts, which is on the
+ * safe side. Shakedown allows residual stresses sxx and syy. RC_FAIL as above, and when memory is short. */
 RC_API enum rc_status rc_fatigue_history(unsigned wanted, const struct rc_fatigue_limits *limits,
                                          bool full, size_t n, const double *const s[RC_COMPONENTS],
                                          double values[RC_FATIGUES], struct rc_err *err);
@@ -1582,27 +1587,29 @@ RC_API enum rc_status rc_fatigue_history(unsigned wanted, const struct rc_fatigu
  * map the unloaded state belongs to each history, and a node outside the map of a case is unloaded. On a
  * periodic map nothing is added, and columns wrap around. */
 struct rc_fatigue_problem {
-    struct rc_stress_options
-        stress;             /* wanted, section and traction are ignored; no ranks, no strain */
-    unsigned wanted;        /* bits of enum rc_criterion */
-    bool full;              /* as for rc_fatigue_history */
-    char pass;              /* 'x', 'y', or 0: cases     */
-    size_t cases;           /* 1 with a pass             */
-    const double *const *p; /* of each case, nx ny values, Pa      */
+    /* Its members wanted, section and traction are ignored; no ranks, no strain. */
+    struct rc_stress_options stress;
+    unsigned wanted;                  /* bits of enum rc_criterion */
+    bool full;                        /* as for rc_fatigue_history */
+    char pass;                        /* 'x', 'y', or 0: cases     */
+    size_t cases;                     /* 1 with a pass             */
+    const double *const *p;           /* of each case, nx ny values, Pa      */
     const double *const *traction[2]; /* the same; NULL: none                */
     const size_t *column; /* of each case: the column of the body below its first column; NULL: 0 */
-    size_t room; /* bytes for histories of cases; 0: all. Little room costs time: stresses are
-                             computed again for each band of rows */
-    /* Stressed volume: the integral of (amplitude - threshold)^power z^-depth_power over points of a depth and
-     * over depths, the amplitude in GPa; of a pass per length of travel. power 0: none */
+    /* Bytes for histories of cases; 0: all. With little room, stresses are computed again for each band of
+     * rows, which costs time. */
+    size_t room;
+    /* Stressed volume: the integral of (amplitude - threshold)^power z^-depth_power over points of a
+     * depth and over depths, with the amplitude in GPa. That of a pass is per length of travel. power 0:
+     * none. */
     double power, depth_power, threshold;
 };
 /* The largest value of a criterion. */
 struct rc_fatigue_place {
     double value;       /* index, or Pa for the amplitude; NAN: not wanted, or no depth yet */
     double x, y, depth; /* m; x NAN: all of the travel                                      */
-    /* Relative: estimated from the change of the largest values of this depth when only every second state is
-     * taken. */
+    /* Relative. It is estimated from the change of the largest values of this depth when only every
+     * second state is taken. */
     double sampling_error;
 };
 struct rc_fatigue_figures {
@@ -1620,8 +1627,8 @@ struct rc_fatigue_figures {
 RC_API enum rc_status rc_fatigue_check(const struct rc_shape *shape,
                                        const struct rc_fatigue_problem *problem,
                                        struct rc_err *err);
-/* The grid of the results of a depth: of a pass along x, ny columns, one for each row of the map, and one row;
- * of cases the columns of the body that a case covers. */
+/* The grid of the results of a depth. A pass along x has ny columns, one for each row of the map, and one
+ * row. Cases have the columns of the body that a case covers. */
 RC_API struct rc_shape rc_fatigue_shape(const struct rc_shape *shape,
                                         const struct rc_fatigue_problem *problem);
 /* Bytes that rc_fatigue_new allocates for its maps and histories, beside the plan of the stresses. */

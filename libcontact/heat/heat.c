@@ -1,12 +1,14 @@
 /*
- * Temperatures of two bodies that share the heat of their contact. With f the heat flux into body 1, of any sign,
- * q - f that into body 2, and D = bulk of body 2 - bulk of body 1, equal temperatures in the contact need
+ * Temperatures of two bodies that share the heat of their contact. f is the heat flux into body 1, of any
+ * sign, and q - f that into body 2. D is the bulk of body 2 less that of body 1. Equal temperatures in
+ * the contact need
  *
  *     (C1 + C2) f = C2 q + D   at the nodes in contact,   f = 0 elsewhere.
  *
- * C1 + C2 is not symmetric where a body moves, but its symmetric part is positive. GMRES without restart (Saad and
- * Schultz 1986), preconditioned on the right by the reciprocal of the spectrum of C1 + C2 on the padded map. Its
- * residual is then the difference of the temperatures, and its largest value decides when to stop.
+ * C1 + C2 is not symmetric where a body moves, but its symmetric part is positive. It is solved by GMRES
+ * without restart (Saad and Schultz 1986). The preconditioner on the right is the reciprocal of the
+ * spectrum of C1 + C2 on the padded map. The residual is then the difference of the temperatures, and its
+ * largest value decides when to stop.
  */
 #include <float.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /*
- * Temperature of a wave of heat flux 1 exp(i q x) on a body that moves. With m = sqrt(q^2 + 2 i P . q), Re m > 0,
- * it is exp(-m z)/(k m) in the steady state, and with s = sqrt(kap t), a = z/(2 s) at a time t after heating began
- * (Carslaw and Jaeger 1959, section 2.9)
+ * Temperature of a wave of heat flux 1 exp(i q x) on a body that moves. Let m = sqrt(q^2 + 2 i P . q),
+ * with Re m > 0. In the steady state the temperature is exp(-m z)/(k m). At a time t after heating began,
+ * with s = sqrt(kap t) and a = z/(2 s), it is (Carslaw and Jaeger 1959, section 2.9)
  *
  *     [exp(-m z) erfc(a - m s) - exp(m z) erfc(a + m s)]/(2 k m).
  */
@@ -11,8 +11,9 @@
  *
  *     exp(z^2) erfc(z) = 1/(sqrt(pi) (L + z)) + 2/(L + z)^2 sum of a_n Z^n,   Z = (L - z)/(L + z):
  *
- * those of the Fourier series of (L^2 + t^2) exp(-t^2), t = L tan(theta/2). Z is in the unit disc where Re z >= 0.
- * Error with 40 terms: below 1e-13 (Weideman 1994, SIAM J. Numer. Anal. 31, 1497). */
+ * They are those of the Fourier series of (L^2 + t^2) exp(-t^2), with t = L tan(theta/2). Z is in the unit
+ * disc where Re z >= 0. With 40 terms the error is below 1e-13 (Weideman 1994, SIAM J. Numer. Anal. 31,
+ * 1497). */
 struct rc_heat_waves
 rc_heat_waves_of(const struct rc_heated *body)
 {

@@ -1,17 +1,19 @@
 /*
- * The model of rolling: Coulomb's friction in a contact that rolls with creepage (steady.h), under the pressure
- * of an inner model, or under a known one. Tractions do not change the pressure. Each point is a steady state,
- * or the next step of a path.
+ * The model of rolling: Coulomb's friction in a contact that rolls with creepage (steady.h). The pressure
+ * is that of an inner model, or is known. Tractions do not change it. Each point is a steady state, or
+ * the next step of a path.
  *
- * The iteration of a steady state starts on coarser grids. Each has every second node of the next finer one, the last column
- * included, and the same load. A node of the finer grid starts from the q/g of a node beside it. The difference
- * of the two finest grids tells the error of the spacing, which is of first order.
+ * The iteration of a steady state starts on coarser grids. Each has every second node of the next finer
+ * one, the last column included, and the same load. A node of the finer grid starts from the q/g of a
+ * node beside it. The difference of the two finest grids tells the error of the spacing, which is of
+ * first order.
  *
  * On each grid the motion over the step from a node to the next one is that in the middle of the step.
  *
- * A path begins with the bodies pressed together without friction. A step of it is a projection, so that errors
- * of the tractions do not grow, and the contact forgets them: measured by a factor of 0.14 while it rolls over
- * its own length. The tolerance of a step is the part of the tolerance that is forgotten until the next one.
+ * A path begins with the bodies pressed together without friction. A step of it is a projection, so that
+ * errors of the tractions do not grow. The contact forgets them: by a measured factor of 0.14 while it
+ * rolls over its own length. The tolerance of a step is the part of the tolerance that is forgotten until
+ * the next one.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -729,8 +731,9 @@ progress(const struct rc_model *m, struct rc_loops *l)
     l->tol = d->asked.tol;
 }
 
-/* Measured. Convolutions: 60 to 130 to 1e-2 in a steady state, twice as many a factor of 100 below, and 25 a step
- * of a path. Bytes: on 512 x 512 nodes, as maps of doubles. */
+/* These numbers are measured. A steady state takes 60 to 130 convolutions to 1e-2, and twice as many for
+ * each factor of 100 below; a step of a path takes 25. The bytes are those on 512 x 512 nodes, counted in
+ * maps of doubles. */
 static enum rc_status
 plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
      struct rc_err *err)

@@ -76,8 +76,9 @@ integral(function *f, const double *with, double a, double b, double tol, int de
            integral(f, with, (a + b) / 2, b, tol, depth - 1);
 }
 
-/* Jaeger's kernel exp(-P r - P . (x - x'))/(2 pi r) over a ray of length R, times the change of its angle along an
- * edge: t along the edge, its distance, px and py from the point along the edge and across it. */
+/* The integral of Jaeger's kernel exp(-P r - P . (x - x'))/(2 pi r) over a ray of length R, times the
+ * change of its angle along an edge. t is the place along the edge and with[0] its distance; with[1] and
+ * with[2] are P along the edge and across it. */
 static double
 ray(double t, const double *with)
 {
@@ -158,7 +159,8 @@ coefficients(void **state)
         }
 }
 
-/* Far downstream all heat is in the material: the sum over y and the integral over z of T is dx dy/(rho c V). */
+/* Far downstream all heat is in the material. The sum over y and the integral over z of the temperature
+ * is then dx dy/(rho c V). */
 static double
 section(double z, const double *with)
 {
@@ -253,8 +255,8 @@ make_source(int kind, struct source *s)
             s->q[k] *= RC_PI * s->half * s->half / sum;
 }
 
-/* The largest temperature over q a/k of one body that takes all heat, with time (0: steady); and its place over
- * the radius. */
+/* The largest temperature over q a/k of a body that takes all heat, at a time (0: steady), and its place
+ * over the radius. */
 static double
 largest(const struct rc_shape *shape, const double *q, double half, double peclet, double time,
         double *place)
@@ -278,9 +280,9 @@ largest(const struct rc_shape *shape, const double *q, double half, double pecle
     return most;
 }
 
-/* Maxima over q a/k: of the square from its exact fields, of the others by integration over distance and angle. The
- * grid is off by 1e-3, where it resolves the edge: with a cell's P dx of 17, m nodes from the leading edge the last
- * node lacks 1/(4 m). */
+/* Maxima over q a/k. Those of the square come from its exact fields, the others from integration over
+ * distance and angle. The grid is off by 1e-3 where it resolves the edge. Where it does not (P dx of 17),
+ * the last of m nodes from the leading edge is 1/(4 m) too low. */
 static void
 table(void **state)
 {

@@ -1,6 +1,7 @@
-/* Repeated passes over a body that yields, without hardening. A line contact shakes down below p0 = 4 k (Johnson
- * 1962) and ratchets above; a ball does so at 4.68 k, which its groove raises in a few passes. Plastic work never falls. A contact that travels the other way leaves the mirror
- * image of the strain. The estimated error of the steps is above the difference from much shorter steps. */
+/* Repeated passes over a body that yields, without hardening. A line contact shakes down below p0 = 4 k
+ * (Johnson 1962) and ratchets above. A ball does so at 4.68 k, which its groove raises in a few passes.
+ * Plastic work never falls. A contact that travels the other way leaves the mirror image of the strain.
+ * The estimated error of the steps is above the difference from much shorter steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
-/* A contact that travels: each position is compared with a contact of its own, whose heights are summed here. A
- * ball on an inclined plane rises with the plane, also between nodes; a surface between nodes is compared with
- * its Fourier series. Also counts convolutions. */
+/* A contact that travels. Each position is compared with a contact of its own, whose heights are summed
+ * here. A ball on an inclined plane rises with the plane, also between nodes. A surface between nodes is
+ * compared with its Fourier series. Convolutions are counted. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -195,7 +195,8 @@ between_nodes(void **state)
     rc_model_free(m);
 }
 
-/* A ball on a plane of slope s touches s R ahead, and rises by s a length; its approach is that of the flat. */
+/* A ball on a plane of slope s touches at the distance s R ahead of its middle, and rises by s times its
+ * travel. Its approach is that on a flat. */
 static void
 inclined_plane(void **state)
 {
