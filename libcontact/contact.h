@@ -1357,6 +1357,48 @@ RC_API struct rc_model *rc_travel_new(struct rc_model *inner,
 /* The figures of this model, after rc_model_look; NULL: it does not travel. */
 RC_API const struct rc_travel_figures *rc_travel_result(const struct rc_model *model);
 
+/* ---- viscoelastic materials ---- */
+
+/* A relaxation modulus, which is a Prony series, and the creep compliance of the same material:
+ *
+ *     E(t) = relaxed + sum over k of modulus[k] exp(-t/time[k])
+ *     J(t) = instant + sum over j of compliance[j] (1 - exp(-t/retardation[j])) + fluidity t
+ *
+ * A strain of 1 from t = 0 on needs the stress E(t); a stress of 1 from t = 0 on causes the strain J(t). Any
+ * modulus has such a compliance, with a factor that is constant in time: for a contact, E/(1 - nu^2). */
+struct rc_relaxation {
+    double relaxed;                   /* Pa                                          */
+    size_t terms;                     /* terms with a modulus of 0 are left out      */
+    double *modulus, *time;           /* Pa, s; the times rise                       */
+    double instant, fluidity;         /* 1/Pa, 1/(Pa s); fluidity > 0 if relaxed = 0 */
+    size_t creep_terms;               /* terms, or terms - 1 with a fluidity         */
+    double *compliance, *retardation; /* 1/Pa, s; the times rise                  */
+};
+/* From `terms` moduli (Pa, >= 0) and relaxation times (s, > 0, all different), in any order, and the relaxed
+ * modulus (Pa, >= 0; 0: a fluid). The compliance is exact to rounding, also over 20 decades (Gross 1953,
+ * Mathematical structure of the theories of viscoelasticity). NULL when a number is out of range, when all
+ * moduli are 0, or when memory is short. */
+RC_API struct rc_relaxation *rc_relaxation_new(double relaxed, size_t terms, const double *modulus,
+                                               const double *time, struct rc_err *err);
+/* Fits a master curve: storage and loss moduli (Pa, > 0) at n >= 4 different angular frequencies (rad/s,
+ * > 0). The relaxation times are even in the logarithm, with `per_decade` times a decade (0: 1.5), from the
+ * inverse of the highest frequency to that of the lowest. The moduli, >= 0, give the least sum of squares of
+ * the relative errors (Lawson and Hanson 1974). *misfit: the RMS of these errors; above 0.05 the two columns
+ * contradict each other. NULL when a number is out of range or memory is short. */
+RC_API struct rc_relaxation *rc_relaxation_fit(size_t n, const double *omega, const double *storage,
+                                               const double *loss, double per_decade,
+                                               double *misfit, struct rc_err *err);
+RC_API double rc_relaxation_modulus(const struct rc_relaxation *r, double t);    /* E(t), Pa   */
+RC_API double rc_relaxation_compliance(const struct rc_relaxation *r, double t); /* J(t), 1/Pa */
+/* The complex modulus E(i omega), Pa, and the complex compliance J(i omega) = 1/E(i omega), 1/Pa: real and
+ * imaginary parts, for exp(i omega t) with omega > 0, rad/s. */
+RC_API void rc_relaxation_dynamic(const struct rc_relaxation *r, double omega, double modulus[2],
+                                  double compliance[2]);
+/* The mean of J(i w) over -omega < w < omega, 1/Pa. It is real: instant + sum of compliance[j] atan(y)/y with
+ * y = omega retardation[j]. */
+RC_API double rc_relaxation_mean_compliance(const struct rc_relaxation *r, double omega);
+RC_API void rc_relaxation_free(struct rc_relaxation *r); /* NULL is allowed */
+
 /* ---- heat ---- */
 
 /* The material of a body, which moves past the contact. */

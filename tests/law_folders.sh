@@ -39,6 +39,7 @@ libcontact/adhesion | libcontact/model/row.h                   | libcontact/mode
 libcontact/leak     | %base                                    | libcontact
 libcontact/wear     | %base libcontact/model/row.h             | libcontact libcontact/model
 libcontact/travel   | %base libcontact/model/row.h             | libcontact libcontact/model
+libcontact/visco    | %base libcontact/model/row.h             | libcontact libcontact/model
 libcontact/slip     | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/ranks
 libcontact/slip     | %base libcontact/solver/solver.h         | libcontact libcontact/solver
 libcontact/slip     | libcontact/model/row.h                   | libcontact/model
@@ -115,7 +116,7 @@ END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
 public='libcontact/contact.h libcontact/grid.h libcontact/model.h'
 physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/plastic'
-physics="$physics libcontact/model libcontact/adhesion libcontact/leak libcontact/slip libcontact/wear libcontact/travel libcontact/fatigue libcontact/heat libcontact/surface libcontact/features"
+physics="$physics libcontact/model libcontact/adhesion libcontact/leak libcontact/slip libcontact/wear libcontact/travel libcontact/visco libcontact/fatigue libcontact/heat libcontact/surface libcontact/features"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
 reader='libcontact/grid.h formats/core/core.h formats/format.h formats/containers/containers.h formats/sandbox/sandbox.h'

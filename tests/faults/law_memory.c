@@ -946,6 +946,27 @@ heated(double *out, struct rc_err *err)
     return status;
 }
 
+/* ---- viscoelastic materials ---- */
+
+static enum rc_status
+relaxes(double *out, struct rc_err *err)
+{
+    const double modulus[] = {1e9, 2e8}, time[] = {1e-3, 1}, omega[] = {1, 10, 100, 1000};
+    const double storage[] = {1e6, 2e6, 4e6, 9e6}, loss[] = {3e5, 8e5, 2e6, 4e6};
+    struct rc_relaxation *r = rc_relaxation_new(1e6, 2, modulus, time, err), *fit = NULL;
+    enum rc_status status = RC_FAIL;
+
+    if (r != NULL && (fit = rc_relaxation_fit(4, omega, storage, loss, 0, &out[0], err)) != NULL) {
+        out[1] = rc_relaxation_modulus(fit, 1) + rc_relaxation_compliance(r, 1);
+        out[2] = rc_relaxation_mean_compliance(r, 3);
+        rc_relaxation_dynamic(fit, 3, out + 3, out + 5);
+        status = RC_OK;
+    }
+    rc_relaxation_free(r);
+    rc_relaxation_free(fit);
+    return status;
+}
+
 /* ---- slabs ---- */
 
 static bool
@@ -1152,6 +1173,7 @@ static const struct {
     {.name = "depths", .use = depths},
     {.name = "fatigue", .use = fatigued},
     {.name = "heat", .use = heated},
+    {.name = "relaxation", .use = relaxes},
     {.name = "slabs", .use = slabs_double},
     {.name = "slabs, single precision", .use = slabs_single},
     {.name = "what a plan takes", .use = plans, .without = true},

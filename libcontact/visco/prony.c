@@ -1,0 +1,456 @@
+/*
+ * Relaxation moduli and creep compliances of viscoelastic materials.
+ *
+ * The operational modulus is E(s) = E_0 + sum E_k s tau_k/(1 + s tau_k), and the operational compliance is
+ * J(s) = 1/E(s). The poles of J are the zeros of E: s = -1/th with
+ *
+ *     f(th) = E_0 + sum E_k tau_k/(tau_k - th) = 0.
+ *
+ * f rises between its poles. One zero is therefore between two neighbouring tau_k, and with E_0 > 0 one more
+ * is beyond the last tau_k. Bisection finds each of them, in a variable that resolves both ends of its
+ * interval. Differences of times come from the nearer end: they do not cancel. The symmetric eigenproblem for
+ * the same times loses all digits over 20 decades.
+ */
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "libcontact/common.h"
+#include "libcontact/memory.h"
+
+static const double usual_density = 1.5; /* relaxation times a decade of a fit */
+
+static struct rc_relaxation *
+allocate(size_t terms, struct rc_err *err)
+{
+    struct rc_relaxation *r = calloc(1, sizeof *r);
+    double *v = rc_alloc(4 * terms + 1, sizeof *v);
+
+    if (r == NULL || v == NULL) {
+        free(r);
+        free(v);
+        rc_err_set(err, "out of memory for %zu relaxation times", terms);
+        return NULL;
+    }
+    r->modulus = v;
+    r->time = v + terms;
+    r->compliance = v + 2 * terms;
+    r->retardation = v + 3 * terms;
+    return r;
+}
+
+void
+rc_relaxation_free(struct rc_relaxation *r)
+{
+    if (r != NULL)
+        free(r->modulus);
+    free(r);
+}
+
+/* ---- from relaxation to creep ---- */
+
+/* A time between two ends, as its distances from both. */
+struct between {
+    double from_low, to_high;
+};
+
+/* x is any number: from -INFINITY at the lower end to INFINITY at the upper one. Without an upper end the
+ * distance is `width` exp(x). */
+static struct between
+place(double x, double width, bool open)
+{
+    return open ? (struct between){width * exp(x), INFINITY}
+                : (struct between){width / (1 + exp(-x)), width / (1 + exp(x))};
+}
+
+/* tau_k - th for a time between tau_low and the next one. */
+static double
+apart(const struct rc_relaxation *r, size_t k, size_t low, struct between th)
+{
+    return k <= low ? (r->time[k] - r->time[low]) - th.from_low
+                    : (r->time[k] - r->time[low + 1]) + th.to_high;
+}
+
+/* The zero of f above tau_low. */
+static struct between
+find_zero(const struct rc_relaxation *r, size_t low)
+{
+    const bool open = low + 1 == r->terms;
+    const double most =
+        300; /* zeros nearer than exp(-300) of the interval to its end are at the end */
+    double a = -most, b = most, width = open ? r->time[low] : r->time[low + 1] - r->time[low];
+
+    for (;;) {
+        const double x = a / 2 + b / 2;
+        const struct between th = place(x, width, open);
+        double f = r->relaxed;
+
+        if (!(x > a && x < b))
+            return th;
+        for (size_t k = 0; k < r->terms; k++)
+            f += r->modulus[k] * (r->time[k] / apart(r, k, low, th));
+        *(f < 0 ? &a : &b) = x;
+    }
+}
+
+static void
+find_creep(struct rc_relaxation *r)
+{
+    double sum = r->relaxed, viscosity = 0;
+
+    r->creep_terms = r->terms > 0 && r->relaxed == 0 ? r->terms - 1 : r->terms;
+    for (size_t k = 0; k < r->terms; k++) {
+        sum += r->modulus[k];
+        viscosity += r->modulus[k] * r->time[k];
+    }
+    r->instant = 1 / sum;
+    r->fluidity = r->relaxed == 0 ? 1 / viscosity : 0;
+    for (size_t j = 0; j < r->creep_terms; j++) {
+        const struct between at = find_zero(r, j);
+        const double th = r->time[j] + at.from_low;
+        double slope = 0; /* of E(s)/th at s = -1/th */
+        for (size_t k = 0; k < r->terms; k++) {
+            const double over = th / apart(r, k, j, at);
+            slope += r->modulus[k] * (r->time[k] / th) * over * over;
+        }
+        r->retardation[j] = th;
+        r->compliance[j] = 1 / slope;
+    }
+}
+
+/* ---- makers ---- */
+
+/* Puts a term in its place, in the order of the times. */
+static enum rc_status
+insert(struct rc_relaxation *r, double modulus, double time, struct rc_err *err)
+{
+    size_t k = r->terms;
+
+    if (!(modulus >= 0) || isinf(modulus))
+        return rc_err_set(err, "modulus %g Pa of a term: it must be at least 0 and finite",
+                          modulus);
+    if (!(time > 0) || isinf(time))
+        return rc_err_set(err, "relaxation time %g s: it must be above 0 and finite", time);
+    for (size_t j = 0; j < r->terms; j++)
+        if (r->time[j] == time)
+            return rc_err_set(err, "relaxation time %g s: it must be given only once", time);
+    if (modulus == 0)
+        return RC_OK;
+    for (; k > 0 && r->time[k - 1] > time; k--) {
+        r->time[k] = r->time[k - 1];
+        r->modulus[k] = r->modulus[k - 1];
+    }
+    r->time[k] = time;
+    r->modulus[k] = modulus;
+    r->terms++;
+    return RC_OK;
+}
+
+struct rc_relaxation *
+rc_relaxation_new(double relaxed, size_t terms, const double *modulus, const double *time,
+                  struct rc_err *err)
+{
+    struct rc_relaxation *r = allocate(terms, err);
+
+    if (r == NULL)
+        return NULL;
+    r->relaxed = relaxed;
+    if (!(relaxed >= 0) || isinf(relaxed)) {
+        rc_err_set(err, "relaxed modulus %g Pa: it must be at least 0 and finite", relaxed);
+        goto fail;
+    }
+    for (size_t k = 0; k < terms; k++)
+        if (insert(r, modulus[k], time[k], err) != RC_OK)
+            goto fail;
+    if (r->terms == 0 && relaxed == 0) {
+        rc_err_set(err, "all moduli are 0: one must be above 0");
+        goto fail;
+    }
+    find_creep(r);
+    return r;
+fail:
+    rc_relaxation_free(r);
+    return NULL;
+}
+
+/* ---- values ---- */
+
+double
+rc_relaxation_modulus(const struct rc_relaxation *r, double t)
+{
+    double sum = r->relaxed;
+
+    for (size_t k = 0; k < r->terms; k++)
+        sum += r->modulus[k] * exp(-t / r->time[k]);
+    return sum;
+}
+
+double
+rc_relaxation_compliance(const struct rc_relaxation *r, double t)
+{
+    double sum = r->instant + r->fluidity * t;
+
+    for (size_t j = 0; j < r->creep_terms; j++)
+        sum -= r->compliance[j] * expm1(-t / r->retardation[j]);
+    return sum;
+}
+
+/* 1/(1 + i x): its real part, and its imaginary part with the sign changed. */
+static void
+decay(double x, double *real, double *lag)
+{
+    *real = 1 / (1 + x * x);
+    *lag = x > 1 ? 1 / (1 / x + x) : x / (1 + x * x);
+}
+
+void
+rc_relaxation_dynamic(const struct rc_relaxation *r, double omega, double modulus[2],
+                      double compliance[2])
+{
+    double real, lag;
+
+    modulus[0] = r->relaxed;
+    modulus[1] = 0;
+    for (size_t k = 0; k < r->terms; k++) {
+        decay(1 / (omega * r->time[k]), &real, &lag); /* i x/(1 + i x) = 1/(1 + 1/(i x)) */
+        modulus[0] += r->modulus[k] * real;
+        modulus[1] += r->modulus[k] * lag;
+    }
+    compliance[0] = r->instant;
+    compliance[1] = r->fluidity > 0 ? -r->fluidity / omega : 0;
+    for (size_t j = 0; j < r->creep_terms; j++) {
+        decay(omega * r->retardation[j], &real, &lag);
+        compliance[0] += r->compliance[j] * real;
+        compliance[1] -= r->compliance[j] * lag;
+    }
+}
+
+double
+rc_relaxation_mean_compliance(const struct rc_relaxation *r, double omega)
+{
+    double sum = r->instant;
+
+    for (size_t j = 0; j < r->creep_terms; j++) {
+        const double y = omega * r->retardation[j];
+        sum += r->compliance[j] * (y > 0 ? atan(y) / y : 1);
+    }
+    return sum;
+}
+
+/* ---- a master curve ---- */
+
+/* Non-negative least squares (Lawson and Hanson 1974, Solving least squares problems, chapter 23): the x >= 0
+ * with the least |a x - b|. b is 1 in all rows; the columns of a have the norm 1. */
+struct fit {
+    size_t rows, columns;
+    double *a;           /* by rows */
+    double *x, *trial;   /* columns */
+    double *left;        /* rows: b - a x */
+    double *part, *tau;  /* QR decomposition of the columns in use */
+    double *ones, *rest; /* rows */
+    size_t *in_use, used;
+};
+
+static void
+find_left(struct fit *f)
+{
+    for (size_t i = 0; i < f->rows; i++) {
+        f->left[i] = 1;
+        for (size_t k = 0; k < f->columns; k++)
+            f->left[i] -= f->a[i * f->columns + k] * f->x[k];
+    }
+}
+
+/* Solves for the columns in use, without a sign. */
+static void
+solve_used(struct fit *f)
+{
+    gsl_matrix_view m = gsl_matrix_view_array(f->part, f->rows, f->used);
+    gsl_vector_view tau = gsl_vector_view_array(f->tau, f->used);
+    gsl_vector_view b = gsl_vector_view_array(f->ones, f->rows);
+    gsl_vector_view x = gsl_vector_view_array(f->trial, f->used);
+    gsl_vector_view rest = gsl_vector_view_array(f->rest, f->rows);
+
+    for (size_t i = 0; i < f->rows; i++)
+        for (size_t q = 0; q < f->used; q++)
+            f->part[i * f->used + q] = f->a[i * f->columns + f->in_use[q]];
+    gsl_linalg_QR_decomp(&m.matrix, &tau.vector);
+    gsl_linalg_QR_lssolve(&m.matrix, &tau.vector, &b.vector, &x.vector, &rest.vector);
+}
+
+/* Goes from x towards the trial until the first number is 0, and takes these columns out of use. */
+static bool
+shorten(struct fit *f)
+{
+    double along = 1;
+    size_t kept = 0;
+
+    for (size_t q = 0; q < f->used; q++)
+        if (!(f->trial[q] > 0)) {
+            const double x = f->x[f->in_use[q]];
+            along = fmin(along, x > 0 ? x / (x - f->trial[q]) : 0);
+        }
+    for (size_t q = 0; q < f->used; q++) {
+        double *x = &f->x[f->in_use[q]];
+        const bool stops = !(f->trial[q] > 0) && (*x <= 0 || *x / (*x - f->trial[q]) <= along);
+        *x = stops ? 0 : *x + along * (f->trial[q] - *x);
+        f->in_use[kept] = f->in_use[q];
+        kept += !stops;
+    }
+    if (kept == f->used)
+        return false;
+    f->used = kept;
+    return kept > 0;
+}
+
+/* The unused column that lowers the misfit most; `columns`: none lowers it. */
+static size_t
+best_column(const struct fit *f, size_t except)
+{
+    double most = 1e-10 * sqrt((double)f->rows);
+    size_t best = f->columns;
+
+    for (size_t k = 0; k < f->columns; k++) {
+        double along = 0;
+        for (size_t i = 0; i < f->rows && f->x[k] == 0 && k != except; i++)
+            along += f->a[i * f->columns + k] * f->left[i];
+        if (along > most) {
+            most = along;
+            best = k;
+        }
+    }
+    return best;
+}
+
+/* Rounding can make the last columns go round in a circle: the number of passes is limited. */
+static void
+least_squares(struct fit *f)
+{
+    size_t column, except = f->columns;
+
+    for (size_t pass = 0; pass < 20 * f->columns; pass++) {
+        find_left(f);
+        if ((column = best_column(f, except)) == f->columns)
+            return;
+        f->in_use[f->used++] = column;
+        do
+            solve_used(f);
+        while (shorten(f));
+        except = f->x[column] > 0 ? f->columns : column;
+    }
+    find_left(f);
+}
+
+static bool
+fit_allocate(struct fit *f, size_t rows, size_t columns)
+{
+    const size_t all = 2 * rows * columns + 3 * columns + 3 * rows;
+    double *v = calloc(all, sizeof *v);
+
+    *f = (struct fit){.rows = rows, .columns = columns, .a = v};
+    f->in_use = calloc(columns + 1, sizeof *f->in_use);
+    if (v == NULL || f->in_use == NULL)
+        return false;
+    f->part = v + rows * columns;
+    f->x = f->part + rows * columns;
+    f->trial = f->x + columns;
+    f->tau = f->trial + columns;
+    f->left = f->tau + columns;
+    f->ones = f->left + rows;
+    f->rest = f->ones + rows;
+    for (size_t i = 0; i < rows; i++)
+        f->ones[i] = 1;
+    return true;
+}
+
+static enum rc_status
+check_curve(size_t n, const double *omega, const double *storage, const double *loss,
+            struct rc_err *err)
+{
+    const double *const v[] = {omega, storage, loss};
+    static const char *const name[] = {"angular frequency", "storage modulus", "loss modulus"};
+
+    if (n < 4)
+        return rc_err_set(err, "a master curve of %zu frequencies: it must have at least 4", n);
+    for (size_t i = 0; i < n; i++) {
+        for (int c = 0; c < 3; c++)
+            if (!(v[c][i] > 0) || isinf(v[c][i]))
+                return rc_err_set(err, "%s %g in line %zu: it must be above 0 and finite", name[c],
+                                  v[c][i], i + 1);
+        for (size_t j = 0; j < i; j++)
+            if (omega[i] == omega[j])
+                return rc_err_set(err, "angular frequency %g rad/s: it must be given only once",
+                                  omega[i]);
+    }
+    return RC_OK;
+}
+
+/* Column 0 is the relaxed modulus. Two rows a frequency, relative to the two moduli. */
+static void
+set_rows(struct fit *f, const double *time, const double *omega, const double *storage,
+         const double *loss)
+{
+    for (size_t i = 0; i < f->rows / 2; i++)
+        for (size_t k = 0; k < f->columns; k++) {
+            double real = 1, lag = 0;
+            if (k > 0)
+                decay(1 / (omega[i] * time[k - 1]), &real, &lag);
+            f->a[2 * i * f->columns + k] = real / storage[i];
+            f->a[(2 * i + 1) * f->columns + k] = lag / loss[i];
+        }
+}
+
+/* Gives the columns the norm 1, and stores their norms. */
+static void
+set_norms(struct fit *f, double *norm)
+{
+    for (size_t k = 0; k < f->columns; k++) {
+        double sum = 0;
+        for (size_t i = 0; i < f->rows; i++)
+            sum += f->a[i * f->columns + k] * f->a[i * f->columns + k];
+        norm[k] = sqrt(sum);
+        for (size_t i = 0; i < f->rows; i++)
+            f->a[i * f->columns + k] /= norm[k];
+    }
+}
+
+struct rc_relaxation *
+rc_relaxation_fit(size_t n, const double *omega, const double *storage, const double *loss,
+                  double per_decade, double *misfit, struct rc_err *err)
+{
+    const double dense = per_decade > 0 ? per_decade : usual_density;
+    struct rc_relaxation *r = NULL;
+    double low = INFINITY, high = 0, *time = NULL, *norm, sum = 0;
+    struct fit f = {0};
+    size_t terms;
+
+    if (check_curve(n, omega, storage, loss, err) != RC_OK)
+        return NULL;
+    for (size_t i = 0; i < n; i++) {
+        low = fmin(low, omega[i]);
+        high = fmax(high, omega[i]);
+    }
+    terms = (size_t)fmin((double)n, fmax(1, round(dense * log10(high / low))) + 1);
+    time = rc_alloc(2 * terms + 1, sizeof *time);
+    if (time == NULL || !fit_allocate(&f, 2 * n, terms + 1)) {
+        rc_err_set(err, "out of memory for a fit of %zu relaxation times", terms);
+        goto done;
+    }
+    norm = time + terms;
+    for (size_t k = 0; k < terms; k++)
+        time[k] = pow(low / high, (double)k / (double)(terms - 1)) / low;
+    set_rows(&f, time, omega, storage, loss);
+    set_norms(&f, norm);
+    least_squares(&f);
+    for (size_t i = 0; i < f.rows; i++)
+        sum += f.left[i] * f.left[i];
+    *misfit = sqrt(sum / (double)f.rows);
+    for (size_t k = 0; k <= terms; k++)
+        f.x[k] /= norm[k];
+    r = rc_relaxation_new(f.x[0], terms, f.x + 1, time, err);
+done:
+    free(time);
+    free(f.a);
+    free(f.in_use);
+    return r;
+}

@@ -1,0 +1,211 @@
+/* A modulus and its compliance belong together to rounding: over 20 decades, with times that nearly coincide
+ * and moduli that nearly vanish, and for a fluid. A standard linear solid has its closed form. The fit of a
+ * master curve of a fractional solid has the known misfit, and averages the noise of the curve. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <string.h>
+
+#include "libcontact/contact.h"
+#include "tests/exact.h"
+
+/* The definitions of E(i w) and J(i w). */
+static double complex
+modulus(double relaxed, size_t n, const double *e, const double *tau, double w)
+{
+    double complex sum = relaxed;
+
+    for (size_t k = 0; k < n; k++)
+        sum += e[k] / (1 - I / (w * tau[k]));
+    return sum;
+}
+
+static double complex
+compliance(const struct rc_relaxation *r, double w)
+{
+    double complex sum = r->instant + r->fluidity / (I * w);
+
+    for (size_t j = 0; j < r->creep_terms; j++)
+        sum += r->compliance[j] / (1 + I * w * r->retardation[j]);
+    return sum;
+}
+
+/* The largest |E(i w) J(i w) - 1|, with a few frequencies a decade. Compares the library's values too. */
+static double
+worst_product(double relaxed, size_t n, const double *e, const double *tau, double low, double high)
+{
+    struct rc_err err = {""};
+    struct rc_relaxation *r = rc_relaxation_new(relaxed, n, e, tau, &err);
+    double worst = 0, em[2], jm[2];
+
+    if (r == NULL)
+        fail_msg("%s", err.text);
+    for (double w = low; w < high; w *= 1.7) {
+        const double complex is = modulus(relaxed, n, e, tau, w), j = compliance(r, w);
+        worst = larger(worst, cabs(is * j - 1));
+        rc_relaxation_dynamic(r, w, em, jm);
+        assert_true(cabs(em[0] + I * em[1] - is) <= of_sum * cabs(is));
+        assert_true(cabs(jm[0] + I * jm[1] - j) <= of_sum * cabs(j));
+    }
+    for (size_t j = 0; j < r->creep_terms; j++)
+        assert_true(r->compliance[j] > 0 && (j == 0 || r->retardation[j] > r->retardation[j - 1]));
+    rc_relaxation_free(r);
+    return worst;
+}
+
+static void
+product_over_20_decades(void **state)
+{
+    enum {
+        N = 40
+    };
+    double e[N], tau[N];
+
+    (void)state;
+    for (int k = 0; k < N; k++) {
+        tau[k] = pow(10, -10 + 20. * k / (N - 1));
+        e[k] = 1e9 * pow(10, -6. * k / (N - 1)) * (1 + 0.5 * sin(3 * k));
+    }
+    assert_true(worst_product(1e3, N, e, tau, 1e-13, 1e13) < of_sum);
+    assert_true(worst_product(0, N, e, tau, 1e-13, 1e13) < of_sum); /* a fluid */
+}
+
+static void
+product_of_near_times(void **state)
+{
+    const double tau[] = {1, 1e-3 * (1 + 1e-7), 1e3, 1 + 1e-7, 1e-3, 7};
+    const double e[] = {1e6, 2e6, 1e-3, 1e6, 3e5, 1e-3};
+
+    (void)state;
+    assert_true(worst_product(1e6, 6, e, tau, 1e-6, 1e6) < of_sum);
+    assert_true(worst_product(1e-3, 6, e, tau, 1e-16, 1e6) < of_sum);
+}
+
+/* J = 1/E0 - (1/E0 - 1/(E0 + E1)) exp(-t/th), th = tau (E0 + E1)/E0 (Johnson 1985, section 6.5). */
+static void
+standard_solid(void **state)
+{
+    const double e0 = 2e6, e1 = 7e6, tau = 0.3, th = tau * (e0 + e1) / e0;
+    const double e[] = {0, e1}, times[] = {5, tau};
+    struct rc_err err = {""};
+    struct rc_relaxation *r = rc_relaxation_new(e0, 2, e, times, &err);
+    double mean = 0, em[2], jm[2];
+    const double width = 2.5 / th;
+
+    (void)state;
+    assert_non_null(r);
+    assert_int_equal(r->creep_terms, 1);
+    for (double t = 0; t < 20; t += 0.7) {
+        const double j = 1 / e0 - (1 / e0 - 1 / (e0 + e1)) * exp(-t / th);
+        assert_true(fabs(rc_relaxation_compliance(r, t) - j) < of_sum * j);
+        assert_true(fabs(rc_relaxation_modulus(r, t) - e0 - e1 * exp(-t / tau)) < of_sum * e0);
+    }
+    for (int k = 0; k < 4000; k++) { /* the midpoint rule */
+        rc_relaxation_dynamic(r, (k + 0.5) / 4000 * width, em, jm);
+        mean += jm[0] / 4000;
+    }
+    assert_true(fabs(rc_relaxation_mean_compliance(r, width) / mean - 1) < 1e-7);
+    assert_true(fabs(rc_relaxation_mean_compliance(r, 0) * e0 - 1) < of_sum);
+    rc_relaxation_free(r);
+}
+
+/* The modulus of a fractional solid: E0 + (Eg - E0)/(1 + (i w)^-a). */
+static double
+misfit_of(double slope, double per_decade, double noise, double *truth)
+{
+    enum {
+        N = 113
+    };
+    double w[N], storage[N], loss[N], misfit, sum = 0;
+    double complex exact[N];
+    struct rc_err err = {""};
+    struct rc_relaxation *r;
+
+    for (int i = 0; i < N; i++) {
+        w[i] = pow(10, -7 + 14. * i / (N - 1));
+        exact[i] = 1e6 + 999e6 / (1 + cpow(I * w[i], -slope));
+        storage[i] = creal(exact[i]) * (1 + noise * sin(17.3 * i * i));
+        loss[i] = cimag(exact[i]) * (1 + noise * sin(31.7 * i * i + 1));
+    }
+    r = rc_relaxation_fit(N, w, storage, loss, per_decade, &misfit, &err);
+    if (r == NULL)
+        fail_msg("%s", err.text);
+    for (int i = 0; i < N; i++) {
+        double em[2], jm[2];
+        rc_relaxation_dynamic(r, w[i], em, jm);
+        sum += pow(em[0] / storage[i] - 1, 2) + pow(em[1] / loss[i] - 1, 2);
+        if (truth != NULL)
+            *truth += pow(em[0] / creal(exact[i]) - 1, 2) / N;
+    }
+    assert_true(fabs(sqrt(sum / (2 * N)) / misfit - 1) < 1e-6);
+    rc_relaxation_free(r);
+    return misfit;
+}
+
+static void
+master_curve(void **state)
+{
+    double truth = 0;
+    const double noisy = misfit_of(0.5, 1, 0.07, &truth); /* 0.05 RMS */
+
+    (void)state;
+    assert_true(misfit_of(0.3, 1, 0, NULL) < 0.032);
+    assert_true(misfit_of(0.5, 1, 0, NULL) < 0.032);
+    assert_true(misfit_of(0.3, 0, 0, NULL) < 0.005);
+    assert_true(misfit_of(0.5, 0, 0, NULL) < 0.005);
+    assert_true(misfit_of(0.5, 2, 0, NULL) < 0.002);
+    /* the fit is nearer to the truth than half of the noise */
+    assert_true(noisy > 0.035 && noisy < 0.06 && sqrt(truth) < 0.025);
+}
+
+static void
+refused(double relaxed, double e, double tau, const char *words)
+{
+    const double es[] = {1, e}, times[] = {1, tau};
+    struct rc_err err = {""};
+
+    assert_null(rc_relaxation_new(relaxed, 2, es, times, &err));
+    if (strstr(err.text, words) == NULL)
+        fail_msg("%s", err.text);
+}
+
+static void
+refusals(void **state)
+{
+    const double w[] = {1, 2, 3, 2}, one[] = {1, 1, 1, 1}, lossless[] = {1, 0, 1, 1};
+    const double zero = 0;
+    double misfit;
+    struct rc_err err = {""};
+
+    (void)state;
+    refused(-1, 1, 2, "relaxed modulus -1 Pa");
+    refused(1, -1, 2, "modulus -1 Pa of a term");
+    refused(1, 1, 0, "relaxation time 0 s");
+    refused(1, 1, NAN, "relaxation time nan s");
+    refused(1, 1, 1, "relaxation time 1 s: it must be given only once");
+    assert_null(rc_relaxation_new(0, 1, &zero, one, &err));
+    assert_non_null(strstr(err.text, "all moduli are 0"));
+    assert_null(rc_relaxation_fit(3, w, one, one, 0, &misfit, &err));
+    assert_non_null(strstr(err.text, "3 frequencies"));
+    assert_null(rc_relaxation_fit(4, w, one, one, 0, &misfit, &err));
+    assert_non_null(strstr(err.text, "2 rad/s: it must be given only once"));
+    assert_null(rc_relaxation_fit(4, w, one, lossless, 0, &misfit, &err));
+    assert_non_null(strstr(err.text, "loss modulus 0 in line 2"));
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(product_over_20_decades),
+        cmocka_unit_test(product_of_near_times),
+        cmocka_unit_test(standard_solid),
+        cmocka_unit_test(master_curve),
+        cmocka_unit_test(refusals),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
