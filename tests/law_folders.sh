@@ -29,8 +29,9 @@ libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libc
 libcontact/stress   |                                          | libcontact/transform libcontact/body
 libcontact/stress   | libcontact/volume/volume.h               | libcontact/volume
 libcontact/fatigue  | %base                                    | libcontact libcontact/stress libcontact/body
-libcontact/heat     | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/transform libcontact/body libcontact/surface
+libcontact/heat     | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/surface
 libcontact/heat     | libcontact/body/quadrature.h             | libcontact/body
+libcontact/heat     | libcontact/solver/solver.h               | libcontact/solver
 libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform
 libcontact/plastic  | libcontact/model/row.h                   | libcontact/model
 libcontact/plastic  | %base libcontact/volume/volume.h         | libcontact libcontact/volume libcontact/solver libcontact/stress

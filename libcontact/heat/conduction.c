@@ -8,18 +8,6 @@
 #include "heat.h"
 #include "libcontact/memory.h"
 
-struct rc_conduction {
-    struct rc_shape shape;
-    enum rc_boundary boundary;
-    int threads;
-    struct rc_fft *fft;
-    size_t columns, length, cy; /* columns of waves; numbers in a column; rows of a quarter of it */
-    double *waves;              /* transform of the loaded map                                    */
-    size_t *wave;               /* for place t of a column: its row in the quarter                */
-    signed char *mirror;        /* -1 where this row is the mirror image, else 1                  */
-    double count;
-};
-
 /* ---- plan ---- */
 
 void
@@ -27,6 +15,8 @@ rc_conduction_free(struct rc_conduction *c)
 {
     if (c == NULL)
         return;
+    if (c->framed != c->fft)
+        rc_fft_free(c->framed); /* it uses the memory of c->fft */
     rc_fft_free(c->fft);
     free(c->waves);
     free(c->wave);
@@ -38,6 +28,8 @@ struct rc_conduction *
 rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary, size_t threads,
                   struct rc_err *err)
 {
+    const struct rc_pair pair = {.estar = 1};
+    const struct rc_operator_options options = {.boundary = boundary, .pair = &pair};
     struct rc_conduction *c = calloc(1, sizeof *c);
 
     if (c == NULL) {
@@ -49,6 +41,13 @@ rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary, size_
     c->threads = rc_useful_threads(shape, threads);
     if ((c->fft = rc_fft_new(NULL, NULL, shape, boundary, RC_DOUBLE, threads, err)) == NULL)
         goto fail;
+    c->framed = c->fft;
+    if (boundary == RC_FREE) {
+        c->frame = rc_operator_frame(shape, &options);
+        c->framed = rc_fft_new_framed(NULL, c->fft, shape, &c->frame, RC_DOUBLE, threads, err);
+        if (c->framed == NULL)
+            goto fail;
+    }
     rc_fft_waves(c->fft, &c->columns, &c->cy);
     c->length = rc_fft_length(c->fft);
     c->waves = rc_alloc(2 * c->columns * c->length, sizeof *c->waves);
@@ -67,12 +66,6 @@ rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary, size_
 fail:
     rc_conduction_free(c);
     return NULL;
-}
-
-double
-rc_conduction_count(const struct rc_conduction *c)
-{
-    return c->count;
 }
 
 /* ---- the spectrum of a body ---- */
@@ -178,9 +171,9 @@ struct pass {
     struct rc_conduction *c;
     const double *from;
     double *to;
+    float *framed; /* the source and the result of an inverse */
     size_t n;
     const struct rc_warming *const *warming;
-    bool inverse;
 };
 
 static bool
@@ -226,17 +219,24 @@ add_spectra(const struct pass *p, size_t i, double *to)
 }
 
 RC_CLONES static void
-multiply(size_t n, const double *x, bool inverse, double *to)
+multiply(size_t n, const double *x, double *to)
 {
     for (size_t t = 0; t < n; t++) {
-        double re = to[t], im = to[n + t];
-        if (inverse) {
-            const double over = re != 0 || im != 0 ? 1 / (re * re + im * im) : 0;
-            re *= over;
-            im *= -over;
-        }
+        const double re = to[t], im = to[n + t];
         to[t] = re * x[t] - im * x[n + t];
         to[n + t] = re * x[n + t] + im * x[t];
+    }
+}
+
+/* to = x/to */
+RC_CLONES static void
+divide(size_t n, const double *x, double *to)
+{
+    for (size_t t = 0; t < n; t++) {
+        const double re = to[t], im = to[n + t], size = re * re + im * im;
+        const double over = size > 0 ? 1 / size : 0;
+        to[t] = over * (re * x[t] + im * x[n + t]);
+        to[n + t] = over * (re * x[n + t] - im * x[t]);
     }
 }
 
@@ -247,7 +247,7 @@ field_column(void *ctx, size_t i, void *column)
     const size_t n = p->c->length;
 
     add_spectra(p, i, column);
-    multiply(n, p->c->waves + 2 * i * n, p->inverse, column);
+    (p->framed != NULL ? divide : multiply)(n, p->c->waves + 2 * i * n, column);
 }
 
 void
@@ -261,10 +261,44 @@ rc_conduction_load(struct rc_conduction *c, const double *q)
 
 void
 rc_conduction_field(struct rc_conduction *c, size_t n, const struct rc_warming *const *w,
-                    bool inverse, double *out)
+                    double *out)
 {
-    struct pass pass = {.c = c, .to = out, .n = n, .warming = w, .inverse = inverse};
+    struct pass pass = {.c = c, .to = out, .n = n, .warming = w};
 
     rc_fft_back(c->fft, NULL, field_column, row_out, &pass);
     c->count += 0.5;
+}
+
+static bool
+framed_row_in(void *ctx, size_t j, void *row)
+{
+    const struct pass *p = ctx;
+    const size_t nx = p->c->shape.nx + 2 * p->c->frame.x;
+    double *to = row;
+
+    for (size_t i = 0; i < nx; i++)
+        to[i] = (double)p->framed[j * nx + i];
+    return rc_any(to, nx);
+}
+
+static bool
+framed_row_out(void *ctx, size_t j, void *row)
+{
+    const struct pass *p = ctx;
+    const size_t nx = p->c->shape.nx + 2 * p->c->frame.x;
+    const double *from = row;
+
+    for (size_t i = 0; i < nx; i++)
+        p->framed[j * nx + i] = (float)from[i];
+    return true;
+}
+
+void
+rc_conduction_inverse(struct rc_conduction *c, const struct rc_warming *const w[2], float *v)
+{
+    struct pass pass = {.c = c, .framed = v, .n = 2, .warming = w};
+
+    rc_fft_forward(c->framed, framed_row_in, &pass, c->waves, NULL);
+    rc_fft_back(c->framed, NULL, field_column, framed_row_out, &pass);
+    c->count += 1;
 }

@@ -6,8 +6,7 @@
  *     (C1 + C2) f = C2 q + D   at the nodes in contact,   f = 0 elsewhere.
  *
  * C1 + C2 is not symmetric where a body moves, but its symmetric part is positive. It is solved by GMRES
- * without restart (Saad and Schultz 1986). The preconditioner on the right is the reciprocal of the
- * spectrum of C1 + C2 on the padded map. The residual is then the difference of the temperatures, and its
+ * without restart (Saad and Schultz 1986). The preconditioner M on the right is that of inverse.c. The residual is then the difference of the temperatures, and its
  * largest value decides when to stop.
  */
 #include <float.h>
@@ -26,10 +25,11 @@ struct rc_heat {
     struct rc_heat_problem problem;
     struct rc_conduction *c;
     struct rc_warming warming[2];
-    double drop;     /* K: bulk temperature of body 2 less that of body 1 */
-    double scale;    /* K: largest rise of a body above its bulk          */
-    size_t n, *node; /* in contact                                        */
-    double *map;     /* the block of all maps                             */
+    struct rc_heat_inverse *inverse; /* NULL: heat is not matched */
+    double drop;                     /* K: bulk temperature of body 2 less that of body 1 */
+    double scale;                    /* K: largest rise of a body above its bulk          */
+    size_t n, *node;                 /* in contact                                        */
+    double *map;                     /* the block of all maps                             */
     double *q, *flux[2],
         *rise[2]; /* heat and rise above their bulk, nx ny; heat is 0 out of contact */
     double *work; /* nx ny */
@@ -183,6 +183,7 @@ rc_heat_free(struct rc_heat *h)
 {
     if (h == NULL)
         return;
+    rc_heat_inverse_free(h->inverse);
     rc_conduction_free(h->c);
     for (int b = 0; b < 2; b++)
         rc_warming_free(&h->warming[b]);
@@ -202,6 +203,7 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
             const double *contact, struct rc_err *err)
 {
     const size_t nodes = shape->nx * shape->ny;
+    struct rc_heated body[2];
     struct rc_heat *h;
 
     if (rc_heat_check(shape, problem, err) != RC_OK)
@@ -235,10 +237,13 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
         (h->c = rc_conduction_new(shape, problem->boundary, problem->threads, err)) == NULL)
         goto fail;
     for (int b = 0; b < 2; b++) {
-        const struct rc_heated body = heated(h, b, 0);
-        if (rc_warming_set(&h->warming[b], h->c, &body, err) != RC_OK)
+        body[b] = heated(h, b, 0);
+        if (rc_warming_set(&h->warming[b], h->c, &body[b], err) != RC_OK)
             goto fail;
     }
+    if (problem->partition == RC_HEAT_MATCHED &&
+        (h->inverse = rc_heat_inverse_new(h->c, body, h->n, h->node, err)) == NULL)
+        goto fail;
     return h;
 fail:
     rc_heat_free(h);
@@ -252,7 +257,7 @@ field(struct rc_heat *h, int b, double *out)
 {
     const struct rc_warming *const one[] = {&h->warming[b]};
 
-    rc_conduction_field(h->c, 1, one, false, out);
+    rc_conduction_field(h->c, 1, one, out);
 }
 
 static double
@@ -322,7 +327,7 @@ finish(struct rc_heat *h)
     f->share_1 = f->heat_power != 0 ? f->heat_power_1 / f->heat_power : NAN;
     f->mismatch = differs / h->scale;
     f->iterations = h->steps;
-    f->convolutions = rc_conduction_count(h->c);
+    f->convolutions = h->c->count;
     f->converged = h->problem.partition != RC_HEAT_MATCHED || f->mismatch <= h->problem.tol;
 }
 
@@ -348,17 +353,18 @@ product(const struct rc_heat *h, const double *a, const double *b)
     return rc_total_value(&sum);
 }
 
-/* to = the field of `from` at the nodes in contact, of C1 + C2 or of its inverse. */
+/* to = (C1 + C2) z at the nodes in contact, z = M v. */
 static void
-apply(struct rc_heat *h, bool inverse, const double *from, double *to)
+apply(struct rc_heat *h, const double *v, double *z, double *to)
 {
     const struct rc_warming *const both[] = {&h->warming[0], &h->warming[1]};
 
+    rc_heat_inverse_apply(h->inverse, both, v, z);
     memset(h->work, 0, h->shape.nx * h->shape.ny * sizeof *h->work);
     for (size_t k = 0; k < h->n; k++)
-        h->work[h->node[k]] = from[k];
+        h->work[h->node[k]] = z[k];
     rc_conduction_load(h->c, h->work);
-    rc_conduction_field(h->c, 2, both, inverse, h->work);
+    rc_conduction_field(h->c, 2, both, h->work);
     for (size_t k = 0; k < h->n; k++)
         to[k] = h->work[h->node[k]];
 }
@@ -397,8 +403,7 @@ extend(struct rc_heat *h, struct rc_err *err)
 
     if ((h->z[m] = vector_new(h, err)) == NULL || (next = h->v[m + 1] = vector_new(h, err)) == NULL)
         return RC_FAIL;
-    apply(h, true, h->v[m], h->z[m]);
-    apply(h, false, h->z[m], next);
+    apply(h, h->v[m], h->z[m], next);
     for (size_t i = 0; i <= m; i++) {
         column[i] = product(h, h->v[i], next);
         for (size_t k = 0; k < h->n; k++)
@@ -529,7 +534,7 @@ rc_heat_temperature(struct rc_heat *h, int b, double depth, double *to, struct r
         status = rc_warming_set(&warming, h->c, &body, err);
         if (status == RC_OK) {
             rc_conduction_load(h->c, h->flux[b]);
-            rc_conduction_field(h->c, 1, one, false, to);
+            rc_conduction_field(h->c, 1, one, to);
         }
         rc_warming_free(&warming);
     }

@@ -63,7 +63,18 @@ struct rc_warming {
     double *part[RC_HEAT_PARTS];
 };
 
-struct rc_conduction;
+struct rc_conduction {
+    struct rc_shape shape;
+    enum rc_boundary boundary;
+    int threads;
+    struct rc_frame frame;       /* of padding around a free map */
+    struct rc_fft *fft, *framed; /* framed: of the map with its frame; the same if periodic */
+    size_t columns, length, cy; /* columns of waves; numbers in a column; rows of a quarter of it */
+    double *waves;              /* transform of the loaded map                                    */
+    size_t *wave;               /* for place t of a column: its row in the quarter                */
+    signed char *mirror;        /* -1 where this row is the mirror image, else 1                  */
+    double count;               /* of convolutions */
+};
 struct rc_conduction *rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary,
                                         size_t threads, struct rc_err *err);
 void rc_conduction_free(struct rc_conduction *c); /* NULL is allowed */
@@ -73,10 +84,22 @@ enum rc_status rc_warming_set(struct rc_warming *w, struct rc_conduction *c,
 void rc_warming_free(struct rc_warming *w);
 /* Keeps the transform of a map of nx ny values. */
 void rc_conduction_load(struct rc_conduction *c, const double *q);
-/* The sum of the fields of the loaded map, or with `inverse` the map on the whole padded grid that has it. */
+/* The sum of the fields of the loaded map. */
 void rc_conduction_field(struct rc_conduction *c, size_t n, const struct rc_warming *const *w,
-                         bool inverse, double *out);
-/* In equivalents of one convolution. */
-double rc_conduction_count(const struct rc_conduction *c);
+                         double *out);
+/* v = (C1 + C2)^-1 v on the map with its frame. */
+void rc_conduction_inverse(struct rc_conduction *c, const struct rc_warming *const w[2], float *v);
+
+/* ---- inverse.c: the preconditioner ---- */
+
+struct rc_heat_inverse;
+/* For n nodes in contact; c outlives it. NULL when memory is short. */
+struct rc_heat_inverse *rc_heat_inverse_new(struct rc_conduction *c,
+                                            const struct rc_heated bodies[2], size_t n,
+                                            const size_t *node, struct rc_err *err);
+void rc_heat_inverse_free(struct rc_heat_inverse *inverse); /* NULL is allowed */
+/* z = E' A E r: a number for each node in contact. */
+void rc_heat_inverse_apply(struct rc_heat_inverse *inverse,
+                           const struct rc_warming *const bodies[2], const double *r, double *z);
 
 #endif

@@ -32,6 +32,15 @@ struct rc_fft *rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender,
 struct rc_frame {
     size_t x, y;
 };
+/* The factor of node `at` of a framed row or column, in which the map has the n nodes from `first` on: 1 on the
+ * map, and beyond it a linear decrease to 0 at the end of `frame` nodes. */
+static inline float
+rc_frame_fade(size_t at, size_t first, size_t n, size_t frame)
+{
+    const size_t off = at < first ? first - at : at < first + n ? 0 : at - first - n + 1;
+
+    return 1 - (float)off / (float)(frame + 1);
+}
 struct rc_fft *rc_fft_new_framed(const struct rc_ranks *ranks, struct rc_fft *lender,
                                  const struct rc_shape *shape, const struct rc_frame *frame,
                                  enum rc_precision precision, size_t threads, struct rc_err *err);

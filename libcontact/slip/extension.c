@@ -168,14 +168,6 @@ struct place {
     float taper; /* off the map: factor by which fields decrease to 0 at the end of the padding */
 };
 
-static float
-taper(size_t at, size_t frame, size_t n)
-{
-    size_t off = at < frame ? frame - at : at < frame + n ? 0 : at - frame - n + 1;
-
-    return 1 - (float)off / (float)(frame + 1);
-}
-
 static struct place
 place_of(const struct rc_extension *e, size_t i, size_t j)
 {
@@ -184,7 +176,8 @@ place_of(const struct rc_extension *e, size_t i, size_t j)
 
     if (i >= f.x && i < f.x + nx && j >= f.y && j < f.y + ny)
         return (struct place){true, (j - f.y) * nx + i - f.x, 1};
-    return (struct place){false, 0, taper(i, f.x, nx) * taper(j, f.y, ny)};
+    return (struct place){false, 0,
+                          rc_frame_fade(i, f.x, nx, f.x) * rc_frame_fade(j, f.y, ny, f.y)};
 }
 
 /* ---- fields without a mean ---- */

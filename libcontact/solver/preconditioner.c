@@ -101,33 +101,19 @@ keep_frame(struct rc_preconditioner *e, size_t level, size_t j, const float *row
     put(level, x, row + x + nx, to + x);
 }
 
-/* Decreases linearly from 1 at the map to 0 beyond the end of the frame. */
-static float
-taper(size_t off, size_t frame)
-{
-    return 1 - (float)off / (float)(frame + 1);
-}
-
-/* Number of nodes from k to the nearest of the n nodes that start at `before`. */
-static size_t
-beside(size_t k, size_t before, size_t n)
-{
-    return k < before ? before - k : k < before + n ? 0 : k - before - n + 1;
-}
-
 /* Factor of the extension in column i of a frame row whose own factor is `of_row`. */
 static float
 frame_factor(const struct rc_preconditioner *e, size_t i, float of_row)
 {
     size_t x = e->op->frame.x;
 
-    return of_row * taper(beside(i, x, e->op->shape.nx), x);
+    return of_row * rc_frame_fade(i, x, e->op->shape.nx, x);
 }
 
 static float
 frame_row_factor(const struct rc_preconditioner *e, size_t j)
 {
-    return taper(beside(j, e->above, e->op->shape.ny), e->op->frame.y);
+    return rc_frame_fade(j, e->above, e->op->shape.ny, e->op->frame.y);
 }
 
 static void

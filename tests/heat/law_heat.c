@@ -210,7 +210,7 @@ conductance(void **state)
     rc_solver_free(s);
 }
 
-/* ---- estimates ---- */
+/* ---- estimates and work ---- */
 
 static uint64_t seed;
 
@@ -233,6 +233,25 @@ set_spots(size_t n, double radius)
                 (pow((double)(k % n) - x, 2) + pow((double)(k / n) - y, 2)) / (radius * radius);
             q[k] = r < 1 ? fmax(q[k], 1e9 * sqrt(1 - r)) : q[k];
         }
+    }
+}
+
+/* The steps do not grow with the map: with an inverse that neglects the temperatures off the contact they
+ * were 5 and 6. */
+static void
+steps(void **state)
+{
+    (void)state;
+    for (size_t n = 64; n <= MOST; n *= 2) {
+        const struct rc_shape s = {n, n, 1e-6, 1e-6};
+        struct rc_heat *h;
+        struct rc_heat_problem problem = steel(10);
+        seed = 5;
+        set_spots(n, 3);
+        h = run(&s, &problem, q, NULL);
+        if (rc_heat_result(h)->iterations > 4)
+            fail_msg("%zu steps for %zu x %zu nodes", rc_heat_result(h)->iterations, n, n);
+        rc_heat_free(h);
     }
 }
 
@@ -286,8 +305,9 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elastic), cmocka_unit_test(directions),  cmocka_unit_test(periodic),
-        cmocka_unit_test(charron), cmocka_unit_test(conductance), cmocka_unit_test(estimates),
+        cmocka_unit_test(elastic),   cmocka_unit_test(directions),  cmocka_unit_test(periodic),
+        cmocka_unit_test(charron),   cmocka_unit_test(conductance), cmocka_unit_test(steps),
+        cmocka_unit_test(estimates),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
