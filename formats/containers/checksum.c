@@ -1,6 +1,5 @@
 #include "checksum.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <sys/types.h>
 #include <md5.h>

@@ -2,7 +2,6 @@
  * and a trailer, with an asterisk after each. A missing point is the word BAD; a resolution of -1 is
  * unknown. */
 #include <math.h>
-#include <string.h>
 
 #include "encode.h"
 #include "sdf_head.h"

@@ -3,7 +3,6 @@
  * as seen from outside, and two unused bytes. Lengths are millimetres by convention. The longer side is SIDE;
  * the thickness under the lowest point is a fiftieth of it. Row 0 is at the back. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "encode.h"
 #include "formats/export.h"

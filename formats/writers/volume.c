@@ -1,6 +1,5 @@
 #include "volume.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

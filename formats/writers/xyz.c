@@ -3,7 +3,6 @@
  * the second number is the depth. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "encode.h"
 #include "formats/export.h"

@@ -4,8 +4,6 @@
  * at that height. In the "unicode" kind the header is of two-byte characters in 4096 bytes.
  */
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "formats/format.h"
 

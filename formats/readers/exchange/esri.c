@@ -3,7 +3,6 @@
  * Then come the values, the top row first. The file has no unit.
  */
 #include <math.h>
-#include <string.h>
 
 #include "formats/format.h"
 

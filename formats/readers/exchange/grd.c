@@ -4,7 +4,6 @@
  * outermost nodes are on the limits. The files have no unit.
  */
 #include <math.h>
-#include <string.h>
 
 #include "formats/format.h"
 

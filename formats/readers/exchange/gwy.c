@@ -5,7 +5,6 @@
  * which is taken for missing here unless the user wishes otherwise.
  */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -3,7 +3,6 @@
  * The attributes dx and dy (m) and unit or units, as rc-export writes them, say what it is;
  * _FillValue is a missing point. Without them the user has to.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

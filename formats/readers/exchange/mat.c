@@ -11,7 +11,6 @@
  * Written from the description of the format that The MathWorks publishes.
  */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -12,7 +12,6 @@
  * lengths are in Angstroms, whatever unit it displays them in.
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "formats/containers/containers.h"

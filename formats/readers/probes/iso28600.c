@@ -6,7 +6,6 @@
  * Written from how Gwyddion writes and reads such files.
  */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "formats/format.h"

@@ -6,7 +6,6 @@
  * default is used. The first line of a scan is the lowest, unless the page says that the grid is
  * reflected.
  */
-#include <math.h>
 #include <string.h>
 
 #include "formats/containers/containers.h"

@@ -4,7 +4,6 @@
  * bottom row first. A value is number / 2^(bits-1) * bufferRange in bufferUnit.
  */
 #include <math.h>
-#include <string.h>
 
 #include "formats/format.h"
 

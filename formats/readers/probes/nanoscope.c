@@ -15,7 +15,6 @@
  * data decides.
  */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "formats/format.h"

@@ -13,7 +13,6 @@
  *         Z Amplitude: 59.7449 nm
  */
 #include <math.h>
-#include <string.h>
 
 #include "formats/format.h"
 

@@ -3,7 +3,6 @@
  * and that many bytes, little-endian. Heights are whole numbers from the bottom row on, of which 1 is
  * missing.
  */
-#include <math.h>
 #include <string.h>
 
 #include "formats/format.h"

@@ -6,10 +6,7 @@
  * The zero level is the header's offset. Programs are known that count from the smallest number
  * instead: then their heights differ from these by a constant.
  */
-#include <inttypes.h>
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "formats/containers/containers.h"
 #include "formats/format.h"

@@ -4,7 +4,6 @@
  * leaves the comment empty. Where TrueMap wrote it micrometres are taken, as surfalize 0.19.2 does; Gwyddion
  * 2.71 and SurfaceTopography 1.27.1 take millimetres there too, hence the doubt.
  */
-#include <math.h>
 #include <string.h>
 
 #include "formats/format.h"

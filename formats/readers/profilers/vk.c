@@ -3,7 +3,6 @@
  * measurement and to up to three height images of whole numbers, row 0 first, lengths in picometres. VK6 and
  * VK7 are a picture and a ZIP archive whose member Vk4File is a VK4 file.
  */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

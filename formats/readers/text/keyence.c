@@ -18,7 +18,6 @@
  * Written from how programs of others read and write such files (kcsv2bcr and others).
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "formats/format.h"
