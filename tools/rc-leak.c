@@ -1,6 +1,5 @@
 /* Flow through the gap of a contact, from one edge of the map to the opposite one. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/contact.h"

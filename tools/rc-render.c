@@ -1,7 +1,6 @@
 /* rc-render: maps of a grid stream, or curves of a report, as a picture: PNG, SVG or PDF. */
 #include <assert.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>

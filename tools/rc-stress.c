@@ -1,5 +1,4 @@
 /* Stresses in the half-space under a pressure map: slice by slice, or in a vertical plane. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

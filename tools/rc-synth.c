@@ -2,7 +2,6 @@
 #include "tools/cli/cli.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/contact.h"

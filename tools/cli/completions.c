@@ -5,7 +5,6 @@
  */
 #include "parts.h"
 
-#include <assert.h>
 #include <math.h>
 #include <string.h>
 

@@ -5,7 +5,6 @@
 #ifndef RC_WORDS_H
 #define RC_WORDS_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "libcontact/contact.h"

@@ -7,7 +7,6 @@
 #include "cost.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Tolerances 1e-from, 1e-(from + step), ..., 1e-to; step 0: none. */

@@ -3,8 +3,6 @@
  */
 #include "render.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static bool

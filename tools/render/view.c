@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 void
 view_read(struct tool *t, const char *text, struct view *view)

@@ -4,8 +4,6 @@
 #ifndef RC_TOOL_STRESS_H
 #define RC_TOOL_STRESS_H
 
-#include <stdio.h>
-
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 
