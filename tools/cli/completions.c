@@ -58,70 +58,6 @@ operand_words(const struct tool_info *info)
 
 /* ---- pieces ---- */
 
-/* Writes text inside single quotes; each of `marks` gets a backslash. */
-static void
-put_text(const char *text, size_t n, const char *marks, bool fish)
-{
-    for (; n > 0; text++, n--) {
-        if (*text == '\'')
-            fputs(fish ? "\\" : "'\\'", stdout);
-        else if (strchr(marks, *text) != NULL)
-            putchar('\\');
-        putchar(*text);
-    }
-}
-
-static void
-put_words(const struct opt *o)
-{
-    const char *word;
-    size_t n;
-
-    if (has_words(o))
-        for (size_t k = 0; (word = option_word(o, k, &n)) != NULL; k++)
-            printf("%s%.*s", k == 0 ? "" : " ", (int)n, word);
-    else if (o->word != NULL)
-        fputs(o->word, stdout);
-}
-
-static void
-put_operand_words(const char *words)
-{
-    for (; *words != '\0'; words++)
-        putchar(*words == '|' ? ' ' : *words);
-}
-
-/* Writes the help line without the words of the option, which are completed. */
-static void
-put_help(const struct opt *o, const char *marks, bool fish)
-{
-    const char *mark = strstr(o->help, "%s");
-
-    if (mark == NULL) {
-        put_text(o->help, strlen(o->help), marks, fish);
-    } else {
-        put_text(o->help, (size_t)(mark - o->help), marks, fish);
-        fputs("these", stdout);
-        put_text(mark + 2, strlen(mark + 2), marks, fish);
-    }
-}
-
-/* "rc-solve" as part of the name of a function. */
-static void
-put_function(const struct tool_info *info, const char *rest)
-{
-    putchar('_');
-    for (const char *s = info->name; *s != '\0'; s++)
-        putchar(*s == '-' ? '_' : *s);
-    fputs(rest, stdout);
-}
-
-static const char *
-dashes(const char *name)
-{
-    return name[1] == '\0' ? "-" : "--";
-}
-
 /* Row k of the tool's rows, -o, and the common rows; NULL past the last. */
 static const struct opt *
 row_at(const struct tool *t, size_t k)
@@ -136,15 +72,6 @@ row_at(const struct tool *t, size_t k)
     return k == t->option.n ? &out : option_common(t->info, k - t->option.n - 1);
 }
 
-static void
-walk(const struct tool *t, void (*row)(const struct tool_info *, const struct opt *))
-{
-    const struct opt *o;
-
-    for (size_t k = 0; (o = row_at(t, k)) != NULL; k++)
-        row(t->info, o);
-}
-
 /* True if one of the tool's own options takes such an argument. */
 static bool
 takes(const struct tool *t, enum argument argument)
@@ -155,93 +82,66 @@ takes(const struct tool *t, enum argument argument)
     return false;
 }
 
+/* Prints the words of an option with blanks between them. */
+static void
+put_words(const struct opt *o)
+{
+    const char *word;
+    size_t n;
+
+    if (has_words(o))
+        for (size_t k = 0; (word = option_word(o, k, &n)) != NULL; k++)
+            printf("%s%.*s", k == 0 ? "" : " ", (int)n, word);
+    else if (o->word != NULL)
+        fputs(o->word, stdout);
+}
+
+/* Prints the text with another character in place of `from`. */
+static void
+put_changed(const char *text, char from, char to)
+{
+    for (; *text != '\0'; text++)
+        putchar(*text == from ? to : *text);
+}
+
+/* ---- the scripts ---- */
+
+/* A shell. Its texts contain marks, see `put`. */
+struct shell {
+    const char *script;   /* the whole file                                       */
+    const char *channels; /* a function that finds the channels of the named files */
+    const char *row;      /* of an option                                         */
+    const char *name;     /* of an option in a list of names                      */
+    const char *alias;    /* before the other name of an option                   */
+    const char *argument[CHANNELS + 1];
+    const char *operands, *files; /* operands that are words, or files */
+    const char *escaped, *quote;  /* characters that get a backslash; before a single quote */
+    bool rows_for_aliases, only_with_argument;
+};
+
 /* Reads the channels in the first 64 MB of a stream. */
 #define FIND_CHANNELS                                                                              \
     "head -c 64000000 \"$file\" | LC_ALL=C sed -n 's/^channel=\\([A-Za-z0-9._-]*\\)$/\\1/p'"
 
-/* ---- bash ---- */
-
-static void
-bash_case(const struct tool_info *info, const struct opt *o)
-{
-    enum argument argument = argument_of(info, o);
-
-    if (argument == NOTHING)
-        return;
-    printf("    %s%s", dashes(o->name), o->name);
-    if (o->alias != NULL)
-        printf(" | --%s", o->alias);
-    printf(")");
-    if (argument == WORD || argument == LIST || o->word != NULL) {
-        printf(" %s='", argument == LIST ? "list" : "words");
-        put_words(o);
-        printf("'");
-    }
-    if (argument == NUMBER)
-        printf(" units='%s'", unit_usual(o->unit));
-    if (argument == FILE_NAME)
-        printf(" files=yes");
-    if (argument == CHANNELS) {
-        printf(" list=$(");
-        put_function(info, "_channels)");
-    }
-    printf(" ;;\n");
-}
-
-static void
-bash_name(const struct tool_info *info, const struct opt *o)
-{
-    (void)info;
-    printf(" %s%s", dashes(o->name), o->name);
-    if (o->alias != NULL)
-        printf(" --%s", o->alias);
-}
-
-static void
-bash_channels(const struct tool *t)
-{
-    put_function(t->info, "_channels()\n{\n");
-    printf("    local file\n"
-           "    for file in \"${COMP_WORDS[@]}\"; do\n"
-           "        [ -f \"$file\" ] && " FIND_CHANNELS "\n"
-           "    done 2>/dev/null | sort -u\n"
-           "}\n");
-}
-
-static void
-bash_print(const struct tool *t)
-{
-    const char *words = operand_words(t->info);
-
-    if (takes(t, CHANNELS))
-        bash_channels(t);
-    put_function(t->info, "()\n{\n");
-    printf("    local word=${COMP_WORDS[COMP_CWORD]} n=$((COMP_CWORD - 1))\n"
-           "    local words= list= units= files= unit\n"
-           "    COMPREPLY=()\n"
-           "    # bash takes the marks in --option=word and 0:1 for words\n"
-           "    [[ $word == [:=] ]] && word= n=$COMP_CWORD\n"
-           "    while [[ ${COMP_WORDS[n]} == [:=] ]]; do\n"
-           "        [[ ${COMP_WORDS[n]} == : ]] && n=$((n - 1))\n"
-           "        n=$((n - 1))\n"
-           "    done\n"
-           "    case ${COMP_WORDS[n]} in\n");
-    walk(t, bash_case);
-    printf("    *)\n        case $word in\n        -*) words='");
-    walk(t, bash_name);
-    if (words != NULL) {
-        printf("' ;;\n        *) words='");
-        put_operand_words(words);
-        printf("' ;;\n");
-    } else {
-        printf("' ;;\n        *) files=yes ;;\n");
-    }
-    printf(
+static const struct shell bash = {
+    .script =
+        "!k!f()\n{\n"
+        "    local word=${COMP_WORDS[COMP_CWORD]} n=$((COMP_CWORD - 1))\n"
+        "    local words= list= units= files= unit\n"
+        "    COMPREPLY=()\n"
+        "    # bash takes the marks in --option=word and 0:1 for words\n"
+        "    [[ $word == [:=] ]] && word= n=$COMP_CWORD\n"
+        "    while [[ ${COMP_WORDS[n]} == [:=] ]]; do\n"
+        "        [[ ${COMP_WORDS[n]} == : ]] && n=$((n - 1))\n"
+        "        n=$((n - 1))\n"
+        "    done\n"
+        "    case ${COMP_WORDS[n]} in\n!r"
+        "    *)\n        case $word in\n        -*) words='!m' ;;\n        *) !p ;;\n"
         "        esac\n        ;;\n    esac\n"
         "    [ -z \"$words\" ] || mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
         "    if [ -n \"$list\" ]; then\n"
         "        mapfile -t COMPREPLY < \\\n"
-        "            <(compgen -P \"${word%%\"${word##*,}\"}\" -W \"$list\" -- \"${word##*,}\")\n"
+        "            <(compgen -P \"${word%\"${word##*,}\"}\" -W \"$list\" -- \"${word##*,}\")\n"
         "        compopt -o nospace 2>/dev/null\n"
         "    fi\n"
         "    if [[ $word =~ ^(.*,)?[0-9]*\\.?[0-9]+$ ]]; then\n"
@@ -254,198 +154,215 @@ bash_print(const struct tool *t)
         "        mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n"
         "    fi\n"
         "}\n"
-        "complete -F ");
-    put_function(t->info, "");
-    printf(" %s\n", t->info->name);
-}
+        "complete -F !f !t\n",
+    .channels = "!f_channels()\n{\n"
+                "    local file\n"
+                "    for file in \"${COMP_WORDS[@]}\"; do\n"
+                "        [ -f \"$file\" ] && " FIND_CHANNELS "\n"
+                "    done 2>/dev/null | sort -u\n"
+                "}\n",
+    .row = "    !d!n!l)!a ;;\n",
+    .name = " !d!n!i",
+    .alias = " | --",
+    .argument = {[ANYTHING] = "",
+                 [WORD] = " words='!w'",
+                 [LIST] = " list='!w'",
+                 [NUMBER] = "!b units='!u'",
+                 [FILE_NAME] = " files=yes",
+                 [CHANNELS] = " list=$(!f_channels)"},
+    .operands = "words='!o'",
+    .files = "files=yes",
+    .only_with_argument = true,
+};
 
-/* ---- zsh ---- */
+/* In a specification for _arguments, brackets and colons have a special meaning. A blank before a function
+ * keeps _arguments from putting its own words before the arguments of the function. */
+static const struct shell zsh = {
+    .script = "#compdef !t\n!f_number()\n{\n"
+              "    compadd -- ${=1}\n"
+              "    compset -P '*[:,]'\n"
+              "    compset -P '[0-9.]##' && compadd -- ${@:2}\n"
+              "}\n"
+              "!klocal -a specs=(\n!r    '*:!p'\n)\n_arguments -S : $specs\n",
+    .channels = "!f_channels()\n{\n"
+                "    local file\n"
+                "    local -a found\n"
+                "    for file in $words; do\n"
+                "        [[ -f $file ]] && found+=($(" FIND_CHANNELS " 2>/dev/null))\n"
+                "    done\n"
+                "    (( $#found )) && _sequence compadd - ${(u)found}\n"
+                "}\n",
+    .row = "    '*!d!n!e[!h]!a'\n",
+    .argument = {[NOTHING] = "",
+                 [ANYTHING] = ":!g: ",
+                 [WORD] = ":!g:(!w)",
+                 [LIST] = ":!g:_sequence compadd - !w",
+                 [NUMBER] = ":!g: !f_number \"!w\" !u",
+                 [FILE_NAME] = ":!g:_files",
+                 [CHANNELS] = ":!g:!f_channels"},
+    .operands = "word:(!o)",
+    .files = "file:_files",
+    .escaped = "[]:\\",
+    .quote = "'\\'",
+    .rows_for_aliases = true,
+};
 
-/* Writes a specification for _arguments, in which brackets and colons have a special meaning. */
+static const struct shell fish = {
+    .script = "function _!f_number\n"
+              "    set -l typed (commandline -ct | string replace -r '^--[^=]*=' '')\n"
+              "    string match -qr '^(.*[:,])?[0-9]*\\.?[0-9]+$' -- $typed\n"
+              "    and printf '%s\\n' $typed$argv\n"
+              "end\n!k!p!r",
+    .channels = "function _!f_channels\n"
+                "    for file in (commandline -opc)\n"
+                "        test -f $file; and " FIND_CHANNELS "\n"
+                "    end 2>/dev/null | sort -u\n"
+                "end\n",
+    .row = "complete -c !t -!c !n!l!a -d '!h'\n",
+    .alias = " -l ",
+    .argument = {[NOTHING] = "",
+                 [ANYTHING] = " -x",
+                 [WORD] = " -x -a '!w'",
+                 [LIST] = " -x -a '(__fish_append , !w)'",
+                 [NUMBER] = " -x -a '!w!s(_!f_number !u)'",
+                 [FILE_NAME] = " -r -F",
+                 [CHANNELS] = " -x -a '(__fish_append , (_!f_channels))'"},
+    .operands = "complete -c !t -f -a '!o'\n",
+    .files = "",
+    .escaped = "\\",
+    .quote = "\\",
+};
+
+/* Prints text inside single quotes; "%s" in it stands for words that are completed. */
 static void
-zsh_name(const struct tool_info *info, const struct opt *o, const char *name)
+put_quoted(const struct shell *s, const char *text)
 {
-    static const char marks[] = "[]:\\";
-    enum argument argument = argument_of(info, o);
-
-    printf("    '*%s%s%s[", dashes(name), name,
-           argument == NOTHING ? ""
-           : strlen(name) == 1 ? "+"
-                               : "=");
-    put_help(o, marks, false);
-    putchar(']');
-    if (argument != NOTHING) {
-        putchar(':');
-        put_text(o->arg == NULL ? o->name : o->arg, strlen(o->arg == NULL ? o->name : o->arg),
-                 marks, false);
-        putchar(':');
+    for (; *text != '\0'; text++) {
+        if (strncmp(text, "%s", 2) == 0) {
+            fputs("these", stdout);
+            text++;
+            continue;
+        }
+        if (*text == '\'')
+            fputs(s->quote, stdout);
+        else if (strchr(s->escaped, *text) != NULL)
+            putchar('\\');
+        putchar(*text);
     }
-    switch (argument) {
-    case NOTHING:
-        break;
-    case ANYTHING:
-        putchar(' ');
-        break;
-    case WORD:
-        putchar('(');
-        put_words(o);
-        putchar(')');
-        break;
-    case LIST:
-        printf("_sequence compadd - ");
-        put_words(o);
-        break;
-    case NUMBER:
-        putchar(' '); /* otherwise _arguments would put its own words before these */
-        put_function(info, "_number \"");
-        put_words(o);
-        printf("\" %s", unit_usual(o->unit));
-        break;
-    case FILE_NAME:
-        printf("_files");
-        break;
-    case CHANNELS:
-        put_function(info, "_channels");
-        break;
+}
+
+static void put(const struct shell *s, const struct tool *t, const char *text, const struct opt *o,
+                const char *name);
+
+static void
+put_rows(const struct shell *s, const struct tool *t, const char *row)
+{
+    const struct opt *o;
+
+    for (size_t k = 0; (o = row_at(t, k)) != NULL; k++) {
+        if (row == s->row && s->only_with_argument && argument_of(t->info, o) == NOTHING)
+            continue;
+        put(s, t, row, o, o->name);
+        if (s->rows_for_aliases && o->alias != NULL)
+            put(s, t, row, o, o->alias);
     }
-    printf("'\n");
 }
 
+/* Replaces a mark of a script by a text of the tool. */
 static void
-zsh_option(const struct tool_info *info, const struct opt *o)
-{
-    zsh_name(info, o, o->name);
-    if (o->alias != NULL)
-        zsh_name(info, o, o->alias);
-}
-
-static void
-zsh_number(const struct tool *t)
-{
-    put_function(t->info, "_number()\n{\n");
-    printf("    compadd -- ${=1}\n"
-           "    compset -P '*[:,]'\n"
-           "    compset -P '[0-9.]##' && compadd -- ${@:2}\n"
-           "}\n");
-}
-
-static void
-zsh_channels(const struct tool *t)
-{
-    put_function(t->info, "_channels()\n{\n");
-    printf("    local file\n"
-           "    local -a found\n"
-           "    for file in $words; do\n"
-           "        [[ -f $file ]] && found+=($(" FIND_CHANNELS " 2>/dev/null))\n"
-           "    done\n"
-           "    (( $#found )) && _sequence compadd - ${(u)found}\n"
-           "}\n");
-}
-
-static void
-zsh_print(const struct tool *t)
+put_script(const struct shell *s, const struct tool *t, char mark)
 {
     const char *words = operand_words(t->info);
 
-    printf("#compdef %s\n", t->info->name);
-    zsh_number(t);
-    if (takes(t, CHANNELS))
-        zsh_channels(t);
-    printf("local -a specs=(\n");
-    walk(t, zsh_option);
-    printf("    '*:%s:", words == NULL ? "file" : "word");
-    if (words != NULL) {
-        putchar('(');
-        put_operand_words(words);
-        putchar(')');
-    } else {
-        printf("_files");
-    }
-    printf("'\n)\n_arguments -S : $specs\n");
-}
-
-/* ---- fish ---- */
-
-static void
-fish_option(const struct tool_info *info, const struct opt *o)
-{
-    enum argument argument = argument_of(info, o);
-
-    printf("complete -c %s -%c %s", info->name, strlen(o->name) == 1 ? 's' : 'l', o->name);
-    if (o->alias != NULL)
-        printf(" -l %s", o->alias);
-    switch (argument) {
-    case NOTHING:
+    switch (mark) {
+    case 't': /* the tool */
+        fputs(t->info->name, stdout);
         break;
-    case ANYTHING:
-        printf(" -x");
+    case 'f': /* its name as part of that of a function */
+        putchar('_');
+        put_changed(t->info->name, '-', '_');
         break;
-    case WORD:
-        printf(" -x -a '");
-        put_words(o);
-        putchar('\'');
+    case 'k': /* the function of the channels, where an option takes them */
+        put(s, t, takes(t, CHANNELS) ? s->channels : "", NULL, NULL);
         break;
-    case LIST:
-        printf(" -x -a '(__fish_append , ");
-        put_words(o);
-        printf(")'");
+    case 'r':
+        put_rows(s, t, s->row);
         break;
-    case NUMBER:
-        printf(" -x -a '");
-        put_words(o);
-        printf("%s(_", o->word == NULL ? "" : " ");
-        put_function(info, "_number ");
-        printf("%s)'", unit_usual(o->unit));
+    case 'm':
+        put_rows(s, t, s->name);
         break;
-    case FILE_NAME:
-        printf(" -r -F");
+    case 'p':
+        put(s, t, words != NULL ? s->operands : s->files, NULL, NULL);
         break;
-    case CHANNELS:
-        printf(" -x -a '(__fish_append , (_");
-        put_function(info, "_channels))'");
+    case 'o': /* words of operands */
+        put_changed(words, '|', ' ');
         break;
     }
-    printf(" -d '");
-    put_help(o, "\\", true);
-    printf("'\n");
 }
 
+/* Replaces a mark of an option, whose name is the first or the other one. */
 static void
-fish_number(const struct tool *t)
+put_option(const struct shell *s, const struct tool *t, char mark, const struct opt *o,
+           const char *name)
 {
-    printf("function _");
-    put_function(t->info, "_number\n");
-    printf("    set -l typed (commandline -ct | string replace -r '^--[^=]*=' '')\n"
-           "    string match -qr '^(.*[:,])?[0-9]*\\.?[0-9]+$' -- $typed\n"
-           "    and printf '%%s\\n' $typed$argv\n"
-           "end\n");
-}
+    bool letter = name[1] == '\0';
 
-static void
-fish_channels(const struct tool *t)
-{
-    printf("function _");
-    put_function(t->info, "_channels\n");
-    printf("    for file in (commandline -opc)\n"
-           "        test -f $file; and " FIND_CHANNELS "\n"
-           "    end 2>/dev/null | sort -u\n"
-           "end\n");
-}
-
-static void
-fish_print(const struct tool *t)
-{
-    const char *words = operand_words(t->info);
-
-    fish_number(t);
-    if (takes(t, CHANNELS))
-        fish_channels(t);
-    if (words != NULL) {
-        printf("complete -c %s -f -a '", t->info->name);
-        put_operand_words(words);
-        printf("'\n");
+    switch (mark) {
+    case 'd':
+        fputs(letter ? "-" : "--", stdout);
+        break;
+    case 'c': /* fish: short or long */
+        putchar(letter ? 's' : 'l');
+        break;
+    case 'e': /* zsh: before an argument */
+        fputs(argument_of(t->info, o) == NOTHING ? "" : letter ? "+" : "=", stdout);
+        break;
+    case 'n':
+        fputs(name, stdout);
+        break;
+    case 'l':
+    case 'i':
+        if (o->alias != NULL)
+            printf("%s%s", mark == 'i' ? " --" : s->alias, o->alias);
+        break;
+    case 'h':
+        put_quoted(s, o->help);
+        break;
+    case 'g':
+        put_quoted(s, o->arg == NULL ? o->name : o->arg);
+        break;
+    case 'a':
+        put(s, t, s->argument[argument_of(t->info, o)], o, name);
+        break;
+    case 'w':
+        put_words(o);
+        break;
+    case 'b': /* bash: a word that may replace a number */
+        put(s, t, o->word == NULL ? "" : s->argument[WORD], o, name);
+        break;
+    case 's': /* a blank behind such a word */
+        fputs(o->word == NULL ? "" : " ", stdout);
+        break;
+    case 'u':
+        fputs(unit_usual(o->unit), stdout);
+        break;
+    default:
+        put_script(s, t, mark);
     }
-    walk(t, fish_option);
+}
+
+/* Prints a text of the shell. A mark is an exclamation mark and a letter. */
+static void
+put(const struct shell *s, const struct tool *t, const char *text, const struct opt *o,
+    const char *name)
+{
+    for (; *text != '\0'; text++)
+        if (*text != '!')
+            putchar(*text);
+        else if (o == NULL)
+            put_script(s, t, *++text);
+        else
+            put_option(s, t, *++text, o, name);
 }
 
 /* ---- for programs: the table as JSON ---- */
@@ -540,16 +457,19 @@ table_print(const struct tool *t)
 bool
 completions_print(const struct tool *t, const char *shell)
 {
-    static const struct shell {
+    static const struct {
         const char *name;
-        void (*print)(const struct tool *t);
-    } shells[] = {
-        {"bash", bash_print}, {"zsh", zsh_print}, {"fish", fish_print}, {"json", table_print}};
+        const struct shell *shell; /* NULL: JSON */
+    } shells[] = {{"bash", &bash}, {"zsh", &zsh}, {"fish", &fish}, {"json", NULL}};
 
-    for (size_t k = 0; k < sizeof shells / sizeof *shells; k++)
-        if (strcmp(shells[k].name, shell) == 0) {
-            shells[k].print(t);
-            return true;
-        }
+    for (size_t k = 0; k < sizeof shells / sizeof *shells; k++) {
+        if (strcmp(shells[k].name, shell) != 0)
+            continue;
+        if (shells[k].shell == NULL)
+            table_print(t);
+        else
+            put(shells[k].shell, t, shells[k].shell->script, NULL, NULL);
+        return true;
+    }
     return false;
 }
