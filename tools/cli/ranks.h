@@ -7,12 +7,16 @@
 #ifndef RC_TOOL_RANKS_H
 #define RC_TOOL_RANKS_H
 
+#include <stdlib.h>
+
 #include "libcontact/contact.h"
 #include "tool.h"
 
 /* Connects the processes that a launcher of MPI has started; called at the start of a tool that can share
  * maps. */
 void ranks_start(struct tool *tool);
+#ifdef RC_MPI
+
 /* Disconnects the processes; no function of this file may be called afterwards. */
 void ranks_end(struct tool *tool);
 
@@ -54,5 +58,28 @@ void ranks_hurry(const struct tool *tool);
  * process prints the reason. The others are killed. `say` prints the message and removes incomplete files. */
 _Noreturn void ranks_die(struct tool *tool, int status, const char *text,
                          void (*say)(struct tool *tool, int status, const char *text));
+
+#else /* there is one process */
+#define ranks_end(tool) ((void)(tool))
+#define ranks_of(tool) ((void)(tool), (const struct rc_ranks *)NULL)
+#define ranks_count(tool) ((void)(tool), (size_t)1)
+#define ranks_speak(tool) ((void)(tool), true)
+#define ranks_rows(tool, shape, first, n)                                                          \
+    ((void)(tool), (void)(*(first) = 0), (void)(*(n) = (shape)->ny))
+#define ranks_sum(tool, v) ((void)(tool), (v))
+#define ranks_most(tool, v) ((void)(tool), (v))
+#define ranks_crc(tool, crc, bytes) ((void)(tool), (void)(bytes), (crc))
+#define ranks_agree(tool, status, err) ((void)(tool), (void)(err), (status))
+#define ranks_share(tool, root, v, bytes) ((void)(tool), (void)(root), (void)(v), (void)(bytes))
+#define ranks_wait(tool) ((void)(tool))
+#define ranks_where_most(tool, v) ((void)(tool), (void)(v), (size_t)0)
+#define ranks_sent(tool, sent) ((void)(tool), (void)(*(sent) = (struct rc_sent){0}))
+#define ranks_read(tool, name) ((void)(tool), (void)(name), (const struct rc_share *)NULL)
+#define ranks_write(tool, name) ((void)(tool), (void)(name), (const struct rc_share *)NULL)
+#define ranks_settle(share, err) ((void)(share), (void)(err), RC_OK)
+#define ranks_close(tool, share) ((void)(tool), (void)(share))
+#define ranks_hurry(tool) ((void)(tool))
+#define ranks_die(tool, status, text, say) ((say)(tool, status, text), exit(status))
+#endif
 
 #endif
