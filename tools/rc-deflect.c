@@ -129,9 +129,7 @@ do_case(struct tool *t, const struct rc_grid *p)
 
     tool_demand_finite(t, p, "recompute the map");
     demand_memory(t, p, &options);
-    conv = rc_conv_new(&shape, &pair, &options, &err);
-    if (conv == NULL)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    conv = tool_made(t, p, rc_conv_new(&shape, &pair, &options, &err), &err);
     tool_note(t, "summed by %s, because %s; error at most %.1e of the sum of |K| |p|",
               rc_conv_engine(conv), rc_conv_reason(conv), rc_conv_error(conv));
     u = rc_grid_like(p, "displacement", "m", &err);

@@ -442,8 +442,8 @@ new_frame(struct run *run, const struct rc_shape *result, int c)
         shape.ny = d->n;
         shape.dy = d->n > 1 ? (d->v[d->n - 1] - d->v[0]) / (double)(d->n - 1) : shape.dx;
     }
-    if ((g = rc_grid_new(&shape, rc_criterion_names[c], unit_of(c), &err)) == NULL)
-        tool_die_at(&run->t, first, EXIT_IMPOSSIBLE, "%s", err.text);
+    g = tool_made(&run->t, first, rc_grid_new(&shape, rc_criterion_names[c], unit_of(c), &err),
+                  &err);
     for (size_t k = 0; k < first->keys; k++)
         tool_must(&run->t, first, rc_grid_set(g, first->key[k].name, first->key[k].value, &err),
                   &err);
@@ -619,8 +619,7 @@ do_history(struct run *run)
     }
     tool_demand_memory(t, first, run->needs);
     result = rc_fatigue_shape(&shape, &run->problem);
-    if ((f = rc_fatigue_new(&shape, &run->problem, &err)) == NULL)
-        tool_die_at(t, first, EXIT_IMPOSSIBLE, "%s", err.text);
+    f = tool_made(t, first, rc_fatigue_new(&shape, &run->problem, &err), &err);
     for (int c = 0; c < RC_FATIGUES; c++)
         run->frame[c] = wanted(c) ? new_frame(run, &result, c) : NULL;
     for (int c = 0; c <= RC_CRITERIA; c++)

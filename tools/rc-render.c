@@ -488,8 +488,7 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     if (columns == 0)
         columns = panels_columns(frames->n, (f.at.right - f.at.left) / (f.at.bottom - f.at.top));
     panels = (struct panels){&f, panel, frames->n, columns};
-    if ((c = panels_draw(&panels, &err)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    c = tool_made(t, NULL, panels_draw(&panels, &err), &err);
     finish(t, a, frames->grid[0], &f.paper, c, NULL);
     for (size_t k = 0; k < frames->n; k++) {
         rc_grid_free(even[k]);

@@ -322,9 +322,7 @@ do_case(struct run *run, const struct rc_grid *p)
                                   report_wanted(&run->out), &err),
               &err);
     tool_demand_memory(&run->t, p, memory_for(run, p));
-    stress = rc_stress_new(&shape, p->v, &run->options, &err);
-    if (stress == NULL)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    stress = tool_made(&run->t, p, rc_stress_new(&shape, p->v, &run->options, &err), &err);
     stress_report_ready(&run->report);
     for (int c = 0; c < RC_STRESSES; c++)
         if (wanted(c))

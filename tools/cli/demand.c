@@ -70,8 +70,7 @@ tool_demand_memory(struct tool *t, const struct rc_grid *g, size_t bytes)
     const struct rc_shape shape = rc_grid_shape(g);
     struct rc_err err;
 
-    if (tool_ask_memory(t, &shape, bytes, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(t, g, tool_ask_memory(t, &shape, bytes, &err), &err);
 }
 
 size_t

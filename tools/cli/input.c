@@ -83,9 +83,8 @@ open_next(struct tool *t)
                  t->source);
     setvbuf(t->input.file, NULL, _IOFBF, TOOL_BUFFER);
     pipe_widen(fileno(t->input.file));
-    t->input.reader = rc_reader_new(t->input.file, t->input.last_case, 0, &err);
-    if (t->input.reader == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    t->input.reader =
+        tool_made(t, NULL, rc_reader_new(t->input.file, t->input.last_case, 0, &err), &err);
     if (t->ranks != NULL) {
         t->input.share = ranks_read(t, name);
         rc_reader_share(t->input.reader, t->input.share);

@@ -12,6 +12,15 @@
 #include "parts.h"
 #include "ranks.h"
 
+/* Writes the text of a function with a format and further arguments. */
+#define WRITE(text, format)                                                                        \
+    do {                                                                                           \
+        va_list ap;                                                                                \
+        va_start(ap, format);                                                                      \
+        vsnprintf(text, sizeof text, format, ap);                                                  \
+        va_end(ap);                                                                                \
+    } while (0)
+
 /* Replaces control characters: messages contain names, keys and words of files, which must not act on a
  * terminal. */
 static void
@@ -27,13 +36,10 @@ void
 tool_warn(struct tool *t, const char *format, ...)
 {
     char text[1024];
-    va_list ap;
 
     if (t->quiet)
         return;
-    va_start(ap, format);
-    vsnprintf(text, sizeof text, format, ap);
-    va_end(ap);
+    WRITE(text, format);
     say(t, text);
 }
 
@@ -41,11 +47,8 @@ void
 tool_fail(struct tool *t, const char *format, ...)
 {
     char text[1024];
-    va_list ap;
 
-    va_start(ap, format);
-    vsnprintf(text, sizeof text, format, ap);
-    va_end(ap);
+    WRITE(text, format);
     tool_add_refusal(t, NULL, text, sizeof text);
     say(t, text);
     tool_fails_with(t, EXIT_IMPOSSIBLE);
@@ -55,13 +58,10 @@ void
 tool_note(struct tool *t, const char *format, ...)
 {
     char text[1024];
-    va_list ap;
 
     if (!t->verbose)
         return;
-    va_start(ap, format);
-    vsnprintf(text, sizeof text, format, ap);
-    va_end(ap);
+    WRITE(text, format);
     say(t, text);
 }
 
@@ -83,15 +83,12 @@ tool_progress(struct tool *t, double done, const char *format, ...)
 {
     bool terminal = isatty(STDERR_FILENO);
     char text[512];
-    va_list ap;
 
     if (t->quiet || !ranks_speak(t) || !(terminal || t->progress != NULL) ||
         tool_now() - t->line.at < 0.1)
         return;
     t->line.at = tool_now();
-    va_start(ap, format);
-    vsnprintf(text, sizeof text, format, ap);
-    va_end(ap);
+    WRITE(text, format);
     if (t->progress != NULL && strcmp(t->progress, "json") == 0) {
         put_progress(t, done, text);
         return;
@@ -143,11 +140,8 @@ void
 tool_die(struct tool *t, int status, const char *format, ...)
 {
     char text[1024];
-    va_list ap;
 
-    va_start(ap, format);
-    vsnprintf(text, sizeof text, format, ap);
-    va_end(ap);
+    WRITE(text, format);
     tool_add_refusal(t, NULL, text, sizeof text);
     die(t, status, text);
 }
@@ -171,11 +165,8 @@ void
 tool_die_at(struct tool *t, const struct rc_grid *g, int status, const char *format, ...)
 {
     char text[1024], where[256], whole[1400];
-    va_list ap;
 
-    va_start(ap, format);
-    vsnprintf(text, sizeof text, format, ap);
-    va_end(ap);
+    WRITE(text, format);
     tool_add_refusal(t, g, text, sizeof text);
     snprintf(whole, sizeof whole, "%s: %s", tool_where(t, g, where, sizeof where), text);
     die(t, status, whole);
@@ -189,6 +180,13 @@ tool_must(struct tool *t, const struct rc_grid *g, enum rc_status status, const 
     if (g == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err->text);
     tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err->text);
+}
+
+void *
+tool_made(struct tool *t, const struct rc_grid *g, void *made, const struct rc_err *err)
+{
+    tool_must(t, g, made == NULL ? RC_FAIL : RC_OK, err);
+    return made;
 }
 
 /* ---- memory that must be there ---- */

@@ -137,8 +137,7 @@ open_shared(struct tool *t)
     if (!ranks_speak(t))
         whole_file_share(&output, name); /* the last process removes it */
     t->output.share = ranks_write(t, name);
-    if ((t->output.writer = rc_writer_new_shared(t->output.share, 0, &err)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    t->output.writer = tool_made(t, NULL, rc_writer_new_shared(t->output.share, 0, &err), &err);
 }
 
 void

@@ -103,8 +103,7 @@ ranks_start(struct tool *t)
         tool_die(t, EXIT_IMPOSSIBLE, "/dev/null: %s", strerror(errno));
     if ((r.parts = malloc((size_t)r.count * sizeof *r.parts)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %d processes", r.count);
-    if ((r.library = rc_ranks_new(r.comm, &err)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    r.library = tool_made(t, NULL, rc_ranks_new(r.comm, &err), &err);
 }
 
 void

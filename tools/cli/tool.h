@@ -254,6 +254,9 @@ _Noreturn void tool_die_at(struct tool *tool, const struct rc_grid *grid, int st
 /* Ends the tool with the message of a failure, at a frame or, with NULL, without a place. */
 void tool_must(struct tool *tool, const struct rc_grid *grid, enum rc_status status,
                const struct rc_err *err);
+/* Returns what a maker returned; ends the tool with its error if that is NULL. */
+void *tool_made(struct tool *tool, const struct rc_grid *grid, void *made, const struct rc_err *err)
+    __attribute__((returns_nonnull));
 /* An array of n elements of this size, all 0, which the caller frees. Ends the tool when memory is short,
  * with the message "out of memory for WHAT". */
 void *tool_room(struct tool *tool, size_t n, size_t size, const char *what)

@@ -101,10 +101,8 @@ map_frame(struct info_wanted *w, struct tool *t, const struct rc_grid *g)
     bool row = g->ny == 1, column = g->nx == 1;
     char step[64];
     struct rc_err err;
-    struct rc_grid *map = rc_grid_like(g, "psd", row || column ? "m3" : "m4", &err);
-
-    if (map == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    struct rc_grid *map =
+        tool_made(t, g, rc_grid_like(g, "psd", row || column ? "m3" : "m4", &err), &err);
     map->dx = INFO_2PI / ((double)g->nx * g->dx);
     map->dy = INFO_2PI / ((double)g->ny * g->dy);
     if (row)
@@ -138,8 +136,7 @@ find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct 
         map = map_frame(w, t, g);
         options.map = map->v;
     }
-    if ((f->psd = rc_psd_new(&shape, g->v, &options, &err)) == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    f->psd = tool_made(t, g, rc_psd_new(&shape, g->v, &options, &err), &err);
     if (map != NULL) {
         tool_must(t, g, rc_grid_set(map, "window", f->psd->window, &err), &err);
         info_file_put(w->file, map);

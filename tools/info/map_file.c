@@ -31,8 +31,7 @@ info_file_new(struct tool *t, const char *option, const char *name)
     tool_demand_writable(t, option, name);
     if ((f->file = whole_file_open(&f->whole, name)) == NULL)
         failed(f);
-    if ((f->writer = rc_writer_new(f->file, &err)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    f->writer = tool_made(t, NULL, rc_writer_new(f->file, &err), &err);
     return f;
 }
 

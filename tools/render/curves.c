@@ -856,8 +856,7 @@ draw(struct curves *c, struct drawn *drawn)
     wording_axis(c->tool, c->style, 'x', &graph.x);
     wording_axis(c->tool, c->style, 'y', &graph.y);
     wording_legend(c->tool, c->style, c->series, c->n, c->legend, sizeof c->legend);
-    if ((canvas = graph_draw(&graph, &err)) == NULL)
-        tool_die(c->tool, EXIT_IMPOSSIBLE, "%s", err.text);
+    canvas = tool_made(c->tool, NULL, graph_draw(&graph, &err), &err);
     return canvas;
 }
 

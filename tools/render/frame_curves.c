@@ -88,8 +88,7 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
     wording_axis(s->tool, s->style, 'x', &graph->x);
     wording_axis(s->tool, s->style, 'y', &graph->y);
     wording_legend(s->tool, s->style, s->series, graph->n, s->legend, sizeof s->legend);
-    if ((canvas = graph_draw(graph, &err)) == NULL)
-        tool_die(s->tool, EXIT_IMPOSSIBLE, "%s", err.text);
+    canvas = tool_made(s->tool, NULL, graph_draw(graph, &err), &err);
     for (size_t k = 0; k <= s->n; k++) {
         free(s->x[k]);
         free(s->y[k]);

@@ -151,10 +151,7 @@ section_even(struct tool *t, const struct rc_grid *g, const double *depth,
     struct rows r = {depth, layers, tool_room(t, g->ny, sizeof *r.medium, "a section"),
                      tool_room(t, g->ny, sizeof *r.v, "a section"), g->ny};
     struct rc_err err;
-    struct rc_grid *even = rc_grid_new(&shape, g->channel, g->unit, &err);
-
-    if (even == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    struct rc_grid *even = tool_made(t, g, rc_grid_new(&shape, g->channel, g->unit, &err), &err);
     for (size_t j = 0; j < g->ny; j++)
         r.medium[j] = rc_body_material(&layers->body, depth[j]);
     for (size_t i = 0; i < even->nx; i++)

@@ -218,12 +218,12 @@ new_model(struct slip_run *run)
     struct rc_err err;
 
     for (size_t j = 0; j < law.fewer && run->alternates; j++)
-        if ((law.inner_of_fewer[j] = new_contact(run, tol / 10, &err)) == NULL)
-            tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
-    m = rc_friction_new(new_contact(run, tol, &err), run->solves ? run->height->v : NULL, &law,
-                        &err);
-    if (m == NULL)
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+        law.inner_of_fewer[j] =
+            tool_made(&run->d.t, run->p, new_contact(run, tol / 10, &err), &err);
+    m = tool_made(&run->d.t, run->p,
+                  rc_friction_new(new_contact(run, tol, &err), run->solves ? run->height->v : NULL,
+                                  &law, &err),
+                  &err);
     return m;
 }
 

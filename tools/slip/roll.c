@@ -126,11 +126,9 @@ new_model(struct slip_run *run)
                                            .path = !run->args->steady,
                                            .known = &run->known};
     struct rc_err err;
-    struct rc_model *m =
-        rc_rolling_new(rc_elastic_new(&shape, run->p->v, &contact, NULL, &err), &law, &err);
-
-    if (m == NULL)
-        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+    struct rc_model *m = tool_made(
+        &run->d.t, run->p,
+        rc_rolling_new(rc_elastic_new(&shape, run->p->v, &contact, NULL, &err), &law, &err), &err);
     return m;
 }
 
@@ -177,8 +175,7 @@ slip_roll(struct slip_run *run)
     if (run->path == NULL)
         slip_judge_plan(run);
     m = model_of(run);
-    if (rc_model_plan(m, &to, &expected, &err) != RC_OK)
-        tool_die_at(&d->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_must(&d->t, run->p, rc_model_plan(m, &to, &expected, &err), &err);
     if (d->args->dry_run) {
         slip_say_plan(run, course_peak(expected.memory), expected.convolutions);
         if (m != run->path)
