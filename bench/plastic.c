@@ -12,6 +12,7 @@
  * Pressures over E, lengths over the spacing. RC_THREADS sets the threads of `loads`.
  */
 #include "bench.h"
+#include "libcontact/plastic/plastic.h"
 
 #include <time.h>
 
@@ -68,15 +69,14 @@ follow(struct rc_shape shape, const double *h, struct rc_plastic_problem problem
     must_be(rc_plastic_set_load(plastic, load, &err), &err);
     do {
         status = rc_plastic_step(plastic, &err);
-        if (after != NULL && count < STEPS && count < rc_plastic_result(plastic)->applications) {
+        if (after != NULL && count < STEPS && count < plastic->figures.applications) {
             seconds[count] = processor() - began;
-            memcpy(after + n * count++, rc_solver_pressure(rc_plastic_solver(plastic)),
-                   n * sizeof *after);
+            memcpy(after + n * count++, rc_solver_pressure(plastic->solver), n * sizeof *after);
         }
     } while (status == RC_MORE);
     if (status == RC_FAIL)
         must_be(status, &err);
-    memcpy(end, rc_solver_pressure(rc_plastic_solver(plastic)), n * sizeof *end);
+    memcpy(end, rc_solver_pressure(plastic->solver), n * sizeof *end);
     rc_plastic_free(plastic);
     return count;
 }
@@ -138,8 +138,8 @@ load_of(size_t side)
     if (status == RC_FAIL)
         must_be(status, &err);
     start = now() - start;
-    f = rc_plastic_result(plastic);
-    p = rc_solver_pressure(rc_plastic_solver(plastic));
+    f = &plastic->figures;
+    p = rc_solver_pressure(plastic->solver);
     for (size_t k = 0; k < n; k++)
         touching += p[k] > 0;
     printf("%6zu %8zu %8.3f %12zu %8.2f %10.1e %9.2f\n", side, threads_wanted(),

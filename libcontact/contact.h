@@ -39,10 +39,8 @@ extern "C" {
 
 struct rc_conv;     /* displacements under a pressure: one kernel on one grid, u = K p */
 struct rc_solver;   /* elastic contact, with or without a hardness                     */
-struct rc_plastic;  /* contact of a body that yields in its volume                     */
 struct rc_adhesion; /* contact of bodies that attract each other: a path of states     */
 struct rc_leak;     /* flow through a gap                                              */
-struct rc_slip;     /* friction in a contact with a given pressure                     */
 struct rc_stress;   /* stresses below the surface                                      */
 struct rc_fatigue;  /* fatigue under the stresses below the surface                    */
 struct rc_heat;     /* temperatures of the contact                                     */
@@ -760,10 +758,10 @@ struct rc_plastic_problem {
     /* pair.one is the body that yields, with e and nu; no hardness; load and approach are ignored */
     struct rc_problem contact;
     struct rc_yield yield;
-    size_t slabs;            /* slabs that may yield, from the surface down */
-    const double *thickness; /* m, of each; copied                    */
-    size_t increments;       /* increments of each load; 0: 16 */
-    /* tolerance of the stress: its lag behind the yield condition (RMS) over the yield stress; 0: 0.02 */
+    size_t slabs;            /* slabs that may yield, from the surface down; 0: chosen */
+    const double *thickness; /* m, of each; NULL: chosen                               */
+    size_t increments;       /* increments of each load; 0: chosen                     */
+    /* tolerance of the stress: its lag behind the yield condition (RMS) over the yield stress; 0: chosen */
     double lag;
     bool precise; /* strains and stresses in double precision: twice the memory */
 };
@@ -787,38 +785,10 @@ struct rc_plastic_figures {
     double strained; /* m^3: the integral of the equivalent strain over the volume */
 };
 
-/* h: nx ny m, copied. NULL when the problem is invalid, or memory is short. */
-RC_API struct rc_plastic *rc_plastic_new(const struct rc_shape *shape, const double *h,
-                                         const struct rc_plastic_problem *problem,
-                                         struct rc_err *err);
-/* The next load of a history, N; 0 separates the bodies. */
-RC_API enum rc_status rc_plastic_set_load(struct rc_plastic *plastic, double load,
-                                          struct rc_err *err);
-/* Increments of each load, from the next one that is set; 0: 16. */
-RC_API void rc_plastic_set_increments(struct rc_plastic *plastic, size_t increments);
-/* The next load acts on these heights, nx ny m, of bodies without plastic strain: for example after one of
- * them has been moved. */
-RC_API void rc_plastic_set_heights(struct rc_plastic *plastic, const double *h);
-/* One application: a contact and two sweeps through the volume. RC_MORE until the load is reached, then
- * RC_OK, or RC_SHORT if a contact or the iteration stopped short; RC_FAIL when memory is short. */
-RC_API enum rc_status rc_plastic_step(struct rc_plastic *plastic, struct rc_err *err);
-/* Progress: current load (N), increment (0: an elastic trial of the load), and application within it. */
-RC_API void rc_plastic_progress(const struct rc_plastic *plastic, double *load, size_t *increment,
-                                size_t *application);
-RC_API const struct rc_plastic_figures *rc_plastic_result(const struct rc_plastic *plastic);
-/* The solver of the contact of the heights minus the residual displacement: for its pressure, gap and
- * figures. Its displacement is the elastic part. Meaningless where the load is 0. */
-RC_API struct rc_solver *rc_plastic_solver(struct rc_plastic *plastic);
-/* Displacement of the surface due to plastic strain alone, nx ny m, into the body. */
-RC_API const double *rc_plastic_residual(const struct rc_plastic *plastic);
 enum {
     RC_PEEQ = 5, /* equivalent plastic strain, after exx eyy exy exz eyz; ezz = -exx - eyy */
     RC_PLASTIC_STRAINS
 };
-/* Plastic strain of a slab, nx ny each; NULL: not needed. */
-RC_API void rc_plastic_strain(const struct rc_plastic *plastic, size_t slab,
-                              double *const e[RC_PLASTIC_STRAINS]);
-RC_API void rc_plastic_free(struct rc_plastic *plastic); /* NULL is allowed */
 
 /* ---- the yielding model: elastic until the first yield ---- */
 
@@ -852,7 +822,8 @@ RC_API struct rc_model *rc_yielding_new(const struct rc_shape *shape, const doub
 RC_API void rc_yielding_plan(struct rc_model *model, size_t loads, double largest);
 /* The figures after a look, of a yielding model or of a model with a yielding inner model; NULL: neither. */
 RC_API const struct rc_yielding_figures *rc_yielding_result(const struct rc_model *model);
-/* Plastic strain as rc_plastic_strain finds it; false: no voxel has yielded, or the slab does not exist. */
+/* Plastic strain of a slab, nx ny each; NULL: not needed. False: no voxel has yielded, or the slab does not
+ * exist. */
 RC_API bool rc_yielding_strain(const struct rc_model *model, size_t slab,
                                double *const e[RC_PLASTIC_STRAINS]);
 
@@ -1098,52 +1069,9 @@ struct rc_slip_figures {
     /* estimated relative L1 error of the tractions, of this increment alone */
     double traction_error;
     size_t steps;
-    double convolutions; /* since rc_slip_new, in equivalents of a single map in double precision */
+    double convolutions; /* so far, in equivalents of a single map in double precision    */
     bool converged;      /* traction_error <= tol                                                 */
 };
-
-/* NULL when the problem is invalid, or memory is short. The bodies start separated. */
-RC_API struct rc_slip *rc_slip_new(const struct rc_shape *shape,
-                                   const struct rc_slip_problem *problem, struct rc_err *err);
-/* The pressure of this increment (nx ny Pa, copied; NULL: the bodies are apart) and its gap (nx ny m, copied;
- * NULL: unknown). A node that comes into contact in this increment has moved with its body until then. With
- * the gap before, this motion is known to first order, and exactly for nu = 0 and force proportional to load
- * (Jaeger 1998; Ciavarella 1998). Without a gap the node keeps its position from before the increment.
- * RC_FAIL when a pressure is negative or not finite. */
-RC_API enum rc_status rc_slip_set_pressure(struct rc_slip *slip, const double *p, const double *gap,
-                                           struct rc_err *err);
-/* Force (N) or displacement (m) at the end of the increment, along x and y; call after its pressure is set.
- * RC_FAIL, with both numbers, when friction cannot carry the force (the bodies slide); the increment is then
- * unchanged. With a displacement, nodes that come into contact start as without a gap. Separated bodies have
- * no history: slip and displacement are 0, and count from the next touch. */
-RC_API enum rc_status rc_slip_set_force(struct rc_slip *slip, double fx, double fy,
-                                        struct rc_err *err);
-RC_API enum rc_status rc_slip_set_displacement(struct rc_slip *slip, double dx, double dy,
-                                               struct rc_err *err);
-/* One step, of 7 to 12 convolutions. It returns RC_MORE, RC_OK when the estimated error is below tol, or
- * RC_SHORT when rounding prevents this. It returns RC_FAIL when no force or displacement is set, or memory is
- * short. */
-RC_API enum rc_status rc_slip_step(struct rc_slip *slip, struct rc_err *err);
-RC_API void rc_slip_result(struct rc_slip *slip, struct rc_slip_figures *figures);
-/* Makes the increment history, on which the next one builds. Before this, pressure and force may be set
- * again. */
-RC_API void rc_slip_keep(struct rc_slip *slip);
-/* After a keep: the map moves by so many columns towards +x over the bodies, to follow a contact that rolls
- * or slides that way. On a free map the columns that come in repeat the last one, and the next increment must
- * not have contact there. On a periodic map they are the columns that leave. */
-RC_API void rc_slip_shift(struct rc_slip *slip, size_t columns);
-/* Tractions, Pa, nx ny, along x (0) or y (1), valid until the next step. Slip since first touch, m, including
- * this increment; it is 0 out of contact. */
-RC_API const double *rc_slip_traction(const struct rc_slip *slip, int direction);
-RC_API void rc_slip_slip(const struct rc_slip *slip, int direction, double *to);
-/* nx ny: 0 where no load is carried, 1 where a node sticks, 2 where it slips. */
-RC_API void rc_slip_state(const struct rc_slip *slip, double *to);
-/* Normal displacement due to the tractions, nx ny m, into the bodies; it is 0 for identical bodies.
- * Subtracted from the heights, it gives the contact under these tractions. */
-RC_API void rc_slip_normal(struct rc_slip *slip, double *uz);
-/* Dundurs' constant of the pair: 0 if pressure and tractions are uncoupled. */
-RC_API double rc_slip_beta(const struct rc_slip *slip);
-RC_API void rc_slip_free(struct rc_slip *slip); /* NULL is allowed */
 
 /* ---- friction as a model ---- */
 
@@ -1215,8 +1143,9 @@ RC_API struct rc_leg rc_friction_leg(const struct rc_friction_problem *problem,
  * that is NULL. In addition to the axes of the inner model it takes two forces or two displacements along the
  * surface. h: the undeformed heights, which it copies. NULL: they are unknown, and only the known contact is
  * possible. Where dissimilar bodies are coupled the inner model must allow other heights, and its tolerance
- * should be a quarter of that of friction. RC_FAIL on the way when friction cannot carry the force, as in
- * rc_slip_set_force. */
+ * should be a quarter of that of friction. Frames: pressure, traction-x, traction-y (Pa), slip-x, slip-y (m,
+ * since first touch), state (0: the node carries no load, 1: it sticks, 2: it slips). RC_FAIL on the way when
+ * friction cannot carry the force. */
 RC_API struct rc_model *rc_friction_new(struct rc_model *inner, const double *h,
                                         const struct rc_friction_problem *problem,
                                         struct rc_err *err);
@@ -1271,7 +1200,7 @@ struct rc_rolling_figures {
 /* A model (model.h) of rolling over an inner model of the same bodies, which it owns from here on. NULL
  * if the inner model is NULL. Beside the axes of the inner model it takes RC_CREEP_X and RC_CREEP_Y, or
  * two forces, and RC_SPIN and RC_POSITION. The position may not fall on a path. Frames: pressure,
- * traction-x, traction-y (Pa), slip-x, slip-y (per length rolled), state (as in rc_slip_state). RC_FAIL
+ * traction-x, traction-y (Pa), slip-x, slip-y (per length rolled), state (as that of friction). RC_FAIL
  * on the way if no node is in contact, or friction cannot carry the force. RC_FAIL too if the contact
  * reaches the last column (the leading edge), or a column that comes in. Sources: Kalker 1990, Three-
  * dimensional elastic bodies in rolling contact; Newton's method as in libcontact/slip/steady.c. */

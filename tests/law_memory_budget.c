@@ -16,6 +16,8 @@
 #include <unistd.h>
 
 #include "libcontact/memory.h"
+#include "libcontact/plastic/plastic.h"
+#include "libcontact/slip/slip.h"
 #include "libcontact/volume/volume.h"
 #include "tests/exact.h"
 #include "tools/machine/memory.h"
@@ -353,7 +355,7 @@ yielding(const struct work *w, const double *h, const double *p)
             status = rc_plastic_step(plastic, NULL);
         while (status == RC_MORE);
     if (status != RC_FAIL)
-        enough = 10 * rc_plastic_result(plastic)->voxels > nodes_of(w) * SLABS;
+        enough = 10 * plastic->figures.voxels > nodes_of(w) * SLABS;
     rc_plastic_free(plastic);
     return enough;
 }

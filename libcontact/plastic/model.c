@@ -221,7 +221,7 @@ begin(struct yielding *y, struct rc_err *err)
 static bool
 deserves_more(struct yielding *y)
 {
-    const struct rc_plastic_figures *f = rc_plastic_result(y->plastic);
+    const struct rc_plastic_figures *f = &y->plastic->figures;
     const double wanted = goal(y), own = f->increment_error;
     const double aim = wanted * (y->left > 0 ? for_later : 1), here = f->error - f->image_error;
     const size_t most = wanted < deserved ? RC_YIELDING_INCREMENTS : MOST_AUTO;
@@ -379,14 +379,14 @@ solver(const struct rc_model *m)
 {
     const struct yielding *y = (const struct yielding *)m;
 
-    return y->plastic != NULL ? rc_plastic_solver(y->plastic) : y->elastic;
+    return y->plastic != NULL ? y->plastic->solver : y->elastic;
 }
 
 /* Adds the displacement due to plastic strain. */
 static void
 displace(const struct yielding *y, double factor, double *v)
 {
-    const double *u = y->plastic != NULL ? rc_plastic_residual(y->plastic) : NULL;
+    const double *u = y->plastic != NULL ? y->plastic->u : NULL;
 
     for (size_t k = 0; k < y->n && u != NULL; k++)
         v[k] += factor * u[k];
@@ -417,7 +417,7 @@ look_apart(const struct yielding *y, double *gap, struct rc_contact *c, struct r
 static double
 highest(const struct yielding *y)
 {
-    const double *u = y->plastic != NULL ? rc_plastic_residual(y->plastic) : NULL;
+    const double *u = y->plastic != NULL ? y->plastic->u : NULL;
     double top = -INFINITY;
 
     for (size_t k = 0; k < y->n; k++)
@@ -425,15 +425,20 @@ highest(const struct yielding *y)
     return top;
 }
 
+/* 0: an elastic trial of the load */
+static size_t
+increment_of(const struct rc_plastic *p)
+{
+    return p->stage == RC_PLASTIC_PROBE ? 0 : p->increment;
+}
+
 static void
 look_at_volume(struct yielding *y)
 {
     struct rc_yielding_figures *f = &y->figures;
-    double load;
-    size_t application;
 
-    f->plastic = *rc_plastic_result(y->plastic);
-    rc_plastic_progress(y->plastic, &load, &f->increment, &application);
+    f->plastic = y->plastic->figures;
+    f->increment = increment_of(y->plastic);
     f->contact.pressure_error = f->plastic.error;
     f->contact.convolutions = NAN; /* nearly all of the work is for the volume */
     /* the error is unknown if the caller asked for few increments */
@@ -508,17 +513,15 @@ progress(const struct rc_model *m, struct rc_loops *l)
     const struct yielding *y = (const struct yielding *)m;
     const double most = (double)y->increments;
     struct rc_progress at;
-    size_t increment, application;
-    double load;
 
     l->coming = y->stage == MAKE ? volume_bytes(y, y->slabs, y->part) : 0;
     if (y->plastic != NULL) {
-        rc_plastic_progress(y->plastic, &load, &increment, &application);
-        rc_loops_add(l, "load", "N", load, NAN);
-        rc_loops_add(l, "increment", NULL, fmin((double)increment, most), most);
-        rc_loops_add(l, "application", NULL, (double)application, NAN);
+        const double increment = fmin((double)increment_of(y->plastic), most);
+        rc_loops_add(l, "load", "N", y->plastic->set, NAN);
+        rc_loops_add(l, "increment", NULL, increment, most);
+        rc_loops_add(l, "application", NULL, (double)y->plastic->trial, NAN);
         /* between increments a state is smaller; the last increment may take long */
-        l->worth = application == 0 || (double)increment >= most;
+        l->worth = y->plastic->trial == 0 || increment >= most;
     } else if (y->elastic != NULL) {
         rc_solver_progress(y->elastic, &at);
         rc_loops_add(l, "iteration", NULL, (double)at.iterations, NAN);

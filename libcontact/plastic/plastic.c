@@ -858,33 +858,6 @@ rc_plastic_step(struct rc_plastic *p, struct rc_err *err)
 }
 
 void
-rc_plastic_progress(const struct rc_plastic *p, double *load, size_t *increment,
-                    size_t *application)
-{
-    *load = p->set;
-    *increment = p->stage == RC_PLASTIC_PROBE ? 0 : p->increment;
-    *application = p->trial;
-}
-
-const struct rc_plastic_figures *
-rc_plastic_result(const struct rc_plastic *p)
-{
-    return &p->figures;
-}
-
-struct rc_solver *
-rc_plastic_solver(struct rc_plastic *p)
-{
-    return p->solver;
-}
-
-const double *
-rc_plastic_residual(const struct rc_plastic *p)
-{
-    return p->u;
-}
-
-void
 rc_plastic_strain(const struct rc_plastic *p, size_t slab, double *const e[RC_PLASTIC_STRAINS])
 {
     for (size_t c = 0; c < RC_PLASTIC_STRAINS; c++)

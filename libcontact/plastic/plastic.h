@@ -1,5 +1,5 @@
 /*
- * Functions shared by the files of this folder. Its interface is in contact.h. Internal: never installed.
+ * Functions shared by the files of this folder; its model is in contact.h. Internal: never installed.
  */
 #ifndef RC_PLASTIC_H
 #define RC_PLASTIC_H
@@ -63,6 +63,23 @@ struct rc_plastic {
     struct rc_plastic_figures figures;
 };
 
+/* h: nx ny m, copied. NULL when the problem is invalid, or memory is short. */
+struct rc_plastic *rc_plastic_new(const struct rc_shape *shape, const double *h,
+                                  const struct rc_plastic_problem *problem, struct rc_err *err);
+/* The next load of a history, N; 0 separates the bodies. */
+enum rc_status rc_plastic_set_load(struct rc_plastic *plastic, double load, struct rc_err *err);
+/* Increments of each load, from the next one that is set; 0: 16. */
+void rc_plastic_set_increments(struct rc_plastic *plastic, size_t increments);
+/* The next load acts on these heights, nx ny m, of bodies without plastic strain: for example after one of
+ * them has been moved. */
+void rc_plastic_set_heights(struct rc_plastic *plastic, const double *h);
+/* One application: a contact and two sweeps through the volume. RC_MORE until the load is reached, then
+ * RC_OK, or RC_SHORT if a contact or the iteration stopped short; RC_FAIL when memory is short. */
+enum rc_status rc_plastic_step(struct rc_plastic *plastic, struct rc_err *err);
+/* Plastic strain of a slab, nx ny each; NULL: not needed. */
+void rc_plastic_strain(const struct rc_plastic *plastic, size_t slab,
+                       double *const e[RC_PLASTIC_STRAINS]);
+void rc_plastic_free(struct rc_plastic *plastic); /* NULL is allowed */
 /* Checks that the body can yield. */
 enum rc_status rc_plastic_check(const struct rc_plastic_problem *problem, struct rc_err *err);
 /* Slabs for a body that would yield under the elastic contact pressure p (nx ny, Pa). The first is half a

@@ -276,36 +276,6 @@ rc_slip_keep(struct rc_slip *s)
     s->asked = s->begun = s->done = s->tried = false;
 }
 
-/* Moves a map of numbers of `size` bytes by m columns towards -x. Columns that come in repeat the last one; on a
- * periodic map they are those that leave. */
-static void
-shift_map(const struct rc_slip *s, void *map, size_t size, size_t m)
-{
-    const size_t nx = s->shape.nx, last = (nx - 1) * size;
-    const bool round = s->t->boundary == RC_PERIODIC;
-    char *row = map, first[sizeof(double)];
-
-    for (size_t j = 0; j < s->shape.ny; j++, row += nx * size)
-        for (size_t turn = 0; turn < (round || m < nx ? m % nx : nx); turn++) {
-            memcpy(first, round ? row : row + last, size);
-            memmove(row, row + size, last);
-            memcpy(row + last, first, size);
-        }
-}
-
-void
-rc_slip_shift(struct rc_slip *s, size_t columns)
-{
-    double *maps[] = {s->origin[0], s->origin[1], s->old[0],      s->old[1],     s->slip[0],
-                      s->slip[1],   s->gap_old,   s->discs->q[0], s->discs->q[1]};
-
-    for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
-        shift_map(s, maps[k], sizeof(double), columns);
-    shift_map(s, s->touched, 1, columns);
-    shift_map(s, s->discs->face, 1, columns);
-    s->asked = s->begun = s->done = s->tried = false;
-}
-
 /* ---- results ---- */
 
 /* Where the load falls, the traction of the increment is the mean of its start and its end. Otherwise the
@@ -418,12 +388,6 @@ const struct rc_figure rc_figures_slip[] = {
      .role = RC_FIGURE_ERROR, .by = "tol"},
     {0},
 };
-
-double
-rc_slip_beta(const struct rc_slip *s)
-{
-    return s->shear.beta;
-}
 
 /* ---- plan ---- */
 

@@ -1,6 +1,5 @@
 /*
- * Functions shared by the files of this folder, besides the interface in contact.h. Internal: never
- * installed.
+ * Functions shared by the files of this folder; models are in contact.h. Internal: never installed.
  */
 #ifndef RC_SLIP_H
 #define RC_SLIP_H
@@ -8,7 +7,44 @@
 #include "discs.h"
 #include "libcontact/model/row.h"
 
+/* ---- slip.c: friction in a contact with a given pressure, increment by increment ---- */
+
 struct rc_slip;
+/* NULL when the problem is invalid, or memory is short. The bodies start separated. */
+struct rc_slip *rc_slip_new(const struct rc_shape *shape, const struct rc_slip_problem *problem,
+                            struct rc_err *err);
+/* The pressure of this increment (nx ny Pa, copied; NULL: the bodies are apart) and its gap (nx ny m, copied;
+ * NULL: unknown). A node that comes into contact in this increment has moved with its body until then. With
+ * the gap before, this motion is known to first order, and exactly for nu = 0 and force proportional to load
+ * (Jaeger 1998; Ciavarella 1998). Without a gap the node keeps its position from before the increment.
+ * RC_FAIL when a pressure is negative or not finite. */
+enum rc_status rc_slip_set_pressure(struct rc_slip *slip, const double *p, const double *gap,
+                                    struct rc_err *err);
+/* Force (N) or displacement (m) at the end of the increment, along x and y; call after its pressure is set.
+ * RC_FAIL, with both numbers, when friction cannot carry the force (the bodies slide); the increment is then
+ * unchanged. With a displacement, nodes that come into contact start as without a gap. Separated bodies have
+ * no history: slip and displacement are 0, and count from the next touch. */
+enum rc_status rc_slip_set_force(struct rc_slip *slip, double fx, double fy, struct rc_err *err);
+enum rc_status rc_slip_set_displacement(struct rc_slip *slip, double dx, double dy,
+                                        struct rc_err *err);
+/* One step, of 7 to 12 convolutions. It returns RC_MORE, RC_OK when the estimated error is below tol, or
+ * RC_SHORT when rounding prevents this. It returns RC_FAIL when no force or displacement is set, or memory is
+ * short. */
+enum rc_status rc_slip_step(struct rc_slip *slip, struct rc_err *err);
+void rc_slip_result(struct rc_slip *slip, struct rc_slip_figures *figures);
+/* Makes the increment history, on which the next one builds. Before this, pressure and force may be set
+ * again. */
+void rc_slip_keep(struct rc_slip *slip);
+/* Tractions, Pa, nx ny, along x (0) or y (1), valid until the next step. Slip since first touch, m, including
+ * this increment; it is 0 out of contact. */
+const double *rc_slip_traction(const struct rc_slip *slip, int direction);
+void rc_slip_slip(const struct rc_slip *slip, int direction, double *to);
+/* nx ny: 0 where no load is carried, 1 where a node sticks, 2 where it slips. */
+void rc_slip_state(const struct rc_slip *slip, double *to);
+/* Normal displacement due to the tractions, nx ny m, into the bodies; it is 0 for identical bodies.
+ * Subtracted from the heights, it gives the contact under these tractions. */
+void rc_slip_normal(struct rc_slip *slip, double *uz);
+void rc_slip_free(struct rc_slip *slip); /* NULL is allowed */
 /* The next increment starts from these tractions, Pa, instead of the last ones; call it before the force
  * is set. */
 void rc_slip_start(struct rc_slip *slip, const double *const q[2]);

@@ -360,9 +360,11 @@ done:
 static enum rc_status
 friction_model(double *out, struct rc_err *err)
 {
-    const struct rc_problem contact = {.pair = bare, .threads = 1};
+    const struct rc_problem contact = {.boundary = RC_PERIODIC, .pair = bare, .threads = 1};
     struct rc_friction_problem law = {
-        .slip = {.pair = bare, .mu = 0.3, .threads = 1}, .increments = 2, .fewer = 1};
+        .slip = {.boundary = RC_PERIODIC, .pair = bare, .mu = 0.3, .threads = 1},
+        .increments = 2,
+        .fewer = 1};
     struct rc_model *m, *other = NULL;
     enum rc_status status = RC_FAIL;
     struct rc_point to = {0};
@@ -697,90 +699,7 @@ leaks(double *out, struct rc_err *err)
 }
 #endif
 
-/* ---- friction ---- */
-
-/* Dissimilar bodies, a force and then a displacement. */
-static enum rc_status
-slides(double *out, struct rc_err *err)
-{
-    struct rc_problem contact = {.boundary = RC_PERIODIC, .pair = bare, .load = 1e-3, .threads = 1};
-    struct rc_slip_problem problem = {
-        .boundary = RC_PERIODIC, .pair = bare, .mu = 0.2, .threads = 1};
-    struct rc_solver *solver = rc_solver_new(&shape, rough, &contact, err);
-    struct rc_slip *slip = NULL;
-    struct rc_slip_figures figures;
-    enum rc_status status = RC_FAIL;
-
-    if (solver == NULL || finish_load(solver, err) != RC_OK ||
-        (slip = rc_slip_new(&shape, &problem, err)) == NULL)
-        goto done;
-    for (int q = 0; q < 2; q++) {
-        status = rc_slip_set_pressure(slip, rc_solver_pressure(solver), NULL, err);
-        if (status == RC_OK)
-            status = q == 0 ? rc_slip_set_force(slip, 1e-4, 2e-5, err)
-                            : rc_slip_set_displacement(slip, 0, 0, err);
-        while (status == RC_OK && (status = rc_slip_step(slip, err)) == RC_MORE)
-            status = RC_OK;
-        if (status != RC_OK)
-            goto done;
-        rc_slip_result(slip, &figures);
-        rc_slip_keep(slip);
-    }
-    rc_slip_shift(slip, 1);
-    memcpy(out, rc_slip_traction(slip, 0), N * sizeof *out);
-    rc_slip_slip(slip, 1, out + N);
-    rc_slip_normal(slip, out + 2 * N);
-    rc_slip_state(slip, out + 3 * N);
-    out[4 * N] = figures.dissipated;
-    out[4 * N + 1] = rc_slip_beta(slip);
-done:
-    rc_slip_free(slip);
-    rc_solver_free(solver);
-    return status;
-}
-
 /* ---- stresses ---- */
-
-/* A load that yields inside, and none. */
-static enum rc_status
-yields(double *out, struct rc_err *err)
-{
-    const double thickness[] = {0.5e-6, 0.5e-6, 1e-6, 1e-6};
-    struct rc_plastic_problem problem = {
-        .contact = {.boundary = RC_PERIODIC, .pair = bare, .tol = 1e-5, .threads = 1},
-        .slabs = 4,
-        .thickness = thickness,
-        .increments = 4};
-    double *const strain[RC_PLASTIC_STRAINS] = {[RC_PEEQ] = out + N};
-    struct rc_plastic *plastic;
-    enum rc_status status = RC_FAIL;
-    double load;
-    size_t increment, application;
-
-    problem.yield.stress = bare.one.e / 100;
-    plastic = rc_plastic_new(&shape, rough, &problem, err);
-    if (plastic == NULL)
-        goto done;
-    for (int q = 0; q < 2; q++) {
-        rc_plastic_set_increments(plastic, 4);
-        if ((status = rc_plastic_set_load(plastic, q == 0 ? 1e-3 : 0, err)) != RC_OK)
-            goto done;
-        while ((status = rc_plastic_step(plastic, err)) == RC_MORE)
-            rc_plastic_progress(plastic, &load, &increment, &application);
-        if (status != RC_OK)
-            goto done;
-        if (q == 0)
-            memcpy(out + 2 * N, rc_solver_pressure(rc_plastic_solver(plastic)), N * sizeof *out);
-        rc_plastic_set_heights(plastic, rough);
-    }
-    memcpy(out, rc_plastic_residual(plastic), N * sizeof *out);
-    rc_plastic_strain(plastic, 0, strain);
-    out[3 * N] = rc_plastic_result(plastic)->depth;
-    out[3 * N + 2] = rc_yield_stress(&problem.yield, 0);
-done:
-    rc_plastic_free(plastic);
-    return status;
-}
 
 /* Two loads with automatic increments; the first does not yield. During the second one the state goes into
  * another model. */
@@ -827,6 +746,7 @@ may_yield(double *out, struct rc_err *err)
     }
     memcpy(out, rc_solver_pressure(rc_model_solver(other)), N * sizeof *out);
     out[N] = (double)rc_yielding_result(other)->slabs;
+    out[N + 1] = rc_yield_stress(&problem.yield, 0);
     status = RC_OK;
 done:
     free(state);
@@ -1153,14 +1073,12 @@ static const struct {
     {.name = "rolling along a path", .use = rolling_path},
     {.name = "the wear model", .use = wear_model},
     {.name = "the travel model", .use = travel_model},
-    {.name = "plasticity", .use = yields},
     {.name = "plasticity after elasticity", .use = may_yield},
     {.name = "adhesion", .use = adheres},
     {.name = "the adhesive model", .use = adhesive_model},
 #ifdef RC_LEAK
     {.name = "leakage", .use = leaks},
 #endif
-    {.name = "friction", .use = slides},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, direct", .use = direct_stress},

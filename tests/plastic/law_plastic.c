@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "tests/solver/dense.h"
-#include "libcontact/plastic/voxels.h"
+#include "libcontact/plastic/plastic.h"
 #include "tests/volume/volume_case.h"
 
 static const double one_e = 1;
@@ -39,7 +39,7 @@ pressed(struct rc_plastic *plastic, double load)
     while ((status = rc_plastic_step(plastic, &err)) == RC_MORE)
         ;
     assert_int_equal(status, RC_OK);
-    return rc_plastic_result(plastic);
+    return &plastic->figures;
 }
 
 /* ---- onset ---- */
@@ -180,7 +180,7 @@ ball(size_t n, double radius, struct rc_yield yield, double lag, double *thickne
 static double
 mean_in_contact(struct rc_plastic *plastic, size_t nodes, size_t *count)
 {
-    const double *p = rc_solver_pressure(rc_plastic_solver(plastic));
+    const double *p = rc_solver_pressure(plastic->solver);
     double sum = 0;
 
     *count = 0;
@@ -250,7 +250,7 @@ fully_plastic(void **state)
     (void)state;
     (void)pressed(plastic, exact_pi * a * a * 3 * yield);
     mean = mean_in_contact(plastic, n * n, &count) / yield;
-    p = rc_solver_pressure(rc_plastic_solver(plastic));
+    p = rc_solver_pressure(plastic->solver);
     for (int pass = 0; pass < 2; pass++) { /* fitted values, then the residuals */
         for (size_t k = 0; k < n * n; k++) {
             double x = node_x(shape, k) + 0.5, y = node_y(shape, k) + 0.5;
@@ -303,8 +303,8 @@ let_go(void **state)
 
     (void)state;
     strain = pressed(plastic, load)->max_strain;
-    dent = rc_plastic_residual(plastic)[middle];
-    assert_true(dent > 0 && rc_plastic_residual(plastic)[0] < dent);
+    dent = plastic->u[middle];
+    assert_true(dent > 0 && plastic->u[0] < dent);
     (void)pressed(plastic, 0);
     for (size_t k = 0; k < SLABS; k++) {
         double *const to[RC_PLASTIC_STRAINS] = {
@@ -377,25 +377,24 @@ free_maps(void **state)
         for (size_t i = 0; i < SMALL; i++) {
             size_t at = j * SMALL + i,
                    there = (j + (LARGE - SMALL) / 2) * LARGE + i + (LARGE - SMALL) / 2;
-            double p = rc_solver_pressure(rc_plastic_solver(plastic[0]))[at];
-            double q = rc_solver_pressure(rc_plastic_solver(plastic[1]))[there];
-            double u = rc_plastic_residual(plastic[0])[at];
-            double v = rc_plastic_residual(plastic[1])[there];
+            double p = rc_solver_pressure(plastic[0]->solver)[at];
+            double q = rc_solver_pressure(plastic[1]->solver)[there];
+            double u = plastic[0]->u[at];
+            double v = plastic[1]->u[there];
             off += fabs(p - q);
             all += q;
             /* the mean stress of both is that of an unloaded body */
-            bend = fmax(bend,
-                        fabs(u - v - rc_plastic_residual(plastic[0])[0] +
-                             rc_plastic_residual(plastic[1])[(LARGE - SMALL) / 2 * (LARGE + 1)]));
+            bend = fmax(bend, fabs(u - v - plastic[0]->u[0] +
+                                   plastic[1]->u[(LARGE - SMALL) / 2 * (LARGE + 1)]));
             dent = fmax(dent, v);
         }
     print_message("free maps of 32 and 96 nodes: pressure %.1e, residual displacement %.1e apart\n",
                   off / all, bend / dent);
     assert_true(off / all < 1e-2 && bend / dent < 2e-2);
-    said = rc_plastic_result(plastic[0])->image_error;
+    said = plastic[0]->figures.image_error;
     print_message("told for the images: %.1e\n", said);
     assert_true(said >= off / all && said < 7 * off / all);
-    assert_true(rc_plastic_result(plastic[0])->error >= said);
+    assert_true(plastic[0]->figures.error >= said);
     rc_plastic_free(plastic[0]);
     rc_plastic_free(plastic[1]);
 }
@@ -437,12 +436,12 @@ free_maps_of_few_nodes(void **state)
         for (size_t k = 0; k < SMALL * SMALL; k++) {
             size_t there =
                 (k / SMALL + (LARGE - SMALL) / 2) * LARGE + k % SMALL + (LARGE - SMALL) / 2;
-            double p = rc_solver_pressure(rc_plastic_solver(plastic[0]))[k];
-            double q = rc_solver_pressure(rc_plastic_solver(plastic[1]))[there];
+            double p = rc_solver_pressure(plastic[0]->solver)[k];
+            double q = rc_solver_pressure(plastic[1]->solver)[there];
             off += fabs(p - q);
             all += q;
         }
-        said = rc_plastic_result(plastic[0])->image_error;
+        said = plastic[0]->figures.image_error;
         print_message("few nodes: images %.1e, told %.1e\n", off / all, said);
         assert_true(said >= off / all);
         rc_plastic_free(plastic[0]);
@@ -561,8 +560,7 @@ estimate(void **state)
         problem.contact.tol = 1e-5;
         fine = plastic_new(shape, h, problem);
         (void)pressed(fine, load);
-        off = distance(1600, rc_solver_pressure(rc_plastic_solver(plastic)),
-                       rc_solver_pressure(rc_plastic_solver(fine)));
+        off = distance(1600, rc_solver_pressure(plastic->solver), rc_solver_pressure(fine->solver));
         print_message(
             "%2zu: contact increments %zu, %zu applications, error %.2e, estimate %.2f of it "
             "(increments %.2f, iteration %.2f)\n",
@@ -625,7 +623,7 @@ inherits(void **state)
             plastic = plastic_new(shape, h, problem);
             for (size_t k = 0; k < LOADS; k++) {
                 const struct rc_plastic_figures *f = pressed(plastic, load * shares[q % 2][k]);
-                const double *is = rc_solver_pressure(rc_plastic_solver(plastic));
+                const double *is = rc_solver_pressure(plastic->solver);
                 if (!fine) {
                     memcpy(p[k], is, sizeof p[k]);
                     told[k] = f->error;
@@ -1013,7 +1011,7 @@ chooses(void **state)
     for (size_t q = 0; q < TRIED; q++)
         straight = pressed(plastic, loads[q]);
     off = distance(KEPT * KEPT, rc_solver_pressure(rc_model_solver(m)),
-                   rc_solver_pressure(rc_plastic_solver(plastic)));
+                   rc_solver_pressure(plastic->solver));
     print_message("%zu steps, %zu increments at most: error %.1e, told %.1e; work %.4g, %.4g\n",
                   walk.made, walk.increments, off, found->error, found->work, straight->work);
     assert_true(walk.increments > 8 && off <= found->error && found->error <= 5e-3);

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/plastic/plastic.h"
 #include "tests/contact_case.h"
 
 enum {

@@ -685,105 +685,44 @@ test_path_refusals(void **state)
     end_path(&a);
 }
 
-/* ---- increments in a window ---- */
+/* ---- increments of friction ---- */
 
-/* A ball rolls from rest under a given creepage, by one column an increment. `moves`: it moves over a
- * longer map, else the map moves with it. Returns the forces over the limit after each column. */
+/* A ball rolls from rest over a longer map, by one column in each increment of friction, which knows nothing of
+ * rolling. A path in a map that follows the ball gives the same forces. */
 static void
-roll_from_rest(bool moves, const struct rc_shape *window, const double *p, double creep,
-               size_t steps, double *force)
+test_increments(void **state)
 {
-    const struct rc_shape shape = {window->nx + (moves ? steps : 0), window->ny, window->dx,
-                                   window->dy};
-    const struct rc_slip_problem law = {
-        .pair.estar = 1e9, .nu = 0.28, .mu = 0.2, .tol = 1e-7, .threads = 1};
-    double *map = calloc(shape.nx * shape.ny, sizeof *map);
-    struct rc_slip *slip = rc_slip_new(&shape, &law, &err);
+    const double creep[3] = {6e-4, 0, 0};
+    struct rc_slip_problem law = {.pair = {.one = soft, .two = soft}, .mu = 0.2, .tol = 1e-7};
     struct rc_slip_figures f;
+    struct rc_shape map;
+    struct rc_slip *slip;
+    struct path a;
+    double *p, off = 0, first = 0;
 
-    assert_true(map != NULL && slip != NULL);
-    for (size_t k = 0; k <= steps; k++) {
-        memset(map, 0, shape.nx * shape.ny * sizeof *map);
-        for (size_t n = 0; n < window->nx * window->ny; n++)
-            map[n / window->nx * shape.nx + n % window->nx + (moves ? k : 0)] = p[n];
-        assert_int_equal(rc_slip_set_pressure(slip, map, NULL, &err), RC_OK);
-        assert_int_equal(rc_slip_set_displacement(slip, creep * (double)k * shape.dx, 0, &err),
+    (void)state;
+    begin_path(&a, false, false, RC_FREE, 1e-7);
+    map = (struct rc_shape){a.map.nx + WAY, a.map.ny, a.map.dx, a.map.dy};
+    p = malloc(map.nx * map.ny * sizeof *p);
+    slip = rc_slip_new(&map, &law, &err);
+    assert_true(p != NULL && slip != NULL);
+    for (size_t k = 0; k <= WAY; k++) {
+        const struct rc_rolling_figures *path = roll_on(&a, k, creep);
+        lay(&a.window, a.window_p, &map, k, p);
+        assert_int_equal(rc_slip_set_pressure(slip, p, NULL, &err), RC_OK);
+        assert_int_equal(rc_slip_set_displacement(slip, creep[0] * (double)k * map.dx, 0, &err),
                          RC_OK);
         assert_int_equal(slip_solve(slip, &f), RC_OK);
         rc_slip_keep(slip);
-        force[k] = f.force[0] / f.limit;
-        if (!moves)
-            rc_slip_shift(slip, 1);
+        off = fmax(off, fabs(f.force[0] - path->force[0]) / f.limit);
+        first = k == 10 ? f.force[0] : first;
+        assert_int_equal(rc_model_keep(a.m, &err), RC_OK);
     }
+    printf("F/limit %.5f, then %.5f; %.1e apart\n", first / f.limit, f.force[0] / f.limit, off);
+    assert_true(off < 1e-5 && first < 0.9 * f.force[0]);
     rc_slip_free(slip);
-    free(map);
-}
-
-/* A window that moves with the contact gives what a map that stays does; in the end both roll steadily. */
-static void
-test_window(void **state)
-{
-    enum {
-        STEPS = 60
-    };
-    const struct rc_shape shape = ellipse_shape(24, 1, 1);
-    const double creep = 6e-4;
-    double *p, load, stays[STEPS + 1], window[STEPS + 1], off = 0, steady;
-    struct rc_model *m = ellipse(24, 1, 1e-7, false, &p, &load);
-
-    (void)state;
-    assert_int_equal(roll(m, load, creep, 0, 0, false, &err), RC_OK);
-    steady = rc_rolling_result(m)->force[0] / rc_rolling_result(m)->limit;
-    roll_from_rest(true, &shape, p, creep, STEPS, stays);
-    roll_from_rest(false, &shape, p, creep, STEPS, window);
-    for (int k = 0; k <= STEPS; k++)
-        off = fmax(off, fabs(window[k] - stays[k]));
-    printf("F/limit %.5f %.5f %.5f; %.1e apart; steady %.5f\n", window[9], window[29], window[59],
-           off, steady);
-    assert_true(off < 1e-5);
-    assert_true(window[9] < 0.8 * steady && fabs(window[STEPS] - steady) < 5e-3 * steady);
-    rc_model_free(m);
+    end_path(&a);
     free(p);
-}
-
-/* On a periodic map a shift by all columns changes nothing, and one by some turns the history. */
-static void
-test_periodic_window(void **state)
-{
-    const struct rc_shape shape = {16, 8, 1e-6, 1e-6};
-    const struct rc_slip_problem law = {.boundary = RC_PERIODIC,
-                                        .pair.estar = 1e9,
-                                        .nu = 0.3,
-                                        .mu = 0.2,
-                                        .tol = 1e-9,
-                                        .threads = 1};
-    double p[128], first[2][128];
-    struct rc_slip *slip[2];
-    struct rc_slip_figures f;
-    uint64_t seed = 5;
-
-    (void)state;
-    for (size_t k = 0; k < 128; k++)
-        p[k] = 1e6 * fmax(slip_noise(&seed) - 0.4, 0);
-    for (int w = 0; w < 2; w++) {
-        slip[w] = rc_slip_new(&shape, &law, &err);
-        for (int k = 0; k < 2; k++) {
-            double turned[128];
-            for (size_t n = 0; n < 128;
-                 n++) /* the second map of the second body has moved by 5 columns */
-                turned[n] = p[w * k == 0 ? n : n / 16 * 16 + (n + 5) % 16];
-            assert_int_equal(rc_slip_set_pressure(slip[w], turned, NULL, &err), RC_OK);
-            assert_int_equal(rc_slip_set_displacement(slip[w], 1e-9, k * 1e-9, &err), RC_OK);
-            assert_int_equal(slip_solve(slip[w], &f), RC_OK);
-            rc_slip_keep(slip[w]);
-            if (k == 0)
-                rc_slip_shift(slip[w], w == 0 ? 16 : 5);
-        }
-        memcpy(first[w], rc_slip_traction(slip[w], 0), sizeof first[w]);
-        rc_slip_free(slip[w]);
-    }
-    for (size_t n = 0; n < 128; n++)
-        assert_true(fabs(first[1][n] - first[0][n / 16 * 16 + (n + 5) % 16]) < 1e-6 * 2e5);
 }
 
 int
@@ -803,8 +742,7 @@ main(void)
         cmocka_unit_test(test_path),
         cmocka_unit_test(test_path_state),
         cmocka_unit_test(test_path_refusals),
-        cmocka_unit_test(test_window),
-        cmocka_unit_test(test_periodic_window),
+        cmocka_unit_test(test_increments),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

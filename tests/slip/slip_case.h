@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
+#include "libcontact/slip/slip.h"
 #include "tests/exact.h"
 
 /* Uniform in [0, 1). */

@@ -128,10 +128,12 @@ press_ball(double mu, size_t increments, bool goodman, size_t *passes, double *l
     struct rc_solver *solver = rc_solver_new(&shape, h, &contact, NULL);
     struct rc_slip *slip = rc_slip_new(&shape, &what, NULL);
     struct rc_slip_figures f;
+    struct rc_shear shear;
 
     assert_non_null(solver);
     assert_non_null(slip);
-    assert_true(fabs(rc_slip_beta(slip) - 2 / 7.0) < rounding);
+    assert_int_equal(rc_pair_shear(&pair, 0, &shear, NULL), RC_OK);
+    assert_true(fabs(shear.beta - 2 / 7.0) < rounding);
     *passes = 0;
     for (size_t k = 1; k <= increments; k++) {
         double to = a * (double)k / (double)increments, load = 4 * to * to * to / (3 * radius);
