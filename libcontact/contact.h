@@ -37,14 +37,13 @@ extern "C" {
 
 /* ---- handles ---- */
 
-struct rc_conv;     /* displacements under a pressure: one kernel on one grid, u = K p */
-struct rc_solver;   /* elastic contact, with or without a hardness                     */
-struct rc_adhesion; /* contact of bodies that attract each other: a path of states     */
-struct rc_leak;     /* flow through a gap                                              */
-struct rc_stress;   /* stresses below the surface                                      */
-struct rc_fatigue;  /* fatigue under the stresses below the surface                    */
-struct rc_heat;     /* temperatures of the contact                                     */
-struct rc_ranks;    /* processes that share a map: contact_mpi.h; NULL: none           */
+struct rc_conv;    /* displacements under a pressure: one kernel on one grid, u = K p */
+struct rc_solver;  /* elastic contact, with or without a hardness                     */
+struct rc_leak;    /* flow through a gap                                              */
+struct rc_stress;  /* stresses below the surface                                      */
+struct rc_fatigue; /* fatigue under the stresses below the surface                    */
+struct rc_heat;    /* temperatures of the contact                                     */
+struct rc_ranks;   /* processes that share a map: contact_mpi.h; NULL: none           */
 
 /* struct rc_model (model.h) drives several of them with the same verbs. */
 
@@ -858,7 +857,7 @@ struct rc_adhesion_scales {
     /* cohesive_length over the larger of dx, dy: below 1.5 the grid itself causes hysteresis */
     double cohesive_nodes;
 };
-/* RC_FAIL, and *err says why, when rc_adhesion_new would refuse the problem, except for short memory. */
+/* RC_FAIL, and *err says why, when rc_adhesive_new would refuse the problem, except for short memory. */
 RC_API enum rc_status rc_adhesion_check(const struct rc_shape *shape,
                                         const struct rc_adhesion_problem *problem,
                                         struct rc_adhesion_scales *scales, struct rc_err *err);
@@ -885,7 +884,7 @@ struct rc_adhesion_figures {
     /* Number of points between the last state and this one where the path of stable states ended. Found by
      * the curvatures during the iteration; several in a row may count as one */
     size_t jumps;
-    /* The lowest load of the retraction of rc_adhesion_pull_off, N, its approach, m, and the error of the
+    /* The lowest load of a retraction, N, its approach, m, and the error of the
      * load. This is twice the misfit of a parabola through neighbouring states, or the error that a jump
      * hides */
     double pull_off_load, pull_off_approach, pull_off_spread;
@@ -907,61 +906,11 @@ struct rc_adhesion_figures {
 RC_API enum rc_status rc_adhesion_expect(const struct rc_shape *shape,
                                          const struct rc_adhesion_problem *problem,
                                          struct rc_expected *expected, struct rc_err *err);
-/* h: nx ny m, copied. NULL when the problem is invalid, among ranks, when the engine or method does not suit
- * it, or memory is short. The path starts with undeformed bodies. */
-RC_API struct rc_adhesion *rc_adhesion_new(const struct rc_shape *shape, const double *h,
-                                           const struct rc_adhesion_problem *problem,
-                                           struct rc_err *err);
-/* The next state of the path has this load, N, of either sign. Under a tensile load it is the next stable
- * state of lower energy, if there is one: see `separated`. */
-RC_API enum rc_status rc_adhesion_set_load(struct rc_adhesion *a, double load, struct rc_err *err);
-/* The next state of the path has this approach, m, 0 at first touch, negative apart; with this control a
- * state always exists. RC_FAIL on a periodic map where the mean gap would not be positive. */
-RC_API enum rc_status rc_adhesion_set_approach(struct rc_adhesion *a, double approach,
-                                               struct rc_err *err);
-/* Retracts the bodies from the present state, approach by approach, until they separate, and finds the lowest
- * load on the way. RC_FAIL when there is no state yet, or memory for three states is short. */
-RC_API enum rc_status rc_adhesion_pull_off(struct rc_adhesion *a, struct rc_err *err);
-/* Sets the state of the path to this pressure (nx ny Pa, net) and approach, m, of an earlier object of the
- * same problem. The next state starts there. RC_FAIL when a value is not finite. */
-RC_API enum rc_status rc_adhesion_start(struct rc_adhesion *a, const double *pressure,
-                                        double approach, struct rc_err *err);
-/* Other heights (nx ny m, copied): the next state starts with the displacement of the last one, and its load
- * or approach must be set. RC_FAIL when one is not a finite number, which leaves all as it was. */
-RC_API enum rc_status rc_adhesion_set_heights(struct rc_adhesion *a, const double *h,
-                                              struct rc_err *err);
-/* One step of the gap, or of the eigenvector. RC_MORE until the state is found, then RC_OK. RC_SHORT if it
- * stopped short of tol or the bodies separate. RC_FAIL when no load or approach is set. */
-RC_API enum rc_status rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err);
-struct rc_adhesion_progress {
-    size_t state;      /* number of the state of a retraction, from 1 */
-    size_t iterations; /* iterations of this state                                     */
-    bool eigenvalue;   /* iterations of its stability                                  */
-    double load;       /* N, as set; NAN: an approach was set                          */
-    double approach;   /* m, as set, also in a retraction; NAN: a load was set         */
-    double error, tol; /* estimated error of the pressure, NAN at first; the asked one */
-};
-RC_API void rc_adhesion_progress(const struct rc_adhesion *a,
-                                 struct rc_adhesion_progress *progress);
-/* Maps of the present state, valid until the next step; after a retraction, those of the state of lowest
- * load. */
-RC_API const struct rc_adhesion_figures *rc_adhesion_result(struct rc_adhesion *a);
-RC_API const struct rc_adhesion_scales *rc_adhesion_scales(const struct rc_adhesion *a);
-/* nx ny values each: net pressure, Pa; gap, m, never negative except at the hardness; displacement K p, m;
- * sigma, Pa. */
-RC_API void rc_adhesion_pressure(const struct rc_adhesion *a, double *pressure);
-RC_API void rc_adhesion_gap(const struct rc_adhesion *a, double *gap);
-RC_API void rc_adhesion_displacement(const struct rc_adhesion *a, double *displacement);
-RC_API void rc_adhesion_traction(const struct rc_adhesion *a, double *traction);
-/* Elastic unloading where the hardness was reached. It subtracts the overlap from the heights of the path
- * from here on, and from h. h, nx ny m (or NULL), holds the first heights less the overlap that was
- * subtracted before. No effect if no node has yielded. rc_adhesion_pull_off calls it first. */
-RC_API void rc_adhesion_keep_shape(struct rc_adhesion *a, double *h);
-RC_API void rc_adhesion_free(struct rc_adhesion *a); /* NULL is allowed */
-
 /* The model (model.h) of such bodies. It takes a load or an approach; the approach -INFINITY, which is no
- * first point, is a retraction as rc_adhesion_pull_off. Keeping a point adds its plastic dents to the
- * shape. The caller keeps everything that `problem` points to. */
+ * first point, retracts the bodies until they separate, and finds the lowest load on the way. Under a tensile
+ * load the next stable state of lower energy is found, if there is one: see `separated`. Keeping a point adds
+ * its plastic dents to the shape. The caller keeps everything that `problem` points to. NULL when the problem
+ * is invalid, among ranks, when the engine or method does not suit it, or memory is short. */
 struct rc_adhesive_figures {
     struct rc_contact contact; /* the figures that all contacts have */
     struct rc_adhesion_figures adhesion;

@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "libcontact/adhesion/adhesion.h"
 #include "libcontact/memory.h"
 #include "libcontact/plastic/plastic.h"
 #include "libcontact/slip/slip.h"

@@ -819,12 +819,6 @@ rc_adhesion_result(struct rc_adhesion *a)
     return &a->figures;
 }
 
-const struct rc_adhesion_scales *
-rc_adhesion_scales(const struct rc_adhesion *a)
-{
-    return &a->scales;
-}
-
 void
 rc_adhesion_pressure(const struct rc_adhesion *a, double *pressure)
 {

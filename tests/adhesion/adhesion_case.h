@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "tests/exact.h"
-#include "libcontact/contact.h"
+#include "libcontact/adhesion/adhesion.h"
 
 static struct rc_err adhesion_err;
 

@@ -151,10 +151,11 @@ sphere_of_jkr(void **state)
         const struct rc_adhesion_problem problem = {
             .contact = {.pair.estar = estar, .tol = 1e-4}, .work = s.work, .law = "jkr"};
         struct rc_adhesion *path = adhesion_new(s.shape, s.h, problem);
-        double tabor = cbrt(radius * s.work * s.work / (estar * estar)) /
-                       rc_adhesion_scales(path)->range,
-               off;
+        struct rc_adhesion_scales scales;
+        double tabor, off;
 
+        assert_int_equal(rc_adhesion_check(&s.shape, &problem, &scales, &adhesion_err), RC_OK);
+        tabor = cbrt(radius * s.work * s.work / (estar * estar)) / scales.range;
         (void)adhesion_to_approach(path, 0);
         off = adhesion_pull(path)->pull_off_load / s.load / -1.5 - 1;
         print_message("jkr, Tabor %.2f: %+.4f\n", tabor, off);

@@ -573,57 +573,8 @@ done:
 
 /* ---- adhesion ---- */
 
-/* A state by approach, one by load that starts from the state of another path, and a retraction. */
-static enum rc_status
-adheres(double *out, struct rc_err *err)
-{
-    const struct rc_adhesion_problem problem = {
-        .contact = {.pair = bare, .tol = 1e-3, .threads = 1, .hardness_map = hardness},
-        .work = 1e-3};
-    struct rc_adhesion *a = NULL, *b = NULL;
-    struct rc_adhesion_progress progress;
-    struct rc_adhesion_scales scales;
-    struct rc_expected expected;
-    enum rc_status status = RC_FAIL;
-
-    if (rc_adhesion_check(&shape, &problem, &scales, err) != RC_OK ||
-        rc_adhesion_expect(&shape, &problem, &expected, err) != RC_OK ||
-        (a = rc_adhesion_new(&shape, rough, &problem, err)) == NULL ||
-        (b = rc_adhesion_new(&shape, rough, &problem, err)) == NULL ||
-        rc_adhesion_set_approach(a, 0, err) != RC_OK)
-        goto done;
-    while ((status = rc_adhesion_step(a, err)) == RC_MORE)
-        rc_adhesion_progress(a, &progress);
-    if (status == RC_FAIL)
-        goto done;
-    rc_adhesion_pressure(a, out);
-    rc_adhesion_gap(a, out + N);
-    status = RC_FAIL;
-    if (rc_adhesion_start(b, out, rc_adhesion_result(a)->approach, err) != RC_OK ||
-        rc_adhesion_set_heights(b, rough, err) != RC_OK || rc_adhesion_set_load(b, 0, err) != RC_OK)
-        goto done;
-    while ((status = rc_adhesion_step(b, err)) == RC_MORE)
-        ;
-    if (status == RC_FAIL || (status = rc_adhesion_pull_off(a, err)) == RC_FAIL)
-        goto done;
-    while ((status = rc_adhesion_step(a, err)) == RC_MORE)
-        ;
-    if (status == RC_FAIL)
-        goto done;
-    rc_adhesion_displacement(b, out + 2 * N);
-    rc_adhesion_traction(b, out + 3 * N);
-    rc_adhesion_keep_shape(b, out + N);
-    out[4 * N] = rc_adhesion_result(a)->pull_off_load;
-    out[4 * N + 2] = rc_adhesion_scales(a)->range;
-    out[4 * N + 3] = rc_adhesion_law_info(0)->ranged;
-    status = RC_OK;
-done:
-    rc_adhesion_free(a);
-    rc_adhesion_free(b);
-    return status;
-}
-
-/* The adhesive model: a load that dents; on the way to a second point the state goes into another model. */
+/* The adhesive model: a load that dents; on the way to a second point the state goes into another model. The
+ * other one then retracts the bodies. */
 static enum rc_status
 adhesive_model(double *out, struct rc_err *err)
 {
@@ -631,6 +582,8 @@ adhesive_model(double *out, struct rc_err *err)
         .contact = {.pair = bare, .tol = 1e-3, .threads = 1, .hardness_map = hardness},
         .work = 1e-3};
     struct rc_model *m = rc_adhesive_new(&shape, rough, &problem, err), *other = NULL;
+    struct rc_adhesion_scales scales;
+    struct rc_expected expected;
     enum rc_status status = RC_FAIL;
     struct rc_point to = {0};
     double *state = NULL;
@@ -638,7 +591,9 @@ adhesive_model(double *out, struct rc_err *err)
     size_t n;
 
     rc_point_set(&to, RC_LOAD, 1e-3);
-    if (m == NULL || rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
+    if (rc_adhesion_check(&shape, &problem, &scales, err) != RC_OK ||
+        rc_adhesion_expect(&shape, &problem, &expected, err) != RC_OK || m == NULL ||
+        rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
         goto done;
     rc_point_set(&to, RC_APPROACH, 0);
     if (rc_model_go(m, &to, err) != RC_MORE || rc_model_step(m, err) == RC_FAIL)
@@ -652,9 +607,14 @@ adhesive_model(double *out, struct rc_err *err)
     other = rc_adhesive_new(&shape, rough, &problem, err);
     if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK ||
         rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
-        rc_model_frame(other, "adhesion", out, err) != RC_OK)
+        rc_model_frame(other, "adhesion", out, err) != RC_OK || rc_model_keep(other, err) != RC_OK)
         goto done;
     out[N] = rc_adhesive_result(other)->adhesion.load;
+    rc_point_set(&to, RC_APPROACH, -INFINITY);
+    if (rc_model_run(other, &to, err) == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK)
+        goto done;
+    out[N + 1] = rc_adhesive_result(other)->adhesion.pull_off_load;
+    out[N + 2] = scales.range + rc_adhesion_law_info(0)->ranged;
     status = RC_OK;
 done:
     free(state);
@@ -1074,7 +1034,6 @@ static const struct {
     {.name = "the wear model", .use = wear_model},
     {.name = "the travel model", .use = travel_model},
     {.name = "plasticity after elasticity", .use = may_yield},
-    {.name = "adhesion", .use = adheres},
     {.name = "the adhesive model", .use = adhesive_model},
 #ifdef RC_LEAK
     {.name = "leakage", .use = leaks},
