@@ -108,19 +108,22 @@ def python_name(option):
 
 # ---- one run of a tool ----
 
-def execute(command, data=None, timeout=None, progress=False):
+def execute(command, data=None, timeout=None, progress=False, folder=None, started=None):
     """Runs a command on a sequence of bytes (None: no input): exit status, output (see _taken), messages.
 
     progress: False; None shows it where a person watches; True always; or a function of a dict with the keys
-    progress (the share of the case that is done, or None), tool and text.
+    progress (the share of the case that is done, or None), tool and text. folder: where the command runs.
+    started: a function of the process, through which another thread can end it.
     """
     shown = _progress_of(progress)
     try:
         child = subprocess.Popen([place(command[0])] + command[1:] + ['--progress=json'] * (shown is not None),
-                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder,
                                  stdin=subprocess.DEVNULL if data is None else subprocess.PIPE)
     except FileNotFoundError:
         raise Error('%s: not found: install the tools, or name their folder in PATH or RC_BIN' % command[0], 127) from None
+    if started is not None:
+        started(child)
     messages = []
     threads = [threading.Thread(target=_listen, args=(child.stderr, messages, shown), daemon=True)]
     if data is not None:

@@ -1,0 +1,506 @@
+"""rc-app: a page in the browser that runs the rc-* tools on this machine.
+
+The page is served on 127.0.0.1 alone, below a path with a secret token. A run is a list of commands. It has a folder
+of its own, where the tools run with the arguments that the page shows. rc-app(1) describes the limits.
+"""
+import argparse
+import functools
+import hmac
+import http.server
+import json
+import mimetypes
+import os
+import re
+import secrets
+import select
+import shlex
+import shutil
+import signal
+import sys
+import tempfile
+import threading
+import time
+import urllib.parse
+import webbrowser
+
+import numpy
+
+from . import __version__, stream, tools
+
+UPLOAD_MAX = 2 << 30  # bytes of a file
+PAGES_MAX = 4         # open pages: each holds a connection, and browsers allow six
+RUNS_MAX = 8          # runs that are kept
+TOGETHER = 2          # runs at the same time
+GRACE = 3             # seconds without a page, as while it reloads, after which its tools end
+IDLE = 600            # seconds without a page, after which the program ends
+ASSETS = {'': 'index.html', 'page.css': 'page.css', 'page.js': 'page.js', 'map.js': 'map.js'}
+HEADERS = {'Cache-Control': 'no-store', 'X-Content-Type-Options': 'nosniff', 'Referrer-Policy': 'no-referrer',
+           'Cross-Origin-Resource-Policy': 'same-origin',
+           'Content-Security-Policy': "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
+                                      "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}
+# Options that the page sets itself, and files that a later run would continue.
+HIDDEN = tools.HIDDEN | {'checkpoint', 'resume', 'interval', 'keep-going'}
+MAKERS = ('rc-render', 'rc-info', 'rc-export', 'rc-report')
+ACTIVE, ENDED_WELL = ('waiting', 'running'), ('done', 'short')
+
+
+class Refused(Exception):
+    """A request that is refused: one sentence and the HTTP status."""
+
+    def __init__(self, text, status=400):
+        super().__init__(text)
+        self.status = status
+
+
+# ---- command lines ----
+
+@functools.lru_cache()
+def tables():
+    """The tools of this installation that the page runs, with the options that it may set; rc-leak may be missing."""
+    found = {}
+    for name in sorted(tools.FUNCTIONS.values()):
+        try:
+            row = tools.table(name)
+        except stream.Error:
+            continue
+        step = name == 'rc-import' or (row['reads'] == 'stream' and row['writes'] == 'stream')
+        if step or name in MAKERS:
+            options = [o for o in row['options'] if o['name'] not in HIDDEN and o['type'] != 'report']
+            report = any(o['name'] == 'report' for o in row['options'])
+            found[name] = dict(row, options=options, step=step, report=step and report)
+    return found
+
+
+def words_of(tool, options):
+    """The arguments of [[name, value], ...]; the name of a file stays in the folder of the run."""
+    rows, words = {row['name']: row for row in tables()[tool]['options']}, []
+    for name, value in options:
+        text = value if isinstance(value, str) else ''
+        if name not in rows or not (text or value is True):
+            raise Refused('%s has no option --%s on this page' % (tool, name))
+        if re.search('[\0-\x1f]', text) or ('/' in text and 'FILE' in (rows[name]['argument'] or '')):
+            raise Refused('--%s %s: give the name of a file that was dropped here, without a folder' % (name, text))
+        try:
+            words += tools._arguments(rows[name], '--' + name, value)
+        except (TypeError, ValueError) as e:
+            raise Refused('%s: %s' % (tool, e))
+    return words
+
+
+def safe_name(name):
+    """The base name of a file that the browser names: no folders, control characters or names of steps."""
+    name = re.sub('[\0-\x1f\x7f-\x9f\ud800-\udfff]', '_', re.split(r'[/\\]', name)[-1])
+    while len(name.encode()) > 200:
+        name = name[1:]
+    return '_' + name if name in ('', '.', '..') or re.match(r'\d+-[a-z]+\.(rcg|tsv)$', name) else name
+
+
+class Step:
+    """A command of a run, and how it goes: waiting, running, done, short (of the accuracy), failed or stopped."""
+
+    def __init__(self, tool, options, number, source):
+        if not tables()[tool]['step']:
+            raise Refused('%s is no step of this page' % tool)
+        stem = '%d-%s' % (number, tool[3:])
+        self.tool, self.output, self.report = tool, stem + '.rcg', stem + '.tsv' if tables()[tool]['report'] else None
+        report = ['--report', self.report] if self.report else []
+        self.command = [tool] + words_of(tool, options) + report + ['-o', self.output, source]
+        self.state, self.words, self.progress, self.doing, self.seconds = 'waiting', '', None, '', None
+
+
+def steps_of(file, asked):
+    """The steps [{tool, options, from}, ...] on a file; `from` is the number of the step whose output is read."""
+    made = []
+    for number, step in enumerate(asked, 1):
+        source = file['shown'] if number == 1 else made[step['from'] - 1].output
+        made.append(Step(step['tool'], step['options'], number, source))
+    return made
+
+
+def frames_of(path):
+    """The headers of a stream that a tool wrote, each with the place and the size of its values in the file."""
+    found = []
+    with open(path, 'rb') as file:
+        while file.readline() == b'RCG1\n':
+            keys, _ = stream._head(file)
+            size = int(keys['nx']) * int(keys['ny']) * stream.TYPES[keys['type']].itemsize
+            found.append((keys, file.tell(), size))
+            file.seek(size + len('crc32 01234567\n'), os.SEEK_CUR)
+    return found
+
+
+# ---- runs ----
+
+class Run:
+    """Commands on one file, one after another, in a folder."""
+
+    def __init__(self, desk, number, file, steps):
+        self.desk, self.number, self.file, self.steps, self.folder = desk, number, file, steps, desk.new_folder()
+        self.state, self.child, self.cancelled = 'waiting', None, threading.Event()
+        for path in {other['name']: other['path'] for other in desk.files}.values():  # the last of each name
+            os.symlink(path, os.path.join(self.folder, os.path.basename(path)))
+        threading.Thread(target=self.work, daemon=True).start()
+
+    def work(self):
+        """Runs the steps when there is room for them."""
+        while not self.desk.room.acquire(timeout=0.2):
+            if self.cancelled.is_set():
+                self.state = 'stopped'
+                return
+        self.state = 'running'
+        try:
+            for at, step in enumerate(self.steps):
+                if not self.reuse(at):
+                    self.execute(step)
+                if step.state not in ENDED_WELL:
+                    break
+        finally:
+            self.desk.room.release()
+            self.state = step.state
+
+    def reuse(self, at):
+        """Takes the files of an earlier run of the same commands on the same file."""
+        commands = [step.command for step in self.steps[:at + 1]]
+        for old in list(self.desk.runs.values()):
+            same = old.file is self.file and [step.command for step in old.steps[:at + 1]] == commands
+            if same and old.steps[at].state in ENDED_WELL:
+                vars(self.steps[at]).update(vars(old.steps[at]))
+                for name in filter(None, (old.steps[at].output, old.steps[at].report)):
+                    os.link(os.path.join(old.folder, name), os.path.join(self.folder, name))
+                return True
+        return False
+
+    def execute(self, step):
+        def started(child):
+            self.child = child
+            if self.cancelled.is_set():  # before the line above
+                child.terminate()
+
+        def progress(said):
+            step.progress, step.doing = said['progress'], said['text']
+
+        began, step.state = time.monotonic(), 'running'
+        status, step.words = self.desk.execute(step.command, self.folder, started, progress)
+        step.seconds = time.monotonic() - began
+        stopped = self.cancelled.is_set() and status != 0
+        step.state = 'stopped' if stopped else {0: 'done', 3: 'short'}.get(status, 'failed')
+
+    def cancel(self):
+        self.cancelled.set()
+        if self.child is not None:
+            self.child.terminate()  # the tool removes its files
+
+    def shown(self):
+        steps = [dict(vars(step), command=shlex.join(step.command)) for step in self.steps]
+        return {'number': self.number, 'file': self.file['name'], 'state': self.state, 'steps': steps}
+
+
+class Desk(http.server.ThreadingHTTPServer):
+    """The server, and what all of its pages share: files, runs, and the tools that run."""
+    daemon_threads = True
+
+    def __init__(self, port, folder, file):
+        super().__init__(('127.0.0.1', port), Request)
+        self.folder, self.made, self.files, self.runs, self.children = folder, 0, [], {}, set()
+        self.lock, self.room = threading.Lock(), threading.BoundedSemaphore(TOGETHER)
+        self.token, self.once = secrets.token_urlsafe(24), secrets.token_urlsafe(24)
+        self.ended, self.pages, self.left = threading.Event(), 0, time.monotonic()
+        for path in filter(None, (os.path.realpath(tools.sample()), file)):
+            self.add_file(path, path)
+
+    def address(self, first):
+        return 'http://127.0.0.1:%d/%s/' % (self.server_port, first)
+
+    def handle_error(self, request, client_address):
+        pass  # a browser that has gone
+
+    def new_folder(self):
+        with self.lock:
+            self.made += 1
+            folder = os.path.join(self.folder, str(self.made))
+        os.mkdir(folder)
+        return folder
+
+    def add_file(self, path, shown):
+        """A file that steps can read: `shown` is its name in commands."""
+        with open(path, 'rb') as file:
+            is_stream = file.read(4) == b'RCG1'
+        self.files.append({'name': os.path.basename(path), 'path': path, 'shown': './' + shown if shown.startswith('-') else shown,
+                           'stream': is_stream, 'size': os.path.getsize(path), 'id': len(self.files)})
+        return self.files[-1]
+
+    def start(self, file, steps):
+        """The number of a new run; the oldest that has ended makes room for it."""
+        ended = [run for run in self.runs.values() if run.state not in ACTIVE]
+        if len(self.runs) >= RUNS_MAX:
+            if not ended:
+                raise Refused('%d runs are waiting or running: cancel one' % RUNS_MAX, 429)
+            self.forget(ended[0])
+        number = max(self.runs, default=0) + 1
+        self.runs[number] = Run(self, number, file, steps)
+        return number
+
+    def forget(self, run):
+        del self.runs[run.number]
+        shutil.rmtree(run.folder, ignore_errors=True)
+
+    def execute(self, command, folder, started=lambda child: None, progress=lambda said: None):
+        """Runs a command in a folder: its exit status and its messages."""
+        def known(child):
+            self.children.add(child)
+            started(child)
+
+        status, _, words = tools.execute(command, progress=progress, folder=folder, started=known)
+        self.children = {child for child in self.children if child.poll() is None}
+        return status, words
+
+    def end_tools(self):
+        for run in list(self.runs.values()):
+            run.cancel()
+        for child in list(self.children):
+            child.terminate()
+
+    def watch(self):
+        """Ends the tools when no page is open; False when none has been open for long."""
+        away = 0 if self.pages > 0 else time.monotonic() - self.left
+        if away > GRACE:
+            self.end_tools()
+        return away < IDLE
+
+
+# ---- requests ----
+
+class Request(http.server.BaseHTTPRequestHandler):
+    """What get_NAME and post_NAME return is sent as JSON; None: they have sent their answer."""
+    protocol_version, server_version, sys_version, timeout = 'HTTP/1.1', 'rc-app', '', 60
+
+    def log_message(self, *words):
+        pass
+
+    def do_GET(self):
+        self.answer('get_')
+
+    def do_POST(self):
+        self.answer('post_')
+
+    def answer(self, verb):
+        try:
+            if not self.allowed():
+                raise Refused('rc-app: open the address that rc-app has printed: it holds the token of this session', 403)
+            if verb == 'get_' and self.at in ASSETS:
+                return self.send_file(os.path.join(os.path.dirname(os.path.abspath(__file__)), 'page', ASSETS[self.at]))
+            act = getattr(self, verb + self.at, None)
+            if act is None:
+                raise Refused('rc-app: /%s does not exist' % self.at[:80], 404)
+            found = act()
+            if found is not None:
+                self.send(json.dumps(found).encode(), 'application/json')
+        except Refused as e:
+            self.refuse(e.status, str(e))
+        except (ConnectionError, TimeoutError):
+            self.close_connection = True
+        except OSError as e:
+            self.refuse(507, 'rc-app: %s' % e.strerror)
+        except Exception as e:  # the request has missing or wrong parts
+            self.refuse(400, 'rc-app: this request is not understood: %s %s' % (type(e).__name__, e))
+
+    def allowed(self):
+        """True for a request of the page: to a name of this machine, from no other page, with the token."""
+        own = ['%s:%d' % (name, self.server.server_port) for name in ('127.0.0.1', 'localhost')]
+        url = urllib.parse.urlsplit(self.path)
+        first, _, self.at = url.path.lstrip('/').partition('/')
+        self.query = dict(urllib.parse.parse_qsl(url.query, keep_blank_values=True))
+        origin = self.headers.get('Origin')
+        if self.headers.get('Host') not in own or origin not in [None] + ['http://' + name for name in own]:
+            return False
+        if self.server.once is not None and hmac.compare_digest(first.encode(), self.server.once.encode()):
+            self.server.once, self.at = None, 'first'
+            return True
+        return hmac.compare_digest(first.encode(), self.server.token.encode())
+
+    def head(self, status, kind, size, **more):
+        self.send_response(status)
+        for name, value in dict(HEADERS, Content_Type=kind, Content_Length=size, **more).items():
+            if value is not None:
+                self.send_header(name.replace('_', '-'), str(value))
+        self.end_headers()
+
+    def send(self, body, kind, status=200, **more):
+        self.head(status, kind, len(body), **more)
+        self.wfile.write(body)
+
+    def send_file(self, path, at=0, size=None, **more):
+        kind = mimetypes.guess_type(path)[0] or 'application/octet-stream'
+        with open(path, 'rb') as file:
+            size = os.path.getsize(path) if size is None else size
+            self.head(200, kind + '; charset=utf-8' * kind.startswith('text/'), size, **more)
+            if size > 0:
+                self.connection.sendfile(file, at, size)
+
+    def refuse(self, status, text):
+        self.close_connection = True  # a body may be left
+        self.send(text.encode(), 'text/plain; charset=utf-8', status, Connection='close')
+
+    def length(self, most):
+        text = self.headers.get('Content-Length', '')
+        if not re.match(r'[0-9]{1,15}\Z', text):
+            raise Refused('rc-app: the request has no length', 411)
+        if int(text) > most:
+            raise Refused('the file has %.1f GB, the page takes at most %g GB: use rc-import in a shell'
+                          % (int(text) / 2**30, most / 2**30), 413)
+        return int(text)
+
+    def run(self):
+        runs, number = self.server.runs, int(self.query['run'])
+        if number not in runs:
+            raise Refused('run %d was removed' % number, 404)
+        return runs[number]
+
+    def output(self):
+        """The run and step of a request, and the path of the stream that the step wrote."""
+        run = self.run()
+        step = run.steps[int(self.query['step'])]
+        return run, step, os.path.join(run.folder, step.output)
+
+    # ---- the page ----
+
+    def get_first(self):
+        """The address that starts the browser works once: other users can see it in the list of processes."""
+        self.head(303, 'text/plain', 0, Location=self.server.address(self.server.token))
+
+    def get_desk(self):
+        return {'files': self.server.files, 'tables': tables(), 'most': UPLOAD_MAX}
+
+    def get_events(self):
+        """Sends the runs when they change, until the page is closed."""
+        desk, said = self.server, None
+        if desk.pages >= PAGES_MAX:
+            raise Refused('%d pages are open already: close one of them, then load this page again' % PAGES_MAX, 429)
+        self.close_connection = True
+        self.head(200, 'text/event-stream', None, Connection='close')
+        desk.pages += 1
+        try:
+            while not desk.ended.is_set() and not select.select([self.connection], [], [], 0.1)[0]:
+                state = json.dumps([run.shown() for run in list(desk.runs.values())])
+                if state != said:
+                    self.wfile.write(b'data: %s\n\n' % state.encode())
+                    said = state
+        finally:
+            desk.pages, desk.left = desk.pages - 1, time.monotonic()
+
+    def post_upload(self):
+        desk, size = self.server, self.length(UPLOAD_MAX)
+        if size > shutil.disk_usage(desk.folder).free // 2:
+            raise Refused('the file needs more than half of the free space of %s: set TMPDIR' % desk.folder, 507)
+        path = os.path.join(desk.new_folder(), safe_name(self.query['name']))
+        with open(path, 'wb') as file:
+            while size > 0:
+                part = self.rfile.read(min(size, 1 << 20))
+                if not part:
+                    raise ConnectionError  # the page has gone
+                file.write(part)
+                size -= len(part)
+        return desk.add_file(path, os.path.basename(path))
+
+    def post_steps(self):
+        """The commands of steps on a file; with `start` they run."""
+        asked, desk = json.loads(self.rfile.read(self.length(1 << 20))), self.server
+        file = desk.files[asked['file']]
+        made = steps_of(file, asked['steps'])
+        commands = [shlex.join(step.command) for step in made]
+        return {'commands': commands, 'run': desk.start(file, made) if asked['start'] and made else None}
+
+    def post_remove(self):
+        """Cancels a run, or removes one that has ended."""
+        run = self.run()
+        run.cancel() if run.state in ACTIVE else self.server.forget(run)
+        return {}
+
+    def post_quit(self):
+        self.server.ended.set()
+        return {}
+
+    # ---- results ----
+
+    def get_frames(self):
+        heads = [keys for keys, _, _ in frames_of(self.output()[2])]
+        return [{k: v for k, v in keys.items() if k != 'history' and not k.startswith('file.')} for keys in heads]
+
+    def get_values(self):
+        path = self.output()[2]
+        _, at, size = frames_of(path)[int(self.query['frame'])]
+        self.send_file(path, at, size)
+
+    def get_colours(self):
+        """A PNG of 257 pixels: the colours in which rc-render shows 256 even values and a missing one."""
+        values = numpy.linspace(float(self.query['low']), float(self.query['high']), 256)
+        ramp = stream.frame(self.query['channel'], numpy.append(values, numpy.nan), dx=1.0, unit=self.query['unit'])
+        more = {'colormap': self.query['colormap']} if self.query['colormap'] else {}
+        self.send(bytes(tools.draw([ramp], raw=True, quiet=True, **more)), 'image/png')
+
+    def get_made(self):
+        """What rc-render, rc-info, rc-export or rc-report makes of a step; the command is in a header."""
+        (run, step, _), tool, options = self.output(), self.query['tool'], json.loads(self.query['options'])
+        if tool not in MAKERS:
+            raise Refused('%s makes no file here' % tool)
+        source = step.report if any(name == 'curve' for name, _ in options) else step.output
+        if tool == 'rc-report':  # about the surface that is pressed
+            source = next((s.command[-1] for s in run.steps if s.tool == 'rc-solve'), source)
+        words, name, folder = [tool] + words_of(tool, options) + ['-o'], safe_name(self.query['name']), self.server.new_folder()
+        status, said = self.server.execute(words + [os.path.join(folder, name), source], run.folder)
+        if status not in (0, 3):
+            raise Refused(said or '%s ended with status %d' % (tool, status), 422)
+        self.send_file(os.path.join(folder, name), X_Command=urllib.parse.quote(shlex.join(words + [name, source])),
+                       X_Words=urllib.parse.quote(said), Content_Disposition='attachment')
+        shutil.rmtree(folder)
+
+    def get_file(self):
+        run, step, path = self.output()
+        path = os.path.join(run.folder, step.report) if self.query['of'] == 'report' else path
+        self.send_file(path, Content_Disposition='attachment')
+
+
+# ---- the program ----
+
+def serve(desk, opens):
+    """Serves until Ctrl-C, a signal, Quit on the page, or no page is open."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, lambda *_: desk.ended.set())
+    threading.Thread(target=desk.serve_forever, daemon=True).start()
+    print(desk.address(desk.token), flush=True)
+    if opens and (os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')):
+        threading.Thread(target=webbrowser.open, args=(desk.address(desk.once),), daemon=True).start()
+    while not desk.ended.wait(0.5) and desk.watch():
+        pass
+    desk.ended.set()
+    desk.shutdown()
+    desk.end_tools()
+    for child in list(desk.children):
+        child.wait()
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog='rc-app', epilog='The manual is rc-app(1).',
+                                     description='Opens a page in the browser that runs the rc-* tools on this machine.')
+    parser.add_argument('file', metavar='FILE', nargs='?', help='a surface to begin with: a file or a grid stream')
+    parser.add_argument('--port', metavar='N', type=int, default=0, help='port on 127.0.0.1 (default: a free one)')
+    parser.add_argument('--no-browser', action='store_true', help='only print the address')
+    parser.add_argument('--version', action='version', version='rc-app (libcontact) ' + __version__)
+    given = parser.parse_args(arguments)
+    folder, what = tempfile.mkdtemp(prefix='rc-app-'), given.file
+    try:
+        tools.table('rc-solve')
+        if what is not None:
+            open(what, 'rb').close()
+        what = '--port %d' % given.port
+        serve(Desk(given.port, folder, given.file and os.path.realpath(given.file)), not given.no_browser)
+    except stream.Error as e:
+        return 'rc-app: %s' % e
+    except (OSError, OverflowError) as e:
+        return 'rc-app: %s: %s' % (what, getattr(e, 'strerror', None) or e)
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,311 @@
+"""Checks of rc-app for pipe_app.sh: python_app.py ADDRESS CHECK [ARGUMENT...]. A page is a client of HTTP like this one."""
+import http.client
+import json
+import os
+import subprocess
+import sys
+import threading
+import time
+import urllib.parse
+import zlib
+
+ADDRESS = urllib.parse.urlsplit(sys.argv[1])
+TOKEN = ADDRESS.path.strip('/')
+SOLVE = [['load', '20N,60N'], ['radius', '3.75mm'], ['estar', '114GPa'], ['hardness', '6GPa']]
+LEVEL = [['poly', '2'], ['outliers', '5'], ['fill', True]]
+LONG = [['load', '1N:60N:4000'], ['radius', '3.75mm'], ['estar', '114GPa'], ['tol', '1e-8']]
+SAMPLE = 0  # the number of the sample among the files
+
+
+def ask(at, query=None, body=None, path=None, **headers):
+    """Status, headers and body of the answer; a body is posted."""
+    link = http.client.HTTPConnection(ADDRESS.hostname, ADDRESS.port, timeout=60)
+    path = '/%s/%s?%s' % (TOKEN, at, urllib.parse.urlencode(query or {})) if path is None else path
+    link.request('GET' if body is None else 'POST', path, body, {k.replace('_', '-'): v for k, v in headers.items()})
+    answer = link.getresponse()
+    return answer.status, answer.headers, answer.read()
+
+
+def found(at, query=None, body=None):
+    status, _, text = ask(at, query, body if body is None or isinstance(body, bytes) else json.dumps(body))
+    assert status == 200, (at, status, text)
+    return json.loads(text)
+
+
+def refused(status, words, *given, **more):
+    got, _, text = ask(*given, **more)
+    assert got == status and words in text.decode(), (got, text)
+
+
+def steps(*given):
+    """Steps that read each other's output."""
+    return [{'tool': tool, 'options': options, 'from': k} for k, (tool, options) in enumerate(given)]
+
+
+def start(file, *given):
+    return found('steps', body={'file': file, 'steps': steps(*given), 'start': True})['run']
+
+
+STATE = []
+
+
+def runs():
+    """The state of all runs, as the page gets it."""
+    def listen():
+        link = http.client.HTTPConnection(ADDRESS.hostname, ADDRESS.port)
+        link.request('GET', '/%s/events' % TOKEN)
+        answer = link.getresponse()
+        for line in answer.fp:
+            if line.startswith(b'data: '):
+                STATE[:] = [{run['number']: run for run in json.loads(line[len('data: '):])}]
+
+    if not STATE:
+        threading.Thread(target=listen, daemon=True).start()
+    while not STATE:
+        time.sleep(0.01)
+    return STATE[0]
+
+
+def until(number, *states):
+    """The run, when it has one of these states."""
+    for _ in range(1500):
+        run = runs().get(number)
+        if run is not None and run['state'] in states:
+            return run
+        time.sleep(0.02)
+    raise AssertionError((number, states, runs()))
+
+
+def ended(number):
+    return until(number, 'done', 'short', 'failed', 'stopped')
+
+
+def tools_running():
+    """The rc-solve processes that rc-app started."""
+    text = subprocess.run(['ps', '-e', '-o', 'ppid=,args='], stdout=subprocess.PIPE, universal_newlines=True).stdout
+    return [line for line in text.splitlines() if line.split()[0] == os.environ['APP'] and 'rc-solve' in line]
+
+
+def uploaded(name):
+    with open(name, 'rb') as file:
+        return found('upload', {'name': name}, file.read())['id']
+
+
+# ---- checks ----
+
+def page():
+    """The page and its parts are served, and may load nothing else."""
+    for at, kind, words in (('', 'text/html', '<title>'), ('page.css', 'text/css', 'body'), ('page.js', 'javascript', 'use strict'), ('map.js', 'javascript', 'class')):
+        status, headers, text = ask(at)
+        assert status == 200 and kind in headers['Content-Type'] and words in text.decode(), (at, status)
+        assert "default-src 'none'" in headers['Content-Security-Policy'] and 'unsafe' not in headers['Content-Security-Policy']
+        assert headers['Referrer-Policy'] == 'no-referrer' and headers['Cache-Control'] == 'no-store'
+    refused(404, 'does not exist', 'app.py')
+    refused(404, 'does not exist', '../app.py')
+
+
+def token():
+    for path in ('/', '/desk', '/page.js', '/%s/desk' % ('x' * len(TOKEN)), '/%s/desk' % TOKEN[:-1], '/?token=' + TOKEN, '//'):
+        refused(403, 'token of this session', None, path=path)
+        refused(403, 'token of this session', None, path=path, body='{}')
+
+
+def host():
+    for name in ('evil.example', 'evil.example:%d' % ADDRESS.port, '127.0.0.1', '127.0.0.1:1', '127.0.0.1.evil.example:%d' % ADDRESS.port, ''):
+        refused(403, 'token of this session', 'desk', Host=name)
+    assert ask('desk', Host='localhost:%d' % ADDRESS.port)[0] == 200
+
+
+def origin():
+    for name in ('http://evil.example', 'null', 'http://127.0.0.1:1', 'https://127.0.0.1:%d' % ADDRESS.port):
+        refused(403, 'token of this session', 'quit', body='{}', Origin=name)
+        refused(403, 'token of this session', 'desk', Origin=name)
+    assert ask('desk', Origin='http://127.0.0.1:%d' % ADDRESS.port)[0] == 200
+
+
+def loopback():
+    """The port is open on 127.0.0.1 alone."""
+    with open('/proc/net/tcp') as file:
+        places = [line.split()[1] for line in file if line.split()[1].endswith(':%04X' % ADDRESS.port) and line.split()[3] == '0A']
+    assert places == ['0100007F:%04X' % ADDRESS.port], places
+
+
+def names():
+    """Names from the browser are no paths, options or names of steps."""
+    for name, kept in (('../../../etc/passwd', 'passwd'), ('..', '_..'), ('C:\\scans\\a.x3p', 'a.x3p'), ('a\n$(touch x);b.txt', 'a_$(touch x);b.txt'),
+                       ('-o.txt', '-o.txt'), ('1-import.rcg', '_1-import.rcg'), ('', '_'), ('ä' * 200, 'ä' * 100)):
+        file = found('upload', {'name': name}, b'1 2\n3 4\n')
+        assert file['name'] == kept and os.path.dirname(os.path.dirname(file['path'])) == os.environ['FOLDER'], file
+    for name in ('-o.txt', 'a\n$(touch x);b.txt'):
+        run = ended(start(found('upload', {'name': name}, b'1 2\n3 4\n')['id'], ('rc-import', [['dx', '1um'], ['z-unit', 'nm']])))
+        assert run['state'] == 'done', run
+    assert run['steps'][0]['command'].endswith("'a_$(touch x);b.txt'") and not os.path.exists('x')
+
+
+def limit():
+    link = http.client.HTTPConnection(ADDRESS.hostname, ADDRESS.port, timeout=10)
+    link.putrequest('POST', '/%s/upload?name=big.x3p' % TOKEN)
+    link.putheader('Content-Length', str(3 << 30))
+    link.endheaders()
+    answer = link.getresponse()
+    text = answer.read().decode()
+    assert answer.status == 413 and '3.0 GB, the page takes at most 2 GB' in text, (answer.status, text)
+    refused(411, 'no length', 'upload', {'name': 'a'}, b'', Content_Length='many')
+
+
+def large():
+    """A file of 200 MB is stored; it is no surface, as rc-import says."""
+    def zeros():
+        for _ in range(200):
+            yield bytes(1000000)
+
+    status, _, text = ask('upload', {'name': 'large.bin'}, zeros(), Content_Length='200000000')
+    file = json.loads(text)
+    assert status == 200 and file['size'] == os.path.getsize(file['path']) == 200000000
+    run = ended(start(file['id'], ('rc-import', [])))
+    assert run['state'] == 'failed' and 'not recognised' in run['steps'][0]['words'], run
+
+
+def broken(name, words):
+    """A file that rc-import refuses: its message, and no further step."""
+    run = ended(start(uploaded(name), ('rc-import', []), ('rc-detrend', LEVEL)))
+    assert run['state'] == 'failed' and words in run['steps'][0]['words'], run
+    assert run['steps'][1]['state'] == 'waiting', run
+
+
+def wrong_unit():
+    run = ended(start(SAMPLE, ('rc-import', []), ('rc-solve', [['load', '60K'], ['estar', '1GPa']])))
+    assert run['state'] == 'failed' and "unknown unit 'K'" in run['steps'][1]['words'], run
+
+
+def options():
+    """Only options of the tables, and no file outside of the folder of the run."""
+    for tool, option, words in (('rc-solve', ['o', 'x'], 'no option --o'), ('rc-solve', ['report', 'x'], 'no option'), ('rc-solve', ['checkpoint', 'x'], 'no option'),
+                                ('rc-solve', ['load', '1N\n'], 'without a folder'), ('rc-solve', ['counter', '/etc/passwd'], 'without a folder'),
+                                ('rc-solve', ['yield', '../a.tsv'], 'without a folder'), ('rc-solve', ['kernel', 'ftt'], 'did you mean'),
+                                ('rc-solve', ['load', ['1N']], 'no option'), ('rc-solve', ['load', True], 'needs a value'),
+                                ('rc-cost', [], 'not understood'), ('sh', [], 'not understood'), ('rc-render', [], 'no step')):
+        body = json.dumps({'file': SAMPLE, 'start': False, 'steps': [{'tool': tool, 'options': [option] if option else [], 'from': 0}]})
+        refused(400, words, 'steps', body=body)
+    refused(400, 'not understood', 'steps', body='{')
+    refused(400, 'not understood', 'steps', body=json.dumps({'file': 99, 'steps': [], 'start': False}))
+
+
+def pipeline():
+    """From a scan to stresses; the commands that are shown go to a file, to be pasted into a shell."""
+    number = start(uploaded('rough-steel.x3p'), ('rc-import', []), ('rc-pick', [['crop', '20,10,130,121']]), ('rc-detrend', LEVEL), ('rc-solve', SOLVE),
+                   ('rc-stress', [['nu', '0.28'], ['depths', '0:20um:3'], ['components', 'mises']]))
+    run = ended(number)
+    assert run['state'] == 'done' and [s['state'] for s in run['steps']] == ['done'] * 5, run
+    with open('commands', 'w') as file:
+        file.writelines(step['command'] + '\n' for step in run['steps'])
+        os.makedirs('shown', exist_ok=True)
+        for k, step in enumerate(run['steps']):
+            for of in ['output'] + ['report'] * (step['report'] is not None):
+                status, _, text = ask('file', {'run': number, 'step': k, 'of': of})
+                assert status == 200
+                with open(os.path.join('shown', step[of]), 'wb') as out:
+                    out.write(text)
+        for tool, name, made in (('rc-render', 'pressure.svg', [['channel', 'pressure'], ['case', '2'], ['border', True]]), ('rc-render', 'relief.png', [['channel', 'height'], ['view', '30,40']]),
+                                 ('rc-render', 'area.pdf', [['curve', 'load:contact_area']]), ('rc-info', 'numbers.txt', []), ('rc-export', 'p.npy', [['channel', 'pressure'], ['case', '1']]),
+                                 ('rc-report', 'report.html', SOLVE)):
+            status, headers, text = ask('made', {'run': number, 'step': 3, 'tool': tool, 'options': json.dumps(made), 'name': name})
+            assert status == 200, text
+            file.write(urllib.parse.unquote(headers['X-Command']) + '\n')
+            with open(os.path.join('shown', name), 'wb') as out:
+                out.write(text)
+
+
+def frames():
+    """The binary values of the frames are those of the stream, and the colours those of rc-render."""
+    number = max(runs())
+    heads = found('frames', {'run': number, 'step': 3})
+    with open('shown/4-solve.rcg', 'rb') as file:
+        whole = file.read()
+    for k, head in enumerate(heads):
+        values = ask('values', {'run': number, 'step': 3, 'frame': k})[2]
+        assert len(values) == 8 * int(head['nx']) * int(head['ny']) and values in whole
+        assert 'history' not in head and head['unit'] in ('Pa', 'm')
+    assert [h['channel'] for h in heads] == 2 * ['pressure', 'gap', 'displacement', 'height']
+    picture = ask('colours', {'channel': 'pressure', 'unit': 'Pa', 'low': '0', 'high': '6e9', 'colormap': ''})[2]
+    assert picture[16:24] == b'\0\0\1\1\0\0\0\1', picture[:30]  # 257 x 1 pixels
+    first = zlib.decompress(picture[picture.index(b'IDAT') + 4:])[1:4]
+    assert first == b'\xea\xea\xea', first  # no contact
+
+
+def again():
+    """A run takes the results of an equal beginning; the oldest of many runs is removed."""
+    first = max(runs())
+    last = ended(start(runs() and found('desk')['files'][-1]['id'], ('rc-import', []), ('rc-pick', [['crop', '20,10,130,121']]), ('rc-detrend', LEVEL), ('rc-solve', [['load', '1N'], ['estar', '114GPa']])))
+    old = runs()[first]['steps']
+    assert [s['seconds'] for s in last['steps'][:3]] == [s['seconds'] for s in old[:3]] and last['steps'][3]['command'] != old[3]['command']
+    for _ in range(9):
+        number = ended(start(SAMPLE, ('rc-import', [])))['number']
+    assert sorted(runs()) == list(range(number - 7, number + 1)), sorted(runs())
+    refused(404, 'was removed', 'frames', {'run': number - 8, 'step': 0})
+
+
+def cancel():
+    """Two runs at once, a third waits; cancelled, their tools end."""
+    three = [start(SAMPLE, ('rc-import', []), ('rc-detrend', LEVEL), ('rc-solve', LONG + [['threads', '1']])) for _ in range(3)]
+    for number in three[:2]:
+        until(number, 'running')
+    for _ in range(200):
+        if len(tools_running()) == 2 and any(s['doing'] for s in runs()[three[0]]['steps']):
+            break
+        time.sleep(0.05)
+    assert len(tools_running()) == 2 and runs()[three[2]]['state'] == 'waiting', (tools_running(), runs())
+    assert runs()[three[0]]['steps'][2]['progress'] is not None or runs()[three[0]]['steps'][2]['doing']
+    began = time.monotonic()
+    for number in reversed(three):
+        found('remove', {'run': number}, b'')
+    for number in three:
+        run = ended(number)
+        assert run['state'] == 'stopped', run
+    assert not tools_running() and time.monotonic() - began < 5
+    assert ended(start(SAMPLE, ('rc-import', [])))['state'] == 'done'
+
+
+def closed():
+    """Without a page the tools end; the page that watches was closed."""
+    number = start(SAMPLE, ('rc-import', []), ('rc-detrend', LEVEL), ('rc-solve', LONG))
+    for _ in range(200):
+        if tools_running():
+            break
+        time.sleep(0.02)
+    assert tools_running()
+    os.kill(int(os.environ['WATCH']), 15)
+    for _ in range(200):
+        if not tools_running():
+            break
+        time.sleep(0.05)
+    assert not tools_running()
+    assert runs()[number]['state'] == 'stopped'
+
+
+def pages():
+    """The fifth page is refused: a browser has six connections."""
+    links = []
+    for _ in range(3):  # and the page that watches
+        link = http.client.HTTPConnection(ADDRESS.hostname, ADDRESS.port, timeout=10)
+        link.request('GET', '/%s/events' % TOKEN)
+        links.append((link, link.getresponse()))
+        assert links[-1][1].status == 200
+    refused(429, '4 pages are open', 'events')
+
+
+def watch():
+    """An open page."""
+    link = http.client.HTTPConnection(ADDRESS.hostname, ADDRESS.port)
+    link.request('GET', '/%s/events' % TOKEN)
+    answer = link.getresponse()
+    print('watches', flush=True)
+    while answer.fp.readline():
+        pass
+
+
+def quit():
+    assert found('quit', body=b'') == {}
+
+
+globals()[sys.argv[2]](*sys.argv[3:])
