@@ -41,7 +41,7 @@ echo "installed in $((($(date +%s%N) - start) / 1000000)) ms, $(du -sm /venv/sha
 export PATH=/venv/bin:$PATH
 for tool in /venv/bin/rc-*; do
     "$tool" --version >/dev/null
-    ldd "$tool" 2>&1 | grep -v /venv/ | awk '{ print $1 }'
+    [ "$tool" = /venv/bin/rc-app ] || ldd "$tool" 2>&1 | grep -v /venv/ | awk '{ print $1 }'
 done | sort -u | tr '\n' ' '
 echo "are the libraries of the system"
 rc-import rough-steel.x3p | rc-detrend --poly 2 --outliers 5 --fill |
@@ -63,6 +63,11 @@ for check in 'round_trip ball.rcg' arrays no_frames 'run ball.rcg' 'report ball.
     'layers ball.rcg' 'mistakes ball.rcg' unfinished 'pictures ball.rcg' progress documented; do
     python3 python_rcg.py $check && echo "ok: $check"
 done
+rc-app --no-browser rough-steel.x3p >address &
+sleep 2
+python3 -c 'import sys, urllib.request; print(urllib.request.urlopen(sys.argv[1]).read().decode()[:60])' "$(cat address)" | grep -i doctype
+kill $!
+wait
 PATH=/usr/bin:/bin /venv/bin/python - <<'PYTHON'
 import os, time
 start = time.perf_counter()

@@ -3,6 +3,7 @@
 # find_package.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
+. "$RC_SOURCE/tests/python.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
 build=$(dirname "$RC_BIN")
@@ -63,8 +64,11 @@ done
 # ---- for users of numpy ----
 
 claim "the Python package is installed" diff -r -x __pycache__ -x tables.json -x '*.pyi' -x samples "$RC_SOURCE/python" "$prefix/share/libcontact/python"
-claim "  it has the option tables of the tools" bash -c '[ "$(wc -l <"$0")" = "$(ls "$1"/bin/rc-* | grep -vc mpi)" ]' \
+claim "  it has the option tables of the tools" bash -c '[ "$(wc -l <"$0")" = "$(ls "$1"/bin/rc-* | grep -vc "mpi\|rc-app")" ]' \
     "$prefix/share/libcontact/python/rcg/tables.json" "$prefix"
+if python=$(python_with numpy 2>/dev/null); then
+    claim "  rc-app runs" says '^rc-app .*[0-9]\.[0-9]' "$python" "$prefix/bin/rc-app" --version
+fi
 claim "  the sample surfaces are installed" cmp "$RC_SOURCE/sample_surfaces/rough-steel.x3p" "$prefix/share/libcontact/python/rcg/samples/rough-steel.x3p"
 
 # ---- a user's program, by pkg-config ----
