@@ -4,9 +4,8 @@
  * ACM 18, 165). If the sample was wrong, all numbers are kept.
  *
  * The median of the kept numbers is found by counting. The bits of numbers sort like the numbers, so a
- * histogram of the highest bits gives the bin of the median. The second step is a histogram of the next bits
- * over the numbers in that bin. When only a small fraction of all numbers is left in the bin, they are
- * sorted.
+ * histogram of the highest bits gives the bin of the median. The next steps are histograms of the next bits
+ * over the numbers in that bin, down to the last bit.
  */
 #include "robust.h"
 
@@ -18,13 +17,10 @@
 
 /* Bits that are still unknown after each step. */
 static const int shifts[] = {53, 42, 31, 20, 9, 0};
-/* A key that no number has, only a NaN. */
-static const uint64_t unknown = UINT64_MAX;
 
 enum {
     STEPS = sizeof shifts / sizeof *shifts,
     BINS = 1 << 11, /* largest number, of a step */
-    PART = 64,      /* a bin below this fraction of the numbers is sorted */
     SAMPLE = 1 << 15,
     LARGE = 32 * SAMPLE, /* numbers from which a sample is used */
     NEAR = 32,           /* fraction of the numbers that may lie near the median: 1/NEAR */
@@ -90,63 +86,20 @@ count_bins(const struct values *of, uint64_t prefix, size_t k, size_t *bins)
     }
 }
 
-static int
-by_size(const void *a, const void *b)
-{
-    uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
-
-    return x < y ? -1 : x > y;
-}
-
-/* The `count` keys with this prefix, sorted; NULL when memory is short. */
-static uint64_t *
-sort_bin(const struct values *of, uint64_t prefix, int shift, size_t count)
-{
-    uint64_t *keys = malloc(count * sizeof *keys);
-    size_t used = 0;
-
-    if (keys == NULL)
-        return NULL;
-#pragma omp parallel for num_threads(of->threads)
-    for (size_t i = 0; i < of->n; i++) {
-        uint64_t key = key_of(number_at(of, i));
-        size_t at;
-        if (isnan(of->v[i]) || key >> shift != prefix)
-            continue;
-#pragma omp atomic capture
-        at = used++;
-        keys[at] = key;
-    }
-    qsort(keys, count, sizeof *keys, by_size);
-    return keys;
-}
-
-/* The key with `rank` keys below it; *upper becomes the next key if it is found on the way, else
- * `unknown`. */
+/* The key with `rank` keys below it. repeats: the next one is equal. */
 static uint64_t
-key_at(const struct values *of, size_t rank, uint64_t *upper)
+key_at(const struct values *of, size_t rank, bool *repeats)
 {
     size_t bins[BINS], below = 0, bin = 0;
-    uint64_t prefix = 0, *sorted;
+    uint64_t prefix = 0;
 
-    *upper = unknown;
     for (size_t k = 0; k < STEPS; k++) {
         count_bins(of, prefix, k, bins);
         for (bin = 0; below + bins[bin] <= rank; bin++)
             below += bins[bin];
         prefix = (k == 0 ? 0 : prefix << (shifts[k - 1] - shifts[k])) | bin;
-        if (bins[bin] > of->n / PART || k + 1 == STEPS)
-            continue;
-        if ((sorted = sort_bin(of, prefix, shifts[k], bins[bin])) == NULL)
-            continue;
-        prefix = sorted[rank - below];
-        if (rank - below + 1 < bins[bin])
-            *upper = sorted[rank - below + 1];
-        free(sorted);
-        return prefix;
     }
-    if (rank - below + 1 < bins[bin])
-        *upper = prefix;
+    *repeats = rank - below + 1 < bins[bin];
     return prefix;
 }
 
@@ -295,15 +248,13 @@ rc_median(const double *v, size_t n, double about, bool magnitude, int threads)
     struct values near;
     size_t count, rank;
     double *kept = narrow(&of, &near, &count, &rank), median = NAN;
-    uint64_t upper, lower;
+    bool repeats;
 
     if (count > 0) {
-        lower = key_at(&near, rank, &upper);
+        uint64_t lower = key_at(&near, rank, &repeats);
         median = number_of(lower);
-        if (count % 2 == 0) {
-            upper = upper == unknown ? next_key(&near, lower) : upper;
-            median += 0.5 * (number_of(upper) - median);
-        }
+        if (count % 2 == 0 && !repeats)
+            median += 0.5 * (number_of(next_key(&near, lower)) - median);
     }
     free(kept);
     return median;
