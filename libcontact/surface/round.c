@@ -165,6 +165,20 @@ cylinder_row(const double *p, size_t n, const double *restrict x, double y, doub
 
 /* ---- rows of the linear equations of the start ---- */
 
+/* A quadratic polynomial; its parameters are the coefficients of 1, x, y, x^2, xy, y^2. */
+RC_WIDE_CLONES static void
+quadratic_row(const double *p, size_t n, const double *restrict x, double y, double *restrict e,
+              double *restrict d)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double term[UNKNOWNS] = {1, x[i], y, x[i] * x[i], x[i] * y, y * y};
+        for (size_t a = 0; a < UNKNOWNS; a++) {
+            d[a * n + i] = term[a];
+            e[i] -= p[a] * term[a];
+        }
+    }
+}
+
 static void
 sphere_equation(const double *p, size_t n, const double *x, double y, double *e, double *d)
 {
@@ -269,9 +283,6 @@ add_sums(size_t n, size_t unknowns, const size_t *column, double *restrict e, do
 }
 
 /* Sums of a row. */
-typedef void row_sums(const struct round *f, size_t j, surface_row *row, const double *p,
-                      size_t unknowns, const size_t *column, double *sums);
-
 static void
 sum_row(const struct round *f, size_t j, surface_row *row, const double *p, size_t unknowns,
         const size_t *column, double *sums)
@@ -288,65 +299,9 @@ sum_row(const struct round *f, size_t j, surface_row *row, const double *p, size
     }
 }
 
-/* The sums that make the normal equations of a quadratic polynomial. */
-struct powers {
-    double w[5], we[3]; /* sums of w x^k, and of w e x^k */
-};
-
-RC_WIDE_CLONES static void
-add_powers(size_t n, const double *restrict of_x, const double *restrict w,
-           const double *restrict e, struct powers *to)
-{
-    double w0 = 0, w1 = 0, w2 = 0, w3 = 0, w4 = 0, e0 = 0, e1 = 0, e2 = 0;
-
-#pragma omp simd reduction(+ : w0, w1, w2, w3, w4, e0, e1, e2)
-    for (size_t i = 0; i < n; i++) {
-        double x = of_x[i], wx = w[i] * x, wxx = wx * x;
-        w0 += w[i];
-        w1 += wx;
-        w2 += wxx;
-        w3 += wxx * x;
-        w4 += wxx * x * x;
-        e0 += w[i] * e[i];
-        e1 += wx * e[i];
-        e2 += wxx * e[i];
-    }
-    *to =
-        (struct powers){{to->w[0] + w0, to->w[1] + w1, to->w[2] + w2, to->w[3] + w3, to->w[4] + w4},
-                        {to->we[0] + e0, to->we[1] + e1, to->we[2] + e2}};
-}
-
-/* For a quadratic polynomial, whose terms are products of a power of x and one of y. */
-static void
-sum_quadratic(const struct round *f, size_t j, surface_row *row, const double *p, size_t unknowns,
-              const size_t *column, double *sums)
-{
-    static const size_t of_x[UNKNOWNS] = {0, 1, 0, 2, 1, 0}, of_y[UNKNOWNS] = {0, 0, 1, 0, 1, 2};
-    size_t nx = f->shape->nx;
-    double e[SEGMENT], w[SEGMENT], y[5] = {1};
-    struct powers sum = {{0}, {0}};
-
-    (void)row;
-    (void)p;
-    for (size_t i = 0; i < nx; i += SEGMENT) {
-        size_t n = nx - i < SEGMENT ? nx - i : SEGMENT, k = j * nx + i;
-        weigh(n, f->h + k, f->reach > 0 ? f->residual + k : NULL, f->reach, f->mean, 1 / f->scale,
-              e, w);
-        add_powers(n, f->x + i, w, e, &sum);
-    }
-    for (size_t k = 1; k < 5; k++)
-        y[k] = y[k - 1] * place_y(f, j);
-    for (size_t a = 0; a < unknowns; a++)
-        for (size_t b = 0; b <= a; b++)
-            *sums++ +=
-                sum.w[of_x[column[a]] + of_x[column[b]]] * y[of_y[column[a]] + of_y[column[b]]];
-    for (size_t a = 0; a < unknowns; a++)
-        *sums++ += sum.we[of_x[column[a]]] * y[of_y[column[a]]];
-}
-
 /* Sums each group of rows, then the groups in order: the result does not depend on the threads. */
 static void
-sum_all(const struct round *f, row_sums *sum, surface_row *row, const double *p, size_t unknowns,
+sum_all(const struct round *f, surface_row *row, const double *p, size_t unknowns,
         const size_t *column, struct normal *normal)
 {
     double total[SUMS] = {0}, *of = total;
@@ -357,7 +312,7 @@ sum_all(const struct round *f, row_sums *sum, surface_row *row, const double *p,
         double *sums = f->sums + g * SUMS;
         memset(sums, 0, SUMS * sizeof *sums);
         for (size_t j = g * ny / GROUPS; j < (g + 1) * ny / GROUPS; j++)
-            sum(f, j, row, p, unknowns, column, sums);
+            sum_row(f, j, row, p, unknowns, column, sums);
     }
     for (size_t g = 0; g < GROUPS; g++)
         for (size_t k = 0; k < SUMS; k++)
@@ -375,18 +330,19 @@ sum_all(const struct round *f, row_sums *sum, surface_row *row, const double *p,
 static void
 sum_squares(const struct round *f, const double *p, struct normal *normal)
 {
-    sum_all(f, sum_row, f->surface, p, 0, NULL, normal);
+    sum_all(f, f->surface, p, 0, NULL, normal);
 }
 
 static void
 sum_surface(const struct round *f, const double *p, struct normal *normal)
 {
-    sum_all(f, sum_row, f->surface, p, f->unknowns, f->unknown, normal);
+    sum_all(f, f->surface, p, f->unknowns, f->unknown, normal);
 }
 
 /* The residual of each height in row j, in units of the scale; `beside` where the surface has no height. */
 static void
-residual_row(const struct round *f, const double *p, size_t j, double beside, double *to)
+residual_row(const struct round *f, surface_row *row, const double *p, size_t j, double beside,
+             double *to)
 {
     size_t nx = f->shape->nx;
     const double per = 1 / f->scale;
@@ -397,18 +353,18 @@ residual_row(const struct round *f, const double *p, size_t j, double beside, do
         const double *h = f->h + j * nx + i;
         for (size_t k = 0; k < n; k++)
             e[k] = (h[k] - f->mean) * per;
-        f->surface(p, n, f->x + i, place_y(f, j), e, d);
+        row(p, n, f->x + i, place_y(f, j), e, d);
         for (size_t k = 0; k < n; k++)
             to[i + k] = isnan(h[k]) ? NAN : isnan(e[k]) ? beside : e[k];
     }
 }
 
 static void
-find_residuals(const struct round *f, const double *p)
+find_residuals(const struct round *f, surface_row *row, const double *p)
 {
 #pragma omp parallel for schedule(static) num_threads(f->threads)
     for (size_t j = 0; j < f->shape->ny; j++)
-        residual_row(f, p, j, INFINITY, f->residual + j * f->shape->nx);
+        residual_row(f, row, p, j, INFINITY, f->residual + j * f->shape->nx);
 }
 
 /* ---- the equations ---- */
@@ -541,7 +497,7 @@ start_sphere(const struct round *f, double *p, struct rc_err *err)
     struct normal normal;
     double x[UNKNOWNS];
 
-    sum_all(f, sum_row, sphere_equation, p, f->unknowns, f->unknown, &normal);
+    sum_all(f, sphere_equation, p, f->unknowns, f->unknown, &normal);
     if (!solve_damped(f->unknowns, &normal, 0, x))
         return undetermined(f, err);
     for (size_t a = 0; a < f->unknowns; a++)
@@ -561,7 +517,7 @@ start_cylinder(const struct round *f, double *p, struct rc_err *err)
     p[T] = f->shape->nx == 1 ? acos(0) : 0;
     if (!profile) {
         double mean, half;
-        sum_all(f, sum_quadratic, NULL, p, UNKNOWNS, column, &normal);
+        sum_all(f, quadratic_row, (double[UNKNOWNS]){0}, UNKNOWNS, column, &normal);
         if (!solve_damped(UNKNOWNS, &normal, 0, x))
             return undetermined(f, err);
         mean = 0.5 * (x[3] + x[5]);
@@ -572,7 +528,7 @@ start_cylinder(const struct round *f, double *p, struct rc_err *err)
         p[B] = x[1];
         p[C] = x[2];
     }
-    sum_all(f, sum_row, cylinder_equation, p, 3, column, &normal);
+    sum_all(f, cylinder_equation, p, 3, column, &normal);
     if (!solve_damped(3, &normal, 0, x))
         return undetermined(f, err);
     p[A] = x[0];
@@ -587,28 +543,6 @@ start_cylinder(const struct round *f, double *p, struct rc_err *err)
     return RC_OK;
 }
 
-/* Residuals of n heights of a row without the quadratic polynomial of the coefficients c. */
-RC_WIDE_CLONES static void
-without_quadratic(size_t n, const double *restrict h, const double *restrict of_x, double y,
-                  double mean, double per, const double c[UNKNOWNS], double *restrict to)
-{
-    const double c0 = c[0] + (c[2] + c[5] * y) * y, c1 = c[1] + c[4] * y, c2 = c[3];
-
-    for (size_t i = 0; i < n; i++)
-        to[i] = (h[i] - mean) * per - (c0 + (c1 + c2 * of_x[i]) * of_x[i]);
-}
-
-static void
-find_quadratic_residuals(const struct round *f, const double c[UNKNOWNS])
-{
-    size_t nx = f->shape->nx;
-
-#pragma omp parallel for schedule(static) num_threads(f->threads)
-    for (size_t j = 0; j < f->shape->ny; j++)
-        without_quadratic(nx, f->h + j * nx, f->x, place_y(f, j), f->mean, 1 / f->scale, c,
-                          f->residual + j * nx);
-}
-
 /* Weights that exclude points far from a quadratic polynomial, which is itself fitted with such weights. They
  * need not converge, because they only serve the start. */
 static enum rc_status
@@ -617,17 +551,17 @@ start_weights(struct round *f, struct rc_err *err)
     static const size_t in_x[] = {0, 1, 3}, in_y[] = {0, 2, 5}, all[] = {0, 1, 2, 3, 4, 5};
     const size_t *column = f->shape->ny == 1 ? in_x : f->shape->nx == 1 ? in_y : all;
     size_t terms = column == all ? 6 : 3, n = f->shape->nx * f->shape->ny;
-    const double none[PARAMETERS] = {0};
+    const double none[UNKNOWNS] = {0};
     struct normal normal;
 
     for (size_t k = 0; k < START_WEIGHTS; k++) {
         double x[UNKNOWNS], c[UNKNOWNS] = {0}, reach;
-        sum_all(f, sum_quadratic, NULL, none, terms, column, &normal);
+        sum_all(f, quadratic_row, none, terms, column, &normal);
         if (!solve_damped(terms, &normal, 0, x))
             return undetermined(f, err);
         for (size_t a = 0; a < terms; a++)
             c[column[a]] = x[a];
-        find_quadratic_residuals(f, c);
+        find_residuals(f, quadratic_row, c);
         reach = rc_biweight_reach * rc_median(f->residual, n, 0, true, f->threads);
         if (!(reach > 0))
             break;
@@ -704,7 +638,7 @@ reweight(struct round *f, double *p, struct rc_err *err)
 
     for (size_t k = 0; k < RC_REWEIGHT_MAX; k++) {
         double before = k == 0 ? 0 : f->reach, reach;
-        find_residuals(f, p);
+        find_residuals(f, f->surface, p);
         reach = rc_biweight_reach * rc_median(f->residual, n, 0, true, f->threads);
         if (rc_reweighted(reach, before, f->size / f->scale))
             break;
@@ -762,7 +696,7 @@ subtract(struct round *f, const double *p, double radius, double *h, struct rc_e
                           normal.outside, f->name, fabs(radius));
 #pragma omp parallel for schedule(static) num_threads(f->threads)
     for (size_t j = 0; j < f->shape->ny; j++) {
-        residual_row(f, p, j, NAN, h + j * nx);
+        residual_row(f, f->surface, p, j, NAN, h + j * nx);
         for (size_t i = 0; i < nx; i++)
             h[j * nx + i] *= f->scale;
     }
