@@ -114,7 +114,7 @@ survey(struct rc_field *f, double *mean)
 
     f->n = 0;
     for (size_t k = 0; k < f->shape.nx * f->shape.ny; k++) {
-        if (!rc_field_there(f->h[k]))
+        if (!rc_there(f->h[k]))
             continue;
         f->n++;
         rc_total_add(&sum, f->h[k]);

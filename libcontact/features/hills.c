@@ -25,7 +25,7 @@ ascent(const struct rc_field *f, const double length[RC_NEIGHBOURS], size_t k)
     double most = -1;
     unsigned char best = RC_PEAK;
 
-    for (int d = 0; d < RC_NEIGHBOURS && rc_field_there(f->h[k]); d++) {
+    for (int d = 0; d < RC_NEIGHBOURS && rc_there(f->h[k]); d++) {
         size_t m = rc_field_neighbour(f, k, d);
         double slope;
 
@@ -37,7 +37,7 @@ ascent(const struct rc_field *f, const double length[RC_NEIGHBOURS], size_t k)
             best = (unsigned char)d;
         }
     }
-    return rc_field_there(f->h[k]) ? best : RC_ABSENT;
+    return rc_there(f->h[k]) ? best : RC_ABSENT;
 }
 
 enum {
@@ -53,7 +53,7 @@ ascents(const double *h, ptrdiff_t nx, double sign, const double length[RC_NEIGH
 
     for (size_t i = 0; i < n; i++) {
         most[i] = -1;
-        best[i] = rc_field_there(h[i]) ? RC_PEAK : RC_ABSENT;
+        best[i] = rc_there(h[i]) ? RC_PEAK : RC_ABSENT;
     }
     for (int d = 0; d < RC_NEIGHBOURS; d++) {
         const double *other = h + rc_down[d] * nx + rc_across[d], far = length[d];
@@ -62,8 +62,7 @@ ascents(const double *h, ptrdiff_t nx, double sign, const double length[RC_NEIGH
         for (size_t i = 0; i < n; i++) {
             double z = sign * h[i], up = sign * other[i], slope = (up - z) / far;
             bool above = (up > z) | ((up == z) & first);
-            bool better =
-                rc_field_there(h[i]) & rc_field_there(other[i]) & above & (slope > most[i]);
+            bool better = rc_there(h[i]) & rc_there(other[i]) & above & (slope > most[i]);
             most[i] = better ? slope : most[i];
             best[i] = better ? d : best[i];
         }

@@ -4,7 +4,6 @@
 #ifndef RC_HILLS_H
 #define RC_HILLS_H
 
-#include <float.h>
 #include <stdint.h>
 
 #include "libcontact/common.h"
@@ -50,12 +49,6 @@ struct rc_hills {
     size_t n;
 };
 
-static inline bool
-rc_field_there(double v)
-{
-    return fabs(v) <= DBL_MAX;
-}
-
 static inline double
 rc_field_height(const struct rc_field *f, size_t k)
 {
@@ -82,7 +75,7 @@ rc_field_neighbour(const struct rc_field *f, size_t k, int d)
     size_t i = rc_field_step(k % nx, rc_across[d], nx, f->wraps),
            j = rc_field_step(k / nx, rc_down[d], ny, f->wraps);
 
-    if (i == nx || j == ny || !rc_field_there(f->h[j * nx + i]))
+    if (i == nx || j == ny || !rc_there(f->h[j * nx + i]))
         return SIZE_MAX;
     return j * nx + i;
 }

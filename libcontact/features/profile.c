@@ -1,8 +1,6 @@
 /*
  * Parameters of ISO 21920-2 of a profile, and profiles along any line of a map.
  */
-#include <float.h>
-
 #include "libcontact/common.h"
 
 /* Share of Rz: a hill or dale that deviates less than this from the mean line does not count. */
@@ -63,16 +61,6 @@ rc_profile_along(const struct rc_shape *shape, const double *h, struct rc_place 
 }
 
 /* ---- heights ---- */
-
-static double
-mean_of(const double *z, size_t n)
-{
-    struct rc_total sum = {0};
-
-    for (size_t k = 0; k < n; k++)
-        rc_total_add(&sum, z[k]);
-    return rc_total_value(&sum) / (double)n;
-}
 
 static void
 measure_heights(const double *z, size_t n, double mean, struct rc_profile *p)
@@ -215,9 +203,9 @@ rc_profile_measure(size_t n, double step, const double *z, size_t sections, stru
     if (sections == 0 || n < sections)
         return rc_err_set(err, "a profile of %zu points has no %zu sections", n, sections);
     for (size_t k = 0; k < n; k++)
-        if (!(fabs(z[k]) <= DBL_MAX))
+        if (!rc_there(z[k]))
             return rc_err_set(err, "point %zu of the profile was not measured", k);
-    mean = mean_of(z, n);
+    mean = rc_sum(z, n) / (double)n;
     measure_heights(z, n, mean, p);
     measure_sections(z, n, mean, sections, p);
     measure_slopes(z, n, step, p);

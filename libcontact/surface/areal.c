@@ -12,26 +12,6 @@ enum {
 
 /* ---- heights ---- */
 
-struct extent {
-    double there, sum, minimum, maximum;
-};
-
-RC_CLONES static struct extent
-extent_of(const double *v, size_t n)
-{
-    double there = 0, sum = 0, minimum = INFINITY, maximum = -INFINITY;
-
-#pragma omp simd reduction(+ : there, sum) reduction(min : minimum) reduction(max : maximum)
-    for (size_t k = 0; k < n; k++) {
-        bool is = fabs(v[k]) <= DBL_MAX;
-        there += is ? 1 : 0;
-        sum += is ? v[k] : 0;
-        minimum = is && v[k] < minimum ? v[k] : minimum;
-        maximum = is && v[k] > maximum ? v[k] : maximum;
-    }
-    return (struct extent){there, sum, minimum, maximum};
-}
-
 /* Sums of the powers of d = v - mean, and of |d|. */
 struct moments {
     double first, size, second, third, fourth;
@@ -54,38 +34,21 @@ moments_of(const double *v, size_t n, double mean)
     return (struct moments){first, size, second, third, fourth};
 }
 
-/* The sums of one piece of the map in any of the passes; the union has the size of the largest. */
-union piece {
-    struct extent extent;
-    struct moments moments;
-};
-
 static void
-measure_extent(struct rc_relief *r, union piece *piece, size_t pieces)
+measure_extent(struct rc_relief *r)
 {
-    size_t n = r->shape.nx * r->shape.ny;
-    struct rc_total there = {0}, sum = {0};
+    struct rc_statistics s;
 
-#pragma omp parallel for num_threads(r->threads) schedule(static)
-    for (size_t k = 0; k < pieces; k++)
-        piece[k].extent = extent_of(r->h + k * PIECE, k + 1 < pieces ? PIECE : n - k * PIECE);
-    r->minimum = INFINITY;
-    r->maximum = -INFINITY;
-    for (size_t k = 0; k < pieces; k++) {
-        const struct extent *e = &piece[k].extent;
-        rc_total_add(&there, e->there);
-        rc_total_add(&sum, e->sum);
-        r->minimum = fmin(r->minimum, e->minimum);
-        r->maximum = fmax(r->maximum, e->maximum);
-    }
-    r->there = (size_t)rc_total_value(&there);
-    r->mean = rc_total_value(&sum) / (double)r->there;
+    rc_measure(&r->shape, r->h, &s);
+    r->there = r->shape.nx * r->shape.ny - s.missing - s.infinite;
+    r->minimum = s.minimum;
+    r->maximum = s.maximum;
     /* for a flat far from 0, rounding may put the mean outside the extremes */
-    r->mean = fmin(fmax(r->mean, r->minimum), r->maximum);
+    r->mean = fmin(fmax(s.mean, s.minimum), s.maximum);
 }
 
 static void
-measure_heights(const struct rc_relief *r, union piece *piece, size_t pieces, struct rc_areal *a)
+measure_heights(const struct rc_relief *r, struct moments *piece, size_t pieces, struct rc_areal *a)
 {
     size_t n = r->shape.nx * r->shape.ny;
     double there = (double)r->there, variance, left;
@@ -93,10 +56,9 @@ measure_heights(const struct rc_relief *r, union piece *piece, size_t pieces, st
 
 #pragma omp parallel for num_threads(r->threads) schedule(static)
     for (size_t k = 0; k < pieces; k++)
-        piece[k].moments =
-            moments_of(r->h + k * PIECE, k + 1 < pieces ? PIECE : n - k * PIECE, r->mean);
+        piece[k] = moments_of(r->h + k * PIECE, k + 1 < pieces ? PIECE : n - k * PIECE, r->mean);
     for (size_t k = 0; k < pieces; k++) {
-        const struct moments *m = &piece[k].moments;
+        const struct moments *m = &piece[k];
         rc_total_add(&sum[0], m->first);
         rc_total_add(&sum[1], m->size);
         rc_total_add(&sum[2], m->second);
@@ -300,7 +262,7 @@ rc_areal(const struct rc_shape *shape, const double *h, const struct rc_surface_
 {
     struct rc_relief r = {.h = h, .boundary = options->boundary};
     enum rc_status status = RC_FAIL;
-    union piece *piece = NULL;
+    struct moments *piece = NULL;
     struct slopes *row = NULL;
     size_t pieces;
 
@@ -317,7 +279,7 @@ rc_areal(const struct rc_shape *shape, const double *h, const struct rc_surface_
         rc_err_set(err, "out of memory for the figures of %zu x %zu nodes", shape->nx, shape->ny);
         goto done;
     }
-    measure_extent(&r, piece, pieces);
+    measure_extent(&r);
     if (r.there == 0) {
         status = RC_OK;
         goto done;

@@ -4,8 +4,6 @@
 #ifndef RC_SURFACE_AREAL_H
 #define RC_SURFACE_AREAL_H
 
-#include <float.h>
-
 #include "libcontact/common.h"
 
 /* A map and its figures that all parts need. */
@@ -17,12 +15,6 @@ struct rc_relief {
     size_t there; /* measured: finite */
     double mean, minimum, maximum;
 };
-
-static inline bool
-rc_there(double v)
-{
-    return fabs(v) <= DBL_MAX;
-}
 
 /* material_ratio.c: sk to sxp. RC_FAIL when memory is short. */
 enum rc_status rc_material_ratio(const struct rc_relief *relief, struct rc_areal *areal,

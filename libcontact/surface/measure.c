@@ -4,7 +4,6 @@
 #include "libcontact/common.h"
 #include "libcontact/ranks/ranks.h"
 
-#include <float.h>
 #include <math.h>
 
 enum {
@@ -48,12 +47,6 @@ count(const double n[LANES])
     return all;
 }
 
-static inline bool
-there(double v)
-{
-    return fabs(v) <= DBL_MAX;
-}
-
 /* ---- counts, extremes, sum ---- */
 
 struct first {
@@ -64,7 +57,7 @@ struct first {
 static inline void
 take(struct first *f, size_t lane, double v)
 {
-    bool is = there(v);
+    bool is = rc_there(v);
     double low = f->minimum[lane], high = f->maximum[lane];
 
     f->there[lane] += is ? 1 : 0;
@@ -99,7 +92,7 @@ struct second {
 static inline void
 take_about(struct second *s, size_t lane, double v, double mean)
 {
-    double d = there(v) ? v - mean : 0;
+    double d = rc_there(v) ? v - mean : 0;
 
     add(&s->squares, lane, d * d);
     add(&s->rest, lane, d);
@@ -144,7 +137,7 @@ struct slope {
 static inline void
 take_slope(struct slope *s, size_t lane, double v, double right, double below, const double per[2])
 {
-    bool is = there(v) && there(right) && there(below);
+    bool is = rc_there(v) && rc_there(right) && rc_there(below);
     double gx = (right - v) * per[0], gy = (below - v) * per[1], g2 = gx * gx + gy * gy;
 
     s->there[lane] += is ? 1 : 0;

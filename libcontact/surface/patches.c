@@ -534,6 +534,3 @@ rc_patches_free(struct rc_patches *patches)
     free(patches->patch);
     *patches = (struct rc_patches){0};
 }
-
-/* Nodes of the map for each run of a rough contact (a fifth of the map in contact, in runs of three nodes).
- * Also the nodes for each patch of a surface that is smooth over four nodes. */
