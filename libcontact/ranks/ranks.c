@@ -38,15 +38,6 @@ rc_rows_dealt(size_t n, size_t unit, size_t count, size_t r)
     return first < n ? first : n;
 }
 
-size_t
-rc_rows_most(const struct rc_shape *whole, size_t count)
-{
-    size_t unit = rc_rows_unit(whole->nx), units = (whole->ny + unit - 1) / unit;
-    size_t most = (units + count - 1) / count * unit;
-
-    return most < whole->ny ? most : whole->ny;
-}
-
 struct rc_rows
 rc_rows_of(const struct rc_ranks *ranks, const struct rc_shape *whole)
 {

@@ -52,9 +52,8 @@ enum {
 };
 /* Rows of nx nodes that make a block; 1 also where a row exceeds a block. */
 size_t rc_rows_block(size_t nx);
-/* Rows that stay together on one rank; the largest number of rows of one of `count` ranks. */
+/* Rows that stay together on one rank. */
 size_t rc_rows_unit(size_t nx);
-size_t rc_rows_most(const struct rc_shape *whole, size_t count);
 /* The rows of a map that are held here. */
 struct rc_rows rc_rows_of(const struct rc_ranks *ranks, const struct rc_shape *whole);
 /* n items, in units of `unit`, dealt to `count` ranks: the first one of rank r; r = count: n. */
