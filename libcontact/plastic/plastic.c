@@ -884,10 +884,7 @@ rc_plastic_free(struct rc_plastic *p)
     rc_solver_free(p->solver);
     rc_slabs_free(p->slabs);
     rc_voxels_free(&p->voxels);
-    free(p->h);
-    free(p->u);
-    free(p->form);
-    free(p->other);
+    free(p->h); /* with the other maps */
     free(p->thickness);
     free(p);
 }
@@ -924,15 +921,15 @@ make_room(struct rc_plastic *p, const double *h, const struct rc_plastic_problem
 {
     size_t slabs = problem->slabs;
 
-    p->h = rc_alloc(p->n, sizeof *p->h);
-    p->u = rc_alloc(p->n, sizeof *p->u);
-    p->form = rc_alloc(p->n, sizeof *p->form);
-    p->other = rc_alloc(p->n, sizeof *p->other);
+    p->h = rc_alloc(4 * p->n, sizeof *p->h);
     p->thickness = malloc(slabs * sizeof *p->thickness);
-    if (p->h == NULL || p->u == NULL || p->form == NULL || p->other == NULL ||
-        p->thickness == NULL || rc_voxels_new(&p->voxels, slabs, p->shape.ny) != RC_OK)
+    if (p->h == NULL || p->thickness == NULL ||
+        rc_voxels_new(&p->voxels, slabs, p->shape.ny) != RC_OK)
         return rc_err_set(err, "out of memory for the plasticity of %zu x %zu nodes", p->shape.nx,
                           p->shape.ny);
+    p->u = p->h + p->n;
+    p->form = p->u + p->n;
+    p->other = p->form + p->n;
     memcpy(p->h, h, p->n * sizeof *h);
     memset(p->u, 0, p->n * sizeof *p->u);
     memcpy(p->thickness, problem->thickness, slabs * sizeof *p->thickness);

@@ -38,6 +38,7 @@ struct rc_slip {
     double *gap, *pushed[2]; /* C p */
     double load, limit, force[2];
     bool has_gap_old, has_gap;
+    double *maps; /* memory of all maps */
 };
 
 static double
@@ -408,24 +409,22 @@ rc_slip_check(const struct rc_shape *shape, const struct rc_slip_problem *p, str
     return rc_pair_shear(&p->pair, p->nu, shear, err);
 }
 
+/* All maps of numbers lie in one block. */
 static bool
 allocate(struct rc_slip *s)
 {
-    double **maps[] = {&s->origin[0], &s->origin[1], &s->old[0],  &s->old[1],
-                       &s->slip[0],   &s->slip[1],   &s->gap_old, &s->gap};
+    double **maps[] = {&s->origin[0], &s->origin[1], &s->old[0], &s->old[1],    &s->slip[0],
+                       &s->slip[1],   &s->gap_old,   &s->gap,    &s->pushed[0], &s->pushed[1]};
+    const size_t count = s->coupled ? 10 : 8;
 
-    for (size_t k = 0; k < sizeof maps / sizeof *maps; k++) {
-        if ((*maps[k] = rc_alloc(s->n, sizeof(double))) == NULL)
-            return false;
-        memset(*maps[k], 0, s->n * sizeof(double));
-    }
-    for (int c = 0; c < 2 && s->coupled; c++) {
-        if ((s->pushed[c] = rc_alloc(s->n, sizeof(double))) == NULL)
-            return false;
-        memset(s->pushed[c], 0, s->n * sizeof(double));
-    }
+    s->maps = rc_alloc(count * s->n, sizeof *s->maps);
     s->touched = calloc(s->n, 1);
-    return s->touched != NULL;
+    if (s->maps == NULL || s->touched == NULL)
+        return false;
+    memset(s->maps, 0, count * s->n * sizeof *s->maps);
+    for (size_t k = 0; k < count; k++)
+        *maps[k] = s->maps + k * s->n;
+    return true;
 }
 
 struct rc_slip *
@@ -481,14 +480,7 @@ rc_slip_free(struct rc_slip *s)
         return;
     rc_discs_free(s->discs);
     rc_tangential_free(s->t);
-    for (int c = 0; c < 2; c++) {
-        free(s->origin[c]);
-        free(s->old[c]);
-        free(s->slip[c]);
-        free(s->pushed[c]);
-    }
-    free(s->gap_old);
-    free(s->gap);
+    free(s->maps);
     free(s->touched);
     free(s);
 }
