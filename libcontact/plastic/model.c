@@ -174,11 +174,11 @@ make(struct yielding *y, struct rc_err *err)
 {
     const struct rc_plastic_problem problem = problem_of(y);
 
+    rc_solver_free(y->elastic); /* the volume has a solver of its own, and takes its memory */
+    y->elastic = NULL;
     if ((y->plastic = rc_plastic_new(&y->base.shape, y->h, &problem, err)) == NULL)
         return RC_FAIL;
     y->plastic->travels = y->travels;
-    rc_solver_free(y->elastic);
-    y->elastic = NULL;
     y->stage = VOLUME;
     return RC_OK;
 }
@@ -270,21 +270,41 @@ volume_bytes(const struct yielding *y, size_t slabs, double part)
                                     (double)slabs * (slab[periodic] + 2 * voxels)));
 }
 
-/* The elastic contact; of the volume, given slabs before any voxel yields. */
+/* The cost of the elastic contact. */
+static enum rc_status
+expect_elastic(const struct yielding *y, double load, struct rc_expected *expected,
+               struct rc_err *err)
+{
+    struct rc_problem contact = y->problem.contact;
+
+    contact.load = load;
+    contact.approach = 0;
+    return rc_solver_expect(&y->base.shape, &contact, expected, err);
+}
+
+/* The elastic contact, or the volume with its own contact: given slabs before any voxel yields. */
 static enum rc_status
 plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
      struct rc_err *err)
 {
     const struct yielding *y = (const struct yielding *)m;
-    struct rc_problem contact = y->problem.contact;
+    const size_t volume = y->problem.slabs > 0 ? volume_bytes(y, y->problem.slabs, 0) : 0;
 
-    contact.load = most->at[RC_LOAD];
-    contact.approach = 0;
-    if (rc_solver_expect(&m->shape, &contact, expected, err) != RC_OK)
+    if (expect_elastic(y, most->at[RC_LOAD], expected, err) != RC_OK)
         return RC_FAIL;
-    if (y->problem.slabs > 0)
-        expected->memory += volume_bytes(y, y->problem.slabs, 0);
+    expected->memory = volume > expected->memory ? volume : expected->memory;
     return RC_OK;
+}
+
+/* Bytes that the volume takes in addition to the memory of the elastic contact. */
+static size_t
+more_bytes(const struct yielding *y)
+{
+    const size_t volume = volume_bytes(y, y->slabs, y->part);
+    struct rc_expected elastic = {0};
+
+    (void)expect_elastic(y, fmax(y->load, y->largest), &elastic, NULL);
+    return volume > elastic.memory ? volume - elastic.memory : 0;
 }
 
 /* ---- loads ---- */
@@ -514,7 +534,7 @@ progress(const struct rc_model *m, struct rc_loops *l)
     const double most = (double)y->increments;
     struct rc_progress at;
 
-    l->coming = y->stage == MAKE ? volume_bytes(y, y->slabs, y->part) : 0;
+    l->coming = y->stage == MAKE ? more_bytes(y) : 0;
     if (y->plastic != NULL) {
         const double increment = fmin((double)increment_of(y->plastic), most);
         rc_loops_add(l, "load", "N", y->plastic->set, NAN);
