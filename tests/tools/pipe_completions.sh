@@ -20,12 +20,20 @@ in_bash() {
 }
 # options_in_SHELL TOOL, words_in_SHELL TOOL: "--option", "--option word".
 options_in_bash() { in_bash "$1" - | sort; }
+# One shell completes after all options of a tool.
 words_in_bash() {
-    options_in_bash "$1" | while read -r option; do
-        (cd empty && in_bash "$1" "$option" '') >after.txt
-        # an operand may follow an option without a value
-        (cd empty && in_bash "$1" '') | cmp -s - after.txt || sed "s/^/$option /" after.txt
-    done
+    options_in_bash "$1" | (cd empty && bash -c '. "$0"
+        offered() {
+            COMP_WORDS=("$@") COMP_CWORD=$(($# - 1))
+            "_${1//-/_}"
+            [ ${#COMPREPLY[@]} = 0 ] || printf "%s\n" "${COMPREPLY[@]}"
+        }
+        operands=$(offered "$1" "")
+        while read -r option; do
+            words=$(offered "$1" "$option" "")
+            # an operand may follow an option without a value
+            [ -z "$words" ] || [ "$words" = "$operands" ] || printf -- "$option %s\n" $words
+        done' "$completions/bash/$1" "$1")
 }
 
 # zsh and fish, from the content of their files.

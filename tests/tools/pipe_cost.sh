@@ -33,20 +33,22 @@ rc-solve $contact --tol 1e-12 --kernel fft64 --output pressure --quiet -o truth.
 # Tolerance of figures with three digits, with the rounding of the last one.
 three_and=$(awk -v t="$three_digits" 'BEGIN { print 1.2 * t }')
 
+# With every commit a third of them.
 every_error() {
     rows cost.txt | awk '$5 == "66x62"' >full.txt
     [ "$(wc -l <full.txt)" = 18 ] || return 1
+    before_release && cp full.txt some.txt || awk 'NR % 3 == 1' full.txt >some.txt
     while read -r method kernel _ tol _ _ _ _ _ _ error _; do
         rc-solve $contact --method "$method" --kernel "$kernel" --tol "$tol" --output pressure --quiet -o one.rcg \
             rough.rcg || return 1
         echo "$method $kernel $tol $error $(off one.rcg truth.rcg $nodes)"
-    done <full.txt >both.txt
+    done <some.txt >both.txt
     cat both.txt >&2
     awk -v digits="$three_and" -v floor="$of_sum" '
         { d = $4 - $5; if (d < 0) d = -d; if (NF != 5 || d > digits * $5 + floor) bad = 1 }
-        END { exit bad || NR != 18 }' both.txt
+        END { exit bad || NR < 6 }' both.txt && [ "$(wc -l <both.txt)" = "$(wc -l <some.txt)" ]
 }
-claim "every true error on the original grid equals that of rc-solve with these settings" every_error
+claim "true errors on the original grid equal those of rc-solve with these settings" every_error
 claim "true errors of pcg are at most the requested tolerances" bash -c "
     awk '!/^#/ && \$1 == \"pcg\" && \$5 == \"66x62\" { n++; if (\$11 > \$4) bad = 1 } END { exit bad || n != 14 }' cost.txt"
 # Figures have three digits, and below 1e-11 the error of the reference matters.

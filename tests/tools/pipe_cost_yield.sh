@@ -34,20 +34,22 @@ claim "  the reference has twice the increments" test "$increments" = 128
 
 # The reference by rc-solve, with contacts solved to 1e-6.
 rc-solve $contact --increments "$increments" --slabs "$slabs" --tol 1e-6 --quiet --output pressure --report truth.json -o truth.rcg rough.rcg
+# With every commit two numbers of increments with each stack.
 every_error() {
+    before_release && cp rows.txt some.txt || awk '$15 == 4 || $15 == 16' rows.txt >some.txt
     while read -r method kernel _ _ _ _ _ _ _ _ error area _ _ k n applications _; do
         rc-solve $contact --method "$method" --kernel "$kernel" --increments "$k" --slabs "$n" --quiet --output pressure \
             --report one.json -o one.rcg rough.rcg
         [ -s one.rcg ] || return 1 # status 3: its estimate is above 1 %
         echo "$k $n $error $(off one.rcg truth.rcg $nodes) $area $(awk -v a="$(field contact_area one.json)" \
             -v b="$(field contact_area truth.json)" 'BEGIN { print a / b - 1 }') $applications $(field applications one.json)"
-    done <rows.txt >both.txt
+    done <some.txt >both.txt
     cat both.txt >&2
     awk '{ d = $3 - $4; if (d < 0) d = -d; e = $5 - $6; if (e < 0) e = -e
            if (NF != 8 || d > 0.006 * $4 + 1e-5 || e > 0.006 * ($6 < 0 ? -$6 : $6) + 1e-9 || $7 != $8) bad = 1 }
-         END { exit bad || NR != 15 }' both.txt
+         END { exit bad || NR < 6 }' both.txt && [ "$(wc -l <both.txt)" = "$(wc -l <some.txt)" ]
 }
-claim "every error and every count of applications equals that of rc-solve with these settings" every_error
+claim "the errors and the counts of applications equal those of rc-solve with these settings" every_error
 claim "with the finest slabs more increments lower the error" bash -c "
     awk -v n=$slabs '\$16 == n { if (last != \"\" && \$11 >= last) bad = 1; last = \$11; k++ } END { exit bad || k != 5 }' rows.txt"
 claim "with the most increments more slabs lower the error" bash -c "

@@ -120,8 +120,8 @@ sample() {
     fi
 }
 
-# The files of the examples, in a separate folder.
-prepare() {
+# The files of the examples; each page gets a copy of its own.
+make_files() {
     mkdir "$1" && cd "$1" || return
     rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 20nm --rolloff 30um \
         --short-cut 5um --seed 3 -o surface.rcg
@@ -133,6 +133,7 @@ prepare() {
     printf '0 1 0\n1 3 1\n0 1 0\n' >heights.txt
     cd ..
 }
+claim "the files of the examples can be made" make_files "$scratch/files"
 
 run_in() {
     (cd "$1" && bash -e -u -o pipefail "$2" </dev/null)
@@ -143,7 +144,7 @@ for page in "$pages"/*.[15] "$pages/contact-mpi.7"; do
     name=$(basename "$page")
     [ "$name" = rc-leak.1 ] && ! with_leak && continue
     blocks "$page" EXAMPLES "$scratch/$name.blocks"
-    prepare "$scratch/$name.run"
+    cp -r "$scratch/files" "$scratch/$name.run"
     for block in $(ls -v "$scratch/$name.blocks"/*); do
         grep -q '^main(' "$block" && continue
         # many solutions each
@@ -155,7 +156,7 @@ for tool in $tools; do
     # those of its page, with other names of files
     ! before_release && [ "$tool" = rc-report ] && continue
     "$tool" --help | sed -n '/^Examples:/,/^$/s/^  //p' >"$scratch/$tool.help"
-    prepare "$scratch/$tool.help.run"
+    cp -r "$scratch/files" "$scratch/$tool.help.run"
     claim "$tool: the examples of --help run" run_in "$tool.help.run" "$scratch/$tool.help"
 done
 
