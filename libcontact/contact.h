@@ -486,12 +486,22 @@ struct rc_body {
  * material above it. */
 RC_API size_t rc_body_material(const struct rc_body *body, double depth);
 
+/* A factor of the compliance of both bodies for waves of wave number qx (rad/m) along x, even in qx, and its
+ * largest value. For periodic maps only. */
+struct rc_along {
+    double (*factor)(const void *of, double qx);
+    const void *of;
+    double most;
+};
+
 /* The two bodies in contact, or E* alone for uniform bodies. */
 struct rc_pair {
     struct rc_body one; /* body 1, which stress and plasticity analyse */
     struct rc_body two; /* e 0: rigid                                  */
     /* Pa, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, if `one` and `two` are left out; 0: computed from them */
     double estar;
+    const struct rc_along
+        *along; /* NULL: the factor is 1; the caller keeps it as long as the solver */
 };
 
 /* ---- convolution ---- */
@@ -1276,6 +1286,44 @@ RC_API void rc_relaxation_dynamic(const struct rc_relaxation *r, double omega, d
  * y = omega retardation[j]. */
 RC_API double rc_relaxation_mean_compliance(const struct rc_relaxation *r, double omega);
 RC_API void rc_relaxation_free(struct rc_relaxation *r); /* NULL is allowed */
+
+/* ---- steady sliding over a viscoelastic body as a model ---- */
+
+struct rc_slide_problem {
+    const struct rc_relaxation
+        *material; /* E/(1 - nu^2) of body 1; the caller keeps it             */
+    double
+        compliance; /* 1/Pa, (1 - nu^2)/E of body 2, which is elastic; 0: it is rigid             */
+    bool along_y;   /* body 2 slides along +y; false: along +x                                    */
+    bool repeats;   /* it meets its own grooves after one period of the map; false: a fresh track */
+};
+struct rc_slide_figures {
+    double speed; /* m/s                                                               */
+    /* Coefficient of friction and force (N) against the motion, by the losses in the material: the integral
+     * of -p du/dx. friction_error: its difference to that of -p dh/dx, an error of the grid, and the error of
+     * pressure times the largest slope in contact. */
+    double friction, friction_force, friction_error;
+    double dissipated_power; /* W, the losses of all waves: friction_force |speed|           */
+    double tan_delta_max;    /* largest ratio of loss and storage of the waves along the motion */
+    const char *track;       /* "fresh" or "repeated"                                        */
+    size_t contacts, iterations; /* elastic contacts of the iteration, and steps in all of them   */
+    double convolutions;         /* equivalents                                              */
+    double approach;             /* m, from first touch                                      */
+    double pressure_error;       /* estimated, relative L1                                   */
+    double elastic_energy;       /* NAN: not defined here                                    */
+    bool converged;
+};
+/* A model (model.h) of the steady state in which body 2, which has the heights h (copied), slides at a speed
+ * over the smooth viscoelastic body 1, on a periodic map. It takes the load or the approach, and the speed,
+ * which may be negative. The bodies of `problem` are not used. NULL when a number is out of range, memory is
+ * short, or the material flows without end. A point fails if tan delta exceeds 3 among the waves of the map.
+ * The material keeps J(-i qx v) (Persson 2001, J. Chem. Phys. 115, 3840; Carbone and Putignano 2013, J. Mech.
+ * Phys. Solids 61, 1822); the iteration is described in libcontact/visco/slide.c. */
+RC_API struct rc_model *rc_slide_new(const struct rc_shape *shape, const double *h,
+                                     const struct rc_problem *problem,
+                                     const struct rc_slide_problem *law, struct rc_err *err);
+/* The figures of this model, after rc_model_look; NULL: it does not slide. */
+RC_API const struct rc_slide_figures *rc_slide_result(const struct rc_model *model);
 
 /* ---- heat ---- */
 

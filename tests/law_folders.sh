@@ -15,7 +15,7 @@ cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/model    | %base                                    | libcontact libcontact/solver=rc_figures_
 libcontact/model    |                                          | libcontact/solver=rc_model_ libcontact/adhesion=rc_figures_ libcontact/adhesion=rc_model_ libcontact/leak=rc_figures_ libcontact/plastic=rc_figures_
-libcontact/model    |                                          | libcontact/slip=rc_figures_ libcontact/slip=rc_model_ libcontact/wear=rc_figures_ libcontact/wear=rc_model_ libcontact/travel=rc_figures_ libcontact/travel=rc_model_ libcontact/stress=rc_figures_ libcontact/fatigue=rc_figures_ libcontact/heat=rc_figures_ libcontact/surface=rc_figures_ libcontact/features=rc_figures_
+libcontact/model    |                                          | libcontact/slip=rc_figures_ libcontact/slip=rc_model_ libcontact/wear=rc_figures_ libcontact/wear=rc_model_ libcontact/travel=rc_figures_ libcontact/travel=rc_model_ libcontact/visco=rc_figures_ libcontact/visco=rc_model_ libcontact/stress=rc_figures_ libcontact/fatigue=rc_figures_ libcontact/heat=rc_figures_ libcontact/surface=rc_figures_ libcontact/features=rc_figures_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
 libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
@@ -41,6 +41,7 @@ libcontact/leak     | %base                                    | libcontact
 libcontact/wear     | %base libcontact/model/row.h             | libcontact libcontact/model
 libcontact/travel   | %base libcontact/model/row.h             | libcontact libcontact/model
 libcontact/visco    | %base libcontact/model/row.h             | libcontact libcontact/model
+libcontact/visco    | libcontact/solver/solver.h libcontact/transform/fourier.h | libcontact/solver libcontact/operator libcontact/transform
 libcontact/slip     | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/ranks
 libcontact/slip     | %base libcontact/solver/solver.h         | libcontact libcontact/solver
 libcontact/slip     | libcontact/model/row.h                   | libcontact/model

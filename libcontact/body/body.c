@@ -139,7 +139,7 @@ enum rc_status
 rc_solids_new(struct rc_solids *s, const struct rc_pair *pair, const struct rc_ranks *ranks,
               struct rc_err *err)
 {
-    *s = (struct rc_solids){.n = 0};
+    *s = (struct rc_solids){.along = pair->along};
     return rc_ranks_agree(ranks, make(s, pair, err), err);
 }
 
@@ -185,7 +185,7 @@ rc_solids_softest(const struct rc_solids *s)
 
     for (size_t k = 0; k < s->n; k++)
         estar[k] = s->solid[k]->type->softest(s->solid[k]);
-    return together(s->n, estar);
+    return together(s->n, estar) / (s->along != NULL ? s->along->most : 1);
 }
 
 /* ---- the kernel of displacement ---- */
@@ -208,9 +208,11 @@ static double
 symbol(const void *of, double qx, double qy)
 {
     const struct rc_surface *u = of;
+    const struct rc_along *along = u->solids->along;
     double q = hypot(qx, qy), q2 = q / u->length * (q / u->length);
+    double factor = along != NULL ? along->factor(along->of, qx / u->length) : 1;
 
-    return 2 / (rc_solids_modulus_of(u->solids, q2) / u->modulus * q);
+    return factor * 2 / (rc_solids_modulus_of(u->solids, q2) / u->modulus * q);
 }
 
 struct rc_kernel

@@ -196,6 +196,7 @@ double rc_pair_bends(const struct rc_pair *pair, double side);
 struct rc_solids {
     size_t n;
     struct rc_solid *solid[2];
+    const struct rc_along *along; /* of the pair */
 };
 /* Prepares the bodies of a checked pair; RC_FAIL on all ranks when memory is short on one. Free them in
  * either case. */

@@ -847,6 +847,51 @@ relaxes(double *out, struct rc_err *err)
     return status;
 }
 
+/* Body 2 slides over a viscoelastic body; under way the state is restored in another model. */
+static enum rc_status
+slide_model(double *out, struct rc_err *err)
+{
+    const struct rc_problem contact = {.boundary = RC_PERIODIC, .tol = 1e-3, .threads = 1};
+    struct rc_relaxation *r = rc_relaxation_new(1e9, 1, (double[]){4e9}, (double[]){1e-3}, err);
+    const struct rc_slide_problem law = {.material = r};
+    struct rc_model *m = r == NULL ? NULL : rc_slide_new(&shape, rough, &contact, &law, err);
+    struct rc_model *other = NULL;
+    enum rc_status status = RC_FAIL;
+    struct rc_expected expected;
+    struct rc_point to = {0};
+    double *state = NULL;
+    bool going;
+    size_t n;
+
+    rc_point_set(&to, RC_LOAD, 1e-3);
+    rc_point_set(&to, RC_SPEED, 5e-3);
+    if (m == NULL || rc_model_plan(m, &to, &expected, err) != RC_OK ||
+        rc_model_go(m, &to, err) != RC_MORE || rc_model_step(m, err) == RC_FAIL)
+        goto done;
+    n = rc_model_state_size(m);
+    if ((state = malloc(n * sizeof *state)) == NULL) {
+        rc_err_set(err, "out of memory");
+        goto done;
+    }
+    rc_model_state(m, state);
+    other = rc_slide_new(&shape, rough, &contact, &law, err);
+    if (other == NULL || rc_model_restore(other, state, n, &going, err) != RC_OK)
+        goto done;
+    while ((status = rc_model_step(other, err)) == RC_MORE)
+        ;
+    if (status == RC_FAIL || rc_model_look(other, NULL, err) != RC_OK ||
+        rc_model_frame(other, "pressure", out, err) != RC_OK)
+        status = RC_FAIL;
+    else
+        out[N] = rc_slide_result(other)->friction;
+done:
+    free(state);
+    rc_model_free(m);
+    rc_model_free(other);
+    rc_relaxation_free(r);
+    return status;
+}
+
 /* ---- slabs ---- */
 
 static bool
@@ -1051,6 +1096,7 @@ static const struct {
     {.name = "fatigue", .use = fatigued},
     {.name = "heat", .use = heated},
     {.name = "relaxation", .use = relaxes},
+    {.name = "the model of sliding", .use = slide_model},
     {.name = "slabs", .use = slabs_double},
     {.name = "slabs, single precision", .use = slabs_single},
     {.name = "what a plan takes", .use = plans, .without = true},

@@ -160,6 +160,20 @@ rolling_out(struct rc_err *err)
     return rc_travel_new(yielding(err), &law, err);
 }
 
+/* Body 2 slides along y, forth and back. */
+static struct rc_model *
+sliding(struct rc_err *err)
+{
+    static struct rc_relaxation *material;
+    const struct rc_problem contact = {.boundary = RC_PERIODIC, .tol = 1e-9, .threads = 1};
+    struct rc_slide_problem law = {.along_y = true};
+
+    if (material == NULL)
+        material = rc_relaxation_new(1e8, 1, (double[]){9e8}, (double[]){1e-3}, err);
+    law.material = material;
+    return rc_slide_new(&shape, heights, &contact, &law, err);
+}
+
 #ifdef RC_TOYS
 static struct rc_model *
 relaxing(struct rc_err *err)
@@ -203,6 +217,7 @@ static const struct kind {
      {{2e-3, 1e-6}, {1e-3, 2e-6}, {3e-3, 2.5e-6}},
      1e-6},
     {"travel", rolling_out, {RC_LOAD, RC_POSITION}, {{2e-3, 0}, {2e-3, 1e-6}, {2e-3, 2e-6}}, 1e-3},
+    {"sliding", sliding, {RC_LOAD, RC_SPEED}, {{2e-3, 5e-3}, {1e-3, -2e-3}, {3e-3, 1e-2}}, 1e-6},
 #ifdef RC_TOYS
     {"relaxing", relaxing, {RC_LOAD, RC_TIME}, {{2e-3, 0.3}, {1e-3, 0.5}, {2e-3, 0.6}}, 1e-6},
 #endif
