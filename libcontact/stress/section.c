@@ -39,7 +39,8 @@ struct plan {
     int threads;
     struct rc_line *line;
     struct rc_dct *dct;     /* transform of a kernel along the section; NULL when periodic */
-    double complex *source; /* m lines of `waves` for each map; periodic: the waves across */
+    double complex *source; /* `lines` of `waves` for each map; periodic: the waves across */
+    size_t lines, *place;   /* free: lines with pressure, and the place of each line among them */
     struct pair *pair;
     size_t pairs;
     size_t kernels;  /* number of kernels with scratch */
@@ -71,6 +72,7 @@ plan_free(void *at)
     rc_line_free(plan->line);
     rc_dct_free(plan->dct);
     free(plan->source);
+    free(plan->place);
     free(plan->pair);
     free(plan->scratch);
     free(plan->sum);
@@ -89,6 +91,7 @@ sizes(const struct rc_stress_task *t)
     plan.d_across = plan.transposed ? s->dx : s->dy;
     plan.length = t->options.boundary == RC_FREE ? rc_fourier_length(plan.n, 2) : plan.n;
     plan.waves = plan.length / 2 + 1;
+    plan.lines = plan.m;
     plan.threads = rc_useful_threads(s, t->options.threads);
     plan.kernels = (size_t)RC_COMPONENTS * (rc_stress_has(t, RC_TURNED) ? RC_LOADS : RC_TURNED);
     plan.scratch_size = t->options.boundary == RC_FREE
@@ -108,11 +111,16 @@ transpose(const struct plan *plan, const double *p, double *v)
             v[j * n + i] = p[plan->transposed ? i * m + j : j * n + i];
 }
 
+/* The place of a line without pressure. */
+static const size_t nowhere = SIZE_MAX;
+
 /* Line j of a source. */
 static double complex *
 line_of(const struct plan *plan, size_t source, size_t j)
 {
-    return plan->source + (source * plan->m + j) * plan->waves;
+    const size_t place = plan->place == NULL ? j : plan->place[j];
+
+    return plan->source + (source * plan->lines + place) * plan->waves;
 }
 
 /* ---- free: pairs of lines ---- */
@@ -130,18 +138,19 @@ opposite(const struct plan *plan, size_t j)
 
 /* Makes the pair of line j, unless the opposite line does. */
 static void
-add_pair(struct plan *plan, const bool *loaded, size_t j)
+add_pair(struct plan *plan, size_t j)
 {
     double offset =
         plan->task.options.at - ((double)j - (double)(plan->m - 1) / 2) * plan->d_across;
     size_t other = opposite(plan, j);
     struct pair *pair = &plan->pair[plan->pairs];
+    const bool both = other != j && other < plan->m && plan->place[other] != nowhere;
 
-    if (!loaded[j] || (other != j && other < plan->m && loaded[other] && offset < 0))
+    if (plan->place[j] == nowhere || (both && offset < 0))
         return;
     *pair = (struct pair){fabs(offset), j, j, offset < 0 ? -1 : 1};
     plan->pairs++;
-    if (other == j || other == plan->m || !loaded[other])
+    if (!both)
         return;
     pair->odd = other;
     for (size_t k = 0; k < plan->task.sources; k++) {
@@ -156,16 +165,17 @@ add_pair(struct plan *plan, const bool *loaded, size_t j)
 
 /* Transforms the lines of a source in this part, v; a line that only another source loads is 0. */
 static void
-transform_lines(struct plan *plan, size_t source, const bool *loaded, const double *v)
+transform_lines(struct plan *plan, size_t source, const double *v)
 {
     size_t n = plan->n, transforms = 0;
 
 #pragma omp parallel for num_threads(plan->threads) schedule(dynamic, 4) reduction(+ : transforms)
     for (size_t j = 0; j < plan->m; j++) {
         double *line = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
-        double complex *to = line_of(plan, source, j);
-        if (!loaded[j])
+        double complex *to;
+        if (plan->place[j] == nowhere)
             continue;
+        to = line_of(plan, source, j);
         if (!rc_any(v + j * n, n)) {
             memset(to, 0, plan->waves * sizeof *to);
             continue;
@@ -191,31 +201,37 @@ carries(const struct plan *plan, size_t j)
     return false;
 }
 
+/* Finds the lines with pressure, the only ones that take memory. */
+static bool
+place_lines(struct plan *plan)
+{
+    plan->lines = 0;
+    plan->place = malloc(plan->m * sizeof *plan->place);
+    plan->pair = malloc(plan->m * sizeof *plan->pair);
+    for (size_t j = 0; plan->place != NULL && j < plan->m; j++)
+        plan->place[j] = carries(plan, j) ? plan->lines++ : nowhere;
+    return plan->place != NULL && plan->pair != NULL;
+}
+
 static enum rc_status
 transform_sources(struct plan *plan, double *v, struct rc_err *err)
 {
     const struct rc_stress_task *t = &plan->task;
     const struct rc_shape shape = {plan->n, plan->m, plan->d_along, plan->d_across};
-    bool periodic = t->options.boundary == RC_PERIODIC, *loaded = NULL;
+    const bool periodic = t->options.boundary == RC_PERIODIC;
     enum rc_status status = RC_OK;
 
-    if (!periodic && ((loaded = calloc(plan->m, sizeof *loaded)) == NULL ||
-                      (plan->pair = malloc(plan->m * sizeof *plan->pair)) == NULL))
-        status = rc_err_set(err, "out of memory for %zu lines", plan->m);
-    for (size_t j = 0; status == RC_OK && !periodic && j < plan->m; j++)
-        loaded[j] = carries(plan, j);
     for (size_t k = 0; status == RC_OK && k < t->sources; k++) {
         transpose(plan, t->source[k], v);
         if (periodic) {
             status = rc_fourier_forward(&shape, v, line_of(plan, k, 0), err);
             t->counts->source_transforms++;
         } else {
-            transform_lines(plan, k, loaded, v);
+            transform_lines(plan, k, v);
         }
     }
-    for (size_t j = 0; status == RC_OK && !periodic && j < plan->m; j++)
-        add_pair(plan, loaded, j);
-    free(loaded);
+    for (size_t j = 0; !periodic && j < plan->m; j++)
+        add_pair(plan, j);
     return status;
 }
 
@@ -223,7 +239,7 @@ static void *
 plan_new(const struct rc_stress_task *task, struct rc_err *err)
 {
     struct plan *plan = malloc(sizeof *plan);
-    bool periodic = task->options.boundary == RC_PERIODIC;
+    bool periodic = task->options.boundary == RC_PERIODIC, placed;
     size_t threads;
     double *p = NULL;
     enum rc_status status = RC_FAIL;
@@ -235,10 +251,12 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
     *plan = sizes(task);
     threads = (size_t)plan->threads;
     p = malloc(plan->n * plan->m * sizeof *p);
-    plan->source = malloc(task->sources * plan->m * plan->waves * sizeof *plan->source);
+    placed = periodic || place_lines(plan);
+    plan->source = malloc((task->sources * plan->lines * plan->waves + 1) * sizeof *plan->source);
     plan->scratch = malloc(threads * plan->scratch_size * sizeof *plan->scratch);
     plan->sum = malloc(PARTS * RC_COMPONENTS * plan->waves * sizeof *plan->sum);
-    if (p == NULL || plan->source == NULL || plan->scratch == NULL || plan->sum == NULL) {
+    if (p == NULL || !placed || plan->source == NULL || plan->scratch == NULL ||
+        plan->sum == NULL) {
         rc_err_set(err, "out of memory for a section of %zu x %zu nodes", plan->n, plan->m);
         goto done;
     }

@@ -50,6 +50,7 @@ estimated "rc-deflect --kernel mlms" "rc-deflect --verbose --kernel mlms --estar
 estimated "rc-stress" "rc-stress --verbose --nu 0.3 --depths 1um,5um,50um free.rcg"
 estimated "rc-stress, periodic, with friction" "rc-stress --verbose --nu 0.3 --mu 0.2 --depths 1um,5um round.rcg"
 estimated "rc-stress --section" "rc-stress --verbose --nu 0.3 --section y=0 --depths 0:50um:20 free.rcg"
+estimated "rc-stress --section, a small contact" "rc-stress --verbose --nu 0.3 --section y=0 --depths 0:50um:20 sparse.rcg"
 estimated "rc-info" "rc-info --verbose odd.rcg"
 estimated "rc-info --psd-map" "rc-info --psd-map psd.rcg --verbose odd.rcg"
 estimated "rc-info --patches" "rc-info --patches --verbose free.rcg"
