@@ -51,7 +51,7 @@ body_of(int which, double spacing)
 }
 
 /* The displacement, then the twelve stresses; the kernels of stress in a layered body are slow, and
- * tests/stress/same_layers_stress.c compares them. */
+ * tests/layers/same_layers_stress.c compares them. */
 static size_t
 kernels_of(int which)
 {

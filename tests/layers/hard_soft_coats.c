@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "dense.h"
+#include "tests/solver/dense.h"
 
 enum {
     PROBLEMS = 400

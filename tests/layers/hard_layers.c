@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "hard_case.h"
+#include "tests/solver/hard_case.h"
 
 enum {
     NX = 37,
