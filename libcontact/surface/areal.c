@@ -92,38 +92,21 @@ excess(double g2)
     return g2 / (1 + sqrt(1 + g2));
 }
 
-/* Adds the steps from v[i] to v[i + 1], for n nodes. */
+/* Adds the squared slopes of the steps from v[i] to next[i], for n nodes, and their number. */
 RC_CLONES static void
-add_steps(const double *v, size_t n, double per_dx, struct slopes *to)
+add_steps(const double *v, const double *next, size_t n, double per, double *squares, double *pairs)
 {
-    double x2 = 0, pairs = 0;
+    double sum = 0, count = 0;
 
-#pragma omp simd reduction(+ : x2, pairs)
+#pragma omp simd reduction(+ : sum, count)
     for (size_t i = 0; i < n; i++) {
-        double g = (v[i + 1] - v[i]) * per_dx;
-        bool is = fabs(v[i]) <= DBL_MAX && fabs(v[i + 1]) <= DBL_MAX;
-        x2 += is ? g * g : 0;
-        pairs += is ? 1 : 0;
+        double g = (next[i] - v[i]) * per;
+        bool is = fabs(v[i]) <= DBL_MAX && fabs(next[i]) <= DBL_MAX;
+        sum += is ? g * g : 0;
+        count += is ? 1 : 0;
     }
-    to->x2 += x2;
-    to->x_pairs += pairs;
-}
-
-/* Adds the steps from v[i] to below[i], for n nodes. */
-RC_CLONES static void
-add_steps_down(const double *v, const double *below, size_t n, double per_dy, struct slopes *to)
-{
-    double y2 = 0, pairs = 0;
-
-#pragma omp simd reduction(+ : y2, pairs)
-    for (size_t i = 0; i < n; i++) {
-        double g = (below[i] - v[i]) * per_dy;
-        bool is = fabs(v[i]) <= DBL_MAX && fabs(below[i]) <= DBL_MAX;
-        y2 += is ? g * g : 0;
-        pairs += is ? 1 : 0;
-    }
-    to->y2 += y2;
-    to->y_pairs += pairs;
+    *squares += sum;
+    *pairs += count;
 }
 
 /* The four triangles of each four neighbouring nodes: both halves along either diagonal, each with a side
@@ -198,12 +181,12 @@ slopes_of_row(const struct rc_relief *r, size_t j)
     struct slopes s = {0};
 
     add_curvatures(r, j, &s);
-    add_steps(v, nx - 1, per_dx, &s);
+    add_steps(v, v + 1, nx - 1, per_dx, &s.x2, &s.x_pairs);
     for (size_t i = 0; ny == 1 && i + 1 < nx; i++)
         add_segment(v[i], v[i + 1], per_dx, &s);
     if (j + 1 == ny)
         return s;
-    add_steps_down(v, below, nx, per_dy, &s);
+    add_steps(v, below, nx, per_dy, &s.y2, &s.y_pairs);
     if (nx == 1)
         add_segment(v[0], below[0], per_dy, &s);
     else
