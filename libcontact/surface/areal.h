@@ -24,7 +24,19 @@ enum rc_status rc_material_ratio(const struct rc_relief *relief, struct rc_areal
 enum rc_status rc_texture(const struct rc_relief *relief, struct rc_areal *areal,
                           struct rc_err *err);
 
-/* spectrum.c: Hann's window over n nodes at node i, nowhere 0; 1 on a side of one node. */
-double rc_hann(size_t i, size_t n);
+/* spectrum.c: a map times a window along each side, after its windowed mean is subtracted. Missing values
+ * are 0. */
+struct rc_windowed {
+    const struct rc_shape *shape;
+    const double *h;
+    const struct rc_window *window;
+    double *wx;  /* nx numbers: the weights along x, from rc_windowed_lay */
+    double mean; /* the windowed mean, likewise                           */
+};
+extern const struct rc_window *const rc_window_hann;
+/* Lays the window on the map; returns the mean square of the heights about `mean`, their plain mean. */
+double rc_windowed_lay(struct rc_windowed *w, double mean);
+/* Row j, for rc_power. */
+void rc_windowed_row(const void *windowed, size_t j, double *row);
 
 #endif

@@ -37,25 +37,17 @@ static const double slack = 1e-9, rounded = 1e-27;
  * directions. Waves of exactly two nodes are only partly seen. */
 static const double resolved = 0.98;
 
-double
-rc_hann(size_t i, size_t n)
-{
-    double s = sin(RC_PI * ((double)i + 0.5) / (double)n);
-
-    return n == 1 ? 1 : s * s;
-}
-
 /* ---- windows ---- */
 
 /* a[0] - a[1] cos(x) + a[2] cos(2 x), x from 0 to 2 pi along a side. The number of its waves is the number of
  * neighbours to which it spreads a wave of the surface (Harris 1978, Proc. IEEE 66, 51). */
-struct window {
+struct rc_window {
     const char *name;
     size_t waves;
     double a[3];
 };
 
-static const struct window windows[] = {
+static const struct rc_window windows[] = {
     {"none", 0, {1, 0, 0}},
     {"hann", 1, {0.5, 0.5, 0}},
     {"hamming", 1, {0.54, 0.46, 0}},
@@ -66,6 +58,8 @@ enum {
     WINDOWS = sizeof windows / sizeof *windows
 };
 
+const struct rc_window *const rc_window_hann = &windows[1];
+
 const char *
 rc_window_name(size_t k)
 {
@@ -73,7 +67,7 @@ rc_window_name(size_t k)
 }
 
 /* NULL: no window has this name. */
-static const struct window *
+static const struct rc_window *
 window_of(const struct rc_psd_options *o)
 {
     const char *name = o->window != NULL ? o->window : o->boundary == RC_FREE ? "hann" : "none";
@@ -85,7 +79,7 @@ window_of(const struct rc_psd_options *o)
 }
 
 static double
-weight(const struct window *w, size_t i, size_t n)
+weight(const struct rc_window *w, size_t i, size_t n)
 {
     double x = 2 * RC_PI * ((double)i + 0.5) / (double)n;
 
@@ -95,7 +89,7 @@ weight(const struct window *w, size_t i, size_t n)
 /* For the weights of a side: the mean square, and the number of correlated waves that count as one. This
  * number is the mean fourth power over the square of the mean square, 35/18 for Hann's. */
 static void
-side_figures(const struct window *w, size_t n, double *square, double *alike)
+side_figures(const struct rc_window *w, size_t n, double *square, double *alike)
 {
     struct rc_total two = {0}, four = {0};
 
@@ -110,48 +104,42 @@ side_figures(const struct window *w, size_t n, double *square, double *alike)
 
 /* Lowest rings, into which the mean leaks. */
 static double
-leaked(const struct window *w)
+leaked(const struct rc_window *w)
 {
     return w->waves > 0 ? (double)w->waves + 1.5 : 0;
 }
 
 /* Rings by which a given range is narrowed at either end, because waves beyond it may follow another law. */
 static double
-spread(const struct window *w)
+spread(const struct rc_window *w)
 {
     return w->waves > 0 ? (double)w->waves + 0.5 : 0;
 }
 
-struct windowed {
-    const struct rc_shape *shape;
-    const double *h;
-    const struct window *window;
-    double *wx;   /* its weights along x */
-    double mean;  /* subtracted before */
-    double alike; /* waves that count as one */
-};
-
-static void
-windowed_row(const void *of, size_t j, double *row)
+void
+rc_windowed_row(const void *of, size_t j, double *row)
 {
-    const struct windowed *w = of;
+    const struct rc_windowed *w = of;
     const double *h = w->h + j * w->shape->nx, wy = weight(w->window, j, w->shape->ny);
 
     for (size_t i = 0; i < w->shape->nx; i++)
-        row[i] = w->wx[i] * wy * (h[i] - w->mean);
+        row[i] = rc_there(h[i]) ? w->wx[i] * wy * (h[i] - w->mean) : 0;
 }
 
-/* The windowed mean height, and the mean square of the heights about their plain mean. */
-static void
-find_means(struct windowed *w, double mean, double *square)
+double
+rc_windowed_lay(struct rc_windowed *w, double mean)
 {
     struct rc_total weights = {0}, weighted = {0}, squares = {0};
+    const size_t nx = w->shape->nx, ny = w->shape->ny;
 
-    for (size_t j = 0; j < w->shape->ny; j++) {
-        const double *h = w->h + j * w->shape->nx, wy = weight(w->window, j, w->shape->ny);
+    for (size_t i = 0; i < nx; i++)
+        w->wx[i] = weight(w->window, i, nx);
+    for (size_t j = 0; j < ny; j++) {
+        const double *h = w->h + j * nx, wy = weight(w->window, j, ny);
         double row[3] = {0};
-        for (size_t i = 0; i < w->shape->nx; i++) {
-            double f = w->wx[i] * wy, d = h[i] - mean;
+        for (size_t i = 0; i < nx; i++) {
+            bool there = rc_there(h[i]);
+            double f = there ? w->wx[i] * wy : 0, d = there ? h[i] - mean : 0;
             row[0] += f;
             row[1] += f * d;
             row[2] += d * d;
@@ -161,12 +149,12 @@ find_means(struct windowed *w, double mean, double *square)
         rc_total_add(&squares, row[2]);
     }
     w->mean = mean + rc_total_value(&weighted) / rc_total_value(&weights);
-    *square = rc_total_value(&squares) / ((double)w->shape->nx * (double)w->shape->ny);
+    return rc_total_value(&squares) / ((double)nx * (double)ny);
 }
 
 /* Makes the window, the factor that turns |FFT|^2 into a density, and Sq^2. */
 static enum rc_status
-lay_window(struct windowed *w, double *factor, double *square, struct rc_err *err)
+lay_window(struct rc_windowed *w, double *factor, double *square, double *alike, struct rc_err *err)
 {
     const struct rc_shape *s = w->shape;
     double nodes = (double)s->nx * (double)s->ny, mean = rc_sum(w->h, s->nx * s->ny) / nodes;
@@ -182,12 +170,10 @@ lay_window(struct windowed *w, double *factor, double *square, struct rc_err *er
                                      "needs all",
                                      bad, s->nx * s->ny);
     }
-    for (size_t i = 0; i < s->nx; i++)
-        w->wx[i] = weight(w->window, i, s->nx);
-    find_means(w, mean, square);
+    *square = rc_windowed_lay(w, mean);
     side_figures(w->window, s->nx, &square_x, &alike_x);
     side_figures(w->window, s->ny, &square_y, &alike_y);
-    w->alike = alike_x * alike_y;
+    *alike = alike_x * alike_y; /* waves that count as one */
     *factor = (s->nx > 1 ? s->dx / (double)s->nx : 1) * (s->ny > 1 ? s->dy / (double)s->ny : 1) /
               (square_x * square_y);
     return RC_OK;
@@ -509,11 +495,11 @@ static enum rc_status
 make(const struct rc_shape *s, const double *h, const struct rc_psd_options *options, double *power,
      double *wx, struct rc_psd *psd, struct rc_err *err)
 {
-    const struct window *window = window_of(options);
-    struct windowed w = {.shape = s, .h = h, .window = window, .wx = wx};
+    const struct rc_window *window = window_of(options);
+    struct rc_windowed w = {.shape = s, .h = h, .window = window, .wx = wx};
     struct rings r = rings_of(s);
     enum rc_status status = RC_FAIL;
-    double factor = 0;
+    double factor = 0, alike = 1;
 
     psd->window = window->name;
     r.low = leaked(window) * r.width;
@@ -526,11 +512,11 @@ make(const struct rc_shape *s, const double *h, const struct rc_psd_options *opt
         r.low += spread(window) * r.width;
         r.high -= spread(window) * r.width;
     }
-    if (lay_window(&w, &factor, &psd->mean_square, err) == RC_OK &&
-        rc_power(s, windowed_row, &w, options->threads, power, err) == RC_OK &&
+    if (lay_window(&w, &factor, &psd->mean_square, &alike, err) == RC_OK &&
+        rc_power(s, rc_windowed_row, &w, options->threads, power, err) == RC_OK &&
         fill_rings(&r, power, factor, rc_useful_threads(s, options->threads), err) == RC_OK &&
         list_rings(&r, psd, err) == RC_OK)
-        status = fit_hurst(&r, options, w.alike, psd, err);
+        status = fit_hurst(&r, options, alike, psd, err);
     if (status == RC_OK && options->map != NULL)
         draw_map(s, power, factor, options->map);
     free(r.ring);

@@ -28,13 +28,7 @@ enum {
     WEDGE = 6     /* bins on either side of the maximum that belong to it */
 };
 
-/* ---- windowed rows for the transform ---- */
-
-struct windowed {
-    const struct rc_relief *relief;
-    double *wx;  /* the window along x          */
-    double mean; /* weighted by the window */
-};
+/* ---- rows for the transform ---- */
 
 static void
 height_row(const void *of, size_t j, double *row)
@@ -53,17 +47,6 @@ there_row(const void *of, size_t j, double *row)
 
     for (size_t i = 0; i < r->shape.nx; i++)
         row[i] = rc_there(r->h[j * r->shape.nx + i]) ? 1 : 0;
-}
-
-static void
-windowed_row(const void *of, size_t j, double *row)
-{
-    const struct windowed *w = of;
-    const struct rc_relief *r = w->relief;
-    const double *h = r->h + j * r->shape.nx, wy = rc_hann(j, r->shape.ny);
-
-    for (size_t i = 0; i < r->shape.nx; i++)
-        row[i] = rc_there(h[i]) ? w->wx[i] * wy * (h[i] - w->mean) : 0;
 }
 
 /* ---- autocorrelation ---- */
@@ -331,35 +314,16 @@ measure_direction(const struct rc_relief *r, const double *power, double (*sums)
     a->std = 180 - angle < 1e-9 ? 0 : angle; /* rounding error */
 }
 
-/* Makes the window and the mean weighted by it. */
-static void
-lay_window(struct windowed *w)
-{
-    const struct rc_relief *r = w->relief;
-    struct rc_total sum = {0}, all = {0};
-
-    for (size_t i = 0; i < r->shape.nx; i++)
-        w->wx[i] = rc_hann(i, r->shape.nx);
-    for (size_t j = 0; j < r->shape.ny; j++) {
-        const double *h = r->h + j * r->shape.nx, wy = rc_hann(j, r->shape.ny);
-        double row = 0, weight = 0;
-        for (size_t i = 0; i < r->shape.nx; i++) {
-            row += rc_there(h[i]) ? w->wx[i] * (h[i] - r->mean) : 0;
-            weight += rc_there(h[i]) ? w->wx[i] : 0;
-        }
-        rc_total_add(&sum, wy * row);
-        rc_total_add(&all, wy * weight);
-    }
-    w->mean = r->mean + rc_total_value(&sum) / rc_total_value(&all);
-}
-
 /* ---- both ---- */
 
 static enum rc_status
 find_direction(const struct rc_relief *r, struct rc_areal *a, struct rc_err *err)
 {
     double *power = rc_alloc(rc_fourier_size(&r->shape), sizeof *power);
-    struct windowed w = {.relief = r, .wx = rc_alloc(r->shape.nx, sizeof *w.wx)};
+    struct rc_windowed w = {.shape = &r->shape,
+                            .h = r->h,
+                            .window = rc_window_hann,
+                            .wx = rc_alloc(r->shape.nx, sizeof *w.wx)};
     double(*sums)[ANGLES] = malloc(PARTS * sizeof *sums);
     enum rc_status status = RC_FAIL;
 
@@ -370,8 +334,8 @@ find_direction(const struct rc_relief *r, struct rc_areal *a, struct rc_err *err
     if (r->boundary == RC_PERIODIC) {
         status = rc_power(&r->shape, height_row, r, (size_t)r->threads, power, err);
     } else {
-        lay_window(&w);
-        status = rc_power(&r->shape, windowed_row, &w, (size_t)r->threads, power, err);
+        (void)rc_windowed_lay(&w, r->mean);
+        status = rc_power(&r->shape, rc_windowed_row, &w, (size_t)r->threads, power, err);
     }
     if (status == RC_OK)
         measure_direction(r, power, sums, a);
