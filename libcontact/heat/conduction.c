@@ -51,16 +51,9 @@ rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary, size_
     rc_fft_waves(c->fft, &c->columns, &c->cy);
     c->length = rc_fft_length(c->fft);
     c->waves = rc_alloc(2 * c->columns * c->length, sizeof *c->waves);
-    c->wave = rc_alloc(c->length, sizeof *c->wave);
-    c->mirror = rc_alloc(c->length, sizeof *c->mirror);
-    if (c->waves == NULL || c->wave == NULL || c->mirror == NULL) {
+    if (!rc_fft_fold(c->fft, &c->wave, &c->mirror) || c->waves == NULL) {
         rc_err_set(err, "out of memory for the heat of %zu x %zu nodes", shape->nx, shape->ny);
         goto fail;
-    }
-    for (size_t t = 0; t < c->length; t++) {
-        const size_t j = rc_fft_wave(c->fft, t);
-        c->wave[t] = 2 * j <= c->length ? j : c->length - j;
-        c->mirror[t] = 2 * j <= c->length ? 1 : -1;
     }
     return c;
 fail:
@@ -107,19 +100,6 @@ sample(struct rc_warming *w, const struct rc_conduction *c, const struct rc_heat
         }
 }
 
-struct keeper {
-    double *to;
-    size_t cy;
-};
-
-static void
-keep_column(void *ctx, size_t i, size_t n, double *column)
-{
-    const struct keeper *k = ctx;
-
-    memcpy(k->to + i * k->cy, column, n * sizeof *column);
-}
-
 static enum rc_status
 transform(struct rc_warming *w, const struct rc_conduction *c, const struct rc_heated *body,
           struct rc_err *err)
@@ -137,9 +117,8 @@ transform(struct rc_warming *w, const struct rc_conduction *c, const struct rc_h
     for (unsigned k = 0; k < RC_HEAT_PARTS && status == RC_OK; k++) {
         const struct rc_heat_part part = {cells, k};
         const struct rc_kernel kernel = rc_heat_kernel(&part);
-        struct keeper keeper = {w->part[k], c->cy};
         if (w->part[k] != NULL)
-            status = rc_spectrum_set_by(passing, c->fft, &kernel, keep_column, &keeper, err);
+            status = rc_spectrum_set_by(passing, c->fft, &kernel, rc_keep_column, w->part[k], err);
     }
 done:
     rc_spectrum_free(passing);

@@ -487,6 +487,12 @@ rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct r
 }
 
 void
+rc_keep_column(void *ctx, size_t i, size_t n, double *column)
+{
+    memcpy((double *)ctx + i * n, column, n * sizeof *column);
+}
+
+void
 rc_fft_waves(const struct rc_fft *f, size_t *columns, size_t *n)
 {
     *columns = f->layout.cx;
@@ -695,6 +701,21 @@ size_t
 rc_fft_wave(const struct rc_fft *f, size_t t)
 {
     return f->layout.radix * (t % f->layout.m) + t / f->layout.m;
+}
+
+bool
+rc_fft_fold(const struct rc_fft *f, size_t **place, signed char **mirror)
+{
+    const size_t n = f->layout.py;
+
+    *place = rc_alloc(n, sizeof **place);
+    *mirror = rc_alloc(n, sizeof **mirror);
+    for (size_t t = 0; t < n && *place != NULL && *mirror != NULL; t++) {
+        const size_t j = rc_fft_wave(f, t);
+        (*place)[t] = 2 * j <= n ? j : n - j;
+        (*mirror)[t] = 2 * j <= n ? 1 : -1;
+    }
+    return *place != NULL && *mirror != NULL;
 }
 
 void

@@ -63,6 +63,8 @@ typedef void rc_column(void *ctx, size_t i, size_t n, double *column);
 enum rc_status rc_spectrum_set_by(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                   const struct rc_kernel *kernel, rc_column *each, void *ctx,
                                   struct rc_err *err);
+/* An rc_column that stores the n numbers of column i at ctx + i n; ctx is an array of double. */
+rc_column rc_keep_column;
 /* Wave numbers of a column, and of its entries, in the padded map, rad/m. */
 double rc_fft_qx(const struct rc_fft *fft, size_t i);
 double rc_fft_qy(const struct rc_fft *fft, size_t j);
@@ -141,6 +143,9 @@ void rc_fft_field_sum(struct rc_fft *fft, size_t n, const struct rc_fft_term *te
 typedef void rc_wave_column(void *ctx, size_t i, void *column);
 size_t rc_fft_length(const struct rc_fft *fft);
 size_t rc_fft_wave(const struct rc_fft *fft, size_t t);
+/* For each number t of a column: its place in a column of the quarter of a spectrum, and -1 where it is the
+ * mirror image of the number there, else 1. The caller frees both arrays. False when memory is short. */
+bool rc_fft_fold(const struct rc_fft *fft, size_t **place, signed char **mirror);
 void rc_fft_forward(struct rc_fft *fft, rc_row *row, void *ctx, void *waves,
                     rc_wave_column *column);
 void rc_fft_back(struct rc_fft *fft, const void *waves, rc_wave_column *column, rc_row *row,

@@ -10,19 +10,6 @@
 
 /* ---- the spectra ---- */
 
-struct keeper {
-    double *to;
-    size_t cy;
-};
-
-static void
-keep_column(void *ctx, size_t i, size_t n, double *column)
-{
-    const struct keeper *k = ctx;
-
-    memcpy(k->to + i * k->cy, column, n * sizeof *column);
-}
-
 static void
 sample(const struct rc_tangential *t, const struct rc_kernel *kernel, double *to)
 {
@@ -49,13 +36,13 @@ set_spectra(struct rc_tangential *t, struct rc_err *err)
     for (int k = 0; k < RC_SHEAR_KERNELS; k++) {
         const struct rc_shear_field field = {&t->shear, (enum rc_shear_which)k};
         const struct rc_kernel kernel = rc_shear_kernel(&field);
-        struct keeper keeper = {t->quarter[k], t->cy};
 
         if (t->quarter[k] == NULL)
             continue;
         if (passing == NULL)
             sample(t, &kernel, t->quarter[k]);
-        else if (rc_spectrum_set_by(passing, t->fft, &kernel, keep_column, &keeper, err) != RC_OK) {
+        else if (rc_spectrum_set_by(passing, t->fft, &kernel, rc_keep_column, t->quarter[k], err) !=
+                 RC_OK) {
             rc_spectrum_free(passing);
             return RC_FAIL;
         }
@@ -174,16 +161,7 @@ allocate(struct rc_tangential *t)
         room = (t->single[k] = rc_alloc(t->columns * t->cy, sizeof(float))) != NULL;
     for (int k = 0; k < 2 && room; k++)
         room = (t->waves[k] = rc_alloc(2 * t->columns * t->length, sizeof(double))) != NULL;
-    t->wave = rc_alloc(t->length, sizeof *t->wave);
-    t->mirror = rc_alloc(t->length, sizeof *t->mirror);
-    if (!room || t->wave == NULL || t->mirror == NULL)
-        return false;
-    for (size_t n = 0; n < t->length; n++) {
-        size_t j = rc_fft_wave(t->fft, n);
-        t->wave[n] = 2 * j <= t->length ? j : t->length - j;
-        t->mirror[n] = 2 * j <= t->length ? 1 : -1;
-    }
-    return true;
+    return room && rc_fft_fold(t->fft, &t->wave, &t->mirror);
 }
 
 struct rc_frame
