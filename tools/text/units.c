@@ -41,21 +41,35 @@ static const struct word_unit { /* units without prefixes */
 };
 /* clang-format on */
 
+static const struct {
+    const char *name, *usual;
+} names[] = {
+    [UNIT_NONE] = {"", ""},
+    [UNIT_M] = {"m", "nm um mm m"},
+    [UNIT_N] = {"N", "mN N kN"},
+    [UNIT_PA] = {"Pa", "kPa MPa GPa"},
+    [UNIT_S] = {"s", "s min h"},
+    [UNIT_BYTES] = {"bytes", "M G"},
+    [UNIT_HARD] = {"Pa", "HV MPa GPa"},
+    [UNIT_WORK] = {"J/m2", "mJ/m2 J/m2"},
+    [UNIT_PAS] = {"Pas", "mPas Pas"},
+    [UNIT_K] = {"K", "K degC"},
+    [UNIT_SPEED] = {"m/s", "mm/s m/s km/h"},
+    [UNIT_DIFFUSIVITY] = {"m2/s", "mm2/s m2/s"},
+    [UNIT_HEAT] = {"J/m3K", "kJ/m3K MJ/m3K"},
+    [UNIT_HZ] = {"Hz", "Hz kHz"},
+};
+
 const char *
 unit_name(enum unit unit)
 {
-    static const char *const names[] = {"", "m", "N", "Pa", "s", "bytes", "Pa", "J/m2", "Pas"};
-
-    return names[unit];
+    return names[unit].name;
 }
 
 const char *
 unit_usual(enum unit unit)
 {
-    static const char *const usual[] = {"",    "nm um mm m", "mN N kN",    "kPa MPa GPa", "s min h",
-                                        "M G", "HV MPa GPa", "mJ/m2 J/m2", "mPas Pas"};
-
-    return usual[unit];
+    return names[unit].usual;
 }
 
 static bool
@@ -152,6 +166,58 @@ decimal_power(const char *text, size_t n, enum unit unit, int *power)
            (power_of(text, n, "Pa.s", power) || power_of(text, n, "Pa s", power));
 }
 
+/* Quotients: a power of a unit with its prefix, over other units. "J/(m3 K)", "J/m^3/K" and "J/m3K" are the
+ * same. */
+static const struct quotient {
+    enum unit unit;
+    const char *above, *below;
+    int exponent; /* of the unit above */
+    int power;    /* of ten: size of the quotient in SI, times `over` */
+    double over;
+} quotients[] = {
+    {UNIT_SPEED, "m", "s", 1, 0, 1},    {UNIT_SPEED, "m", "min", 1, 0, 60},
+    {UNIT_SPEED, "m", "h", 1, 0, 3600}, {UNIT_DIFFUSIVITY, "m", "s", 2, 0, 1},
+    {UNIT_HEAT, "J", "m3K", 1, 0, 1},   {UNIT_HEAT, "J", "cm3K", 1, 6, 1},
+};
+
+/* The letters and digits of text[0..n). */
+static void
+bare(const char *text, size_t n, char *to, size_t size)
+{
+    size_t used = 0;
+
+    for (size_t k = 0; k < n; k++)
+        if (strchr(" ()*./^", text[k]) == NULL && used + 1 < size)
+            to[used++] = text[k];
+    to[used] = '\0';
+}
+
+static bool
+apply_quotient(const char *digits, size_t length, const char *suffix, size_t n, enum unit unit,
+               double *value)
+{
+    const char *slash = memchr(suffix, '/', n);
+    char above[16], below[16];
+    int power;
+
+    if (slash == NULL)
+        return false;
+    bare(suffix, (size_t)(slash - suffix), above, sizeof above);
+    bare(slash, (size_t)(suffix + n - slash), below, sizeof below);
+    for (size_t k = 0; k < sizeof quotients / sizeof *quotients; k++) {
+        const struct quotient *q = &quotients[k];
+        const size_t tail = q->exponent > 1 ? 1 : 0, used = strlen(above);
+        if (q->unit != unit || strcmp(q->below, below) != 0 || used <= tail ||
+            (tail > 0 && above[used - 1] != '0' + q->exponent) ||
+            !power_of(above, used - tail, q->above, &power) ||
+            !shift(digits, length, q->exponent * power + q->power, value))
+            continue;
+        *value /= q->over;
+        return true;
+    }
+    return false;
+}
+
 static const struct word_unit *
 word_units(enum unit unit)
 {
@@ -186,6 +252,12 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
         *value *= 9.80665e6 / sin(68 * acos(-1) / 180);
         return true;
     }
+    if (unit == UNIT_K && (same("degC", suffix, n) || same("\302\260C", suffix, n))) {
+        *value += 273.15;
+        return true;
+    }
+    if (apply_quotient(digits, length, suffix, n, unit, value))
+        return true;
     if (unit == UNIT_WORK &&
         (power_of(suffix, n, "J/m^2", &power) || power_of(suffix, n, "N/m", &power)))
         return shift(digits, length, power, value);
@@ -272,6 +344,10 @@ also_units(enum unit unit)
         return ", or N/m";
     case UNIT_PAS:
         return ", or cP";
+    case UNIT_K:
+        return ", or degC";
+    case UNIT_SPEED:
+        return ", or km/h";
     default:
         return "";
     }
@@ -360,7 +436,7 @@ read_piece(const char *text, size_t n, struct list_state *state, double *value, 
         state->with = true;
         state->per_metre |= seen.per_metre;
         state->not_per_metre |= !seen.per_metre;
-    } else if (*value != 0) {
+    } else if (*value != 0 || state->unit == UNIT_K) { /* 0 degC is not 0 K */
         state->without = true;
     }
     if (state->with && state->without)
@@ -511,14 +587,13 @@ apply_conductivity(const char *digits, size_t length, const char *suffix, size_t
 {
     const char *slash = memchr(suffix, '/', n);
     char below[32];
-    size_t used = 0;
+    size_t used;
     int up, down;
 
     if (slash == NULL)
         return NULL;
-    for (const char *s = slash + 1; s < suffix + n; s++)
-        if (strchr(" ()*./", *s) == NULL && used + 1 < sizeof below)
-            below[used++] = *s;
+    bare(slash, (size_t)(suffix + n - slash), below, sizeof below);
+    used = strlen(below);
     for (size_t k = 0; k < sizeof conductivities / sizeof *conductivities; k++) {
         const struct conductivity *c = &conductivities[k];
         size_t tail = strlen(c->below);

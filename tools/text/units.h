@@ -9,15 +9,20 @@
 #include "libcontact/grid.h"
 
 enum unit {
-    UNIT_NONE,  /* a plain number                    */
-    UNIT_M,     /* metres; also inch, mil, microinch */
-    UNIT_N,     /* newtons; also kgf                 */
-    UNIT_PA,    /* pascals; also N/mm2, bar          */
-    UNIT_S,     /* seconds; also min and h           */
-    UNIT_BYTES, /* bytes: 512M, 4G, 2GiB             */
-    UNIT_HARD,  /* pascals; also 600HV               */
-    UNIT_WORK,  /* joules per square metre; also N/m */
-    UNIT_PAS,   /* pascal seconds; also cP           */
+    UNIT_NONE,        /* a plain number                    */
+    UNIT_M,           /* metres; also inch, mil, microinch */
+    UNIT_N,           /* newtons; also kgf                 */
+    UNIT_PA,          /* pascals; also N/mm2, bar          */
+    UNIT_S,           /* seconds; also min and h           */
+    UNIT_BYTES,       /* bytes: 512M, 4G, 2GiB             */
+    UNIT_HARD,        /* pascals; also 600HV               */
+    UNIT_WORK,        /* joules per square metre; also N/m */
+    UNIT_PAS,         /* pascal seconds; also cP           */
+    UNIT_K,           /* kelvins; also degC                */
+    UNIT_SPEED,       /* metres per second; also km/h      */
+    UNIT_DIFFUSIVITY, /* square metres per second          */
+    UNIT_HEAT,        /* joules per cubic metre and kelvin */
+    UNIT_HZ,          /* per second                        */
 };
 
 struct numbers {
