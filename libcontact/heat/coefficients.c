@@ -2,10 +2,10 @@
  * Temperature at a distance (x, y, z) from the middle of a cell dx by dy with a heat flux of 1 (Carslaw and
  * Jaeger 1959, section 10.7, with tau = sqrt(4 kap t)):
  *
- *     C = 1/(k sqrt(pi)) int_0^T X Y exp(-z^2/tau^2) dtau,   T = sqrt(4 kap time), or infinite,
+ *     C = 1/(k sqrt(pi)) int_S^T X Y exp(-z^2/tau^2) dtau,   T = sqrt(4 kap time), or infinite,
  *     X = [erf((x + dx/2 - px tau^2/2)/tau) - erf((x - dx/2 - px tau^2/2)/tau)]/2,   Y likewise.
  *
- * X and Y depend on one index each, so all coefficients are one matrix product over the points of a quadrature.
+ * S is 0, or T for the time since heating ended. X and Y depend on one index each, so all coefficients are one matrix product over the points of a quadrature.
  * Y = 1 for strips without end. Each factor is stored as its even and its odd part, and only at the nodes that
  * it reaches at this tau.
  */
@@ -56,6 +56,15 @@ add_panel(struct rc_heat_cells *c, double from, double to, bool over)
     }
 }
 
+/* The end of a panel. */
+static double
+panel_end(double from, double p, double first)
+{
+    const double to = p * from > 0.5 ? fmin(from * ratio, from + 1 / p) : from * ratio;
+
+    return fmax(to, p > 0 ? fmin(first, 0.5 / p) : first);
+}
+
 /* Panels get wider by a ratio. An edge of the cell passes a point within 1/P, so they are no wider than that.
  * The last ends where all heated material has left the map; without motion, where the distance of the farthest
  * node is small. Counts the points where there is no memory for them yet. */
@@ -67,15 +76,17 @@ add_panels(struct rc_heat_cells *c, const struct rc_shape *s, const struct rc_he
     double end =
         p > 0 ? (reach + 0.5 + sqrt((reach + 0.5) * (reach + 0.5) + 2 * p * r)) / p : 2 * r;
     bool tail = p == 0 && isinf(b->diffusion);
-    double from = 0, to = p > 0 ? fmin(side / first_part, 0.5 / p) : side / first_part;
+    double from = b->ended;
 
     if (p == 0 && !tail)
         end = b->diffusion;
     end = fmin(end, b->diffusion);
     c->n = 0;
-    for (;
-         from<end; from = to, to = p * from> 0.5 ? fmin(from * ratio, from + 1 / p) : from * ratio)
-        add_panel(c, from, fmin(to, end), false);
+    do {
+        const double to = panel_end(from, p, side / first_part);
+        add_panel(c, from, fmin(to, fmax(end, from)), false);
+        from = to;
+    } while (from < end);
     for (int k = 0; tail && k < tail_panels; k++)
         add_panel(c, k / (tail_panels * end), (k + 1) / (tail_panels * end), true);
 }

@@ -24,7 +24,12 @@ struct rc_heat {
     struct rc_shape shape;
     struct rc_heat_problem problem;
     struct rc_conduction *c;
-    struct rc_warming warming[2];
+    /* Heat is constant in each of `times` time steps; step `at` is being solved. Number k of a body: its
+     * temperature k steps after one in which heat flows. */
+    size_t times, at;
+    struct rc_warming *lag[2];
+    double *share;   /* heat into body 1 at the nodes in contact, for each time step */
+    double *past[2]; /* K: rise due to earlier time steps, nx ny; NULL: there is one */
     struct rc_heat_inverse *inverse; /* NULL: heat is not matched */
     double drop;                     /* K: bulk temperature of body 2 less that of body 1 */
     double scale;                    /* K: largest rise of a body above its bulk          */
@@ -37,7 +42,8 @@ struct rc_heat {
     double *right, *v[STEPS + 1], *z[STEPS];
     double h[STEPS][STEPS + 1]; /* column by column; its first rows are rotated to a triangle */
     double turn[STEPS][2], g[STEPS + 1];
-    size_t steps;
+    size_t steps, earlier; /* of this time step, of all before it */
+    double worst;          /* largest mismatch of the time steps  */
     bool begun;
     struct rc_heat_figures figures;
 };
@@ -105,18 +111,19 @@ rc_heat_check(const struct rc_shape *shape, const struct rc_heat_problem *p, str
     return RC_OK;
 }
 
-/* Body b at a depth. */
+/* Body b at a depth, `lag` time steps after one in which heat flows. */
 static struct rc_heated
-heated(const struct rc_heat *h, int b, double depth)
+heated(const struct rc_heat *h, int b, double depth, size_t lag)
 {
     const struct rc_heat_body *body = &h->problem.body[b];
-    const double time = h->problem.time;
+    const double time = h->problem.time / (double)h->times;
 
     return (struct rc_heated){
         .k = body->conductivity,
         .px = body->velocity[0] / (2 * body->diffusivity),
         .py = h->shape.ny == 1 ? 0 : body->velocity[1] / (2 * body->diffusivity),
-        .diffusion = time > 0 ? 2 * sqrt(body->diffusivity * time) : INFINITY,
+        .diffusion = time > 0 ? 2 * sqrt(body->diffusivity * time * (double)(lag + 1)) : INFINITY,
+        .ended = 2 * sqrt(body->diffusivity * time * (double)lag),
         .depth = depth,
     };
 }
@@ -161,7 +168,7 @@ set_figures(struct rc_heat *h, const double *contact, struct rc_err *err)
     enum rc_status status = rc_patches_find(&h->shape, contact, &options, &patches, err);
 
     for (int b = 0; b < 2 && status == RC_OK; b++) {
-        const struct rc_heated p = heated(h, b, 0);
+        const struct rc_heated p = heated(h, b, 0, 0);
         peclet[b] = hypot(p.px, p.py) * sqrt(patches.patch[0].area / RC_PI);
         of_cell[b] = fmax(fabs(p.px) * h->shape.dx, fabs(p.py) * h->shape.dy);
     }
@@ -178,6 +185,29 @@ set_figures(struct rc_heat *h, const double *contact, struct rc_err *err)
     return status;
 }
 
+static void
+lags_free(const struct rc_heat *h, struct rc_warming *lag)
+{
+    for (size_t k = 0; k < h->times && lag != NULL; k++)
+        rc_warming_free(&lag[k]);
+    free(lag);
+}
+
+/* The temperatures of body b at a depth, for each lag; the caller frees them in either case. */
+static enum rc_status
+lags_new(const struct rc_heat *h, int b, double depth, struct rc_warming **lag, struct rc_err *err)
+{
+    enum rc_status status = RC_OK;
+
+    if ((*lag = calloc(h->times, sizeof **lag)) == NULL)
+        return rc_err_set(err, "out of memory for %zu time steps", h->times);
+    for (size_t k = 0; k < h->times && status == RC_OK; k++) {
+        const struct rc_heated body = heated(h, b, depth, k);
+        status = rc_warming_set(&(*lag)[k], h->c, &body, err);
+    }
+    return status;
+}
+
 void
 rc_heat_free(struct rc_heat *h)
 {
@@ -186,13 +216,15 @@ rc_heat_free(struct rc_heat *h)
     rc_heat_inverse_free(h->inverse);
     rc_conduction_free(h->c);
     for (int b = 0; b < 2; b++)
-        rc_warming_free(&h->warming[b]);
+        lags_free(h, h->lag[b]);
     for (size_t k = 0; k < STEPS; k++) {
         free(h->v[k]);
         free(h->z[k]);
     }
     free(h->v[STEPS]);
     free(h->right);
+    free(h->share);
+    free(h->past[0]); /* the second map is part of this block */
     free(h->node);
     free(h->map);
     free(h);
@@ -218,6 +250,10 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
     if (h->problem.tol == 0)
         h->problem.tol = 1e-3;
     h->drop = problem->body[1].bulk - problem->body[0].bulk;
+    h->times = problem->time > 0 && problem->time_steps > 0 &&
+                       problem->partition == RC_HEAT_MATCHED /* else the shares are constant */
+                   ? problem->time_steps
+                   : 1;
     h->q = h->map;
     for (int b = 0; b < 2; b++) {
         h->flux[b] = h->map + (size_t)(1 + b) * nodes;
@@ -227,18 +263,23 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
     memset(h->map, 0, 6 * nodes * sizeof *h->map);
     if (set_contact(h, q, contact, err) != RC_OK)
         goto fail;
-    if ((h->right = rc_alloc(h->n, sizeof *h->right)) == NULL) {
+    h->right = rc_alloc(h->n, sizeof *h->right);
+    h->share = rc_alloc(h->times * h->n, sizeof *h->share);
+    if (h->times > 1)
+        h->past[0] = rc_alloc(2 * nodes, sizeof **h->past);
+    if (h->right == NULL || h->share == NULL || (h->times > 1 && h->past[0] == NULL)) {
         rc_err_set(err, "out of memory for %zu nodes in contact", h->n);
         goto fail;
     }
+    h->past[1] = h->times > 1 ? h->past[0] + nodes : NULL;
     for (size_t k = 0; k < h->n; k++)
         h->work[h->node[k]] = 1;
     if (set_figures(h, h->work, err) != RC_OK ||
         (h->c = rc_conduction_new(shape, problem->boundary, problem->threads, err)) == NULL)
         goto fail;
     for (int b = 0; b < 2; b++) {
-        body[b] = heated(h, b, 0);
-        if (rc_warming_set(&h->warming[b], h->c, &body[b], err) != RC_OK)
+        body[b] = heated(h, b, 0, 0);
+        if (lags_new(h, b, 0, &h->lag[b], err) != RC_OK)
             goto fail;
     }
     if (problem->partition == RC_HEAT_MATCHED &&
@@ -252,12 +293,29 @@ fail:
 
 /* ---- temperatures and figures ---- */
 
+/* out = the field of the loaded map, or with `add` out + this field; `out` is not h->work then. */
 static void
-field(struct rc_heat *h, int b, double *out)
+field(struct rc_heat *h, const struct rc_warming *w, bool add, double *out)
 {
-    const struct rc_warming *const one[] = {&h->warming[b]};
+    double *to = add ? h->work : out;
 
-    rc_conduction_field(h->c, 1, one, out);
+    rc_conduction_field(h->c, 1, &w, to);
+    for (size_t k = 0; k < h->shape.nx * h->shape.ny && add; k++)
+        out[k] += to[k];
+}
+
+/* Adds to `out` the rise of body b at the end of time step `last` due to the heat of the steps 0 .. n - 1. */
+static void
+add_rise(struct rc_heat *h, int b, const struct rc_warming *lag, size_t n, size_t last, double *out)
+{
+    for (size_t j = 0; j < n; j++) {
+        const double *share = h->share + j * h->n;
+        memset(h->work, 0, h->shape.nx * h->shape.ny * sizeof *h->work);
+        for (size_t k = 0; k < h->n; k++)
+            h->work[h->node[k]] = b == 0 ? share[k] : h->q[h->node[k]] - share[k];
+        rc_conduction_load(h->c, h->work);
+        field(h, &lag[last - j], true, out);
+    }
 }
 
 static double
@@ -275,7 +333,7 @@ static size_t
 row_of_nodes(struct rc_heat *h, size_t k)
 {
     const struct rc_shape *s = &h->shape;
-    const struct rc_heated one = heated(h, 0, 0), two = heated(h, 1, 0);
+    const struct rc_heated one = heated(h, 0, 0, 0), two = heated(h, 1, 0, 0);
     const bool along_y = fmax(fabs(one.py), fabs(two.py)) > fmax(fabs(one.px), fabs(two.px));
     const size_t step = along_y ? s->nx : 1, n = along_y ? s->ny : s->nx;
     const size_t at = along_y ? k / s->nx : k % s->nx;
@@ -291,7 +349,7 @@ row_of_nodes(struct rc_heat *h, size_t k)
     return last - first + 1;
 }
 
-/* Temperatures for the heat in flux[0], and the figures. */
+/* Keeps the heat in flux[0] of this time step; finds temperatures and figures at its end. */
 static void
 finish(struct rc_heat *h)
 {
@@ -303,9 +361,13 @@ finish(struct rc_heat *h)
 
     for (size_t k = 0; k < nodes; k++)
         h->flux[1][k] = h->q[k] - h->flux[0][k];
+    for (size_t k = 0; k < h->n; k++)
+        h->share[h->at * h->n + k] = h->flux[0][h->node[k]];
     for (int b = 0; b < 2; b++) {
         rc_conduction_load(h->c, h->flux[b]);
-        field(h, b, h->rise[b]);
+        if (h->at > 0)
+            memcpy(h->rise[b], h->past[b], nodes * sizeof *h->rise[b]);
+        field(h, h->lag[b], h->at > 0, h->rise[b]);
     }
     h->scale = fmax(fmax(largest(h, h->rise[0]), largest(h, h->rise[1])), DBL_MIN);
     for (size_t i = 0; i < h->n; i++) {
@@ -325,8 +387,8 @@ finish(struct rc_heat *h)
     f->hot_nodes = row_of_nodes(h, hottest);
     f->heat_power_1 = rc_sum(h->flux[0], nodes) * s->dx * s->dy;
     f->share_1 = f->heat_power != 0 ? f->heat_power_1 / f->heat_power : NAN;
-    f->mismatch = differs / h->scale;
-    f->iterations = h->steps;
+    f->mismatch = fmax(h->worst, differs / h->scale);
+    f->iterations = h->earlier + h->steps;
     f->convolutions = h->c->count;
     f->converged = h->problem.partition != RC_HEAT_MATCHED || f->mismatch <= h->problem.tol;
 }
@@ -357,7 +419,7 @@ product(const struct rc_heat *h, const double *a, const double *b)
 static void
 apply(struct rc_heat *h, const double *v, double *z, double *to)
 {
-    const struct rc_warming *const both[] = {&h->warming[0], &h->warming[1]};
+    const struct rc_warming *const both[] = {h->lag[0], h->lag[1]};
 
     rc_heat_inverse_apply(h->inverse, both, v, z);
     memset(h->work, 0, h->shape.nx * h->shape.ny * sizeof *h->work);
@@ -369,23 +431,45 @@ apply(struct rc_heat *h, const double *v, double *z, double *to)
         to[k] = h->work[h->node[k]];
 }
 
-/* The right side, Blok's share, and a first guess of the largest rise. */
-static enum rc_status
-begin(struct rc_heat *h, struct rc_err *err)
+/* Blok's share for heat since the start, and with it a guess of the largest rise in this time step. */
+static void
+find_blok(struct rc_heat *h)
 {
-    double most[2], size;
+    double most[2], first[2];
 
     rc_conduction_load(h->c, h->q);
     for (int b = 0; b < 2; b++) {
-        field(h, b, h->work);
-        most[b] = largest(h, h->work);
+        field(h, h->lag[b], false, h->rise[b]);
+        first[b] = largest(h, h->rise[b]);
+        for (size_t k = 1; k < h->times; k++)
+            field(h, &h->lag[b][k], true, h->rise[b]);
+        most[b] = largest(h, h->rise[b]);
     }
-    for (size_t k = 0; k < h->n; k++)
-        h->right[k] = h->work[h->node[k]] + h->drop;
     h->figures.share_blok = most[0] + most[1] > 0 ? most[1] / (most[0] + most[1]) : NAN;
-    h->scale = most[0] + most[1] > 0 ? most[0] * most[1] / (most[0] + most[1]) : 0;
+    h->scale = first[0] + first[1] > 0 ? first[0] * first[1] / (first[0] + first[1]) : 0;
     h->scale = fmax(h->scale, fabs(h->drop) / 2);
-    if ((h->v[0] = vector_new(h, err)) == NULL)
+}
+
+/* The right side of this time step. */
+static enum rc_status
+begin(struct rc_heat *h, struct rc_err *err)
+{
+    const size_t nodes = h->shape.nx * h->shape.ny;
+    double size;
+
+    if (h->at == 0)
+        find_blok(h);
+    for (int b = 0; b < 2 && h->at > 0; b++) {
+        memset(h->past[b], 0, nodes * sizeof *h->past[b]);
+        add_rise(h, b, h->lag[b], h->at, h->at, h->past[b]);
+    }
+    rc_conduction_load(h->c, h->q);
+    field(h, h->lag[1], false, h->work);
+    for (size_t k = 0; k < h->n; k++) {
+        const size_t at = h->node[k];
+        h->right[k] = h->work[at] + h->drop + (h->at > 0 ? h->past[1][at] - h->past[0][at] : 0);
+    }
+    if (h->v[0] == NULL && (h->v[0] = vector_new(h, err)) == NULL)
         return RC_FAIL;
     size = h->g[0] = sqrt(product(h, h->right, h->right));
     for (size_t k = 0; k < h->n; k++)
@@ -401,8 +485,11 @@ extend(struct rc_heat *h, struct rc_err *err)
     const size_t m = h->steps;
     double *column = h->h[m], *next, size, c, s;
 
-    if ((h->z[m] = vector_new(h, err)) == NULL || (next = h->v[m + 1] = vector_new(h, err)) == NULL)
+    if (h->z[m] == NULL && (h->z[m] = vector_new(h, err)) == NULL)
         return RC_FAIL;
+    if (h->v[m + 1] == NULL && (h->v[m + 1] = vector_new(h, err)) == NULL)
+        return RC_FAIL;
+    next = h->v[m + 1];
     apply(h, h->v[m], h->z[m], next);
     for (size_t i = 0; i <= m; i++) {
         column[i] = product(h, h->v[i], next);
@@ -500,7 +587,16 @@ rc_heat_step(struct rc_heat *h, struct rc_err *err)
         return RC_MORE;
     take_solution(h);
     finish(h); /* finds the scale too */
-    return h->figures.converged ? RC_OK : last ? RC_SHORT : RC_MORE;
+    if (!h->figures.converged && !last)
+        return RC_MORE;
+    if (h->at + 1 == h->times)
+        return h->figures.converged ? RC_OK : RC_SHORT;
+    h->worst = h->figures.mismatch;
+    h->earlier += h->steps;
+    h->steps = 0;
+    h->at++;
+    h->begun = false;
+    return RC_MORE;
 }
 
 /* ---- results ---- */
@@ -521,23 +617,18 @@ enum rc_status
 rc_heat_temperature(struct rc_heat *h, int b, double depth, double *to, struct rc_err *err)
 {
     const size_t nodes = h->shape.nx * h->shape.ny;
-    const struct rc_heated body = heated(h, b, depth);
-    struct rc_warming warming;
-    const struct rc_warming *const one[] = {&warming};
+    struct rc_warming *lag = NULL;
     enum rc_status status = RC_OK;
 
     if (!(depth >= 0) || isinf(depth))
         return rc_err_set(err, "depth %g m: it must be at least 0", depth);
     if (depth == 0) {
         memcpy(to, h->rise[b], nodes * sizeof *to);
-    } else {
-        status = rc_warming_set(&warming, h->c, &body, err);
-        if (status == RC_OK) {
-            rc_conduction_load(h->c, h->flux[b]);
-            rc_conduction_field(h->c, 1, one, to);
-        }
-        rc_warming_free(&warming);
+    } else if ((status = lags_new(h, b, depth, &lag, err)) == RC_OK) {
+        memset(to, 0, nodes * sizeof *to);
+        add_rise(h, b, lag, h->times, h->times - 1, to);
     }
+    lags_free(h, lag);
     for (size_t k = 0; k < nodes && status == RC_OK; k++)
         to[k] += b == 1 ? h->drop : 0;
     return status;

@@ -20,6 +20,7 @@ struct rc_heated {
     double k;         /* W/(m K)                                                     */
     double px, py;    /* 1/m: P along x and y                                        */
     double diffusion; /* m: 2 sqrt(kap t), t since heating began; INFINITY: steady   */
+    double ended;     /* m: the same for the time since heating ended; 0: it goes on */
     double depth;     /* m                                                           */
 };
 

@@ -42,21 +42,30 @@ rc_scaled_erfc(const struct rc_heat_waves *w, double complex z)
     return over / sqrt(RC_PI) + 2 * over * over * sum;
 }
 
-double complex
-rc_heat_symbol(const struct rc_heat_waves *w, double qx, double qy)
+/* At the time s^2/kap after heating began. */
+static double complex
+after(const struct rc_heat_waves *w, double qx, double qy, double s)
 {
     const struct rc_heated *b = &w->body;
     const double complex m = csqrt(CMPLX(qx * qx + qy * qy, 2 * (b->px * qx + b->py * qy)));
-    const double s = b->diffusion / 2, a = b->depth / b->diffusion, z = b->depth;
+    const double z = b->depth, a = z / (2 * s);
     double complex below, above, fall;
 
     if (isinf(s))
         return cexp(-m * z) / (b->k * m);
     if (m == 0)
-        return (b->diffusion / sqrt(RC_PI) * exp(-a * a) - z * erfc(a)) / b->k;
+        return (2 * s / sqrt(RC_PI) * exp(-a * a) - z * erfc(a)) / b->k;
     fall = cexp(-a * a - m * m * s * s);
     above = fall * rc_scaled_erfc(w, a + m * s);
     below = a >= creal(m) * s ? fall * rc_scaled_erfc(w, a - m * s)
                               : 2 * cexp(-m * z) - fall * rc_scaled_erfc(w, m * s - a);
     return (below - above) / (2 * b->k * m);
+}
+
+double complex
+rc_heat_symbol(const struct rc_heat_waves *w, double qx, double qy)
+{
+    const double ended = w->body.ended;
+
+    return after(w, qx, qy, w->body.diffusion / 2) - (ended > 0 ? after(w, qx, qy, ended / 2) : 0);
 }

@@ -210,6 +210,57 @@ conductance(void **state)
     rc_solver_free(s);
 }
 
+/* A share in time: with the heat of Hertz's pressure, one step and 16 of them against 64. */
+static void
+time_steps(void **state)
+{
+    static const size_t times[] = {64, 16, 1};
+    static const double error[] = {0, 1e-3, 4e-2};
+    double found[3];
+    (void)state;
+
+    set_heat();
+    for (int k = 0; k < 3; k++) {
+        struct rc_heat_problem problem = steel(20);
+        struct rc_heat *h;
+        problem.time = 1e-6; /* a quarter of a^2/kap */
+        problem.time_steps = times[k];
+        problem.tol = 1e-6;
+        h = run(&shape, &problem, q, NULL);
+        found[k] = rc_heat_result(h)->max_temperature;
+        near(found[k], found[0], error[k] * found[0], "largest temperature after time steps");
+        rc_heat_free(h);
+    }
+    assert_true(found[2] > 1.001 * found[0]);
+}
+
+/* Where the bodies are alike and at rest the share is 1/2 at all times, and time steps change nothing. */
+static void
+no_change(void **state)
+{
+    static double t[2][N * N];
+    struct rc_err err = {""};
+    (void)state;
+
+    set_heat();
+    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++)
+        for (int depth = 0; depth < 2; depth++) {
+            for (int k = 0; k < 2; k++) {
+                struct rc_heat_problem problem = steel(0);
+                struct rc_heat *h;
+                problem.boundary = (enum rc_boundary)boundary;
+                problem.time = 4e-6;
+                problem.time_steps = 1 + 6 * (size_t)k;
+                problem.tol = 1e-9;
+                h = run(&shape, &problem, q, NULL);
+                assert_int_equal(rc_heat_temperature(h, 1, depth * 1e-6, t[k], &err), RC_OK);
+                rc_heat_free(h);
+            }
+            for (int k = 0; k < N * N; k++)
+                near(t[1][k], t[0][k], 1e-8 * t[0][20 + 25 * N], "time steps of like bodies");
+        }
+}
+
 /* ---- estimates and work ---- */
 
 static uint64_t seed;
@@ -306,8 +357,8 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(elastic),   cmocka_unit_test(directions),  cmocka_unit_test(periodic),
-        cmocka_unit_test(charron),   cmocka_unit_test(conductance), cmocka_unit_test(steps),
-        cmocka_unit_test(estimates),
+        cmocka_unit_test(charron),   cmocka_unit_test(conductance), cmocka_unit_test(time_steps),
+        cmocka_unit_test(no_change), cmocka_unit_test(steps),       cmocka_unit_test(estimates),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -145,8 +145,8 @@ coefficients(void **state)
 
     for (size_t p = 0; p < sizeof peclet / sizeof *peclet; p++)
         for (size_t a = 0; a < sizeof turned / sizeof *turned; a++) {
-            const struct rc_heated body = {1, peclet[p] * cos(turned[a]),
-                                           peclet[p] * sin(turned[a]), INFINITY, 0};
+            const struct rc_heated body = {
+                1, peclet[p] * cos(turned[a]), peclet[p] * sin(turned[a]), INFINITY, 0, 0};
             struct rc_heat_cells *cells = rc_heat_cells_new(&shape, &body, NULL);
             double self = exact_cell(0, 0, at.dx, at.dy, body.px, body.py);
             for (size_t k = 0; k < sizeof offset / sizeof *offset; k++) {
@@ -159,12 +159,35 @@ coefficients(void **state)
         }
 }
 
+/* What remains after heating has ended is the difference of two times since heating began. */
+static void
+ended(void **state)
+{
+    const struct rc_lattice at = {1, 1, 1, 1};
+    const struct rc_shape shape = {OFFSETS, OFFSETS, 1, 1};
+    (void)state;
+
+    for (double p = 0; p < 20; p = 10 * p + 0.1)
+        for (double end = 0.5; end < 100; end *= 4)
+            for (int i = -2; i < 6; i += 3) {
+                double found[3];
+                for (int k = 0; k < 3; k++) {
+                    const struct rc_heated body = {
+                        1, p, -p / 2, k == 0 ? 0.7 * end : end, k == 2 ? 0.7 * end : 0, 0.3};
+                    struct rc_heat_cells *cells = rc_heat_cells_new(&shape, &body, NULL);
+                    found[k] = coefficient(cells, &at, i, 1);
+                    rc_heat_cells_free(cells);
+                }
+                near(found[2], found[1] - found[0], 1e-12, "after the end");
+            }
+}
+
 /* Far downstream all heat is in the material. The sum over y and the integral over z of the temperature
  * is then dx dy/(rho c V). */
 static double
 section(double z, const double *with)
 {
-    const struct rc_heated body = {1, with[0], 0, INFINITY, z};
+    const struct rc_heated body = {1, with[0], 0, INFINITY, 0, z};
     const struct rc_lattice at = {1, 1, 1, 1};
     const struct rc_shape shape = {OFFSETS, OFFSETS, 1, 1};
     struct rc_heat_cells *cells = rc_heat_cells_new(&shape, &body, NULL);
@@ -205,7 +228,8 @@ wave_part(double tau, const double *with) /* m^2 as two numbers, z, which part *
 static void
 symbols(void **state)
 {
-    static const double end[] = {0.3, 2, 9, 40}, depth[] = {0, 0.4, 3}, p[] = {0, 0.1, 2, 20};
+    static const double end[] = {0.3, 2, 9, 40}, depth[] = {0, 0.4, 3}, p[] = {0, 0.1, 2, 20},
+                        part[] = {0, 0.4, 0, 0.9};
     (void)state;
 
     for (int e = 0; e < 4; e++)
@@ -213,15 +237,16 @@ symbols(void **state)
             for (int k = 0; k < 4; k++)
                 for (int n = 0; n < 4; n++) {
                     const double qx = 0.7 * n, qy = n % 2 ? -0.3 : 0.2;
-                    const struct rc_heated body = {2, p[k], -0.6 * p[k], end[e], depth[d]};
+                    const double from = part[n] * end[e];
+                    const struct rc_heated body = {2, p[k], -0.6 * p[k], end[e], from, depth[d]};
                     const struct rc_heat_waves waves = rc_heat_waves_of(&body);
                     const double complex found = rc_heat_symbol(&waves, qx, qy);
                     double with[] = {qx * qx + qy * qy, 2 * (body.px * qx + body.py * qy), depth[d],
                                      0};
-                    near(creal(found), integral(wave_part, with, 0, end[e], 1e-14, 30) / 2,
+                    near(creal(found), integral(wave_part, with, from, end[e], 1e-14, 30) / 2,
                          3e-13 * end[e], "wave, real part");
                     with[3] = 1;
-                    near(cimag(found), integral(wave_part, with, 0, end[e], 1e-14, 30) / 2,
+                    near(cimag(found), integral(wave_part, with, from, end[e], 1e-14, 30) / 2,
                          3e-13 * end[e], "wave, imaginary part");
                 }
 }
@@ -370,8 +395,9 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coefficients), cmocka_unit_test(balance), cmocka_unit_test(symbols),
-        cmocka_unit_test(table),        cmocka_unit_test(band),    cmocka_unit_test(disc),
+        cmocka_unit_test(coefficients), cmocka_unit_test(ended), cmocka_unit_test(balance),
+        cmocka_unit_test(symbols),      cmocka_unit_test(table), cmocka_unit_test(band),
+        cmocka_unit_test(disc),
     };
 
     return cmocka_run_group_tests(tests, set_rule, NULL);
