@@ -61,8 +61,9 @@ struct friction {
     double doubt; /* relative: error of the iteration with half of the increments */
     /* Pa: tractions with all increments minus tractions with half of them, at the last kept point */
     double *lag[2];
-    bool good;  /* all contacts and increments have converged           */
-    bool again; /* a state was read: its increment must be solved again */
+    double *energy; /* J/m2: the map of `dissipated`; NULL: not asked for */
+    bool good;      /* all contacts and increments have converged           */
+    bool again;     /* a state was read: its increment must be solved again */
     struct rc_friction_figures figures;
 };
 
@@ -73,7 +74,10 @@ static const struct rc_figure own_figures[] = {
 static const struct rc_figure_set sets[] = {
     {rc_figures_slip, offsetof(struct friction, figures)}, {own_figures, 0}, {NULL, 0}};
 
-static const struct rc_frame_kind frames[] = {RC_SLIP_FRAME_KINDS("m", ""), {NULL, NULL, NULL}};
+static const struct rc_frame_kind frames[] = {
+    RC_SLIP_FRAME_KINDS("m", ""),
+    [RC_SLIP_DISSIPATION] = {"dissipation", "J/m2", "Dissipated energy"},
+    {NULL, NULL, NULL}};
 
 /* ---- passes ---- */
 
@@ -401,6 +405,8 @@ follow(struct friction *f, struct rc_err *err)
         return f->good ? RC_OK : RC_SHORT;
     find_figures(f, f->way, &figures);
     f->dissipated += figures.slip.dissipated;
+    if (f->energy != NULL)
+        rc_slip_add_dissipation(f->way->slip, f->energy);
     f->passes += figures.passes;
     return keep_increment(f, f->way, err) == RC_OK ? next_increment(f, err) : RC_FAIL;
 }
@@ -521,6 +527,8 @@ go(struct rc_model *m, struct rc_err *err)
     f->leg = rc_friction_leg(&f->problem, &f->before, &m->from, &m->to);
     f->increment = f->passes = 0;
     f->dissipated = 0;
+    if (f->energy != NULL)
+        memset(f->energy, 0, f->n * sizeof *f->energy);
     f->good = true;
     f->again = false;
     f->convolutions = all_convolutions(f);
@@ -575,6 +583,8 @@ keep(struct rc_model *m, struct rc_err *err)
 
     f->lag_before = f->lagging;
     f->before = f->leg;
+    if (f->energy != NULL && f->way->stage == THERE)
+        rc_slip_add_dissipation(f->way->slip, f->energy);
     return keep_increment(f, f->way, err);
 }
 
@@ -584,17 +594,21 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     struct friction *f = (struct friction *)m;
     const struct way *w = f->way;
 
-    (void)err;
+    if (frame == RC_SLIP_DISSIPATION && f->energy == NULL)
+        return rc_err_set(err, "the map of the dissipated energy was not asked for");
     if (frame == RC_SLIP_STATE)
         rc_slip_state(w->slip, to);
     else if (frame == RC_SLIP_SLIP_X || frame == RC_SLIP_SLIP_Y)
         rc_slip_slip(w->slip, (int)frame - RC_SLIP_SLIP_X, to);
     else
         memcpy(to,
-               frame == RC_SLIP_PRESSURE
-                   ? w->p
+               frame == RC_SLIP_PRESSURE ? w->p
+               : frame == RC_SLIP_DISSIPATION
+                   ? f->energy
                    : rc_slip_traction(w->slip, (int)frame - RC_SLIP_TRACTION_X),
                f->n * sizeof *to);
+    if (frame == RC_SLIP_DISSIPATION && w->stage == THERE)
+        rc_slip_add_dissipation(w->slip, to);
     return RC_OK;
 }
 
@@ -675,6 +689,8 @@ state(struct rc_model *m, struct rc_state *s)
     rc_state_count(s, &good, 1);
     rc_state_count(s, &told, RC_TOLD_UNKNOWN);
     rc_state_count(s, &carries, 1);
+    if (f->energy != NULL)
+        rc_state_numbers(s, f->n, f->energy);
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         rc_state_numbers(s, 1, numbers[k]);
     exchange_ways(f, s);
@@ -711,6 +727,7 @@ release(struct rc_model *m)
             rc_model_free(f->way[j].inner);
     }
     free(f->h);
+    free(f->energy);
     free(f->lag[0]); /* the second array is part of this block */
 }
 
@@ -827,6 +844,8 @@ make(struct friction *f, const double *h, struct rc_err *err)
             return short_of_memory(f, err);
         memcpy(f->h, h, f->n * sizeof *h);
     }
+    if (o->dissipation && (f->energy = calloc(f->n, sizeof *f->energy)) == NULL)
+        return short_of_memory(f, err);
     if (o->fewer > 0) {
         if ((f->lag[0] = rc_alloc(2 * f->n, sizeof **f->lag)) == NULL)
             return short_of_memory(f, err);

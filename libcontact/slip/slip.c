@@ -282,16 +282,29 @@ rc_slip_keep(struct rc_slip *s)
 /* Where the load falls, the traction of the increment is the mean of its start and its end. Otherwise the
  * traction at the end is used, which is exact under a constant load. */
 static double
+dissipated_at(const struct rc_slip *s, int c, size_t k)
+{
+    const double mean = s->load < s->load_old ? 0.5 : 1;
+
+    return -(mean * s->discs->q[c][k] + (1 - mean) * s->old[c][k]) * slipped(s, c, k);
+}
+
+static double
 dissipated(const struct rc_slip *s)
 {
-    const struct rc_discs *d = s->discs;
-    double mean = s->load < s->load_old ? 0.5 : 1;
     struct rc_total sum = {0};
 
     for (size_t k = 0; k < s->n; k++)
         for (int c = 0; c < 2; c++)
-            rc_total_add(&sum, -(mean * d->q[c][k] + (1 - mean) * s->old[c][k]) * slipped(s, c, k));
+            rc_total_add(&sum, dissipated_at(s, c, k));
     return rc_total_value(&sum) * s->cell * s->unit;
+}
+
+void
+rc_slip_add_dissipation(const struct rc_slip *s, double *to)
+{
+    for (size_t k = 0; k < s->n; k++)
+        to[k] += (dissipated_at(s, 0, k) + dissipated_at(s, 1, k)) * s->unit;
 }
 
 void

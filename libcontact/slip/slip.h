@@ -48,6 +48,8 @@ void rc_slip_free(struct rc_slip *slip); /* NULL is allowed */
 /* The next increment starts from these tractions, Pa, instead of the last ones; call it before the force
  * is set. */
 void rc_slip_start(struct rc_slip *slip, const double *const q[2]);
+/* Adds the energy that friction dissipates in this increment, J/m2 at each node. */
+void rc_slip_add_dissipation(const struct rc_slip *slip, double *to);
 /* Reads or writes the history of the kept increments as numbers, and the tractions of the increment that is
  * being solved. After reading, the increment continues from these tractions. */
 void rc_slip_history(struct rc_slip *slip, struct rc_state *state);
@@ -68,7 +70,8 @@ enum {
     RC_SLIP_TRACTION_Y,
     RC_SLIP_SLIP_X,
     RC_SLIP_SLIP_Y,
-    RC_SLIP_STATE
+    RC_SLIP_STATE,
+    RC_SLIP_DISSIPATION /* of friction only */
 };
 /* clang-format off */
 #define RC_SLIP_FRAME_KINDS(unit, per)                                                             \

@@ -10,15 +10,12 @@
 const char *
 slip_frame_word(size_t k)
 {
-    static const char *const words[] = {[SLIP_PRESSURE] = "pressure",
-                                        [SLIP_TRACTION_X] = "traction-x",
-                                        [SLIP_TRACTION_Y] = "traction-y",
-                                        [SLIP_SLIP_X] = "slip-x",
-                                        [SLIP_SLIP_Y] = "slip-y",
-                                        [SLIP_STATE] = "state",
-                                        [SLIP_HEIGHT] = "height",
-                                        [SLIP_LENGTH] = "slip",
-                                        [SLIP_FRAMES] = NULL};
+    static const char *const words[] = {
+        [SLIP_PRESSURE] = "pressure",       [SLIP_TRACTION_X] = "traction-x",
+        [SLIP_TRACTION_Y] = "traction-y",   [SLIP_SLIP_X] = "slip-x",
+        [SLIP_SLIP_Y] = "slip-y",           [SLIP_STATE] = "state",
+        [SLIP_HEIGHT] = "height",           [SLIP_LENGTH] = "slip",
+        [SLIP_DISSIPATION] = "dissipation", [SLIP_FRAMES] = NULL};
 
     return words[k];
 }
@@ -342,7 +339,7 @@ memory_for(const struct slip_run *run)
         (void)rc_solver_expect(&shape, &contact, &solver, &err);
     return ways * (size_t)(nodes * bytes[run->coupled][run->boundary == RC_PERIODIC]) +
            (run->alternates ? ways : 1) * solver.memory +
-           (maps + (ways > 1 ? 2 : 0) + STATE * ways + 1) * (size_t)nodes * sizeof(double);
+           (maps + (ways > 1 ? 2 : 0) + STATE * ways + 2) * (size_t)nodes * sizeof(double);
 }
 
 void

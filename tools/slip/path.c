@@ -211,6 +211,7 @@ slip_law(const struct slip_run *run)
                                                  .threads = run->d.t.threads},
                                         .coupling = run->coupling,
                                         .increments = run->increments,
+                                        .dissipation = a->output >> SLIP_DISSIPATION & 1,
                                         .known_load = run->load,
                                         .known_p = run->p->v,
                                         .known_gap = run->gap == NULL ? NULL : run->gap->v};

@@ -38,10 +38,11 @@ slip_check_rolling(struct slip_run *run)
                  "--coupling goodman, or none");
     if (run->coupling == RC_COUPLING_FULL)
         run->coupling = RC_COUPLING_GOODMAN;
-    if (a->output >> SLIP_LENGTH & 1)
-        tool_die(t, EXIT_USAGE,
-                 "--output slip: the path of slip needs --tangential, --displacement, --path or "
-                 "--history");
+    for (size_t k = SLIP_LENGTH; k <= SLIP_DISSIPATION; k++)
+        if (a->output >> k & 1)
+            tool_die(t, EXIT_USAGE,
+                     "--output %s needs --tangential, --displacement, --path or --history",
+                     slip_frame_word(k));
 }
 
 /* ---- a point ---- */

@@ -15,7 +15,8 @@ enum slip_frame { /* in the order of the words of --output */
     SLIP_SLIP_Y,
     SLIP_STATE,
     SLIP_HEIGHT,
-    SLIP_LENGTH, /* of the path of slip since the last case */
+    SLIP_LENGTH,      /* of the path of slip since the last case */
+    SLIP_DISSIPATION, /* J/m2, since the last case               */
     SLIP_FRAMES
 };
 
