@@ -9,14 +9,27 @@
 static struct args {
     const char *conductivity, *moving, *partition, *report;
     struct numbers speed, diffusivity, capacity, bulk, depths;
-    double mu, time, tol;
-    size_t output;
-} args = {.moving = "2", .partition = "matched", .mu = NAN, .tol = 1e-3, .output = 15};
+    double mu, time, tol, frequency;
+    size_t time_steps, output;
+} args = {
+    .moving = "2", .partition = "matched", .mu = NAN, .tol = 1e-3, .time_steps = 1, .output = 31};
 
 static const char *
 frame_word(size_t k)
 {
-    static const char *const words[] = {"temperature-1", "temperature-2", "heat-1", "heat-2", NULL};
+    static const char *const words[] = {"temperature-1", "temperature-2", "heat-1",
+                                        "heat-2",        CONTACT_CHANNEL, NULL};
+
+    return words[k];
+}
+
+static const char *
+partition_word(size_t k)
+{
+    static const char *const words[] = {[RC_HEAT_MATCHED] = "matched",
+                                        [RC_HEAT_BLOK] = "blok",
+                                        [RC_HEAT_CHARRON] = "charron",
+                                        NULL};
 
     return words[k];
 }
@@ -27,21 +40,27 @@ frame_word(size_t k)
 static const struct opt opts[] = {
     {.name = "mu", .type = OPT_NUMBER, AT(mu), ABOVE_0, .arg = "COEFFICIENT",
      .help = "coefficient of friction: the heat is mu times pressure times speed"},
-    {.name = "speed", .type = OPT_NUMBERS, AT(speed), .min = -INFINITY, .max = INFINITY, .result = true,
-     .arg = "VX[,VY]", .help = "sliding speed, m/s, along x and y"},
+    {.name = "frequency", .type = OPT_NUMBER, .unit = UNIT_HZ, AT(frequency), ABOVE_0, .arg = "F",
+     .help = "cycles per second: heat from the frames dissipation of rc-slip, summed over the cases"},
+    {.name = "speed", .type = OPT_NUMBERS, .unit = UNIT_SPEED, AT(speed), .min = -INFINITY,
+     .max = INFINITY, .result = true, .arg = "VX[,VY]", .help = "sliding speed along x and y"},
     {.name = "conductivity", .type = OPT_TEXT, AT(conductivity), .result = true, .arg = "K1,K2",
      .help = "thermal conductivities of both bodies, as in 45W/mK,16W/mK"},
-    {.name = "diffusivity", .type = OPT_NUMBERS, AT(diffusivity), ABOVE_0, .arg = "A1,A2",
-     .help = "thermal diffusivities of both bodies, m2/s, as in 1.2e-5,4e-6"},
-    {.name = "heat-capacity", .type = OPT_NUMBERS, AT(capacity), ABOVE_0, .arg = "C1,C2",
-     .help = "instead: heat capacities by volume, J/m3K, as in 3.7e6,4e6"},
-    {.name = "moving", .type = OPT_CHOICE, AT(moving), .result = true, .arg = "1|2",
-     .help = "the body whose material moves past the contact (default 2); the other carries the spots"},
-    {.name = "bulk", .type = OPT_NUMBERS, AT(bulk), .min = -INFINITY, .max = INFINITY, .result = true,
-     .arg = "T1,T2", .help = "temperatures of both bodies far from the contact, K or Celsius (default 0,0)"},
+    {.name = "diffusivity", .type = OPT_NUMBERS, .unit = UNIT_DIFFUSIVITY, AT(diffusivity), ABOVE_0,
+     .arg = "A1,A2", .help = "thermal diffusivities of both bodies, as in 12mm2/s,4mm2/s"},
+    {.name = "heat-capacity", .type = OPT_NUMBERS, .unit = UNIT_HEAT, AT(capacity), ABOVE_0,
+     .arg = "C1,C2", .help = "instead: heat capacities by volume, as in 3.7MJ/m3K,4MJ/m3K"},
+    {.name = "moving", .type = OPT_TEXT, AT(moving), .result = true, .arg = "1|2|V1,V2",
+     .help = "the body that moves past the contact (default 2), or both speeds along x, without --speed"},
+    {.name = "bulk", .type = OPT_NUMBERS, .unit = UNIT_K, AT(bulk), .min = -INFINITY, .max = INFINITY,
+     .result = true, .arg = "T1,T2",
+     .help = "temperatures of both bodies far from the contact, as in 20degC,60degC (default 0,0)"},
     {.name = "time", .type = OPT_NUMBER, .unit = UNIT_S, AT(time), ABOVE_0, .arg = "TIME",
      .help = "time since heating began (default: steady state); a periodic map needs it"},
-    {.name = "partition", .type = OPT_CHOICE, AT(partition), .result = true, .arg = "matched|blok|charron",
+    {.name = "time-steps", .type = OPT_COUNT, AT(time_steps), .min = 1, .max = 1000, .result = true,
+     .arg = "N", .help = "steps of --time in which the shares of the bodies are found anew (default 1)"},
+    {.name = "partition", .type = OPT_TEXT, AT(partition), .words = partition_word, .result = true,
+     .arg = "matched|blok|charron|SHARE",
      .help = "heat of each body: equal temperatures at every node (default), or one number for all"},
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0, .max = INFINITY,
      .result = true, .arg = "LIST", .help = "depths of the temperatures (default 0)"},
@@ -60,8 +79,12 @@ static const struct tool_info info = {
     .summary = "Flash temperatures of a contact whose bodies slide",
     .operands = "[FILE...]",
     .examples = "  rc-solve --load 5N --radius 5mm --estar 114GPa --hardness 6GPa surface.rcg |\n"
-                "      rc-heat --mu 0.3 --speed 1 --conductivity 45W/mK,45W/mK \\\n"
-                "          --diffusivity 1.2e-5,1.2e-5 --report heat.tsv -o hot.rcg\n",
+                "      rc-heat --mu 0.3 --speed 1m/s --conductivity 45W/mK,45W/mK \\\n"
+                "          --diffusivity 12mm2/s,12mm2/s --report heat.tsv -o hot.rcg\n"
+                "  rc-slip --mu 0.6 --path '1N,0,0; 1N,0.4N,0; 1N,-0.4N,0; 1N,0.4N,0' \\\n"
+                "      --output pressure,dissipation contact.rcg | rc-pick --case 3,4 |\n"
+                "      rc-heat --frequency 50Hz --conductivity 45W/mK,45W/mK \\\n"
+                "          --diffusivity 12mm2/s,12mm2/s --report fretting.tsv -o warm.rcg\n",
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
@@ -72,8 +95,10 @@ struct run {
     struct report report;
     struct rc_heat_problem problem;
     struct rc_grid *pressure, *contact; /* of the case beside its main frame; NULL: none */
-    bool friction;                      /* heat from --mu and --speed                    */
-    double speed;                       /* m/s                                           */
+    const char *channel;                /* of the main frame: pressure, dissipation or heat */
+    double
+        *touch;   /* 1 at the nodes in contact, in any case of a cycle; NULL: where heat is not 0 */
+    double speed; /* m/s, of sliding                                                          */
 };
 
 /* ---- the command line ---- */
@@ -88,18 +113,68 @@ pair_of(struct tool *t, const char *name, const struct numbers *list)
 }
 
 static void
-read_speed(struct run *run)
+read_motion(struct run *run)
 {
-    const struct numbers *v = &args.speed;
-    struct rc_heat_body *moves = &run->problem.body[strcmp(args.moving, "1") == 0 ? 0 : 1];
+    struct tool *t = &run->t;
+    struct rc_heat_body *body = run->problem.body;
+    const int one = strcmp(args.moving, "1") == 0 ? 0 : strcmp(args.moving, "2") == 0 ? 1 : -1;
+    struct numbers v = args.speed;
+    struct rc_err err;
 
-    if (v->n == 0 || v->n > 2)
-        tool_die(&run->t, EXIT_USAGE, "give the sliding speed in m/s with --speed VX or VX,VY");
-    memcpy(moves->velocity, v->v, v->n * sizeof *v->v);
-    run->speed = hypot(moves->velocity[0], moves->velocity[1]);
-    run->friction = tool_given(&run->t, "mu");
-    if (run->friction && run->speed == 0)
-        tool_die(&run->t, EXIT_USAGE, "--speed is 0, so that friction makes no heat: give a speed");
+    if (one < 0 && v.n > 0)
+        tool_die(t, EXIT_USAGE,
+                 "--moving %s has the speeds of both bodies: leave out --speed, or say 1 or 2",
+                 args.moving);
+    if (one < 0 && (unit_numbers(args.moving, UNIT_SPEED, &v, &err) != RC_OK || v.n != 2))
+        tool_die(t, EXIT_USAGE,
+                 "--moving %s: it must be 1, 2 or the speeds of both bodies along x, as in "
+                 "1m/s,0.8m/s",
+                 args.moving);
+    if (v.n > 2)
+        tool_die(t, EXIT_USAGE, "--speed: it must be one value (along x) or two (x and y)");
+    for (size_t k = 0; k < v.n; k++)
+        body[one < 0 ? k : (size_t)one].velocity[one < 0 ? 0 : k] = v.v[k];
+    if (one < 0)
+        free(v.v);
+    run->speed =
+        hypot(body[1].velocity[0] - body[0].velocity[0], body[1].velocity[1] - body[0].velocity[1]);
+}
+
+static void
+read_source(struct run *run)
+{
+    struct tool *t = &run->t;
+    const bool friction = tool_given(t, "mu"), cycles = tool_given(t, "frequency");
+
+    if (friction && cycles)
+        tool_die(t, EXIT_USAGE, "--mu and --frequency are two sources of heat: give one of them");
+    if (friction && run->speed == 0)
+        tool_die(t, EXIT_USAGE,
+                 "the bodies do not slide, so that friction makes no heat: give a speed with "
+                 "--speed, as in --speed 1m/s");
+    run->channel = friction ? "pressure" : cycles ? "dissipation" : "heat";
+}
+
+static void
+read_partition(struct run *run)
+{
+    struct rc_heat_problem *p = &run->problem;
+    struct rc_err err;
+    size_t k = 0;
+
+    while (partition_word(k) != NULL && strcmp(args.partition, partition_word(k)) != 0)
+        k++;
+    p->partition = (enum rc_heat_partition)k;
+    if (p->partition == RC_HEAT_SHARE &&
+        (unit_number(args.partition, UNIT_NONE, &p->share, &err) != RC_OK ||
+         !(p->share >= 0 && p->share <= 1)))
+        tool_die(&run->t, EXIT_USAGE,
+                 "--partition %s: it must be matched, blok, charron, or the share of body 1 from "
+                 "0 to 1",
+                 args.partition);
+    if (args.time_steps > 1 && !tool_given(&run->t, "time"))
+        tool_die(&run->t, EXIT_USAGE, "--time-steps needs --time");
+    p->time_steps = args.time_steps;
 }
 
 static void
@@ -131,18 +206,23 @@ read_options(struct run *run)
     p->time = args.time;
     p->tol = args.tol;
     p->threads = t->threads;
-    p->partition = strcmp(args.partition, "blok") == 0      ? RC_HEAT_BLOK
-                   : strcmp(args.partition, "charron") == 0 ? RC_HEAT_CHARRON
-                                                            : RC_HEAT_MATCHED;
-    read_speed(run);
+    read_motion(run);
+    read_source(run);
+    read_partition(run);
 }
 
 /* ---- a case ---- */
 
-/* Makes the heat flux of friction, or checks the given one. */
+/* Turns the main frame into heat flux: friction times speed, or energy a cycle times frequency. */
 static void
 find_heat(struct run *run, struct rc_grid *g)
 {
+    const bool friction = tool_given(&run->t, "mu");
+    const char *unit = friction ? "Pa" : tool_given(&run->t, "frequency") ? "J/m2" : "W/m2";
+    const double factor = friction                           ? args.mu * run->speed
+                          : tool_given(&run->t, "frequency") ? args.frequency
+                                                             : 1;
+
     tool_demand_finite(&run->t, g, "recompute the map");
     if (rc_grid_get(g, "layers") != NULL)
         tool_die_at(
@@ -150,17 +230,63 @@ find_heat(struct run *run, struct rc_grid *g)
             "its body 1 has layers, and rc-heat supports only bodies of one material: where "
             "the layers conduct as the substrate does, remove the key with rc-pick --set "
             "layers=");
-    if (!run->friction && strcmp(g->unit, "W/m2") != 0)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "its unit is '%s': it must be W/m2", g->unit);
-    for (size_t k = 0; k < rc_grid_nodes(g) && run->friction; k++) {
-        if (g->v[k] < 0)
+    if (strcmp(g->unit, unit) != 0)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "its unit is '%s': it must be %s", g->unit, unit);
+    for (size_t k = 0; k < rc_grid_nodes(g); k++) {
+        if (friction && g->v[k] < 0)
             tool_die_at(
                 &run->t, g, EXIT_IMPOSSIBLE,
                 "pressure %g Pa at column %zu, row %zu: friction of bodies that attract each "
                 "other is not implemented: give the heat in a frame heat",
                 g->v[k], k % g->nx, k / g->nx);
-        g->v[k] *= args.mu * run->speed;
+        g->v[k] *= factor;
     }
+}
+
+/* Adds the nodes in contact of a case, and those that slipped in a cycle. */
+static void
+add_contact(struct run *run, const struct rc_grid *g)
+{
+    const struct rc_grid *p = tool_given(&run->t, "mu") ? g : run->pressure, *touch;
+    const size_t n = rc_grid_nodes(g);
+
+    if (p == NULL && run->contact == NULL)
+        return;
+    touch = contact_demand(&run->t, p, run->contact);
+    tool_demand_grid_of(&run->t, touch, g);
+    if (run->touch == NULL) {
+        run->touch = tool_room(&run->t, n, sizeof *run->touch, "the contact");
+        memset(run->touch, 0, n * sizeof *run->touch);
+    }
+    for (size_t k = 0; k < n; k++)
+        if (rc_in_contact(touch->v[k]) || (tool_given(&run->t, "frequency") && g->v[k] != 0))
+            run->touch[k] = 1;
+}
+
+/* The heat of the next case, or of all cases, which are one cycle. */
+static struct rc_grid *
+next_heat(struct run *run)
+{
+    struct tool_frame beside[] = {
+        {CONTACT_CHANNEL, &run->contact}, {"pressure", &run->pressure}, {NULL, NULL}};
+    struct rc_grid *g, *sum = NULL;
+
+    if (tool_given(&run->t, "mu"))
+        beside[1] = beside[2];
+    while ((g = tool_channel_with(&run->t, run->channel, tool_take_frames, beside)) != NULL) {
+        find_heat(run, g);
+        if (sum != NULL)
+            tool_demand_grid_of(&run->t, g, sum);
+        add_contact(run, g);
+        for (size_t k = 0; k < rc_grid_nodes(g) && sum != NULL; k++)
+            g->v[k] += sum->v[k];
+        rc_grid_free(sum);
+        tool_free_frames(beside);
+        sum = g;
+        if (!tool_given(&run->t, "frequency"))
+            break;
+    }
+    return sum;
 }
 
 static void
@@ -168,10 +294,11 @@ write_frame(struct run *run, const struct rc_grid *like, struct rc_heat *h, size
             double depth)
 {
     const struct rc_heat_figures *f = rc_heat_result(h);
+    static const char *const units[] = {"K", "K", "W/m2", "W/m2", "1"};
     const int body = (int)(kind % 2);
     const bool heat = kind >= 2;
     struct rc_err err;
-    struct rc_grid *g = rc_grid_like(like, frame_word(kind), heat ? "W/m2" : "K", &err);
+    struct rc_grid *g = rc_grid_like(like, frame_word(kind), units[kind], &err);
 
     if (g == NULL || rc_grid_set_number(g, "max_temperature", f->max_temperature, &err) != RC_OK ||
         (!heat && rc_grid_set_number(g, "depth", depth, &err) != RC_OK) ||
@@ -179,8 +306,10 @@ write_frame(struct run *run, const struct rc_grid *like, struct rc_heat *h, size
         rc_grid_history(g, tool_history(&run->t), &err) != RC_OK ||
         (!heat && rc_heat_temperature(h, body, depth, g->v, &err) != RC_OK))
         tool_die_at(&run->t, like, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (heat)
-        memcpy(g->v, rc_heat_flux(h, body), rc_grid_nodes(g) * sizeof *g->v);
+    for (size_t k = 0; k < rc_grid_nodes(g) && heat; k++)
+        g->v[k] = kind < 4             ? rc_heat_flux(h, body)[k]
+                  : run->touch != NULL ? run->touch[k]
+                                       : like->v[k] != 0;
     tool_write(&run->t, g);
     rc_grid_free(g);
 }
@@ -207,6 +336,17 @@ enum {
     FEW = 10 /* nodes along the motion: with fewer the trailing edge is more than 3 % hotter */
 };
 
+/* True if rc-add made the height of the contact from two surfaces. */
+static bool
+adds_surfaces(const struct rc_grid *g)
+{
+    const char *history = rc_grid_get(g, "history");
+    const char *step = history == NULL ? NULL : strstr(history, "rc-add ");
+    const char *subtract = step == NULL ? NULL : strstr(step, "--subtract");
+
+    return step != NULL && (subtract == NULL || subtract > step + strcspn(step, "|"));
+}
+
 static void
 judge(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f)
 {
@@ -215,6 +355,11 @@ judge(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f)
     char where[256];
 
     tool_where(t, g, where, sizeof where);
+    if (run->speed > 0 && strchr(args.moving, ',') == NULL && adds_surfaces(g))
+        tool_warn(t,
+                  "%s: its height is the sum of two rough surfaces, whose spots last only for a "
+                  "passage: with spots that stay on body %d the temperatures are too high",
+                  where, *args.moving == '1' ? 2 : 1);
     if (f->hot_nodes < FEW && fmax(f->cell_peclet_1, f->cell_peclet_2) > 1)
         tool_warn(
             t,
@@ -240,24 +385,14 @@ judge(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f)
 static void
 do_case(struct run *run, struct rc_grid *g)
 {
-    const struct rc_grid *p = run->friction ? g : run->pressure;
     const struct rc_shape shape = rc_grid_shape(g);
     const double began = tool_now();
-    double *contact = NULL;
     enum rc_status status;
     struct rc_heat *h;
     struct rc_err err;
 
-    if (p != NULL || run->contact != NULL) {
-        const struct rc_grid *touch = contact_demand(&run->t, p, run->contact);
-        tool_demand_grid_of(&run->t, touch, g);
-        contact = tool_room(&run->t, rc_grid_nodes(g), sizeof *contact, "the contact");
-        memcpy(contact, touch->v, rc_grid_nodes(g) * sizeof *contact);
-    }
     run->problem.boundary = map_boundary(g);
-    find_heat(run, g);
-    h = rc_heat_new(&shape, &run->problem, g->v, contact, &err);
-    free(contact);
+    h = rc_heat_new(&shape, &run->problem, g->v, run->touch, &err);
     if (h == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     while ((status = rc_heat_step(h, &err)) == RC_MORE)
@@ -268,11 +403,13 @@ do_case(struct run *run, struct rc_grid *g)
     for (size_t kind = 0; kind < 2; kind++)
         for (size_t k = 0; k < args.depths.n && args.output >> kind & 1; k++)
             write_frame(run, g, h, kind, args.depths.v[k]);
-    for (size_t kind = 2; kind < 4; kind++)
+    for (size_t kind = 2; kind < 5; kind++)
         if (args.output >> kind & 1)
             write_frame(run, g, h, kind, 0);
     put_report(run, g, rc_heat_result(h), tool_now() - began);
     rc_heat_free(h);
+    free(run->touch);
+    run->touch = NULL;
 }
 
 /* ---- main ---- */
@@ -281,8 +418,6 @@ int
 main(int argc, char **argv)
 {
     static struct run run;
-    struct tool_frame beside[] = {
-        {"pressure", &run.pressure}, {CONTACT_CHANNEL, &run.contact}, {NULL, NULL}};
     static double surface[1];
     struct rc_grid *g;
 
@@ -291,13 +426,9 @@ main(int argc, char **argv)
     if (args.depths.n == 0)
         args.depths = (struct numbers){.v = surface, .n = 1};
     report_open(&run.report, &run.t, args.report);
-    while ((g = tool_channel_with(&run.t, run.friction ? "pressure" : "heat", tool_take_frames,
-                                  run.friction ? beside + 1 : beside)) != NULL) {
+    while ((g = next_heat(&run)) != NULL) {
         do_case(&run, g);
         rc_grid_free(g);
-        rc_grid_free(run.pressure);
-        rc_grid_free(run.contact);
-        run.pressure = run.contact = NULL;
     }
     report_close(&run.report);
     return tool_finish(&run.t);

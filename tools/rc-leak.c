@@ -220,9 +220,7 @@ main(int argc, char **argv)
     while ((gap = tool_channel_with(&run.t, "gap", tool_take_frames, beside)) != NULL) {
         do_case(&run, gap);
         rc_grid_free(gap);
-        rc_grid_free(run.p);
-        rc_grid_free(run.contact);
-        run.p = run.contact = NULL;
+        tool_free_frames(beside);
     }
     report_close(&run.report);
     return tool_finish(&run.t);

@@ -148,10 +148,8 @@ main(int argc, char **argv)
            (run.p = tool_channel_with(&run.d.t, "pressure", tool_take_frames, beside)) != NULL) {
         slip_case(&run);
         rc_grid_free(run.p);
-        rc_grid_free(run.gap);
-        rc_grid_free(run.height);
-        rc_grid_free(run.contact);
-        run.p = run.gap = run.height = run.contact = NULL;
+        run.p = NULL;
+        tool_free_frames(beside);
     }
     free(run.given);
     rc_model_free(run.path);

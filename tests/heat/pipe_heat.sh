@@ -15,7 +15,7 @@ for pair in 0.1:20.2 1:176.7 10:1109; do
     near "$(column heat_power t.tsv)" "$(awk "BEGIN { print 0.3 * 5 * ${pair%:*} }")" 1e-3 "  heat: mu P V"
 done
 claim "frames" test "$(grep -a '^channel=' hot.rcg | tr '\n' ' ')" = \
-    "channel=temperature-1 channel=temperature-2 channel=heat-1 channel=heat-2 "
+    "channel=temperature-1 channel=temperature-2 channel=heat-1 channel=heat-2 channel=contact "
 
 rc-synth sphere --nx 48 --dx 1um --radius 1mm | rc-solve --quiet --tol 1e-8 --output pressure --estar 114GPa --load 100mN --conductivity 45W/mK,16W/mK --report c.tsv -o ball.rcg
 two="--conductivity 45W/mK,16W/mK --heat-capacity 3.7e6,4e6"
@@ -34,17 +34,51 @@ near "$(column max_temperature t.tsv)" "$(column max_temperature u.tsv)" 2e-3 "l
 rc-heat --quiet --mu 0.3 --speed 3 $steel --depths 0,2um --output temperature-2 ball.rcg >deep.rcg
 claim "depths" test "$(grep -ac '^depth=' deep.rcg)" = 2
 
+si="$(rc-heat --quiet --mu 0.3 --speed 2 --conductivity 45,45 --diffusivity 1.2e-5,1.2e-5 --report - ball.rcg | sed 's/"seconds.*//')"
+unit="$(rc-heat --quiet --mu 0.3 --speed 7.2km/h --conductivity '45W/(m K),0.45W/cmK' --heat-capacity '3.75MJ/m3K,3.75J/(cm3 K)' --report - ball.rcg | sed 's/"seconds.*//')"
+claim "units" test "$unit" = "$si"
+gears="$(rc-heat --quiet --mu 0.3 --moving 0,2m/s $steel --report - ball.rcg | sed 's/"seconds.*//')"
+claim "--moving 0,V is --speed V of body 2" test "$gears" = "$si"
+rc-heat --quiet --mu 0.3 --moving -1,2 $steel --report t.tsv -o gears.rcg ball.rcg
+near "$(column heat_power t.tsv)" 0.09 1e-6 "heat of two speeds: mu P (V2 - V1)"
+rc-heat --quiet --mu 0.3 --speed 2 $steel --partition 0.3 --report t.tsv -o share.rcg ball.rcg
+near "$(column share_1 t.tsv)" 0.3 1e-12 "--partition SHARE"
+for n in 1 16; do
+    rc-heat --quiet --mu 0.3 --speed 20 $steel --time 1us --time-steps $n --report "t$n.tsv" -o then.rcg ball.rcg
+done
+between 1.004 "$(awk "BEGIN { print $(column max_temperature t16.tsv) / $(column max_temperature t1.tsv) }")" 1.04 "--time-steps: the shares change in time"
+claim "degrees Celsius" test "$(rc-heat --quiet --speed 1 $steel --bulk 20degC,25degC --report - given.rcg | sed 's/.*max_temp/max_temp/; s/"seconds.*//')" = \
+    "$(rc-heat --quiet --speed 1 $steel --bulk 293.15,298.15 --report - given.rcg | sed 's/.*max_temp/max_temp/; s/"seconds.*//')"
+
+rc-synth sphere --nx 32 --dx 10um --radius 7.5mm | rc-solve --quiet --load 50N --E1 210GPa --nu1 0.3 --E2 70GPa --nu2 0.3 -o pressed.rcg
+rc-slip --quiet --mu 0.3 --coupling goodman --path '50N,0,0; 50N,8N,0; 50N,-8N,0; 50N,8N,0' --output pressure,dissipation --report loop.tsv -o loop.rcg pressed.rcg
+rc-pick --case 3,4 loop.rcg | rc-heat --frequency 50Hz $steel --report t.tsv -o fretting.rcg
+near "$(column heat_power t.tsv)" "$(awk -F'\t' 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "dissipated_energy/J") c = k }
+    NR > 3 { sum += $c } END { printf "%.12g", 50 * sum }' loop.tsv)" 1e-9 "fretting: frequency times the energy of a cycle"
+
 heat="rc-heat --mu 0.3 --speed 1 $steel -o never.rcg"
 refuses 2 "one of --diffusivity and --heat-capacity" "no diffusivity" "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 ball.rcg"
 refuses 2 "two numbers, for body 1 and body 2" "one diffusivity" "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1e-5 ball.rcg"
 refuses 2 "must be thermal" "electrical conductivity" "rc-heat --mu 0.3 --speed 1 --conductivity 58MS/m,7MS/m --diffusivity 1e-5,1e-5 ball.rcg"
-refuses 2 "--speed is 0" "no speed" "rc-heat --mu 0.3 --speed 0 $steel ball.rcg"
+refuses 2 "do not slide" "no speed" "rc-heat --mu 0.3 --speed 0 $steel ball.rcg"
 refuses 1 "only bodies of one material: .*rc-pick --set layers=" "a body with layers" "rc-pick --set 'layers=1e-6,2e11,0.3;inf,7e10,0.3' ball.rcg | $heat"
 refuses 1 "heat" "no frame heat" "rc-heat --speed 1 $steel rough.rcg"
 rc-synth wave --nx 32 --dx 1um --amplitude 10nm --wavelength 32um | rc-solve --quiet --periodic --estar 114GPa --mean-pressure 100MPa -o wave.rcg
 refuses 1 "no steady temperature: give a time" "periodic without a time" "$heat wave.rcg"
 claim "periodic with a time" rc-heat --quiet --mu 0.3 --speed 1 $steel --time 1us -o wavy.rcg wave.rcg
 rc-synth sphere --nx 16 --dx 20um --radius 1mm | rc-solve --quiet --estar 114GPa --load 10N -o coarse.rcg
+refuses 2 "must be above 0" "negative conductivity" "rc-heat --mu 0.3 --speed 1 --conductivity -45,45 --diffusivity 1e-5,1e-5 ball.rcg"
+refuses 2 "must be above 0" "no diffusivity" "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 0,1e-5 ball.rcg"
+refuses 2 "do not slide" "equal speeds" "rc-heat --mu 0.3 --moving 2,2 $steel ball.rcg"
+refuses 2 "two sources of heat" "friction and cycles" "rc-heat --mu 0.3 --speed 1 --frequency 5 $steel ball.rcg"
+refuses 2 "from 0 to 1" "a share above 1" "$heat --partition 1.5 ball.rcg"
+refuses 2 "needs --time" "time steps of a steady state" "$heat --time-steps 4 ball.rcg"
+refuses 2 "with and without a unit" "0 that may be degrees" "$heat --bulk 20degC,0 ball.rcg"
+refuses 1 "no frame with the channel dissipation" "no dissipation" "rc-heat --frequency 5 $steel ball.rcg"
+rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 1 -o a.rcg
+rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 2 | rc-add a.rcg - |
+    rc-solve --quiet --estar 114GPa --load 100mN --output pressure -o both.rcg
+claim "two rough bodies" warns "sum of two rough surfaces" rc-heat --mu 0.3 --speed 1 $steel -o passing.rcg both.rcg
 claim "few nodes" warns "trailing edge is up to" rc-heat --mu 0.3 --speed 30 $steel -o few.rcg coarse.rcg
 claim "hot" warns "K above the bulk of body 1" rc-heat --mu 0.3 --speed 1000 $steel -o hot.rcg rough.rcg
 

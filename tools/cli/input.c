@@ -325,6 +325,15 @@ tool_take_frames(void *ctx, struct tool *t, const struct rc_grid *kept, struct r
     return f->channel != NULL;
 }
 
+void
+tool_free_frames(const struct tool_frame *list)
+{
+    for (const struct tool_frame *f = list; f->channel != NULL; f++) {
+        rc_grid_free(*f->frame);
+        *f->frame = NULL;
+    }
+}
+
 struct rc_grid *
 tool_channel_beside(struct tool *t, const char *channel, const char *beside, struct rc_grid **other)
 {

@@ -221,6 +221,8 @@ struct tool_frame {
     struct rc_grid **frame; /* where the frame is kept; NULL before */
 };
 bool tool_take_frames(void *ctx, struct tool *tool, const struct rc_grid *kept, struct rc_grid *g);
+/* Frees the kept frames. */
+void tool_free_frames(const struct tool_frame *list);
 /* The same with the frame of one other channel on its grid; *other is NULL if there is none. */
 struct rc_grid *tool_channel_beside(struct tool *tool, const char *channel, const char *beside,
                                     struct rc_grid **other);
