@@ -3,12 +3,12 @@
 
 const PREFIX = ['f', 'p', 'n', 'µ', 'm', '', 'k', 'M', 'G', 'T'];
 // A number with its unit: 3e-6 m is 3 µm, 3e-12 m2 is 3 µm².
-function shown(value, unit) {
+function shown(value, unit, digits = 5) {
   if (!Number.isFinite(value)) return 'missing';
   const power = +(/^m([23])/.exec(unit)?.[1] ?? 1), name = unit === '1' ? '' : unit.replace(/m2\b/, 'm²').replace(/m3\b/, 'm³');
   const scaled = value !== 0 && /^(m|N|Pa|J|W|s)/.test(unit);
   const third = scaled ? Math.min(Math.max(Math.floor(Math.log10(Math.abs(value) * 1.0000001) / 3 / power), -5), 4) : 0;
-  const text = String(+(value / 10 ** (3 * third * power)).toPrecision(5)).replace('-', '−');
+  const text = String(+(value / 10 ** (3 * third * power)).toPrecision(digits)).replace('-', '−');
   return text + (name && ` ${PREFIX[third + 5]}${name}`);
 }
 
@@ -150,7 +150,7 @@ class MapView {
     Object.assign(g, {font: '13px ' + style.fontFamily, fillStyle: style.color, strokeStyle: style.color, textBaseline: 'middle'});
     g.fillRect(left, top + height + 16, length / frame.dx * this.scale, 4);
     g.fillText(shown(length, frame.dunit), left + length / frame.dx * this.scale + 8, top + height + 18);
-    for (const part of [0, 0.25, 0.5, 0.75, 1]) g.fillText(shown(low + part * (high - low), frame.unit), bar + 24, top + 7 + (1 - part) * (height - 14));
+    for (const part of [0, 0.25, 0.5, 0.75, 1]) g.fillText(shown(low + part * (high - low), frame.unit, 3), bar + 24, top + 7 + (1 - part) * (height - 14));
     const image = g.createImageData(1, 256), ramp = new OffscreenCanvas(1, 256);
     new Uint32Array(image.data.buffer).set(this.table.slice(0, 256).reverse());
     ramp.getContext('2d').putImageData(image, 0, 0);

@@ -107,7 +107,7 @@ function begin(chosen) {
 }
 function drawSteps() {
   Object.assign($('source'), {textContent: `${file.name}, ${(file.size / 1e6).toPrecision(3)} MB`});
-  $('go').disabled = false;
+  $('go').disabled = $('add').disabled = false;
   const buttons = k => [
     ...(k > 1 ? [button('Do earlier', () => { steps.splice(k - 1, 0, ...steps.splice(k, 1)); drawSteps(); })] : []),
     ...(k > 0 ? [button('Remove', () => { steps.splice(k, 1); drawSteps(); })] : [])];
@@ -308,7 +308,7 @@ function downloads() {
     made.click();
     tell(`${name} is saved.`);
     setTimeout(() => URL.revokeObjectURL(made.href), 60000);
-  }));
+  }), {name});
   const options = framed(VIEWS[view].tool ? [] : VIEWS[view].options ?? []), contact = steps.find(other => other.tool === 'rc-solve');
   const known = tables['rc-report'].options.map(row => row.name), page = contact ? given(contact.options).filter(([name]) => known.includes(name)) : [];
   const formats = tables['rc-export'].options.find(row => row.name === 'format').words;
@@ -341,6 +341,7 @@ trying(async () => {
   if (kept) { ({file, steps} = kept); drawSteps(); } else if (desk.files[1]?.path === desk.files[1]?.shown && desk.files[1]) begin(desk.files[1]);
 })();
 $('file').onchange = () => upload($('file').files[0]);
+$('file').onkeydown = e => { if (e.key === 'Enter') { e.preventDefault(); $('file').click(); } };
 for (const name of ['dragover', 'dragleave', 'drop']) document.addEventListener(name, e => { e.preventDefault(); $('drop').classList.toggle('over', name === 'dragover'); });
 document.addEventListener('drop', e => upload(e.dataTransfer.files[0]));
 $('add').onchange = () => { add($('add').value, steps.length); $('add').value = ''; drawSteps(); steps.at(-1).card.querySelector('input')?.focus(); };

@@ -1,0 +1,219 @@
+"""Checks of rc-app in headless Chromium for pipe_app_browser.sh: app_browser.py CHROMIUM ADDRESS FOLDER.
+
+FOLDER has rough-steel.x3p, broken.x3p, big.x3p (2048 x 2048) and node.rcg, and receives downloads and pictures.
+"""
+import base64
+import os
+import sys
+import time
+
+from playwright.sync_api import sync_playwright
+
+CHROMIUM, ADDRESS, FOLDER = sys.argv[1:4]
+
+
+def ok(sentence, true, more=''):
+    print('%s: %s%s' % ('ok' if true else 'NOT OK', sentence, ' (%s)' % more if more else ''), flush=True)
+
+
+def place(name):
+    return os.path.join(FOLDER, name)
+
+
+class Browser:
+    def __init__(self, playwright, **context):
+        self.browser = playwright.chromium.launch(executable_path=CHROMIUM, args=['--no-sandbox'])
+        self.context = self.browser.new_context(**dict({'viewport': {'width': 1440, 'height': 1000}}, **context))
+        self.context.grant_permissions(['clipboard-read', 'clipboard-write'])
+        self.errors = []
+
+    def open(self):
+        page = self.context.new_page()
+        page.set_default_timeout(60000)
+        page.on('console', lambda message: self.errors.append(message.text))
+        page.on('pageerror', lambda error: self.errors.append(str(error)))
+        page.goto(ADDRESS)
+        page.wait_for_selector('#views input', state='attached')
+        return page
+
+
+def drop(page, name):
+    with open(place(name), 'rb') as file:
+        data = base64.b64encode(file.read()).decode()
+    held = page.evaluate_handle('''([data, name]) => {
+        const held = new DataTransfer();
+        held.items.add(new File([Uint8Array.from(atob(data), c => c.charCodeAt(0))], name));
+        return held;
+    }''', [data, name])
+    page.dispatch_event('#drop', 'drop', {'dataTransfer': held})
+
+
+def picture(page, name):
+    page.wait_for_timeout(400)
+    page.screenshot(path=place('shots/%s.png' % name))
+
+
+def focus(page, selector):
+    """Tabs until this element has the focus: it can be reached by keyboard."""
+    for _ in range(120):
+        page.keyboard.press('Tab')
+        if page.evaluate('selector => document.activeElement.matches(selector)', selector):
+            return
+    raise AssertionError(selector + ' cannot be reached')
+
+
+def shown(page, what):
+    page.wait_for_selector('body[data-shown*="%s"]' % what, state='attached')
+    page.wait_for_selector('#stage:not(.busy)', state='attached')
+
+
+def saved(page, selector):
+    focus(page, selector)
+    with page.expect_download() as download:
+        page.keyboard.press('Enter')
+    download.value.save_as(place(download.value.suggested_filename))
+    return os.path.getsize(place(download.value.suggested_filename)), download.value.suggested_filename
+
+
+def by_keyboard(page):
+    """From a scan to downloads without a mouse."""
+    picture(page, 'begin')
+    page.on('filechooser', lambda chooser: chooser.set_files(place('rough-steel.x3p')))
+    page.wait_for_timeout(2000)  # until the browser passes the choice of a file to this program
+    focus(page, '#file')
+    page.keyboard.press('Enter')
+    shown(page, 'Map height')
+    ok('by keyboard: the scan is chosen and shown', 'rough-steel.x3p' in page.inner_text('#source'))
+    picture(page, 'scan')
+    focus(page, '#go')
+    page.keyboard.press('Enter')
+    shown(page, 'Map pressure')
+    ok('by keyboard: it is levelled and pressed', page.get_attribute('body', 'data-run').endswith('done'))
+    picture(page, 'map')
+    focus(page, '#map')
+    for key in ('+', '+', 'ArrowRight', 'ArrowUp'):
+        page.keyboard.press(key)
+    ok('by keyboard: the map is enlarged and read', 'µm' in page.inner_text('#at') and 'Pa' in page.inner_text('#at'), page.inner_text('#at'))
+    page.keyboard.press('0')
+    page.focus('#views input:checked')
+    for view in 'Figure Relief Profile Distribution Curves Numbers'.split():
+        page.keyboard.press('ArrowRight')
+        shown(page, view)
+        ok('by keyboard: ' + view, page.evaluate('''() => document.querySelector('#picture').naturalWidth > 300 || !document.querySelector('#picture').checkVisibility()'''))
+        picture(page, view.lower())
+    ok('  numbers have units', 'contact area\t21400 µm²' in page.inner_text('#numbers'), page.inner_text('#numbers')[:40].replace('\n', ' '))
+    page.focus('#views input:checked')
+    page.keyboard.press('ArrowRight')
+    shown(page, 'Map')
+    for selector in ('#save a', '#save a + a', '#save [name="pressure-map.png"]', '#save [name="pressure-map.pdf"]', '#save [name="report.html"]'):
+        size, name = saved(page, selector)
+        ok('by keyboard: %s is saved' % name, size > 1000, '%d bytes' % size)
+    focus(page, '.command button')
+    page.keyboard.press('Enter')
+    page.wait_for_selector('.command button:has-text("Copied")')
+    ok('by keyboard: a command is copied', page.evaluate('() => navigator.clipboard.readText()').startswith('rc-'))
+    with open(place('commands'), 'w') as file:
+        file.write('\n'.join(page.locator('#steps .command code').all_inner_texts()) + '\n')
+
+
+def errors(page):
+    """A broken file, a wrong unit, a cancelled run."""
+    drop(page, 'broken.x3p')
+    page.wait_for_selector('#said.failed')
+    ok('a broken file: the message of rc-import', 'the ZIP archive is damaged or cut off' in page.inner_text('#said'), page.inner_text('#said'))
+    picture(page, 'broken')
+    drop(page, 'rough-steel.x3p')
+    shown(page, 'Map height')
+    load = page.locator('details:has(code:text("rc-solve")) input').first
+    load.fill('60K')
+    page.keyboard.press('Control+Enter')
+    page.wait_for_selector('#said.failed')
+    ok('a wrong unit: the message of rc-solve', "unknown unit 'K'" in page.inner_text('#said'))
+    picture(page, 'error')
+    load.fill('1N:60N:4000')
+    page.keyboard.press('Control+Enter')
+    page.wait_for_selector('#said:has-text("case 2")')
+    picture(page, 'progress')
+    began = time.time()
+    page.keyboard.press('Escape')
+    page.wait_for_selector('body[data-run$=stopped]', state='attached')
+    ok('Escape cancels a run', time.time() - began < 5, '%.1f s' % (time.time() - began))
+    load.fill('1N:60N:log:6')
+    page.keyboard.press('Control+Enter')
+    page.wait_for_selector('body[data-run$=done]', state='attached')
+    shown(page, 'Map pressure')
+    page.check('#views input[value=Curves]', force=True)
+    shown(page, 'Curves')
+    picture(page, 'curves-loads')
+    ok('a curve of six loads is drawn', page.evaluate('() => document.querySelector("#picture").naturalWidth > 300'))
+
+
+def crop(page):
+    drop(page, 'rough-steel.x3p')
+    page.check('#views input[value=Map]', force=True)
+    shown(page, 'Map height')
+    for _ in range(3):
+        page.click('#dials button:text("+")')
+    page.click('#dials button:has-text("Crop to this part")')
+    page.wait_for_selector('.command code:has-text("rc-pick --crop")')
+    ok('the visible part becomes the step Crop', True, page.inner_text('.command code:has-text("rc-pick --crop")'))
+    picture(page, 'crop')
+
+
+def large(page):
+    """2048 x 2048 nodes: seconds, milliseconds, and a contact of one node."""
+    page.set_input_files('#file', place('node.rcg'))
+    page.wait_for_selector('#at:has-text("2048 × 2048 nodes, 0 Pa to 1 GPa")')
+    count = '''() => {
+        const c = document.querySelector('#map'), d = new Uint32Array(c.getContext('2d').getImageData(12, 12, c.width - 140, c.height - 70).data.buffer);
+        return d.filter(pixel => pixel === map.table[255]).length;
+    }'''
+    seen = page.evaluate(count)
+    ok('one node in contact of 2048 x 2048 is visible', 1 <= seen <= 8, '%d pixels' % seen)
+    picture(page, 'node')
+    page.select_option('#dials select >> nth=0', 'mean')
+    page.wait_for_selector('#stage.busy', state='attached')
+    page.wait_for_selector('#stage:not(.busy)', state='attached')
+    ok('  as a mean it would not be', page.evaluate(count) == 0)
+    page.select_option('#dials select >> nth=0', '')
+    page.set_input_files('#file', place('big.x3p'))
+    page.wait_for_selector('#source:has-text("big.x3p")')
+    page.wait_for_selector('#channel option:has-text("rc-import")', state='attached')
+    shown(page, 'Map height')
+    began = time.time()
+    page.keyboard.press('Control+Enter')
+    shown(page, 'Map pressure')
+    ok('2048 x 2048: Run to map', time.time() - began < 120, '%.1f s' % (time.time() - began))
+    picture(page, 'large')
+    times = []
+    box = page.locator('#map').bounding_box()
+    page.mouse.move(box['x'] + 300, box['y'] + 300)
+    for k in range(20):
+        page.mouse.wheel(0, -200 if k < 10 else 200)
+        page.wait_for_timeout(60)
+        times.append(float(page.get_attribute('#map', 'data-milliseconds')))
+    ok('2048 x 2048: a zoom step', max(times) < 500, 'median %.0f ms, largest %.0f ms' % (sorted(times)[10], max(times)))
+
+
+with sync_playwright() as playwright:
+    wide = Browser(playwright)
+    page = wide.open()
+    for check in (by_keyboard, errors, crop, large):
+        try:
+            check(page)
+        except Exception as e:
+            ok(check.__name__, False, str(e)[:600])
+            picture(page, 'failed-' + check.__name__)
+    page.close()
+    for name, more in (('narrow', {'viewport': {'width': 420, 'height': 900}}), ('dark', {'color_scheme': 'dark'})):
+        other = Browser(playwright, **more)
+        page = other.open()
+        page.click('#sample')
+        shown(page, 'Map height')
+        page.keyboard.press('Control+Enter')
+        shown(page, 'Map pressure')
+        picture(page, name)
+        page.screenshot(path=place('shots/%s-whole.png' % name), full_page=True)
+        ok('%s: nothing is wider than the window' % name, page.evaluate('() => document.documentElement.scrollWidth <= innerWidth'))
+        wide.errors += other.errors
+    ok('the browser reports no error', not wide.errors, '; '.join(wide.errors)[:500])
