@@ -37,7 +37,7 @@ static bool
 saddles_add(struct saddles *s, const struct saddle *v)
 {
     if (s->n == s->room) {
-        size_t room = s->room > 0 ? 2 * s->room : SLOTS;
+        size_t room = s->room > 0 ? 2 * s->room : PIECE; /* most bands have few */
         struct saddle *more = realloc(s->v, room * sizeof *more);
         if (more == NULL)
             return false;
