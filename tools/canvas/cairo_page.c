@@ -212,8 +212,13 @@ pdf_write(struct canvas *c, const struct picture_text *text, size_t texts, FILE 
                                    find(text, texts, "Software"));
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, NULL);
     cairo_scale(cairo, point, point);
-    for (size_t k = 0; k < c->items; k++)
-        show(c, cairo, &c->item[k]);
+    for (size_t k = 0; k < c->items; k++) {
+        struct item *i = &c->item[k];
+
+        show(c, cairo, i);
+        if (i->kind == ITEM_IMAGE && (i->reserved = malloc(4 * i->nx * i->ny)) == NULL)
+            c->short_of_memory = true;
+    }
     cairo_show_page(cairo);
     status = check(c, cairo, err);
     cairo_destroy(cairo);

@@ -38,6 +38,7 @@ item_clear(struct item *i)
     free(i->point);
     free(i->pixel);
     free(i->inked);
+    free(i->reserved);
 }
 
 void
@@ -164,7 +165,7 @@ static void
 add_point(struct canvas *c, double x, double y, bool begins)
 {
     if (c->points == c->point_capacity) {
-        size_t capacity = c->point_capacity == 0 ? 64 : 2 * c->point_capacity;
+        size_t capacity = 64 + c->point_capacity + c->point_capacity / 4;
         struct item_point *path = realloc(c->path, capacity * sizeof *path);
 
         if (path == NULL) {
@@ -196,11 +197,16 @@ canvas_line(struct canvas *c, double x0, double y0, double x1, double y1)
     canvas_draw_to(c, x1, y1);
 }
 
-/* Makes an item of the current path. */
+/* Makes an item of the current path, which keeps no room for further points. */
 static void
 add_path(struct canvas *c, struct item item)
 {
-    item.point = c->path;
+    struct item_point *exact;
+
+    if (c->points == 0)
+        return;
+    exact = realloc(c->path, c->points * sizeof *exact);
+    item.point = exact != NULL ? exact : c->path;
     item.points = c->points;
     c->path = NULL;
     c->points = c->point_capacity = 0;

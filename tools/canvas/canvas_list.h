@@ -36,6 +36,7 @@ struct item {
     /* images; `inked` NULL: all pixels are drawn */
     struct rgb *pixel;
     bool *inked;
+    void *reserved; /* never touched: counts the copy that cairo keeps of it for a PDF */
     size_t nx, ny;
 };
 

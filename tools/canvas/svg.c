@@ -290,8 +290,7 @@ put_item(struct svg *s, struct item *i, struct rc_err *err)
         break;
     case ITEM_POLYGON:
     case ITEM_LINES:
-        if (i->points > 0)
-            put_lines(s, i);
+        put_lines(s, i);
         break;
     case ITEM_IMAGE:
         return (i->inked != NULL ? put_dots : put_image)(s, i, err);

@@ -108,7 +108,7 @@ cell_colour(const struct page *p, const struct raster *r, size_t i, size_t j, si
 {
     const struct figure *f = p->f;
     size_t k = j * r->w + i;
-    double none = (double)r->none[k], missing = (double)r->missing[k];
+    double none = (double)r->none[k], missing = raster_missing(r, k);
     struct rgb colour = missing_at(p, i, first + j), value;
 
     if (isnan(r->v[k]))

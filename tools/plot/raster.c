@@ -76,8 +76,25 @@ spans_new(struct spans *s, size_t n, size_t cells, struct rc_err *err)
     return RC_OK;
 }
 
-/* Adds one row of nodes, weighted, to a row of cells; r->v holds sums until they are divided. */
-static void
+double
+raster_missing(const struct raster *r, size_t k)
+{
+    return r->missing == NULL ? 0 : (double)r->missing[k];
+}
+
+/* Most maps have all points, and no room for these fractions. */
+static bool
+add_missing(struct raster *r, size_t k, double fraction)
+{
+    if (r->missing == NULL && (r->missing = calloc(r->w * r->h, sizeof *r->missing)) == NULL)
+        return false;
+    r->missing[k] += (float)fraction;
+    return true;
+}
+
+/* Adds one row of nodes, weighted, to a row of cells; r->v holds sums until they are divided. False when
+ * memory is short. */
+static bool
 add_row(struct raster *r, size_t row, const double *v, const struct spans *x, double share,
         bool zero_is_none, double *weight)
 {
@@ -89,7 +106,8 @@ add_row(struct raster *r, size_t row, const double *v, const struct spans *x, do
             double w = share * x->weight[k];
 
             if (isnan(value)) {
-                r->missing[at] += (float)w;
+                if (!add_missing(r, at, w))
+                    return false;
             } else if (zero_is_none && value == 0) {
                 r->none[at] += (float)w;
             } else {
@@ -98,10 +116,11 @@ add_row(struct raster *r, size_t row, const double *v, const struct spans *x, do
             }
         }
     }
+    return true;
 }
 
-/* The rows of the raster from `first` on. */
-static void
+/* The rows of the raster from `first` on; false when memory is short. */
+static bool
 fill(struct raster *r, size_t first, const struct rc_grid *g, const struct spans *x,
      const struct spans *y, bool zero_is_none, double *weight)
 {
@@ -111,11 +130,13 @@ fill(struct raster *r, size_t first, const struct rc_grid *g, const struct spans
         for (size_t c = 0; c < r->w; c++)
             weight[c] = 0;
         for (size_t k = y->start[of]; k < y->start[of + 1]; k++)
-            add_row(r, row, g->v + (y->first[of] + k - y->start[of]) * g->nx, x, y->weight[k],
-                    zero_is_none, weight);
+            if (!add_row(r, row, g->v + (y->first[of] + k - y->start[of]) * g->nx, x, y->weight[k],
+                         zero_is_none, weight))
+                return false;
         for (size_t c = 0; c < r->w; c++)
             r->v[row * r->w + c] = weight[c] > 0 ? r->v[row * r->w + c] / weight[c] : NAN;
     }
+    return true;
 }
 
 static struct raster *
@@ -127,9 +148,8 @@ raster_blank(size_t w, size_t h, struct rc_err *err)
         *r = (struct raster){.w = w,
                              .h = h,
                              .v = calloc(w * h, sizeof *r->v),
-                             .none = calloc(w * h, sizeof *r->none),
-                             .missing = calloc(w * h, sizeof *r->missing)};
-    if (r == NULL || r->v == NULL || r->none == NULL || r->missing == NULL) {
+                             .none = calloc(w * h, sizeof *r->none)};
+    if (r == NULL || r->v == NULL || r->none == NULL) {
         raster_free(r);
         rc_err_set(err, "out of memory for a picture of %zu by %zu pixels", w, h);
         return NULL;
@@ -149,8 +169,7 @@ raster_rows(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, size
     if (r == NULL || weight == NULL || spans_new(&x, g->nx, w, err) != RC_OK ||
         spans_new(&y, g->ny, h, err) != RC_OK)
         goto done;
-    fill(r, first, g, &x, &y, zero_is_none, weight);
-    done = true;
+    done = fill(r, first, g, &x, &y, zero_is_none, weight);
 done:
     spans_free(&x);
     spans_free(&y);
@@ -197,7 +216,11 @@ raster_rows_max(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, 
                 }
             r->v[at] = largest;
             r->none[at] = isnan(largest) && none ? 1 : 0;
-            r->missing[at] = isnan(largest) && !none ? 1 : 0;
+            if (isnan(largest) && !none && !add_missing(r, at, 1)) {
+                rc_err_set(err, "out of memory for a picture of %zu by %zu pixels", w, h);
+                raster_free(r);
+                return NULL;
+            }
         }
     }
     return r;
@@ -220,7 +243,7 @@ static enum rc_status
 add_line(struct lines *l, const double from[2], const double to[2], struct rc_err *err)
 {
     if (l->n == l->capacity) {
-        size_t capacity = l->capacity == 0 ? 1024 : 2 * l->capacity;
+        size_t capacity = 1024 + l->capacity + l->capacity / 4;
         double(*at)[4] = realloc(l->at, capacity * sizeof *at);
 
         if (at == NULL)
@@ -239,7 +262,7 @@ static double
 height_at(const struct raster *r, size_t i, size_t j)
 {
     size_t k = j * r->w + i;
-    double present = 1 - (double)r->missing[k];
+    double present = 1 - raster_missing(r, k);
 
     if (present < 0.5)
         return NAN;

@@ -23,8 +23,11 @@ struct raster {
     size_t w, h;
     double *v;      /* mean of its values; NaN: none */
     float *none;    /* fraction of the cell, 0 to 1, that is not in contact */
-    float *missing; /* fraction of the cell that was not measured */
+    float *missing; /* fraction of the cell that was not measured; NULL: all were */
 };
+
+/* The same of cell k. */
+double raster_missing(const struct raster *raster, size_t k);
 
 /* With `zero_is_none` the value 0 means no contact and is excluded from the means. NULL: memory is short. */
 struct raster *raster_new(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
