@@ -50,9 +50,7 @@ struct rc_export {
     bool lengths;         /* its spacings are lengths: refuses another dunit */
     bool heights;         /* the values of the format are metres: only heights */
     unsigned types;       /* possible types, from the bits above; 0: text */
-    unsigned copies; /* number of copies of all values, in the type of the file, that it holds in
-                        memory */
-    bool relief;     /* is for printers: accepts a relief height */
+    bool relief;          /* is for printers: accepts a relief height */
     /* NULL, or writes the size of the result for a frame to text[0..size); "" if it refuses the frame. */
     void (*foretell)(const struct rc_grid *frame, const struct rc_export_wish *wish, char *text,
                      size_t size);

@@ -211,11 +211,9 @@ with_rows_of(struct tool *t, const struct rc_grid *g, const struct rc_shape *sha
     struct rc_err err;
     struct rc_grid *to;
 
-    to = rc_grid_new(shape, g->channel, g->unit, &err);
-    for (size_t k = 0; to != NULL && k < g->keys; k++)
+    to = tool_made(t, g, rc_grid_new(shape, g->channel, g->unit, &err), &err);
+    for (size_t k = 0; k < g->keys; k++)
         tool_must(t, g, rc_grid_set(to, g->key[k].name, g->key[k].value, &err), &err);
-    if (to == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     to->type = g->type;
     return to;
 }
@@ -332,18 +330,6 @@ read_frames(struct tool *t, size_t *frames)
     return frame;
 }
 
-/* The libraries for some formats make copies that the allocator does not count. */
-static void
-demand_memory(struct tool *t, struct rc_grid *const *frame, size_t frames)
-{
-    size_t bytes = 0;
-
-    for (size_t k = 0; k < frames && format->copies > 0; k++)
-        bytes += format->copies * frame[k]->nx * frame[k]->ny *
-                 rc_raw_width(rc_export_raw(frame[k], &wish, format->types));
-    tool_demand_memory(t, frame[0], bytes);
-}
-
 /* Prints the size of the result if it differs from that of the frame. */
 static void
 foretell(struct tool *t, const struct rc_grid *g)
@@ -384,10 +370,8 @@ main(int argc, char **argv)
         return tool_finish(&t);
     }
     frame = read_frames(&t, &frames);
-    if (frames > 0) {
-        demand_memory(&t, frame, frames);
+    if (frames > 0)
         foretell(&t, frame[0]);
-    }
     tool_must(&t, frame[0], rc_export_write(format, t.out, frame, frames, &wish, &err), &err);
     tool_note(&t, "%zu frame%s as %s", frames, frames == 1 ? "" : "s", format->name);
     for (size_t k = 0; k < frames; k++)

@@ -376,22 +376,26 @@ list_file(struct tool *t, const char *name, const struct rc_wish *wish)
 /* ---- heights ---- */
 
 /* The file is in memory already; unpacking needs more besides the map. A map that a child process reads
- * exists twice during its transfer. */
+ * exists twice during its transfer. An untouched block, *reserved, counts the memory of the child. */
 static enum rc_status
-check_memory(struct tool *t, const struct source *s, const struct rc_channel *channel,
-             struct rc_err *err)
+reserve(struct tool *t, const struct source *s, const struct rc_channel *channel, void **reserved,
+        struct rc_err *err)
 {
     const struct rc_shape shape = {channel->nx, channel->ny, 1, 1};
-    size_t nodes, bytes;
+    size_t nodes, map, more;
 
+    *reserved = NULL;
     if (rc_size_mul(channel->nx, channel->ny, &nodes, err) != RC_OK ||
-        rc_size_mul(nodes, (s->format->sandboxed ? 2 : 1) * sizeof(double), &bytes, err) != RC_OK)
+        rc_size_mul(nodes, sizeof(double), &map, err) != RC_OK)
         return RC_FAIL;
+    more = channel->beside < (double)SIZE_MAX ? (size_t)channel->beside : SIZE_MAX;
     if (s->format->sandboxed)
-        bytes = size_sum(bytes, s->format->copies ? s->file.size : 0);
-    bytes =
-        size_sum(bytes, channel->beside < (double)SIZE_MAX ? (size_t)channel->beside : SIZE_MAX);
-    return tool_ask_memory(t, &shape, bytes, err);
+        more = size_sum(more, size_sum(map, s->format->copies ? s->file.size : 0));
+    if (tool_ask_memory(t, &shape, size_sum(map, more), err) != RC_OK)
+        return RC_FAIL;
+    if (s->format->sandboxed && (*reserved = malloc(more)) == NULL)
+        return rc_err_set(err, "out of memory for a process that reads the file");
+    return RC_OK;
 }
 
 /* Prints the difference between the extremes of a profile and those of its nodes. */
@@ -463,10 +467,14 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
     char names[IMPORT_NAMES];
     struct rc_grid *g;
     struct pick pick;
+    void *reserved;
 
     if (pick_channel(s, wish, &pick, err) != RC_OK ||
-        check_memory(t, s, &s->channel[pick.index], err) != RC_OK ||
-        (g = rc_format_read(s->format, &s->file, wish, pick.index, &notes, err)) == NULL)
+        reserve(t, s, &s->channel[pick.index], &reserved, err) != RC_OK)
+        return RC_FAIL;
+    g = rc_format_read(s->format, &s->file, wish, pick.index, &notes, err);
+    free(reserved);
+    if (g == NULL)
         return RC_FAIL;
     if (notes.held > 0)
         tool_memory_beside(t, notes.held);

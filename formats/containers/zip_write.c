@@ -20,7 +20,8 @@ struct rc_zip_write {
     time_t time;
     /* Freed at the end: when memory is short libzip may or may not have freed it, without reporting which. */
     void *given[MEMBERS];
-    size_t members;
+    size_t members, size; /* bytes that the archive is expected to take */
+    void *reserved;       /* never touched: counts the archive, which libzip holds */
 };
 
 struct rc_zip_write *
@@ -39,38 +40,41 @@ rc_zip_write_new(int64_t time, struct rc_err *err)
     return w;
 }
 
-/* True if a few chunks, distributed over the member, become at least a tenth smaller. Other members are
- * stored uncompressed, which makes reading several times as fast. */
-static bool
-is_compressible(const unsigned char *bytes, size_t n)
+/* The part of its size to which a member is compressed, estimated from a few chunks that are distributed over
+ * it. */
+static double
+compressed_part(const unsigned char *bytes, size_t n)
 {
     static unsigned char compressed[CHUNK + CHUNK / 8];
     uLong before = 0, after = 0;
 
     if (n < CHUNK)
-        return true;
+        return 0;
     for (size_t k = 0; k < TRIED; k++) {
         uLongf size = sizeof compressed;
 
         if (compress2(compressed, &size, bytes + (n - CHUNK) / (TRIED - 1) * k, CHUNK, LEVEL) !=
             Z_OK)
-            return true;
+            return 0;
         before += CHUNK;
         after += size;
     }
-    return (double)after < 0.9 * (double)before;
+    return (double)after / (double)before;
 }
 
 enum rc_status
 rc_zip_write_add(struct rc_zip_write *w, const char *name, void *bytes, size_t n,
                  struct rc_err *err)
 {
-    zip_int32_t method = is_compressible(bytes, n) ? ZIP_CM_DEFLATE : ZIP_CM_STORE;
+    /* other members are stored uncompressed, which makes reading several times as fast */
+    double part = compressed_part(bytes, n);
+    zip_int32_t method = part < 0.9 ? ZIP_CM_DEFLATE : ZIP_CM_STORE;
     zip_source_t *from;
     zip_int64_t index;
 
     assert(w->members < MEMBERS);
     w->given[w->members++] = bytes;
+    w->size += method == ZIP_CM_STORE ? n : (size_t)(part * (double)n);
     if ((from = zip_source_buffer(w->zip, bytes, n, 0)) == NULL)
         return rc_err_set(err, "out of memory for the member '%s'", name);
     if ((index = zip_file_add(w->zip, name, from, ZIP_FL_ENC_UTF_8)) < 0) {
@@ -90,6 +94,8 @@ rc_zip_write_finish(struct rc_zip_write *w, FILE *out, struct rc_err *err)
     enum rc_status status = RC_OK;
     zip_int64_t n;
 
+    if ((w->reserved = malloc(w->size)) == NULL)
+        return rc_err_set(err, "out of memory for an archive of %zu bytes", w->size);
     if (zip_close(w->zip) != 0)
         return rc_err_set(err, "the archive: %s", zip_strerror(w->zip));
     w->zip = NULL;
@@ -112,5 +118,6 @@ rc_zip_write_free(struct rc_zip_write *w)
         zip_source_free(w->made);
     while (w->members > 0)
         free(w->given[--w->members]);
+    free(w->reserved);
     free(w);
 }

@@ -263,6 +263,21 @@ put_stacks(struct output *o, const struct rc_stack *stack, size_t stacks,
     return status;
 }
 
+/* A block of the size of the file that is never touched: it counts the memory of the library. */
+static void *
+reserve(struct rc_grid *const *frame, size_t frames, const struct rc_export_wish *wish,
+        struct rc_err *err)
+{
+    size_t bytes = GROWTH;
+    void *reserved;
+
+    for (size_t k = 0; k < frames; k++)
+        bytes += frame[k]->nx * frame[k]->ny * rc_raw_width(rc_export_raw(frame[k], wish, TYPES));
+    if ((reserved = malloc(bytes)) == NULL)
+        rc_err_set(err, "out of memory for a file of %zu bytes", bytes);
+    return reserved;
+}
+
 static enum rc_status
 hdf5_write(FILE *out, struct rc_grid *const *frame, size_t frames,
            const struct rc_export_wish *wish, struct rc_err *err)
@@ -272,7 +287,10 @@ hdf5_write(FILE *out, struct rc_grid *const *frame, size_t frames,
     struct rc_stack *stack;
     size_t stacks;
     enum rc_status status = rc_stacks_make(&stack, &stacks, frame, frames, err);
+    void *reserved = NULL;
 
+    if (status == RC_OK && (reserved = reserve(frame, frames, wish, err)) == NULL)
+        status = RC_FAIL;
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     access = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_fapl_core(access, GROWTH, false);
@@ -286,6 +304,7 @@ hdf5_write(FILE *out, struct rc_grid *const *frame, size_t frames,
     H5Fclose(o.file);
     H5Pclose(access);
     rc_stacks_free(stack, stacks);
+    free(reserved);
     return status;
 }
 
@@ -295,7 +314,6 @@ const struct rc_export rc_export_hdf5 = {
     .summary = "HDF5, a dataset for each frame or stack of depths",
     .several = true,
     .types = TYPES,
-    .copies = 2,
     .uneven = true,
     .write = hdf5_write,
 };

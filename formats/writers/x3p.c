@@ -213,7 +213,6 @@ const struct rc_export rc_export_x3p = {
     .summary = "ISO 25178-72, all four data types",
     .heights = true,
     .types = TYPES,
-    .copies = 2,
     .lengths = true,
     .write = x3p_write,
 };

@@ -104,6 +104,15 @@ mkdir small
 (cd small && maps 48 40)
 maps 1400 1200
 counted "rc-info --psd" "rc-info --psd s.rcg"
+counted "rc-info --areal" "rc-info --areal s.rcg"
+counted "rc-render --contour" "rc-render --contour --channel pressure q.rcg"
+for format in x3p hdf5; do
+    for folder in . small; do
+        (cd $folder && rc-export --format $format -o s.$format s.rcg)
+    done
+    counted "rc-export --format $format" "rc-export --format $format s.rcg"
+    counted "rc-import of that" "rc-import s.$format"
+done
 counted "rc-deflect" "rc-deflect --estar 3GPa p.rcg"
 counted "rc-deflect --periodic" "rc-deflect --periodic --estar 3GPa q.rcg"
 counted "rc-leak" "rc-leak --direction y q.rcg"

@@ -52,6 +52,7 @@ estimated "rc-stress, periodic, with friction" "rc-stress --verbose --nu 0.3 --m
 estimated "rc-stress --section" "rc-stress --verbose --nu 0.3 --section y=0 --depths 0:50um:20 free.rcg"
 estimated "rc-stress --section, a small contact" "rc-stress --verbose --nu 0.3 --section y=0 --depths 0:50um:20 sparse.rcg"
 estimated "rc-info" "rc-info --verbose odd.rcg"
+estimated "rc-info --areal" "rc-info --areal --verbose odd.rcg"
 estimated "rc-info --psd-map" "rc-info --psd-map psd.rcg --verbose odd.rcg"
 estimated "rc-info --patches" "rc-info --patches --verbose free.rcg"
 estimated "rc-detrend" "rc-detrend --plane --outliers 4 --fill --lowpass 20um --verbose odd.rcg"
@@ -60,11 +61,12 @@ estimated "rc-pick" "rc-pick --rotate 90 --resample 0.7um --verbose odd.rcg"
 estimated "rc-add" "rc-add --verbose odd.rcg odd.rcg"
 for format in x3p npy csv hdf5; do
     rc-export --format $format -o odd.$format odd.rcg
-    estimated "rc-export --format $format" "rc-export --format $format --verbose odd.rcg" 0.15 # libraries allocate blocks too
-    estimated "rc-import of that" "rc-import --verbose --dx 1um --z-unit m odd.$format" 0.15
+    estimated "rc-export --format $format" "rc-export --format $format --verbose odd.rcg"
+    estimated "rc-import of that" "rc-import --verbose --dx 1um --z-unit m odd.$format"
 done
 perl "$RC_SOURCE/tests/tools/made_maps.pl" netcdf 1024 700 >made.netcdf
 perl "$RC_SOURCE/tests/tools/made_maps.pl" park 1024 700 >made.park
+estimated "rc-import of park, by another process" "rc-import --verbose made.park"
 estimated "rc-import of netcdf" "rc-import --verbose made.netcdf"
 estimated "rc-render" "rc-render --verbose odd.rcg -o map.png"
 estimated "rc-render --raw" "rc-render --raw --verbose odd.rcg -o raw.png"
@@ -79,7 +81,9 @@ for format in svg pdf; do
 done
 rm large.*
 rc-stress --quiet --nu 0.3 --components mises --depths 1um,5um,10um,20um free.rcg -o depths.rcg
-estimated "rc-render --sheet" "rc-render --sheet auto --verbose depths.rcg -o sheet.png"
+for format in png pdf; do
+    estimated "rc-render --sheet, $format" "rc-render --sheet auto --verbose depths.rcg -o sheet.$format"
+done
 awk 'BEGIN { print "x/m\ty/m"; for (k = 0; k < 100000; k++) printf "%de-6\t%.6f\n", k, sin(k / 3000) }' >long.tsv
 
 before_release && estimated "rc-cost, with the processes that it starts" "rc-cost --verbose --kernel fft --method pcg --limit 10s $load small.rcg"
