@@ -133,30 +133,16 @@ put_text(FILE *out, const char *text)
 }
 
 static void
-put_base64(FILE *out, FILE *in)
-{
-    static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    unsigned char b[3];
-    size_t n;
-
-    while ((n = fread(b, 1, 3, in)) > 0) {
-        unsigned bits = b[0] * 65536U + (n > 1 ? b[1] * 256U : 0) + (n > 2 ? b[2] : 0);
-
-        putc(digit[bits >> 18], out);
-        putc(digit[bits >> 12 & 63], out);
-        putc(n > 1 ? digit[bits >> 6 & 63] : '=', out);
-        putc(n > 2 ? digit[bits & 63] : '=', out);
-    }
-}
-
-static void
 show_picture(struct run *run, FILE *in, const char *caption, const char *unused)
 {
     FILE *out = run->page.file;
+    unsigned char bytes[3];
+    char four[5];
 
     (void)unused;
     fprintf(out, "<figure><img alt=\"%s\" src=\"data:image/png;base64,", caption);
-    put_base64(out, in);
+    for (size_t n; (n = fread(bytes, 1, sizeof bytes, in)) > 0;)
+        fputs(rc_base64(four, bytes, n), out);
     fprintf(out, "\"/><figcaption>%s</figcaption></figure>\n", caption);
 }
 

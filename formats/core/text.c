@@ -119,6 +119,31 @@ rc_text_harmless(char *text, char mark)
     return text;
 }
 
+const char *
+rc_xml_character(char to[RC_ENTITY], char c)
+{
+    static const char marked[] = "&<>\"", *const entities[] = {"&amp;", "&lt;", "&gt;", "&quot;"};
+    const char *mark = c == '\0' ? NULL : strchr(marked, c);
+
+    if (mark != NULL)
+        return strcpy(to, entities[mark - marked]);
+    to[0] = (char)((unsigned char)c < ' ' ? ' ' : c);
+    to[1] = '\0';
+    return to;
+}
+
+const char *
+rc_base64(char to[5], const unsigned char *b, size_t n)
+{
+    static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const unsigned bits = b[0] * 65536U + (n > 1 ? b[1] * 256U : 0) + (n > 2 ? b[2] : 0);
+
+    for (size_t k = 0; k < 4; k++)
+        to[k] = k <= n ? digit[bits >> (18 - 6 * k) & 63] : '=';
+    to[4] = '\0';
+    return to;
+}
+
 /* Latin-1 to UTF-8: the code points of Latin-1 are the first 256 of Unicode. */
 static void
 widen(char *to, size_t size, const char *text, size_t n)

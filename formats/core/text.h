@@ -29,6 +29,15 @@ size_t rc_control_size(const char *text);
 /* Replaces each byte of a control character by `mark`. Returns `text`. */
 char *rc_text_harmless(char *text, char mark);
 
+/* Writes a character as XML has it in texts and attributes: "&amp;" for &. A control character, which XML
+ * does not allow, becomes a blank. Returns `to`. */
+enum {
+    RC_ENTITY = 8
+};
+const char *rc_xml_character(char to[RC_ENTITY], char c);
+/* Writes up to three bytes as four characters of base64. Returns `to`. */
+const char *rc_base64(char to[5], const unsigned char *bytes, size_t n);
+
 /* Copies text[0..n) as UTF-8, cut to the size. Bytes that are not UTF-8 are read as Latin-1, control
  * characters become spaces, and white space at both ends is removed. Returns `to`. */
 char *rc_text_clean(char *to, size_t size, const char *text, size_t n);

@@ -59,24 +59,10 @@ rc_buffer_print(struct rc_buffer *b, const char *format, ...)
 void
 rc_buffer_escaped(struct rc_buffer *b, const char *text)
 {
+    char c[RC_ENTITY];
+
     for (; *text != '\0'; text++)
-        switch (*text) {
-        case '&':
-            rc_buffer_print(b, "&amp;");
-            break;
-        case '<':
-            rc_buffer_print(b, "&lt;");
-            break;
-        case '>':
-            rc_buffer_print(b, "&gt;");
-            break;
-        case '"':
-            rc_buffer_print(b, "&quot;");
-            break;
-        default:
-            /* XML does not allow control characters */
-            rc_buffer_add(b, (unsigned char)*text < ' ' ? " " : text, 1);
-        }
+        rc_buffer_print(b, "%s", rc_xml_character(c, *text));
 }
 
 static void

@@ -41,27 +41,13 @@ put_colour(struct svg *s, const char *name, struct rgb colour)
     fprintf(s->file, " %s=\"#%02x%02x%02x\"", name, colour.r, colour.g, colour.b);
 }
 
-/* XML does not allow control characters. */
 static void
 put_escaped(struct svg *s, const char *text)
 {
+    char c[RC_ENTITY];
+
     for (; *text != '\0'; text++)
-        switch (*text) {
-        case '&':
-            fputs("&amp;", s->file);
-            break;
-        case '<':
-            fputs("&lt;", s->file);
-            break;
-        case '>':
-            fputs("&gt;", s->file);
-            break;
-        case '"':
-            fputs("&quot;", s->file);
-            break;
-        default:
-            fputc((unsigned char)*text < 0x20 ? ' ' : *text, s->file);
-        }
+        fputs(rc_xml_character(c, *text), s->file);
 }
 
 static void
@@ -170,25 +156,6 @@ put_clip(struct svg *s, const struct item *i)
 
 /* ---- images ---- */
 
-static void
-put_base64(struct svg *s, const unsigned char *bytes, size_t n)
-{
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-    for (size_t k = 0; k < n; k += 3) {
-        unsigned three = (unsigned)bytes[k] << 16;
-
-        if (k + 1 < n)
-            three |= (unsigned)bytes[k + 1] << 8;
-        if (k + 2 < n)
-            three |= bytes[k + 2];
-        fputc(digits[three >> 18], s->file);
-        fputc(digits[three >> 12 & 63], s->file);
-        fputc(k + 1 < n ? digits[three >> 6 & 63] : '=', s->file);
-        fputc(k + 2 < n ? digits[three & 63] : '=', s->file);
-    }
-}
-
 /* Some viewers smooth images although the file forbids it: if a pixel is enlarged to a block of many, only
  * its edge is smoothed. */
 enum {
@@ -215,7 +182,7 @@ image_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
 static enum rc_status
 put_image(struct svg *s, struct item *i, struct rc_err *err)
 {
-    char *png = NULL;
+    char *png = NULL, four[5];
     size_t n = 0;
     FILE *memory = open_memstream(&png, &n);
     size_t larger = i->nx > i->ny ? i->nx : i->ny;
@@ -235,7 +202,8 @@ put_image(struct svg *s, struct item *i, struct rc_err *err)
               "style=\"image-rendering:crisp-edges;image-rendering:pixelated\" "
               "xlink:href=\"data:image/png;base64,",
               s->file);
-        put_base64(s, (unsigned char *)png, n);
+        for (size_t k = 0; k < n; k += 3)
+            fputs(rc_base64(four, (unsigned char *)png + k, n - k), s->file);
         fputs("\"/>\n", s->file);
     }
     free(png);
