@@ -152,17 +152,24 @@ report_begin(struct report *r)
         json_open(&r->json, r->file);
 }
 
+/* A value as JSON has it, in quotes or not; NULL: unknown. */
+static void
+put(struct report *r, const char *name, const char *unit, const char *value, bool quoted)
+{
+    if (r->name == NULL)
+        return;
+    if (r->separator)
+        put_word(r, name, unit, value == NULL ? "NaN" : value);
+    else
+        (quoted ? json_text : json_plain)(&r->json, name, value);
+}
+
 void
 report_number(struct report *r, const char *name, double value, const char *unit)
 {
     char text[RC_NUMBER_SIZE];
 
-    if (r->name == NULL)
-        return;
-    if (r->separator)
-        put_word(r, name, unit, isfinite(value) ? rc_number_text(text, value) : "NaN");
-    else
-        json_number(&r->json, name, value);
+    put(r, name, unit, isfinite(value) ? rc_number_text(text, value) : NULL, false);
 }
 
 void
@@ -170,42 +177,27 @@ report_count(struct report *r, const char *name, size_t value, const char *unit)
 {
     char text[32];
 
-    if (r->name == NULL)
-        return;
     snprintf(text, sizeof text, "%zu", value);
-    if (r->separator)
-        put_word(r, name, unit, text);
-    else
-        json_count(&r->json, name, value);
+    put(r, name, unit, text, false);
 }
 
 void
 report_text(struct report *r, const char *name, const char *value)
 {
-    if (r->name == NULL)
-        return;
-    if (r->separator)
-        put_word(r, name, NULL, value == NULL ? "NaN" : value);
-    else
-        json_text(&r->json, name, value);
+    put(r, name, NULL, value, true);
 }
 
 void
 report_bool(struct report *r, const char *name, bool value)
 {
-    if (r->name == NULL)
-        return;
-    if (r->separator)
-        put_word(r, name, NULL, value ? "true" : "false");
-    else
-        json_bool(&r->json, name, value);
+    put(r, name, NULL, value ? "true" : "false", false);
 }
 
 void
 report_column(struct report *r, const char *name, const char *unit)
 {
-    if (r->name != NULL && r->separator)
-        put_word(r, name, unit, "NaN");
+    if (r->separator)
+        put(r, name, unit, NULL, false);
 }
 
 static void
@@ -259,7 +251,7 @@ void
 report_no_object(struct report *r, const char *name)
 {
     if (r->name != NULL && !r->separator)
-        json_null(&r->json, name);
+        json_plain(&r->json, name, NULL);
 }
 
 void

@@ -41,42 +41,35 @@ json_open(struct json *j, FILE *file)
 }
 
 void
-json_number(struct json *j, const char *name, double value)
-{
-    char text[RC_NUMBER_SIZE];
-
-    name_of(j, name);
-    fputs(isfinite(value) ? rc_number_text(text, value) : "null", j->file);
-}
-
-void
-json_count(struct json *j, const char *name, size_t value)
+json_plain(struct json *j, const char *name, const char *value)
 {
     name_of(j, name);
-    fprintf(j->file, "%zu", value);
+    fputs(value == NULL ? "null" : value, j->file);
 }
 
 void
 json_text(struct json *j, const char *name, const char *value)
 {
+    if (value == NULL) {
+        json_plain(j, name, NULL);
+        return;
+    }
     name_of(j, name);
-    if (value == NULL)
-        fputs("null", j->file);
-    else
-        quoted(j->file, value);
+    quoted(j->file, value);
+}
+
+void
+json_number(struct json *j, const char *name, double value)
+{
+    char text[RC_NUMBER_SIZE];
+
+    json_plain(j, name, isfinite(value) ? rc_number_text(text, value) : NULL);
 }
 
 void
 json_bool(struct json *j, const char *name, bool value)
 {
-    name_of(j, name);
-    fputs(value ? "true" : "false", j->file);
-}
-
-void
-json_null(struct json *j, const char *name)
-{
-    json_text(j, name, NULL);
+    json_plain(j, name, value ? "true" : "false");
 }
 
 void

@@ -13,11 +13,11 @@ struct json {
 
 void json_open(struct json *json, FILE *file);
 /* `name` NULL: an element of an array. */
+void json_plain(struct json *json, const char *name,
+                const char *value);                                  /* as it stands; NULL: null */
 void json_number(struct json *json, const char *name, double value); /* NaN and infinity: null */
-void json_count(struct json *json, const char *name, size_t value);
 void json_text(struct json *json, const char *name, const char *value); /* NULL: null */
 void json_bool(struct json *json, const char *name, bool value);
-void json_null(struct json *json, const char *name);
 void json_object(struct json *json, const char *name);
 void json_array(struct json *json, const char *name);
 void json_end(struct json *json, char bracket); /* '}' or ']' */
