@@ -75,7 +75,7 @@ class MapView {
     const same = this.frame && ['nx', 'ny', 'dx', 'dy'].every(k => this.frame[k] === frame[k]), levels = [frame];
     while (Math.max(levels.at(-1).nx, levels.at(-1).ny) > 32) levels.push(halved(levels.at(-1), keep));
     const [low, high] = range(frame.values, clip), table = await colours(low, high);
-    Object.assign(this, {frame, levels, low, high, table});
+    Object.assign(this, {frame, keep, levels, low, high, table});
     if (same) this.draw(); else this.fit();
   }
   // The part of the canvas that has the map, in pixels of the page.
@@ -122,9 +122,10 @@ class MapView {
     canvas.width = Math.round(canvas.clientWidth * dense);
     canvas.height = Math.round(canvas.clientHeight * dense);
     const {left, top, width, height} = this.room(), w = Math.round(width * dense), h = Math.round(height * dense);
-    // The level whose nodes cover at least a pixel each, so that each of them is seen.
+    // The level whose nodes cover at least a pixel each, or two where the largest or smallest of them is shown: it is seen.
     const columns = 1 / (this.scale * dense), rows = columns * frame.dx / frame.dy, [first, row] = this.node(left, top);
-    const k = Math.min(Math.max(0, Math.ceil(Math.log2(Math.max(columns, rows)) - 1e-9)), this.levels.length - 1);
+    const most = Math.max(columns, rows), wanted = most > 1 ? Math.ceil(Math.log2(most * (KEEP[this.keep] ? 2 : 1))) : 0;
+    const k = Math.min(wanted, this.levels.length - 1);
     const {values, nx} = this.levels[k], image = g.createImageData(w, h), out = new Uint32Array(image.data.buffer);
     const places = (n, from, step, all) => Int32Array.from({length: n}, (_, p) => {
       const node = Math.floor(from + (p + 0.5) * step);

@@ -101,6 +101,8 @@ function begin(chosen) {
   if (!steps.length) ['rc-import', 'rc-pick', 'rc-detrend', 'rc-solve', 'rc-stress'].forEach(add);
   steps = steps.filter(step => step.tool !== 'rc-import');
   if (!file.stream) add('rc-import', 0);
+  else if (steps[0]?.tool !== 'rc-pick') add('rc-pick', 0);
+  if (file.stream && !steps[0].options.length) steps[0].options.push(['set', 'stream=' + file.name]); // rc-pick wants something to do
   for (const step of steps) step.open = /detrend|solve/.test(step.tool);
   drawSteps();
   start(1);
