@@ -81,6 +81,8 @@ static const struct tool_info info = {
     .examples = "  rc-solve --load 5N --radius 5mm --estar 114GPa --hardness 6GPa surface.rcg |\n"
                 "      rc-heat --mu 0.3 --speed 1m/s --conductivity 45W/mK,45W/mK \\\n"
                 "          --diffusivity 12mm2/s,12mm2/s --report heat.tsv -o hot.rcg\n"
+                "  rc-solve --load 1N --radius 2mm --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 \\\n"
+                "      -o contact.rcg surface.rcg\n"
                 "  rc-slip --mu 0.6 --path '1N,0,0; 1N,0.4N,0; 1N,-0.4N,0; 1N,0.4N,0' \\\n"
                 "      --output pressure,dissipation contact.rcg | rc-pick --case 3,4 |\n"
                 "      rc-heat --frequency 50Hz --conductivity 45W/mK,45W/mK \\\n"
@@ -326,6 +328,7 @@ put_report(struct run *run, const struct rc_grid *g, const struct rc_heat_figure
     report_map(r, g, rc_grid_case(g));
     report_text(r, "boundary", run->problem.boundary == RC_PERIODIC ? "periodic" : "free");
     report_count(r, "threads", run->t.threads, NULL);
+    report_value(r, "speed", run->speed);
     report_table(r, rc_figures("heat"), f);
     report_number(r, "seconds", seconds, "s");
     report_memory(r);

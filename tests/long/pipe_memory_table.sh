@@ -116,6 +116,8 @@ done
 counted "rc-deflect" "rc-deflect --estar 3GPa p.rcg"
 counted "rc-deflect --periodic" "rc-deflect --periodic --estar 3GPa q.rcg"
 counted "rc-leak" "rc-leak --direction y q.rcg"
+counted "rc-heat" "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1.2e-5,1.2e-5 p.rcg"
+counted "rc-heat --periodic" "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1.2e-5,1.2e-5 --time 1ms q.rcg"
 counted "rc-detrend --lowpass" "rc-detrend --lowpass 20um s.rcg"
 counted "rc-detrend --outliers --fill" "rc-detrend --outliers 4 --fill s.rcg"
 counted "rc-pick --resample" "rc-pick --resample 0.7um s.rcg"
