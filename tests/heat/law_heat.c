@@ -331,6 +331,8 @@ estimates(void **state)
         set_spots(n, spot);
         if (problem.boundary == RC_PERIODIC || c % 8 == 1)
             problem.time = 1e-5 * pow(100, number());
+        if (c % 8 == 3)
+            problem.time_steps = 3;
         if (c % 5 == 4)
             problem.body[1].bulk = 20 * number() - 10;
         if (c % 7 == 6)
