@@ -76,17 +76,14 @@ rc_blocks(struct rc_passage *a, struct rc_err *err)
 {
     size_t n = (size_t)a->nodes;
     struct search s = {.a = a};
-    enum rc_status status = RC_FAIL;
 
-    s.found = calloc(n, sizeof *s.found);
-    s.low = malloc(n * sizeof *s.low);
-    s.order = malloc(n * sizeof *s.order);
-    s.way = malloc(n);
-    s.next = malloc(n);
-    if (s.found == NULL || s.low == NULL || s.order == NULL || s.way == NULL || s.next == NULL) {
-        rc_err_set(err, "out of memory for the channels of %zu x %zu nodes", a->nx, a->ny);
-        goto done;
-    }
+    s.found = calloc(n, 3 * sizeof *s.found + 2 * sizeof *s.way); /* all arrays of the search */
+    if (s.found == NULL)
+        return rc_err_set(err, "out of memory for the channels of %zu x %zu nodes", a->nx, a->ny);
+    s.low = s.found + n;
+    s.order = s.low + n;
+    s.way = (uint8_t *)(s.order + n);
+    s.next = s.way + n;
     for (size_t j = 0; j < a->ny; j++) {
         int32_t k = (int32_t)((j + 1) * a->nx - 1);
         if (a->g[k] > 0 && s.found[k] == 0)
@@ -99,14 +96,8 @@ rc_blocks(struct rc_passage *a, struct rc_err *err)
         if (s.low[k] < when(&s, parent) && (parent == a->outlet || a->state[parent] == RC_FLOWS))
             a->state[k] = RC_FLOWS;
     }
-    status = RC_OK;
-done:
     free(s.found);
-    free(s.low);
-    free(s.order);
-    free(s.way);
-    free(s.next);
-    return status;
+    return RC_OK;
 }
 
 /* Lists the still nodes connected to node k, from list[0] on, and returns their common pressure. */

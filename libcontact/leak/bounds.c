@@ -142,23 +142,16 @@ rc_leak_bounds(const struct rc_passage *a, const uint8_t *tree, const struct rc_
 {
     size_t n = (size_t)a->nodes;
     struct repair r = {.a = a, .levels = levels};
-    enum rc_status status = RC_FAIL;
 
-    r.down = malloc(n * sizeof *r.down);
-    r.order = malloc(n * sizeof *r.order);
-    r.way = malloc(n);
-    if (r.down == NULL || r.order == NULL || r.way == NULL) {
-        rc_err_set(err, "out of memory for the bounds of the flow through %zu x %zu nodes", a->nx,
-                   a->ny);
-        goto done;
-    }
+    r.down = malloc(n * (sizeof *r.down + sizeof *r.order + sizeof *r.way)); /* all three arrays */
+    if (r.down == NULL)
+        return rc_err_set(err, "out of memory for the bounds of the flow through %zu x %zu nodes",
+                          a->nx, a->ny);
+    r.order = (int32_t *)(void *)(r.down + n);
+    r.way = (uint8_t *)(r.order + n);
     set_parents(&r, tree);
     send_down(&r);
     add_up(&r, lower, upper);
-    status = RC_OK;
-done:
     free(r.down);
-    free(r.order);
-    free(r.way);
-    return status;
+    return RC_OK;
 }

@@ -165,40 +165,33 @@ drop_room(struct rc_elimination *e)
 {
     free(e->row);
     free(e->c);
-    free(e->in);
-    free(e->out);
-    free(e->sum);
-    free(e->work);
-    free(e->rest);
-    free(e->at);
-    free(e->waits);
-    free(e->after);
-    e->row = e->waits = e->after = NULL;
-    e->c = e->in = e->out = e->sum = e->work = e->rest = NULL;
-    e->at = NULL;
+    free(e->in); /* with the other arrays of a number for each column */
+    e->row = NULL;
+    e->c = e->in = NULL;
 }
 
 static enum rc_status
 make_room(struct rc_elimination *e, struct rc_err *err)
 {
-    size_t n = (size_t)e->n, entries = e->start[n];
+    size_t n = (size_t)e->n + 1, entries = e->start[e->n];
 
     e->row = rc_alloc(entries, sizeof *e->row);
     e->c = rc_alloc(entries, sizeof *e->c);
-    e->in = malloc((n + 1) * sizeof *e->in);
-    e->out = malloc((n + 1) * sizeof *e->out);
-    e->sum = malloc((n + 1) * sizeof *e->sum);
-    e->work = malloc((n + 1) * sizeof *e->work);
-    e->rest = malloc((n + 1) * sizeof *e->rest);
-    e->at = malloc((n + 1) * sizeof *e->at);
-    e->waits = malloc((n + 1) * sizeof *e->waits);
-    e->after = malloc((n + 1) * sizeof *e->after);
-    if (e->row != NULL && e->c != NULL && e->in != NULL && e->out != NULL && e->sum != NULL &&
-        e->work != NULL && e->rest != NULL && e->at != NULL && e->waits != NULL && e->after != NULL)
-        return RC_OK;
-    drop_room(e);
-    return rc_err_set(err, "out of memory for the flow through %zu nodes, %zu faces between them",
-                      n, entries);
+    e->in = rc_alloc(n, 5 * sizeof *e->in + sizeof *e->at + 2 * sizeof *e->waits);
+    if (e->row == NULL || e->c == NULL || e->in == NULL) {
+        drop_room(e);
+        return rc_err_set(err,
+                          "out of memory for the flow through %d nodes, %zu faces between them",
+                          e->n, entries);
+    }
+    e->out = e->in + n;
+    e->sum = e->out + n;
+    e->work = e->sum + n;
+    e->rest = e->work + n;
+    e->at = (size_t *)(void *)(e->rest + n);
+    e->waits = (int32_t *)(void *)(e->at + n);
+    e->after = e->waits + n;
+    return RC_OK;
 }
 
 /* The nodes in each column: as count_columns; the parent of k is the first row of column k. */
