@@ -1327,6 +1327,46 @@ RC_API struct rc_model *rc_slide_new(const struct rc_shape *shape, const double 
 /* The figures of this model, after rc_model_look; NULL: it does not slide. */
 RC_API const struct rc_slide_figures *rc_slide_result(const struct rc_model *model);
 
+/* ---- viscoelastic bodies as a model ---- */
+
+struct rc_viscoelastic_problem {
+    const struct rc_relaxation *material; /* of the body that relaxes; the caller keeps it */
+    /* part of this body in the compliance 1/E* of both bodies at once, from above 0 to 1; the other body is
+     * elastic, or rigid: 1 */
+    double share;
+    /* s: shortest time between two points, and time of the last one, for which terms of the material are left
+     * out; 0: all terms are kept */
+    double shortest, longest;
+    size_t points;     /* of the history, for the expected cost; 0: 1                           */
+    size_t increments; /* steps from point to point, at least 2; 0: 20; see below               */
+    double tol;        /* of the error of the increments, relative L1 of the pressure; 0: 0.01  */
+};
+struct rc_viscoelastic_figures {
+    struct rc_contact contact; /* pressure_error holds all errors; elastic_energy NAN */
+    double time;               /* s */
+    size_t increments;         /* steps from the previous point */
+    /* relative L1 error of the pressure due to the steps, from a second run with half as many */
+    double increment_error;
+    /* N: load with the same contact on bodies that keep their instantaneous moduli, as long as this load has
+     * only risen: the integral of J(t - s)/J(0) dP(s) */
+    double equivalent_load;
+    /* m: approach; approach at first touch right after the load is removed */
+    double indentation, residual_indentation;
+};
+/* A model (model.h) of viscoelastic bodies in time. It owns the inner model from here on. This must be
+ * elastic, without a hardness, with the instantaneous moduli of the bodies. Poisson's ratio is constant in
+ * time, and all of the viscoelastic body relaxes alike. h: the heights of the inner model, which the caller
+ * keeps. NULL if the inner model is NULL. Points need the time beside the load or the approach. The load acts
+ * suddenly at the first point, and then changes in proportion to the time; two points at the same time are a
+ * jump. A load of 0 separates the bodies. After a corner of the load the first step is the shortest time of
+ * the material over the increments. Steps then grow with the time since the corner, 1.2 times the increments
+ * in a decade. The longest one is the time between the points over the increments. */
+RC_API struct rc_model *rc_viscoelastic_new(struct rc_model *inner, const double *h,
+                                            const struct rc_viscoelastic_problem *problem,
+                                            struct rc_err *err);
+/* The figures of this model, after rc_model_look; NULL: it is not viscoelastic. */
+RC_API const struct rc_viscoelastic_figures *rc_viscoelastic_result(const struct rc_model *model);
+
 /* ---- heat ---- */
 
 /* The material of a body, which moves past the contact. */

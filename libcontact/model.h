@@ -109,7 +109,7 @@ RC_API double rc_figure_number(const struct rc_figure *figure, const void *data)
 /* The word; NULL: unknown, a number, or data NULL. */
 RC_API const char *rc_figure_word(const struct rc_figure *figure, const void *data);
 /* The table of the figures of a struct of this library, by its name in figures.list: "contact", "elastic",
- * "adhesion", "leak", "slip", "rolling", "wear", "travel", "areal". NULL: there is none. */
+ * "adhesion", "leak", "slip", "rolling", "wear", "travel", "viscoelastic", "areal". NULL: there is none. */
 RC_API const struct rc_figure *rc_figures(const char *name);
 /* The row of that name in any table of this library, for titles and units of a table read from a file; NULL:
  * none. */

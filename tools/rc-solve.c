@@ -14,6 +14,7 @@ static struct solve_args args = {
     .method = "auto",
     .counter_travel = 1,
     .passes = 1,
+    .shift = 1,
     .drive.interval = 60,
     .output = 1 << SOLVE_PRESSURE | 1 << SOLVE_GAP | 1 << SOLVE_DISPLACEMENT | 1 << SOLVE_HEIGHT,
 };
@@ -23,9 +24,19 @@ static struct solve_args args = {
 static const struct opt opts[] = {
     {.group = solve_contact_options},
     {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N|auto",
-     .help = "increments of each load with --yield (default auto: to an error of 1 %)"},
+     .help = "increments of each load with --yield (default auto: to an error of 1 %), or steps from time to "
+             "time (20)"},
     {.name = "slabs", .type = OPT_TEXT, AT(slabs), .result = true, .arg = "N|LIST|auto",
      .help = "layers that may yield: number or thicknesses, from the surface down (default auto)"},
+    {.name = "relaxation", .type = OPT_TEXT, AT(relaxation), .result = true,
+     .arg = "EINF,E1:TAU1,...|FILE",
+     .help = "body 1 is viscoelastic: relaxed modulus and terms of E(t), or a file (instead of --E1)"},
+    {.name = "shift", .type = OPT_NUMBER, AT(shift), .min = 0, .max = INFINITY, .above = true,
+     .result = true, .arg = "FACTOR",
+     .help = "multiply all times of --relaxation, as the shift factor of a temperature (default 1)"},
+    {.name = "time", .type = OPT_NUMBERS, .unit = UNIT_S, AT(time), .min = 0, .max = INFINITY,
+     .result = true, .arg = "LIST",
+     .help = "with --relaxation, times of the loads or of the results of one load, each a case"},
     {.name = "pull-off", .type = OPT_FLAG, AT(pull_off), .result = true,
      .help = "after the last state separate the bodies, and find the pull-off load"},
     {.name = "travel", .type = OPT_NUMBERS, .unit = UNIT_M, AT(travel), .min = -INFINITY,
@@ -119,6 +130,7 @@ check_arguments(struct run *run)
     args.physics.history |= args.yield != NULL || args.adhesion != NULL;
     args.physics.attracts = args.adhesion != NULL;
     args.physics.travels = args.travel.n > 0;
+    relax_read(run, &args);
     physics_check(&run->d.t, &args.physics);
     run->args = &args;
     run->steps = physics_steps(&args.physics);
@@ -128,6 +140,7 @@ check_arguments(struct run *run)
     yield_read(run);
     adhesion_read(run);
     travel_read(run);
+    relax_check(run);
     if (run->yielding.wanted && !tool_given(&run->d.t, "output"))
         args.output |= 1 << SOLVE_RESIDUAL;
     if (run->adhering.wanted && (args.output & (1 << SOLVE_PRESSURE | 1 << SOLVE_GAP)))

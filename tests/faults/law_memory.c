@@ -888,6 +888,35 @@ done:
     free(state);
     rc_model_free(m);
     rc_model_free(other);
+    return status;
+}
+
+static enum rc_status
+creeps(double *out, struct rc_err *err)
+{
+    const double modulus[] = {4e8, 2e8}, time[] = {0.1, 1};
+    const struct rc_problem contact = {.pair.estar = 1e9, .tol = 1e-5, .threads = 1};
+    struct rc_relaxation *r = rc_relaxation_new(4e8, 2, modulus, time, err);
+    const struct rc_viscoelastic_problem law = {.material = r, .share = 1, .increments = 2};
+    struct rc_point to = {0};
+    struct rc_model *m = NULL;
+    enum rc_status status = RC_FAIL;
+
+    if (r == NULL)
+        return RC_FAIL;
+    m = rc_viscoelastic_new(rc_elastic_new(&shape, rough, &contact, NULL, err), rough, &law, err);
+    rc_point_set(&to, RC_LOAD, 1e-3);
+    rc_point_set(&to, RC_TIME, 0);
+    if (m == NULL || rc_model_run(m, &to, err) == RC_FAIL || rc_model_keep(m, err) != RC_OK)
+        goto done;
+    rc_point_set(&to, RC_TIME, 1);
+    if (rc_model_run(m, &to, err) == RC_FAIL || rc_model_look(m, NULL, err) != RC_OK ||
+        rc_model_frame(m, "pressure", out, err) != RC_OK)
+        goto done;
+    out[N] = rc_viscoelastic_result(m)->equivalent_load;
+    status = RC_OK;
+done:
+    rc_model_free(m);
     rc_relaxation_free(r);
     return status;
 }
@@ -1097,6 +1126,7 @@ static const struct {
     {.name = "heat", .use = heated},
     {.name = "relaxation", .use = relaxes},
     {.name = "the model of sliding", .use = slide_model},
+    {.name = "viscoelastic", .use = creeps},
     {.name = "slabs", .use = slabs_double},
     {.name = "slabs, single precision", .use = slabs_single},
     {.name = "what a plan takes", .use = plans, .without = true},

@@ -174,6 +174,25 @@ sliding(struct rc_err *err)
     return rc_slide_new(&shape, heights, &contact, &law, err);
 }
 
+/* Terms of three kinds: one follows at once, one takes time, and one flows. */
+static struct rc_model *
+viscoelastic(struct rc_err *err)
+{
+    static const struct rc_problem contact = {.pair.estar = 1e9, .tol = 1e-9, .threads = 1};
+    static double compliance[] = {3e-10, 1e-9, 4e-6}, retardation[] = {1e-5, 0.4, 3e4};
+    static struct rc_relaxation material = {
+        .instant = 1e-9, .creep_terms = 3, .compliance = compliance, .retardation = retardation};
+    static const struct rc_viscoelastic_problem law = {.material = &material,
+                                                       .share = 0.9,
+                                                       .shortest = 0.1,
+                                                       .longest = 0.6,
+                                                       .increments = 3,
+                                                       .tol = 0.9};
+
+    return rc_viscoelastic_new(rc_elastic_new(&shape, heights, &contact, NULL, err), heights, &law,
+                               err);
+}
+
 #ifdef RC_TOYS
 static struct rc_model *
 relaxing(struct rc_err *err)
@@ -218,6 +237,12 @@ static const struct kind {
      1e-6},
     {"travel", rolling_out, {RC_LOAD, RC_POSITION}, {{2e-3, 0}, {2e-3, 1e-6}, {2e-3, 2e-6}}, 1e-3},
     {"sliding", sliding, {RC_LOAD, RC_SPEED}, {{2e-3, 5e-3}, {1e-3, -2e-3}, {3e-3, 1e-2}}, 1e-6},
+    {"viscoelastic", viscoelastic, {RC_LOAD, RC_TIME}, {{2e-3, 0.3}, {0, 0.5}, {3e-3, 0.6}}, 1e-6},
+    {"viscoelastic",
+     viscoelastic,
+     {RC_APPROACH, RC_TIME},
+     {{5e-8, 0.3}, {1e-8, 0.5}, {4e-8, 0.6}},
+     1e-6},
 #ifdef RC_TOYS
     {"relaxing", relaxing, {RC_LOAD, RC_TIME}, {{2e-3, 0.3}, {1e-3, 0.5}, {2e-3, 0.6}}, 1e-6},
 #endif

@@ -28,7 +28,7 @@ meant --treads --threads
 refuses 2 '^rc-solve: unknown option --xyzzy: see rc-solve --help$' "one that is near to none" 'rc-solve --xyzzy'
 refuses 2 '^rc-solve: unknown option -x: see rc-solve --help$' "a letter" 'rc-solve -x'
 refuses 2 '^rc-solve: unknown option --a{63}' "a long one" "rc-solve --\$(printf 'a%.0s' {1..5000})"
-refuses 2 '^rc-solve: option --re is ambiguous: --report, --resume$' "one that is cut too short" 'rc-solve --re'
+refuses 2 '^rc-solve: option --re is ambiguous: --relaxation, --report, --resume$' "one that is cut too short" 'rc-solve --re'
 refuses 2 '^rc-solve: option --E is ambiguous: --E1, --E2$' "another" 'rc-solve --E=3'
 refuses 2 '^rc-solve: option --load needs an argument' "one without its argument" 'rc-solve --load'
 refuses 2 '^rc-solve: option --periodic=3 takes no argument' "one with too many" 'rc-solve --periodic=3'

@@ -91,10 +91,13 @@ plane_compliance(double e, double nu)
 static void
 check_elasticity(struct tool *t, struct physics *a)
 {
-    int bodies =
-        tool_given(t, "E1") + tool_given(t, "nu1") + tool_given(t, "E2") + tool_given(t, "nu2");
+    int bodies = (tool_given(t, "E1") || a->relaxes) + tool_given(t, "nu1") + tool_given(t, "E2") +
+                 tool_given(t, "nu2");
     bool rigid = isinf(a->e2);
 
+    if (a->relaxes && bodies < (rigid ? 3 : 4))
+        tool_die(t, EXIT_USAGE,
+                 "--relaxation has the moduli of body 1: give --nu1, and --E2 --nu2 or --E2 rigid");
     if (tool_given(t, "estar") ? bodies > 0 : bodies < (rigid ? 3 : 4))
         tool_die(t, EXIT_USAGE,
                  "give the elasticity, either as --estar or as --E1 --nu1 --E2 "

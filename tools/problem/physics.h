@@ -17,6 +17,7 @@ struct physics {
     double *residual;        /* their residual stresses, Pa; NULL: none                          */
     struct rc_pair pair;     /* the bodies from these numbers                                    */
     double surface_estar;    /* surface estar of the topmost material and body 2 */
+    bool relaxes;            /* e1 is the instantaneous modulus of a viscoelastic body           */
     bool travels;            /* the sphere is not part of the map, but moves over it             */
     bool attracts;           /* loads and approaches may be negative or 0                        */
     bool history;            /* each load acts on the shape that earlier ones left, and may be 0 */

@@ -8,6 +8,7 @@
 #include "attracts.h"
 #include "errors.h"
 #include "physics.h"
+#include "relaxes.h"
 #include "yields.h"
 
 #endif

@@ -88,6 +88,7 @@ set_marks(struct run *run)
     yield_set_marks(run);
     adhesion_mark(run, course_mark(c, "checkpoint.adhesion"), size);
     travel_mark(run, course_mark(c, "checkpoint.travel"), size);
+    relax_mark(run, course_mark(c, "checkpoint.relaxation"), size);
 }
 
 /* ---- results ---- */
@@ -123,6 +124,7 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     drive_set_number(d, g, "hardening", yields ? yield_law_hardening(law) : NAN);
     adhesion_set_key(run, g, c);
     travel_set_keys(run, g);
+    relax_set_keys(run, g);
 }
 
 /* Values that are not those of a frame of the model. The frames from `plastic` on have the error of the shape. */
@@ -230,9 +232,10 @@ look_at_model(struct run *run, const struct rc_grid *g, struct rc_model *m, stru
 
     yield_found(run, m);
     run->adhering.figures = adhesive != NULL ? &adhesive->adhesion : NULL;
-    s->contact = elastic != NULL    ? elastic->contact
-                 : adhesive != NULL ? adhesive->contact
-                                    : rc_yielding_result(m)->contact;
+    s->contact = run->relaxing.wanted ? run->relaxing.found->contact
+                 : elastic != NULL    ? elastic->contact
+                 : adhesive != NULL   ? adhesive->contact
+                                      : rc_yielding_result(m)->contact;
     if (adhesive != NULL)
         look_at_closed_gap(run, g, m, s);
 }
@@ -268,6 +271,8 @@ judge_load(struct drive *d, struct rc_model *m)
     *s = (struct solution)SOLUTION_NONE;
     run->solver = rc_model_solver(m);
     travel_look(run, m);
+    if (!relax_look(run, m))
+        return;
     if (run->apart)
         look_inside(run, g, NULL, s);
     else if (run->solver != NULL &&
@@ -278,7 +283,8 @@ judge_load(struct drive *d, struct rc_model *m)
         s->conductance = (struct rc_conductance){NAN, 0, 0};
     if (run->solver != NULL && !run->apart) {
         find_stiffness(run, g, run->solver, s);
-        s->contact.convolutions = rc_solver_convolutions(run->solver);
+        if (!run->relaxing.wanted)
+            s->contact.convolutions = rc_solver_convolutions(run->solver);
     }
     if (s->contact.inherited_error > 0)
         s->errors =
@@ -286,6 +292,7 @@ judge_load(struct drive *d, struct rc_model *m)
                                  .inherited = s->contact.inherited_error,
                                  .contact = s->contact.pressure_error - s->contact.inherited_error};
     yield_look(run, s);
+    relax_parts(run, s);
     travel_end_pass(run, m);
     run->done = tool_now();
     run->result = run->apart ? 0 : run->done - start;
@@ -350,13 +357,18 @@ begin_load(struct drive *d, struct rc_model *m)
     bool plans;
 
     a->pulling = a->wanted && d->at == run->steps->n;
-    run->step = run->travelling.wanted ? 0 : a->pulling ? d->at - 1 : d->at;
+    run->step = run->travelling.wanted ? 0
+                : run->relaxing.wanted ? relax_step(run, d->at)
+                : a->pulling           ? d->at - 1
+                                       : d->at;
     run->apart = run->steps->v[run->step] == 0 && !a->wanted;
-    problem = problem_of(run, run->g, run->step);
+    problem = problem_of(run, run->g, run->relaxing.wanted ? relax_largest(run) : run->step);
     if (run->yielding.wanted)
         yield_plan(run, m, problem.load);
-    plans = a->wanted ? d->at == 0 : !run->apart && rc_model_solver(m) == NULL;
-    if ((run->apart && !run->yielding.on) || a->pulling)
+    plans =
+        a->wanted || run->relaxing.wanted ? d->at == 0 : !run->apart && rc_model_solver(m) == NULL;
+    if ((run->apart && !run->yielding.on && !run->relaxing.wanted) || a->pulling ||
+        (run->relaxing.before && d->at == 0))
         d->course.checkpoint = NULL;
     set_marks(run);
     if (plans)
@@ -371,35 +383,50 @@ make_points(struct run *run)
     const bool approach = run->args->physics.approach.n > 0;
     struct drive *d = &run->d;
 
-    d->points = run->travelling.wanted ? travel_points(run) : run->steps->n + run->args->pull_off;
+    d->points = run->travelling.wanted ? travel_points(run)
+                : run->relaxing.wanted ? relax_points(run)
+                                       : run->steps->n + run->args->pull_off;
     if ((d->point = calloc(d->points, sizeof *d->point)) == NULL)
         tool_die(&d->t, EXIT_IMPOSSIBLE, "out of memory for %zu loads", d->points);
     for (size_t k = 0; k < d->points; k++) {
-        const struct rc_problem problem = problem_of(run, run->g, k < run->steps->n ? k : 0);
+        const size_t step = run->relaxing.wanted ? relax_step(run, k) : k;
+        const struct rc_problem problem = problem_of(run, run->g, step < run->steps->n ? step : 0);
         rc_point_set(&d->point[k], approach ? RC_APPROACH : RC_LOAD,
                      approach ? problem.approach : problem.load);
         if (run->travelling.wanted)
             rc_point_set(&d->point[k], RC_POSITION, travel_position(run, k));
+        if (run->relaxing.wanted)
+            rc_point_set(&d->point[k], RC_TIME, relax_time(run, k));
     }
     if (run->args->pull_off)
         rc_point_set(&d->point[run->steps->n], RC_APPROACH, -INFINITY);
 }
 
+static struct rc_model *
+elastic_model(struct run *run, const struct rc_problem *problem)
+{
+    const struct rc_shape shape = rc_grid_shape(run->g);
+    struct rc_err err;
+    struct rc_model *m = rc_elastic_new(&shape, run->g->v, problem, NULL, &err);
+
+    if (m == NULL)
+        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", err.text);
+    return m;
+}
+
 static void
 do_loads(struct run *run)
 {
-    const struct rc_shape shape = rc_grid_shape(run->g);
     const struct rc_problem problem = problem_of(run, run->g, 0);
     struct drive *d = &run->d;
-    struct rc_err err;
 
     run->model = run->yielding.wanted   ? yield_model(run, run->g, &problem)
                  : run->adhering.wanted ? adhesion_model(run, run->g, &problem)
-                                        : rc_elastic_new(&shape, run->g->v, &problem, NULL, &err);
-    if (run->model == NULL)
-        tool_die_at(&d->t, run->g, EXIT_IMPOSSIBLE, "%s", err.text);
+                                        : elastic_model(run, &problem);
     if (run->travelling.wanted)
         run->model = travel_model(run, run->model);
+    if (run->relaxing.wanted)
+        run->model = relax_model(run, run->model);
     d->begin = begin_load;
     d->judge = judge_load;
     d->all_keys = set_keys;
@@ -433,8 +460,11 @@ take_hardness(struct run *run, const struct rc_grid *hardness)
     run->hardness = hardness;
     run->hardness_min = -ranks_most(&run->d.t, -low);
     run->hardness_max = ranks_most(&run->d.t, high);
+    if (run->relaxing.wanted && run->hardness != NULL)
+        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE,
+                    "--relaxation with a map of hardness is not implemented");
     if (run->args->physics.history && isinf(run->hardness_min) && !run->yielding.wanted &&
-        !run->adhering.wanted)
+        !run->adhering.wanted && !run->relaxing.wanted)
         tool_warn(&run->d.t,
                   "--history has no effect, because nothing yields without --hardness, a "
                   "map of it, or --yield: give one of them");
@@ -464,7 +494,11 @@ solve_case(struct run *run, const struct rc_grid *hardness)
         while (!run->adhering.wanted && first + 1 < run->steps->n && run->steps->v[first] == 0)
             first++;
         problem = problem_of(run, run->g, first);
-        run->model = run->yielding.wanted ? yield_model(run, run->g, &problem) : NULL;
+        if (run->relaxing.wanted)
+            problem = problem_of(run, run->g, relax_largest(run));
+        run->model = run->yielding.wanted   ? yield_model(run, run->g, &problem)
+                     : run->relaxing.wanted ? relax_model(run, elastic_model(run, &problem))
+                                            : NULL;
         solve_plan(run, run->g, &problem);
         rc_model_free(run->model);
     } else {

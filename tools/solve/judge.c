@@ -21,6 +21,9 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
     if (run->travelling.wanted)
         snprintf(position, sizeof position, ", position %s",
                  shown_in_unit(value, travel_position(run, run->d.at), "m"));
+    if (run->relaxing.wanted)
+        snprintf(position, sizeof position, ", time %s",
+                 shown_in_unit(value, relax_time(run, run->d.at), "s"));
     if (source == NULL)
         source = run->d.t.source == NULL ? "standard input" : run->d.t.source;
     if (a->load.n > 0) {
@@ -213,6 +216,6 @@ solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
         solve_warn_of_theory(run, g, where, s);
         warn_of_grid(run, g, where, s);
     }
-    if (!yield_warn_of_end(run, where, s))
+    if (!yield_warn_of_end(run, where, s) && !relax_warn_of_end(run, where, &s->contact))
         solve_warn_of_end(run, where, &s->contact);
 }

@@ -70,6 +70,7 @@ show_effects(struct run *run, const char *engine, const bool *active,
         {"yield", yield_state(run)},
         {"adhesion", adhesion_state(run)}, /* also the state of its frame */
         {"travel", travel_state(run)},
+        {"relaxation", relax_state(run)},
         {"tilt", run->tilt ? "on" : "left out: no --tilt free"},
         {"stiffness", run->stiffness         ? "on"
                       : run->adhering.wanted ? "left out: the bodies attract each other"
@@ -250,6 +251,7 @@ solve_report(struct drive *d, const struct rc_model *m)
     report_number(r, "rms_slope", run->rms_slope, NULL);
     report_number(r, "elastic_energy", s->contact.elastic_energy, "J");
     travel_report(r, run);
+    relax_report(r, run);
 }
 
 /* ---- plan ---- */
@@ -269,7 +271,11 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
     struct rc_err err;
 
     rc_point_set(&to, RC_LOAD, problem->load);
-    if (run->yielding.wanted)
+    if (run->relaxing.wanted && problem->approach > 0)
+        rc_point_set(&to, RC_APPROACH, problem->approach);
+    if (run->relaxing.wanted)
+        rc_point_set(&to, RC_TIME, 0);
+    if (run->yielding.wanted || run->relaxing.wanted)
         (void)rc_model_plan(run->model, &to, &expected, &err);
     else
         (void)rc_solver_expect(&shape, problem, &expected, &err);

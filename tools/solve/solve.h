@@ -31,6 +31,9 @@ struct solve_args {
     const char *kernel, *method;
     const char *conductivity; /* conductivities of both bodies, or NULL                   */
     const char *yield, *increments, *slabs; /* words of the command line, or NULL */
+    const char *relaxation;                 /* words of the command line, or NULL */
+    double shift;                           /* factor of all times of the material */
+    struct numbers time;                    /* none: without --relaxation */
     const char *adhesion;         /* words of the command line, or NULL                       */
     bool pull_off;                /* pull-off is an additional last case */
     struct numbers travel;        /* positions; none: the contact stays */
@@ -82,6 +85,16 @@ struct travelling {
     double gain, first_gain; /* largest growth of such a mean in a pass, and in the first one */
 };
 
+/* --relaxation: body 1 is viscoelastic. */
+struct relaxing {
+    bool wanted;
+    struct relaxation_law law;
+    bool before;       /* the load acts before the first asked time */
+    double shortest;   /* s, between two times */
+    size_t increments; /* on the command line; 0: auto */
+    const struct rc_viscoelastic_figures *found;
+};
+
 /* The figures of a solution. */
 struct solution {
     struct rc_contact contact;
@@ -116,6 +129,7 @@ struct run {
     struct yielding yielding;
     struct adhering adhering;
     struct travelling travelling;
+    struct relaxing relaxing;
     bool tilt;                         /* the counter body is free to tilt */
     double k[2];                       /* conductivities of the bodies, SI                  */
     const char *conductance_unit;      /* W/K or S; NULL: the conductivities have no unit   */
@@ -199,6 +213,27 @@ void travel_end_pass(struct run *run, const struct rc_model *m);
 void travel_set_keys(struct run *run, struct rc_grid *as);
 void travel_report(struct report *report, const struct run *run);
 const char *travel_state(const struct run *run);
+
+/* ---- relax.c: all but relax_read do nothing without --relaxation ---- */
+
+/* Reads --relaxation, before the checks of the bodies, and checks it after them; ends the tool if it is
+ * invalid. */
+void relax_read(struct run *run, struct solve_args *args);
+void relax_check(struct run *run);
+/* The points of the history, their times, and their places in the list of loads. */
+size_t relax_points(const struct run *run);
+double relax_time(const struct run *run, size_t point);
+size_t relax_step(const struct run *run, size_t point);
+size_t relax_largest(const struct run *run);
+struct rc_model *relax_model(struct run *run, struct rc_model *inner);
+void relax_mark(struct run *run, char *value, size_t size);
+bool relax_look(struct run *run, const struct rc_model *m);
+/* Sets the parts of the error. */
+void relax_parts(const struct run *run, struct solution *solution);
+bool relax_warn_of_end(struct run *run, const char *where, const struct rc_contact *contact);
+void relax_set_keys(struct run *run, struct rc_grid *as);
+void relax_report(struct report *report, const struct run *run);
+const char *relax_state(const struct run *run);
 
 /* ---- yield.c: all but yield_read do nothing without --yield ---- */
 

@@ -57,7 +57,7 @@ yield_read(struct run *run)
     struct rc_err err;
 
     y->wanted = args->yield != NULL;
-    if (!y->wanted && (args->increments != NULL || args->slabs != NULL))
+    if (!y->wanted && (args->slabs != NULL || (args->increments != NULL && !run->relaxing.wanted)))
         tool_die(&run->d.t, EXIT_USAGE, "--increments and --slabs have no effect without --yield");
     for (int f = SOLVE_RESIDUAL; !y->wanted && f <= SOLVE_STRAIN; f++)
         if (solve_wanted(args, f))
@@ -433,13 +433,20 @@ void
 yield_report(struct report *r, const struct run *run)
 {
     const struct yielding *y = &run->yielding;
-    const struct figures of_volume[] = {{rc_figures("yielding"), y->on ? y->found : NULL}, {0}},
+    const bool relaxes = run->relaxing.wanted;
+    const struct figures of_steps[] = {{rc_figures(relaxes ? "viscoelastic" : "yielding"),
+                                        relaxes ? (const void *)run->relaxing.found
+                                        : y->on ? y->found
+                                                : NULL},
+                                       {0}},
+                         of_volume[] = {{rc_figures("yielding"), y->on ? y->found : NULL}, {0}},
                          of_stress[] = {{rc_figures("yielding"), y->wanted ? y->found : NULL}, {0}};
 
     report_number(r, "yield", y->wanted ? rc_yield_stress(&y->law, 0) : NAN, "Pa");
     report_number(r, "hardening", y->wanted && y->law.points == 0 ? y->law.modulus : NAN, "Pa");
+    report_named(r, of_steps, "increments");
     report_named(r, of_volume,
-                 "increments applications slabs plastic_depth plastic_volume max_plastic_strain "
+                 "applications slabs plastic_depth plastic_volume max_plastic_strain "
                  "plastic_work max_pressure_mean4");
     report_named(r, of_stress, "max_mises_over_yield max_mises_depth");
 }

@@ -1,0 +1,299 @@
+/*
+ * --relaxation with --time: viscoelastic bodies, a case a time. One load that acts from 0 s on has a list of
+ * times, and a list of loads has the time of each.
+ */
+#include "solve.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+/* ---- the command line ---- */
+
+static void
+refuse(struct run *run, bool given, const char *what, const char *why)
+{
+    if (given)
+        tool_die(&run->d.t, EXIT_USAGE, "--relaxation does not work with %s: %s", what, why);
+}
+
+/* Before the checks of the bodies: the material is that of body 1. */
+void
+relax_read(struct run *run, struct solve_args *args)
+{
+    struct relaxing *x = &run->relaxing;
+    struct physics *a = &args->physics;
+    struct tool *t = &run->d.t;
+    struct rc_err err;
+
+    x->wanted = args->relaxation != NULL;
+    if (!x->wanted && (args->time.n > 0 || tool_given(t, "shift")))
+        tool_die(t, EXIT_USAGE, "--time and --shift have no effect without --relaxation");
+    if (!x->wanted)
+        return;
+    refuse(run, tool_given(t, "E1"), "--E1", "the moduli of body 1 are those of --relaxation");
+    refuse(run, tool_given(t, "estar"), "--estar",
+           "body 1 needs its Poisson's ratio: give --nu1, and --E2 --nu2 or --E2 rigid");
+    if (relaxation_law_read(&x->law, args->relaxation, args->shift, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--relaxation %s: %s", args->relaxation, err.text);
+    a->e1 = 1 / x->law.material->instant;
+    a->relaxes = true;
+    a->history = true; /* each time continues from the last one */
+}
+
+/* The time of the first load is 0. One load acts from 0 on, also if the first asked time is later. */
+static void
+check_times(struct run *run)
+{
+    const struct numbers *time = &run->args->time;
+    struct relaxing *x = &run->relaxing;
+    struct tool *t = &run->d.t;
+
+    if (time->n == 0)
+        tool_die(t, EXIT_USAGE, "--relaxation needs the times of the cases: give --time LIST");
+    if (run->steps->n > 1 && run->steps->n != time->n)
+        tool_die(t, EXIT_USAGE,
+                 "--time has %zu values, and the list of loads or approaches %zu: give lists of "
+                 "equal length, or one load",
+                 time->n, run->steps->n);
+    if (time->v[0] < 0 || (time->v[0] > 0 && run->steps->n > 1))
+        tool_die(t, EXIT_USAGE, "--time: the first time is %g s: it must be 0", time->v[0]);
+    x->before = time->v[0] > 0;
+    x->shortest = INFINITY;
+    for (size_t k = 0; k < time->n; k++) {
+        const double leg = time->v[k] - (k > 0 ? time->v[k - 1] : 0);
+        if (!(leg >= 0) || isinf(leg) || (leg == 0 && k > 0 && run->steps->n == 1))
+            tool_die(t, EXIT_USAGE, "--time: %g s after %g s: the times must rise%s", time->v[k],
+                     k > 0 ? time->v[k - 1] : 0,
+                     run->steps->n > 1 ? ", or be equal at a jump" : "");
+        if (leg > 0)
+            x->shortest = fmin(x->shortest, leg);
+    }
+    if (isinf(x->shortest))
+        x->shortest = 0;
+}
+
+static void
+warn_of_material(struct run *run)
+{
+    const struct relaxing *x = &run->relaxing;
+    const struct rc_relaxation *m = x->law.material;
+    const double contradicts = 0.05, rubber = 0.45;
+    char leg[SHOWN_NUMBER], tau[SHOWN_NUMBER];
+
+    if (x->law.misfit > contradicts)
+        tool_warn(&run->d.t,
+                  "--relaxation: the RMS misfit of the master curve is %.2g: its storage and loss "
+                  "moduli contradict each other, or are scattered",
+                  x->law.misfit);
+    if (m->terms > 0 && x->shortest > 0 && x->shortest < m->time[0])
+        tool_warn(&run->d.t,
+                  "--time: %s passes between two times, and the shortest relaxation time is %s: "
+                  "there the "
+                  "answer rests on the instantaneous modulus alone",
+                  shown_in_unit(leg, x->shortest, "s"), shown_in_unit(tau, m->time[0], "s"));
+    if (run->args->physics.nu1 < rubber)
+        tool_warn(&run->d.t,
+                  "--nu1 %g: it is constant in time, which holds for rubber (0.5): a compressible "
+                  "polymer relaxes less in its volume than in shear",
+                  run->args->physics.nu1);
+}
+
+/* After the checks of the bodies. */
+void
+relax_check(struct run *run)
+{
+    const struct solve_args *args = run->args;
+    struct relaxing *x = &run->relaxing;
+
+    if (!x->wanted)
+        return;
+    refuse(run, !isinf(args->physics.hardness), "--hardness", "it is not implemented");
+    refuse(run, args->physics.layer.n > 0, "--layer",
+           "all material of body 1 must relax alike, which a layer on another one does not");
+    refuse(run, args->yield != NULL, "--yield", "it is not implemented");
+    refuse(run, args->adhesion != NULL, "--adhesion", "it is not implemented");
+    refuse(run, args->travel.n > 0, "--travel", "it is not implemented");
+    refuse(run, run->tilt, "--tilt free", "the bodies move along their normal only");
+    refuse(run, args->discretization, "--discretization",
+           "solve a coarser map in a second command instead");
+    refuse(run, ranks_of(&run->d.t) != NULL, "several processes", "take one");
+    check_times(run);
+    warn_of_material(run);
+    if (args->increments != NULL && strcmp(args->increments, "auto") != 0) {
+        char *end;
+        x->increments = strtoul(args->increments, &end, 10);
+        if (*end != '\0' || args->increments[0] == '-' || x->increments < 2 ||
+            x->increments > RC_YIELDING_INCREMENTS)
+            tool_die(&run->d.t, EXIT_USAGE,
+                     "--increments %s: it must be auto or a number from 2 to %d", args->increments,
+                     RC_YIELDING_INCREMENTS);
+    }
+}
+
+/* ---- points ---- */
+
+size_t
+relax_points(const struct run *run)
+{
+    return run->args->time.n + run->relaxing.before;
+}
+
+double
+relax_time(const struct run *run, size_t point)
+{
+    const size_t before = run->relaxing.before;
+
+    return point < before ? 0 : run->args->time.v[point - before];
+}
+
+size_t
+relax_step(const struct run *run, size_t point)
+{
+    return run->steps->n == 1 ? 0 : point;
+}
+
+/* The largest load of the history, for the forecast. */
+size_t
+relax_largest(const struct run *run)
+{
+    size_t most = 0;
+
+    for (size_t k = 0; k < run->steps->n; k++)
+        if (run->steps->v[k] > run->steps->v[most])
+            most = k;
+    return most;
+}
+
+struct rc_model *
+relax_model(struct run *run, struct rc_model *inner)
+{
+    const struct physics *a = &run->args->physics;
+    const struct relaxing *x = &run->relaxing;
+    const struct rc_viscoelastic_problem problem = {
+        .material = x->law.material,
+        .share = fmin(1, (1 - a->nu1 * a->nu1) / a->e1 * a->surface_estar),
+        .shortest = x->shortest,
+        .longest = run->args->time.v[run->args->time.n - 1],
+        .points = relax_points(run),
+        .increments = x->increments};
+    struct rc_err err;
+    struct rc_model *m = rc_viscoelastic_new(inner, run->g->v, &problem, &err);
+
+    if (m == NULL)
+        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", err.text);
+    return m;
+}
+
+/* What a state of a checkpoint must agree in: the material, the other body, and the points so far. */
+void
+relax_mark(struct run *run, char *value, size_t size)
+{
+    const struct relaxing *x = &run->relaxing;
+    const struct rc_relaxation *m = x->law.material;
+    const double body[] = {run->args->physics.nu1, run->args->physics.surface_estar, x->shortest,
+                           run->args->time.n > 0 ? run->args->time.v[run->args->time.n - 1] : 0,
+                           (double)x->increments};
+    uint32_t crc;
+
+    if (!x->wanted)
+        return;
+    crc = rc_crc32_add(0, body, sizeof body);
+    crc = rc_crc32_add(crc, &m->relaxed, sizeof m->relaxed);
+    crc = rc_crc32_add(crc, m->modulus, m->terms * sizeof *m->modulus);
+    crc = rc_crc32_add(crc, m->time, m->terms * sizeof *m->time);
+    for (size_t k = 0; k <= run->d.at; k++) {
+        const double at[] = {relax_time(run, k), run->steps->v[relax_step(run, k)]};
+        crc = rc_crc32_add(crc, at, sizeof at);
+    }
+    snprintf(value, size, "%08" PRIx32, crc);
+}
+
+/* ---- results ---- */
+
+/* Takes the figures of a time. False: the start of a load, which is no case. */
+bool
+relax_look(struct run *run, const struct rc_model *m)
+{
+    struct relaxing *x = &run->relaxing;
+
+    if (!x->wanted)
+        return true;
+    x->found = rc_viscoelastic_result(m);
+    run->apart = x->found->contact.contact_nodes == 0;
+    if (run->d.at == 0 && x->before && tool_interrupted() == 0) {
+        run->d.silent = true;
+        run->d.course.number--;
+        return false;
+    }
+    return true;
+}
+
+void
+relax_parts(const struct run *run, struct solution *s)
+{
+    const struct relaxing *x = &run->relaxing;
+
+    if (x->wanted && !run->apart)
+        s->errors =
+            (struct error_parts){.told = true,
+                                 .increment = x->found->increment_error,
+                                 .contact = s->contact.pressure_error - x->found->increment_error};
+}
+
+/* Warns of a time at which the steps are too long. False: there was no warning. */
+bool
+relax_warn_of_end(struct run *run, const char *where, const struct rc_contact *c)
+{
+    const struct relaxing *x = &run->relaxing;
+
+    if (!x->wanted || c->converged || tool_interrupted() != 0 ||
+        x->found->increment_error < c->pressure_error / 2)
+        return false;
+    course_warn(
+        &run->d.course, "stopped short",
+        "%s: the error of the steps in time is %.2g of the pressure: take more --increments "
+        "than %zu",
+        where, x->found->increment_error, x->increments > 0 ? x->increments : 20);
+    return true;
+}
+
+void
+relax_set_keys(struct run *run, struct rc_grid *as)
+{
+    if (run->relaxing.wanted)
+        drive_set_number(&run->d, as, "time", run->relaxing.found->time);
+}
+
+void
+relax_report(struct report *r, const struct run *run)
+{
+    const struct relaxing *x = &run->relaxing;
+    const struct figures from[] = {{rc_figures("viscoelastic"), x->found}, {NULL, NULL}};
+
+    if (!x->wanted)
+        return;
+    report_named(r, from, "time equivalent_load");
+    report_count(r, "relaxation_terms", x->law.material->terms, NULL);
+    report_number(r, "relaxation_misfit", x->law.misfit, NULL);
+    report_number(r, "modulus_instant", run->args->physics.e1, "Pa");
+    report_number(r, "modulus_relaxed", x->law.material->relaxed, "Pa");
+}
+
+const char *
+relax_state(const struct run *run)
+{
+    static char text[128];
+    const struct relaxing *x = &run->relaxing;
+    char instant[SHOWN_NUMBER], relaxed[SHOWN_NUMBER];
+
+    if (!x->wanted)
+        return "left out: no --relaxation";
+    snprintf(text, sizeof text, "on: %zu terms, E from %s to %s", x->law.material->terms,
+             shown_in_unit(instant, run->args->physics.e1, "Pa"),
+             shown_in_unit(relaxed, x->law.material->relaxed, "Pa"));
+    return text;
+}
