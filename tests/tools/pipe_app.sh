@@ -97,11 +97,17 @@ claim "  its temporary folder is removed" bash -c '[ -z "$(ls "$TMPDIR")" ]'
 
 # ---- signals ----
 
-"$python" -m rcg.app --no-browser rough-steel.x3p >address 2>app.err &
+printf '#!/bin/sh\necho "$1" >opened\n' >browser
+chmod +x browser
+BROWSER="$PWD/browser %s" DISPLAY=:9 "$python" -m rcg.app rough-steel.x3p >address 2>app.err &
 APP=$!
-waits_for address
+waits_for address && waits_for opened
+address=$(cat address)
+claim "the address that starts the browser works once, and has no token" check first "$(cat opened)"
+claim "  the file of the command line is on the page" check has rough-steel.x3p
 kill "$APP"
 wait "$APP"
 claim "a signal ends it, and its folder is removed" bash -c '[ "$0" = 0 ] && [ -z "$(ls "$TMPDIR")" ]' $?
+claim "without a page it ends by itself" timeout 20 "$python" -c 'import rcg.app; rcg.app.IDLE = 0.3; rcg.app.main(["--no-browser"])'
 
 finish

@@ -304,6 +304,18 @@ def watch():
         pass
 
 
+def first(opened):
+    path = urllib.parse.urlsplit(opened).path
+    assert TOKEN not in opened
+    status, headers, _ = ask(None, path=path)
+    assert status == 303 and headers['Location'] == sys.argv[1], (status, headers['Location'])
+    refused(403, 'token of this session', None, path=path)
+
+
+def has(name):
+    assert found('desk')['files'][-1]['shown'] == os.path.realpath(name)
+
+
 def quit():
     assert found('quit', body=b'') == {}
 

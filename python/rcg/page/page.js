@@ -23,7 +23,7 @@ const VIEWS = {
   Profile: {options: [['cut', 'y=0']], mark: '=', parts: f => ({'Line of constant': ['y', 'x'],
     Place: [-f.nx * f.dx / 2, f.nx * f.dx / 2, f.dx]})},
   Distribution: {options: [['histogram', true]]},
-  Curves: {options: [['curve', 'load:contact_area'], ['points', true]], mark: ':', report: true,
+  Curves: {options: [['curve', 'load:contact_area']], mark: ':', report: true,
     parts: (f, names) => ({Horizontal: names, Vertical: names})},
   Numbers: {options: [], report: true, tool: 'rc-info'},
 };
@@ -108,7 +108,7 @@ function begin(chosen) {
   start(1);
 }
 function drawSteps() {
-  Object.assign($('source'), {textContent: `${file.name}, ${(file.size / 1e6).toPrecision(3)} MB`});
+  $('source').textContent = `${file.name}, ${file.size < 1e6 ? Math.ceil(file.size / 1e3) + ' kB' : Math.ceil(file.size / 1e6) + ' MB'}`;
   $('go').disabled = $('add').disabled = false;
   const buttons = k => [
     ...(k > 1 ? [button('Do earlier', () => { steps.splice(k - 1, 0, ...steps.splice(k, 1)); drawSteps(); })] : []),
@@ -340,7 +340,7 @@ trying(async () => {
   events.onmessage = e => { runs = JSON.parse(e.data); news(); };
   events.onerror = () => tell('There is no connection to rc-app. It has ended, or four pages are open already.', 'failed');
   $('sample').onclick = () => begin(desk.files[0]);
-  if (kept) { ({file, steps} = kept); drawSteps(); } else if (desk.files[1]?.path === desk.files[1]?.shown && desk.files[1]) begin(desk.files[1]);
+  if (kept && desk.files[kept.file.id]?.path === kept.file.path) { ({file, steps} = kept); drawSteps(); } else if (desk.files[1]?.path === desk.files[1]?.shown && desk.files[1]) begin(desk.files[1]);
 })();
 $('file').onchange = () => upload($('file').files[0]);
 $('file').onkeydown = e => { if (e.key === 'Enter') { e.preventDefault(); $('file').click(); } };
