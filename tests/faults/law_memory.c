@@ -888,6 +888,7 @@ done:
     free(state);
     rc_model_free(m);
     rc_model_free(other);
+    rc_relaxation_free(r);
     return status;
 }
 

@@ -188,6 +188,21 @@ relax_model(struct run *run, struct rc_model *inner)
     return m;
 }
 
+/* The expected cost of a time. */
+enum rc_status
+relax_expect(const struct run *run, const struct rc_problem *problem, struct rc_expected *expected,
+             struct rc_err *err)
+{
+    struct rc_point to = {0};
+
+    rc_point_set(&to, RC_TIME, 0);
+    if (problem->approach > 0)
+        rc_point_set(&to, RC_APPROACH, problem->approach);
+    else
+        rc_point_set(&to, RC_LOAD, problem->load);
+    return rc_model_plan(run->model, &to, expected, err);
+}
+
 /* What a state of a checkpoint must agree in: the material, the other body, and the points so far. */
 void
 relax_mark(struct run *run, char *value, size_t size)

@@ -271,12 +271,10 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
     struct rc_err err;
 
     rc_point_set(&to, RC_LOAD, problem->load);
-    if (run->relaxing.wanted && problem->approach > 0)
-        rc_point_set(&to, RC_APPROACH, problem->approach);
-    if (run->relaxing.wanted)
-        rc_point_set(&to, RC_TIME, 0);
-    if (run->yielding.wanted || run->relaxing.wanted)
+    if (run->yielding.wanted)
         (void)rc_model_plan(run->model, &to, &expected, &err);
+    else if (run->relaxing.wanted)
+        (void)relax_expect(run, problem, &expected, &err);
     else
         (void)rc_solver_expect(&shape, problem, &expected, &err);
     return expected.memory + small + (dents + later + travel_bytes(run)) * rc_grid_nodes(g);
@@ -293,13 +291,17 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     struct rc_expected e;
     struct rc_err err;
     const bool travels = run->travelling.wanted;
-    const size_t points = travels ? travel_points(run) : run->steps->n;
+    const bool relaxes = run->relaxing.wanted;
+    const size_t points = travels   ? travel_points(run)
+                          : relaxes ? run->args->time.n
+                                    : run->steps->n;
     double each, memory;
     char where[256];
 
     if (run->adhering.wanted)
         adhesion_expect(run, g, problem, &e);
-    else if (rc_solver_expect(&shape, problem, &e, &err) != RC_OK)
+    else if ((run->relaxing.wanted ? relax_expect(run, problem, &e, &err)
+                                   : rc_solver_expect(&shape, problem, &e, &err)) != RC_OK)
         tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     each = e.convolutions + (run->conductance ? STIFFNESS + 1 : 0) +
            (run->stiffness && !(run->conductance && isinf(run->hardness_min)) ? STIFFNESS : 0);
@@ -308,10 +310,14 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
                                                                  : solve_memory(run, g, problem)));
     tool_where(&run->d.t, g, where, sizeof where);
     fprintf(run->d.t.out, "%s: %zu x %zu nodes, %zu %s%s, engine %s\n", where, g->nx, g->ny, points,
-            travels ? "position" : "load", points == 1 ? "" : "s", engine);
+            travels   ? "position"
+            : relaxes ? "time"
+                      : "load",
+            points == 1 ? "" : "s", engine);
     show_effects(run, why, NULL, print_effect);
     fprintf(run->d.t.out, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n", each,
             points == 1 ? ""
+            : relaxes   ? " for each time"
             : travels   ? " for the first position, 5 for the next after a short step"
                         : " for the first load, fewer for the next",
             ((size_t)memory >> 20) + 1, e.seconds * each / e.convolutions * (double)points,

@@ -226,6 +226,8 @@ double relax_time(const struct run *run, size_t point);
 size_t relax_step(const struct run *run, size_t point);
 size_t relax_largest(const struct run *run);
 struct rc_model *relax_model(struct run *run, struct rc_model *inner);
+enum rc_status relax_expect(const struct run *run, const struct rc_problem *problem,
+                            struct rc_expected *expected, struct rc_err *err);
 void relax_mark(struct run *run, char *value, size_t size);
 bool relax_look(struct run *run, const struct rc_model *m);
 /* Sets the parts of the error. */

@@ -1,0 +1,71 @@
+# rc-solve --relaxation: creep of a ball follows Hertz with J(t), materials from files, checkpoints, the cost
+# before the run, and refusals.
+. "$(dirname "$0")/../pipe.sh"
+
+rc-synth sphere --nx 48 --dx 1um --radius 100um -o ball.rcg
+solve="rc-solve --quiet --threads 1 --nu1 0.5 --E2 rigid --tol 1e-5 --output pressure,gap"
+solid="--relaxation 1MPa,9MPa:1ms"
+# ball TIME: the approach of the ball; J = (1 - (1 - E/Einf) exp(-t/th))/Einf, th = tau E(0)/Einf
+ball() {
+    awk -v t="$1" 'BEGIN { j = 0.75e-6 * (1 - 0.9 * exp(-t / 1e-2)); a = (0.75 * 2e-4 * 1e-4 * j) ^ (1 / 3); print a * a / 1e-4 }'
+}
+
+# ---- creep ----
+
+$solve $solid --load 0.2mN --time 0,3ms,50ms --report creep.json -o creep.rcg ball.rcg
+for case in 1:0 2:3e-3 3:5e-2; do
+    sed -n "${case%:*}p" creep.json >case.json
+    near "$(field time case.json)" "${case#*:}" "$rounding" "case ${case%:*} has its time"
+    near "$(field approach case.json)" "$(ball "${case#*:}")" "$coarse_grid" "  and Hertz's approach at E(t)"
+done
+claim "frames have the key time" bash -c "[ \$(rc-info --json creep.rcg | grep -c '\"time\": *\"\?0.05') -ge 1 ]"
+near "$(field equivalent_load case.json)" "$(awk 'BEGIN { print 2e-4 * (10 - 9 * exp(-5)) }')" 1e-6 "the equivalent load is P J(t)/J(0)"
+$solve $solid --load 0.2mN --time 3ms,50ms --report later.json -o later.rcg ball.rcg
+near "$(sed -n 2p later.json >l.json && field approach l.json)" "$(field approach case.json)" "$coarse_grid" \
+    "a load acts from 0 on, also if the first time is later"
+claim "  and the cases count from 1" bash -c '[ $(wc -l <later.json) = 2 ] && grep -q "\"case\": 1" later.json'
+
+# ---- materials ----
+
+printf 'tau E\ninf 1MPa\n1ms 9MPa\n' >terms.txt
+$solve --relaxation terms.txt --load 0.2mN --time 50ms --report terms.json -o t.rcg ball.rcg
+$solve $solid --load 0.2mN --time 50ms --report typed.json -o t.rcg ball.rcg
+near "$(field approach terms.json)" "$(field approach typed.json)" "$same" "a file of terms is the same material"
+$solve --relaxation 1MPa,9MPa:1s --shift 1e-3 --load 0.2mN --time 50ms --report moved.json -o t.rcg ball.rcg
+near "$(field approach moved.json)" "$(field approach typed.json)" 1e-9 "--shift multiplies the times"
+awk 'BEGIN { print "Frequency,Storage,Loss"; print "Hz,MPa,MPa"
+    for (i = -16; i <= 16; i++) { w = 1e3 * 10 ^ (i / 8); print w / 6.283185307 "," 1 + 9 * w * w / (1e6 + w * w) "," 9e3 * w / (1e6 + w * w) } }' >curve.csv
+$solve --relaxation curve.csv --load 0.2mN --time 50ms --report curve.json -o t.rcg ball.rcg
+near "$(field approach curve.json)" "$(field approach typed.json)" 5e-3 "a master curve of this material is fitted"
+between 0 "$(field relaxation_misfit curve.json)" 0.05 "  with a small misfit"
+
+# ---- checkpoint, cost ----
+
+$solve $solid --load 0.2mN --time 3ms,50ms --checkpoint k.rcg -o once.rcg ball.rcg
+$solve $solid --load 0.2mN --time 3ms,50ms --checkpoint k.rcg --resume -o again.rcg ball.rcg
+claim "a resumed run has the same frames" cmp once.rcg again.rcg
+refuses 1 'state|differ|checkpoint' "other times" \
+    "$solve $solid --load 0.2mN --time 4ms,50ms --checkpoint k.rcg --resume -o x.rcg ball.rcg"
+claim "--dry-run tells the times and the work" bash -c "
+    $solve $solid --load 0.2mN --time 3ms,50ms --dry-run ball.rcg >plan.txt && says 'relaxation +on: 1 terms' cat plan.txt &&
+    says '2 times' cat plan.txt && says 'convolutions for each time' cat plan.txt"
+refuses 1 '--memory allows' "too little memory, before the first frame" \
+    "$solve $solid --load 0.2mN --time 0,1 --memory 1M -o few.rcg ball.rcg"
+
+# ---- refusals ----
+
+more="--load 0.2mN -o x.rcg ball.rcg"
+refuses 2 'give its unit' "a modulus without a unit" "$solve --relaxation 1,9MPa:1ms --time 0 $more"
+refuses 2 'a term must be' "a term without a time" "$solve --relaxation 1MPa,9MPa --time 0 $more"
+refuses 2 'only once' "two equal times" "$solve --relaxation 1MPa,9MPa:1s,2MPa:1s --time 0 $more"
+refuses 2 'at least 0' "a negative modulus" "$solve --relaxation 1MPa,-9MPa:1s --time 0 $more"
+refuses 2 'No such file' "no file" "$solve --relaxation none.tsv --time 0 $more"
+refuses 2 'heading' "another heading" "$solve --relaxation ball.rcg --time 0 $more"
+refuses 2 '--time LIST' "no times" "$solve $solid $more"
+refuses 2 'must rise' "times that fall" "$solve $solid --time 0,2,1 $more"
+refuses 2 'equal length' "other times than loads" "$solve $solid --time 0,2 --load 1uN,2uN,3uN -o x.rcg ball.rcg"
+refuses 2 'must be 0' "loads from a later time on" "$solve $solid --time 1,2 --load 1uN,2uN -o x.rcg ball.rcg"
+for other in '--E1 1MPa' '--hardness 1GPa' '--layer 1um,1GPa,0.3' '--adhesion 50mJ/m2' '--tilt free' --discretization; do
+    refuses 2 "--relaxation does not work with ${other%% *}" "$other" "$solve $solid --time 0 $other $more"
+done
+refuses 2 'no effect without --relaxation' "--time alone" "rc-solve --estar 1MPa --time 0 $more"
