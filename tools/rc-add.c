@@ -90,22 +90,11 @@ demand_end(struct tool *t, struct second *b, size_t first)
 static void
 demand_heights(struct tool *t, const struct rc_grid *g)
 {
-    size_t count = 0, first = 0;
-
     if (strcmp(g->unit, "m") != 0)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "its unit is '%s': heights are in metres; import the file again with --z-unit",
                     g->unit);
-    for (size_t k = g->nx * g->ny; k-- > 0;)
-        if (isinf(g->v[k])) {
-            count++;
-            first = k;
-        }
-    if (count > 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "%zu heights are infinite, the first in column %zu of row %zu: a point without "
-                    "a measurement is NaN",
-                    count, first % g->nx, first / g->nx);
+    tool_demand_measured(t, g);
 }
 
 /* If one map is finer than the other, suggests averaging its nodes rather than interpolating the coarser

@@ -341,23 +341,6 @@ check_steps(struct tool *t)
         tool_die(t, EXIT_USAGE, "--robust concerns forms and filters: give one of them");
 }
 
-static void
-refuse_infinite(struct tool *t, const struct rc_grid *g)
-{
-    size_t count = 0, first = 0;
-
-    for (size_t k = g->nx * g->ny; k-- > 0;)
-        if (isinf(g->v[k])) {
-            count++;
-            first = k;
-        }
-    if (count > 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "%zu heights are infinite, the first at column %zu, row "
-                    "%zu: a point without a measurement is NaN",
-                    count, first % g->nx, first / g->nx);
-}
-
 /* ---- options ---- */
 
 /* clang-format off */
@@ -427,7 +410,7 @@ main(int argc, char **argv)
     tool_start(&t, &info, argc, argv, &args);
     check_steps(&t);
     while ((g = tool_channel(&t, "height", true)) != NULL) {
-        refuse_infinite(&t, g);
+        tool_demand_measured(&t, g);
         detrend(&t, g);
         tool_write(&t, g);
         rc_grid_free(g);

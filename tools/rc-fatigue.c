@@ -335,8 +335,8 @@ set_problem(struct run *run)
 
 /* ---- depths and frames ---- */
 
-/* Depths closer to the surface than half a node are left out of a choice: there the stress of a cell is not
- * that of the pressure. */
+/* Automatic depths are at least half a node below the surface. Above that the stress is that of single cells,
+ * not of the pressure. */
 static void
 set_depths(struct run *run)
 {

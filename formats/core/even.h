@@ -22,9 +22,9 @@ struct rc_even {
     double widest;      /* largest gap that is interpolated; 0: the points are the nodes */
 };
 
-/* Nodes for points at x[0] < x[1] < ... in units of `metres` (NAN: unknown), at the user's step. Without it
- * the nodes are the points themselves if these are even to a twentieth of a step or to the last decimal in
- * the file. RC_FAIL for uneven points without a wish, and for an unsuitable step. */
+/* Nodes for points at x[0] < x[1] < ... in units of `metres` (NAN: unknown), at the user's step. Without
+ * such a step the nodes are the points themselves. They must then be even to a twentieth of a step, or to the
+ * last decimal in the file. RC_FAIL for uneven points without a wish, and for an unsuitable step. */
 enum rc_status rc_even_new(const double *x, size_t points, double metres,
                            const struct rc_file *file, const struct rc_wish *wish,
                            struct rc_even *even, struct rc_err *err);

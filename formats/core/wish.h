@@ -49,8 +49,8 @@ struct rc_notes {
     size_t n;
     double metres; /* metres per unit of height of the file; 0: heights are not lengths */
     size_t held;   /* private memory of the process that read the file; 0: this process read it */
-    /* for a resampled profile: height of its highest point above the highest node, and depth of its lowest
-     * point below the lowest node, over the range of its heights */
+    /* Of a resampled profile, relative to the range of its heights: its highest point is this far above the
+     * highest node, its lowest point this far below the lowest node. */
     double above, below;
 };
 void rc_note(struct rc_notes *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));

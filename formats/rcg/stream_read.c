@@ -89,8 +89,8 @@ cut_off(struct rc_reader *r, const char *where, struct rc_err *err)
                       where, r->frames);
 }
 
-/* Reads one line without its line feed and returns its length. -1: the input ends before any byte; -2: the
- * line has no end within `size` bytes; -3: the input ends inside it, or it contains NUL. */
+/* Reads one line without its line feed and returns its length. -1: the input ends before any byte. -2: the
+ * line has no end within `size` bytes. -3: the input ends inside it, or it contains NUL. */
 static long
 read_line(struct rc_reader *r, char *buffer, size_t size)
 {

@@ -86,9 +86,9 @@ kilobytes(pid_t child, const char *name, const char *key)
     return at == NULL ? 0 : strtoul(at + strlen(line), NULL, 10);
 }
 
-/* Largest private memory of a child, in bytes: not shared with other processes, including what it has freed
- * since. 0 if the system does not say, or the child has ended. Code is excluded, because it is memory of a
- * file. */
+/* Largest private memory of a child, in bytes, which it does not share with other processes. It includes
+ * freed memory. 0 if the system does not say, or the child has ended. Code is excluded, because it is memory
+ * of a file. */
 static size_t
 memory_of(pid_t child)
 {

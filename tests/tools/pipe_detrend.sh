@@ -118,7 +118,7 @@ refuses 1 'all 4 values are missing: nothing to fill them from' "nothing measure
 refuses 1 '3 coefficients, and only 0 points are there' "nothing measured, to level" "rc-detrend --plane nothing.rcg"
 # makes the first value infinite: its last two bytes are sign and exponent
 perl -0777 -pe 's/(\n\n).{8}/$1\0\0\0\0\0\0\xf0\x7f/s' plane.rcg | reseal >infinite.rcg
-refuses 1 '1 heights are infinite, the first at column 0, row 0' "an infinite height" \
+refuses 1 '1 heights are infinite, the first in column 0 of row 0' "an infinite height" \
     "rc-detrend --plane infinite.rcg"
 refuses 1 '13 x 11 nodes need about .*, --memory allows' "more memory than is allowed" "rc-detrend --fill --memory 1500 plane.rcg"
 refuses 1 'No space left' "a full disk" "rc-detrend --plane plane.rcg >/dev/full"

@@ -426,6 +426,23 @@ tool_first_row(const struct tool *t, const struct rc_grid *g)
 }
 
 void
+tool_demand_measured(struct tool *t, const struct rc_grid *g)
+{
+    size_t count = 0, first = 0;
+
+    for (size_t k = g->nx * g->ny; k-- > 0;)
+        if (isinf(g->v[k])) {
+            count++;
+            first = k;
+        }
+    if (count > 0)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "%zu heights are infinite, the first in column %zu of row %zu: a point without "
+                    "a measurement is NaN",
+                    count, first % g->nx, first / g->nx);
+}
+
+void
 tool_demand_finite(struct tool *t, const struct rc_grid *g, const char *remedy)
 {
     size_t count = 0, first = g->nx * g->ny, before = tool_first_row(t, g) * g->nx;

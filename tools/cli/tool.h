@@ -45,9 +45,10 @@ enum opt_type {
                    '|' */
     OPT_WORDS,  /* size_t: bit k is set if the list contains word k of .words */
     OPT_NUMBERS, /* struct numbers; n = 0 for .word, if the option has such a word */
-    OPT_STEP,  /* appended to a struct steps: options whose order on the line matters; with .arg it
-                  takes a whole number or, with a unit or .real, a number, or one of the words in .arg
-                  that '|' separates, whose index is the value */
+    /* Appended to a struct steps: options whose order on the line matters. With .arg it takes a whole number
+     * or, with a unit or .real, a number. If '|' separates words in .arg it takes one; the value is its
+     * index. */
+    OPT_STEP,
     OPT_TEXTS, /* appended too, in the same order; the argument is kept as text */
 };
 
@@ -299,6 +300,8 @@ const char *tool_where(const struct tool *tool, const struct rc_grid *grid, char
 /* Ends the tool if a value is NaN or infinite, with their number and the place of the first one; `remedy` is
  * the advice. */
 void tool_demand_finite(struct tool *tool, const struct rc_grid *grid, const char *remedy);
+/* Ends the tool if a height is infinite; NaN is a point without a measurement. */
+void tool_demand_measured(struct tool *tool, const struct rc_grid *grid);
 /* Ends the tool before the work if the file of an option (NULL: none) cannot be written. */
 void tool_demand_writable(struct tool *tool, const char *option, const char *name);
 /* Sets the budget of the allocator: the limit of --memory, or the memory of the machine if it is less. */

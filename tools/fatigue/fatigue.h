@@ -38,8 +38,8 @@ struct fatigue_residual {
     double *depth;
     double **line[RC_COMPONENTS]; /* Pa, the mean along the travel; NULL: 0 */
 };
-/* pass: 'x' or 'y'. Ends the tool if the file cannot be read, or a stress varies along the travel by more than
- * 10 % of the largest stress of its depth. */
+/* pass: 'x' or 'y'. Ends the tool if the file cannot be read. It also ends if a stress varies along the
+ * travel by more than 10 % of the largest stress of its depth. */
 void fatigue_residual_read(struct tool *tool, const char *name, char pass,
                            struct fatigue_residual *residual);
 /* The stresses at this depth; NULL without a file. Ends the tool if the file has none there. */

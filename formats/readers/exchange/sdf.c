@@ -10,7 +10,7 @@
  *     1.00000 0.99874 ...       times Zscale metres; BAD is a missing one
  *     *
  *
- * or binary, little-endian, the same fields packed in 81 bytes behind bISO-1.0 or bBCR-..., in 85 behind
+ * or binary, little-endian. The same fields take 81 bytes behind bISO-1.0 or bBCR-.... They take 85 behind
  * bISO-2.0 (ISO 25178-71:2026), whose counts have 32 bits. CheckType is 0: no checksums among the heights.
  */
 #include <float.h>
