@@ -109,13 +109,18 @@ promised() {
 
 rc-solve --quiet --estar 3GPa --mean-pressure 10MPa small.rcg -o light.rcg
 metal="--E1 70GPa --nu1 0.3 --E2 rigid"
-# The elastic contact is freed before the volume is made. The body yields in a few voxels, and nowhere.
-for yields in "--mean-pressure 100MPa --yield 5.94GPa --slabs 12" "--mean-pressure 300MPa --yield 8GPa --slabs 4"; do
-    rc-solve --dry-run $metal --periodic --increments 1 $yields small.rcg >plan.txt 2>/dev/null
-    rc-solve --quiet $metal --periodic --increments 1 $yields small.rcg -o yields.rcg --report yields.json
-    near "$(awk -v mib="$(sed -n 's/.*, \([0-9]*\) MiB, .*/\1/p' plan.txt)" 'BEGIN { print mib * 1048576 }')" "$(field peak_memory yields.json)" 0.1 \
-        "the plan has the peak: $yields"
-done
+# The elastic contact is freed before the volume is made. Whether a voxel yields is known only after the
+# elastic contact, so the plan counts the volume in any case.
+planned() { # options: the plan of a body that yields, in bytes, and the peak of the run
+    rc-solve --dry-run $metal --periodic --increments 1 $1 small.rcg >plan.txt 2>/dev/null
+    rc-solve --quiet $metal --periodic --increments 1 $1 small.rcg -o yields.rcg --report yields.json
+    plan=$(awk -v mib="$(sed -n 's/.*, \([0-9]*\) MiB, .*/\1/p' plan.txt)" 'BEGIN { print mib * 1048576 }')
+    peak=$(field peak_memory yields.json)
+}
+planned "--mean-pressure 100MPa --yield 5.94GPa --slabs 12"
+near "$plan" "$peak" 0.1 "the plan of a body that yields has the peak"
+planned "--mean-pressure 300MPa --yield 8GPa --slabs 4"
+claim "the plan of a body that stays elastic is a bound" test "$plan" -ge "$peak"
 promised "rc-solve" "rc-solve $load odd.rcg" 6M
 promised "rc-solve --periodic, a list" "rc-solve --periodic --estar 3GPa --mean-pressure 50MPa,100MPa odd.rcg" 6M
 promised "rc-solve --history" "rc-solve --hardness 300MPa --history --estar 3GPa --mean-pressure 50MPa,100MPa small.rcg" 3M
