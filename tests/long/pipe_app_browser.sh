@@ -20,6 +20,7 @@ rc-synth selfaffine --nx 2048 --dx 1um --hurst 0.8 --rms-slope 0.05 --rolloff 50
 import sys, numpy, rcg
 pressure = numpy.zeros((2048, 2048))
 pressure[1234, 567] = 1e9
+pressure[700, 1300] = 3e8
 rcg.write(sys.argv[1], rcg.frame('pressure', pressure, dx=1e-6))
 END
 "$python" -m rcg.app --no-browser >address &
