@@ -809,6 +809,8 @@ static enum rc_status
 heated(double *out, struct rc_err *err)
 {
     const struct rc_heat_problem problem = {.body = {{45, 1e-5, {0, 0}, 0}, {16, 4e-6, {1, 2}, 10}},
+                                            .time = 1e-3,
+                                            .time_steps = 2,
                                             .threads = 1};
     struct rc_heat *h = NULL;
     enum rc_status status = RC_FAIL;
