@@ -21,7 +21,8 @@ static const double vanishing = 1e-12;       /* relative to the largest traction
 static const double rounding = 4e-15;        /* error of A u in double precision, L1 */
 static const double fresh =
     1e-4; /* when the error has fallen by this factor, A u is computed again */
-static const double exact = 1e-3; /* part of the slope that a line search may leave */
+static const double most_cut = 0.2; /* part of the error from neglected coefficients */
+static const double exact = 1e-3;   /* part of the slope that a line search may leave */
 enum {
     LINE = RC_GAP_LINE,
     NEWTON = 12,
@@ -129,7 +130,7 @@ find_au(struct rc_gap *g)
     rc_sums_total(&g->sums, sums);
     take_mean(g, g->au, sums[0] / (double)g->n);
     g->convolutions++;
-    g->told.drift = 0;
+    g->told.drift = g->told.cuts = 0;
 }
 
 /* ---- residual ---- */
@@ -494,23 +495,33 @@ step_in(void *ctx, size_t j, void *to)
     return to_single(g->step + j * g->px, g->px, 1 / g->way.unit, to);
 }
 
-/* Computes A s for the step s. The sums are s'A s/2, s'A u, A s, and s. */
+/* Sums over A s for the step s: s'A s/2, s'A u, A s, s, and |A s| on the map. */
+static void
+step_row(void *ctx, size_t j, double *sums)
+{
+    const struct rc_gap *g = ctx;
+    const double *step = g->step + j * g->px, *au = g->au + j * g->px;
+    const double *to = g->a_step + j * g->px;
+    size_t m = on_map(g, j);
+
+    for (size_t i = 0; i < g->px; i++) {
+        sums[0] += step[i] * to[i] / 2;
+        sums[1] += step[i] * au[i];
+        sums[2] += to[i];
+        sums[3] += step[i];
+        sums[4] += i < m ? fabs(to[i]) : 0;
+    }
+}
+
 static bool
 step_out(void *ctx, size_t j, void *from)
 {
     struct rc_gap *g = ctx;
     const float *row = from;
-    const double *step = g->step + j * g->px, *au = g->au + j * g->px;
-    double *to = g->a_step + j * g->px, *sums = rc_sums_of(&g->sums, j);
 
-    for (size_t i = 0; i < g->px; i++) {
-        to[i] = (double)row[i] * g->way.unit;
-        sums[0] += step[i] * to[i] / 2;
-        sums[1] += step[i] * au[i];
-        sums[2] += to[i];
-        sums[3] += step[i];
-        sums[4] += i < on_map(g, j) ? fabs(to[i]) : 0;
-    }
+    for (size_t i = 0; i < g->px; i++)
+        g->a_step[j * g->px + i] = (double)row[i] * g->way.unit;
+    step_row(g, j, rc_sums_of(&g->sums, j));
     return true;
 }
 
@@ -536,17 +547,22 @@ step_law_row(void *ctx, size_t j, double *sums)
     }
 }
 
-/* Returns the change of Phi by `step`; finds a_step and `moves`. */
+/* Returns the change of Phi by `step`; finds `moves`, and a_step if it is not yet `known`. */
 static double
-rise(struct rc_gap *g, double *least)
+rise(struct rc_gap *g, bool known, double *least)
 {
     double sums[RC_GAP_SUMS], law[RC_GAP_SUMS], load = g->control == RC_GAP_LOAD ? g->given : 0,
                                                 mean;
 
-    rc_sums_clear(&g->sums);
-    rc_whole_rough_inverse_rows(g->whole, step_in, step_out, g);
-    rc_sums_total(&g->sums, sums);
-    g->convolutions += 0.5;
+    if (known) {
+        rows(g, step_row, g, sums);
+    } else {
+        rc_sums_clear(&g->sums);
+        rc_whole_rough_inverse_rows(g->whole, step_in, step_out, g);
+        rc_sums_total(&g->sums, sums);
+        g->convolutions += 0.5;
+        g->told.cut = 0;
+    }
     mean = g->control == RC_GAP_LOAD ? sums[2] / (double)g->n : 0;
     take_mean(g, g->a_step, mean);
     rows(g, step_law_row, g, law);
@@ -642,6 +658,7 @@ go(struct rc_gap *g, struct line *l, double a)
 
     for (int k = 0; k < SHORTEN; k++, by.a *= shorter) {
         double least, up;
+        bool near;
         rows(g, clip_row, &by, sums);
         if (sums[0] == 0) {
             if (k > 0)
@@ -652,12 +669,14 @@ go(struct rc_gap *g, struct line *l, double a)
             return;
         }
         g->way.restart = sums[0] > clipped_anew * (double)g->free;
-        if (g->control == RC_GAP_MEAN)
+        near = rc_gap_near(g, by.a, (size_t)sums[0], sums[1]);
+        if (!near && g->control == RC_GAP_MEAN)
             keep_mean(g, sums[1], sums[2]);
-        up = rise(g, &least);
+        up = rise(g, near, &least);
         if (up <= least) {
             g->from.fall -= up;
-            g->told.drift += float_rounding * g->told.moves;
+            g->told.drift += float_rounding * g->told.moves + g->told.cut;
+            g->told.cuts += g->told.cut;
             rows(g, take_step_row, g, sums);
             return;
         }
@@ -767,7 +786,7 @@ refresh(struct rc_gap *g)
 static bool
 drifted(const struct rc_gap *g)
 {
-    return g->told.drift > 10 * g->told.change;
+    return g->told.drift > 10 * g->told.change || g->told.cuts > most_cut * g->told.change;
 }
 
 /* Computes d'W d, where W is the inverse of K on the free nodes, from r'z = z'W z and r = W z. NAN if the set
@@ -948,6 +967,7 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
     g->stuck = g->parting = g->negative = false;
     g->iterations = g->mode.steps = 0;
     g->convolutions = 0;
+    g->near.known = false;
     memset(g->z, 0, g->n * sizeof *g->z);
     memset(g->d, 0, g->n * sizeof *g->d);
     memset(g->ad, 0, g->n * sizeof *g->ad);
@@ -1030,6 +1050,7 @@ rc_gap_free(struct rc_gap *g)
     free(g->from.x);
     free(g->from.slope);
     free(g->off);
+    free(g->near.a);
     free(g->sums.row);
     free(g->hards);
 }

@@ -51,6 +51,7 @@ struct rc_gap_told {
     double size,
         change;   /* |p|, |A z|                                                                 */
     double moves; /* |A d| of a step */
+    double cut, cuts; /* error of A times a step from neglected coefficients; the same in drift */
 };
 
 /* The softest mode of the last state, by stability.c. */
@@ -68,6 +69,13 @@ struct rc_gap_mode {
 struct rc_gap_from {
     float *x, *slope; /* x, and the slope of Phi there */
     double fall;      /* decrease of Phi since the start */
+};
+
+/* Coefficients of A near a node, by near.c. */
+struct rc_gap_near {
+    double *a;   /* NULL: not yet found */
+    double rest; /* sum of the sizes of the other coefficients */
+    bool known;  /* A h is known */
 };
 
 struct rc_gap {
@@ -93,6 +101,7 @@ struct rc_gap {
     struct rc_gap_told told;
     struct rc_gap_mode mode;
     struct rc_gap_from from;
+    struct rc_gap_near near;
     bool negative; /* the stiffness at the start was negative, along the direction or in the
                       softest mode */
     bool stuck;    /* no step lowers Phi any more */
@@ -142,6 +151,18 @@ void rc_gap_law(const struct rc_gap *g, size_t j, size_t i, size_t n, const doub
                 double *s, double *d);
 /* Descends along d, a direction of negative curvature, whose largest value is way.unit. */
 void rc_gap_down(struct rc_gap *g, double first);
+
+/* ---- near.c ---- */
+
+/* Finds A times `step` without a convolution: `a` d with `cut` nodes cut off at 0. For a given mean, sum x
+ * over the grid after the step is `sum`, and the step is changed to keep the mean. False if this does not pay. */
+bool rc_gap_near(struct rc_gap *g, double a, size_t cut, double sum);
+/* A h, in the memory of a vector that is free outside the search for the softest mode. */
+static inline float *
+rc_gap_ah(const struct rc_gap *g)
+{
+    return g->mode.e[RC_GAP_FLOATS - 1];
+}
 
 /* ---- stability.c ---- */
 

@@ -343,6 +343,7 @@ rc_gap_eigen_begin(struct rc_gap *g)
     g->mode.mu = sums[0] > 0 ? INFINITY : 1;
     g->mode.error = sums[0] > 0 ? INFINITY : 0;
     g->mode.steps = 0;
+    g->near.known = false; /* its memory is needed */
     if (sums[0] == 0)
         return;
     first.noise = g->mode.known ? 0 : 0.05;

@@ -1,0 +1,157 @@
+/*
+ * A times the part of a step that the bounds cut off. Most steps of a large map reach 0 at few nodes, and a
+ * convolution for them would cost as much as the rest of the step. The coefficients of A fall with the third
+ * power of the distance: those near each node suffice, and the sum of the others bounds the error.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "gap.h"
+
+enum {
+    REACH = 16,
+    SIDE = REACH + 1,
+    ALL = 5, /* a sum that the count of the cut nodes leaves free */
+    WINDOW = (2 * REACH + 1) * (2 * REACH + 1),
+    SHARE = 4,     /* most multiplications a node of the grid for a step */
+    PAIR = 50,     /* those of a convolution */
+    FEWEST = 65536 /* nodes of the grid; on smaller ones the coefficients do not pay */
+};
+
+/* ---- coefficients ---- */
+
+static bool
+one_in(void *ctx, size_t j, void *to)
+{
+    const struct rc_gap *g = ctx;
+    double *row = to;
+
+    memset(row, 0, g->px * sizeof *row);
+    row[0] = j == 0;
+    return j == 0;
+}
+
+static bool
+one_out(void *ctx, size_t j, void *from)
+{
+    struct rc_gap *g = ctx;
+    const double *row = from;
+    double *sums = rc_sums_of(&g->sums, j);
+
+    for (size_t i = 0; i < g->px; i++)
+        sums[ALL] += fabs(row[i]);
+    if (j < SIDE)
+        memcpy(g->near.a + j * SIDE, row, SIDE * sizeof *row);
+    return true;
+}
+
+/* A times a unit at node 0; the coefficients are even along x and along y. */
+static bool
+find_coefficients(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS];
+
+    if (g->near.a != NULL)
+        return true;
+    if (g->n < FEWEST || g->px <= 2 * REACH || g->py <= 2 * REACH ||
+        (g->near.a = malloc(SIDE * SIDE * sizeof *g->near.a)) == NULL)
+        return false;
+    rc_whole_inverse_rows(g->whole, one_in, one_out, g);
+    rc_sums_total(&g->sums, sums);
+    g->convolutions++;
+    for (size_t k = 0; k < SIDE * SIDE; k++)
+        sums[ALL] -= (k % SIDE > 0 ? 2 : 1) * (k / SIDE > 0 ? 2 : 1) * fabs(g->near.a[k]);
+    g->near.rest = fmax(sums[ALL], 0);
+    return true;
+}
+
+/* ---- A h, for a given mean ---- */
+
+static bool
+h_in(void *ctx, size_t j, void *to)
+{
+    const struct rc_gap *g = ctx;
+    float *row = to;
+
+    for (size_t i = 0; i < g->px; i++)
+        row[i] = (float)g->h[j * g->nx + i];
+    return true;
+}
+
+static bool
+h_out(void *ctx, size_t j, void *from)
+{
+    const struct rc_gap *g = ctx;
+
+    memcpy(rc_gap_ah(g) + j * g->px, from, g->px * sizeof(float));
+    return true;
+}
+
+static void
+find_ah(struct rc_gap *g)
+{
+    if (!g->near.known)
+        rc_whole_rough_inverse_rows(g->whole, h_in, h_out, g);
+    g->convolutions += g->near.known ? 0 : 0.5;
+    g->near.known = true;
+}
+
+/* ---- a step ---- */
+
+/* Adds A times c at node i of row j. */
+static void
+add_node(struct rc_gap *g, size_t j, size_t i, double c)
+{
+    for (size_t y = 0; y <= 2 * REACH; y++) {
+        const double *a = g->near.a + (y < REACH ? REACH - y : y - REACH) * SIDE;
+        double *to = g->a_step + (j + y + g->py - REACH) % g->py * g->px;
+        for (size_t x = 0; x <= 2 * REACH; x++)
+            to[(i + x + g->px - REACH) % g->px] += c * a[x < REACH ? REACH - x : x - REACH];
+    }
+}
+
+/* A times the step is `a` A d plus A times the cut-off parts. Returns the sum of their sizes. */
+static double
+add_cut(struct rc_gap *g, double a)
+{
+    double sum = 0;
+
+#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
+    for (size_t k = 0; k < g->n; k++)
+        g->a_step[k] = a * g->ad[k];
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx && rc_sums_of(&g->sums, j)[0] > 0; i++) {
+            const size_t at = j * g->px + i;
+            if (g->x[at] + g->step[at] != 0 || g->step[at] == a * g->d[at])
+                continue;
+            add_node(g, j, i, g->step[at] - a * g->d[at]);
+            sum += fabs(g->step[at] - a * g->d[at]);
+        }
+    return sum;
+}
+
+/* For a given mean: all gaps become smaller by the same factor, so that closed nodes stay closed. */
+static void
+keep_mean(struct rc_gap *g, double smaller)
+{
+    const float *ah = rc_gap_ah(g);
+
+    find_ah(g);
+#pragma omp parallel for num_threads(g->sums.threads) schedule(static)
+    for (size_t k = 0; k < g->n; k++) {
+        g->a_step[k] -= smaller * (g->au[k] + g->a_step[k] - (double)ah[k]);
+        g->step[k] -= smaller * (g->x[k] + g->step[k]);
+    }
+}
+
+bool
+rc_gap_near(struct rc_gap *g, double a, size_t cut, double sum)
+{
+    if (cut * WINDOW > SHARE * g->n || !find_coefficients(g))
+        return false;
+    g->told.cut = g->near.rest * add_cut(g, a);
+    g->convolutions += (double)(cut * WINDOW) / ((double)g->n * PAIR);
+    if (g->control == RC_GAP_MEAN && sum > 0)
+        keep_mean(g, 1 - g->given * (double)g->n / sum);
+    return true;
+}
