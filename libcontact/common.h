@@ -34,6 +34,14 @@ rc_there(double v)
     return fabs(v) <= DBL_MAX;
 }
 
+/* The grid with half the nodes a side. A profile stays one node wide. */
+static inline struct rc_shape
+rc_shape_coarser(const struct rc_shape *s)
+{
+    return (struct rc_shape){(s->nx + 1) / 2, (s->ny + 1) / 2, s->nx > 1 ? 2 * s->dx : s->dx,
+                             s->ny > 1 ? 2 * s->dy : s->dy};
+}
+
 /* True if one of n values is not 0. */
 bool rc_any(const double *v, size_t n);
 

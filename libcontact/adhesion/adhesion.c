@@ -48,6 +48,7 @@ rc_adhesion_law_named(const char *name)
 enum {
     BELOW = 2,       /* successive states with an error below tol */
     LEAVES = 20,     /* most saddles of a state */
+    COARSEST = 32,   /* nodes along a map; a smaller coarse grid does not pay */
     EIGEN_STEPS = 40 /* at most */
 };
 static const double nodes_default =
@@ -60,10 +61,12 @@ static const double loosest = 1e-3;    /* largest tol: with a larger error the e
 static const double safe = 2, safe_soft = 1.25, soft = 0.05;
 /* Fraction of tol, because the errors of dents stay and those of later states add up. */
 static const double yielding_part = 0.05;
-static const double single = 4e-6; /* error of an eigenvalue in single precision */
+static const double coarse_tol = 1e-3; /* correction of the state on a coarser grid, relative */
+static const double single = 4e-6;     /* error of an eigenvalue in single precision */
 
 enum stage {
     STAGE_NEW,
+    STAGE_COARSE,
     STAGE_DOWN,
     STAGE_EIGEN,
     STAGE_DONE
@@ -82,6 +85,9 @@ struct retraction {
 
 struct rc_adhesion {
     struct rc_shape shape;
+    struct rc_adhesion *coarse; /* a coarser grid, for the start of the first state; NULL: none */
+    size_t lent;                /* bytes of the coarser grids */
+    bool rough;                 /* this path is on such a grid */
     struct rc_whole *whole;
     struct rc_gap gap;
     struct rc_adhesion_scales scales;
@@ -244,17 +250,15 @@ take_heights(struct rc_adhesion *a, const double *h, const double *dent)
     a->mean_h = rc_sum(a->h, n) / (double)n;
 }
 
-static enum rc_status
-make_heights(struct rc_adhesion *a, const double *h, struct rc_err *err)
+static double *
+heights_new(const struct rc_adhesion *a, struct rc_err *err)
 {
-    a->h = rc_alloc(a->shape.nx * a->shape.ny, sizeof *a->h);
-    if (a->h == NULL)
-        return rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", a->shape.nx,
-                          a->shape.ny);
-    if (check_heights(a, h, err) != RC_OK)
-        return RC_FAIL;
-    take_heights(a, h, NULL);
-    return RC_OK;
+    double *h = rc_alloc(a->shape.nx * a->shape.ny, sizeof *h);
+
+    if (h == NULL)
+        rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", a->shape.nx,
+                   a->shape.ny);
+    return h;
 }
 
 static enum rc_status
@@ -282,11 +286,21 @@ take_hardness(const struct rc_adhesion *a, const struct rc_problem *c, double *h
     return RC_OK;
 }
 
+static void
+free_coarse(struct rc_adhesion *a)
+{
+    rc_adhesion_free(a->coarse);
+    rc_memory_return(a->lent);
+    a->coarse = NULL;
+    a->lent = 0;
+}
+
 void
 rc_adhesion_free(struct rc_adhesion *a)
 {
     if (a == NULL)
         return;
+    free_coarse(a);
     rc_gap_free(&a->gap);
     rc_whole_free(a->whole);
     for (size_t k = 0; k < RC_RETRACTION_KEPT; k++)
@@ -295,9 +309,10 @@ rc_adhesion_free(struct rc_adhesion *a)
     free(a);
 }
 
-struct rc_adhesion *
-rc_adhesion_new(const struct rc_shape *shape, const double *h,
-                const struct rc_adhesion_problem *problem, struct rc_err *err)
+/* A path without heights. */
+static struct rc_adhesion *
+path_new(const struct rc_shape *shape, const struct rc_adhesion_problem *problem,
+         struct rc_err *err)
 {
     const struct rc_problem *c = &problem->contact;
     struct rc_operator_options options = operator_options(c);
@@ -319,12 +334,88 @@ rc_adhesion_new(const struct rc_shape *shape, const double *h,
     a->max_iterations =
         c->max_iterations > 0 ? c->max_iterations : 100 + (size_t)(10 * sqrt(nodes));
     if ((a->whole = rc_whole_new(shape, &options, err)) == NULL ||
-        make_heights(a, h, err) != RC_OK || take_hardness(a, c, &hard, &hards, err) != RC_OK ||
+        (a->h = heights_new(a, err)) == NULL || take_hardness(a, c, &hard, &hards, err) != RC_OK ||
         rc_gap_new(&a->gap, a->whole, &law, a->h, hard, hards, err) != RC_OK) {
         rc_adhesion_free(a);
         return NULL;
     }
+    return a;
+}
+
+/* ---- a start from coarser grids ---- */
+
+/* Every other node of a map, times a factor. */
+static void
+sample(const struct rc_shape *fine, const double *v, double factor, double *to)
+{
+    for (size_t j = 0; j < fine->ny; j += 2)
+        for (size_t i = 0; i < fine->nx; i += 2)
+            *to++ = factor * v[j * fine->nx + i];
+}
+
+/* The law on a coarser grid: the same work, and a range that the grid resolves. */
+static double
+coarse_range(const struct rc_adhesion *fine, const struct rc_adhesion_problem *p,
+             const struct rc_shape *shape)
+{
+    const double length = sqrt(shape->dx) * sqrt(shape->dy);
+    const struct rc_adhesion_law *law = fine->gap.law.law;
+    double modulus, diagonal, least;
+
+    if (rc_whole_scales(shape, &p->contact.pair, &modulus, &diagonal, NULL) != RC_OK)
+        return NAN;
+    least = law->range(p->work / modulus / length, fmax(shape->dx, shape->dy) / length, diagonal);
+    return fmax(fine->scales.range, least * length);
+}
+
+/* The path on the coarser grid. NULL if this grid does not pay, or memory is short: the start is then from
+ * undeformed bodies. */
+static struct rc_adhesion *
+coarse_new(const struct rc_adhesion *fine, const struct rc_adhesion_problem *problem)
+{
+    const struct rc_shape *f = &fine->shape, shape = rc_shape_coarser(f);
+    struct rc_adhesion_problem p = *problem;
+    struct rc_adhesion *a;
+    double *hards = NULL;
+
+    if ((f->nx > 1 && shape.nx < COARSEST) || (f->ny > 1 && shape.ny < COARSEST) ||
+        shape.nx * shape.ny < COARSEST)
+        return NULL;
+    p.range = coarse_range(fine, problem, &shape);
+    if (!fine->gap.law.law->info.ranged) /* the first law, with a range of its own */
+        p.law = NULL;
+    if (p.contact.hardness_map != NULL) {
+        if ((hards = rc_alloc(shape.nx * shape.ny, sizeof *hards)) == NULL)
+            return NULL;
+        sample(f, p.contact.hardness_map, 1, hards);
+        p.contact.hardness_map = hards;
+    }
+    a = path_new(&shape, &p, NULL);
+    if (a != NULL) {
+        a->rough = true;
+        a->coarse = coarse_new(a, &p);
+    }
+    free(hards);
+    return a;
+}
+
+struct rc_adhesion *
+rc_adhesion_new(const struct rc_shape *shape, const double *h,
+                const struct rc_adhesion_problem *problem, struct rc_err *err)
+{
+    struct rc_adhesion *a = path_new(shape, problem, err);
+
+    if (a == NULL)
+        return NULL;
+    if (check_heights(a, h, err) != RC_OK) {
+        rc_adhesion_free(a);
+        return NULL;
+    }
+    take_heights(a, h, NULL);
     rc_gap_apart(&a->gap, 0);
+    rc_memory_lend();
+    a->coarse = coarse_new(a, problem);
+    a->lent = rc_memory_lent();
     return a;
 }
 
@@ -453,11 +544,59 @@ finish(struct rc_adhesion *a, bool converged)
     return converged ? RC_OK : RC_SHORT;
 }
 
+/* Poses the first state on the coarser grid. */
+static void
+begin_coarse(struct rc_adhesion *a)
+{
+    struct rc_adhesion *c = a->coarse;
+    const double ratio = a->whole->length / c->whole->length;
+    const double units =
+        a->control != RC_GAP_LOAD
+            ? ratio
+            : a->whole->modulus * (double)a->gap.n * a->shape.dx * a->shape.dy /
+                  (c->whole->modulus * (double)c->gap.n * c->shape.dx * c->shape.dy);
+
+    sample(&a->shape, a->h, ratio, c->h);
+    c->mean_h = rc_sum(c->h, c->shape.nx * c->shape.ny) / (double)(c->shape.nx * c->shape.ny);
+    rc_gap_apart(&c->gap, 0);
+    set(c, a->control, units * a->given);
+    a->stage = STAGE_COARSE;
+}
+
 static void
 begin(struct rc_adhesion *a)
 {
     rc_gap_begin(&a->gap, a->control, a->given);
     a->stage = STAGE_DOWN;
+}
+
+/* Convolutions for the state, in equivalents on this grid. */
+static double
+convolutions(const struct rc_adhesion *a)
+{
+    return a->stage != STAGE_COARSE
+               ? a->gap.convolutions
+               : convolutions(a->coarse) * (double)a->coarse->gap.n / (double)a->gap.n;
+}
+
+/* The state on the coarser grid is the start on this grid. Bodies that separate there start as without it. */
+static void
+end_coarse(struct rc_adhesion *a)
+{
+    struct rc_adhesion *c = a->coarse;
+    double sum;
+
+    if (c->stage == STAGE_COARSE)
+        end_coarse(c);
+    sum = convolutions(a);
+    if (!c->separated) {
+        rc_gap_refine(&a->gap, &c->gap);
+        a->gap.control = a->control;
+        a->gap.given = a->given;
+    }
+    free_coarse(a);
+    begin(a);
+    a->gap.convolutions += sum;
 }
 
 /* Takes a step, and counts a jump if the stiffness at its start was negative. On a path of stable states this
@@ -480,6 +619,8 @@ down(struct rc_adhesion *a)
     struct rc_gap *g = &a->gap;
 
     rc_gap_look(g);
+    if (a->rough && (g->told.error <= coarse_tol || g->stuck))
+        return finish(a, true);
     if (ends(a)) {
         rc_gap_look_along(g);
         a->way = fmin(a->way, g->way.stiffness);
@@ -544,6 +685,13 @@ static enum rc_status
 step_state(struct rc_adhesion *a)
 {
     a->fresh = false;
+    if (a->stage == STAGE_NEW && a->coarse != NULL && !a->past.begun)
+        begin_coarse(a);
+    if (a->stage == STAGE_COARSE) {
+        if (step_state(a->coarse) != RC_MORE)
+            end_coarse(a);
+        return RC_MORE;
+    }
     if (a->stage == STAGE_NEW)
         begin(a);
     return a->stage == STAGE_DOWN    ? down(a)
@@ -814,6 +962,10 @@ find_figures(struct rc_adhesion *a)
 const struct rc_adhesion_figures *
 rc_adhesion_result(struct rc_adhesion *a)
 {
+    if (a->stage == STAGE_COARSE) { /* interrupted: the start on this grid is the best state */
+        end_coarse(a);
+        rc_gap_look(&a->gap);
+    }
     if (!a->fresh && a->gap.iterations > 0)
         find_figures(a);
     return &a->figures;
@@ -825,7 +977,9 @@ rc_adhesion_pressure(const struct rc_adhesion *a, double *pressure)
     for (size_t j = 0; j < a->gap.ny; j++)
         for (size_t i = 0; i < a->gap.nx; i++)
             pressure[j * a->gap.nx + i] =
-                rc_gap_pressure_at(&a->gap, j * a->gap.px + i) * a->whole->modulus;
+                a->stage == STAGE_COARSE
+                    ? 0
+                    : rc_gap_pressure_at(&a->gap, j * a->gap.px + i) * a->whole->modulus;
 }
 
 void
@@ -866,19 +1020,25 @@ rc_adhesion_traction(const struct rc_adhesion *a, double *traction)
 void
 rc_adhesion_progress(const struct rc_adhesion *a, struct rc_adhesion_progress *progress)
 {
-    const struct rc_gap *g = &a->gap;
+    const struct rc_adhesion *at = a;
+    const struct rc_gap *g;
 
+    while (at->stage == STAGE_COARSE)
+        at = at->coarse;
+    g = &at->gap;
     *progress = (struct rc_adhesion_progress){
         .state = a->pull.on ? a->pull.search.states + 1 : 1,
-        .iterations = a->stage == STAGE_NEW ? 0 : g->iterations,
+        .coarser = at != a,
+        .convolutions = convolutions(a),
+        .iterations = at->stage == STAGE_NEW ? 0 : g->iterations,
         .eigenvalue = a->stage == STAGE_EIGEN,
         .load = a->control == RC_GAP_LOAD && a->held
-                    ? a->given * (double)g->n * a->shape.dx * a->shape.dy * a->whole->modulus
+                    ? a->given * (double)a->gap.n * a->shape.dx * a->shape.dy * a->whole->modulus
                     : NAN,
         .approach = a->control == RC_GAP_LOAD || !a->held ? NAN
                     : a->control == RC_GAP_SHIFT          ? a->given * a->whole->length
                                                  : (-a->given - a->mean_h) * a->whole->length,
-        .error = a->stage == STAGE_NEW || isinf(g->told.error) ? NAN : estimate(a),
+        .error = at->stage == STAGE_NEW || isinf(g->told.error) ? NAN : estimate(at),
         .tol = a->tol};
 }
 
@@ -919,6 +1079,7 @@ rc_adhesion_start(struct rc_adhesion *a, const double *pressure, double approach
     for (size_t k = 0; k < g->nx * g->ny; k++)
         if (!isfinite(pressure[k]))
             return rc_err_set(err, "pressure %zu is not a finite number", k);
+    free_coarse(a);
     memset(g->d, 0, g->n * sizeof *g->d);
     for (size_t j = 0; j < g->ny; j++)
         for (size_t i = 0; i < g->nx; i++)

@@ -49,16 +49,18 @@ enum rc_status rc_adhesion_set_heights(struct rc_adhesion *a, const double *h, s
  * stopped short of tol or the bodies separate. RC_FAIL when no load or approach is set. */
 enum rc_status rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err);
 struct rc_adhesion_progress {
-    size_t state;      /* number of the state of a retraction, from 1 */
-    size_t iterations; /* iterations of this state                                     */
-    bool eigenvalue;   /* iterations of its stability                                  */
-    double load;       /* N, as set; NAN: an approach was set                          */
-    double approach;   /* m, as set, also in a retraction; NAN: a load was set         */
-    double error, tol; /* estimated error of the pressure, NAN at first; the asked one */
+    size_t state;        /* number of the state of a retraction, from 1 */
+    size_t iterations;   /* iterations of this state                                     */
+    bool eigenvalue;     /* iterations of its stability                                  */
+    bool coarser;        /* the first state starts on a coarser grid, without a pressure yet */
+    double load;         /* N, as set; NAN: an approach was set                          */
+    double approach;     /* m, as set, also in a retraction; NAN: a load was set         */
+    double error, tol;   /* estimated error of the pressure, NAN at first; the asked one */
+    double convolutions; /* for the state so far, as in rc_adhesion_figures */
 };
 void rc_adhesion_progress(const struct rc_adhesion *a, struct rc_adhesion_progress *progress);
 /* Maps of the present state, valid until the next step; after a retraction, those of the state of lowest
- * load. */
+ * load. rc_adhesion_result ends a start on a coarser grid early. */
 const struct rc_adhesion_figures *rc_adhesion_result(struct rc_adhesion *a);
 /* nx ny values each: net pressure, Pa; gap, m, never negative except at the hardness; displacement K p, m;
  * sigma, Pa. */

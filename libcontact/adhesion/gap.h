@@ -164,6 +164,11 @@ rc_gap_ah(const struct rc_gap *g)
     return g->mode.e[RC_GAP_FLOATS - 1];
 }
 
+/* ---- refine.c ---- */
+
+/* Starts from the gap on a grid with every other node of this one. */
+void rc_gap_refine(struct rc_gap *g, const struct rc_gap *coarse);
+
 /* ---- stability.c ---- */
 
 /* Makes a step of a locally optimal conjugate gradient iteration (Knyazev 2001) under the control. Returns

@@ -17,10 +17,10 @@ struct adhesive {
     double *h;                /* m: present heights                                               */
     double *dent;             /* m: present minus undeformed heights; NULL: no dents */
     struct rc_adhesion *path; /* NULL: no point so far                                            */
-    bool started;             /* the path was stepped, so that its pressure belongs to a state */
-    bool pulls;               /* the point is a retraction                                        */
-    bool again;               /* a state was read: the next step sets the point                   */
-    bool returns;             /* the state at the last kept point is being read                   */
+    bool started; /* the path was stepped on this grid: its pressure belongs to a state */
+    bool pulls;   /* the point is a retraction                                        */
+    bool again;   /* a state was read: the next step sets the point                   */
+    bool returns; /* the state at the last kept point is being read                   */
     bool looked;
     struct rc_adhesive_figures figures;
 };
@@ -97,12 +97,16 @@ static enum rc_status
 step(struct rc_model *m, struct rc_err *err)
 {
     struct adhesive *a = (struct adhesive *)m;
+    struct rc_adhesion_progress at;
+    enum rc_status status;
 
     if (a->again && set_point(a, err) != RC_OK)
         return RC_FAIL;
-    a->started = true;
     a->looked = false;
-    return rc_adhesion_step(a->path, err);
+    status = rc_adhesion_step(a->path, err);
+    rc_adhesion_progress(a->path, &at);
+    a->started |= !at.coarser;
+    return status;
 }
 
 static enum rc_status

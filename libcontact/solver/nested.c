@@ -217,10 +217,7 @@ tolerance(const struct rc_solver *s, const struct rc_shape *coarse)
 static struct rc_solver *
 coarse_new(const struct rc_solver *s, bool *sought)
 {
-    const struct rc_shape *fine = &s->posed.whole;
-    struct rc_shape shape = {(fine->nx + 1) / 2, (fine->ny + 1) / 2,
-                             fine->nx > 1 ? 2 * fine->dx : fine->dx,
-                             fine->ny > 1 ? 2 * fine->dy : fine->dy};
+    const struct rc_shape shape = rc_shape_coarser(&s->posed.whole);
     struct rc_problem problem = {.boundary = s->posed.boundary,
                                  .load = s->load.load,
                                  .tol = tolerance(s, &shape),

@@ -11,7 +11,7 @@
 #include "libcontact/adhesion/law.h"
 
 enum {
-    MOST = 128 * 128
+    MOST = 256 * 256
 };
 static double h[MOST], p[MOST], exact[MOST];
 
@@ -447,17 +447,64 @@ convolutions_to_levels(struct rc_shape shape, struct rc_adhesion_problem problem
     assert_int_equal(rc_adhesion_set_approach(a, approach, &adhesion_err), RC_OK);
     at[0] = at[1] = at[2] = 0;
     do {
+        struct rc_adhesion_progress progress;
         double error, is;
         status = rc_adhesion_step(a, &adhesion_err);
         rc_adhesion_pressure(a, p);
         error = adhesion_distance(n, p, exact);
-        is = rc_adhesion_result(a)->convolutions;
+        rc_adhesion_progress(a, &progress);
+        is = progress.convolutions;
         for (size_t q = 0; q < 3; q++)
             at[q] = error >= levels[q] ? 0 : at[q] > 0 ? at[q] : is;
         if (at[2] > 0 && at[2] < is)
             break;
     } while (status == RC_MORE);
     rc_adhesion_free(a);
+}
+
+/* On a large map spots close one after another. The first state starts from coarser grids, where this is
+ * cheap: from undeformed bodies it takes 95 convolutions to an error of 1e-4. */
+static void
+large_maps_start_coarse(void **state)
+{
+    struct rc_shape shape = rough(256, 1, false);
+    double at[3];
+
+    (void)state;
+    convolutions_to_levels(shape, law_of(RC_PERIODIC, 0.05, 8, 1e-3), 0.5 * depth(256), at);
+    print_message("256 nodes a side: %g / %g / %g convolutions\n", at[0], at[1], at[2]);
+    for (size_t q = 0; q < 3; q++)
+        assert_true(at[q] > 0 && at[q] <= 40);
+}
+
+/* On a free boundary the coefficients of A between nodes are negative, and the attraction falls with the gap:
+ * a path from afar then has the largest of all stationary gaps. The first state of a path must be this one:
+ * no start on a coarser grid may close spots that loading leaves open. */
+static void
+first_states_are_those_of_loading(void **state)
+{
+    enum {
+        SIDE = 64,
+        STEPS = 16
+    };
+
+    (void)state;
+    for (uint64_t seed = 21; seed < 24; seed++) {
+        struct rc_shape shape = rough(SIDE, seed, true);
+        struct rc_adhesion_problem problem = law_of(RC_FREE, 0.1, seed % 2 ? 4 : 2, 1e-5);
+        struct rc_adhesion *a = adhesion_new(shape, h, problem);
+        double from = -3 * problem.range, to = 0.02 * SIDE * (double)(1 + seed % 3);
+
+        for (int k = 0; k <= STEPS; k++)
+            assert_true(adhesion_to_approach(a, from + (to - from) * k / STEPS)->converged);
+        rc_adhesion_pressure(a, exact);
+        rc_adhesion_free(a);
+        a = adhesion_new(shape, h, problem);
+        assert_true(adhesion_to_approach(a, to)->converged);
+        rc_adhesion_pressure(a, p);
+        rc_adhesion_free(a);
+        assert_true(adhesion_distance(SIDE * SIDE, p, exact) <= 2e-5);
+    }
 }
 
 /* A sphere on the free boundary at first touch; the radius of the JKR contact at zero load is 0.3 of the
@@ -696,6 +743,8 @@ main(void)
         cmocka_unit_test(paths_are_stable),
         cmocka_unit_test(eigenvalues_are_right),
         cmocka_unit_test(costs_are_known),
+        cmocka_unit_test(large_maps_start_coarse),
+        cmocka_unit_test(first_states_are_those_of_loading),
         cmocka_unit_test(costs_of_spheres),
         cmocka_unit_test(sums_agree),
         cmocka_unit_test(units_and_mirrors),
