@@ -148,8 +148,6 @@ void cost_solve_reference(struct cost_case *c);
 
 /* ---- schedule.c ---- */
 
-/* Expected seconds. They come from trials measured on this map, else from the plan. */
-double cost_expect(const struct cost_case *c, const struct cost_trial *trial);
 /* True if a trial with this many runs and this time is run again. Short trials are repeated in turns: the
  * shortest time is that of the work; the excess is due to other programs. */
 bool cost_again(double runs, double seconds);

@@ -55,8 +55,9 @@ expect_stress(const struct cost_case *c, const struct cost_trial *t)
     return 2 * each + exact->is.seconds + 3 * c->around;
 }
 
-double
-cost_expect(const struct cost_case *c, const struct cost_trial *t)
+/* Expected seconds. They come from trials measured on this map, else from the plan. */
+static double
+expect(const struct cost_case *c, const struct cost_trial *t)
 {
     const struct cost_trial *near;
 
@@ -194,7 +195,7 @@ run_stresses(struct cost_case *c)
         struct cost_trial *m = &c->trial[k];
         double rest = fmax(end - tool_now(), 0);
 
-        m->expected = cost_expect(c, m);
+        m->expected = expect(c, m);
         if (fits(c, m, rest))
             cost_trial_run(c, m, rest);
     }
@@ -211,7 +212,7 @@ next(struct cost_case *c)
 
         if (m->state != COST_OPEN)
             continue;
-        m->expected = cost_expect(c, m);
+        m->expected = expect(c, m);
         if (least == NULL || m->expected < least->expected)
             least = m;
     }

@@ -33,8 +33,8 @@ figure_place(const struct figure *f, double value)
     return value > f->bar.lo ? log(value / f->bar.lo) / log(f->bar.hi / f->bar.lo) : 0;
 }
 
-struct rgb
-figure_colour(const struct figure *f, double value)
+static struct rgb
+colour_of(const struct figure *f, double value)
 {
     double t = figure_place(f, value);
 
@@ -113,7 +113,7 @@ cell_colour(const struct page *p, const struct raster *r, size_t i, size_t j, si
 
     if (isnan(r->v[k]))
         return none > 0 ? mix(f->bar.map->none, none, colour, 1 - none) : colour;
-    value = figure_colour(f, r->v[k]);
+    value = colour_of(f, r->v[k]);
     if (missing > 0)
         value = mix(value, fmax(0, 1 - missing), colour, fmin(missing, 1));
     return none > 0 ? mix(value, fmax(0, 1 - none), f->bar.map->none, fmin(none, 1)) : value;
@@ -186,7 +186,7 @@ stroke_lines(struct page *p, struct lines *l, const struct raster *r, double wid
 static struct rgb
 line_colour(const struct figure *f, double value)
 {
-    return colormap_is_dark(figure_colour(f, value)) ? light : page_ink;
+    return colormap_is_dark(colour_of(f, value)) ? light : page_ink;
 }
 
 /* The line is thinner than a node, so that a line around a single node does not hide it. */
@@ -213,7 +213,7 @@ edge_ink(const struct page *p)
             sum += p->g->v[k];
             n++;
         }
-    return n > 0 && colormap_is_dark(figure_colour(p->f, sum / n)) ? edge_on_dark : page_ink;
+    return n > 0 && colormap_is_dark(colour_of(p->f, sum / n)) ? edge_on_dark : page_ink;
 }
 
 /* The position on the page of a place on the map in metres. */
@@ -460,7 +460,7 @@ draw_swatch(struct page *p, enum swatch swatch, double x, double y, size_t n)
     if (swatch == SWATCH_NONE)
         canvas_fill(p->c, x, y, w, h, p->f->bar.map->none);
     if (swatch == SWATCH_ONE || swatch == SWATCH_TWO)
-        canvas_fill(p->c, x, y, w, h, figure_colour(p->f, swatch == SWATCH_ONE ? 1 : 2));
+        canvas_fill(p->c, x, y, w, h, colour_of(p->f, swatch == SWATCH_ONE ? 1 : 2));
     if (swatch == SWATCH_MISSING)
         draw_missing(p, x, y, n + n / 3, n);
     if (swatch >= SWATCH_NONE && swatch <= SWATCH_MISSING)

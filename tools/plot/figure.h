@@ -103,9 +103,8 @@ struct figure {
     bool vector;    /* for a PDF or SVG: the map keeps its resolution      */
 };
 
-/* The position of a value in the range of colours, from 0 to 1 or beyond, and its colour. */
+/* The position of a value in the range of colours, from 0 to 1 or beyond. */
 double figure_place(const struct figure *figure, double value);
-struct rgb figure_colour(const struct figure *figure, double value);
 
 /* The grid holds values, nx and ny; *figure has their positions. NULL when memory is short. */
 struct canvas *figure_draw(const struct figure *figure, const struct rc_grid *grid,
