@@ -42,15 +42,15 @@ class Case:
         self.work, self.range = ell * strength**2, ell * strength
         tool(args, "rc-synth", "selfaffine", "--nx", n, "--ny", n, "--dx", "1", "--hurst", "0.8", "--rms-slope", "0.1", "--short-cut", "8",
              "--rolloff", n / 4, "--seed", 1, "-o", folder / "h.rcg")
-        self.h = self.values("h")
+        self.h = self.values("h", "height")
         self.approach = depth * (self.h.max() - self.h.mean())
         self.c = self.approach - self.h.max()
         q = 2 * np.pi * np.fft.fftfreq(n)
         self.A = np.hypot(q[:, None], q[None, :]) / 2
         self.p, _, self.contact = self.ours(1e-10)
 
-    def values(self, name):
-        tool(self.args, "rc-export", "--format", "npy", "-o", self.folder / "v.npy", self.folder / f"{name}.rcg")
+    def values(self, name, channel):
+        tool(self.args, "rc-export", "--format", "npy", "--channel", channel, "-o", self.folder / "v.npy", self.folder / f"{name}.rcg")
         return np.load(self.folder / "v.npy")
 
     def ours(self, tol):
@@ -58,7 +58,7 @@ class Case:
              "--approach", repr(float(self.approach)), "--tol", tol, "--output", "pressure", "--report", self.folder / "r.json",
              "-o", self.folder / "p.rcg", self.folder / "h.rcg", ok=(0, 3))
         report = json.loads((self.folder / "r.json").read_text())
-        return self.values("p"), (report["convolutions"], report["seconds"]["total"]), report["contact_fraction"]
+        return self.values("p", "pressure"), (report["convolutions"], report["seconds"]["total"]), report["contact_fraction"]
 
     def pressure(self, gap):
         """Net pressure of a gap: A u, less its mean where the bodies are apart."""
