@@ -1186,6 +1186,11 @@ struct rc_wear_problem {
     /* m: body 1 stays in contact and body 2 passes it along x, on a track of this length, each point of which
      * it wears once per this distance; 0: the same points of both bodies stay in contact */
     double track;
+    /* Two rough bodies slide over each other along x, on a map that repeats: h gives the heights of body 1,
+     * and h2 those of body 2, nx ny m, face to face (NULL: body 2 is smooth). Each wears by the mean pressure
+     * of all alignments. The caller keeps h2 as long as the model. */
+    bool sliding;
+    const double *h2;
     /* A leg ends early when one of these is reached; 0: no such condition. */
     double until_area;   /* contact fraction                   */
     double until_depth;  /* m: largest worn depth              */
@@ -1208,7 +1213,9 @@ struct rc_wear_figures {
  * other heights and a compliance; the model of wear owns it from here on. NULL where the inner model is NULL.
  * In addition to the load it takes the distance. h: the heights at the start, copied. The tolerance of the
  * inner model should be a hundredth of this one. Its frame `height` is the worn height, `wear` the depth that
- * both bodies have lost. Source: Archard 1953 (J. Appl. Phys. 24, 981); steps as in libcontact/wear. */
+ * both bodies have lost. Of two bodies that slide over each other the frames are those of the alignment of
+ * the start, and only the error of the worn depth decides whether a point has converged. Source: Archard 1953 (J.
+ * Appl. Phys. 24, 981); steps as in libcontact/wear. */
 RC_API struct rc_model *rc_wear_new(struct rc_model *inner, const double *h,
                                     const struct rc_wear_problem *problem, struct rc_err *err);
 /* The figures of this model, after rc_model_look; NULL: it does not wear. */

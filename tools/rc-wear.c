@@ -5,9 +5,10 @@
 
 #include "formats/core/core.h"
 #include "tools/model/model.h"
+#include "tools/problem/problem.h"
 
 static struct args {
-    const char *coefficient, *energy, *motion, *until, *steps;
+    const char *coefficient, *energy, *motion, *counter, *until, *steps;
     struct numbers archard, distance, cycles, load; /* load: of the stream */
     double hardness, mu, tol;
     size_t output;
@@ -41,8 +42,11 @@ static const struct opt opts[] = {
      .result = true, .arg = "LIST", .help = "sliding distances from the start, each a case"},
     {.name = "cycles", .type = OPT_NUMBERS, AT(cycles), .min = 0, .max = INFINITY, .result = true,
      .arg = "LIST", .help = "instead: numbers of cycles, whose slip is the frame slip of rc-slip"},
-    {.name = "motion", .type = OPT_TEXT, AT(motion), .result = true, .arg = "same|track:LENGTH",
-     .help = "the same points stay in contact (default), or body 2 passes along x on a track of this length"},
+    {.name = "motion", .type = OPT_TEXT, AT(motion), .result = true, .arg = "same|track:LENGTH|sliding",
+     .help = "the same points stay in contact (default), body 2 passes along x on a track of this length, "
+             "or two rough bodies slide over each other"},
+    {.name = "counter", .type = OPT_TEXT, AT(counter), .result = true, .arg = "FILE",
+     .help = "heights of body 2 for --motion sliding, seen from outside as those of body 1"},
     {.name = "until", .type = OPT_TEXT, AT(until), .result = true, .arg = "LIST",
      .help = "end earlier at area=FRACTION in contact, depth=LENGTH or uniform=SPREAD of the pressure"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 0.5, .above = true, .result = true,
@@ -90,6 +94,7 @@ struct run {
     double k[2];                /* 1/Pa: of the options                                */
     struct rc_grid *map[MAPS];  /* of the case; NULL: none                             */
     double *part;               /* k of each node over the largest one; NULL: 1        */
+    struct rc_grid *counter;    /* heights of body 2; NULL: smooth                     */
 };
 
 /* ---- the command line ---- */
@@ -181,22 +186,33 @@ read_law(struct run *run)
 static void
 read_motion(struct run *run)
 {
-    const char *text = args.motion;
+    const char *text = args.motion != NULL ? args.motion : "same";
+    const bool track = strncmp(text, "track:", 6) == 0;
+    struct rc_wear_problem *law = &run->law;
+    struct tool *t = &run->d.t;
     struct rc_err err;
 
-    if (text == NULL || strcmp(text, "same") == 0)
-        return;
-    if (strncmp(text, "track:", 6) != 0 ||
-        unit_number(text + 6, UNIT_M, &run->law.track, &err) != RC_OK || !(run->law.track > 0) ||
-        isinf(run->law.track))
-        tool_die(&run->d.t, EXIT_USAGE,
-                 "--motion %s: it must be same or track:LENGTH, with a length above 0, as in "
-                 "track:60mm; two rough bodies that slide over each other are not implemented",
+    law->sliding = strcmp(text, "sliding") == 0;
+    if ((track || (!law->sliding && strcmp(text, "same") != 0)) &&
+        (!track || unit_number(text + 6, UNIT_M, &law->track, &err) != RC_OK || !(law->track > 0) ||
+         isinf(law->track)))
+        tool_die(t, EXIT_USAGE,
+                 "--motion %s: it must be same, sliding or track:LENGTH, with a length above 0, as "
+                 "in track:60mm",
                  text);
-    if (args.cycles.n > 0)
-        tool_die(&run->d.t, EXIT_USAGE,
-                 "--motion track and --cycles exclude each other: in a cycle of fretting the same "
-                 "points stay in contact");
+    if ((track || law->sliding) && args.cycles.n > 0)
+        tool_die(t, EXIT_USAGE,
+                 "--motion %s and --cycles exclude each other: in a cycle of fretting the same "
+                 "points stay in contact",
+                 track ? "track" : text);
+    if (law->sliding != (args.counter != NULL))
+        tool_die(t, EXIT_USAGE,
+                 "--motion sliding and --counter belong together: it is the surface of body 2 that "
+                 "slides over body 1");
+    if (law->sliding && args.until != NULL)
+        tool_die(t, EXIT_USAGE, "--until with --motion sliding is not implemented");
+    if (law->sliding)
+        run->counter = physics_counter(t, args.counter);
 }
 
 static void
@@ -382,6 +398,30 @@ suspect_track(struct run *run, const struct rc_grid *g)
                   where, shown_in_unit(usual, period, "m"), shown_in_unit(given, track, "m"));
 }
 
+/* Two rough bodies that slide: refuses what the model does not have, and adds body 2. */
+static void
+add_counter(struct run *run, const struct rc_grid *g)
+{
+    struct tool *t = &run->d.t;
+    const struct rc_shape shape = rc_grid_shape(g);
+    struct rc_statistics other;
+
+    if (strcmp(rc_grid_get(g, "boundary"), "periodic") != 0)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "--motion sliding needs a periodic map, on which body 2 can pass for ever: run "
+                    "rc-solve --periodic");
+    if (run->law.part != NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "--motion sliding with a map of the wear coefficient is not implemented");
+    if (rc_grid_get(g, "hardness") != NULL || rc_grid_get(g, "hardness_map") != NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--motion sliding with a hardness is not implemented");
+    physics_counter_beside(t, args.counter, run->counter, g, true);
+    run->law.h2 = run->counter->v;
+    run->d.maps = rc_crc32_add(run->d.maps, run->counter->v, rc_grid_nodes(g) * sizeof *g->v);
+    rc_measure(&shape, run->counter->v, &other);
+    run->relief += other.maximum - other.minimum;
+}
+
 /* Distances that change nothing, or after which nothing changes: a unit may be wrong. */
 static void
 suspect_unit(struct run *run, const struct rc_grid *g)
@@ -462,6 +502,13 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
          rc_grid_set_number(g, "cycles", f->distance / run->path, &err) != RC_OK))
         tool_die_at(&d->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     judge_map(run, m, g);
+    if (run->law.sliding && f->pressure_error > args.tol)
+        course_warn(
+            &d->course, "the pressure of one alignment is less accurate than the wear",
+            "the estimated error of the pressure, %.2g, is above --tol: it is the pressure of one "
+            "alignment, and the worn depths that all alignments share are more accurate: take a "
+            "smaller --tol",
+            f->pressure_error);
 }
 
 /* A row of --steps after each step. */
@@ -543,6 +590,8 @@ do_case(struct run *run, const struct rc_grid *g)
     rc_measure(&shape, g->v, &before);
     run->relief = before.maximum - before.minimum;
     run->written = 0;
+    if (run->law.sliding)
+        add_counter(run, g);
     for (size_t k = 0; k < d->points; k++)
         rc_point_set(&d->point[k], RC_LOAD, load);
     suspect_unit(run, g);
@@ -672,6 +721,7 @@ main(int argc, char **argv)
         rc_grid_free(g);
     }
     drop_maps(&run);
+    rc_grid_free(run.counter);
     report_close(&run.steps);
     return drive_close(&run.d);
 }

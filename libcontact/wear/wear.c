@@ -15,12 +15,13 @@
  * + d p1). The step leaves ripples in the pressure where nodes have just come into contact. Steps of backward
  * Euler in the last part of the distance damp them.
  */
+#include "wear.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/memory.h"
-#include "libcontact/model/row.h"
 
 enum {
     GROWTH = 4, /* most from one step to the next */
@@ -40,8 +41,8 @@ static const double fewest = 4;
 static const double accurate = 0.1;
 static const double of_tol = 0.8; /* part of the tolerance for the steps; the rest is for the
                                      contacts */
-/* The estimate of a step misses nodes that come into contact within it: at worst it is 0.8 of the error. */
-static const double caution = 1.5;
+/* The estimate of a step misses nodes that come into contact within it: at worst it is 0.55 of the error. */
+static const double caution = 2;
 static const double first_step = 0.1; /* dx / (k E*) */
 /* The error of the pressure is about its last change, because backward Euler is of first order; remaining
  * ripples add to it. */
@@ -124,34 +125,26 @@ const struct rc_figure rc_figures_wear[] = {
 };
 static const struct rc_figure_set sets[] = {{rc_figures_wear, offsetof(struct wear, f)}, {NULL, 0}};
 
-enum {
-    GAP,
-    HEIGHT,
-    WEAR,
-    WEAR_1,
-    WEAR_2
-};
-static const struct rc_frame_kind frames[] = {
-    [GAP] = {"gap", "m", "Gap"},
-    [HEIGHT] = {"height", "m", "Worn height"},
-    [WEAR] = {"wear", "m", "Worn depth"},
-    [WEAR_1] = {"wear-1", "m", "Worn depth of body 1"},
-    [WEAR_2] = {"wear-2", "m", "Worn depth of body 2"},
+const struct rc_frame_kind rc_wear_frames[] = {
+    [RC_WEAR_GAP] = {"gap", "m", "Gap"},
+    [RC_WEAR_HEIGHT] = {"height", "m", "Worn height"},
+    [RC_WEAR_BOTH] = {"wear", "m", "Worn depth"},
+    [RC_WEAR_1] = {"wear-1", "m", "Worn depth of body 1"},
+    [RC_WEAR_2] = {"wear-2", "m", "Worn depth of body 2"},
     {NULL, NULL, NULL},
 };
 
 /* ---- a contact ---- */
 
-/* The load after the sliding distance s: between two points it changes in proportion to the distance. */
-static struct rc_point
-at_distance(const struct wear *v, double s)
+struct rc_point
+rc_wear_load(const struct rc_model *m, double s)
 {
-    const struct rc_point *from = &v->base.from, *to = &v->base.to;
+    const struct rc_point *from = &m->from, *to = &m->to;
     const double start = from->at[RC_DISTANCE], way = to->at[RC_DISTANCE] - start;
     const bool all = from->given == 0 || !(way > 0);
     const struct rc_point at = rc_point_between(from, to, all ? 1 : (s - start) / way);
 
-    return rc_point_for(v->base.inner, &at);
+    return rc_point_for(m->inner, &at);
 }
 
 /* The coefficient of a node over the largest one. */
@@ -217,7 +210,7 @@ static enum rc_status
 contact(struct wear *v, enum stage stage, struct rc_err *err)
 {
     const double along = stage == PRESS ? 0 : stage == FIRST ? g : 1;
-    const struct rc_point to = at_distance(v, v->s + along * v->tried);
+    const struct rc_point to = rc_wear_load(&v->base, v->s + along * v->tried);
 
     if (!v->kept && rc_model_keep(v->base.inner, err) != RC_OK)
         return RC_FAIL;
@@ -284,20 +277,31 @@ distance(size_t n, const double *a, const double *b)
 
 /* ---- steps ---- */
 
+double
+rc_wear_spread(const double *p, size_t n)
+{
+    double sum = 0, squares = 0, in = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        sum += p[k];
+        squares += p[k] * p[k];
+        in += rc_in_contact(p[k]);
+    }
+    return sqrt(fmax(in * squares / (sum * sum) - 1, 0));
+}
+
 static void
 find_figures(struct wear *v)
 {
     const double cell = v->base.shape.dx * v->base.shape.dy;
     struct rc_wear_figures *f = &v->f;
-    double sum = 0, squares = 0, in = 0;
+    double in = 0;
 
     f->distance = v->s;
     f->wear_volume = rc_sum(v->worn, v->n) * cell;
     f->max_wear_depth = 0;
     for (size_t k = 0; k < v->n; k++) {
         f->max_wear_depth = fmax(f->max_wear_depth, depth(v, k));
-        sum += v->p0[k];
-        squares += v->p0[k] * v->p0[k];
         in += rc_in_contact(v->p0[k]);
     }
     f->wear_volume_1 = v->share[0] * f->wear_volume;
@@ -306,7 +310,7 @@ find_figures(struct wear *v)
         f->wear_volume += f->wear_volume_2 =
             rc_sum(v->deep, v->base.shape.ny) * v->base.shape.dy * v->law.track;
     f->mean_wear_depth = lost(v) / (double)v->n;
-    f->pressure_spread = sqrt(fmax(in * squares / (sum * sum) - 1, 0));
+    f->pressure_spread = rc_wear_spread(v->p0, v->n);
     f->wear_error = f->wear_volume > 0 ? v->error[VOLUME] / (lost(v) * cell) : 0;
     f->pressure_error = v->error[OF_STEPS] + v->error[OF_P0];
     f->converged = v->good && f->wear_error <= v->law.tol && f->pressure_error <= v->law.tol;
@@ -505,16 +509,23 @@ judge(struct wear *v, double of_p1, struct rc_err *err)
     return set_out(v, err);
 }
 
+enum rc_status
+rc_wear_check_point(const struct rc_model *m, struct rc_err *err)
+{
+    if (rc_point_has(&m->to, RC_APPROACH))
+        return rc_err_set(err, "wear at a given approach is not implemented: give the load");
+    if (!(m->to.at[RC_LOAD] > 0))
+        return rc_err_set(err, "load %g N: bodies wear under a load above 0", m->to.at[RC_LOAD]);
+    return RC_OK;
+}
+
 static enum rc_status
 go(struct rc_model *m, struct rc_err *err)
 {
     struct wear *v = (struct wear *)m;
-    const double load = m->to.at[RC_LOAD];
 
-    if (rc_point_has(&m->to, RC_APPROACH))
-        return rc_err_set(err, "wear at a given approach is not implemented: give the load");
-    if (!(load > 0))
-        return rc_err_set(err, "load %g N: bodies wear under a load above 0", load);
+    if (rc_wear_check_point(m, err) != RC_OK)
+        return RC_FAIL;
     v->end = v->met ? v->s : m->to.at[RC_DISTANCE];
     v->last = 0;
     v->again = false;
@@ -614,15 +625,15 @@ static enum rc_status
 fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
 {
     struct wear *v = (struct wear *)m;
-    const double of_worn = frame == WEAR ? 1 : v->share[frame == WEAR_2];
-    const bool track = v->row > 0 && frame != WEAR_1;
+    const double of_worn = frame == RC_WEAR_BOTH ? 1 : v->share[frame == RC_WEAR_2];
+    const bool track = v->row > 0 && frame != RC_WEAR_1;
 
-    if (frame == HEIGHT)
+    if (frame == RC_WEAR_HEIGHT)
         return height_in(v, to, err);
-    if (frame == GAP && rc_model_frame(m->inner, "gap", to, err) != RC_OK)
+    if (frame == RC_WEAR_GAP && rc_model_frame(m->inner, "gap", to, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < v->n; k++)
-        if (frame != GAP)
+        if (frame != RC_WEAR_GAP)
             to[k] = of_worn * v->worn[k] + (track ? v->deep[k / m->shape.nx] : 0);
         else if (v->fitted && rc_in_contact(v->p0[k]))
             to[k] = 0;
@@ -638,7 +649,7 @@ find_approach(struct wear *v, double *approach, struct rc_err *err)
     if (rc_model_frame(v->base.inner, "displacement", v->room, err) != RC_OK)
         return RC_FAIL;
     shift = v->room[0];
-    if (height_in(v, v->p1, err) != RC_OK || fill(&v->base, GAP, v->room, err) != RC_OK)
+    if (height_in(v, v->p1, err) != RC_OK || fill(&v->base, RC_WEAR_GAP, v->room, err) != RC_OK)
         return RC_FAIL;
     shift -= v->p1[0] + v->room[0];
     for (size_t k = 0; k < v->n; k++)
@@ -755,7 +766,7 @@ const struct rc_model_row rc_model_wear = {
     .needs = 1u << RC_LOAD | 1u << RC_DISTANCE,
     .takes = 1u << RC_DISTANCE,
     .figures = sets,
-    .frame = frames,
+    .frame = rc_wear_frames,
     .go = go,
     .step = step,
     .look = look,
@@ -769,8 +780,8 @@ const struct rc_model_row rc_model_wear = {
 
 /* ---- the maker ---- */
 
-static enum rc_status
-check(const struct rc_wear_problem *law, size_t n, struct rc_err *err)
+enum rc_status
+rc_wear_check(struct rc_wear_problem *law, size_t n, struct rc_err *err)
 {
     double largest = 0;
 
@@ -800,7 +811,16 @@ check(const struct rc_wear_problem *law, size_t n, struct rc_err *err)
         return rc_err_set(err, "E* %g Pa: it must be above 0 and finite", law->estar);
     if (!(law->tol >= 0 && law->tol < 1))
         return rc_err_set(err, "tolerance %g: it must be above 0 and below 1", law->tol);
+    law->tol = law->tol > 0 ? law->tol : usual_tol;
     return RC_OK;
+}
+
+double
+rc_wear_first_step(const struct rc_wear_problem *law, const struct rc_shape *s)
+{
+    const double k = law->k[0] + law->k[1] * (law->track > 0 ? s->dx / law->track : 1);
+
+    return first_step * s->dx / (k * law->estar);
 }
 
 static enum rc_status
@@ -810,18 +830,17 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
     const struct rc_shape *s = &v->base.shape;
 
     v->n = s->nx * s->ny;
-    if (check(law, v->n, err) != RC_OK)
-        return RC_FAIL;
     v->law = *law;
+    if (rc_wear_check(&v->law, v->n, err) != RC_OK)
+        return RC_FAIL;
     v->least = law->part != NULL ? INFINITY : 1;
     for (size_t k = 0; k < v->n && law->part != NULL; k++)
         v->least = fmin(v->least, law->part[k]);
-    v->law.tol = law->tol > 0 ? law->tol : usual_tol;
     v->row = law->track > 0 ? law->k[1] / law->track : 0;
     v->k = law->k[0] + (law->track > 0 ? 0 : law->k[1]);
     v->share[0] = law->track > 0 ? 1 : law->k[0] / v->k;
     v->share[1] = law->track > 0 ? 0 : law->k[1] / v->k;
-    v->t = first_step * s->dx / ((v->k + v->row * s->dx) * law->estar);
+    v->t = rc_wear_first_step(&v->law, s);
     v->kept = true;
     if (rc_model_set_compliance(inner, v->k * v->t, law->part, v->row * v->t, err) != RC_OK ||
         rc_model_set_compliance(inner, 0, NULL, 0, err) != RC_OK)
@@ -844,8 +863,11 @@ struct rc_model *
 rc_wear_new(struct rc_model *inner, const double *h, const struct rc_wear_problem *law,
             struct rc_err *err)
 {
-    struct rc_model *m = rc_model_make_outer(&rc_model_wear, sizeof(struct wear), inner, err);
+    struct rc_model *m;
 
+    if (law->sliding)
+        return rc_rubbing_new(inner, h, law, err);
+    m = rc_model_make_outer(&rc_model_wear, sizeof(struct wear), inner, err);
     if (m != NULL && make((struct wear *)m, h, law, err) == RC_FAIL) {
         rc_model_free(m);
         return NULL;
@@ -858,5 +880,5 @@ rc_wear_result(const struct rc_model *m)
 {
     const struct wear *found = (const struct wear *)rc_model_find(m, &rc_model_wear);
 
-    return found != NULL ? &found->f : NULL;
+    return found != NULL ? &found->f : rc_rubbing_result(m);
 }

@@ -472,14 +472,20 @@ rolling_path(double *out, struct rc_err *err)
     return rolling_model_of(true, out, err);
 }
 
-/* Both bodies wear, with a coefficient that differs between two phases; half-way the state is restored in
- * another model. */
+/* Both bodies wear, with a coefficient that differs between two phases, or they slide over each other. Half-way
+ * the state is restored in another model. */
 static enum rc_status
-wear_model(double *out, struct rc_err *err)
+wear_model_of(bool slides, double *out, struct rc_err *err)
 {
-    const struct rc_problem contact = {.pair = bare, .hardness = 2e7, .tol = 1e-3, .threads = 1};
+    const struct rc_problem contact = {
+        .pair = bare, .hardness = slides ? 0 : 2e7, .tol = 1e-3, .threads = 1};
     double phase[N];
-    const struct rc_wear_problem law = {.k = {1e-12, 1e-12}, .estar = 1e9, .part = phase};
+    const struct rc_wear_problem law = {.k = {1e-12, 1e-12},
+                                        .estar = 1e9,
+                                        .tol = 0.3,
+                                        .part = slides ? NULL : phase,
+                                        .sliding = slides,
+                                        .h2 = rough};
     struct rc_model *m, *other = NULL;
     enum rc_status status = RC_FAIL;
     struct rc_expected expected;
@@ -517,6 +523,18 @@ done:
     rc_model_free(m);
     rc_model_free(other);
     return status;
+}
+
+static enum rc_status
+wear_model(double *out, struct rc_err *err)
+{
+    return wear_model_of(false, out, err);
+}
+
+static enum rc_status
+rubbing_model(double *out, struct rc_err *err)
+{
+    return wear_model_of(true, out, err);
 }
 
 /* A ball travels over a map; half-way to the third position the state is restored in another model. */
@@ -1109,6 +1127,7 @@ static const struct {
     {.name = "rolling", .use = rolling_model},
     {.name = "rolling along a path", .use = rolling_path},
     {.name = "the wear model", .use = wear_model},
+    {.name = "the model of rubbing", .use = rubbing_model},
     {.name = "the travel model", .use = travel_model},
     {.name = "plasticity after elasticity", .use = may_yield},
     {.name = "the adhesive model", .use = adhesive_model},

@@ -1,6 +1,7 @@
-/* Random worn maps, then some with a coefficient of each node, and some on a track that wears. They are
- * compared with a run with a tolerance ten times smaller and contacts a thousand times more accurate. The
- * estimated errors of the worn depth and of the pressure are not below the differences.
+/* Random worn maps, then some with a coefficient of each node, some on a track that wears, and pairs that
+ * slide over each other. They are compared with a run with a tolerance ten times smaller and contacts a
+ * thousand times more accurate. The estimated errors of the worn depth and of the pressure are not below the
+ * differences.
  *
  *     law_wear_estimates [FIRST LAST]        runs (default all) */
 #include <setjmp.h>
@@ -15,7 +16,8 @@ enum {
     RUNS = 200,
     WITH_MAPS = 60, /* more */
     ON_TRACK = 60,
-    ALL = RUNS + WITH_MAPS + ON_TRACK,
+    SLIDING = 60,
+    ALL = RUNS + WITH_MAPS + ON_TRACK + SLIDING,
     OUTPUTS = 4,
     MOST = 48 * 48
 };
@@ -29,6 +31,7 @@ struct random_run {
     double of_body[2], track;
     double *h;
     double *part; /* NULL: none */
+    double *h2;   /* of the body that slides over it; NULL: none */
 };
 
 static double
@@ -70,16 +73,17 @@ draw_parts(struct random_run *r, uint64_t *seed)
 static struct random_run
 draw(uint64_t seed)
 {
-    const bool maps = seed > RUNS && seed <= RUNS + WITH_MAPS, track = seed > RUNS + WITH_MAPS;
+    const bool maps = seed > RUNS && seed <= RUNS + WITH_MAPS, slides = seed > ALL - SLIDING,
+               track = seed > RUNS + WITH_MAPS && !slides;
     struct random_run r = {.k = 1e-15, .of_body = {1, 0}};
     size_t side = 24 + 8 * (size_t)(4 * uniform(&seed));
     struct rc_selfaffine rough = {
         .hurst = 0.5 + 0.45 * uniform(&seed), .rms_height = 1, .seed = seed};
     double slope = 0, area, x, y;
-    const bool ball = uniform(&seed) < 0.25;
+    const bool ball = uniform(&seed) < 0.25 && !slides;
 
     r.s = (struct rc_shape){side, side, node, node};
-    r.boundary = uniform(&seed) < 0.6 && !ball ? RC_PERIODIC : RC_FREE;
+    r.boundary = (uniform(&seed) < 0.6 && !ball) || slides ? RC_PERIODIC : RC_FREE;
     r.tol = pow(10, -1 - uniform(&seed));
     r.h = calloc(side * side, sizeof *r.h);
     rough.short_cut = node * (2 + 6 * uniform(&seed));
@@ -104,6 +108,16 @@ draw(uint64_t seed)
             (q > 0 ? r.at[q - 1] : node / (r.k * estar) * 0.03) * pow(10, 1.5 * uniform(&seed));
     if (maps)
         draw_parts(&r, &seed);
+    if (slides) {
+        const double rougher = steep * 2 * uniform(&seed);
+        r.tol = fmax(r.tol, 0.05);
+        r.of_body[1] = floor(3 * uniform(&seed)) / 2;
+        r.h2 = calloc(side * side, sizeof *r.h2);
+        rough.seed++;
+        assert_int_equal(rc_synth_selfaffine(&r.s, &rough, r.h2, NULL), RC_OK);
+        for (size_t k = 0; k < side * side; k++)
+            r.h2[k] *= rougher / slope;
+    }
     if (track) {
         r.of_body[0] = floor(3 * uniform(&seed)) / 2;
         r.of_body[1] = 1;
@@ -121,7 +135,9 @@ model(const struct random_run *r, double tol, double contacts)
                                         .estar = estar,
                                         .tol = tol,
                                         .part = r->part,
-                                        .track = r->track};
+                                        .track = r->track,
+                                        .sliding = r->h2 != NULL,
+                                        .h2 = r->h2};
     struct rc_err err = {""};
     struct rc_model *m =
         rc_wear_new(rc_elastic_new(&r->s, r->h, &contact, NULL, &err), r->h, &law, &err);
@@ -168,7 +184,7 @@ estimates_are_not_below(void **state)
     for (uint64_t seed = first; seed <= last; seed++) {
         struct random_run r = draw(seed);
         struct rc_model *m = model(&r, r.tol, r.tol / 100),
-                        *fine = model(&r, r.tol / 10, r.tol / 1e5);
+                        *fine = model(&r, r.tol / 10, r.tol / (r.h2 != NULL ? 1e3 : 1e5));
         const size_t n = r.s.nx * r.s.ny;
         for (int q = 0; q < OUTPUTS; q++) {
             const struct rc_wear_figures *f = rc_wear_result(m);
@@ -191,6 +207,7 @@ estimates_are_not_below(void **state)
         rc_model_free(fine);
         free(r.h);
         free(r.part);
+        free(r.h2);
     }
     print_message("%d runs, %d outputs: estimates at least %.2f (wear) and %.2f (pressure) of the "
                   "error; %zu outputs short of the tolerance\n",

@@ -140,6 +140,18 @@ wearing(struct rc_err *err)
     return rc_wear_new(rc_elastic_new(&shape, heights, &contact, NULL, err), heights, &law, err);
 }
 
+/* A smooth body 2 slides over a rough one that wears. */
+static struct rc_model *
+rubbing(struct rc_err *err)
+{
+    static const struct rc_problem contact = {
+        .boundary = RC_PERIODIC, .pair.estar = 1e9, .tol = 1e-9, .threads = 1};
+    static const struct rc_wear_problem law = {
+        .k = {1e-15, 0}, .estar = 1e9, .tol = 0.3, .sliding = true};
+
+    return rc_wear_new(rc_elastic_new(&shape, heights, &contact, NULL, err), heights, &law, err);
+}
+
 /* A ball travels over a rough map, which its first load dents. */
 static struct rc_model *
 travelling(struct rc_err *err)
@@ -230,6 +242,7 @@ static const struct kind {
     {"adhesive", dented, {RC_LOAD}, {{4e-3}, {1e-3}, {3e-3}}, 1e-5},
     {"adhesive", retracted, {RC_APPROACH}, {{2e-8}, {0}, {-INFINITY}}, 1e-4},
     {"wear", wearing, {RC_LOAD, RC_DISTANCE}, {{2e-3, 0}, {1e-3, 2e-3}, {2e-3, 9e-3}}, 1e-5},
+    {"rubbing", rubbing, {RC_LOAD, RC_DISTANCE}, {{2e-3, 0}, {1e-3, 2e-3}, {2e-3, 9e-3}}, 1e-5},
     {"travel",
      travelling,
      {RC_LOAD, RC_POSITION},

@@ -376,3 +376,42 @@ physics_problem(const struct physics *a, const struct rc_grid *g, size_t step)
         .hardness = a->hardness,
     };
 }
+
+/* ---- a rough body 2 ---- */
+
+struct rc_grid *
+physics_counter(struct tool *t, const char *name)
+{
+    struct rc_grid *g = tool_frame_of_file(t, "counter", name, "height");
+    struct rc_shape shape = rc_grid_shape(g);
+
+    if (strcmp(g->unit, "m") != 0)
+        tool_die(
+            t, EXIT_IMPOSSIBLE,
+            "--counter %s: its unit is '%s': heights are in metres; import the file again with "
+            "--z-unit",
+            name, g->unit);
+    tool_demand_finite(t, g, "fill them with rc-detrend --fill");
+    rc_mirror(&shape, 'x', g->v);
+    return g;
+}
+
+void
+physics_counter_beside(struct tool *t, const char *name, const struct rc_grid *other,
+                       const struct rc_grid *g, bool periodic)
+{
+    const double near = 1e-6;
+
+    if (fabs(other->dx / g->dx - 1) > near || fabs(other->dy / g->dy - 1) > near)
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "spacings of %g x %g m, and of %g x %g m in --counter %s: bring them together by "
+            "rc-pick --resample",
+            g->dx, g->dy, other->dx, other->dy, name);
+    if (periodic && (other->nx != g->nx || other->ny != g->ny))
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "with --periodic both surfaces must have the same period: this one has %zu x %zu "
+            "nodes, --counter %s has %zu x %zu",
+            g->nx, g->ny, name, other->nx, other->ny);
+}

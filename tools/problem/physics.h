@@ -44,6 +44,12 @@ void physics_heights(struct tool *tool, const struct physics *physics, struct rc
 /* Ends the tool when a frame of hardness beside the heights (or NULL) is invalid, or --hardness is given
  * too. */
 void physics_hardness(struct tool *tool, const struct rc_grid *hardness);
+/* The heights of body 2 in the file of --counter. They face body 1, as in rc-add: the map is mirrored left to
+ * right. The caller frees them. */
+struct rc_grid *physics_counter(struct tool *tool, const char *name);
+/* Ends the tool if their spacings differ from those of body 1, or on a periodic map the number of nodes. */
+void physics_counter_beside(struct tool *tool, const char *name, const struct rc_grid *counter,
+                            const struct rc_grid *heights, bool periodic);
 /* The contact at one step of the list, without the options of the solver. */
 struct rc_problem physics_problem(const struct physics *physics, const struct rc_grid *heights,
                                   size_t step);

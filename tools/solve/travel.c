@@ -34,25 +34,6 @@ read_window(struct run *run, const char *text)
                  "--window %s: it must be numbers of nodes, WxH, as in 256x256", text);
 }
 
-/* Body 2 faces body 1, as in rc-add: its map is mirrored left to right. */
-static void
-read_counter(struct run *run, const char *name)
-{
-    struct tool *t = &run->d.t;
-    struct rc_grid *g = tool_frame_of_file(t, "counter", name, "height");
-    struct rc_shape shape = rc_grid_shape(g);
-
-    if (strcmp(g->unit, "m") != 0)
-        tool_die(
-            t, EXIT_IMPOSSIBLE,
-            "--counter %s: its unit is '%s': heights are in metres; import the file again with "
-            "--z-unit",
-            name, g->unit);
-    tool_demand_finite(t, g, "fill them with rc-detrend --fill");
-    rc_mirror(&shape, 'x', g->v);
-    run->travelling.counter = g;
-}
-
 void
 travel_read(struct run *run)
 {
@@ -96,7 +77,7 @@ travel_read(struct run *run)
     if (args->window != NULL)
         read_window(run, args->window);
     if (args->counter != NULL)
-        read_counter(run, args->counter);
+        w->counter = physics_counter(t, args->counter);
     w->passes = args->passes;
 }
 
@@ -108,28 +89,6 @@ repeats(const struct rc_grid *g)
     const char *periodic = rc_grid_get(g, "periodic");
 
     return periodic != NULL && strcmp(periodic, "yes") == 0;
-}
-
-static void
-check_counter(struct run *run, const struct rc_grid *g)
-{
-    const struct rc_grid *other = run->travelling.counter;
-    const double near = 1e-6;
-
-    if (other == NULL)
-        return;
-    if (fabs(other->dx / g->dx - 1) > near || fabs(other->dy / g->dy - 1) > near)
-        tool_die_at(
-            &run->d.t, g, EXIT_IMPOSSIBLE,
-            "spacings of %g x %g m, and of %g x %g m in --counter %s: bring them together by "
-            "rc-pick --resample",
-            g->dx, g->dy, other->dx, other->dy, run->args->counter);
-    if (run->args->physics.periodic && (other->nx != g->nx || other->ny != g->ny))
-        tool_die_at(
-            &run->d.t, g, EXIT_IMPOSSIBLE,
-            "with --periodic both surfaces must have the same period: this one has %zu x %zu "
-            "nodes, --counter %s has %zu x %zu",
-            g->nx, g->ny, run->args->counter, other->nx, other->ny);
 }
 
 /* A map for the heights at a position, with the keys of the whole map. */
@@ -167,7 +126,9 @@ travel_begin(struct run *run)
     if (run->hardness != NULL)
         tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE,
                     "--travel with a map of hardness is not implemented");
-    check_counter(run, g);
+    if (w->counter != NULL)
+        physics_counter_beside(&run->d.t, run->args->counter, w->counter, g,
+                               run->args->physics.periodic);
     w->track = g;
     run->g = window_of(run, g);
     if (w->counter != NULL && run->d.checkpoint != NULL)
