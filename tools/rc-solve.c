@@ -12,6 +12,8 @@ static struct solve_args args = {
     .physics = PHYSICS_NONE,
     .kernel = "auto",
     .method = "auto",
+    .along = "x",
+    .track = "fresh",
     .counter_travel = 1,
     .passes = 1,
     .shift = 1,
@@ -37,6 +39,12 @@ static const struct opt opts[] = {
     {.name = "time", .type = OPT_NUMBERS, .unit = UNIT_S, AT(time), .min = 0, .max = INFINITY,
      .result = true, .arg = "LIST",
      .help = "with --relaxation, times of the loads or of the results of one load, each a case"},
+    {.name = "speed", .type = OPT_NUMBERS, .unit = UNIT_SPEED, AT(speed), .min = -INFINITY, .max = INFINITY, .result = true,
+     .arg = "LIST", .help = "with --relaxation, body 2 slides steadily over body 1: m/s along +x, each a case"},
+    {.name = "along", .type = OPT_CHOICE, AT(along), .result = true, .arg = "x|y", .words = slide_direction_word,
+     .help = "direction in which it slides (default x)"},
+    {.name = "track", .type = OPT_CHOICE, AT(track), .result = true, .arg = "fresh|repeated",
+     .words = slide_track_word, .help = "whether it meets its own grooves again after a period (default fresh)"},
     {.name = "pull-off", .type = OPT_FLAG, AT(pull_off), .result = true,
      .help = "after the last state separate the bodies, and find the pull-off load"},
     {.name = "travel", .type = OPT_NUMBERS, .unit = UNIT_M, AT(travel), .min = -INFINITY,
@@ -141,6 +149,7 @@ check_arguments(struct run *run)
     adhesion_read(run);
     travel_read(run);
     relax_check(run);
+    slide_check(run);
     if (run->yielding.wanted && !tool_given(&run->d.t, "output"))
         args.output |= 1 << SOLVE_RESIDUAL;
     if (run->adhering.wanted && (args.output & (1 << SOLVE_PRESSURE | 1 << SOLVE_GAP)))

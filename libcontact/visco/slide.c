@@ -157,7 +157,8 @@ set_waves(struct slide *s, double speed)
 enum filter {
     PHASE, /* K - V */
     HALF,
-    SLOPE /* the derivative along x */
+    SLOPE, /* the derivative along x            */
+    TILT   /* the same of K p, from V p         */
 };
 
 static void
@@ -171,7 +172,7 @@ filter_row(const struct slide *s, enum filter which, double *row)
         const double q = 2 * k == nx ? 0 : rc_fourier_q(k, nx, s->turned.dx);
         z[k] *= (which == PHASE  ? s->wave[k].phase
                  : which == HALF ? s->wave[k].half
-                                 : I * q) /
+                                 : I * q * (which == TILT ? 1 + s->wave[k].phase : 1)) /
                 (double)nx;
     }
     rc_line_backward(s->line, z, row);
@@ -321,6 +322,7 @@ go(struct rc_model *m, struct rc_err *err)
     s->contacts = s->iterations = 0;
     s->convolutions = 0;
     s->tol = loosest;
+    s->estimate = NAN;
     s->done = s->looked = false;
     inner = rc_point_for(m->inner, &m->to);
     m->inner->row->accuracy(m->inner, s->tol / s->problem.tol);
@@ -349,8 +351,8 @@ find_friction(struct slide *s, double force[2], double *steep)
     *steep = 0;
     for (int q = 0; q < 2; q++) {
         for (size_t k = 0; k < s->n; k++)
-            s->room[k] = q == 0 ? v->it.v[k] + s->h[k] : s->h[k];
-        filter(s, SLOPE, s->room);
+            s->room[k] = q == 0 ? v->it.v[k] + v->posed.h[k] : s->h[k];
+        filter(s, q == 0 ? TILT : SLOPE, s->room);
         for (size_t k = 0; k < s->n; k++) {
             rc_total_add(&sum[q], -v->it.p[k] * s->room[k]);
             *steep = fmax(*steep, q == 0 && v->it.p[k] > 0 ? fabs(s->room[k]) : 0);
@@ -443,7 +445,10 @@ fill(struct rc_model *m, size_t frame, double *to, struct rc_err *err)
     if (frame == RC_FRAME_DISPLACEMENT) {
         const struct rc_solver *v = solver_of(s);
         for (size_t k = 0; k < s->n; k++)
-            s->room[k] = v->it.v[k] + s->h[k] - v->posed.top;
+            s->room[k] = v->it.v[k] + v->posed.h[k];
+        filter(s, PHASE, s->room);
+        for (size_t k = 0; k < s->n; k++)
+            s->room[k] += v->it.v[k] + v->posed.h[k];
     }
     turn(&s->turned, s->law.along_y, s->room, to);
     return RC_OK;
@@ -558,7 +563,8 @@ check(const struct rc_shape *shape, const struct rc_problem *problem,
                                "only");
     if (problem->ranks != NULL)
         return rc_err_set(err, "sliding over a viscoelastic body needs the map in one process");
-    if (problem->tilt_free || problem->hardness > 0 || problem->hardness_map != NULL)
+    if (problem->tilt_free || (problem->hardness > 0 && !isinf(problem->hardness)) ||
+        problem->hardness_map != NULL)
         return rc_err_set(err, "sliding over a viscoelastic body with a hardness or a free tilt is "
                                "not implemented");
     if (!(law->compliance >= 0) || isinf(law->compliance))
@@ -605,6 +611,7 @@ rc_slide_new(const struct rc_shape *shape, const double *h, const struct rc_prob
         return NULL;
     s = (struct slide *)m;
     s->problem = *problem;
+    s->problem.hurry = NULL;
     s->law = *law;
     s->turned = law->along_y ? other : *shape;
     s->n = shape->nx * shape->ny;

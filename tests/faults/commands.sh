@@ -57,6 +57,7 @@ commands=$(
 1 rc-solve --quiet --estar 1GPa --load 1mN --dry-run h.rcg
 2 rc-slip --quiet --mu 0.3 --nu 0.3 --tangential 0.1mN --report /dev/null c.rcg -o out
 4 rc-slip --quiet --mu 0.3 --E1 0.91GPa --nu1 0.3 --E2 rigid --path 0.5mN,0,0;1mN,0.1mN,0 --increments 2 c.rcg
+4 rc-solve --quiet --periodic --relaxation 1GPa,1GPa:1ms --nu1 0.49 --E2 rigid --load 1mN --speed 1e-3,0.1 h.rcg -o out
 4 rc-solve --quiet --estar 1GPa --load 1mN --radius 1mm --travel 0,1um --counter h.rcg --window 12x12 h.rcg -o out
 4 rc-wear --quiet --coefficient 1e-6mm3/Nm --distance 1m --steps /dev/null c.rcg -o out
 2 rc-fatigue --quiet --nu 0.3 --bending-limit 6MPa --torsion-limit 4MPa --criteria dangvan,findley --pass x --depths 1um,2um --report /dev/null c.rcg -o out

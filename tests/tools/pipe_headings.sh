@@ -42,6 +42,8 @@ report "rc-solve --yield" "rc-solve $body --yield 1GPa --slabs 6 --increments 8 
 report "rc-solve --adhesion" "rc-solve $body --adhesion 50mJ/m2 --approach 0 --report \$r -o a.rcg ball.rcg"
 report "rc-solve --travel" "rc-solve $body --load 200uN --travel 0 --counter ball.rcg --report \$r -o t.rcg ball.rcg"
 report "rc-solve --relaxation" "rc-solve --relaxation 1GPa,9GPa:1ms --nu1 0.49 --E2 rigid --threads 1 --quiet --load 20uN --time 0 --report \$r -o v.rcg ball.rcg"
+report "rc-solve --speed" "rc-solve --relaxation 1MPa,9MPa:1ms --nu1 0.5 --E2 rigid --periodic --mean-pressure 0.1MPa --speed 1mm/s \
+    --threads 1 --quiet --report \$r -o s.rcg rough.rcg"
 report rc-slip "rc-slip --mu 0.3 --threads 1 --quiet --tangential 0.1mN --report \$r -o q.rcg one.rcg"
 rc-solve $body --load 2uN -o rolls.rcg ball.rcg
 report "rc-slip --steady" "rc-slip --mu 0.3 --threads 1 --quiet --creep 1e-3,0 --steady --report \$r -o q.rcg rolls.rcg"

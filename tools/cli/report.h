@@ -17,9 +17,9 @@
 #include "tool.h"
 
 enum {
-    REPORT_COLUMNS = 96, /* most columns of a table */
-    REPORT_NAME = 96,    /* most bytes of a column's name, slash and unit */
-    REPORT_DEPTH = 4     /* depth of nested objects and arrays */
+    REPORT_COLUMNS = 128, /* most columns of a table */
+    REPORT_NAME = 96,     /* most bytes of a column's name, slash and unit */
+    REPORT_DEPTH = 4      /* depth of nested objects and arrays */
 };
 
 struct report {

@@ -89,6 +89,7 @@ set_marks(struct run *run)
     adhesion_mark(run, course_mark(c, "checkpoint.adhesion"), size);
     travel_mark(run, course_mark(c, "checkpoint.travel"), size);
     relax_mark(run, course_mark(c, "checkpoint.relaxation"), size);
+    slide_mark(run, course_mark(c, "checkpoint.sliding"), size);
 }
 
 /* ---- results ---- */
@@ -125,6 +126,7 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     adhesion_set_key(run, g, c);
     travel_set_keys(run, g);
     relax_set_keys(run, g);
+    slide_set_keys(run, g);
 }
 
 /* Values that are not those of a frame of the model. The frames from `plastic` on have the error of the shape. */
@@ -236,7 +238,8 @@ look_at_model(struct run *run, const struct rc_grid *g, struct rc_model *m, stru
                  : elastic != NULL    ? elastic->contact
                  : adhesive != NULL   ? adhesive->contact
                                       : rc_yielding_result(m)->contact;
-    if (adhesive != NULL)
+    slide_look(run, m, &s->contact);
+    if (adhesive != NULL || (run->sliding.wanted && !run->apart))
         look_at_closed_gap(run, g, m, s);
 }
 
@@ -275,7 +278,7 @@ judge_load(struct drive *d, struct rc_model *m)
         return;
     if (run->apart)
         look_inside(run, g, NULL, s);
-    else if (run->solver != NULL &&
+    else if (run->solver != NULL && !run->sliding.wanted &&
              tool_interrupted() == 0) /* otherwise this grid may have no pressure yet */
         look_at_contact(run, g, rc_solver_pressure(run->solver), s);
     look_at_model(run, g, m, s);
@@ -283,7 +286,7 @@ judge_load(struct drive *d, struct rc_model *m)
         s->conductance = (struct rc_conductance){NAN, 0, 0};
     if (run->solver != NULL && !run->apart) {
         find_stiffness(run, g, run->solver, s);
-        if (!run->relaxing.wanted)
+        if (!run->relaxing.wanted && !run->sliding.wanted)
             s->contact.convolutions = rc_solver_convolutions(run->solver);
     }
     if (s->contact.inherited_error > 0)
@@ -359,14 +362,16 @@ begin_load(struct drive *d, struct rc_model *m)
     a->pulling = a->wanted && d->at == run->steps->n;
     run->step = run->travelling.wanted ? 0
                 : run->relaxing.wanted ? relax_step(run, d->at)
+                : run->sliding.wanted  ? slide_step(run, d->at)
                 : a->pulling           ? d->at - 1
                                        : d->at;
     run->apart = run->steps->v[run->step] == 0 && !a->wanted;
     problem = problem_of(run, run->g, run->relaxing.wanted ? relax_largest(run) : run->step);
     if (run->yielding.wanted)
         yield_plan(run, m, problem.load);
-    plans =
-        a->wanted || run->relaxing.wanted ? d->at == 0 : !run->apart && rc_model_solver(m) == NULL;
+    plans = a->wanted || run->relaxing.wanted || run->sliding.wanted
+                ? d->at == 0
+                : !run->apart && rc_model_solver(m) == NULL;
     if ((run->apart && !run->yielding.on && !run->relaxing.wanted) || a->pulling ||
         (run->relaxing.before && d->at == 0))
         d->course.checkpoint = NULL;
@@ -385,11 +390,14 @@ make_points(struct run *run)
 
     d->points = run->travelling.wanted ? travel_points(run)
                 : run->relaxing.wanted ? relax_points(run)
+                : run->sliding.wanted  ? slide_points(run)
                                        : run->steps->n + run->args->pull_off;
     if ((d->point = calloc(d->points, sizeof *d->point)) == NULL)
         tool_die(&d->t, EXIT_IMPOSSIBLE, "out of memory for %zu loads", d->points);
     for (size_t k = 0; k < d->points; k++) {
-        const size_t step = run->relaxing.wanted ? relax_step(run, k) : k;
+        const size_t step = run->relaxing.wanted  ? relax_step(run, k)
+                            : run->sliding.wanted ? slide_step(run, k)
+                                                  : k;
         const struct rc_problem problem = problem_of(run, run->g, step < run->steps->n ? step : 0);
         rc_point_set(&d->point[k], approach ? RC_APPROACH : RC_LOAD,
                      approach ? problem.approach : problem.load);
@@ -397,6 +405,8 @@ make_points(struct run *run)
             rc_point_set(&d->point[k], RC_POSITION, travel_position(run, k));
         if (run->relaxing.wanted)
             rc_point_set(&d->point[k], RC_TIME, relax_time(run, k));
+        if (run->sliding.wanted)
+            rc_point_set(&d->point[k], RC_SPEED, slide_speed(run, k));
     }
     if (run->args->pull_off)
         rc_point_set(&d->point[run->steps->n], RC_APPROACH, -INFINITY);
@@ -422,6 +432,7 @@ do_loads(struct run *run)
 
     run->model = run->yielding.wanted   ? yield_model(run, run->g, &problem)
                  : run->adhering.wanted ? adhesion_model(run, run->g, &problem)
+                 : run->sliding.wanted  ? slide_model(run, &problem)
                                         : elastic_model(run, &problem);
     if (run->travelling.wanted)
         run->model = travel_model(run, run->model);
@@ -460,7 +471,7 @@ take_hardness(struct run *run, const struct rc_grid *hardness)
     run->hardness = hardness;
     run->hardness_min = -ranks_most(&run->d.t, -low);
     run->hardness_max = ranks_most(&run->d.t, high);
-    if (run->relaxing.wanted && run->hardness != NULL)
+    if ((run->relaxing.wanted || run->sliding.wanted) && run->hardness != NULL)
         tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE,
                     "--relaxation with a map of hardness is not implemented");
     if (run->args->physics.history && isinf(run->hardness_min) && !run->yielding.wanted &&
@@ -498,6 +509,7 @@ solve_case(struct run *run, const struct rc_grid *hardness)
             problem = problem_of(run, run->g, relax_largest(run));
         run->model = run->yielding.wanted   ? yield_model(run, run->g, &problem)
                      : run->relaxing.wanted ? relax_model(run, elastic_model(run, &problem))
+                     : run->sliding.wanted  ? slide_model(run, &problem)
                                             : NULL;
         solve_plan(run, run->g, &problem);
         rc_model_free(run->model);

@@ -24,6 +24,9 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
     if (run->relaxing.wanted)
         snprintf(position, sizeof position, ", time %s",
                  shown_in_unit(value, relax_time(run, run->d.at), "s"));
+    if (run->sliding.wanted)
+        snprintf(position, sizeof position, ", speed %s",
+                 shown_in_unit(value, slide_speed(run, run->d.at), "m/s"));
     if (source == NULL)
         source = run->d.t.source == NULL ? "standard input" : run->d.t.source;
     if (a->load.n > 0) {
@@ -215,6 +218,7 @@ solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
     if (tool_interrupted() == 0 && s->contact.contact_nodes > 0) {
         solve_warn_of_theory(run, g, where, s);
         warn_of_grid(run, g, where, s);
+        slide_warn(run, where);
     }
     if (!yield_warn_of_end(run, where, s) && !relax_warn_of_end(run, where, &s->contact))
         solve_warn_of_end(run, where, &s->contact);

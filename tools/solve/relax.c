@@ -29,10 +29,10 @@ relax_read(struct run *run, struct solve_args *args)
     struct tool *t = &run->d.t;
     struct rc_err err;
 
-    x->wanted = args->relaxation != NULL;
-    if (!x->wanted && (args->time.n > 0 || tool_given(t, "shift")))
+    x->wanted = args->relaxation != NULL && args->speed.n == 0;
+    if (args->relaxation == NULL && (args->time.n > 0 || tool_given(t, "shift")))
         tool_die(t, EXIT_USAGE, "--time and --shift have no effect without --relaxation");
-    if (!x->wanted)
+    if (args->relaxation == NULL)
         return;
     refuse(run, tool_given(t, "E1"), "--E1", "the moduli of body 1 are those of --relaxation");
     refuse(run, tool_given(t, "estar"), "--estar",
@@ -41,7 +41,7 @@ relax_read(struct run *run, struct solve_args *args)
         tool_die(t, EXIT_USAGE, "--relaxation %s: %s", args->relaxation, err.text);
     a->e1 = 1 / x->law.material->instant;
     a->relaxes = true;
-    a->history = true; /* each time continues from the last one */
+    a->history = x->wanted; /* each time continues from the last one */
 }
 
 /* The time of the first load is 0. One load acts from 0 on, also if the first asked time is later. */
@@ -305,7 +305,7 @@ relax_state(const struct run *run)
     const struct relaxing *x = &run->relaxing;
     char instant[SHOWN_NUMBER], relaxed[SHOWN_NUMBER];
 
-    if (!x->wanted)
+    if (run->args->relaxation == NULL)
         return "left out: no --relaxation";
     snprintf(text, sizeof text, "on: %zu terms, E from %s to %s", x->law.material->terms,
              shown_in_unit(instant, run->args->physics.e1, "Pa"),

@@ -71,6 +71,7 @@ show_effects(struct run *run, const char *engine, const bool *active,
         {"adhesion", adhesion_state(run)}, /* also the state of its frame */
         {"travel", travel_state(run)},
         {"relaxation", relax_state(run)},
+        {"sliding", slide_state(run)},
         {"tilt", run->tilt ? "on" : "left out: no --tilt free"},
         {"stiffness", run->stiffness         ? "on"
                       : run->adhering.wanted ? "left out: the bodies attract each other"
@@ -252,6 +253,7 @@ solve_report(struct drive *d, const struct rc_model *m)
     report_number(r, "elastic_energy", s->contact.elastic_energy, "J");
     travel_report(r, run);
     relax_report(r, run);
+    slide_report(r, run);
 }
 
 /* ---- plan ---- */
@@ -275,6 +277,8 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
         (void)rc_model_plan(run->model, &to, &expected, &err);
     else if (run->relaxing.wanted)
         (void)relax_expect(run, problem, &expected, &err);
+    else if (run->sliding.wanted)
+        (void)slide_expect(run, problem, &expected, &err);
     else
         (void)rc_solver_expect(&shape, problem, &expected, &err);
     return expected.memory + small + (dents + later + travel_bytes(run)) * rc_grid_nodes(g);
@@ -292,16 +296,19 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     struct rc_err err;
     const bool travels = run->travelling.wanted;
     const bool relaxes = run->relaxing.wanted;
+    const bool slides = run->sliding.wanted;
     const size_t points = travels   ? travel_points(run)
                           : relaxes ? run->args->time.n
+                          : slides  ? slide_points(run)
                                     : run->steps->n;
     double each, memory;
     char where[256];
 
     if (run->adhering.wanted)
         adhesion_expect(run, g, problem, &e);
-    else if ((run->relaxing.wanted ? relax_expect(run, problem, &e, &err)
-                                   : rc_solver_expect(&shape, problem, &e, &err)) != RC_OK)
+    else if ((run->relaxing.wanted  ? relax_expect(run, problem, &e, &err)
+              : run->sliding.wanted ? slide_expect(run, problem, &e, &err)
+                                    : rc_solver_expect(&shape, problem, &e, &err)) != RC_OK)
         tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     each = e.convolutions + (run->conductance ? STIFFNESS + 1 : 0) +
            (run->stiffness && !(run->conductance && isinf(run->hardness_min)) ? STIFFNESS : 0);
@@ -312,12 +319,14 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     fprintf(run->d.t.out, "%s: %zu x %zu nodes, %zu %s%s, engine %s\n", where, g->nx, g->ny, points,
             travels   ? "position"
             : relaxes ? "time"
+            : slides  ? "speed"
                       : "load",
             points == 1 ? "" : "s", engine);
     show_effects(run, why, NULL, print_effect);
     fprintf(run->d.t.out, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n", each,
             points == 1 ? ""
             : relaxes   ? " for each time"
+            : slides    ? " for the first speed"
             : travels   ? " for the first position, 5 for the next after a short step"
                         : " for the first load, fewer for the next",
             ((size_t)memory >> 20) + 1, e.seconds * each / e.convolutions * (double)points,

@@ -34,6 +34,8 @@ struct solve_args {
     const char *relaxation;                 /* words of the command line, or NULL */
     double shift;                           /* factor of all times of the material */
     struct numbers time;                    /* none: without --relaxation */
+    struct numbers speed;                   /* none: without sliding      */
+    const char *along, *track;              /* x or y; fresh or repeated  */
     const char *adhesion;         /* words of the command line, or NULL                       */
     bool pull_off;                /* pull-off is an additional last case */
     struct numbers travel;        /* positions; none: the contact stays */
@@ -95,6 +97,13 @@ struct relaxing {
     const struct rc_viscoelastic_figures *found;
 };
 
+/* --speed: body 2 slides over body 1. */
+struct sliding {
+    bool wanted;
+    struct rc_relaxation *material; /* of E/(1 - nu^2) */
+    const struct rc_slide_figures *found;
+};
+
 /* The figures of a solution. */
 struct solution {
     struct rc_contact contact;
@@ -130,6 +139,7 @@ struct run {
     struct adhering adhering;
     struct travelling travelling;
     struct relaxing relaxing;
+    struct sliding sliding;
     bool tilt;                         /* the counter body is free to tilt */
     double k[2];                       /* conductivities of the bodies, SI                  */
     const char *conductance_unit;      /* W/K or S; NULL: the conductivities have no unit   */
@@ -236,6 +246,28 @@ bool relax_warn_of_end(struct run *run, const char *where, const struct rc_conta
 void relax_set_keys(struct run *run, struct rc_grid *as);
 void relax_report(struct report *report, const struct run *run);
 const char *relax_state(const struct run *run);
+
+/* ---- slide.c: all do nothing without --speed ---- */
+
+/* The words of --along and --track. */
+const char *slide_direction_word(size_t k);
+const char *slide_track_word(size_t k);
+/* Ends the tool if the options are invalid. */
+void slide_check(struct run *run);
+/* The cases, their speeds, and their places in the list of loads. */
+size_t slide_points(const struct run *run);
+double slide_speed(const struct run *run, size_t point);
+size_t slide_step(const struct run *run, size_t point);
+enum rc_status slide_expect(const struct run *run, const struct rc_problem *problem,
+                            struct rc_expected *expected, struct rc_err *err);
+struct rc_model *slide_model(struct run *run, const struct rc_problem *problem);
+void slide_mark(struct run *run, char *value, size_t size);
+/* Takes the figures of a case. */
+void slide_look(struct run *run, const struct rc_model *m, struct rc_contact *contact);
+void slide_warn(struct run *run, const char *where);
+void slide_set_keys(struct run *run, struct rc_grid *as);
+void slide_report(struct report *report, const struct run *run);
+const char *slide_state(const struct run *run);
 
 /* ---- yield.c: all but yield_read do nothing without --yield ---- */
 
