@@ -19,7 +19,7 @@ export RC_THREADS=1
 rc-synth selfaffine --nx 40 --ny 36 --dx 1um --hurst 0.8 --rms-slope 0.12 --rolloff 20um --short-cut 6um --seed 5 -o rough.rcg
 nodes=$((40 * 36))
 contact="--periodic --mean-pressure 0.6GPa --E1 210GPa --nu1 0.3 --E2 rigid --yield 1.5GPa,5GPa"
-rc-cost $contact --quiet -o cost.txt --report cost.json --plot cost.png rough.rcg
+rc-cost $contact --limit 600s --quiet -o cost.txt --report cost.json --plot cost.png rough.rcg
 awk '/^$/ { exit } !/^#/ && $1 != "method"' cost.txt >rows.txt
 
 claim "the trials are five numbers of increments with each of three stacks of slabs" bash -c '
