@@ -95,6 +95,14 @@ def safe_name(name):
     return '_' + name if name in ('', '.', '..') or re.match(r'\d+-[a-z]+\.(rcg|tsv)$', name) else name
 
 
+def sample():
+    """The sample surface of the package; None where it is not installed."""
+    try:
+        return os.path.realpath(tools.sample())
+    except FileNotFoundError:
+        return None
+
+
 class Step:
     """A command of a run, and how it goes: waiting, running, done, short (of the accuracy), failed or stopped."""
 
@@ -205,8 +213,7 @@ class Desk(http.server.ThreadingHTTPServer):
         self.lock, self.room = threading.Lock(), threading.BoundedSemaphore(TOGETHER)
         self.token, self.once = secrets.token_urlsafe(24), secrets.token_urlsafe(24)
         self.ended, self.pages, self.left = threading.Event(), 0, time.monotonic()
-        for path in filter(None, (os.path.realpath(tools.sample()), file)):
-            self.add_file(path, path)
+        self.first = [path and self.add_file(path, path)['id'] for path in (sample(), file)]
 
     def address(self, first):
         return 'http://127.0.0.1:%d/%s/' % (self.server_port, first)
@@ -369,7 +376,7 @@ class Request(http.server.BaseHTTPRequestHandler):
         self.head(303, 'text/plain', 0, Location=self.server.address(self.server.token))
 
     def get_desk(self):
-        return {'files': self.server.files, 'tables': tables(), 'most': UPLOAD_MAX}
+        return {'files': self.server.files, 'first': self.server.first, 'tables': tables(), 'most': UPLOAD_MAX}
 
     def get_events(self):
         """Sends the runs when they change, until the page is closed."""

@@ -339,8 +339,10 @@ trying(async () => {
   const events = new EventSource('events');
   events.onmessage = e => { runs = JSON.parse(e.data); news(); };
   events.onerror = () => tell('There is no connection to rc-app. It has ended, or four pages are open already.', 'failed');
-  $('sample').onclick = () => begin(desk.files[0]);
-  if (kept && desk.files[kept.file.id]?.path === kept.file.path) { ({file, steps} = kept); drawSteps(); } else if (desk.files[1]?.path === desk.files[1]?.shown && desk.files[1]) begin(desk.files[1]);
+  const [sample, opened] = desk.first;
+  $('sample').hidden = sample === null;
+  $('sample').onclick = () => begin(desk.files[sample]);
+  if (kept && desk.files[kept.file.id]?.path === kept.file.path) { ({file, steps} = kept); drawSteps(); } else if (opened !== null) begin(desk.files[opened]);
 })();
 $('file').onchange = () => upload($('file').files[0]);
 $('file').onkeydown = e => { if (e.key === 'Enter') { e.preventDefault(); $('file').click(); } };
