@@ -30,7 +30,7 @@ for tool in $tools; do
     claim "$tool: the manual has exactly the options of --help" same_options "$tool"
     claim "$tool: the manual has the words of its options" same_words "$tool"
 done
-claim "rc-solve: the options that take words are found in --help" takes_words rc-solve '--kernel --method --output --tilt --type '
+claim "rc-solve: the options that take words are found in --help" takes_words rc-solve '--along --kernel --method --output --tilt --track --type '
 
 # ---- two names ----
 
