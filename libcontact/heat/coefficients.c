@@ -5,9 +5,9 @@
  *     C = 1/(k sqrt(pi)) int_S^T X Y exp(-z^2/tau^2) dtau,   T = sqrt(4 kap time), or infinite,
  *     X = [erf((x + dx/2 - px tau^2/2)/tau) - erf((x - dx/2 - px tau^2/2)/tau)]/2,   Y likewise.
  *
- * S is 0, or T for the time since heating ended. X and Y depend on one index each, so all coefficients are one matrix product over the points of a quadrature.
- * Y = 1 for strips without end. Each factor is stored as its even and its odd part, and only at the nodes that
- * it reaches at this tau.
+ * S is 0, or T for the time since heating ended. X and Y depend on one index each, so all coefficients are one
+ * matrix product over the points of a quadrature. Y = 1 for strips without end. Each factor is stored as its
+ * even and its odd part, and only at the nodes that it reaches at this tau.
  */
 #include <stdlib.h>
 
@@ -18,12 +18,10 @@
 enum {
     GAUSS = 8 /* points of a panel */
 };
-static const double reach = 6;   /* erfc(6) = 2e-17                                            */
-static const double ratio = 1.5; /* of the edges of panels                                      */
-static const double first_part =
-    14; /* of the smaller side of a cell: the first panel              */
-static const double tail_panels =
-    4; /* where the integrand is a polynomial of 1/tau                */
+static const double reach = 6;       /* erfc(6) = 2e-17 */
+static const double ratio = 1.5;     /* of the edges of panels */
+static const double first_part = 14; /* of the smaller side of a cell: the first panel */
+static const double tail_panels = 4; /* where the integrand is a polynomial of 1/tau */
 
 /* X or Y at the nodes first .. first + n - 1 for one tau. */
 struct span {

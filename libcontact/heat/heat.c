@@ -6,8 +6,8 @@
  *     (C1 + C2) f = C2 q + D   at the nodes in contact,   f = 0 elsewhere.
  *
  * C1 + C2 is not symmetric where a body moves, but its symmetric part is positive. It is solved by GMRES
- * without restart (Saad and Schultz 1986). The preconditioner M on the right is that of inverse.c. The residual is then the difference of the temperatures, and its
- * largest value decides when to stop.
+ * without restart (Saad and Schultz 1986), with the preconditioner of inverse.c on the right. The residual is
+ * then the difference of the temperatures, and its largest value decides when to stop.
  */
 #include <float.h>
 #include <stdlib.h>
