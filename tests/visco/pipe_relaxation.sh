@@ -44,6 +44,9 @@ between 0 "$(field relaxation_misfit curve.json)" 0.05 "  with a small misfit"
 $solve $solid --load 0.2mN --time 3ms,50ms --checkpoint k.rcg -o once.rcg ball.rcg
 $solve $solid --load 0.2mN --time 3ms,50ms --checkpoint k.rcg --resume -o again.rcg ball.rcg
 claim "a resumed run has the same frames" cmp once.rcg again.rcg
+claim "panels have their times, and not the load that they share" bash -c "
+    rc-render --channel pressure -o times.svg once.rcg && says 'time 3 ms' cat times.svg &&
+    ! grep -q ') load' times.svg"
 refuses 1 'state|differ|checkpoint' "other times" \
     "$solve $solid --load 0.2mN --time 4ms,50ms --checkpoint k.rcg --resume -o x.rcg ball.rcg"
 claim "--dry-run tells the times and the work" bash -c "

@@ -77,22 +77,35 @@ subtitle_part(struct subtitle *w, double part)
     subtitle_add(w, text, " % of the map");
 }
 
+/* Names of keys with the units of their numbers; texts have none. A state identifies a case. */
+static const struct {
+    const char *key, *name, *unit;
+    bool state;
+} pieces[] = {{"source", "", NULL, false},          {"case", "case ", NULL, false},
+              {"load", "load ", "N", true},         {"distance", "distance ", "m", true},
+              {"time", "time ", "s", true},         {"speed", "speed ", "m/s", true},
+              {"position", "position ", "m", true}, {"depth", "depth ", "m", false},
+              {"material", "", NULL, false}}; /* a separate word */
+
+enum {
+    PIECES = sizeof pieces / sizeof *pieces
+};
+
 void
 subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey *s,
                const struct means *means, double part, bool largest)
 {
     const char *source = rc_grid_get(g, "source"), *number = rc_grid_get(g, "case");
     char text[TICKS_TEXT];
-    double load, distance;
+    double value;
 
     if (source != NULL)
         subtitle_add(w, "", source);
     if (number != NULL)
         subtitle_add(w, "case ", number);
-    if (rc_grid_number(g, "load", &load))
-        subtitle_add(w, "load ", scale_value(text, load, "N"));
-    if (rc_grid_number(g, "distance", &distance))
-        subtitle_add(w, "distance ", scale_value(text, distance, "m"));
+    for (size_t p = 0; p < PIECES; p++)
+        if (pieces[p].state && rc_grid_number(g, pieces[p].key, &value))
+            subtitle_add(w, pieces[p].name, scale_value(text, value, pieces[p].unit));
     say_where(w, g, largest);
     subtitle_part(w, part);
     subtitle_range(w, g, s, means);
@@ -113,17 +126,6 @@ subtitle_same(struct rc_grid *const *grid, size_t n, const char *key)
     return true;
 }
 
-/* Names of keys with the units of their numbers; texts have none. */
-static const struct {
-    const char *key, *name, *unit;
-} pieces[] = {{"source", "", NULL},     {"case", "case ", NULL},
-              {"load", "load ", "N"},   {"distance", "distance ", "m"},
-              {"depth", "depth ", "m"}, {"material", "", NULL}}; /* a separate word */
-
-enum {
-    PIECES = sizeof pieces / sizeof *pieces
-};
-
 static const char *
 piece_text(char text[TICKS_TEXT], const struct rc_grid *g, size_t p)
 {
@@ -138,27 +140,46 @@ piece_text(char text[TICKS_TEXT], const struct rc_grid *g, size_t p)
     return rc_grid_get(g, pieces[p].key);
 }
 
+/* Loads that differ by less than their text shows are the same. */
+static bool
+piece_same(struct rc_grid *const *grid, size_t n, size_t p)
+{
+    char first[TICKS_TEXT], other[TICKS_TEXT];
+    double number;
+
+    if (pieces[p].unit == NULL || !rc_grid_number(grid[0], pieces[p].key, &number))
+        return subtitle_same(grid, n, pieces[p].key);
+    scale_value(first, number, pieces[p].unit);
+    for (size_t k = 1; k < n; k++)
+        if (!rc_grid_number(grid[k], pieces[p].key, &number) ||
+            strcmp(first, scale_value(other, number, pieces[p].unit)) != 0)
+            return false;
+    return true;
+}
+
 void
 subtitle_common(struct subtitle *w, struct rc_grid *const *grid, size_t n)
 {
     char text[TICKS_TEXT];
 
     for (size_t p = 0; p < PIECES; p++)
-        if (rc_grid_get(grid[0], pieces[p].key) != NULL && subtitle_same(grid, n, pieces[p].key))
+        if (rc_grid_get(grid[0], pieces[p].key) != NULL && piece_same(grid, n, p))
             subtitle_add(w, pieces[p].name, piece_text(text, grid[0], p));
 }
 
-/* If the load or the sliding distance identifies the frame, the number of its case is omitted. */
+/* If a state identifies the frame, the number of its case is omitted. */
 void
 frame_label(char *text, size_t size, struct rc_grid *const *grid, size_t n, size_t k)
 {
-    bool named = !subtitle_same(grid, n, "load") || !subtitle_same(grid, n, "distance");
+    bool named = false;
     char value[TICKS_TEXT];
     size_t used = 0;
 
+    for (size_t p = 0; p < PIECES; p++)
+        named = named || (pieces[p].state && !piece_same(grid, n, p));
     text[0] = '\0';
     for (size_t p = 0; p < PIECES && used < size; p++) {
-        if (rc_grid_get(grid[k], pieces[p].key) == NULL || subtitle_same(grid, n, pieces[p].key) ||
+        if (rc_grid_get(grid[k], pieces[p].key) == NULL || piece_same(grid, n, p) ||
             (named && strcmp(pieces[p].key, "case") == 0))
             continue;
         used += (size_t)snprintf(text + used, size - used, "%s%s%s", used == 0 ? "" : ", ",
