@@ -37,8 +37,10 @@ static const double last_part = 0.1, per_tolerance = 0.4;
 static const double fewest = 4;
 /* The tolerance of their contacts, over that of the others. Where the last valleys close, a few nodes can
  * carry several times the mean pressure within the usual tolerance. The next contact starts there and keeps
- * it. The largest pressure was wrong by 165 %, and with a tenth of the tolerance by 1.0 %. */
-static const double accurate = 0.1;
+ * it. The largest pressure was wrong by 165 %, and with a tenth of the tolerance by 1.0 %. The tolerance
+ * bounds a sum over the map, so that one node of a larger map may be wrong by more: by 85 % of 1024 x 1024.
+ * The part therefore decreases with the number of nodes. */
+static const double accurate = 0.1, nodes_in_part = 750;
 static const double of_tol = 0.8; /* part of the tolerance for the steps; the rest is for the
                                      contacts */
 /* The estimate of a step misses nodes that come into contact within it: at worst it is 0.55 of the error. */
@@ -185,6 +187,13 @@ most_lost(const struct wear *v)
     return v->k + v->row * v->base.shape.dx * (double)v->base.shape.nx;
 }
 
+/* The tolerance of the contact of this stage, over that of the others. */
+static double
+accuracy(const struct wear *v)
+{
+    return v->stage == LAST ? fmin(accurate, nodes_in_part / (double)v->n) : 1;
+}
+
 /* Gives the inner model the heights and the compliance of this stage. */
 static enum rc_status
 pose(struct wear *v, struct rc_err *err)
@@ -201,7 +210,7 @@ pose(struct wear *v, struct rc_err *err)
     if (rc_model_set_compliance(v->base.inner, v->k * v->over, v->law.part, v->row * v->over,
                                 err) != RC_OK)
         return RC_FAIL;
-    v->base.inner->row->accuracy(v->base.inner, v->stage == LAST ? accurate : 1);
+    v->base.inner->row->accuracy(v->base.inner, accuracy(v));
     return rc_model_set_heights(v->base.inner, v->room, err);
 }
 

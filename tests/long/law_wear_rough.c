@@ -27,7 +27,9 @@ static const double at[OUTPUTS] = {1, 10, 100, 1000};   /* in dx/(k E*)     */
 static const double usual = 0.1, finer = 100, finer_contacts = 1000;
 /* Relative L1 errors. */
 static const double most_wear = 5e-3, most_pressure = 2e-2;
-static const double most_area = 0.01, most_convolutions = 270;
+static const double most_area = 0.01;
+/* On maps above 256 x 256 nodes the contacts before an output are more accurate. */
+static const double most_convolutions = 270, on_large_maps = 290;
 /* The largest pressure is that of one node, which no estimate bounds. */
 static const double most_peak = 0.05;
 
@@ -127,7 +129,7 @@ wear_map(const struct rc_shape *s, const double *h, double part, unsigned seed, 
     print_message("    %zu steps, %zu contacts, %.0f convolutions; the fine run: %zu steps, %.0f\n",
                   f->steps, f->contacts, f->convolutions, rc_wear_result(fine.m)->steps,
                   rc_wear_result(fine.m)->convolutions);
-    assert_true(f->convolutions <= most_convolutions);
+    assert_true(f->convolutions <= (s->nx > 256 ? on_large_maps : most_convolutions));
     rc_model_free(r.m);
     rc_model_free(fine.m);
     free(r.p);
