@@ -1,9 +1,10 @@
 """rc-app: a page in the browser that runs the rc-* tools on this machine.
 
-The page is served on 127.0.0.1 alone, below a path with a secret token. A run is a list of commands. It has a folder
-of its own, where the tools run with the arguments that the page shows. rc-app(1) describes the limits.
+The page is served on 127.0.0.1 alone, below a path with a secret token. A run is a list of commands. It has a
+folder of its own, where the tools run with the arguments that the page shows. rc-app(1) describes the limits.
 """
 import argparse
+import contextlib
 import functools
 import hmac
 import http.server
@@ -29,15 +30,15 @@ from . import __version__, stream, tools
 
 UPLOAD_MAX = 2 << 30  # bytes of a file
 PAGES_MAX = 4         # open pages: each holds a connection, and browsers allow six
-RUNS_MAX = 8          # runs that are kept
 TOGETHER = 2          # runs at the same time
 GRACE = 3             # seconds without a page, as while it reloads, after which its tools end
 IDLE = 600            # seconds without a page, after which the program ends
-ASSETS = {'': 'index.html', 'page.css': 'page.css', 'page.js': 'page.js', 'map.js': 'map.js'}
+PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'page')
+ASSETS = ('', 'page.css', 'page.js', 'map.js')
 HEADERS = {'Cache-Control': 'no-store', 'X-Content-Type-Options': 'nosniff', 'Referrer-Policy': 'no-referrer',
-           'Cross-Origin-Resource-Policy': 'same-origin',
-           'Content-Security-Policy': "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
-                                      "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}
+           'Cross-Origin-Resource-Policy': 'same-origin', 'Content-Security-Policy':
+           "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
+           "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}
 # Options that the page sets itself, and files that a later run would continue.
 HIDDEN = tools.HIDDEN | {'checkpoint', 'resume', 'interval', 'keep-going'}
 MAKERS = ('rc-render', 'rc-info', 'rc-export', 'rc-report')
@@ -56,7 +57,7 @@ class Refused(Exception):
 
 @functools.lru_cache()
 def tables():
-    """The tools of this installation that the page runs, with the options that it may set; rc-leak may be missing."""
+    """The tools that the page runs, with the options that it may set; an installation may lack rc-leak."""
     found = {}
     for name in sorted(tools.FUNCTIONS.values()):
         try:
@@ -79,7 +80,7 @@ def words_of(tool, options):
         if name not in rows or not (text or value is True):
             raise Refused('%s has no option --%s on this page' % (tool, name))
         if re.search('[\0-\x1f]', text) or ('/' in text and 'FILE' in (rows[name]['argument'] or '')):
-            raise Refused('--%s %s: give the name of a file that was dropped here, without a folder' % (name, text))
+            raise Refused('--%s %s: give the name of a file on this page, without a folder' % (name, text))
         try:
             words += tools._arguments(rows[name], '--' + name, value)
         except (TypeError, ValueError) as e:
@@ -90,34 +91,32 @@ def words_of(tool, options):
 def safe_name(name):
     """The base name of a file that the browser names: no folders, control characters or names of steps."""
     name = re.sub('[\0-\x1f\x7f-\x9f\ud800-\udfff]', '_', re.split(r'[/\\]', name)[-1])
-    while len(name.encode()) > 200:
-        name = name[1:]
+    name = name.encode()[-200:].decode(errors='ignore')
     return '_' + name if name in ('', '.', '..') or re.match(r'\d+-[a-z]+\.(rcg|tsv)$', name) else name
 
 
 def sample():
     """The sample surface of the package; None where it is not installed."""
-    try:
+    with contextlib.suppress(FileNotFoundError):
         return os.path.realpath(tools.sample())
-    except FileNotFoundError:
-        return None
 
 
 class Step:
-    """A command of a run, and how it goes: waiting, running, done, short (of the accuracy), failed or stopped."""
+    """A command of a run; it is waiting, running, done, short (of the accuracy), failed or stopped."""
 
     def __init__(self, tool, options, number, source):
         if not tables()[tool]['step']:
             raise Refused('%s is no step of this page' % tool)
         stem = '%d-%s' % (number, tool[3:])
-        self.tool, self.output, self.report = tool, stem + '.rcg', stem + '.tsv' if tables()[tool]['report'] else None
+        self.tool, self.output = tool, stem + '.rcg'
+        self.report = stem + '.tsv' if tables()[tool]['report'] else None
         report = ['--report', self.report] if self.report else []
         self.command = [tool] + words_of(tool, options) + report + ['-o', self.output, source]
         self.state, self.words, self.progress, self.doing, self.seconds = 'waiting', '', None, '', None
 
 
 def steps_of(file, asked):
-    """The steps [{tool, options, from}, ...] on a file; `from` is the number of the step whose output is read."""
+    """The steps [{tool, options, from}, ...] on a file; `from` is the number of the step that is read."""
     made = []
     for number, step in enumerate(asked, 1):
         source = file['shown'] if number == 1 else made[step['from'] - 1].output
@@ -126,7 +125,7 @@ def steps_of(file, asked):
 
 
 def frames_of(path):
-    """The headers of a stream that a tool wrote, each with the place and the size of its values in the file."""
+    """The headers of a stream that a tool wrote, each with the place and the size of its values."""
     found = []
     with open(path, 'rb') as file:
         while file.readline() == b'RCG1\n':
@@ -143,8 +142,9 @@ class Run:
     """Commands on one file, one after another, in a folder."""
 
     def __init__(self, desk, number, file, steps):
-        self.desk, self.number, self.file, self.steps, self.folder = desk, number, file, steps, desk.new_folder()
-        self.state, self.child, self.cancelled = 'waiting', None, threading.Event()
+        self.desk, self.number, self.file, self.steps = desk, number, file, steps
+        self.folder, self.state, self.child = tempfile.mkdtemp(dir=desk.folder), 'waiting', None
+        self.cancelled = threading.Event()
         for path in {other['name']: other['path'] for other in desk.files}.values():  # the last of each name
             os.symlink(path, os.path.join(self.folder, os.path.basename(path)))
         threading.Thread(target=self.work, daemon=True).start()
@@ -209,8 +209,8 @@ class Desk(http.server.ThreadingHTTPServer):
 
     def __init__(self, port, folder, file):
         super().__init__(('127.0.0.1', port), Request)
-        self.folder, self.made, self.files, self.runs, self.children = folder, 0, [], {}, set()
-        self.lock, self.room = threading.Lock(), threading.BoundedSemaphore(TOGETHER)
+        self.folder, self.files, self.runs, self.children = folder, [], {}, set()
+        self.room = threading.BoundedSemaphore(TOGETHER)
         self.token, self.once = secrets.token_urlsafe(24), secrets.token_urlsafe(24)
         self.ended, self.pages, self.left = threading.Event(), 0, time.monotonic()
         self.first = [path and self.add_file(path, path)['id'] for path in (sample(), file)]
@@ -221,35 +221,14 @@ class Desk(http.server.ThreadingHTTPServer):
     def handle_error(self, request, client_address):
         pass  # a browser that has gone
 
-    def new_folder(self):
-        with self.lock:
-            self.made += 1
-            folder = os.path.join(self.folder, str(self.made))
-        os.mkdir(folder)
-        return folder
-
     def add_file(self, path, shown):
         """A file that steps can read: `shown` is its name in commands."""
         with open(path, 'rb') as file:
             is_stream = file.read(4) == b'RCG1'
-        self.files.append({'name': os.path.basename(path), 'path': path, 'shown': './' + shown if shown.startswith('-') else shown,
-                           'stream': is_stream, 'size': os.path.getsize(path), 'id': len(self.files)})
+        shown = './' + shown if shown.startswith('-') else shown
+        self.files.append({'name': os.path.basename(path), 'path': path, 'shown': shown, 'stream': is_stream,
+                           'size': os.path.getsize(path), 'id': len(self.files)})
         return self.files[-1]
-
-    def start(self, file, steps):
-        """The number of a new run; the oldest that has ended makes room for it."""
-        ended = [run for run in self.runs.values() if run.state not in ACTIVE]
-        if len(self.runs) >= RUNS_MAX:
-            if not ended:
-                raise Refused('%d runs are waiting or running: cancel one' % RUNS_MAX, 429)
-            self.forget(ended[0])
-        number = max(self.runs, default=0) + 1
-        self.runs[number] = Run(self, number, file, steps)
-        return number
-
-    def forget(self, run):
-        del self.runs[run.number]
-        shutil.rmtree(run.folder, ignore_errors=True)
 
     def execute(self, command, folder, started=lambda child: None, progress=lambda said: None):
         """Runs a command in a folder: its exit status and its messages."""
@@ -284,18 +263,12 @@ class Request(http.server.BaseHTTPRequestHandler):
     def log_message(self, *words):
         pass
 
-    def do_GET(self):
-        self.answer('get_')
-
-    def do_POST(self):
-        self.answer('post_')
-
     def answer(self, verb):
         try:
             if not self.allowed():
-                raise Refused('rc-app: open the address that rc-app has printed: it holds the token of this session', 403)
+                raise Refused('open the address that rc-app printed: it holds the token of this session', 403)
             if verb == 'get_' and self.at in ASSETS:
-                return self.send_file(os.path.join(os.path.dirname(os.path.abspath(__file__)), 'page', ASSETS[self.at]))
+                return self.send_file(os.path.join(PAGE, self.at or 'index.html'))
             act = getattr(self, verb + self.at, None)
             if act is None:
                 raise Refused('rc-app: /%s does not exist' % self.at[:80], 404)
@@ -310,6 +283,9 @@ class Request(http.server.BaseHTTPRequestHandler):
             self.refuse(507, 'rc-app: %s' % e.strerror)
         except Exception as e:  # the request has missing or wrong parts
             self.refuse(400, 'rc-app: this request is not understood: %s %s' % (type(e).__name__, e))
+
+    do_GET = functools.partialmethod(answer, 'get_')
+    do_POST = functools.partialmethod(answer, 'post_')
 
     def allowed(self):
         """True for a request of the page: to a name of this machine, from no other page, with the token."""
@@ -376,13 +352,14 @@ class Request(http.server.BaseHTTPRequestHandler):
         self.head(303, 'text/plain', 0, Location=self.server.address(self.server.token))
 
     def get_desk(self):
-        return {'files': self.server.files, 'first': self.server.first, 'tables': tables(), 'most': UPLOAD_MAX}
+        desk = self.server
+        return {'files': desk.files, 'first': desk.first, 'tables': tables(), 'most': UPLOAD_MAX}
 
     def get_events(self):
         """Sends the runs when they change, until the page is closed."""
         desk, said = self.server, None
         if desk.pages >= PAGES_MAX:
-            raise Refused('%d pages are open already: close one of them, then load this page again' % PAGES_MAX, 429)
+            raise Refused('%d pages are open: close one of them, then load this page again' % PAGES_MAX, 429)
         self.close_connection = True
         self.head(200, 'text/event-stream', None, Connection='close')
         desk.pages += 1
@@ -398,8 +375,8 @@ class Request(http.server.BaseHTTPRequestHandler):
     def post_upload(self):
         desk, size = self.server, self.length(UPLOAD_MAX)
         if size > shutil.disk_usage(desk.folder).free // 2:
-            raise Refused('the file needs more than half of the free space of %s: set TMPDIR' % desk.folder, 507)
-        path = os.path.join(desk.new_folder(), safe_name(self.query['name']))
+            raise Refused('the file needs over half of the free space of %s: set TMPDIR' % desk.folder, 507)
+        path = os.path.join(tempfile.mkdtemp(dir=desk.folder), safe_name(self.query['name']))
         with open(path, 'wb') as file:
             while size > 0:
                 part = self.rfile.read(min(size, 1 << 20))
@@ -414,13 +391,19 @@ class Request(http.server.BaseHTTPRequestHandler):
         asked, desk = json.loads(self.rfile.read(self.length(1 << 20))), self.server
         file = desk.files[asked['file']]
         made = steps_of(file, asked['steps'])
-        commands = [shlex.join(step.command) for step in made]
-        return {'commands': commands, 'run': desk.start(file, made) if asked['start'] and made else None}
+        number = max(desk.runs, default=0) + 1 if asked['start'] and made else None
+        if number is not None:
+            desk.runs[number] = Run(desk, number, file, made)
+        return {'commands': [shlex.join(step.command) for step in made], 'run': number}
 
     def post_remove(self):
         """Cancels a run, or removes one that has ended."""
         run = self.run()
-        run.cancel() if run.state in ACTIVE else self.server.forget(run)
+        if run.state in ACTIVE:
+            run.cancel()
+        else:
+            del self.server.runs[run.number]
+            shutil.rmtree(run.folder, ignore_errors=True)
         return {}
 
     def post_quit(self):
@@ -430,20 +413,19 @@ class Request(http.server.BaseHTTPRequestHandler):
     # ---- results ----
 
     def get_frames(self):
-        heads = [keys for keys, _, _ in frames_of(self.output()[2])]
-        return [{k: v for k, v in keys.items() if k != 'history' and not k.startswith('file.')} for keys in heads]
+        return [{k: v for k, v in keys.items() if k != 'history' and not k.startswith('file.')}
+                for keys, _, _ in frames_of(self.output()[2])]
 
     def get_values(self):
         path = self.output()[2]
-        _, at, size = frames_of(path)[int(self.query['frame'])]
-        self.send_file(path, at, size)
+        self.send_file(path, *frames_of(path)[int(self.query['frame'])][1:])
 
     def get_colours(self):
         """A PNG of 257 pixels: the colours in which rc-render shows 256 even values and a missing one."""
-        values = numpy.linspace(float(self.query['low']), float(self.query['high']), 256)
-        ramp = stream.frame(self.query['channel'], numpy.append(values, numpy.nan), dx=1.0, unit=self.query['unit'])
-        more = {'colormap': self.query['colormap']} if self.query['colormap'] else {}
-        self.send(bytes(tools.draw([ramp], raw=True, quiet=True, **more)), 'image/png')
+        low, high, channel, unit = (self.query[name] for name in ('low', 'high', 'channel', 'unit'))
+        values = numpy.append(numpy.linspace(float(low), float(high), 256), numpy.nan)
+        ramp = stream.frame(channel, values, dx=1.0, unit=unit)
+        self.send(bytes(tools.draw([ramp], raw=True, quiet=True)), 'image/png')
 
     def get_made(self):
         """What rc-render, rc-info, rc-export or rc-report makes of a step; the command is in a header."""
@@ -453,13 +435,14 @@ class Request(http.server.BaseHTTPRequestHandler):
         source = step.report if any(name == 'curve' for name, _ in options) else step.output
         if tool == 'rc-report':  # about the surface that is pressed
             source = next((s.command[-1] for s in run.steps if s.tool == 'rc-solve'), source)
-        words, name, folder = [tool] + words_of(tool, options) + ['-o'], safe_name(self.query['name']), self.server.new_folder()
-        status, said = self.server.execute(words + [os.path.join(folder, name), source], run.folder)
-        if status not in (0, 3):
-            raise Refused(said or '%s ended with status %d' % (tool, status), 422)
-        self.send_file(os.path.join(folder, name), X_Command=urllib.parse.quote(shlex.join(words + [name, source])),
-                       X_Words=urllib.parse.quote(said), Content_Disposition='attachment')
-        shutil.rmtree(folder)
+        words, name = [tool] + words_of(tool, options) + ['-o'], safe_name(self.query['name'])
+        with tempfile.TemporaryDirectory(dir=self.server.folder) as folder:
+            status, said = self.server.execute(words + [os.path.join(folder, name), source], run.folder)
+            if status not in (0, 3):
+                raise Refused(said or '%s ended with status %d' % (tool, status), 422)
+            command, said = urllib.parse.quote(shlex.join(words + [name, source])), urllib.parse.quote(said)
+            self.send_file(os.path.join(folder, name), X_Command=command, X_Words=said,
+                           Content_Disposition='attachment')
 
     def get_file(self):
         run, step, path = self.output()
@@ -487,12 +470,13 @@ def serve(desk, opens):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(prog='rc-app', epilog='The manual is rc-app(1).',
-                                     description='Opens a page in the browser that runs the rc-* tools on this machine.')
-    parser.add_argument('file', metavar='FILE', nargs='?', help='a surface to begin with: a file or a grid stream')
-    parser.add_argument('--port', metavar='N', type=int, default=0, help='port on 127.0.0.1 (default: a free one)')
-    parser.add_argument('--no-browser', action='store_true', help='only print the address')
-    parser.add_argument('--version', action='version', version='rc-app (libcontact) ' + __version__)
+    about = 'Opens a page in the browser that runs the rc-* tools on this machine.'
+    parser = argparse.ArgumentParser(prog='rc-app', epilog='The manual is rc-app(1).', description=about)
+    add = parser.add_argument
+    add('file', metavar='FILE', nargs='?', help='a surface to begin with: a file or a grid stream')
+    add('--port', metavar='N', type=int, default=0, help='port on 127.0.0.1 (default: a free one)')
+    add('--no-browser', action='store_true', help='only print the address')
+    add('--version', action='version', version='rc-app (libcontact) ' + __version__)
     given = parser.parse_args(arguments)
     folder, what = tempfile.mkdtemp(prefix='rc-app-'), given.file
     try:

@@ -85,7 +85,7 @@ for name in shown/*; do
     fi
 done
 claim "frames and colours are those of the tools" check frames
-claim "a run uses the results of an earlier one; eight are kept" check again
+claim "a run uses the results of an earlier one; one that is removed leaves the others" check again
 claim "two runs at once, a third waits; cancelled, their tools end" check cancel
 claim "a fifth page is refused" check pages
 claim "a closed page ends its tools" check closed
