@@ -85,15 +85,20 @@ enum {
 };
 static double h[N], p[N], reference[N];
 
-static void
+static struct rc_shape
 make_rough(void)
 {
-    const struct rc_shape s = {NX, NX, 1e-6, 1e-6};
-    const struct rc_selfaffine what = {
-        .hurst = 0.8, .rms_slope = 0.1, .seed = 5, .long_cut = 64e-6, .short_cut = 8e-6};
+    const size_t nx = thorough(NX, NX / 2);
+    const struct rc_shape s = {nx, nx, 1e-6, 1e-6};
+    const struct rc_selfaffine what = {.hurst = 0.8,
+                                       .rms_slope = 0.1,
+                                       .seed = 5,
+                                       .long_cut = (double)nx / 2 * 1e-6,
+                                       .short_cut = 8e-6};
     struct rc_err err;
 
     assert_int_equal(rc_synth_selfaffine(&s, &what, h, &err), RC_OK);
+    return s;
 }
 
 /* The integral of f(r, t - s) over s from a to b, by Simpson's rule. */
@@ -113,16 +118,16 @@ memory_of(double (*f)(const struct rc_relaxation *r, double t), const struct rc_
 
 /* The nodes whose contact differs from that of elastic bodies under this load. */
 static size_t
-others(enum rc_boundary boundary, double load, const double *pressure, double *approach)
+others(struct rc_shape s, enum rc_boundary boundary, double load, const double *pressure,
+       double *approach)
 {
-    const struct rc_shape s = {NX, NX, 1e-6, 1e-6};
     struct rc_problem problem = {
         .boundary = boundary, .pair.estar = glass, .load = load, .tol = 1e-6, .threads = 1};
     struct solved elastic = solve(s, h, problem);
     size_t n = 0;
 
     assert_int_equal(elastic.status, RC_OK);
-    for (size_t k = 0; k < N; k++)
+    for (size_t k = 0; k < s.nx * s.ny; k++)
         n += rc_in_contact(elastic.p[k]) != rc_in_contact(pressure[k]);
     *approach = elastic.c.approach;
     solved_free(&elastic);
@@ -133,14 +138,13 @@ others(enum rc_boundary boundary, double load, const double *pressure, double *a
 static void
 rising(void **state)
 {
-    const struct rc_shape s = {NX, NX, 1e-6, 1e-6};
-    const double load = 0.01 * glass * N * 1e-12, hold = 30;
+    const struct rc_shape s = make_rough();
+    const double load = 0.01 * glass * (double)(s.nx * s.ny) * 1e-12, hold = 30;
     struct bodies b;
     const struct rc_viscoelastic_figures *f;
     double now, approach;
 
     (void)state;
-    make_rough();
     b = bodies_of(&s, h, RC_PERIODIC, 1e-6, 20, material_of(0.2, 3, part, tau));
     press(&b, RC_LOAD, load / 4, 0, NULL);
     press(&b, RC_LOAD, load, 1, NULL);
@@ -148,7 +152,7 @@ rising(void **state)
     now = load / 4 * rc_relaxation_compliance(b.material, hold) +
           3 * load / 4 * memory_of(rc_relaxation_compliance, b.material, hold, 0, 1);
     assert_true(fabs(f->equivalent_load / (now / b.material->instant) - 1) < 1e-9);
-    assert_int_equal(others(RC_PERIODIC, f->equivalent_load, p, &approach), 0);
+    assert_int_equal(others(s, RC_PERIODIC, f->equivalent_load, p, &approach), 0);
     assert_true(fabs(f->contact.approach / approach - 1) < 1e-3);
     assert_true(f->contact.contact_fraction > 0.1 && f->contact.converged);
     leave(&b);
@@ -158,14 +162,13 @@ rising(void **state)
 static void
 falling(void **state)
 {
-    const struct rc_shape s = {NX, NX, 1e-6, 1e-6};
-    const double load = 0.02 * glass * N * 1e-12, until = 1.5;
+    const struct rc_shape s = make_rough();
+    const double load = 0.02 * glass * (double)(s.nx * s.ny) * 1e-12, until = 1.5;
     const struct rc_viscoelastic_figures *f;
     struct bodies b;
     double low = 0, high = 1, now, approach;
 
     (void)state;
-    make_rough();
     b = bodies_of(&s, h, RC_FREE, 1e-6, 40, material_of(0.2, 3, part, tau));
     press(&b, RC_LOAD, 0, 0, NULL);
     press(&b, RC_LOAD, load, 1, NULL);
@@ -185,8 +188,8 @@ falling(void **state)
         *(sum * t1 / (6 * PANELS) < 2 - until ? &low : &high) = t1;
     }
     now = load * memory_of(rc_relaxation_compliance, b.material, low, 0, low);
-    assert_int_equal(others(RC_FREE, now / b.material->instant, p, &approach), 0);
-    assert_true(f->contact.contact_nodes > 1000 && f->contact.converged);
+    assert_int_equal(others(s, RC_FREE, now / b.material->instant, p, &approach), 0);
+    assert_true(f->contact.contact_fraction > 0.1 && f->contact.converged);
     leave(&b);
 }
 
@@ -211,7 +214,7 @@ ting_ball(void **state)
 {
     const double most = 4e-6, times[] = {0.2, 1, 1.2, 1.4, 1.9};
     const struct rc_viscoelastic_figures *f;
-    struct bodies b = ball(30, 64, material_of(0.2, 3, part, tau));
+    struct bodies b = ball(20, thorough(64, 48), material_of(0.2, 3, part, tau));
 
     (void)state;
     press(&b, RC_APPROACH, 0, 0, NULL);
@@ -309,7 +312,8 @@ elastic(void **state)
 
 /* ---- steps ---- */
 
-/* Up, down and a hold: pressures of 30, 60 and 120 steps a leg against 480. */
+/* Up, down and a hold: pressures of 30 and 60 steps a leg against 240. Before a release they are 30, 60 and
+ * 120, against 480. */
 static void
 second_order(void **state)
 {
@@ -317,16 +321,16 @@ second_order(void **state)
     const struct rc_selfaffine what = {
         .hurst = 0.8, .rms_slope = 0.1, .seed = 5, .long_cut = 32e-6, .short_cut = 16e-6};
     const double load = 0.02 * glass * 1024e-12, loads[] = {0, 1.5 * load, load, load};
-    const size_t steps[] = {480, 30, 60, 120};
+    const size_t steps[] = {thorough(480, 240), 30, 60, 120}, runs = thorough(4, 3);
     static double truth[4][1024];
     double before = 0;
     struct rc_err err;
 
     (void)state;
     assert_int_equal(rc_synth_selfaffine(&s, &what, h, &err), RC_OK);
-    for (int q = 0; q < 4; q++) {
+    for (size_t q = 0; q < runs; q++) {
         struct bodies b =
-            bodies_of(&s, h, RC_PERIODIC, 1e-8, steps[q], material_of(0.2, 3, part, tau));
+            bodies_of(&s, h, RC_PERIODIC, 1e-7, steps[q], material_of(0.2, 3, part, tau));
         double sum = 0;
         for (int k = 0; k < 4; k++) {
             const struct rc_viscoelastic_figures *f =
