@@ -433,6 +433,8 @@ class Request(http.server.BaseHTTPRequestHandler):
         if tool not in MAKERS:
             raise Refused('%s makes no file here' % tool)
         source = step.report if any(name == 'curve' for name, _ in options) else step.output
+        if source is None:
+            raise Refused('%s writes no report, so it has no curves: choose another result' % step.tool, 422)
         if tool == 'rc-report':  # about the surface that is pressed
             source = next((s.command[-1] for s in run.steps if s.tool == 'rc-solve'), source)
         words, name = [tool] + words_of(tool, options) + ['-o'], safe_name(self.query['name'])

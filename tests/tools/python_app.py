@@ -242,6 +242,8 @@ def again():
     number = ended(start(SAMPLE, ('rc-import', [])))['number']
     found('remove', {'run': number - 1}, b'')
     refused(404, 'was removed', 'frames', {'run': number - 1, 'step': 0})
+    curve = {'options': json.dumps([['curve', 'load:contact_area']]), 'tool': 'rc-render', 'name': 'a.png'}
+    refused(422, 'writes no report', 'made', dict(curve, run=number, step=0))
     assert found('frames', {'run': first, 'step': 0}) and found('frames', {'run': number, 'step': 0})
 
 
