@@ -148,6 +148,17 @@ def errors(page):
     ok('a curve of six loads is drawn', page.evaluate('() => document.querySelector("#picture").naturalWidth > 300'))
 
 
+def remove(page):
+    """A run is selected in the list and removed."""
+    page.check('#views input[value=Map]', force=True)
+    names = page.locator('#runs option').all_text_contents()
+    page.select_option('#runs', label=names[0])
+    page.wait_for_selector('body[data-run^="1 "]', state='attached')
+    page.click('#remove')
+    page.wait_for_function('count => document.querySelectorAll("#runs option").length === count', arg=len(names) - 1)
+    ok('a run is selected and removed', names[0] not in page.locator('#runs option').all_text_contents())
+
+
 def crop(page):
     drop(page, 'rough-steel.x3p')
     page.check('#views input[value=Map]', force=True)
@@ -197,7 +208,7 @@ def large(page):
 with sync_playwright() as playwright:
     wide = Browser(playwright)
     page = wide.open()
-    for check in (by_keyboard, errors, crop, large):
+    for check in (by_keyboard, errors, remove, crop, large):
         try:
             check(page)
         except Exception as e:

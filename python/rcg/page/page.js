@@ -170,11 +170,14 @@ function select(number) {
 const drop = trying(number => ask('remove', {run: number}, ''));
 function news() {
   run = runs.find(other => other.number === run?.number) ?? (active(run) ? run : runs.at(-1) ?? null);
-  $('runs').replaceChildren(...runs.flatMap(({number, state}) => [
-    button(`Run ${number}: ${state}`, () => select(number), {'aria-pressed': number === run.number}),
-    button('✕', () => drop(number), {'aria-label': 'Cancel or remove run ' + number})]));
+  const names = runs.map(({number, state}) => new Option(`Run ${number}: ${state}`, number));
+  const said = names.map(option => option.text).join('');
+  if ($('runs').textContent !== said) $('runs').replaceChildren(...names); // an open list stays
+  $('runs').value = run?.number ?? '';
   states();
   $('cancel').disabled = !active(run);
+  $('remove').disabled = !run || active(run);
+  $('result').hidden ||= !run;
   if (!run) return;
   const [now, failed] = ['running', 'failed'].map(state => run.steps.find(step => step.state === state));
   $('progress').value = (run.steps.filter(well).length + (now?.progress ?? 0)) / (run.steps.length || 1);
@@ -218,12 +221,10 @@ const show = trying(async () => {
   $('look').hidden = $('sliders').hidden = view === 'Map';
   $('stage').classList.add('busy');
   downloads();
-  try {
-    await (view === 'Map' ? showMap : showMade)(frame, valid);
-    if (valid()) document.body.dataset.shown = `${run.number} ${view} ${frame.channel}`;
-  } finally {
-    if (valid()) $('stage').classList.remove('busy');
-  }
+  await (view === 'Map' ? showMap : showMade)(frame, valid);
+  if (!valid()) return; // after an error the old picture stays pale
+  document.body.dataset.shown = `${run.number} ${view} ${frame.channel}`;
+  $('stage').classList.remove('busy');
 });
 async function showMap(f, valid) {
   const {channel, unit} = f, size = `${f.nx} × ${f.ny} nodes`;
@@ -360,8 +361,8 @@ trying(async () => {
   } else if (opened !== null) begin(desk.files[opened]);
 })();
 const CLICKS = {
-  go: () => start(99), cancel: () => drop(run.number), crop, all: () => map.fit(), in: () => map.zoom(1.5),
-  out: () => map.zoom(1 / 1.5),
+  go: () => start(99), cancel: () => drop(run.number), remove: () => drop(run.number), crop,
+  all: () => map.fit(), in: () => map.zoom(1.5), out: () => map.zoom(1 / 1.5),
   quit: trying(async () => {
     await ask('quit', {}, '');
     document.body.textContent = 'rc-app has ended. You can close this page.';
@@ -380,6 +381,7 @@ $('add').onchange = () => {
   drawSteps();
   steps.at(-1).card.querySelector('input')?.focus();
 };
+$('runs').onchange = () => select(+$('runs').value);
 $('channel').onchange = () => { $('channel').dataset.kept = frames[$('channel').value].name; show(); };
 document.addEventListener('keydown', e => {
   if (e.key === 'Enter' && e.ctrlKey && file) start(99);
