@@ -39,6 +39,18 @@ $solve --relaxation curve.csv --load 0.2mN --time 50ms --report curve.json -o t.
 near "$(field approach curve.json)" "$(field approach typed.json)" 5e-3 "a master curve of this material is fitted"
 between 0 "$(field relaxation_misfit curve.json)" 0.05 "  with a small misfit"
 
+# ---- nothing asked, nothing paid ----
+
+$solve --E1 10MPa --load 0.2mN --report plain.json -o plain.rcg ball.rcg
+claim "a plain run has no figures of relaxation" bash -c "grep -q '\"relaxation\": \"left out' plain.json &&
+    ! grep -qE 'relaxation_|modulus_|equivalent_load|\"time\"' plain.json"
+claim "  and no key time" bash -c "rc-info --json plain.rcg >info.json && ! grep -q '\"time\"' info.json"
+$solve --relaxation 10MPa,0MPa:1ms --load 0.2mN --time 0 --report still.json -o still.rcg ball.rcg
+near "$(field convolutions still.json)" "$(field convolutions plain.json)" 0 \
+    "a body whose term is 0 takes the convolutions of an elastic one"
+for run in plain still; do rc-export --quiet -o $run.npy $run.rcg; done
+claim "  and has its pressures, to the byte" cmp plain.npy still.npy
+
 # ---- checkpoint, cost ----
 
 $solve $solid --load 0.2mN --time 3ms,50ms --checkpoint k.rcg -o once.rcg ball.rcg
