@@ -177,6 +177,7 @@ function news() {
   states();
   $('cancel').disabled = !active(run);
   $('remove').disabled = !run || active(run);
+  $('runs').hidden = $('remove').hidden = !run;
   $('result').hidden ||= !run;
   if (!run) return;
   const [now, failed] = ['running', 'failed'].map(state => run.steps.find(step => step.state === state));
