@@ -1214,8 +1214,8 @@ struct rc_wear_figures {
  * In addition to the load it takes the distance. h: the heights at the start, copied. The tolerance of the
  * inner model should be a hundredth of this one. Its frame `height` is the worn height, `wear` the depth that
  * both bodies have lost. Of two bodies that slide over each other the frames are those of the alignment of
- * the start, and only the error of the worn depth decides whether a point has converged. Source: Archard 1953 (J.
- * Appl. Phys. 24, 981); steps as in libcontact/wear. */
+ * the start, and only the error of the worn depth decides whether a point has converged. Source: Archard
+ * 1953 (J. Appl. Phys. 24, 981); steps as in libcontact/wear. */
 RC_API struct rc_model *rc_wear_new(struct rc_model *inner, const double *h,
                                     const struct rc_wear_problem *problem, struct rc_err *err);
 /* The figures of this model, after rc_model_look; NULL: it does not wear. */

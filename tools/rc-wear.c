@@ -455,7 +455,8 @@ suspect_unit(struct run *run, const struct rc_grid *g)
 
 /* ---- a worn map ---- */
 
-/* Warns of worn heights that are steep, and of a surface of which nothing is left. `room` has a map for them. */
+/* Warns of worn heights that are steep, and of a surface of which nothing is left. `room` has a map for
+ * them. */
 static void
 judge_map(struct run *run, struct rc_model *m, struct rc_grid *room)
 {

@@ -195,8 +195,8 @@ scale(const struct rc_map *map, double si, double *v)
     }
 }
 
-/* Sets infinite values, which some programs write for missing points, to missing and notes their number. RC_FAIL
- * when no finite value is left. */
+/* Sets infinite values, which some programs write for missing points, to missing and notes their number.
+ * RC_FAIL when no finite value is left. */
 static enum rc_status
 drop_infinite(struct rc_grid *g, struct rc_notes *notes, struct rc_err *err)
 {

@@ -155,7 +155,8 @@ void rc_gap_down(struct rc_gap *g, double first);
 /* ---- near.c ---- */
 
 /* Finds A times `step` without a convolution: `a` d with `cut` nodes cut off at 0. For a given mean, sum x
- * over the grid after the step is `sum`, and the step is changed to keep the mean. False if this does not pay. */
+ * over the grid after the step is `sum`, and the step is changed to keep the mean. False if this does not
+ * pay. */
 bool rc_gap_near(struct rc_gap *g, double a, size_t cut, double sum);
 /* A h, in the memory of a vector that is free outside the search for the softest mode. */
 static inline float *

@@ -14,8 +14,8 @@
  * R is the radius of the smallest ball about the path of s, where the square of a length is J2, and s* its
  * centre. tau is half of Tresca's stress of s - s*. T_a is half the range of the shear stress on a plane in a
  * direction, and <> its mean over all planes and directions. tau_a is the radius of the smallest circle about
- * the shear stress on a plane. rho is any stress sxx, syy: residual stresses that do not vary along the travel
- * leave these two free. Its ball has a centre that is free in two of five directions.
+ * the shear stress on a plane. rho is any stress sxx, syy: residual stresses that do not vary along the
+ * travel leave these two free. Its ball has a centre that is free in two of five directions.
  */
 #include "fatigue.h"
 

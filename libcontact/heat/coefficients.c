@@ -5,9 +5,9 @@
  *     C = 1/(k sqrt(pi)) int_S^T X Y exp(-z^2/tau^2) dtau,   T = sqrt(4 kap time), or infinite,
  *     X = [erf((x + dx/2 - px tau^2/2)/tau) - erf((x - dx/2 - px tau^2/2)/tau)]/2,   Y likewise.
  *
- * S is 0, or T for the time since heating ended. X and Y depend on one index each, so all coefficients are one
- * matrix product over the points of a quadrature. Y = 1 for strips without end. Each factor is stored as its
- * even and its odd part, and only at the nodes that it reaches at this tau.
+ * S is 0, or T for the time since heating ended. X and Y depend on one index each, so all coefficients are
+ * one matrix product over the points of a quadrature. Y = 1 for strips without end. Each factor is stored
+ * as its even and its odd part, and only at the nodes that it reaches at this tau.
  */
 #include <stdlib.h>
 
@@ -64,8 +64,8 @@ panel_end(double from, double p, double first)
 }
 
 /* Panels get wider by a ratio. An edge of the cell passes a point within 1/P, so they are no wider than that.
- * The last ends where all heated material has left the map; without motion, where the distance of the farthest
- * node is small. Counts the points where there is no memory for them yet. */
+ * The last ends where all heated material has left the map; without motion, where the distance of the
+ * farthest node is small. Counts the points where there is no memory for them yet. */
 static void
 add_panels(struct rc_heat_cells *c, const struct rc_shape *s, const struct rc_heated *b)
 {

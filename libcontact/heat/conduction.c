@@ -1,6 +1,7 @@
 /*
- * Temperatures of maps of heat flux by Fourier transforms. A free map is padded; the coefficients are transformed
- * by their even and odd parts, of which a quarter determines the whole. A periodic map needs only the symbol.
+ * Temperatures of maps of heat flux by Fourier transforms. A free map is padded; the coefficients are
+ * transformed by their even and odd parts, of which a quarter determines the whole. A periodic map needs
+ * only the symbol.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -175,8 +176,8 @@ row_out(void *ctx, size_t j, void *row)
     return true;
 }
 
-/* The real, then the imaginary parts of the spectrum of all bodies; a part with one odd direction has the factor
- * -i, one with two has -1. */
+/* The real, then the imaginary parts of the spectrum of all bodies; a part with one odd direction has the
+ * factor -i, one with two has -1. */
 RC_CLONES static void
 add_spectra(const struct pass *p, size_t i, double *to)
 {

@@ -1,8 +1,8 @@
 /*
  * Conduction of heat from a contact into a body whose material moves past it. Internal: never installed.
  *
- * The heat flux q(x, y) stands still, and the body moves with the velocity V = 2 kap P. With the conductivity k
- * and the diffusivity kap, its temperature T = C q obeys
+ * The heat flux q(x, y) stands still, and the body moves with the velocity V = 2 kap P. With the
+ * conductivity k and the diffusivity kap, its temperature T = C q obeys
  *
  *     dT/dt + V . grad T = kap lap T,   -k dT/dz = q at z = 0.
  *
@@ -27,8 +27,8 @@ struct rc_heated {
 /* ---- coefficients.c: temperatures of cells ---- */
 
 struct rc_heat_cells;
-/* Coefficients of cells of this shape, for offsets up to nx - 1 and ny - 1 nodes. With ny = 1 they are those of
- * strips without end along y. NULL when memory is short. */
+/* Coefficients of cells of this shape, for offsets up to nx - 1 and ny - 1 nodes. With ny = 1 they are
+ * those of strips without end along y. NULL when memory is short. */
 struct rc_heat_cells *rc_heat_cells_new(const struct rc_shape *offsets,
                                         const struct rc_heated *body, struct rc_err *err);
 void rc_heat_cells_free(struct rc_heat_cells *cells); /* NULL is allowed */

@@ -95,8 +95,8 @@ struct rc_model_row {
     /* From the next go on, the tolerance is this part of the one that the maker was given. A model with
      * `compliance` has it. */
     void (*accuracy)(struct rc_model *m, double part);
-    /* After `go`: starts the iteration from this pressure, Pa, which carries this load, N; p NULL: as if there
-     * had been no earlier point. */
+    /* After `go`: starts the iteration from this pressure, Pa, which carries this load, N; p NULL: as if
+     * there had been no earlier point. */
     enum rc_status (*start)(struct rc_model *m, double load, const double *p, struct rc_err *err);
     /* After `look`: z, Pa, is the approximate change of the pressure if the heights grow by e, m, under the
      * same load and contact. */

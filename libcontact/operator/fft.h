@@ -32,8 +32,8 @@ struct rc_fft *rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender,
 struct rc_frame {
     size_t x, y;
 };
-/* The factor of node `at` of a framed row or column, in which the map has the n nodes from `first` on: 1 on the
- * map, and beyond it a linear decrease to 0 at the end of `frame` nodes. */
+/* The factor of node `at` of a framed row or column, in which the map has the n nodes from `first` on: 1 on
+ * the map, and beyond it a linear decrease to 0 at the end of `frame` nodes. */
 static inline float
 rc_frame_fade(size_t at, size_t first, size_t n, size_t frame)
 {

@@ -490,8 +490,8 @@ multiply(const struct rc_layout *l, const REAL *s, unsigned parity, size_t r, co
     }
 }
 
-/* The ratio of n numbers. The inverse of a wave without stiffness is 0, also with a diagonal term, which may be
- * small: the load determines the mean. */
+/* The ratio of n numbers. The inverse of a wave without stiffness is 0, also with a diagonal term, which
+ * may be small: the load determines the mean. */
 RC_CLONES static void
 divide(size_t n, const REAL *restrict s, const struct rc_ratio *of, REAL *restrict to)
 {

@@ -80,10 +80,10 @@ const char *rc_operator_engine(const struct rc_shape *shape,
 double rc_operator_seconds(const struct rc_shape *shape, const struct rc_operator_options *options);
 
 /* Adds a diagonal D >= 0, m/Pa, to K, in place of the last one: a layer without lateral stiffness, displaced
- * by D p. D is `plus`, times part[k] of each node held here unless `part` is NULL; the caller keeps `part`. It
- * applies to everything above and below, except that the inverse has the typical D everywhere. And adds the
- * motion of whole rows, `row`, 1/Pa, times the integral of p along the row. 0: none. Keeps the bytes of a K
- * without them. RC_FAIL when memory is short. */
+ * by D p. D is `plus`, times part[k] of each node held here unless `part` is NULL; the caller keeps `part`.
+ * It applies to everything above and below, except that the inverse has the typical D everywhere. And adds
+ * the motion of whole rows, `row`, 1/Pa, times the integral of p along the row. 0: none. Keeps the bytes of
+ * a K without them. RC_FAIL when memory is short. */
 enum rc_status rc_operator_set_diagonal(struct rc_operator *op, double plus, const double *part,
                                         double row, struct rc_err *err);
 /* Finds the motion of the rows under a pressure, for rc_operator_own_motion. */

@@ -14,7 +14,8 @@ enum {
 };
 static const double growth = 1.25;
 
-/* Finds the largest Mises stress at the middle of each slab, and the number of nodes with more than `yield`. */
+/* Finds the largest Mises stress at the middle of each slab, and the number of nodes with more than
+ * `yield`. */
 static enum rc_status
 look(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
      const struct rc_body *body, double yield, size_t threads, size_t n, const double *middle,

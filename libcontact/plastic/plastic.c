@@ -31,9 +31,10 @@
  * not from e_b, beta is the largest value with flow; otherwise an unloading voxel would continue to flow. The
  * first increment of a load has beta 0 everywhere (backward Euler), because the load has turned.
  *
- * On a contact that travels, each position is one more increment of the same load, on other heights. There the
- * estimated error of the increments is the largest of all positions so far: behind the contact the errors of
- * the strain become even along the way, and an even strain changes no pressure, but the errors remain.
+ * On a contact that travels, each position is one more increment of the same load, on other heights. There
+ * the estimated error of the increments is the largest of all positions so far: behind the contact the
+ * errors of the strain become even along the way, and an even strain changes no pressure, but the errors
+ * remain.
  *
  * On a free map the contact is exactly that of the half-space. The stresses, and the displacement of the
  * surface by plastic strain, belong to a map that repeats after twice its sides. They differ from those of
@@ -74,8 +75,8 @@ static const double little =
 static const double once_part =
     0.5; /* this increment stays if its error is at most this part of the inherited error, */
 static const double once_least = 5e-4; /* or this */
-/* Error of the positions of a contact that travels over that of their terms of second order: 1.48 was the most for
- * steps of an eighth to a half of the half width of the contact. */
+/* Error of the positions of a contact that travels over that of their terms of second order: 1.48 was the
+ * most for steps of an eighth to a half of the half width of the contact. */
 static const double of_steps = 1.5;
 static const double keeps = 0.03;     /* part of a contact's tolerance that flow keeps */
 static const double kept_goal = 3e-3; /* tolerance of the contacts times all increments, at most */

@@ -1,5 +1,6 @@
 /*
- * Kalker's linear theory of rolling: where no node slips, an ellipse with the semi-axes a (along x) and b carries
+ * Kalker's linear theory of rolling: where no node slips, an ellipse with the semi-axes a (along x) and b
+ * carries
  *
  *     Fx = C11 G a b vx,   Fy = G a b (C22 vy + C23 sqrt(ab) phi)
  *
@@ -14,8 +15,8 @@ enum {
     TENTHS = 10
 };
 
-/* Kalker 1990, Three-dimensional elastic bodies in rolling contact, table E.3: C11, C22, C23; rows: the lesser
- * semi-axis over the larger one, 0.1 to 1. */
+/* Kalker 1990, Three-dimensional elastic bodies in rolling contact, table E.3: C11, C22, C23; rows: the
+ * lesser semi-axis over the larger one, 0.1 to 1. */
 static const double table[2][TENTHS][3][NUS] = {
     {/* a < b */
      {{2.51, 3.31, 4.85}, {2.51, 2.52, 2.53}, {.334, .473, .731}},

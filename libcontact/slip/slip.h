@@ -59,8 +59,8 @@ void rc_slip_increment(struct rc_slip *slip, struct rc_state *state);
 enum rc_status rc_slip_check(const struct rc_shape *shape, const struct rc_slip_problem *p,
                              struct rc_shear *shear, struct rc_err *err);
 
-/* Coefficients C11, C22, C23 of an ellipse: a/b, with a along x, and Poisson's ratio. NAN beyond 0.1 to 10, or
- * where nu is not in 0 to 0.5. */
+/* Coefficients C11, C22, C23 of an ellipse: a/b, with a along x, and Poisson's ratio. NAN beyond 0.1 to 10,
+ * or where nu is not in 0 to 0.5. */
 void rc_kalker(double ratio, double nu, double c[3]);
 
 /* The frames of friction and of rolling. */

@@ -8,10 +8,11 @@
  *
  *         sqrt(w) T^-1 (1 - rho S)^-1 sqrt(w) + (1 - w)/(D + b),   w = b/(b + D),   1 where nodes stick.
  *
- *     (1 - rho S)^-1 is a recursion along the rows, from the leading edge to the trailing one. rho = 1 - 1/run
- *     ends its tail behind the contact.
- *  3. Nodes that slip return to their circles along the radius, and the others are cut to their discs. The
- *     whole step is accepted if it lowers the natural residual |q - Pi(q - s/b)|, else a quarter of it, thrice.
+ *     (1 - rho S)^-1 is a recursion along the rows, from the leading edge to the trailing one.
+ *     rho = 1 - 1/run ends its tail behind the contact.
+ *  3. Nodes that slip return to their circles along the radius, and the others are cut to their discs.
+ *     The whole step is accepted if it lowers the natural residual |q - Pi(q - s/b)|, else a quarter of it,
+ *     thrice.
  *  4. If none does, the contact rolls one step in time: a projection of S q, which is never farther from the
  *     solution.
  *

@@ -28,8 +28,9 @@ struct rc_preconditioner {
         /* a field on the frame, row by row: all nodes of the row, or those left and right of the map; NULL:
          * no frame */
         frame;
-    /* A diagonal that differs by node has `levels` typical values, each `ratio` times the last; else 1. Node k
-     * has place[k] among them, 0 to levels - 1; `sum`: of the fields of all levels. NULL: never needed. */
+    /* A diagonal that differs by node has `levels` typical values, each `ratio` times the last; else 1.
+     * Node k has place[k] among them, 0 to levels - 1; `sum`: of the fields of all levels. NULL: never
+     * needed. */
     size_t levels;
     bool used[LEVELS];   /* by a node */
     double first, ratio; /* m/Pa; see d_of */

@@ -285,8 +285,8 @@ bool rc_solver_hurried(const struct rc_solver *solver);
  * work with a free tilt. */
 enum rc_status rc_solver_set_diagonal(struct rc_solver *solver, double plus, const double *part,
                                       double row, struct rc_err *err);
-/* z (n Pa) = E' A E e on the elastic nodes, e (n m), less the pressure of a common shift. Costs two factors of a
- * chain. */
+/* z (n Pa) = E' A E e on the elastic nodes, e (n m), less the pressure of a common shift. Costs two factors
+ * of a chain. */
 void rc_solver_respond(struct rc_solver *solver, const double *e, double *z);
 /* A solver of the same contact on a coarser grid, for a nested start; its operator is not exact. */
 struct rc_solver *rc_solver_coarse(const struct rc_solver *fine, const struct rc_shape *shape,

@@ -8,8 +8,8 @@
  *
  * J depends on qx only. K is therefore the symmetric operator V = 2/|q| |J(qx)| followed by a filter of the
  * rows, exp(i d): a change of phase. The pressure is that of a contact: p >= 0, g = K p - h - c >= 0,
- * p g = 0. It minimises no energy. It is the fixed point of the reflections of Peaceman and Rachford (Lions and
- * Mercier 1979, SIAM J. Numer. Anal. 16, 964) in the norm of V. Each step is an elastic contact:
+ * p g = 0. It minimises no energy. It is the fixed point of the reflections of Peaceman and Rachford (Lions
+ * and Mercier 1979, SIAM J. Numer. Anal. 16, 964) in the norm of V. Each step is an elastic contact:
  *
  *     p(k) is the pressure of the contact with the operator V and the heights H(k) = h - G(k),
  *     G(k+1) = i tan(d/2) (2 V p(k) + G(k)),    G(0) = 0.

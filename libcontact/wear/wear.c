@@ -546,9 +546,9 @@ go(struct rc_model *m, struct rc_err *err)
     return v->met ? RC_OK : set_out(v, err) == RC_MORE ? RC_OK : RC_FAIL;
 }
 
-/* Sets the error of the wear under p1, relative to k times the load. Where nodes stick, most of the error of the
- * pressure may be at these. An error z of the pressure moves the heights by D z, and (K + D) z is the gap that
- * the contact has left open, so that the sum of |D z| is about that of |gap| at most. */
+/* Sets the error of the wear under p1, relative to k times the load. Where nodes stick, most of the error
+ * of the pressure may be at these. An error z of the pressure moves the heights by D z, and (K + D) z is
+ * the gap that the contact has left open, so that the sum of |D z| is about that of |gap| at most. */
 static enum rc_status
 find_wear_error(struct wear *v, double of_p1, struct rc_err *err)
 {

@@ -472,8 +472,8 @@ rolling_path(double *out, struct rc_err *err)
     return rolling_model_of(true, out, err);
 }
 
-/* Both bodies wear, with a coefficient that differs between two phases, or they slide over each other. Half-way
- * the state is restored in another model. */
+/* Both bodies wear, with a coefficient that differs between two phases, or they slide over each other.
+ * Half-way the state is restored in another model. */
 static enum rc_status
 wear_model_of(bool slides, double *out, struct rc_err *err)
 {

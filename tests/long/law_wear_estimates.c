@@ -40,8 +40,8 @@ uniform(uint64_t *seed)
     return random_number(seed) + 0.5;
 }
 
-/* A coefficient of each node over the largest one: two phases, a disc that does not wear, one with a gradual edge,
- * or log-normal. */
+/* A coefficient of each node over the largest one: two phases, a disc that does not wear, one with a
+ * gradual edge, or log-normal. */
 static void
 draw_parts(struct random_run *r, uint64_t *seed)
 {

@@ -69,8 +69,8 @@ friction(struct rc_err *err)
     return rc_friction_new(elastic(err), heights, &law, err);
 }
 
-/* Dissimilar bodies, moved along each other: pressure and tractions are found in turn, in all increments and in
- * half of them. */
+/* Dissimilar bodies, moved along each other: pressure and tractions are found in turn, in all increments
+ * and in half of them. */
 static struct rc_model *
 coupled(struct rc_err *err)
 {
@@ -89,7 +89,8 @@ coupled(struct rc_err *err)
                            err);
 }
 
-/* A rough ball, which leaves the leading edge free, rolls with a creepage and spin; the first load dents it. */
+/* A rough ball, which leaves the leading edge free, rolls with a creepage and spin; the first load dents
+ * it. */
 static struct rc_model *
 rolling(struct rc_err *err)
 {

@@ -687,8 +687,8 @@ test_path_refusals(void **state)
 
 /* ---- increments of friction ---- */
 
-/* A ball rolls from rest over a longer map, by one column in each increment of friction, which knows nothing of
- * rolling. A path in a map that follows the ball gives the same forces. */
+/* A ball rolls from rest over a longer map, by one column in each increment of friction, which knows
+ * nothing of rolling. A path in a map that follows the ball gives the same forces. */
 static void
 test_increments(void **state)
 {

@@ -239,8 +239,9 @@ test_dissimilar_rollers(void **state)
     rc_model_free(m);
 }
 
-/* catt_to_cart: two balls, G 1, nu 0.28, mu 0.4013, are pressed and pushed (Cattaneo), and roll under the same
- * force over two diameters of their contact (Carter). The creepages of the 56 steps are printed to 4 digits. */
+/* catt_to_cart: two balls, G 1, nu 0.28, mu 0.4013, are pressed and pushed (Cattaneo), and roll under the
+ * same force over two diameters of their contact (Carter). The creepages of the 56 steps are printed to 4
+ * digits. */
 static void
 test_cattaneo_to_carter(void **state)
 {

@@ -1,8 +1,8 @@
 /* A compliance c of every node for itself adds c to the diagonal of K. The pressure is that of a dense
  * quadratic program with K + c I, with a c that differs by node, or with rows that move. It is also that of a
- * thin layer without Poisson's ratio, bare and over coats, on both boundaries and by each engine. The estimate
- * of its error is not below the error. Gap and displacement are those of the elastic bodies. With c = 0 the
- * contact is the one without compliance, to the last bit. */
+ * thin layer without Poisson's ratio, bare and over coats, on both boundaries and by each engine. The
+ * estimate of its error is not below the error. Gap and displacement are those of the elastic bodies. With
+ * c = 0 the contact is the one without compliance, to the last bit. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -71,7 +71,8 @@ struct slip_run {
     struct slip_corner *corner;
     size_t corners;
     struct slip_state state; /* of the corner that was reached last */
-    /* m, three maps: slip along x and y at the last corner, path of slip since the last case; NULL: not wanted */
+    /* m, three maps: slip along x and y at the last corner, path of slip since the last case; NULL: not
+     * wanted */
     double *slipped;
     struct rc_friction_problem law;
     bool coupled;          /* the pressure moves the bodies along each other  */

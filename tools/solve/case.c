@@ -129,7 +129,8 @@ set_keys(struct drive *d, const struct rc_model *m, struct rc_grid *g)
     slide_set_keys(run, g);
 }
 
-/* Values that are not those of a frame of the model. The frames from `plastic` on have the error of the shape. */
+/* Values that are not those of a frame of the model. The frames from `plastic` on have the error of the
+ * shape. */
 static const double *
 own_values(struct drive *d, struct rc_model *m, struct rc_grid *as, const char *word)
 {

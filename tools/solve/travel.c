@@ -1,7 +1,7 @@
 /*
  * --travel: the contact travels along x over the map, a case a position. A ball (--radius) or the surface of
- * --counter is pressed on the whole map, or on a window that goes along. With --yield the plastic strain stays
- * in body 1, and --passes repeats the positions.
+ * --counter is pressed on the whole map, or on a window that goes along. With --yield the plastic strain
+ * stays in body 1, and --passes repeats the positions.
  */
 #include "solve.h"
 

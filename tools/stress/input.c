@@ -1,4 +1,5 @@
-/* The pressure, tractions and body of a case, from the stream and the options that rc-stress and rc-fatigue share. */
+/* The pressure, tractions and body of a case, from the stream and the options that rc-stress and rc-fatigue
+ * share. */
 #include "stress.h"
 
 #include <math.h>
@@ -20,7 +21,8 @@ const struct opt stress_sum_options[] = {
      .words = words_stress_engine_or_auto, .help = "engine that sums stresses (default auto)"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",
-     .help = "permitted error of a component, over the largest pressure (default: rounding; rc-fatigue 1e-5)"},
+     .help = "permitted error of a component, over the largest pressure (default: rounding; "
+             "rc-fatigue 1e-5)"},
     {.name = NULL},
 };
 /* clang-format on */

@@ -36,7 +36,8 @@ struct stress_report {
 enum rc_status stress_report_begin(struct stress_report *report, const struct rc_grid *p,
                                    const struct rc_stress_options *options,
                                    const struct numbers *depths, bool extremes, struct rc_err *err);
-/* Three calls: when the plan is ready, when a depth begins, and when depth k with n values per channel is done. */
+/* Three calls: when the plan is ready, when a depth begins, and when depth k with n values per channel is
+ * done. */
 void stress_report_ready(struct stress_report *report);
 void stress_report_start(struct stress_report *report);
 void stress_report_depth(struct stress_report *report, const struct tool *tool, size_t k, size_t n,
@@ -74,8 +75,8 @@ struct stress_input {
 /* Keeps a frame of traction; false: it is another frame. */
 bool stress_input_take(struct tool *tool, const struct rc_grid *p, struct rc_grid *g,
                        struct stress_input *input);
-/* Sets all options but `wanted`, the section and the strain. Ends the tool where stream and options contradict
- * each other. */
+/* Sets all options but `wanted`, the section and the strain. Ends the tool where stream and options
+ * contradict each other. */
 void stress_input_read(struct tool *tool, const struct rc_grid *p, const struct stress_asked *asked,
                        struct stress_input *input, struct rc_stress_options *options);
 void stress_input_free(struct stress_input *input);
