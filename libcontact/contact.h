@@ -954,7 +954,12 @@ struct rc_leak_figures {
     double lower, upper; /* m^3, rigorous bounds of `conductance` on this grid, to rounding */
     double flow_factor;  /* factor of Patir and Cheng: conductance over that of two flats at
                             the mean gap */
+    /* factors of Patir and Cheng for sliding along the flow, the rough body at rest: the flow per width
+     * without a pressure difference is U/2 (mean_gap + gap_rms shear_flow_factor); NAN: an even gap */
+    double shear_flow_factor;
+    double shear_stress_factor; /* of the pressure term of the shear stress: that flow over U/2 mean_gap */
     double mean_gap; /* m: over all nodes, 0 in contact                                        */
+    double gap_rms;  /* m: RMS deviation from mean_gap over all nodes                          */
     double slope;    /* RMS of the gap's gradient where fluid flows; NAN: nowhere              */
     bool percolates; /* through the edges of cells                                             */
     bool percolates_diagonal; /* through their corners too */

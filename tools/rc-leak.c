@@ -29,6 +29,7 @@ frame_word(size_t k)
 
 static struct args {
     double viscosity, drop;
+    struct numbers sliding;
     const char *direction, *sides, *report;
     size_t output; /* bits of frames */
 } args = {.viscosity = NAN, .drop = NAN, .direction = "x", .output = (1u << FRAMES) - 1};
@@ -46,6 +47,10 @@ static const struct opt opts[] = {
     {.name = "pressure-drop", .type = OPT_NUMBER, .unit = UNIT_PA, AT(drop), .min = 0,
      .max = INFINITY, .above = true, .result = true, .arg = "DP",
      .help = "difference of the fluid pressure between the edges"},
+    {.name = "sliding", .type = OPT_NUMBERS, .unit = UNIT_SPEED, AT(sliding), .min = -INFINITY,
+     .max = INFINITY, .result = true, .arg = "U[,U1]",
+     .help = "speeds along the flow: of the smooth body, and of the rough one (default 0); the report has "
+             "a shear flow"},
     {.name = "output", .type = OPT_WORDS, AT(output), .words = frame_word, .arg = "LIST",
      .help = "frames to write, of %s (default: all)"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
@@ -175,7 +180,9 @@ do_case(struct run *run, const struct rc_grid *gap)
                           .mean = NAN,
                           .drop = args.drop,
                           .viscosity = args.viscosity,
-                          .rate = args.drop / (12 * args.viscosity)};
+                          .rate = args.drop / (12 * args.viscosity),
+                          .smooth = args.sliding.n > 0 ? args.sliding.v[0] : NAN,
+                          .rough = args.sliding.n > 1 ? args.sliding.v[1] : 0};
     const struct rc_leak_options options = {
         .direction = c.direction, .around = c.around, .threads = run->t.threads};
     struct rc_shape shape = rc_grid_shape(gap);
@@ -216,6 +223,9 @@ main(int argc, char **argv)
         tool_die(
             &run.t, EXIT_USAGE,
             "--viscosity and --pressure-drop are given together, for a flow rate, or not at all");
+    if (args.sliding.n > 2)
+        tool_die(&run.t, EXIT_USAGE,
+                 "--sliding: it must be one speed (the rough body at rest) or two");
     report_open(&run.report, &run.t, args.report);
     while ((gap = tool_channel_with(&run.t, "gap", tool_take_frames, beside)) != NULL) {
         do_case(&run, gap);

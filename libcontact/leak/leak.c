@@ -50,7 +50,11 @@ const struct rc_figure rc_figures_leak[] = {
      .says = "estimated, relative", .limit = 0.05,
      .warning = "the grid is too coarse for the flow"},
     {FIGURE(flow_factor), NULL, "Flow factor", .says = "of Patir and Cheng"},
+    {FIGURE(shear_flow_factor), NULL, "Shear flow factor", .says = "of Patir and Cheng"},
+    {FIGURE(shear_stress_factor), NULL, "Shear stress factor",
+     .says = "of the fluid pressure, of Patir and Cheng"},
     {FIGURE(mean_gap), "m", "Mean gap", .says = "over the whole map"},
+    {FIGURE(gap_rms), "m", "RMS deviation of the gap from its mean", .says = "over the whole map"},
     {AS("gap_slope", slope), NULL, "RMS slope of the gap", .says = "where fluid flows",
      .limit = 0.3, .warning = "the slope of the gap is beyond the theory of thin films"},
     {FIGURE(percolates), NULL, "Percolates", .says = "through the edges of cells"},
@@ -109,10 +113,14 @@ set_gap(struct rc_leak *l, const double *p, const double *g)
         rc_total_add(&sum, a->g[k]);
     }
     l->figures.mean_gap = rc_total_value(&sum) / (double)a->nodes;
+    sum = (struct rc_total){0};
     for (int32_t k = 0; k < a->nodes; k++) {
+        double off = l->largest > 0 ? (a->g[k] - l->figures.mean_gap) / l->largest : 0;
+        rc_total_add(&sum, off * off);
         a->g[k] = a->g[k] > closed * l->largest ? a->g[k] / l->largest : 0;
         l->figures.fluid_nodes += a->g[k] > 0;
     }
+    l->figures.gap_rms = l->largest * sqrt(rc_total_value(&sum) / (double)a->nodes);
 }
 
 /* RMS slope of the gap where fluid flows, from differences between neighbours. */
@@ -239,6 +247,41 @@ rc_leak_set_gap(struct rc_leak *l, const double *p, const double *g, struct rc_e
 
 /* ---- steps ---- */
 
+/* <g dP/dx> for the unit gradient of P, by the faces along the flow. Still fluid has no part in it. One face
+ * slides at U along the flow and the rough one is at rest: U/2 times this is the flow per width, because
+ * q = U g/2 - g^3 grad p and div q = 0 with p = 0 at both edges give Q = - integral of q grad P. */
+static double
+dragged_gap(const struct rc_leak *l)
+{
+    const struct rc_passage *a = &l->a;
+    struct rc_total sum = {0};
+
+    for (int32_t k = 0; k < a->nodes; k++)
+        for (int side = 0; side < 2 && a->state[k] == RC_FLOWS; side++) {
+            enum rc_direction d = side == 0 ? RC_ON : RC_BACK;
+            int32_t other = rc_passage_beside(a, k, d);
+            double c, flow;
+            if (other < 0 || (other < a->nodes && (d == RC_BACK || a->state[other] != RC_FLOWS)))
+                continue; /* count each face once */
+            flow = rc_leak_driven(a, &l->levels, k, other, d, &c);
+            rc_total_add(&sum, (side == 0 ? 1 : -1) * flow / c * rc_face_drag(a, k, other));
+        }
+    return rc_total_value(&sum) / (double)a->ny * l->largest;
+}
+
+/* A gap that varies by less than this part of its mean is even: rounding hides its factor. */
+static const double even = 1e-8;
+
+static void
+set_shear(struct rc_leak *l)
+{
+    struct rc_leak_figures *f = &l->figures;
+    double gap = dragged_gap(l);
+
+    f->shear_stress_factor = f->mean_gap > 0 ? gap / f->mean_gap : 0;
+    f->shear_flow_factor = f->gap_rms > even * f->mean_gap ? (gap - f->mean_gap) / f->gap_rms : NAN;
+}
+
 static enum rc_status
 step_linear(struct rc_leak *l, struct rc_err *err)
 {
@@ -277,6 +320,7 @@ step_harmonic(struct rc_leak *l, struct rc_err *err)
     }
     f->flow_factor =
         mean > 0 ? f->conductance * ((double)l->a.nx * l->along) / (wide * mean * mean * mean) : 0;
+    set_shear(l);
     return RC_OK;
 }
 

@@ -102,6 +102,10 @@ enum rc_face_rule {
 double rc_face(const struct rc_passage *a, enum rc_face_rule rule, int32_t k, int32_t other,
                enum rc_direction d);
 
+/* The flow per width and U/2 that a face of speed U drags from node k to the next one, at equal fluid
+ * pressure: <g^-2>/<g^-3> along a path with harmonic gaps. The unit is the largest gap. */
+double rc_face_drag(const struct rc_passage *a, int32_t k, int32_t other);
+
 /* ---- percolation.c ---- */
 
 /* Nodes are added in the order of decreasing gap until inlet and outlet are joined. */

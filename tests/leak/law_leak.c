@@ -34,10 +34,18 @@ joined(double a, double b, bool linear)
     return linear ? 2 * a * a * b * b / (a + b) : 2 / (pow(a, -3) + pow(b, -3));
 }
 
-/* Gaussian elimination without reordering, on all nodes connected to the inlet or the outlet. The fluid flows
- * from x edge to x edge. */
+/* Flow per width and U/2 between neighbours with equal pressure, half of the path with gap a, half with b. */
 static double
-dense_conductance(struct rc_shape s, const double *g, bool around, bool linear)
+dragged(double a, double b)
+{
+    return a == 0 || b == 0 ? 0 : (pow(a, -2) + pow(b, -2)) / (pow(a, -3) + pow(b, -3));
+}
+
+/* Gaussian elimination without reordering, on all nodes connected to the inlet or the outlet. The fluid flows
+ * from x edge to x edge: driven by a pressure of 1, or, with equal pressures at the edges, dragged with U/2 =
+ * 1 by a face that slides along x. */
+static double
+dense_flow(struct rc_shape s, const double *g, bool around, bool linear, bool slides)
 {
     static double m[MOST * MOST][MOST * MOST + 1], diagonal[MOST * MOST];
     static bool wet[MOST * MOST];
@@ -64,6 +72,12 @@ dense_conductance(struct rc_shape s, const double *g, bool around, bool linear)
         size_t down = k / s.nx < s.ny - 1 ? k + s.nx : around ? k % s.nx : k;
         size_t to[2] = {on, down};
         double end = 2 * g[k] * g[k] * g[k] * aspect;
+        if (slides && wet[k]) {
+            double flow_on = on == k ? 0 : s.dy * dragged(g[k], g[on]);
+            m[k][n] -= on == k ? s.dy * g[k] : flow_on;
+            m[k][n] += k % s.nx == 0 ? s.dy * g[k] : 0;
+            m[on][n] += flow_on;
+        }
         for (int d = 0; d < 2; d++) {
             double c = joined(g[k], g[to[d]], linear) * (d == 0 ? aspect : 1 / aspect);
             if (to[d] == k || !wet[k] || !wet[to[d]])
@@ -77,7 +91,7 @@ dense_conductance(struct rc_shape s, const double *g, bool around, bool linear)
             m[k][k] = 1;
         else {
             m[k][k] += (k % s.nx == 0 ? end : 0) + (k % s.nx == s.nx - 1 ? end : 0);
-            m[k][n] = k % s.nx == 0 ? end : 0;
+            m[k][n] += k % s.nx == 0 && !slides ? end : 0;
         }
     }
     for (size_t k = 0; k < n;
@@ -98,7 +112,9 @@ dense_conductance(struct rc_shape s, const double *g, bool around, bool linear)
         m[k][n] /= m[k][k];
     }
     for (size_t k = s.nx - 1; k < n; k += s.nx) /* the outlet at the other edge */
-        flow += wet[k] ? 2 * g[k] * g[k] * g[k] * aspect * m[k][n] / diagonal[k] : 0;
+        if (wet[k])
+            flow += 2 * g[k] * g[k] * g[k] * aspect * m[k][n] / diagonal[k] +
+                    (slides ? s.dy * g[k] : 0);
     return flow;
 }
 
@@ -115,23 +131,30 @@ agrees_with_dense(void **state)
     for (size_t k = 0; k < 4 * sizeof shapes / sizeof *shapes; k++) {
         struct rc_shape s = shapes[k / 4];
         bool around = k % 2 == 1;
-        double g[MOST * MOST], unit[MOST * MOST], dense, linear, off;
+        double g[MOST * MOST], unit[MOST * MOST], dense, linear, drag, off;
         uint64_t seed = 11 + k;
         struct rc_leak_figures f;
 
         random_gap(s, 1, s.nx * s.ny < 20 ? 0 : 0.25, &seed, g);
         for (size_t i = 0; i < s.nx * s.ny; i++)
             unit[i] = g[i] / 1e-6;
-        dense = 1e-18 * dense_conductance(s, unit, around, false);
-        linear = 1e-18 * dense_conductance(s, unit, around, true);
+        dense = 1e-18 * dense_flow(s, unit, around, false, false);
+        linear = 1e-18 * dense_flow(s, unit, around, true, false);
+        drag = 1e-6 * dense_flow(s, unit, around, false, true) / ((double)s.ny * s.dy);
         f = leak_figures(s, NULL, g, 'x', around);
         assert_true(f.percolates == (f.conductance > 0));
         if (!f.percolates) {
-            assert_true(fabs(dense) < 1e-30);
+            assert_true(fabs(dense) < 1e-30 && f.shear_stress_factor == 0);
+            assert_true(fabs(drag) < 1e-12 * f.mean_gap);
             continue;
         }
         open++;
         off = larger(fabs(f.conductance / dense - 1), fabs(f.conductance_linear / linear - 1));
+        off = larger(off, fabs(f.shear_stress_factor - drag / f.mean_gap));
+        assert_true(isnan(f.shear_flow_factor) == (s.nx * s.ny == 1)); /* an even gap */
+        if (s.nx * s.ny > 1)
+            off =
+                larger(off, fabs(f.mean_gap + f.gap_rms * f.shear_flow_factor - drag) / f.mean_gap);
         worst = larger(worst, off);
         assert_true(off < 1e-10);
     }
@@ -338,6 +361,7 @@ is_the_same(const struct leak_flow *a, const struct leak_flow *b, struct rc_shap
     assert_true(fabs(a->f.conductance / b->f.conductance - 1) < summed);
     assert_true(fabs(a->f.conductance_linear / b->f.conductance_linear - 1) < summed);
     assert_true(fabs(a->f.flow_factor / b->f.flow_factor - 1) < summed);
+    assert_true(fabs(a->f.shear_flow_factor / b->f.shear_flow_factor - 1) < summed);
     assert_true(a->f.critical_gap == b->f.critical_gap);
     assert_true(fabs(a->f.slope / b->f.slope - 1) < summed);
     assert_int_equal(a->f.throat_nodes, b->f.throat_nodes);
@@ -408,6 +432,7 @@ is_symmetric(void **state)
             other[k / s.nx * s.nx + s.nx - 1 - k % s.nx] = g[k];
         back = leak_figures(s, NULL, other, 'x', around != 0);
         assert_true(fabs(back.conductance / a.f.conductance - 1) < summed);
+        assert_true(fabs(back.shear_flow_factor / a.f.shear_flow_factor - 1) < summed);
         leak_flow_free(&a);
     }
 }
@@ -433,6 +458,7 @@ scales_and_grows(void **state)
         b = leak_figures(s, NULL, other, 'y', false);
         assert_true(fabs(b.conductance / a.conductance / (size * size * size) - 1) < summed);
         assert_true(fabs(b.flow_factor / a.flow_factor - 1) < summed);
+        assert_true(fabs(b.shear_flow_factor / a.shear_flow_factor - 1) < summed);
     }
     b = leak_figures(wide, NULL, g, 'y', false);
     assert_true(fabs(b.conductance / a.conductance - 1) < summed);

@@ -9,7 +9,9 @@
 #include "leak_case.h"
 
 /* g0 (1 + A cos): along the flow each line is a channel, <(1 + A cos)^3> = 1 + 3 A^2/2. Across it the
- * resistances add up, <(1 + A cos)^-3> = (1 + A^2/2) (1 - A^2)^-5/2. Patir and Cheng's factors are these. */
+ * resistances add up, <(1 + A cos)^-3> = (1 + A^2/2) (1 - A^2)^-5/2. Patir and Cheng's factors are these. A
+ * face that slides along grooves drags the mean gap; across them <g^-2>/<g^-3>, <(1 + A cos)^-2> = (1 -
+ * A^2)^-3/2. */
 static void
 waves(void **state)
 {
@@ -20,6 +22,7 @@ waves(void **state)
     const double amplitude = 0.9, g0 = 2.3e-6;
     const double along = 1 + 1.5 * amplitude * amplitude;
     const double across = pow(1 - amplitude * amplitude, 2.5) / (1 + 0.5 * amplitude * amplitude);
+    const double drag = (1 - amplitude * amplitude) / (1 + 0.5 * amplitude * amplitude);
     static double g[N * M];
 
     (void)state;
@@ -35,17 +38,56 @@ waves(void **state)
         print_message("along: %.1e\n", f.flow_factor / along - 1);
         assert_true(fabs(f.flow_factor / along - 1) < rounding);
         assert_true(fabs(f.mean_gap / g0 - 1) < rounding);
+        assert_true(fabs(f.gap_rms / (g0 * amplitude / sqrt(2)) - 1) < rounding);
+        assert_true(fabs(f.shear_flow_factor) < summed);
+        assert_true(fabs(f.shear_stress_factor - 1) < rounding);
         f = leak_figures(s, NULL, g, turned ? 'y' : 'x', true);
         error = f.flow_factor / across - 1;
         print_message("across: harmonic %.1e, linear %.1e\n", error,
                       f.conductance_linear / f.conductance * f.flow_factor / across - 1);
         assert_true(fabs(error) < 6e-5);
+        assert_true(fabs(f.shear_stress_factor / drag - 1) < 6e-5);
+        assert_true(fabs(f.shear_flow_factor * amplitude / sqrt(2) / (drag - 1) - 1) < 6e-5);
         /* the estimate is half of the difference between these two */
         assert_true(f.conductance_linear / f.conductance * f.flow_factor / across - 1 < 0.075);
         assert_true(f.error > 0.03 && f.error < 0.04);
         /* a wave of 32 nodes, whose lowest point is a node */
         assert_true(fabs(f.critical_gap / (g0 * (1 - amplitude)) - 1) < rounding);
     }
+}
+
+/* Low waves, cos(q x) cos(r y) with edges along lines of symmetry: to second order in e = rms/<g> the flow
+ * factor is 1 + (3 - 9c) e^2 and the shear flow factor -3c e, c = q^2/(q^2 + r^2). The grid's errors are of
+ * second order. */
+static void
+low_waves(void **state)
+{
+    enum {
+        N = 96
+    };
+    const struct rc_shape s = {N, N, 1e-6, 1e-6};
+    const double e = 0.01;
+    static double g[N * N];
+
+    (void)state;
+    for (int q = 1; q <= 2; q++)
+        for (int r = 1; r <= 2; r++)
+            for (int way = 0; way < 2; way++) {
+                double a = way == 0 ? q : r, b = way == 0 ? r : q, c = a * a / (a * a + b * b);
+                struct rc_leak_figures f;
+                for (size_t k = 0; k < (size_t)N * N; k++)
+                    g[k] = 1e-6 * (1 + 2 * e * cos(2 * exact_pi * q * ((double)(k % N) + 0.5) / N) *
+                                           cos(2 * exact_pi * r * ((double)(k / N) + 0.5) / N));
+                f = leak_figures(s, NULL, g, way == 0 ? 'x' : 'y', true);
+                print_message("c %.1f: flow %+.4f e^2, shear %+.4f e\n", c,
+                              (f.flow_factor - 1) / (e * e), f.shear_flow_factor / e);
+                assert_true(fabs(f.gap_rms / (1e-6 * e) - 1) < summed);
+                assert_true(fabs((f.flow_factor - 1) / (e * e) - (3 - 9 * c)) < 0.02);
+                assert_true(fabs(f.shear_flow_factor / e + 3 * c) < 0.01);
+            }
+    for (size_t k = 0; k < (size_t)N * N; k++) /* an even gap has no roughness */
+        g[k] = 0.3e-6;
+    assert_true(isnan(leak_figures(s, NULL, g, 'x', true).shear_flow_factor));
 }
 
 /* Parallel channels with different gaps between walls of contact; sides closed. The walls have a tiny gap,
@@ -206,8 +248,8 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(waves), cmocka_unit_test(channels),     cmocka_unit_test(throats),
-        cmocka_unit_test(discs), cmocka_unit_test(checkerboard),
+        cmocka_unit_test(waves),   cmocka_unit_test(low_waves), cmocka_unit_test(channels),
+        cmocka_unit_test(throats), cmocka_unit_test(discs),     cmocka_unit_test(checkerboard),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

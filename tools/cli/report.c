@@ -403,6 +403,7 @@ static const struct rc_figure own[] = {
     {.name = "contact_area_inside", .unit = "m2", .title = "Contact area inside the taper"},
     {.name = "contact_fraction_inside", .title = "Contact fraction inside the taper"},
     {.name = "flow_rate", .unit = "m3/s", .title = "Flow rate"},
+    {.name = "shear_flow", .unit = "m3/s", .title = "Shear flow"},
     {.name = "critical_flow", .unit = "m3/s", .title = "Flow of the critical constriction"},
     {.name = "dissipated_total", .unit = "J", .title = "Dissipated energy"},
     {.name = "peak_memory", .unit = "B", .title = "Memory"},

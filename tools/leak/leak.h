@@ -14,6 +14,7 @@ struct leak_case {
     double contact, mean;   /* fraction of the nodes, mean pressure in Pa; NAN without it       */
     double drop, viscosity; /* Pa, Pa s; NAN: not given                                        */
     double rate;            /* m^3/s for a conductance of 1 m^3; NAN: not given                 */
+    double smooth, rough;   /* m/s, speeds of the bodies; smooth NAN: not given                 */
     double setup, solve;    /* s                                                                */
     const struct rc_leak_figures *figures;
 };

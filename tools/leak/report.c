@@ -13,6 +13,18 @@ critical_conductance(const struct leak_case *c)
     return gap * gap * gap * (c->direction == 'y' ? x / y : y / x);
 }
 
+/* The flow that the sliding faces drag along, m^3/s. In the frame of the rough body the smooth one slides
+ * over it; the fluid moves with the frame. */
+static double
+shear_flow(const struct leak_case *c)
+{
+    const struct rc_grid *g = c->gap;
+    double wide = c->direction == 'y' ? (double)g->nx * g->dx : (double)g->ny * g->dy;
+
+    return wide * c->figures->mean_gap *
+           (c->rough + (c->smooth - c->rough) / 2 * c->figures->shear_stress_factor);
+}
+
 void
 leak_report(struct report *r, const struct leak_case *c)
 {
@@ -35,10 +47,14 @@ leak_report(struct report *r, const struct leak_case *c)
     report_value(r, "contact_fraction", c->contact);
     report_number(r, "viscosity", c->viscosity, "Pas");
     report_number(r, "pressure_drop", c->drop, "Pa");
+    report_number(r, "sliding", c->smooth, "m/s");
+    report_number(r, "sliding_rough", isnan(c->smooth) ? NAN : c->rough, "m/s");
     report_value(r, "flow_rate", c->rate * f->conductance);
+    report_value(r, "shear_flow", shear_flow(c));
     report_named(r, from,
                  "flow_conductance flow_conductance_linear conductance_lower conductance_upper "
-                 "discretization_error_estimate flow_factor mean_gap gap_slope percolates "
+                 "discretization_error_estimate flow_factor shear_flow_factor shear_stress_factor "
+                 "mean_gap gap_rms gap_slope percolates "
                  "percolates_diagonal critical_gap critical_x critical_y");
     report_value(r, "critical_flow", c->rate * critical_conductance(c));
     report_named(r, from, "throat_nodes fluid_nodes dead_nodes unknowns");
