@@ -9,10 +9,12 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "libcontact/memory.h"
 
 enum {
+    MANY = 16,        /* coarse nodes that are refined together */
     ROUNDS = 8,       /* most rounds of Newton's method for the fine nodes of a coarse node */
     COARSEST = 24,    /* nodes along the map; a smaller coarse grid does not pay */
     FEW_NODES = 16384 /* limit of nodes of a rank; with fewer, each rank solves the whole grid
@@ -306,39 +308,59 @@ known_under(const struct rc_solver *s, struct rc_solver *c, struct known *k)
     return true;
 }
 
-/* The fine nodes of one coarse node: their pressures up to a common shift, and their total load. */
+/* Coarse nodes in a row, and their fine nodes: two of the first fine row, then two of the second. */
 struct over {
-    size_t n, k[4];
-    double y[4], load;
+    size_t n;
+    double p[MANY], load[MANY];        /* coarse pressure, and load of the fine nodes */
+    double y[4][MANY];                 /* pressures up to a common shift; then the pressures */
+    double high[4][MANY], on[4][MANY]; /* upper bounds; 0 beyond the map, else 1 */
 };
 
-/* Finds the common shift by Newton's method; projection onto the load of the map later corrects its
- * remainder. If one of the nodes would yield, the coarse displacement does not tell which others yield, so
+/* Finds the common shifts by Newton's method; projection onto the load of the map later corrects their
+ * remainders. If one of the nodes would yield, the coarse displacement does not tell which others yield, so
  * all get the same pressure. */
-static void
-share(const struct over *o, struct rc_box box, double *p)
+RC_CLONES static void
+share(struct over *o, double low)
 {
-    double mean = o->load / (double)o->n, sum = 0, mu;
-    bool yields = false;
+    double mu[MANY], left = 1;
 
-    for (size_t i = 0; i < o->n; i++)
-        sum += o->y[i];
-    mu = (o->load - sum) / (double)o->n;
-    for (int round = 0; round < ROUNDS; round++) {
-        double excess = -o->load;
-        size_t between = 0;
-        for (size_t i = 0; i < o->n; i++) {
-            excess += rc_clip(box, o->k[i], o->y[i] + mu);
-            between += rc_between(box, o->k[i], o->y[i] + mu);
+#pragma omp simd
+    for (size_t i = 0; i < o->n; i++) {
+        double sum = 0, nodes = 0;
+        for (size_t q = 0; q < 4; q++) {
+            sum += o->y[q][i];
+            nodes += o->on[q][i];
         }
-        if (between == 0 || fabs(excess) <= 4 * DBL_EPSILON * o->load)
-            break;
-        mu -= excess / (double)between;
+        o->load[i] = nodes * o->p[i];
+        mu[i] = (o->load[i] - sum) / nodes;
     }
-    for (size_t i = 0; i < o->n; i++)
-        yields = yields || rc_at_high(box, o->k[i], o->y[i] + mu);
-    for (size_t i = 0; i < o->n; i++)
-        p[o->k[i]] = rc_clip(box, o->k[i], yields ? mean : o->y[i] + mu);
+    for (int round = 0; round < ROUNDS && left > 0; round++) {
+        left = 0;
+#pragma omp simd reduction(+ : left)
+        for (size_t i = 0; i < o->n; i++) {
+            double excess = -o->load[i], between = 0, was = mu[i], next;
+            for (size_t q = 0; q < 4; q++) {
+                double v = o->y[q][i] + mu[i], high = o->high[q][i], p = v > low ? v : low;
+                excess += o->on[q][i] * (p < high ? p : high);
+                between += (v > low) & (v < high) ? o->on[q][i] : 0;
+            }
+            next = was - excess / between;
+            next = fabs(excess) > 4 * DBL_EPSILON * o->load[i] ? next : was;
+            mu[i] = next = between > 0 ? next : was;
+            left += next != was ? 1 : 0;
+        }
+    }
+#pragma omp simd
+    for (size_t i = 0; i < o->n; i++) {
+        double yields = 0;
+        for (size_t q = 0; q < 4; q++)
+            yields += o->y[q][i] + mu[i] >= o->high[q][i] ? o->on[q][i] : 0;
+        for (size_t q = 0; q < 4; q++) {
+            double v = yields > 0 ? o->p[i] : o->y[q][i] + mu[i], high = o->high[q][i];
+            v = v > low ? v : low;
+            o->y[q][i] = v < high ? v : high;
+        }
+    }
 }
 
 /* The node after or before i on a coarse line of n nodes. Returns i at an end of the line. */
@@ -350,40 +372,68 @@ beside(size_t i, bool after, size_t n, bool round)
     return i > 0 ? i - 1 : round ? n - 1 : i;
 }
 
-/* Coarse node i of row j. Its fine nodes lie a quarter of the coarse spacing from it; the displacement there
- * is interpolated linearly. */
+/* A part of a coarse row with the nodes before and after it. */
 static void
-share_at(struct rc_solver *s, const struct known *c, size_t i, size_t j)
+take(const struct known *c, const double *row, size_t first, size_t n, double *to)
 {
-    size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny;
-    const double *u = c->u + j * c->nx;
-    struct over o = {.n = 0};
-
-    for (size_t y = 2 * j; y < 2 * j + 2 && y < ny; y++) {
-        const double *v = y % 2 == 1 ? j + 1 < c->rows ? u + c->nx : c->after
-                          : j > 0    ? u - c->nx
-                                     : c->before;
-        v = v == NULL || s->posed.whole.ny == 1 ? u : v;
-        for (size_t x = 2 * i; x < 2 * i + 2 && x < nx; x++) {
-            size_t k = y * nx + x, l = nx == 1 ? i : beside(i, x % 2 == 1, c->nx, c->round);
-            double at = (9 * u[i] + 3 * (u[l] + v[i]) + v[l]) / 16;
-            o.k[o.n] = k;
-            o.y[o.n++] = c->stiffness * (s->posed.h[k] - at);
-        }
-    }
-    o.load = (double)o.n * c->p[j * c->nx + i];
-    share(&o, rc_box(s, 0), s->it.p);
+    to[0] = row[beside(first, false, c->nx, c->round)];
+    memcpy(to + 1, row + first, n * sizeof *to);
+    to[n + 1] = row[beside(first + n - 1, true, c->nx, c->round)];
 }
 
-static void
-repeat_at(struct rc_solver *s, const struct known *c, size_t i, size_t j)
+/* Fine nodes, of every other column of a row. They lie a quarter of the coarse spacing from their coarse nodes
+ * u, towards the nodes to this side and v of the next row; the displacement there is interpolated linearly. */
+RC_CLONES static void
+aim(size_t n, double stiffness, const double *restrict u, const double *restrict v, ptrdiff_t side,
+    const double *restrict h, const double *restrict p, double low, double *restrict y)
 {
-    size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny;
-    const struct rc_box box = rc_box(s, 0);
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double at = (9 * u[i] + 3 * (u[(ptrdiff_t)i + side] + v[i]) + v[(ptrdiff_t)i + side]) / 16;
+        double own = stiffness * (h[2 * i] - at);
+        y[i] = p[i] > low ? own : p[i];
+    }
+}
 
-    for (size_t y = 2 * j; y < 2 * j + 2 && y < ny; y++)
-        for (size_t x = 2 * i; x < 2 * i + 2 && x < nx; x++)
-            s->it.p[y * nx + x] = rc_clip(box, y * nx + x, c->p[j * c->nx + i]);
+/* Coarse nodes from column `first` of row j on. Nodes up to `low` repeat the coarse pressure. */
+static void
+refine_some(struct rc_solver *s, const struct known *c, double low, size_t first, size_t j)
+{
+    const struct rc_box box = rc_box(s, 0);
+    const size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny;
+    const double *u = c->u + j * c->nx;
+    double own[MANY + 2], other[MANY + 2];
+    const double *p = c->p + j * c->nx + first;
+    struct over o = {.n = c->nx - first < MANY ? c->nx - first : MANY};
+    size_t pressed = 0;
+
+    for (size_t i = 0; i < o.n; i++)
+        pressed += p[i] > low ? 1 : 0;
+    for (size_t y = 2 * j; pressed == 0 && y < 2 * j + 2 && y < ny; y++)
+        for (size_t x = 2 * first; x < 2 * (first + o.n) && x < nx; x++)
+            s->it.p[y * nx + x] = rc_clip(box, y * nx + x, p[x / 2 - first]);
+    if (pressed == 0)
+        return;
+    memcpy(o.p, p, o.n * sizeof *p);
+    take(c, u, first, o.n, own);
+    for (size_t q = 0; q < 4; q++) {
+        const size_t y = 2 * j + q / 2, x = 2 * first + q % 2, k = y * nx + x;
+        const double *v = q > 1   ? j + 1 < c->rows ? u + c->nx : c->after
+                          : j > 0 ? u - c->nx
+                                  : c->before;
+        take(c, v == NULL || s->posed.whole.ny == 1 ? u : v, first, o.n, other);
+        for (size_t i = 0; i < o.n && y < ny && x + 2 * i < nx; i++) {
+            o.on[q][i] = 1;
+            o.high[q][i] = rc_high(box, k + 2 * i);
+        }
+        aim(y < ny ? (nx - x + 1) / 2 < o.n ? (nx - x + 1) / 2 : o.n : 0, c->stiffness, own + 1,
+            other + 1, q % 2 == 1 ? 1 : -1, s->posed.h + k, o.p, low, o.y[q]);
+    }
+    share(&o, rc_low(box, 0));
+    for (size_t q = 0; q < 4; q++)
+        for (size_t i = 0; i < o.n; i++)
+            if (o.on[q][i] > 0)
+                s->it.p[(2 * j + q / 2) * nx + 2 * (first + i) + q % 2] = o.y[q][i];
 }
 
 /* Divides the load of each coarse node among its fine nodes. The higher a fine node lies above the
@@ -393,7 +443,6 @@ repeat_at(struct rc_solver *s, const struct known *c, size_t i, size_t j)
 static void
 refine(struct rc_solver *s, struct rc_solver *c)
 {
-    const struct rc_box box = rc_box(s, 0);
     bool known = c->it.known;
     struct known k;
 
@@ -403,12 +452,8 @@ refine(struct rc_solver *s, struct rc_solver *c)
     }
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t j = 0; j < k.rows; j++)
-        for (size_t i = 0; i < k.nx; i++) {
-            if (known && k.p[j * k.nx + i] > rc_low(box, 0))
-                share_at(s, &k, i, j);
-            else
-                repeat_at(s, &k, i, j);
-        }
+        for (size_t i = 0; i < k.nx; i += MANY)
+            refine_some(s, &k, known ? rc_low(rc_box(s, 0), 0) : INFINITY, i, j);
     known_free(&k);
     if (fabs(rc_iterate_carried(s) - s->load.sum) <= 1e-14 * s->load.sum)
         return;
