@@ -141,6 +141,7 @@ go(struct rc_model *m, struct rc_err *err)
     struct elastic *e = (struct elastic *)m;
     const bool by_approach = rc_point_has(&m->to, RC_APPROACH);
     const double v = m->to.at[by_approach ? RC_APPROACH : RC_LOAD];
+    enum rc_status status = RC_OK;
 
     if (!(v >= 0) || isinf(v))
         return rc_err_set(
@@ -148,12 +149,15 @@ go(struct rc_model *m, struct rc_err *err)
             by_approach ? "approach" : "load", v, by_approach ? "m" : "N");
     e->looked = e->deformed = false;
     e->apart = v == 0;
+    if (!e->apart)
+        status = press(e, by_approach ? 0 : v, by_approach ? v : 0, err);
+    else if (e->solver == NULL)
+        status = own_heights(e, e->given, err);
+    if (status == RC_OK)
+        e->top = highest(e); /* known to a solver */
     if (m->from.given == 0)
-        e->first_top = highest(e);
-    e->top = highest(e);
-    if (e->apart)
-        return e->solver != NULL ? RC_OK : own_heights(e, e->given, err);
-    return press(e, by_approach ? 0 : v, by_approach ? v : 0, err);
+        e->first_top = e->top;
+    return status;
 }
 
 static enum rc_status

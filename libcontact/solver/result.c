@@ -4,6 +4,7 @@
 #include "solver.h"
 
 #include <math.h>
+#include <string.h>
 
 #define FIGURE(member) RC_FIGURE(struct rc_contact, member)
 #define AS(column, member) RC_FIGURE_AS(column, struct rc_contact, member)
@@ -52,11 +53,12 @@ edge_load(const struct rc_solver *s)
 
     rc_reduce_rows_begin(s);
     for (size_t j = 0; j < s->posed.shape.ny; j++) {
-        size_t y = s->posed.rows.first + j;
+        size_t y = s->posed.rows.first + j, left = y < my || y + my >= ny ? nx : mx;
         double *sums = rc_reduce_row(s, j);
-        for (size_t i = 0; i < nx; i++)
-            if (i < mx || i + mx >= nx || y < my || y + my >= ny)
-                sums[0] += s->it.p[j * nx + i];
+        for (size_t i = 0; i < left; i++)
+            sums[0] += s->it.p[j * nx + i];
+        for (size_t i = left < nx ? nx - mx : nx; i < nx; i++)
+            sums[0] += s->it.p[j * nx + i];
     }
     rc_reduce_rows_end(s, total);
     return total[0] / s->load.sum;
@@ -88,17 +90,19 @@ count_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct rc_solver *s = ((struct figures *)at)->s;
     const struct rc_box box = rc_box(s, 0);
+    double sum[RC_SUMS] = {0}; /* in registers */
 
     for (size_t k = first; k < first + n; k++) {
         double p = s->it.p[k];
-        sums[CONTACT] += !rc_at_low(box, k, p);
-        sums[PLASTIC] += rc_at_high(box, k, p);
-        sums[PRESSURE] += p;
-        sums[HEIGHT] += s->posed.h[k];
-        sums[V] += s->it.v[k];
-        sums[OWN] += rc_operator_own_motion(s->op, k, p);
-        sums[RC_MOST] = p > sums[RC_MOST] ? p : sums[RC_MOST];
+        sum[CONTACT] += !rc_at_low(box, k, p);
+        sum[PLASTIC] += rc_at_high(box, k, p);
+        sum[PRESSURE] += p;
+        sum[HEIGHT] += s->posed.h[k];
+        sum[V] += s->it.v[k];
+        sum[OWN] += rc_operator_own_motion(s->op, k, p);
+        sum[RC_MOST] = p > sum[RC_MOST] ? p : sum[RC_MOST];
     }
+    memcpy(sums, sum, sizeof sum);
 }
 
 /* Spread of heights and displacements, the largest violation, and the frames. */
@@ -108,23 +112,26 @@ spread_block(void *at, size_t first, size_t n, double *sums)
     const struct figures *f = at;
     const struct rc_solver *s = f->s;
     const struct rc_box box = rc_box(s, 0);
+    const double shift = s->it.shift, mean_h = f->mean_h, mean_u = f->mean_u;
+    double sum[RC_SUMS] = {0};
 
     for (size_t k = first; k < first + n; k++) {
-        double g = s->it.v[k] - s->it.shift, p = s->it.p[k], worst;
+        double g = s->it.v[k] - shift, p = s->it.p[k], open = g > 0 ? g : 0;
         double u = s->it.v[k] + s->posed.h[k] - rc_operator_own_motion(s->op, k, p);
-        double h = s->posed.h[k] - f->mean_h, around = u - f->mean_u;
+        double h = s->posed.h[k] - mean_h, around = u - mean_u;
+        double worst = (rc_at_low(box, k, p) ? 0 : open) + (rc_at_high(box, k, p) ? 0 : open - g);
 
-        sums[SPREAD_H] += h * h;
-        sums[SPREAD_U] += around * around;
-        sums[OPEN] += g > 0 ? g : 0;
-        sums[ENERGY] += p * u;
-        worst = rc_at_low(box, k, p) ? fmax(-g, 0) : rc_at_high(box, k, p) ? fmax(g, 0) : fabs(g);
-        sums[RC_MOST] = worst > sums[RC_MOST] ? worst : sums[RC_MOST];
+        sum[SPREAD_H] += h * h;
+        sum[SPREAD_U] += around * around;
+        sum[OPEN] += open;
+        sum[ENERGY] += p * u;
+        sum[RC_MOST] = worst > sum[RC_MOST] ? worst : sum[RC_MOST];
         if (f->displacement != NULL)
             f->displacement[k] = u;
         if (f->gap != NULL)
             f->gap[k] = g;
     }
+    memcpy(sums, sum, sizeof sum);
 }
 
 /* Nodes at their upper bounds whose gap is negative by more than `worst`. */

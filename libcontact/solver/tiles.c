@@ -70,6 +70,16 @@ struct copy {
     float most[NODES];
 };
 
+/* Copies n <= TILE numbers of a row, most often TILE. */
+RC_INLINE void
+copy_row(void *restrict to, const void *restrict from, size_t n, size_t size)
+{
+    if (n == TILE)
+        memcpy(to, from, TILE * size);
+    else
+        memcpy(to, from, n * size);
+}
+
 RC_INLINE void
 take(const struct place *t, struct copy *c)
 {
@@ -78,8 +88,8 @@ take(const struct place *t, struct copy *c)
     for (size_t j = 0; j < t->ny; j++) {
         const unsigned char *w = t->w + j * t->stride;
 
-        memcpy(c->p + j * TILE, t->p + j * t->stride, t->nx * sizeof *c->p);
-        memcpy(c->d + j * TILE, t->d + j * t->stride, t->nx * sizeof *c->d);
+        copy_row(c->p + j * TILE, t->p + j * t->stride, t->nx, sizeof *c->p);
+        copy_row(c->d + j * TILE, t->d + j * t->stride, t->nx, sizeof *c->d);
         for (size_t i = 0; i < t->nx; i++)
             c->on[j * TILE + i] = w[i] != 0 ? 1 : 0;
     }
@@ -251,8 +261,8 @@ RC_INLINE void
 put(const struct place *t, const struct copy *c)
 {
     for (size_t j = 0; j < t->ny; j++) {
-        memcpy(t->p + j * t->stride, c->p + j * TILE, t->nx * sizeof *c->p);
-        memcpy(t->delta + j * t->stride, c->y + j * TILE, t->nx * sizeof *c->y);
+        copy_row(t->p + j * t->stride, c->p + j * TILE, t->nx, sizeof *c->p);
+        copy_row(t->delta + j * t->stride, c->y + j * TILE, t->nx, sizeof *c->y);
     }
 }
 
