@@ -235,7 +235,7 @@ fetch_beside(const struct rc_rows *rows, bool round, const struct rc_shape *shap
 }
 
 /* Adds the squared slopes of n nodes in contact, and their number; `right`: the columns to the next node. */
-static void
+RC_CLONES static void
 take_contact(struct rc_total sums[2], const double *row, const double *below, const double *load,
              size_t n, size_t right, const double per[2])
 {
@@ -284,7 +284,7 @@ rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *sh
 }
 
 /* Adds the squared steps from a[i] to b[i], piece by piece as rows of other ranks arrive. */
-static void
+RC_CLONES static void
 add_steps(struct rc_total *squares, const double *a, const double *b, size_t n)
 {
     for (size_t first = 0; first < n; first += RC_ROW_PIECE) {

@@ -152,11 +152,12 @@ not_finite(const struct tool *t, const struct rc_grid *g)
 {
     const double most = g->type == RC_F32 ? (double)FLT_MAX : DBL_MAX;
     struct not_finite n = {0, 0};
+    const size_t nodes = rc_grid_nodes(g);
     size_t outside = 0; /* the compiler vectorises an integer count */
 
-    for (size_t k = 0; k < rc_grid_nodes(g); k++) /* most frames have none */
+    for (size_t k = 0; k < nodes; k++) /* most frames have none */
         outside += fabs(g->v[k]) <= most ? 0 : 1;
-    for (size_t k = 0; outside > 0 && k < rc_grid_nodes(g); k++) {
+    for (size_t k = 0; outside > 0 && k < nodes; k++) {
         n.missing += isnan(g->v[k]) ? 1 : 0;
         n.infinite += fabs(g->v[k]) > most ? 1 : 0;
     }
@@ -445,13 +446,14 @@ tool_demand_measured(struct tool *t, const struct rc_grid *g)
 void
 tool_demand_finite(struct tool *t, const struct rc_grid *g, const char *remedy)
 {
+    const size_t nodes = rc_grid_nodes(g);
     size_t count = 0, first = g->nx * g->ny, before = tool_first_row(t, g) * g->nx;
 
-    for (size_t k = rc_grid_nodes(g); k-- > 0;)
-        if (!isfinite(g->v[k])) {
-            count++;
+    for (size_t k = 0; k < nodes; k++)
+        count += fabs(g->v[k]) <= DBL_MAX ? 0 : 1;
+    for (size_t k = count > 0 ? nodes : 0; k-- > 0;)
+        if (!isfinite(g->v[k]))
             first = before + k;
-        }
     count = (size_t)ranks_sum(t, (double)count);
     first = (size_t)-ranks_most(t, -(double)first);
     if (count > 0)

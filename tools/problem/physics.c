@@ -330,18 +330,13 @@ warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
 void
 physics_heights(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
-    double zero = 0;
-
     if (strcmp(g->unit, "m") != 0)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "its unit is '%s': heights are in metres; import the file again with --z-unit",
                     g->unit);
     if (!isnan(a->radius))
         add_form(t, a, g);
-    for (size_t k = 0; k < rc_grid_nodes(g); k++)
-        zero += 0 * g->v[k];
-    if (ranks_most(t, isnan(zero)) > 0) /* the search for the first such node is slower */
-        tool_demand_finite(t, g, "fill them with rc-detrend --fill");
+    tool_demand_finite(t, g, "fill them with rc-detrend --fill");
     check_profile(t, a, g);
     warn(t, a, g);
 }
