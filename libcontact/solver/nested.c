@@ -224,7 +224,8 @@ coarse_new(const struct rc_solver *s, bool *sought)
                                  .load = s->load.load,
                                  .tol = tolerance(s, &shape),
                                  .threads = (size_t)s->posed.threads,
-                                 .ranks = ranks_for(s, &shape)};
+                                 .ranks = ranks_for(s, &shape),
+                                 .hurry = s->posed.hurry};
     struct rc_rows rows = rc_rows_of(problem.ranks, &shape);
     const double *fine_highs = s->posed.bounds.box.highs;
     double *h = coarse_map(s, s->posed.h, &shape, &rows), *highs = NULL, lower;
@@ -443,7 +444,7 @@ refine_some(struct rc_solver *s, const struct known *c, double low, size_t first
 static void
 refine(struct rc_solver *s, struct rc_solver *c)
 {
-    bool known = c->it.known;
+    bool known = c->it.known && !rc_solver_hurried(s); /* repeating takes half the time */
     struct known k;
 
     if (!known_under(s, c, &k)) {

@@ -159,6 +159,8 @@ begin(struct rc_solver *solver, struct pcg *s)
         s->drift = solver->op->row_error * rc_iterate_displace_rows(solver);
     else
         rc_iterate_displace(solver);
+    if (rc_solver_hurried(solver))
+        return;
     rc_iterate_shift(solver);
     rc_working_set_find(solver, true);
     settle(solver);
@@ -313,9 +315,11 @@ find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
     if (!sure && s->before * s->rate <= solver->load.tol) {
         renew(solver, s);
         sure = true;
-        if (rc_solver_hurried(solver))
-            return;
     }
+    if (solver->set.size > 1)
+        rc_working_set_tell(solver);
+    if (rc_solver_hurried(solver))
+        return;
     s->estimate = precondition(solver, s, mean);
     if (solver->it.iterations == 0 && s->estimate > apart && !isinf(s->estimate)) {
         start_from_springs(solver);
@@ -683,10 +687,8 @@ step(struct rc_solver *solver, void *at)
 
     if (!solver->it.known)
         begin(solver, s);
-    if (rc_solver_hurried(solver)) /* p and v stay */
-        return (struct rc_found){.estimate = isnan(s->estimate) ? INFINITY : s->estimate,
-                                 .change = 1};
-    find_direction(solver, s, &mean);
+    if (!rc_solver_hurried(solver))
+        find_direction(solver, s, &mean);
     found.estimate = s->estimate;
     if (s->estimate <= solver->load.tol)
         return found;
@@ -696,8 +698,9 @@ step(struct rc_solver *solver, void *at)
     } else if (solver->it.iterations > s->best_at + PATIENCE) {
         return found; /* only rounding errors are left */
     }
-    if (rc_solver_hurried(solver))
-        return (struct rc_found){.estimate = s->estimate, .change = 1};
+    if (rc_solver_hurried(solver)) /* p and v stay */
+        return (struct rc_found){.estimate = isnan(s->estimate) ? INFINITY : s->estimate,
+                                 .change = 1};
     /* A clipped direction may raise the energy. If this happens repeatedly, the error is that of single nodes
      * at edges of the contact, which a step of 1 / |K| hardly moves. */
     alpha = s->estimate * s->alpha > longest ? longest / s->estimate : s->alpha;

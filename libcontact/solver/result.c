@@ -219,7 +219,8 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
 {
     struct figures f = {.s = s, .displacement = displacement, .gap = gap};
     double total[RC_SUMS], n = (double)s->posed.nodes, scale;
-    bool early = s->nested.ahead, stopped, hurried;
+    /* no gap is known, and the caller cannot wait for a precise one */
+    bool early = s->nested.ahead || (rc_solver_hurried(s) && !s->it.known), stopped, hurried;
 
     rc_nested_end(s); /* a nested start that was interrupted: use its pressure */
     *c = (struct rc_contact){.iterations = s->it.iterations};

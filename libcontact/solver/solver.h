@@ -260,6 +260,8 @@ void rc_working_set_spread(struct rc_solver *solver);
 /* Makes the elastic nodes or, with `touching`, all nodes with pressure the set, with r = 1 on them. Returns
  * their number. */
 size_t rc_working_set_fix(struct rc_solver *solver, bool touching);
+/* Sets the preconditioner for the set, unless it has hardly changed. */
+void rc_working_set_tell(struct rc_solver *solver);
 /* z = E' A E r; `done` as in rc_preconditioner_apply. z still contains its mean. */
 void rc_working_set_correct(struct rc_solver *solver, rc_row *done, void *ctx);
 /* Subtracts the pressure of a common shift, `share` times rc_load_share of each node, from z. Returns the

@@ -458,10 +458,11 @@ rc_working_set_fix(struct rc_solver *s, bool touching)
 /* The fraction of the working set that may change before the preconditioner is set anew. */
 static const double little = 1e-3;
 
-static void
-tell(struct rc_solver *s)
+void
+rc_working_set_tell(struct rc_solver *s)
 {
     struct rc_working_set *set = &s->set;
+
     if (set->changed <= little * (double)set->size)
         return;
     rc_preconditioner_set(s->preconditioner, set->w);
@@ -473,7 +474,7 @@ rc_working_set_spread(struct rc_solver *s)
 {
     if (!s->op->edges || s->set.size < 2)
         return;
-    tell(s);
+    rc_working_set_tell(s);
     rc_preconditioner_spread(s->preconditioner, s->z);
     rc_iterate_count(s, rc_preconditioner_factors(s->preconditioner) * s->op->factor_cost);
 }
@@ -483,7 +484,7 @@ rc_working_set_correct(struct rc_solver *s, rc_row *done, void *ctx)
 {
     struct rc_working_set *set = &s->set;
 
-    tell(s);
+    rc_working_set_tell(s);
     rc_preconditioner_apply(s->preconditioner, set->r, set->offset, s->z, done, ctx);
     rc_iterate_count(s, rc_preconditioner_factors(s->preconditioner) * s->op->factor_cost);
 }
