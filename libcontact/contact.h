@@ -770,6 +770,7 @@ struct rc_plastic_problem {
     size_t slabs;            /* slabs that may yield, from the surface down; 0: chosen */
     const double *thickness; /* m, of each; NULL: chosen                               */
     size_t increments;       /* increments of each load; 0: chosen                     */
+    bool companion;          /* a second run with half the increments estimates their error */
     /* tolerance of the stress: its lag behind the yield condition (RMS) over the yield stress; 0: chosen */
     double lag;
     bool precise; /* strains and stresses in double precision: twice the memory */
@@ -778,7 +779,7 @@ struct rc_plastic_problem {
 /* Results of one load; lengths in m. */
 struct rc_plastic_figures {
     size_t increments;    /* increments of this load: 1 without or almost without further yield */
-    size_t applications;  /* applications of the volume operator */
+    size_t applications;  /* applications of the volume operator, in all runs of this load */
     size_t voxels;        /* voxels (a node and a slab) that have yielded                        */
     double depth, volume; /* bottom of the deepest yielded voxel; m^3                            */
     double max_strain;    /* largest equivalent plastic strain                                   */

@@ -25,7 +25,7 @@ static struct solve_args args = {
 /* clang-format off */
 static const struct opt opts[] = {
     {.group = solve_contact_options},
-    {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N|auto",
+    {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N[,half]|auto",
      .help = "increments of each load with --yield (default auto: to an error of 1 %), or steps from time to "
              "time (20)"},
     {.name = "slabs", .type = OPT_TEXT, AT(slabs), .result = true, .arg = "N|LIST|auto",

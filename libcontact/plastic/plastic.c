@@ -778,7 +778,28 @@ sum_errors(struct rc_plastic *p)
                f->image_error;
 }
 
+static void
+judge(struct rc_plastic *p, struct rc_voxel *v)
+{
+    for (size_t a = 0; a < RC_DEVIATOR; a++)
+        v->missed[a] *= (float)p->judged;
+}
+
 /* ---- the interface ---- */
+
+void
+rc_plastic_judge(struct rc_plastic *p, double increment, double inherited)
+{
+    struct rc_plastic_figures *f = &p->figures;
+
+    if (f->increment_error > 0) {
+        p->judged = increment / f->increment_error;
+        for_each(p, judge);
+    }
+    f->increment_error = p->worst = increment;
+    f->inherited_error = inherited;
+    sum_errors(p);
+}
 
 enum rc_status
 rc_plastic_set_load(struct rc_plastic *p, double load, struct rc_err *err)
@@ -897,6 +918,8 @@ rc_plastic_check(const struct rc_plastic_problem *problem, struct rc_err *err)
 
     if (rc_yield_check(&problem->yield, err) != RC_OK)
         return RC_FAIL;
+    if (problem->companion && problem->increments < 2)
+        return rc_err_set(err, "a companion run needs a number of increments, at least 2");
     if (problem->contact.ranks != NULL)
         return rc_err_set(
             err,

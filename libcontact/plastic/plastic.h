@@ -57,6 +57,7 @@ struct rc_plastic {
     double tol, asked_tol;    /* tolerance of the contacts of this load, and the requested one */
     double kept;              /* error from tolerances of earlier contacts, kept by plastic flow */
     double worst;             /* largest error of the increments at the positions of this load */
+    double judged; /* factor of the terms of second order of this load, see rc_plastic_judge */
     double order, resistance;
     double mix; /* Anderson's weight of the previous trial */
     enum rc_plastic_stage stage;
@@ -104,6 +105,9 @@ void rc_plastic_follow(struct rc_plastic *plastic);
 void rc_plastic_solve_to(struct rc_plastic *plastic, double tol);
 /* Keeps the pressure for comparison with the next one. */
 void rc_plastic_keep_pressure(struct rc_plastic *plastic);
+/* Replaces the errors of the increments of a reached load and of earlier loads by better estimates. Later
+ * loads inherit the first one. */
+void rc_plastic_judge(struct rc_plastic *plastic, double increment, double inherited);
 
 /* Counts, writes or reads the state of a struct rc_plastic after any step. */
 void rc_plastic_exchange(void *plastic, struct rc_state *s);

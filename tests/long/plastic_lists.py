@@ -2,10 +2,10 @@
 
 Seeds FIRST, FIRST + 1, ...: a self-affine or curved map of 3 x 5 to 64 x 64 nodes, periodic or, a third of them, free;
 a yield stress and a hardening modulus; and one load, up-0-up, up-down-higher or three loads up. Each list is solved in
-INCREMENTS (16) and against it in 512 (192 from 48 x 48 on), with contacts to 1e-6, by the rc-solve TRUTH (default: the one
+INCREMENTS (16; also auto, or 16,half) and against it in 512 (192 from 48 x 48 on), with contacts to 1e-6, by the rc-solve TRUTH (default: the one
 in the path). Prints a line for each load, and at the end the share of estimates below 0.99 of the error, their median and
-their 90 % point, and the applications. Fails if more than 2.5 % of the estimates of errors above 1e-5 are
-below the error. On a free map the estimate is compared without the part for the edge of the map, which both
+their 90 % point, and the applications. Fails if more than 2.5 %, or 1 % with a companion run, of the estimates of errors above
+1e-5 are below the error. On a free map the estimate is compared without the part for the edge of the map, which both
 runs have in common.
 """
 import json
@@ -102,7 +102,7 @@ def main(first, lists, truth='rc-solve', increments='16'):
           f'90 % {numpy.quantile(ratio, 0.9):.1f}; median error {numpy.median(error):.1e}')
     for use, counts in applications.items():
         print(f'{use}: {len(counts)} loads, mean {numpy.mean(counts):.1f}, median {numpy.median(counts):.0f} applications')
-    return 0 if below <= 0.025 else 1
+    return 0 if below <= (0.01 if increments.endswith('half') else 0.025) else 1
 
 
 if __name__ == '__main__':

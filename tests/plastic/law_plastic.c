@@ -977,11 +977,9 @@ planned_new(struct rc_shape shape, const double *h, struct rc_plastic_problem pr
     return m;
 }
 
-/* With increments that are chosen for each load, the estimate is at most the requested error. It is no less
- * than the error against many increments. Tries that had too few increments leave nothing behind. A state
- * from anywhere on the way, elastic or not, can be continued. */
+/* Increments that are chosen for each load (0), or a number of them with a companion run. */
 static void
-chooses(void **state)
+takes(size_t increments)
 {
     const struct rc_shape shape = {KEPT, KEPT, 1, 1};
     const struct rc_selfaffine rough = {
@@ -989,7 +987,9 @@ chooses(void **state)
     const double n = KEPT * KEPT, loads[TRIED] = {0.015 * n, 0, 0.02 * n};
     struct rc_plastic_problem problem = {
         .contact = {.boundary = RC_PERIODIC, .pair.one.nu = 0.3, .tol = 5e-3},
-        .yield = {.stress = 0.04, .modulus = 0.05}};
+        .yield = {.stress = 0.04, .modulus = 0.05},
+        .increments = increments,
+        .companion = increments > 0};
     double h[KEPT * KEPT], whole[TRIED * KEPT * KEPT] = {0}, again[TRIED * KEPT * KEPT], off = 0;
     const struct rc_plastic_figures *found, *straight;
     struct rc_model *m, *other;
@@ -998,7 +998,6 @@ chooses(void **state)
     struct rc_err err;
     bool going;
 
-    (void)state;
     assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
     m = planned_new(shape, h, problem, loads[2]);
     assert_int_equal(try_loads(m, loads, 0, false, SIZE_MAX, &walk, whole), TRIED);
@@ -1006,6 +1005,7 @@ chooses(void **state)
     problem.slabs = rc_yielding_result(m)->slabs;
     problem.thickness = rc_yielding_result(m)->thickness;
     problem.increments = 192;
+    problem.companion = false;
     problem.contact.tol = 1e-6;
     plastic = plastic_new(shape, h, problem);
     for (size_t q = 0; q < TRIED; q++)
@@ -1018,7 +1018,9 @@ chooses(void **state)
     assert_true(fabs(found->work / straight->work - 1) < 5e-3);
     rc_plastic_free(plastic);
     problem.thickness = NULL;
-    problem.slabs = problem.increments = 0;
+    problem.slabs = 0;
+    problem.increments = increments;
+    problem.companion = increments > 0;
     problem.contact.tol = 5e-3;
     for (size_t stop = 1; stop < walk.made; stop += 1 + walk.made / 6) {
         double *kept;
@@ -1050,6 +1052,24 @@ chooses(void **state)
         free(kept);
     }
     rc_model_free(m);
+}
+
+/* With increments that are chosen for each load, the estimate is at most the requested error. It is no less
+ * than the error against many increments. Tries that had too few increments leave nothing behind. A state
+ * from anywhere on the way, elastic or not, can be continued. */
+static void
+chooses(void **state)
+{
+    (void)state;
+    takes(0);
+}
+
+/* The same with a second run in half the increments. */
+static void
+has_companion(void **state)
+{
+    (void)state;
+    takes(24);
 }
 
 /* A body with 12 slabs, of which three tenths of the voxels yield, takes at most 1500 bytes a node. */
@@ -1101,6 +1121,7 @@ main(void)
         cmocka_unit_test(is_lean),
         cmocka_unit_test(elastic_first),
         cmocka_unit_test(chooses),
+        cmocka_unit_test(has_companion),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -57,6 +57,7 @@ struct yielding {
     struct yield_law read;
     struct rc_yield law;
     size_t asked;        /* increments of a load on the command line; 0: auto */
+    bool companion;      /* a second run with half of them estimates their error */
     size_t slab_count;   /* slabs on the command line; 0: auto */
     struct numbers list; /* or thicknesses                                                */
     bool on;             /* something has yielded                                       */

@@ -48,6 +48,34 @@ read_count(struct run *run, const char *name, const char *text, size_t *count,
                      text);
 }
 
+/* Reads --increments, which may end with ",half". */
+static void
+read_increments(struct run *run, const char *text)
+{
+    enum {
+        LEAST = 16 /* so that half the increments have an estimate too */
+    };
+    struct yielding *y = &run->yielding;
+    char count[32];
+    const size_t length = text != NULL ? strcspn(text, ",") : 0;
+
+    y->companion = length > 0 && length < sizeof count && strcmp(text + length, ",half") == 0;
+    if (!y->companion) {
+        read_count(run, "increments", text, &y->asked, NULL);
+        return;
+    }
+    memcpy(count, text, length);
+    count[length] = '\0';
+    read_count(run, "increments", count, &y->asked, NULL);
+    if (y->asked < LEAST || y->asked % 2 != 0)
+        tool_die(&run->d.t, EXIT_USAGE, "--increments %s: N,half needs an even number from %d",
+                 text, LEAST);
+    if (run->args->travel.n > 0)
+        tool_die(&run->d.t, EXIT_USAGE,
+                 "--increments %s: a contact that travels has no second run: give --increments %zu",
+                 text, y->asked);
+}
+
 void
 yield_read(struct run *run)
 {
@@ -68,7 +96,7 @@ yield_read(struct run *run)
     if (yield_law_read(&y->read, args->yield, &err) != RC_OK)
         tool_die(&run->d.t, EXIT_USAGE, "--yield %s: %s", args->yield, err.text);
     y->law = y->read.law;
-    read_count(run, "increments", args->increments, &y->asked, NULL);
+    read_increments(run, args->increments);
     read_count(run, "slabs", args->slabs, &y->slab_count, &y->list);
     yield_law_check(&run->d.t, &y->read, a);
     yield_law_refuse(&run->d.t, args->discretization, "--discretization",
@@ -131,6 +159,8 @@ yield_set_marks(struct run *run)
     else
         count_text(value[3], y->slab_count);
     count_text(value[4], y->asked);
+    if (y->companion)
+        strcat(value[4], ",half");
     rc_number_text(value[5], goal(run));
 }
 
@@ -145,7 +175,8 @@ yield_model(struct run *run, const struct rc_grid *g, const struct rc_problem *c
                                                .yield = y->law,
                                                .slabs = y->list.n > 0 ? y->list.n : y->slab_count,
                                                .thickness = y->list.n > 0 ? y->list.v : NULL,
-                                               .increments = y->asked};
+                                               .increments = y->asked,
+                                               .companion = y->companion};
     struct rc_err err;
     struct rc_model *m = rc_yielding_new(&shape, g->v, &problem, &err);
 
@@ -316,7 +347,8 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
     const char limit = errors_limited_by(e)[0]; /* first letter of increments, history,
                                                    tolerance, map */
     const size_t made = limit == 'h' ? y->worst_increments : f->increments;
-    const double more = ceil((double)made * pow(off, order));
+    const double more = 2 * ceil((double)made * pow(off, order) / 2);
+    const char *half = y->companion ? ",half" : "";
     char what[256], first[96];
 
     snprintf(first, sizeof first, "its estimated error is %.2g %%, above %.2g %%",
@@ -326,13 +358,13 @@ warn_of_part(struct run *run, const char *where, const struct solution *s)
                  "%.2g %% come from the steps from position to position: take shorter ones",
                  100 * e->increment);
     else if (limit == 'i')
-        snprintf(what, sizeof what, "%.2g %% come from its increments: give --increments %.0f",
-                 100 * e->increment, more);
+        snprintf(what, sizeof what, "%.2g %% come from its increments: give --increments %.0f%s",
+                 100 * e->increment, more, half);
     else if (limit == 'h')
         snprintf(what, sizeof what,
                  "%.2g %% come from case %zu, which was reached in %zu increments: give "
-                 "--increments %.0f",
-                 100 * e->inherited, y->worst, made, more);
+                 "--increments %.0f%s",
+                 100 * e->inherited, y->worst, made, more, half);
     else if (limit == 'm')
         snprintf(what, sizeof what,
                  "%.2g %% come from the edge of the map: give a map %.1f times as large with the "
