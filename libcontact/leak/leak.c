@@ -36,6 +36,9 @@ struct rc_leak {
     struct rc_leak_figures figures;
 };
 
+/* A map of more flowing nodes than `whole` computes the rows of regions below `again` nodes a second time. */
+static const int32_t whole = 1 << 22, again = 1 << 16;
+
 /* A gap below this fraction of the largest is closed; its cube is still a normal number. */
 static const double closed = 1e-30;
 
@@ -193,8 +196,8 @@ new_passage(const struct rc_shape *s, const struct rc_leak_options *o, struct rc
                                .aspect = l->across / l->along,
                                .around = o->around};
     l->a.g = rc_alloc(n, sizeof *l->a.g);
-    l->levels.p = rc_alloc(n, sizeof *l->levels.p);
-    l->levels.rest = rc_alloc(n, sizeof *l->levels.rest);
+    l->levels.p = rc_alloc(n + 2, sizeof *l->levels.p); /* inlet and outlet too */
+    l->levels.rest = rc_alloc(n + 2, sizeof *l->levels.rest);
     l->a.state = malloc(n);
     l->tree = malloc(n);
     if (l->a.g != NULL && l->levels.p != NULL && l->levels.rest != NULL && l->a.state != NULL &&
@@ -217,7 +220,7 @@ begin(struct rc_leak *l, const double *p, const double *g, struct rc_err *err)
     l->elimination = NULL;
     l->stage = STAGE_LINEAR;
     if (rc_percolation(&l->a, &critical, l->tree, err) != RC_OK || rc_blocks(&l->a, err) != RC_OK ||
-        (l->elimination = rc_elimination_new(&l->a, err)) == NULL)
+        (l->elimination = rc_elimination_new(&l->a, l->threads, err)) == NULL)
         return RC_FAIL;
     set_figures(l, &critical);
     return RC_OK;
@@ -287,8 +290,8 @@ step_linear(struct rc_leak *l, struct rc_err *err)
 {
     double size = l->largest * l->largest * l->largest;
 
-    if (rc_elimination_run(l->elimination, &l->a, RC_LINEAR, &l->figures.conductance_linear, err) !=
-        RC_OK)
+    if (rc_elimination_run(l->elimination, RC_LINEAR, NULL, 0, &l->figures.conductance_linear,
+                           err) != RC_OK)
         return RC_FAIL;
     l->figures.conductance_linear *= size;
     return RC_MORE;
@@ -300,11 +303,12 @@ step_harmonic(struct rc_leak *l, struct rc_err *err)
     double size = l->largest * l->largest * l->largest;
     double wide = (double)l->a.ny * l->across, mean = l->figures.mean_gap;
     struct rc_leak_figures *f = &l->figures;
+    const int32_t keep = f->unknowns <= (size_t)whole ? 0 : again;
 
     if (l->elimination != NULL) {
-        if (rc_elimination_run(l->elimination, &l->a, RC_HARMONIC, &f->conductance, err) != RC_OK)
+        if (rc_elimination_run(l->elimination, RC_HARMONIC, &l->levels, keep, &f->conductance,
+                               err) != RC_OK)
             return RC_FAIL;
-        rc_elimination_levels(l->elimination, &l->levels);
         rc_elimination_free(l->elimination); /* the next step needs the memory */
         l->elimination = NULL;
         f->conductance *= size;

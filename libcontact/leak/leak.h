@@ -26,7 +26,7 @@ enum rc_passage_state {
     RC_FLOWS /* fluid on a path from inlet to outlet */
 };
 
-/* Pressures of nodes, 1 at the inlet, 0 at the outlet, each as a sum of two numbers. Behind a narrow
+/* Pressures of nodes, inlet (1) and outlet (0), each as a sum of two numbers. Behind a narrow
  * constriction they differ by less than the precision of a number near 1. */
 struct rc_levels {
     double *p, *rest;
@@ -131,23 +131,36 @@ enum rc_status rc_blocks_fill(const struct rc_passage *a, const struct rc_levels
 
 /* ---- ordering.c ---- */
 
-/* An order of n nodes in which few new faces appear during elimination: order[0] is the first. Neighbours of
- * node k: row[start[k]] .. row[start[k + 1] - 1]. RC_FAIL when memory is short or the library was built
- * without an ordering. */
-enum rc_status rc_ordering(int32_t n, const int32_t *start, const int32_t *row, int32_t *order,
-                           struct rc_err *err);
+/* A region: nodes lo .. hi - 1 of the order. Those from `cut` on separate its two sides, which come first. */
+struct rc_part {
+    int32_t lo, cut, hi;
+    int32_t left, right; /* parts of the sides; -1: none */
+};
+
+/* The flowing nodes in the order of elimination, and its parts, sides first. */
+struct rc_order {
+    int32_t n, parts, root; /* root: the part of all nodes; -1: there are none */
+    int32_t *node;
+    struct rc_part *part;
+};
+
+/* An order in which few new faces appear. The caller frees both arrays. RC_FAIL when memory is short. */
+enum rc_status rc_order_set(struct rc_order *o, const struct rc_passage *a, int threads,
+                            struct rc_err *err);
 
 /* ---- elimination.c ---- */
 
 struct rc_elimination;
 
-/* NULL if memory is short, or if rc_ordering fails. */
-struct rc_elimination *rc_elimination_new(const struct rc_passage *a, struct rc_err *err);
-/* The conductance from inlet to outlet. RC_FAIL when memory is short. */
-enum rc_status rc_elimination_run(struct rc_elimination *e, const struct rc_passage *a,
-                                  enum rc_face_rule rule, double *conductance, struct rc_err *err);
-/* Writes the levels of flowing nodes, after a run. */
-void rc_elimination_levels(struct rc_elimination *e, const struct rc_levels *levels);
+/* NULL if memory is short. The passage must outlive it. */
+struct rc_elimination *rc_elimination_new(const struct rc_passage *a, int threads,
+                                          struct rc_err *err);
+/* The conductance from inlet to outlet, and the levels of flowing nodes, inlet and outlet unless `levels` is
+ * NULL. Regions of fewer than `keep` nodes are then eliminated twice, which takes time and saves memory.
+ * RC_FAIL when memory is short. */
+enum rc_status rc_elimination_run(struct rc_elimination *e, enum rc_face_rule rule,
+                                  const struct rc_levels *levels, int32_t keep, double *conductance,
+                                  struct rc_err *err);
 void rc_elimination_free(struct rc_elimination *e); /* NULL is allowed */
 
 /* ---- bounds.c ---- */

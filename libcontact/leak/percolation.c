@@ -10,20 +10,47 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+enum {
+    BITS = 11, /* six digits have all bits of a gap */
+    DIGITS = 1 << BITS
+};
 
 struct opening {
     double g;
     int32_t node;
 };
 
-static int
-by_falling_gap(const void *one, const void *two)
+/* Positive numbers have the order of their bits. */
+static size_t
+digit(double g, int shift)
 {
-    const struct opening *a = one, *b = two;
+    uint64_t bits;
 
-    if (a->g != b->g)
-        return a->g > b->g ? -1 : 1;
-    return (a->node > b->node) - (a->node < b->node);
+    memcpy(&bits, &g, sizeof bits);
+    return ~(bits >> shift) & (DIGITS - 1);
+}
+
+/* Sorts by one digit after the other, from the lowest, into `spare` and back. Equal gaps keep the order of
+ * their nodes. */
+static void
+sort_by_falling_gap(struct opening *open, struct opening *spare, size_t n)
+{
+    for (int shift = 0; shift < 6 * BITS; shift += BITS) {
+        size_t first[DIGITS] = {0}, sum = 0;
+        struct opening *sorted = spare;
+        for (size_t m = 0; m < n; m++)
+            first[digit(open[m].g, shift)]++;
+        for (size_t k = 0; k < DIGITS; k++) {
+            sum += first[k];
+            first[k] = sum - first[k];
+        }
+        for (size_t m = 0; m < n; m++)
+            sorted[first[digit(open[m].g, shift)]++] = open[m];
+        spare = open;
+        open = sorted;
+    }
 }
 
 static int32_t
@@ -146,7 +173,7 @@ rc_percolation(const struct rc_passage *a, struct rc_critical *critical, uint8_t
     *critical = (struct rc_critical){.node = -1};
     for (int32_t k = 0; k < a->nodes; k++)
         n += a->g[k] > 0;
-    open = malloc((n + 1) * sizeof *open);
+    open = malloc((2 * n + 1) * sizeof *open); /* the second half is spare */
     n = 0;
     if (open == NULL || parent == NULL) {
         rc_err_set(err, "out of memory for the paths through %zu x %zu nodes", a->nx, a->ny);
@@ -160,7 +187,7 @@ rc_percolation(const struct rc_passage *a, struct rc_critical *critical, uint8_t
     }
     parent[a->inlet] = a->inlet;
     parent[a->outlet] = a->outlet;
-    qsort(open, n, sizeof *open, by_falling_gap);
+    sort_by_falling_gap(open, open + n, n);
     take_in(a, open, n, parent, tree, critical);
     if (critical->percolates)
         critical->width = width_at(a, critical->node);

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "leak_case.h"
+#include "libcontact/leak/leak.h"
 
 enum {
     MOST = 24
@@ -472,6 +473,66 @@ scales_and_grows(void **state)
     }
 }
 
+/* ---- threads and memory ---- */
+
+struct run {
+    double conductance;
+    double *p, *rest; /* of all nodes; freed by the caller */
+};
+
+static struct run
+run(struct rc_passage *a, int threads, int32_t keep)
+{
+    size_t n = (size_t)a->nodes + 2;
+    struct rc_levels levels = {calloc(n, sizeof(double)), calloc(n, sizeof(double))};
+    struct run r = {.p = levels.p, .rest = levels.rest};
+    struct rc_err err;
+    struct rc_elimination *e;
+
+    assert_int_equal(rc_blocks(a, &err), RC_OK);
+    e = rc_elimination_new(a, threads, &err);
+    assert_non_null(e);
+    assert_int_equal(rc_elimination_run(e, RC_HARMONIC, &levels, keep, &r.conductance, &err),
+                     RC_OK);
+    rc_elimination_free(e);
+    return r;
+}
+
+/* Any number of threads gives the same bits, and so do rows that are computed again instead of kept. The map
+ * without contact has fronts that threads share. */
+static void
+takes_any_threads_and_memory(void **state)
+{
+    enum {
+        NX = 421,
+        NY = 380
+    };
+    static double g[NX * NY];
+    static uint8_t flows[NX * NY];
+    static const int32_t keep[] = {5000, 100, 30000, INT32_MAX};
+    uint64_t seed = 8;
+
+    (void)state;
+    for (int around = 0; around < 2; around++) {
+        struct rc_passage a = {NX, NY, NX * NY, NX * NY, NX * NY + 1, 0.8, around != 0, g, flows};
+        size_t bytes = (NX * NY + 2) * sizeof(double);
+        struct run first;
+        random_gap((struct rc_shape){NX, NY, 1, 1}, 4, around ? 0.25 : 0, &seed, g);
+        first = run(&a, 1, 0);
+        assert_true(first.conductance > 0);
+        for (int k = 0; k < 4; k++) {
+            struct run r = run(&a, k % 3 + 1, keep[k]);
+            assert_true(r.conductance == first.conductance);
+            assert_memory_equal(r.p, first.p, bytes);
+            assert_memory_equal(r.rest, first.rest, bytes);
+            free(r.p);
+            free(r.rest);
+        }
+        free(first.p);
+        free(first.rest);
+    }
+}
+
 /* Another gap in an existing solver, before and after its steps, gives exactly the numbers of a new
  * solver. */
 static void
@@ -544,10 +605,15 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(agrees_with_dense),      cmocka_unit_test(tells_what_stands),
-        cmocka_unit_test(finds_the_critical_gap), cmocka_unit_test(bounds_meet),
-        cmocka_unit_test(is_symmetric),           cmocka_unit_test(scales_and_grows),
-        cmocka_unit_test(takes_another_gap),      cmocka_unit_test(refuses),
+        cmocka_unit_test(agrees_with_dense),
+        cmocka_unit_test(tells_what_stands),
+        cmocka_unit_test(finds_the_critical_gap),
+        cmocka_unit_test(bounds_meet),
+        cmocka_unit_test(is_symmetric),
+        cmocka_unit_test(scales_and_grows),
+        cmocka_unit_test(takes_any_threads_and_memory),
+        cmocka_unit_test(takes_another_gap),
+        cmocka_unit_test(refuses),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
