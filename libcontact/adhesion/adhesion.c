@@ -46,6 +46,7 @@ rc_adhesion_law_named(const char *name)
 /* ---- a path ---- */
 
 enum {
+    SLOW = 2,        /* successive steps that lower the eigenvalue by less than 3 % */
     BELOW = 2,       /* successive states with an error below tol */
     LEAVES = 20,     /* most saddles of a state */
     COARSEST = 32,   /* nodes along a map; a smaller coarse grid does not pay */
@@ -657,7 +658,7 @@ eigen(struct rc_adhesion *a)
     if (g->mode.error > 0)
         rc_gap_eigen_step(g);
     negative = g->mode.mu < -single;
-    if (g->mode.steps < EIGEN_STEPS && g->mode.error > 0 &&
+    if (g->mode.steps < EIGEN_STEPS && g->mode.slow < SLOW && g->mode.error > 0 &&
         g->mode.error > (negative ? 0.5 : eigen_exact) * fmax(fabs(g->mode.mu), single))
         return RC_MORE;
     a->judged = fmax(g->told.error, 1e-300);
@@ -1179,8 +1180,8 @@ rc_adhesion_expect(const struct rc_shape *shape, const struct rc_adhesion_proble
         return RC_FAIL;
     if (problem->contact.boundary == RC_FREE)
         padded = 4;
-    *expected = (struct rc_expected){.convolutions = 50 * pow(nodes / 16384, 0.25),
+    *expected = (struct rc_expected){.convolutions = 30 * pow(nodes / 16384, 0.25),
                                      .memory = (size_t)((bytes[periodic] + mapped) * nodes)};
-    expected->seconds = expected->convolutions * 15e-9 * nodes * padded;
+    expected->seconds = expected->convolutions * 20e-9 * nodes * padded;
     return RC_OK;
 }

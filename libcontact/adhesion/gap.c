@@ -287,7 +287,10 @@ direction_row(void *ctx, size_t j, double *sums)
     const struct by *c = ctx;
     struct rc_gap *g = c->g;
     size_t m = on_map(g, j);
+    float *wd = rc_gap_wd(g) + j * g->px;
 
+    for (size_t i = 0; i < g->px && !g->mode.known; i++)
+        wd[i] = (float)(g->r[j * g->px + i] + g->way.beta * (double)wd[i]);
     for (size_t i = 0; i < g->px; i++) {
         size_t at = j * g->px + i;
         double is = g->off[at] ? 0 : g->z[at] - c->a + g->way.beta * g->d[at];
@@ -971,6 +974,7 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
     memset(g->z, 0, g->n * sizeof *g->z);
     memset(g->d, 0, g->n * sizeof *g->d);
     memset(g->ad, 0, g->n * sizeof *g->ad);
+    memset(rc_gap_wd(g), 0, g->n * sizeof(float));
     find_au(g);
     g->from.fall = 0;
     rows(g, residual_row, g, sums);

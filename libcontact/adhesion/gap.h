@@ -62,7 +62,7 @@ struct rc_gap_mode {
     double stiffness;        /* stiffness of the mode of the previous state without attraction */
     bool known, watched;     /* e[1] holds the mode; e[0] the mode of the previous state with this
                                 control */
-    size_t steps;
+    size_t steps, slow;      /* slow: successive steps with nearly the same mu */
 };
 
 /* The start of a state. */
@@ -163,6 +163,13 @@ static inline float *
 rc_gap_ah(const struct rc_gap *g)
 {
     return g->mode.e[RC_GAP_FLOATS - 1];
+}
+
+/* W d of this state, roughly, while no mode is known: the first vector of the search for it. */
+static inline float *
+rc_gap_wd(const struct rc_gap *g)
+{
+    return g->mode.e[RC_GAP_FLOATS - 2];
 }
 
 /* ---- refine.c ---- */

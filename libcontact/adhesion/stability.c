@@ -17,10 +17,12 @@ enum {
     X,
     Y = 3,
     D = 6, /* a vector, W times it, A - D times it */
-    SPACE = 3
+    SPACE = 3,
+    LONG = 20 /* steps of the gap */
 };
 static const double dependent = 1e-5; /* squared part of a unit vector outside the space of the
                                          others */
+static const double steady = 0.97;    /* mu over the last one */
 
 /* ---- K r and (A - D) x, of one vector ---- */
 
@@ -342,7 +344,7 @@ rc_gap_eigen_begin(struct rc_gap *g)
     rc_sums_rows(&g->sums, mask_row, g, sums);
     g->mode.mu = sums[0] > 0 ? INFINITY : 1;
     g->mode.error = sums[0] > 0 ? INFINITY : 0;
-    g->mode.steps = 0;
+    g->mode.steps = g->mode.slow = 0;
     g->near.known = false; /* its memory is needed */
     if (sums[0] == 0)
         return;
@@ -358,10 +360,16 @@ rc_gap_eigen_begin(struct rc_gap *g)
     apply_k(g, g->mode.e[X + 1], g->mode.e[X]);
     apply_stiffness(g, g->mode.e[X], g->mode.e[X + 2]);
     clear(g, Y);
-    clear(g, D);
+    if (g->mode.known || g->iterations < LONG) {
+        clear(g, D);
+    } else { /* after many steps soft modes have most of the direction */
+        apply_k(g, g->mode.e[D + 1], g->mode.e[D]);
+        apply_stiffness(g, g->mode.e[D], g->mode.e[D + 2]);
+    }
     rc_sums_rows(&g->sums, gram_row, g, sums);
     best(sums, c);
     combine(g, c);
+    rc_sums_rows(&g->sums, gram_row, g, sums);
     g->mode.mu = sums[6] / sums[0];
 }
 
@@ -380,6 +388,7 @@ rc_gap_eigen_step(struct rc_gap *g)
     best(sums, c);
     combine(g, c);
     rc_sums_rows(&g->sums, gram_row, g, sums);
+    g->mode.slow = sums[6] / sums[0] > steady * g->mode.mu ? g->mode.slow + 1 : 0;
     g->mode.mu = sums[6] / sums[0];
     g->mode.steps++;
     g->mode.known = true;
