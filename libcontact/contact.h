@@ -486,10 +486,11 @@ struct rc_body {
  * material above it. */
 RC_API size_t rc_body_material(const struct rc_body *body, double depth);
 
-/* A factor of the compliance of both bodies for waves of wave number qx (rad/m) along x, even in qx, and its
- * largest value. For periodic maps only. */
+/* A factor of the compliance of both bodies for waves of wave number qx (rad/m) along x, even in qx. On a free
+ * map `at` is one of the displacement at x, y >= 0 (m) from a cell of the side dx. And the largest value. */
 struct rc_along {
     double (*factor)(const void *of, double qx);
+    double (*at)(const void *of, double dx, double x, double y);
     const void *of;
     double most;
 };
@@ -1329,7 +1330,7 @@ struct rc_slide_figures {
     bool converged;
 };
 /* A model (model.h) of the steady state in which body 2, which has the heights h (copied), slides at a speed
- * over the smooth viscoelastic body 1, on a periodic map. It takes the load or the approach, and the speed,
+ * over the smooth viscoelastic body 1. It takes the load or the approach, and the speed,
  * which may be negative. The bodies of `problem` are not used. NULL when a number is out of range, memory is
  * short, or the material flows without end. A point fails if tan delta exceeds 3 among the waves of the map.
  * The material keeps J(-i qx v) (Persson 2001, J. Chem. Phys. 115, 3840; Carbone and Putignano 2013, J. Mech.

@@ -42,6 +42,7 @@ libcontact/wear     | %base libcontact/model/row.h             | libcontact libc
 libcontact/travel   | %base libcontact/model/row.h             | libcontact libcontact/model
 libcontact/visco    | %base libcontact/model/row.h             | libcontact libcontact/model
 libcontact/visco    | libcontact/solver/solver.h libcontact/transform/fourier.h | libcontact/solver libcontact/operator libcontact/transform
+libcontact/visco    | libcontact/operator/operator.h libcontact/body/quadrature.h | libcontact/body
 libcontact/slip     | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/ranks
 libcontact/slip     | %base libcontact/solver/solver.h         | libcontact libcontact/solver
 libcontact/slip     | libcontact/model/row.h                   | libcontact/model

@@ -194,12 +194,17 @@ static void
 rows(const void *of, const struct rc_lattice *at, size_t n, size_t first, size_t last, double *out)
 {
     const struct rc_surface *u = of;
+    const struct rc_along *along = u->solids->along;
 
     memset(out, 0, (last - first) * n * sizeof *out);
     for (size_t k = 0; k < u->solids->n; k++) {
         const struct rc_solid *s = u->solids->solid[k];
         s->type->add_rows(s, u->length, u->modulus, at, n, first, last, out);
     }
+    for (size_t k = 0; along != NULL && along->at != NULL && k < (last - first) * n; k++)
+        out[k] *=
+            along->at(along->of, at->dx * u->length, (double)(k % n * at->sx) * at->dx * u->length,
+                      (double)((first + k / n) * at->sy) * at->dy * u->length);
 }
 
 /* Westergaard 1939: a wave of pressure of wave number q makes a wave of displacement 2 / (E* q) as

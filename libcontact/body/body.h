@@ -220,6 +220,8 @@ struct rc_surface {
 struct rc_kernel rc_surface_kernel(const struct rc_surface *surface);
 /* The same for a uniform half-space of E* = 1, for its spectrum. */
 extern const struct rc_kernel rc_kernel_of_one;
+/* pi times this at any point near a cell with the half sides a and b. */
+double rc_love(double x, double y, double a, double b);
 
 /* ---- tractions along the surfaces of two uniform bodies: shear.c ---- */
 

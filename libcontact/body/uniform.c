@@ -26,8 +26,8 @@ corner(double x, double y)
     return a + b;
 }
 
-static double
-near(double x, double y, double a, double b)
+double
+rc_love(double x, double y, double a, double b)
 {
     return (corner(x + a, y + b) - corner(x - a, y + b)) -
            (corner(x + a, y - b) - corner(x - a, y - b));
@@ -88,7 +88,7 @@ rc_uniform_add_rows(double estar, const struct rc_lattice *at, size_t n, size_t 
         for (size_t i = 0; i < inner; i++) {
             double x = (double)i * dx;
             out[i] +=
-                scale * (x * x + y * y < near_r * near_r ? near(x, y, a, b) : middle(x, y, a, b));
+                scale * (x * x + y * y < near_r * near_r ? rc_love(x, y, a, b) : middle(x, y, a, b));
         }
         far(scale, dx, y, a, b, inner, n, out);
     }

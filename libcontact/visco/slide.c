@@ -27,6 +27,9 @@
  * Waves along y, qx = 0, are the grooves that body 2 leaves. On a periodic map it would meet its own grooves
  * again, and J(0) would be the relaxed compliance at any speed. For a fresh track J(0) is the mean of J over
  * the width of this row of waves, |qx| < pi/Lx.
+ *
+ * On a free map K, V and d are those of a padded map (wake.c). The pressure is 0 outside the map, and all of
+ * this holds with them.
  */
 #include <complex.h>
 #include <math.h>
@@ -38,11 +41,13 @@
 #include "libcontact/model/row.h"
 #include "libcontact/solver/solver.h"
 #include "libcontact/transform/fourier.h"
+#include "wake.h"
 
 /* The contacts of the iteration are solved to this part of the last error, and at most to this tolerance. */
 static const double of_error = 0.25, loosest = 0.1;
 static const double single_floor = 2e-5; /* above this tolerance single precision is enough */
 static const double of_filter = 0.5;     /* work of a filter, in convolutions */
+static const double of_wake = 1.2;       /* the same on a free map */
 static const double of_contact = 5.5;    /* work of a contact after the first one */
 static const double usual_tol = 1e-3;
 static const double most_tan = 3, most_repeated = 10;
@@ -68,9 +73,12 @@ struct slide {
     struct wave *wave;
     struct rc_along along;
     struct rc_line *line;
-    double complex *row; /* of each thread */
+    struct rc_wake *wake; /* on a free map, at a speed above 0 */
+    bool loaded;          /* the wake has the pressure       */
+    double complex *row;  /* of each thread */
     int threads;
     double steepest; /* largest tan d                                         */
+    double lossy;    /* largest tan delta of the material                     */
     double tol;      /* of the present elastic contact                        */
     double estimate; /* relative error of p in the norm of V, times cos d     */
     size_t contacts, iterations;
@@ -141,18 +149,44 @@ set_waves(struct slide *s, double speed)
     /* about the waves of the roughness that the inner model takes for typical */
     const double typical = cabs(compliance(s, (s->turned.nx + 3) / 4, speed));
 
-    s->steepest = s->along.most = 0;
+    s->steepest = s->lossy = s->along.most = 0;
     for (size_t k = 0; k < s->columns; k++) {
         const double complex j = compliance(s, k, speed);
         const double d = copysign(carg(j), speed);
         s->wave[k] = (struct wave){cabs(j) / typical, cexp(I * d) - 1, I * tan(d / 2)};
-        s->steepest = fmax(s->steepest, fabs(tan(d)));
+        s->steepest = s->lossy = fmax(s->steepest, fabs(tan(d)));
         s->along.most = fmax(s->along.most, s->wave[k].factor);
     }
-    s->problem.pair = (struct rc_pair){.estar = 1 / typical, .along = &s->along};
+    s->problem.pair = (struct rc_pair){
+        .estar = 1 / typical, .along = s->problem.boundary == RC_PERIODIC ? &s->along : NULL};
+}
+
+/* On a free map: the waves of the padded map. A body at rest has none. */
+static enum rc_status
+set_wake(struct slide *s, double speed, struct rc_err *err)
+{
+    const struct rc_slide_medium medium = {s->law.material, s->law.compliance, speed,
+                                           1 / s->problem.pair.estar};
+
+    rc_wake_free(s->wake);
+    s->wake = NULL;
+    s->loaded = false;
+    if (s->problem.boundary == RC_PERIODIC || speed == 0)
+        return RC_OK;
+    if ((s->wake = rc_wake_new(&s->turned, &medium, s->problem.threads, err)) == NULL)
+        return RC_FAIL;
+    s->problem.pair.along = &s->wake->along;
+    s->steepest = s->wake->steepest;
+    return RC_OK;
 }
 
 /* ---- filters of rows ---- */
+
+static struct rc_solver *
+solver_of(const struct slide *s)
+{
+    return rc_model_solver(s->base.inner);
+}
 
 enum filter {
     PHASE, /* K - V */
@@ -178,21 +212,58 @@ filter_row(const struct slide *s, enum filter which, double *row)
     rc_line_backward(s->line, z, row);
 }
 
+/* The derivative of a map that does not repeat, by central differences. */
 static void
-filter(const struct slide *s, enum filter which, double *map)
+differentiate(const struct slide *s, double *map)
 {
+    const long n = (long)s->turned.nx;
+
+    for (size_t j = 0; j < s->turned.ny; j++) {
+        double *row = map + j * s->turned.nx, last[3] = {row[0], row[0], row[0]};
+        for (long i = 0; i < n; i++) {
+            const double here = row[i];
+            double sum = 0;
+            for (long k = 1; k <= 3; k++)
+                sum += (double[]){45, -9, 1}[k - 1] / 60 *
+                       (row[i + k < n ? i + k : n - 1] - last[k - 1]);
+            row[i] = sum / s->turned.dx;
+            last[2] = last[1];
+            last[1] = last[0];
+            last[0] = here;
+        }
+    }
+}
+
+/* On a free map the wake finds the field of the pressure, except of the slope of the heights. */
+static void
+filter(struct slide *s, enum filter which, double *map)
+{
+    if (s->problem.boundary == RC_FREE && which == SLOPE) {
+        differentiate(s, map);
+        return;
+    }
+    s->convolutions += s->wake != NULL ? of_wake : of_filter;
+    if (s->wake != NULL) {
+        if (!s->loaded)
+            rc_wake_load(s->wake, solver_of(s)->it.p);
+        s->loaded = true;
+        rc_wake_field(s->wake,
+                      which == PHASE  ? RC_WAKE_LAG
+                      : which == HALF ? RC_WAKE_REFLECT
+                                      : RC_WAKE_SLOPE,
+                      map);
+        return;
+    }
+    if (s->problem.boundary == RC_FREE) {
+        memset(map, 0, s->n * sizeof *map);
+        return;
+    }
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (size_t j = 0; j < s->turned.ny; j++)
         filter_row(s, which, map + j * s->turned.nx);
 }
 
 /* ---- elastic contacts ---- */
-
-static struct rc_solver *
-solver_of(const struct slide *s)
-{
-    return rc_model_solver(s->base.inner);
-}
 
 static double
 highest(const struct slide *s, const double *h)
@@ -241,7 +312,6 @@ judge_sliding(struct slide *s, struct rc_err *err)
     v->posed.tol = goal_of(s);
     if (pose(s, err) != RC_OK)
         return RC_FAIL;
-    s->convolutions += of_filter;
     for (size_t k = 0; k < s->n; k++)
         v->it.v[k] -= v->posed.h[k];
     v->it.known = true;
@@ -262,7 +332,6 @@ advance(struct slide *s, struct rc_err *err)
     for (size_t k = 0; k < s->n; k++)
         s->g[k] += 2 * (v->it.v[k] + v->posed.h[k]);
     filter(s, HALF, s->g);
-    s->convolutions += of_filter;
     if (judge_sliding(s, err) != RC_OK)
         return RC_FAIL;
     if (s->estimate <= goal_of(s) && !v->it.fresh) {
@@ -296,6 +365,8 @@ make_inner(struct slide *s, double speed, struct rc_err *err)
     const struct rc_elastic_asks none = {false, {0, 0}};
 
     set_waves(s, speed);
+    if (set_wake(s, speed, err) != RC_OK)
+        return RC_FAIL;
     rc_model_free(s->base.inner);
     s->base.inner = rc_elastic_new(&s->turned, s->h, &s->problem, &none, err);
     return s->base.inner != NULL ? RC_OK : RC_FAIL;
@@ -310,14 +381,13 @@ go(struct rc_model *m, struct rc_err *err)
 
     if (!(m->to.at[rc_point_has(&m->to, RC_APPROACH) ? RC_APPROACH : RC_LOAD] > 0))
         return rc_err_set(err, "bodies that slide need a load or an approach above 0");
-    set_waves(s, speed);
+    if (make_inner(s, speed, err) != RC_OK)
+        return RC_FAIL;
     if (s->steepest > most_tan)
         return rc_err_set(err,
                           "speed %g m/s: tan delta of the material reaches %.3g among the waves of "
                           "the map, and above %g the iteration is not reliable",
                           speed, s->steepest, most_tan);
-    if (make_inner(s, speed, err) != RC_OK)
-        return RC_FAIL;
     memset(s->g, 0, s->n * sizeof *s->g);
     s->contacts = s->iterations = 0;
     s->convolutions = 0;
@@ -338,6 +408,7 @@ step(struct rc_model *m, struct rc_err *err)
     struct slide *s = (struct slide *)m;
     const enum rc_status status = rc_model_step(m->inner, err);
 
+    s->loaded = false;
     return status == RC_MORE || status == RC_FAIL ? status : advance(s, err);
 }
 
@@ -346,6 +417,7 @@ static void
 find_friction(struct slide *s, double force[2], double *steep)
 {
     const struct rc_solver *v = solver_of(s);
+    const bool open = s->problem.boundary == RC_FREE;
     struct rc_total sum[2] = {{0}};
 
     *steep = 0;
@@ -355,10 +427,10 @@ find_friction(struct slide *s, double force[2], double *steep)
         filter(s, q == 0 ? TILT : SLOPE, s->room);
         for (size_t k = 0; k < s->n; k++) {
             rc_total_add(&sum[q], -v->it.p[k] * s->room[k]);
-            *steep = fmax(*steep, q == 0 && v->it.p[k] > 0 ? fabs(s->room[k]) : 0);
+            *steep = fmax(*steep, v->it.p[k] > 0 && (q == 0 || open) ? fabs(s->room[k]) : 0);
         }
-        force[q] = copysign(1, s->base.to.at[RC_SPEED]) * rc_total_value(&sum[q]) * s->turned.dx *
-                   s->turned.dy;
+        force[q] = (q == 0 && open ? 1 : copysign(1, s->base.to.at[RC_SPEED])) *
+                   rc_total_value(&sum[q]) * s->turned.dx * s->turned.dy;
     }
 }
 
@@ -397,19 +469,22 @@ look(struct rc_model *m, struct rc_point *at, struct rc_err *err)
     struct rc_solver *v = solver_of(s);
     struct rc_slide_figures *f = &s->f;
     const struct rc_contact *c = &rc_elastic_result(m->inner)->contact;
+    const double spent = s->convolutions;
     double force[2], steep;
 
     if (s->looked)
         goto done;
     find_friction(s, force, &steep);
-    if (find_power(s, &f->dissipated_power, err) != RC_OK)
+    s->convolutions = spent;
+    f->dissipated_power = force[0] * fabs(s->base.to.at[RC_SPEED]);
+    if (s->problem.boundary == RC_PERIODIC && find_power(s, &f->dissipated_power, err) != RC_OK)
         return RC_FAIL;
     f->speed = m->to.at[RC_SPEED];
     f->friction_force = force[0];
     f->friction = force[0] / c->load;
     f->pressure_error = s->estimate * hypot(1, s->steepest);
     f->friction_error = fabs(force[0] - force[1]) / c->load + f->pressure_error * steep;
-    f->tan_delta_max = s->steepest;
+    f->tan_delta_max = s->lossy;
     f->track = s->law.repeats ? "repeated" : "fresh";
     f->approach = c->approach - v->posed.top + s->top;
     f->contacts = s->contacts;
@@ -466,6 +541,8 @@ state(struct rc_model *m, struct rc_state *x)
 {
     struct slide *s = (struct slide *)m;
     struct rc_err err;
+    size_t waves;
+    double *g;
 
     if (!m->moved)
         return;
@@ -474,13 +551,20 @@ state(struct rc_model *m, struct rc_state *x)
     rc_state_number(x, &s->convolutions, 0);
     rc_state_number(x, &s->tol, 0);
     rc_state_map(x, s->n, s->g);
+    if (rc_state_reads(x) && make_inner(s, m->to.at[RC_SPEED], &err) != RC_OK) {
+        rc_state_refuse(x, err.text);
+        return;
+    }
+    if (s->wake != NULL) {
+        g = rc_wake_waves(s->wake, &waves);
+        rc_state_map(x, waves, g);
+    }
     if (!rc_state_reads(x))
         return;
     s->done = s->looked = false;
     for (size_t k = 0; k < s->n; k++)
         s->room[k] = s->h[k] - s->g[k];
-    if (make_inner(s, m->to.at[RC_SPEED], &err) != RC_OK ||
-        rc_model_set_heights(m->inner, s->room, &err) != RC_OK)
+    if (rc_model_set_heights(m->inner, s->room, &err) != RC_OK)
         rc_state_refuse(x, err.text);
     else
         m->inner->row->accuracy(m->inner, s->tol / s->problem.tol);
@@ -526,6 +610,7 @@ release(struct rc_model *m)
     free(s->wave);
     free(s->row);
     rc_line_free(s->line);
+    rc_wake_free(s->wake);
 }
 
 const struct rc_model_row rc_model_sliding = {
@@ -558,9 +643,8 @@ check(const struct rc_shape *shape, const struct rc_problem *problem,
 
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
-    if (problem->boundary != RC_PERIODIC)
-        return rc_err_set(err, "sliding over a viscoelastic body is implemented for periodic maps "
-                               "only");
+    if (problem->boundary != RC_PERIODIC && law->repeats)
+        return rc_err_set(err, "only a periodic map has a repeated track");
     if (problem->ranks != NULL)
         return rc_err_set(err, "sliding over a viscoelastic body needs the map in one process");
     if (problem->tilt_free || (problem->hardness > 0 && !isinf(problem->hardness)) ||
@@ -612,6 +696,8 @@ rc_slide_new(const struct rc_shape *shape, const double *h, const struct rc_prob
     s = (struct slide *)m;
     s->problem = *problem;
     s->problem.hurry = NULL;
+    if (problem->boundary == RC_FREE)
+        s->problem.engine = "fft"; /* the others know no factor of the displacement */
     s->law = *law;
     s->turned = law->along_y ? other : *shape;
     s->n = shape->nx * shape->ny;

@@ -526,6 +526,17 @@ work(void **state)
     }
 }
 
+/* True if tan delta is too large at this speed. */
+static bool
+too_lossy(struct rc_model *m, double speed)
+{
+    struct rc_point to = {0};
+
+    rc_point_set(&to, RC_LOAD, 1);
+    rc_point_set(&to, RC_SPEED, speed);
+    return rc_model_go(m, &to, &err) == RC_FAIL && strstr(err.text, "tan delta") != NULL;
+}
+
 /* Random materials, maps and loads: the estimates are above the errors. */
 static void
 estimates(void **state)
@@ -553,6 +564,13 @@ estimates(void **state)
         assert_non_null(r);
         law.material = r;
         rough(s, 3 + (double)(seed % 3) * 3, 100 + seed, h);
+        m = sliding(s, h, 1e-9, &law);
+        if (too_lossy(m, speed)) {
+            rc_model_free(m);
+            rc_relaxation_free(r);
+            continue;
+        }
+        rc_model_free(m);
         m = sliding(s, h, 1e-9, &law);
         mu = slide(m, load / r->instant / 3, speed)->friction;
         frame(m, "pressure", exact);
@@ -601,8 +619,10 @@ refused(void **state)
     assert_null(rc_slide_new(&map, h, &problem, &law, &err));
     law.compliance = 0;
     other.boundary = RC_FREE;
+    law.repeats = true;
     assert_null(rc_slide_new(&map, h, &other, &law, &err));
     assert_non_null(strstr(err.text, "periodic"));
+    law.repeats = false;
     other = problem;
     other.hardness = 1;
     assert_null(rc_slide_new(&map, h, &other, &law, &err));

@@ -102,8 +102,8 @@ slide_check(struct run *run)
         return;
     if (a->relaxation == NULL)
         tool_die(t, EXIT_USAGE, "--speed needs the material of body 1: give --relaxation");
-    refuse(run, !a->physics.periodic, "a free boundary",
-           "sliding is implemented for periodic maps: give --periodic");
+    refuse(run, !a->physics.periodic && repeats(run), "--track repeated",
+           "only a map that repeats has one: give --periodic");
     refuse(run, a->time.n > 0, "--time", "a steady state has no time");
     refuse(run, !isinf(a->physics.hardness), "--hardness", "it is not implemented");
     refuse(run, a->physics.layer.n > 0, "--layer", "it is not implemented");
