@@ -46,7 +46,7 @@ rc_adhesion_law_named(const char *name)
 /* ---- a path ---- */
 
 enum {
-    SLOW = 2,        /* successive steps that lower the eigenvalue by less than 3 % */
+    SLOW = 2,        /* successive steps that lower the eigenvalue by less than 1 % */
     BELOW = 2,       /* successive states with an error below tol */
     LEAVES = 20,     /* most saddles of a state */
     COARSEST = 32,   /* nodes along a map; a smaller coarse grid does not pay */

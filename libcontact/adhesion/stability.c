@@ -22,7 +22,7 @@ enum {
 };
 static const double dependent = 1e-5; /* squared part of a unit vector outside the space of the
                                          others */
-static const double steady = 0.97;    /* mu over the last one */
+static const double steady = 0.99;    /* mu over the last one */
 
 /* ---- K r and (A - D) x, of one vector ---- */
 
