@@ -140,6 +140,19 @@ rc_iterate_displace_rows(struct rc_solver *s)
     return sqrt(total[0] / (double)s->posed.nodes);
 }
 
+RC_CLONES static void
+follow(size_t n, const float *restrict q, double factor, double *restrict v)
+{
+    for (size_t k = 0; k < n; k++)
+        v[k] += factor * (double)q[k];
+}
+
+void
+rc_iterate_follow(size_t n, const float *q, double factor, double *v)
+{
+    follow(n, q, factor, v);
+}
+
 void
 rc_iterate_moved(struct rc_solver *s, double gap, double elastic)
 {

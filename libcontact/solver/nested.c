@@ -289,6 +289,7 @@ known_under(const struct rc_solver *s, struct rc_solver *c, struct known *k)
                         .rows = rows,
                         .stiffness = rc_iterate_stiffness(s),
                         .round = s->posed.boundary == RC_PERIODIC};
+#pragma omp parallel for num_threads(c->posed.threads) schedule(static)
     for (size_t i = 0; i < c->posed.n; i++)
         u[i] += c->posed.h[i];
     if ((k->p = map_under(s, c, c->it.p, &k->rooms[0])) == NULL ||

@@ -480,13 +480,6 @@ step_out(void *at, size_t j, void *from)
     return true;
 }
 
-RC_CLONES static void
-follow(size_t n, const float *restrict q, double factor, double *restrict v)
-{
-    for (size_t k = 0; k < n; k++)
-        v[k] += factor * (double)q[k];
-}
-
 /* Updates v to the changed p; p took the fraction a of the step. */
 static void
 follow_block(void *at, size_t first, size_t n, double *sums)
@@ -494,7 +487,7 @@ follow_block(void *at, size_t first, size_t n, double *sums)
     const struct pass *c = at;
 
     (void)sums;
-    follow(n, c->s->q + first, c->a * c->solver->load.length, c->solver->it.v + first);
+    rc_iterate_follow(n, c->s->q + first, c->a * c->solver->load.length, c->solver->it.v + first);
 }
 
 /* Takes back a fraction b of the step. A node that left a bound returns to it exactly. */

@@ -212,6 +212,8 @@ void rc_iterate_displace(struct rc_solver *solver);
 /* The same in single precision if this costs less. Returns the RMS of K p in the units of the operator's
  * rows, for the rounding error; 0 if it used double precision. */
 double rc_iterate_displace_rows(struct rc_solver *solver);
+/* v += factor q of n nodes. */
+void rc_iterate_follow(size_t n, const float *q, double factor, double *v);
 /* The method changed p and v. `gap`: the sum of v over `elastic` elastic nodes, which gives the shift;
  * elastic 0: not summed, or no node is elastic. */
 void rc_iterate_moved(struct rc_solver *solver, double gap, double elastic);

@@ -291,13 +291,6 @@ rc_working_set_stretch(const struct rc_solver *s, size_t first, size_t n, bool *
     return k;
 }
 
-RC_CLONES static void
-follow(size_t n, const float *restrict q, double factor, double *restrict v)
-{
-    for (size_t k = 0; k < n; k++)
-        v[k] += factor * (double)q[k];
-}
-
 /* Products in place of conditionals: gcc makes branches of chains of them. */
 RC_INLINE void
 residual_in(struct rc_box box, size_t n, const double *restrict p, const double *restrict v,
@@ -372,7 +365,7 @@ residual_block(void *at, size_t first, size_t n, double *sums)
         some = first + n - k;
         if (c->q != NULL) {
             some = rc_working_set_stretch(s, k, some, &in);
-            follow(some, c->q + k, c->factor, s->it.v + k);
+            rc_iterate_follow(some, c->q + k, c->factor, s->it.v + k);
         }
         if (in || some_want(some, s->it.v + k, shift))
             residual_of(rc_box(s, k), some, s->it.p + k, s->it.v + k, shift, 1 / s->load.length,
