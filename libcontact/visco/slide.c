@@ -385,9 +385,10 @@ go(struct rc_model *m, struct rc_err *err)
         return RC_FAIL;
     if (s->steepest > most_tan)
         return rc_err_set(err,
-                          "speed %g m/s: tan delta of the material reaches %.3g among the waves of "
-                          "the map, and above %g the iteration is not reliable",
-                          speed, s->steepest, most_tan);
+                          "speed %g m/s: tan delta of the %s reaches %.3g among the waves of the "
+                          "%smap, and above %g the iteration is not reliable",
+                          speed, s->wake != NULL ? "wake" : "material", s->steepest,
+                          s->wake != NULL ? "padded " : "", most_tan);
     memset(s->g, 0, s->n * sizeof *s->g);
     s->contacts = s->iterations = 0;
     s->convolutions = 0;
