@@ -17,8 +17,7 @@ enum {
     X,
     Y = 3,
     D = 6, /* a vector, W times it, A - D times it */
-    SPACE = 3,
-    LONG = 20 /* steps of the gap */
+    SPACE = 3
 };
 static const double dependent = 1e-5; /* squared part of a unit vector outside the space of the
                                          others */
@@ -360,9 +359,9 @@ rc_gap_eigen_begin(struct rc_gap *g)
     apply_k(g, g->mode.e[X + 1], g->mode.e[X]);
     apply_stiffness(g, g->mode.e[X], g->mode.e[X + 2]);
     clear(g, Y);
-    if (g->mode.known || g->iterations < LONG) {
+    if (g->mode.known) {
         clear(g, D);
-    } else { /* after many steps soft modes have most of the direction */
+    } else { /* soft modes have most of the last direction */
         apply_k(g, g->mode.e[D + 1], g->mode.e[D]);
         apply_stiffness(g, g->mode.e[D], g->mode.e[D + 2]);
     }
