@@ -1,7 +1,7 @@
 # Checks that the packages for the build are installed: bash cmake/packages.sh. On Debian and Ubuntu it installs
 # missing ones; elsewhere it prints what is needed. demo.sh and tests/run.sh source it and name the packages.
 
-build_packages="gcc libc6-dev make cmake pkg-config libfftw3-dev libgsl-dev libsuitesparse-dev libpng-dev libxml2-dev
+build_packages="gcc libc6-dev make cmake pkg-config libfftw3-dev libgsl-dev libpng-dev libxml2-dev
     libzip-dev zlib1g-dev libzstd-dev libdeflate-dev libhdf5-dev libtiff-dev libmd-dev libseccomp-dev libpango1.0-dev fonts-dejavu-core"
 test_packages="ccache libcmocka-dev mandoc zip unzip perl clang-format poppler-utils librsvg2-bin
     python3-numpy python3-matplotlib python3-pandas python3-xarray python3-nbclient
@@ -13,8 +13,8 @@ need_packages() {
         cat <<'EOT'
 This is neither Debian nor Ubuntu: please see that these are installed, with their headers:
   a C17 compiler with OpenMP, make, CMake 3.20 or later, pkg-config
-  FFTW 3.3.5 or later (double and single precision, with threads), GSL 2.2 or later, AMD of
-  SuiteSparse (for rc-leak), libpng, libxml2, libzip, zlib, libzstd, libdeflate, libhdf5, libtiff, libmd, libseccomp (Linux), Pango with cairo, and a sans serif font that
+  FFTW 3.3.5 or later (double and single precision, with threads), GSL 2.2 or later, libpng,
+  libxml2, libzip, zlib, libzstd, libdeflate, libhdf5, libtiff, libmd, libseccomp (Linux), Pango with cairo, and a sans serif font that
   fontconfig finds, such as DejaVu Sans
   for the tests also: cmocka, mandoc, zip, unzip, perl, poppler, rsvg-convert, clang-format 14,
   Python with numpy, matplotlib, pandas, xarray, nbclient and ipykernel, zsh, fish, and Open MPI for tests/run.sh; where Octave or Julia is,

@@ -975,8 +975,7 @@ struct rc_leak_figures {
 
 /* Fluid is where the bodies are not in contact and the gap g (m) is positive; gaps below 1e-30 of the largest
  * count as closed. rc_in_contact decides from p, a pressure or a map of 1 and 0; p NULL: no contact. Finds
- * the percolating path. NULL when a value is not finite, the map has 2^31 nodes, memory is short, or the
- * library was built without AMD of SuiteSparse. */
+ * the percolating path. NULL when a value is not finite, the map has 2^31 nodes, or memory is short. */
 RC_API struct rc_leak *rc_leak_new(const struct rc_shape *shape, const double *p, const double *g,
                                    const struct rc_leak_options *options, struct rc_err *err);
 /* Sets another contact and gap of the same map, with the same options and memory. It works as rc_leak_new,

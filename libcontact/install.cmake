@@ -4,9 +4,6 @@ include(CMakePackageConfigHelpers)
 # What the static library needs: by their pkg-config files, and where there is none by their names.
 set(modules fftw3 fftw3f gsl)
 set(by_name fftw3_threads fftw3f_threads)
-if(RC_LEAK)
-    list(APPEND by_name amd suitesparseconfig)
-endif()
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/libcontact)
 
 set(headers grid.h model.h contact.h)

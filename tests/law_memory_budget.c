@@ -185,7 +185,6 @@ psd(const struct work *w, const double *h, const double *p)
     return true;
 }
 
-#ifdef RC_LEAK
 /* The heights as a gap that is open everywhere, which needs the most memory. */
 static bool
 leak(const struct work *w, const double *h, const double *p)
@@ -199,7 +198,6 @@ leak(const struct work *w, const double *h, const double *p)
     rc_leak_free(leak);
     return status == RC_OK;
 }
-#endif
 
 static bool
 slab_strain(void *ctx, size_t slab, enum rc_component c, size_t j, double *row)
@@ -429,9 +427,7 @@ holds(void **state)
         {"friction and contact", &map, RC_FREE, NULL, 2 * transforms, friction_found},
         {"patches", &large, RC_FREE, NULL, 0, patches},
         {"spectrum", &map, RC_PERIODIC, NULL, transforms, psd},
-#ifdef RC_LEAK
         {"flow through a gap", &map, RC_FREE, NULL, 0, leak},
-#endif
         {"a body that yields inside", &map, RC_PERIODIC, NULL, 2 * transforms, yielding},
         {"slabs", &map, RC_PERIODIC, NULL, transforms, slabs_double},
         {"slabs, single precision", &map, RC_PERIODIC, NULL, transforms, slabs_single},

@@ -30,7 +30,7 @@ claim "  it has the same files" diff <(listed "first/$tarball") <(listed "second
 claim "  it has all files that the build and the tests use" bash -c '
     cd "$0" && ls CMakeLists.txt CMakePresets.json LICENSE README.md CHANGELOG.md CITATION.cff .clang-format python/rcg/*.py \
         sample_surfaces/*.x3p tests/*.sh tests/tools/*.sh debian/control' "libcontact-$version"
-claim "  the unpacked tree can be configured" cmake -S "libcontact-$version" -B alone -DCMAKE_C_COMPILER="${CC:-cc}" "-DRC_LEAK=$(with_leak && echo AUTO || echo OFF)"
+claim "  the unpacked tree can be configured" cmake -S "libcontact-$version" -B alone -DCMAKE_C_COMPILER="${CC:-cc}"
 # without those under mpirun, which only a build with MPI has
 tests_in() { sed -n 's/^add_test(\[*=*\[*\([a-z_0-9]*\).*/\1/p' "$1/tests/CTestTestfile.cmake" | grep -v _ranks | sort; }
 claim "  it has every test" diff <(tests_in "$(dirname "$RC_BIN")") <(tests_in alone)
@@ -50,14 +50,6 @@ claim "  the type hints of Python are made with the numpy of PYTHONPATH, which p
     grep -rqs --include=build.make --include=build.ninja "/python:$PWD/lent " untested
 export -f without_cmocka
 refuses 1 "cmocka" "  where tests are asked for, it does not" "version=$version; without_cmocka -DRC_TESTS=ON >&2"
-
-without_amd() { cmake -S "libcontact-$version" -B dry -DCMAKE_C_COMPILER="${CC:-cc}" -DCMAKE_IGNORE_PATH="$(dirname "$(sed -n 's/^AMD_INCLUDE:[A-Z]*=//p' "$(dirname "$RC_BIN")/CMakeCache.txt")/amd.h")" -DRC_TESTS=OFF "$@"; }
-if with_leak; then
-    claim "  without AMD the configuration succeeds and says that there is no rc-leak" says '^-- Without rc-leak: it needs AMD of SuiteSparse' without_amd
-    claim "  rc-leak does not exist" bash -c '! grep -rqs rc-leak dry/tools/CMakeFiles/TargetDirectories.txt dry/CMakeFiles/TargetDirectories.txt && grep -q rc-solve dry/CMakeFiles/TargetDirectories.txt'
-    export -f without_amd
-    refuses 1 "RC_LEAK=ON needs AMD" "  where it is asked for, it does not" "version=$version; without_amd -DRC_LEAK=ON >&2"
-fi
 
 # ---- web pages ----
 

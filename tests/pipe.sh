@@ -127,17 +127,9 @@ skip_with_address_sanitizer() {
     fi
 }
 
-# with_leak: true if this build has rc-leak, which needs AMD of SuiteSparse.
-with_leak() {
-    grep -qs '^AMD_LIBRARY:[A-Z]*=.*amd' "$(dirname "$RC_BIN")/CMakeCache.txt" &&
-        ! grep -qs '^RC_LEAK:[A-Z]*=OFF' "$(dirname "$RC_BIN")/CMakeCache.txt"
-}
-
 # tool_sources: prints the main source files of the built tools, one per line.
 tool_sources() {
-    for main in "$RC_SOURCE"/tools/rc-*.c; do
-        [ "${main##*/}" = rc-leak.c ] && ! with_leak || echo "$main"
-    done
+    printf '%s\n' "$RC_SOURCE"/tools/rc-*.c
 }
 
 finish() {

@@ -24,7 +24,7 @@ export ROOT
 ROOT=$(realpath -m "${2-$work/root}")
 phase() { echo "== $SECONDS s: $*"; }
 
-here="libfftw3-dev libgsl-dev libsuitesparse-dev libpng-dev zlib1g-dev libzstd-dev libdeflate-dev libmd-dev
+here="libfftw3-dev libgsl-dev libpng-dev zlib1g-dev libzstd-dev libdeflate-dev libmd-dev
     libseccomp-dev libpango1.0-dev fonts-dejavu-core g++ libc6-dev make cmake ninja-build pkg-config patchelf python3
     autoconf automake autopoint libtool gettext gperf dpkg-dev libexpat1-dev uuid-dev"
 newer="libxml2 libzip tiff hdf5 cairo fontconfig"

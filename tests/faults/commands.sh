@@ -93,7 +93,7 @@ commands=$(
 1 rc-cost --quiet --estar 1GPa --load 1mN --kernel direct --dry-run h.rcg
 LIST
 )
-with_leak && commands="$commands
+commands="$commands
 1 rc-leak --quiet --viscosity 1mPas --pressure-drop 1kPa --report /dev/null c.rcg -o out
 1 rc-leak --quiet --direction y --output channel c.rcg"
 

@@ -643,7 +643,6 @@ done:
 
 /* ---- leakage ---- */
 
-#ifdef RC_LEAK
 /* Strips of contact with an open channel, a dead end and enclosed fluid. */
 static enum rc_status
 leaks(double *out, struct rc_err *err)
@@ -675,7 +674,6 @@ leaks(double *out, struct rc_err *err)
     rc_leak_free(leak);
     return status;
 }
-#endif
 
 /* ---- stresses ---- */
 
@@ -1131,9 +1129,7 @@ static const struct {
     {.name = "the travel model", .use = travel_model},
     {.name = "plasticity after elasticity", .use = may_yield},
     {.name = "the adhesive model", .use = adhesive_model},
-#ifdef RC_LEAK
     {.name = "leakage", .use = leaks},
-#endif
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, direct", .use = direct_stress},

@@ -54,16 +54,14 @@ $frames ball-on.rcg:height ball-on.rcg:contact=pressure >ball-frame.rcg
 rc-render --channel height --window contact --title t --subtitle t -o w1.svg ball-on.rcg
 rc-render --channel height --window contact --title t --subtitle t -o w2.svg ball-frame.rcg
 claim "--window contact shows the contact" cmp <(grep '<text' w1.svg) <(grep '<text' w2.svg)
-if with_leak; then
-    $frames a.rcg:gap a.rcg:contact=pressure >flow.rcg
-    rc-leak --quiet --report one.json a.rcg -o one.rcg
-    rc-leak --quiet --report two.json flow.rcg -o two.rcg
-    rc-pick --channel gap a.rcg | rc-leak --quiet --report open.json -o open.rcg
-    near "$(field contact_fraction one.json)" "$(awk -v n="$nodes" 'BEGIN { printf "%.12g", n / 4096 }')" "$same" "rc-leak has as much contact"
-    near "$(field flow_conductance one.json)" "$(field flow_conductance two.json)" "$same" "  and the flow around a pressure in its place"
-    near "$(field flow_conductance one.json)" "$(field flow_conductance open.json)" "$same" "  and that through all of the gap, which is 0 where they touch"
-    claim "  such nodes exist" test "$(field percolates one.json)" = true
-fi
+$frames a.rcg:gap a.rcg:contact=pressure >flow.rcg
+rc-leak --quiet --report one.json a.rcg -o one.rcg
+rc-leak --quiet --report two.json flow.rcg -o two.rcg
+rc-pick --channel gap a.rcg | rc-leak --quiet --report open.json -o open.rcg
+near "$(field contact_fraction one.json)" "$(awk -v n="$nodes" 'BEGIN { printf "%.12g", n / 4096 }')" "$same" "rc-leak has as much contact"
+near "$(field flow_conductance one.json)" "$(field flow_conductance two.json)" "$same" "  and the flow around a pressure in its place"
+near "$(field flow_conductance one.json)" "$(field flow_conductance open.json)" "$same" "  and that through all of the gap, which is 0 where they touch"
+claim "  such nodes exist" test "$(field percolates one.json)" = true
 
 # ---- where pressure and contact differ ----
 
@@ -84,7 +82,7 @@ claim "without the frame rc-info says that the contact is unknown" says "contact
 claim "  it says why" warns "does not determine it.*keep both frames" rc-info without.rcg
 claim "  JSON has null" says '"contact_nodes": null, "contact_area": null' rc-info --quiet --json without.rcg
 refuses 1 "does not determine the contact" "--patches is refused" "rc-info --patches without.rcg"
-with_leak && refuses 1 "does not determine the contact" "rc-leak is refused" "rc-leak without.rcg -o x.rcg"
+refuses 1 "does not determine the contact" "rc-leak is refused" "rc-leak without.rcg -o x.rcg"
 refuses 1 "does not determine the contact" "--window contact is refused" "rc-render --window contact -o x.png without.rcg"
 refuses 1 "does not determine the contact" "--histogram is refused" "rc-render --histogram -o x.png without.rcg"
 claim "rc-render draws the map" rc-render --quiet -o x.png without.rcg

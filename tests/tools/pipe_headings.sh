@@ -51,9 +51,7 @@ report rc-wear "rc-wear --coefficient 1e-6mm3/Nm --distance 1m --threads 1 --qui
 report rc-heat "rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1e-5,1e-5 --threads 1 --quiet --report \$r -o h.rcg one.rcg"
 report rc-stress "rc-stress --depths 0,1um --threads 1 --quiet --report \$r -o s.rcg one.rcg"
 report rc-fatigue "rc-fatigue --bending-limit 6MPa --torsion-limit 4MPa --pass x --depths 1um,2um --threads 1 --quiet --report \$r -o s.rcg one.rcg"
-if with_leak; then
-    report rc-leak "rc-leak --viscosity 1mPas --pressure-drop 1kPa --threads 1 --quiet --report \$r -o f.rcg one.rcg"
-fi
+report rc-leak "rc-leak --viscosity 1mPas --pressure-drop 1kPa --threads 1 --quiet --report \$r -o f.rcg one.rcg"
 report rc-info "rc-info --areal --psd --profile rows --report \$r rough.rcg"
 report "rc-info --patches" "rc-info --areal --patches --report \$r one.rcg"
 report rc-cost "rc-cost --load 1mN --estar 100GPa --kernel fft --limit 2s --threads 1 --quiet --report \$r rough.rcg"
@@ -72,9 +70,7 @@ listed() { # PAGE SECTION
         "$(page_words "$1" "$2" '^\.It Cm ' | sort -u | comm -23 - <(tr ' ' '\n' <<<"$shared" | sed 's/.*\.//' - "$1.keys" | sort -u))"
 }
 listed rc-slip REPORT
-if with_leak; then
-    listed rc-leak REPORT
-fi
+listed rc-leak REPORT
 listed rc-stress "THE REPORT"
 listed rc-solve "THE REPORT"
 page_words rc-info OPTIONS '^\.Cm ' >info.words

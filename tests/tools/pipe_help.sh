@@ -142,7 +142,6 @@ run_in() {
 # pipe_tutorial runs the examples of contact(7), the tutorial.
 for page in "$pages"/*.[15] "$pages/contact-mpi.7"; do
     name=$(basename "$page")
-    [ "$name" = rc-leak.1 ] && ! with_leak && continue
     blocks "$page" EXAMPLES "$scratch/$name.blocks"
     cp -r "$scratch/files" "$scratch/$name.run"
     for block in $(ls -v "$scratch/$name.blocks"/*); do

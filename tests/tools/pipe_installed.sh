@@ -44,7 +44,6 @@ else
 fi
 for page in "$pages"/*.[1-9]; do
     name=$(basename "$page")
-    [ "$name" = rc-leak.1 ] && ! with_leak && continue
     claim "man finds $name" found_by "${reader[@]}" "${name##*.}" "${name%.*}"
 done
 
@@ -132,37 +131,6 @@ claim "  it runs" finds_hertz bare/with_contact
 refuses 1 'requested version "1\.0"' "another major version is refused" \
     "sed 's/libcontact 0.1 /libcontact 1.0 /' outside/CMakeLists.txt >newer.txt && mkdir newer && cp newer.txt newer/CMakeLists.txt &&
         cmake -S newer -B newer/build -DCMAKE_C_COMPILER='${CC:-cc}' -DCMAKE_PREFIX_PATH='$prefix'"
-
-# ---- by AMD ----
-
-if with_leak; then
-    cat >leak.c <<'END'
-#include <libcontact/contact.h>
-int
-main(void)
-{
-    struct rc_shape shape = {3, 1, 1, 1};
-    struct rc_leak_options options = {0};
-    double g[] = {2, 1, 2}, off;
-    struct rc_leak *leak = rc_leak_new(&shape, 0, g, &options, 0);
-
-    while (rc_leak_step(leak, 0) == RC_MORE)
-        continue;
-    off = rc_leak_result(leak)->conductance - 1 / (1. / 8 + 1 + 1. / 8);
-    rc_leak_free(leak);
-    return off < 1e-13 && off > -1e-13 ? 0 : 1;
-}
-END
-    cp hertz.c hertz.kept
-    cp leak.c hertz.c
-    claim "a program with flow through a gap is built by pkg-config, static" compiled "$pc" leak_static --static
-    claim "  it runs without the shared library" ./leak_static
-    cp leak.c outside/hertz.c
-    claim "  find_package builds it" project found_leak static contact_static -DCMAKE_PREFIX_PATH="$prefix"
-    claim "  it runs" found_leak/with_contact_static
-    cp hertz.kept hertz.c
-    cp hertz.c outside
-fi
 
 # ---- on a communicator ----
 

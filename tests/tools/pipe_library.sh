@@ -7,7 +7,6 @@
 library=$(dirname "$RC_BIN")/libcontact
 flags="-fopenmp $(sanitizers "$library/libcontact.a")"
 with_mpi && flags="$flags -lmpi"
-with_leak && flags="$flags -lamd -lsuitesparseconfig"
 
 claim "the page has a program" program "$pages/libcontact.3" hertz.c
 claim "  it has 30 lines at most" [ "$(wc -l <hertz.c)" -le 30 ]
