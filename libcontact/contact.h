@@ -486,12 +486,12 @@ struct rc_body {
  * material above it. */
 RC_API size_t rc_body_material(const struct rc_body *body, double depth);
 
-/* A factor of the compliance of both bodies for waves of wave number qx (rad/m) along x, even in qx. On a free
- * map `at` is one of the displacement at x, y >= 0 (m) from a cell of the side dx. And the largest value. */
+/* A factor that makes the compliance of both bodies differ along x, and its largest value. */
 struct rc_along {
-    double (*factor)(const void *of, double qx);
+    double (*factor)(const void *of, double qx); /* periodic maps: of waves of qx (rad/m), even in qx */
+    /* free maps: of the displacement at x, y >= 0 (m) from a square cell of the side dx (m) */
     double (*at)(const void *of, double dx, double x, double y);
-    const void *of;
+    const void *of; /* first argument of the functions */
     double most;
 };
 
