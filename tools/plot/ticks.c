@@ -38,7 +38,8 @@ put_number(char text[TICKS_TEXT], const char *format, int digits, double value)
 static bool
 takes_prefix(const char *unit)
 {
-    static const char *const units[] = {"m", "Pa", "N", "J", "W", "s", "V", "A", "Hz", "K", "N/m"};
+    static const char *const units[] = {"m", "Pa", "N", "J",   "W",   "s",    "V",
+                                        "A", "Hz", "K", "N/m", "m/s", "J/m2", "W/m2"};
 
     for (size_t k = 0; k < sizeof units / sizeof *units; k++)
         if (strcmp(units[k], unit) == 0)
@@ -112,7 +113,8 @@ scale_choose(struct scale *scale, double largest, const char *unit)
         power = 0;
     scale->size = pow(10, power);
     if (takes_prefix(unit) && prefix_of(power) != NULL)
-        snprintf(scale->unit, sizeof scale->unit, "%s%s", prefix_of(power), unit);
+        snprintf(scale->unit, sizeof scale->unit, "%s%.48s", prefix_of(power),
+                 unit_text(printed, unit));
     else if (power == 0)
         snprintf(scale->unit, sizeof scale->unit, "%.48s", unit_text(printed, unit));
     else
