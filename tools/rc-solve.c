@@ -26,8 +26,8 @@ static struct solve_args args = {
 static const struct opt opts[] = {
     {.group = solve_contact_options},
     {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N[,half]|auto",
-     .help = "increments of each load with --yield (default auto: to an error of 1 %), or steps from time to "
-             "time (20)"},
+     .help = "increments of each load with --yield, or steps from time to time (default auto: to an error of "
+             "1 %)"},
     {.name = "slabs", .type = OPT_TEXT, AT(slabs), .result = true, .arg = "N|LIST|auto",
      .help = "layers that may yield: number or thicknesses, from the surface down (default auto)"},
     {.name = "relaxation", .type = OPT_TEXT, AT(relaxation), .result = true,

@@ -1,6 +1,7 @@
 /* The estimated error of viscoelastic pressures is above the error, for 60 random materials, histories and
  * rough maps, against eight times as many increments. Errors below 1e-6 do not count: the contacts of the
- * reference have a tolerance of 1e-7. Prints the ratios. */
+ * reference have a tolerance of 1e-7. Then for 60 more whose increments the model chooses, against 480; there
+ * the estimate of the reference counts as its error. Prints the ratios. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,8 +18,9 @@ enum {
     TIMES = 8 /* increments of the reference over those of the run */
 };
 static const double glass = 1e9; /* Pa */
-static double h[N], p[N], truth[POINTS][N];
+static double h[N], p[N], truth[POINTS][N], uncertain[POINTS];
 static unsigned long long seed = 61;
+static size_t points, missed; /* of the runs whose increments the model chooses */
 
 static double
 draw(double low, double high)
@@ -71,15 +73,17 @@ random_path(void)
     return a;
 }
 
-/* The estimate at each point; the pressures go to `to`, or are compared with the truth. */
+/* The least estimate over error; the pressures go to `truth`, or are compared with it. */
 static double
-follow(const struct path *a, struct rc_relaxation *material, size_t increments, bool reference)
+follow(const struct path *a, struct rc_relaxation *material, size_t increments, double tol,
+       bool reference)
 {
     const struct rc_shape s = {NX, NX, 1e-6, 1e-6};
     const struct rc_problem contact = {
         .boundary = a->boundary, .pair.estar = glass, .tol = 1e-7, .threads = 1};
     const struct rc_viscoelastic_problem law = {
-        .material = material, .share = 1, .increments = increments};
+        .material = material, .share = 1, .increments = increments, .tol = tol};
+    const struct rc_viscoelastic_figures *f;
     struct rc_err err = {""};
     struct rc_model *m =
         rc_viscoelastic_new(rc_elastic_new(&s, h, &contact, NULL, &err), h, &law, &err);
@@ -95,16 +99,20 @@ follow(const struct path *a, struct rc_relaxation *material, size_t increments, 
             rc_model_frame(m, "pressure", reference ? truth[k] : p, &err) != RC_OK ||
             rc_model_keep(m, &err) != RC_OK)
             fail_msg("%s", err.text);
-        if (!reference && k > 0 && rc_viscoelastic_result(m)->contact.contact_nodes > 0) {
+        f = rc_viscoelastic_result(m);
+        if (reference)
+            uncertain[k] = f->increment_error;
+        if (!reference && k > 0 && f->contact.contact_nodes > 0) {
             const double error = distance(N, p, truth[k]);
-            const double of_all = rc_viscoelastic_result(m)->contact.pressure_error;
+            const double of_all = f->contact.pressure_error + (increments == 0) * uncertain[k];
             if (error > 1e-6) {
-                printf(
-                    "%2zu increments, point %d at %8.3g s: error %8.2g, estimate over error %.2f\n",
-                    increments, k, a->time[k], error,
-                    rc_viscoelastic_result(m)->increment_error / error);
+                printf("%2zu increments, point %d at %8.3g s: error %8.2g, estimate over error "
+                       "%.2f\n",
+                       increments, k, a->time[k], error, f->increment_error / error);
                 worst = fmin(worst, of_all / error);
             }
+            points += increments == 0;
+            missed += increments == 0 && f->increment_error > tol;
         }
     }
     rc_model_free(m);
@@ -117,7 +125,7 @@ estimates(void **state)
     double worst = INFINITY;
 
     (void)state;
-    for (int k = 0; k < PATHS; k++) {
+    for (int k = 0; k < 2 * PATHS; k++) {
         const struct rc_shape s = {NX, NX, 1e-6, 1e-6};
         const struct rc_selfaffine what = {.hurst = 0.8,
                                            .rms_slope = 0.1,
@@ -129,11 +137,18 @@ estimates(void **state)
         const size_t increments = k % 3 == 0 ? 40 : k % 3 == 1 ? 20 : 10;
         struct rc_err err;
         assert_int_equal(rc_synth_selfaffine(&s, &what, h, &err), RC_OK);
-        follow(&a, material, TIMES * increments, true);
-        worst = fmin(worst, follow(&a, material, increments, false));
+        if (k < PATHS) {
+            follow(&a, material, TIMES * increments, 0, true);
+            worst = fmin(worst, follow(&a, material, increments, 0, false));
+        } else {
+            const double tol = k % 2 == 0 ? 0.01 : 0.003;
+            follow(&a, material, 480, 0, true);
+            worst = fmin(worst, follow(&a, material, 0, tol, false));
+        }
         rc_relaxation_free(material);
     }
-    printf("least estimate over error: %.2f\n", worst);
+    printf("least estimate over error: %.2f; %zu of %zu chosen increments miss the tolerance\n",
+           worst, missed, points);
     assert_true(worst >= 1);
 }
 

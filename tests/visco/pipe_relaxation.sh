@@ -3,7 +3,7 @@
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 48 --dx 1um --radius 100um -o ball.rcg
-solve="rc-solve --quiet --threads 1 --nu1 0.5 --E2 rigid --tol 1e-5 --output pressure,gap"
+solve="rc-solve --quiet --threads 1 --nu1 0.5 --E2 rigid --tol 1e-3 --output pressure,gap"
 solid="--relaxation 1MPa,9MPa:1ms"
 # ball TIME: the approach of the ball; J = (1 - (1 - E/Einf) exp(-t/th))/Einf, th = tau E(0)/Einf
 ball() {
@@ -41,7 +41,7 @@ between 0 "$(field relaxation_misfit curve.json)" 0.05 "  with a small misfit"
 
 # ---- nothing asked, nothing paid ----
 
-$solve --E1 10MPa --load 0.2mN --report plain.json -o plain.rcg ball.rcg
+$solve --E1 10MPa --load 0.2mN --tol 1e-4 --report plain.json -o plain.rcg ball.rcg
 claim "a plain run has no figures of relaxation" bash -c "grep -q '\"relaxation\": \"left out' plain.json &&
     ! grep -qE 'relaxation_|modulus_|equivalent_load|\"time\"' plain.json"
 claim "  and no key time" bash -c "rc-info --json plain.rcg >info.json && ! grep -q '\"time\"' info.json"

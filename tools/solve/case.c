@@ -40,7 +40,7 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
 {
     struct rc_problem problem = physics_problem(&run->args->physics, g, step);
 
-    problem.tol = run->args->tol;
+    problem.tol = run->args->tol * relax_part(run, true);
     problem.history_part = history_part(run);
     problem.engine = run->args->kernel;
     problem.method = run->args->method;

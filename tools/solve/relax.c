@@ -136,6 +136,12 @@ relax_check(struct run *run)
 
 /* ---- points ---- */
 
+double
+relax_part(const struct run *run, bool contacts)
+{
+    return !run->relaxing.wanted ? 1 : contacts ? 0.1 : 0.8;
+}
+
 size_t
 relax_points(const struct run *run)
 {
@@ -174,6 +180,7 @@ relax_model(struct run *run, struct rc_model *inner)
     const struct physics *a = &run->args->physics;
     const struct relaxing *x = &run->relaxing;
     const struct rc_viscoelastic_problem problem = {
+        .tol = run->args->tol * relax_part(run, false),
         .material = x->law.material,
         .share = fmin(1, (1 - a->nu1 * a->nu1) / a->e1 * a->surface_estar),
         .shortest = x->shortest,
@@ -272,7 +279,7 @@ relax_warn_of_end(struct run *run, const char *where, const struct rc_contact *c
         &run->d.course, "stopped short",
         "%s: the error of the steps in time is %.2g of the pressure: take more --increments "
         "than %zu",
-        where, x->found->increment_error, x->increments > 0 ? x->increments : 20);
+        where, x->found->increment_error, x->increments > 0 ? x->increments : 320);
     return true;
 }
 

@@ -236,6 +236,8 @@ size_t relax_points(const struct run *run);
 double relax_time(const struct run *run, size_t point);
 size_t relax_step(const struct run *run, size_t point);
 size_t relax_largest(const struct run *run);
+/* The part of --tol for each contact, or for the steps in time. */
+double relax_part(const struct run *run, bool contacts);
 struct rc_model *relax_model(struct run *run, struct rc_model *inner);
 enum rc_status relax_expect(const struct run *run, const struct rc_problem *problem,
                             struct rc_expected *expected, struct rc_err *err);
