@@ -39,6 +39,26 @@ $solve --relaxation curve.csv --load 0.2mN --time 50ms --report curve.json -o t.
 near "$(field approach curve.json)" "$(field approach typed.json)" 5e-3 "a master curve of this material is fitted"
 between 0 "$(field relaxation_misfit curve.json)" 0.05 "  with a small misfit"
 
+# ---- a layer on a rigid base ----
+
+layer="rc-solve --quiet --threads 1 --E1 rigid --E2 rigid --tol 1e-3"
+# a paraboloid on a layer of a tenth of the radius of contact, by a dense solution of the axisymmetric problem;
+# the infinitely thin layer has P = pi M a^4/4Rt and an approach of a^2/2R; E = 1/J(50 ms)
+thin=$(awk 'BEGIN { m = 0.7 / 1.3 / 0.4 / 1e-6 / (1 - 0.9 * exp(-5))
+    printf "%.12g", 1.050126 * 3.14159265 * m * 1e-20 / (4 * 1e-4 * 1e-6) }')
+$layer $solid --layer 1um,relaxation,0.3 --load $thin --time 0,50ms --report thin.json -o thin.rcg ball.rcg
+sed -n 2p thin.json >case.json
+near "$(field approach case.json)" "$(awk 'BEGIN { print 1.025873 * 1e-10 / 2e-4 }')" "$coarse_grid" \
+    "a thin layer of rubber has the approach of theory"
+soft=$(awk 'BEGIN { printf "%.12g", 1e6 / (1 - 0.9 * exp(-5)) }')
+$layer --layer 1um,$soft,0.3 --load $thin --report soft.json -o soft.rcg ball.rcg
+near "$(field approach case.json)" "$(field approach soft.json)" 1e-3 "  and that of an elastic one with the modulus 1/J"
+$layer $solid --layer 1um,relaxation,0.3 --approach 0.5um --time 0,1ms --report held.json -o held.rcg ball.rcg
+for case in 1 2; do sed -n ${case}p held.json >held$case.json; done
+near "$(field load held2.json)" "$(awk -v p="$(field load held1.json)" 'BEGIN { print p * (1 + 9 * exp(-1)) / 10 }')" \
+    2e-3 "the load of a held layer falls as E(t)"
+claim "  and the history has its words" says 'layer 1e-06,relaxation,0.3' rc-info held.rcg
+
 # ---- nothing asked, nothing paid ----
 
 $solve --E1 10MPa --load 0.2mN --tol 1e-4 --report plain.json -o plain.rcg ball.rcg
@@ -83,4 +103,9 @@ refuses 2 'must be 0' "loads from a later time on" "$solve $solid --time 1,2 --l
 for other in '--E1 1MPa' '--hardness 1GPa' '--layer 1um,1GPa,0.3' '--adhesion 50mJ/m2' '--tilt free' --discretization; do
     refuses 2 "--relaxation does not work with ${other%% *}" "$other" "$solve $solid --time 0 $other $more"
 done
+rigid="$layer $solid --time 0 --load 0.2mN -o x.rcg"
+refuses 2 'must have a --layer' "a rigid body 1" "$rigid ball.rcg"
+refuses 2 'must relax alike' "an elastic layer" "$rigid --layer 1um,1MPa,0.3 ball.rcg"
+refuses 2 'must relax alone' "a layer and an elastic body 2" "$rigid --E2 1MPa --nu2 0.3 --layer 1um,relaxation,0.3 ball.rcg"
+refuses 2 'unknown unit|number' "a layer that relaxes alone" "$layer --load 1uN --layer 1um,relaxation,0.3 -o x.rcg ball.rcg"
 refuses 2 'no effect without --relaxation' "--time alone" "rc-solve --estar 1MPa --time 0 $more"

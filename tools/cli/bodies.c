@@ -117,7 +117,8 @@ layers_free(struct layers *l)
 /* ---- on a command line ---- */
 
 enum rc_status
-layer_read(const char *text, struct rc_layer *m, double *residual, struct rc_err *err)
+layer_read(const char *text, struct rc_layer *m, double *residual, double relaxes, bool *is,
+           struct rc_err *err)
 {
     static const enum unit units[] = {UNIT_M, UNIT_PA, UNIT_NONE, UNIT_PA};
     double *to[] = {&m->thickness, &m->e, &m->nu, residual};
@@ -125,6 +126,7 @@ layer_read(const char *text, struct rc_layer *m, double *residual, struct rc_err
     char word[64];
 
     *residual = 0;
+    *is = false;
     for (int k = 0; k < 4 && !last; k++) {
         size_t n = strcspn(text, ",");
         last = text[n] == '\0';
@@ -133,8 +135,12 @@ layer_read(const char *text, struct rc_layer *m, double *residual, struct rc_err
                                    "2um,300GPa,0.25 or 2um,300GPa,0.25,-3GPa");
         memcpy(word, text, n);
         word[n] = '\0';
-        if (unit_number(word, units[k], to[k], err) != RC_OK)
+        if (k == 1 && relaxes > 0 && strcmp(word, LAYER_RELAXES) == 0) {
+            *is = true;
+            m->e = relaxes;
+        } else if (unit_number(word, units[k], to[k], err) != RC_OK) {
             return RC_FAIL;
+        }
         text += n + 1;
     }
     if (!sensible(m, false))

@@ -22,10 +22,12 @@ struct layers {
 enum rc_status layers_read(const struct rc_grid *grid, struct layers *layers, struct rc_err *err);
 void layers_free(struct layers *layers);
 
+/* In place of the modulus of a layer: it is that of --relaxation. */
+#define LAYER_RELAXES "relaxation"
 /* Reads one layer of a command line, "2um,300GPa,0.25", or with a residual stress,
- * "2um,300GPa,0.25,-3GPa". */
+ * "2um,300GPa,0.25,-3GPa". relaxes: the instantaneous modulus of --relaxation, or 0; *is: the layer has it. */
 enum rc_status layer_read(const char *text, struct rc_layer *layer, double *residual,
-                          struct rc_err *err);
+                          double relaxes, bool *is, struct rc_err *err);
 
 /* Both bodies: from `layers`, which was read from the same frame, or from E*. RC_FAIL if the keys do not
  * define them. */

@@ -22,7 +22,8 @@ const struct opt physics_options[] = {
     {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA, AT(estar), ABOVE_0, .result = true,
      .arg = "MODULUS", .help = "composite modulus E*, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2"},
     {.name = "E1", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e1), ABOVE_0, .result = true,
-     .arg = "MODULUS", .help = "Young's modulus of body 1, the one that is analysed"},
+     .word = "rigid", .arg = "MODULUS",
+     .help = "Young's modulus of body 1, the one that is analysed, or rigid below its layers"},
     {.name = "nu1", .type = OPT_NUMBER, AT(nu1), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 1"},
     {.name = "E2", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e2), ABOVE_0, .result = true,
@@ -91,11 +92,13 @@ plane_compliance(double e, double nu)
 static void
 check_elasticity(struct tool *t, struct physics *a)
 {
-    int bodies = (tool_given(t, "E1") || a->relaxes) + tool_given(t, "nu1") + tool_given(t, "E2") +
-                 tool_given(t, "nu2");
-    bool rigid = isinf(a->e2);
+    bool rigid = isinf(a->e2), base = isinf(a->e1);
+    int bodies = (tool_given(t, "E1") || a->relaxes > 0) + (base || tool_given(t, "nu1")) +
+                 tool_given(t, "E2") + tool_given(t, "nu2");
 
-    if (a->relaxes && bodies < (rigid ? 3 : 4))
+    if (base && a->layer.n == 0)
+        tool_die(t, EXIT_USAGE, "--E1 rigid: body 1 must have a --layer");
+    if (a->relaxes > 0 && bodies < (rigid ? 3 : 4))
         tool_die(t, EXIT_USAGE,
                  "--relaxation has the moduli of body 1: give --nu1, and --E2 --nu2 or --E2 rigid");
     if (tool_given(t, "estar") ? bodies > 0 : bodies < (rigid ? 3 : 4))
@@ -104,11 +107,15 @@ check_elasticity(struct tool *t, struct physics *a)
                  "--nu2, all four (--E2 rigid needs no --nu2)");
     if (rigid && tool_given(t, "nu2"))
         tool_warn(t, "--nu2 has no effect beside --E2 rigid: leave it out");
+    if (base && tool_given(t, "nu1"))
+        tool_warn(t, "--nu1 has no effect beside --E1 rigid: leave it out");
     if (bodies == 0) {
         a->pair.estar = a->surface_estar = a->estar;
         return;
     }
-    a->pair.one = (struct rc_body){.e = a->e1, .nu = a->nu1};
+    if (a->relaxes > 0 && !base)
+        a->e1 = a->relaxes;
+    a->pair.one = (struct rc_body){.e = a->e1, .nu = base ? 0 : a->nu1};
     if (!rigid)
         a->pair.two = (struct rc_body){.e = a->e2, .nu = a->nu2};
     a->surface_estar = 1 / (plane_compliance(a->e1, a->nu1) + plane_compliance(a->e2, a->nu2));
@@ -136,7 +143,7 @@ check_layers(struct tool *t, struct physics *a)
     size_t n = a->layer.n;
     struct rc_err err;
     char h[RC_NUMBER_SIZE], e[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE], r[RC_NUMBER_SIZE], *si;
-    bool stressed = false;
+    bool stressed = false, relaxes;
 
     if (n == 0)
         return;
@@ -148,14 +155,17 @@ check_layers(struct tool *t, struct physics *a)
     a->residual = tool_room(t, n, sizeof *a->residual, "the layers of a body");
     for (size_t k = 0; k < n; k++) {
         struct rc_layer *m = &a->layers[k];
-        if (layer_read(a->layer.step[k].text, m, &a->residual[k], &err) != RC_OK)
+        if (layer_read(a->layer.step[k].text, m, &a->residual[k], a->relaxes, &relaxes, &err) !=
+            RC_OK)
             tool_die(t, EXIT_USAGE, "--layer %s: %s", a->layer.step[k].text, err.text);
         warn_of_residual(t, a->layer.step[k].text, a->residual[k], m->e);
         si = tool_room(t, 4, RC_NUMBER_SIZE, "the layers of a body");
         snprintf(si, 4 * RC_NUMBER_SIZE, "%s,%s,%s%s%s", rc_number_text(h, m->thickness),
-                 rc_number_text(e, m->e), rc_number_text(nu, m->nu), a->residual[k] == 0 ? "" : ",",
+                 relaxes ? LAYER_RELAXES : rc_number_text(e, m->e), rc_number_text(nu, m->nu),
+                 a->residual[k] == 0 ? "" : ",",
                  a->residual[k] == 0 ? "" : rc_number_text(r, a->residual[k]));
         a->layer.step[k].text = si;
+        a->relaxing_layers += relaxes;
         stressed = stressed || a->residual[k] != 0;
     }
     if (!stressed) {

@@ -17,10 +17,11 @@ struct physics {
     double *residual;        /* their residual stresses, Pa; NULL: none                          */
     struct rc_pair pair;     /* the bodies from these numbers                                    */
     double surface_estar;    /* surface estar of the topmost material and body 2 */
-    bool relaxes;            /* e1 is the instantaneous modulus of a viscoelastic body           */
-    bool travels;            /* the sphere is not part of the map, but moves over it             */
-    bool attracts;           /* loads and approaches may be negative or 0                        */
-    bool history;            /* each load acts on the shape that earlier ones left, and may be 0 */
+    double relaxes;         /* Pa: instantaneous modulus of a viscoelastic body; 0: there is none */
+    size_t relaxing_layers; /* layers that have this modulus, instead of body 1                 */
+    bool travels;           /* the sphere is not part of the map, but moves over it             */
+    bool attracts;          /* loads and approaches may be negative or 0                        */
+    bool history;           /* each load acts on the shape that earlier ones left, and may be 0 */
 };
 
 /* Its options, for a row of a tool's table: .group = physics_options, .at = offset of struct physics in the

@@ -34,13 +34,13 @@ relax_read(struct run *run, struct solve_args *args)
         tool_die(t, EXIT_USAGE, "--time and --shift have no effect without --relaxation");
     if (args->relaxation == NULL)
         return;
-    refuse(run, tool_given(t, "E1"), "--E1", "the moduli of body 1 are those of --relaxation");
+    refuse(run, tool_given(t, "E1") && !isinf(a->e1), "--E1",
+           "the moduli of body 1 are those of --relaxation (or --E1 rigid below a layer of it)");
     refuse(run, tool_given(t, "estar"), "--estar",
            "body 1 needs its Poisson's ratio: give --nu1, and --E2 --nu2 or --E2 rigid");
     if (relaxation_law_read(&x->law, args->relaxation, args->shift, &err) != RC_OK)
         tool_die(t, EXIT_USAGE, "--relaxation %s: %s", args->relaxation, err.text);
-    a->e1 = 1 / x->law.material->instant;
-    a->relaxes = true;
+    a->relaxes = 1 / x->law.material->instant;
     a->history = x->wanted; /* each time continues from the last one */
 }
 
@@ -81,7 +81,8 @@ warn_of_material(struct run *run)
 {
     const struct relaxing *x = &run->relaxing;
     const struct rc_relaxation *m = x->law.material;
-    const double contradicts = 0.05, rubber = 0.45;
+    const struct physics *a = &run->args->physics;
+    const double contradicts = 0.05, rubber = 0.45, nu = isinf(a->e1) ? a->layers[0].nu : a->nu1;
     char leg[SHOWN_NUMBER], tau[SHOWN_NUMBER];
 
     if (x->law.misfit > contradicts)
@@ -95,11 +96,11 @@ warn_of_material(struct run *run)
                   "there the "
                   "answer rests on the instantaneous modulus alone",
                   shown_in_unit(leg, x->shortest, "s"), shown_in_unit(tau, m->time[0], "s"));
-    if (run->args->physics.nu1 < rubber)
+    if (nu < rubber)
         tool_warn(&run->d.t,
-                  "--nu1 %g: it is constant in time, which holds for rubber (0.5): a compressible "
-                  "polymer relaxes less in its volume than in shear",
-                  run->args->physics.nu1);
+                  "Poisson's ratio %g is constant in time, which holds for rubber (0.5): a "
+                  "compressible polymer relaxes less in its volume than in shear",
+                  nu);
 }
 
 /* After the checks of the bodies. */
@@ -112,8 +113,11 @@ relax_check(struct run *run)
     if (!x->wanted)
         return;
     refuse(run, !isinf(args->physics.hardness), "--hardness", "it is not implemented");
-    refuse(run, args->physics.layer.n > 0, "--layer",
-           "all material of body 1 must relax alike, which a layer on another one does not");
+    refuse(run, args->physics.layer.n > 0 && !(isinf(args->physics.e1) && isinf(args->physics.e2)),
+           "--layer", "a layer must relax alone: give --E1 rigid and --E2 rigid");
+    refuse(run, args->physics.layer.n != args->physics.relaxing_layers, "--layer",
+           "all layers must relax alike: give " LAYER_RELAXES
+           " for the modulus of each, as in 1mm," LAYER_RELAXES ",0.49");
     refuse(run, args->yield != NULL, "--yield", "it is not implemented");
     refuse(run, args->adhesion != NULL, "--adhesion", "it is not implemented");
     refuse(run, args->travel.n > 0, "--travel", "it is not implemented");
@@ -182,7 +186,7 @@ relax_model(struct run *run, struct rc_model *inner)
     const struct rc_viscoelastic_problem problem = {
         .tol = run->args->tol * relax_part(run, false),
         .material = x->law.material,
-        .share = fmin(1, (1 - a->nu1 * a->nu1) / a->e1 * a->surface_estar),
+        .share = isinf(a->e1) ? 1 : fmin(1, (1 - a->nu1 * a->nu1) / a->e1 * a->surface_estar),
         .shortest = x->shortest,
         .longest = run->args->time.v[run->args->time.n - 1],
         .points = relax_points(run),
@@ -301,7 +305,7 @@ relax_report(struct report *r, const struct run *run)
     report_named(r, from, "time equivalent_load");
     report_count(r, "relaxation_terms", x->law.material->terms, NULL);
     report_number(r, "relaxation_misfit", x->law.misfit, NULL);
-    report_number(r, "modulus_instant", run->args->physics.e1, "Pa");
+    report_number(r, "modulus_instant", run->args->physics.relaxes, "Pa");
     report_number(r, "modulus_relaxed", x->law.material->relaxed, "Pa");
 }
 
@@ -315,7 +319,7 @@ relax_state(const struct run *run)
     if (run->args->relaxation == NULL)
         return "left out: no --relaxation";
     snprintf(text, sizeof text, "on: %zu terms, E from %s to %s", x->law.material->terms,
-             shown_in_unit(instant, run->args->physics.e1, "Pa"),
+             shown_in_unit(instant, run->args->physics.relaxes, "Pa"),
              shown_in_unit(relaxed, x->law.material->relaxed, "Pa"));
     return text;
 }

@@ -190,7 +190,7 @@ report_asked(struct report *r, const struct run *run, const struct rc_solver *so
     if (solver != NULL)
         rc_solver_progress(solver, &at);
     report_number(r, "estar", one->layers > 0 ? NAN : a->surface_estar, "Pa");
-    report_number(r, "e1", a->e1, "Pa");
+    report_number(r, "e1", isinf(a->e1) ? NAN : a->e1, "Pa");
     report_number(r, "nu1", a->nu1, NULL);
     report_number(r, "e2", isinf(a->e2) ? NAN : a->e2, "Pa");
     report_number(r, "nu2", isinf(a->e2) ? NAN : a->nu2, NULL);
