@@ -1351,7 +1351,7 @@ struct rc_viscoelastic_problem {
      * out; 0: all terms are kept */
     double shortest, longest;
     size_t points;     /* of the history, for the expected cost; 0: 1                           */
-    size_t increments; /* steps from point to point, at least 2; 0: 20; see below               */
+    size_t increments; /* steps from point to point, at least 2; 0: chosen, 20 to 320; see below */
     double tol;        /* of the error of the increments, relative L1 of the pressure; 0: 0.01  */
 };
 struct rc_viscoelastic_figures {
