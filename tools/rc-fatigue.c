@@ -61,7 +61,7 @@ static const struct opt opts[] = {
     {.name = "by-depth", .type = OPT_REPORT, AT(by_depth), .arg = "FILE",
      .help = "write the largest indices of each depth, as --report does"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
-     .help = "print what would be computed, with its memory, and stop"},
+     .help = "print what would be computed, with memory and time, and stop"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -547,27 +547,6 @@ judge(struct run *run, const struct rc_fatigue *f)
 /* ---- a history ---- */
 
 static void
-show_plan(struct run *run, const struct rc_shape *shape)
-{
-    const struct rc_grid *first = run->position[0].p;
-    const struct rc_shape r = rc_fatigue_shape(shape, &run->problem);
-    const struct numbers *d = &run->depths;
-    FILE *out = run->t.out;
-
-    fprintf(out, "case %zu: %zu x %zu nodes, %s boundary\n", rc_grid_case(first), first->nx,
-            first->ny, run->options.boundary == RC_PERIODIC ? "periodic" : "free");
-    if (args.pass != NULL)
-        fprintf(out, "  %-14salong %s\n", "pass", args.pass);
-    else
-        fprintf(out, "  %-14s%zu\n", "positions", run->positions);
-    fprintf(out, "  %-14s%zu, %g to %g m\n", "depths", d->n, d->v[0], d->v[d->n - 1]);
-    fprintf(out, "  %-14s%zu at each depth\n", "histories", r.nx * r.ny);
-    for (int c = 0; c < RC_FATIGUES; c++)
-        fprintf(out, "  %-14s%s\n", rc_criterion_names[c], wanted(c) ? "on" : "left out");
-    fprintf(out, "  %-14sabout %zu MiB\n", "memory", (tool_memory_with(run->needs) >> 20) + 1);
-}
-
-static void
 do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, size_t k)
 {
     struct tool *t = &run->t;
@@ -586,7 +565,7 @@ do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, s
                                fatigue_residual_at(t, &run->residual, lines_of(run), depth, at), to,
                                &err),
               &err);
-    for (int c = 0; c < RC_FATIGUES && run->problem.pass == 0; c++) {
+    for (int c = 0; c < RC_FATIGUES && run->problem.pass == 0 && !args.dry_run; c++) {
         if (!wanted(c))
             continue;
         if (rc_grid_set_number(run->frame[c], "depth", depth, &err) != RC_OK ||
@@ -596,6 +575,56 @@ do_depth(struct run *run, struct rc_fatigue *f, const struct rc_shape *result, s
             tool_die_at(t, run->frame[c], EXIT_IMPOSSIBLE, "%s", err.text);
         tool_write(t, run->frame[c]);
     }
+}
+
+/* Seconds of all depths, from a trial of one; NAN: the memory does not suffice. */
+static double
+expect(struct run *run, const struct rc_shape *result)
+{
+    const struct rc_grid *first = run->position[0].p;
+    const struct rc_shape shape = rc_grid_shape(first);
+    double began = tool_now(), made;
+    struct rc_fatigue *f;
+    struct rc_err err;
+
+    if (run->needs > tool_memory_left(&run->t))
+        return NAN;
+    f = tool_made(&run->t, first, rc_fatigue_new(&shape, &run->problem, &err), &err);
+    for (int c = 0; c < RC_FATIGUES; c++)
+        run->frame[c] = wanted(c) ? new_frame(run, result, c) : NULL;
+    made = tool_now();
+    do_depth(run, f, result, run->depths.n / 2);
+    tool_progress_end(&run->t);
+    for (int c = 0; c < RC_FATIGUES; c++)
+        rc_grid_free(run->frame[c]);
+    rc_fatigue_free(f);
+    return made - began + (double)run->depths.n * (tool_now() - made);
+}
+
+static void
+show_plan(struct run *run, const struct rc_shape *shape)
+{
+    const struct rc_grid *first = run->position[0].p;
+    const struct rc_shape r = rc_fatigue_shape(shape, &run->problem);
+    const double seconds = expect(run, &r);
+    const struct numbers *d = &run->depths;
+    FILE *out = run->t.out;
+
+    fprintf(out, "case %zu: %zu x %zu nodes, %s boundary\n", rc_grid_case(first), first->nx,
+            first->ny, run->options.boundary == RC_PERIODIC ? "periodic" : "free");
+    if (args.pass != NULL)
+        fprintf(out, "  %-14salong %s\n", "pass", args.pass);
+    else
+        fprintf(out, "  %-14s%zu\n", "positions", run->positions);
+    fprintf(out, "  %-14s%zu, %g to %g m\n", "depths", d->n, d->v[0], d->v[d->n - 1]);
+    fprintf(out, "  %-14s%zu at each depth\n", "histories", r.nx * r.ny);
+    for (int c = 0; c < RC_FATIGUES; c++)
+        fprintf(out, "  %-14s%s\n", rc_criterion_names[c], wanted(c) ? "on" : "left out");
+    fprintf(out, "  %-14sabout %zu MiB\n", "memory", (tool_memory_with(run->needs) >> 20) + 1);
+    if (isnan(seconds))
+        fprintf(out, "  %-14sunknown\n", "time");
+    else
+        fprintf(out, "  %-14sabout %.2g s\n", "time", seconds);
 }
 
 static void

@@ -1172,16 +1172,18 @@ rc_adhesion_expect(const struct rc_shape *shape, const struct rc_adhesion_proble
     struct rc_adhesion_scales scales;
     const double bytes[] = {458, 121}; /* bytes a node, measured on 1024 x 1024 nodes: free,
                                           periodic */
+    const double passes = 3.3; /* a step's work beside its transforms, in that of an elastic step */
     const double mapped = problem->contact.hardness_map != NULL ? sizeof(double) : 0;
     const int periodic = problem->contact.boundary == RC_PERIODIC;
-    double nodes = (double)shape->nx * (double)shape->ny, padded = 1;
+    double nodes = (double)shape->nx * (double)shape->ny;
 
     if (rc_adhesion_check(shape, problem, &scales, err) != RC_OK)
         return RC_FAIL;
-    if (problem->contact.boundary == RC_FREE)
-        padded = 4;
     *expected = (struct rc_expected){.convolutions = 30 * pow(nodes / 16384, 0.25),
                                      .memory = (size_t)((bytes[periodic] + mapped) * nodes)};
-    expected->seconds = expected->convolutions * 20e-9 * nodes * padded;
+    expected->seconds =
+        passes * expected->convolutions *
+        rc_conv_seconds(shape, &(struct rc_conv_options){.boundary = problem->contact.boundary,
+                                                         .threads = problem->contact.threads});
     return RC_OK;
 }

@@ -352,16 +352,26 @@ expect_elastic(const struct yielding *y, double load, struct rc_expected *expect
     return rc_solver_expect(&y->base.shape, &contact, expected, err);
 }
 
-/* The elastic contact, or the volume with its own contact: given slabs before any voxel yields. */
+/* The elastic contact. Once it is known to yield: the volume with its own contacts too, as a first load takes it;
+ * measured on rough contacts of 9 to 23 % contact. */
 static enum rc_status
 plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
      struct rc_err *err)
 {
     const struct yielding *y = (const struct yielding *)m;
-    const size_t volume = y->problem.slabs > 0 ? volume_bytes(y, y->problem.slabs, 0) : 0;
+    const size_t slabs = y->slabs > 0 ? y->slabs : y->problem.slabs;
+    const size_t volume = slabs > 0 ? volume_bytes(y, slabs, y->part) : 0;
+    const double increments = (double)(y->problem.increments > 0 ? y->problem.increments : FIRST);
+    const double last = 10,
+                 each = 2.2;    /* applications after the increments, and of one increment */
+    const double of_slab = 3.3; /* convolutions of an application */
+    double work = (last + each * increments) * of_slab * (double)y->slabs, one;
 
     if (expect_elastic(y, most->at[RC_LOAD], expected, err) != RC_OK)
         return RC_FAIL;
+    one = expected->seconds / expected->convolutions;
+    expected->convolutions += work;
+    expected->seconds += work * one;
     expected->memory = volume > expected->memory ? volume : expected->memory;
     return RC_OK;
 }

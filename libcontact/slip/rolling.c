@@ -731,9 +731,8 @@ progress(const struct rc_model *m, struct rc_loops *l)
     l->tol = d->asked.tol;
 }
 
-/* These numbers are measured. A steady state takes 60 to 130 convolutions to 1e-2, and twice as many for
- * each factor of 100 below; a step of a path takes 25. The bytes are those on 512 x 512 nodes, counted in
- * maps of doubles. */
+/* These numbers are measured. A steady state takes 40 to 120 convolutions to 1e-3; a step of a path takes 25. The
+ * bytes are those on 512 x 512 nodes, counted in maps of doubles. */
 static enum rc_status
 plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
      struct rc_err *err)
@@ -742,7 +741,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const struct rc_rolling_problem *o = &f->problem;
     const struct rc_point inner = rc_point_for(m->inner, most);
     const double below = fmax(log10(1e-2 / o->slip.tol), 0);
-    const double work = (o->path ? 25 : o->force ? 250 : 100) * (1 + below / 2);
+    const double work = (o->path ? 25 : o->force ? 180 : 70) * (1 + below / 2);
     const double maps = (o->path    ? 51
                          : o->force ? 72
                                     : 67) +
@@ -752,7 +751,8 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     *expected = (struct rc_expected){0, 0, 0};
     if (o->known == NULL && rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;
-    each = expected->convolutions > 0 ? expected->seconds / expected->convolutions : NAN;
+    each = rc_conv_seconds(&m->shape, &(struct rc_conv_options){.boundary = o->slip.boundary,
+                                                                .threads = o->slip.threads});
     expected->seconds += work * each;
     expected->convolutions += work;
     expected->memory += (size_t)(maps * (double)f->n) * sizeof(double);

@@ -480,7 +480,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const struct elastic *e = (const struct elastic *)m;
     struct rc_problem problem = e->problem;
     const bool by_approach = rc_point_has(most, RC_APPROACH);
-    const double stiffness = 12; /* convolutions */
+    const double stiffness = 6; /* convolutions */
 
     problem.load = by_approach ? 0 : most->at[RC_LOAD];
     problem.approach = by_approach ? most->at[RC_APPROACH] : 0;

@@ -290,6 +290,8 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
     struct rc_operator_options options = operator_options(shape, problem);
     const struct rc_method *method = choose(problem->method, err);
     struct rc_bounds bounds;
+    const bool layered = problem->pair.one.layers + problem->pair.two.layers > 0;
+    const double tables = 6; /* convolutions that the spectra of layers take as long as */
     double nodes = (double)(shape->nx * shape->ny), some;
     const char *reason, *engine = rc_operator_engine(shape, &options, &reason);
 
@@ -303,12 +305,15 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
     some = method->convolutions == NULL
                ? NAN
                : method->convolutions(nodes, -log10(tolerance(shape, problem)));
-    if (problem->approach > 0)
+    if (problem->approach > 0 || problem->tilt_free)
         some *= 3;
+    if (layered)
+        some *= 1.4;
     if (problem->discretization)
         some += 5;
     *expected = (struct rc_expected){.convolutions = some,
-                                     .seconds = some * rc_operator_seconds(shape, &options),
+                                     .seconds = (some + (layered ? tables : 0)) *
+                                                rc_operator_seconds(shape, &options),
                                      .memory = memory(shape, problem, engine, method)};
     return RC_OK;
 }

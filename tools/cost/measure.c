@@ -74,17 +74,6 @@ leave_out(struct cost_trial *m, const char *why)
     snprintf(m->why, sizeof m->why, "left out: %.240s", why);
 }
 
-/* Applications of the volume operator, relative to the elastic solution. There are two per increment and some
- * at the end, each of some convolutions per slab. */
-static double
-yielding_work(const struct cost_trial *m, double elastic)
-{
-    const double slabs = 14, convolutions = 14, contact = 8, last = 6;
-
-    return (2 * (double)m->increments + last) * (convolutions * slabs * m->stack + contact) /
-           elastic;
-}
-
 /* Warnings of rc-solve for the reference apply to all trials. */
 static void
 repeat_warnings(struct cost_case *c)
@@ -105,7 +94,6 @@ cost_plan(struct cost_case *c, struct cost_trial *m)
     };
     const size_t least = m->shape.nx < m->shape.ny ? m->shape.nx : m->shape.ny;
     const char *at;
-    double elastic;
     struct line l;
     int status;
     enum process_end end;
@@ -125,12 +113,9 @@ cost_plan(struct cost_case *c, struct cost_trial *m)
         leave_out(m, cost_message(c->said));
     if (end != PROCESS_ENDED || c->said == NULL || (at = strstr(c->said, "  about ")) == NULL)
         return;
-    elastic = strtod(at + 8, NULL);
     if ((at = strchr(at, ',')) == NULL ||
         sscanf(at, "%*[^0-9]%lf MiB, %lf s", &m->mebibytes, &m->planned) != 2)
         m->mebibytes = m->planned = NAN;
-    if (m->about & COST_YIELD)
-        m->planned *= yielding_work(m, elastic);
     if (c->tool->memory != 0 && m->mebibytes * 1048576 > (double)c->tool->memory)
         leave_out(m, "it needs more than --memory");
     if (m->reference)

@@ -104,6 +104,51 @@ course_peak(size_t bytes)
     return tool_memory_with(size_sum(bytes, plans));
 }
 
+/* Seconds of a small contact on this machine over the expected ones, the least of some tries; 1: memory is
+ * short. */
+static double
+slowness(const struct tool *t)
+{
+    enum {
+        SIDE = 256,
+        TRIES = 5
+    };
+    const struct rc_shape shape = {SIDE, SIDE, 1, 1};
+    struct rc_problem problem = {
+        .boundary = RC_PERIODIC, .pair.estar = 1, .load = 300, .tol = 1e-4, .threads = t->threads};
+    double *h = malloc((size_t)SIDE * SIDE * sizeof *h), least = INFINITY;
+    struct rc_solver *s = NULL;
+    struct rc_expected e;
+
+    for (size_t k = 0; h != NULL && k < (size_t)SIDE * SIDE; k++)
+        h[k] = cos(0.4 * (double)(k % SIDE)) * cos(0.1 * (double)(k / SIDE)) / 10;
+    if (h != NULL && rc_solver_expect(&shape, &problem, &e, NULL) == RC_OK)
+        s = rc_solver_new(&shape, h, &problem, NULL);
+    for (int k = 0; s != NULL && k < TRIES && rc_solver_set_load(s, 300 + k, 0, NULL) == RC_OK;
+         k++) {
+        const double start = tool_now();
+        while (rc_solver_step(s) == RC_MORE)
+            continue;
+        least = fmin(least, (tool_now() - start) / rc_solver_convolutions(s));
+    }
+    rc_solver_free(s);
+    free(h);
+    return isinf(least) ? 1 : least * e.convolutions / e.seconds;
+}
+
+double
+course_seconds(const struct tool *t, const struct rc_grid *g, double seconds, size_t points)
+{
+    const double start = 0.01, each = 0.003; /* s of a process, and of a point */
+    const double node = 45e-9; /* s to read and plan, and for the figures and frames of a point */
+    static double factor;
+
+    if (factor == 0)
+        factor = slowness(t);
+    return factor * (seconds + node * (double)rc_grid_nodes(g) * (double)(points + 1)) + start +
+           each * (double)points;
+}
+
 enum rc_status
 course_run(struct course *c, struct rc_model *m)
 {

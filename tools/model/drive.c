@@ -447,8 +447,9 @@ print_plan(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
             tool_where(&d->t, g, where, sizeof where), g->nx, g->ny, d->points,
             d->points == 1 ? "point" : "points", rc_model_name(m));
     if (!isnan(e.convolutions))
-        fprintf(d->t.out, "  about %.0f convolutions, %zu MiB, %.2g s a point\n", e.convolutions,
-                (course_peak(e.memory) >> 20) + 1, e.seconds);
+        fprintf(d->t.out, "  about %.0f convolutions, %zu MiB, %.2g s with %zu threads\n",
+                e.convolutions, (course_peak(e.memory) >> 20) + 1,
+                course_seconds(&d->t, g, e.seconds, d->points), d->t.threads);
 }
 
 /* Warns of what the model found, in the way of all tools. */

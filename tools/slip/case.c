@@ -316,10 +316,13 @@ follow(struct slip_run *run)
 
 /* ---- a case ---- */
 
-/* The memory in bytes for friction and contacts, maps, and the state at the previous corner. */
-static size_t
-memory_for(const struct slip_run *run)
+/* The memory for friction and contacts, maps, and the state at the previous corner; the work of all increments,
+ * measured on rough contacts and balls. */
+static struct rc_expected
+forecast(struct slip_run *run)
 {
+    const double increment = 24,
+                 again = 0.5; /* convolutions of one; part of the run with half of them */
     enum {
         STATE = 8 /* maps of the state of a way */
     };
@@ -332,19 +335,29 @@ memory_for(const struct slip_run *run)
                                        .threads = run->d.t.threads};
     const size_t ways = 1 + run->law.fewer, maps = run->alternates ? 6 * ways : 2;
     const double nodes = (double)rc_grid_nodes(run->p);
-    struct rc_expected solver = {0};
+    struct rc_expected all = {0}, solver = {0};
+    double each;
     struct rc_err err;
 
-    if (run->solves)
-        (void)rc_solver_expect(&shape, &contact, &solver, &err);
-    return ways * (size_t)(nodes * bytes[run->coupled][run->boundary == RC_PERIODIC]) +
-           (run->alternates ? ways : 1) * solver.memory +
-           (maps + (ways > 1 ? 2 : 0) + STATE * ways + 2) * (size_t)nodes * sizeof(double);
+    if (rc_solver_expect(&shape, &contact, &solver, &err) != RC_OK)
+        tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+    each = solver.seconds / solver.convolutions;
+    for (size_t k = 0; k < run->corners; k++)
+        all.convolutions += (double)run->corner[k].leg.increments * slip_passes(run) *
+                            (increment + (run->alternates ? solver.convolutions : 0));
+    all.seconds = all.convolutions * each * (1 + again * (double)(ways - 1));
+    if (!run->solves)
+        solver.memory = 0;
+    all.memory = ways * (size_t)(nodes * bytes[run->coupled][run->boundary == RC_PERIODIC]) +
+                 (run->alternates ? ways : 1) * solver.memory +
+                 (maps + (ways > 1 ? 2 : 0) + STATE * ways + 2) * (size_t)nodes * sizeof(double);
+    return all;
 }
 
 void
 slip_case(struct slip_run *run)
 {
+    struct rc_expected expected;
     size_t told = 0;
 
     check_pressure(run);
@@ -367,10 +380,11 @@ slip_case(struct slip_run *run)
         run->number = rc_grid_case(run->p) - 1;
     slip_set_marks(run);
     slip_judge_plan(run);
+    expected = forecast(run);
     if (run->args->drive.dry_run) {
-        slip_say_plan(run, course_peak(memory_for(run)), NAN);
+        slip_say_plan(run, &expected);
     } else {
-        tool_demand_memory(&run->d.t, run->p, memory_for(run));
+        tool_demand_memory(&run->d.t, run->p, expected.memory);
         follow(run);
     }
     free(run->corner);

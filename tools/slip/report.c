@@ -172,17 +172,19 @@ slip_judge(struct slip_run *run, const struct slip_state *s)
 /* ---- the plan ---- */
 
 /* The expected number of passes: each multiplies the error by about 0.7 mu beta. */
-static size_t
-expected_passes(const struct slip_run *run)
+double
+slip_passes(const struct slip_run *run)
 {
     double c = 0.7 * run->args->mu * fabs(run->bodies.beta);
     double tol = isnan(run->args->tol) ? 1e-4 : run->args->tol;
 
-    return c < 1 ? 1 + (size_t)ceil(log(tol / 4) / log(c)) : 50;
+    if (!run->alternates)
+        return 1;
+    return c < 1 ? 1 + ceil(log(tol / 4) / log(c)) : 50;
 }
 
 void
-slip_say_plan(struct slip_run *run, size_t memory, double convolutions)
+slip_say_plan(struct slip_run *run, const struct rc_expected *expected)
 {
     FILE *out = run->d.t.out;
     const struct slip_pair *b = &run->bodies;
@@ -197,8 +199,8 @@ slip_say_plan(struct slip_run *run, size_t memory, double convolutions)
                 "other\n",
                 "coupling");
     else if (run->alternates)
-        fprintf(out, "  %-16son, beta %.3g: about %zu passes an increment\n", "coupling", b->beta,
-                expected_passes(run));
+        fprintf(out, "  %-16son, beta %.3g: about %.0f passes an increment\n", "coupling", b->beta,
+                slip_passes(run));
     else
         fprintf(out, "  %-16s%s, beta %.3g: one pass an increment\n", "coupling", coupling_of(run),
                 b->beta);
@@ -225,8 +227,11 @@ slip_say_plan(struct slip_run *run, size_t memory, double convolutions)
     if (run->law.fewer > 0)
         fprintf(out, "  %-16ssolved also with half of them%s, for the error\n", "increments",
                 run->law.fewer < RC_FEWER ? "" : " and a quarter");
-    if (run->rolls)
-        fprintf(out, "  %-16sabout %.0f convolutions\n",
-                run->args->steady ? "steady rolling" : "each position", convolutions);
-    fprintf(out, "  %-16sabout %zu MiB\n", "memory", (memory >> 20) + 1);
+    fprintf(out, "  %-16sabout %.0f convolutions, %.2g s with %zu threads\n",
+            !run->rolls         ? "work"
+            : run->args->steady ? "steady rolling"
+                                : "each position",
+            expected->convolutions, course_seconds(&run->d.t, run->p, expected->seconds, 1),
+            run->d.t.threads);
+    fprintf(out, "  %-16sabout %zu MiB\n", "memory", (course_peak(expected->memory) >> 20) + 1);
 }

@@ -178,7 +178,7 @@ slip_roll(struct slip_run *run)
     m = model_of(run);
     tool_must(&d->t, run->p, rc_model_plan(m, &to, &expected, &err), &err);
     if (d->args->dry_run) {
-        slip_say_plan(run, course_peak(expected.memory), expected.convolutions);
+        slip_say_plan(run, &expected);
         if (m != run->path)
             rc_model_free(m);
         return;

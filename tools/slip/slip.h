@@ -130,7 +130,8 @@ void slip_judge_plan(struct slip_run *run);
 void slip_judge(struct slip_run *run, const struct slip_state *s);
 /* A row of the report, for tools/model. */
 void slip_report(struct drive *d, const struct rc_model *m);
-/* Prints the plan; memory: bytes; convolutions: of rolling. */
-void slip_say_plan(struct slip_run *run, size_t memory, double convolutions);
+/* Passes of an increment in which tractions change the pressure too; else 1. */
+double slip_passes(const struct slip_run *run);
+void slip_say_plan(struct slip_run *run, const struct rc_expected *expected);
 
 #endif

@@ -505,6 +505,7 @@ solve_case(struct run *run, const struct rc_grid *hardness)
         struct rc_problem problem;
         while (!run->adhering.wanted && first + 1 < run->steps->n && run->steps->v[first] == 0)
             first++;
+        run->step = first;
         problem = problem_of(run, run->g, first);
         if (run->relaxing.wanted)
             problem = problem_of(run, run->g, relax_largest(run));

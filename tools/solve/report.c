@@ -288,7 +288,7 @@ void
 solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
 {
     enum {
-        STIFFNESS = 12 /* convolutions for the stiffness */
+        STIFFNESS = 6 /* convolutions for the stiffness */
     };
     struct rc_shape shape = rc_grid_shape(g);
     const char *why = NULL, *engine = rc_solver_choice(&shape, problem, &why);
@@ -301,11 +301,13 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
                           : relaxes ? run->args->time.n
                           : slides  ? slide_points(run)
                                     : run->steps->n;
-    double each, memory;
+    double each, memory, loads = (double)points;
     char where[256];
 
     if (run->adhering.wanted)
         adhesion_expect(run, g, problem, &e);
+    else if (run->yielding.wanted)
+        loads = yield_expect(run, problem->load, &e);
     else if ((run->relaxing.wanted  ? relax_expect(run, problem, &e, &err)
               : run->sliding.wanted ? slide_expect(run, problem, &e, &err)
                                     : rc_solver_expect(&shape, problem, &e, &err)) != RC_OK)
@@ -329,6 +331,7 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
             : slides    ? " for the first speed"
             : travels   ? " for the first position, 5 for the next after a short step"
                         : " for the first load, fewer for the next",
-            ((size_t)memory >> 20) + 1, e.seconds * each / e.convolutions * (double)points,
+            ((size_t)memory >> 20) + 1,
+            course_seconds(&run->d.t, g, e.seconds * each / e.convolutions * loads, points),
             run->d.t.threads);
 }

@@ -199,6 +199,34 @@ yield_plan(struct run *run, struct rc_model *m, double load)
         rc_yielding_plan(m, run->steps->n - run->step, deeper * most * load / v[run->step]);
 }
 
+double
+yield_expect(struct run *run, double load, struct rc_expected *expected)
+{
+    const double other = 0.2; /* of a load that is not the largest so far, in a first load */
+    struct rc_point to = {0};
+    enum rc_status status;
+    struct rc_loops loops;
+    double most = 0, loads = 0;
+    struct rc_err err;
+
+    yield_plan(run, run->model, load);
+    rc_point_set(&to, RC_LOAD, load);
+    status = rc_model_go(run->model, &to, &err);
+    do
+        rc_model_progress(run->model, &loops);
+    while (tool_interrupted() == 0 && status == RC_MORE && loops.coming == 0 &&
+           (status = rc_model_step(run->model, &err)) == RC_MORE);
+    if (status == RC_FAIL || rc_model_plan(run->model, &to, expected, &err) != RC_OK)
+        tool_die_at(&run->d.t, run->g, EXIT_IMPOSSIBLE, "%s", err.text);
+    for (size_t k = 0; k < run->steps->n; k++) {
+        loads += run->steps->v[k] > most ? 1 : other;
+        most = fmax(most, run->steps->v[k]);
+    }
+    if (run->travelling.wanted)
+        loads = 1 + other * (double)travel_points(run);
+    return loads;
+}
+
 void
 yield_found(struct run *run, const struct rc_model *m)
 {

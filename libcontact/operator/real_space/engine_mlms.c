@@ -250,7 +250,7 @@ seconds(const struct rc_sum *sum)
 {
     double digits = sum->tol > 0 ? -log10(sum->tol) : 15;
 
-    return 1.8e-9 * (digits + 6) * (double)(sum->shape.nx * sum->shape.ny);
+    return 4e-9 * (digits + 6) * (double)(sum->shape.nx * sum->shape.ny);
 }
 
 const struct rc_engine rc_engine_mlms = {
