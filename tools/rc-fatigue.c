@@ -606,6 +606,7 @@ show_plan(struct run *run, const struct rc_shape *shape)
 {
     const struct rc_grid *first = run->position[0].p;
     const struct rc_shape r = rc_fatigue_shape(shape, &run->problem);
+    const size_t memory = tool_memory_with(run->needs);
     const double seconds = expect(run, &r);
     const struct numbers *d = &run->depths;
     FILE *out = run->t.out;
@@ -620,7 +621,7 @@ show_plan(struct run *run, const struct rc_shape *shape)
     fprintf(out, "  %-14s%zu at each depth\n", "histories", r.nx * r.ny);
     for (int c = 0; c < RC_FATIGUES; c++)
         fprintf(out, "  %-14s%s\n", rc_criterion_names[c], wanted(c) ? "on" : "left out");
-    fprintf(out, "  %-14sabout %zu MiB\n", "memory", (tool_memory_with(run->needs) >> 20) + 1);
+    fprintf(out, "  %-14sabout %zu MiB\n", "memory", (memory >> 20) + 1);
     if (isnan(seconds))
         fprintf(out, "  %-14sunknown\n", "time");
     else

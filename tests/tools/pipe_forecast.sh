@@ -25,7 +25,7 @@ forecast "a coated body" 1 "rc-solve $body --layer 3um,3GPa,0.3 --mean-pressure 
 forecast "attraction" 1 "rc-solve --periodic --estar 10MPa --adhesion 50mJ/m2,exponential,50nm --mean-pressure 30kPa rough.rcg"
 forecast "yield, 4 increments" 1 "rc-solve --periodic $body --mean-pressure 5MPa --yield 15MPa --increments 4 rough.rcg"
 forecast "yield, auto" 1 "rc-solve $body --mean-pressure 2MPa --yield 30MPa rough.rcg"
-claim "a body that does not yield costs an elastic contact" says 'about [67] convolutions' \
+claim "a body that does not yield costs an elastic contact" says 'about [567] convolutions' \
     rc-solve --periodic $body --mean-pressure 5MPa --yield 0.9GPa --dry-run rough.rcg
 rc-solve --quiet $body --mean-pressure 2MPa rough.rcg -o pressed.rcg
 forecast "friction, with a run with half of the increments" 1.5 "rc-slip --mu 0.3 --coupling none --tangential 3mN pressed.rcg"

@@ -441,6 +441,7 @@ static void
 print_plan(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
 {
     const struct rc_expected e = plan_of(d, g, m);
+    const size_t memory = course_peak(e.memory);
     char where[256];
 
     fprintf(d->t.out, "%s: %zu x %zu nodes, %zu %s of the %s model\n",
@@ -448,8 +449,8 @@ print_plan(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
             d->points == 1 ? "point" : "points", rc_model_name(m));
     if (!isnan(e.convolutions))
         fprintf(d->t.out, "  about %.0f convolutions, %zu MiB, %.2g s with %zu threads\n",
-                e.convolutions, (course_peak(e.memory) >> 20) + 1,
-                course_seconds(&d->t, g, e.seconds, d->points), d->t.threads);
+                e.convolutions, (memory >> 20) + 1, course_seconds(&d->t, g, e.seconds, d->points),
+                d->t.threads);
 }
 
 /* Warns of what the model found, in the way of all tools. */

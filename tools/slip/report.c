@@ -188,6 +188,7 @@ slip_say_plan(struct slip_run *run, const struct rc_expected *expected)
 {
     FILE *out = run->d.t.out;
     const struct slip_pair *b = &run->bodies;
+    const size_t memory = course_peak(expected->memory);
     char where[256];
 
     fprintf(out, "%s: %zu x %zu nodes, %s boundary\n",
@@ -233,5 +234,5 @@ slip_say_plan(struct slip_run *run, const struct rc_expected *expected)
                                 : "each position",
             expected->convolutions, course_seconds(&run->d.t, run->p, expected->seconds, 1),
             run->d.t.threads);
-    fprintf(out, "  %-16sabout %zu MiB\n", "memory", (course_peak(expected->memory) >> 20) + 1);
+    fprintf(out, "  %-16sabout %zu MiB\n", "memory", (memory >> 20) + 1);
 }

@@ -301,6 +301,7 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
                           : relaxes ? run->args->time.n
                           : slides  ? slide_points(run)
                                     : run->steps->n;
+    const size_t before = course_peak(0); /* the forecast takes memory of its own */
     double each, memory, loads = (double)points;
     char where[256];
 
@@ -314,8 +315,8 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
         tool_die_at(&run->d.t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     each = e.convolutions + (run->conductance ? STIFFNESS + 1 : 0) +
            (run->stiffness && !(run->conductance && isinf(run->hardness_min)) ? STIFFNESS : 0);
-    memory = ranks_most(&run->d.t,
-                        (double)course_peak(run->adhering.wanted ? adhesion_memory(run, g, problem)
+    memory = ranks_most(&run->d.t, (double)before + (double)(run->adhering.wanted
+                                                                 ? adhesion_memory(run, g, problem)
                                                                  : solve_memory(run, g, problem)));
     tool_where(&run->d.t, g, where, sizeof where);
     fprintf(run->d.t.out, "%s: %zu x %zu nodes, %zu %s%s, engine %s\n", where, g->nx, g->ny, points,
