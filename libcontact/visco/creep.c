@@ -47,7 +47,7 @@ static const double per_decade =
 static const double fast = 1e-3, slow = 1e3;
 static const double few = 8; /* nodes in contact with which the estimate is twice the difference */
 static const double same_slope = 1e-9, whole = 1 - 1e-9;
-static const double each = 6, first = 20; /* convolutions of a step, and of a first contact */
+static const double each = 4.4; /* convolutions of a step */
 
 struct term {
     double time, j; /* s, -; time 0: follows w at once; time INFINITY: flows, with j in 1/s */
@@ -646,19 +646,19 @@ progress(const struct rc_model *m, struct rc_loops *l)
     rc_loops_add(l, "step", NULL, (double)v->f.increments, NAN);
 }
 
-/* Work of a point, of `legs` of equal parts of the whole history. */
+/* Steps of a point in both runs, of a part of the whole history. */
 static double
-work_of(const struct creep *v, double part)
+steps_of(const struct creep *v, double part)
 {
     const struct rc_viscoelastic_problem *a = &v->problem;
     const double n = (double)(a->increments > 0 ? a->increments : USUAL);
     double decades = 0;
 
     if (!(a->longest > 0))
-        return 1;
+        return 0;
     if (isfinite(v->quickest))
         decades = fmax(0, log10(a->longest / fmin(v->quickest, a->longest)));
-    return (n + per_decade * n * decades * part) * (1 + 1.0 / 2) * each / first;
+    return (n + per_decade * n * decades * part) * (1 + 1.0 / 2);
 }
 
 static enum rc_status
@@ -668,13 +668,14 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const struct creep *v = (const struct creep *)m;
     const struct rc_point inner = rc_point_for(m->inner, most);
     const size_t maps = RUNS * v->terms;
-    double work;
+    const double part = 1 / (double)v->problem.points;
+    double one;
 
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;
-    work = work_of(v, 1 / (double)v->problem.points);
-    expected->convolutions *= work;
-    expected->seconds *= work;
+    one = expected->seconds / expected->convolutions;
+    expected->convolutions = part * expected->convolutions + each * steps_of(v, part);
+    expected->seconds = expected->convolutions * one;
     /* with the copy of the state at the last kept point */
     expected->memory += v->n * (2 * maps + MAPS + RUNS + 3) * sizeof(double);
     return RC_OK;

@@ -22,6 +22,7 @@ forecast "loads, each with its stiffness" 1 "rc-solve --periodic --estar 1GPa --
 forecast "an approach" 1 "rc-solve --periodic --estar 1GPa --approach 0.3um rough.rcg"
 forecast "a free tilt" 1 "rc-solve --estar 1GPa --mean-pressure 5MPa --tilt free rough.rcg"
 forecast "a coated body" 1 "rc-solve $body --layer 3um,3GPa,0.3 --mean-pressure 2MPa rough.rcg"
+forecast "relaxation, a point" 1 "rc-solve --relaxation 1MPa,4MPa:1ms,2MPa:30ms --nu1 0.4 --E2 rigid --load 1mN --time 1ms:1s:log:4 rough.rcg"
 forecast "attraction" 1 "rc-solve --periodic --estar 10MPa --adhesion 50mJ/m2,exponential,50nm --mean-pressure 30kPa rough.rcg"
 forecast "yield, 4 increments" 1 "rc-solve --periodic $body --mean-pressure 5MPa --yield 15MPa --increments 4 rough.rcg"
 forecast "yield, auto" 1 "rc-solve $body --mean-pressure 2MPa --yield 30MPa rough.rcg"
