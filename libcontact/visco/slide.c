@@ -596,7 +596,8 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     contacts = fmax(log(s->problem.tol / (start * steepest)) / log(tan(atan(steepest) / 2)), 0);
     expected->seconds *= 1 + contacts * of_contact / expected->convolutions;
     expected->convolutions += contacts * of_contact;
-    expected->memory += 6 * s->n * sizeof(double);
+    /* measured; the plan of the inner model has some of the maps */
+    expected->memory += (s->problem.boundary == RC_PERIODIC ? 1 : 23) * s->n * sizeof(double);
     return RC_OK;
 }
 
