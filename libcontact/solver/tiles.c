@@ -440,10 +440,9 @@ roomiest(const struct tiles *a, double *room)
     return best;
 }
 
-/* Spreads the rest over all elastic nodes, which without upper bounds carry the load `carried`; false when they
- * cannot carry it. */
+/* Spreads the rest over all elastic nodes; false when they cannot carry it. */
 static bool
-share(struct tiles *a, double rest, double carried)
+share(struct tiles *a, double rest)
 {
     const struct rc_solver *s = a->m->solver;
     const struct rc_bounds *bounds = &s->posed.bounds;
@@ -454,10 +453,7 @@ share(struct tiles *a, double rest, double carried)
     count = (double)rc_ranks_sum(s->posed.rows.ranks, (size_t)count);
     end = rest < 0 ? -rc_above(bounds, sum) : rc_reach(bounds, rest);
     a->shift = rest;
-    if (count == 0)
-        return false;
-    if (!rc_bounded(bounds) ? rest > 0 ? count < 2 : carried + rest <= 0
-                            : (excess_of(a, end).load > 0) != (rest > 0))
+    if (count == 0 || (excess_of(a, end).load > 0) != (rest > 0))
         return false;
     shift =
         rc_newton(excess_of, a, fmin(end, 0), fmax(end, 0), rest / count, 4 * DBL_EPSILON * sum);
@@ -596,5 +592,5 @@ rc_move_tiles(struct rc_move *m)
             shift_tile(&a, q, rest / (double)a.tiles[q].count);
         return true;
     }
-    return share(&a, rest, total[CARRIED]);
+    return share(&a, rest);
 }

@@ -199,7 +199,7 @@ viscoelastic(struct rc_err *err)
                                                        .share = 0.9,
                                                        .shortest = 0.1,
                                                        .longest = 0.6,
-                                                       .increments = 3,
+                                                       .increments = 6,
                                                        .tol = 0.9};
 
     return rc_viscoelastic_new(rc_elastic_new(&shape, heights, &contact, NULL, err), heights, &law,

@@ -57,7 +57,7 @@ claim "--E2 rigid is accepted" rc-solve $steel --E2 rigid --quiet -o rigid.rcg b
 claim "  the history has the word" says 'rc-solve [^|]*--E2 rigid ' head -c 2000 rigid.rcg
 near "$(sed -n '/^estar=/{s///p;q}' rigid.rcg)" 230769230769.23077 "$rounding" "  E* is E1 / (1 - nu1^2)"
 refuses 2 "E2 hard: 'hard' is not a number" "another word" "rc-solve $steel --E2 hard ball.rcg"
-refuses 2 "E1 rigid: 'rigid' is not a number" "an option without the word" \
+refuses 2 "E1 rigid: body 1 must have a --layer" "a rigid body 1 without layers" \
     "rc-solve --load 1 --E1 rigid --nu1 0.3 --E2 1GPa --nu2 0.3 ball.rcg"
 
 # ---- a decimal comma ----
