@@ -162,12 +162,13 @@ same_work() {
         }' "$1" "$2"
 }
 
-# same_said FILE FILE: equal standard output, except for the mebibytes of a plan. They include the memory of
-# the process, and with it that of the preloaded library. law_memory tests that the plan itself needs no
-# memory.
+# same_said FILE FILE: equal standard output, except for the mebibytes and the seconds of a plan. The mebibytes
+# include the memory of the process, and with it that of the preloaded library; law_memory tests that the plan
+# itself needs no memory. The seconds are those of a trial on this machine.
 same_said() {
-    cmp -s "$1" "$2" || cmp -s <(sed -E 's/, [0-9]+ MiB(,|$)/, MiB\1/' "$1") <(sed -E 's/, [0-9]+ MiB(,|$)/, MiB\1/' "$2")
+    cmp -s "$1" "$2" || cmp -s <(unmeasured "$1") <(unmeasured "$2")
 }
+unmeasured() { sed -E 's/, [0-9]+ MiB(,|$)/, MiB\1/; s/ *[0-9.e+-]+ s( |,|$)/ s\1/g' "$1"; }
 
 # judge STATUS OUT WHERE: checks that a disturbed run has either done all of its work or has failed cleanly.
 # Otherwise it prints the reason and fails.
