@@ -1,5 +1,5 @@
 /*
- * Transfers fields between a map and every s-th node of it, by polynomials through 24 nodes in each
+ * Transfers fields between a map and every s-th node of it, by polynomials through eight nodes in each
  * direction.
  *
  * Deep below the surface the kernels are smooth on the scale of the depth, so a coarser grid is enough.
@@ -15,7 +15,7 @@
 #include <string.h>
 
 enum {
-    ORDER = 24 /* nodes of a polynomial */
+    ORDER = 8 /* nodes of a polynomial */
 };
 
 /* Coarse node I lies on fine node (I - ORDER/2 + 1) s; fine node J s + r is interpolated from
@@ -28,28 +28,25 @@ struct axis {
 struct rc_coarse {
     struct axis x, y;
     int threads;
-    double *rows;    /* after the first direction: ny rows of x.coarse, or y.coarse rows of nx */
-    double *scratch; /* memory for each thread: the fine nodes of one residue */
+    double *rows;    /* ny rows of x.coarse, after the first direction of a reduction */
+    double *scratch; /* memory for each thread: a coarse row, and the fine nodes of one residue */
 };
 
 /* Largest error of this interpolation, of source and field, for any kernel and pressures of size 1 with the
  * worst signs, at this ratio of depth to coarse spacing. It was measured for s = 4, at the worst of all
- * positions of source and field between coarse nodes. The last row is rounding. */
+ * positions of source and field between coarse nodes. */
 static const struct {
     double ratio, error;
-} measured[] = {{1.42, 1.8e-1}, {1.68, 8.0e-2},  {2, 3.1e-2},     {2.38, 1.1e-2}, {2.83, 3.2e-3},
-                {3.36, 8.3e-4}, {3.67, 4.0e-4},  {4, 1.8e-4},     {4.36, 7.6e-5}, {4.76, 3.0e-5},
-                {5.19, 1.1e-5}, {5.66, 3.7e-6},  {6.17, 1.2e-6},  {6.73, 3.5e-7}, {8, 2.6e-8},
-                {9.51, 1.5e-9}, {11.3, 6.5e-11}, {13.5, 2.1e-12}, {16, 6.7e-14},  {18, 5.9e-15}};
+} measured[] = {{1.42, 1.4e-1}, {2, 3.6e-2},    {2.83, 7.1e-3}, {4, 9.7e-4},   {5.66, 9.2e-5},
+                {8, 7.5e-6},    {11.4, 5.3e-7}, {16, 3.6e-8},   {22.7, 2.3e-9}};
 
 double
 rc_coarse_spacing(double depth, double tol)
 {
-    size_t k = 0;
-
-    while (measured[k].error > tol && k + 1 < sizeof measured / sizeof *measured)
-        k++;
-    return depth / measured[k].ratio;
+    for (size_t k = 0; k < sizeof measured / sizeof *measured; k++)
+        if (measured[k].error <= tol)
+            return depth / measured[k].ratio;
+    return 0;
 }
 
 static size_t
@@ -58,18 +55,15 @@ coarse_nodes(size_t n, size_t s)
     return s == 1 ? n : (n - 1) / s + ORDER;
 }
 
-/* The largest of 1, 2, 3, 4, 6, 8, 12, ... for which so many d are at most `spacing` and the axis becomes
- * shorter. Slices of similar depths share a grid. */
+/* The largest power of 2 for which so many d are at most `spacing` and the axis becomes shorter. */
 static size_t
 step(size_t n, double d, double spacing)
 {
-    size_t s = 1, next = 2;
+    size_t s = 1;
 
-    while ((double)next * d <= spacing && (s == 1 || coarse_nodes(n, next) < coarse_nodes(n, s))) {
-        s = next;
-        next = s % 3 == 0 ? s / 3 * 4 : s / 2 * 3;
-    }
-    return coarse_nodes(n, s) < n ? s : 1;
+    while (2 * (double)s * d <= spacing && coarse_nodes(n, 2 * s) < coarse_nodes(n, s))
+        s *= 2;
+    return s;
 }
 
 bool
@@ -110,7 +104,7 @@ set_axis(struct axis *a, size_t n, size_t s)
 static size_t
 scratch_size(const struct rc_coarse *c)
 {
-    return c->x.coarse + ORDER;
+    return 2 * (c->x.coarse + ORDER);
 }
 
 struct rc_coarse *
@@ -121,9 +115,7 @@ rc_coarse_new(const struct rc_shape *shape, size_t sx, size_t sy, size_t threads
 
     if (c != NULL && set_axis(&c->x, shape->nx, sx) && set_axis(&c->y, shape->ny, sy)) {
         c->threads = rc_useful_threads(shape, threads);
-        c->rows = malloc((c->y.n * c->x.coarse > c->y.coarse * c->x.n ? c->y.n * c->x.coarse
-                                                                      : c->y.coarse * c->x.n) *
-                         sizeof *c->rows);
+        c->rows = malloc(shape->ny * c->x.coarse * sizeof *c->rows);
         c->scratch = malloc((size_t)c->threads * scratch_size(c) * sizeof *c->scratch);
     }
     if (c == NULL || c->rows == NULL || c->scratch == NULL) {
@@ -149,8 +141,8 @@ rc_coarse_free(struct rc_coarse *c)
 
 /* ---- reduction ---- */
 
-RC_WIDE_CLONES static void
-reduce_row(const struct axis *a, const double *restrict p, double *restrict out)
+static void
+reduce_row(const struct axis *a, const double *p, double *out)
 {
     if (a->s == 1) {
         memcpy(out, p, a->n * sizeof *out);
@@ -160,7 +152,7 @@ reduce_row(const struct axis *a, const double *restrict p, double *restrict out)
     for (size_t i = 0; i < a->n; i++) {
         const double *w = a->weight + i % a->s * ORDER;
         double *to = out + i / a->s;
-        for (int k = 0; k < (p[i] != 0 ? ORDER : 0); k++)
+        for (int k = 0; k < ORDER; k++)
             to[k] += w[k] * p[i];
     }
 }
@@ -190,30 +182,12 @@ rc_coarse_reduce(struct rc_coarse *c, const double *p, double *out)
 
 /* ---- interpolation ---- */
 
-/* Eight nodes: a line of 64 sums stays in registers, which plain loops do not achieve. */
-typedef double vector __attribute__((vector_size(64), aligned(8)));
-
 RC_WIDE_CLONES static void
 weigh_rows(size_t n, size_t stride, const double *restrict w, const double *restrict rows,
            double *restrict out)
 {
-    enum {
-        WIDE = 64
-    };
-    size_t first = 0;
-
-    for (; first + WIDE <= n; first += WIDE) {
-        vector sum[WIDE / 8] = {{0}};
-        for (int k = 0; k < ORDER; k++)
-#pragma GCC unroll 8
-            for (size_t i = 0; i < WIDE / 8; i++)
-                sum[i] += w[k] * *(const vector *)(rows + first + 8 * i + (size_t)k * stride);
-        for (size_t i = 0; i < WIDE / 8; i++)
-            *(vector *)(out + first + 8 * i) = sum[i];
-    }
-    for (size_t i = first; i < n; i++) {
+    for (size_t i = 0; i < n; i++) {
         double sum = 0;
-#pragma GCC unroll 24
         for (int k = 0; k < ORDER; k++)
             sum += w[k] * rows[i + (size_t)k * stride];
         out[i] = sum;
@@ -223,9 +197,7 @@ weigh_rows(size_t n, size_t stride, const double *restrict w, const double *rest
 static void
 expand_row(const struct axis *a, const double *row, double *residue, double *out)
 {
-    if (a->s == 1)
-        memcpy(out, row, a->n * sizeof *out);
-    for (size_t r = 0; a->s > 1 && r < a->s; r++) {
+    for (size_t r = 0; r < a->s; r++) {
         size_t n = r < a->n ? (a->n - r + a->s - 1) / a->s : 0;
         weigh_rows(n, 1, a->weight + r * ORDER, row, residue);
         for (size_t i = 0; i < n; i++)
@@ -236,23 +208,20 @@ expand_row(const struct axis *a, const double *row, double *residue, double *out
 void
 rc_coarse_expand(struct rc_coarse *c, const double *u, double *out)
 {
-    enum {
-        PIECE = 128 /* columns whose ORDER rows fit into the first cache */
-    };
-    const size_t nx = c->x.n, s = c->y.s;
+    size_t wide = c->x.coarse;
 
-#pragma omp parallel num_threads(c->threads)
-    {
-#pragma omp for schedule(static)
-        for (size_t J = 0; J < c->y.coarse; J++)
-            expand_row(&c->x, u + J * c->x.coarse,
-                       c->scratch + (size_t)omp_get_thread_num() * scratch_size(c),
-                       s > 1 ? c->rows + J * nx : out + J * nx);
-#pragma omp for schedule(static)
-        for (size_t J = 0; J < (s > 1 ? (c->y.n + s - 1) / s : 0); J++)
-            for (size_t i = 0; i < nx; i += PIECE)
-                for (size_t j = J * s; j < (J + 1) * s && j < c->y.n; j++)
-                    weigh_rows(nx - i < PIECE ? nx - i : PIECE, nx, c->y.weight + j % s * ORDER,
-                               c->rows + J * nx + i, out + j * nx + i);
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t j = 0; j < c->y.n; j++) {
+        double *row = c->scratch + (size_t)omp_get_thread_num() * scratch_size(c),
+               *to = out + j * c->x.n;
+        const double *from = u + j / c->y.s * wide;
+        if (c->y.s > 1)
+            weigh_rows(wide, wide, c->y.weight + j % c->y.s * ORDER, from, row);
+        else
+            memcpy(row, from, wide * sizeof *row);
+        if (c->x.s > 1)
+            expand_row(&c->x, row, row + wide + ORDER, to);
+        else
+            memcpy(to, row, c->x.n * sizeof *to);
     }
 }

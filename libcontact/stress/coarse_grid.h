@@ -9,7 +9,7 @@
 struct rc_coarse;
 
 /* Largest spacing (m) of a grid for the kernels of this depth. With it the error of a stress is at most tol
- * times the largest pressure, or rounding, whatever the signs of the pressures. */
+ * times the largest pressure, whatever the signs of the pressures. 0: none. */
 double rc_coarse_spacing(double depth, double tol);
 /* Steps in x and y for that spacing; false when no coarser grid pays. */
 bool rc_coarse_steps(const struct rc_shape *shape, double spacing, size_t *sx, size_t *sy);
