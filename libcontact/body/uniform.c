@@ -87,8 +87,8 @@ rc_uniform_add_rows(double estar, const struct rc_lattice *at, size_t n, size_t 
 
         for (size_t i = 0; i < inner; i++) {
             double x = (double)i * dx;
-            out[i] +=
-                scale * (x * x + y * y < near_r * near_r ? rc_love(x, y, a, b) : middle(x, y, a, b));
+            out[i] += scale *
+                      (x * x + y * y < near_r * near_r ? rc_love(x, y, a, b) : middle(x, y, a, b));
         }
         far(scale, dx, y, a, b, inner, n, out);
     }

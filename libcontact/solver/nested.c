@@ -383,8 +383,9 @@ take(const struct known *c, const double *row, size_t first, size_t n, double *t
     to[n + 1] = row[beside(first + n - 1, true, c->nx, c->round)];
 }
 
-/* Fine nodes, of every other column of a row. They lie a quarter of the coarse spacing from their coarse nodes
- * u, towards the nodes to this side and v of the next row; the displacement there is interpolated linearly. */
+/* Fine nodes, of every other column of a row. They lie a quarter of the coarse spacing from their coarse
+ * nodes u, towards the nodes to this side and v of the next row. The displacement there is interpolated
+ * linearly. */
 RC_CLONES static void
 aim(size_t n, double stiffness, const double *restrict u, const double *restrict v, ptrdiff_t side,
     const double *restrict h, const double *restrict p, double low, double *restrict y)

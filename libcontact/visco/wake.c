@@ -5,8 +5,9 @@
  *     I(x, y) = integral of exp(-s/L)/L B(x + s, y) ds, s > 0,
  *
  * where B is the displacement of the cell on an elastic half-space. Nothing comes back around a period, and
- * the wake leaves the map. From node to node I(x) = exp(-dx/L) I(x + dx) + the integral over one interval. Near
- * the cell it is summed by Gauss's rule with exp(-s/L) as variable; further off B is a cubic between four nodes.
+ * the wake leaves the map. From node to node I(x) = exp(-dx/L) I(x + dx) + the integral over one interval.
+ * Near the cell this integral is summed by Gauss's rule with exp(-s/L) as variable; further off B is a cubic
+ * between four nodes.
  *
  * Coefficients up to the length of the map make K p exact on the map. The padded map is three times as long;
  * in the middle third coefficients ahead of the cell change smoothly into those behind it. As p is 0 outside

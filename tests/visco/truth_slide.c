@@ -12,89 +12,15 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
-#include "tests/exact.h"
-
-static struct rc_err err;
-
-/* A standard linear solid: instantaneous and relaxed compliance 1/10 and 1, retardation time 1. */
-static struct rc_relaxation *
-standard(void)
-{
-    struct rc_relaxation *r = rc_relaxation_new(1, 1, (double[]){9}, (double[]){0.1}, &err);
-
-    assert_non_null(r);
-    return r;
-}
-
-/* Loss and storage as w^0.45 over six decades: tan delta is about 0.95. */
-static struct rc_relaxation *
-power_law(double power, double relaxed)
-{
-    double modulus[14], time[14];
-    struct rc_relaxation *r;
-
-    for (int k = 0; k < 14; k++) {
-        time[k] = pow(10, k / 2.0 - 5);
-        modulus[k] = pow(time[k], -power);
-    }
-    r = rc_relaxation_new(relaxed, 14, modulus, time, &err);
-    assert_non_null(r);
-    return r;
-}
-
-static struct rc_model *
-sliding(struct rc_shape s, const double *h, double tol, const struct rc_slide_problem *law)
-{
-    const struct rc_problem problem = {.boundary = RC_PERIODIC, .tol = tol, .threads = 1};
-    struct rc_model *m = rc_slide_new(&s, h, &problem, law, &err);
-
-    if (m == NULL)
-        fail_msg("%s", err.text);
-    return m;
-}
+#include "tests/visco/sliding.h"
 
 /* Slides under a mean pressure. */
 static const struct rc_slide_figures *
 slide(struct rc_model *m, double pressure, double speed)
 {
     const struct rc_shape s = rc_model_shape(m);
-    struct rc_point to = {0};
 
-    rc_point_set(&to, RC_LOAD, pressure * (double)(s.nx * s.ny) * s.dx * s.dy);
-    rc_point_set(&to, RC_SPEED, speed);
-    if (rc_model_run(m, &to, &err) != RC_OK || rc_model_look(m, NULL, &err) != RC_OK)
-        fail_msg("%s", err.text);
-    return rc_slide_result(m);
-}
-
-static void
-frame(struct rc_model *m, const char *name, double *to)
-{
-    assert_int_equal(rc_model_frame(m, name, to, &err), RC_OK);
-}
-
-static double
-difference(const double *a, const double *b, size_t n)
-{
-    double sum = 0, all = 0;
-
-    for (size_t k = 0; k < n; k++) {
-        sum += fabs(a[k] - b[k]);
-        all += fabs(b[k]);
-    }
-    return sum / all;
-}
-
-/* A self-affine map of side 1 with the RMS slope 1. */
-static void
-rough(struct rc_shape s, double cut, uint64_t seed, double *h)
-{
-    const struct rc_selfaffine o = {
-        .hurst = 0.8, .rms_slope = 1, .short_cut = cut * s.dx, .long_cut = 0.25, .seed = seed};
-
-    if (rc_synth_selfaffine(&s, &o, h, &err) != RC_OK)
-        fail_msg("%s", err.text);
+    return slide_by(m, RC_LOAD, pressure * (double)(s.nx * s.ny) * s.dx * s.dy, speed);
 }
 
 /* ---- Hunter's cylinder ---- */
@@ -206,7 +132,7 @@ compare_hunter(struct hunter q, double *peak)
         exact[i] = hunter_pressure(&q, (x - q.middle) / q.a);
         largest = fmax(largest, exact[i]);
     }
-    m = sliding(s, h, 1e-7, &law);
+    m = sliding(s, RC_PERIODIC, h, 1e-7, &law);
     f = slide(m, q.load / (N * node), q.length); /* the retardation time is 1 */
     frame(m, "pressure", p);
     mu = hunter_friction(&q);
@@ -302,7 +228,7 @@ flattened(void **state)
     for (size_t k = 0; k < NX * NY; k++)
         exact[k] += pressure;
     mu /= pressure;
-    m = sliding(s, h, 1e-13, &law);
+    m = sliding(s, RC_PERIODIC, h, 1e-13, &law);
     f = slide(m, pressure, speed);
     frame(m, "pressure", p);
     assert_true(rc_model_number(m, "contact_fraction") == 1);
@@ -376,13 +302,13 @@ contact(void **state)
     static double h[RX * RY], p[RX * RY], g[RX * RY], u[RX * RY], own[RX * RY];
 
     (void)state;
-    rough(map, 4, 3, h);
+    rough(map, 4, 0, 3, h);
     for (int round = 0; round < 6; round++) {
         struct rc_relaxation *r = round % 2 == 0 ? power_law(0.45, 0.1) : standard();
         const struct rc_slide_problem law = {
             .material = r, .compliance = round == 2 ? 0.1 : 0, .repeats = round == 5};
         const double speed = round == 1 ? -0.1 : 0.03;
-        struct rc_model *m = sliding(map, h, 1e-11, &law);
+        struct rc_model *m = sliding(map, RC_PERIODIC, h, 1e-11, &law);
         const struct rc_slide_figures *f = slide(m, round < 3 ? 0.3 : 0.03, speed);
         double power, shift = 0, size = 0, count = 0;
 
@@ -421,10 +347,10 @@ limits(void **state)
     double mu[4];
 
     (void)state;
-    rough(map, 4, 5, h);
+    rough(map, 4, 0, 5, h);
     for (int k = 0; k < 4; k++) {
         static const double speeds[] = {0, 1e-8, 1e-7, 1e8};
-        struct rc_model *m = sliding(map, h, 1e-9, &law);
+        struct rc_model *m = sliding(map, RC_PERIODIC, h, 1e-9, &law);
         const struct rc_problem problem = {
             .boundary = RC_PERIODIC, .pair.estar = k < 3 ? 1 : 10, .tol = 1e-9, .threads = 1};
         struct rc_model *elastic = rc_elastic_new(&map, h, &problem, NULL, &err);
@@ -461,8 +387,8 @@ mirrored(void **state)
     double mu, approach;
 
     (void)state;
-    rough(map, 4, 7, h);
-    m = sliding(map, h, 1e-10, &law);
+    rough(map, 4, 0, 7, h);
+    m = sliding(map, RC_PERIODIC, h, 1e-10, &law);
     mu = slide(m, 0.2, 0.04)->friction;
     approach = rc_slide_result(m)->approach;
     frame(m, "pressure", p);
@@ -479,7 +405,7 @@ mirrored(void **state)
     rc_model_free(m);
     for (int k = 0; k < RX * RY; k++)
         other[k] = h[k / RX * RX + RX - 1 - k % RX];
-    m = sliding(map, other, 1e-10, &law);
+    m = sliding(map, RC_PERIODIC, other, 1e-10, &law);
     assert_true(fabs(slide(m, 0.2, -0.04)->friction / mu - 1) < 1e-8);
     frame(m, "pressure", q);
     for (int k = 0; k < RX * RY; k++)
@@ -489,7 +415,7 @@ mirrored(void **state)
     for (int k = 0; k < RX * RY; k++)
         other[k % RX * RY + k / RX] = h[k];
     law.along_y = true;
-    m = sliding(turned, other, 1e-10, &law);
+    m = sliding(turned, RC_PERIODIC, other, 1e-10, &law);
     assert_true(fabs(slide(m, 0.2, 0.04)->friction / mu - 1) < 1e-8);
     frame(m, "pressure", q);
     for (int k = 0; k < RX * RY; k++)
@@ -510,11 +436,11 @@ work(void **state)
     (void)state;
     for (size_t n = 128; n <= 256; n *= 2) {
         const struct rc_shape s = {n, n, 1 / (double)n, 1 / (double)n};
-        rough(s, 8, 1, h);
+        rough(s, 8, 0, 1, h);
         for (int k = 0; k < (n == 128 ? 4 : 2); k++) {
             struct rc_relaxation *r = power_law(k % 2 == 0 ? 0.47 : 0.64, 1e-2);
             const struct rc_slide_problem law = {.material = r};
-            struct rc_model *m = sliding(s, h, 1e-4, &law);
+            struct rc_model *m = sliding(s, RC_PERIODIC, h, 1e-4, &law);
             const struct rc_slide_figures *f = slide(m, k < 2 ? 1 : 20, 0.03);
             printf("%zu: tan delta %.2f, contact %.3f: %.1f convolutions\n", n, f->tan_delta_max,
                    rc_model_number(m, "contact_fraction"), f->convolutions);
@@ -563,22 +489,22 @@ estimates(void **state)
         r = rc_relaxation_new(exp(-2 + 2 * drand48()), 1 + seed % 6, modulus, time, &err);
         assert_non_null(r);
         law.material = r;
-        rough(s, 3 + (double)(seed % 3) * 3, 100 + seed, h);
-        m = sliding(s, h, 1e-9, &law);
+        rough(s, 3 + (double)(seed % 3) * 3, 0, 100 + seed, h);
+        m = sliding(s, RC_PERIODIC, h, 1e-9, &law);
         if (too_lossy(m, speed)) {
             rc_model_free(m);
             rc_relaxation_free(r);
             continue;
         }
         rc_model_free(m);
-        m = sliding(s, h, 1e-9, &law);
+        m = sliding(s, RC_PERIODIC, h, 1e-9, &law);
         mu = slide(m, load / r->instant / 3, speed)->friction;
         frame(m, "pressure", exact);
         rc_model_free(m);
         for (double tol = 0.1; tol > 1e-5; tol /= 10, states++) {
             const struct rc_slide_figures *f;
             double ratio;
-            m = sliding(s, h, tol, &law);
+            m = sliding(s, RC_PERIODIC, h, tol, &law);
             f = slide(m, load / r->instant / 3, speed);
             frame(m, "pressure", p);
             ratio = f->pressure_error / difference(p, exact, 48 * 48);

@@ -10,92 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "libcontact/contact.h"
-#include "tests/exact.h"
-
-static struct rc_err err;
-
-static struct rc_relaxation *
-standard(void)
-{
-    struct rc_relaxation *r = rc_relaxation_new(1, 1, (double[]){9}, (double[]){0.1}, &err);
-
-    assert_non_null(r);
-    return r;
-}
-
-static struct rc_relaxation *
-power_law(double power, double relaxed)
-{
-    double modulus[14], time[14];
-    struct rc_relaxation *r;
-
-    for (int k = 0; k < 14; k++) {
-        time[k] = pow(10, k / 2.0 - 5);
-        modulus[k] = pow(time[k], -power);
-    }
-    r = rc_relaxation_new(relaxed, 14, modulus, time, &err);
-    assert_non_null(r);
-    return r;
-}
-
-static struct rc_model *
-sliding(struct rc_shape s, enum rc_boundary boundary, const double *h, double tol,
-        const struct rc_slide_problem *law)
-{
-    const struct rc_problem problem = {.boundary = boundary, .tol = tol, .threads = 1};
-    struct rc_model *m = rc_slide_new(&s, h, &problem, law, &err);
-
-    if (m == NULL)
-        fail_msg("%s", err.text);
-    return m;
-}
-
-static const struct rc_slide_figures *
-slide(struct rc_model *m, int what, double amount, double speed)
-{
-    struct rc_point to = {0};
-
-    rc_point_set(&to, what, amount);
-    rc_point_set(&to, RC_SPEED, speed);
-    if (rc_model_run(m, &to, &err) != RC_OK || rc_model_look(m, NULL, &err) != RC_OK)
-        fail_msg("%s", err.text);
-    return rc_slide_result(m);
-}
-
-static void
-frame(struct rc_model *m, const char *name, double *to)
-{
-    assert_int_equal(rc_model_frame(m, name, to, &err), RC_OK);
-}
-
-static double
-difference(const double *a, const double *b, size_t n)
-{
-    double sum = 0, all = 0;
-
-    for (size_t k = 0; k < n; k++) {
-        sum += fabs(a[k] - b[k]);
-        all += fabs(b[k]);
-    }
-    return sum / all;
-}
-
-/* A self-affine map, with a dome of height `dome` so that it touches in its middle. */
-static void
-rough(struct rc_shape s, double cut, double dome, uint64_t seed, double *h)
-{
-    const struct rc_selfaffine o = {
-        .hurst = 0.8, .rms_slope = 1, .short_cut = cut * s.dx, .long_cut = 0.25, .seed = seed};
-
-    if (rc_synth_selfaffine(&s, &o, h, &err) != RC_OK)
-        fail_msg("%s", err.text);
-    for (size_t k = 0; k < s.nx * s.ny; k++) {
-        const double x = ((double)(k % s.nx) + 0.5) / (double)s.nx - 0.5,
-                     y = ((double)(k / s.nx) + 0.5) / (double)s.ny - 0.5;
-        h[k] -= dome * (x * x + y * y);
-    }
-}
+#include "tests/visco/sliding.h"
 
 /* ---- coefficients by quadrature ---- */
 
@@ -199,7 +114,7 @@ contact(void **state)
 
         rough(map, 4, round < 3 ? 0 : 2, 3 + (uint64_t)round, h);
         m = sliding(map, RC_FREE, h, 1e-11, &law);
-        f = slide(m, RC_LOAD, round < 3 ? 0.2 : 0.02, speeds[round]);
+        f = slide_by(m, RC_LOAD, round < 3 ? 0.2 : 0.02, speeds[round]);
         frame(m, "pressure", p);
         frame(m, "gap", g);
         frame(m, "displacement", u);
@@ -248,7 +163,7 @@ limits(void **state)
         const struct rc_problem problem = {
             .boundary = RC_FREE, .pair.estar = k < 2 ? 1 : 10, .tol = 1e-9, .threads = 1};
         struct rc_model *elastic = rc_elastic_new(&map, h, &problem, NULL, &err);
-        const double mu = slide(m, RC_LOAD, 0.1, speeds[k])->friction;
+        const double mu = slide_by(m, RC_LOAD, 0.1, speeds[k])->friction;
         struct rc_point to = {0};
 
         assert_non_null(elastic);
@@ -286,8 +201,8 @@ mirrored(void **state)
                   : round == 2 ? k % NX * NY + k / NX
                                : k] = h[k];
         m = sliding(round == 2 ? turned : map, RC_FREE, other, 1e-10, &law);
-        f = slide(m, round == 3 ? RC_APPROACH : RC_LOAD, round == 3 ? approach : 0.1,
-                  round == 1 ? -0.4 : 0.4);
+        f = slide_by(m, round == 3 ? RC_APPROACH : RC_LOAD, round == 3 ? approach : 0.1,
+                     round == 1 ? -0.4 : 0.4);
         frame(m, "pressure", q);
         for (int k = 0; k < NX * NY && round == 0; k++)
             p[k] = q[k];
@@ -357,7 +272,7 @@ estimates(void **state)
             const struct rc_slide_figures *f;
             double ratio;
             m = sliding(s, RC_FREE, h, tol, &law);
-            f = slide(m, RC_LOAD, load / r->instant / 3, speed);
+            f = slide_by(m, RC_LOAD, load / r->instant / 3, speed);
             frame(m, "pressure", p);
             ratio = f->pressure_error / difference(p, exact, N * N);
             least = fmin(least, ratio);

@@ -316,8 +316,8 @@ follow(struct slip_run *run)
 
 /* ---- a case ---- */
 
-/* The memory for friction and contacts, maps, and the state at the previous corner; the work of all increments,
- * measured on rough contacts and balls. */
+/* The memory for friction and contacts, maps, and the state at the previous corner. The work of all
+ * increments, measured on rough contacts and balls. */
 static struct rc_expected
 forecast(struct slip_run *run)
 {

@@ -282,8 +282,8 @@ struct rc_model *yield_model(struct run *run, const struct rc_grid *g,
                              const struct rc_problem *problem);
 /* Plans the remaining loads, before a load in N; and after a load takes its figures. */
 void yield_plan(struct run *run, struct rc_model *m, double load);
-/* For --dry-run: solves the elastic contact, which tells how deep the body yields, and returns the cost of the
- * first load, and of the others as parts of it. */
+/* For --dry-run: solves the elastic contact, which shows how deep the body yields. Sets the cost of the first
+ * load, and returns that of all loads over it. */
 double yield_expect(struct run *run, double load, struct rc_expected *expected);
 void yield_found(struct run *run, const struct rc_model *m);
 /* Mark k of a checkpoint of such a body, from 0 on: name and value. The value is empty without --yield. */

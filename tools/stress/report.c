@@ -281,8 +281,8 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
 
 /* ---- the plan ---- */
 
-/* Expected seconds for all depths, from a trial of the first depth and the middle one; NAN: the memory does not
- * suffice. */
+/* Expected seconds for all depths, from a trial of the first depth and the middle one; NAN: the memory does
+ * not suffice. */
 static enum rc_status
 expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_options *o,
        const struct numbers *depths, size_t memory, double *expected, struct rc_err *err)
