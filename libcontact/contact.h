@@ -488,7 +488,8 @@ RC_API size_t rc_body_material(const struct rc_body *body, double depth);
 
 /* A factor that makes the compliance of both bodies differ along x, and its largest value. */
 struct rc_along {
-    double (*factor)(const void *of, double qx); /* periodic maps: of waves of qx (rad/m), even in qx */
+    /* periodic maps: of waves of qx (rad/m), even in qx */
+    double (*factor)(const void *of, double qx);
     /* free maps: of the displacement at x, y >= 0 (m) from a square cell of the side dx (m) */
     double (*at)(const void *of, double dx, double x, double y);
     const void *of; /* first argument of the functions */
@@ -959,7 +960,8 @@ struct rc_leak_figures {
     /* factors of Patir and Cheng for sliding along the flow, the rough body at rest: the flow per width
      * without a pressure difference is U/2 (mean_gap + gap_rms shear_flow_factor); NAN: an even gap */
     double shear_flow_factor;
-    double shear_stress_factor; /* of the pressure term of the shear stress: that flow over U/2 mean_gap */
+    /* of the pressure term of the shear stress: that flow over U/2 mean_gap */
+    double shear_stress_factor;
     double mean_gap; /* m: over all nodes, 0 in contact                                        */
     double gap_rms;  /* m: RMS deviation from mean_gap over all nodes                          */
     double slope;    /* RMS of the gap's gradient where fluid flows; NAN: nowhere              */

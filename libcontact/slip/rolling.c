@@ -731,8 +731,8 @@ progress(const struct rc_model *m, struct rc_loops *l)
     l->tol = d->asked.tol;
 }
 
-/* These numbers are measured. A steady state takes 40 to 120 convolutions to 1e-3; a step of a path takes 25. The
- * bytes are those on 512 x 512 nodes, counted in maps of doubles. */
+/* These numbers are measured. A steady state takes 40 to 120 convolutions to 1e-3; a step of a path takes 25.
+ * The bytes are those on 512 x 512 nodes, counted in maps of doubles. */
 static enum rc_status
 plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
      struct rc_err *err)

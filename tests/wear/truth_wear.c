@@ -366,7 +366,7 @@ a_ball_cuts_a_groove(void **state)
 }
 
 /* Where the last valleys close, a contact puts several times the mean pressure on a few nodes, within its
- * tolerance, and the more so the larger the map is. The largest pressure must be that of the end: the mean. */
+ * tolerance, and the more so the larger the map is. The largest pressure must be the mean, as in the end. */
 static void
 close_valleys(size_t side, uint64_t seed, double mean, double from, double to, double within)
 {

@@ -25,7 +25,8 @@ void layers_free(struct layers *layers);
 /* In place of the modulus of a layer: it is that of --relaxation. */
 #define LAYER_RELAXES "relaxation"
 /* Reads one layer of a command line, "2um,300GPa,0.25", or with a residual stress,
- * "2um,300GPa,0.25,-3GPa". relaxes: the instantaneous modulus of --relaxation, or 0; *is: the layer has it. */
+ * "2um,300GPa,0.25,-3GPa". relaxes: the instantaneous modulus of --relaxation, or 0; *is: the layer has
+ * this modulus. */
 enum rc_status layer_read(const char *text, struct rc_layer *layer, double *residual,
                           double relaxes, bool *is, struct rc_err *err);
 

@@ -82,8 +82,9 @@ void course_set(struct course *c, struct rc_model *m, const struct rc_point *to)
 enum rc_status course_run(struct course *c, struct rc_model *m);
 /* The peak of a run whose models take so many more bytes, for --dry-run. */
 size_t course_peak(size_t bytes);
-/* Seconds of a run on this machine, for --dry-run: its expected seconds in the units of rc_solver_expect, times
- * what a small contact takes here and now over its own; with files, figures and frames of the points. */
+/* Seconds of a run on this machine, for --dry-run: its expected seconds in the units of rc_solver_expect,
+ * times the measured over the expected seconds of a small contact; with files, figures and frames of the
+ * points. */
 double course_seconds(const struct tool *t, const struct rc_grid *g, double seconds, size_t points);
 
 /* ---- again.c ---- */
