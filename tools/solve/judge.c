@@ -97,7 +97,8 @@ solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where
                     "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic: give "
                     "%sa smaller load",
                     where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
-                    run->yielding.wanted || run->relaxing.wanted ? "" : "its --hardness, or ");
+                    run->yielding.wanted || run->args->physics.relaxes > 0 ? ""
+                                                                           : "its --hardness, or ");
     drive_judge_slope(&run->d.course, s->slope, where);
 }
 
