@@ -50,10 +50,9 @@ enum {
 
 struct rc_spectrum {
     unsigned parity;
-    size_t columns; /* columns from this one on are zero                                      */
-    double total;   /* value at wave number 0 */
-    void *values;   /* the columns held here, of cy numbers in the order of fft.h, over px py */
-    bool lent;      /* these numbers belong to another spectrum */
+    double total; /* value at wave number 0 */
+    void *values; /* the columns held here, of cy numbers in the order of fft.h, over px py */
+    bool lent;    /* these numbers belong to another spectrum */
     struct rc_ratio ratio, first; /* factors of these numbers in a chain; of the first column */
 };
 
@@ -139,15 +138,11 @@ half_new(struct half *h, size_t length, size_t threads)
 }
 
 static void
-half_run(const struct half *h, bool odd, double *v)
+half_run_odd_length(const struct half *h, bool odd, double *v)
 {
     double *all;
     double complex *waves;
 
-    if (h->dct != NULL) {
-        rc_dct_run(h->dct, odd, v);
-        return;
-    }
     if (odd && h->length == 1) {
         v[0] = 0;
         return;
@@ -161,6 +156,17 @@ half_run(const struct half *h, bool odd, double *v)
     rc_line_forward(h->line, all, waves);
     for (size_t k = 0; k < h->n; k++)
         v[k] = creal(waves[k]);
+}
+
+/* Arguments of rc_dct_run. */
+static void
+half_run(const struct half *h, size_t count, unsigned odd, double *const *v)
+{
+    if (h->dct != NULL)
+        rc_dct_run(h->dct, count, odd, v);
+    for (size_t k = 0; h->dct == NULL && k < count; k++)
+        if (v[k] != NULL)
+            half_run_odd_length(h, odd >> k & 1, v[k]);
 }
 
 /* ---- plan ---- */
@@ -293,10 +299,8 @@ rc_spectrum_new(const struct rc_fft *f, struct rc_err *err)
 
     if (k != NULL)
         k->values = rc_alloc(l->columns * l->cy, f->ops->real_size);
-    if (k != NULL) {
-        k->columns = l->cx;
+    if (k != NULL)
         k->ratio = k->first = numbers_themselves;
-    }
     if (k == NULL || k->values == NULL)
         rc_err_set(err, "out of memory for a kernel's spectrum of %zu x %zu numbers", l->cx, l->cy);
     if (rc_ranks_agree(ranks_of(f), k == NULL || k->values == NULL ? RC_FAIL : RC_OK, err) !=
@@ -372,10 +376,34 @@ rc_fft_quarter_rows(const struct rc_fft *f, size_t *first, size_t *n)
     *n = f->layout.turn == NULL ? f->layout.cy : t->row[t->own + 1] - *first;
 }
 
-void
-rc_fft_quarter_row(const struct rc_fft *f, unsigned parity, double *row)
+size_t
+rc_fft_quarter_size(const struct rc_fft *f)
 {
-    half_run(&f->along_x, parity & RC_ODD_X, row);
+    size_t first, rows, turned = f->layout.cy * f->layout.wide;
+
+    rc_fft_quarter_rows(f, &first, &rows);
+    return f->layout.turn == NULL || rows * f->layout.cx > turned ? rows * f->layout.cx : turned;
+}
+
+void
+rc_fft_quarter_row(const struct rc_fft *f, size_t count, unsigned odd, double *const *lines)
+{
+    half_run(&f->along_x, count, odd, lines);
+}
+
+/* Copies n columns from `first`, of rows `wide` numbers apart. */
+static void
+gather_columns(const double *rows, size_t cy, size_t wide, size_t first, size_t n, double *columns)
+{
+    for (size_t j = 0; j < cy; j++) {
+        const double *row = rows + j * wide + first;
+        if (j + PREFETCH < cy) {
+            __builtin_prefetch(row + PREFETCH * wide);
+            __builtin_prefetch(row + PREFETCH * wide + COLUMNS / 2);
+        }
+        for (size_t b = 0; b < n; b++)
+            columns[b * cy + j] = row[b];
+    }
 }
 
 /* From all rows of the columns held here; rows are `wide` numbers apart. */
@@ -386,23 +414,15 @@ set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, cons
     size_t cx = f->layout.columns, cy = f->layout.cy;
 
     k->parity = parity;
-    k->columns = f->layout.cx;
 #pragma omp parallel for num_threads(f->layout.threads) schedule(static)
     for (size_t first = 0; first < cx; first += COLUMNS) {
         double *columns = columns_of(f);
         size_t n = cx - first < COLUMNS ? cx - first : COLUMNS;
 
-        for (size_t j = 0; j < cy; j++) {
-            const double *row = rows + j * wide + first;
-            if (j + PREFETCH < cy) {
-                __builtin_prefetch(row + PREFETCH * wide);
-                __builtin_prefetch(row + PREFETCH * wide + COLUMNS / 2);
-            }
-            for (size_t b = 0; b < n; b++)
-                columns[b * cy + j] = row[b];
-        }
+        gather_columns(rows, cy, wide, first, n, columns);
         for (size_t b = 0; b < n; b++) {
-            half_run(&f->along_y, parity & RC_ODD_Y, columns + b * cy);
+            double *column = columns + b * cy;
+            half_run(&f->along_y, 1, (parity & RC_ODD_Y) != 0, &column);
             if (each != NULL)
                 each(ctx, f->layout.first + first + b, cy, columns + b * cy);
             store_column(k, f, first + b, columns + b * cy);
@@ -411,47 +431,33 @@ set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, cons
     share_total(k, f);
 }
 
-/* From the rows held here; ranks exchange them. */
-static enum rc_status
-turn_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, const double *rows,
-             rc_column *each, void *ctx, struct rc_err *err)
+enum rc_status
+rc_fft_quarter_turn(const struct rc_fft *f, double *quarter, struct rc_err *err)
 {
     const struct rc_layout *l = &f->layout;
-    size_t own = rc_ranks_own(ranks_of(f)), n;
-    double *pieces, *columns, *row;
+    size_t first, n;
+    double *pieces, *row;
     enum rc_status status;
 
-    if (l->turn == NULL) {
-        set_quarter(k, f, parity, rows, l->cx, each, ctx);
+    if (l->turn == NULL)
         return RC_OK;
-    }
-    n = f->quarter.row[own + 1] - f->quarter.row[own];
+    rc_fft_quarter_rows(f, &first, &n);
     pieces = rc_alloc(n * l->stride, sizeof *pieces);
-    columns = rc_alloc(l->cy * l->wide, sizeof *columns);
     row = calloc(l->stride, sizeof *row);
-    status = pieces == NULL || columns == NULL || row == NULL ? RC_FAIL : RC_OK;
+    status = pieces == NULL || row == NULL ? RC_FAIL : RC_OK;
     if (status != RC_OK)
         rc_err_set(err, "out of memory for a kernel of %zu x %zu values", l->cx, l->cy);
     status = rc_ranks_agree(ranks_of(f), status, err);
     if (status == RC_OK) {
         for (size_t j = 0; j < n; j++) {
-            memcpy(row, rows + j * l->cx, l->cx * sizeof *row);
+            memcpy(row, quarter + j * l->cx, l->cx * sizeof *row);
             rc_turn_put(&f->quarter, j, row, pieces);
         }
-        rc_ranks_turn(&f->quarter, false, pieces, columns);
-        set_quarter(k, f, parity, columns, l->wide, each, ctx);
+        rc_ranks_turn(&f->quarter, false, pieces, quarter);
     }
     free(pieces);
-    free(columns);
     free(row);
     return status;
-}
-
-enum rc_status
-rc_spectrum_set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity,
-                        const double *rows, struct rc_err *err)
-{
-    return turn_quarter(k, f, parity, rows, NULL, NULL, err);
 }
 
 enum rc_status
@@ -460,13 +466,13 @@ rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct r
 {
     const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
     size_t cx = f->layout.cx, from, rows;
-    double *own = NULL, *values = NULL;
+    const size_t size = rc_fft_quarter_size(f);
+    double *own = NULL, *values = f->ops->workspace(f->plan, size * sizeof *values);
     enum rc_status status = RC_OK;
 
     rc_fft_quarter_rows(f, &from, &rows);
-    values = f->ops->workspace(f->plan, rows * cx * sizeof *values);
     if (values == NULL)
-        values = own = rc_alloc(rows * cx, sizeof *own);
+        values = own = rc_alloc(size, sizeof *own);
     if (values == NULL)
         status = rc_err_set(err, "out of memory for a kernel of %zu x %zu values", cx, rows);
     if (rc_ranks_agree(ranks_of(f), status, err) != RC_OK) {
@@ -478,10 +484,15 @@ rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct r
         size_t last = first + ROWS < from + rows ? first + ROWS : from + rows;
 
         kernel->rows(kernel->of, &nodes, cx, first, last, values + (first - from) * cx);
-        for (size_t j = first; j < last; j++)
-            rc_fft_quarter_row(f, kernel->parity, values + (j - from) * cx);
+        for (size_t j = first; j < last; j++) {
+            double *row = values + (j - from) * cx;
+            rc_fft_quarter_row(f, 1, (kernel->parity & RC_ODD_X) != 0, &row);
+        }
     }
-    status = turn_quarter(k, f, kernel->parity, values, each, ctx, err);
+    status = rc_fft_quarter_turn(f, values, err);
+    if (status == RC_OK)
+        set_quarter(k, f, kernel->parity, values, f->layout.turn == NULL ? cx : f->layout.wide,
+                    each, ctx);
     free(own);
     return status;
 }
@@ -526,38 +537,50 @@ rc_fft_qy(const struct rc_fft *f, size_t j)
 
 /* ---- from a function of wave numbers ---- */
 
-void
-rc_spectrum_sample(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity,
-                   rc_symbol *symbol, const void *of)
+/* Column i at the wave numbers qy; waves of two nodes are left out where the kernel is odd. */
+static void
+sample_column(const struct rc_fft *f, unsigned parity, rc_symbol *symbol, const void *of, size_t i,
+              const double *qy, double *column)
 {
     const struct rc_layout *l = &f->layout;
-    size_t columns = 0;
+
+    if (2 * i == l->nx && parity & RC_ODD_X)
+        memset(column, 0, l->cy * sizeof *column);
+    else
+        symbol(of, i, rc_fourier_q(i, l->nx, f->shape.dx), l->cy, qy, column);
+    if (2 * (l->cy - 1) == l->ny && parity & RC_ODD_Y)
+        column[l->cy - 1] = 0;
+}
+
+static void
+set_waves(const struct rc_fft *f, double *qy)
+{
+    for (size_t j = 0; j < f->layout.cy; j++)
+        qy[j] = rc_fourier_q(j, f->layout.ny, f->shape.dy);
+}
+
+static void
+sample(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, rc_symbol *symbol,
+       const void *of)
+{
+    const struct rc_layout *l = &f->layout;
 
     k->parity = parity;
-#pragma omp parallel num_threads(l->threads) reduction(max : columns)
+#pragma omp parallel num_threads(l->threads)
     {
         double *column = columns_of(f), *qy = column + l->cy;
 
-        for (size_t j = 0; j < l->cy; j++)
-            qy[j] = rc_fourier_q(j, l->ny, f->shape.dy);
+        set_waves(f, qy);
 #pragma omp for schedule(static)
         for (size_t c = 0; c < l->columns; c++) {
-            size_t i = l->first + c;
-            bool zero = 2 * i == l->nx && parity & RC_ODD_X;
-            if (zero || !symbol(of, i, rc_fourier_q(i, l->nx, f->shape.dx), l->cy, qy, column))
-                memset(column, 0, l->cy * sizeof *column);
-            else
-                columns = i + 1;
-            if (2 * (l->cy - 1) == l->ny && parity & RC_ODD_Y)
-                column[l->cy - 1] = 0;
+            sample_column(f, parity, symbol, of, l->first + c, qy, column);
             store_column(k, f, c, column);
         }
     }
-    k->columns = (size_t)rc_ranks_most(ranks_of(f), (double)columns);
     share_total(k, f);
 }
 
-static bool
+static void
 symbol_of(const void *of, size_t i, double qx, size_t n, const double *qy, double *out)
 {
     const struct rc_kernel *kernel = of;
@@ -565,7 +588,6 @@ symbol_of(const void *of, size_t i, double qx, size_t n, const double *qy, doubl
     (void)i;
     for (size_t j = 0; j < n; j++)
         out[j] = qx == 0 && qy[j] == 0 ? 0 : kernel->symbol(kernel->of, qx, qy[j]);
-    return true;
 }
 
 enum rc_status
@@ -583,7 +605,7 @@ rc_spectrum_set(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_k
         return rc_spectrum_set_values(k, f, kernel, err);
     if (kernel->symbol == NULL)
         return rc_err_set(err, "this kernel has no periodic form");
-    rc_spectrum_sample(k, f, kernel->parity, symbol_of, kernel);
+    sample(k, f, kernel->parity, symbol_of, kernel);
     return RC_OK;
 }
 
@@ -668,25 +690,71 @@ rc_fft_load(struct rc_fft *f, size_t source, const double *p, struct rc_err *err
     return RC_OK;
 }
 
-void
-rc_fft_field(struct rc_fft *f, const struct rc_spectrum *k, double *u)
+/* The kernels of rc_fft_fields, and memory for each thread: lines of columns, and their spectra. */
+struct lines {
+    const struct rc_fft *f;
+    size_t count;
+    const struct rc_fft_kernel *kernel;
+    unsigned odd; /* bits: odd in y */
+    double *columns;
+    char *spectra;
+};
+
+static const void *
+line_spectra(void *ctx, size_t c, size_t n)
 {
-    rc_fft_field_sum(f, 1, &(struct rc_fft_term){k, 0, 1}, u);
+    const struct lines *lines = ctx;
+    const struct rc_fft *f = lines->f;
+    const struct rc_layout *l = &f->layout;
+    const size_t line = f->ops->line, size = line * l->cy, thread = (size_t)omp_get_thread_num();
+    const double factor = 1 / ((double)l->px * (double)l->py);
+    double *columns = lines->columns + thread * (lines->count + 1) * size;
+    double *qy = columns + lines->count * size, *column[RC_LINES];
+    char *spectra = lines->spectra + thread * lines->count * size * f->ops->real_size;
+
+    set_waves(f, qy);
+    for (size_t k = 0; k < lines->count && f->boundary == RC_FREE; k++)
+        gather_columns(lines->kernel[k].quarter, l->cy, l->turn == NULL ? l->cx : l->wide, c, n,
+                       columns + k * size);
+    for (size_t b = 0; b < n; b++) {
+        for (size_t k = 0; k < lines->count; k++) {
+            const struct rc_fft_kernel *kernel = &lines->kernel[k];
+            column[k] = columns + k * size + b * l->cy;
+            if (f->boundary == RC_PERIODIC)
+                sample_column(f, kernel->parity, kernel->symbol, kernel->of, l->first + c + b, qy,
+                              column[k]);
+        }
+        if (f->boundary == RC_FREE)
+            half_run(&f->along_y, lines->count, lines->odd, column);
+        for (size_t k = 0; k < lines->count; k++)
+            f->ops->store(l, k * line + b, factor, lines->odd >> k & 1 ? -1 : 1, column[k],
+                          spectra);
+    }
+    return spectra;
 }
 
-void
-rc_fft_field_sum(struct rc_fft *f, size_t n, const struct rc_fft_term *terms, double *u)
+enum rc_status
+rc_fft_fields(struct rc_fft *f, size_t columns, size_t kernels, const struct rc_fft_kernel *kernel,
+              size_t n, const struct rc_fft_sum *sum, struct rc_err *err)
 {
-    struct rc_part parts[RC_SOURCES];
-    size_t columns = 0;
+    const size_t size = (size_t)f->layout.threads * f->ops->line * f->layout.cy;
+    struct lines lines = {.f = f,
+                          .count = kernels,
+                          .kernel = kernel,
+                          .columns = rc_alloc((kernels + 1) * size, sizeof(double)),
+                          .spectra = rc_alloc(kernels * size, f->ops->real_size)};
+    bool done;
 
-    assert(n > 0 && n <= RC_SOURCES && terms[0].weight == 1);
-    for (size_t k = 0; k < n; k++) {
-        const struct rc_spectrum *s = terms[k].kernel;
-        parts[k] = (struct rc_part){s->values, s->parity, terms[k].source, terms[k].weight};
-        columns = s->columns > columns ? s->columns : columns;
-    }
-    f->ops->field(f->plan, columns, n, parts, u);
+    assert(kernels <= RC_LINES && n <= RC_FIELDS);
+    for (size_t k = 0; k < kernels; k++)
+        lines.odd |= kernel[k].parity & RC_ODD_Y ? 1u << k : 0;
+    done = rc_ranks_sum(ranks_of(f), lines.columns == NULL || lines.spectra == NULL) == 0 &&
+           f->ops->fields(f->plan, columns, line_spectra, &lines, kernel, n, sum);
+    if (!done)
+        rc_err_set(err, "out of memory for fields of %zu x %zu nodes", f->shape.nx, f->shape.ny);
+    free(lines.columns);
+    free(lines.spectra);
+    return done ? RC_OK : RC_FAIL;
 }
 
 /* ---- waves alone ---- */

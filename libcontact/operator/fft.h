@@ -87,24 +87,23 @@ void rc_spectrum_add(struct rc_spectrum *spectrum, const struct rc_fft *fft, boo
 enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                       const struct rc_kernel *kernel, struct rc_err *err);
 
-/* The same in steps, for a kernel of this parity. On the free boundary the spectrum comes from a quarter of
- * the kernel's period, its values at the offsets i < *nx, j < *ny. Each row of *nx values is transformed as
- * soon as it is passed, by threads of one OpenMP team. Then the spectrum is made from all rows. Ranks compute
- * and pass rows *first .. *first + *n - 1 each; RC_FAIL when memory for the rows of the others is short,
- * which cannot happen without ranks. */
+/* Kernels of rc_fft_fields. On the free boundary a kernel is given by a quarter of its period, its values at
+ * the offsets i < *nx, j < *ny. Ranks compute rows *first .. *first + *n - 1 each. rc_fft_quarter_row
+ * transforms a row of each of `count` kernels; lines[k] is odd in x where bit k of `odd` is set, or NULL. Any
+ * thread of one OpenMP team calls it. When all rows are transformed, rc_fft_quarter_turn exchanges the rows
+ * held here for columns, within rc_fft_quarter_size numbers. It fails when memory is short, which cannot
+ * happen without ranks. */
 void rc_fft_quarter(const struct rc_fft *fft, size_t *nx, size_t *ny);
 void rc_fft_quarter_rows(const struct rc_fft *fft, size_t *first, size_t *n);
-void rc_fft_quarter_row(const struct rc_fft *fft, unsigned parity, double *row);
-enum rc_status rc_spectrum_set_quarter(struct rc_spectrum *spectrum, const struct rc_fft *fft,
-                                       unsigned parity, const double *rows, struct rc_err *err);
-/* On the periodic boundary it comes from the kernel's transform, over (-i)^(number of odd directions). Wave
+size_t rc_fft_quarter_size(const struct rc_fft *fft);
+void rc_fft_quarter_row(const struct rc_fft *fft, size_t count, unsigned odd, double *const *lines);
+enum rc_status rc_fft_quarter_turn(const struct rc_fft *fft, double *quarter, struct rc_err *err);
+/* On the periodic boundary a kernel is given by its transform, over (-i)^(number of odd directions). Wave
  * numbers are qx, qy >= 0 in rad/m. Several threads call it for a column i of equal qx: out[j] at qy[j], j <
- * n. It may return false where all are zero. Waves of two nodes are left out in a direction in which the
- * kernel is odd: they are zero at all nodes. */
-typedef bool rc_symbol(const void *of, size_t i, double qx, size_t n, const double *qy,
+ * n. Waves of two nodes are left out in a direction in which the kernel is odd: they are zero at all
+ * nodes. */
+typedef void rc_symbol(const void *of, size_t i, double qx, size_t n, const double *qy,
                        double *out);
-void rc_spectrum_sample(struct rc_spectrum *spectrum, const struct rc_fft *fft, unsigned parity,
-                        rc_symbol *symbol, const void *of);
 
 /* u = K p. u and p may be the same. */
 void rc_fft_apply(struct rc_fft *fft, const struct rc_spectrum *kernel, const double *p, double *u);
@@ -125,15 +124,31 @@ enum {
     RC_SOURCES = 3
 };
 enum rc_status rc_fft_load(struct rc_fft *fft, size_t source, const double *p, struct rc_err *err);
-/* The field of source 0. */
-void rc_fft_field(struct rc_fft *fft, const struct rc_spectrum *kernel, double *u);
-/* u = the sum of weight K p over n > 0 terms; the first one's weight is 1. */
-struct rc_fft_term {
-    const struct rc_spectrum *kernel;
-    size_t source;
-    double weight;
+/* Up to RC_FIELDS fields at once, u = the sum of weight K p over the n > 0 terms of each. They share the
+ * transforms of kernels and the passes over the sources. The first weight of a field is 1. The spectra are
+ * made line by line of columns, and are not kept. Kernels count as zero from column `columns` on. RC_FAIL
+ * when memory is short. */
+enum {
+    RC_FIELDS = 2,
+    RC_LINES = RC_FIELDS * RC_SOURCES /* most kernels */
 };
-void rc_fft_field_sum(struct rc_fft *fft, size_t n, const struct rc_fft_term *terms, double *u);
+struct rc_fft_kernel {
+    unsigned parity;
+    const double *quarter; /* free: after rc_fft_quarter_turn */
+    rc_symbol *symbol;     /* periodic */
+    const void *of;
+};
+struct rc_fft_sum {
+    double *u;
+    size_t n;
+    struct rc_fft_term {
+        size_t kernel, source;
+        double weight;
+    } term[RC_SOURCES];
+};
+enum rc_status rc_fft_fields(struct rc_fft *fft, size_t columns, size_t kernels,
+                             const struct rc_fft_kernel *kernel, size_t n,
+                             const struct rc_fft_sum *sum, struct rc_err *err);
 
 /* Transforms maps to waves and back separately, for sums over several maps. Each column held here has
  * rc_fft_length numbers in the plan's precision: first their real parts, then their imaginary parts. Number t
@@ -196,13 +211,9 @@ struct rc_link {
     struct rc_factor factor;
 };
 
-/* A term of a sum: a spectrum, stored as above, times a source. */
-struct rc_part {
-    const void *spectrum;
-    unsigned parity;
-    size_t source;
-    double weight;
-};
+/* Returns spectra of the kernels in the columns c .. c + n - 1 of those held here, at most a line of them:
+ * column b of kernel k is stored as above at (k line + b) cy. Several threads call it. */
+typedef const void *rc_line_spectra(void *ctx, size_t c, size_t n);
 
 struct rc_fft_ops {
     size_t real_size; /* bytes of a real number                                           */
@@ -219,8 +230,9 @@ struct rc_fft_ops {
     void (*apply)(void *plan, const struct rc_factor *factor, const double *p, double *u);
     void (*chain)(void *plan, size_t n, const struct rc_link *links, rc_row *last, void *ctx);
     bool (*load)(void *plan, size_t source, const double *p); /* false: out of memory */
-    /* A sum of terms; all spectra are zero from column `columns` on. */
-    void (*field)(void *plan, size_t columns, size_t n, const struct rc_part *parts, double *u);
+    /* rc_fft_fields; false: out of memory. */
+    bool (*fields)(void *plan, size_t columns, rc_line_spectra *spectra, void *ctx,
+                   const struct rc_fft_kernel *kernel, size_t n, const struct rc_fft_sum *sum);
     /* rc_fft_forward and rc_fft_back. */
     void (*forward)(void *plan, rc_row *row, void *ctx, void *waves, rc_wave_column *column);
     void (*back)(void *plan, const void *waves, rc_wave_column *column, rc_row *row, void *ctx);

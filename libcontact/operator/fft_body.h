@@ -43,6 +43,7 @@ struct plan {
     COMPLEX *waves;              /* the columns held here, of each row: ny rows of `wide` */
     COMPLEX *pieces;             /* parts of the rows held here, for other ranks; NULL: no ranks */
     COMPLEX *own;                /* memory of `waves` to be freed; NULL: it was lent */
+    COMPLEX *second;             /* as `waves`, of the second of two fields; NULL: not yet needed */
     COMPLEX *source[RC_SOURCES]; /* transformed columns of a loaded map, in pieces; or NULL */
     COMPLEX *twiddle;    /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
     COMPLEX *scratch;    /* memory for each thread: LINE columns, one more, a row, and a spectrum's
@@ -90,6 +91,7 @@ plan_free(void *at)
     FFTW(destroy_plan)(f->column_back);
     rc_planner_unlock();
     free(f->own);
+    free(f->second);
     for (size_t k = 0; k < RC_SOURCES; k++)
         free(f->source[k]);
     free(f->twiddle);
@@ -384,10 +386,10 @@ gather(const struct plan *f, size_t first, COMPLEX *y)
 
 /* The last stage of the transform back, into `waves`. */
 RC_CLONES static void
-scatter(struct plan *f, size_t first, const COMPLEX *y)
+scatter(const struct plan *f, COMPLEX *waves, size_t first, const COMPLEX *y)
 {
     const struct rc_layout *l = &f->l;
-    COMPLEX *x = f->waves + first;
+    COMPLEX *x = waves + first;
 
     for (size_t j = 0, end; j < l->m; j = end) {
         int want = nodes_of(l, j, &end);
@@ -447,7 +449,7 @@ products(COMPLEX *to, bool more, REAL weight, const COMPLEX *z, size_t n, const 
     }
 }
 
-RC_CLONES static void
+RC_WIDE_CLONES static void
 scale(const struct target *to, size_t first, const COMPLEX *z, size_t n, const REAL *s,
       ptrdiff_t step, int power, REAL sign)
 {
@@ -528,7 +530,7 @@ convolve_columns(struct plan *f, const struct rc_factor *factor)
                 FFTW(execute_dft)(f->column_back, z, one);
             }
         }
-        scatter(f, c, y);
+        scatter(f, f->waves, c, y);
     }
 }
 
@@ -586,14 +588,40 @@ load(void *at, size_t source, const double *p)
     return true;
 }
 
+/* One field: products of a line of n columns from `first`, transformed back into `waves`. */
 static void
-field(void *at, size_t columns, size_t n_parts, const struct rc_part *parts, double *u)
+field_line(struct plan *f, size_t first, size_t n, const REAL *spectra,
+           const struct rc_fft_kernel *kernel, const struct rc_fft_sum *sum, COMPLEX *waves)
+{
+    const struct rc_layout *l = &f->l;
+    COMPLEX *y = scratch_of(f), *z = y + LINE * f->column;
+
+    for (size_t b = 0; b < n; b++)
+        for (size_t r = 0; r < l->radix; r++) {
+            for (size_t k = 0; k < sum->n; k++) {
+                const struct rc_fft_term *t = &sum->term[k];
+                const struct target to = {z, k > 0, (REAL)t->weight};
+                multiply(l, spectra + (t->kernel * LINE + b) * l->cy, kernel[t->kernel].parity, r,
+                         source_of(f, t->source, first + b, r), &to);
+            }
+            FFTW(execute_dft)(f->column_back, z, y + b * f->column + r * piece(f));
+        }
+    scatter(f, waves, first, y);
+}
+
+static bool
+fields(void *at, size_t columns, rc_line_spectra *spectra, void *ctx,
+       const struct rc_fft_kernel *kernel, size_t n_fields, const struct rc_fft_sum *sum)
 {
     struct plan *f = at;
     const struct rc_layout *l = &f->l;
-    struct map map = {.u = u, .nx = l->nx};
+    COMPLEX *waves[RC_FIELDS] = {f->waves, f->second};
     size_t here; /* columns that are not zero */
 
+    if (n_fields > 1 && waves[1] == NULL)
+        waves[1] = f->second = allocate(l->ny * l->wide);
+    if (rc_ranks_sum(l->turn == NULL ? NULL : l->turn->ranks, n_fields > 1 && waves[1] == NULL) > 0)
+        return false;
     /* whole lines of columns are scattered */
     columns = whole_lines(columns) < l->cx ? whole_lines(columns) : l->cx;
     here = columns < l->first                ? 0
@@ -602,23 +630,20 @@ field(void *at, size_t columns, size_t n_parts, const struct rc_part *parts, dou
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t c = 0; c < here; c += LINE) {
         size_t n = here - c < LINE ? here - c : LINE;
-        COMPLEX *y = scratch_of(f), *z = y + LINE * f->column;
+        const REAL *s = spectra(ctx, c, n);
 
-        for (size_t b = 0; b < n; b++)
-            for (size_t r = 0; r < l->radix; r++) {
-                COMPLEX *one = y + b * f->column + r * piece(f);
-                for (size_t k = 0; k < n_parts; k++) {
-                    const REAL *s = (const REAL *)parts[k].spectrum + (c + b) * l->cy;
-                    const struct target to = {z, k > 0, (REAL)parts[k].weight};
-                    multiply(l, s, parts[k].parity, r, source_of(f, parts[k].source, c + b, r),
-                             &to);
-                }
-                FFTW(execute_dft)(f->column_back, z, one);
-            }
-        scatter(f, c, y);
+        for (size_t k = 0; k < n_fields; k++)
+            field_line(f, c, n, s, kernel, &sum[k], waves[k]);
     }
-    turn(f, true);
-    transform_some(f, columns, &map, row_out, true, false);
+    for (size_t k = 0; k < n_fields; k++) {
+        struct map map = {.u = sum[k].u, .nx = l->nx};
+
+        f->waves = waves[k];
+        turn(f, true);
+        transform_some(f, columns, &map, row_out, true, false);
+    }
+    f->waves = waves[0];
+    return true;
 }
 
 /* Splits n complex numbers, times `factor`, into real and imaginary parts, and joins them. */
@@ -697,7 +722,7 @@ back(void *at, const void *waves, rc_wave_column *column, rc_row *row, void *ctx
             for (size_t r = 0; r < l->radix; r++)
                 FFTW(execute_dft)(f->column_back, z + r * piece(f), one + r * piece(f));
         }
-        scatter(f, c, y);
+        scatter(f, f->waves, c, y);
     }
     turn(f, true);
     transform_rows(f, ctx, row, true, false);
@@ -732,7 +757,7 @@ const struct rc_fft_ops OPS = {
     .apply = apply,
     .chain = chain,
     .load = load,
-    .field = field,
+    .fields = fields,
     .forward = forward,
     .back = back,
 };

@@ -298,10 +298,13 @@ sum_pair(struct plan *plan, const struct pair *pair, double complex *sum)
     const struct rc_stress_task *t = &plan->task;
     const struct rc_cell cell = {t->shape.dx, t->shape.dy};
     double *along = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
-    double *across = along + plan->waves, *line[RC_STRESS_KERNELS];
+    double *across = along + plan->waves, *line[RC_STRESS_KERNELS] = {NULL};
+    unsigned odd = 0;
 
-    for (size_t k = 0; k < plan->kernels; k++)
-        line[k] = across + (k + 1) * plan->waves;
+    for (int k = 0; k < (int)plan->kernels; k++) {
+        line[k] = t->kernels >> k & 1 ? across + (size_t)(k + 1) * plan->waves : NULL;
+        odd |= (unsigned)odd_along(plan, k) << k;
+    }
     if (plan->transposed) {
         for (size_t i = 0; i < plan->waves; i++) {
             along[i] = (double)i * plan->d_along;
@@ -312,9 +315,7 @@ sum_pair(struct plan *plan, const struct pair *pair, double complex *sum)
         t->type->line(plan->inside, &cell, t->kernels, plan->d_along, plan->waves, pair->offset,
                       line);
     }
-    for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        if (t->kernels >> k & 1)
-            rc_dct_run(plan->dct, odd_along(plan, k), line[k]);
+    rc_dct_run(plan->dct, RC_STRESS_KERNELS, odd, line);
     for (int c = 0; c < RC_COMPONENTS; c++)
         for (int load = 0; load < RC_LOADS; load++) {
             int k = rc_stress_kernel(t->type, load, c);

@@ -1,8 +1,8 @@
 /*
  * Stress maps by Fourier transforms. The pressure, and maps of traction, are transformed once. Then, for each
  * depth, the kernels of all components are tabulated together on a quarter of the padded map. Each gives its
- * spectrum by real even or odd transforms. One transform back gives each component, from the sum of the
- * products with the kernels of all loads.
+ * spectrum by real even or odd transforms, an even and an odd one together. One transform back gives each
+ * component, from the sum of the products with the kernels of all loads.
  *
  * Periodic: the kernels have symbols, no padding is needed, and only the decay of the waves is tabulated.
  * Waves that do not reach the depth are left out.
@@ -24,18 +24,16 @@ struct grid {
     struct rc_shape shape;
     struct rc_fft *fft;
     int threads;
-    size_t cx, cy;                          /* columns and rows of a quarter of a kernel's period */
-    size_t first_row, rows;                 /* rows computed here */
-    size_t first_column, columns;           /* columns held here */
-    double *quarter[RC_STRESS_KERNELS];     /* free map: these rows of cx values, transformed in
-                                               x */
-    double *known;                          /* periodic map: `numbers` for each wave, columns of
+    size_t cx, cy;                      /* columns and rows of a quarter of a kernel's period */
+    size_t first_row, rows;             /* rows computed here */
+    size_t first_column, columns;       /* columns held here */
+    size_t reached;                     /* columns whose waves reach the depth; free map: all */
+    double *quarter[RC_STRESS_KERNELS]; /* free map: see rc_fft_quarter */
+    double *known;                      /* periodic map: `numbers` for each wave, columns of
                                                cy */
-    size_t numbers;                         /* numbers that describe a wave at the depth */
-    struct rc_inside *inside;               /* at the depth                                     */
-    double depth;                           /* depth of all tables above, m */
-    struct rc_spectrum *spectrum[RC_LOADS]; /* the last ones, one per load                      */
-    int kernel[RC_LOADS];                   /* the kernel of each; -1: none                     */
+    size_t numbers;                     /* numbers that describe a wave at the depth */
+    struct rc_inside *inside;           /* at the depth                                     */
+    double depth;                       /* depth of all tables above, m */
 };
 
 struct plan {
@@ -43,18 +41,8 @@ struct plan {
     struct grid *fine, *coarse; /* coarse: the grid of the last depth that had one; or NULL */
     struct rc_coarse *between;  /* between fine and coarse                              */
     size_t sx, sy;              /* fine nodes per coarse node                           */
-    double *field;              /* field of one component on the coarse grid */
+    double *field[RC_FIELDS];   /* fields on the coarse grid */
 };
-
-static size_t
-count(unsigned bits)
-{
-    size_t n = 0;
-
-    for (; bits != 0; bits >>= 1)
-        n += bits & 1;
-    return n;
-}
 
 /* Smaller tolerances than this need double precision: single precision makes errors of up to 1e-6 of the
  * largest pressure. The errors of all loads add up. */
@@ -76,8 +64,6 @@ grid_free(struct grid *g)
         free(g->quarter[k]);
     free(g->known);
     rc_inside_free(g->inside);
-    for (int load = 0; load < RC_LOADS; load++)
-        rc_spectrum_free(g->spectrum[load]);
     rc_fft_free(g->fft);
     free(g);
 }
@@ -95,7 +81,7 @@ make_tables(struct grid *g, struct rc_err *err)
     g->numbers = rc_stress_numbers(task);
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (task->options.boundary == RC_FREE && task->kernels >> k & 1 &&
-            (g->quarter[k] = rc_alloc(g->cx * g->rows, sizeof(double))) == NULL)
+            (g->quarter[k] = rc_alloc(rc_fft_quarter_size(g->fft), sizeof(double))) == NULL)
             status =
                 rc_err_set(err, "out of memory for a kernel of %zu x %zu values", g->cx, g->cy);
     if (task->options.boundary == RC_PERIODIC &&
@@ -123,9 +109,6 @@ grid_new(const struct rc_stress_task *task, const struct rc_shape *shape, struct
     g->threads = rc_fft_threads(g->fft);
     if (make_tables(g, err) != RC_OK)
         goto fail;
-    for (int k = 0; k < (int)count(task->loads); k++)
-        if ((g->spectrum[k] = rc_spectrum_new(g->fft, err)) == NULL)
-            goto fail;
     return g;
 fail:
     grid_free(g);
@@ -142,25 +125,30 @@ load(struct grid *g, size_t source, const double *map, struct rc_err *err)
 /* ---- kernels ---- */
 
 /* All kernels on a quarter of the padded map. */
-static void
-tabulate(struct grid *g)
+static enum rc_status
+tabulate(struct grid *g, struct rc_err *err)
 {
     const struct rc_stress_task *t = g->task;
     const struct rc_cell cell = {t->shape.dx, t->shape.dy};
+    enum rc_status status = RC_OK;
+    unsigned odd = 0;
 
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        odd |= rc_stress_parity[k] & RC_ODD_X ? 1u << k : 0;
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4)
     for (size_t j = 0; j < g->rows; j++) {
         double *row[RC_STRESS_KERNELS], y = (double)(g->first_row + j) * g->shape.dy;
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             row[k] = g->quarter[k] == NULL ? NULL : g->quarter[k] + j * g->cx;
         t->type->line(g->inside, &cell, t->kernels, g->shape.dx, g->cx, y, row);
-        for (int k = 0; k < RC_STRESS_KERNELS; k++)
-            if (row[k] != NULL)
-                rc_fft_quarter_row(g->fft, rc_stress_parity[k], row[k]);
+        rc_fft_quarter_row(g->fft, RC_STRESS_KERNELS, odd, row);
     }
-    for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        if (g->quarter[k] != NULL)
+    for (int k = 0; k < RC_STRESS_KERNELS && status == RC_OK; k++)
+        if (g->quarter[k] != NULL) {
+            status = rc_fft_quarter_turn(g->fft, g->quarter[k], err);
             rc_stress_count(t, k, g->cx * g->cy);
+        }
+    return status;
 }
 
 /* ---- waves ---- */
@@ -198,13 +186,13 @@ set_known(struct grid *g)
     }
 }
 
-/* A kernel at the depth of a grid, for rc_spectrum_sample. */
+/* A kernel at the depth of a grid. */
 struct component {
     const struct grid *grid;
     int kernel;
 };
 
-static bool
+static void
 symbol(const void *of, size_t i, double qx, size_t n, const double *qy, double *out)
 {
     enum {
@@ -214,8 +202,6 @@ symbol(const void *of, size_t i, double qx, size_t n, const double *qy, double *
     const struct grid *g = c->grid;
     double x[PIECE], y[PIECE], q[PIECE], all[PIECE];
 
-    if (qx * g->depth >= deepest)
-        return false;
     for (size_t k = 0; k < PIECE; k++)
         all[k] = qx;
     for (size_t j = 0; j < n; j += PIECE) {
@@ -225,64 +211,13 @@ symbol(const void *of, size_t i, double qx, size_t n, const double *qy, double *
         rc_wave_directions(m, all, qy + j, x, y, q);
         rc_inside_symbol(g->inside, c->kernel, &waves, &g->shape, out + j);
     }
-    return true;
-}
-
-static enum rc_status
-set_spectrum(struct grid *g, int kernel, struct rc_spectrum *s, struct rc_err *err)
-{
-    const struct component of = {g, kernel};
-
-    if (g->task->options.boundary == RC_FREE) {
-        if (rc_spectrum_set_quarter(s, g->fft, rc_stress_parity[kernel], g->quarter[kernel], err) !=
-            RC_OK)
-            return RC_FAIL;
-        g->task->counts->kernel_transforms++;
-    } else {
-        rc_spectrum_sample(s, g->fft, rc_stress_parity[kernel], symbol, &of);
-        rc_stress_count(g->task, kernel, g->cx * g->cy);
-    }
-    return RC_OK;
-}
-
-/* Where the spectrum of a kernel is stored; -1: nowhere. */
-static int
-place_of(const struct grid *g, int kernel)
-{
-    for (int k = 0; k < RC_LOADS; k++)
-        if (g->spectrum[k] != NULL && g->kernel[k] == kernel)
-            return k;
-    return -1;
-}
-
-/* Makes the spectra of n different kernels: reuses those stored, and replaces those not needed. */
-static enum rc_status
-make_spectra(struct grid *g, size_t n, const int *kernel, struct rc_err *err)
-{
-    bool wanted[RC_LOADS] = {false};
-
-    for (size_t k = 0; k < n; k++)
-        if (place_of(g, kernel[k]) >= 0)
-            wanted[place_of(g, kernel[k])] = true;
-    for (size_t k = 0; k < n; k++) {
-        int to = 0;
-        if (place_of(g, kernel[k]) >= 0)
-            continue;
-        while (wanted[to])
-            to++;
-        g->kernel[to] = -1;
-        if (set_spectrum(g, kernel[k], g->spectrum[to], err) != RC_OK)
-            return RC_FAIL;
-        g->kernel[to] = kernel[k];
-        wanted[to] = true;
-    }
-    return RC_OK;
 }
 
 /* ---- fields ---- */
 
-/* Szz of the shear equals sxz of the normal load: in adjacent places they share the spectrum. */
-static const enum rc_component order[RC_COMPONENTS] = {RC_SXX, RC_SYY, RC_SXY,
+/* Two are computed together: one even and one odd in y, and szz and sxz, because szz of the shear equals sxz
+ * of the normal load. */
+static const enum rc_component order[RC_COMPONENTS] = {RC_SXX, RC_SXY, RC_SYY,
                                                        RC_SYZ, RC_SZZ, RC_SXZ};
 
 static enum rc_status
@@ -293,35 +228,59 @@ go_to_depth(struct grid *g, double depth, struct rc_err *err)
     if (rc_ranks_agree(g->task->options.ranks, g->inside == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
         return RC_FAIL;
     g->depth = depth;
-    for (int load = 0; load < RC_LOADS; load++)
-        g->kernel[load] = -1;
+    g->reached = g->cx;
     if (g->task->options.boundary == RC_FREE)
-        tabulate(g);
-    else
-        set_known(g);
+        return tabulate(g, err);
+    while (g->reached > 1 &&
+           rc_fourier_q(g->reached - 1, g->shape.nx, g->shape.dx) * depth >= deepest)
+        g->reached--;
+    set_known(g);
     return RC_OK;
 }
 
+/* The place of a kernel among the *n of a list, to which it is added if it is new. */
+static size_t
+place_of(const struct grid *g, int kernel, size_t *n, struct component *of,
+         struct rc_fft_kernel *list)
+{
+    size_t k = 0;
+
+    while (k < *n && of[k].kernel != kernel)
+        k++;
+    if (k < *n)
+        return k;
+    of[k] = (struct component){g, kernel};
+    list[k] = (struct rc_fft_kernel){rc_stress_parity[kernel], g->quarter[kernel], symbol, &of[k]};
+    ++*n;
+    return k;
+}
+
+/* n components c[k], to the maps s[k]. */
 static enum rc_status
-component_field(struct grid *g, int c, double *s, struct rc_err *err)
+make_fields(struct grid *g, size_t n, const int *c, double *const *s, struct rc_err *err)
 {
     const struct rc_stress_task *t = g->task;
-    struct rc_fft_term term[RC_LOADS];
-    int kernel[RC_LOADS];
-    size_t n = 0;
+    struct rc_fft_sum sum[RC_FIELDS] = {{0}};
+    struct rc_fft_kernel kernel[RC_LINES] = {{0}};
+    struct component of[RC_LINES];
+    size_t kernels = 0;
 
-    for (int load = 0; load < RC_LOADS; load++)
-        if (rc_stress_has(t, load)) {
-            kernel[n] = rc_stress_kernel(t->type, load, c);
-            term[n++] = (struct rc_fft_term){.source = t->load[load].source,
-                                             .weight = t->load[load].weight};
-        }
-    if (make_spectra(g, n, kernel, err) != RC_OK)
+    for (size_t k = 0; k < n; k++) {
+        sum[k] = (struct rc_fft_sum){.u = s[k]};
+        for (int load = 0; load < RC_LOADS; load++)
+            if (rc_stress_has(t, load))
+                sum[k].term[sum[k].n++] = (struct rc_fft_term){
+                    place_of(g, rc_stress_kernel(t->type, load, c[k]), &kernels, of, kernel),
+                    t->load[load].source, t->load[load].weight};
+    }
+    if (rc_fft_fields(g->fft, g->reached, kernels, kernel, n, sum, err) != RC_OK)
         return RC_FAIL;
-    for (size_t k = 0; k < n; k++)
-        term[k].kernel = g->spectrum[place_of(g, kernel[k])];
-    rc_fft_field_sum(g->fft, n, term, s);
-    t->counts->field_transforms++;
+    for (size_t k = 0; k < kernels; k++)
+        if (t->options.boundary == RC_FREE)
+            t->counts->kernel_transforms++;
+        else
+            rc_stress_count(t, of[k].kernel, g->cx * g->cy);
+    t->counts->field_transforms += n;
     return RC_OK;
 }
 
@@ -344,10 +303,12 @@ coarse_free(struct plan *plan)
 {
     grid_free(plan->coarse);
     rc_coarse_free(plan->between);
-    free(plan->field);
     plan->coarse = NULL;
     plan->between = NULL;
-    plan->field = NULL;
+    for (size_t k = 0; k < RC_FIELDS; k++) {
+        free(plan->field[k]);
+        plan->field[k] = NULL;
+    }
 }
 
 static enum rc_status
@@ -361,15 +322,17 @@ coarse_new(struct plan *plan, size_t sx, size_t sy, struct rc_err *err)
     coarse_free(plan);
     plan->sx = sx;
     plan->sy = sy;
-    if ((plan->field = malloc(shape.nx * shape.ny * sizeof *plan->field)) == NULL)
-        return rc_err_set(err, "out of memory for a map of %zu x %zu nodes", shape.nx, shape.ny);
+    for (size_t k = 0; k < RC_FIELDS; k++)
+        if ((plan->field[k] = malloc(shape.nx * shape.ny * sizeof(double))) == NULL)
+            return rc_err_set(err, "out of memory for a map of %zu x %zu nodes", shape.nx,
+                              shape.ny);
     plan->between = rc_coarse_new(&t->shape, sx, sy, t->options.threads, err);
     if (plan->between == NULL)
         return RC_FAIL;
     plan->coarse = grid_new(t, &shape, err);
     for (size_t k = 0; plan->coarse != NULL && k < t->sources; k++) {
-        rc_coarse_reduce(plan->between, t->source[k], plan->field);
-        if (load(plan->coarse, k, plan->field, err) != RC_OK)
+        rc_coarse_reduce(plan->between, t->source[k], plan->field[0]);
+        if (load(plan->coarse, k, plan->field[0], err) != RC_OK)
             coarse_free(plan);
     }
     return plan->coarse == NULL ? RC_FAIL : RC_OK;
@@ -445,14 +408,20 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
     }
     if ((g->inside == NULL || g->depth != depth) && go_to_depth(g, depth, err) != RC_OK)
         return RC_FAIL;
-    for (int k = 0; k < RC_COMPONENTS; k++) {
-        int c = (int)order[k];
-        if (!(plan->task.components >> c & 1))
-            continue;
-        if (component_field(g, c, coarse ? plan->field : s[c], err) != RC_OK)
+    for (size_t k = 0; k < RC_COMPONENTS;) {
+        int c[RC_FIELDS];
+        double *to[RC_FIELDS];
+        size_t n = 0;
+        for (; k < RC_COMPONENTS && n < RC_FIELDS; k++)
+            if (plan->task.components >> order[k] & 1) {
+                c[n] = (int)order[k];
+                to[n] = coarse ? plan->field[n] : s[c[n]];
+                n++;
+            }
+        if (n > 0 && make_fields(g, n, c, to, err) != RC_OK)
             return RC_FAIL;
-        if (coarse)
-            rc_coarse_expand(plan->between, plan->field, s[c]);
+        for (size_t f = 0; coarse && f < n; f++)
+            rc_coarse_expand(plan->between, to[f], s[c[f]]);
     }
     return RC_OK;
 }
@@ -468,8 +437,8 @@ set_loads(void *at, const double *const source[RC_LOADS], struct rc_err *err)
             return RC_FAIL;
         if (plan->coarse == NULL)
             continue;
-        rc_coarse_reduce(plan->between, source[k], plan->field);
-        if (load(plan->coarse, k, plan->field, err) != RC_OK)
+        rc_coarse_reduce(plan->between, source[k], plan->field[0]);
+        if (load(plan->coarse, k, plan->field[0], err) != RC_OK)
             return RC_FAIL;
     }
     return RC_OK;

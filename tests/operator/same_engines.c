@@ -263,36 +263,65 @@ every_wave(void **state)
     assert_int_equal(failed, 0);
 }
 
-/* Fields that are computed after one common load equal those of separate applications. */
+/* Two fields that share their kernels and sources equal separate applications, for all pairs of parities. */
 static void
-one_transform_serves_all_kernels(void **state)
+fields_share_transforms(void **state)
 {
     struct rc_shape shape = {37, 22, 1, 1.3};
-    struct body_case c;
-    size_t n = shape.nx * shape.ny;
-    double *p = calloc(n, sizeof *p), *u = malloc(n * sizeof *u), *v = malloc(n * sizeof *v);
+    const struct rc_lattice nodes = {1, 1.3, 1, 1};
+    size_t n = shape.nx * shape.ny, cx, cy;
+    double *map[6], *quarter[RC_STRESS_KERNELS];
     struct rc_err err;
     struct rc_fft *fft = rc_fft_new(NULL, NULL, &shape, RC_FREE, RC_DOUBLE, 2, &err);
-    struct rc_spectrum *k = rc_spectrum_new(fft, &err);
+    struct rc_spectrum *spectrum[RC_STRESS_KERNELS];
+    unsigned odd = 0;
 
     (void)state;
-    p[5 * 37 + 9] = 3;
-    p[20 * 37 + 30] = -1;
-    assert_int_equal(rc_fft_load(fft, 0, p, &err), RC_OK);
-    for (int kernel = 0; kernel < RC_STRESS_KERNELS; kernel++) {
-        stress_case(&c, (struct rc_body){.nu = 0.3}, 1.1, RC_FREE, kernel);
-        assert_int_equal(rc_spectrum_set(k, fft, &c.kernel, &err), RC_OK);
-        body_case_free(&c);
-        rc_fft_field(fft, k, u);
-        rc_fft_apply(fft, k, p, v);
-        for (size_t i = 0; i < n; i++)
-            assert_true(fabs(u[i] - v[i]) <= rounding);
+    for (int k = 0; k < 6; k++)
+        map[k] = calloc(n, sizeof **map);
+    for (int source = 0; source < 2; source++) {
+        map[source][(size_t)(5 + source) * 37 + 9] = 3;
+        map[source][20 * 37 + 30] = -1;
+        assert_int_equal(rc_fft_load(fft, (size_t)source, map[source], &err), RC_OK);
     }
-    rc_spectrum_free(k);
+    rc_fft_quarter(fft, &cx, &cy);
+    for (int k = 0; k < RC_STRESS_KERNELS; k++) {
+        struct body_case c;
+        stress_case(&c, (struct rc_body){.nu = 0.3}, 1.1, RC_FREE, k);
+        spectrum[k] = rc_spectrum_new(fft, &err);
+        assert_int_equal(rc_spectrum_set(spectrum[k], fft, &c.kernel, &err), RC_OK);
+        quarter[k] = malloc(rc_fft_quarter_size(fft) * sizeof **quarter);
+        c.kernel.rows(c.kernel.of, &nodes, cx, 0, cy, quarter[k]);
+        odd |= c.kernel.parity & RC_ODD_X ? 1u << k : 0;
+        body_case_free(&c);
+    }
+    for (size_t j = 0; j < cy; j++) {
+        double *row[RC_STRESS_KERNELS];
+        for (int k = 0; k < RC_STRESS_KERNELS; k++)
+            row[k] = quarter[k] + j * cx;
+        rc_fft_quarter_row(fft, RC_STRESS_KERNELS, odd, row);
+    }
+    for (int a = 0; a < RC_STRESS_KERNELS; a++)
+        for (int b = 0; b < RC_STRESS_KERNELS; b++) {
+            const struct rc_fft_kernel kernel[] = {{rc_stress_parity[a], quarter[a], NULL, NULL},
+                                                   {rc_stress_parity[b], quarter[b], NULL, NULL}};
+            const struct rc_fft_sum sum[] = {{map[2], 1, {{0, 1, 1}}},
+                                             {map[3], 2, {{1, 0, 1}, {0, 1, -0.7}}}};
+            assert_int_equal(rc_fft_fields(fft, cx, 2, kernel, 2, sum, &err), RC_OK);
+            rc_fft_apply(fft, spectrum[a], map[1], map[4]);
+            rc_fft_apply(fft, spectrum[b], map[0], map[5]);
+            for (size_t i = 0; i < n; i++) {
+                assert_true(fabs(map[2][i] - map[4][i]) <= rounding);
+                assert_true(fabs(map[3][i] - (map[5][i] - 0.7 * map[4][i])) <= rounding);
+            }
+        }
+    for (int k = 0; k < RC_STRESS_KERNELS; k++) {
+        rc_spectrum_free(spectrum[k]);
+        free(quarter[k]);
+    }
     rc_fft_free(fft);
-    free(p);
-    free(u);
-    free(v);
+    for (int k = 0; k < 6; k++)
+        free(map[k]);
 }
 
 int
@@ -302,7 +331,7 @@ main(void)
         cmocka_unit_test(every_body),
         cmocka_unit_test(every_size_and_kernel),
         cmocka_unit_test(every_wave),
-        cmocka_unit_test(one_transform_serves_all_kernels),
+        cmocka_unit_test(fields_share_transforms),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
