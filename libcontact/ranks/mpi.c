@@ -209,27 +209,27 @@ common(struct range a, struct range b)
     return c.first < c.end ? c : (struct range){0, 0};
 }
 
-/* The items of rank q or, where `of` is NULL, all of them. */
+/* The items of rank q and `more` after them or, where `of` is NULL, all of them. */
 static struct range
-range_of(const size_t *of, size_t all, size_t q)
+range_of(const size_t *of, size_t more, size_t all, size_t q)
 {
-    return of == NULL ? (struct range){0, all} : (struct range){of[q], of[q + 1]};
+    return of == NULL ? (struct range){0, all} : (struct range){of[q], of[q + 1] + more};
 }
 
 /* Moves the items in `part`, whose number fits an int. */
 static void
 move_part(const struct rc_ranks *r, struct range part, size_t bytes, const size_t *from,
-          const size_t *to, const void *v, void *w)
+          const size_t *to, size_t more, const void *v, void *w)
 {
     int *out = r->number, *out_at = out + r->count, *in = out_at + r->count, *in_at = in + r->count;
     const size_t all = from[r->count];
-    struct range held = range_of(from, all, r->own), wanted = range_of(to, all, r->own);
+    struct range held = range_of(from, 0, all, r->own), wanted = range_of(to, more, all, r->own);
     struct range out_part = common(held, part), in_part = common(wanted, part);
     MPI_Datatype type = type_of(bytes);
 
     for (size_t q = 0; q < r->count; q++) {
-        struct range goes = common(out_part, range_of(to, all, q));
-        struct range comes = common(in_part, range_of(from, all, q));
+        struct range goes = common(out_part, range_of(to, more, all, q));
+        struct range comes = common(in_part, range_of(from, 0, all, q));
         out[q] = (int)(goes.end - goes.first);
         out_at[q] = out[q] > 0 ? (int)(goes.first - out_part.first) : 0;
         in[q] = (int)(comes.end - comes.first);
@@ -247,13 +247,13 @@ move_part(const struct rc_ranks *r, struct range part, size_t bytes, const size_
 
 void
 rc_ranks_move(const struct rc_ranks *r, size_t bytes, const size_t *from, const size_t *to,
-              const void *v, void *w)
+              size_t more, const void *v, void *w)
 {
     size_t all = from[r->count];
 
     for (size_t at = 0; at < all; at += INT_MAX)
         move_part(r, (struct range){at, all - at < INT_MAX ? all : at + INT_MAX}, bytes, from, to,
-                  v, w);
+                  more, v, w);
 }
 
 /* The next rank with rows in this direction, or this rank when there is no other. */

@@ -7,8 +7,7 @@
  * calls. With NULL for the ranks, and in a build without MPI, one process owns all rows: every function is
  * then empty, and nothing is copied.
  *
- * Results are the same for every P, bit for bit, if one process uses transforms too and, for stresses, no
- * coarser grids. Each row and each column is transformed separately with the same plan. Blocks are added in
+ * Results are the same for every P, bit for bit, if one process uses transforms too. Each row and each column is transformed separately with the same plan. Blocks are added in
  * the same order, whichever rank owns them. Their sums are compensated, so that the rounding of the total
  * does not depend on where ranks begin (except for ties: 1 in 1e15).
  *
@@ -30,6 +29,8 @@
  *   nested start          rows of the coarser grid are moved to the ranks that own them there; each rank
  *                         solves small grids alone, after a message that all have the memory (nested.c)
  *   patches of contact    labelled row by row, joined across the edges between ranks (surface/patches.c)
+ *   coarser grids of      each rank reduces and expands its rows, with those of other ranks within the reach of
+ *   stresses              the interpolation (coarse_grid.c)
  *   failures              no rank continues alone: makers agree on their status before any of them returns
  */
 #ifndef RC_RANKS_H
@@ -113,10 +114,10 @@ enum rc_status rc_ranks_agree(const struct rc_ranks *ranks, enum rc_status statu
                               struct rc_err *err);
 /* Pieces to columns, or, `back`, columns to pieces. */
 void rc_ranks_turn(const struct rc_turn *turn, bool back, const void *from, void *to);
-/* Moves rows of `bytes` to the ranks that hold them by `to`; NULL: to all. Rank r holds rows from[r] ..
- * from[r + 1] - 1. */
+/* Moves rows of `bytes`, of which rank r holds from[r] .. from[r + 1] - 1. It gets those up to the last from
+ * to[r] .. to[r + 1] - 1 + more; NULL: all. */
 void rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *from, const size_t *to,
-                   const void *v, void *w);
+                   size_t more, const void *v, void *w);
 /* The row before the first one held here and the one after the last. False where there is none: at the ends
  * of the map, unless it is periodic (`round`). Ranks without rows take part. */
 void rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void *first,
@@ -158,9 +159,9 @@ rc_ranks_agree(const struct rc_ranks *ranks, enum rc_status status, struct rc_er
 
 static inline void
 rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *from, const size_t *to,
-              const void *v, void *w)
+              size_t more, const void *v, void *w)
 {
-    (void)ranks, (void)to;
+    (void)ranks, (void)to, (void)more;
     __builtin_memcpy(w, v, (from[1] - from[0]) * bytes);
 }
 

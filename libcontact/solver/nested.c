@@ -166,7 +166,7 @@ coarse_map(const struct rc_solver *s, const double *map, const struct rc_shape *
     coarsen(&s->posed, map, shape->nx, h);
     if (ranks == NULL)
         return h;
-    rc_ranks_move(ranks, shape->nx * sizeof *h, d.under, rows->ranks == NULL ? NULL : d.own, h,
+    rc_ranks_move(ranks, shape->nx * sizeof *h, d.under, rows->ranks == NULL ? NULL : d.own, 0, h,
                   own);
     dealt_free(&d);
     free(h);
@@ -189,7 +189,7 @@ map_under(const struct rc_solver *s, const struct rc_solver *c, const double *ma
     *room = rc_alloc(rows_under(&s->posed.rows) * nx, sizeof **room);
     fine = deal(&s->posed, &c->posed.rows, &d) && *room != NULL;
     if (rc_ranks_agree(ranks, fine ? RC_OK : RC_FAIL, NULL) == RC_OK)
-        rc_ranks_move(ranks, nx * sizeof **room, d.own, d.under, map, *room);
+        rc_ranks_move(ranks, nx * sizeof **room, d.own, d.under, 0, map, *room);
     else
         fine = false;
     dealt_free(&d);

@@ -408,7 +408,7 @@ pull(struct rc_pyramid *p, size_t m, rc_pyramid_add *add, const void *of, int c,
         fold(&l->x, factor, sum, made + k * l->x.coarse);
     }
     if (gathered)
-        rc_ranks_move(p->base.ranks, l->x.coarse * sizeof *to, p->dealt, NULL, made, to);
+        rc_ranks_move(p->base.ranks, l->x.coarse * sizeof *to, p->dealt, NULL, 0, made, to);
 }
 
 /* The factor of the values of a level on the way up. */

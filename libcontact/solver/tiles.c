@@ -549,7 +549,7 @@ keep_on_line(const struct tiles *own, const struct rc_tile_line *line)
     if (line->tiles != NULL) {
         size_t r = rc_ranks_own(rows->ranks);
         a = (struct along){own, line->tiles, line->from[r], line->from[r + 1]};
-        rc_ranks_move(rows->ranks, sizeof *a.tiles, line->from, NULL, own->tiles, a.tiles);
+        rc_ranks_move(rows->ranks, sizeof *a.tiles, line->from, NULL, 0, own->tiles, a.tiles);
     }
     (void)keep_within(&a, 0, all, rows->first == 0 && n > 0 ? rc_reduce_row(s, 0) : nowhere);
     if (line->tiles != NULL)

@@ -1,5 +1,5 @@
 /*
- * Transfers fields between a map and every s-th node of it, by polynomials through eight nodes in each
+ * Transfers fields between a map and every s-th node of it, by polynomials through 24 nodes in each
  * direction.
  *
  * Deep below the surface the kernels are smooth on the scale of the depth, so a coarser grid is enough.
@@ -14,8 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/memory.h"
+
 enum {
-    ORDER = 8 /* nodes of a polynomial */
+    ORDER = 24 /* nodes of a polynomial */
 };
 
 /* Coarse node I lies on fine node (I - ORDER/2 + 1) s; fine node J s + r is interpolated from
@@ -28,25 +30,33 @@ struct axis {
 struct rc_coarse {
     struct axis x, y;
     int threads;
-    double *rows;    /* ny rows of x.coarse, after the first direction of a reduction */
-    double *scratch; /* memory for each thread: a coarse row, and the fine nodes of one residue */
+    double *rows;    /* after the first direction: rows of x.coarse or of nx */
+    double *scratch; /* memory for each thread: the fine nodes of one residue */
+    /* The first row of each rank on the map and on the coarse grid, and the first row from which it makes them:
+     * coarse rows `from` rows of the map, and rows of the map `under` coarse rows. */
+    const struct rc_ranks *ranks;
+    size_t own, order, *fine, *coarse, *from, *under;
+    double *window; /* rows of x.coarse numbers from other ranks; NULL: no ranks */
 };
 
 /* Largest error of this interpolation, of source and field, for any kernel and pressures of size 1 with the
  * worst signs, at this ratio of depth to coarse spacing. It was measured for s = 4, at the worst of all
- * positions of source and field between coarse nodes. */
+ * positions of source and field between coarse nodes. The last row is rounding. */
 static const struct {
     double ratio, error;
-} measured[] = {{1.42, 1.4e-1}, {2, 3.6e-2},    {2.83, 7.1e-3}, {4, 9.7e-4},   {5.66, 9.2e-5},
-                {8, 7.5e-6},    {11.4, 5.3e-7}, {16, 3.6e-8},   {22.7, 2.3e-9}};
+} measured[] = {{1.42, 1.8e-1}, {1.68, 8.0e-2},  {2, 3.1e-2},     {2.38, 1.1e-2}, {2.83, 3.2e-3},
+                {3.36, 8.3e-4}, {3.67, 4.0e-4},  {4, 1.8e-4},     {4.36, 7.6e-5}, {4.76, 3.0e-5},
+                {5.19, 1.1e-5}, {5.66, 3.7e-6},  {6.17, 1.2e-6},  {6.73, 3.5e-7}, {8, 2.6e-8},
+                {9.51, 1.5e-9}, {11.3, 6.5e-11}, {13.5, 2.1e-12}, {16, 6.7e-14},  {18, 5.9e-15}};
 
 double
 rc_coarse_spacing(double depth, double tol)
 {
-    for (size_t k = 0; k < sizeof measured / sizeof *measured; k++)
-        if (measured[k].error <= tol)
-            return depth / measured[k].ratio;
-    return 0;
+    size_t k = 0;
+
+    while (measured[k].error > tol && k + 1 < sizeof measured / sizeof *measured)
+        k++;
+    return depth / measured[k].ratio;
 }
 
 static size_t
@@ -55,15 +65,18 @@ coarse_nodes(size_t n, size_t s)
     return s == 1 ? n : (n - 1) / s + ORDER;
 }
 
-/* The largest power of 2 for which so many d are at most `spacing` and the axis becomes shorter. */
+/* The largest of 1, 2, 3, 4, 6, 8, 12, ... for which so many d are at most `spacing` and the axis becomes
+ * shorter. Slices of similar depths share a grid. */
 static size_t
 step(size_t n, double d, double spacing)
 {
-    size_t s = 1;
+    size_t s = 1, next = 2;
 
-    while (2 * (double)s * d <= spacing && coarse_nodes(n, 2 * s) < coarse_nodes(n, s))
-        s *= 2;
-    return s;
+    while ((double)next * d <= spacing && (s == 1 || coarse_nodes(n, next) < coarse_nodes(n, s))) {
+        s = next;
+        next = s % 3 == 0 ? s / 3 * 4 : s / 2 * 3;
+    }
+    return coarse_nodes(n, s) < n ? s : 1;
 }
 
 bool
@@ -104,27 +117,72 @@ set_axis(struct axis *a, size_t n, size_t s)
 static size_t
 scratch_size(const struct rc_coarse *c)
 {
-    return 2 * (c->x.coarse + ORDER);
+    return c->x.coarse + ORDER;
+}
+
+/* Deals the rows of both grids to the ranks. */
+static bool
+deal(struct rc_coarse *c)
+{
+    const size_t count = rc_ranks_count(c->ranks), s = c->y.s;
+
+    c->own = rc_ranks_own(c->ranks);
+    c->order = s == 1 ? 1 : ORDER;
+    if ((c->fine = malloc(4 * (count + 1) * sizeof *c->fine)) == NULL)
+        return false;
+    c->coarse = c->fine + count + 1;
+    c->from = c->coarse + count + 1;
+    c->under = c->from + count + 1;
+    for (size_t r = 0; r <= count; r++) {
+        c->fine[r] = rc_rows_dealt(c->y.n, rc_rows_unit(c->x.n), count, r);
+        c->coarse[r] = rc_rows_dealt(c->y.coarse, rc_rows_unit(c->x.coarse), count, r);
+        c->from[r] = c->coarse[r] < c->order ? 0 : (c->coarse[r] - c->order + 1) * s;
+        c->under[r] = c->fine[r] / s;
+    }
+    return true;
+}
+
+/* Rows first[own] .. first[own + 1] - 1 + more, of at most `all`. */
+static size_t
+rows_of(const struct rc_coarse *c, const size_t *first, size_t more, size_t all)
+{
+    size_t end = first[c->own + 1] + more < all ? first[c->own + 1] + more : all;
+
+    return end > first[c->own] ? end - first[c->own] : 0;
+}
+
+static bool
+allocate(struct rc_coarse *c)
+{
+    const size_t reach = (c->order - 1) * c->y.s, held = rows_of(c, c->fine, 0, c->y.n);
+    const size_t from = rows_of(c, c->from, reach, c->y.n);
+    const size_t under = rows_of(c, c->under, c->order, c->y.coarse);
+
+    c->rows = rc_alloc(held * c->x.coarse > under * c->x.n ? held * c->x.coarse : under * c->x.n,
+                       sizeof *c->rows);
+    c->scratch = rc_alloc((size_t)c->threads * scratch_size(c), sizeof *c->scratch);
+    if (c->ranks != NULL)
+        c->window = rc_alloc((from > under ? from : under) * c->x.coarse, sizeof *c->window);
+    return c->rows != NULL && c->scratch != NULL && (c->ranks == NULL || c->window != NULL);
 }
 
 struct rc_coarse *
-rc_coarse_new(const struct rc_shape *shape, size_t sx, size_t sy, size_t threads,
-              struct rc_err *err)
+rc_coarse_new(const struct rc_ranks *ranks, const struct rc_shape *shape, size_t sx, size_t sy,
+              size_t threads, struct rc_err *err)
 {
     struct rc_coarse *c = calloc(1, sizeof *c);
+    bool done = false;
 
     if (c != NULL && set_axis(&c->x, shape->nx, sx) && set_axis(&c->y, shape->ny, sy)) {
+        c->ranks = ranks;
         c->threads = rc_useful_threads(shape, threads);
-        c->rows = malloc(shape->ny * c->x.coarse * sizeof *c->rows);
-        c->scratch = malloc((size_t)c->threads * scratch_size(c) * sizeof *c->scratch);
+        done = deal(c) && allocate(c);
     }
-    if (c == NULL || c->rows == NULL || c->scratch == NULL) {
-        rc_err_set(err, "out of memory for a coarser grid of %zu x %zu nodes", shape->nx,
-                   shape->ny);
-        rc_coarse_free(c);
-        return NULL;
-    }
-    return c;
+    if (rc_ranks_sum(ranks, !done) == 0)
+        return c;
+    rc_err_set(err, "out of memory for a coarser grid of %zu x %zu nodes", shape->nx, shape->ny);
+    rc_coarse_free(c);
+    return NULL;
 }
 
 void
@@ -136,13 +194,15 @@ rc_coarse_free(struct rc_coarse *c)
     free(c->y.weight);
     free(c->rows);
     free(c->scratch);
+    free(c->fine);
+    free(c->window);
     free(c);
 }
 
 /* ---- reduction ---- */
 
-static void
-reduce_row(const struct axis *a, const double *p, double *out)
+RC_WIDE_CLONES static void
+reduce_row(const struct axis *a, const double *restrict p, double *restrict out)
 {
     if (a->s == 1) {
         memcpy(out, p, a->n * sizeof *out);
@@ -152,27 +212,39 @@ reduce_row(const struct axis *a, const double *p, double *out)
     for (size_t i = 0; i < a->n; i++) {
         const double *w = a->weight + i % a->s * ORDER;
         double *to = out + i / a->s;
-        for (int k = 0; k < ORDER; k++)
+        for (int k = 0; k < (p[i] != 0 ? ORDER : 0); k++)
             to[k] += w[k] * p[i];
     }
+}
+
+/* Rows of x.coarse numbers, from those held here by `held` to those needed here; or `rows` themselves. */
+static const double *
+fetch(struct rc_coarse *c, const size_t *held, const size_t *first, size_t more, const double *rows)
+{
+    if (c->ranks == NULL)
+        return rows;
+    rc_ranks_move(c->ranks, c->x.coarse * sizeof *rows, held, first, more, rows, c->window);
+    return c->window;
 }
 
 void
 rc_coarse_reduce(struct rc_coarse *c, const double *p, double *out)
 {
     const struct axis *a = &c->y;
-    size_t wide = c->x.coarse;
+    const size_t wide = c->x.coarse, first = c->coarse[c->own], from = c->from[c->own];
+    const double *rows;
 
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t j = 0; j < a->n; j++)
+    for (size_t j = 0; j < rows_of(c, c->fine, 0, a->n); j++)
         reduce_row(&c->x, p + j * c->x.n, c->rows + j * wide);
+    rows = fetch(c, c->fine, c->from, (c->order - 1) * a->s, c->rows);
 #pragma omp parallel for num_threads(c->threads) schedule(dynamic)
-    for (size_t J = 0; J < a->coarse; J++) {
-        double *to = out + J * wide;
+    for (size_t J = first; J < c->coarse[c->own + 1]; J++) {
+        double *to = out + (J - first) * wide;
         memset(to, 0, wide * sizeof *to);
-        for (size_t k = 0; k < (a->s == 1 ? 1 : (size_t)ORDER); k++)
+        for (size_t k = 0; k < c->order; k++)
             for (size_t r = 0; J >= k && r < a->s && (J - k) * a->s + r < a->n; r++) {
-                const double *row = c->rows + ((J - k) * a->s + r) * wide;
+                const double *row = rows + ((J - k) * a->s + r - from) * wide;
                 double w = a->s == 1 ? 1 : a->weight[r * ORDER + k];
                 for (size_t i = 0; i < wide; i++)
                     to[i] += w * row[i];
@@ -182,12 +254,30 @@ rc_coarse_reduce(struct rc_coarse *c, const double *p, double *out)
 
 /* ---- interpolation ---- */
 
+/* Eight nodes: a line of 64 sums stays in registers, which plain loops do not achieve. */
+typedef double vector __attribute__((vector_size(64), aligned(8)));
+
 RC_WIDE_CLONES static void
 weigh_rows(size_t n, size_t stride, const double *restrict w, const double *restrict rows,
            double *restrict out)
 {
-    for (size_t i = 0; i < n; i++) {
+    enum {
+        WIDE = 64
+    };
+    size_t first = 0;
+
+    for (; first + WIDE <= n; first += WIDE) {
+        vector sum[WIDE / 8] = {{0}};
+        for (int k = 0; k < ORDER; k++)
+#pragma GCC unroll 8
+            for (size_t i = 0; i < WIDE / 8; i++)
+                sum[i] += w[k] * *(const vector *)(rows + first + 8 * i + (size_t)k * stride);
+        for (size_t i = 0; i < WIDE / 8; i++)
+            *(vector *)(out + first + 8 * i) = sum[i];
+    }
+    for (size_t i = first; i < n; i++) {
         double sum = 0;
+#pragma GCC unroll 24
         for (int k = 0; k < ORDER; k++)
             sum += w[k] * rows[i + (size_t)k * stride];
         out[i] = sum;
@@ -197,7 +287,9 @@ weigh_rows(size_t n, size_t stride, const double *restrict w, const double *rest
 static void
 expand_row(const struct axis *a, const double *row, double *residue, double *out)
 {
-    for (size_t r = 0; r < a->s; r++) {
+    if (a->s == 1)
+        memcpy(out, row, a->n * sizeof *out);
+    for (size_t r = 0; a->s > 1 && r < a->s; r++) {
         size_t n = r < a->n ? (a->n - r + a->s - 1) / a->s : 0;
         weigh_rows(n, 1, a->weight + r * ORDER, row, residue);
         for (size_t i = 0; i < n; i++)
@@ -208,20 +300,25 @@ expand_row(const struct axis *a, const double *row, double *residue, double *out
 void
 rc_coarse_expand(struct rc_coarse *c, const double *u, double *out)
 {
-    size_t wide = c->x.coarse;
+    enum {
+        PIECE = 128 /* columns whose ORDER rows fit into the first cache */
+    };
+    const size_t nx = c->x.n, s = c->y.s, first = c->fine[c->own], end = c->fine[c->own + 1];
+    const size_t under = c->under[c->own], rows = rows_of(c, c->under, c->order, c->y.coarse);
 
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t j = 0; j < c->y.n; j++) {
-        double *row = c->scratch + (size_t)omp_get_thread_num() * scratch_size(c),
-               *to = out + j * c->x.n;
-        const double *from = u + j / c->y.s * wide;
-        if (c->y.s > 1)
-            weigh_rows(wide, wide, c->y.weight + j % c->y.s * ORDER, from, row);
-        else
-            memcpy(row, from, wide * sizeof *row);
-        if (c->x.s > 1)
-            expand_row(&c->x, row, row + wide + ORDER, to);
-        else
-            memcpy(to, row, c->x.n * sizeof *to);
+    u = fetch(c, c->coarse, c->under, c->order, u);
+#pragma omp parallel num_threads(c->threads)
+    {
+#pragma omp for schedule(static)
+        for (size_t J = 0; J < (s > 1 ? rows : end - first); J++)
+            expand_row(&c->x, u + J * c->x.coarse,
+                       c->scratch + (size_t)omp_get_thread_num() * scratch_size(c),
+                       s > 1 ? c->rows + J * nx : out + J * nx);
+#pragma omp for schedule(static)
+        for (size_t J = under; J < (s > 1 ? (end + s - 1) / s : under); J++)
+            for (size_t i = 0; i < nx; i += PIECE)
+                for (size_t j = J * s > first ? J * s : first; j < (J + 1) * s && j < end; j++)
+                    weigh_rows(nx - i < PIECE ? nx - i : PIECE, nx, c->y.weight + j % s * ORDER,
+                               c->rows + (J - under) * nx + i, out + (j - first) * nx + i);
     }
 }

@@ -9,16 +9,16 @@
 struct rc_coarse;
 
 /* Largest spacing (m) of a grid for the kernels of this depth. With it the error of a stress is at most tol
- * times the largest pressure, whatever the signs of the pressures. 0: none. */
+ * times the largest pressure, or rounding, whatever the signs of the pressures. */
 double rc_coarse_spacing(double depth, double tol);
 /* Steps in x and y for that spacing; false when no coarser grid pays. */
 bool rc_coarse_steps(const struct rc_shape *shape, double spacing, size_t *sx, size_t *sy);
 /* The coarser grid; its nodes extend beyond the map. */
 struct rc_shape rc_coarse_shape(const struct rc_shape *shape, size_t sx, size_t sy);
 
-/* NULL when memory is short. */
-struct rc_coarse *rc_coarse_new(const struct rc_shape *shape, size_t sx, size_t sy, size_t threads,
-                                struct rc_err *err);
+/* Where ranks share the map, both grids have the rows of rc_rows_of. NULL when memory is short. */
+struct rc_coarse *rc_coarse_new(const struct rc_ranks *ranks, const struct rc_shape *shape,
+                                size_t sx, size_t sy, size_t threads, struct rc_err *err);
 void rc_coarse_free(struct rc_coarse *coarse);
 /* Reduces pressures (forces) of the map to the coarser grid, and interpolates a field back. */
 void rc_coarse_reduce(struct rc_coarse *coarse, const double *p, double *out);

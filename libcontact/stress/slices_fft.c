@@ -293,8 +293,7 @@ may_be_coarse(const struct rc_stress_task *t, double depth, size_t *sx, size_t *
 {
     double tol = t->options.tol / (1 + rc_stress_shear(t));
 
-    /* other ranks hold some of the rows of a coarser node */
-    return t->options.boundary == RC_FREE && t->type->coarsens && t->options.ranks == NULL &&
+    return t->options.boundary == RC_FREE && t->type->coarsens &&
            rc_coarse_steps(&t->shape, rc_coarse_spacing(depth, tol), sx, sy);
 }
 
@@ -316,6 +315,8 @@ coarse_new(struct plan *plan, size_t sx, size_t sy, struct rc_err *err)
 {
     const struct rc_stress_task *t = &plan->task;
     struct rc_shape shape = rc_coarse_shape(&t->shape, sx, sy);
+    size_t nodes = shape.nx * rc_rows_of(t->options.ranks, &shape).n;
+    enum rc_status status = RC_OK;
 
     if (plan->coarse != NULL && plan->sx == sx && plan->sy == sy)
         return RC_OK;
@@ -323,10 +324,12 @@ coarse_new(struct plan *plan, size_t sx, size_t sy, struct rc_err *err)
     plan->sx = sx;
     plan->sy = sy;
     for (size_t k = 0; k < RC_FIELDS; k++)
-        if ((plan->field[k] = malloc(shape.nx * shape.ny * sizeof(double))) == NULL)
-            return rc_err_set(err, "out of memory for a map of %zu x %zu nodes", shape.nx,
-                              shape.ny);
-    plan->between = rc_coarse_new(&t->shape, sx, sy, t->options.threads, err);
+        if ((plan->field[k] = rc_alloc(nodes, sizeof(double))) == NULL)
+            status =
+                rc_err_set(err, "out of memory for a map of %zu x %zu nodes", shape.nx, shape.ny);
+    if (rc_ranks_agree(t->options.ranks, status, err) != RC_OK)
+        return RC_FAIL;
+    plan->between = rc_coarse_new(t->options.ranks, &t->shape, sx, sy, t->options.threads, err);
     if (plan->between == NULL)
         return RC_FAIL;
     plan->coarse = grid_new(t, &shape, err);

@@ -228,7 +228,7 @@ gather_lists(const struct rc_ranks *ranks, size_t bytes, const void *own, size_t
         *n = from[count];
         all = malloc((*n + 1) * bytes);
         if (rc_ranks_agree(ranks, all == NULL ? RC_FAIL : RC_OK, NULL) == RC_OK) {
-            rc_ranks_move(ranks, bytes, from, NULL, own, all);
+            rc_ranks_move(ranks, bytes, from, NULL, 0, own, all);
         } else {
             free(all);
             all = NULL;

@@ -244,14 +244,14 @@ only_what_is_asked(void **state)
                                           .tol = 5e-2,
                                           .threads = 1};
             struct rc_stress_counts c;
-            compute(p, o, 30e-6, s, &c);
+            compute(p, o, 60e-6, s, &c);
             assert_int_equal(c.normal_kernels, 6);
             assert_int_equal(c.shear_kernels, friction ? 5 + coated : 0);
             assert_int_equal(c.kernel_transforms, c.normal_kernels + c.shear_kernels);
             assert_int_equal(c.field_transforms, 6);
             assert_int_equal(c.coarse_depths, coated ? 0 : 1);
             o.wanted = 1 << RC_SZZ;
-            compute(p, o, 30e-6, s, &c);
+            compute(p, o, 60e-6, s, &c);
             assert_int_equal(c.normal_kernels, 1);
             assert_int_equal(c.shear_kernels, friction);
         }

@@ -170,14 +170,14 @@ long_lists(void **state)
         to[count] = from[count];
         pieces = from[count] / INT_MAX + (from[count] % INT_MAX != 0);
         begin_noting();
-        rc_ranks_move(ranks, 32, from, to, &at, &at);
+        rc_ranks_move(ranks, 32, from, to, 0, &at, &at);
         note.noting = false;
         assert_false(note.wrong);
         assert_int_equal(note.calls, pieces);
         assert_int_equal(note.sent, sizes[k] + own);
         assert_int_equal(note.received, own + 1 == count ? from[count] : 0);
         begin_noting();
-        rc_ranks_move(ranks, 32, from, NULL, &at, &at);
+        rc_ranks_move(ranks, 32, from, NULL, 0, &at, &at);
         note.noting = false;
         assert_false(note.wrong);
         assert_int_equal(note.sent, count * (sizes[k] + own));
@@ -200,9 +200,15 @@ lists_arrive(void **state)
     all = calloc(from[count], sizeof *all);
     for (size_t k = 0; k < 3 * own + 1; k++)
         v[k] = 7 * (from[own] + k) + 1;
-    rc_ranks_move(ranks, sizeof *v, from, NULL, v, all);
+    rc_ranks_move(ranks, sizeof *v, from, NULL, 0, v, all);
     for (size_t k = 0; k < from[count]; k++)
         assert_int_equal(all[k], 7 * k + 1);
+    for (size_t more = 0; more < 9; more++) { /* those held here and `more` after them */
+        memset(all, 0, from[count] * sizeof *all);
+        rc_ranks_move(ranks, sizeof *v, from, from, more, v, all);
+        for (size_t k = 0; from[own] + k < from[count]; k++)
+            assert_int_equal(all[k], k < 3 * own + 1 + more ? 7 * (from[own] + k) + 1 : 0);
+    }
     free(from);
     free(v);
     free(all);

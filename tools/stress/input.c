@@ -252,7 +252,7 @@ stress_plan_bytes(const struct rc_stress_options *o, size_t components)
     const int tractions = (o->traction[0] != NULL) + (o->traction[1] != NULL);
     const int loads = 1 + (o->mu != 0) + tractions;
     /* the library keeps room for a coarser grid */
-    const double coarser = k == 0 && o->body.layers == 0 && o->ranks == NULL ? 1.25 : 1;
+    const double coarser = k == 0 && o->body.layers == 0 ? 1.25 : 1;
     const double plastic = o->strain != NULL ? slab[k] * (double)o->strain->slabs : 0;
 
     if (o->section != 0)
