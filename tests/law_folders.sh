@@ -116,7 +116,7 @@ tools               | formats/core/core.h formats/rcg/rcg.h    | formats/core fo
 tools               | formats/format.h formats/export.h        | formats
 tools               | formats/containers/containers.h          | formats/containers formats/containers/packing
 END
-base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
+base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h libcontact/expected.h'
 public='libcontact/contact.h libcontact/grid.h libcontact/model.h'
 physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/plastic'
 physics="$physics libcontact/model libcontact/adhesion libcontact/leak libcontact/slip libcontact/wear libcontact/travel libcontact/visco libcontact/fatigue libcontact/heat libcontact/surface libcontact/features"

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/expected.h"
 #include "libcontact/memory.h"
 
 /* ---- laws ---- */
@@ -1172,17 +1173,16 @@ rc_adhesion_expect(const struct rc_shape *shape, const struct rc_adhesion_proble
     struct rc_adhesion_scales scales;
     const double bytes[] = {458, 121}; /* bytes a node, measured on 1024 x 1024 nodes: free,
                                           periodic */
-    const double passes = 3.3; /* a step's work beside its transforms, in that of an elastic step */
     const double mapped = problem->contact.hardness_map != NULL ? sizeof(double) : 0;
     const int periodic = problem->contact.boundary == RC_PERIODIC;
     double nodes = (double)shape->nx * (double)shape->ny;
 
     if (rc_adhesion_check(shape, problem, &scales, err) != RC_OK)
         return RC_FAIL;
-    *expected = (struct rc_expected){.convolutions = 30 * pow(nodes / 16384, 0.25),
+    *expected = (struct rc_expected){.convolutions = RC_ADHESION_WORK * pow(nodes / 16384, 0.25),
                                      .memory = (size_t)((bytes[periodic] + mapped) * nodes)};
     expected->seconds =
-        passes * expected->convolutions *
+        RC_ADHESION_PASSES * expected->convolutions *
         rc_conv_seconds(shape, &(struct rc_conv_options){.boundary = problem->contact.boundary,
                                                          .threads = problem->contact.threads});
     return RC_OK;

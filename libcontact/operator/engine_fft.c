@@ -6,6 +6,7 @@
 
 #include "engine.h"
 #include "fft.h"
+#include "libcontact/expected.h"
 
 struct plan {
     struct rc_fft *fft;
@@ -78,10 +79,13 @@ fft(void *at)
 static double
 seconds(const struct rc_sum *sum)
 {
-    double n = (double)(sum->shape.nx * sum->shape.ny);
+    const double n = (double)(sum->shape.nx * sum->shape.ny);
+    const bool profile = sum->shape.nx == 1 || sum->shape.ny == 1;
 
-    /* in a solve, with its passes over the maps; threads and coarser grids */
-    return (sum->boundary == RC_FREE ? 42e-9 : 25e-9) * n + 0.3e-3;
+    return RC_SUM_START + (profile ? RC_SUM_PROFILE * n
+                           : sum->boundary == RC_FREE
+                               ? RC_SUM_FREE * n
+                               : RC_SUM_PERIODIC * n + RC_SUM_PAST * fmax(n - 1e6, 0));
 }
 
 const struct rc_engine rc_engine_fft = {

@@ -13,6 +13,7 @@
 
 #include "plastic.h"
 
+#include "libcontact/expected.h"
 #include "libcontact/memory.h"
 
 enum {
@@ -362,16 +363,14 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const size_t slabs = y->slabs > 0 ? y->slabs : y->problem.slabs;
     const size_t volume = slabs > 0 ? volume_bytes(y, slabs, y->part) : 0;
     const double increments = (double)(y->problem.increments > 0 ? y->problem.increments : FIRST);
-    const double last = 10,
-                 each = 2.2;    /* applications after the increments, and of one increment */
-    const double of_slab = 3.3; /* convolutions of an application */
-    double work = (last + each * increments) * of_slab * (double)y->slabs, one;
+    static const double sums[] = RC_YIELD_SUMS;
+    const double applied = (RC_YIELD_LAST + RC_YIELD_INCREMENT * increments) * (double)y->slabs;
 
     if (expect_elastic(y, most->at[RC_LOAD], expected, err) != RC_OK)
         return RC_FAIL;
-    one = expected->seconds / expected->convolutions;
-    expected->convolutions += work;
-    expected->seconds += work * one;
+    expected->seconds *=
+        1 + applied * sums[y->problem.contact.boundary == RC_PERIODIC] / expected->convolutions;
+    expected->convolutions += RC_YIELD_SLAB * applied;
     expected->memory = volume > expected->memory ? volume : expected->memory;
     return RC_OK;
 }

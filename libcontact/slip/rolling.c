@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/expected.h"
 #include "libcontact/memory.h"
 #include "slip.h"
 #include "steady.h"
@@ -731,8 +732,7 @@ progress(const struct rc_model *m, struct rc_loops *l)
     l->tol = d->asked.tol;
 }
 
-/* These numbers are measured. A steady state takes 40 to 120 convolutions to 1e-3; a step of a path takes 25.
- * The bytes are those on 512 x 512 nodes, counted in maps of doubles. */
+/* The bytes are those on 512 x 512 nodes, counted in maps of doubles. */
 static enum rc_status
 plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
      struct rc_err *err)
@@ -741,7 +741,10 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const struct rc_rolling_problem *o = &f->problem;
     const struct rc_point inner = rc_point_for(m->inner, most);
     const double below = fmax(log10(1e-2 / o->slip.tol), 0);
-    const double work = (o->path ? 25 : o->force ? 180 : 70) * (1 + below / 2);
+    const double work = (o->path    ? RC_ROLLING_STEP
+                         : o->force ? RC_ROLLING_FORCE
+                                    : RC_ROLLING_STEADY) *
+                        (1 + below / 2);
     const double maps = (o->path    ? 51
                          : o->force ? 72
                                     : 67) +

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/expected.h"
 #include "libcontact/memory.h"
 #include "libcontact/model/row.h"
 
@@ -480,15 +481,14 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     const struct elastic *e = (const struct elastic *)m;
     struct rc_problem problem = e->problem;
     const bool by_approach = rc_point_has(most, RC_APPROACH);
-    const double stiffness = 6; /* convolutions */
 
     problem.load = by_approach ? 0 : most->at[RC_LOAD];
     problem.approach = by_approach ? most->at[RC_APPROACH] : 0;
     if (rc_solver_expect(&m->shape, &problem, expected, err) != RC_OK)
         return RC_FAIL;
     if (e->asks.stiffness || e->asks.conductivity[0] > 0) {
-        expected->seconds *= 1 + stiffness / expected->convolutions;
-        expected->convolutions += stiffness;
+        expected->seconds *= 1 + RC_STIFFNESS_WORK / expected->convolutions;
+        expected->convolutions += RC_STIFFNESS_WORK;
         expected->memory +=
             e->n * (e->asks.conductivity[0] > 0 ? RC_CONDUCTANCE_BYTES : RC_STIFFNESS_BYTES);
     }

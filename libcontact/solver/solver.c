@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/expected.h"
 #include "libcontact/memory.h"
 
 static const struct rc_method *const methods[] = {
@@ -291,7 +292,6 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
     const struct rc_method *method = choose(problem->method, err);
     struct rc_bounds bounds;
     const bool layered = problem->pair.one.layers + problem->pair.two.layers > 0;
-    const double tables = 6; /* convolutions that the spectra of layers take as long as */
     double nodes = (double)(shape->nx * shape->ny), some;
     const char *reason, *engine = rc_operator_engine(shape, &options, &reason);
 
@@ -312,7 +312,7 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
     if (problem->discretization)
         some += 5;
     *expected = (struct rc_expected){.convolutions = some,
-                                     .seconds = (some + (layered ? tables : 0)) *
+                                     .seconds = (some + (layered ? RC_LAYER_TABLES : 0)) *
                                                 rc_operator_seconds(shape, &options),
                                      .memory = memory(shape, problem, engine, method)};
     return RC_OK;

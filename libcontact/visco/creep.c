@@ -23,6 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/expected.h"
 #include "libcontact/memory.h"
 #include "libcontact/model/row.h"
 
@@ -47,7 +48,6 @@ static const double per_decade =
 static const double fast = 1e-3, slow = 1e3;
 static const double few = 8; /* nodes in contact with which the estimate is twice the difference */
 static const double same_slope = 1e-9, whole = 1 - 1e-9;
-static const double each = 4.4; /* convolutions of a step */
 
 struct term {
     double time, j; /* s, -; time 0: follows w at once; time INFINITY: flows, with j in 1/s */
@@ -674,7 +674,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;
     one = expected->seconds / expected->convolutions;
-    expected->convolutions = part * expected->convolutions + each * steps_of(v, part);
+    expected->convolutions = part * expected->convolutions + RC_CREEP_STEP * steps_of(v, part);
     expected->seconds = expected->convolutions * one;
     /* with the copy of the state at the last kept point */
     expected->memory += v->n * (2 * maps + MAPS + RUNS + 3) * sizeof(double);

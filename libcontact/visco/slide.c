@@ -37,6 +37,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/expected.h"
 #include "libcontact/memory.h"
 #include "libcontact/model/row.h"
 #include "libcontact/solver/solver.h"
@@ -48,7 +49,6 @@ static const double of_error = 0.25, loosest = 0.1;
 static const double single_floor = 2e-5; /* above this tolerance single precision is enough */
 static const double of_filter = 0.5;     /* work of a filter, in convolutions */
 static const double of_wake = 1.2;       /* the same on a free map */
-static const double of_contact = 5.5;    /* work of a contact after the first one */
 static const double usual_tol = 1e-3;
 static const double most_tan = 3, most_repeated = 10;
 enum {
@@ -594,8 +594,9 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
         steepest = fmax(steepest, cimag(j) / creal(j));
     }
     contacts = fmax(log(s->problem.tol / (start * steepest)) / log(tan(atan(steepest) / 2)), 0);
-    expected->seconds *= 1 + contacts * of_contact / expected->convolutions;
-    expected->convolutions += contacts * of_contact;
+    expected->seconds *=
+        RC_SLIDE_PASSES * (1 + contacts * RC_SLIDE_CONTACT / expected->convolutions);
+    expected->convolutions += contacts * RC_SLIDE_CONTACT;
     /* measured; the plan of the inner model has some of the maps */
     expected->memory += (s->problem.boundary == RC_PERIODIC ? 1 : 23) * s->n * sizeof(double);
     return RC_OK;

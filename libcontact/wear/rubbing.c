@@ -19,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/expected.h"
 #include "libcontact/memory.h"
 
 static const double golden = 0.61803398874989485;
@@ -360,7 +361,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;
     expected->convolutions *= contacts;
-    expected->seconds *= contacts;
+    expected->seconds *= RC_RUBBING_PASSES * contacts;
     expected->memory += (2 * RUNS + 1) * v->n * sizeof(double);
     return RC_OK;
 }

@@ -21,6 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/expected.h"
 #include "libcontact/memory.h"
 
 enum {
@@ -52,9 +53,6 @@ static const double of_change = 2;
 /* Times the side of the map over E*: above this compliance the error of the contact changes the heights more
  * than elasticity does. */
 static const double long_step = 1.0 / 3;
-/* For the forecast: work of a contact where the coefficient differs by node, over that of a uniform one. It
- * is 2 to 6. */
-static const double by_node = 3;
 
 enum stage {
     REST,  /* at a point                                  */
@@ -749,7 +747,7 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
         most->at[RC_DISTANCE] * (v->k + v->row * m->shape.dx) * v->law.estar / m->shape.dx;
     const double steps = 4 * fmax(log10(nodes / first_step), 0) + 2;
     const double contacts = most->at[RC_DISTANCE] > 0 ? 1 + 2 * steps + (double)last_steps(v) : 1;
-    const double work = contacts * (v->law.part != NULL ? by_node : 1);
+    const double work = contacts * (v->law.part != NULL ? RC_WEAR_BY_NODE : 1);
 
     if (rc_model_plan(m->inner, &inner, expected, err) != RC_OK)
         return RC_FAIL;

@@ -111,7 +111,7 @@ slowness(const struct tool *t)
 {
     enum {
         SIDE = 256,
-        TRIES = 5
+        TRIES = 20
     };
     const struct rc_shape shape = {SIDE, SIDE, 1, 1};
     struct rc_problem problem = {
@@ -147,6 +147,19 @@ course_seconds(const struct tool *t, const struct rc_grid *g, double seconds, si
         factor = slowness(t);
     return factor * (seconds + node * (double)rc_grid_nodes(g) * (double)(points + 1)) + start +
            each * (double)points;
+}
+
+void
+course_show(struct tool *t, const struct rc_grid *g, struct rc_expected expected)
+{
+    const size_t memory = course_peak(expected.memory);
+    char where[256], work[64] = "";
+
+    if (!isnan(expected.convolutions))
+        snprintf(work, sizeof work, "%.0f convolutions, ", expected.convolutions);
+    fprintf(t->out, "%s: %zu x %zu nodes\n  about %s%zu MiB, %.2g s with %zu threads\n",
+            tool_where(t, g, where, sizeof where), g->nx, g->ny, work, (memory >> 20) + 1,
+            course_seconds(t, g, expected.seconds, 1), t->threads);
 }
 
 enum rc_status

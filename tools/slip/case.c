@@ -321,8 +321,9 @@ follow(struct slip_run *run)
 static struct rc_expected
 forecast(struct slip_run *run)
 {
-    const double increment = 24,
-                 again = 0.5; /* convolutions of one; part of the run with half of them */
+    const double increment = 16, passes = 2; /* convolutions of one; seconds of each, in sums */
+    const double runs = 2 - pow(0.5, (double)run->law.fewer); /* with half of them, and a quarter */
+    double work = 0;
     enum {
         STATE = 8 /* maps of the state of a way */
     };
@@ -343,9 +344,9 @@ forecast(struct slip_run *run)
         tool_die_at(&run->d.t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
     each = solver.seconds / solver.convolutions;
     for (size_t k = 0; k < run->corners; k++)
-        all.convolutions += (double)run->corner[k].leg.increments * slip_passes(run) *
-                            (increment + (run->alternates ? solver.convolutions : 0));
-    all.seconds = all.convolutions * each * (1 + again * (double)(ways - 1));
+        work += runs * (double)run->corner[k].leg.increments * slip_passes(run);
+    all.convolutions = work * (increment + (run->alternates ? solver.convolutions : 0));
+    all.seconds = work * each * (passes * increment + (run->alternates ? solver.convolutions : 0));
     if (!run->solves)
         solver.memory = 0;
     all.memory = ways * (size_t)(nodes * bytes[run->coupled][run->boundary == RC_PERIODIC]) +

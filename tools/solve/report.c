@@ -301,13 +301,18 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
                           : relaxes ? run->args->time.n
                           : slides  ? slide_points(run)
                                     : run->steps->n;
+    /* work over that of the first point: of a position, of a later load with adhesion, of a retraction */
+    const double step = 0.8, next = 1.5, retraction = 60;
     const size_t before = course_peak(0); /* the forecast takes memory of its own */
     double each, memory, loads = (double)points;
     char where[256];
 
-    if (run->adhering.wanted)
+    if (travels)
+        loads = 1 + step * (loads - 1);
+    if (run->adhering.wanted) {
         adhesion_expect(run, g, problem, &e);
-    else if (run->yielding.wanted)
+        loads = 1 + next * (loads - 1) + (run->args->pull_off ? retraction : 0);
+    } else if (run->yielding.wanted)
         loads = yield_expect(run, problem->load, &e);
     else if ((run->relaxing.wanted  ? relax_expect(run, problem, &e, &err)
               : run->sliding.wanted ? slide_expect(run, problem, &e, &err)

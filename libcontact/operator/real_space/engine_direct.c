@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "simd.h"
+#include "libcontact/expected.h"
 
 struct rc_direct {
     size_t nx, ny, width, strips;
@@ -182,7 +183,7 @@ seconds(const struct rc_sum *sum)
 {
     double n = (double)(sum->shape.nx * sum->shape.ny);
 
-    return 2.6e-9 * n * n;
+    return RC_SUM_DIRECT * n * n;
 }
 
 const struct rc_engine rc_engine_direct = {

@@ -2,6 +2,7 @@
  * The multi-level sum (mlms.h): N (log 1/tol)^2 operations, and little memory besides the maps.
  */
 #include "mlms.h"
+#include "libcontact/expected.h"
 
 #include <math.h>
 #include <omp.h>
@@ -250,7 +251,7 @@ seconds(const struct rc_sum *sum)
 {
     double digits = sum->tol > 0 ? -log10(sum->tol) : 15;
 
-    return 4e-9 * (digits + 6) * (double)(sum->shape.nx * sum->shape.ny);
+    return RC_SUM_MLMS * (digits + 6) * (double)(sum->shape.nx * sum->shape.ny);
 }
 
 const struct rc_engine rc_engine_mlms = {
