@@ -980,6 +980,8 @@ struct rc_leak_figures {
  * the percolating path. NULL when a value is not finite, the map has 2^31 nodes, or memory is short. */
 RC_API struct rc_leak *rc_leak_new(const struct rc_shape *shape, const double *p, const double *g,
                                    const struct rc_leak_options *options, struct rc_err *err);
+/* Seconds and bytes of such a flow through so many nodes with fluid of a map of `nodes`. */
+RC_API struct rc_expected rc_leak_expect(size_t nodes, size_t fluid, size_t threads);
 /* Sets another contact and gap of the same map, with the same options and memory. It works as rc_leak_new,
  * but a value that is not finite leaves everything unchanged. After RC_FAIL due to short memory the object
  * can only be freed. */
@@ -1433,6 +1435,10 @@ struct rc_heat_figures {
 /* RC_FAIL when rc_heat_new would refuse the problem for its numbers. */
 RC_API enum rc_status rc_heat_check(const struct rc_shape *shape,
                                     const struct rc_heat_problem *problem, struct rc_err *err);
+/* Expected cost of such temperatures at so many depths below the surface; it fails likewise. */
+RC_API enum rc_status rc_heat_expect(const struct rc_shape *shape,
+                                     const struct rc_heat_problem *problem, size_t depths,
+                                     struct rc_expected *expected, struct rc_err *err);
 /* Temperatures of the surfaces of two half-spaces due to the heat flux q of their contact, nx ny W/m2
  * (Jaeger 1942, J. Proc. R. Soc. N.S.W. 76, 203). They are exact at all speeds for a flux that is
  * constant in each cell, and on a periodic map for a band-limited flux. A profile (ny = 1) continues

@@ -5,12 +5,14 @@
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
+#include "tools/model/model.h"
 
 static struct args {
     const char *conductivity, *moving, *partition, *report;
     struct numbers speed, diffusivity, capacity, bulk, depths;
     double mu, time, tol, frequency;
     size_t time_steps, output;
+    bool dry_run;
 } args = {
     .moving = "2", .partition = "matched", .mu = NAN, .tol = 1e-3, .time_steps = 1, .output = 31};
 
@@ -70,6 +72,8 @@ static const struct opt opts[] = {
      .help = "frames to write, of %s (default: all)"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
      .help = "write one JSON object per case, or a row of FILE.tsv or .csv: temperatures, shares"},
+    {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
+     .help = "print the expected memory and time, and stop"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -386,6 +390,22 @@ judge(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f)
 }
 
 static void
+show_plan(struct run *run, const struct rc_grid *g)
+{
+    const struct rc_shape shape = rc_grid_shape(g);
+    struct rc_expected expected;
+    size_t below = 0;
+    struct rc_err err;
+
+    for (size_t k = 0; k < args.depths.n && (args.output & 3) != 0; k++)
+        below += args.depths.v[k] > 0;
+    tool_must(&run->t, g, rc_heat_expect(&shape, &run->problem, below, &expected, &err), &err);
+    course_show(&run->t, g, expected);
+    free(run->touch);
+    run->touch = NULL;
+}
+
+static void
 do_case(struct run *run, struct rc_grid *g)
 {
     const struct rc_shape shape = rc_grid_shape(g);
@@ -395,6 +415,10 @@ do_case(struct run *run, struct rc_grid *g)
     struct rc_err err;
 
     run->problem.boundary = map_boundary(g);
+    if (args.dry_run) {
+        show_plan(run, g);
+        return;
+    }
     h = rc_heat_new(&shape, &run->problem, g->v, run->touch, &err);
     if (h == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);

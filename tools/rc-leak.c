@@ -5,6 +5,7 @@
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 #include "tools/leak/leak.h"
+#include "tools/model/model.h"
 
 static const struct frame_kind {
     const char *name, *unit, *driven_unit; /* without and with a pressure drop */
@@ -32,6 +33,7 @@ static struct args {
     struct numbers sliding;
     const char *direction, *sides, *report;
     size_t output; /* bits of frames */
+    bool dry_run;
 } args = {.viscosity = NAN, .drop = NAN, .direction = "x", .output = (1u << FRAMES) - 1};
 
 #define AT(field) .at = offsetof(struct args, field)
@@ -55,6 +57,8 @@ static const struct opt opts[] = {
      .help = "frames to write, of %s (default: all)"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
      .help = "write one JSON object per case, or a row of FILE.tsv or .csv: flow, bounds, constriction"},
+    {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
+     .help = "print the expected memory and time, and stop"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -171,6 +175,15 @@ solve(struct run *run, const struct leak_case *c, struct rc_leak *leak)
 }
 
 static void
+show_plan(struct run *run, const struct leak_case *c)
+{
+    const size_t n = rc_grid_nodes(c->gap),
+                 fluid = (size_t)((isnan(c->contact) ? 1 : 1 - c->contact) * (double)n);
+
+    course_show(&run->t, c->gap, rc_leak_expect(n, fluid, run->t.threads));
+}
+
+static void
 do_case(struct run *run, const struct rc_grid *gap)
 {
     struct leak_case c = {.gap = gap,
@@ -193,6 +206,10 @@ do_case(struct run *run, const struct rc_grid *gap)
 
     tool_demand_finite(&run->t, gap, "recompute the map");
     touch = look_at_contact(run, &c);
+    if (args.dry_run) {
+        show_plan(run, &c);
+        return;
+    }
     leak = rc_leak_new(&shape, touch == NULL ? NULL : touch->v, gap->v, &options, &err);
     if (leak == NULL)
         tool_die_at(&run->t, gap, EXIT_IMPOSSIBLE, "%s", err.text);

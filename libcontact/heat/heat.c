@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "heat.h"
+#include "libcontact/expected.h"
 #include "libcontact/memory.h"
 
 enum {
@@ -228,6 +229,29 @@ rc_heat_free(struct rc_heat *h)
     free(h->node);
     free(h->map);
     free(h);
+}
+
+enum rc_status
+rc_heat_expect(const struct rc_shape *shape, const struct rc_heat_problem *p, size_t depths,
+               struct rc_expected *expected, struct rc_err *err)
+{
+    const struct rc_conv_options sum = {.boundary = p->boundary, .threads = p->threads};
+    const bool matched = p->partition == RC_HEAT_MATCHED;
+    const double nodes = (double)(shape->nx * shape->ny),
+                 times = matched && p->time > 0 ? fmax((double)p->time_steps, 1) : 1;
+    const double one = rc_conv_seconds(shape, &sum),
+                 cores = (double)(p->threads == 0 ? rc_threads_available() : p->threads);
+    static const double bytes[2][2] = RC_HEAT_BYTES;
+
+    if (rc_heat_check(shape, p, err) != RC_OK)
+        return RC_FAIL;
+    *expected = (struct rc_expected){
+        .convolutions = RC_HEAT_WORK + (matched ? RC_HEAT_STEP * times : 0) + times * (times + 1),
+        .memory = (size_t)(nodes * (bytes[p->boundary == RC_PERIODIC][!matched] +
+                                    RC_HEAT_TIME_BYTES * (times - 1)))};
+    expected->seconds = one * expected->convolutions +
+                        (RC_HEAT_NODE + RC_HEAT_DEPTH * (double)depths) * nodes * 2 / cores;
+    return RC_OK;
 }
 
 struct rc_heat *

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 
 #include "libcontact/common.h"
+#include "libcontact/expected.h"
 #include "libcontact/memory.h"
 
 enum stage {
@@ -283,6 +284,18 @@ set_shear(struct rc_leak *l)
 
     f->shear_stress_factor = f->mean_gap > 0 ? gap / f->mean_gap : 0;
     f->shear_flow_factor = f->gap_rms > even * f->mean_gap ? (gap - f->mean_gap) / f->gap_rms : NAN;
+}
+
+struct rc_expected
+rc_leak_expect(size_t nodes, size_t fluid, size_t threads)
+{
+    static const double bytes[] = RC_LEAK_BYTES;
+    const double cores = (double)(threads == 0 ? rc_threads_available() : threads);
+
+    return (struct rc_expected){.convolutions = NAN,
+                                .seconds = RC_LEAK_NODE * (double)fluid *
+                                           pow((double)fluid / 262144, 1.0 / 7) * 2 / cores,
+                                .memory = (size_t)(bytes[fluid > (size_t)whole] * (double)nodes)};
 }
 
 static enum rc_status

@@ -657,7 +657,8 @@ leaks(double *out, struct rc_err *err)
         p[k] = (i == 5 && j != 4) || (i == 10 && j > 2) || (i == 7 && j == 8) ? 1e6 : 0;
         g[k] = p[k] > 0 ? 0 : 1e-6 + 1e-7 * (double)(k % 7);
     }
-    if ((leak = rc_leak_new(&shape, p, g, &options, err)) == NULL)
+    if (!(rc_leak_expect(N, N, 1).seconds > 0) ||
+        (leak = rc_leak_new(&shape, p, g, &options, err)) == NULL)
         return RC_FAIL;
     while ((status = rc_leak_step(leak, err)) == RC_MORE)
         continue;
@@ -828,10 +829,12 @@ heated(double *out, struct rc_err *err)
                                             .time = 1e-3,
                                             .time_steps = 2,
                                             .threads = 1};
+    struct rc_expected expected;
     struct rc_heat *h = NULL;
     enum rc_status status = RC_FAIL;
 
     if (rc_heat_check(&shape, &problem, err) != RC_OK ||
+        rc_heat_expect(&shape, &problem, 1, &expected, err) != RC_OK ||
         (h = rc_heat_new(&shape, &problem, pressure, pressure, err)) == NULL)
         return RC_FAIL;
     while ((status = rc_heat_step(h, err)) == RC_MORE)

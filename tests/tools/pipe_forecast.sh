@@ -43,4 +43,12 @@ claim "  it is unknown where the memory is too small" says 'time +unknown' rc-st
 claim "fatigue has a time" says 'time +about [0-9.e-]+ s' $fatigue --dry-run pressed.rcg
 claim "  it is unknown where the memory is too small" says 'time +unknown' $fatigue --memory 1M --dry-run pressed.rcg
 
+# ---- flow and heat ----
+
+claim "a leak has memory and a time" says 'about [0-9]+ MiB, [0-9.e-]+ s with' rc-leak --dry-run pressed.rcg
+claim "  as heat does" says 'about 12 convolutions, [0-9]+ MiB, [0-9.e-]+ s with' \
+    rc-heat --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1.2e-5,1.2e-5 --dry-run pressed.rcg
+rc-heat --quiet --mu 0.3 --speed 1 --conductivity 45,45 --diffusivity 1.2e-5,1.2e-5 --report heat.json -o hot.rcg pressed.rcg
+between 6 "$(field convolutions heat.json)" 24 "  within a factor of 2 of the run"
+
 finish
