@@ -14,6 +14,7 @@
 #include <stdlib.h>
 
 #include "libcontact/common.h"
+#include "libcontact/memory.h"
 
 struct repair {
     const struct rc_passage *a;
@@ -96,32 +97,44 @@ set_parents(struct repair *r, const uint8_t *tree)
 
 /* Sends the imbalance of each node to its parent. */
 static void
-send_down(struct repair *r)
+send_down(struct repair *r, int threads)
 {
-    for (int32_t m = 0; m < r->n; m++)
-        r->down[r->order[m]] = 0;
-    for (int32_t m = r->n; m-- > 0;) {
-        int32_t k = r->order[m], parent;
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (int32_t k = 0; k < r->a->nodes; k++) {
+        if (r->way[k] == RC_DIRECTIONS)
+            continue;
+        r->down[k] = 0;
         for (int d = 0; d < RC_DIRECTIONS; d++) {
             int32_t other = flowing_beside(r->a, k, (enum rc_direction)d);
             double c;
             if (other >= 0)
                 r->down[k] -= rc_leak_driven(r->a, r->levels, k, other, (enum rc_direction)d, &c);
         }
-        parent = rc_passage_beside(r->a, k, (enum rc_direction)r->way[k]);
+    }
+    for (int32_t m = r->n; m-- > 0;) {
+        int32_t k = r->order[m], parent = rc_passage_beside(r->a, k, (enum rc_direction)r->way[k]);
         if (parent < r->a->nodes)
             r->down[parent] += r->down[k];
     }
 }
 
+enum { /* sums */
+    ENERGY,
+    DISSIPATED,
+    FLOW,
+    SUMS
+};
+
 static void
-add_up(const struct repair *r, double *lower, double *upper)
+add_row(void *ctx, size_t j, double *sums)
 {
+    const struct repair *r = ctx;
+    const int32_t nx = (int32_t)r->a->nx, first = (int32_t)j * nx;
     struct rc_total energy = {0}, dissipated = {0}, flow = {0};
 
-    for (int32_t m = 0; m < r->n; m++)
-        for (int d = 0; d < RC_DIRECTIONS; d++) {
-            int32_t k = r->order[m], other = flowing_beside(r->a, k, (enum rc_direction)d);
+    for (int32_t k = first; k < first + nx; k++)
+        for (int d = 0; d < RC_DIRECTIONS && r->way[k] != RC_DIRECTIONS; d++) {
+            int32_t other = flowing_beside(r->a, k, (enum rc_direction)d);
             double c, f;
             if (other < 0 || (other < r->a->nodes && (d == RC_BACK || d == RC_UP)))
                 continue; /* count each face once */
@@ -132,26 +145,36 @@ add_up(const struct repair *r, double *lower, double *upper)
             if (other == r->a->inlet)
                 rc_total_add(&flow, -f);
         }
-    *upper = rc_total_value(&energy);
-    *lower = rc_total_value(&flow) / rc_total_value(&dissipated) * rc_total_value(&flow);
+    sums[ENERGY] = rc_total_value(&energy);
+    sums[DISSIPATED] = rc_total_value(&dissipated);
+    sums[FLOW] = rc_total_value(&flow);
 }
 
 enum rc_status
 rc_leak_bounds(const struct rc_passage *a, const uint8_t *tree, const struct rc_levels *levels,
-               double *lower, double *upper, struct rc_err *err)
+               int threads, double *lower, double *upper, struct rc_err *err)
 {
     size_t n = (size_t)a->nodes;
     struct repair r = {.a = a, .levels = levels};
+    struct rc_sums rows;
+    double sums[SUMS];
 
-    r.down = malloc(n * (sizeof *r.down + sizeof *r.order + sizeof *r.way)); /* all three arrays */
-    if (r.down == NULL)
+    /* all three arrays */
+    r.down = rc_alloc(n, sizeof *r.down + sizeof *r.order + sizeof *r.way);
+    if (rc_sums_new(&rows, a->ny, SUMS, 0, threads) != RC_OK || r.down == NULL) {
+        free(r.down);
+        free(rows.row);
         return rc_err_set(err, "out of memory for the bounds of the flow through %zu x %zu nodes",
                           a->nx, a->ny);
+    }
     r.order = (int32_t *)(void *)(r.down + n);
     r.way = (uint8_t *)(r.order + n);
     set_parents(&r, tree);
-    send_down(&r);
-    add_up(&r, lower, upper);
+    send_down(&r, threads);
+    rc_sums_rows(&rows, add_row, &r, sums);
+    *upper = sums[ENERGY];
+    *lower = sums[FLOW] / sums[DISSIPATED] * sums[FLOW];
+    free(rows.row);
     free(r.down);
     return RC_OK;
 }

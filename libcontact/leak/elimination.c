@@ -82,7 +82,7 @@ rc_elimination_new(const struct rc_passage *a, int threads, struct rc_err *err)
 
     if (e != NULL)
         *e = (struct rc_elimination){.a = a, .threads = threads};
-    if (e == NULL || rc_order_set(&e->order, a, threads, err) != RC_OK ||
+    if (e == NULL || rc_order_set(&e->order, a, err) != RC_OK ||
         (e->place = malloc((nodes + 2) * sizeof *e->place)) == NULL ||
         (e->kept = calloc((size_t)e->order.parts + 1, sizeof *e->kept)) == NULL ||
         (e->work = calloc((size_t)threads, sizeof *e->work)) == NULL) {

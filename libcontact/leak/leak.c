@@ -197,12 +197,9 @@ new_passage(const struct rc_shape *s, const struct rc_leak_options *o, struct rc
                                .aspect = l->across / l->along,
                                .around = o->around};
     l->a.g = rc_alloc(n, sizeof *l->a.g);
-    l->levels.p = rc_alloc(n + 2, sizeof *l->levels.p); /* inlet and outlet too */
-    l->levels.rest = rc_alloc(n + 2, sizeof *l->levels.rest);
     l->a.state = malloc(n);
     l->tree = malloc(n);
-    if (l->a.g != NULL && l->levels.p != NULL && l->levels.rest != NULL && l->a.state != NULL &&
-        l->tree != NULL)
+    if (l->a.g != NULL && l->a.state != NULL && l->tree != NULL)
         return l;
 failed:
     rc_err_set(err, "out of memory for the gap of %zu x %zu nodes", s->nx, s->ny);
@@ -210,19 +207,37 @@ failed:
     return NULL;
 }
 
-/* Takes the gap, and finds the percolating path. */
+/* Takes the gap, and finds the percolating path while other threads find the order of elimination. */
 static enum rc_status
 begin(struct rc_leak *l, const double *p, const double *g, struct rc_err *err)
 {
     struct rc_critical critical;
+    const size_t n = (size_t)l->a.nodes + 2; /* inlet and outlet too */
+    enum rc_status path = RC_OK;
+    struct rc_err of_path;
 
     set_gap(l, p, g);
     rc_elimination_free(l->elimination);
     l->elimination = NULL;
+    free(l->levels.p);
+    l->levels.p = NULL;
     l->stage = STAGE_LINEAR;
-    if (rc_percolation(&l->a, &critical, l->tree, err) != RC_OK || rc_blocks(&l->a, err) != RC_OK ||
-        (l->elimination = rc_elimination_new(&l->a, l->threads, err)) == NULL)
+#pragma omp parallel num_threads(l->threads)
+#pragma omp single
+    {
+#pragma omp task shared(path, critical, of_path)
+        path = rc_percolation(&l->a, &critical, l->tree, &of_path);
+        if (rc_blocks(&l->a, err) == RC_OK)
+            l->elimination = rc_elimination_new(&l->a, l->threads, err);
+    }
+    if (path != RC_OK)
+        *err = of_path;
+    if (path != RC_OK || l->elimination == NULL)
         return RC_FAIL;
+    l->levels.p = rc_alloc(2 * n, sizeof *l->levels.p);
+    if (l->levels.p == NULL)
+        return rc_err_set(err, "out of memory for the pressures of %zu nodes", n);
+    l->levels.rest = l->levels.p + n;
     set_figures(l, &critical);
     return RC_OK;
 }
@@ -329,7 +344,8 @@ step_harmonic(struct rc_leak *l, struct rc_err *err)
     if (rc_blocks_fill(&l->a, &l->levels, err) != RC_OK)
         return RC_FAIL;
     if (f->percolates) {
-        if (rc_leak_bounds(&l->a, l->tree, &l->levels, &f->lower, &f->upper, err) != RC_OK)
+        if (rc_leak_bounds(&l->a, l->tree, &l->levels, l->threads, &f->lower, &f->upper, err) !=
+            RC_OK)
             return RC_FAIL;
         f->lower *= size;
         f->upper *= size;
@@ -418,7 +434,6 @@ rc_leak_free(struct rc_leak *l)
     free(l->a.g);
     free(l->a.state);
     free(l->levels.p);
-    free(l->levels.rest);
     free(l->tree);
     rc_elimination_free(l->elimination);
     free(l);

@@ -116,7 +116,7 @@ struct rc_critical {
 };
 
 /* `tree` gets for each node, as bits, the directions of its edges in the two trees of greatest gaps rooted at
- * inlet and outlet. Every node that they reach is in one of them. */
+ * inlet and outlet. Every node that they reach is in one of them. `state` is not used. */
 enum rc_status rc_percolation(const struct rc_passage *a, struct rc_critical *critical,
                               uint8_t *tree, struct rc_err *err);
 
@@ -144,15 +144,15 @@ struct rc_order {
     struct rc_part *part;
 };
 
-/* An order in which few new faces appear. The caller frees both arrays. RC_FAIL when memory is short. */
-enum rc_status rc_order_set(struct rc_order *o, const struct rc_passage *a, int threads,
-                            struct rc_err *err);
+/* An order in which few new faces appear, found by tasks of the team that calls. The caller frees both
+ * arrays. RC_FAIL when memory is short. */
+enum rc_status rc_order_set(struct rc_order *o, const struct rc_passage *a, struct rc_err *err);
 
 /* ---- elimination.c ---- */
 
 struct rc_elimination;
 
-/* NULL if memory is short. The passage must outlive it. */
+/* NULL if memory is short. The passage must outlive it. Threads of the team that calls share the work. */
 struct rc_elimination *rc_elimination_new(const struct rc_passage *a, int threads,
                                           struct rc_err *err);
 /* The conductance from inlet to outlet, and the levels of flowing nodes, inlet and outlet unless `levels` is
@@ -167,8 +167,8 @@ void rc_elimination_free(struct rc_elimination *e); /* NULL is allowed */
 
 /* Bounds of the conductance with harmonic faces, from any pressures and the trees of rc_percolation. */
 enum rc_status rc_leak_bounds(const struct rc_passage *a, const uint8_t *tree,
-                              const struct rc_levels *levels, double *lower, double *upper,
-                              struct rc_err *err);
+                              const struct rc_levels *levels, int threads, double *lower,
+                              double *upper, struct rc_err *err);
 /* c dP: the flow from node k through a face of conductance c. */
 double rc_leak_driven(const struct rc_passage *a, const struct rc_levels *levels, int32_t k,
                       int32_t other, enum rc_direction d, double *c);

@@ -239,7 +239,7 @@ cut_region(struct cutter *c, int32_t lo, int32_t hi)
 }
 
 enum rc_status
-rc_order_set(struct rc_order *o, const struct rc_passage *a, int threads, struct rc_err *err)
+rc_order_set(struct rc_order *o, const struct rc_passage *a, struct rc_err *err)
 {
     struct cutter c = {.a = a, .o = o};
 
@@ -252,8 +252,6 @@ rc_order_set(struct rc_order *o, const struct rc_passage *a, int threads, struct
         for (int32_t k = 0, m = 0; k < a->nodes; k++)
             if (a->state[k] == RC_FLOWS)
                 o->node[m++] = k;
-#pragma omp parallel num_threads(threads)
-#pragma omp single
         o->root = cut_region(&c, 0, o->n);
     }
     free(c.spare);

@@ -12,23 +12,27 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/memory.h"
+
 enum {
     BITS = 11, /* six digits have all bits of a gap */
     DIGITS = 1 << BITS
 };
 
+/* `bits`: those of the gap. They do not form one number, because padding after it would take a quarter of the
+ * memory. */
 struct opening {
-    double g;
+    uint32_t bits[2];
     int32_t node;
 };
 
 /* Positive numbers have the order of their bits. */
 static size_t
-digit(double g, int shift)
+digit(const struct opening *open, int shift)
 {
     uint64_t bits;
 
-    memcpy(&bits, &g, sizeof bits);
+    memcpy(&bits, open->bits, sizeof bits);
     return ~(bits >> shift) & (DIGITS - 1);
 }
 
@@ -41,13 +45,13 @@ sort_by_falling_gap(struct opening *open, struct opening *spare, size_t n)
         size_t first[DIGITS] = {0}, sum = 0;
         struct opening *sorted = spare;
         for (size_t m = 0; m < n; m++)
-            first[digit(open[m].g, shift)]++;
+            first[digit(open + m, shift)]++;
         for (size_t k = 0; k < DIGITS; k++) {
             sum += first[k];
             first[k] = sum - first[k];
         }
         for (size_t m = 0; m < n; m++)
-            sorted[first[digit(open[m].g, shift)]++] = open[m];
+            sorted[first[digit(open + m, shift)]++] = open[m];
         spare = open;
         open = sorted;
     }
@@ -165,25 +169,26 @@ enum rc_status
 rc_percolation(const struct rc_passage *a, struct rc_critical *critical, uint8_t *tree,
                struct rc_err *err)
 {
-    size_t nodes = (size_t)a->nodes, n = 0;
-    int32_t *parent = malloc((nodes + 2) * sizeof *parent);
+    int32_t *parent;
     struct opening *open;
-    enum rc_status status = RC_FAIL;
+    size_t n = 0;
 
     *critical = (struct rc_critical){.node = -1};
     for (int32_t k = 0; k < a->nodes; k++)
         n += a->g[k] > 0;
-    open = malloc((2 * n + 1) * sizeof *open); /* the second half is spare */
+    /* the second half is spare, and the sets follow */
+    open = rc_alloc(2 * n * sizeof *open + ((size_t)a->nodes + 2) * sizeof *parent, 1);
+    if (open == NULL)
+        return rc_err_set(err, "out of memory for the paths through %zu x %zu nodes", a->nx, a->ny);
+    parent = (int32_t *)(open + 2 * n);
     n = 0;
-    if (open == NULL || parent == NULL) {
-        rc_err_set(err, "out of memory for the paths through %zu x %zu nodes", a->nx, a->ny);
-        goto done;
-    }
     for (int32_t k = 0; k < a->nodes; k++) {
         parent[k] = -1;
         tree[k] = 0;
-        if (a->g[k] > 0)
-            open[n++] = (struct opening){a->g[k], k};
+        if (a->g[k] > 0) {
+            open[n].node = k;
+            memcpy(open[n++].bits, &a->g[k], sizeof open->bits);
+        }
     }
     parent[a->inlet] = a->inlet;
     parent[a->outlet] = a->outlet;
@@ -192,9 +197,6 @@ rc_percolation(const struct rc_passage *a, struct rc_critical *critical, uint8_t
     if (critical->percolates)
         critical->width = width_at(a, critical->node);
     critical->percolates_diagonal = critical->percolates || joins_by_corners(a, open, n, parent);
-    status = RC_OK;
-done:
     free(open);
-    free(parent);
-    return status;
+    return RC_OK;
 }
