@@ -746,6 +746,7 @@ step_along(struct rc_discs *d)
             d->way.d[c][k] = d->q[c][k] + d->way.reach * (double)d->z[c][k];
     back(d, d->way.d);
     if (!judge(d, reach, at) && at[TWIST] > 16 * DBL_EPSILON * at[SCALE]) {
+        d->way.reach = reach / 8; /* else the next step would fail too */
         fall_back(d);
         return;
     }
