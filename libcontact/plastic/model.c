@@ -672,7 +672,7 @@ exchange_elastic(struct yielding *y, struct rc_state *s, double solved)
     struct rc_err err;
 
     if (!rc_state_reads(s)) {
-        if (solved > 0) /* a pressure that is being written does not change */
+        if (solved > 0) /* the cast is safe: writing does not change the pressure */
             rc_state_numbers(s, y->n, (double *)rc_solver_pressure(y->elastic));
         return;
     }

@@ -185,7 +185,7 @@ rc_plastic_exchange(void *plastic, struct rc_state *s)
         rc_state_refuse(s, "a size is out of range");
     rc_state_number(s, &load, DBL_MIN);
     exchange_figures(p, s);
-    /* a pressure that is being written does not change */
+    /* the cast is safe: writing does not change the pressure */
     rc_state_finite(s, p->n,
                     rc_state_reads(s) ? p->other : (double *)rc_solver_pressure(p->solver));
     if (rc_state_reads(s))

@@ -31,9 +31,9 @@ struct rc_steady {
     double run;  /* mean number of loaded nodes one behind the other   */
     /* The caller sets g (0 in the last column), rigid, v, and q, then calls rc_steady_begin. */
     double *g, *q[2], *rigid[2], v[2];
-    double *u[2], *s[2]; /* T q or T of a vector; slip     */
-    double *way[2],
-        *old[2]; /* correction; q before it. On a path: displacement due to the pressure; before */
+    double *u[2], *s[2];  /* T q or T of a vector; slip     */
+    double *way[2];       /* the correction; on a path, the displacement due to the pressure */
+    double *old[2];       /* q before the correction; on a path, the earlier displacement */
     double *way_of[2][2]; /* if the force is given: corrections due to v, else NULL */
     float *curve;         /* D of nodes that slip           */
     float *basis[RC_STEADY_STEPS + 1][2], *z[RC_STEADY_STEPS][2], *frame[2];

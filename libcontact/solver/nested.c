@@ -231,8 +231,8 @@ coarse_new(const struct rc_solver *s, bool *sought)
     double *h = coarse_map(s, s->posed.h, &shape, &rows), *highs = NULL, lower;
     struct rc_solver *c;
 
-    /* the bound of a coarse node is the mean over its four nodes; without a bound on one of them it has
-     * none */
+    /* The bound of a coarse node is the mean of the bounds of its four nodes. If one of them has no bound,
+     * the coarse node has none. */
     if (h != NULL && fine_highs != NULL)
         highs = coarse_map(s, fine_highs, &shape, &rows);
     if (h == NULL || (fine_highs != NULL && highs == NULL)) {

@@ -335,7 +335,7 @@ plan(struct gauss *g, double cutoff)
     if (!way_new(&g->x, g->shape->nx, width / g->shape->dx) ||
         !way_new(&g->y, g->shape->ny, width / g->shape->dy))
         return false;
-    /* whole cache lines, whose places in the cache differ */
+    /* a row fills whole cache lines; one more line keeps rows out of the same cache sets */
     g->stride = (g->x.m + WIDE - 1) / WIDE * WIDE + WIDE;
     g->rows_per_thread = larger(rows_of(&g->y.down), g->y.two ? rows_of(&g->y.up) : 0);
     g->per_thread = 2 * line_room(&g->x) + 2 * TOGETHER * g->stride +

@@ -380,7 +380,7 @@ set_out(struct wear *v, struct rc_err *err)
     return contact(v, LAST, err);
 }
 
-/* Ends the leg where the first condition is met, after the last steps. */
+/* Ends the leg when the first condition is met; the last steps of the leg still follow. */
 static void
 see_conditions(struct wear *v)
 {

@@ -48,7 +48,8 @@ void physics_hardness(struct tool *tool, const struct rc_grid *hardness);
 /* The heights of body 2 in the file of --counter. They face body 1, as in rc-add: the map is mirrored left to
  * right. The caller frees them. */
 struct rc_grid *physics_counter(struct tool *tool, const char *name);
-/* Ends the tool if their spacings differ from those of body 1, or on a periodic map the number of nodes. */
+/* Ends the tool if their spacing differs from that of body 1, or if the numbers of nodes of a periodic map
+ * differ. */
 void physics_counter_beside(struct tool *tool, const char *name, const struct rc_grid *counter,
                             const struct rc_grid *heights, bool periodic);
 /* The contact at one step of the list, without the options of the solver. */

@@ -76,7 +76,7 @@ read_file(struct tool *t, const char *source, FILE *file, size_t *size)
 
 /* ---- rows ---- */
 
-/* Value `row` of a column, which has the values before it. */
+/* Appends value number `row` to a column. */
 static void
 put(struct reading *r, size_t column, size_t row, double value)
 {
