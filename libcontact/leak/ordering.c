@@ -28,6 +28,7 @@ enum side {
 struct cutter {
     const struct rc_passage *a;
     struct rc_order *o;
+    double per_row; /* 1/nx                   */
     int32_t *spare; /* a second list of nodes */
     int32_t room;   /* for parts */
 };
@@ -44,7 +45,8 @@ struct region {
 static void
 place_of(const struct cutter *c, const struct region *r, int32_t k, int32_t *u, int32_t *v)
 {
-    int32_t nx = (int32_t)c->a->nx, x = k % nx, y = k / nx;
+    /* faster than a division, and as exact: the half is far above the rounding error */
+    int32_t nx = (int32_t)c->a->nx, y = (int32_t)((k + 0.5) * c->per_row), x = k - y * nx;
 
     *u = (r->turned ? y : x) - r->u0;
     *v = (r->turned ? x : y) - r->v0;
@@ -241,7 +243,7 @@ cut_region(struct cutter *c, int32_t lo, int32_t hi)
 enum rc_status
 rc_order_set(struct rc_order *o, const struct rc_passage *a, struct rc_err *err)
 {
-    struct cutter c = {.a = a, .o = o};
+    struct cutter c = {.a = a, .o = o, .per_row = 1 / (double)a->nx};
 
     *o = (struct rc_order){.root = FAILED};
     for (int32_t k = 0; k < a->nodes; k++)
