@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Convolutions of rc-slip to estimated errors of 1e-2 and 1e-4: maps, profiles, dissimilar bodies, long cells.
+"""Convolutions of rc-slip to estimated errors of 1e-2 and 1e-4 on maps, profiles and long cells.
 
     bench/slip.py BUILD [SIDE,SIDE...]      BUILD holds the tools; sides of the square maps, 128 without
 
@@ -11,12 +11,13 @@ import subprocess
 import sys
 import tempfile
 
-SIMILAR, DISSIMILAR = (["--nu", "0.3"], ["--estar", "100GPa"]), ([], "--E1 100GPa --nu1 0.3 --E2 rigid".split())
+SIMILAR = (["--nu", "0.3"], ["--estar", "100GPa"])  # options of rc-slip, of rc-solve
+DISSIMILAR = ([], "--E1 100GPa --nu1 0.3 --E2 rigid".split())
 
 
 def run(*args):
     done = subprocess.run(args, capture_output=True, text=True)
-    if done.returncode not in (0, 3):  # 3: not converged, which is told below
+    if done.returncode not in (0, 3):  # 3: not converged
         sys.exit(done.stderr)
 
 
@@ -27,11 +28,11 @@ def report(name):
 
 def contact(nx, ny, dy, boundary, pressure, pair):
     """Writes p.rcg, a contact under this mean pressure. Returns its figures."""
-    run("rc-synth", "selfaffine", "--nx", str(nx), "--ny", str(ny), "--dx", "1um", "--dy", f"{dy}um", "--hurst", "0.8",
-        "--rms-slope", "0.05", "--rolloff", f"{max(nx, ny * dy) / 4}um", "--short-cut", f"{4 * dy}um", "--seed", "5",
-        "-o", "s.rcg")
-    run("rc-solve", "--quiet", "s.rcg", "-o", "p.rcg", "--tol", "1e-6", "--report", "p.json", "--mean-pressure", pressure,
-        *pair, *boundary)
+    run("rc-synth", "selfaffine", "--nx", str(nx), "--ny", str(ny), "--dx", "1um", "--dy", f"{dy}um",
+        "--hurst", "0.8", "--rms-slope", "0.05", "--rolloff", f"{max(nx, ny * dy) / 4}um",
+        "--short-cut", f"{4 * dy}um", "--seed", "5", "-o", "s.rcg")
+    run("rc-solve", "--quiet", "s.rcg", "-o", "p.rcg", "--tol", "1e-6", "--report", "p.json",
+        "--mean-pressure", pressure, *pair, *boundary)
     return report("p.json")[0]
 
 
@@ -43,7 +44,8 @@ def count(title, nx, ny, dy, boundaries, pressures, bodies=SIMILAR):
             for part in (0.1, 0.5, 0.95):
                 for tol in most:
                     run("rc-slip", "--quiet", "p.rcg", "-o", "q.rcg", "--mu", "0.3", "--tangential",
-                        f"{part * 0.3 * load:.9g}N", *bodies[0], "--tol", tol, "--increments", "1", "--report", "q.json")
+                        f"{part * 0.3 * load:.9g}N", *bodies[0], "--tol", tol, "--increments", "1",
+                        "--report", "q.json")
                     legs = report("q.json")
                     if not all(leg["converged"] for leg in legs):
                         sys.exit(f"{title}, {pressure}, {part}: not converged to {tol}")
