@@ -733,8 +733,8 @@ struct rc_elastic_asks {
 struct rc_elastic_figures {
     struct rc_contact contact;
     double stiffness, conductance, conductance_lower; /* NAN: not requested */
-    /* m: the approach from the first touch of the first shape; and the first touch of the present shape from
-     * there, after a keep */
+    /* m, both from the first touch of the first shape: the approach now, and the approach at which the
+     * present shape first touches, after a keep */
     double indentation, residual_indentation;
     double tilt_x, tilt_y;       /* rad; NAN: no free tilt */
     const char *kernel, *method; /* NULL: no load so far   */

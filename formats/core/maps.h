@@ -32,8 +32,8 @@ struct rc_map {
     bool bottom_first, right_first;
     double missing_from,
         missing_to; /* raw numbers in [from, to] are missing; NAN: none is         */
-    /* In place of raw, at and padding: writes nx*ny raw numbers to v, NAN if missing, in the order of
-     * by_columns and so on. The reader that sets it must check nx*ny against the size of the file. */
+    /* Replaces raw, at and padding. Writes nx*ny raw numbers to v, NAN if missing, in the order that
+     * by_columns and the other members give. The reader that sets it must check nx*ny against the size of the file. */
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_map *map, double *v,
                            struct rc_err *err);
     size_t more;   /* for fill                                                           */

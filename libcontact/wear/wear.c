@@ -256,8 +256,8 @@ lost(const struct wear *v)
     return rc_sum(v->worn, v->n) + (v->row > 0 ? (double)s->nx * rc_sum(v->deep, s->ny) : 0);
 }
 
-/* The sum of |e|, that an error e of the heights has, or may get as the bodies slide on. The flow never
- * increases the sum of |e| over the coefficients; in the end e is even over the contact. */
+/* The largest sum of |e| that an error e of the heights has now or gets while the bodies slide on. The flow
+ * never increases the sum of |e| over the coefficients; in the end e is even over the contact. */
 static double
 lasting(const struct wear *v, const double *e)
 {

@@ -208,7 +208,8 @@ size_t tool_result_words(struct tool *tool, const char *word[], size_t most);
 struct rc_grid *tool_read(struct tool *tool);
 /* The next frame of this channel, one in each case. With `pass` the other frames of the case are written,
  * changed only by info->passing; otherwise they are dropped. A case with no such frame, or with several, ends
- * the tool; with `pass` also a case with results beside a height, see results.h. NULL at the end. */
+ * the tool. With `pass`, a case with both heights and results ends the tool too, see results.h. Returns NULL
+ * at the end. */
 struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
 /* The frame of this channel in the next case. `take` is called for the other frames, before and after it; it
  * keeps a frame and returns true, other frames are dropped. `kept` is the frame of the channel, NULL before

@@ -15,7 +15,7 @@
  * Keys are therefore not used: the size must be in two successive rows. Empty quotes are a missing point. The
  * micro sign comes in UTF-8, Latin-1, Shift-JIS, GBK and CP949.
  *
- * Written from how programs of others read and write such files (kcsv2bcr and others).
+ * Written after other programs that read and write such files (kcsv2bcr and others).
  */
 #include <math.h>
 #include <string.h>

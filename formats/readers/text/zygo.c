@@ -14,7 +14,7 @@
  * 32768 or 131072 by the phase resolution. They are missing from 2147483640 on. The first row is the top one,
  * as in MetroPro's binary files.
  *
- * Written from how programs of others read and write such files (prysm and others).
+ * Written after other programs that read and write such files (prysm and others).
  */
 #include <math.h>
 #include <string.h>
