@@ -47,7 +47,7 @@ rc_adhesion_law_named(const char *name)
 /* ---- a path ---- */
 
 enum {
-    SLOW = 2,        /* successive steps that lower the eigenvalue by less than 1 % */
+    SLOW = 2,        /* successive steps that lower the eigenvalue by less than 2 % */
     BELOW = 2,       /* successive states with an error below tol */
     LEAVES = 20,     /* most saddles of a state */
     COARSEST = 32,   /* nodes along a map; a smaller coarse grid does not pay */
@@ -59,8 +59,10 @@ static const double eigen_exact = 0.2; /* accepted error of the eigenvalue, rela
 static const double loosest = 1e-3;    /* largest tol: with a larger error the eigenvalue has no
                                           meaning */
 /* The error is at most 2 e/sqrt(mu). If soft modes have most of it, the bound is 1.25 e/mu. It is not used
- * below `soft`, because soft modes never have all of the error. */
+ * below `soft`, because soft modes never have all of the error. Most errors are near e: a ratio is measured
+ * by the change of the pressure while e halves. The softest mode may hide from it, and is found apart. */
 static const double safe = 2, safe_soft = 1.25, soft = 0.05;
+static const double least_ratio = 1.25; /* of error to e */
 /* Fraction of tol, because the errors of dents stay and those of later states add up. */
 static const double yielding_part = 0.05;
 static const double coarse_tol = 1e-3; /* correction of the state on a coarser grid, relative */
@@ -108,6 +110,7 @@ struct rc_adhesion {
     double way;    /* the lowest stiffness along a descent, close to its end */
     struct rc_adhesion_past past;
     double judged; /* the error when the eigenvalue was found; 0: not found yet */
+    double hidden; /* then the error along the softest mode, times mu */
     bool converged;
     bool separated;
     bool fresh; /* the figures belong to the present state */
@@ -508,10 +511,14 @@ softest(const struct rc_adhesion *a)
 static double
 own_error(const struct rc_adhesion *a)
 {
-    double mu = a->judged > 0 ? softest(a) : a->mu[a->control];
+    const struct rc_gap_told *t = &a->gap.told;
+    double mu = a->judged > 0 ? softest(a) : a->mu[a->control], worst, measured;
 
     mu = mu == 0 ? 1 : fmin(fmax(mu, single), 1);
-    return fmax(safe / sqrt(mu), safe_soft / fmax(mu, soft)) * a->gap.told.error;
+    worst = fmax(safe / sqrt(mu), safe_soft / fmax(mu, soft)) * t->error;
+    measured = safe * (fmax(fmax(t->ratios[0], t->ratios[1]), least_ratio) * t->calm +
+                       (a->judged > 0 ? a->hidden / mu : 0));
+    return fmin(a->judged > 0 ? 2 * worst : worst, measured);
 }
 
 /* The possible error from dents of earlier states, relative to the pressures of this state. */
@@ -621,6 +628,7 @@ down(struct rc_adhesion *a)
     struct rc_gap *g = &a->gap;
 
     rc_gap_look(g);
+    a->hidden = a->judged > 0 ? rc_gap_soft_error(g) : 0;
     if (a->rough && (g->told.error <= coarse_tol || g->stuck))
         return finish(a, true);
     if (ends(a)) {
@@ -663,6 +671,7 @@ eigen(struct rc_adhesion *a)
         g->mode.error > (negative ? 0.5 : eigen_exact) * fmax(fabs(g->mode.mu), single))
         return RC_MORE;
     a->judged = fmax(g->told.error, 1e-300);
+    a->hidden = rc_gap_soft_error(g);
     if (negative && a->leaves < LEAVES) {
         rc_gap_leave(g);
         a->leaves++;
@@ -677,6 +686,8 @@ eigen(struct rc_adhesion *a)
         return finish(a, false);
     if (ends(a) || g->stuck)
         return finish(a, estimate(a) <= a->tol);
+    if (a->hidden > softest(a) * g->told.error) /* most of the error is along the softest mode */
+        rc_gap_turn(g);
     move(a);
     a->below = 0;
     a->stage = STAGE_DOWN;

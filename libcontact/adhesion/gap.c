@@ -377,6 +377,40 @@ ad_out(void *ctx, size_t j, void *from)
     return true;
 }
 
+static void
+mark_row(void *ctx, size_t j, double *sums)
+{
+    struct rc_gap *g = ctx;
+    float *mark = rc_gap_mark(g) + j * g->px;
+
+    for (size_t i = 0; i < on_map(g, j); i++) {
+        float p = (float)rc_gap_pressure_at(g, j * g->px + i);
+        sums[0] += fabs((double)p - (double)mark[i]);
+        mark[i] = p;
+    }
+}
+
+/* When |A z| has halved since the mark, the change of the pressure is the error at the mark minus the present
+ * one. With the same ratio of error to |A z| at both, this is the ratio. */
+static void
+measure_ratio(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS], off = g->told.change + g->told.drift, last = g->told.mark;
+
+    g->told.calm = fmax(g->told.error, g->told.last / 2);
+    g->told.last = g->told.error;
+    if (last > 0 && off > last / 2)
+        return;
+    rows(g, mark_row, g, sums);
+    g->told.mark = off;
+    if (last == 0)
+        return;
+    g->told.ratios[1] = g->told.ratios[0];
+    g->told.ratios[0] = sums[0] / (last - off);
+    if (isinf(g->told.ratios[1]))
+        g->told.ratios[1] = g->told.ratios[0];
+}
+
 /* Finds the error. Changes that are negligible compared with the traction are rounding. */
 static void
 find_error(struct rc_gap *g)
@@ -387,6 +421,13 @@ find_error(struct rc_gap *g)
         g->told.error = rounding;
     else
         g->told.error = g->told.size > 0 ? off / g->told.size + rounding : INFINITY;
+}
+
+static void
+forget_error(struct rc_gap *g)
+{
+    g->told.error = g->told.last = g->told.calm = g->told.ratios[0] = g->told.ratios[1] = INFINITY;
+    g->told.mark = 0;
 }
 
 /* Returns d'A d, and finds the error. */
@@ -825,6 +866,7 @@ rc_gap_look(struct rc_gap *g)
     g->iterations++;
     if (g->way.rd > 0) {
         g->way.dad = find_ad(g, &g->way.mean);
+        measure_ratio(g);
         return;
     }
     if (g->told.drift > 0) { /* the residual is rounding, perhaps of A u: compute A u again */
@@ -965,7 +1007,7 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
     g->level = 0;
     g->way.restart = true;
     g->way.rz = 0;
-    g->told.error = INFINITY;
+    forget_error(g);
     g->told.fresh = 1;
     g->stuck = g->parting = g->negative = false;
     g->iterations = g->mode.steps = 0;
@@ -1059,7 +1101,16 @@ rc_gap_free(struct rc_gap *g)
     free(g->hards);
 }
 
-/* ---- off a saddle ---- */
+/* ---- along the softest mode, and off a saddle ---- */
+
+void
+rc_gap_aim(struct rc_gap *g, double rd)
+{
+    g->way.beta = g->way.rz = 0;
+    g->way.dwd = NAN;
+    g->way.rd = rd;
+    g->way.dad = find_ad(g, &g->way.mean);
+}
 
 void
 rc_gap_down(struct rc_gap *g, double first)
@@ -1085,5 +1136,5 @@ rc_gap_down(struct rc_gap *g, double first)
     g->way.restart = true;
     g->way.rz = 0;
     g->stuck = false;
-    g->told.error = INFINITY;
+    forget_error(g);
 }

@@ -51,6 +51,9 @@ struct rc_gap_told {
     double size,
         change;   /* |p|, |A z|                                                                 */
     double moves; /* |A d| of a step */
+    double mark, ratios[2]; /* |A z| with drift at the marked pressure, 0: none; error over |A z| at
+                               the last two marks, INFINITY: not yet measured */
+    double last, calm;      /* `error` of the last step; `error`, at least half the last one */
     double cut, cuts; /* error of A times a step from neglected coefficients; the same in drift */
 };
 
@@ -152,6 +155,9 @@ void rc_gap_law(const struct rc_gap *g, size_t j, size_t i, size_t n, const doub
 /* Descends along d, a direction of negative curvature, whose largest value is way.unit. */
 void rc_gap_down(struct rc_gap *g, double first);
 
+/* Makes d, whose largest value is way.unit, the direction of the next step; rd is r'd. */
+void rc_gap_aim(struct rc_gap *g, double rd);
+
 /* ---- near.c ---- */
 
 /* Finds A times `step` without a convolution: `a` d with `cut` nodes cut off at 0. For a given mean, sum x
@@ -172,6 +178,13 @@ rc_gap_wd(const struct rc_gap *g)
     return g->mode.e[RC_GAP_FLOATS - 2];
 }
 
+/* The marked pressure, in the memory of a vector that is free outside the search for the softest mode. */
+static inline float *
+rc_gap_mark(const struct rc_gap *g)
+{
+    return g->mode.e[RC_GAP_FLOATS - 3];
+}
+
 /* ---- refine.c ---- */
 
 /* Starts from the gap on a grid with every other node of this one. */
@@ -183,6 +196,10 @@ void rc_gap_refine(struct rc_gap *g, const struct rc_gap *coarse);
  * the smallest eigenvalue of (A - D) x = mu (K_FF)^-1 x. F are the nodes not in contact. */
 void rc_gap_eigen_begin(struct rc_gap *g);
 void rc_gap_eigen_step(struct rc_gap *g);
+/* The error of the pressure along the softest mode, times mu. */
+double rc_gap_soft_error(struct rc_gap *g);
+/* Turns the next step along the softest mode. */
+void rc_gap_turn(struct rc_gap *g);
 /* Leaves a saddle along the eigenvector, in the direction that lowers Phi. */
 void rc_gap_leave(struct rc_gap *g);
 

@@ -21,7 +21,7 @@ enum {
 };
 static const double dependent = 1e-5; /* squared part of a unit vector outside the space of the
                                          others */
-static const double steady = 0.99;    /* mu over the last one */
+static const double steady = 0.98;    /* mu over the last one */
 
 /* ---- K r and (A - D) x, of one vector ---- */
 
@@ -344,7 +344,8 @@ rc_gap_eigen_begin(struct rc_gap *g)
     g->mode.mu = sums[0] > 0 ? INFINITY : 1;
     g->mode.error = sums[0] > 0 ? INFINITY : 0;
     g->mode.steps = g->mode.slow = 0;
-    g->near.known = false; /* its memory is needed */
+    g->near.known = false; /* its memory is needed, and that of the mark */
+    g->told.mark = 0;
     if (sums[0] == 0)
         return;
     first.noise = g->mode.known ? 0 : 0.05;
@@ -393,21 +394,73 @@ rc_gap_eigen_step(struct rc_gap *g)
     g->mode.known = true;
 }
 
-/* ---- off a saddle ---- */
-
+/* Sums of x'r, x'W x, and |A x| on open nodes, from (A - D) x. */
 static void
-push_row(void *ctx, size_t j, double *sums)
+soft_row(void *ctx, size_t j, double *sums)
 {
     struct rc_gap *g = ctx;
     size_t m = rc_gap_on_map(g, j);
 
+    for (size_t i = 0; i < g->px; i += RC_GAP_LINE) {
+        size_t n = g->px - i < RC_GAP_LINE ? g->px - i : RC_GAP_LINE, at = j * g->px + i;
+        double v[RC_GAP_LINE], s[RC_GAP_LINE], d[RC_GAP_LINE];
+        if (i < m)
+            rc_gap_law(g, j, i, m - i < n ? m - i : n, g->x + at, v, s, d);
+        for (size_t k = 0; k < n; k++) {
+            double x = (double)g->mode.e[X][at + k];
+            sums[0] += x * g->r[at + k];
+            sums[1] += x * (double)g->mode.e[X + 1][at + k];
+            if (i + k < m && !g->off[at + k])
+                sums[2] += fabs((double)g->mode.e[X + 2][at + k] + d[k] * x);
+        }
+    }
+}
+
+double
+rc_gap_soft_error(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS];
+
+    rc_sums_rows(&g->sums, soft_row, g, sums);
+    /* the sum of A x vanishes, so that nodes in contact have about as much as open ones */
+    return sums[1] > 0 ? 2 * fabs(sums[0]) / sums[1] * sums[2] / g->told.size : 0;
+}
+
+/* ---- along the mode ---- */
+
+struct push {
+    struct rc_gap *g;
+    double a;
+};
+
+/* d = a times the mode. */
+static void
+push_row(void *ctx, size_t j, double *sums)
+{
+    const struct push *c = ctx;
+    struct rc_gap *g = c->g;
+    size_t m = rc_gap_on_map(g, j);
+
     for (size_t i = 0; i < g->px; i++) {
         size_t at = j * g->px + i;
-        g->d[at] = g->off[at] ? 0 : (double)g->mode.e[X][at];
+        g->d[at] = g->off[at] ? 0 : c->a * (double)g->mode.e[X][at];
         if (i < m)
             sums[RC_GAP_MOST] = fmax(sums[RC_GAP_MOST], fabs(g->d[at]));
         sums[RC_GAP_MOST + 1] = fmax(sums[RC_GAP_MOST + 1], fabs(g->d[at]));
+        sums[0] += g->d[at] * g->r[at];
     }
+}
+
+void
+rc_gap_turn(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS];
+
+    rc_sums_rows(&g->sums, push_row, &(struct push){g, 1}, sums);
+    if (sums[0] < 0)
+        rc_sums_rows(&g->sums, push_row, &(struct push){g, -1}, sums);
+    g->way.unit = sums[RC_GAP_MOST + 1];
+    rc_gap_aim(g, sums[0]);
 }
 
 void
@@ -415,7 +468,7 @@ rc_gap_leave(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS];
 
-    rc_sums_rows(&g->sums, push_row, g, sums);
+    rc_sums_rows(&g->sums, push_row, &(struct push){g, 1}, sums);
     g->way.unit = sums[RC_GAP_MOST + 1];
     rc_gap_down(g, 0.1 * g->law.range / sums[RC_GAP_MOST]);
 }

@@ -2,7 +2,7 @@
 for random contacts.
 
 hist      lists of loads with a hardness and --history         truth: the same list with --tol 1e-8
-adhesion  paths of approaches or loads with --adhesion         truth: the same path with --tol 1e-8
+adhesion  paths with --adhesion, a fifth on 64 to 150 nodes     truth: the same path with --tol 1e-8
 tilt      --tilt free, most of them with a hardness            truth: the same contact with --tol 1e-9
 maps      free maps, of them two thirds with --yield and one   truth: the contact on a map that is two or three times
           third with a hardness                                as wide, in 96 increments, with --tol 1e-6
@@ -46,8 +46,9 @@ def selfaffine(r, shape, rms):
 
 
 def hist_or_path(r, kind):
-    nx = r.randint(12, 36)
-    ny = r.choice([1, nx, r.randint(8, 36)])
+    least, most = (64, 150) if kind == 'adhesion' and r.random() < 0.2 else (12, 36)
+    nx = r.randint(least, most)
+    ny = r.choice([1 if most < 64 else nx, nx, r.randint(least * 2 // 3, most)])
     rms = 10 ** r.uniform(-8, -6.7)
     options = ['--estar', repr(MODULUS)] + ['--periodic'] * (r.random() < 0.5)
     surface = selfaffine(r, (ny, nx), rms)
