@@ -33,7 +33,8 @@ struct rc_map {
     double missing_from,
         missing_to; /* raw numbers in [from, to] are missing; NAN: none is         */
     /* Replaces raw, at and padding. Writes nx*ny raw numbers to v, NAN if missing, in the order that
-     * by_columns and the other members give. The reader that sets it must check nx*ny against the size of the file. */
+     * by_columns and the other members give. The reader that sets it must check nx*ny against the size of
+     * the file. */
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_map *map, double *v,
                            struct rc_err *err);
     size_t more;   /* for fill                                                           */

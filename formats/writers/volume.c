@@ -245,7 +245,7 @@ put_arrays(FILE *out, const struct volume *v, struct rc_err *err)
 
 /* ---- the file ---- */
 
-/* The even steps of an image, as attributes of its element. */
+/* Writes the constant steps of an image as attributes of its XML element. */
 static enum rc_status
 put_steps(struct rc_buffer *b, const struct volume *v, const struct rc_grid *g, struct rc_err *err)
 {

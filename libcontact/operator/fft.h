@@ -222,7 +222,7 @@ struct rc_fft_ops {
      * outlives the plan; NULL: the plan allocates it. */
     void *(*new)(const struct rc_layout *layout, void *lent);
     void (*free)(void *plan);
-    /* Memory that the plan uses only while it transforms; NULL: it has fewer bytes. */
+    /* Memory of the plan that is free between its transforms; NULL when the plan has less than `bytes`. */
     void *(*workspace)(void *plan, size_t bytes);
     /* Stores s(q), q < cy, times `scale` as column c of a spectrum; mirror -1: odd in y. */
     void (*store)(const struct rc_layout *layout, size_t c, double scale, double mirror,

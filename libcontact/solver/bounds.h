@@ -71,8 +71,8 @@ rc_high(struct rc_box box, size_t k)
     return rc_bound(box.highs, box.high, k);
 }
 
-/* The distance between the bounds of a node, in units. Without a map it is 1: a sum of rooms is then a
- * number of nodes. */
+/* The distance between the bounds of a node, in units. Without a map of bounds the distance is 1, so
+ * that a sum of distances counts nodes. */
 static inline double
 rc_room(struct rc_box box, size_t k)
 {
