@@ -30,7 +30,7 @@ CASES = [
     ('exponential', .03, 12, .5, .1, 16, 5, 'approach', [.8], (1, 1), ['--periodic']),
     ('exponential', .1, 4, .8, .2, 8, 6, 'mean-pressure', [.02], (1, 1), ['--periodic']),
     ('exponential', .05, 8, .8, .1, 8, 7, 'mean-pressure', [0], (1, 1), ['--periodic']),
-    ('exponential', .05, 4, .8, .1, 8, 8, 'mean-pressure', [.005, -.0001], (1, 1), ['--periodic']),
+    ('exponential', .05, 4, .8, .1, 8, 8, 'mean-pressure', [.005, -1e-5], (1, 1), ['--periodic']),
     ('exponential', .05, 8, .8, .1, 8, 9, 'approach', [.5], (1, 1), []),
     ('exponential', .1, 4, .8, .1, 8, 10, 'mean-pressure', [.01], (1, 1), []),
     ('exponential', .05, 4, .8, .05, 8, 11, 'mean-pressure', [0], BALL, []),
