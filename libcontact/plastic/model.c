@@ -32,10 +32,10 @@ static const double for_later = 0.7;      /* part of the goal for a load that ot
 static const struct {
     double beyond, least, most;
 } second = {1.6, 2, 4}, third = {1.3, 1.2, 4};
-/* Two runs give two errors of the increments, and the estimate is the larger one. The first is `of_terms` times
- * the error from the terms of second order. The second is `of_change` times the change of the pressure over
- * ratio - 1. In 367 loads of random lists no
- * estimate was below the error for 8 and 16 or 8 and 24 increments, one for 16 and 32, two for 8 and 32. */
+/* Two runs give two errors of the increments, and the estimate is the larger one. The first is `of_terms`
+ * times the error from the terms of second order. The second is `of_change` times the change of the pressure
+ * over ratio - 1. In 367 loads of random lists no estimate was below the error for 8 and 16 or 8 and 24
+ * increments, one for 16 and 32, two for 8 and 32. */
 static const double of_terms = 0.6, of_change = 1.5;
 static const double least_ratio = 2, most_ratio = 4; /* of the increments of the two runs */
 
