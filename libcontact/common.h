@@ -9,6 +9,15 @@
 #include <math.h>
 
 #include "contact.h"
+#include "owned.h"
+
+RC_OWNER(rc_fatigue)
+RC_OWNER(rc_heat)
+RC_OWNER(rc_model)
+RC_OWNER(rc_patches)
+RC_OWNER(rc_psd)
+RC_OWNER(rc_relaxation)
+RC_OWNER(rc_solver)
 
 #define RC_PI 3.14159265358979323846
 

@@ -201,6 +201,28 @@ rc_alloc(size_t n, size_t size)
     return add(at);
 }
 
+void *
+rc_store_take(struct rc_store *s, size_t n, size_t size)
+{
+    void **block = rc_realloc(s->block, (s->n + 1) * sizeof *block);
+
+    if (block != NULL) {
+        s->block = block;
+        if ((block[s->n] = rc_alloc(n, size)) != NULL)
+            return block[s->n++];
+    }
+    s->failed = true;
+    return NULL;
+}
+
+void
+rc_store_free(struct rc_store *s)
+{
+    for (size_t k = 0; k < s->n; k++)
+        rc_free(s->block[k]);
+    rc_free(s->block);
+}
+
 #ifdef __SSE2__
 void
 rc_copy_past(void *to, const void *from, size_t bytes)

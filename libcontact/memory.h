@@ -11,7 +11,7 @@
 #ifndef RC_MEMORY_H
 #define RC_MEMORY_H
 
-#include "grid.h"
+#include "owned.h"
 
 /* Memory for n numbers of `size` bytes, not cleared, at the start of a cache line. NULL if memory is short or
  * n * size overflows. free() returns it. Blocks of megabytes use large pages if the system has them. Columns
@@ -24,6 +24,16 @@ void *rc_calloc(size_t n, size_t size);
 void *rc_realloc(void *at, size_t bytes);
 void *rc_aligned_alloc(size_t line, size_t bytes);
 void rc_free(void *at);
+
+/* Blocks that one call frees, those of a handle for example; zeroed: none. */
+struct rc_store {
+    void **block;
+    size_t n;
+    bool failed; /* memory was short for one of them */
+};
+/* As rc_alloc, but the block belongs to the store. */
+void *rc_store_take(struct rc_store *store, size_t n, size_t size);
+void rc_store_free(struct rc_store *store);
 
 /* Allocations of this thread between rc_memory_lend and rc_memory_lent do not count. They take the place of
  * pages of larger maps that are still untouched, and are freed before those are touched. rc_memory_lent

@@ -116,7 +116,7 @@ tools               | formats/core/core.h formats/rcg/rcg.h    | formats/core fo
 tools               | formats/format.h formats/export.h        | formats
 tools               | formats/containers/containers.h          | formats/containers formats/containers/packing
 END
-base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h libcontact/expected.h'
+base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h libcontact/expected.h libcontact/owned.h'
 public='libcontact/contact.h libcontact/grid.h libcontact/model.h'
 physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/plastic'
 physics="$physics libcontact/model libcontact/adhesion libcontact/leak libcontact/slip libcontact/wear libcontact/travel libcontact/visco libcontact/fatigue libcontact/heat libcontact/surface libcontact/features"
@@ -125,7 +125,7 @@ plot='tools/plot tools/canvas'
 reader='libcontact/grid.h formats/core/core.h formats/format.h formats/containers/containers.h formats/sandbox/sandbox.h'
 formats='libcontact formats formats/core formats/containers formats/containers/packing formats/sandbox'
 sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!; s!%cli!$cli!; s!%plot!$plot!; s!%ranks!libcontact/ranks/ranks.h!
-    s!%reader!$reader!; s!%formats!$formats!" arrows.txt
+    s!%reader!$reader!; s!%formats!$formats!; s!libcontact/grid.h!& libcontact/owned.h!" arrows.txt
 
 # ---- files of the tree ----
 

@@ -16,6 +16,7 @@ typedef double rc_octaves_of(const void *ctx, double x);
  * NULL when memory is short. */
 struct rc_octaves *rc_octaves_new(double first, double last, rc_octaves_of *f, const void *ctx);
 void rc_octaves_free(struct rc_octaves *octaves); /* NULL is allowed */
+RC_OWNER(rc_octaves)
 /* At n numbers x >= 0; outside the table the function is called. */
 void rc_octaves_values(const struct rc_octaves *octaves, size_t n, const double *x, double *out);
 

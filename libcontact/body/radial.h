@@ -30,6 +30,7 @@ struct rc_radial_source {
 /* NULL when memory is short. */
 struct rc_radial *rc_radial_new(const struct rc_radial_source *source);
 void rc_radial_free(struct rc_radial *radial); /* NULL is allowed */
+RC_OWNER(rc_radial)
 /* f at `points` distances r >= 0, m: out[point * n + function]. */
 void rc_radial_values(const struct rc_radial *radial, size_t points, const double *r, double *out);
 

@@ -27,6 +27,7 @@ enum rc_status rc_stack_check(const struct rc_body *body, struct rc_err *err);
 /* NULL when memory is short. */
 struct rc_stack *rc_stack_new(const struct rc_body *body, struct rc_err *err);
 void rc_stack_free(struct rc_stack *stack); /* NULL is allowed */
+RC_OWNER(rc_stack)
 
 /* g(q), 1/Pa: a pressure wave of wave number q (rad/m) displaces the surface by 2 g/q times its amplitude. On
  * a half-space g is 1/E*. */

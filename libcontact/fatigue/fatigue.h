@@ -40,6 +40,7 @@ struct rc_history {
 };
 struct rc_history *rc_history_new(size_t most); /* NULL: memory is short */
 void rc_history_free(struct rc_history *history);
+RC_OWNER(rc_history)
 
 struct rc_fatigue_values {
     double of[RC_FATIGUES];

@@ -32,6 +32,7 @@ struct rc_heat_cells;
 struct rc_heat_cells *rc_heat_cells_new(const struct rc_shape *offsets,
                                         const struct rc_heated *body, struct rc_err *err);
 void rc_heat_cells_free(struct rc_heat_cells *cells); /* NULL is allowed */
+RC_OWNER(rc_heat_cells)
 /* The part of this parity; the sum of the four parts is the coefficient. */
 struct rc_heat_part {
     const struct rc_heat_cells *cells;
@@ -79,10 +80,12 @@ struct rc_conduction {
 struct rc_conduction *rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary,
                                         size_t threads, struct rc_err *err);
 void rc_conduction_free(struct rc_conduction *c); /* NULL is allowed */
+RC_OWNER(rc_conduction)
 /* Sets the spectrum of a body. RC_FAIL when memory is short; rc_warming_free in either case. */
 enum rc_status rc_warming_set(struct rc_warming *w, struct rc_conduction *c,
                               const struct rc_heated *body, struct rc_err *err);
 void rc_warming_free(struct rc_warming *w);
+RC_OWNER(rc_warming)
 /* Keeps the transform of a map of nx ny values. */
 void rc_conduction_load(struct rc_conduction *c, const double *q);
 /* The sum of the fields of the loaded map. */
@@ -99,6 +102,7 @@ struct rc_heat_inverse *rc_heat_inverse_new(struct rc_conduction *c,
                                             const struct rc_heated bodies[2], size_t n,
                                             const size_t *node, struct rc_err *err);
 void rc_heat_inverse_free(struct rc_heat_inverse *inverse); /* NULL is allowed */
+RC_OWNER(rc_heat_inverse)
 /* z = E' A E r: a number for each node in contact. */
 void rc_heat_inverse_apply(struct rc_heat_inverse *inverse,
                            const struct rc_warming *const bodies[2], const double *r, double *z);

@@ -45,12 +45,14 @@ struct rc_fft *rc_fft_new_framed(const struct rc_ranks *ranks, struct rc_fft *le
                                  const struct rc_shape *shape, const struct rc_frame *frame,
                                  enum rc_precision precision, size_t threads, struct rc_err *err);
 void rc_fft_free(struct rc_fft *fft);
+RC_OWNER(rc_fft)
 /* Sides of the transformed grid: with padding for a free map; a profile has none across it. */
 void rc_fft_period(const struct rc_shape *shape, enum rc_boundary boundary, size_t *px, size_t *py);
 
 /* NULL when memory is short. */
 struct rc_spectrum *rc_spectrum_new(const struct rc_fft *fft, struct rc_err *err);
 void rc_spectrum_free(struct rc_spectrum *spectrum);
+RC_OWNER(rc_spectrum)
 /* Its value at wave number 0: for a kernel given by values, their sum over a period. */
 double rc_spectrum_total(const struct rc_spectrum *spectrum);
 /* Sets it to the spectrum of a kernel: on the free boundary the transform of its values, on the periodic one

@@ -67,6 +67,7 @@ struct rc_operator *rc_operator_new(const struct rc_shape *shape,
 struct rc_operator *rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
                                        const struct rc_shape *shape, struct rc_err *err);
 void rc_operator_free(struct rc_operator *op); /* NULL is allowed */
+RC_OWNER(rc_operator)
 /* RC_FAIL, and *err says why, when there is no such engine, or none for the boundary or the ranks. */
 enum rc_status rc_operator_check(const struct rc_shape *shape,
                                  const struct rc_operator_options *options, struct rc_err *err);

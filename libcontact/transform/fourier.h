@@ -49,5 +49,6 @@ struct rc_line *rc_line_new(size_t n, size_t threads, struct rc_err *err);
 void rc_line_forward(const struct rc_line *line, const double *v, double complex *s);
 void rc_line_backward(const struct rc_line *line, const double complex *s, double *v);
 void rc_line_free(struct rc_line *line); /* NULL is allowed */
+RC_OWNER(rc_line)
 
 #endif

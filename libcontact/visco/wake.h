@@ -23,6 +23,7 @@ struct rc_slide_medium {
 struct rc_wake *rc_wake_new(const struct rc_shape *shape, const struct rc_slide_medium *medium,
                             size_t threads, struct rc_err *err);
 void rc_wake_free(struct rc_wake *wake); /* NULL is allowed */
+RC_OWNER(rc_wake)
 /* Takes the pressure p for the fields below. */
 void rc_wake_load(struct rc_wake *wake, const double *p);
 enum rc_wake_field {

@@ -91,6 +91,7 @@ struct rc_slabs;
 struct rc_slabs *rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *options,
                               struct rc_err *err);
 void rc_slabs_free(struct rc_slabs *slabs); /* NULL is allowed */
+RC_OWNER(rc_slabs)
 
 /* u = S' e, m; its mean is 0. u may be NULL. */
 void rc_slabs_up(struct rc_slabs *slabs, const struct rc_slab_strain *strain, double *u);

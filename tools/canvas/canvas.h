@@ -11,6 +11,7 @@
 #include <stdio.h>
 
 #include "libcontact/grid.h"
+#include "libcontact/owned.h"
 #include "colormap.h"
 #include "png.h"
 

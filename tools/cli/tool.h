@@ -24,6 +24,7 @@
 
 #include "formats/rcg/rcg.h"
 #include "libcontact/grid.h"
+#include "libcontact/owned.h"
 #include "tools/text/text.h"
 
 enum {
