@@ -95,7 +95,8 @@ static enum rc_status
 check_section(const struct rc_export *format, const struct rc_grid *g, struct rc_err *err)
 {
     enum rc_status status = RC_FAIL;
-    double *at, step;
+    RC_OWNED double *at = NULL;
+    double step;
 
     if (rc_grid_get(g, "section") == NULL || rc_grid_get(g, "depths") == NULL)
         return RC_OK;
@@ -110,7 +111,6 @@ check_section(const struct rc_export *format, const struct rc_grid *g, struct rc
                        "them with --even",
                        format->name);
     }
-    free(at);
     return status;
 }
 

@@ -17,7 +17,7 @@
 #include <stdio.h>
 
 #include "formats/core/core.h"
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 /* Options of the user. */
 struct rc_export_wish {

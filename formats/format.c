@@ -95,16 +95,14 @@ rc_format_find(const struct rc_file *file, struct rc_err *err)
     if (best != NULL)
         return best;
     if (file->size == 0)
-        rc_err_set(err, "the file is empty");
-    else if (rc_file_holds(file, 0, "\x1f\x8b", 2))
-        rc_err_set(err, "the file is packed with gzip twice: unpack it once (gunzip)");
-    else if (other_file(file) != NULL)
-        rc_err_set(err, "%s", other_file(file));
-    else
-        rc_err_set(
-            err,
-            "not recognised: it has none of the formats of --formats (it begins '%s'); give "
-            "--format NAME, or save X3P, SDF or text in the program that made it",
-            rc_text_shown(first, (const char *)file->data, file->size < 24 ? file->size : 24));
-    return NULL;
+        return rc_err_null(err, "the file is empty");
+    if (rc_file_holds(file, 0, "\x1f\x8b", 2))
+        return rc_err_null(err, "the file is packed with gzip twice: unpack it once (gunzip)");
+    if (other_file(file) != NULL)
+        return rc_err_null(err, "%s", other_file(file));
+    return rc_err_null(
+        err,
+        "not recognised: it has none of the formats of --formats (it begins '%s'); give "
+        "--format NAME, or save X3P, SDF or text in the program that made it",
+        rc_text_shown(first, (const char *)file->data, file->size < 24 ? file->size : 24));
 }

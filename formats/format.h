@@ -22,7 +22,7 @@
 #include <stddef.h>
 
 #include "formats/core/core.h"
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 struct rc_format {
     const char *name;     /* "x3p": name for --format                                            */

@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 enum {
     RC_MD5_TEXT = 33 /* 32 hexadecimal digits in lower case, and the NUL */
@@ -23,5 +23,6 @@ struct rc_md5 *rc_md5_new(struct rc_err *err); /* NULL when memory is short */
 void rc_md5_add(struct rc_md5 *md5, const void *bytes, size_t n);
 void rc_md5_get(struct rc_md5 *md5, char text[RC_MD5_TEXT]); /* once, last */
 void rc_md5_free(struct rc_md5 *md5);                        /* NULL is allowed */
+RC_OWNER(rc_md5)
 
 #endif

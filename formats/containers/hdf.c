@@ -17,21 +17,17 @@ rc_hdf_is(const struct rc_file *file)
 struct rc_hdf *
 rc_hdf_new(const struct rc_file *file, struct rc_err *err)
 {
-    struct rc_hdf *h = calloc(1, sizeof *h);
+    RC_OWNED struct rc_hdf *h = calloc(1, sizeof *h);
     const unsigned as_it_is = H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE;
 
-    if (h == NULL) {
-        rc_err_set(err, "out of memory for reading HDF5");
-        return NULL;
-    }
+    if (h == NULL)
+        return rc_err_null(err, "out of memory for reading HDF5");
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* errors are reported here, not by the library */
     /* opened for reading: HDF5 does not write to the bytes */
     h->file = H5LTopen_file_image((void *)(uintptr_t)file->data, file->size, as_it_is);
     if (h->file >= 0)
-        return h;
-    rc_err_set(err, "not an HDF5 file, or the file is damaged or cut off");
-    free(h);
-    return NULL;
+        return rc_give(&h);
+    return rc_err_null(err, "not an HDF5 file, or the file is damaged or cut off");
 }
 
 void

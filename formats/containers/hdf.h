@@ -6,12 +6,13 @@
 #include <stddef.h>
 
 #include "formats/core/core.h"
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 struct rc_hdf;
 
 struct rc_hdf *rc_hdf_new(const struct rc_file *file, struct rc_err *err);
 void rc_hdf_free(struct rc_hdf *hdf); /* NULL is allowed */
+RC_OWNER(rc_hdf)
 
 /* A dataset of numbers with two dimensions, besides leading ones of length 1. */
 struct rc_hdf_set {

@@ -35,7 +35,7 @@ rc_hdf_number(struct rc_hdf *h, const char *path, const char *name, double *valu
 {
     hid_t attribute = open_attribute(h, path, name), type;
     size_t n;
-    double *v = NULL;
+    RC_OWNED double *v = NULL;
     bool good = false;
 
     if (attribute < 0)
@@ -47,7 +47,6 @@ rc_hdf_number(struct rc_hdf *h, const char *path, const char *name, double *valu
         *value = v[0];
         good = true;
     }
-    free(v);
     H5Tclose(type);
     H5Aclose(attribute);
     return good;
@@ -73,7 +72,7 @@ char *
 rc_hdf_text(struct rc_hdf *h, const char *path, const char *name, char *to, size_t size)
 {
     hid_t attribute = open_attribute(h, path, name), type, space;
-    unsigned char *bytes = NULL;
+    RC_OWNED unsigned char *bytes = NULL;
     size_t n;
 
     to[0] = '\0';
@@ -88,7 +87,6 @@ rc_hdf_text(struct rc_hdf *h, const char *path, const char *name, char *to, size
         if (H5Tis_variable_str(type) > 0)
             H5Dvlen_reclaim(type, space, H5P_DEFAULT, bytes);
     }
-    free(bytes);
     H5Sclose(space);
     H5Tclose(type);
     H5Aclose(attribute);
@@ -153,7 +151,7 @@ rc_hdf_table(struct rc_hdf *h, const char *path, const char *attribute, rc_hdf_t
     hid_t from = attribute != NULL ? open_attribute(h, path, attribute)
                                    : H5Dopen2(h->file, path, H5P_DEFAULT);
     hid_t stored = -1, type = -1, space = -1;
-    unsigned char *bytes = NULL;
+    RC_OWNED unsigned char *bytes = NULL;
     bool good = false;
     hssize_t n;
 
@@ -171,7 +169,6 @@ rc_hdf_table(struct rc_hdf *h, const char *path, const char *attribute, rc_hdf_t
         take_records(type, bytes, (size_t)n, take, arg);
         H5Dvlen_reclaim(type, space, H5P_DEFAULT, bytes);
     }
-    free(bytes);
     H5Tclose(type);
     H5Tclose(stored);
     H5Sclose(space);

@@ -93,19 +93,17 @@ read_table(struct ole *o, struct rc_err *err)
 static unsigned char *
 read_chain(const struct ole *o, uint32_t sector, size_t n)
 {
-    unsigned char *all = malloc(n + 1);
+    RC_OWNED unsigned char *all = malloc(n + 1);
 
     for (size_t done = 0; all != NULL && done < n; done += o->sector) {
         size_t part = n - done < o->sector ? n - done : o->sector;
 
-        if (sector >= o->sectors || part > o->b.size || place(o, sector) > o->b.size - part) {
-            free(all);
+        if (sector >= o->sectors || part > o->b.size || place(o, sector) > o->b.size - part)
             return NULL;
-        }
         memcpy(all + done, o->b.data + place(o, sector), part);
         sector = o->table[sector];
     }
-    return all;
+    return rc_give(&all);
 }
 
 static size_t
@@ -127,27 +125,21 @@ read_small(const struct ole *o, uint32_t root, uint32_t first, size_t n)
     struct rc_bytes head = o->b, next = {0};
     uint32_t start = (uint32_t)rc_bytes_at(&head, AT_SMALL_TABLE, RC_RAW_U32);
     size_t bytes = chain_length(o, root), links = chain_length(o, start);
-    unsigned char *all = malloc(n + 1), *in = read_chain(o, root, bytes);
-    unsigned char *table = read_chain(o, start, links);
-    bool good = all != NULL && in != NULL && table != NULL;
+    RC_OWNED unsigned char *in = read_chain(o, root, bytes);
+    RC_OWNED unsigned char *all = malloc(n + 1);
+    RC_OWNED unsigned char *table = read_chain(o, start, links);
 
+    if (all == NULL || in == NULL || table == NULL)
+        return NULL;
     next.data = table;
     next.size = links;
-    for (size_t done = 0; good && done < n; done += o->small) {
-        size_t part = n - done < o->small ? n - done : o->small;
-
-        good = first < bytes / o->small && first < links / 4;
-        if (good) {
-            memcpy(all + done, in + first * o->small, part);
-            first = (uint32_t)rc_bytes_at(&next, 4 * (size_t)first, RC_RAW_U32);
-        }
+    for (size_t done = 0; done < n; done += o->small) {
+        if (first >= bytes / o->small || first >= links / 4)
+            return NULL;
+        memcpy(all + done, in + first * o->small, n - done < o->small ? n - done : o->small);
+        first = (uint32_t)rc_bytes_at(&next, 4 * (size_t)first, RC_RAW_U32);
     }
-    free(in);
-    free(table);
-    if (good)
-        return all;
-    free(all);
-    return NULL;
+    return rc_give(&all);
 }
 
 /* True if the entry has this name, in UTF-16 with a NUL. */
@@ -170,7 +162,8 @@ find_stream(const struct ole *o, const char *name, size_t *n, struct rc_err *err
     struct rc_bytes head = o->b, entries = {0};
     uint32_t start = (uint32_t)rc_bytes_at(&head, AT_DIRECTORY, RC_RAW_U32), root = END;
     size_t cutoff = (size_t)rc_bytes_at(&head, AT_CUTOFF, RC_RAW_U32);
-    unsigned char *all, *directory = read_chain(o, start, chain_length(o, start));
+    RC_OWNED unsigned char *directory = read_chain(o, start, chain_length(o, start));
+    unsigned char *all;
 
     entries.data = directory;
     entries.size = directory == NULL ? 0 : chain_length(o, start);
@@ -182,7 +175,6 @@ find_stream(const struct ole *o, const char *name, size_t *n, struct rc_err *err
             root = first;
         if (directory[at + AT_TYPE] != STREAM || !is_named(directory + at, name))
             continue;
-        free(directory);
         *n = (size_t)size;
         all = size > o->b.size ? NULL
               : *n < cutoff    ? read_small(o, root, first, *n)
@@ -194,9 +186,7 @@ find_stream(const struct ole *o, const char *name, size_t *n, struct rc_err *err
                 name);
         return all;
     }
-    free(directory);
-    rc_err_set(err, "the compound file has no stream '%s'", name);
-    return NULL;
+    return rc_err_null(err, "the compound file has no stream '%s'", name);
 }
 
 unsigned char *
@@ -207,10 +197,8 @@ rc_ole_stream(const struct rc_file *file, const char *name, size_t *n, struct rc
     size_t shift = (size_t)rc_bytes_at(&b, AT_SHIFT, RC_RAW_U16), small = rc_bytes_u16(&b);
     unsigned char *all = NULL;
 
-    if (!rc_ole_is(file) || shift < 9 || shift > 16 || small < 4 || small > shift) {
-        rc_err_set(err, "no compound file, or one whose header is damaged");
-        return NULL;
-    }
+    if (!rc_ole_is(file) || shift < 9 || shift > 16 || small < 4 || small > shift)
+        return rc_err_null(err, "no compound file, or one whose header is damaged");
     o.sector = (size_t)1 << shift;
     o.small = (size_t)1 << small;
     if (read_table(&o, err) == RC_OK)

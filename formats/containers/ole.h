@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "formats/core/core.h"
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 /* True if it begins like such a file. */
 bool rc_ole_is(const struct rc_file *file);

@@ -65,24 +65,19 @@ size_of(thandle_t handle)
 struct rc_tiff *
 rc_tiff_new(const struct rc_file *file, struct rc_err *err)
 {
-    struct rc_tiff *t = calloc(1, sizeof *t);
+    RC_OWNED struct rc_tiff *t = calloc(1, sizeof *t);
 
-    if (t == NULL) {
-        rc_err_set(err, "out of memory for reading a TIFF");
-        return NULL;
-    }
+    if (t == NULL)
+        return rc_err_null(err, "out of memory for reading a TIFF");
     TIFFSetErrorHandler(NULL); /* errors are reported here, not by the library */
     TIFFSetWarningHandler(NULL);
     t->data = file->data;
     t->size = file->size;
     t->tiff = TIFFClientOpen("file", "rm", t, read_some, write_none, seek, close_nothing, size_of,
                              NULL, NULL);
-    if (t->tiff == NULL) {
-        rc_err_set(err, "no TIFF, or a damaged one: its first page cannot be read");
-        free(t);
-        return NULL;
-    }
-    return t;
+    if (t->tiff == NULL)
+        return rc_err_null(err, "no TIFF, or a damaged one: its first page cannot be read");
+    return rc_give(&t);
 }
 
 void
@@ -292,8 +287,7 @@ enum rc_status
 rc_tiff_values(struct rc_tiff *t, const struct rc_tiff_shape *shape, double *v, struct rc_err *err)
 {
     uint16_t planar = PLANARCONFIG_CONTIG, kind = SAMPLEFORMAT_UINT;
-    enum rc_status status = RC_FAIL;
-    unsigned char *row = NULL;
+    RC_OWNED unsigned char *row = NULL;
     tmsize_t size = TIFFScanlineSize(t->tiff);
     size_t stride, least;
 
@@ -312,19 +306,14 @@ rc_tiff_values(struct rc_tiff *t, const struct rc_tiff_shape *shape, double *v, 
     if ((row = malloc((size_t)size)) == NULL)
         return rc_err_set(err, "out of memory for a row of %zu pixels", shape->nx);
     for (size_t j = 0; j < shape->ny; j++) {
-        if (TIFFReadScanline(t->tiff, row, (uint32_t)j, 0) != 1) {
-            rc_err_set(err,
-                       "row %zu of %zu (from 0) cannot be unpacked: the file is damaged or cut off",
-                       j, shape->ny);
-            goto done;
-        }
+        if (TIFFReadScanline(t->tiff, row, (uint32_t)j, 0) != 1)
+            return rc_err_set(
+                err, "row %zu of %zu (from 0) cannot be unpacked: the file is damaged or cut off",
+                j, shape->ny);
         for (size_t i = 0; i < shape->nx; i++)
             v[j * shape->nx + i] = sample(row, i * stride, shape->bits, kind);
     }
-    status = RC_OK;
-done:
-    free(row);
-    return status;
+    return RC_OK;
 }
 
 /* ---- a quick look ---- */

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "formats/core/core.h"
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 enum {
     RC_TIFF_DESCRIPTION = 270,
@@ -20,6 +20,7 @@ struct rc_tiff;
 /* Opens the file at the first page. The bytes of the file must outlive it. */
 struct rc_tiff *rc_tiff_new(const struct rc_file *file, struct rc_err *err);
 void rc_tiff_free(struct rc_tiff *tiff); /* NULL is allowed */
+RC_OWNER(rc_tiff)
 
 /* The number of pages; RC_FAIL if one is damaged or points outside of the file. Afterwards the first page is
  * the current one. */

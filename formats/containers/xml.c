@@ -205,13 +205,9 @@ enum rc_status
 rc_xml_read(const char *name, const unsigned char *bytes, size_t n, rc_element *element, void *arg,
             struct rc_err *err)
 {
-    struct rc_xml *x = rc_xml_new(name, false, element, arg, err);
-    enum rc_status status = RC_FAIL;
+    RC_OWN(rc_xml, x) = rc_xml_new(name, false, element, arg, err);
 
-    if (x != NULL && rc_xml_feed(x, bytes, n, err) == RC_OK)
-        status = rc_xml_end(x, err);
-    rc_xml_free(x);
-    return status;
+    return x != NULL && rc_xml_feed(x, bytes, n, err) == RC_OK ? rc_xml_end(x, err) : RC_FAIL;
 }
 
 /* ---- numbers in attributes and text ---- */

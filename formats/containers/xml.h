@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 struct rc_xml;
 
@@ -27,6 +27,7 @@ enum rc_status rc_xml_feed(struct rc_xml *xml, const unsigned char *bytes, size_
 /* Ends the document: RC_FAIL if it is incomplete. */
 enum rc_status rc_xml_end(struct rc_xml *xml, struct rc_err *err);
 void rc_xml_free(struct rc_xml *xml); /* NULL is allowed */
+RC_OWNER(rc_xml)
 
 /* Parses a whole document of n bytes. */
 enum rc_status rc_xml_read(const char *name, const unsigned char *bytes, size_t n,

@@ -32,30 +32,23 @@ rc_zip_read_new(const struct rc_file *file, struct rc_err *err)
 {
     if (file->size >= 4 && rc_file_holds(file, 0, "PK", 2))
         return rc_zip_read_behind(file, err);
-    rc_err_set(err, "no ZIP archive: it does not begin with 'PK'");
-    return NULL;
+    return rc_err_null(err, "no ZIP archive: it does not begin with 'PK'");
 }
 
 struct rc_zip_read *
 rc_zip_read_behind(const struct rc_file *file, struct rc_err *err)
 {
-    struct rc_zip_read *a = NULL;
-    zip_error_t why;
+    RC_OWNED struct rc_zip_read *a = calloc(1, sizeof *a);
+    RC_ENDS(zip_error_fini) zip_error_t why;
 
     zip_error_init(&why);
-    if ((a = calloc(1, sizeof *a)) == NULL) {
-        rc_err_set(err, "out of memory for an archive (%zu bytes)", sizeof *a);
-        goto done;
-    }
+    if (a == NULL)
+        return rc_err_null(err, "out of memory for an archive (%zu bytes)", sizeof *a);
     a->size = file->size;
-    if ((a->zip = open_zip(file, &why)) == NULL) {
-        rc_err_set(err, "the ZIP archive is damaged or cut off: %s", zip_error_strerror(&why));
-        free(a);
-        a = NULL;
-    }
-done:
-    zip_error_fini(&why);
-    return a;
+    if ((a->zip = open_zip(file, &why)) == NULL)
+        return rc_err_null(err, "the ZIP archive is damaged or cut off: %s",
+                           zip_error_strerror(&why));
+    return rc_give(&a);
 }
 
 void
@@ -174,47 +167,43 @@ unpack(zip_file_t *f, const char *shown, uint64_t size, unsigned char *chunk, st
     }
 }
 
+static void
+close_file(zip_file_t **f)
+{
+    if (*f != NULL)
+        zip_fclose(*f);
+}
+
 enum rc_status
 rc_zip_read_member(struct rc_zip_read *a, size_t member, uint64_t most, rc_zip_take *take,
                    void *arg, char md5[RC_MD5_TEXT], struct rc_err *err)
 {
-    enum rc_status status = RC_FAIL;
+    enum rc_status status;
     const char *name = rc_zip_read_name(a, member);
-    unsigned char *chunk = NULL;
-    struct rc_md5 *checksum = NULL;
-    zip_file_t *f = NULL;
+    RC_OWNED unsigned char *chunk = NULL;
+    RC_OWN(rc_md5, checksum) = NULL;
+    RC_ENDS(close_file) zip_file_t *f = NULL;
     char shown[RC_SHOWN];
     uint64_t size;
 
     rc_word_shown(shown, name);
     if (rc_zip_read_size(a, member, &size, err) != RC_OK)
-        goto done;
-    if (size > most) {
-        rc_err_set(err,
-                   "member '%s' of the archive holds %" PRIu64 " bytes, more than the %" PRIu64
-                   " that are read",
-                   shown, size, most);
-        goto done;
-    }
-    if ((f = zip_fopen_index(a->zip, member, 0)) == NULL) {
-        rc_err_set(err, "member '%s' of the archive cannot be read: %s", shown,
-                   zip_strerror(a->zip));
-        goto done;
-    }
-    if ((chunk = malloc(RC_ZIP_CHUNK)) == NULL) {
-        rc_err_set(err, "out of memory for %d bytes", RC_ZIP_CHUNK);
-        goto done;
-    }
+        return RC_FAIL;
+    if (size > most)
+        return rc_err_set(err,
+                          "member '%s' of the archive holds %" PRIu64
+                          " bytes, more than the %" PRIu64 " that are read",
+                          shown, size, most);
+    if ((f = zip_fopen_index(a->zip, member, 0)) == NULL)
+        return rc_err_set(err, "member '%s' of the archive cannot be read: %s", shown,
+                          zip_strerror(a->zip));
+    if ((chunk = malloc(RC_ZIP_CHUNK)) == NULL)
+        return rc_err_set(err, "out of memory for %d bytes", RC_ZIP_CHUNK);
     if (md5 != NULL && (checksum = rc_md5_new(err)) == NULL)
-        goto done;
+        return RC_FAIL;
     status = unpack(f, shown, size, chunk, checksum, take, arg, err);
     if (status == RC_OK && checksum != NULL)
         rc_md5_get(checksum, md5);
-done:
-    rc_md5_free(checksum);
-    free(chunk);
-    if (f != NULL)
-        zip_fclose(f);
     return status;
 }
 
@@ -244,10 +233,8 @@ rc_zip_read_bytes(struct rc_zip_read *a, size_t member, uint64_t most, size_t *n
     if (rc_zip_read_size(a, member, &size, err) != RC_OK)
         return NULL;
     size = size < most ? size : most; /* a larger one is refused before it is unpacked */
-    if ((b.bytes = malloc((size_t)size + 1)) == NULL) {
-        rc_err_set(err, "out of memory for %" PRIu64 " bytes", size);
-        return NULL;
-    }
+    if ((b.bytes = malloc((size_t)size + 1)) == NULL)
+        return rc_err_null(err, "out of memory for %" PRIu64 " bytes", size);
     if (rc_zip_read_member(a, member, most, take_bytes, &b, md5, err) != RC_OK) {
         free(b.bytes);
         return NULL;
@@ -268,15 +255,13 @@ rc_zip_read_xml(struct rc_zip_read *a, size_t member, uint64_t most, const char 
                 bool attributes, rc_element *element, void *arg, char md5[RC_MD5_TEXT],
                 struct rc_err *err)
 {
-    struct rc_xml *xml = rc_xml_new(name, attributes, element, arg, err);
-    enum rc_status status = RC_FAIL;
+    RC_OWN(rc_xml, xml) = rc_xml_new(name, attributes, element, arg, err);
 
     if (xml == NULL)
         return RC_FAIL;
-    if (rc_zip_read_member(a, member, most, take_xml, xml, md5, err) == RC_OK)
-        status = rc_xml_end(xml, err);
-    rc_xml_free(xml);
-    return status;
+    return rc_zip_read_member(a, member, most, take_xml, xml, md5, err) == RC_OK
+               ? rc_xml_end(xml, err)
+               : RC_FAIL;
 }
 
 size_t

@@ -11,7 +11,7 @@
 #include "checksum.h"
 #include "xml.h"
 #include "formats/core/core.h"
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 struct rc_zip_read;
 
@@ -20,6 +20,7 @@ struct rc_zip_read *rc_zip_read_new(const struct rc_file *file, struct rc_err *e
 /* The same with other bytes before the archive, whose offsets include them. */
 struct rc_zip_read *rc_zip_read_behind(const struct rc_file *file, struct rc_err *err);
 void rc_zip_read_free(struct rc_zip_read *archive); /* NULL is allowed */
+RC_OWNER(rc_zip_read)
 
 size_t rc_zip_read_members(const struct rc_zip_read *archive);
 const char *rc_zip_read_name(const struct rc_zip_read *archive, size_t member); /* "" for none */

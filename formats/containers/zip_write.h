@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 struct rc_zip_write;
 
@@ -19,5 +19,6 @@ enum rc_status rc_zip_write_add(struct rc_zip_write *archive, const char *name, 
 /* Compresses the members and writes the archive; called once, at the end. */
 enum rc_status rc_zip_write_finish(struct rc_zip_write *archive, FILE *out, struct rc_err *err);
 void rc_zip_write_free(struct rc_zip_write *archive); /* NULL is allowed */
+RC_OWNER(rc_zip_write)
 
 #endif

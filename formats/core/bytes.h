@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 struct rc_bytes {
     const unsigned char *data;

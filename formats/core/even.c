@@ -60,7 +60,7 @@ static enum rc_status
 median_spacing(const double *x, size_t points, double *median, struct rc_err *err)
 {
     size_t n = points - 1;
-    double *d = calloc(points, sizeof *d);
+    RC_OWNED double *d = calloc(points, sizeof *d);
 
     assert(points >= 2);
     if (d == NULL)
@@ -69,7 +69,6 @@ median_spacing(const double *x, size_t points, double *median, struct rc_err *er
         d[k] = x[k + 1] - x[k];
     qsort(d, n, sizeof *d, by_value);
     *median = (d[(n - 1) / 2] + d[n / 2]) / 2;
-    free(d);
     return RC_OK;
 }
 

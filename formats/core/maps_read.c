@@ -123,7 +123,7 @@ decode(const struct rc_map *map, const struct rc_file *file, double *v, struct r
     size_t outer = map->by_columns ? map->nx : map->ny;
     size_t inner = map->by_columns ? map->ny : map->nx;
     struct rc_bytes bytes = rc_file_bytes(file, map->big);
-    double *line;
+    RC_OWNED double *line = NULL;
 
     bytes.at = map->at;
     if (!is_turned(map) && map->padding == 0) {
@@ -138,7 +138,6 @@ decode(const struct rc_map *map, const struct rc_file *file, double *v, struct r
             bytes.at += map->padding;
         place(map, line, k, v);
     }
-    free(line);
     return RC_OK;
 }
 
@@ -164,7 +163,7 @@ static enum rc_status
 fill(const struct rc_map *map, const struct rc_file *file, double *v, struct rc_err *err)
 {
     enum rc_status status;
-    double *raw;
+    RC_OWNED double *raw = NULL;
 
     if (!map->by_columns) {
         status = map->fill(file, map, v, err);
@@ -177,7 +176,6 @@ fill(const struct rc_map *map, const struct rc_file *file, double *v, struct rc_
     status = map->fill(file, map, raw, err);
     for (size_t k = 0; k < map->nx && status == RC_OK; k++)
         place(map, raw + k * map->ny, k, v);
-    free(raw);
     return status;
 }
 
@@ -230,16 +228,14 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
     const struct rc_map *map = &maps.map[index < RC_MAPS_MOST ? index : 0];
     struct rc_wish said = *wish;
     struct rc_shape shape;
-    struct rc_grid *g = NULL;
+    RC_OWN(rc_grid, g) = NULL;
     bool is_length, is_height;
     double si;
 
     if (rc_maps_describe(find, file, wish, &maps, err) != RC_OK)
         return NULL;
-    if (index >= maps.n || index >= RC_MAPS_MOST) {
-        rc_err_set(err, "there is no channel %zu: the file has %zu", index + 1, maps.n);
-        return NULL;
-    }
+    if (index >= maps.n || index >= RC_MAPS_MOST)
+        return rc_err_null(err, "there is no channel %zu: the file has %zu", index + 1, maps.n);
     if (map->fill != NULL && rc_map_fits(file, map->nx, map->ny, err) != RC_OK)
         return NULL;
     is_length = strcmp(map->unit, "m") == 0;
@@ -266,19 +262,16 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
     if (map->doubt != NULL && isnan(wish->z_unit))
         rc_note(notes, "%s", map->doubt);
     if ((map->fill == NULL ? decode(map, file, g->v, err) : fill(map, file, g->v, err)) != RC_OK)
-        goto failed;
+        return NULL;
     scale(map, si, g->v);
     if (drop_infinite(g, notes, err) != RC_OK ||
         (strcmp(map->name, "height") != 0 &&
          rc_word_keep(g, "file.channel", map->name, err) != RC_OK) ||
         rc_piece_keep(g, "file.title", map->title, err) != RC_OK ||
         (map->periodic && rc_grid_set(g, "periodic", "yes", err) != RC_OK))
-        goto failed;
+        return NULL;
     for (size_t k = 0; k < maps.keys; k++)
         if (rc_grid_set(g, maps.key[k].name, maps.key[k].value, err) != RC_OK)
-            goto failed;
-    return g;
-failed:
-    rc_grid_free(g);
-    return NULL;
+            return NULL;
+    return rc_give(&g);
 }

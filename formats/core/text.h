@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 /* Lines that end in LF, CR LF or CR. */
 struct rc_lines {

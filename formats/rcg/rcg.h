@@ -12,7 +12,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 enum {
     RC_HEADER_MAX = 65536 /* bytes of one frame's header, first to last line feed */
@@ -70,6 +70,7 @@ bool rc_reader_foreign(const struct rc_reader *reader, const char **head);
 /* Largest case number so far: `first_case` for the reader of the next file. */
 size_t rc_reader_last_case(const struct rc_reader *reader);
 void rc_reader_free(struct rc_reader *reader);
+RC_OWNER(rc_reader)
 
 struct rc_writer;
 
@@ -83,6 +84,7 @@ enum rc_status rc_writer_put(struct rc_writer *writer, const struct rc_grid *gri
 /* Writes the end line and flushes. */
 enum rc_status rc_writer_end(struct rc_writer *writer, struct rc_err *err);
 void rc_writer_free(struct rc_writer *writer);
+RC_OWNER(rc_writer)
 
 /* Ends a stream, whether begun or not, with RCGFAIL, the message and the exit status of this program, 1 or 2.
  * The reader of the stream then fails too. Silent when even that cannot be written. */

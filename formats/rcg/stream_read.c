@@ -34,10 +34,8 @@ rc_reader_new(FILE *file, size_t first_case, size_t memory, struct rc_err *err)
 {
     struct rc_reader *r = malloc(sizeof *r);
 
-    if (r == NULL) {
-        rc_err_set(err, "out of memory for a reader (%zu bytes)", sizeof *r);
-        return NULL;
-    }
+    if (r == NULL)
+        return rc_err_null(err, "out of memory for a reader (%zu bytes)", sizeof *r);
     r->file = file;
     r->memory = memory;
     r->share = NULL;
@@ -296,20 +294,16 @@ static struct rc_grid *
 grid_of_head(struct rc_reader *r, const struct head *head, struct rc_err *err)
 {
     struct rc_shape shape;
-    struct rc_grid *g;
+    RC_OWN(rc_grid, g) = NULL;
     size_t first, rows;
 
     for (int f = 0; f < FIELDS; f++)
-        if (head->field[f] == NULL) {
-            rc_err_set(err, "the header has no %s= line", field_names[f]);
-            return NULL;
-        }
+        if (head->field[f] == NULL)
+            return rc_err_null(err, "the header has no %s= line", field_names[f]);
     if (read_shape(r, head, &shape, err) != RC_OK)
         return NULL;
-    if (strcmp(head->field[TYPE], "f64") != 0 && strcmp(head->field[TYPE], "f32") != 0) {
-        rc_err_set(err, "type=%.40s is neither f64 nor f32", head->field[TYPE]);
-        return NULL;
-    }
+    if (strcmp(head->field[TYPE], "f64") != 0 && strcmp(head->field[TYPE], "f32") != 0)
+        return rc_err_null(err, "type=%.40s is neither f64 nor f32", head->field[TYPE]);
     rows = shape.ny;
     if (r->share != NULL)
         r->share->rows(r->share->ctx, &shape, &first, &rows);
@@ -317,10 +311,7 @@ grid_of_head(struct rc_reader *r, const struct head *head, struct rc_err *err)
     if (g == NULL)
         return NULL;
     g->type = strcmp(head->field[TYPE], "f32") == 0 ? RC_F32 : RC_F64;
-    if (set_keys(g, head, err) == RC_OK && number_case(r, g, err) == RC_OK)
-        return g;
-    rc_grid_free(g);
-    return NULL;
+    return set_keys(g, head, err) == RC_OK && number_case(r, g, err) == RC_OK ? rc_give(&g) : NULL;
 }
 
 static enum rc_status
@@ -432,23 +423,18 @@ agree(const struct rc_reader *r, enum rc_status status, struct rc_err *err)
 static enum rc_status
 read_frame(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
 {
-    struct head *head = calloc(1, sizeof *head);
-    struct rc_grid *g = NULL;
-    enum rc_status status = RC_FAIL;
+    RC_OWNED struct head *head = calloc(1, sizeof *head);
+    RC_OWN(rc_grid, g) = NULL;
 
     r->crc = rc_crc32_add(0, "RCG1\n", 5);
     if (head == NULL)
         rc_err_set(err, "out of memory for a header (%zu bytes)", sizeof *head);
     else if (read_head(r, head, err) == RC_OK)
         g = grid_of_head(r, head, err);
-    if (agree(r, g == NULL ? RC_FAIL : RC_OK, err) == RC_OK && g != NULL) {
-        *grid = g;
-        g = NULL;
-        status = RC_MORE;
-    }
-    rc_grid_free(g);
-    free(head);
-    return status;
+    if (agree(r, g == NULL ? RC_FAIL : RC_OK, err) != RC_OK || g == NULL)
+        return RC_FAIL;
+    *grid = rc_give(&g);
+    return RC_MORE;
 }
 
 enum rc_status

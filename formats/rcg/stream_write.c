@@ -19,10 +19,8 @@ rc_writer_new(FILE *file, struct rc_err *err)
 {
     struct rc_writer *w = malloc(sizeof *w);
 
-    if (w == NULL) {
-        rc_err_set(err, "out of memory for a writer (%zu bytes)", sizeof *w);
-        return NULL;
-    }
+    if (w == NULL)
+        return rc_err_null(err, "out of memory for a writer (%zu bytes)", sizeof *w);
     *w = (struct rc_writer){.file = file};
     return w;
 }
@@ -173,25 +171,20 @@ put_shared(struct rc_writer *w, const struct text *t, const struct rc_grid *g, s
     const struct rc_shape shape = rc_grid_shape(g);
     size_t width = g->type == RC_F32 ? sizeof(float) : sizeof(double), first, rows;
     size_t bytes = rc_grid_nodes(g) * width, all = g->nx * g->ny * width;
-    void *own;
+    RC_OWNED void *own = NULL;
     const void *from;
     char line[32];
     uint32_t crc;
 
     share->rows(share->ctx, &shape, &first, &rows);
-    if (share->agree(share->ctx, as_stored(g, &own, err), err) != RC_OK) {
-        free(own);
+    if (share->agree(share->ctx, as_stored(g, &own, err), err) != RC_OK)
         return RC_FAIL;
-    }
     from = own == NULL ? g->v : own;
     crc = share->crc(share->ctx, rc_crc32_add(0, from, bytes), bytes);
     crc = rc_crc32_join(rc_crc32_add(0, t->text, t->n), crc, all);
     if (write_text(w, t->text, t->n, err) != RC_OK ||
-        share->write(share->ctx, w->at + first * g->nx * width, from, bytes, err) != RC_OK) {
-        free(own);
+        share->write(share->ctx, w->at + first * g->nx * width, from, bytes, err) != RC_OK)
         return RC_FAIL;
-    }
-    free(own);
     w->at += all;
     snprintf(line, sizeof line, "crc32 %08" PRIx32 "\n", crc);
     return write_text(w, line, strlen(line), err);
@@ -202,7 +195,7 @@ put_shared(struct rc_writer *w, const struct text *t, const struct rc_grid *g, s
 enum rc_status
 rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
 {
-    struct text *t = malloc(sizeof *t);
+    RC_OWNED struct text *t = malloc(sizeof *t);
     enum rc_status status = RC_OK;
     uint32_t crc;
 
@@ -211,8 +204,7 @@ rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
     if (w->share != NULL)
         status = w->share->agree(w->share->ctx, status, err);
     if (t == NULL || status != RC_OK)
-        goto done;
-    status = RC_FAIL;
+        return status;
     t->n = 0;
     t->full = false;
     for (const char *s = "RCG1\n"; *s != '\0'; s++)
@@ -227,31 +219,24 @@ rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
     for (size_t k = 0; k < g->keys; k++)
         put_line(t, g->key[k].name, g->key[k].value);
     put_char(t, '\n');
-    if (t->full) {
-        rc_err_set(
+    if (t->full)
+        return rc_err_set(
             err,
             "the header of a frame would be longer than %d bytes: its keys carry too much text",
             RC_HEADER_MAX);
-        goto done;
-    }
     if (w->share != NULL) {
         status = put_shared(w, t, g, err);
         w->frames += status == RC_OK;
-        goto done;
+        return status;
     }
     fwrite(t->text, 1, t->n, w->file);
     crc = rc_crc32_add(0, t->text, t->n);
     crc = (g->type == RC_F32 ? write_f32 : write_f64)(w->file, g->v, g->nx * g->ny, crc);
     fprintf(w->file, "crc32 %08" PRIx32 "\n", crc);
-    if (ferror(w->file)) {
-        rc_put_failed(err);
-        goto done;
-    }
+    if (ferror(w->file))
+        return rc_put_failed(err);
     w->frames++;
-    status = RC_OK;
-done:
-    free(t);
-    return status;
+    return RC_OK;
 }
 
 enum rc_status

@@ -55,16 +55,13 @@ rc_result_receive_list(FILE *from, const struct rc_result *r, struct rc_channel 
 bool
 rc_result_send_grid(FILE *to, const struct rc_result *r, struct rc_grid *g)
 {
-    struct rc_writer *writer;
-    bool sent;
+    RC_OWN(rc_writer, writer) = NULL;
 
     if (!put(to, r, sizeof *r) || r->n == 0)
         return r->n == 0;
     g->type = RC_F64;
     writer = rc_writer_new(to, NULL);
-    sent = writer != NULL && rc_writer_put(writer, g, NULL) == RC_OK;
-    rc_writer_free(writer);
-    return sent;
+    return writer != NULL && rc_writer_put(writer, g, NULL) == RC_OK;
 }
 
 /* Checked before memory is allocated. */
@@ -79,7 +76,7 @@ struct rc_grid *
 rc_result_receive_grid(FILE *from, const struct rc_file *file)
 {
     struct rc_file of = *file;
-    struct rc_reader *reader = rc_reader_new(from, 0, 0, NULL);
+    RC_OWN(rc_reader, reader) = rc_reader_new(from, 0, 0, NULL);
     struct rc_grid *g = NULL;
 
     if (reader == NULL)
@@ -87,6 +84,5 @@ rc_result_receive_grid(FILE *from, const struct rc_file *file)
     rc_reader_ask(reader, fits, &of);
     if (rc_reader_next(reader, &g, NULL) != RC_MORE)
         g = NULL;
-    rc_reader_free(reader);
     return g;
 }

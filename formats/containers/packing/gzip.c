@@ -60,22 +60,25 @@ look_on(const struct rc_file *file, const z_stream *z, bool *more, struct rc_err
     return RC_OK;
 }
 
+static void
+end(z_stream *z)
+{
+    (void)inflateEnd(z);
+}
+
 /* Unpacks all members into `to`, which has *size + 1 bytes. If it is NULL, only sets *size to the number of
  * unpacked bytes, up to `most`. */
 static enum rc_status
 unpack(const struct rc_file *file, size_t most, unsigned char *to, size_t *size, struct rc_err *err)
 {
-    unsigned char *piece = to == NULL ? malloc(PIECE) : NULL;
-    z_stream z = {.next_in = (z_const Bytef *)(uintptr_t)file->data};
-    enum rc_status status = RC_FAIL;
+    RC_OWNED unsigned char *piece = to == NULL ? malloc(PIECE) : NULL;
+    RC_ENDS(end) z_stream z = {.next_in = (z_const Bytef *)(uintptr_t)file->data};
     size_t given = 0, n = 0;
     bool more = true;
     int said;
 
-    if ((to == NULL && piece == NULL) || inflateInit2(&z, GZIP) != Z_OK) {
-        free(piece);
+    if ((to == NULL && piece == NULL) || inflateInit2(&z, GZIP) != Z_OK)
         return rc_err_set(err, "out of memory for zlib");
-    }
     while (more) {
         size_t left = *size + 1 - n; /* one more, so that zlib always has space to write */
         size_t room = to == NULL ? PIECE : left < (1u << 30) ? left : (1u << 30);
@@ -85,44 +88,33 @@ unpack(const struct rc_file *file, size_t most, unsigned char *to, size_t *size,
         z.avail_out = (uInt)room;
         said = inflate(&z, Z_NO_FLUSH);
         n += room - z.avail_out;
-        if (n > most) {
-            rc_err_set(err,
-                       "its %zu bytes of gzip data unpack to more than %zu MiB, which is the limit "
-                       "for so few: --memory LIMIT sets another",
-                       file->size, most >> 20);
-            goto done;
-        }
+        if (n > most)
+            return rc_err_set(
+                err,
+                "its %zu bytes of gzip data unpack to more than %zu MiB, which is the limit for so "
+                "few: --memory LIMIT sets another",
+                file->size, most >> 20);
+        if (said != Z_OK && said != Z_STREAM_END)
+            return refuse(&z, said, n, err);
         if (said == Z_STREAM_END) {
             if (look_on(file, &z, &more, err) != RC_OK)
-                goto done;
+                return RC_FAIL;
             inflateReset(&z);
-        } else if (said != Z_OK) {
-            refuse(&z, said, n, err);
-            goto done;
         }
     }
     *size = n;
-    status = RC_OK;
-done:
-    inflateEnd(&z);
-    free(piece);
-    return status;
+    return RC_OK;
 }
 
 unsigned char *
 rc_file_unpack(const struct rc_file *file, size_t most, size_t *size, struct rc_err *err)
 {
-    unsigned char *data;
+    RC_OWNED unsigned char *data = NULL;
 
     *size = 0;
     if (unpack(file, most, NULL, size, err) != RC_OK)
         return NULL;
-    if ((data = malloc(*size + 1)) == NULL) {
-        rc_err_set(err, "out of memory for %zu unpacked bytes", *size);
-        return NULL;
-    }
-    if (unpack(file, most, data, size, err) == RC_OK)
-        return data;
-    free(data);
-    return NULL;
+    if ((data = malloc(*size + 1)) == NULL)
+        return rc_err_null(err, "out of memory for %zu unpacked bytes", *size);
+    return unpack(file, most, data, size, err) == RC_OK ? rc_give(&data) : NULL;
 }

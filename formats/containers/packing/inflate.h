@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 /* Unpacks the n bytes of a stream, which must give exactly `wanted` bytes; RC_FAIL if it is damaged or gives
  * another number. `what`: name of the bytes in the message. */

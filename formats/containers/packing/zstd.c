@@ -52,14 +52,13 @@ rc_zstd_unpack(const char *what, const unsigned char *from, size_t n, size_t mos
     unsigned long long said = ZSTD_getFrameContentSize(from, n);
     size_t capacity = said <= most ? (size_t)said : most < FIRST ? most : FIRST;
     ZSTD_inBuffer in = {from, n, 0};
-    unsigned char *room = NULL;
+    RC_OWNED unsigned char *room = NULL;
     ZSTD_DCtx *d = NULL;
 
     *size = SIZE_MAX;
-    if (said == ZSTD_CONTENTSIZE_ERROR || (said != ZSTD_CONTENTSIZE_UNKNOWN && said > most)) {
-        rc_err_set(err, "the %s are no frame of zstd, or one of more bytes than can be", what);
-        return NULL;
-    }
+    if (said == ZSTD_CONTENTSIZE_ERROR || (said != ZSTD_CONTENTSIZE_UNKNOWN && said > most))
+        return rc_err_null(err, "the %s are no frame of zstd, or one of more bytes than can be",
+                           what);
     if ((d = ZSTD_createDCtx()) == NULL || (room = malloc(capacity + 1)) == NULL ||
         ZSTD_isError(ZSTD_DCtx_setParameter(d, ZSTD_d_windowLogMax, WINDOW_MOST)))
         rc_err_set(err, "out of memory for zstd");
@@ -68,10 +67,7 @@ rc_zstd_unpack(const char *what, const unsigned char *from, size_t n, size_t mos
     else
         room[*size] = '\0';
     ZSTD_freeDCtx(d);
-    if (*size != SIZE_MAX)
-        return room;
-    free(room);
-    return NULL;
+    return *size != SIZE_MAX ? rc_give(&room) : NULL;
 }
 
 #else
@@ -87,8 +83,8 @@ rc_zstd_unpack(const char *what, const unsigned char *from, size_t n, size_t mos
                struct rc_err *err)
 {
     (void)from, (void)n, (void)most, (void)size;
-    rc_err_set(err, "the %s are packed by zstd, but this program was built without zstd", what);
-    return NULL;
+    return rc_err_null(err, "the %s are packed by zstd, but this program was built without zstd",
+                       what);
 }
 
 #endif

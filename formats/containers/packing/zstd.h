@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 /* True if this build has libzstd. */
 bool rc_zstd_is_there(void);
