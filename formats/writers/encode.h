@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "formats/core/core.h"
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 /* ---- a growing buffer ---- */
 

@@ -13,9 +13,8 @@ gsf_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
     const struct rc_grid *g = frame[0];
     const struct rc_code code = {.raw = RC_RAW_F32};
     char width[RC_NUMBER_SIZE], height[RC_NUMBER_SIZE];
-    struct rc_buffer b = {0};
+    RC_ENDS(rc_buffer_free) struct rc_buffer b = {0};
     double i, j;
-    enum rc_status status = RC_FAIL;
 
     (void)frames, (void)wish;
     rc_buffer_print(&b,
@@ -31,10 +30,9 @@ gsf_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
                         rc_number_text(height, -(j + 0.5) * g->dy));
     }
     rc_buffer_add(&b, padding, 4 - b.n % 4);
-    if (rc_buffer_write(&b, out, err) == RC_OK)
-        status = rc_encode_file(&code, g->v, g->nx * g->ny, out, err);
-    rc_buffer_free(&b);
-    return status;
+    return rc_buffer_write(&b, out, err) == RC_OK
+               ? rc_encode_file(&code, g->v, g->nx * g->ny, out, err)
+               : RC_FAIL;
 }
 
 const struct rc_export rc_export_gsf = {

@@ -94,17 +94,14 @@ depths_of(const struct rc_stack *s, size_t *n)
 {
     const struct rc_grid *g = s->layer[0];
     bool section = rc_grid_get(g, "section") != NULL && rc_grid_get(g, "depths") != NULL;
-    double *at;
+    RC_OWNED double *at = NULL;
 
     *n = s->n > 1 ? s->n : g->ny;
     if ((s->n == 1 && !section) || (at = malloc(*n * sizeof *at)) == NULL)
         return NULL;
     for (size_t k = 0; s->n > 1 && k < s->n; k++)
         at[k] = rc_stack_depth(s, k);
-    if (s->n > 1 || rc_export_depths(g, at, NULL) == RC_OK)
-        return at;
-    free(at);
-    return NULL;
+    return s->n > 1 || rc_export_depths(g, at, NULL) == RC_OK ? rc_give(&at) : NULL;
 }
 
 /* Writes the scale; its name is the first of depth, depth_2, ... that is free. */
@@ -206,19 +203,16 @@ put_depths(struct output *o, const char *name, const struct rc_stack *s)
 static enum rc_status
 put_image(hid_t file, FILE *out, struct rc_err *err)
 {
-    enum rc_status status;
     ssize_t size;
-    void *bytes;
+    RC_OWNED void *bytes = NULL;
 
     if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0 || (size = H5Fget_file_image(file, NULL, 0)) <= 0)
         return rc_err_set(err, "the HDF5 library could not make the file");
     if ((bytes = malloc((size_t)size)) == NULL)
         return rc_err_set(err, "out of memory for a file of %zu bytes", (size_t)size);
-    status = H5Fget_file_image(file, bytes, (size_t)size) == size
-                 ? rc_put(out, bytes, (size_t)size, err)
-                 : rc_err_set(err, "the HDF5 library could not make the file");
-    free(bytes);
-    return status;
+    return H5Fget_file_image(file, bytes, (size_t)size) == size
+               ? rc_put(out, bytes, (size_t)size, err)
+               : rc_err_set(err, "the HDF5 library could not make the file");
 }
 
 /* Links must not contain a slash or be a point. */
@@ -236,7 +230,7 @@ static enum rc_status
 put_stacks(struct output *o, const struct rc_stack *stack, size_t stacks,
            const struct rc_export_wish *wish, struct rc_err *err)
 {
-    struct rc_grid **first = calloc(stacks, sizeof(struct rc_grid *));
+    RC_OWNED struct rc_grid **first = calloc(stacks, sizeof(struct rc_grid *));
     char(*name)[RC_LABEL] = calloc(stacks, sizeof *name);
     enum rc_status status = RC_OK;
 
@@ -259,7 +253,6 @@ put_stacks(struct output *o, const struct rc_stack *stack, size_t stacks,
         free(o->scale[k].at);
     free(o->scale);
     free(name);
-    free(first);
     return status;
 }
 
@@ -287,7 +280,7 @@ hdf5_write(FILE *out, struct rc_grid *const *frame, size_t frames,
     struct rc_stack *stack;
     size_t stacks;
     enum rc_status status = rc_stacks_make(&stack, &stacks, frame, frames, err);
-    void *reserved = NULL;
+    RC_OWNED void *reserved = NULL;
 
     if (status == RC_OK && (reserved = reserve(frame, frames, wish, err)) == NULL)
         status = RC_FAIL;
@@ -304,7 +297,6 @@ hdf5_write(FILE *out, struct rc_grid *const *frame, size_t frames,
     H5Fclose(o.file);
     H5Pclose(access);
     rc_stacks_free(stack, stacks);
-    free(reserved);
     return status;
 }
 

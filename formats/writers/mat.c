@@ -102,7 +102,7 @@ make_name(char name[NAME_MOST + 1], const char *channel)
 static enum rc_status
 put_columns(FILE *out, const struct rc_grid *g, const struct rc_code *code, struct rc_err *err)
 {
-    double *column = malloc(g->ny * sizeof *column);
+    RC_OWNED double *column = malloc(g->ny * sizeof *column);
     enum rc_status status = RC_OK;
 
     if (column == NULL)
@@ -112,7 +112,6 @@ put_columns(FILE *out, const struct rc_grid *g, const struct rc_code *code, stru
             column[j] = g->v[j * g->nx + i];
         status = rc_encode_file(code, column, g->ny, out, err);
     }
-    free(column);
     return status;
 }
 
@@ -124,9 +123,9 @@ mat_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
     const struct rc_code code = {.raw = rc_export_raw(g, wish, TYPES)};
     bool single = code.raw == RC_RAW_F32;
     size_t bytes = rc_raw_width(code.raw);
-    struct rc_buffer head = {0}, end = {0};
+    RC_ENDS(rc_buffer_free) struct rc_buffer head = {0};
+    RC_ENDS(rc_buffer_free) struct rc_buffer end = {0};
     char name[NAME_MOST + 1];
-    enum rc_status status = RC_FAIL;
 
     (void)frames;
     if (g->nx > BYTES_MOST / bytes / g->ny)
@@ -147,11 +146,9 @@ mat_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
     start_array(&head, name, single ? SINGLE_ARRAY : DOUBLE_ARRAY, g->ny, g->nx,
                 single ? SINGLE : DOUBLE, bytes);
     put_padding(&end, bytes);
-    if (rc_buffer_write(&head, out, err) == RC_OK && put_columns(out, g, &code, err) == RC_OK)
-        status = rc_buffer_write(&end, out, err);
-    rc_buffer_free(&head);
-    rc_buffer_free(&end);
-    return status;
+    return rc_buffer_write(&head, out, err) == RC_OK && put_columns(out, g, &code, err) == RC_OK
+               ? rc_buffer_write(&end, out, err)
+               : RC_FAIL;
 }
 
 const struct rc_export rc_export_mat = {

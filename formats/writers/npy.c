@@ -17,8 +17,8 @@ enum {
 static enum rc_status
 check_stack(const struct rc_stack *s, size_t stacks, struct rc_err *err)
 {
-    enum rc_status status = RC_OK;
-    double *at, step;
+    RC_OWNED double *at = NULL;
+    double step;
 
     if (stacks > 1)
         return rc_err_set(err, "npy allows one map, or the depths of one channel and case on one "
@@ -27,18 +27,17 @@ check_stack(const struct rc_stack *s, size_t stacks, struct rc_err *err)
         return rc_err_set(err, "out of memory for %zu depths", s->n);
     for (size_t k = 0; k < s->n; k++)
         at[k] = rc_stack_depth(s, k);
-    if (!rc_export_even(at, s->n, &step))
-        status = rc_err_set(
-            err, "the depths have uneven steps, which npy cannot say: write vtr or hdf5");
-    free(at);
-    return status;
+    return !rc_export_even(at, s->n, &step)
+               ? rc_err_set(err,
+                            "the depths have uneven steps, which npy cannot say: write vtr or hdf5")
+               : RC_OK;
 }
 
 static enum rc_status
 put_head(FILE *out, const struct rc_stack *s, enum rc_raw raw, struct rc_err *err)
 {
-    struct rc_buffer head = {0}, b = {0};
-    enum rc_status status = RC_FAIL;
+    RC_ENDS(rc_buffer_free) struct rc_buffer head = {0};
+    RC_ENDS(rc_buffer_free) struct rc_buffer b = {0};
 
     rc_buffer_print(&b, "{'descr': '<f%zu', 'fortran_order': False, 'shape': (", rc_raw_width(raw));
     if (s->n > 1)
@@ -49,11 +48,7 @@ put_head(FILE *out, const struct rc_stack *s, enum rc_raw raw, struct rc_err *er
     rc_buffer_add(&b, "\n", 1);
     rc_buffer_add(&head, "\x93NUMPY\x01\x00", 8);
     rc_buffer_u16(&head, (uint16_t)b.n);
-    if (rc_buffer_write(&head, out, err) == RC_OK)
-        status = rc_buffer_write(&b, out, err);
-    rc_buffer_free(&head);
-    rc_buffer_free(&b);
-    return status;
+    return rc_buffer_write(&head, out, err) == RC_OK ? rc_buffer_write(&b, out, err) : RC_FAIL;
 }
 
 static enum rc_status

@@ -42,21 +42,17 @@ sdf_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
 {
     const char *missing = wish->missing == NULL ? "BAD" : wish->missing;
     const struct rc_grid *g = frame[0];
-    struct rc_buffer header = {0};
+    RC_ENDS(rc_buffer_free) struct rc_buffer header = {0};
     struct rc_range range;
-    enum rc_status status = RC_FAIL;
 
     (void)frames;
     make_header(&header, g, wish);
     if (rc_range_of(g, &range, err) != RC_OK || rc_buffer_write(&header, out, err) != RC_OK)
-        goto done;
+        return RC_FAIL;
     for (size_t j = 0; j < g->ny; j++)
         if (put_row(out, g->v + j * g->nx, g->nx, missing, err) != RC_OK)
-            goto done;
-    status = rc_put(out, "*\n*\n", 4, err);
-done:
-    rc_buffer_free(&header);
-    return status;
+            return RC_FAIL;
+    return rc_put(out, "*\n*\n", 4, err);
 }
 
 const struct rc_export rc_export_sdf = {

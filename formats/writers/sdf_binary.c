@@ -53,8 +53,7 @@ sdf_binary_write(FILE *out, struct rc_grid *const *frame, size_t frames,
                  const struct rc_export_wish *wish, struct rc_err *err)
 {
     const struct rc_grid *g = frame[0];
-    struct rc_buffer header = {0};
-    enum rc_status status = RC_FAIL;
+    RC_ENDS(rc_buffer_free) struct rc_buffer header = {0};
     struct rc_range range;
     struct rc_code code;
 
@@ -66,10 +65,9 @@ sdf_binary_write(FILE *out, struct rc_grid *const *frame, size_t frames,
         return RC_FAIL;
     code = make_code(g, &range, wish);
     make_header(&header, g, &code, wish);
-    if (rc_buffer_write(&header, out, err) == RC_OK)
-        status = rc_encode_file(&code, g->v, g->nx * g->ny, out, err);
-    rc_buffer_free(&header);
-    return status;
+    return rc_buffer_write(&header, out, err) == RC_OK
+               ? rc_encode_file(&code, g->v, g->nx * g->ny, out, err)
+               : RC_FAIL;
 }
 
 const struct rc_export rc_export_sdf_binary = {

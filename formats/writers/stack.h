@@ -2,7 +2,7 @@
 #ifndef RC_STACK_H
 #define RC_STACK_H
 
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 struct rc_stack {
     /* n of them, from the shallowest down; a frame without a depth is a stack of its own */

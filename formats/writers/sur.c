@@ -132,8 +132,7 @@ sur_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
           struct rc_err *err)
 {
     const struct rc_grid *g = frame[0];
-    struct rc_buffer header = {0};
-    enum rc_status status = RC_FAIL;
+    RC_ENDS(rc_buffer_free) struct rc_buffer header = {0};
     struct rc_range range;
     struct plan plan;
 
@@ -146,10 +145,9 @@ sur_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
     if (!isfinite(plan.step) || !isfinite(plan.offset))
         return rc_err_set(err, "values up to %g are beyond the floats of a sur header", range.max);
     make_header(&header, g, &plan, wish);
-    if (rc_buffer_write(&header, out, err) == RC_OK)
-        status = rc_encode_file(&plan.code, g->v, g->nx * g->ny, out, err);
-    rc_buffer_free(&header);
-    return status;
+    return rc_buffer_write(&header, out, err) == RC_OK
+               ? rc_encode_file(&plan.code, g->v, g->nx * g->ny, out, err)
+               : RC_FAIL;
 }
 
 const struct rc_export rc_export_sur = {

@@ -100,7 +100,7 @@ check_depths(const struct volume *v, struct rc_err *err)
 static enum rc_status
 name_arrays(struct volume *v, const struct rc_export_wish *wish, struct rc_err *err)
 {
-    struct rc_grid **first = calloc(v->arrays, sizeof(struct rc_grid *));
+    RC_OWNED struct rc_grid **first = calloc(v->arrays, sizeof(struct rc_grid *));
 
     if (first == NULL)
         return rc_err_set(err, "out of memory for %zu names", v->arrays);
@@ -110,7 +110,6 @@ name_arrays(struct volume *v, const struct rc_export_wish *wish, struct rc_err *
         rc_export_label(v->array[a].name, first, v->arrays, a, false);
         v->array[a].raw = rc_export_raw(first[a], wish, RC_VTK_TYPES);
     }
-    free(first);
     return RC_OK;
 }
 
@@ -219,13 +218,10 @@ put_history(struct rc_buffer *b, const struct rc_grid *g)
 static enum rc_status
 put_length(FILE *out, size_t n, enum rc_raw raw, struct rc_err *err)
 {
-    struct rc_buffer b = {0};
-    enum rc_status status;
+    RC_ENDS(rc_buffer_free) struct rc_buffer b = {0};
 
     rc_buffer_u64(&b, bytes_of(n, raw) - sizeof(uint64_t));
-    status = rc_buffer_write(&b, out, err);
-    rc_buffer_free(&b);
-    return status;
+    return rc_buffer_write(&b, out, err);
 }
 
 static enum rc_status
@@ -314,7 +310,7 @@ rc_vtk_write(FILE *out, struct rc_grid *const *frame, size_t frames, bool image,
 {
     static const char end[] = "\n  </AppendedData>\n</VTKFile>\n";
     const struct rc_code place = {.raw = RC_RAW_F64};
-    struct rc_buffer header = {0};
+    RC_ENDS(rc_buffer_free) struct rc_buffer header = {0};
     struct volume v;
     enum rc_status status = volume_make(&v, frame, frames, wish, err);
 
@@ -327,7 +323,6 @@ rc_vtk_write(FILE *out, struct rc_grid *const *frame, size_t frames, bool image,
             status = rc_encode_file(&place, v.at[axis], v.n[axis], out, err);
     if (status == RC_OK && (status = put_arrays(out, &v, err)) == RC_OK)
         status = rc_put(out, end, sizeof end - 1, err);
-    rc_buffer_free(&header);
     volume_free(&v);
     return status;
 }

@@ -175,36 +175,37 @@ add_bytes(struct rc_zip_write *archive, const char *name, unsigned char **bytes,
     return given == NULL ? RC_OK : rc_zip_write_add(archive, name, given, n, err);
 }
 
+static void
+parts_free(struct parts *p)
+{
+    free(p->data);
+    free(p->valid);
+}
+
 static enum rc_status
 x3p_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct rc_export_wish *wish,
           struct rc_err *err)
 {
-    struct rc_buffer xml = {0}, md5_file = {0};
-    enum rc_status status = RC_FAIL;
-    struct rc_zip_write *archive = NULL;
-    struct parts p = {0};
+    RC_ENDS(rc_buffer_free) struct rc_buffer xml = {0};
+    RC_ENDS(rc_buffer_free) struct rc_buffer md5_file = {0};
+    RC_OWN(rc_zip_write, archive) = NULL;
+    RC_ENDS(parts_free) struct parts p = {0};
     char md5[RC_MD5_TEXT] = "";
 
     (void)frames;
     if (make_parts(&p, frame[0], wish, err) != RC_OK ||
         (archive = rc_zip_write_new(wish->time, err)) == NULL)
-        goto done;
+        return RC_FAIL;
     make_main(&xml, frame[0], &p, wish);
     if (!xml.failed)
         rc_md5_of(xml.bytes, xml.n, md5);
     rc_buffer_print(&md5_file, "%s *main.xml\n", md5);
-    if (add_buffer(archive, "main.xml", &xml, err) == RC_OK &&
-        add_bytes(archive, data_name, &p.data, p.data_n, err) == RC_OK &&
-        add_bytes(archive, valid_name, &p.valid, p.valid_n, err) == RC_OK &&
-        add_buffer(archive, "md5checksum.hex", &md5_file, err) == RC_OK)
-        status = rc_zip_write_finish(archive, out, err);
-done:
-    rc_zip_write_free(archive);
-    rc_buffer_free(&xml);
-    rc_buffer_free(&md5_file);
-    free(p.data);
-    free(p.valid);
-    return status;
+    if (add_buffer(archive, "main.xml", &xml, err) != RC_OK ||
+        add_bytes(archive, data_name, &p.data, p.data_n, err) != RC_OK ||
+        add_bytes(archive, valid_name, &p.valid, p.valid_n, err) != RC_OK ||
+        add_buffer(archive, "md5checksum.hex", &md5_file, err) != RC_OK)
+        return RC_FAIL;
+    return rc_zip_write_finish(archive, out, err);
 }
 
 const struct rc_export rc_export_x3p = {

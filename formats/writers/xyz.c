@@ -13,21 +13,19 @@ xyz_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
 {
     const char *missing = wish->missing == NULL ? "NaN" : wish->missing;
     bool section = rc_grid_get(frame[0], "section") && rc_grid_get(frame[0], "depths");
-    enum rc_status status = RC_FAIL;
     char x[RC_NUMBER_SIZE], y[RC_NUMBER_SIZE], z[RC_NUMBER_SIZE];
     const struct rc_grid *g = frame[0];
-    double *at = malloc(g->ny * sizeof *at), middle, row;
+    RC_OWNED double *at = malloc(g->ny * sizeof *at);
+    double middle, row;
 
     (void)frames;
-    if (at == NULL) {
-        rc_err_set(err, "out of memory for %zu rows", g->ny);
-        goto done;
-    }
+    if (at == NULL)
+        return rc_err_set(err, "out of memory for %zu rows", g->ny);
     rc_grid_origin(g, &middle, &row);
     for (size_t j = 0; j < g->ny; j++)
         at[j] = ((double)j - row) * g->dy;
     if (section && rc_export_depths(g, at, err) != RC_OK)
-        goto done;
+        return RC_FAIL;
     for (size_t j = 0; j < g->ny; j++) {
         rc_number_text(y, at[j]);
         for (size_t i = 0; i < g->nx; i++) {
@@ -37,14 +35,11 @@ xyz_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
             if (fprintf(out, "%s %s %s\n", rc_number_text(x, ((double)i - middle) * g->dx), y,
                         isnan(value) ? missing : z) < 0) {
                 rc_put_failed(err);
-                goto done;
+                return RC_FAIL;
             }
         }
     }
-    status = RC_OK;
-done:
-    free(at);
-    return status;
+    return RC_OK;
 }
 
 const struct rc_export rc_export_xyz = {
