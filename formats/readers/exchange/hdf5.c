@@ -17,33 +17,25 @@ enum {
 static struct rc_hdf_set *
 find_sets(struct rc_hdf *h, size_t *n, struct rc_err *err)
 {
-    struct rc_hdf_set *set = calloc(SETS_MOST, sizeof *set);
+    RC_OWNED struct rc_hdf_set *set = calloc(SETS_MOST, sizeof *set);
 
-    if (set == NULL) {
-        rc_err_set(err, "out of memory for %d datasets", SETS_MOST);
-        return NULL;
-    }
+    if (set == NULL)
+        return rc_err_null(err, "out of memory for %d datasets", SETS_MOST);
     *n = rc_hdf_sets(h, set, SETS_MOST);
-    if (*n > 0)
-        return set;
-    rc_err_set(err, "the file has no dataset of numbers with two dimensions");
-    free(set);
-    return NULL;
+    return *n > 0 ? rc_give(&set)
+                  : rc_err_null(err, "the file has no dataset of numbers with two dimensions");
 }
 
 static enum rc_status
 fill_values(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct rc_hdf *h = rc_hdf_new(file, err);
-    struct rc_hdf_set *set = NULL;
-    enum rc_status status = RC_FAIL;
+    RC_OWN(rc_hdf, h) = rc_hdf_new(file, err);
+    RC_OWNED struct rc_hdf_set *set = NULL;
     size_t n;
 
-    if (h != NULL && (set = find_sets(h, &n, err)) != NULL)
-        status = rc_hdf_values(h, &set[map->more], v, err);
-    free(set);
-    rc_hdf_free(h);
-    return status;
+    return h != NULL && (set = find_sets(h, &n, err)) != NULL
+               ? rc_hdf_values(h, &set[map->more], v, err)
+               : RC_FAIL;
 }
 
 static void
@@ -69,15 +61,13 @@ add_set(struct rc_hdf *h, const struct rc_hdf_set *set, size_t number, struct rc
 static enum rc_status
 hdf5_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_hdf *h = rc_hdf_new(file, err);
-    struct rc_hdf_set *set = NULL;
+    RC_OWN(rc_hdf, h) = rc_hdf_new(file, err);
+    RC_OWNED struct rc_hdf_set *set = NULL;
     size_t n = 0;
 
     if (h != NULL && (set = find_sets(h, &n, err)) != NULL)
         for (size_t k = 0; k < n && k < SETS_MOST; k++)
             add_set(h, &set[k], k, maps);
-    free(set);
-    rc_hdf_free(h);
     return maps->n > 0 ? RC_OK : RC_FAIL;
 }
 

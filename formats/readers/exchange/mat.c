@@ -196,8 +196,7 @@ read_numbers(const struct rc_file *file, bool big, const struct variable *v, dou
              struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, big);
-    unsigned char *all = NULL;
-    enum rc_status status = RC_FAIL;
+    RC_OWNED unsigned char *all = NULL;
 
     if (v->whole.type == PACKED) {
         if (v->unpacked > rc_memory_limit(file->size) || v->unpacked < v->numbers.at ||
@@ -209,15 +208,12 @@ read_numbers(const struct rc_file *file, bool big, const struct variable *v, dou
             return rc_err_set(err, "out of memory for the %zu bytes of '%s'", v->unpacked, v->name);
         if (rc_inflate("numbers", file->data + v->whole.at, v->whole.n, all, v->unpacked, err) !=
             RC_OK)
-            goto done;
+            return RC_FAIL;
         b = (struct rc_bytes){.data = all, .size = v->unpacked, .big = big};
     }
     b.at = v->numbers.at;
     rc_bytes_values(&b, v->raw, values, v->rows * v->columns);
-    status = RC_OK;
-done:
-    free(all);
-    return status;
+    return RC_OK;
 }
 
 /* ---- the variables, for matlab.c ---- */

@@ -92,8 +92,7 @@ numbers_of(struct rc_matlab_source *s, const struct rc_matlab_array *a, double *
 static enum rc_status
 fill_numbers(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct rc_hdf *hdf = rc_hdf_new(file, err);
-    enum rc_status status = RC_FAIL;
+    RC_OWN(rc_hdf, hdf) = rc_hdf_new(file, err);
     struct rc_hdf_set set;
     size_t n;
 
@@ -101,11 +100,8 @@ fill_numbers(const struct rc_file *file, const struct rc_map *map, double *v, st
         return RC_FAIL;
     if (!rc_hdf_set_at(hdf, map->name, &set) ||
         rc_size_mul(set.rows, set.columns, &n, NULL) != RC_OK || n != map->nx * map->ny)
-        rc_err_set(err, "the dataset '%s' cannot be found again", map->name);
-    else
-        status = rc_hdf_values(hdf, &set, v, err);
-    rc_hdf_free(hdf);
-    return status;
+        return rc_err_set(err, "the dataset '%s' cannot be found again", map->name);
+    return rc_hdf_values(hdf, &set, v, err);
 }
 
 static enum rc_status
@@ -126,25 +122,21 @@ has_magic(const struct rc_file *file)
 static enum rc_status
 mat73_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
+    RC_OWN(rc_hdf, hdf) = NULL;
+    RC_OWNED struct rc_hdf_set *set = NULL;
     struct mat73 m = {.hdf = NULL};
     struct rc_matlab_source source = {file, &m, start, next, numbers_of, place};
-    enum rc_status status = RC_FAIL;
 
     if (!has_magic(file))
         return rc_err_set(err, "not a MAT file of version 7.3: its header lacks version 2, or no "
                                "HDF5 follows the header");
-    if ((m.hdf = rc_hdf_new(file, err)) == NULL)
+    if ((m.hdf = hdf = rc_hdf_new(file, err)) == NULL)
         return RC_FAIL;
-    if ((m.set = calloc(SETS_MOST, sizeof *m.set)) == NULL)
-        rc_err_set(err, "out of memory for %d datasets", SETS_MOST);
-    else {
-        m.n = rc_hdf_sets(m.hdf, m.set, SETS_MOST);
-        m.n = m.n < SETS_MOST ? m.n : SETS_MOST;
-        status = rc_matlab_maps(&source, maps, err);
-    }
-    free(m.set);
-    rc_hdf_free(m.hdf);
-    return status;
+    if ((m.set = set = calloc(SETS_MOST, sizeof *set)) == NULL)
+        return rc_err_set(err, "out of memory for %d datasets", SETS_MOST);
+    m.n = rc_hdf_sets(hdf, set, SETS_MOST);
+    m.n = m.n < SETS_MOST ? m.n : SETS_MOST;
+    return rc_matlab_maps(&source, maps, err);
 }
 
 const struct rc_format rc_format_mat73 = {

@@ -105,8 +105,7 @@ axis_step(struct rc_matlab_source *s, const struct rc_matlab_array *a, const str
           bool is_x, double *step, struct rc_err *err)
 {
     size_t n = is_x ? map->nx : map->ny, values;
-    enum rc_status status = RC_FAIL;
-    double *x;
+    RC_OWNED double *x = NULL;
 
     *step = NAN;
     if (a->name[0] == '\0' || n < 2 || rc_size_mul(a->rows, a->columns, &values, NULL) != RC_OK ||
@@ -116,13 +115,11 @@ axis_step(struct rc_matlab_source *s, const struct rc_matlab_array *a, const str
         return RC_FAIL;
     if ((x = malloc(values * sizeof *x)) == NULL)
         return rc_err_set(err, "out of memory for the %zu positions of '%s'", values, a->name);
-    if (s->numbers(s, a, x, err) == RC_OK) {
-        for (size_t k = 0; k < n && values > n && is_x; k++)
-            x[k] = x[k * a->rows];
-        status = rc_axis_step(a->name, x, n, step, err);
-    }
-    free(x);
-    return status;
+    if (s->numbers(s, a, x, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < n && values > n && is_x; k++)
+        x[k] = x[k * a->rows];
+    return rc_axis_step(a->name, x, n, step, err);
 }
 
 static enum rc_status

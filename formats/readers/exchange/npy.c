@@ -136,29 +136,23 @@ unpack_array(struct rc_zip_read *archive, const struct rc_file *file, size_t mem
 static enum rc_status
 fill_member(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct rc_zip_read *archive = rc_zip_read_new(file, err);
-    enum rc_status status = RC_FAIL;
+    RC_OWN(rc_zip_read, archive) = rc_zip_read_new(file, err);
     struct rc_file array;
     struct rc_map inner = *map;
-    unsigned char *data =
+    struct rc_bytes b;
+    size_t n = map->nx * map->ny;
+    RC_OWNED unsigned char *data =
         archive == NULL ? NULL : unpack_array(archive, file, map->more, &array, err);
 
-    if (data != NULL && read_header(&array, &inner, err) == RC_OK) {
-        struct rc_bytes b = rc_file_bytes(&array, inner.big);
-        size_t n = map->nx * map->ny, width = rc_raw_width(inner.raw);
-
-        b.at = inner.at;
-        if (n > (array.size - inner.at) / width)
-            rc_err_set(err, "the array '%s' has %zu bytes, %zu x %zu values take more", map->name,
-                       array.size, map->nx, map->ny);
-        else {
-            rc_bytes_values(&b, inner.raw, v, n);
-            status = RC_OK;
-        }
-    }
-    free(data);
-    rc_zip_read_free(archive);
-    return status;
+    if (data == NULL || read_header(&array, &inner, err) != RC_OK)
+        return RC_FAIL;
+    if (n > (array.size - inner.at) / rc_raw_width(inner.raw))
+        return rc_err_set(err, "the array '%s' has %zu bytes, %zu x %zu values take more",
+                          map->name, array.size, map->nx, map->ny);
+    b = rc_file_bytes(&array, inner.big);
+    b.at = inner.at;
+    rc_bytes_values(&b, inner.raw, v, n);
+    return RC_OK;
 }
 
 static bool
@@ -173,7 +167,7 @@ is_array(const char *name)
 static enum rc_status
 npz_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_zip_read *archive = rc_zip_read_new(file, err);
+    RC_OWN(rc_zip_read, archive) = rc_zip_read_new(file, err);
     size_t members = archive == NULL ? 0 : rc_zip_read_members(archive);
     struct rc_err why = {"the archive has no array (NAME.npy)"};
 
@@ -181,7 +175,7 @@ npz_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         const char *name = rc_zip_read_name(archive, k);
         struct rc_map *map, one = {.si = 1, .scale = 1};
         struct rc_file array;
-        unsigned char *data;
+        RC_OWNED unsigned char *data = NULL;
 
         if (!is_array(name) || (data = unpack_array(archive, file, k, &array, &why)) == NULL)
             continue;
@@ -195,9 +189,7 @@ npz_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
             map->fill = fill_member;
             map->more = k;
         }
-        free(data);
     }
-    rc_zip_read_free(archive);
     if (archive == NULL)
         return RC_FAIL;
     return maps->n > 0 ? RC_OK : rc_err_set(err, "%s", why.text);
@@ -215,7 +207,7 @@ npy_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 static int
 npy_score(const struct rc_file *file)
 {
-    struct rc_zip_read *archive;
+    RC_OWN(rc_zip_read, archive) = NULL;
     size_t first;
     bool array;
 
@@ -224,7 +216,6 @@ npy_score(const struct rc_file *file)
     if (!rc_file_holds(file, 0, "PK", 2) || (archive = rc_zip_read_new(file, NULL)) == NULL)
         return 0;
     array = rc_zip_read_files(archive, &first) > 0 && is_array(rc_zip_read_name(archive, first));
-    rc_zip_read_free(archive);
     return array ? 85 : 0;
 }
 

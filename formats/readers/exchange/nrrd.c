@@ -205,8 +205,7 @@ fill_packed(const struct rc_file *file, const struct rc_map *map, double *v, str
     struct rc_file packed = {file->name, file->data + map->at, file->size - map->at};
     size_t n = map->nx * map->ny, wanted = n * rc_raw_width(map->raw), size;
     struct rc_bytes b = {.big = map->big};
-    unsigned char *bytes;
-    enum rc_status status;
+    RC_OWNED unsigned char *bytes = NULL;
 
     if (!rc_file_packed(&packed))
         return rc_err_set(err, "the values are not packed with gzip, as the header says");
@@ -214,11 +213,10 @@ fill_packed(const struct rc_file *file, const struct rc_map *map, double *v, str
         return RC_FAIL;
     b.data = bytes;
     b.size = size;
-    status = rc_bytes_agree("values", wanted, size, err);
-    if (status == RC_OK)
-        rc_bytes_values(&b, map->raw, v, n);
-    free(bytes);
-    return status;
+    if (rc_bytes_agree("values", wanted, size, err) != RC_OK)
+        return RC_FAIL;
+    rc_bytes_values(&b, map->raw, v, n);
+    return RC_OK;
 }
 
 static enum rc_status

@@ -57,16 +57,13 @@ read_description(struct rc_tiff *t, char text[DESCRIPTION])
 static enum rc_status
 fill_page(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct rc_tiff *t = rc_tiff_new(file, err);
+    RC_OWN(rc_tiff, t) = rc_tiff_new(file, err);
     struct rc_tiff_shape shape;
-    enum rc_status status = RC_FAIL;
 
     if (t != NULL && !rc_tiff_page(t, map->more))
-        rc_err_set(err, "page %zu cannot be read again", map->more);
-    else if (t != NULL && rc_tiff_shape(t, &shape, err) == RC_OK)
-        status = rc_tiff_values(t, &shape, v, err);
-    rc_tiff_free(t);
-    return status;
+        return rc_err_set(err, "page %zu cannot be read again", map->more);
+    return t != NULL && rc_tiff_shape(t, &shape, err) == RC_OK ? rc_tiff_values(t, &shape, v, err)
+                                                               : RC_FAIL;
 }
 
 /* Adds the current page. */
@@ -109,7 +106,7 @@ static enum rc_status
 tiff_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     char description[DESCRIPTION], program[64];
-    struct rc_tiff *t = rc_tiff_new(file, err);
+    RC_OWN(rc_tiff, t) = rc_tiff_new(file, err);
     size_t pages;
 
     if (t != NULL && rc_tiff_pages(t, &pages, err) == RC_OK) {
@@ -120,7 +117,6 @@ tiff_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
                add_page(t, description, maps->n, pages, maps, maps->n == 0 ? err : NULL) == RC_OK)
             ; /* pages after the heights may be pictures */
     }
-    rc_tiff_free(t);
     return maps->n > 0 ? RC_OK : RC_FAIL;
 }
 

@@ -147,18 +147,15 @@ unpack_plane(const struct rc_file *file, const struct kind *kind, const struct r
     size_t values = map->nx * map->ny, width = rc_raw_width(kind->raw);
     size_t from = first_byte(kind) + map->more * values * width, n = from + values * width;
     struct rc_bytes b = {.size = n, .at = from};
-    unsigned char *all = malloc(n);
+    RC_OWNED unsigned char *all = malloc(n);
 
     if (all == NULL)
         return rc_err_set(err, "out of memory for %zu bytes of planes", n);
     b.data = all;
-    if (rc_inflate_start(file->data + stream_at(file), file->size - stream_at(file), all, n) != n) {
-        free(all);
+    if (rc_inflate_start(file->data + stream_at(file), file->size - stream_at(file), all, n) != n)
         return rc_err_set(err,
                           "the compressed planes are damaged or fewer than the header promises");
-    }
     rc_bytes_values(&b, kind->raw, v, values);
-    free(all);
     return RC_OK;
 }
 

@@ -130,22 +130,20 @@ read_channel(struct rc_tiff *t, struct channel *c)
 static enum rc_status
 fill_channel(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct rc_tiff *t = rc_tiff_new(file, err);
-    enum rc_status status = RC_FAIL;
+    RC_OWN(rc_tiff, t) = rc_tiff_new(file, err);
     struct channel c;
 
     if (t != NULL && (!rc_tiff_page(t, map->more) || !read_channel(t, &c)))
-        rc_err_set(err, "page %zu cannot be read again", map->more);
-    else if (t != NULL && !c.linear)
-        rc_err_set(
+        return rc_err_set(err, "page %zu cannot be read again", map->more);
+    if (t != NULL && !c.linear)
+        return rc_err_set(
             err, "channel '%s' has no linear scale with a multiplier and an offset: it is not read",
             c.name);
-    else if (t != NULL)
-        status = rc_tiff_values(t, &c.shape, v, err);
-    for (size_t k = 0; status == RC_OK && k < map->nx * map->ny; k++)
+    if (t == NULL || rc_tiff_values(t, &c.shape, v, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < map->nx * map->ny; k++)
         v[k] = v[k] * c.multiply + c.offset;
-    rc_tiff_free(t);
-    return status;
+    return RC_OK;
 }
 
 static void
@@ -207,12 +205,11 @@ jpk_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 static bool
 is_force(const struct rc_file *file)
 {
-    struct rc_zip_read *archive = rc_zip_read_new(file, NULL);
+    RC_OWN(rc_zip_read, archive) = rc_zip_read_new(file, NULL);
     size_t member;
     bool found =
         archive != NULL && rc_zip_read_find(archive, "header.properties", &member, NULL) == RC_OK;
 
-    rc_zip_read_free(archive);
     return found;
 }
 

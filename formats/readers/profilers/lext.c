@@ -163,7 +163,7 @@ mask_invalid(struct lext *l, double *v, struct rc_notes *notes, struct rc_err *e
     size_t n = l->shape.nx * l->shape.ny;
     struct rc_tiff_shape page;
     enum rc_status status;
-    double *mask;
+    RC_OWNED double *mask = NULL;
 
     if (l->invalid == 0)
         return RC_OK;
@@ -181,7 +181,6 @@ mask_invalid(struct lext *l, double *v, struct rc_notes *notes, struct rc_err *e
     for (size_t k = 0; status == RC_OK && k < n; k++)
         if (mask[k] != 0)
             v[k] = NAN;
-    free(mask);
     return status;
 }
 

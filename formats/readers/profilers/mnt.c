@@ -230,18 +230,15 @@ read_heights(const struct surface *s, const struct rc_map *map, double *v, struc
     size_t n = map->nx * map->ny, width = rc_raw_width(map->raw);
     size_t border = s->mask.data == NULL ? 0 : (map->nx + 2) * (map->ny + 2);
     struct rc_bytes b = {.size = n * width};
-    unsigned char *room = calloc(b.size > border ? b.size : border, 1);
-    enum rc_status status = RC_FAIL;
+    RC_OWNED unsigned char *room = calloc(b.size > border ? b.size : border, 1);
 
     if (room == NULL)
         return rc_err_set(err, "out of memory for %zu bytes of heights", b.size);
-    if (unpack("heights", s->heights, room, n, width, err) == RC_OK) {
-        b.data = room;
-        rc_bytes_values(&b, map->raw, v, n);
-        status = border == 0 ? RC_OK : apply_mask(s, room, v, err);
-    }
-    free(room);
-    return status;
+    if (unpack("heights", s->heights, room, n, width, err) != RC_OK)
+        return RC_FAIL;
+    b.data = room;
+    rc_bytes_values(&b, map->raw, v, n);
+    return border == 0 ? RC_OK : apply_mask(s, room, v, err);
 }
 
 /* The surface that is number `wanted` in the document, from 0. */
@@ -261,19 +258,15 @@ static enum rc_status
 fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct part stream;
-    unsigned char *data = rc_ole_stream(file, stream_name, &stream.n, err);
-    enum rc_status status = RC_FAIL;
+    RC_OWNED unsigned char *data = rc_ole_stream(file, stream_name, &stream.n, err);
     struct surface s;
 
     stream.data = data;
     if (data == NULL)
         return RC_FAIL;
     if (!find_surface(stream, map->more, &s) || s.nx != map->nx || s.ny != map->ny)
-        rc_err_set(err, "surface %zu cannot be found again", map->more + 1);
-    else
-        status = read_heights(&s, map, v, err);
-    free(data);
-    return status;
+        return rc_err_set(err, "surface %zu cannot be found again", map->more + 1);
+    return read_heights(&s, map, v, err);
 }
 
 /* ---- the file ---- */
@@ -308,8 +301,7 @@ static enum rc_status
 mnt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct part stream, rest, object;
-    unsigned char *data = rc_ole_stream(file, stream_name, &stream.n, err);
-    enum rc_status status = RC_OK;
+    RC_OWNED unsigned char *data = rc_ole_stream(file, stream_name, &stream.n, err);
     struct surface s;
     unsigned tag;
 
@@ -317,14 +309,14 @@ mnt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         return RC_FAIL;
     stream.data = data;
     rest = objects_of(stream);
-    for (size_t number = 0; status == RC_OK && next_entry(&rest, 8, &tag, &object);)
-        if (tag == 1 && take_surface(object, &s))
-            status = add_surface(file, &s, number++, maps, err);
-    free(data);
-    if (status == RC_OK && maps->n == 0)
+    for (size_t number = 0; next_entry(&rest, 8, &tag, &object);)
+        if (tag == 1 && take_surface(object, &s) &&
+            add_surface(file, &s, number++, maps, err) != RC_OK)
+            return RC_FAIL;
+    if (maps->n == 0)
         return rc_err_set(err, "the document has no measured surface, and computed ones are not in "
                                "the file: save SUR or X3P in the program");
-    return status;
+    return RC_OK;
 }
 
 static int

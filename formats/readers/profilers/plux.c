@@ -128,19 +128,17 @@ plux_free(struct plux *p)
         rc_zip_read_free(p->archive);
     free(p);
 }
+RC_OWNER(plux)
 
 /* NULL with the reason. */
 static struct plux *
 plux_new(const struct rc_file *file, struct rc_err *err)
 {
-    struct plux *p = malloc(sizeof *p);
+    RC_OWN(plux, p) = malloc(sizeof *p);
 
     if (p == NULL)
-        rc_err_set(err, "out of memory for reading a PLUX file");
-    else if (plux_open(p, file, err) == RC_OK)
-        return p;
-    plux_free(p);
-    return NULL;
+        return rc_err_null(err, "out of memory for reading a PLUX file");
+    return plux_open(p, file, err) == RC_OK ? rc_give(&p) : NULL;
 }
 
 /* ---- heights ---- */
@@ -173,11 +171,9 @@ read_layer(const struct plux *p, const struct rc_map *map, double *v, struct rc_
 static enum rc_status
 fill_layer(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct plux *p = plux_new(file, err);
-    enum rc_status status = p == NULL ? RC_FAIL : read_layer(p, map, v, err);
+    RC_OWN(plux, p) = plux_new(file, err);
 
-    plux_free(p);
-    return status;
+    return p == NULL ? RC_FAIL : read_layer(p, map, v, err);
 }
 
 static void
@@ -202,7 +198,7 @@ plux_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     static const struct rc_keep keys[] = {
         {"Device", "file.model"}, {"Objective", "file.probe"}, {"Technique", "file.mode"}};
-    struct plux *p = plux_new(file, err);
+    RC_OWN(plux, p) = plux_new(file, err);
 
     if (p == NULL)
         return RC_FAIL;
@@ -218,7 +214,6 @@ plux_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     for (size_t k = 0; k < LAYERS_MOST; k++)
         if (p->file[k][0] != '\0')
             add_layer(p, k, maps);
-    plux_free(p);
     return maps->n > 0 ? RC_OK : rc_err_set(err, "the file has no layer of heights");
 }
 
@@ -228,7 +223,7 @@ static int
 plux_score(const struct rc_file *file)
 {
     bool named = rc_file_named(file, ".plux"), found;
-    struct rc_zip_read *archive;
+    RC_OWN(rc_zip_read, archive) = NULL;
     size_t member;
 
     if (!rc_file_holds(file, 0, "PK", 2))
@@ -238,7 +233,6 @@ plux_score(const struct rc_file *file)
     found = find(archive, "index.xml", &member, NULL) == RC_OK;
     for (size_t k = 0; found && !named && k < rc_zip_read_members(archive); k++)
         named = strstr(rc_zip_read_name(archive, k), "LAYER_") != NULL;
-    rc_zip_read_free(archive);
     return found ? (named ? 90 : 40) : named ? 10 : 0;
 }
 

@@ -98,18 +98,15 @@ fill_packed(const struct rc_file *file, const struct rc_map *map, double *v, str
 {
     size_t n = map->nx * map->ny, size = n * rc_raw_width(map->raw);
     struct rc_bytes bytes = {.size = size};
-    enum rc_status status = RC_FAIL;
-    unsigned char *raw = malloc(size);
+    RC_OWNED unsigned char *raw = malloc(size);
 
     if (raw == NULL)
         return rc_err_set(err, "out of memory for %zu bytes of heights", size);
-    if (unpack_all(file, map, raw, size, err) == RC_OK) {
-        bytes.data = raw;
-        rc_bytes_values(&bytes, map->raw, v, n);
-        status = RC_OK;
-    }
-    free(raw);
-    return status;
+    if (unpack_all(file, map, raw, size, err) != RC_OK)
+        return RC_FAIL;
+    bytes.data = raw;
+    rc_bytes_values(&bytes, map->raw, v, n);
+    return RC_OK;
 }
 
 /* ---- header ---- */

@@ -47,11 +47,9 @@ unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *
 
     if (rc_zip_read_size(archive, member, &size, err) != RC_OK)
         return NULL;
-    if (size > rc_memory_limit(file->size)) {
-        rc_err_set(err, "the archive in the file promises %g MB out of %g: that cannot be",
-                   (double)size / 1e6, (double)file->size / 1e6);
-        return NULL;
-    }
+    if (size > rc_memory_limit(file->size))
+        return rc_err_null(err, "the archive in the file promises %g MB out of %g: that cannot be",
+                           (double)size / 1e6, (double)file->size / 1e6);
     return rc_zip_read_bytes(archive, member, size, n, NULL, err);
 }
 
@@ -67,34 +65,26 @@ unpack(const struct rc_file *file, size_t *n, struct rc_err *err)
     for (size_t k = 0; k < STARTS_MOST && at != NULL; k++) {
         size_t start = (size_t)(at - (const char *)file->data), member;
         struct rc_file part = {file->name, file->data + start, file->size - start};
-        struct rc_zip_read *archive = rc_zip_read_behind(&part, NULL);
-        unsigned char *bytes = NULL;
-        bool found =
-            archive != NULL && rc_zip_read_find(archive, member_name, &member, NULL) == RC_OK;
+        RC_OWN(rc_zip_read, archive) = rc_zip_read_behind(&part, NULL);
 
-        if (found)
-            bytes = unpack_member(archive, member, file, n, err);
-        rc_zip_read_free(archive);
-        if (found)
-            return bytes;
+        if (archive != NULL && rc_zip_read_find(archive, member_name, &member, NULL) == RC_OK)
+            return unpack_member(archive, member, file, n, err);
         rest = (struct rc_piece){at + 1, file->size - start - 1};
         at = rc_piece_find(rest, "PK\3\4");
     }
-    rc_err_set(err, "the file has no archive with a member %s", member_name);
-    return NULL;
+    return rc_err_null(err, "the file has no archive with a member %s", member_name);
 }
 
 static enum rc_status
 fill_packed(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_bytes cursor = {.at = map->at};
-    unsigned char *bytes = unpack(file, &cursor.size, err);
+    RC_OWNED unsigned char *bytes = unpack(file, &cursor.size, err);
 
     if (bytes == NULL)
         return RC_FAIL;
     cursor.data = bytes;
     rc_bytes_values(&cursor, map->raw, v, map->nx * map->ny);
-    free(bytes);
     return RC_OK;
 }
 
@@ -183,7 +173,7 @@ static enum rc_status
 find_packed(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_file inner = {.name = member_name};
-    unsigned char *bytes = unpack(file, &inner.size, err);
+    RC_OWNED unsigned char *bytes = unpack(file, &inner.size, err);
     enum rc_status status;
 
     if (bytes == NULL)
@@ -194,7 +184,6 @@ find_packed(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err
         maps->map[k].fill = fill_packed;
         status = rc_map_bound(&maps->map[k], file, (double)inner.size, err);
     }
-    free(bytes);
     return status;
 }
 

@@ -48,35 +48,27 @@ open_archive(const struct rc_file *file, struct rc_err *err)
     struct rc_bytes b = rc_file_bytes(file, false);
     size_t picture = (size_t)rc_bytes_at(&b, 4, RC_RAW_U32), member;
     struct rc_file part = *file;
-    struct rc_zip_read *a = NULL;
+    RC_OWN(rc_zip_read, behind) = NULL;
+    RC_OWN(rc_zip_read, whole) = NULL;
 
-    if (!rc_file_holds(file, 0, "KPK0", 4) && !is_packed(file)) {
-        rc_err_set(err, "not a ZON file: it must begin with KPK0 or KPK1");
-        return NULL;
-    }
-    if (is_packed(file) && !rc_zstd_is_there()) {
-        rc_err_set(err,
-                   "the file is packed by zstd (KPK1), but this program was built without zstd: "
-                   "export the heights as CSV in Keyence's program");
-        return NULL;
-    }
-    if (b.past || picture > file->size - FIRST) {
-        rc_err_set(err, "the picture takes %zu bytes, the file has %zu", picture, file->size);
-        return NULL;
-    }
+    if (!rc_file_holds(file, 0, "KPK0", 4) && !is_packed(file))
+        return rc_err_null(err, "not a ZON file: it must begin with KPK0 or KPK1");
+    if (is_packed(file) && !rc_zstd_is_there())
+        return rc_err_null(
+            err, "the file is packed by zstd (KPK1), but this program was built without zstd: "
+                 "export the heights as CSV in Keyence's program");
+    if (b.past || picture > file->size - FIRST)
+        return rc_err_null(err, "the picture takes %zu bytes, the file has %zu", picture,
+                           file->size);
     part.data += FIRST + picture;
     part.size -= FIRST + picture;
-    if ((a = rc_zip_read_behind(&part, NULL)) != NULL) {
-        if (rc_zip_read_find(a, heights_name, &member, NULL) == RC_OK)
-            return a;
-        rc_zip_read_free(a);
-    }
-    if ((a = rc_zip_read_behind(file, err)) == NULL ||
-        rc_zip_read_find(a, heights_name, &member, NULL) == RC_OK)
-        return a;
-    rc_zip_read_free(a);
-    rc_err_set(err, "the archive in the file has no heights (member %s)", heights_name);
-    return NULL;
+    if ((behind = rc_zip_read_behind(&part, NULL)) != NULL &&
+        rc_zip_read_find(behind, heights_name, &member, NULL) == RC_OK)
+        return rc_give(&behind);
+    if ((whole = rc_zip_read_behind(file, err)) == NULL ||
+        rc_zip_read_find(whole, heights_name, &member, NULL) == RC_OK)
+        return rc_give(&whole);
+    return rc_err_null(err, "the archive in the file has no heights (member %s)", heights_name);
 }
 
 /* The n bytes of a member, unpacked, with a NUL behind them, which the caller frees; NULL with the
@@ -86,24 +78,20 @@ member_bytes(const struct zon *z, const struct rc_file *file, size_t member, con
              size_t *n, struct rc_err *err)
 {
     size_t most = rc_memory_limit(file->size), packed_n;
-    unsigned char *packed, *bytes;
+    RC_OWNED unsigned char *packed = NULL;
     uint64_t size;
 
     if (rc_zip_read_size(z->archive, member, &size, err) != RC_OK)
         return NULL;
-    if (size > most / 2) {
-        rc_err_set(err, "the archive promises %g MB of %s out of %g: that cannot be",
-                   (double)size / 1e6, what, (double)file->size / 1e6);
-        return NULL;
-    }
+    if (size > most / 2)
+        return rc_err_null(err, "the archive promises %g MB of %s out of %g: that cannot be",
+                           (double)size / 1e6, what, (double)file->size / 1e6);
     packed = rc_zip_read_bytes(z->archive, member, size, &packed_n, NULL, err);
     if (packed == NULL || packed_n < 4 || memcmp(packed, "\x28\xb5\x2f\xfd", 4) != 0) {
         *n = packed_n;
-        return packed;
+        return rc_give(&packed);
     }
-    bytes = rc_zstd_unpack(what, packed, packed_n, most / 2, n, err);
-    free(packed);
-    return bytes;
+    return rc_zstd_unpack(what, packed, packed_n, most / 2, n, err);
 }
 
 /* Reads an array: its head, and its bytes, which the caller frees. */
@@ -112,6 +100,12 @@ struct array {
     unsigned char *bytes;
     size_t n;
 };
+
+static void
+array_free(struct array *a)
+{
+    free(a->bytes);
+}
 
 /* `width`: bytes that an element must have. */
 static enum rc_status
@@ -128,21 +122,16 @@ read_array(const struct zon *z, const struct rc_file *file, const char *name, si
     b.size = a->n;
     if (rc_map_count("columns", rc_bytes_at(&b, 0, RC_RAW_I32), &a->nx, err) != RC_OK ||
         rc_map_count("rows", rc_bytes_at(&b, 4, RC_RAW_I32), &a->ny, err) != RC_OK)
-        goto failed;
+        return RC_FAIL;
     element = (size_t)rc_bytes_u32(&b);
     a->row = rc_bytes_u32(&b);
-    if (element != width || a->nx > a->row / width || a->ny > (a->n - HEAD) / a->row) {
-        rc_err_set(err,
-                   "the array '%s' promises %zu x %zu elements of %zu bytes in rows of %zu, it has "
-                   "%zu bytes and elements of %zu",
-                   name, a->nx, a->ny, element, a->row, a->n, width);
-        goto failed;
-    }
+    if (element != width || a->nx > a->row / width || a->ny > (a->n - HEAD) / a->row)
+        return rc_err_set(
+            err,
+            "the array '%s' promises %zu x %zu elements of %zu bytes in rows of %zu, it has "
+            "%zu bytes and elements of %zu",
+            name, a->nx, a->ny, element, a->row, a->n, width);
     return RC_OK;
-failed:
-    free(a->bytes);
-    a->bytes = NULL;
-    return RC_FAIL;
 }
 
 /* ---- XML ---- */
@@ -183,15 +172,11 @@ static enum rc_status
 read_document(struct zon *z, const struct rc_file *file, size_t member, struct rc_err *err)
 {
     size_t n;
-    unsigned char *bytes = member_bytes(z, file, member, "settings", &n, err);
-    enum rc_status status = RC_FAIL;
+    RC_OWNED unsigned char *bytes = member_bytes(z, file, member, "settings", &n, err);
 
     if (bytes != NULL && n > XML_MOST)
-        rc_err_set(err, "the settings have %zu bytes: that cannot be", n);
-    else if (bytes != NULL)
-        status = rc_xml_read("a document", bytes, n, take_element, z, err);
-    free(bytes);
-    return status;
+        return rc_err_set(err, "the settings have %zu bytes: that cannot be", n);
+    return bytes != NULL ? rc_xml_read("a document", bytes, n, take_element, z, err) : RC_FAIL;
 }
 
 static enum rc_status
@@ -218,7 +203,7 @@ static enum rc_status
 apply_marks(const struct zon *z, const struct rc_file *file, const struct rc_map *map, double *v,
             struct rc_err *err)
 {
-    struct array marks = {0};
+    RC_ENDS(array_free) struct array marks = {0};
     size_t member;
 
     if (rc_zip_read_find(z->archive, marks_name, &member, NULL) != RC_OK)
@@ -229,7 +214,6 @@ apply_marks(const struct zon *z, const struct rc_file *file, const struct rc_map
         for (size_t k = 0; k < map->nx * map->ny; k++)
             if ((marks.bytes[HEAD + k / map->nx * marks.row + k % map->nx] & NOT_MEASURED) != 0)
                 v[k] = NAN;
-    free(marks.bytes);
     return marks.nx == map->nx && marks.ny == map->ny
                ? RC_OK
                : rc_err_set(err, "%zu x %zu heights and %zu x %zu marks do not belong together",
@@ -239,51 +223,43 @@ apply_marks(const struct zon *z, const struct rc_file *file, const struct rc_map
 static enum rc_status
 fill_heights(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct zon z = {.archive = open_archive(file, err)};
-    enum rc_status status = RC_FAIL;
-    struct array a = {0};
+    RC_OWN(rc_zip_read, archive) = open_archive(file, err);
+    struct zon z = {.archive = archive};
+    RC_ENDS(array_free) struct array a = {0};
+    struct rc_bytes b;
 
-    if (z.archive != NULL && read_array(&z, file, heights_name, 4, &a, err) == RC_OK) {
-        struct rc_bytes b = {.data = a.bytes, .size = a.n};
-
-        for (size_t j = 0; j < map->ny; j++) {
-            b.at = HEAD + j * a.row;
-            rc_bytes_values(&b, RC_RAW_I32, v + j * map->nx, map->nx);
-        }
-        free(a.bytes);
-        status = apply_marks(&z, file, map, v, err);
+    if (archive == NULL || read_array(&z, file, heights_name, 4, &a, err) != RC_OK)
+        return RC_FAIL;
+    b = (struct rc_bytes){.data = a.bytes, .size = a.n};
+    for (size_t j = 0; j < map->ny; j++) {
+        b.at = HEAD + j * a.row;
+        rc_bytes_values(&b, RC_RAW_I32, v + j * map->nx, map->nx);
     }
-    rc_zip_read_free(z.archive);
-    return status;
+    return apply_marks(&z, file, map, v, err);
 }
 
 static enum rc_status
 zon_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct zon z = {.pixel = NAN, .count = NAN, .maps = maps};
-    enum rc_status status = RC_FAIL;
-    struct array a = {0};
+    RC_OWN(rc_zip_read, archive) = open_archive(file, err);
+    struct zon z = {.archive = archive, .pixel = NAN, .count = NAN, .maps = maps};
+    RC_ENDS(array_free) struct array a = {0};
     struct rc_map *map;
 
-    if ((z.archive = open_archive(file, err)) == NULL)
+    if (archive == NULL || read_elements(&z, file, err) != RC_OK ||
+        read_array(&z, file, heights_name, 4, &a, err) != RC_OK)
         return RC_FAIL;
-    if (read_elements(&z, file, err) == RC_OK &&
-        read_array(&z, file, heights_name, 4, &a, err) == RC_OK) {
-        map = rc_maps_add(maps, "", 0);
-        map->nx = a.nx;
-        map->ny = a.ny;
-        map->dx = map->dy = z.pixel;
-        map->fill = fill_heights;
-        if (!isnan(z.count)) {
-            strcpy(map->unit, "m");
-            map->scale = z.count;
-        }
-        rc_maps_key(maps, "file.manufacturer", "Keyence", strlen("Keyence"));
-        status = rc_map_bound(map, file, 2 * (double)a.n, err);
-        free(a.bytes);
+    map = rc_maps_add(maps, "", 0);
+    map->nx = a.nx;
+    map->ny = a.ny;
+    map->dx = map->dy = z.pixel;
+    map->fill = fill_heights;
+    if (!isnan(z.count)) {
+        strcpy(map->unit, "m");
+        map->scale = z.count;
     }
-    rc_zip_read_free(z.archive);
-    return status;
+    rc_maps_key(maps, "file.manufacturer", "Keyence", strlen("Keyence"));
+    return rc_map_bound(map, file, 2 * (double)a.n, err);
 }
 
 const struct rc_format rc_format_zon = {

@@ -290,20 +290,17 @@ read_heights(struct matrix *m, double *v, struct rc_err *err)
 {
     const struct rc_labels *l = &m->labels;
     size_t n = m->table.rows * m->table.columns;
-    double *all;
+    RC_OWNED double *all = NULL;
 
     if (l->rows + l->columns == 0)
         return rc_number_table_read(&m->table, v, err);
     if ((all = malloc(n * sizeof *all)) == NULL)
         return rc_err_set(err, "out of memory for %zu values", n);
-    if (rc_number_table_read(&m->table, all, err) != RC_OK) {
-        free(all);
+    if (rc_number_table_read(&m->table, all, err) != RC_OK)
         return RC_FAIL;
-    }
     for (size_t j = 0; j < m->ny; j++)
         memcpy(v + j * m->nx, all + (j + l->rows) * m->table.columns + l->columns,
                m->nx * sizeof *v);
-    free(all);
     return RC_OK;
 }
 

@@ -35,14 +35,13 @@ counts(const double *v, size_t n)
 static bool
 is_even(const double *v, size_t n, double *step)
 {
-    double *x = n > 1 ? malloc(n * sizeof *x) : NULL;
+    RC_OWNED double *x = n > 1 ? malloc(n * sizeof *x) : NULL;
     bool even = false;
 
     if (x != NULL) {
         memcpy(x, v, n * sizeof *x);
         even = rc_axis_step("", x, n, step, NULL) == RC_OK;
     }
-    free(x);
     return even;
 }
 
@@ -82,16 +81,14 @@ static bool
 goes_on(const struct edges *e, bool row)
 {
     size_t columns = e->table->columns, rows = e->table->rows, n = row ? columns : rows;
-    double *line = malloc(n * sizeof *line), step;
-    bool even;
+    RC_OWNED double *line = malloc(n * sizeof *line);
+    double step;
 
     if (line == NULL)
         return true;
     for (size_t k = 0; k < n; k++)
         line[k] = row ? e->v[(rows > 1) * columns + k] : e->v[k * columns + 1];
-    even = is_even(line, n, &step);
-    free(line);
-    return even;
+    return is_even(line, n, &step);
 }
 
 /* ---- the edges ---- */

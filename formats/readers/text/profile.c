@@ -168,7 +168,8 @@ lay_nodes(const struct profile *p, const struct rc_file *file, const struct rc_w
           struct rc_even *even, double *v, struct rc_notes *notes, struct rc_err *err)
 {
     size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns;
-    double *x = calloc(rows, 2 * sizeof *x), *z;
+    RC_OWNED double *x = calloc(rows, 2 * sizeof *x);
+    double *z;
     double metres = rc_piece_metres(rc_titled_table_unit(&p->table, p->x, 'x'));
     enum rc_status status;
 
@@ -186,7 +187,6 @@ lay_nodes(const struct profile *p, const struct rc_file *file, const struct rc_w
     status = rc_even_new(x, rows, metres, file, wish, even, err);
     if (status == RC_OK && v != NULL)
         rc_even_heights(even, x, z, rows, v, notes);
-    free(x);
     return status;
 }
 

@@ -40,18 +40,16 @@ by_value(const void *a, const void *b)
 static enum rc_status
 find_axis(const double *v, size_t points, char name, struct axis *axis, struct rc_err *err)
 {
-    double *sorted = malloc(points * sizeof *sorted), widest = 0, start;
-    enum rc_status status = RC_OK;
+    RC_OWNED double *sorted = malloc(points * sizeof *sorted);
+    double widest = 0, start;
     char text[RC_NUMBER_SIZE];
 
     if (sorted == NULL)
         return rc_err_set(err, "out of memory for %zu points", points);
     for (size_t k = 0; k < points; k++) {
         sorted[k] = v[3 * k];
-        if (!isfinite(sorted[k])) {
-            free(sorted);
+        if (!isfinite(sorted[k]))
             return rc_err_set(err, "point %zu has no %c", k + 1, name);
-        }
     }
     qsort(sorted, points, sizeof *sorted, by_value);
     for (size_t k = 1; k < points; k++)
@@ -61,15 +59,14 @@ find_axis(const double *v, size_t points, char name, struct axis *axis, struct r
         axis->n += sorted[k] - sorted[k - 1] > 0.01 * widest;
     if (axis->n > 1)
         axis->step = (sorted[points - 1] - sorted[0]) / (double)(axis->n - 1);
-    for (size_t k = 0; k < points && status == RC_OK; k++) {
+    for (size_t k = 0; k < points; k++) {
         start = (sorted[k] - axis->first) / axis->step;
         if (!(fabs(start - round(start)) < 0.1))
-            status = rc_err_set(
+            return rc_err_set(
                 err, "the points are on no raster: %zu different %c from %s on, not evenly spaced",
                 axis->n, name, rc_number_text(text, axis->first));
     }
-    free(sorted);
-    return status;
+    return RC_OK;
 }
 
 /* ---- points in a line ---- */
@@ -94,7 +91,8 @@ find_line(struct cloud *c)
 {
     size_t points = c->table.numbers.rows, first, last;
     const double *p = c->table.v;
-    double *pair = malloc(4 * points * sizeof *pair), *sorted, dx, dy, length;
+    RC_OWNED double *pair = malloc(4 * points * sizeof *pair);
+    double *sorted, dx, dy, length;
     bool line = pair != NULL && points > 2;
 
     last = line ? furthest_from(p, points, 0) : 0;
@@ -118,13 +116,11 @@ find_line(struct cloud *c)
         sorted[points + k] = pair[2 * k + 1];
         line = k == 0 || sorted[k] > sorted[k - 1];
     }
-    if (!line) {
-        free(pair);
+    if (!line)
         return false;
-    }
     memmove(pair, sorted, 2 * points * sizeof *pair);
-    c->along = pair;
     c->z = pair + points;
+    c->along = rc_give(&pair);
     return true;
 }
 
@@ -262,43 +258,34 @@ cloud_open(struct cloud *c, const struct rc_file *file, const struct rc_wish *wi
 static enum rc_status
 fill_points(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    enum rc_status status = RC_FAIL;
-    unsigned char *taken = NULL;
-    struct cloud c;
+    RC_OWNED unsigned char *taken = NULL;
+    RC_ENDS(cloud_close) struct cloud c;
 
     if (cloud_open(&c, file, map->wish, map->more, err) != RC_OK)
-        goto done;
+        return RC_FAIL;
     rc_titled_table_left_out(&c.table, map->notes);
     if (c.along != NULL) {
         struct rc_even even;
 
-        status = rc_even_new(c.along, c.table.numbers.rows, metres_along(&c), file, map->wish,
-                             &even, err);
-        if (status == RC_OK)
-            rc_even_heights(&even, c.along, c.z, c.table.numbers.rows, v, map->notes);
-        goto done;
+        if (rc_even_new(c.along, c.table.numbers.rows, metres_along(&c), file, map->wish, &even,
+                        err) != RC_OK)
+            return RC_FAIL;
+        rc_even_heights(&even, c.along, c.z, c.table.numbers.rows, v, map->notes);
+        return RC_OK;
     }
-    if ((taken = calloc(map->nx, map->ny)) == NULL) {
-        rc_err_set(err, "out of memory for %zu points", map->nx * map->ny);
-        goto done;
-    }
+    if ((taken = calloc(map->nx, map->ny)) == NULL)
+        return rc_err_set(err, "out of memory for %zu points", map->nx * map->ny);
     for (size_t k = 0; k < map->nx * map->ny; k++)
         v[k] = NAN;
     for (size_t k = 0; k < c.table.numbers.rows; k++) {
         const double *p = c.table.v + 3 * k;
         size_t at = (size_t)lround((p[1] - c.y.first) / c.y.step) * map->nx +
                     (size_t)lround((p[0] - c.x.first) / c.x.step);
-        if (taken[at]++ != 0) {
-            rc_err_set(err, "point %zu has the same position as another one", k + 1);
-            goto done;
-        }
+        if (taken[at]++ != 0)
+            return rc_err_set(err, "point %zu has the same position as another one", k + 1);
         v[at] = p[2];
     }
-    status = RC_OK;
-done:
-    free(taken);
-    cloud_close(&c);
-    return status;
+    return RC_OK;
 }
 
 static enum rc_status

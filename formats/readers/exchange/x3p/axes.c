@@ -25,38 +25,30 @@ find_step(const struct rc_x3p *x, struct points *p, bool is_x, double *step, boo
 {
     size_t n = is_x ? x->nx : x->ny, apart = is_x ? 1 : x->nx, skip = is_x ? 0 : x->before_y;
     enum rc_raw raw = is_x ? x->raw_x : x->raw_y;
-    double *place = malloc(n * sizeof *place), first, even;
-    enum rc_status status = RC_FAIL;
+    RC_OWNED double *place = malloc(n * sizeof *place);
+    double first, even;
 
-    if (n < 2) {
-        rc_err_set(err, "axis %s is absolute and has one point: it has no spacing",
-                   is_x ? "CX" : "CY");
-        goto done;
-    }
-    if (place == NULL) {
-        rc_err_set(err, "out of memory for %zu places", n);
-        goto done;
-    }
+    if (n < 2)
+        return rc_err_set(err, "axis %s is absolute and has one point: it has no spacing",
+                          is_x ? "CX" : "CY");
+    if (place == NULL)
+        return rc_err_set(err, "out of memory for %zu places", n);
     for (size_t k = 0; k < n; k++)
         place[k] = place_of(p, k * apart, skip, raw);
     first = place[0];
     *falls = place[n - 1] < first;
     if (rc_axis_step(is_x ? "CX" : "CY", place, n, &even, err) != RC_OK)
-        goto done;
+        return RC_FAIL;
     for (size_t k = 0; k < x->n; k++) {
         double steps = (double)(is_x ? k % x->nx : k / x->nx), here = place_of(p, k, skip, raw);
 
-        if (!(fabs(here - first - (*falls ? -even : even) * steps) <= 0.1 * even)) {
-            rc_err_set(err, "the places of axis %s are no grid: point %zu is not where its %s is",
-                       is_x ? "CX" : "CY", k + 1, is_x ? "column" : "row");
-            goto done;
-        }
+        if (!(fabs(here - first - (*falls ? -even : even) * steps) <= 0.1 * even))
+            return rc_err_set(err,
+                              "the places of axis %s are no grid: point %zu is not where its %s is",
+                              is_x ? "CX" : "CY", k + 1, is_x ? "column" : "row");
     }
     *step = even;
-    status = RC_OK;
-done:
-    free(place);
-    return status;
+    return RC_OK;
 }
 
 /* Puts the heights where an axis that rises has them. */
@@ -79,8 +71,7 @@ rc_x3p_axes(struct rc_x3p *x, const struct rc_file *file, double *v, struct rc_n
     size_t member, size = x->n * (x->before_z + rc_raw_width(x->raw));
     struct points p = {.stride = x->before_z + rc_raw_width(x->raw)};
     bool x_falls = false, y_falls = false;
-    enum rc_status status = RC_FAIL;
-    unsigned char *data;
+    RC_OWNED unsigned char *data = NULL;
     double step;
 
     if (rc_x3p_find_points(x, &member, err) != RC_OK || rc_map_fits(file, x->n, 5, err) != RC_OK ||
@@ -89,20 +80,17 @@ rc_x3p_axes(struct rc_x3p *x, const struct rc_file *file, double *v, struct rc_n
     p.b = (struct rc_bytes){.data = data, .size = size};
     if (x->absolute_x) {
         if (find_step(x, &p, true, &step, &x_falls, err) != RC_OK)
-            goto done;
+            return RC_FAIL;
         x->dx = step * fabs(x->x_increment);
         x_falls = x_falls != (x->x_increment < 0);
     }
     if (x->absolute_y) {
         if (find_step(x, &p, false, &step, &y_falls, err) != RC_OK)
-            goto done;
+            return RC_FAIL;
         x->dy = step * fabs(x->y_increment);
         y_falls = y_falls != (x->y_increment < 0);
     }
     if (v != NULL)
         take_heights(x, &p, x_falls, y_falls, v);
-    status = RC_OK;
-done:
-    free(data);
-    return status;
+    return RC_OK;
 }

@@ -74,7 +74,7 @@ void
 rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes)
 {
     const char *link = x->text[RC_X3P_MD5_FILE];
-    unsigned char *bytes;
+    RC_OWNED unsigned char *bytes = NULL;
     char wanted[RC_MD5_TEXT];
     struct rc_err err;
     size_t member, n;
@@ -97,7 +97,6 @@ rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes)
                 "main.xml was changed after its checksum was written: its MD5 sum is %s, "
                 "md5checksum.hex says %s",
                 x->md5, wanted);
-    free(bytes);
 }
 
 /* ---- heights ---- */
@@ -152,7 +151,7 @@ static enum rc_status
 apply_mask(struct rc_x3p *x, double *v, struct rc_notes *notes, struct rc_err *err)
 {
     enum rc_status status = RC_FAIL;
-    unsigned char *mask;
+    RC_OWNED unsigned char *mask = NULL;
     size_t member, n, least = x->n / 8 + (x->n % 8 != 0);
     const char *given = x->text[RC_X3P_VALID_MD5];
     char md5[RC_MD5_TEXT] = "";
@@ -175,7 +174,6 @@ apply_mask(struct rc_x3p *x, double *v, struct rc_notes *notes, struct rc_err *e
                 v[k] = NAN;
         status = RC_OK;
     }
-    free(mask);
     return status;
 }
 
@@ -187,15 +185,13 @@ rc_x3p_unpack_points(struct rc_x3p *x, size_t member, size_t size, struct rc_not
 {
     const char *given = x->text[RC_X3P_POINTS_MD5];
     char md5[RC_MD5_TEXT] = "";
-    unsigned char *data;
+    RC_OWNED unsigned char *data = NULL;
     size_t got;
 
     data = rc_zip_read_bytes(x->archive, member, size, &got, is_given(given) ? md5 : NULL, err);
-    if (data != NULL && is_given(given) && compare_md5("points", given, md5, notes, err) != RC_OK) {
-        free(data);
+    if (data != NULL && is_given(given) && compare_md5("points", given, md5, notes, err) != RC_OK)
         return NULL;
-    }
-    return data;
+    return rc_give(&data);
 }
 
 /* The points of a member, x and z by turns. */
@@ -204,7 +200,7 @@ read_profile(struct rc_x3p *x, double *xz, struct rc_notes *notes, struct rc_err
 {
     size_t member, size = x->n * (x->before_z + rc_raw_width(x->raw));
     struct rc_bytes bytes;
-    unsigned char *data;
+    RC_OWNED unsigned char *data = NULL;
 
     if (rc_x3p_find_points(x, &member, err) != RC_OK ||
         (data = rc_x3p_unpack_points(x, member, size, notes, err)) == NULL)
@@ -216,47 +212,40 @@ read_profile(struct rc_x3p *x, double *xz, struct rc_notes *notes, struct rc_err
         bytes.at = k * (x->before_z + rc_raw_width(x->raw)) + x->before_z;
         rc_bytes_values(&bytes, x->raw, &xz[2 * k + 1], 1);
     }
-    free(data);
     return RC_OK;
 }
 
 double *
 rc_x3p_profile(struct rc_x3p *x, struct rc_notes *notes, struct rc_err *err)
 {
-    double *p = malloc(4 * x->n * sizeof *p), *xz, *z;
+    RC_OWNED double *p = malloc(4 * x->n * sizeof *p);
+    double *xz, *z;
     bool falls;
 
-    if (p == NULL) {
-        rc_err_set(err, "out of memory for %zu points", x->n);
-        return NULL;
-    }
+    if (p == NULL)
+        return rc_err_null(err, "out of memory for %zu points", x->n);
     z = p + x->n;
     xz = p + 2 * x->n;
     if (!x->binary)
         memcpy(xz, x->list, 2 * x->n * sizeof *xz);
     else if (read_profile(x, xz, notes, err) != RC_OK)
-        goto failed;
+        return NULL;
     for (size_t k = 0; k < x->n; k++)
         z[k] = xz[2 * k + 1];
     if (apply_mask(x, z, notes, err) != RC_OK)
-        goto failed;
+        return NULL;
     falls = x->n > 1 && (xz[2] - xz[0]) * x->x_increment < 0;
     for (size_t k = 0; k < x->n; k++) {
         size_t from = falls ? x->n - 1 - k : k;
 
         xz[2 * k + 1] = z[from] * x->increment + x->offset;
         p[k] = xz[2 * from] * x->x_increment + x->x_offset;
-        if (!isfinite(p[k]) || (k > 0 && !(p[k] > p[k - 1]))) {
-            rc_err_set(err, "the positions change direction at point %zu", from + 1);
-            goto failed;
-        }
+        if (!isfinite(p[k]) || (k > 0 && !(p[k] > p[k - 1])))
+            return rc_err_null(err, "the positions change direction at point %zu", from + 1);
     }
     for (size_t k = 0; k < x->n; k++)
         z[k] = xz[2 * k + 1];
-    return p;
-failed:
-    free(p);
-    return NULL;
+    return rc_give(&p);
 }
 
 enum rc_status

@@ -74,7 +74,7 @@ x3p_open(struct rc_x3p *x, const struct rc_file *file, struct rc_err *err)
 static int
 x3p_score(const struct rc_file *file)
 {
-    struct rc_zip_read *archive;
+    RC_OWN(rc_zip_read, archive) = NULL;
     char prefix[RC_X3P_NAME];
     bool named = rc_file_named(file, ".x3p"), has_main;
     size_t member;
@@ -85,7 +85,6 @@ x3p_score(const struct rc_file *file)
     if ((archive = rc_zip_read_new(file, NULL)) == NULL)
         return named ? 50 : 5;
     has_main = find_main(archive, &member, prefix);
-    rc_zip_read_free(archive);
     return has_main ? (named ? 95 : 80) : 5;
 }
 
@@ -98,7 +97,7 @@ lay_nodes(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wi
           struct rc_notes *notes, struct rc_err *err)
 {
     enum rc_status status = RC_FAIL;
-    double *points = NULL;
+    RC_OWNED double *points = NULL;
     struct rc_even even;
 
     if (x->n < 2)
@@ -112,7 +111,6 @@ lay_nodes(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wi
         if (v != NULL)
             rc_even_heights(&even, points, points + x->n, x->n, v, notes);
     }
-    free(points);
     return status;
 }
 

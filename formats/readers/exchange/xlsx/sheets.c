@@ -308,7 +308,7 @@ read_all(struct reading *r, struct rc_err *err)
 enum rc_status
 rc_workbook_read(struct rc_workbook *book, const struct rc_file *file, struct rc_err *err)
 {
-    struct reading *r = calloc(1, sizeof *r);
+    RC_OWNED struct reading *r = calloc(1, sizeof *r);
     enum rc_status status = RC_FAIL;
 
     memset(book, 0, sizeof *book);
@@ -320,7 +320,6 @@ rc_workbook_read(struct rc_workbook *book, const struct rc_file *file, struct rc
         status = read_all(r, err);
     rc_zip_read_free(r->archive);
     free(r->shared);
-    free(r);
     return status;
 }
 
@@ -335,15 +334,12 @@ rc_workbook_free(struct rc_workbook *book)
 bool
 rc_workbook_is(const struct rc_file *file)
 {
-    struct rc_zip_read *archive;
+    RC_OWN(rc_zip_read, archive) = NULL;
     size_t member;
-    bool is;
 
     if (!rc_file_holds(file, 0, "PK", 2) || (archive = rc_zip_read_new(file, NULL)) == NULL)
         return false;
-    is = rc_zip_read_find(archive, workbook_name, &member, NULL) == RC_OK;
-    rc_zip_read_free(archive);
-    return is;
+    return rc_zip_read_find(archive, workbook_name, &member, NULL) == RC_OK;
 }
 
 const struct rc_cell *

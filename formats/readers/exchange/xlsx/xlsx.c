@@ -369,6 +369,7 @@ opened_free(struct opened *o)
         free(o->text.bytes);
     free(o);
 }
+RC_OWNER(opened)
 
 static enum rc_status
 describe(const struct rc_workbook *w, const struct block *b, struct opened *o, struct rc_err *err)
@@ -388,20 +389,17 @@ static struct opened *
 open_block(const struct rc_workbook *w, const struct block *b, const struct rc_wish *wish,
            struct rc_err *err)
 {
-    struct opened *o = calloc(1, sizeof *o);
+    RC_OWN(opened, o) = calloc(1, sizeof *o);
 
-    if (o == NULL) {
-        rc_err_set(err, "out of memory for a block of a workbook");
-        return NULL;
-    }
+    if (o == NULL)
+        return rc_err_null(err, "out of memory for a block of a workbook");
     o->wish = *wish;
     o->wish.separator = "\t";
     o->wish.decimal = '.';
     o->wish.missing = NULL;
     if (describe(w, b, o, err) == RC_OK)
-        return o;
+        return rc_give(&o);
     say_where(b, err);
-    opened_free(o);
     return NULL;
 }
 
@@ -419,33 +417,30 @@ book_free(struct book *k)
         rc_workbook_free(&k->workbook);
     free(k);
 }
+RC_OWNER(book)
 
 /* NULL with the reason. */
 static struct book *
 book_new(const struct rc_file *file, struct rc_err *err)
 {
-    struct book *k = calloc(1, sizeof *k);
+    RC_OWN(book, k) = calloc(1, sizeof *k);
 
-    if (k == NULL) {
-        rc_err_set(err, "out of memory for reading a workbook");
+    if (k == NULL)
+        return rc_err_null(err, "out of memory for reading a workbook");
+    if (rc_workbook_read(&k->workbook, file, err) != RC_OK)
         return NULL;
-    }
-    if (rc_workbook_read(&k->workbook, file, err) != RC_OK) {
-        book_free(k);
-        return NULL;
-    }
     for (size_t s = 0; s < k->workbook.sheets; s++) {
         find_runs(&k->workbook.sheet[s], &k->columns);
         find_blocks(&k->workbook.sheet[s], &k->columns, &k->blocks);
     }
-    return k;
+    return rc_give(&k);
 }
 
 static enum rc_status
 fill_block(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
-    struct book *k = book_new(file, err);
-    struct opened *o =
+    RC_OWN(book, k) = book_new(file, err);
+    RC_OWN(opened, o) =
         k == NULL ? NULL : open_block(&k->workbook, &k->blocks.block[map->more], map->wish, err);
     enum rc_status status = RC_FAIL;
 
@@ -457,8 +452,6 @@ fill_block(const struct rc_file *file, const struct rc_map *map, double *v, stru
         if ((status = inner->fill(&o->file, inner, v, err)) != RC_OK)
             say_where(&k->blocks.block[map->more], err);
     }
-    opened_free(o);
-    book_free(k);
     return status;
 }
 
@@ -467,11 +460,11 @@ static enum rc_status
 xlsx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_err why = {""}, first = {"the workbook has no column of numbers"};
-    struct book *k = book_new(file, err);
+    RC_OWN(book, k) = book_new(file, err);
 
     for (size_t n = 0; k != NULL && n < k->blocks.n; n++) {
         const struct block *b = &k->blocks.block[n];
-        struct opened *o = open_block(&k->workbook, b, maps->wish, &why);
+        RC_OWN(opened, o) = open_block(&k->workbook, b, maps->wish, &why);
         struct rc_map *map = o == NULL ? NULL : rc_maps_add(maps, "", 0);
 
         if (n == 0)
@@ -482,11 +475,9 @@ xlsx_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         block_name(b, map->name);
         map->fill = fill_block;
         map->more = n;
-        opened_free(o);
     }
     if (k != NULL && maps->n == 0)
         rc_err_set(err, "%s", first.text);
-    book_free(k);
     return maps->n > 0 ? RC_OK : RC_FAIL;
 }
 
