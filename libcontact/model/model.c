@@ -343,16 +343,24 @@ rc_model_progress(const struct rc_model *m, struct rc_loops *s)
 
 /* ---- making ---- */
 
+const void *
+rc_model_result(const struct rc_model *m, const struct rc_figure *table)
+{
+    for (; m != NULL; m = m->inner)
+        for (const struct rc_figure_set *s = m->row->figures; s->table != NULL; s++)
+            if (s->table == table)
+                return (const char *)m + s->at;
+    return NULL;
+}
+
 struct rc_model *
 rc_model_make(const struct rc_model_row *row, size_t size, const struct rc_shape *shape,
               struct rc_err *err)
 {
     struct rc_model *m = calloc(1, size);
 
-    if (m == NULL) {
-        rc_err_set(err, "out of memory for the %s model", row->name);
-        return NULL;
-    }
+    if (m == NULL)
+        return rc_err_null(err, "out of memory for the %s model", row->name);
     m->row = row;
     m->shape = *shape;
     return m;
@@ -376,8 +384,10 @@ rc_model_free(struct rc_model *m)
 {
     if (m == NULL)
         return;
-    m->row->free(m);
+    if (m->row->free != NULL)
+        m->row->free(m);
     rc_model_free(m->inner);
+    rc_store_free(&m->own);
     rc_state_forget(&m->kept);
     free(m);
 }

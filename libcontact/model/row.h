@@ -6,6 +6,7 @@
 #define RC_MODEL_ROW_H
 
 #include "libcontact/common.h"
+#include "libcontact/memory.h"
 
 /* A state is a sequence of numbers. One function of a row counts, writes and reads them. */
 struct rc_state;
@@ -86,8 +87,8 @@ struct rc_model_row {
      * among them. An outer model that sets them, or the compliance, sets them here while it reads, before its
      * inner model reads. */
     void (*state)(struct rc_model *m, struct rc_state *s);
+    /* The following functions may be NULL. `free` releases what is not in m->own. keep is called after look. */
     void (*free)(struct rc_model *m);
-    /* The following functions may be NULL. keep is called after look. */
     enum rc_status (*keep)(struct rc_model *m, struct rc_err *err);
     enum rc_status (*heights)(struct rc_model *m, const double *h, struct rc_err *err);
     enum rc_status (*compliance)(struct rc_model *m, double c, const double *part, double along,
@@ -115,6 +116,7 @@ struct rc_model {
     enum rc_status status;     /* RC_MORE: the point is not reached yet */
     bool moved;                /* true: steps were made since the last keep */
     struct rc_state_copy kept; /* state at the last keep                */
+    struct rc_store own;       /* memory that is freed with the model   */
 };
 
 /* For makers: a zeroed model of `size` bytes; NULL if memory is short. It owns its inner model from now on,
@@ -123,6 +125,8 @@ struct rc_model *rc_model_make(const struct rc_model_row *row, size_t size,
                                const struct rc_shape *shape, struct rc_err *err);
 struct rc_model *rc_model_make_outer(const struct rc_model_row *row, size_t size,
                                      struct rc_model *inner, struct rc_err *err);
+/* The figures of this table of the first model of the chain that has them; NULL: none has. */
+const void *rc_model_result(const struct rc_model *m, const struct rc_figure *table);
 /* The model of this row in a chain of models; NULL: there is none. */
 const struct rc_model *rc_model_find(const struct rc_model *m, const struct rc_model_row *row);
 /* The axes of a point that a model or its inner models take. */

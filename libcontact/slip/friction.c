@@ -880,7 +880,5 @@ rc_friction_new(struct rc_model *inner, const double *h, const struct rc_frictio
 const struct rc_friction_figures *
 rc_friction_result(const struct rc_model *m)
 {
-    const struct friction *found = (const struct friction *)rc_model_find(m, &rc_model_friction);
-
-    return found != NULL ? &found->figures : NULL;
+    return rc_model_result(m, rc_figures_slip);
 }

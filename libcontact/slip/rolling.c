@@ -832,7 +832,5 @@ rc_rolling_new(struct rc_model *inner, const struct rc_rolling_problem *problem,
 const struct rc_rolling_figures *
 rc_rolling_result(const struct rc_model *m)
 {
-    const struct rolling *found = (const struct rolling *)rc_model_find(m, &rc_model_rolling);
-
-    return found != NULL ? &found->f : NULL;
+    return rc_model_result(m, rc_figures_rolling);
 }

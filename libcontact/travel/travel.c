@@ -15,7 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcontact/memory.h"
 #include "libcontact/model/row.h"
 
 static const double short_step = 2;  /* nodes */
@@ -332,16 +331,6 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     return RC_OK;
 }
 
-static void
-release(struct rc_model *m)
-{
-    struct travel *v = (struct travel *)m;
-
-    free(v->h);
-    free(v->p[0]);
-    free(v->p[1]);
-}
-
 const struct rc_model_row rc_model_travel = {
     .name = "travel",
     .summary = "a contact that travels over body 1, over an inner model",
@@ -355,7 +344,6 @@ const struct rc_model_row rc_model_travel = {
     .look = look,
     .fill = fill,
     .state = state,
-    .free = release,
     .keep = keep,
     .progress = progress,
     .plan = plan,
@@ -386,35 +374,27 @@ check(const struct rc_shape *window, const struct rc_travel_problem *a, struct r
 struct rc_model *
 rc_travel_new(struct rc_model *inner, const struct rc_travel_problem *problem, struct rc_err *err)
 {
-    struct rc_model *m = rc_model_make_outer(&rc_model_travel, sizeof(struct travel), inner, err);
+    RC_OWN(rc_model, m) = rc_model_make_outer(&rc_model_travel, sizeof(struct travel), inner, err);
     struct travel *v = (struct travel *)m;
-    bool starts;
 
     if (m == NULL)
         return NULL;
     v->problem = *problem;
     v->n = m->shape.nx * m->shape.ny;
     v->whole = m->shape.nx == problem->track.nx;
-    starts = m->inner->row->start != NULL;
     if (check(&m->shape, problem, err) != RC_OK)
-        goto fail;
-    if ((v->h = rc_alloc(v->n, sizeof *v->h)) == NULL ||
-        (starts && ((v->p[0] = rc_alloc(v->n, sizeof *v->h)) == NULL ||
-                    (v->p[1] = rc_alloc(v->n, sizeof *v->h)) == NULL))) {
-        rc_err_set(err, "out of memory for the travel of %zu x %zu nodes", m->shape.nx,
-                   m->shape.ny);
-        goto fail;
-    }
-    return m;
-fail:
-    rc_model_free(m);
-    return NULL;
+        return NULL;
+    v->h = rc_store_take(&m->own, v->n, sizeof *v->h);
+    for (int k = 0; k < 2 && m->inner->row->start != NULL; k++)
+        v->p[k] = rc_store_take(&m->own, v->n, sizeof *v->h);
+    if (m->own.failed)
+        return rc_err_null(err, "out of memory for the travel of %zu x %zu nodes", m->shape.nx,
+                           m->shape.ny);
+    return rc_give(&m);
 }
 
 const struct rc_travel_figures *
 rc_travel_result(const struct rc_model *m)
 {
-    const struct travel *found = (const struct travel *)rc_model_find(m, &rc_model_travel);
-
-    return found != NULL ? &found->figures : NULL;
+    return rc_model_result(m, rc_figures_travel);
 }

@@ -24,7 +24,6 @@
 #include <string.h>
 
 #include "libcontact/expected.h"
-#include "libcontact/memory.h"
 #include "libcontact/model/row.h"
 
 enum {
@@ -71,7 +70,7 @@ struct creep {
     double quickest;          /* s: shortest time of a term that takes time */
     double left_out;          /* relative error of fast and slow terms */
     struct run run[RUNS];
-    double *maps, *posed, *room,
+    double *posed, *room,
         *coarse;                /* heights of the inner model; free; pressure of the coarse run */
     size_t on;                  /* the present run */
     double start, end, dt;      /* s: the leg, the present step */
@@ -456,12 +455,11 @@ allocate(struct creep *v, struct rc_err *err)
 
     if (v->posed != NULL)
         return RC_OK;
-    maps = rc_alloc(all, sizeof *maps);
+    maps = rc_store_take(&v->base.own, all, sizeof *maps);
     if (maps == NULL)
         return rc_err_set(err, "out of memory for the history of %zu x %zu nodes in %zu terms",
                           v->base.shape.nx, v->base.shape.ny, v->terms);
     memset(maps, 0, all * sizeof *maps);
-    v->maps = maps;
     v->posed = maps;
     v->room = maps + n;
     v->coarse = maps + 2 * n;
@@ -681,16 +679,6 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     return RC_OK;
 }
 
-static void
-release(struct rc_model *m)
-{
-    struct creep *v = (struct creep *)m;
-
-    free(v->maps);
-    free(v->term);
-    free(v->equivalent);
-}
-
 const struct rc_model_row rc_model_viscoelastic = {
     .name = "viscoelastic",
     .summary = "viscoelastic bodies in time, over an elastic inner model",
@@ -703,7 +691,6 @@ const struct rc_model_row rc_model_viscoelastic = {
     .look = look,
     .fill = fill,
     .state = state,
-    .free = release,
     .progress = progress,
     .plan = plan,
 };
@@ -750,10 +737,11 @@ make(struct creep *v, const double *h, const struct rc_viscoelastic_problem *a, 
     v->good = true;
     v->slope = INFINITY;
     v->c = v->shrink = 1;
-    v->term = calloc(most, sizeof *v->term);
-    v->equivalent = calloc(most, sizeof *v->equivalent);
-    if (v->term == NULL || v->equivalent == NULL)
+    v->term = rc_store_take(&v->base.own, most, sizeof *v->term);
+    v->equivalent = rc_store_take(&v->base.own, most, sizeof *v->equivalent);
+    if (v->base.own.failed)
         return rc_err_set(err, "out of memory for %zu terms", most);
+    memset(v->equivalent, 0, most * sizeof *v->equivalent);
     choose_terms(v);
     return RC_OK;
 }
@@ -762,20 +750,14 @@ struct rc_model *
 rc_viscoelastic_new(struct rc_model *inner, const double *h,
                     const struct rc_viscoelastic_problem *problem, struct rc_err *err)
 {
-    struct rc_model *m =
+    RC_OWN(rc_model, m) =
         rc_model_make_outer(&rc_model_viscoelastic, sizeof(struct creep), inner, err);
 
-    if (m != NULL && make((struct creep *)m, h, problem, err) == RC_FAIL) {
-        rc_model_free(m);
-        return NULL;
-    }
-    return m;
+    return m != NULL && make((struct creep *)m, h, problem, err) == RC_OK ? rc_give(&m) : NULL;
 }
 
 const struct rc_viscoelastic_figures *
 rc_viscoelastic_result(const struct rc_model *m)
 {
-    const struct creep *found = (const struct creep *)rc_model_find(m, &rc_model_viscoelastic);
-
-    return found != NULL ? &found->f : NULL;
+    return rc_model_result(m, rc_figures_viscoelastic);
 }

@@ -38,7 +38,6 @@
 #include <string.h>
 
 #include "libcontact/expected.h"
-#include "libcontact/memory.h"
 #include "libcontact/model/row.h"
 #include "libcontact/solver/solver.h"
 #include "libcontact/transform/fourier.h"
@@ -441,15 +440,13 @@ find_power(struct slide *s, double *power, struct rc_err *err)
 {
     const struct rc_shape *t = &s->turned;
     const double speed = s->base.to.at[RC_SPEED], per = (double)s->n * (double)s->n;
-    double complex *z = rc_alloc(rc_fourier_size(t), sizeof *z);
+    RC_OWNED double complex *z = rc_alloc(rc_fourier_size(t), sizeof *z);
     struct rc_total sum = {0};
 
     if (z == NULL)
         return rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", t->nx, t->ny);
-    if (rc_fourier_forward(t, solver_of(s)->it.p, z, err) != RC_OK) {
-        free(z);
+    if (rc_fourier_forward(t, solver_of(s)->it.p, z, err) != RC_OK)
         return RC_FAIL;
-    }
     for (size_t j = 0; j < t->ny; j++)
         for (size_t k = 1; k < s->columns; k++) {
             const double qx = rc_fourier_q(k, t->nx, t->dx), qy = rc_fourier_q(j, t->ny, t->dy);
@@ -459,7 +456,6 @@ find_power(struct slide *s, double *power, struct rc_err *err)
                                    (creal(p) * creal(p) + cimag(p) * cimag(p)));
         }
     *power = rc_total_value(&sum) / per * t->dx * (double)t->nx * t->dy * (double)t->ny;
-    free(z);
     return RC_OK;
 }
 
@@ -607,11 +603,6 @@ release(struct rc_model *m)
 {
     struct slide *s = (struct slide *)m;
 
-    free(s->h);
-    free(s->g);
-    free(s->room);
-    free(s->wave);
-    free(s->row);
     rc_line_free(s->line);
     rc_wake_free(s->wake);
 }
@@ -673,16 +664,18 @@ check(const struct rc_shape *shape, const struct rc_problem *problem,
 static enum rc_status
 make_room(struct slide *s, struct rc_err *err)
 {
-    s->h = rc_alloc(s->n, sizeof *s->h);
-    s->g = rc_alloc(s->n, sizeof *s->g);
-    s->room = rc_alloc(s->n, sizeof *s->room);
-    s->wave = rc_alloc(s->columns, sizeof *s->wave);
-    s->row = rc_alloc((size_t)s->threads * s->columns, sizeof *s->row);
-    if (s->h != NULL && s->g != NULL && s->room != NULL && s->wave != NULL && s->row != NULL)
-        return (s->line = rc_line_new(s->turned.nx, (size_t)s->threads, err)) != NULL ? RC_OK
-                                                                                      : RC_FAIL;
-    return rc_err_set(err, "out of memory for the sliding of %zu x %zu nodes", s->turned.nx,
-                      s->turned.ny);
+    struct rc_store *own = &s->base.own;
+
+    s->h = rc_store_take(own, s->n, sizeof *s->h);
+    s->g = rc_store_take(own, s->n, sizeof *s->g);
+    s->room = rc_store_take(own, s->n, sizeof *s->room);
+    s->wave = rc_store_take(own, s->columns, sizeof *s->wave);
+    s->row = rc_store_take(own, (size_t)s->threads * s->columns, sizeof *s->row);
+    if (own->failed)
+        return rc_err_set(err, "out of memory for the sliding of %zu x %zu nodes", s->turned.nx,
+                          s->turned.ny);
+    s->line = rc_line_new(s->turned.nx, (size_t)s->threads, err);
+    return s->line != NULL ? RC_OK : RC_FAIL;
 }
 
 struct rc_model *
@@ -690,7 +683,7 @@ rc_slide_new(const struct rc_shape *shape, const double *h, const struct rc_prob
              const struct rc_slide_problem *law, struct rc_err *err)
 {
     const struct rc_shape other = {shape->ny, shape->nx, shape->dy, shape->dx};
-    struct rc_model *m = NULL;
+    RC_OWN(rc_model, m) = NULL;
     struct slide *s;
 
     if (check(shape, problem, law, err) != RC_OK ||
@@ -710,20 +703,14 @@ rc_slide_new(const struct rc_shape *shape, const double *h, const struct rc_prob
     s->along = (struct rc_along){.factor = factor_of, .of = s};
     s->threads = rc_useful_threads(shape, problem->threads);
     if (make_room(s, err) != RC_OK)
-        goto fail;
+        return NULL;
     turn(shape, law->along_y, h, s->h);
     s->top = highest(s, s->h);
-    if (make_inner(s, 0, err) == RC_OK)
-        return m;
-fail:
-    rc_model_free(m);
-    return NULL;
+    return make_inner(s, 0, err) == RC_OK ? rc_give(&m) : NULL;
 }
 
 const struct rc_slide_figures *
 rc_slide_result(const struct rc_model *m)
 {
-    const struct slide *found = (const struct slide *)rc_model_find(m, &rc_model_sliding);
-
-    return found != NULL ? &found->f : NULL;
+    return rc_model_result(m, rc_figures_slide);
 }

@@ -20,7 +20,6 @@
 #include <string.h>
 
 #include "libcontact/expected.h"
-#include "libcontact/memory.h"
 
 static const double golden = 0.61803398874989485;
 /* A step over the distance slid, and over the tolerance. */
@@ -366,12 +365,6 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     return RC_OK;
 }
 
-static void
-release(struct rc_model *m)
-{
-    free(((struct sliding *)m)->h); /* also frees the maps after it */
-}
-
 const struct rc_model_row rc_model_rubbing = {
     .name = "rubbing",
     .summary = "two rough bodies that wear as they slide over each other, over an inner model",
@@ -384,7 +377,6 @@ const struct rc_model_row rc_model_rubbing = {
     .look = look,
     .fill = fill,
     .state = state,
-    .free = release,
     .keep = keep,
     .progress = progress,
     .plan = plan,
@@ -412,7 +404,7 @@ make(struct sliding *v, const double *h, const struct rc_wear_problem *law, stru
     if (rc_model_set_compliance(v->base.inner, 1 / law->estar, NULL, 0, err) != RC_OK ||
         rc_model_set_compliance(v->base.inner, 0, NULL, 0, err) != RC_OK)
         return RC_FAIL;
-    if ((map = v->h = rc_alloc((3 + 2 * RUNS) * v->n, sizeof *map)) == NULL)
+    if ((map = v->h = rc_store_take(&v->base.own, (3 + 2 * RUNS) * v->n, sizeof *map)) == NULL)
         return rc_err_set(err, "out of memory for the wear of %zu x %zu nodes", s->nx, s->ny);
     memset(map, 0, (3 + 2 * RUNS) * v->n * sizeof *map);
     memcpy(map, h, v->n * sizeof *h);
@@ -429,19 +421,8 @@ struct rc_model *
 rc_rubbing_new(struct rc_model *inner, const double *h, const struct rc_wear_problem *law,
                struct rc_err *err)
 {
-    struct rc_model *m = rc_model_make_outer(&rc_model_rubbing, sizeof(struct sliding), inner, err);
+    RC_OWN(rc_model, m) =
+        rc_model_make_outer(&rc_model_rubbing, sizeof(struct sliding), inner, err);
 
-    if (m != NULL && make((struct sliding *)m, h, law, err) == RC_FAIL) {
-        rc_model_free(m);
-        return NULL;
-    }
-    return m;
-}
-
-const struct rc_wear_figures *
-rc_rubbing_result(const struct rc_model *m)
-{
-    const struct sliding *found = (const struct sliding *)rc_model_find(m, &rc_model_rubbing);
-
-    return found != NULL ? &found->f : NULL;
+    return m != NULL && make((struct sliding *)m, h, law, err) == RC_OK ? rc_give(&m) : NULL;
 }

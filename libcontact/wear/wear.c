@@ -22,7 +22,6 @@
 #include <string.h>
 
 #include "libcontact/expected.h"
-#include "libcontact/memory.h"
 
 enum {
     GROWTH = 4, /* most from one step to the next */
@@ -759,14 +758,6 @@ plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *
     return RC_OK;
 }
 
-static void
-release(struct rc_model *m)
-{
-    struct wear *v = (struct wear *)m;
-
-    free(v->h); /* also frees the maps after it */
-}
-
 const struct rc_model_row rc_model_wear = {
     .name = "wear",
     .summary = "bodies that wear as they slide, over an inner model",
@@ -779,7 +770,6 @@ const struct rc_model_row rc_model_wear = {
     .look = look,
     .fill = fill,
     .state = state,
-    .free = release,
     .keep = keep,
     .progress = progress,
     .plan = plan,
@@ -852,7 +842,7 @@ make(struct wear *v, const double *h, const struct rc_wear_problem *law, struct 
     if (rc_model_set_compliance(inner, v->k * v->t, law->part, v->row * v->t, err) != RC_OK ||
         rc_model_set_compliance(inner, 0, NULL, 0, err) != RC_OK)
         return RC_FAIL;
-    if ((v->h = rc_alloc(MAPS * v->n + s->ny, sizeof *v->h)) == NULL)
+    if ((v->h = rc_store_take(&v->base.own, MAPS * v->n + s->ny, sizeof *v->h)) == NULL)
         return rc_err_set(err, "out of memory for the wear of %zu x %zu nodes", s->nx, s->ny);
     memset(v->h, 0, (MAPS * v->n + s->ny) * sizeof *v->h);
     memcpy(v->h, h, v->n * sizeof *h);
@@ -870,22 +860,16 @@ struct rc_model *
 rc_wear_new(struct rc_model *inner, const double *h, const struct rc_wear_problem *law,
             struct rc_err *err)
 {
-    struct rc_model *m;
+    RC_OWN(rc_model, m) = NULL;
 
     if (law->sliding)
         return rc_rubbing_new(inner, h, law, err);
     m = rc_model_make_outer(&rc_model_wear, sizeof(struct wear), inner, err);
-    if (m != NULL && make((struct wear *)m, h, law, err) == RC_FAIL) {
-        rc_model_free(m);
-        return NULL;
-    }
-    return m;
+    return m != NULL && make((struct wear *)m, h, law, err) == RC_OK ? rc_give(&m) : NULL;
 }
 
 const struct rc_wear_figures *
 rc_wear_result(const struct rc_model *m)
 {
-    const struct wear *found = (const struct wear *)rc_model_find(m, &rc_model_wear);
-
-    return found != NULL ? &found->f : rc_rubbing_result(m);
+    return rc_model_result(m, rc_figures_wear);
 }

@@ -28,6 +28,5 @@ double rc_wear_spread(const double *p, size_t n);
 
 struct rc_model *rc_rubbing_new(struct rc_model *inner, const double *h,
                                 const struct rc_wear_problem *law, struct rc_err *err);
-const struct rc_wear_figures *rc_rubbing_result(const struct rc_model *m);
 
 #endif
