@@ -195,10 +195,8 @@ solid_new(const struct rc_body *b, struct rc_err *err)
 {
     struct layered *l = malloc(sizeof *l);
 
-    if (l == NULL) {
-        rc_err_set(err, "out of memory for a body");
-        return NULL;
-    }
+    if (l == NULL)
+        return rc_err_null(err, "out of memory for a body");
     *l = (struct layered){{&rc_body_layered}, rc_stack_new(b, err)};
     if (l->stack == NULL) {
         free(l);

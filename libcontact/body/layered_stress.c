@@ -434,15 +434,15 @@ inside_new(const struct rc_solid *solid, double depth, bool shear, enum rc_bound
 {
     const struct rc_stack *s = rc_layered_stack(solid);
     size_t medium = rc_stack_medium(s, depth);
-    struct inside *in;
+    static const char message[] = "out of memory for the depth %g m of a layered body";
+    RC_OWNED struct inside *in = NULL;
 
-    if (isinf(s->material[medium].modulus)) {
-        rc_err_set(err, "depth %g m: the body is rigid from %g m on, where stresses are unknown",
-                   depth, rc_stack_top(s, medium));
-        return NULL;
-    }
+    if (isinf(s->material[medium].modulus))
+        return rc_err_null(err,
+                           "depth %g m: the body is rigid from %g m on, where stresses are unknown",
+                           depth, rc_stack_top(s, medium));
     if ((in = calloc(1, sizeof *in)) == NULL)
-        goto short_of_memory;
+        return rc_err_null(err, message, depth);
     in->in = (struct rc_inside){&rc_layered_inside, depth};
     in->stack = s;
     in->medium = medium;
@@ -458,13 +458,9 @@ inside_new(const struct rc_solid *solid, double depth, bool shear, enum rc_bound
                                           .wave = functions,
                                           .ctx = in};
         if ((in->radial = rc_radial_new(&source)) == NULL)
-            goto short_of_memory;
+            return rc_err_null(err, message, depth);
     }
-    return &in->in;
-short_of_memory:
-    rc_err_set(err, "out of memory for the depth %g m of a layered body", depth);
-    free(in);
-    return NULL;
+    return rc_give(&in);
 }
 
 const struct rc_inside_type rc_layered_inside = {

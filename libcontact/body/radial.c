@@ -160,17 +160,17 @@ set_table(struct rc_radial *f, const struct rc_radial_source *source, size_t i, 
 struct rc_radial *
 rc_radial_new(const struct rc_radial_source *source)
 {
-    struct rc_radial *f = calloc(1, sizeof *f);
-    double *g = calloc(SAMPLES * source->n, sizeof *g);
-    double *out = malloc(2 * (size_t)SAMPLES * FINER * sizeof *out);
+    RC_OWN(rc_radial, f) = calloc(1, sizeof *f);
+    RC_OWNED double *g = calloc(SAMPLES * source->n, sizeof *g);
+    RC_OWNED double *out = malloc(2 * (size_t)SAMPLES * FINER * sizeof *out);
 
     if (f == NULL || g == NULL || out == NULL)
-        goto fail;
+        return NULL;
     f->n = source->n;
     f->scale = source->scale;
     f->near = near * source->scale;
     if (table_new(f, source) != RC_OK)
-        goto fail;
+        return NULL;
     for (size_t i = 0; i < f->n; i++)
         f->order[i] = source->order[i];
     for (size_t n = 0; n < SAMPLES; n++) {
@@ -183,14 +183,7 @@ rc_radial_new(const struct rc_radial_source *source)
         transform(source, i, g, out);
         set_table(f, source, i, out);
     }
-    free(g);
-    free(out);
-    return f;
-fail:
-    free(g);
-    free(out);
-    rc_radial_free(f);
-    return NULL;
+    return rc_give(&f);
 }
 
 void

@@ -417,10 +417,11 @@ compliance_of(const struct rc_material *m)
 struct rc_stack *
 rc_stack_new(const struct rc_body *c, struct rc_err *err)
 {
-    struct rc_stack *s = calloc(1, sizeof *s);
+    static const char message[] = "out of memory for a stack of %zu layers";
+    RC_OWN(rc_stack, s) = calloc(1, sizeof *s);
 
     if (s == NULL || (s->material = calloc(c->layers + 1, sizeof *s->material)) == NULL)
-        goto short_of_memory;
+        return rc_err_null(err, message, c->layers);
     s->layers = c->layers;
     for (size_t k = 0; k < c->layers; k++)
         s->material[k] = (struct rc_material){
@@ -429,12 +430,8 @@ rc_stack_new(const struct rc_body *c, struct rc_err *err)
     s->top = compliance_of(&s->material[0]);
     s->bottom = compliance_of(&s->material[c->layers]);
     if ((s->far = far(s)) == NULL || tables(s) != RC_OK)
-        goto short_of_memory;
-    return s;
-short_of_memory:
-    rc_err_set(err, "out of memory for a stack of %zu layers", c->layers);
-    rc_stack_free(s);
-    return NULL;
+        return rc_err_null(err, message, c->layers);
+    return rc_give(&s);
 }
 
 void

@@ -142,10 +142,8 @@ make(double estar, double nu, struct rc_err *err)
 {
     struct uniform *u = malloc(sizeof *u);
 
-    if (u == NULL) {
-        rc_err_set(err, "out of memory for a body");
-        return NULL;
-    }
+    if (u == NULL)
+        return rc_err_null(err, "out of memory for a body");
     *u = (struct uniform){{&rc_body_uniform}, estar, nu};
     return &u->solid;
 }

@@ -32,10 +32,8 @@ inside_new(const struct rc_solid *solid, double depth, bool shear, enum rc_bound
     struct inside *s = malloc(sizeof *s);
 
     (void)shear, (void)boundary;
-    if (s == NULL) {
-        rc_err_set(err, "out of memory for the depth %g m", depth);
-        return NULL;
-    }
+    if (s == NULL)
+        return rc_err_null(err, "out of memory for the depth %g m", depth);
     *s = (struct inside){{&rc_uniform_inside, depth}, {depth, rc_uniform_nu(solid)}};
     return &s->in;
 }

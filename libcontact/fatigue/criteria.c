@@ -124,14 +124,12 @@ enum {
 struct rc_history *
 rc_history_new(size_t most)
 {
-    struct rc_history *w = calloc(1, sizeof *w);
+    RC_OWNED struct rc_history *w = calloc(1, sizeof *w);
     const size_t line = (most + 7) / 8 * 8;
     double *at;
 
-    if (w == NULL || (at = rc_alloc(LINES * line, sizeof *at)) == NULL) {
-        free(w);
+    if (w == NULL || (at = rc_alloc(LINES * line, sizeof *at)) == NULL)
         return NULL;
-    }
     for (size_t c = 0; c < RC_COMPONENTS; c++, at += line)
         w->s[c] = at;
     for (size_t c = 0; c < RC_BALL_MOST; c++, at += line)
@@ -140,7 +138,7 @@ rc_history_new(size_t most)
     w->u = at + line;
     w->v = at + 2 * line;
     w->room = at + 3 * line;
-    return w;
+    return rc_give(&w);
 }
 
 void
@@ -483,7 +481,7 @@ rc_fatigue_history(unsigned wanted, const struct rc_fatigue_limits *limits, bool
 {
     struct rc_fatigue_rule rule;
     struct rc_fatigue_values all;
-    struct rc_history *w;
+    RC_OWN(rc_history, w) = NULL;
 
     if (rc_fatigue_check_limits(wanted, limits, err) != RC_OK)
         return RC_FAIL;
@@ -499,6 +497,5 @@ rc_fatigue_history(unsigned wanted, const struct rc_fatigue_limits *limits, bool
     rc_history_values(w, &rule, &all);
     for (int c = 0; c < RC_FATIGUES; c++)
         values[c] = wanted >> c & 1 ? all.of[c] : NAN;
-    rc_history_free(w);
     return RC_OK;
 }

@@ -32,15 +32,16 @@ struct worst {
 };
 
 struct rc_fatigue {
+    struct rc_store own; /* the arrays below */
     struct rc_fatigue_problem problem;
     struct rc_shape shape, result; /* of the map; of the results  */
     struct rc_stress *stress;
     size_t states; /* of one history, with the unloaded one     */
     size_t band;   /* rows of the map for which `store` has room */
     double *map[RC_COMPONENTS];
-    float *store;             /* of cases: [case][component][row of the band][column] */
-    double *own[RC_FATIGUES]; /* values that are needed but not wanted by the caller */
-    struct rc_history **work; /* of each thread */
+    float *store;               /* of cases: [case][component][row of the band][column] */
+    double *value[RC_FATIGUES]; /* values that are needed but not wanted by the caller */
+    struct rc_history **work;   /* of each thread */
     int threads;
     double *layer; /* Pa: residual stress of each layer, and 0 of the body below; NULL: none */
     /* of the present depth */
@@ -178,21 +179,20 @@ allocate(struct rc_fatigue *f, struct rc_err *err)
     bool good = true;
 
     for (int c = 0; c < RC_COMPONENTS; c++)
-        good = (f->map[c] = rc_alloc(n, sizeof(double))) != NULL && good;
+        f->map[c] = rc_store_take(&f->own, n, sizeof(double));
     for (int c = 0; c < RC_FATIGUES; c++)
         if (computed(p) >> c & 1)
-            good = (f->own[c] = rc_alloc(points, sizeof(double))) != NULL && good;
+            f->value[c] = rc_store_take(&f->own, points, sizeof(double));
     if (p->pass == 0)
-        good = (f->store = rc_alloc(f->band * bytes_of_row(&f->shape, p), 1)) != NULL && good;
-    if (p->stress.residual != NULL) {
-        good = (f->layer = calloc(layers + 1, sizeof *f->layer)) != NULL && good;
-        for (size_t k = 0; f->layer != NULL && k < layers; k++)
-            f->layer[k] = p->stress.residual[k];
-    }
+        f->store = rc_store_take(&f->own, f->band * bytes_of_row(&f->shape, p), 1);
+    if (p->stress.residual != NULL)
+        f->layer = rc_store_take(&f->own, layers + 1, sizeof *f->layer);
+    for (size_t k = 0; f->layer != NULL && k <= layers; k++)
+        f->layer[k] = k < layers ? p->stress.residual[k] : 0;
     f->work = calloc((size_t)f->threads, sizeof(struct rc_history *));
     for (int k = 0; f->work != NULL && k < f->threads; k++)
         good = (f->work[k] = rc_history_new(f->states)) != NULL && good;
-    return good && f->work != NULL
+    return good && !f->own.failed && f->work != NULL
                ? RC_OK
                : rc_err_set(err, "out of memory for histories of %zu states at %zu points",
                             f->states, points);
@@ -203,14 +203,12 @@ rc_fatigue_new(const struct rc_shape *shape, const struct rc_fatigue_problem *pr
                struct rc_err *err)
 {
     struct rc_stress_options o = problem->stress;
-    struct rc_fatigue *f;
+    RC_OWN(rc_fatigue, f) = NULL;
 
     if (rc_fatigue_check(shape, problem, err) != RC_OK)
         return NULL;
-    if ((f = calloc(1, sizeof *f)) == NULL) {
-        rc_err_set(err, "out of memory for a plan");
-        return NULL;
-    }
+    if ((f = calloc(1, sizeof *f)) == NULL)
+        return rc_err_null(err, "out of memory for a plan");
     f->problem = *problem;
     f->shape = *shape;
     f->result = rc_fatigue_shape(shape, problem);
@@ -227,11 +225,9 @@ rc_fatigue_new(const struct rc_shape *shape, const struct rc_fatigue_problem *pr
     for (int k = 0; k < 2; k++)
         o.traction[k] = problem->traction[k] != NULL ? problem->traction[k][0] : NULL;
     if (allocate(f, err) != RC_OK ||
-        (f->stress = rc_stress_new(shape, problem->p[0], &o, err)) == NULL) {
-        rc_fatigue_free(f);
+        (f->stress = rc_stress_new(shape, problem->p[0], &o, err)) == NULL)
         return NULL;
-    }
-    return f;
+    return rc_give(&f);
 }
 
 void
@@ -241,14 +237,9 @@ rc_fatigue_free(struct rc_fatigue *f)
         return;
     for (int k = 0; f->work != NULL && k < f->threads; k++)
         rc_history_free(f->work[k]);
-    for (int c = 0; c < RC_FATIGUES; c++)
-        free(f->own[c]);
-    for (int c = 0; c < RC_COMPONENTS; c++)
-        free(f->map[c]);
     rc_stress_free(f->stress);
-    free(f->store);
+    rc_store_free(&f->own);
     free(f->work);
-    free(f->layer);
     free(f);
 }
 
@@ -377,7 +368,7 @@ static void
 keep_worst(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, int c, size_t point)
 {
     struct worst *worst = f->worst[c];
-    const double value = f->own[c][point];
+    const double value = f->value[c][point];
     struct rc_fatigue_rule only = *rule;
     struct rc_fatigue_values v;
     size_t k = f->worsts[c], bound = k < WORST ? k : WORST - 1;
@@ -405,7 +396,7 @@ static void
 find_worst(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, size_t from, size_t to)
 {
     for (int c = 0; c <= RC_CRITERIA; c++) {
-        const double *v = f->own[c];
+        const double *v = f->value[c];
         double least[WORST]; /* the largest values of the band, falling */
         size_t n = 0;
         if (!(f->problem.wanted >> c & 1))
@@ -508,7 +499,7 @@ static void
 add_volume(struct rc_fatigue *f)
 {
     const struct rc_fatigue_problem *p = &f->problem;
-    const double *r = f->own[RC_AMPLITUDE];
+    const double *r = f->value[RC_AMPLITUDE];
     const double cell = p->pass != 0 ? f->result.dx : f->result.dx * f->result.dy;
     double sum = 0;
 
@@ -543,8 +534,8 @@ compute(struct rc_fatigue *f, const struct rc_fatigue_rule *rule, size_t from, s
             take(f, w, k, 0, 1);
             rc_history_values(w, rule, &v);
             for (int c = 0; c < RC_FATIGUES; c++)
-                if (f->own[c] != NULL)
-                    f->own[c][k] = v.of[c];
+                if (f->value[c] != NULL)
+                    f->value[c][k] = v.of[c];
             low = v.least < low ? v.least : low;
             high = v.largest > high ? v.largest : high;
         }
@@ -598,7 +589,7 @@ rc_fatigue_depth(struct rc_fatigue *f, double depth, const struct rc_fatigue_lim
     gather_figures(f);
     for (int c = 0; c < RC_FATIGUES; c++)
         if (p->wanted >> c & 1 && out[c] != NULL)
-            memcpy(out[c], f->own[c], points * sizeof *out[c]);
+            memcpy(out[c], f->value[c], points * sizeof *out[c]);
     return RC_OK;
 }
 

@@ -209,7 +209,7 @@ static enum rc_status
 sort_saddles(const struct rc_field *f, struct saddles *band, struct saddles *all)
 {
     struct steps steps = {.top = f->sign > 0 ? f->highest : f->range - f->highest};
-    size_t *end;
+    RC_OWNED size_t *end = NULL;
 
     for (size_t b = 0; b < RC_BANDS; b++)
         all->n += band[b].n;
@@ -218,7 +218,6 @@ sort_saddles(const struct rc_field *f, struct saddles *band, struct saddles *all
     all->v = rc_alloc(all->n, sizeof *all->v);
     end = calloc(steps.n + 1, sizeof *end);
     if (all->v == NULL || end == NULL) {
-        free(end);
         return RC_FAIL;
     }
     for (size_t b = 0; b < RC_BANDS; b++)
@@ -237,7 +236,6 @@ sort_saddles(const struct rc_field *f, struct saddles *band, struct saddles *all
         size_t start = k > 0 ? end[k - 1] : 0;
         qsort(all->v + start, end[k] - start, sizeof *all->v, by_height);
     }
-    free(end);
     return RC_OK;
 }
 

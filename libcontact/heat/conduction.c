@@ -31,35 +31,29 @@ rc_conduction_new(const struct rc_shape *shape, enum rc_boundary boundary, size_
 {
     const struct rc_pair pair = {.estar = 1};
     const struct rc_operator_options options = {.boundary = boundary, .pair = &pair};
-    struct rc_conduction *c = calloc(1, sizeof *c);
+    RC_OWN(rc_conduction, c) = calloc(1, sizeof *c);
 
-    if (c == NULL) {
-        rc_err_set(err, "out of memory for a plan");
-        return NULL;
-    }
+    if (c == NULL)
+        return rc_err_null(err, "out of memory for a plan");
     c->shape = *shape;
     c->boundary = boundary;
     c->threads = rc_useful_threads(shape, threads);
     if ((c->fft = rc_fft_new(NULL, NULL, shape, boundary, RC_DOUBLE, threads, err)) == NULL)
-        goto fail;
+        return NULL;
     c->framed = c->fft;
     if (boundary == RC_FREE) {
         c->frame = rc_operator_frame(shape, &options);
         c->framed = rc_fft_new_framed(NULL, c->fft, shape, &c->frame, RC_DOUBLE, threads, err);
         if (c->framed == NULL)
-            goto fail;
+            return NULL;
     }
     rc_fft_waves(c->fft, &c->columns, &c->cy);
     c->length = rc_fft_length(c->fft);
     c->waves = rc_alloc(2 * c->columns * c->length, sizeof *c->waves);
-    if (!rc_fft_fold(c->fft, &c->wave, &c->mirror) || c->waves == NULL) {
-        rc_err_set(err, "out of memory for the heat of %zu x %zu nodes", shape->nx, shape->ny);
-        goto fail;
-    }
-    return c;
-fail:
-    rc_conduction_free(c);
-    return NULL;
+    if (!rc_fft_fold(c->fft, &c->wave, &c->mirror) || c->waves == NULL)
+        return rc_err_null(err, "out of memory for the heat of %zu x %zu nodes", shape->nx,
+                           shape->ny);
+    return rc_give(&c);
 }
 
 /* ---- the spectrum of a body ---- */
@@ -106,8 +100,8 @@ transform(struct rc_warming *w, const struct rc_conduction *c, const struct rc_h
           struct rc_err *err)
 {
     struct rc_shape offsets = {.dx = c->shape.dx, .dy = c->shape.dy};
-    struct rc_heat_cells *cells;
-    struct rc_spectrum *passing = NULL;
+    RC_OWN(rc_heat_cells, cells) = NULL;
+    RC_OWN(rc_spectrum, passing) = NULL;
     enum rc_status status = RC_FAIL;
 
     rc_fft_quarter(c->fft, &offsets.nx, &offsets.ny);
@@ -122,8 +116,6 @@ transform(struct rc_warming *w, const struct rc_conduction *c, const struct rc_h
             status = rc_spectrum_set_by(passing, c->fft, &kernel, rc_keep_column, w->part[k], err);
     }
 done:
-    rc_spectrum_free(passing);
-    rc_heat_cells_free(cells);
     return status;
 }
 

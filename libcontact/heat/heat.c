@@ -22,6 +22,7 @@ enum {
 };
 
 struct rc_heat {
+    struct rc_store own; /* the maps and arrays below */
     struct rc_shape shape;
     struct rc_heat_problem problem;
     struct rc_conduction *c;
@@ -35,7 +36,6 @@ struct rc_heat {
     double drop;                     /* K: bulk temperature of body 2 less that of body 1 */
     double scale;                    /* K: largest rise of a body above its bulk          */
     size_t n, *node;                 /* in contact                                        */
-    double *map;                     /* the block of all maps                             */
     double *q, *flux[2],
         *rise[2]; /* heat and rise above their bulk, nx ny; heat is 0 out of contact */
     double *work; /* nx ny */
@@ -147,7 +147,7 @@ set_contact(struct rc_heat *h, const double *q, const double *contact, struct rc
     }
     if (h->n == 0)
         return rc_err_set(err, "no node is in contact, so no heat flows");
-    if ((h->node = rc_alloc(h->n, sizeof *h->node)) == NULL)
+    if ((h->node = rc_store_take(&h->own, h->n, sizeof *h->node)) == NULL)
         return rc_err_set(err, "out of memory for %zu nodes in contact", h->n);
     for (size_t k = 0, n = 0; k < s->nx * s->ny; k++)
         if (contact != NULL ? rc_in_contact(contact[k]) : q[k] != 0)
@@ -218,16 +218,7 @@ rc_heat_free(struct rc_heat *h)
     rc_conduction_free(h->c);
     for (int b = 0; b < 2; b++)
         lags_free(h, h->lag[b]);
-    for (size_t k = 0; k < STEPS; k++) {
-        free(h->v[k]);
-        free(h->z[k]);
-    }
-    free(h->v[STEPS]);
-    free(h->right);
-    free(h->share);
-    free(h->past[0]); /* the second map is part of this block */
-    free(h->node);
-    free(h->map);
+    rc_store_free(&h->own);
     free(h);
 }
 
@@ -260,15 +251,14 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
 {
     const size_t nodes = shape->nx * shape->ny;
     struct rc_heated body[2];
-    struct rc_heat *h;
+    RC_OWN(rc_heat, h) = NULL;
 
     if (rc_heat_check(shape, problem, err) != RC_OK)
         return NULL;
     if ((h = calloc(1, sizeof *h)) == NULL ||
-        (h->map = rc_alloc(6 * nodes, sizeof *h->map)) == NULL) {
-        rc_err_set(err, "out of memory for the heat of %zu x %zu nodes", shape->nx, shape->ny);
-        goto fail;
-    }
+        (h->q = rc_store_take(&h->own, 6 * nodes, sizeof *h->q)) == NULL)
+        return rc_err_null(err, "out of memory for the heat of %zu x %zu nodes", shape->nx,
+                           shape->ny);
     h->shape = *shape;
     h->problem = *problem;
     if (h->problem.tol == 0)
@@ -278,41 +268,34 @@ rc_heat_new(const struct rc_shape *shape, const struct rc_heat_problem *problem,
                        problem->partition == RC_HEAT_MATCHED /* else the shares are constant */
                    ? problem->time_steps
                    : 1;
-    h->q = h->map;
     for (int b = 0; b < 2; b++) {
-        h->flux[b] = h->map + (size_t)(1 + b) * nodes;
-        h->rise[b] = h->map + (size_t)(3 + b) * nodes;
+        h->flux[b] = h->q + (size_t)(1 + b) * nodes;
+        h->rise[b] = h->q + (size_t)(3 + b) * nodes;
     }
-    h->work = h->map + 5 * nodes;
-    memset(h->map, 0, 6 * nodes * sizeof *h->map);
+    h->work = h->q + 5 * nodes;
+    memset(h->q, 0, 6 * nodes * sizeof *h->q);
     if (set_contact(h, q, contact, err) != RC_OK)
-        goto fail;
-    h->right = rc_alloc(h->n, sizeof *h->right);
-    h->share = rc_alloc(h->times * h->n, sizeof *h->share);
-    if (h->times > 1)
-        h->past[0] = rc_alloc(2 * nodes, sizeof **h->past);
-    if (h->right == NULL || h->share == NULL || (h->times > 1 && h->past[0] == NULL)) {
-        rc_err_set(err, "out of memory for %zu nodes in contact", h->n);
-        goto fail;
-    }
-    h->past[1] = h->times > 1 ? h->past[0] + nodes : NULL;
+        return NULL;
+    h->right = rc_store_take(&h->own, h->n, sizeof *h->right);
+    h->share = rc_store_take(&h->own, h->times * h->n, sizeof *h->share);
+    for (int b = 0; b < 2 && h->times > 1; b++)
+        h->past[b] = rc_store_take(&h->own, nodes, sizeof **h->past);
+    if (h->own.failed)
+        return rc_err_null(err, "out of memory for %zu nodes in contact", h->n);
     for (size_t k = 0; k < h->n; k++)
         h->work[h->node[k]] = 1;
     if (set_figures(h, h->work, err) != RC_OK ||
         (h->c = rc_conduction_new(shape, problem->boundary, problem->threads, err)) == NULL)
-        goto fail;
+        return NULL;
     for (int b = 0; b < 2; b++) {
         body[b] = heated(h, b, 0, 0);
         if (lags_new(h, b, 0, &h->lag[b], err) != RC_OK)
-            goto fail;
+            return NULL;
     }
     if (problem->partition == RC_HEAT_MATCHED &&
         (h->inverse = rc_heat_inverse_new(h->c, body, h->n, h->node, err)) == NULL)
-        goto fail;
-    return h;
-fail:
-    rc_heat_free(h);
-    return NULL;
+        return NULL;
+    return rc_give(&h);
 }
 
 /* ---- temperatures and figures ---- */
@@ -420,9 +403,9 @@ finish(struct rc_heat *h)
 /* ---- the iteration ---- */
 
 static double *
-vector_new(const struct rc_heat *h, struct rc_err *err)
+vector_new(struct rc_heat *h, struct rc_err *err)
 {
-    double *v = rc_alloc(h->n, sizeof *v);
+    double *v = rc_store_take(&h->own, h->n, sizeof *v);
 
     if (v == NULL)
         rc_err_set(err, "out of memory for %zu nodes in contact", h->n);

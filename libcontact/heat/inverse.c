@@ -80,17 +80,15 @@ rc_heat_inverse_new(struct rc_conduction *c, const struct rc_heated bodies[2], s
                     const size_t *node, struct rc_err *err)
 {
     const size_t nx = c->shape.nx;
-    struct rc_heat_inverse *e = calloc(1, sizeof *e);
+    RC_OWN(rc_heat_inverse, e) = calloc(1, sizeof *e);
     const struct decrease decrease = {
         .body = {rc_heat_waves_of(&bodies[0]), rc_heat_waves_of(&bodies[1])},
         .line = c->shape.ny == 1};
     struct rc_pyramid_base base = {
         .shape = c->shape, .count = 1, .round = c->boundary == RC_PERIODIC, .threads = c->threads};
 
-    if (e == NULL) {
-        rc_err_set(err, "out of memory for %zu nodes in contact", n);
-        return NULL;
-    }
+    if (e == NULL)
+        return rc_err_null(err, "out of memory for %zu nodes in contact", n);
     base.shape.nx += 2 * c->frame.x;
     base.n = base.shape.ny += 2 * c->frame.y;
     e->c = c;
@@ -99,20 +97,16 @@ rc_heat_inverse_new(struct rc_conduction *c, const struct rc_heated bodies[2], s
     e->place = rc_alloc(n, sizeof *e->place);
     e->v = rc_alloc(e->grid.nx * e->grid.ny, sizeof *e->v);
     if (e->place == NULL || e->v == NULL)
-        rc_err_set(err, "out of memory for %zu nodes in contact", n);
-    else
-        e->pyramid = rc_pyramid_new(&base, power, &decrease, err);
-    if (e->pyramid == NULL) {
-        rc_heat_inverse_free(e);
+        return rc_err_null(err, "out of memory for %zu nodes in contact", n);
+    if ((e->pyramid = rc_pyramid_new(&base, power, &decrease, err)) == NULL)
         return NULL;
-    }
     clear(e);
     for (size_t k = 0; k < n; k++) {
         e->place[k] = (node[k] / nx + c->frame.y) * e->grid.nx + node[k] % nx + c->frame.x;
         e->v[e->place[k]] = 1;
     }
     rc_pyramid_set(e->pyramid, add_row, e);
-    return e;
+    return rc_give(&e);
 }
 
 /* ---- use ---- */

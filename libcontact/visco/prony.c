@@ -23,20 +23,18 @@ static const double usual_density = 1.5; /* relaxation times a decade of a fit *
 static struct rc_relaxation *
 allocate(size_t terms, struct rc_err *err)
 {
-    struct rc_relaxation *r = calloc(1, sizeof *r);
+    RC_OWNED struct rc_relaxation *r = calloc(1, sizeof *r);
     double *v = rc_alloc(4 * terms + 1, sizeof *v);
 
     if (r == NULL || v == NULL) {
-        free(r);
         free(v);
-        rc_err_set(err, "out of memory for %zu relaxation times", terms);
-        return NULL;
+        return rc_err_null(err, "out of memory for %zu relaxation times", terms);
     }
     r->modulus = v;
     r->time = v + terms;
     r->compliance = v + 2 * terms;
     r->retardation = v + 3 * terms;
-    return r;
+    return rc_give(&r);
 }
 
 void
@@ -150,27 +148,20 @@ struct rc_relaxation *
 rc_relaxation_new(double relaxed, size_t terms, const double *modulus, const double *time,
                   struct rc_err *err)
 {
-    struct rc_relaxation *r = allocate(terms, err);
+    RC_OWN(rc_relaxation, r) = allocate(terms, err);
 
     if (r == NULL)
         return NULL;
     r->relaxed = relaxed;
-    if (!(relaxed >= 0) || isinf(relaxed)) {
-        rc_err_set(err, "relaxed modulus %g Pa: it must be at least 0 and finite", relaxed);
-        goto fail;
-    }
+    if (!(relaxed >= 0) || isinf(relaxed))
+        return rc_err_null(err, "relaxed modulus %g Pa: it must be at least 0 and finite", relaxed);
     for (size_t k = 0; k < terms; k++)
         if (insert(r, modulus[k], time[k], err) != RC_OK)
-            goto fail;
-    if (r->terms == 0 && relaxed == 0) {
-        rc_err_set(err, "all moduli are 0: one must be above 0");
-        goto fail;
-    }
+            return NULL;
+    if (r->terms == 0 && relaxed == 0)
+        return rc_err_null(err, "all moduli are 0: one must be above 0");
     find_creep(r);
-    return r;
-fail:
-    rc_relaxation_free(r);
-    return NULL;
+    return rc_give(&r);
 }
 
 /* ---- values ---- */
@@ -363,6 +354,13 @@ fit_allocate(struct fit *f, size_t rows, size_t columns)
     return true;
 }
 
+static void
+fit_free(struct fit *f)
+{
+    free(f->a);
+    free(f->in_use);
+}
+
 static enum rc_status
 check_curve(size_t n, const double *omega, const double *storage, const double *loss,
             struct rc_err *err)
@@ -419,9 +417,9 @@ rc_relaxation_fit(size_t n, const double *omega, const double *storage, const do
                   double per_decade, double *misfit, struct rc_err *err)
 {
     const double dense = per_decade > 0 ? per_decade : usual_density;
-    struct rc_relaxation *r = NULL;
-    double low = INFINITY, high = 0, *time = NULL, *norm, sum = 0;
-    struct fit f = {0};
+    RC_OWNED double *time = NULL;
+    double low = INFINITY, high = 0, *norm, sum = 0;
+    RC_ENDS(fit_free) struct fit f = {0};
     size_t terms;
 
     if (check_curve(n, omega, storage, loss, err) != RC_OK)
@@ -432,10 +430,8 @@ rc_relaxation_fit(size_t n, const double *omega, const double *storage, const do
     }
     terms = (size_t)fmin((double)n, fmax(1, round(dense * log10(high / low))) + 1);
     time = rc_alloc(2 * terms + 1, sizeof *time);
-    if (time == NULL || !fit_allocate(&f, 2 * n, terms + 1)) {
-        rc_err_set(err, "out of memory for a fit of %zu relaxation times", terms);
-        goto done;
-    }
+    if (time == NULL || !fit_allocate(&f, 2 * n, terms + 1))
+        return rc_err_null(err, "out of memory for a fit of %zu relaxation times", terms);
     norm = time + terms;
     for (size_t k = 0; k < terms; k++)
         time[k] = pow(low / high, (double)k / (double)(terms - 1)) / low;
@@ -447,10 +443,5 @@ rc_relaxation_fit(size_t n, const double *omega, const double *storage, const do
     *misfit = sqrt(sum / (double)f.rows);
     for (size_t k = 0; k <= terms; k++)
         f.x[k] /= norm[k];
-    r = rc_relaxation_new(f.x[0], terms, f.x + 1, time, err);
-done:
-    free(time);
-    free(f.a);
-    free(f.in_use);
-    return r;
+    return rc_relaxation_new(f.x[0], terms, f.x + 1, time, err);
 }

@@ -43,6 +43,7 @@ struct term {
 
 struct own {
     struct rc_wake wake;
+    struct rc_store store;     /* the arrays below, without place and mirror */
     struct rc_shape map, grid; /* of the transform: half of the padded map */
     size_t px, py, cx, cy;     /* the padded map, and a quarter of its waves */
     double *size, *turn;       /* V and tan(d/2), by columns                 */
@@ -176,7 +177,7 @@ static enum rc_status
 find_coefficients(const struct own *w, int threads, double *part[3], struct rc_err *err)
 {
     const size_t n = w->px - w->map.nx, each = 5 * n + 5 + w->terms;
-    double *room = rc_alloc((size_t)threads * each, sizeof *room);
+    RC_OWNED double *room = rc_alloc((size_t)threads * each, sizeof *room);
 
     if (room == NULL)
         return rc_err_set(err, "out of memory for coefficients of %zu nodes", n);
@@ -193,7 +194,6 @@ find_coefficients(const struct own *w, int threads, double *part[3], struct rc_e
             part[2][j * w->cx + i] = (around(w, lost, n, i) + around(w, lost, n, back)) / 2;
         }
     }
-    free(room);
     return RC_OK;
 }
 
@@ -316,9 +316,9 @@ static enum rc_status
 find_spectra(struct own *w, double sign, int threads, struct rc_err *err)
 {
     const size_t n = w->cx * w->cy;
-    double *all = rc_alloc(3 * n, sizeof *all), *part[] = {all, all + n, all + 2 * n},
-           *to[] = {w->size, w->turn, w->loss};
-    struct rc_spectrum *passing = rc_spectrum_new(w->fft, err);
+    RC_OWNED double *all = rc_alloc(3 * n, sizeof *all);
+    double *part[] = {all, all + n, all + 2 * n}, *to[] = {w->size, w->turn, w->loss};
+    RC_OWN(rc_spectrum, passing) = rc_spectrum_new(w->fft, err);
     enum rc_status status = RC_FAIL;
 
     if (all == NULL)
@@ -332,8 +332,6 @@ find_spectra(struct own *w, double sign, int threads, struct rc_err *err)
     }
     if (status == RC_OK)
         split(w, sign);
-    rc_spectrum_free(passing);
-    free(all);
     return status;
 }
 
@@ -373,7 +371,7 @@ find_factor(struct own *w, double typical, struct rc_err *err)
 {
     const struct rc_lattice nodes = {w->map.dx, w->map.dy, 1, 1};
     struct pass pass = {.w = w, .field = RC_WAKE_EVEN};
-    double *b = rc_alloc(w->grid.nx, sizeof *b);
+    RC_OWNED double *b = rc_alloc(w->grid.nx, sizeof *b);
 
     if (b == NULL)
         return rc_err_set(err, "out of memory for %zu coefficients", w->grid.nx);
@@ -387,7 +385,6 @@ find_factor(struct own *w, double typical, struct rc_err *err)
             w->wake.along.most = fmax(w->wake.along.most, *f);
         }
     }
-    free(b);
     return RC_OK;
 }
 
@@ -398,7 +395,7 @@ make_terms(struct own *w, const struct rc_slide_medium *m, struct rc_err *err)
 
     w->terms = r->creep_terms;
     w->instant = r->instant + m->compliance;
-    if ((w->term = rc_alloc(w->terms + 1, sizeof *w->term)) == NULL)
+    if ((w->term = rc_store_take(&w->store, w->terms + 1, sizeof *w->term)) == NULL)
         return rc_err_set(err, "out of memory for %zu retardation times", w->terms);
     for (size_t k = 0; k < w->terms; k++)
         w->term[k] =
@@ -422,15 +419,15 @@ make_room(struct own *w, size_t threads, struct rc_err *err)
     rc_fft_waves(w->fft, &w->cx, &w->cy);
     w->length = rc_fft_length(w->fft);
     waves = 2 * w->cx * w->length;
-    w->size = rc_alloc(w->cx * w->cy, sizeof *w->size);
-    w->turn = rc_alloc(w->cx * w->cy, sizeof *w->turn);
-    w->loss = rc_alloc(w->cx * w->cy, sizeof *w->loss);
-    w->p = rc_alloc(waves, sizeof *w->p);
-    w->g = calloc(waves, sizeof *w->g);
-    w->factor = rc_alloc(w->grid.nx * w->grid.ny, sizeof *w->factor);
-    if (w->size == NULL || w->turn == NULL || w->loss == NULL || w->p == NULL || w->g == NULL ||
-        w->factor == NULL || !rc_fft_fold(w->fft, &w->place, &w->mirror))
+    w->size = rc_store_take(&w->store, w->cx * w->cy, sizeof *w->size);
+    w->turn = rc_store_take(&w->store, w->cx * w->cy, sizeof *w->turn);
+    w->loss = rc_store_take(&w->store, w->cx * w->cy, sizeof *w->loss);
+    w->p = rc_store_take(&w->store, waves, sizeof *w->p);
+    w->g = rc_store_take(&w->store, waves, sizeof *w->g);
+    w->factor = rc_store_take(&w->store, w->grid.nx * w->grid.ny, sizeof *w->factor);
+    if (w->store.failed || !rc_fft_fold(w->fft, &w->place, &w->mirror))
         return rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", w->px, w->py);
+    memset(w->g, 0, waves * sizeof *w->g);
     return RC_OK;
 }
 
@@ -440,10 +437,8 @@ rc_wake_new(const struct rc_shape *shape, const struct rc_slide_medium *m, size_
 {
     struct own *w = calloc(1, sizeof *w);
 
-    if (w == NULL) {
-        rc_err_set(err, "out of memory for sliding");
-        return NULL;
-    }
+    if (w == NULL)
+        return rc_err_null(err, "out of memory for sliding");
     w->map = *shape;
     w->wake.along = (struct rc_along){.at = factor_at, .of = w};
     if (make_room(w, threads, err) == RC_OK && make_terms(w, m, err) == RC_OK &&
@@ -462,14 +457,8 @@ rc_wake_free(struct rc_wake *wake)
     if (w == NULL)
         return;
     rc_fft_free(w->fft);
-    free(w->size);
-    free(w->turn);
-    free(w->loss);
-    free(w->p);
-    free(w->g);
-    free(w->factor);
+    rc_store_free(&w->store);
     free(w->place);
     free(w->mirror);
-    free(w->term);
     free(w);
 }

@@ -18,6 +18,7 @@
 #include "sweep.h"
 
 struct rc_slabs {
+    struct rc_store own;         /* the arrays below */
     struct rc_shape shape, here; /* the whole map; the rows held here */
     size_t px, py;               /* nodes of the period: those of the map, or more */
     size_t slabs, groups;
@@ -110,31 +111,30 @@ set_waves(struct rc_slabs *v)
 static enum rc_status
 allocate(struct rc_slabs *v, const struct rc_slabs_options *o, struct rc_err *err)
 {
-    size_t size = real_size(o->precision), rows = 0;
+    const size_t size = real_size(o->precision);
 
-    v->thickness = malloc(v->slabs * sizeof *v->thickness);
-    v->strained = calloc(v->slabs, sizeof *v->strained);
-    v->passes = calloc(v->groups, sizeof *v->passes);
-    v->qy = rc_alloc(rc_fft_length(v->fft), sizeof *v->qy);
-    v->alive = rc_alloc(rc_fft_length(v->fft), sizeof *v->alive);
+    v->thickness = rc_store_take(&v->own, v->slabs, sizeof *v->thickness);
+    v->strained = rc_store_take(&v->own, v->slabs, sizeof *v->strained);
+    v->passes = rc_store_take(&v->own, v->groups, sizeof *v->passes);
+    v->qy = rc_store_take(&v->own, rc_fft_length(v->fft), sizeof *v->qy);
+    v->alive = rc_store_take(&v->own, rc_fft_length(v->fft), sizeof *v->alive);
     set_waves(v);
-    v->strain = rc_alloc(RC_SWEEP_STRAINS * v->slabs, v->map * size);
-    v->waves = rc_alloc(RC_SWEEP_WAVES * v->groups, v->map * size);
+    v->strain = rc_store_take(&v->own, RC_SWEEP_STRAINS * v->slabs, v->map * size);
+    v->waves = rc_store_take(&v->own, RC_SWEEP_WAVES * v->groups, v->map * size);
     if (o->whole)
-        v->zz = rc_alloc(RC_SWEEP_SLABS, v->map * size);
+        v->zz = rc_store_take(&v->own, RC_SWEEP_SLABS, v->map * size);
     if (o->slices) {
-        v->down = rc_alloc(RC_SWEEP_WAVES * v->groups, v->map * size);
-        v->slice = rc_alloc(RC_SWEEP_STRAINS + 1, v->map * size);
+        v->down = rc_store_take(&v->own, RC_SWEEP_WAVES * v->groups, v->map * size);
+        v->slice = rc_store_take(&v->own, RC_SWEEP_STRAINS + 1, v->map * size);
     }
-    if (o->precision == RC_SINGLE) {
-        rows = (size_t)rc_fft_threads(v->fft) * RC_COMPONENTS;
-        v->rows = rc_alloc(rows * v->shape.nx, sizeof *v->rows);
-    }
-    if (v->thickness == NULL || v->strained == NULL || v->passes == NULL || v->qy == NULL ||
-        v->alive == NULL || v->strain == NULL || v->waves == NULL || (o->whole && v->zz == NULL) ||
-        (o->slices && (v->down == NULL || v->slice == NULL)) || (rows > 0 && v->rows == NULL))
+    if (o->precision == RC_SINGLE)
+        v->rows = rc_store_take(
+            &v->own, (size_t)rc_fft_threads(v->fft) * RC_COMPONENTS * v->shape.nx, sizeof *v->rows);
+    if (v->own.failed)
         return rc_err_set(err, "out of memory for %zu slabs of %zu x %zu nodes: take fewer slabs",
                           v->slabs, v->shape.nx, v->shape.ny);
+    memset(v->strained, 0, v->slabs * sizeof *v->strained);
+    memset(v->passes, 0, v->groups * sizeof *v->passes);
     memcpy(v->thickness, o->thickness, v->slabs * sizeof *v->thickness);
     return RC_OK;
 }
@@ -143,7 +143,7 @@ struct rc_slabs *
 rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *o, struct rc_err *err)
 {
     struct rc_rows rows;
-    struct rc_slabs *v;
+    RC_OWN(rc_slabs, v) = NULL;
 
     if (check(shape, o, err) != RC_OK)
         return NULL;
@@ -151,7 +151,7 @@ rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *o, str
     if (v == NULL)
         rc_err_set(err, "out of memory for a plan");
     if (rc_ranks_agree(o->ranks, v == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
-        goto fail;
+        return NULL;
     rows = rc_rows_of(o->ranks, shape);
     *v = (struct rc_slabs){.shape = *shape,
                            .here = rc_rows_shape(&rows, shape),
@@ -164,13 +164,9 @@ rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *o, str
                            .ranks = o->ranks,
                            .ops = o->precision == RC_SINGLE ? &rc_sweep_single : &rc_sweep_double};
     v->fft = rc_fft_new(o->ranks, NULL, shape, boundary(o), o->precision, o->threads, err);
-    if (v->fft == NULL)
-        goto fail;
-    if (rc_ranks_agree(o->ranks, allocate(v, o, err), err) == RC_OK)
-        return v;
-fail:
-    rc_slabs_free(v);
-    return NULL;
+    if (v->fft == NULL || rc_ranks_agree(o->ranks, allocate(v, o, err), err) != RC_OK)
+        return NULL;
+    return rc_give(&v);
 }
 
 void
@@ -179,17 +175,7 @@ rc_slabs_free(struct rc_slabs *v)
     if (v == NULL)
         return;
     rc_fft_free(v->fft);
-    free(v->thickness);
-    free(v->qy);
-    free(v->alive);
-    free(v->strain);
-    free(v->zz);
-    free(v->waves);
-    free(v->down);
-    free(v->slice);
-    free(v->strained);
-    free(v->passes);
-    free(v->rows);
+    rc_store_free(&v->own);
     free(v);
 }
 
