@@ -244,9 +244,8 @@ rc_areal(const struct rc_shape *shape, const double *h, const struct rc_surface_
          struct rc_areal *a, struct rc_err *err)
 {
     struct rc_relief r = {.h = h, .boundary = options->boundary};
-    enum rc_status status = RC_FAIL;
-    struct moments *piece = NULL;
-    struct slopes *row = NULL;
+    RC_OWNED struct moments *piece = NULL;
+    RC_OWNED struct slopes *row = NULL;
     size_t pieces;
 
     *a = (struct rc_areal){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN,
@@ -258,22 +257,15 @@ rc_areal(const struct rc_shape *shape, const double *h, const struct rc_surface_
     pieces = (shape->nx * shape->ny - 1) / PIECE + 1;
     piece = malloc(pieces * sizeof *piece);
     row = malloc(shape->ny * sizeof *row);
-    if (piece == NULL || row == NULL) {
-        rc_err_set(err, "out of memory for the figures of %zu x %zu nodes", shape->nx, shape->ny);
-        goto done;
-    }
+    if (piece == NULL || row == NULL)
+        return rc_err_set(err, "out of memory for the figures of %zu x %zu nodes", shape->nx,
+                          shape->ny);
     measure_extent(&r);
-    if (r.there == 0) {
-        status = RC_OK;
-        goto done;
-    }
+    if (r.there == 0)
+        return RC_OK;
     measure_heights(&r, piece, pieces, a);
     measure_slopes(&r, row, a);
-    status = r.maximum > r.minimum ? rc_texture(&r, a, err) : RC_OK;
-    if (status == RC_OK)
-        status = rc_material_ratio(&r, a, err);
-done:
-    free(row);
-    free(piece);
-    return status;
+    if (r.maximum > r.minimum && rc_texture(&r, a, err) != RC_OK)
+        return RC_FAIL;
+    return rc_material_ratio(&r, a, err);
 }

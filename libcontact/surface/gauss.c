@@ -579,10 +579,10 @@ enum rc_status
 rc_filter(const struct rc_shape *shape, const struct rc_filter *what, double *h, struct rc_err *err)
 {
     size_t n = shape->nx * shape->ny;
-    struct gauss g = {0};
+    RC_ENDS(gauss_free) struct gauss g = {0};
     struct rc_statistics s;
     enum rc_status status;
-    double *r = NULL;
+    RC_OWNED double *r = NULL;
 
     rc_measure(shape, h, &s);
     if (check(shape, what, &s, err) != RC_OK)
@@ -597,7 +597,5 @@ rc_filter(const struct rc_shape *shape, const struct rc_filter *what, double *h,
         for (size_t k = 0; k < n; k++)
             h[k] = what->high ? r[k] : h[k] - r[k];
     }
-    free(r);
-    gauss_free(&g);
     return status;
 }

@@ -16,6 +16,7 @@
 #include <stdlib.h>
 
 #include "handler.h"
+#include "libcontact/memory.h"
 #include "libcontact/transform/transform.h"
 
 enum {
@@ -247,29 +248,22 @@ rc_heights_shape(const struct rc_shape *shape, const struct rc_selfaffine *what,
                  double *h, double *misfit, struct rc_err *err)
 {
     size_t n = shape->nx * shape->ny, waves = rc_fourier_size(shape);
-    struct quantiles q = {0};
+    RC_ENDS(quantiles_free) struct quantiles q = {0};
     struct classes c = {.n = n < CLASSES ? n : CLASSES};
-    double *amplitude = malloc(waves * sizeof *amplitude);
-    double complex *s = malloc(waves * sizeof *s);
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
+    double *amplitude = rc_store_take(&own, waves, sizeof *amplitude);
+    double complex *s = rc_store_take(&own, waves, sizeof *s);
     enum rc_status status = RC_FAIL;
 
+    c.count = rc_store_take(&own, c.n, sizeof *c.count);
+    c.first = rc_store_take(&own, c.n, sizeof *c.first);
+    c.last = rc_store_take(&own, c.n, sizeof *c.last);
+    if (own.failed)
+        return rc_err_set(err, "out of memory for %zu waves and %zu classes of heights", waves,
+                          c.n);
     rc_handler_begin();
-    c.count = malloc(c.n * sizeof *c.count);
-    c.first = malloc(c.n * sizeof *c.first);
-    c.last = malloc(c.n * sizeof *c.last);
-    if (amplitude == NULL || s == NULL || c.count == NULL || c.first == NULL || c.last == NULL) {
-        rc_err_set(err, "out of memory for %zu waves and %zu classes of heights", waves, c.n);
-        goto done;
-    }
     if (quantiles_new(what, n, &q, err) == RC_OK)
         status = alternate(shape, &q, &c, steps, amplitude, s, h, misfit, err);
-done:
-    quantiles_free(&q);
-    free(c.last);
-    free(c.first);
-    free(c.count);
-    free(s);
-    free(amplitude);
     rc_handler_end();
     return status;
 }

@@ -8,7 +8,8 @@
  * cross once. Their lower envelope is a list of parabolas from left to right, each the lowest on one run of
  * columns.
  */
-#include "libcontact/contact.h"
+#include "libcontact/common.h"
+#include "libcontact/memory.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -99,7 +100,7 @@ rc_hole_width(const struct rc_shape *shape, const double *h, double *width, stru
 {
     size_t nx = shape->nx, nodes = nx * shape->ny, missing = 0;
     struct widths w = {.shape = *shape};
-    enum rc_status status = RC_FAIL;
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
     double largest = 0;
 
     for (size_t k = 0; k < nodes; k++)
@@ -107,13 +108,11 @@ rc_hole_width(const struct rc_shape *shape, const double *h, double *width, stru
     *width = missing == nodes ? INFINITY : 0;
     if (missing == 0 || missing == nodes)
         return RC_OK;
-    w.above = malloc(nodes * sizeof *w.above);
-    w.below = malloc(nx * sizeof *w.below);
-    w.list = malloc(nx * sizeof *w.list);
-    if (w.above == NULL || w.below == NULL || w.list == NULL) {
-        rc_err_set(err, "out of memory for the distances of %zu x %zu nodes", nx, shape->ny);
-        goto done;
-    }
+    w.above = rc_store_take(&own, nodes, sizeof *w.above);
+    w.below = rc_store_take(&own, nx, sizeof *w.below);
+    w.list = rc_store_take(&own, nx, sizeof *w.list);
+    if (own.failed)
+        return rc_err_set(err, "out of memory for the distances of %zu x %zu nodes", nx, shape->ny);
     count_down(&w, h);
     for (size_t i = 0; i < nx; i++)
         w.below[i] = never;
@@ -129,10 +128,5 @@ rc_hole_width(const struct rc_shape *shape, const double *h, double *width, stru
             largest = fmax(largest, largest_in_row(&w, h, j));
     }
     *width = 2 * sqrt(largest) * shape->dx;
-    status = RC_OK;
-done:
-    free(w.above);
-    free(w.below);
-    free(w.list);
-    return status;
+    return RC_OK;
 }

@@ -4,7 +4,8 @@
  * modified incomplete Cholesky factor as preconditioner (Gustafsson 1978). Its iterations grow only with the
  * square root of the width of a hole.
  */
-#include "libcontact/contact.h"
+#include "libcontact/common.h"
+#include "libcontact/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -210,9 +211,8 @@ solve(struct equations *e, struct rc_err *err)
 enum rc_status
 rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled, struct rc_err *err)
 {
-    struct equations e = {0};
+    RC_ENDS(equations_free) struct equations e = {0};
     struct rc_statistics s;
-    enum rc_status status = RC_FAIL;
     size_t nodes = shape->nx * shape->ny;
 
     rc_measure(shape, h, &s);
@@ -227,17 +227,14 @@ rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled, struct rc_er
     if (s.missing == nodes)
         return rc_err_set(err, "all %zu values are missing: nothing to fill them from", nodes);
     if (equations_new(&e, shape, s.missing, err) != RC_OK)
-        goto done;
+        return RC_FAIL;
     set_up(&e, shape, h, s.mean);
     factor(&e);
     if (solve(&e, err) != RC_OK)
-        goto done;
+        return RC_FAIL;
     for (size_t at = 0, k = 0; at < nodes; at++)
         if (isnan(h[at]))
             h[at] = s.mean + e.x[k++];
     *filled = s.missing;
-    status = RC_OK;
-done:
-    equations_free(&e);
-    return status;
+    return RC_OK;
 }

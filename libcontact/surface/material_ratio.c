@@ -183,22 +183,16 @@ measure_volumes(const double *z, size_t n, struct rc_areal *a)
 enum rc_status
 rc_material_ratio(const struct rc_relief *r, struct rc_areal *a, struct rc_err *err)
 {
-    enum rc_status status = RC_FAIL;
-    size_t(*count)[BUCKETS] = malloc(PASSES * sizeof *count);
-    uint64_t *room[2] = {rc_alloc(r->there, sizeof **room), rc_alloc(r->there, sizeof **room)};
+    RC_ENDS(rc_store_free) struct rc_store own = {0};
+    size_t(*count)[BUCKETS] = rc_store_take(&own, PASSES, sizeof *count);
+    uint64_t *room[2] = {rc_store_take(&own, r->there, sizeof **room),
+                         rc_store_take(&own, r->there, sizeof **room)};
     const double *z;
 
-    if (count == NULL || room[0] == NULL || room[1] == NULL) {
-        rc_err_set(err, "out of memory for sorting %zu heights", r->there);
-        goto done;
-    }
+    if (own.failed)
+        return rc_err_set(err, "out of memory for sorting %zu heights", r->there);
     z = sorted_heights(r, room, count);
     measure_core(z, r->there, a);
     measure_volumes(z, r->there, a);
-    status = RC_OK;
-done:
-    free(room[0]);
-    free(room[1]);
-    free(count);
-    return status;
+    return RC_OK;
 }

@@ -142,9 +142,10 @@ rc_outliers(const struct rc_shape *shape, double times, bool periodic, size_t th
     struct square s = {shape, periodic, shape->nx + 2 * HALF + LANES, NULL};
     int team = rc_useful_threads(shape, threads);
     size_t n = shape->nx * shape->ny;
-    enum rc_status status = RC_FAIL;
     struct rc_statistics figures;
-    double *d = NULL, limit;
+    RC_OWNED double *d = NULL;
+    RC_OWNED double *lines = NULL;
+    double limit;
 
     *count = 0;
     rc_measure(shape, h, &figures);
@@ -154,11 +155,9 @@ rc_outliers(const struct rc_shape *shape, double times, bool periodic, size_t th
         return rc_err_set(err, "%zu infinite heights have no distance from others",
                           figures.infinite);
     d = rc_alloc(n, sizeof *d);
-    s.lines = rc_alloc((size_t)team, SIDE * s.width * sizeof *s.lines);
-    if (d == NULL || s.lines == NULL) {
-        rc_err_set(err, "out of memory for outliers among %zu heights", n);
-        goto done;
-    }
+    s.lines = lines = rc_alloc((size_t)team, SIDE * s.width * sizeof *lines);
+    if (d == NULL || lines == NULL)
+        return rc_err_set(err, "out of memory for outliers among %zu heights", n);
     find_differences(&s, h, team, d);
     /* 1.4826 times the median absolute deviation is the standard deviation of a Gaussian */
     limit = times * 1.4826 * rc_median(d, n, rc_median(d, n, 0, false, team), true, team);
@@ -167,9 +166,5 @@ rc_outliers(const struct rc_shape *shape, double times, bool periodic, size_t th
             h[k] = NAN;
             ++*count;
         }
-    status = RC_OK;
-done:
-    free(d);
-    free(s.lines);
-    return status;
+    return RC_OK;
 }

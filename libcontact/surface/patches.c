@@ -218,7 +218,8 @@ struct all {
 static void *
 gather_lists(const struct rc_ranks *ranks, size_t bytes, const void *own, size_t *n)
 {
-    size_t count = rc_ranks_count(ranks), *from = calloc(count + 1, sizeof *from);
+    size_t count = rc_ranks_count(ranks);
+    RC_OWNED size_t *from = calloc(count + 1, sizeof *from);
     void *all = NULL;
 
     if (rc_ranks_agree(ranks, from == NULL ? RC_FAIL : RC_OK, NULL) == RC_OK) {
@@ -234,7 +235,6 @@ gather_lists(const struct rc_ranks *ranks, size_t bytes, const void *own, size_t
             all = NULL;
         }
     }
-    free(from);
     return all;
 }
 
@@ -252,16 +252,15 @@ static enum rc_status
 make_pairs(const struct rc_rows *rows, bool wraps, const struct field *f, struct runs *r,
            size_t before, struct pair **pairs, size_t *n)
 {
-    size_t most = f->nx / 2 + 1, *line = calloc(4 * most, sizeof *line);
+    size_t most = f->nx / 2 + 1;
+    RC_OWNED size_t *line = calloc(4 * most, sizeof *line);
     bool has[2];
 
     *n = f->own > 0 ? r->first[1] : 0;
     *pairs = malloc((*n + 1) * sizeof **pairs);
     if (rc_ranks_agree(rows->ranks, line == NULL || *pairs == NULL ? RC_FAIL : RC_OK, NULL) !=
-        RC_OK) {
-        free(line);
+        RC_OK)
         return RC_FAIL;
-    }
     if (f->last > f->own)
         patches_of_row(r, f->last - 1, before, line);
     if (*n > 0)
@@ -270,7 +269,6 @@ make_pairs(const struct rc_rows *rows, bool wraps, const struct field *f, struct
                     has);
     for (size_t k = 0; k < *n; k++)
         (*pairs)[k] = (struct pair){line[most + k], line[2 * most + k]};
-    free(line);
     return RC_OK;
 }
 
@@ -279,7 +277,7 @@ static enum rc_status
 gather_all(const struct rc_rows *rows, bool wraps, const struct field *f, struct runs *r,
            struct part *own, size_t parts, size_t before, struct all *all)
 {
-    struct pair *pair = NULL;
+    RC_OWNED struct pair *pair = NULL;
     enum rc_status status;
 
     *all = (struct all){.parts = parts};
@@ -294,7 +292,6 @@ gather_all(const struct rc_rows *rows, bool wraps, const struct field *f, struct
         status = all->part == NULL || all->pair == NULL ? RC_FAIL : RC_OK;
     }
     free(own);
-    free(pair);
     return status;
 }
 
@@ -498,7 +495,7 @@ rc_patches_find(const struct rc_shape *shape, const double *p,
     const struct rc_rows rows = rc_rows_of(options->ranks, shape);
     const struct rc_shape own = rc_rows_shape(&rows, shape);
     bool wraps = options->boundary == RC_PERIODIC;
-    double *room = NULL;
+    RC_OWNED double *room = NULL;
     enum rc_status status;
     struct runs r = {0};
     struct all all = {0};
@@ -522,7 +519,6 @@ rc_patches_find(const struct rc_shape *shape, const double *p,
     if (rc_ranks_agree(rows.ranks, status, NULL) != RC_OK)
         status = rc_err_set(err, "out of memory for the contact patches of %zu x %zu nodes",
                             shape->nx, shape->ny);
-    free(room);
     free(all.part);
     free(all.pair);
     return status;

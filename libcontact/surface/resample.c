@@ -266,14 +266,11 @@ static enum rc_status
 cubic(const struct between_nodes *b, double *out, struct rc_err *err)
 {
     size_t nx = b->x->to;
-    struct stencil *columns = rc_alloc(nx, sizeof *columns);
-    double *row = rc_alloc(b->x->from, sizeof *row);
-    enum rc_status status = RC_FAIL;
+    RC_OWNED struct stencil *columns = rc_alloc(nx, sizeof *columns);
+    RC_OWNED double *row = rc_alloc(b->x->from, sizeof *row);
 
-    if (columns == NULL || row == NULL) {
-        rc_err_set(err, "out of memory for the weights of %zu columns", nx);
-        goto done;
-    }
+    if (columns == NULL || row == NULL)
+        return rc_err_set(err, "out of memory for the weights of %zu columns", nx);
     for (size_t i = 0; i < nx; i++)
         columns[i] = stencil_at(b->x, i, b->periodic);
     for (size_t j = 0; j < b->y->to; j++) {
@@ -288,11 +285,7 @@ cubic(const struct between_nodes *b, double *out, struct rc_err *err)
             out[j * nx + i] = isnan(sum) ? beside_hole(b, i, j, &columns[i], &s) : sum;
         }
     }
-    status = RC_OK;
-done:
-    free(columns);
-    free(row);
-    return status;
+    return RC_OK;
 }
 
 /* ---- the new grid ---- */
@@ -359,9 +352,8 @@ by_way_of(const struct axis *x, const struct axis *y, const double *v, bool peri
     struct axis fine_x = finer(x) ? *x : (struct axis){x->to, x->to, 1, true};
     struct axis fine_y = finer(y) ? *y : (struct axis){y->to, y->to, 1, true};
     struct between_nodes b = {.x = &fine_x, .y = &fine_y, .periodic = periodic};
-    enum rc_status status;
     size_t n = 0;
-    double *half;
+    RC_OWNED double *half = NULL;
 
     if (rc_size_mul(coarse_x->to, coarse_y->to, &n, err) != RC_OK)
         return RC_FAIL;
@@ -370,9 +362,7 @@ by_way_of(const struct axis *x, const struct axis *y, const double *v, bool peri
                           coarse_y->to);
     means(coarse_x, coarse_y, v, half);
     b.v = half;
-    status = cubic(&b, out, err);
-    free(half);
-    return status;
+    return cubic(&b, out, err);
 }
 
 enum rc_status

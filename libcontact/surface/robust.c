@@ -247,7 +247,8 @@ rc_median(const double *v, size_t n, double about, bool magnitude, int threads)
     const struct values of = {v, n, about, magnitude, threads};
     struct values near;
     size_t count, rank;
-    double *kept = narrow(&of, &near, &count, &rank), median = NAN;
+    RC_OWNED double *kept = narrow(&of, &near, &count, &rank);
+    double median = NAN;
     bool repeats;
 
     if (count > 0) {
@@ -256,6 +257,5 @@ rc_median(const double *v, size_t n, double about, bool magnitude, int threads)
         if (count % 2 == 0 && !repeats)
             median += 0.5 * (number_of(next_key(&near, lower)) - median);
     }
-    free(kept);
     return median;
 }

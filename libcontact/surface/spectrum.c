@@ -410,7 +410,7 @@ fit_hurst(const struct rings *r, const struct rc_psd_options *options, double al
           struct rc_psd *psd, struct rc_err *err)
 {
     bool told = options->shortest > 0;
-    struct bin *bin = malloc(r->n * sizeof *bin);
+    RC_OWNED struct bin *bin = malloc(r->n * sizeof *bin);
     size_t bins, from = 0, to;
 
     if (bin == NULL)
@@ -423,7 +423,6 @@ fit_hurst(const struct rings *r, const struct rc_psd_options *options, double al
         psd->shortest = told ? options->shortest : 2 * RC_PI / bin[to - 1].high;
         psd->longest = told ? options->longest : 2 * RC_PI / bin[from].low;
     }
-    free(bin);
     if (told && bins < 2 && psd->c[0] > 0)
         return rc_err_set(err, "the map holds no two rings of waves from %g m to %g m",
                           options->shortest, options->longest);
@@ -536,29 +535,20 @@ struct rc_psd *
 rc_psd_new(const struct rc_shape *shape, const double *h, const struct rc_psd_options *options,
            struct rc_err *err)
 {
-    enum rc_status status = RC_FAIL;
-    struct rc_psd *psd = NULL;
-    double *power = NULL, *wx = NULL;
+    RC_OWN(rc_psd, psd) = NULL;
+    RC_OWNED double *wx = NULL;
+    RC_OWNED double *power = NULL;
 
     if (check(shape, options, err) != RC_OK)
         return NULL;
     psd = calloc(1, sizeof *psd);
     power = rc_alloc(rc_fourier_size(shape), sizeof *power);
     wx = rc_alloc(shape->nx, sizeof *wx);
-    if (psd == NULL || power == NULL || wx == NULL) {
-        rc_err_set(err, "out of memory for the spectrum of %zu x %zu nodes", shape->nx, shape->ny);
-        goto done;
-    }
+    if (psd == NULL || power == NULL || wx == NULL)
+        return rc_err_null(err, "out of memory for the spectrum of %zu x %zu nodes", shape->nx,
+                           shape->ny);
     psd->hurst = psd->hurst_error = psd->shortest = psd->longest = NAN;
-    status = make(shape, h, options, power, wx, psd, err);
-done:
-    free(wx);
-    free(power);
-    if (status != RC_OK) {
-        rc_psd_free(psd);
-        psd = NULL;
-    }
-    return psd;
+    return make(shape, h, options, power, wx, psd, err) == RC_OK ? rc_give(&psd) : NULL;
 }
 
 void

@@ -319,29 +319,24 @@ enum rc_status
 rc_synth_selfaffine(const struct rc_shape *shape, const struct rc_selfaffine *what, double *h,
                     struct rc_err *err)
 {
-    enum rc_status status = RC_FAIL;
-    double complex *s = NULL;
+    enum rc_status status;
+    RC_OWNED double complex *s = NULL;
     struct spectrum spectrum;
     size_t n = rc_fourier_size(shape);
     double height2, slope2, scale, misfit;
 
     if (check_spectrum(shape, what, err) != RC_OK)
-        goto done;
+        return RC_FAIL;
     spectrum = spectrum_of(shape, what);
     s = malloc(n * sizeof *s);
-    if (s == NULL) {
-        rc_err_set(err, "out of memory for %zu waves (%zu bytes)", n, n * sizeof *s);
-        goto done;
-    }
+    if (s == NULL)
+        return rc_err_set(err, "out of memory for %zu waves (%zu bytes)", n, n * sizeof *s);
     make_waves(shape, &spectrum, s, &height2, &slope2);
-    if (height2 == 0) {
-        rc_err_set(err,
-                   "no wave of a map of %g m x %g m lies between the wavelengths %g m and "
-                   "%g m",
-                   (double)shape->nx * shape->dx, (double)shape->ny * shape->dy, 1 / spectrum.high,
-                   1 / spectrum.low);
-        goto done;
-    }
+    if (height2 == 0)
+        return rc_err_set(
+            err, "no wave of a map of %g m x %g m lies between the wavelengths %g m and %g m",
+            (double)shape->nx * shape->dx, (double)shape->ny * shape->dy, 1 / spectrum.high,
+            1 / spectrum.low);
     scale =
         what->rms_slope == 0 ? what->rms_height / sqrt(height2) : what->rms_slope / sqrt(slope2);
     for (size_t k = 0; k < n; k++)
@@ -351,7 +346,5 @@ rc_synth_selfaffine(const struct rc_shape *shape, const struct rc_selfaffine *wh
         status = rc_heights_shape(shape, what, STEPS, h, &misfit, err);
     if (status == RC_OK && rc_heights_skewed(what))
         status = set_size(shape, what, s, h, err);
-done:
-    free(s);
     return status;
 }

@@ -70,8 +70,8 @@ rc_taper_frame(const struct rc_shape *shape, double width, size_t *columns, size
 enum rc_status
 rc_taper(const struct rc_shape *shape, double width, double *h, struct rc_err *err)
 {
-    enum rc_status status = RC_FAIL;
-    double *wx = NULL, *wy = NULL;
+    RC_OWNED double *wx = NULL;
+    RC_OWNED double *wy = NULL;
     struct rc_statistics s;
 
     rc_measure(shape, h, &s);
@@ -80,8 +80,8 @@ rc_taper(const struct rc_shape *shape, double width, double *h, struct rc_err *e
     wx = weights(shape->nx, shape->dx, width);
     wy = weights(shape->ny, shape->dy, width);
     if (wx == NULL || wy == NULL) {
-        rc_err_set(err, "out of memory for the edges of %zu x %zu nodes", shape->nx, shape->ny);
-        goto done;
+        return rc_err_set(err, "out of memory for the edges of %zu x %zu nodes", shape->nx,
+                          shape->ny);
     }
     for (size_t j = 0; j < shape->ny; j++)
         for (size_t i = 0; i < shape->nx; i++) {
@@ -89,9 +89,5 @@ rc_taper(const struct rc_shape *shape, double width, double *h, struct rc_err *e
             if (w < 1)
                 *at = s.mean + w * (*at - s.mean);
         }
-    status = RC_OK;
-done:
-    free(wx);
-    free(wy);
-    return status;
+    return RC_OK;
 }

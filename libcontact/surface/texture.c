@@ -87,17 +87,16 @@ correlations(const struct rc_relief *r, const struct rc_offsets *at, double sq, 
 {
     size_t n = sums_of(at), width = 2 * at->mx + 1, threads = (size_t)r->threads;
     bool whole = r->there == r->shape.nx * r->shape.ny;
-    double *sum = rc_alloc(n, sizeof *sum), *pairs = whole ? NULL : rc_alloc(n, sizeof *pairs);
+    RC_OWNED double *pairs = whole ? NULL : rc_alloc(n, sizeof *pairs);
+    RC_OWNED double *sum = rc_alloc(n, sizeof *sum);
 
-    if (sum == NULL || (!whole && pairs == NULL)) {
-        rc_err_set(err, "out of memory for the autocorrelation of %zu x %zu nodes", r->shape.nx,
-                   r->shape.ny);
-        goto fail;
-    }
+    if (sum == NULL || (!whole && pairs == NULL))
+        return rc_err_null(err, "out of memory for the autocorrelation of %zu x %zu nodes",
+                           r->shape.nx, r->shape.ny);
     if (rc_autocorrelate(&r->shape, at, height_row, r, threads, sum, err) != RC_OK)
-        goto fail;
+        return NULL;
     if (!whole && rc_autocorrelate(&r->shape, at, there_row, r, threads, pairs, err) != RC_OK)
-        goto fail;
+        return NULL;
 #pragma omp parallel for num_threads(r->threads) schedule(static)
     for (size_t j = 0; j <= at->my; j++)
         for (size_t i = 0; i < width; i++) {
@@ -105,12 +104,7 @@ correlations(const struct rc_relief *r, const struct rc_offsets *at, double sq, 
             double count = whole ? all_pairs(r, at, i, j) : floor(pairs[k] + 0.5);
             sum[k] = count > 0 ? sum[k] / (count * sq * sq) : NAN;
         }
-    free(pairs);
-    return sum;
-fail:
-    free(pairs);
-    free(sum);
-    return NULL;
+    return rc_give(&sum);
 }
 
 /* The correlation at whole offsets; NAN beyond the stored ones. */
@@ -319,18 +313,15 @@ measure_direction(const struct rc_relief *r, const double *power, double (*sums)
 static enum rc_status
 find_direction(const struct rc_relief *r, struct rc_areal *a, struct rc_err *err)
 {
-    double *power = rc_alloc(rc_fourier_size(&r->shape), sizeof *power);
-    struct rc_windowed w = {.shape = &r->shape,
-                            .h = r->h,
-                            .window = rc_window_hann,
-                            .wx = rc_alloc(r->shape.nx, sizeof *w.wx)};
-    double(*sums)[ANGLES] = malloc(PARTS * sizeof *sums);
-    enum rc_status status = RC_FAIL;
+    RC_OWNED double *power = rc_alloc(rc_fourier_size(&r->shape), sizeof *power);
+    RC_OWNED double *wx = rc_alloc(r->shape.nx, sizeof *wx);
+    RC_OWNED double(*sums)[ANGLES] = malloc(PARTS * sizeof *sums);
+    struct rc_windowed w = {.shape = &r->shape, .h = r->h, .window = rc_window_hann, .wx = wx};
+    enum rc_status status;
 
-    if (power == NULL || w.wx == NULL || sums == NULL) {
-        rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", r->shape.nx, r->shape.ny);
-        goto done;
-    }
+    if (power == NULL || wx == NULL || sums == NULL)
+        return rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", r->shape.nx,
+                          r->shape.ny);
     if (r->boundary == RC_PERIODIC) {
         status = rc_power(&r->shape, height_row, r, (size_t)r->threads, power, err);
     } else {
@@ -339,10 +330,6 @@ find_direction(const struct rc_relief *r, struct rc_areal *a, struct rc_err *err
     }
     if (status == RC_OK)
         measure_direction(r, power, sums, a);
-done:
-    free(sums);
-    free(w.wx);
-    free(power);
     return status;
 }
 
@@ -350,12 +337,11 @@ enum rc_status
 rc_texture(const struct rc_relief *r, struct rc_areal *a, struct rc_err *err)
 {
     struct rc_offsets at = offsets_of(&r->shape, r->boundary);
-    double *c = correlations(r, &at, a->sq, err);
+    RC_OWNED double *c = correlations(r, &at, a->sq, err);
 
     if (c == NULL)
         return RC_FAIL;
     measure_lengths(r, &at, c, a);
-    free(c);
     if (r->shape.nx == 1 || r->shape.ny == 1)
         return RC_OK;
     return find_direction(r, a, err);
