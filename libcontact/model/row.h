@@ -87,7 +87,8 @@ struct rc_model_row {
      * among them. An outer model that sets them, or the compliance, sets them here while it reads, before its
      * inner model reads. */
     void (*state)(struct rc_model *m, struct rc_state *s);
-    /* The following functions may be NULL. `free` releases what is not in m->own. keep is called after look. */
+    /* The following functions may be NULL. `free` releases what m->own does not hold. keep is called after
+     * look. */
     void (*free)(struct rc_model *m);
     enum rc_status (*keep)(struct rc_model *m, struct rc_err *err);
     enum rc_status (*heights)(struct rc_model *m, const double *h, struct rc_err *err);
