@@ -295,8 +295,7 @@ shorten(char *history)
 enum rc_status
 rc_grid_history(struct rc_grid *g, const char *step, struct rc_err *err)
 {
-    static const size_t most = HISTORY_MAX / 2 - 16; /* most bytes of a step, so that the first
-                                                        and the last fit */
+    static const size_t most = HISTORY_MAX / 2 - 16; /* bytes of a step at most: two steps fit */
     const char *old = rc_grid_get(g, "history");
     size_t n = strlen(step), keep = n <= most ? n : most;
     size_t size = (old == NULL ? 0 : strlen(old)) + keep + 8;

@@ -992,7 +992,7 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
     double c = rc_gap_shift(g), sums[RC_GAP_SUMS];
 
     g->mode.watched = g->mode.known && g->mode.mu > 0 && control == g->control;
-    if (g->mode.watched) { /* stiffness of the softest mode without the traction */
+    if (g->mode.watched) { /* stiffness of the softest mode, without that of the traction */
         rows(g, residual_row, g, sums);
         g->mode.stiffness = g->mode.mu + sums[2];
     }

@@ -131,7 +131,7 @@ enum rc_status rc_blocks_fill(const struct rc_passage *a, const struct rc_levels
 
 /* ---- ordering.c ---- */
 
-/* A region: nodes lo .. hi - 1 of the order. Those from `cut` on separate its two sides, which come first. */
+/* A region: nodes lo .. hi - 1 of the order. Nodes from `cut` on separate its two sides, listed before them. */
 struct rc_part {
     int32_t lo, cut, hi;
     int32_t left, right; /* parts of the sides; -1: none */

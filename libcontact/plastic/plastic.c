@@ -538,7 +538,7 @@ follows_little(const struct rc_plastic *p)
     return !p->few && !p->thorough && rc_voxels_count(&p->voxels) > 0;
 }
 
-/* Takes an elastic trial of the load, first at its end. */
+/* Tries an elastic step: first to the end of the load, then to shorter shares of it, by bisection. */
 static enum rc_status
 probe(struct rc_plastic *p, struct rc_err *err)
 {

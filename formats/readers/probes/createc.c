@@ -14,7 +14,7 @@
  * is the spacing, Dacto[A]z is to be multiplied by GainZ. If Delta X times Dacto[A]xy is, Dacto[A]z is the
  * count. If neither is, the unit of the heights is not known.
  *
- * Written from how Gwyddion, createc 0.0.3 and others read such files.
+ * The layout is the one that Gwyddion, createc 0.0.3 and other programs read.
  */
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
  * each known by its number alone. Then comes a line for each point with the values of its channels between
  * commas, and then "end of experiment". A map is of one channel (MAP_SC) or of several (MAP_MC).
  *
- * Written from how Gwyddion writes and reads such files.
+ * The layout is the one that Gwyddion writes and reads.
  */
 #include <math.h>
 #include <string.h>

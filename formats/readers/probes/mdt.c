@@ -6,8 +6,8 @@
  *     106  an array (MDA): its axes and its values are described by calibrations with units as text or as
  *          code of SI; those with two axes and one value are maps
  *
- * A height is number * step + offset. Written from how Gwyddion, SurfaceTopography and SciFiReaders read such
- * files.
+ * A height is number * step + offset. The layout is the one that Gwyddion, SurfaceTopography and SciFiReaders
+ * read.
  */
 #include <math.h>
 #include <stdio.h>

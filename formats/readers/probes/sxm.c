@@ -10,7 +10,7 @@
  * the order of measuring, from the right. A scan that went up begins with its lowest line. Lines that were
  * not scanned are NaN.
  *
- * Written from how Gwyddion and nanonispy read such files.
+ * The layout is the one that Gwyddion and nanonispy read.
  */
 #include <math.h>
 #include <string.h>

@@ -10,7 +10,7 @@
  *               of elements and of bytes (u32); count * step + origin, the origin in the unit shown
  *     mask      a byte a point, 9 where it was measured, with a border of one point, packed likewise
  *
- * Written from how SurfaceTopography reads such files.
+ * The layout is the one that SurfaceTopography reads.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /*
- * Wyko OPD: a directory of blocks, which follow each other from byte 2 on in its order. The heights are in
- * one of them column by column, the bottom row first, in units of the wavelength over Mult. Each of the other
+ * Wyko OPD: the directory begins at byte 2, and the blocks follow it in the same order. The heights are in
+ * one block, column by column, the bottom row first, in units of the wavelength over Mult. Each of the other
  * relevant blocks holds one number or text.
  */
 #include <math.h>

@@ -8,7 +8,7 @@
  *
  * In files that begin with KPK1 each member is packed by zstd too, which its first bytes say as well.
  *
- * Written from how SurfaceTopography reads such files.
+ * The layout is the one that SurfaceTopography reads.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -13,7 +13,7 @@
  *
  * Numbers are in units of the wavelength over Mult, or, where the first flag is 1, nanometres. `Bad` is
  * missing. Other files have a point a line instead, x and y in millimetres and z in nanometres, column by
- * column. Written from how Gwyddion and SurfaceTopography read such files. Gwyddion multiplies by Mult since
+ * column. The layout is the one that Gwyddion and SurfaceTopography read. Gwyddion multiplies by Mult since
  * a version between 2.50 and 2.71, in nanometres too. Before, it divided by Mult, as SurfaceTopography does.
  */
 #include <math.h>

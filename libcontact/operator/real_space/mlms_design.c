@@ -127,7 +127,7 @@ count(const struct rc_mlms_design *d, const struct rc_shape *shape,
 
 /* ---- levels ---- */
 
-/* Tiles of about RC_MLMS_TILE places; at least two if a second thread pays. */
+/* A tile has about RC_MLMS_TILE places. Axes long enough for two threads have at least two tiles. */
 static void
 set_tiles(struct rc_mlms_axis *a)
 {
