@@ -22,8 +22,8 @@
 #define RC_LAYER_TABLES 6    /* the spectra of layers take as long as so many sums  */
 #define RC_ADHESION_WORK 40  /* a first state on 128 x 128 nodes; grows as n^(1/4)  */
 #define RC_ADHESION_PASSES 4 /* seconds of a step                                   */
-/* A body that yields: applications after the increments and of one increment, convolutions of a slab and application,
- * and its seconds: free, periodic. */
+/* A body that yields: applications after the increments and of one increment, convolutions of a slab and
+ * application, and its seconds: free, periodic. */
 #define RC_YIELD_LAST 10
 #define RC_YIELD_INCREMENT 2.2
 #define RC_YIELD_SLAB 3.3
@@ -47,7 +47,8 @@
         359, 54                                                                                    \
     }
 /* Temperatures: sums beside those of a step in time, seconds a node for the coefficients and for a further
- * depth; bytes a node, free and periodic, with the shares of nodes and with one number, and of a further step. */
+ * depth; bytes a node, free and periodic, with the shares of nodes and with one number, and of a further
+ * step. */
 #define RC_HEAT_WORK 2.5
 #define RC_HEAT_STEP 8
 #define RC_HEAT_NODE 100e-9

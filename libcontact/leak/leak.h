@@ -131,7 +131,8 @@ enum rc_status rc_blocks_fill(const struct rc_passage *a, const struct rc_levels
 
 /* ---- ordering.c ---- */
 
-/* A region: nodes lo .. hi - 1 of the order. Nodes from `cut` on separate its two sides, listed before them. */
+/* A region: nodes lo .. hi - 1 of the order. Its two sides come first, then the nodes between them, from
+ * `cut` on. */
 struct rc_part {
     int32_t lo, cut, hi;
     int32_t left, right; /* parts of the sides; -1: none */

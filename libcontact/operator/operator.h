@@ -38,7 +38,8 @@ struct rc_operator {
     double inverse_near[3][3];
     double neighbour[3][3];
     struct rc_frame frame; /* nodes of the padding in rc_operator_chain_framed */
-    /* the edges of a set need a rule of their own for a common shift (see working_set.c): layers on a free map */
+    /* a common shift of a set needs pressures of its own at the edges (see working_set.c): layers on a free
+     * map */
     bool edges;
     double error;       /* error of K p, relative to the sum of |K| |p| */
     double row_error;   /* the same, row by row                                            */

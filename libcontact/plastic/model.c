@@ -354,8 +354,8 @@ expect_elastic(const struct yielding *y, double load, struct rc_expected *expect
     return rc_solver_expect(&y->base.shape, &contact, expected, err);
 }
 
-/* The cost of the elastic contact. Once the body is known to yield, the volume with its own contacts is added,
- * as a first load takes it, measured on rough contacts of 9 to 23 % contact. */
+/* The cost of the elastic contact. Once the body is known to yield, the cost of a first load of the volume is
+ * added, with its own contacts. It was measured on rough contacts of 9 to 23 % contact. */
 static enum rc_status
 plan(const struct rc_model *m, const struct rc_point *most, struct rc_expected *expected,
      struct rc_err *err)

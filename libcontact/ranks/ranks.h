@@ -7,9 +7,10 @@
  * calls. With NULL for the ranks, and in a build without MPI, one process owns all rows: every function is
  * then empty, and nothing is copied.
  *
- * Results are the same for every P, bit for bit, if one process uses transforms too. Each row and each column is transformed separately with the same plan. Blocks are added in
- * the same order, whichever rank owns them. Their sums are compensated, so that the rounding of the total
- * does not depend on where ranks begin (except for ties: 1 in 1e15).
+ * Results are the same for every P, bit for bit, if one process uses transforms too. Each row and each column
+ * is transformed separately with the same plan. Blocks are added in the same order, whichever rank owns them.
+ * Their sums are compensated, so that the rounding of the total does not depend on where ranks begin (except
+ * for ties: 1 in 1e15).
  *
  * Operations that are not local to rows:
  *
@@ -29,8 +30,8 @@
  *   nested start          rows of the coarser grid are moved to the ranks that own them there; each rank
  *                         solves small grids alone, after a message that all have the memory (nested.c)
  *   patches of contact    labelled row by row, joined across the edges between ranks (surface/patches.c)
- *   coarser grids of      each rank reduces and expands its rows, with those of other ranks within the reach of
- *   stresses              the interpolation (coarse_grid.c)
+ *   coarser grids of      each rank reduces and expands its rows, with those of other ranks within the
+ *   stresses              reach of the interpolation (coarse_grid.c)
  *   failures              no rank continues alone: makers agree on their status before any of them returns
  */
 #ifndef RC_RANKS_H

@@ -32,8 +32,8 @@ struct rc_coarse {
     int threads;
     double *rows;    /* after the first direction: rows of x.coarse or of nx */
     double *scratch; /* memory for each thread: the fine nodes of one residue */
-    /* The first row of each rank on the map and on the coarse grid, and the first row from which it makes them:
-     * coarse rows `from` rows of the map, and rows of the map `under` coarse rows. */
+    /* Rows of each rank: its first one on the map and on the coarse grid; the first row of the map that its
+     * coarse rows need, `from`; and the first coarse row that its rows of the map need, `under`. */
     const struct rc_ranks *ranks;
     size_t own, order, *fine, *coarse, *from, *under;
     double *window; /* rows of x.coarse numbers from other ranks; NULL: no ranks */

@@ -7,9 +7,9 @@
 
 #include "libcontact/common.h"
 
-/* K = V exp(i d) on a padded map, with V > 0. `steepest` is the largest tan d of its waves, INFINITY where the
- * real part of K is not positive. `along` is V over the displacement of an elastic half-space with the
- * compliance `typical`. */
+/* K = V exp(i d) on a padded map, with V > 0. `steepest` is the largest tan d of its waves, INFINITY
+ * where the real part of K is not positive. `along` is V over the displacement of an elastic half-space with
+ * the compliance `typical`. */
 struct rc_wake {
     struct rc_along along;
     double steepest;

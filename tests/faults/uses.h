@@ -86,8 +86,8 @@ done:
     return status;
 }
 
-/* Four stresses at two depths, the second on a coarser grid where the tolerance permits; its stresses remain in the
- * arrays. */
+/* Four stresses at two depths, the second on a coarser grid where the tolerance permits; its stresses remain
+ * in the arrays. */
 static enum rc_status
 two_slices(const struct rc_shape *shape, const double *pressure,
            const struct rc_stress_options *options, double *const field[4], struct rc_err *err)

@@ -1,8 +1,8 @@
 /* Steady sliding over a viscoelastic half-space on a free map. The displacement is that of coefficients found
  * here one by one, by quadrature of Love's formula behind the cell; gap and pressure are those of a contact,
  * and the losses of all terms of the material are the friction. Slow and fast bodies are elastic. A mirrored
- * map slides backwards, and a turned one along y. A ball has the friction and the pressure of one on a periodic
- * map that is many times as large. The estimate is above the error. */
+ * map slides backwards, and a turned one along y. A ball has the friction and the pressure of one on a
+ * periodic map that is many times as large. The estimate is above the error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
