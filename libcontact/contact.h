@@ -980,8 +980,8 @@ struct rc_leak_figures {
  * the percolating path. NULL when a value is not finite, the map has 2^31 nodes, or memory is short. */
 RC_API struct rc_leak *rc_leak_new(const struct rc_shape *shape, const double *p, const double *g,
                                    const struct rc_leak_options *options, struct rc_err *err);
-/* Seconds and bytes of such a flow through so many nodes with fluid of a map of `nodes`. */
-RC_API struct rc_expected rc_leak_expect(size_t nodes, size_t fluid, size_t threads);
+/* Seconds and bytes of such a flow through so many nodes with fluid. */
+RC_API struct rc_expected rc_leak_expect(size_t fluid, size_t threads);
 /* Sets another contact and gap of the same map, with the same options and memory. It works as rc_leak_new,
  * but a value that is not finite leaves everything unchanged. After RC_FAIL due to short memory the object
  * can only be freed. */

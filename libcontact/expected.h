@@ -39,12 +39,12 @@
 #define RC_ROLLING_STEP 25   /* a step of a path                                     */
 #define RC_ROLLING_STEADY 90 /* a steady state to 1e-2; half more for each decade    */
 #define RC_ROLLING_FORCE 150 /* the same, with a given force                         */
-/* Leakage: seconds and bytes of a node of 512 x 512; the seconds grow as n^(1/7). The bytes are those of maps
+/* Leakage: seconds and bytes of a node with fluid of 512 x 512; the seconds grow as n^(1/7). The bytes are those of maps
  * that are eliminated whole, and of larger ones. */
 #define RC_LEAK_NODE 1.7e-6
 #define RC_LEAK_BYTES                                                                              \
     {                                                                                              \
-        359, 54                                                                                    \
+        360, 49                                                                                    \
     }
 /* Temperatures: sums beside those of a step in time, seconds a node for the coefficients and for a further
  * depth; bytes a node, free and periodic, with the shares of nodes and with one number, and of a further
@@ -57,7 +57,7 @@
     {                                                                                              \
         {170, 133},                                                                                \
         {                                                                                          \
-            100, 80                                                                                \
+            93, 80                                                                                 \
         }                                                                                          \
     }
 #define RC_HEAT_TIME_BYTES 25

@@ -177,10 +177,9 @@ solve(struct run *run, const struct leak_case *c, struct rc_leak *leak)
 static void
 show_plan(struct run *run, const struct leak_case *c)
 {
-    const size_t n = rc_grid_nodes(c->gap),
-                 fluid = (size_t)((isnan(c->contact) ? 1 : 1 - c->contact) * (double)n);
+    const double fluid = (isnan(c->contact) ? 1 : 1 - c->contact) * (double)rc_grid_nodes(c->gap);
 
-    course_show(&run->t, c->gap, rc_leak_expect(n, fluid, run->t.threads));
+    course_show(&run->t, c->gap, rc_leak_expect((size_t)fluid, run->t.threads));
 }
 
 static void

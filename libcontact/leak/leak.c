@@ -302,7 +302,7 @@ set_shear(struct rc_leak *l)
 }
 
 struct rc_expected
-rc_leak_expect(size_t nodes, size_t fluid, size_t threads)
+rc_leak_expect(size_t fluid, size_t threads)
 {
     static const double bytes[] = RC_LEAK_BYTES;
     const double cores = (double)(threads == 0 ? rc_threads_available() : threads);
@@ -310,7 +310,7 @@ rc_leak_expect(size_t nodes, size_t fluid, size_t threads)
     return (struct rc_expected){.convolutions = NAN,
                                 .seconds = RC_LEAK_NODE * (double)fluid *
                                            pow((double)fluid / 262144, 1.0 / 7) * 2 / cores,
-                                .memory = (size_t)(bytes[fluid > (size_t)whole] * (double)nodes)};
+                                .memory = (size_t)(bytes[fluid > (size_t)whole] * (double)fluid)};
 }
 
 static enum rc_status

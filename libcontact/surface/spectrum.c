@@ -490,6 +490,21 @@ check(const struct rc_shape *s, const struct rc_psd_options *o, struct rc_err *e
     return RC_OK;
 }
 
+/* The memory of the transforms is free again before the map is drawn. */
+static enum rc_status
+transform(const struct rc_windowed *w, const struct rc_psd_options *options, double *power,
+          struct rc_err *err)
+{
+    enum rc_status status;
+
+    if (options->map != NULL)
+        rc_memory_lend();
+    status = rc_power(w->shape, rc_windowed_row, w, options->threads, power, err);
+    if (options->map != NULL)
+        rc_memory_return(rc_memory_lent());
+    return status;
+}
+
 static enum rc_status
 make(const struct rc_shape *s, const double *h, const struct rc_psd_options *options, double *power,
      double *wx, struct rc_psd *psd, struct rc_err *err)
@@ -512,7 +527,7 @@ make(const struct rc_shape *s, const double *h, const struct rc_psd_options *opt
         r.high -= spread(window) * r.width;
     }
     if (lay_window(&w, &factor, &psd->mean_square, &alike, err) == RC_OK &&
-        rc_power(s, rc_windowed_row, &w, options->threads, power, err) == RC_OK &&
+        transform(&w, options, power, err) == RC_OK &&
         fill_rings(&r, power, factor, rc_useful_threads(s, options->threads), err) == RC_OK &&
         list_rings(&r, psd, err) == RC_OK)
         status = fit_hurst(&r, options, alike, psd, err);

@@ -657,7 +657,7 @@ leaks(double *out, struct rc_err *err)
         p[k] = (i == 5 && j != 4) || (i == 10 && j > 2) || (i == 7 && j == 8) ? 1e6 : 0;
         g[k] = p[k] > 0 ? 0 : 1e-6 + 1e-7 * (double)(k % 7);
     }
-    if (!(rc_leak_expect(N, N, 1).seconds > 0) ||
+    if (!(rc_leak_expect(N, 1).seconds > 0) ||
         (leak = rc_leak_new(&shape, p, g, &options, err)) == NULL)
         return RC_FAIL;
     while ((status = rc_leak_step(leak, err)) == RC_MORE)
