@@ -291,7 +291,10 @@ make_fields(struct grid *g, size_t n, const int *c, double *const *s, struct rc_
 static bool
 may_be_coarse(const struct rc_stress_task *t, double depth, size_t *sx, size_t *sy)
 {
-    double tol = t->options.tol / (1 + rc_stress_shear(t));
+    /* If no component errs by more than e, the Mises stress of the errors is at most sqrt(15) e. No Mises
+     * stress errs by more than that, and no Tresca stress by more than 2/sqrt(3) times as much. */
+    double derived = t->options.wanted >> RC_COMPONENTS != 0 ? 4.5 : 1;
+    double tol = t->options.tol / (derived * (1 + rc_stress_shear(t)));
 
     return t->options.boundary == RC_FREE && t->type->coarsens &&
            rc_coarse_steps(&t->shape, rc_coarse_spacing(depth, tol), sx, sy);

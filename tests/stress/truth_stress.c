@@ -440,6 +440,59 @@ paper_figure_1(void **state)
     }
 }
 
+/* With --tol the stresses under a sliding ball differ from Hamilton's by at most the tolerance, derived stresses
+ * too. What the cells leave without a tolerance is added. Deep slices are on coarser grids. */
+static void
+tolerance_of_a_sliding_sphere(void **state)
+{
+    enum {
+        M = 192
+    };
+    const double nu = 0.3, mu = 0.25;
+    struct hertz h = {.a = 1e-4, .p0 = 1e9};
+    struct rc_shape shape = {M, M, 2.6 * h.a / M, 2.6 * h.a / M};
+    double *p = calloc(M * M, sizeof *p), *s[RC_STRESSES] = {NULL};
+    const unsigned wanted = (1u << RC_COMPONENTS) - 1 + (1u << RC_MISES);
+
+    (void)state;
+    for (size_t k = 0; k < M * M;
+         k++) /* the mean of Hertz's pressure over a cell, by 8 x 8 points */
+        for (int q = 0; q < 64; q++) {
+            double x = node_x(shape, k) + shape.dx * ((q % 8 + 0.5) / 8 - 0.5);
+            double y = node_y(shape, k) + shape.dy * ((q / 8 + 0.5) / 8 - 0.5);
+            p[k] += h.p0 / 64 * sqrt(fmax(0, 1 - (x * x + y * y) / (h.a * h.a)));
+        }
+    for (int c = 0; c <= RC_MISES; c++)
+        s[c] = malloc(sizeof(double[M * M]));
+    for (double depth = 0.05; depth < 3; depth *= 1.9) {
+        static const double tols[] = {0, 1e-4, 1e-3, 1e-2, 0.1};
+        double cells = 0;
+        for (size_t t = 0; t < 5; t++) {
+            struct rc_stress_options o = {
+                .body.nu = nu, .mu = mu, .wanted = wanted, .threads = 2, .tol = tols[t]};
+            struct rc_err err;
+            struct rc_stress *stress = rc_stress_new(&shape, p, &o, &err);
+            double worst = 0;
+            assert_int_equal(rc_stress_slice(stress, depth * h.a, s, &err), RC_OK);
+            for (size_t k = 0; k < M * M; k++) {
+                double exact[RC_STRESSES];
+                sliding_sphere(h, nu, mu, node_x(shape, k), node_y(shape, k), depth * h.a, exact);
+                exact[RC_MISES] = mises_of(exact);
+                for (int c = 0; c <= RC_MISES; c++)
+                    worst = fmax(worst, fabs(s[c][k] - exact[c]) / h.p0);
+            }
+            print_message("depth %.2f a, tolerance %.0e: error %.1e, %s\n", depth, tols[t], worst,
+                          rc_stress_counted(stress)->coarse_depths > 0 ? "coarse" : "fine");
+            cells = t == 0 ? worst : cells;
+            assert_true(worst <= tols[t] + cells && cells < 1e-3 / sqrt(depth));
+            rc_stress_free(stress);
+        }
+    }
+    for (int c = 0; c <= RC_MISES; c++)
+        free(s[c]);
+    free(p);
+}
+
 /* ---- chosen depths ---- */
 
 static double
@@ -582,6 +635,7 @@ main(void)
         cmocka_unit_test(rectangle_at_every_depth),
         cmocka_unit_test(sliding_sphere_is_the_integral),
         cmocka_unit_test(paper_figure_1),
+        cmocka_unit_test(tolerance_of_a_sliding_sphere),
         cmocka_unit_test(chosen_depths),
         cmocka_unit_test(principal_stresses),
     };
