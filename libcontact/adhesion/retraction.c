@@ -262,7 +262,10 @@ begin_fine(struct rc_retraction *r, struct rc_retraction_state from, double step
 {
     r->stage = RC_RETRACTION_FINE;
     r->fine++;
-    r->known = lowest_known(r);
+    if (r->lowest.load < r->known) {
+        r->known = r->lowest.load;
+        r->known_at = r->lowest.c;
+    }
     r->hidden = r->beside = INFINITY;
     r->last = r->base = from;
     r->has_base = true;
@@ -451,7 +454,7 @@ bool
 rc_retraction_next(struct rc_retraction *r, struct rc_retraction_state here)
 {
     double hides, way;
-    bool jumped;
+    bool jumped, lost;
 
     if (r->states++ == 0)
         return begin(r, here);
@@ -471,8 +474,12 @@ rc_retraction_next(struct rc_retraction *r, struct rc_retraction_state here)
     if (!r->has_after && r->states > 2 && here.slope > convex * fmax(r->last.slope, 0))
         r->rough = true;
     hides = hidden(r, &here, jumped);
-    if (r->stage == RC_RETRACTION_FINE && jumped && counts(r, hides) && hides < here.load &&
-        way > least_step * r->range && r->states < STATES) {
+    lost = r->last.c > r->known_at && here.c <= r->known_at &&
+           fmin(r->lowest.load, here.load) > r->known + settled * fabs(r->known);
+    if (lost)
+        hides = fmin(hides, r->known);
+    if (r->stage == RC_RETRACTION_FINE && (lost || (jumped && counts(r, hides))) &&
+        hides < here.load && way > least_step * r->range && r->states < STATES) {
         r->keep = RC_RETRACTION_HERE;
         r->step = way / 2;
         return go(r, &r->last, r->last.c - r->step);

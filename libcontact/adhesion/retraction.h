@@ -44,10 +44,10 @@ struct rc_retraction {
     double step;      /* step to the next state */
     double stiffness; /* the last positive slope of a step without a jump */
     double stiffest;  /* the largest                                                             */
-    double known;     /* the lowest load of the coarse stage                                     */
-    double hidden;    /* the lowest load that a step since `base` may hide */
-    double beside;    /* the lowest load that the step from the lowest state to `after` may hide */
-    double to;        /* the end of the last step that may hide a lower load */
+    double known, known_at; /* the lowest load of the stages before, and its place */
+    double hidden;          /* the lowest load that a step since `base` may hide */
+    double beside; /* the lowest load that the step from the lowest state to `after` may hide */
+    double to;     /* the end of the last step that may hide a lower load */
     double estimate, at_estimate,
         bend;      /* the parabola: its lowest load, its place, and half its second derivative */
     double missed; /* largest difference of a load from the parabola */
