@@ -39,8 +39,8 @@
 #define RC_ROLLING_STEP 25   /* a step of a path                                     */
 #define RC_ROLLING_STEADY 90 /* a steady state to 1e-2; half more for each decade    */
 #define RC_ROLLING_FORCE 150 /* the same, with a given force                         */
-/* Leakage: seconds and bytes of a node with fluid of 512 x 512; the seconds grow as n^(1/7). The bytes are those of maps
- * that are eliminated whole, and of larger ones. */
+/* Leakage: seconds and bytes of a node with fluid of 512 x 512; the seconds grow as n^(1/7). The bytes are
+ * those of maps that are eliminated whole, and of larger ones. */
 #define RC_LEAK_NODE 1.7e-6
 #define RC_LEAK_BYTES                                                                              \
     {                                                                                              \

@@ -398,7 +398,7 @@ suspect_track(struct run *run, const struct rc_grid *g)
                   where, shown_in_unit(usual, period, "m"), shown_in_unit(given, track, "m"));
 }
 
-/* Two rough bodies that slide: refuses what the model does not have, and adds body 2. */
+/* Two rough bodies that slide: adds body 2, and refuses the options that this model does not have. */
 static void
 add_counter(struct run *run, const struct rc_grid *g)
 {

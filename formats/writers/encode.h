@@ -28,7 +28,7 @@ void rc_buffer_u64(struct rc_buffer *buffer, uint64_t value);
 void rc_buffer_f32(struct rc_buffer *buffer, float value);
 void rc_buffer_f64(struct rc_buffer *buffer, double value);
 void rc_buffer_free(struct rc_buffer *buffer);
-/* RC_FAIL if memory was short or writing fails. */
+/* RC_FAIL if memory is short or writing fails. */
 enum rc_status rc_buffer_write(const struct rc_buffer *buffer, FILE *out, struct rc_err *err);
 
 /* ---- values ---- */

@@ -139,7 +139,7 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
  * of 1/32, 1/16 and 1/8 of the sides (the same at 512 x 512). A frame of 1/8 costs a quarter of the
  * transforms of rows, a twelfth of the total. */
 static const size_t frame_part = 8;
-/* On a strip, where there are few rows: all of the padding. On 65536 x 16 nodes with 6 and 41 % contact an
+/* A strip has few rows, and its frame is the whole padding. On 65536 x 16 nodes with 6 and 41 % contact an
  * eighth took 14 and 17 steps, and all of the padding took 9 and 11. */
 static const size_t strip_part = 2;
 /* A strip is at least this many times as long as wide. */

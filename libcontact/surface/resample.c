@@ -83,7 +83,7 @@ cell_mean(const double *v, size_t nx, const double x[2], const double y[2])
     for (size_t j = (size_t)y[0]; (double)j < y[1]; j++)
         add_row(v + j * nx, x[0], x[1], fmin(y[1], (double)j + 1) - fmax(y[0], (double)j), &sum,
                 &measured);
-    /* half is enough, with allowance for rounding */
+    /* a new node needs half of its area measured, less the rounding */
     return measured >= 0.4999999999 * (x[1] - x[0]) * (y[1] - y[0]) ? sum / measured : NAN;
 }
 

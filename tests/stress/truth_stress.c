@@ -440,8 +440,9 @@ paper_figure_1(void **state)
     }
 }
 
-/* With --tol the stresses under a sliding ball differ from Hamilton's by at most the tolerance, derived stresses
- * too. What the cells leave without a tolerance is added. Deep slices are on coarser grids. */
+/* With --tol the stresses under a sliding ball differ from Hamilton's by at most the tolerance, derived
+ * stresses too. The error of the cells, found without a tolerance, is added. Deep slices are on coarser
+ * grids. */
 static void
 tolerance_of_a_sliding_sphere(void **state)
 {

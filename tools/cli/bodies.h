@@ -12,8 +12,8 @@
 
 /* Body 1 from its key `layers`. */
 struct layers {
-    const char *text;       /* the key, owned by the frame; NULL: bare */
-    struct rc_layer *layer; /* the substrate last; NULL: bare         */
+    const char *text;       /* value of the key, owned by the frame; NULL: no layers */
+    struct rc_layer *layer; /* the substrate last; NULL: no layers */
     struct rc_body body;    /* undefined for a bare body */
     double *residual;       /* Pa, of each layer; NULL: none          */
 };

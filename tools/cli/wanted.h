@@ -33,8 +33,8 @@ void seen_depths(const struct seen_list *list, seen_right *right, const void *ct
 struct wanted {          /* starts as {0}: every frame                                          */
     const char *channel; /* names separated by commas; NULL: any                                */
     struct numbers depth, number; /* requested depths (m) and cases; n = 0: any */
-    /* Called for a frame that is not selected; returns true if it keeps the frame; NULL: none is kept; not
-     * with requested depths. */
+    /* Called for each frame that is not selected, and returns true if it takes the frame over. NULL: such
+     * frames are dropped. It must be NULL where depths are requested. */
     bool (*other)(void *ctx, struct rc_grid *grid);
     void *ctx;
     struct seen_list list;        /* with any selection: all frames so far */
