@@ -212,7 +212,8 @@ class Desk(http.server.ThreadingHTTPServer):
         self.folder, self.files, self.runs, self.children = folder, [], {}, set()
         self.room = threading.BoundedSemaphore(TOGETHER)
         self.token, self.once = secrets.token_urlsafe(24), secrets.token_urlsafe(24)
-        self.ended, self.pages, self.left = threading.Event(), 0, time.monotonic()
+        self.ended, self.counting = threading.Event(), threading.Lock()
+        self.pages, self.left = 0, time.monotonic()
         self.first = [path and self.add_file(path, path)['id'] for path in (sample(), file)]
 
     def address(self, first):
@@ -358,19 +359,21 @@ class Request(http.server.BaseHTTPRequestHandler):
     def get_events(self):
         """Sends the runs when they change, until the page is closed."""
         desk, said = self.server, None
-        if desk.pages >= PAGES_MAX:
-            raise Refused('%d pages are open: close one of them, then load this page again' % PAGES_MAX, 429)
-        self.close_connection = True
-        self.head(200, 'text/event-stream', None, Connection='close')
-        desk.pages += 1
+        with desk.counting:  # before the answer, or two pages could take the last place
+            if desk.pages >= PAGES_MAX:
+                raise Refused('%d pages are open: close one of them, then load this page again' % PAGES_MAX, 429)
+            desk.pages += 1
         try:
+            self.close_connection = True
+            self.head(200, 'text/event-stream', None, Connection='close')
             while not desk.ended.is_set() and not select.select([self.connection], [], [], 0.1)[0]:
                 state = json.dumps([run.shown() for run in list(desk.runs.values())])
                 if state != said:
                     self.wfile.write(b'data: %s\n\n' % state.encode())
                     said = state
         finally:
-            desk.pages, desk.left = desk.pages - 1, time.monotonic()
+            with desk.counting:
+                desk.pages, desk.left = desk.pages - 1, time.monotonic()
 
     def post_upload(self):
         desk, size = self.server, self.length(UPLOAD_MAX)
