@@ -28,7 +28,8 @@ at(const struct rc_attraction *a, size_t n, const double *restrict g, double *re
     const double per = 1 / a->range, strength = a->strength, work = a->work;
 
     for (size_t k = 0; k < n; k++) {
-        double below = fmin(g[k], 0), x = fmax(1 - (g[k] - below) * per, 0);
+        double below = g[k] < 0 ? g[k] : 0, x = 1 - (g[k] - below) * per;
+        x = x > 0 ? x : 0;
         s[k] = strength * x * x;
         v[k] = strength * below - work * x * x * x;
         d[k] = g[k] < 0 ? 0 : 2 * strength * per * x;

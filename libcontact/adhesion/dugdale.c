@@ -33,9 +33,9 @@ at(const struct rc_attraction *a, size_t n, const double *restrict g, double *re
 
     for (size_t k = 0; k < n; k++) {
         /* the part of the line beyond the gap */
-        double x = fmin(g[k], last), rest = last - fmax(x, first);
+        double x = g[k] < last ? g[k] : last, rest = last - (x > first ? x : first);
         s[k] = slope * rest;
-        v[k] = -slope * rest * rest / 2 + strength * (fmin(x, first) - first);
+        v[k] = -slope * rest * rest / 2 + strength * (x < first ? x - first : 0);
         d[k] = g[k] >= first && g[k] < last && g[k] >= 0 ? slope : 0;
     }
 }
