@@ -137,12 +137,11 @@ rc_export_write(const struct rc_export *format, FILE *out, struct rc_grid *const
 static void
 plain_label(char label[RC_LABEL], const struct rc_grid *g, bool cases, bool depths)
 {
-    char number[RC_NUMBER_SIZE];
     double depth;
     int n = snprintf(label, RC_LABEL, "%.64s", g->channel);
 
     if (depths && rc_grid_number(g, "depth", &depth))
-        n += snprintf(label + n, RC_LABEL - (size_t)n, "_z%s", rc_number_text(number, depth));
+        n += snprintf(label + n, RC_LABEL - (size_t)n, "_z%s", rc_number(depth));
     if (cases)
         snprintf(label + n, RC_LABEL - (size_t)n, "_case%zu", rc_grid_case(g));
 }

@@ -82,7 +82,6 @@ const struct rc_format *
 rc_format_find(const struct rc_file *file, struct rc_err *err)
 {
     const struct rc_format *best = NULL;
-    char first[RC_SHOWN];
     int most = 0;
 
     for (const struct rc_format *const *f = rc_formats; *f != NULL; f++) {
@@ -104,5 +103,5 @@ rc_format_find(const struct rc_file *file, struct rc_err *err)
         err,
         "not recognised: it has none of the formats of --formats (it begins '%s'); give "
         "--format NAME, or save X3P, SDF or text in the program that made it",
-        rc_text_shown(first, (const char *)file->data, file->size < 24 ? file->size : 24));
+        rc_text_shown((const char *)file->data, file->size < 24 ? file->size : 24));
 }

@@ -46,6 +46,9 @@ rc_give(void *at)
     return p;
 }
 
+/* The number as rc_number_text writes it; the text lives until the end of the block. */
+#define rc_number(value) rc_number_text((char[RC_NUMBER_SIZE]){""}, value)
+
 RC_OWNER(rc_grid)
 
 #endif

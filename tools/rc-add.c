@@ -104,16 +104,14 @@ refuse_spacings(struct tool *t, const struct rc_grid *a, const struct rc_grid *b
 {
     bool first = a->dx <= b->dx && a->dy <= b->dy;
     const struct rc_grid *to = first ? b : a;
-    char ax[RC_NUMBER_SIZE], ay[RC_NUMBER_SIZE], bx[RC_NUMBER_SIZE], by[RC_NUMBER_SIZE];
-    char tx[RC_NUMBER_SIZE], ty[RC_NUMBER_SIZE];
 
     tool_die_at(t, a, EXIT_IMPOSSIBLE,
                 "spacings of %s x %s m, and in %s of %s x %s m: bring them together by rc-pick "
                 "--resample %s,%s %s",
-                rc_number_text(ax, a->dx), rc_number_text(ay, a->dy),
+                rc_number(a->dx), rc_number(a->dy),
                 strcmp(t->operand[1], "-") == 0 ? "standard input" : t->operand[1],
-                rc_number_text(bx, b->dx), rc_number_text(by, b->dy), rc_number_text(tx, to->dx),
-                rc_number_text(ty, to->dy), t->operand[first ? 0 : 1]);
+                rc_number(b->dx), rc_number(b->dy), rc_number(to->dx), rc_number(to->dy),
+                t->operand[first ? 0 : 1]);
 }
 
 /* ---- keys ---- */
@@ -130,14 +128,11 @@ static enum rc_status
 set_periodic(struct tool *t, struct rc_grid *a, const struct rc_grid *b, bool cut,
              struct rc_err *err)
 {
-    char where[256];
-
     if (!is_periodic(a) || (is_periodic(b) && !cut))
         return RC_OK;
     tool_warn(
         t, "%s: this surface is periodic, but the result is not, because %s: it gets periodic=no",
-        tool_where(t, a, where, sizeof where),
-        cut ? "the maps are cut to their overlap" : "the other one is not");
+        tool_where(t, a), cut ? "the maps are cut to their overlap" : "the other one is not");
     return rc_grid_set(a, "taper", NULL, err) == RC_OK ? rc_grid_set(a, "periodic", "no", err)
                                                        : RC_FAIL;
 }
@@ -227,7 +222,6 @@ static void
 add(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
 {
     struct rc_shape sa = rc_grid_shape(a), sb = rc_grid_shape(b), sum;
-    char where[256];
     struct rc_err err;
     bool cut;
 
@@ -236,8 +230,7 @@ add(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
     cut = sa.nx != sb.nx || sa.ny != sb.ny;
     if (cut)
         tool_note(t, "%s: %zu x %zu nodes and %zu x %zu of B: cut to the %zu x %zu that they share",
-                  tool_where(t, a, where, sizeof where), sa.nx, sa.ny, sb.nx, sb.ny, sum.nx,
-                  sum.ny);
+                  tool_where(t, a), sa.nx, sa.ny, sb.nx, sb.ny, sum.nx, sum.ny);
     if ((args.subtract ? rc_subtract : rc_add)(&sa, a->v, &sb, b->v, a->v, &err) != RC_OK ||
         set_periodic(t, a, b, cut, &err) != RC_OK || set_form(a, b, &err) != RC_OK ||
         add_history(t, a, b, &err) != RC_OK)

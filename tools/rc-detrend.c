@@ -34,12 +34,10 @@ is_periodic(const struct rc_grid *g)
 static enum rc_status
 end_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
 {
-    char where[256];
-
     if (!is_periodic(g))
         return RC_OK;
     tool_warn(t, "%s: a periodic surface is not periodic without its form: it gets periodic=no",
-              tool_where(t, g, where, sizeof where));
+              tool_where(t, g));
     return rc_grid_set(g, "periodic", "no", err);
 }
 
@@ -47,17 +45,16 @@ static enum rc_status
 remove_form(struct tool *t, struct rc_grid *g, struct rc_form form, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(g);
-    char where[256], text[SHOWN_NUMBER];
+    const char *where = tool_where(t, g);
     double radius;
 
     form.robust = args.robust;
     form.threads = t->threads;
     if (rc_detrend_form(&shape, &form, g->v, &radius, err) != RC_OK)
         return RC_FAIL;
-    tool_where(t, g, where, sizeof where);
     if (form.kind != RC_POLYNOMIAL) {
         tool_note(t, "%s: a %s of radius %sm", where, radius > 0 ? "bump" : "hollow",
-                  shown_number(text, fabs(radius), 6, "m"));
+                  shown_number(fabs(radius), 6, "m"));
         if ((isfinite(radius) ? rc_grid_set_number(g, "form.radius", radius, err)
                               : rc_grid_set(g, "form.radius", NULL, err)) != RC_OK) /* flat */
             return RC_FAIL;
@@ -144,12 +141,11 @@ outliers(struct tool *t, struct rc_grid *g, double times, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(g);
     size_t count, nodes = g->nx * g->ny;
-    char where[256];
+    const char *where = tool_where(t, g);
 
     if (rc_outliers(&shape, times, is_periodic(g), t->threads, g->v, &count, err) != RC_OK)
         return RC_FAIL;
     t->missing = true;
-    tool_where(t, g, where, sizeof where);
     tool_note(t, "%s: %zu of %zu points are outliers", where, count, nodes);
     if ((double)count > outliers_much * (double)nodes)
         tool_warn(t,
@@ -164,7 +160,6 @@ static enum rc_status
 taper(struct tool *t, struct rc_grid *g, double width, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(g);
-    char where[256], before[SHOWN_NUMBER], after[SHOWN_NUMBER];
     struct rc_statistics was, is;
     size_t columns, rows;
     double inside, widest;
@@ -180,8 +175,8 @@ taper(struct tool *t, struct rc_grid *g, double width, struct rc_err *err)
               "%s: the taper covers %.3g %% of the map, and Sq goes from %s to %s: near the edges "
               "the surface is smoother, and under a large load it carries more than the rest: "
               "--mirror makes a periodic map without a taper",
-              tool_where(t, g, where, sizeof where), 100 * (1 - inside),
-              shown_in_unit(before, was.rms, "m"), shown_in_unit(after, is.rms, "m"));
+              tool_where(t, g), 100 * (1 - inside), shown_in_unit(was.rms, "m"),
+              shown_in_unit(is.rms, "m"));
     if (rc_grid_number(g, "taper", &widest) && widest > width)
         width = widest;
     if (rc_grid_set_number(g, "taper", width, err) != RC_OK)
@@ -247,7 +242,6 @@ warn_of_holes(struct tool *t, const struct rc_grid *g, size_t missing, struct rc
 {
     struct rc_shape shape = rc_grid_shape(g);
     size_t nodes = g->nx * g->ny;
-    char where[256], text[SHOWN_NUMBER];
     double width;
 
     if ((double)missing <= filled_much * (double)nodes || missing == nodes || t->quiet)
@@ -257,8 +251,8 @@ warn_of_holes(struct tool *t, const struct rc_grid *g, size_t missing, struct rc
     tool_warn(t,
               "%s: %.3g %% of the points were missing (%zu of %zu) and are filled from their "
               "neighbours; the widest hole is %sm wide, and heights inside it are uncertain",
-              tool_where(t, g, where, sizeof where), 100 * (double)missing / (double)nodes, missing,
-              nodes, shown_number(text, width, 3, "m"));
+              tool_where(t, g), 100 * (double)missing / (double)nodes, missing, nodes,
+              shown_number(width, 3, "m"));
     return RC_OK;
 }
 
@@ -266,7 +260,6 @@ static enum rc_status
 fill(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(g);
-    char where[256];
     size_t filled, nodes = g->nx * g->ny, missing = count_missing(g);
 
     (void)value;
@@ -274,8 +267,7 @@ fill(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
         return RC_FAIL;
     if (rc_inpaint(&shape, g->v, &filled, err) != RC_OK)
         return RC_FAIL;
-    tool_note(t, "%s: %zu of %zu points filled", tool_where(t, g, where, sizeof where), filled,
-              nodes);
+    tool_note(t, "%s: %zu of %zu points filled", tool_where(t, g), filled, nodes);
     return add_to_key(g, "filled", filled, err);
 }
 

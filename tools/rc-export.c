@@ -194,12 +194,12 @@ static void
 set_depths(struct tool *t, struct rc_grid *g, double first, double step)
 {
     size_t size = g->ny * RC_NUMBER_SIZE, n = 0;
-    char *text = tool_room(t, size, 1, "the depths of a section"), number[RC_NUMBER_SIZE];
+    char *text = tool_room(t, size, 1, "the depths of a section");
     struct rc_err err;
 
     for (size_t j = 0; j < g->ny; j++)
         n += (size_t)snprintf(text + n, size - n, "%s%s", j == 0 ? "" : ",",
-                              rc_number_text(number, decimal(first + (double)j * step)));
+                              rc_number(decimal(first + (double)j * step)));
     tool_must(t, g, rc_grid_set(g, "depths", text, &err), &err);
     free(text);
 }

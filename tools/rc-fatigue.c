@@ -343,7 +343,6 @@ set_depths(struct run *run)
     const struct rc_grid *peak = run->position[0].p;
     struct numbers *d = &run->depths;
     double largest = -INFINITY, least = fmin(peak->dx, peak->dy) / 2;
-    char given[SHOWN_NUMBER], node[SHOWN_NUMBER];
     size_t kept = 0, low, high;
 
     for (size_t k = 0; k < run->positions; k++) {
@@ -361,7 +360,7 @@ set_depths(struct run *run)
             tool_warn(&run->t,
                       "the first depth, %s, is less than half the distance of nodes, %s: stresses "
                       "there are those of single cells, and indices are too large or too small",
-                      shown_in_unit(given, d->v[0], "m"), shown_in_unit(node, 2 * least, "m"));
+                      shown_in_unit(d->v[0], "m"), shown_in_unit(2 * least, "m"));
         return;
     }
     for (size_t k = 0; k < d->n; k++)
@@ -412,10 +411,9 @@ set_keys(struct run *run, struct rc_grid *g)
     if (pass[0] != '\0') {
         size_t size = d->n * RC_NUMBER_SIZE + 1, n = 0;
         char *text = tool_room(&run->t, size, 1, "the depths of a section");
-        char number[RC_NUMBER_SIZE];
         for (size_t k = 0; k < d->n; k++)
-            n += (size_t)snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",",
-                                  rc_number_text(number, d->v[k]));
+            n +=
+                (size_t)snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",", rc_number(d->v[k]));
         fine = fine && rc_grid_set(g, "section", pass, &err) == RC_OK &&
                rc_grid_set(g, "depths", text, &err) == RC_OK;
         free(text);
@@ -515,7 +513,6 @@ judge(struct run *run, const struct rc_fatigue *f)
     static const double coarse = 0.05;
     const struct rc_fatigue_figures *r = rc_fatigue_result(f);
     const struct rc_fatigue_place *at = r->largest;
-    char step[SHOWN_NUMBER], depth[SHOWN_NUMBER];
     struct tool *t = &run->t;
 
     for (int c = 0; c <= RC_CRITERIA; c++)
@@ -525,8 +522,8 @@ judge(struct run *run, const struct rc_fatigue *f)
                 "%s: its largest value is at the depth %s, and the states of a history are up "
                 "to %s apart: its sampling error is %.2g: take a finer map or more positions, "
                 "or leave out depths above it",
-                rc_criterion_names[c], shown_in_unit(depth, at[c].depth, "m"),
-                shown_in_unit(step, run->step, "m"), at[c].sampling_error);
+                rc_criterion_names[c], shown_in_unit(at[c].depth, "m"),
+                shown_in_unit(run->step, "m"), at[c].sampling_error);
             break;
         }
     if (run->options.boundary == RC_PERIODIC && needs_endurance())

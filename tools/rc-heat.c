@@ -359,9 +359,8 @@ judge(struct run *run, const struct rc_grid *g, const struct rc_heat_figures *f)
 {
     struct tool *t = &run->t;
     const double m = (double)f->hot_nodes;
-    char where[256];
+    const char *where = tool_where(t, g);
 
-    tool_where(t, g, where, sizeof where);
     if (run->speed > 0 && strchr(args.moving, ',') == NULL && adds_surfaces(g))
         tool_warn(t,
                   "%s: its height is the sum of two rough surfaces, whose spots last only for a "

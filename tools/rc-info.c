@@ -182,40 +182,35 @@ put_text(FILE *out, const char *text, size_t n)
 static void
 put_figure(FILE *out, const char *name, double value, const char *unit)
 {
-    char text[SHOWN_NUMBER];
-
     fprintf(out, "  %-10s ", name);
     if (isnan(value)) {
         fputs("unknown\n", out);
         return;
     }
-    fputs(shown_number(text, value, 6, unit), out);
+    fputs(shown_number(value, 6, unit), out);
     put_text(out, unit, strlen(unit));
 }
 
 static void
 put_result(FILE *out, const struct rc_grid *g, const struct result *r)
 {
-    char text[SHOWN_NUMBER];
-
     if (!isnan(r->load))
         put_figure(out, "load", r->load, "N");
     if (!isnan(r->contact_area)) {
         fprintf(out, "  %-10s %s, %.3g %% of the map (%.0f of %zu nodes)\n", "contact",
-                shown_area(text, r->contact_area), 100 * r->contact_fraction, r->contact_nodes,
+                shown_area(r->contact_area), 100 * r->contact_fraction, r->contact_nodes,
                 g->nx * g->ny);
     } else if (!isnan(r->load)) {
         fprintf(out, "  %-10s unknown\n", "contact");
     }
     if (!isnan(r->max_pressure))
-        fprintf(out, "  %-10s at most %sPa\n", "pressure",
-                shown_number(text, r->max_pressure, 6, "Pa"));
+        fprintf(out, "  %-10s at most %sPa\n", "pressure", shown_number(r->max_pressure, 6, "Pa"));
     if (!isnan(r->approach))
         put_figure(out, "approach", r->approach, "m");
     if (!isnan(r->hardness)) {
-        fprintf(out, "  %-10s %sPa", "hardness", shown_number(text, r->hardness, 6, "Pa"));
+        fprintf(out, "  %-10s %sPa", "hardness", shown_number(r->hardness, 6, "Pa"));
         if (r->plastic_nodes > 0)
-            fprintf(out, ", reached on %s (%zu node%s)", shown_area(text, r->plastic_area),
+            fprintf(out, ", reached on %s (%zu node%s)", shown_area(r->plastic_area),
                     r->plastic_nodes, r->plastic_nodes == 1 ? "" : "s");
         fprintf(out, "%s\n", r->plastic_area == 0 ? ", not reached" : "");
     }
@@ -235,17 +230,16 @@ put_length(FILE *out, const char *number, const char *unit)
 static void
 put_grid(FILE *out, const struct rc_grid *g)
 {
-    char a[SHOWN_NUMBER], b[SHOWN_NUMBER];
     const char *unit = rc_grid_dunit(g);
 
     fprintf(out, "  %-10s %zu x %zu nodes, dx ", "grid", g->nx, g->ny);
-    put_length(out, shown_number(a, g->dx, 6, unit), unit);
+    put_length(out, shown_number(g->dx, 6, unit), unit);
     fputs(", dy ", out);
-    put_length(out, shown_number(b, g->dy, 6, unit), unit);
+    put_length(out, shown_number(g->dy, 6, unit), unit);
     fprintf(out, "\n  %-10s ", "size");
-    put_length(out, shown_number(a, (double)g->nx * g->dx, 6, unit), unit);
+    put_length(out, shown_number((double)g->nx * g->dx, 6, unit), unit);
     fputs(" x ", out);
-    put_length(out, shown_number(b, (double)g->ny * g->dy, 6, unit), unit);
+    put_length(out, shown_number((double)g->ny * g->dy, 6, unit), unit);
     putc('\n', out);
     fprintf(out, "  %-10s %s\n", "type", g->type == RC_F32 ? "f32" : "f64");
 }
@@ -305,10 +299,9 @@ show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
           const struct info_figures *f, bool first)
 {
     struct result result;
-    char where[512];
 
     fprintf(t->out, "%s", first ? "" : "\n");
-    put_text(t->out, tool_where(t, g, where, sizeof where), sizeof where);
+    put_text(t->out, tool_where(t, g), WHERE);
     if (is_pressure(g)) {
         result_of(g, f->touch, s, &result);
         put_result(t->out, g, &result);

@@ -220,18 +220,17 @@ show_bodies(struct run *run, FILE *in, const char *a, const char *b)
 {
     const struct physics *p = &args.physics;
     FILE *out = run->page.file;
-    char text[SHOWN_NUMBER];
 
     (void)in, (void)a, (void)b;
     fprintf(out, "<p>The surface is pressed against a flat body. E* is %s",
-            shown_in_unit(text, p->surface_estar, "Pa"));
+            shown_in_unit(p->surface_estar, "Pa"));
     if (p->pair.one.layers > 0)
         fprintf(out, " at the surface of %zu layer%s", p->pair.one.layers,
                 p->pair.one.layers == 1 ? "" : "s");
     if (!isnan(p->radius))
-        fprintf(out, ", a sphere of radius %s is added", shown_in_unit(text, p->radius, "m"));
+        fprintf(out, ", a sphere of radius %s is added", shown_in_unit(p->radius, "m"));
     if (isfinite(p->hardness))
-        fprintf(out, ", the hardness is %s", shown_in_unit(text, p->hardness, "Pa"));
+        fprintf(out, ", the hardness is %s", shown_in_unit(p->hardness, "Pa"));
     else
         fputs(", the bodies are elastic", out);
     fprintf(out, ", and the map %s.%s</p>\n",
@@ -552,15 +551,13 @@ check_file(struct run *run)
 static void
 check_arguments(struct run *run)
 {
-    char threads[RC_NUMBER_SIZE];
-
     check_file(run);
     check_contact(run);
     if (!isnan(args.outliers))
         rc_number_text(run->outliers, args.outliers);
     if (run->t.memory > 0)
         rc_number_text(run->memory, (double)run->t.memory);
-    setenv("RC_THREADS", rc_number_text(threads, (double)run->t.threads), 1);
+    setenv("RC_THREADS", rc_number((double)run->t.threads), 1);
 }
 
 /* ---- the run ---- */

@@ -86,7 +86,6 @@ static void
 read_section(struct run *run)
 {
     static char si[RC_NUMBER_SIZE + 3];
-    char text[RC_NUMBER_SIZE];
     struct rc_err err;
     const char *s = args.section;
 
@@ -97,7 +96,7 @@ read_section(struct run *run)
     if (unit_number(s + 2, UNIT_M, &run->options.at, &err) != RC_OK)
         tool_die(&run->t, EXIT_USAGE, "--section %s: %s", s, err.text);
     run->options.section = s[0];
-    snprintf(si, sizeof si, "%c=%s", s[0], rc_number_text(text, run->options.at));
+    snprintf(si, sizeof si, "%c=%s", s[0], rc_number(run->options.at));
     args.section = si;
 }
 
@@ -179,11 +178,11 @@ static char *
 depths_text(struct run *run, const struct rc_grid *p)
 {
     size_t size = 60000, n = 0;
-    char *text = tool_room(&run->t, size, 1, "the depths of a section"), number[RC_NUMBER_SIZE];
+    char *text = tool_room(&run->t, size, 1, "the depths of a section");
 
     for (size_t k = 0; k < run->depths.n; k++) {
-        int more = snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",",
-                            rc_number_text(number, run->depths.v[k]));
+        int more =
+            snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",", rc_number(run->depths.v[k]));
         n += (size_t)more;
         if (n >= size)
             tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,

@@ -387,15 +387,14 @@ static void
 suspect_track(struct run *run, const struct rc_grid *g)
 {
     const double period = g->dx * (double)g->nx, track = run->law.track;
-    char given[SHOWN_NUMBER], usual[SHOWN_NUMBER], where[256];
+    const char *where = tool_where(&run->d.t, g);
 
-    tool_where(&run->d.t, g, where, sizeof where);
     if (track > 0 && run->law.k[1] > 0 && fabs(track - period) > 1e-6 * period &&
         strcmp(rc_grid_get(g, "boundary"), "periodic") == 0)
         tool_warn(&run->d.t,
                   "%s: the map is periodic, so that each point of the track is passed every %s and "
                   "not every %s: give the period as the length of the track, or solve a free map",
-                  where, shown_in_unit(usual, period, "m"), shown_in_unit(given, track, "m"));
+                  where, shown_in_unit(period, "m"), shown_in_unit(track, "m"));
 }
 
 /* Two rough bodies that slide: adds body 2, and refuses the options that this model does not have. */
@@ -430,7 +429,7 @@ suspect_unit(struct run *run, const struct rc_grid *g)
     const struct rc_point *point = run->d.point;
     const double side = fmax(g->dx * (double)g->nx, g->dy * (double)g->ny);
     const double scale = rate(run, g) * run->law.estar;
-    char given[SHOWN_NUMBER], usual[SHOWN_NUMBER], where[256];
+    const char *where = tool_where(t, g);
     double first = INFINITY, last = 0;
 
     for (size_t i = 0; i < run->d.points; i++) {
@@ -438,19 +437,17 @@ suspect_unit(struct run *run, const struct rc_grid *g)
         first = s > 0 ? fmin(first, s) : first;
         last = fmax(last, s);
     }
-    tool_where(t, g, where, sizeof where);
     if (last > 0 && scale * last < 0.01 * g->dx)
         tool_warn(
             t,
             "%s: the last distance, %s, hardly changes the contact, which takes about %s: are "
             "the wear coefficient and the distance in their units?",
-            where, shown_in_unit(given, last, "m"), shown_in_unit(usual, 0.1 * g->dx / scale, "m"));
+            where, shown_in_unit(last, "m"), shown_in_unit(0.1 * g->dx / scale, "m"));
     else if (isfinite(first) && scale * first > 1e4 * side)
         tool_warn(t,
                   "%s: at the first distance, %s, the pressure is even already, which takes about "
                   "%s: are the wear coefficient and the distance in their units?",
-                  where, shown_in_unit(given, first, "m"),
-                  shown_in_unit(usual, 10 * side / scale, "m"));
+                  where, shown_in_unit(first, "m"), shown_in_unit(10 * side / scale, "m"));
 }
 
 /* ---- a worn map ---- */
@@ -464,7 +461,7 @@ judge_map(struct run *run, struct rc_model *m, struct rc_grid *room)
     const struct rc_shape shape = rc_grid_shape(room);
     const double deepest = rc_wear_result(m)->max_wear_depth;
     double *p = malloc(rc_grid_nodes(room) * sizeof *p);
-    char where[512], worn[SHOWN_NUMBER], span[SHOWN_NUMBER];
+    char where[512];
     struct rc_err err = {"out of memory for the pressure"};
 
     if (p == NULL || rc_model_frame(m, "pressure", p, &err) != RC_OK ||
@@ -478,8 +475,7 @@ judge_map(struct run *run, struct rc_model *m, struct rc_grid *room)
                     "%s: the largest worn depth, %s, is more than the peak-to-valley height of the "
                     "surface before wear, %s: nothing is left of that surface: end earlier, as "
                     "with --until area=0.9",
-                    where, shown_in_unit(worn, deepest, "m"),
-                    shown_in_unit(span, run->relief, "m"));
+                    where, shown_in_unit(deepest, "m"), shown_in_unit(run->relief, "m"));
 }
 
 static void
@@ -487,7 +483,6 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
 {
     struct run *run = (struct run *)(void *)d;
     const struct rc_wear_figures *f = rc_wear_result(m);
-    char worn[SHOWN_NUMBER], coat[SHOWN_NUMBER];
     struct rc_err err;
 
     if (run->coat > 0 && f->max_wear_depth > run->coat)
@@ -495,7 +490,7 @@ set_keys(struct drive *d, struct rc_model *m, struct rc_grid *g)
             &d->t, g, EXIT_IMPOSSIBLE,
             "the worn depth, %s, is more than the thickness of the coat, %s: a coat that is "
             "worn through is not implemented",
-            shown_in_unit(worn, f->max_wear_depth, "m"), shown_in_unit(coat, run->coat, "m"));
+            shown_in_unit(f->max_wear_depth, "m"), shown_in_unit(run->coat, "m"));
     d->ended = d->status != RC_MORE && f->distance < d->point[d->at].at[RC_DISTANCE];
     if (rc_grid_set_number(g, "wear_1", run->law.k[0], &err) != RC_OK ||
         rc_grid_set_number(g, "wear_2", run->law.k[1], &err) != RC_OK ||
@@ -535,11 +530,10 @@ show_plan(struct run *run, const struct rc_grid *g)
     const double scale = rate(run, g) * run->law.estar;
     const double limit = 0.9 * g->dx / scale;
     const double last = run->d.point[run->d.points - 1].at[RC_DISTANCE];
-    char step[SHOWN_NUMBER];
 
     if (run->law.track == 0 || run->law.k[1] == 0)
         fprintf(run->d.t.out, "  explicit steps: about %.3g, each at most 0.9 dx/(k E*) = %s\n",
-                ceil(last / limit), shown_in_unit(step, limit, "m"));
+                ceil(last / limit), shown_in_unit(limit, "m"));
     if (run->law.part != NULL)
         fprintf(run->d.t.out,
                 "  coefficient by node: a contact takes about 12 to 35 convolutions, more than 100 "

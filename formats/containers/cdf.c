@@ -169,7 +169,6 @@ read_attributes(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
 static enum rc_status
 read_variable(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
     uint64_t rank;
 
     *v = (struct rc_cdf_variable){
@@ -183,8 +182,7 @@ read_variable(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
         uint64_t id = count(f);
         if (id >= f->dimensions)
             return rc_err_set(err, "variable '%s' has dimension %llu of %zu",
-                              rc_piece_shown(quote, v->name), (unsigned long long)id,
-                              f->dimensions);
+                              rc_piece_shown(v->name), (unsigned long long)id, f->dimensions);
         if (k == 0)
             v->first = (size_t)id;
         if (k + 2 >= v->rank)
@@ -199,7 +197,7 @@ read_variable(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
     v->at = f->version == 1 ? rc_bytes_u32(&f->b) : rc_bytes_u64(&f->b);
     if (f->b.past || v->type == 0 || v->type >= RC_CDF_TYPES)
         return rc_err_set(err, "variable '%s' is cut off, or of the unknown type %u",
-                          rc_piece_shown(quote, v->name), v->type);
+                          rc_piece_shown(v->name), v->type);
     return RC_OK;
 }
 

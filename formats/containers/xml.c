@@ -217,11 +217,10 @@ rc_xml_number(const char *document, const char *name, const char *text, double *
               struct rc_err *err)
 {
     const char *end = rc_number_read(text, true, value);
-    char quote[RC_SHOWN];
 
     if (end != NULL && *end == '\0')
         return RC_OK;
-    return rc_err_set(err, "%s is '%s' in %s: that is no number", name, rc_word_shown(quote, text),
+    return rc_err_set(err, "%s is '%s' in %s: that is no number", name, rc_word_shown(text),
                       document);
 }
 
@@ -229,11 +228,9 @@ enum rc_status
 rc_xml_whole(const char *document, const char *name, const char *text, size_t *value,
              struct rc_err *err)
 {
-    char quote[RC_SHOWN];
-
     if (*text == '\0' || strlen(text) > DIGITS_MOST || text[strspn(text, "0123456789")] != '\0')
         return rc_err_set(err, "%s is '%s' in %s: it must be a whole number", name,
-                          rc_word_shown(quote, text), document);
+                          rc_word_shown(text), document);
     *value = strtoul(text, NULL, 10);
     return RC_OK;
 }

@@ -79,7 +79,6 @@ rc_zip_read_name(const struct rc_zip_read *a, size_t member)
 enum rc_status
 rc_zip_read_find(const struct rc_zip_read *a, const char *name, size_t *member, struct rc_err *err)
 {
-    char shown[RC_SHOWN];
     size_t n = rc_zip_read_members(a);
 
     for (size_t k = 0; k < n; k++)
@@ -87,7 +86,7 @@ rc_zip_read_find(const struct rc_zip_read *a, const char *name, size_t *member, 
             *member = k;
             return RC_OK;
         }
-    return rc_err_set(err, "the archive has no member '%s'", rc_word_shown(shown, name));
+    return rc_err_set(err, "the archive has no member '%s'", rc_word_shown(name));
 }
 
 enum rc_status
@@ -99,7 +98,7 @@ rc_zip_read_size(struct rc_zip_read *a, size_t member, uint64_t *size, struct rc
     char shown[RC_SHOWN];
     zip_stat_t st;
 
-    rc_word_shown(shown, name);
+    rc_word_shown_to(shown, name);
     if (zip_stat_index(a->zip, member, 0, &st) != 0 || (st.valid & needed) != needed)
         return rc_err_set(err, "member '%s' of the archive: no size is given", shown);
     if (st.encryption_method != ZIP_EM_NONE)
@@ -186,7 +185,7 @@ rc_zip_read_member(struct rc_zip_read *a, size_t member, uint64_t most, rc_zip_t
     char shown[RC_SHOWN];
     uint64_t size;
 
-    rc_word_shown(shown, name);
+    rc_word_shown_to(shown, name);
     if (rc_zip_read_size(a, member, &size, err) != RC_OK)
         return RC_FAIL;
     if (size > most)

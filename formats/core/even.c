@@ -26,7 +26,6 @@ judge_steps(const double *x, size_t points, struct rc_err *err)
 {
     double step = (x[points - 1] - x[0]) / (double)(points - 1), place = last_place(x, points);
     double most = 0.05 * step, off = 0;
-    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE], c[RC_NUMBER_SIZE];
     size_t worst = 0;
 
     if (place < 0.7 * step)
@@ -44,8 +43,8 @@ judge_steps(const double *x, size_t points, struct rc_err *err)
         err,
         "the positions are not evenly spaced: point %zu is at %s, but even steps of %s lead to %s, "
         "%.2g steps away; up to %.2g is accepted: --even resamples the profile to even steps",
-        worst + 1, rc_number_text(a, x[worst]), rc_number_text(c, step),
-        rc_number_text(b, x[0] + step * (double)worst), off / step, most / step);
+        worst + 1, rc_number(x[worst]), rc_number(step), rc_number(x[0] + step * (double)worst),
+        off / step, most / step);
 }
 
 static int
@@ -77,8 +76,6 @@ static enum rc_status
 pick_step(const struct rc_wish *wish, double metres, double length, double median, double *step,
           struct rc_err *err)
 {
-    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE];
-
     if (!(wish->even_step > 0)) {
         *step = length / fmax(1, round(length / median));
         return RC_OK;
@@ -90,7 +87,7 @@ pick_step(const struct rc_wish *wish, double metres, double length, double media
     if (*step <= length * (1 + 1e-9))
         return RC_OK;
     return rc_err_set(err, "--even %s m is longer than the profile, %s m",
-                      rc_number_text(a, wish->even_step), rc_number_text(b, length * metres));
+                      rc_number(wish->even_step), rc_number(length * metres));
 }
 
 enum rc_status
@@ -174,7 +171,6 @@ enum rc_status
 rc_axis_step(const char *name, double *x, size_t n, double *step, struct rc_err *err)
 {
     bool falls = x[n - 1] < x[0];
-    char quote[RC_SHOWN];
 
     for (size_t k = 0; k < n / 2 && falls; k++) {
         double kept = x[k];
@@ -186,9 +182,9 @@ rc_axis_step(const char *name, double *x, size_t n, double *step, struct rc_err 
     for (size_t k = 0; k < n; k++)
         if (!isfinite(x[k]))
             return rc_err_set(err, "position %zu of the axis '%s' is no finite number", k + 1,
-                              rc_word_shown(quote, name));
+                              rc_word_shown(name));
     if (*step > 0 && judge_steps(x, n, NULL) == RC_OK)
         return RC_OK;
     return rc_err_set(err, "the positions of the axis '%s' are not evenly spaced, as a map needs",
-                      rc_word_shown(quote, name));
+                      rc_word_shown(name));
 }

@@ -144,9 +144,9 @@ rc_piece_metres(struct rc_piece piece)
 }
 
 const char *
-rc_piece_shown(char to[RC_SHOWN], struct rc_piece piece)
+rc_piece_shown_to(char to[RC_SHOWN], struct rc_piece piece)
 {
-    return rc_text_shown(to, piece.text, piece.n);
+    return rc_text_shown_to(to, piece.text, piece.n);
 }
 
 enum rc_status
@@ -174,8 +174,6 @@ enum rc_status
 rc_field_take(const struct rc_field *field, size_t n, struct rc_piece key, struct rc_piece value,
               void *into, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
-
     for (size_t k = 0; k < n; k++) {
         void *at = (char *)into + field[k].at;
 
@@ -186,7 +184,7 @@ rc_field_take(const struct rc_field *field, size_t n, struct rc_piece key, struc
         else if (field[k].kind == RC_FIELD_NUMBER ? !rc_piece_number(value, at, NULL)
                                                   : !read_length(value, at))
             return rc_err_set(err, "%s is '%s', but must be a %s", field[k].key,
-                              rc_piece_shown(quote, value),
+                              rc_piece_shown(value),
                               field[k].kind == RC_FIELD_NUMBER ? "number" : "length");
         break;
     }
@@ -230,8 +228,6 @@ rc_piece_infinite(struct rc_piece piece, double *value)
 enum rc_status
 rc_flow_read(struct rc_piece *text, double *v, size_t n, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
-
     for (size_t k = 0; k < n; k++) {
         struct rc_piece word, rest;
 
@@ -248,7 +244,7 @@ rc_flow_read(struct rc_piece *text, double *v, size_t n, struct rc_err *err)
         else if ((!rc_piece_number(word, &v[k], &rest) || rest.n > 0) &&
                  !rc_piece_infinite(word, &v[k]))
             return rc_err_set(err, "number %zu of the data is '%s': that is no number", k + 1,
-                              rc_piece_shown(quote, word));
+                              rc_piece_shown(word));
     }
     return RC_OK;
 }

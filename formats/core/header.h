@@ -36,7 +36,8 @@ bool rc_piece_infinite(struct rc_piece piece, double *value);
 /* Metres in one unit of the length that the piece names; NAN for another word. */
 double rc_piece_metres(struct rc_piece piece);
 /* Makes a text safe to quote in a message, as rc_text_shown does. */
-const char *rc_piece_shown(char to[RC_SHOWN], struct rc_piece piece);
+const char *rc_piece_shown_to(char to[RC_SHOWN], struct rc_piece piece);
+#define rc_piece_shown(piece) rc_piece_shown_to((char[RC_SHOWN]){""}, piece)
 /* Sets a key of the grid; as rc_text_keep. */
 enum rc_status rc_piece_keep(struct rc_grid *grid, const char *key, struct rc_piece piece,
                              struct rc_err *err);

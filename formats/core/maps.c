@@ -73,13 +73,11 @@ rc_map_unit(struct rc_map *map, const char *text, size_t n)
 void
 rc_map_hint(struct rc_map *map, double dx, double dy)
 {
-    char x[RC_NUMBER_SIZE], y[RC_NUMBER_SIZE];
-
     map->step[0] = dx;
     map->step[1] = dy;
     snprintf(map->hint, sizeof map->hint,
-             " (its steps are %s and %s of a unit not given; or --xy-unit says it)",
-             rc_number_text(x, dx), rc_number_text(y, dy));
+             " (its steps are %s and %s of a unit not given; or --xy-unit says it)", rc_number(dx),
+             rc_number(dy));
 }
 
 void
@@ -96,11 +94,9 @@ rc_map_steps(struct rc_map *map, double dx, double dy, struct rc_piece unit)
 enum rc_status
 rc_map_count(const char *what, double number, size_t *count, struct rc_err *err)
 {
-    char text[RC_NUMBER_SIZE];
-
     if (!(number >= 1 && number <= 2147483647) || number != floor(number))
         return rc_err_set(err, "the number of %s is %s: it must be a whole number above 0", what,
-                          rc_number_text(text, number));
+                          rc_number(number));
     *count = (size_t)number;
     return RC_OK;
 }

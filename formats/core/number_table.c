@@ -223,7 +223,7 @@ bad_field(const struct rc_number_table *t, size_t line, const char *s, char deci
                           line, separator_name(t->separator));
     while (!ends_field(t, end))
         end++;
-    rc_text_shown(quote, s, (size_t)(end - s));
+    rc_text_shown_to(quote, s, (size_t)(end - s));
     if (decimal != 0 && memchr(s, other, (size_t)(end - s)) != NULL)
         return rc_err_set(err,
                           "line %zu: '%s' is no number with the decimal mark '%c': give --decimal "

@@ -178,15 +178,15 @@ rc_text_clean(char *to, size_t size, const char *text, size_t n)
 }
 
 const char *
-rc_text_shown(char to[RC_SHOWN], const char *text, size_t n)
+rc_text_shown_to(char to[RC_SHOWN], const char *text, size_t n)
 {
     return rc_text_clean(to, RC_SHOWN, text, n);
 }
 
 const char *
-rc_word_shown(char to[RC_SHOWN], const char *word)
+rc_word_shown_to(char to[RC_SHOWN], const char *word)
 {
-    return rc_text_shown(to, word, strlen(word));
+    return rc_text_shown_to(to, word, strlen(word));
 }
 
 enum rc_status

@@ -45,9 +45,12 @@ char *rc_text_clean(char *to, size_t size, const char *text, size_t n);
 enum {
     RC_SHOWN = 48
 };
-/* The same line, shortened for a quotation in a message. */
-const char *rc_text_shown(char to[RC_SHOWN], const char *text, size_t n);
-const char *rc_word_shown(char to[RC_SHOWN], const char *word); /* up to its NUL */
+/* The same line, shortened for a quotation in a message. Without _to the text lives until the end of the
+ * block. */
+const char *rc_text_shown_to(char to[RC_SHOWN], const char *text, size_t n);
+const char *rc_word_shown_to(char to[RC_SHOWN], const char *word); /* up to its NUL */
+#define rc_text_shown(text, n) rc_text_shown_to((char[RC_SHOWN]){""}, text, n)
+#define rc_word_shown(word) rc_word_shown_to((char[RC_SHOWN]){""}, word)
 
 /* Sets a key to the cleaned text; does nothing when that is empty. */
 enum rc_status rc_text_keep(struct rc_grid *grid, const char *key, const char *text, size_t n,

@@ -22,7 +22,6 @@ static enum rc_status
 pick_spacing(char axis, double wished, double by_file, double *spacing, struct rc_notes *notes,
              struct rc_err *err)
 {
-    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE];
     bool given = !isnan(wished);
 
     *spacing = given ? wished : by_file;
@@ -31,10 +30,10 @@ pick_spacing(char axis, double wished, double by_file, double *spacing, struct r
                           axis, axis);
     if (!(*spacing > 0) || isinf(*spacing))
         return rc_err_set(err, "the spacing in %c is %s m%s: it must be positive and finite", axis,
-                          rc_number_text(a, *spacing), given ? "" : " in the file");
+                          rc_number(*spacing), given ? "" : " in the file");
     if (given && !isnan(by_file) && wished != by_file)
         rc_note(notes, "the spacing in %c is %s m as given; the file says %s m", axis,
-                rc_number_text(a, wished), rc_number_text(b, by_file));
+                rc_number(wished), rc_number(by_file));
     return RC_OK;
 }
 
@@ -63,8 +62,6 @@ enum rc_status
 rc_height_unit(const struct rc_wish *wish, double by_file, const char *unit, double *metres,
                struct rc_notes *notes, struct rc_err *err)
 {
-    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE];
-
     *metres = isnan(wish->z_unit) ? by_file : wish->z_unit;
     if (isnan(*metres) && *unit == '\0')
         return rc_err_set(err, "the file does not give the unit of its heights: --z-unit says it "
@@ -76,10 +73,10 @@ rc_height_unit(const struct rc_wish *wish, double by_file, const char *unit, dou
                           unit);
     if (*metres == 0 || isinf(*metres))
         return rc_err_set(err, "one unit of height is %s m: it must be finite and not 0",
-                          rc_number_text(a, *metres));
+                          rc_number(*metres));
     if (!isnan(wish->z_unit) && !isnan(by_file) && wish->z_unit != by_file)
         rc_note(notes, "one unit of height is %s m as given; the file says %s m",
-                rc_number_text(a, wish->z_unit), rc_number_text(b, by_file));
+                rc_number(wish->z_unit), rc_number(by_file));
     if (notes != NULL)
         notes->metres = *metres;
     return RC_OK;

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "libcontact/grid.h"
+#include "libcontact/owned.h"
 
 /* Whether the first row and the first column of a text matrix are labels or positions, not heights. */
 enum rc_label {

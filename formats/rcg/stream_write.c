@@ -76,9 +76,7 @@ put_line(struct text *t, const char *name, const char *value)
 static void
 put_number(struct text *t, const char *name, double value)
 {
-    char digits[RC_NUMBER_SIZE];
-
-    put_line(t, name, rc_number_text(digits, value));
+    put_line(t, name, rc_number(value));
 }
 
 static void

@@ -27,12 +27,12 @@ csv_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
 {
     const char *missing = wish->missing == NULL ? "NaN" : wish->missing;
     const struct rc_grid *g = frame[0];
-    char width[RC_NUMBER_SIZE], height[RC_NUMBER_SIZE], number[RC_NUMBER_SIZE];
+    char number[RC_NUMBER_SIZE];
 
     (void)frames;
     fprintf(out, "# Channel: %s\n# Width: %s %s\n# Height: %s %s\n# Value units: %s\n", g->channel,
-            rc_number_text(width, (double)g->nx * g->dx), rc_grid_dunit(g),
-            rc_number_text(height, (double)g->ny * g->dy), rc_grid_dunit(g), g->unit);
+            rc_number((double)g->nx * g->dx), rc_grid_dunit(g), rc_number((double)g->ny * g->dy),
+            rc_grid_dunit(g), g->unit);
     for (size_t j = 0; j < g->ny; j++)
         for (size_t i = 0; i < g->nx; i++) {
             double value = g->v[j * g->nx + i];

@@ -12,7 +12,6 @@ gsf_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
     static const char padding[4];
     const struct rc_grid *g = frame[0];
     const struct rc_code code = {.raw = RC_RAW_F32};
-    char width[RC_NUMBER_SIZE], height[RC_NUMBER_SIZE];
     RC_ENDS(rc_buffer_free) struct rc_buffer b = {0};
     double i, j;
 
@@ -20,14 +19,12 @@ gsf_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
     rc_buffer_print(&b,
                     "Gwyddion Simple Field 1.0\nXRes = %zu\nYRes = %zu\nXReal = %s\nYReal = %s\n"
                     "XYUnits = %s\nZUnits = %s\nTitle = %s\n",
-                    g->nx, g->ny, rc_number_text(width, (double)g->nx * g->dx),
-                    rc_number_text(height, (double)g->ny * g->dy), rc_grid_dunit(g), g->unit,
-                    g->channel);
+                    g->nx, g->ny, rc_number((double)g->nx * g->dx),
+                    rc_number((double)g->ny * g->dy), rc_grid_dunit(g), g->unit, g->channel);
     if (strcmp(rc_grid_dunit(g), "m") != 0) { /* the position of wave number 0 */
         rc_grid_origin(g, &i, &j);
-        rc_buffer_print(&b, "XOffset = %s\nYOffset = %s\n",
-                        rc_number_text(width, -(i + 0.5) * g->dx),
-                        rc_number_text(height, -(j + 0.5) * g->dy));
+        rc_buffer_print(&b, "XOffset = %s\nYOffset = %s\n", rc_number(-(i + 0.5) * g->dx),
+                        rc_number(-(j + 0.5) * g->dy));
     }
     rc_buffer_add(&b, padding, 4 - b.n % 4);
     return rc_buffer_write(&b, out, err) == RC_OK

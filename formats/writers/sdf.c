@@ -9,7 +9,7 @@
 static void
 make_header(struct rc_buffer *b, const struct rc_grid *g, const struct rc_export_wish *wish)
 {
-    char date[RC_SDF_DATE], dx[RC_NUMBER_SIZE], dy[RC_NUMBER_SIZE];
+    char date[RC_SDF_DATE];
 
     sdf_date(date, g, wish);
     rc_buffer_print(b,
@@ -18,8 +18,7 @@ make_header(struct rc_buffer *b, const struct rc_grid *g, const struct rc_export
                     "NumPoints   = %zu\nNumProfiles = %zu\nXscale      = %s\nYscale      = %s\n"
                     "Zscale      = 1\nZresolution = -1\nCompression = 0\nDataType    = 7\n"
                     "CheckType   = 0\n*\n",
-                    sdf_maker(g), date, date, g->nx, g->ny, rc_number_text(dx, g->dx),
-                    rc_number_text(dy, g->dy));
+                    sdf_maker(g), date, date, g->nx, g->ny, rc_number(g->dx), rc_number(g->dy));
 }
 
 static enum rc_status

@@ -47,8 +47,6 @@ enum rc_status
 rc_stacks_make(struct rc_stack **stack, size_t *stacks, struct rc_grid *const *frame, size_t frames,
                struct rc_err *err)
 {
-    char text[RC_NUMBER_SIZE];
-
     *stacks = 0;
     if ((*stack = calloc(frames, sizeof **stack)) == NULL)
         return rc_err_set(err, "out of memory for %zu frames", frames);
@@ -62,7 +60,7 @@ rc_stacks_make(struct rc_stack **stack, size_t *stacks, struct rc_grid *const *f
         for (size_t k = 1; k < s->n; k++)
             if (by_depth(&s->layer[k - 1], &s->layer[k]) == 0)
                 return rc_err_set(err, "two frames of channel %s at one depth (%s m)",
-                                  s->layer[0]->channel, rc_number_text(text, rc_stack_depth(s, k)));
+                                  s->layer[0]->channel, rc_number(rc_stack_depth(s, k)));
     }
     return RC_OK;
 }

@@ -63,14 +63,11 @@ static void
 axis(struct rc_buffer *b, const char *name, const char *type, const char *data, double increment,
      double offset)
 {
-    char a[RC_NUMBER_SIZE], c[RC_NUMBER_SIZE];
-
     rc_buffer_print(b,
                     "      "
                     "<%s><AxisType>%s</AxisType><DataType>%s</DataType><Increment>%s</"
                     "Increment><Offset>%s</Offset></%s>\n",
-                    name, type, data, rc_number_text(a, increment), rc_number_text(c, offset),
-                    name);
+                    name, type, data, rc_number(increment), rc_number(offset), name);
 }
 
 /* The schema requires each of these elements, even if unknown. */

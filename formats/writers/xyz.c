@@ -13,7 +13,7 @@ xyz_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
 {
     const char *missing = wish->missing == NULL ? "NaN" : wish->missing;
     bool section = rc_grid_get(frame[0], "section") && rc_grid_get(frame[0], "depths");
-    char x[RC_NUMBER_SIZE], y[RC_NUMBER_SIZE], z[RC_NUMBER_SIZE];
+    char y[RC_NUMBER_SIZE], z[RC_NUMBER_SIZE];
     const struct rc_grid *g = frame[0];
     RC_OWNED double *at = malloc(g->ny * sizeof *at);
     double middle, row;
@@ -32,7 +32,7 @@ xyz_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
             double value = g->v[j * g->nx + i];
 
             rc_number_text(z, value);
-            if (fprintf(out, "%s %s %s\n", rc_number_text(x, ((double)i - middle) * g->dx), y,
+            if (fprintf(out, "%s %s %s\n", rc_number(((double)i - middle) * g->dx), y,
                         isnan(value) ? missing : z) < 0) {
                 rc_put_failed(err);
                 return RC_FAIL;

@@ -541,7 +541,6 @@ costs_of_spheres(void **state)
 static void
 costs_are_known(void **state)
 {
-
     (void)state;
     for (size_t k = 0; k < sizeof costs / sizeof *costs; k++) {
         size_t n = costs[k].n;

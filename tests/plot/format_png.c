@@ -665,11 +665,11 @@ numbers_read_as_people_write_them(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
-        assert_string_equal(scale_value(text, cases[k].value, cases[k].unit), cases[k].text);
+        assert_string_equal(scale_value_to(text, cases[k].value, cases[k].unit), cases[k].text);
     ticks_choose(&t, -0.3, 0.7, 5);
     assert_int_equal(t.last - t.first, 4);
     for (long long k = t.first; k <= t.last; k++)
-        assert_string_equal(ticks_text(text, &t, k), labels[k - t.first]);
+        assert_string_equal(ticks_text_to(text, &t, k), labels[k - t.first]);
 }
 
 /* ---- text ---- */

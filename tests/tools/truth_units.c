@@ -416,10 +416,10 @@ test_shown(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-        assert_string_equal(shown_in_unit(text, numbers[k].value, numbers[k].unit),
+        assert_string_equal(shown_in_unit_to(text, numbers[k].value, numbers[k].unit),
                             numbers[k].shown);
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++)
-        assert_string_equal(shown_bytes(text, sizes[k].value), sizes[k].shown);
+        assert_string_equal(shown_bytes_to(text, sizes[k].value), sizes[k].shown);
 }
 
 static void

@@ -205,7 +205,7 @@ static enum rc_status
 set_layers(struct rc_grid *g, const struct rc_body *b, struct rc_err *err)
 {
     size_t most = (b->layers + 1) * (3 * RC_NUMBER_SIZE + 4), n = 0;
-    char *text, t[RC_NUMBER_SIZE], e[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE];
+    char *text;
     enum rc_status status;
 
     if (b->layers == 0)
@@ -213,10 +213,9 @@ set_layers(struct rc_grid *g, const struct rc_body *b, struct rc_err *err)
     if ((text = malloc(most)) == NULL)
         return rc_err_set(err, "out of memory for %zu layers", b->layers);
     for (size_t k = 0; k < b->layers; k++)
-        n += (size_t)snprintf(text + n, most - n, "%s,%s,%s;",
-                              rc_number_text(t, b->layer[k].thickness),
-                              rc_number_text(e, b->layer[k].e), rc_number_text(nu, b->layer[k].nu));
-    snprintf(text + n, most - n, "inf,%s,%s", rc_number_text(e, b->e), rc_number_text(nu, b->nu));
+        n += (size_t)snprintf(text + n, most - n, "%s,%s,%s;", rc_number(b->layer[k].thickness),
+                              rc_number(b->layer[k].e), rc_number(b->layer[k].nu));
+    snprintf(text + n, most - n, "inf,%s,%s", rc_number(b->e), rc_number(b->nu));
     status = rc_grid_set(g, "layers", text, err);
     free(text);
     return status;
@@ -227,15 +226,15 @@ set_residual(struct rc_grid *g, const struct rc_body *b, const double *residual,
 {
     size_t most = (b->layers + 1) * (RC_NUMBER_SIZE + 1), n = 0;
     enum rc_status status;
-    char *text, r[RC_NUMBER_SIZE];
+    char *text;
 
     if (b->layers == 0 || residual == NULL)
         return rc_grid_set(g, "layers.residual", NULL, err);
     if ((text = malloc(most)) == NULL)
         return rc_err_set(err, "out of memory for %zu layers", b->layers);
     for (size_t k = 0; k < b->layers; k++)
-        n += (size_t)snprintf(text + n, most - n, "%s%s", k == 0 ? "" : ";",
-                              rc_number_text(r, residual[k]));
+        n +=
+            (size_t)snprintf(text + n, most - n, "%s%s", k == 0 ? "" : ";", rc_number(residual[k]));
     status = rc_grid_set(g, "layers.residual", text, err);
     free(text);
     return status;

@@ -57,7 +57,7 @@ demand_states(struct tool *t, const struct rc_grid *contact)
 static const struct rc_grid *
 find(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact, bool demanded)
 {
-    char where[256];
+    const char *where = tool_where(t, p);
     double negative;
 
     if (contact != NULL) {
@@ -73,7 +73,6 @@ find(struct tool *t, const struct rc_grid *p, const struct rc_grid *contact, boo
                     "the net pressure of bodies that attract each other does not determine the "
                     "contact, and the case has no frame contact: %s",
                     remedy);
-    tool_where(t, p, where, sizeof where);
     if (is_net(p, negative)) {
         tool_warn(t,
                   "%s: the contact is unknown: the net pressure of bodies that attract each other "

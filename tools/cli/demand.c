@@ -34,13 +34,13 @@ static void
 refusal(const struct tool *t, const struct rc_shape *shape, const char *need, char *text,
         size_t size)
 {
-    char needed[SHOWN_NUMBER], allowed[SHOWN_NUMBER], what[64] = "out of memory: the work needs";
+    char what[64] = "out of memory: the work needs";
 
     if (shape != NULL)
         snprintf(what, sizeof what, "%zu x %zu nodes need", shape->nx, shape->ny);
     snprintf(text, size, "%s %s %s, %s %s: %s", what, need,
-             shown_bytes(needed, (double)rc_memory_held().refused), t->room.bound,
-             shown_bytes(allowed, (double)t->room.budget), t->remedy == NULL ? smaller : t->remedy);
+             shown_bytes((double)rc_memory_held().refused), t->room.bound,
+             shown_bytes((double)t->room.budget), t->remedy == NULL ? smaller : t->remedy);
 }
 
 void

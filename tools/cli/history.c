@@ -57,12 +57,10 @@ add_words(struct line *line, const struct opt *o, size_t set)
 static void
 add_numbers(struct line *line, const struct opt *o, const struct numbers *list)
 {
-    char text[RC_NUMBER_SIZE];
-
     if (list->n == 0)
         add(line, " ", o->word);
     for (size_t k = 0; k < list->n; k++) {
-        add(line, k == 0 ? " " : ",", rc_number_text(text, list->v[k]));
+        add(line, k == 0 ? " " : ",", rc_number(list->v[k]));
         add(line, list->per_metre ? "N/m" : "", "");
     }
 }
@@ -93,15 +91,13 @@ add_value(struct line *line, const struct opt *o, const void *at)
 static void
 add_steps(struct line *line, const struct steps *steps)
 {
-    char text[RC_NUMBER_SIZE];
-
     for (size_t k = 0; k < steps->n; k++) {
         add(line, " --", steps->step[k].opt->name);
         if (steps->step[k].opt->type == OPT_TEXTS ||
             (steps->step[k].opt->arg != NULL && strchr(steps->step[k].opt->arg, '|') != NULL))
             add(line, " ", steps->step[k].text);
         else if (steps->step[k].opt->arg != NULL)
-            add(line, " ", rc_number_text(text, steps->step[k].value));
+            add(line, " ", rc_number(steps->step[k].value));
     }
 }
 

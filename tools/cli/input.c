@@ -108,7 +108,6 @@ static void
 check_convergence(struct tool *t, const struct rc_grid *g)
 {
     const char *converged = rc_grid_get(g, "converged");
-    char where[256];
 
     if (converged == NULL || strcmp(converged, "no") != 0)
         return;
@@ -116,7 +115,7 @@ check_convergence(struct tool *t, const struct rc_grid *g)
         tool_warn(t,
                   "%s: this solution stopped short of its accuracy (converged=no): results from "
                   "it are no more accurate",
-                  tool_where(t, g, where, sizeof where));
+                  tool_where(t, g));
     t->input.warned_short = true;
     tool_fails_with(t, EXIT_SHORT);
 }

@@ -147,16 +147,16 @@ tool_die(struct tool *t, int status, const char *format, ...)
 }
 
 const char *
-tool_where(const struct tool *t, const struct rc_grid *g, char *text, size_t size)
+tool_where_to(const struct tool *t, const struct rc_grid *g, char text[WHERE])
 {
     const char *source = g == NULL ? NULL : rc_grid_get(g, "source");
 
     if (source == NULL)
         source = t->source == NULL ? "standard input" : t->source;
     if (g == NULL)
-        snprintf(text, size, "%s", source);
+        snprintf(text, WHERE, "%s", source);
     else
-        snprintf(text, size, "%s, case %zu, frame %zu (%s)", source, rc_grid_case(g), t->frame,
+        snprintf(text, WHERE, "%s, case %zu, frame %zu (%s)", source, rc_grid_case(g), t->frame,
                  g->channel);
     return rc_text_harmless(text, '?');
 }
@@ -164,11 +164,11 @@ tool_where(const struct tool *t, const struct rc_grid *g, char *text, size_t siz
 void
 tool_die_at(struct tool *t, const struct rc_grid *g, int status, const char *format, ...)
 {
-    char text[1024], where[256], whole[1400];
+    char text[1024], whole[1400];
 
     WRITE(text, format);
     tool_add_refusal(t, g, text, sizeof text);
-    snprintf(whole, sizeof whole, "%s: %s", tool_where(t, g, where, sizeof where), text);
+    snprintf(whole, sizeof whole, "%s: %s", tool_where(t, g), text);
     die(t, status, whole);
 }
 

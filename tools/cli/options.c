@@ -188,18 +188,17 @@ static void
 check_bounds(struct tool *t, const struct opt *o, double value, bool per_metre)
 {
     bool low = o->above ? value <= o->min : value < o->min;
-    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE], c[RC_NUMBER_SIZE];
     const char *unit = o->unit == UNIT_NONE ? "" : " ";
     const char *name = per_metre ? "N/m" : unit_name(o->unit);
 
     if (!(o->min < o->max) || (!low && value <= o->max))
         return;
     if (isinf(o->max))
-        tool_die(t, EXIT_USAGE, "--%s %s%s%s: it must be %s %s", o->name, rc_number_text(a, value),
-                 unit, name, o->above ? "above" : "at least", rc_number_text(b, o->min));
+        tool_die(t, EXIT_USAGE, "--%s %s%s%s: it must be %s %s", o->name, rc_number(value), unit,
+                 name, o->above ? "above" : "at least", rc_number(o->min));
     tool_die(t, EXIT_USAGE, "--%s %s%s%s: it must be %s %s and at most %s", o->name,
-             rc_number_text(a, value), unit, name, o->above ? "above" : "at least",
-             rc_number_text(b, o->min), rc_number_text(c, o->max));
+             rc_number(value), unit, name, o->above ? "above" : "at least", rc_number(o->min),
+             rc_number(o->max));
 }
 
 static double

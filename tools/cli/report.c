@@ -167,9 +167,7 @@ put(struct report *r, const char *name, const char *unit, const char *value, boo
 void
 report_number(struct report *r, const char *name, double value, const char *unit)
 {
-    char text[RC_NUMBER_SIZE];
-
-    put(r, name, unit, isfinite(value) ? rc_number_text(text, value) : NULL, false);
+    put(r, name, unit, isfinite(value) ? rc_number(value) : NULL, false);
 }
 
 void

@@ -41,10 +41,9 @@ add_name(char *list, size_t size, const char *name)
 static _Noreturn void
 refuse(struct tool *t, const struct rc_grid *g)
 {
-    char where[256];
     struct rc_grid *next;
+    const char *where = tool_where(t, g);
 
-    tool_where(t, g, where, sizeof where);
     while (computed(g->channel) && (next = tool_read(t)) != NULL &&
            rc_grid_case(next) == rc_grid_case(g))
         if (computed(next->channel))

@@ -295,9 +295,12 @@ int tool_interrupted(void);
 /* The same for this process only, at the address that the handler sets. */
 const volatile sig_atomic_t *tool_signal(void);
 
-/* "bench.x3p, case 2, frame 1 (height)": the place of a frame, for messages. */
-const char *tool_where(const struct tool *tool, const struct rc_grid *grid, char *text,
-                       size_t size);
+/* "bench.x3p, case 2, frame 1 (height)": the place of a frame, for messages, until the end of the block. */
+enum {
+    WHERE = 256
+};
+#define tool_where(tool, grid) tool_where_to(tool, grid, (char[WHERE]){""})
+const char *tool_where_to(const struct tool *tool, const struct rc_grid *grid, char text[WHERE]);
 
 /* Ends the tool if a value is NaN or infinite, with their number and the place of the first one; `remedy` is
  * the advice. */

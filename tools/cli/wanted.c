@@ -87,15 +87,13 @@ seen_cases(const struct seen_list *l, seen_right *right, const void *ctx, struct
 void
 seen_depths(const struct seen_list *l, seen_right *right, const void *ctx, struct name_list *to)
 {
-    char text[RC_NUMBER_SIZE];
-
     for (size_t k = 0, i; k < l->n; k++) {
         if (isnan(l->seen[k].depth) || !right(ctx, &l->seen[k]))
             continue;
         for (i = 0; !right(ctx, &l->seen[i]) || l->seen[i].depth != l->seen[k].depth;)
             i++;
         if (i == k)
-            name_list_add(to, rc_number_text(text, l->seen[k].depth));
+            name_list_add(to, rc_number(l->seen[k].depth));
     }
 }
 
@@ -183,11 +181,9 @@ wanted_depth(const double *depth, size_t n, double asked)
 void
 wanted_tell(struct tool *t, double asked, double taken)
 {
-    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE];
-
     if (off(taken, asked) > 1e-3 * asked)
         tool_warn(t, "--depth: no frame is at %s m: the nearest depth, %s m, is taken",
-                  rc_number_text(a, asked), rc_number_text(b, taken));
+                  rc_number(asked), rc_number(taken));
 }
 
 /* ---- frame by frame ---- */
@@ -361,13 +357,12 @@ no_case(const struct wanted *w, struct tool *t, double number)
 static _Noreturn void
 no_depth(const struct wanted *w, struct tool *t, double depth)
 {
-    char text[RC_NUMBER_SIZE];
     struct name_list l = {.n = 0};
 
     seen_depths(&w->list, only_depth, w, &l);
-    tool_die(t, EXIT_IMPOSSIBLE, "%s: no frame at depth %s m: %s%s%s", t->source,
-             rc_number_text(text, depth), l.n == 0 ? "no frame has a depth" : "there are ",
-             name_list_end(&l), l.n == 0 ? "" : " m");
+    tool_die(t, EXIT_IMPOSSIBLE, "%s: no frame at depth %s m: %s%s%s", t->source, rc_number(depth),
+             l.n == 0 ? "no frame has a depth" : "there are ", name_list_end(&l),
+             l.n == 0 ? "" : " m");
 }
 
 /* Ends the tool if no frame (with `wanted`: no selected frame) has a name of the list. */

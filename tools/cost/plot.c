@@ -32,15 +32,15 @@ describe(const struct cost_case *c, struct drawing *d, bool stress)
 {
     const char *source = rc_grid_get(c->heights, "source");
     const double approach = cost_number(c->solved, "asked_approach");
-    char text[TICKS_TEXT], body[COST_BODY];
+    char body[COST_BODY];
 
     snprintf(d->subtitle, sizeof d->subtitle,
              "%.60s%s%zu × %zu nodes, %s%s · %s %s · %.3g %% contact · %zu threads",
              source == NULL ? "" : source, source == NULL ? "" : " · ", c->shape.nx, c->shape.ny,
              c->periodic ? "periodic" : "free", cost_body(c, " · ", body),
              isnan(approach) ? "load" : "approach",
-             isnan(approach) ? scale_value(text, cost_number(c->solved, "load"), "N")
-                             : scale_value(text, approach, "m"),
+             isnan(approach) ? scale_value(cost_number(c->solved, "load"), "N")
+                             : scale_value(approach, "m"),
              100 * cost_number(c->solved, "contact_fraction"), c->tool->threads);
     d->graph = (struct graph){
         .paper = {.title = stress ? "What accuracy costs: the stresses"

@@ -90,16 +90,15 @@ const char *
 cost_body(const struct cost_case *c, const char *between, char text[COST_BODY])
 {
     const char *layers = strstr(c->solved, "\"layers\": \"on: ");
-    char number[SHOWN_NUMBER];
     long n = layers == NULL ? 0 : strtol(layers + 15, NULL, 10);
 
     text[0] = '\0';
     if (c->about & COST_YIELD)
         snprintf(text, COST_BODY, "%syields at %s", between,
-                 shown_in_unit(number, cost_number(c->solved, "yield"), "Pa"));
+                 shown_in_unit(cost_number(c->solved, "yield"), "Pa"));
     if (c->about & COST_ADHESION)
         snprintf(text, COST_BODY, "%sattracted by %s", between,
-                 shown_in_unit(number, cost_number(c->solved, "adhesion_work"), "J/m2"));
+                 shown_in_unit(cost_number(c->solved, "adhesion_work"), "J/m2"));
     if (n > 0)
         snprintf(text, COST_BODY, "%s%ld layer%s", between, n, n == 1 ? "" : "s");
     return text;
@@ -111,11 +110,10 @@ put_head(const struct cost_case *c, FILE *out)
     const struct cost_trial *r = &c->reference;
     const double approach = cost_number(c->solved, "asked_approach"),
                  area = cost_number(c->solved, "contact_area");
-    char where[256], body[COST_BODY];
+    char body[COST_BODY];
 
-    fprintf(out, "# %s: %zu x %zu nodes, %s, ",
-            tool_where(c->tool, c->heights, where, sizeof where), c->shape.nx, c->shape.ny,
-            c->periodic ? "periodic" : "free");
+    fprintf(out, "# %s: %zu x %zu nodes, %s, ", tool_where(c->tool, c->heights), c->shape.nx,
+            c->shape.ny, c->periodic ? "periodic" : "free");
     if (isnan(approach))
         fprintf(out, "load %.9g N", cost_number(c->solved, "load"));
     else

@@ -100,7 +100,7 @@ import_pick(const struct rc_channel *channel, size_t n, const char *wanted, bool
             struct pick *pick, struct rc_err *err)
 {
     size_t found = 0;
-    char names[IMPORT_NAMES], quote[RC_SHOWN];
+    char names[IMPORT_NAMES];
     const char *end;
     char nearest[NAME_SIZE] = "", meant[NAME_MEANT];
     double number;
@@ -131,10 +131,10 @@ import_pick(const struct rc_channel *channel, size_t n, const char *wanted, bool
     if (found == 1)
         return RC_OK;
     if (found > 1)
-        return rc_err_set(err, "'%s' begins the names of %zu channels: %s",
-                          rc_word_shown(quote, wanted), found, names_of(channel, n, wanted, names));
+        return rc_err_set(err, "'%s' begins the names of %zu channels: %s", rc_word_shown(wanted),
+                          found, names_of(channel, n, wanted, names));
     for (size_t k = 0; k < n; k++)
         name_nearer(wanted, channel[k].name, nearest);
-    return rc_err_set(err, "no channel '%s'; there are %s%s", rc_word_shown(quote, wanted),
+    return rc_err_set(err, "no channel '%s'; there are %s%s", rc_word_shown(wanted),
                       names_of(channel, n, "", names), name_meant(nearest, meant));
 }

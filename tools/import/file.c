@@ -32,12 +32,11 @@ whole(struct tool *t, FILE *in, size_t *n, struct rc_err *err)
 {
     size_t size = first_size(in), got;
     unsigned char *data = NULL, *more;
-    char allowed[SHOWN_NUMBER];
 
     for (*n = 0;; size *= 2) {
         if (t->memory != 0 && size > t->memory) {
             rc_err_set(err, "reading it needs more memory than the %s of --memory",
-                       shown_bytes(allowed, (double)t->memory));
+                       shown_bytes((double)t->memory));
             break;
         }
         if ((more = realloc(data, size)) == NULL) {

@@ -20,10 +20,7 @@ info_check(struct info_wanted *w, struct tool *t)
     if (w->smr.n > INFO_HEIGHTS)
         tool_die(t, EXIT_USAGE, "--smr: it takes %d heights at most", INFO_HEIGHTS);
     for (size_t k = 0; k < w->smr.n; k++) {
-        char number[RC_NUMBER_SIZE];
-
-        snprintf(w->smr_name[k], sizeof w->smr_name[k], "smr_%s",
-                 rc_number_text(number, w->smr.v[k]));
+        snprintf(w->smr_name[k], sizeof w->smr_name[k], "smr_%s", rc_number(w->smr.v[k]));
     }
     w->areal = w->areal || w->smr.n > 0;
     if (tool_given(t, "sections") && w->profile == NULL)

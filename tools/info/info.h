@@ -79,7 +79,8 @@ void info_text(const struct info_wanted *wanted, const struct info_figures *figu
 /* parameters.c */
 /* The name in ISO 21920-2 of a parameter of rc_areal; NULL: it has none. */
 const char *info_profile_name(const struct rc_figure *areal);
-const char *info_shown(char text[SHOWN_NUMBER], double value, const struct rc_figure *figure);
+const char *info_shown_to(char text[SHOWN_NUMBER], double value, const struct rc_figure *figure);
+#define info_shown(value, figure) info_shown_to((char[SHOWN_NUMBER]){""}, value, figure)
 
 /* line.c: reads --profile, NULL for none; ends the tool if it is not a line, or if it cannot be measured. */
 void info_line_read(struct tool *tool, const char *along, struct info_line_wanted *wanted);

@@ -16,7 +16,7 @@ info_profile_name(const struct rc_figure *areal)
 }
 
 const char *
-info_shown(char text[SHOWN_NUMBER], double value, const struct rc_figure *f)
+info_shown_to(char text[SHOWN_NUMBER], double value, const struct rc_figure *f)
 {
     static const char *const fraction[] = {"sdr", "smr1", "smr2"};
     static const struct {
@@ -26,9 +26,9 @@ info_shown(char text[SHOWN_NUMBER], double value, const struct rc_figure *f)
     const char *unit = f->unit == NULL ? "" : f->unit;
 
     if (strcmp(unit, "m") == 0)
-        return shown_in_unit(text, value, "m");
+        return shown_in_unit_to(text, value, "m");
     if (strcmp(unit, "m2") == 0)
-        return shown_area(text, value);
+        return shown_area_to(text, value);
     snprintf(text, SHOWN_NUMBER, "%.6g", value);
     for (size_t k = 0; k < sizeof units / sizeof *units; k++)
         if (strcmp(unit, units[k].unit) == 0)

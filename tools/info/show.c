@@ -27,7 +27,6 @@ static void
 put_parameters(const struct info_figures *f, const char *table, const void *figures, FILE *out)
 {
     bool profile = f->grid->nx == 1 || f->grid->ny == 1;
-    char text[SHOWN_NUMBER];
 
     for (const struct rc_figure *p = rc_figures(table); p->name != NULL; p++) {
         const char *name = profile ? info_profile_name(p) : p->title, *why = undefined(f->areal, p);
@@ -39,7 +38,7 @@ put_parameters(const struct info_figures *f, const char *table, const void *figu
         if (isnan(value))
             fprintf(out, "not defined%s%s\n", *why == '\0' ? "" : ": ", why);
         else
-            fprintf(out, "%s\n", info_shown(text, value, p));
+            fprintf(out, "%s\n", info_shown(value, p));
     }
 }
 
@@ -47,14 +46,13 @@ static void
 areal_text(const struct info_wanted *w, const struct info_figures *f, FILE *out)
 {
     const char *name = f->grid->nx == 1 || f->grid->ny == 1 ? "Rmr" : "Smr";
-    char height[SHOWN_NUMBER];
 
     put_parameters(f, "areal", f->areal, out);
     if (f->features != NULL)
         put_parameters(f, "features", f->features, out);
     for (size_t k = 0; k < w->smr.n; k++)
         fprintf(out, "  %-10s %.6g %% at %s\n", name, 100 * f->smr[k],
-                shown_in_unit(height, w->smr.v[k], "m"));
+                shown_in_unit(w->smr.v[k], "m"));
 }
 
 /* ---- profiles ---- */
@@ -62,13 +60,11 @@ areal_text(const struct info_wanted *w, const struct info_figures *f, FILE *out)
 static void
 profile_text(const struct info_profile *f, const struct info_wanted *w, FILE *out)
 {
-    char text[SHOWN_NUMBER], more[SHOWN_NUMBER];
-
     fprintf(out, "  %-10s %s", "profile", w->line.along);
     if (w->line.rows || w->line.columns)
         fprintf(out, ": %zu of them, means +- standard deviations", f->lines);
-    fprintf(out, "; %zu points, %s, %zu section%s\n", f->points,
-            shown_in_unit(text, f->length, "m"), f->sections, f->sections == 1 ? "" : "s");
+    fprintf(out, "; %zu points, %s, %zu section%s\n", f->points, shown_in_unit(f->length, "m"),
+            f->sections, f->sections == 1 ? "" : "s");
     if (f->skipped > 0)
         fprintf(out, "  %-10s %zu with missing points\n", "left out", f->skipped);
     for (const struct rc_figure *p = rc_figures("profile"); p->name != NULL; p++) {
@@ -77,8 +73,8 @@ profile_text(const struct info_profile *f, const struct info_wanted *w, FILE *ou
         if (isnan(value))
             fprintf(out, "  %-10s not defined\n", p->title);
         else
-            fprintf(out, "  %-10s %s%s%s\n", p->title, info_shown(text, value, p),
-                    isnan(spread) ? "" : " +- ", isnan(spread) ? "" : info_shown(more, spread, p));
+            fprintf(out, "  %-10s %s%s%s\n", p->title, info_shown(value, p),
+                    isnan(spread) ? "" : " +- ", isnan(spread) ? "" : info_shown(spread, p));
     }
 }
 
@@ -101,7 +97,7 @@ psd_lines(const struct rc_psd *psd, const char *unit, FILE *out)
         if (k + 1 < psd->rings && log(psd->q[k]) < next - 1e-9)
             continue;
         next = fmax(next + step, log(psd->q[k]) + step / 2);
-        shown_number(length, INFO_2PI / psd->q[k], 4, "m");
+        shown_number_to(length, INFO_2PI / psd->q[k], 4, "m");
         strcat(length, "m");
         fprintf(out, "  %-10s %-12s %-12.4g %-12.4g %zu\n", "", length, psd->q[k], psd->c[k],
                 psd->modes[k]);
@@ -113,7 +109,6 @@ psd_text(const struct info_figures *f, FILE *out)
 {
     bool profile = f->grid->nx == 1 || f->grid->ny == 1;
     const struct rc_psd *psd = f->psd;
-    char shortest[SHOWN_NUMBER], longest[SHOWN_NUMBER];
 
     psd_lines(psd, profile ? "c, m3" : "c, m4", out);
     fprintf(out, "  %-10s %s\n", "window", psd->window);
@@ -122,8 +117,8 @@ psd_text(const struct info_figures *f, FILE *out)
         fprintf(out, "  %-10s not defined: no wavelengths follow a power law\n", "Hurst");
     else
         fprintf(out, "  %-10s %.3f +- %.2g (wavelengths from %s to %s)\n", "Hurst", psd->hurst,
-                psd->hurst_error, shown_in_unit(shortest, psd->shortest, "m"),
-                shown_in_unit(longest, psd->longest, "m"));
+                psd->hurst_error, shown_in_unit(psd->shortest, "m"),
+                shown_in_unit(psd->longest, "m"));
 }
 
 /* ---- patches ---- */
@@ -132,16 +127,15 @@ static void
 patches_text(const struct info_figures *f, FILE *out)
 {
     const struct rc_patches *p = f->patches;
-    char text[SHOWN_NUMBER];
 
     fprintf(out, "  %-14s %zu\n", "patches", p->count);
-    fprintf(out, "  %-14s %s (%zu nodes)\n", "contact area", shown_area(text, p->contact_area),
+    fprintf(out, "  %-14s %s (%zu nodes)\n", "contact area", shown_area(p->contact_area),
             p->contact_nodes);
-    fprintf(out, "  %-14s %s\n", "corrected area", shown_area(text, p->contact_area_corrected));
-    fprintf(out, "  %-14s %s\n", "perimeter", shown_in_unit(text, p->perimeter, "m"));
+    fprintf(out, "  %-14s %s\n", "corrected area", shown_area(p->contact_area_corrected));
+    fprintf(out, "  %-14s %s\n", "perimeter", shown_in_unit(p->perimeter, "m"));
     if (p->count > 0)
-        fprintf(out, "  %-14s %s (%zu nodes)\n", "largest patch",
-                shown_area(text, p->patch[0].area), p->patch[0].nodes);
+        fprintf(out, "  %-14s %s (%zu nodes)\n", "largest patch", shown_area(p->patch[0].area),
+                p->patch[0].nodes);
 }
 
 /* ---- the whole output ---- */

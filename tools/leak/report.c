@@ -81,9 +81,8 @@ void
 leak_judge(struct tool *t, const struct leak_case *c)
 {
     const struct rc_leak_figures *f = c->figures;
-    char where[256];
+    const char *where = tool_where(t, c->gap);
 
-    tool_where(t, c->gap, where, sizeof where);
     if (!c->pressed)
         tool_warn(
             t,

@@ -293,7 +293,7 @@ checkpoint_save(struct course *c, const double *state, size_t n)
 {
     const size_t numbers = (size_t)state[0], maps = (size_t)state[1];
     const struct rc_grid row = {.nx = n, .ny = 1};
-    char text[FEW * RC_NUMBER_SIZE] = "", number[RC_NUMBER_SIZE];
+    char text[FEW * RC_NUMBER_SIZE] = "";
     size_t length = 0, nodes = rc_grid_nodes(c->g);
 
     if (c->checkpoint == NULL || c->checkpoint->journal.file == NULL)
@@ -304,7 +304,7 @@ checkpoint_save(struct course *c, const double *state, size_t n)
     }
     for (size_t k = 0; k < numbers; k++)
         length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", k > 0 ? " " : "",
-                                   rc_number_text(number, state[k]));
+                                   rc_number(state[k]));
     for (size_t k = 0; k < maps; k++)
         if (!add(c, c->g, state + numbers + k * nodes, k, k + 1 == maps ? text : NULL))
             return;

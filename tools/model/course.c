@@ -153,12 +153,12 @@ void
 course_show(struct tool *t, const struct rc_grid *g, struct rc_expected expected)
 {
     const size_t memory = course_peak(expected.memory);
-    char where[256], work[64] = "";
+    char work[64] = "";
 
     if (!isnan(expected.convolutions))
         snprintf(work, sizeof work, "%.0f convolutions, ", expected.convolutions);
     fprintf(t->out, "%s: %zu x %zu nodes\n  about %s%zu MiB, %.2g s with %zu threads\n",
-            tool_where(t, g, where, sizeof where), g->nx, g->ny, work, (memory >> 20) + 1,
+            tool_where(t, g), g->nx, g->ny, work, (memory >> 20) + 1,
             course_seconds(t, g, expected.seconds, 1), t->threads);
 }
 

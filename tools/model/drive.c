@@ -298,7 +298,7 @@ static const char *
 shown(char text[SHOWN_NUMBER], double value, const char *unit)
 {
     if (unit != NULL)
-        return shown_in_unit(text, value, unit);
+        return shown_in_unit_to(text, value, unit);
     snprintf(text, SHOWN_NUMBER, "%.3g", value);
     return text;
 }
@@ -442,11 +442,9 @@ print_plan(struct drive *d, const struct rc_grid *g, const struct rc_model *m)
 {
     const struct rc_expected e = plan_of(d, g, m);
     const size_t memory = course_peak(e.memory);
-    char where[256];
 
-    fprintf(d->t.out, "%s: %zu x %zu nodes, %zu %s of the %s model\n",
-            tool_where(&d->t, g, where, sizeof where), g->nx, g->ny, d->points,
-            d->points == 1 ? "point" : "points", rc_model_name(m));
+    fprintf(d->t.out, "%s: %zu x %zu nodes, %zu %s of the %s model\n", tool_where(&d->t, g), g->nx,
+            g->ny, d->points, d->points == 1 ? "point" : "points", rc_model_name(m));
     if (!isnan(e.convolutions))
         fprintf(d->t.out, "  about %.0f convolutions, %zu MiB, %.2g s with %zu threads\n",
                 e.convolutions, (memory >> 20) + 1, course_seconds(&d->t, g, e.seconds, d->points),

@@ -189,14 +189,12 @@ forget_counts(struct rc_grid *g, struct rc_err *err)
 static enum rc_status
 forget_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
 {
-    char where[256];
-
     if (has(g, "boundary", "periodic") && rc_grid_set(g, "boundary", NULL, err) != RC_OK)
         return RC_FAIL;
     if (!has(g, "periodic", "yes"))
         return RC_OK;
     tool_warn(t, "%s: a part of a periodic map is not periodic: it gets periodic=no",
-              tool_where(t, g, where, sizeof where));
+              tool_where(t, g));
     return rc_grid_set(g, "periodic", "no", err);
 }
 
@@ -348,7 +346,7 @@ pick_geometry_settle(struct tool *t, struct step *step)
     struct request r = {0};
     size_t size = sizeof r.v / sizeof *r.v * (RC_NUMBER_SIZE + 2), n = 0;
     struct rc_err err;
-    char *text, number[RC_NUMBER_SIZE];
+    char *text;
 
     if (what->read(step->text, &r, &err) != RC_OK)
         tool_die(t, EXIT_USAGE, "--%s %s: %s", what->option, step->text, err.text);
@@ -356,8 +354,8 @@ pick_geometry_settle(struct tool *t, struct step *step)
         return;
     text = tool_room(t, size, 1, "a text");
     for (size_t k = 0; k < r.n; k++)
-        n += (size_t)snprintf(text + n, size - n, "%s%s%s", k == 0 ? "" : ",",
-                              rc_number_text(number, r.v[k]), r.v[k] == 0 ? "" : "m");
+        n += (size_t)snprintf(text + n, size - n, "%s%s%s", k == 0 ? "" : ",", rc_number(r.v[k]),
+                              r.v[k] == 0 ? "" : "m");
     step->text = text;
 }
 

@@ -35,13 +35,12 @@ mark_steps(struct axis *a)
 {
     const struct ticks *t = &a->ticks;
     const int parts = !a->minor ? 1 : t->digit == 2 ? 4 : 5;
-    char text[TICKS_TEXT];
 
     a->marks = 0;
     for (long long k = t->first - 1; k <= t->last; k++)
         for (int m = 0; m < parts; m++)
             add_mark(a, ticks_at(t, k) + m * ticks_at(t, 1) / parts, m == 0,
-                     m == 0 ? ticks_text(text, t, k) : "");
+                     m == 0 ? ticks_text(t, k) : "");
 }
 
 /* Marks at powers of ten, with minor marks at 2 to 9 times each; with few powers 2 and 5 have a number too.
@@ -51,7 +50,6 @@ mark_decades(struct axis *a, double most)
 {
     const int step = (int)ceil((a->hi - a->lo) / most);
     const bool plain = a->lo > -3.5 && a->hi < 4.5, few = a->hi - a->lo < 2.5;
-    char text[TICKS_TEXT];
 
     a->marks = 0;
     for (int k = (int)floor(a->lo); k <= (int)ceil(a->hi); k++)
@@ -62,8 +60,8 @@ mark_decades(struct axis *a, double most)
             if (d == 1 || a->hi - a->lo <= 12)
                 add_mark(a, ticks_at(&t, 1), major,
                          !major  ? ""
-                         : plain ? ticks_text(text, &t, 1)
-                                 : power_text(text, k));
+                         : plain ? ticks_text(&t, 1)
+                                 : power_text(k));
         }
 }
 

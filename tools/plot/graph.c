@@ -77,7 +77,7 @@ choose_scale(struct scale *s, double largest, const char *unit, bool powers)
     scale_choose(s, largest, unit);
     if (powers && strncmp(s->unit, "10", 2) == 0) {
         s->size = 1;
-        unit_text(s->unit, strcmp(unit, "1") == 0 ? "" : unit);
+        unit_text_to(s->unit, strcmp(unit, "1") == 0 ? "" : unit);
     }
 }
 

@@ -464,7 +464,7 @@ draw_side(struct scene *s, const struct side *side)
         canvas_line(p->c, x, y, x + 9 * u * side->out[0], y + 9 * u * side->out[1]);
         canvas_stroke(p->c, 1.6 * u, page_ink);
         part = 0.5 - 0.5 * fmin(fmax(1.6 * side->out[0], -1), 1);
-        ticks_text(text, &ticks, k);
+        ticks_text_to(text, &ticks, k);
         if (side->keep_off &&
             hypot(x - (t < 0.5 ? x0 : x1), y - (t < 0.5 ? y0 : y1)) < 1.6 * p->small.size &&
             (t < 0.5) == (y0 > y1))

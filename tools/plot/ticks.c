@@ -50,7 +50,7 @@ takes_prefix(const char *unit)
 static const char *const raised_digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
 
 const char *
-power_text(char text[TICKS_TEXT], int power)
+power_text_to(char text[TICKS_TEXT], int power)
 {
     char digits[16];
 
@@ -73,7 +73,7 @@ prefix_of(int power)
 /* A unit for print: raised powers, the Greek mu and a raised point. A digit is a power if a letter is before
  * it and none after it: m2, not H2O. */
 const char *
-unit_text(char text[TICKS_TEXT], const char *unit)
+unit_text_to(char text[TICKS_TEXT], const char *unit)
 {
     size_t n = 0;
 
@@ -104,7 +104,6 @@ void
 scale_choose(struct scale *scale, double largest, const char *unit)
 {
     double size = fabs(largest);
-    char text[TICKS_TEXT], printed[TICKS_TEXT];
     int power = size > 0 && isfinite(size) ? 3 * (int)floor(log10(size) / 3 + 1e-12) : 0;
 
     if (strcmp(unit, "1") == 0)
@@ -113,13 +112,12 @@ scale_choose(struct scale *scale, double largest, const char *unit)
         power = 0;
     scale->size = pow(10, power);
     if (takes_prefix(unit) && prefix_of(power) != NULL)
-        snprintf(scale->unit, sizeof scale->unit, "%s%.48s", prefix_of(power),
-                 unit_text(printed, unit));
+        snprintf(scale->unit, sizeof scale->unit, "%s%.48s", prefix_of(power), unit_text(unit));
     else if (power == 0)
-        snprintf(scale->unit, sizeof scale->unit, "%.48s", unit_text(printed, unit));
+        snprintf(scale->unit, sizeof scale->unit, "%.48s", unit_text(unit));
     else
-        snprintf(scale->unit, sizeof scale->unit, "%.30s%s%.24s", power_text(text, power),
-                 *unit == '\0' ? "" : " ", unit_text(printed, unit));
+        snprintf(scale->unit, sizeof scale->unit, "%.30s%s%.24s", power_text(power),
+                 *unit == '\0' ? "" : " ", unit_text(unit));
 }
 
 /* A prefix is raised to the power of the unit: mm2 is 1e-6 m2. */
@@ -130,7 +128,7 @@ scale_given(struct scale *scale, const char *asked, const char *unit)
     const char *micro = strncmp(asked, "µ", 2) == 0 ? asked + 2 : NULL, *own = unit, *prefixed;
     size_t letters = strcspn(unit, "0123456789"), n;
     int power = 0, raised = unit[letters] == '\0' ? 1 : atoi(unit + letters);
-    char text[TICKS_TEXT], printed[TICKS_TEXT];
+    char text[TICKS_TEXT];
 
     if (under) {
         if (strncmp(asked, "1/", 2) != 0 || !scale_given(scale, asked + 2, unit + 2))
@@ -157,12 +155,12 @@ scale_given(struct scale *scale, const char *asked, const char *unit)
              micro != NULL || power == -6 ? "µ"
              : n > 0                      ? prefix_of(power)
                                           : "",
-             unit_text(printed, own));
+             unit_text(own));
     return true;
 }
 
 const char *
-scale_value(char text[TICKS_TEXT], double value, const char *unit)
+scale_value_to(char text[TICKS_TEXT], double value, const char *unit)
 {
     struct scale scale;
     size_t n;
@@ -223,7 +221,7 @@ ticks_at(const struct ticks *t, long long k)
 }
 
 const char *
-ticks_text(char text[TICKS_TEXT], const struct ticks *t, long long k)
+ticks_text_to(char text[TICKS_TEXT], const struct ticks *t, long long k)
 {
     put_number(text, "%.*f", t->power < 0 ? -t->power : 0, ticks_at(t, k));
     return text;

@@ -57,13 +57,12 @@ check_steps(struct tool *t, const struct physics *a)
     const struct numbers *steps = physics_steps(a);
     const char *name = name_of_steps(a);
     bool rises = true;
-    char number[RC_NUMBER_SIZE];
 
     for (size_t k = 0; k < steps->n && !a->attracts; k++) {
         if (steps->v[k] < 0)
             tool_die(t, EXIT_USAGE,
                      "--%s %s %s: it must be at least 0: a negative %s needs --adhesion", name,
-                     rc_number_text(number, steps->v[k]),
+                     rc_number(steps->v[k]),
                      steps->per_metre    ? "N/m"
                      : a->load.n > 0     ? "N"
                      : a->approach.n > 0 ? "m"
@@ -126,13 +125,12 @@ static void
 warn_of_residual(struct tool *t, const char *layer, double stress, double e)
 {
     const double least = 1e-6;
-    char is[SHOWN_NUMBER];
 
     if (stress != 0 && (fabs(stress) < least * e || fabs(stress) > e))
         tool_warn(t,
                   "--layer %s: the residual stress, %s, is %s of the layer: is its unit right, as "
                   "in -3GPa?",
-                  layer, shown_in_unit(is, stress, "Pa"),
+                  layer, shown_in_unit(stress, "Pa"),
                   fabs(stress) > e ? "above the modulus" : "below a millionth of the modulus");
 }
 
@@ -142,7 +140,7 @@ check_layers(struct tool *t, struct physics *a)
 {
     size_t n = a->layer.n;
     struct rc_err err;
-    char h[RC_NUMBER_SIZE], e[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE], r[RC_NUMBER_SIZE], *si;
+    char *si;
     bool stressed = false, relaxes;
 
     if (n == 0)
@@ -160,10 +158,10 @@ check_layers(struct tool *t, struct physics *a)
             tool_die(t, EXIT_USAGE, "--layer %s: %s", a->layer.step[k].text, err.text);
         warn_of_residual(t, a->layer.step[k].text, a->residual[k], m->e);
         si = tool_room(t, 4, RC_NUMBER_SIZE, "the layers of a body");
-        snprintf(si, 4 * RC_NUMBER_SIZE, "%s,%s,%s%s%s", rc_number_text(h, m->thickness),
-                 relaxes ? LAYER_RELAXES : rc_number_text(e, m->e), rc_number_text(nu, m->nu),
+        snprintf(si, 4 * RC_NUMBER_SIZE, "%s,%s,%s%s%s", rc_number(m->thickness),
+                 relaxes ? LAYER_RELAXES : rc_number(m->e), rc_number(m->nu),
                  a->residual[k] == 0 ? "" : ",",
-                 a->residual[k] == 0 ? "" : rc_number_text(r, a->residual[k]));
+                 a->residual[k] == 0 ? "" : rc_number(a->residual[k]));
         a->layer.step[k].text = si;
         a->relaxing_layers += relaxes;
         stressed = stressed || a->residual[k] != 0;
@@ -181,13 +179,11 @@ check_layers(struct tool *t, struct physics *a)
 static void
 say_vickers(struct tool *t, const struct physics *a)
 {
-    char value[SHOWN_NUMBER];
-
     if (t->vickers != NULL)
         tool_warn(t,
                   "--hardness %s is %s: the mean pressure on the plane of the dent, HV times "
                   "9.80665 MPa over sin 68 deg",
-                  t->vickers, shown_in_unit(value, a->hardness, "Pa"));
+                  t->vickers, shown_in_unit(a->hardness, "Pa"));
 }
 
 void
@@ -231,7 +227,7 @@ static void
 add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
     const char *form = rc_grid_get(g, "form");
-    char name[RC_NUMBER_SIZE + 8], radius[RC_NUMBER_SIZE];
+    char name[RC_NUMBER_SIZE + 8];
     struct rc_err err;
 
     if (form != NULL)
@@ -239,7 +235,7 @@ add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
                     "a sphere was already added to these heights (form=%s): remove --radius", form);
     if (!a->travels)
         add_sphere(t, a, g);
-    snprintf(name, sizeof name, "sphere %s", rc_number_text(radius, a->radius));
+    snprintf(name, sizeof name, "sphere %s", rc_number(a->radius));
     tool_must(t, g, rc_grid_set(g, "form", name, &err), &err);
 }
 
@@ -250,7 +246,6 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
     static const char *const line[] = {"column", "row"};
     struct rc_shape shape = rc_grid_shape(g);
     struct rc_seam seam;
-    char where[256], jump[SHOWN_NUMBER];
 
     rc_measure_seam(ranks_of(t), &shape, g->v, &seam);
     for (int side = 0; side < 2; side++)
@@ -260,8 +255,7 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
                       "by %s (RMS), %.3g times the steps inside: rc-detrend --plane removes a "
                       "tilt, --mirror makes a periodic map of %s the area from mirror images; or "
                       "solve it without --periodic",
-                      tool_where(t, g, where, sizeof where), line[side],
-                      shown_in_unit(jump, seam.across[side], "m"),
+                      tool_where(t, g), line[side], shown_in_unit(seam.across[side], "m"),
                       seam.across[side] / seam.inside[side],
                       g->nx > 1 && g->ny > 1 ? "4 times" : "twice");
 }
@@ -276,7 +270,7 @@ width_of(const struct rc_grid *g)
 static void
 check_profile(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
-    char where[256], width[SHOWN_NUMBER];
+    const char *where = tool_where(t, g), *width = shown_in_unit(width_of(g), "m");
 
     if (a->load.per_metre && g->nx > 1 && g->ny > 1)
         tool_die_at(
@@ -285,8 +279,6 @@ check_profile(struct tool *t, const struct physics *a, const struct rc_grid *g)
             g->ny);
     if ((g->nx > 1) == (g->ny > 1))
         return;
-    tool_where(t, g, where, sizeof where);
-    shown_in_unit(width, width_of(g), "m");
     if (!a->periodic)
         tool_warn(t, "%s: a profile is solved as a strip %s wide%s, not as an infinite ridge",
                   where, width, a->load.n > 0 ? ", which carries the force" : "");
@@ -303,30 +295,29 @@ warn_of_metres(struct tool *t, const struct physics *a, const struct rc_grid *g,
 {
     const double width = fmax((double)g->nx * g->dx, (double)g->ny * g->dy);
     const double thick = 0.1, wide = 0.5; /* m: limits for a layer and for a radius */
-    char is[SHOWN_NUMBER], map[SHOWN_NUMBER], number[RC_NUMBER_SIZE];
+    char map[SHOWN_NUMBER];
 
-    shown_in_unit(map, width, "m");
+    shown_in_unit_to(map, width, "m");
     for (size_t k = 0; k < a->layer.n; k++)
         if (a->layers[k].thickness >= thick && a->layers[k].thickness > 100 * width)
             tool_warn(t,
                       "%s: --layer: a thickness of %s on a map %s wide: a number without a unit is "
                       "in metres, write %sum for micrometres",
-                      where, shown_in_unit(is, a->layers[k].thickness, "m"), map,
-                      rc_number_text(number, a->layers[k].thickness));
+                      where, shown_in_unit(a->layers[k].thickness, "m"), map,
+                      rc_number(a->layers[k].thickness));
     if (a->radius >= wide && a->radius > 1000 * width)
         tool_warn(t,
                   "%s: --radius: a radius of %s on a map %s wide: a number without a unit is in "
                   "metres, write %smm for millimetres",
-                  where, shown_in_unit(is, a->radius, "m"), map, rc_number_text(number, a->radius));
+                  where, shown_in_unit(a->radius, "m"), map, rc_number(a->radius));
 }
 
 static void
 warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
     const char *periodic = rc_grid_get(g, "periodic");
-    char where[256];
+    const char *where = tool_where(t, g);
 
-    tool_where(t, g, where, sizeof where);
     warn_of_metres(t, a, g, where);
     if (!a->periodic && periodic != NULL && strcmp(periodic, "yes") == 0 && isnan(a->radius))
         tool_warn(t,

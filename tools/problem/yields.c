@@ -133,14 +133,13 @@ static void
 check_unit(struct tool *t, double stress, double estar)
 {
     const double least = 1e-6;
-    char is[SHOWN_NUMBER], modulus[SHOWN_NUMBER];
 
     if (stress >= least * estar && stress <= estar)
         return;
-    tool_die(
-        t, EXIT_USAGE, "--yield: the yield stress, %s, is %s, %s: is its unit right, as in 1GPa?",
-        shown_in_unit(is, stress, "Pa"), stress > estar ? "above E*" : "below a millionth of E*",
-        shown_in_unit(modulus, estar, "Pa"));
+    tool_die(t, EXIT_USAGE,
+             "--yield: the yield stress, %s, is %s, %s: is its unit right, as in 1GPa?",
+             shown_in_unit(stress, "Pa"), stress > estar ? "above E*" : "below a millionth of E*",
+             shown_in_unit(estar, "Pa"));
 }
 
 void

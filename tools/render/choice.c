@@ -180,12 +180,11 @@ no_case(struct choice *c, struct tool *t)
 static _Noreturn void
 no_depth(struct choice *c, struct tool *t)
 {
-    char text[RC_NUMBER_SIZE];
     struct name_list l = {.n = 0};
 
     seen_depths(&c->list, right_frame, c->wish, &l);
     tool_die(t, EXIT_IMPOSSIBLE, "%s: there is no %s at depth %s m: %s%s%s", t->source, wished(c),
-             rc_number_text(text, c->wish->depth), l.n == 0 ? "no frame has a depth" : "there are ",
+             rc_number(c->wish->depth), l.n == 0 ? "no frame has a depth" : "there are ",
              name_list_end(&l), l.n == 0 ? "" : " m");
 }
 
@@ -233,7 +232,6 @@ choice_settle(struct choice *c, struct tool *t)
 {
     size_t number, cases = 0, depths = 0, same = 0, last = 0;
     bool others = false;
-    char where[TICKS_TEXT];
     double depth, drawn = NAN;
 
     end_case(c, t);
@@ -267,7 +265,7 @@ choice_settle(struct choice *c, struct tool *t)
     c->by_size = depths > 1 && isnan(c->wish->depth);
     if (c->by_size && rc_grid_number(c->grid, "depth", &depth))
         tool_note(t, "of %zu depths drawing %s, where %s is largest: choose with --depth", depths,
-                  scale_value(where, depth, "m"), c->grid->channel);
+                  scale_value(depth, "m"), c->grid->channel);
 }
 
 void

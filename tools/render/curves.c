@@ -374,7 +374,7 @@ say_label(const struct table *table, size_t k, size_t row, char text[NAME])
     const struct column *column = &table->column[k];
     const char *known = title_known(column->name), *unit = unit_of(table, k), *end;
     const char *word = word_of(table, k, row);
-    char title[NAME], value[TICKS_TEXT];
+    char title[NAME];
     double number;
 
     snprintf(title, sizeof title, "%s", known == NULL ? last_part(column->name) : known);
@@ -386,7 +386,7 @@ say_label(const struct table *table, size_t k, size_t row, char text[NAME])
         snprintf(text, NAME, "%.120s %.120s", title, word == NULL ? "unknown" : word);
     else
         snprintf(text, NAME, "%.120s %.100s", title,
-                 strcmp(unit, "1") == 0 ? word : scale_value(value, number, unit));
+                 strcmp(unit, "1") == 0 ? word : scale_value(number, unit));
 }
 
 static void

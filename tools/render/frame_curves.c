@@ -148,13 +148,12 @@ static size_t
 nearest(struct tool *t, const struct rc_grid *g, const struct line *l, double place)
 {
     size_t best = 0;
-    char first[TICKS_TEXT], last[TICKS_TEXT];
     double slack = 0.5 * l->step * (1 + 1e-9);
 
     if (place < line_at(l, 0) - slack || place > line_at(l, l->n - 1) + slack)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "--cut: it has nodes from %s = %s to %s", l->title,
-                    scale_value(first, line_at(l, 0), l->unit),
-                    scale_value(last, line_at(l, l->n - 1), l->unit));
+                    scale_value(line_at(l, 0), l->unit),
+                    scale_value(line_at(l, l->n - 1), l->unit));
     for (size_t k = 1; k < l->n; k++)
         if (fabs(line_at(l, k) - place) <= fabs(line_at(l, best) - place) + 1e-9 * l->step)
             best = k;
@@ -185,7 +184,6 @@ static double *
 mark_interfaces(const struct rc_grid *g, struct graph *graph, char *note, size_t size)
 {
     double *bottom = media_bottoms(g, &graph->uprights);
-    char depth[TICKS_TEXT];
     size_t used = 0;
 
     if (bottom == NULL)
@@ -195,7 +193,7 @@ mark_interfaces(const struct rc_grid *g, struct graph *graph, char *note, size_t
     used = (size_t)snprintf(note, size, "dashed: where media meet, at a depth of ");
     for (size_t k = 0; k < graph->uprights && used < size; k++)
         used += (size_t)snprintf(note + used, size - used, "%s%s", k == 0 ? "" : ", ",
-                                 scale_value(depth, bottom[k], "m"));
+                                 scale_value(bottom[k], "m"));
     return bottom;
 }
 
@@ -230,7 +228,7 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
 {
     struct set s = {.tool = t, .grid = grid, .n = n, .style = style};
     struct graph graph = {.n = n, .y.lo = lo, .y.hi = hi, .x.lo = NAN, .x.hi = NAN};
-    char where[TICKS_TEXT], text[TICKS_TEXT + 32], quantity[8], note[512] = "";
+    char text[TICKS_TEXT + 32], quantity[8], note[512] = "";
     struct canvas *canvas;
     double *bottom = NULL;
 
@@ -255,7 +253,7 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
         }
         snprintf(quantity, sizeof quantity, "%s", along->title);
         snprintf(text, sizeof text, "%s = %s", over->title,
-                 scale_value(where, line_at(over, at), over->unit));
+                 scale_value(line_at(over, at), over->unit));
         if (k == 0)
             subtitle_add(&s.subtitle, "along ", text);
         if (style->hertz) {

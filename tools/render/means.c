@@ -75,9 +75,9 @@ means_take(struct tool *t, struct rc_grid *g, struct means *m)
 void
 means_say(const struct means *m, struct subtitle *w, const char *unit)
 {
-    char four[TICKS_TEXT], one[TICKS_TEXT], text[2 * TICKS_TEXT + 64];
+    char text[2 * TICKS_TEXT + 64];
 
     snprintf(text, sizeof text, "%s in means of 2 \xc3\x97 2 nodes, %s at one node",
-             scale_value(four, m->four, unit), scale_value(one, m->one, unit));
+             scale_value(m->four, unit), scale_value(m->one, unit));
     subtitle_add(w, "max ", text);
 }

@@ -18,18 +18,18 @@ media_read(struct tool *t, const struct rc_grid *g, struct layers *c)
 static void
 write_text(struct medium *m, const struct rc_layer *of, double residual)
 {
-    char thick[TICKS_TEXT], modulus[TICKS_TEXT], what[TICKS_TEXT + 16] = "substrate";
+    char what[TICKS_TEXT + 16] = "substrate";
 
     if (isfinite(of->thickness))
-        snprintf(what, sizeof what, "layer of %s", scale_value(thick, of->thickness, "m"));
+        snprintf(what, sizeof what, "layer of %s", scale_value(of->thickness, "m"));
     if (isinf(of->e))
         snprintf(m->text, sizeof m->text, "%.40s, rigid", what);
     else
         snprintf(m->text, sizeof m->text, "%.40s, E %.24s, \xce\xbd %.4g", what,
-                 scale_value(modulus, of->e, "Pa"), of->nu);
+                 scale_value(of->e, "Pa"), of->nu);
     if (residual != 0)
         snprintf(m->text + strlen(m->text), sizeof m->text - strlen(m->text), ", residual %.24s",
-                 scale_value(modulus, residual, "Pa"));
+                 scale_value(residual, "Pa"));
 }
 
 void

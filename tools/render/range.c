@@ -233,9 +233,8 @@ const char *
 range_text(const struct range *r)
 {
     static char si[2 * RC_NUMBER_SIZE + 2];
-    char low[RC_NUMBER_SIZE], high[RC_NUMBER_SIZE];
 
-    snprintf(si, sizeof si, "%s:%s", rc_number_text(low, r->lo), rc_number_text(high, r->hi));
+    snprintf(si, sizeof si, "%s:%s", rc_number(r->lo), rc_number(r->hi));
     return si;
 }
 
@@ -254,8 +253,8 @@ range_doubt(struct tool *t, const char *text, const char *unit, const struct sur
     tool_warn(t,
               "--range %s goes from %s to %s, but the values go from %s to %s: was a unit "
               "forgotten?",
-              text, shown_in_unit(is[0], r->lo, unit), shown_in_unit(is[1], r->hi, unit),
-              shown_in_unit(is[2], s->min, unit), shown_in_unit(is[3], s->max, unit));
+              text, shown_in_unit_to(is[0], r->lo, unit), shown_in_unit_to(is[1], r->hi, unit),
+              shown_in_unit_to(is[2], s->min, unit), shown_in_unit_to(is[3], s->max, unit));
 }
 
 /* ---- the ends ---- */
@@ -303,13 +302,10 @@ widen(const struct rc_grid *g, const struct channel *what, struct range *r)
 static void
 take_percentiles(const struct frames_of *f, struct range *r, double low, double high)
 {
-    char lo[RC_NUMBER_SIZE], hi[RC_NUMBER_SIZE];
-
     r->lo = percentile(f, low);
     r->hi = percentile(f, high);
-    snprintf(r->note, sizeof r->note, "colours from %s %% to %s %% of the %s",
-             rc_number_text(lo, low), rc_number_text(hi, high),
-             touch_of(f, 0) != NULL ? "contact" : "nodes");
+    snprintf(r->note, sizeof r->note, "colours from %s %% to %s %% of the %s", rc_number(low),
+             rc_number(high), touch_of(f, 0) != NULL ? "contact" : "nodes");
 }
 
 void

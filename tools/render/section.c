@@ -168,7 +168,7 @@ section_range(struct tool *t, const char *text, const struct rc_grid *g, const d
               double *top, double *bottom)
 {
     double first = depth[0], last = depth[g->ny - 1];
-    char list[128], from[TICKS_TEXT], to[TICKS_TEXT];
+    char list[128];
     char *colon;
     struct numbers n = {0};
     struct rc_err err;
@@ -197,5 +197,5 @@ section_range(struct tool *t, const char *text, const struct rc_grid *g, const d
     free(n.v);
     if (!(*top < *bottom))
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "--depth-range %s: its depths go from %s to %s", text,
-                    scale_value(from, first, "m"), scale_value(to, last, "m"));
+                    scale_value(first, "m"), scale_value(last, "m"));
 }

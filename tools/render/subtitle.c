@@ -32,9 +32,9 @@ say_where(struct subtitle *w, const struct rc_grid *g, bool largest)
     if (section != NULL) {
         snprintf(name, sizeof name, "section %.1s = ", section);
         subtitle_add(w, name,
-                     rc_grid_number(g, "at", &number) ? scale_value(text, number, "m") : "all");
+                     rc_grid_number(g, "at", &number) ? scale_value_to(text, number, "m") : "all");
     } else if (rc_grid_number(g, "depth", &number)) {
-        scale_value(text, number, "m");
+        scale_value_to(text, number, "m");
         snprintf(name, sizeof name, "%s%s", text, largest ? " (where it is largest)" : "");
         subtitle_add(w, "depth ", name);
         if ((in = media_name(medium, g)) != NULL)
@@ -48,7 +48,7 @@ extreme(char text[TICKS_TEXT], double value, const struct survey *s, const char 
 {
     if (value != 0 && fabs(value) < 1e-6 * fmax(fabs(s->min), fabs(s->max)))
         return "\xe2\x89\x88 0";
-    return scale_value(text, value, unit);
+    return scale_value_to(text, value, unit);
 }
 
 void
@@ -96,7 +96,6 @@ subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey 
                const struct means *means, double part, bool largest)
 {
     const char *source = rc_grid_get(g, "source"), *number = rc_grid_get(g, "case");
-    char text[TICKS_TEXT];
     double value;
 
     if (source != NULL)
@@ -105,7 +104,7 @@ subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey 
         subtitle_add(w, "case ", number);
     for (size_t p = 0; p < PIECES; p++)
         if (pieces[p].state && rc_grid_number(g, pieces[p].key, &value))
-            subtitle_add(w, pieces[p].name, scale_value(text, value, pieces[p].unit));
+            subtitle_add(w, pieces[p].name, scale_value(value, pieces[p].unit));
     say_where(w, g, largest);
     subtitle_part(w, part);
     subtitle_range(w, g, s, means);
@@ -136,7 +135,7 @@ piece_text(char text[TICKS_TEXT], const struct rc_grid *g, size_t p)
         return (name = media_name(text, g)) == NULL ? "?" : name;
 
     if (pieces[p].unit != NULL && rc_grid_number(g, pieces[p].key, &number))
-        return scale_value(text, number, pieces[p].unit);
+        return scale_value_to(text, number, pieces[p].unit);
     return rc_grid_get(g, pieces[p].key);
 }
 
@@ -144,15 +143,15 @@ piece_text(char text[TICKS_TEXT], const struct rc_grid *g, size_t p)
 static bool
 piece_same(struct rc_grid *const *grid, size_t n, size_t p)
 {
-    char first[TICKS_TEXT], other[TICKS_TEXT];
+    char first[TICKS_TEXT];
     double number;
 
     if (pieces[p].unit == NULL || !rc_grid_number(grid[0], pieces[p].key, &number))
         return subtitle_same(grid, n, pieces[p].key);
-    scale_value(first, number, pieces[p].unit);
+    scale_value_to(first, number, pieces[p].unit);
     for (size_t k = 1; k < n; k++)
         if (!rc_grid_number(grid[k], pieces[p].key, &number) ||
-            strcmp(first, scale_value(other, number, pieces[p].unit)) != 0)
+            strcmp(first, scale_value(number, pieces[p].unit)) != 0)
             return false;
     return true;
 }
@@ -195,11 +194,9 @@ const char *
 words_largest(struct words *w, const struct rc_grid *g, double value, const char *across, double x,
               double depth)
 {
-    char size[TICKS_TEXT], at[TICKS_TEXT], down[TICKS_TEXT];
-
     snprintf(w->largest, sizeof w->largest, "%s %s at %s = %s, depth %s",
-             value < 0 ? "least" : "largest", scale_value(size, value, g->unit), across,
-             scale_value(at, x, "m"), scale_value(down, depth, "m"));
+             value < 0 ? "least" : "largest", scale_value(value, g->unit), across,
+             scale_value(x, "m"), scale_value(depth, "m"));
     return w->largest;
 }
 
@@ -210,7 +207,6 @@ words_hertz(struct tool *t, struct words *w, const struct rc_grid *g, const stru
 {
     const char *form = rc_grid_get(g, "form");
     double load, estar = given->estar, r = given->radius;
-    char text[TICKS_TEXT];
     struct rc_err err;
 
     if (rc_grid_get(g, "section") != NULL)
@@ -226,6 +222,6 @@ words_hertz(struct tool *t, struct words *w, const struct rc_grid *g, const stru
                     "--radius leaves: give --radius and --estar where they are not there, or leave "
                     "it out");
     *radius = cbrt(0.75 * load * r / estar);
-    snprintf(w->circle, sizeof w->circle, "Hertz, radius %s", scale_value(text, *radius, "m"));
+    snprintf(w->circle, sizeof w->circle, "Hertz, radius %s", scale_value(*radius, "m"));
     return w->circle;
 }

@@ -153,7 +153,7 @@ cut_lengths(struct tool *t, const char *window, struct rc_grid *g, const struct 
             struct window *w)
 {
     bool section = rc_grid_get(g, "section") != NULL;
-    char first[256], at[TICKS_TEXT], end[TICKS_TEXT];
+    char first[256];
     char *second;
     double x[2], y[2] = {-INFINITY, INFINITY}, i, j;
     const char *unit = rc_grid_dunit(g);
@@ -175,7 +175,7 @@ cut_lengths(struct tool *t, const char *window, struct rc_grid *g, const struct 
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "no node lies in the window %s: the map ends %s to the right of its middle and "
                     "%s below it",
-                    window, scale_value(at, w->right, unit), scale_value(end, w->bottom, unit));
+                    window, scale_value(w->right, unit), scale_value(w->bottom, unit));
     cut(g, beside, w, &b);
 }
 

@@ -126,9 +126,9 @@ say_what_yielded(struct slip_run *run, const char *where)
 void
 slip_judge_plan(struct slip_run *run)
 {
-    char where[256];
+    const char *where = tool_where(&run->d.t, run->p);
 
-    say_what_yielded(run, tool_where(&run->d.t, run->p, where, sizeof where));
+    say_what_yielded(run, where);
     if (run->bodies.beta == 0 || run->coupling == RC_COUPLING_FULL)
         return;
     if (run->coupling == RC_COUPLING_NONE)
@@ -150,9 +150,9 @@ slip_judge(struct slip_run *run, const struct slip_state *s)
 {
     const struct rc_slip_figures *f = &s->figures.slip;
     double force = hypot(f->force[0], f->force[1]);
-    char where[320], frame[256];
+    char where[320];
+    const char *frame = tool_where(&run->d.t, run->p);
 
-    tool_where(&run->d.t, run->p, frame, sizeof frame);
     snprintf(where, sizeof where, "%s, at a load of %.6g N and a force of %.6g N", frame, f->load,
              force);
     if (tool_interrupted() != 0)
@@ -189,11 +189,9 @@ slip_say_plan(struct slip_run *run, const struct rc_expected *expected)
     FILE *out = run->d.t.out;
     const struct slip_pair *b = &run->bodies;
     const size_t memory = course_peak(expected->memory);
-    char where[256];
 
-    fprintf(out, "%s: %zu x %zu nodes, %s boundary\n",
-            tool_where(&run->d.t, run->p, where, sizeof where), run->p->nx, run->p->ny,
-            run->boundary == RC_PERIODIC ? "periodic" : "free");
+    fprintf(out, "%s: %zu x %zu nodes, %s boundary\n", tool_where(&run->d.t, run->p), run->p->nx,
+            run->p->ny, run->boundary == RC_PERIODIC ? "periodic" : "free");
     if (b->beta == 0)
         fprintf(out,
                 "  %-16sleft out: beta = 0, so that pressure and tractions do not influence each "

@@ -86,24 +86,23 @@ void
 adhesion_mark(const struct run *run, char *value, size_t size)
 {
     const struct rc_adhesion_problem *p = &run->adhering.law.problem;
-    char work[RC_NUMBER_SIZE], range[RC_NUMBER_SIZE];
 
     value[0] = '\0';
     if (run->adhering.wanted)
-        snprintf(value, size, "%s,%s,%s", rc_number_text(work, p->work),
-                 p->law == NULL ? "" : p->law, rc_number_text(range, p->range));
+        snprintf(value, size, "%s,%s,%s", rc_number(p->work), p->law == NULL ? "" : p->law,
+                 rc_number(p->range));
 }
 
 void
 adhesion_set_key(struct run *run, struct rc_grid *as, const struct rc_contact *c)
 {
-    char law[128], work[RC_NUMBER_SIZE], range[RC_NUMBER_SIZE];
+    char law[128];
     struct rc_err err;
 
     if (!run->adhering.wanted)
         return;
-    snprintf(law, sizeof law, "%s,%s,%s", rc_number_text(work, run->adhering.law.problem.work),
-             run->adhering.scales.law, rc_number_text(range, run->adhering.scales.range));
+    snprintf(law, sizeof law, "%s,%s,%s", rc_number(run->adhering.law.problem.work),
+             run->adhering.scales.law, rc_number(run->adhering.scales.range));
     if (rc_grid_set(as, "adhesion", law, &err) != RC_OK ||
         rc_grid_set_number(as, "load", c->load, &err) != RC_OK)
         tool_die_at(&run->d.t, as, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -116,7 +115,7 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where)
 {
     const struct rc_adhesion_scales *s = &run->adhering.scales;
     double spacing = fmax(g->dx, g->dy);
-    char length[SHOWN_NUMBER], finer[SHOWN_NUMBER], range[SHOWN_NUMBER];
+    char length[SHOWN_NUMBER], range[SHOWN_NUMBER];
 
     if (s->cohesive_nodes >= resolved)
         return;
@@ -125,9 +124,9 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where)
               "%s: the cohesive length, %s, is %.2g of the spacing: the grid is too coarse for "
               "this law, and pull-off and hysteresis will be too large (lattice pinning): take a "
               "spacing of %s, or, if only the work matters, a range of %s",
-              where, shown_in_unit(length, s->cohesive_length, "m"), s->cohesive_nodes,
-              shown_in_unit(finer, spacing * s->cohesive_nodes / enough, "m"),
-              shown_in_unit(range, s->range * sqrt(enough / s->cohesive_nodes), "m"));
+              where, shown_in_unit_to(length, s->cohesive_length, "m"), s->cohesive_nodes,
+              shown_in_unit(spacing * s->cohesive_nodes / enough, "m"),
+              shown_in_unit_to(range, s->range * sqrt(enough / s->cohesive_nodes), "m"));
 }
 
 /* Tabor's number for the sphere of --radius on these bodies. */
@@ -146,7 +145,7 @@ static void
 warn_of_jkr(struct run *run, const struct rc_grid *g, const char *where)
 {
     const double enough_tabor = 3, is = tabor(run);
-    char range[SHOWN_NUMBER], finer[SHOWN_NUMBER];
+    char range[SHOWN_NUMBER];
 
     if (strcmp(run->adhering.scales.law, "jkr") != 0 || !(is < enough_tabor))
         return;
@@ -154,15 +153,14 @@ warn_of_jkr(struct run *run, const struct rc_grid *g, const char *where)
     tool_warn(&run->d.t,
               "%s: Tabor's number is %.2g, below 3: the range, %s, is too long for JKR theory, and "
               "loads and areas may differ from it by some per cent: take a spacing of %s",
-              where, is, shown_in_unit(range, run->adhering.scales.range, "m"),
-              shown_in_unit(finer, fmax(g->dx, g->dy) * pow(is / enough_tabor, 2), "m"));
+              where, is, shown_in_unit_to(range, run->adhering.scales.range, "m"),
+              shown_in_unit(fmax(g->dx, g->dy) * pow(is / enough_tabor, 2), "m"));
 }
 
 static void
 warn_of_state(struct run *run, const char *where, const struct rc_adhesion_figures *f)
 {
     const double estar = run->args->physics.surface_estar;
-    char strength[SHOWN_NUMBER];
 
     if (f->separated)
         tool_warn(&run->d.t,
@@ -188,32 +186,27 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_figur
         course_warn(&run->d.course, "a traction at which a solid is not linear elastic",
                     "%s: the largest traction, %s, is %.2g of E*: beyond %g a solid is not linear "
                     "elastic: is the range right?",
-                    where, shown_in_unit(strength, run->adhering.scales.strength, "Pa"),
+                    where, shown_in_unit(run->adhering.scales.strength, "Pa"),
                     run->adhering.scales.strength / estar, too_strong);
 }
 
 static void
 tell(struct run *run, const char *where, const struct rc_adhesion_figures *f, bool pulled)
 {
-    char load[SHOWN_NUMBER], attractive[SHOWN_NUMBER], area[SHOWN_NUMBER], approach[SHOWN_NUMBER],
-        spread[SHOWN_NUMBER];
-
     if (pulled)
         tool_note(&run->d.t,
                   "%s: pull-off at %s +- %s, at approach %s; %zu states, %.3g convolutions, %.2g s",
-                  where, shown_in_unit(load, f->pull_off_load, "N"),
-                  shown_in_unit(spread, f->pull_off_spread, "N"),
-                  shown_in_unit(approach, f->pull_off_approach, "m"), f->states, f->convolutions,
-                  tool_now() - run->d.began);
+                  where, shown_in_unit(f->pull_off_load, "N"),
+                  shown_in_unit(f->pull_off_spread, "N"), shown_in_unit(f->pull_off_approach, "m"),
+                  f->states, f->convolutions, tool_now() - run->d.began);
     tool_note(
         &run->d.t,
         "%s: force %s, of which %s attracts, contact area %s (%.3g %% of the map, %zu nodes), "
         "approach %s, stability %.2g, %zu %s; %s to %.2g in %zu iterations, %.3g convolutions, "
         "%.2g s",
-        where, shown_in_unit(load, f->load, "N"),
-        shown_in_unit(attractive, f->attractive_load, "N"), shown_area(area, f->contact_area),
-        100 * f->contact_fraction, f->contact_nodes, shown_in_unit(approach, f->approach, "m"),
-        f->stability, f->jumps, f->jumps == 1 ? "jump" : "jumps",
+        where, shown_in_unit(f->load, "N"), shown_in_unit(f->attractive_load, "N"),
+        shown_area(f->contact_area), 100 * f->contact_fraction, f->contact_nodes,
+        shown_in_unit(f->approach, "m"), f->stability, f->jumps, f->jumps == 1 ? "jump" : "jumps",
         f->converged ? "converged" : "not converged", f->pressure_error, f->iterations,
         f->convolutions, tool_now() - run->d.began);
 }
@@ -276,14 +269,13 @@ adhesion_state(const struct run *run)
 {
     static char text[256];
     const struct adhering *a = &run->adhering;
-    char work[SHOWN_NUMBER], range[SHOWN_NUMBER], strength[SHOWN_NUMBER];
 
     if (!a->wanted)
         return "left out: no --adhesion";
     snprintf(text, sizeof text, "on: %s, %s over %s: at most %s, cohesive length %.2g nodes%s",
-             a->scales.law, shown_in_unit(work, a->law.problem.work, "J/m2"),
-             shown_in_unit(range, a->scales.range, "m"),
-             shown_in_unit(strength, a->scales.strength, "Pa"), a->scales.cohesive_nodes,
+             a->scales.law, shown_in_unit(a->law.problem.work, "J/m2"),
+             shown_in_unit(a->scales.range, "m"), shown_in_unit(a->scales.strength, "Pa"),
+             a->scales.cohesive_nodes,
              isnan(run->args->physics.radius) ? "; Tabor's number needs --radius" : "");
     return text;
 }

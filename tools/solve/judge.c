@@ -16,17 +16,17 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
 {
     const struct physics *a = &run->args->physics;
     const char *source = rc_grid_get(g, "source"), *name = "approach", *unit = "m";
-    char value[SHOWN_NUMBER], position[SHOWN_NUMBER + 16] = "";
+    char position[SHOWN_NUMBER + 16] = "";
 
     if (run->travelling.wanted)
         snprintf(position, sizeof position, ", position %s",
-                 shown_in_unit(value, travel_position(run, run->d.at), "m"));
+                 shown_in_unit(travel_position(run, run->d.at), "m"));
     if (run->relaxing.wanted)
         snprintf(position, sizeof position, ", time %s",
-                 shown_in_unit(value, relax_time(run, run->d.at), "s"));
+                 shown_in_unit(relax_time(run, run->d.at), "s"));
     if (run->sliding.wanted)
         snprintf(position, sizeof position, ", speed %s",
-                 shown_in_unit(value, slide_speed(run, run->d.at), "m/s"));
+                 shown_in_unit(slide_speed(run, run->d.at), "m/s"));
     if (source == NULL)
         source = run->d.t.source == NULL ? "standard input" : run->d.t.source;
     if (a->load.n > 0) {
@@ -37,7 +37,7 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
         unit = "Pa";
     }
     snprintf(text, size, "%s, case %zu, %s %s%s", source, run->d.course.number, name,
-             shown_in_unit(value, run->steps->v[run->step], unit), position);
+             shown_in_unit(run->steps->v[run->step], unit), position);
     return text;
 }
 
@@ -49,13 +49,12 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
 {
     double width = g->dx * (double)g->nx, length = g->dy * (double)g->ny;
     double estar = run->args->physics.surface_estar;
-    char peak[SHOWN_NUMBER], modulus[SHOWN_NUMBER], mean[SHOWN_NUMBER], x[SHOWN_NUMBER],
-        y[SHOWN_NUMBER], load[SHOWN_NUMBER];
+    char peak[SHOWN_NUMBER], modulus[SHOWN_NUMBER], mean[SHOWN_NUMBER];
     const char *name;
 
-    shown_in_unit(peak, yield_peak(run, s->contact.max_pressure, &name), "Pa");
-    shown_in_unit(modulus, estar, "Pa");
-    shown_in_unit(mean, s->contact.mean_pressure, "Pa");
+    shown_in_unit_to(peak, yield_peak(run, s->contact.max_pressure, &name), "Pa");
+    shown_in_unit_to(modulus, estar, "Pa");
+    shown_in_unit_to(mean, s->contact.mean_pressure, "Pa");
     if (estar < no_modulus)
         course_warn(&run->d.course, "the largest pressure is above E*",
                     "%s: the %s, %s, is above E*, which is %s: was its unit forgotten, as in "
@@ -65,8 +64,8 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
         course_warn(&run->d.course, "the largest pressure is above E*",
                     "%s: the %s, %s, is above E* = %s; on a map of %s by %s the mean is %s: "
                     "are the load, %s, and E* in their right units?",
-                    where, name, peak, modulus, shown_in_unit(x, width, "m"),
-                    shown_in_unit(y, length, "m"), mean, shown_in_unit(load, s->contact.load, "N"));
+                    where, name, peak, modulus, shown_in_unit(width, "m"),
+                    shown_in_unit(length, "m"), mean, shown_in_unit(s->contact.load, "N"));
     else
         course_warn(
             &run->d.course, "the largest pressure is above E*",
@@ -82,7 +81,6 @@ solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where
     double estar = run->args->physics.surface_estar;
     const char *name;
     double peak = yield_peak(run, s->contact.max_pressure, &name);
-    char most[SHOWN_NUMBER], hardness[SHOWN_NUMBER];
 
     if (peak > estar)
         suspect_unit(run, g, where, s);
@@ -90,13 +88,13 @@ solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where
         course_warn(&run->d.course, "a pressure at which a solid is not linear elastic",
                     "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic, and "
                     "--hardness, %s, is above that: is its unit right?",
-                    where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
-                    shown_in_unit(hardness, run->hardness_max, "Pa"));
+                    where, name, shown_in_unit(peak, "Pa"), peak / estar, linear,
+                    shown_in_unit(run->hardness_max, "Pa"));
     else if (peak > linear * estar)
         course_warn(&run->d.course, "a pressure at which a solid is not linear elastic",
                     "%s: the %s, %s, is %.2g of E*: beyond %g a solid is not linear elastic: give "
                     "%sa smaller load",
-                    where, name, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
+                    where, name, shown_in_unit(peak, "Pa"), peak / estar, linear,
                     run->yielding.wanted || run->args->physics.relaxes > 0 ? ""
                                                                            : "its --hardness, or ");
     drive_judge_slope(&run->d.course, s->slope, where);
@@ -158,13 +156,13 @@ static void
 tell(struct run *run, const char *where, const struct solution *s)
 {
     const struct rc_contact *c = &s->contact;
-    char load[SHOWN_NUMBER], area[SHOWN_NUMBER], peak[SHOWN_NUMBER], approach[SHOWN_NUMBER];
-    char gap[SHOWN_NUMBER], yielded[SHOWN_NUMBER + 32] = "", took[96], error[32] = "";
-    char value[SHOWN_NUMBER], over_nodes[SHOWN_NUMBER + 32] = "";
+    char area[SHOWN_NUMBER];
+    char yielded[SHOWN_NUMBER + 32] = "", took[96], error[32] = "";
+    char over_nodes[SHOWN_NUMBER + 32] = "";
     double mean;
 
     if (c->yielded_nodes > 0) {
-        shown_area(area, c->yielded_area);
+        shown_area_to(area, c->yielded_area);
         snprintf(yielded, sizeof yielded, "%s of it yields, ", area);
     }
     if (!isnan(c->pressure_error))
@@ -172,19 +170,19 @@ tell(struct run *run, const char *where, const struct solution *s)
     mean = yield_peak(run, c->max_pressure, NULL);
     if (mean != c->max_pressure)
         snprintf(over_nodes, sizeof over_nodes, " (%s over 2 x 2 nodes)",
-                 shown_in_unit(value, mean, "Pa"));
+                 shown_in_unit(mean, "Pa"));
     yield_tell(run, c, took, sizeof took);
     tool_note(&run->d.t,
               "%s: force %s, contact area %s (%.3g %% of the map, %zu nodes in %zu %s), %slargest "
               "pressure %s%s, approach %s, mean gap %s; %s%s in %s, "
               "%.2g s",
-              where, shown_in_unit(load, c->load, "N"), shown_area(area, c->contact_area),
+              where, shown_in_unit(c->load, "N"), shown_area_to(area, c->contact_area),
               100 * c->contact_fraction, c->contact_nodes, s->patches.count,
               s->patches.count == 1 ? "patch" : "patches", yielded,
-              shown_in_unit(peak, c->max_pressure, "Pa"), over_nodes,
-              isnan(c->approach) ? "unknown" : shown_in_unit(approach, c->approach, "m"),
-              shown_in_unit(gap, c->mean_gap, "m"), c->converged ? "converged" : "not converged",
-              error, took, tool_now() - run->d.began);
+              shown_in_unit(c->max_pressure, "Pa"), over_nodes,
+              isnan(c->approach) ? "unknown" : shown_in_unit(c->approach, "m"),
+              shown_in_unit(c->mean_gap, "m"), c->converged ? "converged" : "not converged", error,
+              took, tool_now() - run->d.began);
 }
 
 void

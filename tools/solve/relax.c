@@ -83,7 +83,6 @@ warn_of_material(struct run *run)
     const struct rc_relaxation *m = x->law.material;
     const struct physics *a = &run->args->physics;
     const double contradicts = 0.05, rubber = 0.45, nu = isinf(a->e1) ? a->layers[0].nu : a->nu1;
-    char leg[SHOWN_NUMBER], tau[SHOWN_NUMBER];
 
     if (x->law.misfit > contradicts)
         tool_warn(&run->d.t,
@@ -95,7 +94,7 @@ warn_of_material(struct run *run)
                   "--time: %s passes between two times, and the shortest relaxation time is %s: "
                   "there the "
                   "answer rests on the instantaneous modulus alone",
-                  shown_in_unit(leg, x->shortest, "s"), shown_in_unit(tau, m->time[0], "s"));
+                  shown_in_unit(x->shortest, "s"), shown_in_unit(m->time[0], "s"));
     if (nu < rubber)
         tool_warn(&run->d.t,
                   "Poisson's ratio %g is constant in time, which holds for rubber (0.5): a "
@@ -314,12 +313,11 @@ relax_state(const struct run *run)
 {
     static char text[128];
     const struct relaxing *x = &run->relaxing;
-    char instant[SHOWN_NUMBER], relaxed[SHOWN_NUMBER];
 
     if (run->args->relaxation == NULL)
         return "left out: no --relaxation";
     snprintf(text, sizeof text, "on: %zu terms, E from %s to %s", x->law.material->terms,
-             shown_in_unit(instant, run->args->physics.relaxes, "Pa"),
-             shown_in_unit(relaxed, x->law.material->relaxed, "Pa"));
+             shown_in_unit(run->args->physics.relaxes, "Pa"),
+             shown_in_unit(x->law.material->relaxed, "Pa"));
     return text;
 }

@@ -305,7 +305,6 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     const double step = 0.8, next = 1.5, retraction = 60;
     const size_t before = course_peak(0); /* the forecast takes memory of its own */
     double each, memory, loads = (double)points;
-    char where[256];
 
     if (travels)
         loads = 1 + step * (loads - 1);
@@ -323,8 +322,8 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     memory = ranks_most(&run->d.t, (double)before + (double)(run->adhering.wanted
                                                                  ? adhesion_memory(run, g, problem)
                                                                  : solve_memory(run, g, problem)));
-    tool_where(&run->d.t, g, where, sizeof where);
-    fprintf(run->d.t.out, "%s: %zu x %zu nodes, %zu %s%s, engine %s\n", where, g->nx, g->ny, points,
+    fprintf(run->d.t.out, "%s: %zu x %zu nodes, %zu %s%s, engine %s\n", tool_where(&run->d.t, g),
+            g->nx, g->ny, points,
             travels   ? "position"
             : relaxes ? "time"
             : slides  ? "speed"

@@ -227,7 +227,6 @@ slide_warn(struct run *run, const char *where)
     const double traction = 0.3, pi = 3.141592653589793;
     const struct rc_grid *g = run->g;
     double speed, length;
-    char text[SHOWN_NUMBER];
 
     if (!s->wanted || s->found == NULL)
         return;
@@ -249,7 +248,7 @@ slide_warn(struct run *run, const char *where)
         tool_warn(&run->d.t,
                   "%s: waves as long as the map, %s, excite the material below the frequencies of "
                   "the master curve: there it has its relaxed modulus by extrapolation",
-                  where, shown_in_unit(text, length, "m"));
+                  where, shown_in_unit(length, "m"));
 }
 
 void

@@ -139,7 +139,7 @@ yield_set_marks(struct run *run)
     const struct yielding *y = &run->yielding;
     const struct rc_body *one = &run->args->physics.pair.one;
     const size_t bytes = y->law.points * sizeof(double), size = sizeof run->d.course.mark->value;
-    char *value[6], text[RC_NUMBER_SIZE], modulus[RC_NUMBER_SIZE];
+    char *value[6];
 
     for (size_t k = 0; k < 6; k++)
         value[k] = course_mark(&run->d.course, names[k]);
@@ -149,8 +149,7 @@ yield_set_marks(struct run *run)
         snprintf(value[0], size, "table %08" PRIx32,
                  rc_crc32_add(rc_crc32_add(0, y->read.table[0], bytes), y->read.table[1], bytes));
     else
-        snprintf(value[0], size, "%s,%s", rc_number_text(text, y->law.stress),
-                 rc_number_text(modulus, y->law.modulus));
+        snprintf(value[0], size, "%s,%s", rc_number(y->law.stress), rc_number(y->law.modulus));
     rc_number_text(value[1], one->e);
     rc_number_text(value[2], one->nu);
     if (y->list.n > 0)
@@ -475,7 +474,6 @@ yield_state(const struct run *run)
 {
     static char text[128];
     const struct yielding *y = &run->yielding;
-    char depth[SHOWN_NUMBER];
 
     if (!y->wanted)
         return "left out: no --yield";
@@ -485,7 +483,7 @@ yield_state(const struct run *run)
         return "on where the elastic stress exceeds it; costs nothing elsewhere";
     snprintf(text, sizeof text,
              "left out: the largest Mises stress is %.3g of the yield stress, %s deep",
-             y->found->max_mises_over_yield, shown_in_unit(depth, y->found->max_mises_depth, "m"));
+             y->found->max_mises_over_yield, shown_in_unit(y->found->max_mises_depth, "m"));
     return text;
 }
 

@@ -90,7 +90,6 @@ refuse_adhesion(struct tool *t, const struct rc_grid *p, double mu)
 static void
 warn_of_yield(struct tool *t, const struct rc_grid *p, double mu)
 {
-    char where[256], stress[SHOWN_NUMBER];
     double yield;
 
     if (!rc_grid_number(p, "yield", &yield))
@@ -100,7 +99,7 @@ warn_of_yield(struct tool *t, const struct rc_grid *p, double mu)
               "that solution: it is added elastically, and Mises stresses may exceed the yield "
               "stress, %s: leave out %s, or take the stresses as those of a body that yields no "
               "further",
-              tool_where(t, p, where, sizeof where), shown_in_unit(stress, yield, "Pa"),
+              tool_where(t, p), shown_in_unit(yield, "Pa"),
               mu != 0 ? "--mu" : "the frames of traction");
 }
 
@@ -195,7 +194,7 @@ warn_of_depths(struct tool *t, const struct rc_grid *p, const struct numbers *de
                     left */
     };
     double width = fmax((double)p->nx * p->dx, (double)p->ny * p->dy), deepest = 0;
-    char depth[RC_NUMBER_SIZE], where[256];
+    char depth[RC_NUMBER_SIZE];
 
     for (size_t k = 0; k < depths->n; k++)
         deepest = fmax(deepest, depths->v[k]);
@@ -204,8 +203,7 @@ warn_of_depths(struct tool *t, const struct rc_grid *p, const struct numbers *de
                   "%s: --depths: %s m is %.2g times the width of the map, %g m, and stresses there "
                   "depend on the load alone: a number without a unit is in metres, write %sum for "
                   "micrometres",
-                  tool_where(t, p, where, sizeof where), rc_number_text(depth, deepest),
-                  deepest / width, width, depth);
+                  tool_where(t, p), rc_number_text(depth, deepest), deepest / width, width, depth);
 }
 
 void

@@ -78,8 +78,6 @@ stress_strain_take(struct tool *t, const struct rc_grid *p, struct rc_grid *g,
 bool
 stress_strain_whole(struct tool *t, const struct rc_grid *p, struct stress_strain *s)
 {
-    char where[256];
-
     if (!begin(t, p, s))
         return false;
     if (s->maps != s->slabs * PARTS) {
@@ -87,7 +85,7 @@ stress_strain_whole(struct tool *t, const struct rc_grid *p, struct stress_strai
             t,
             "%s: the body has yielded inside, and %s of its strain in the stream: these are the "
             "stresses of the pressure alone: see rc-solve --output strain",
-            tool_where(t, p, where, sizeof where), s->maps == 0 ? "nothing" : "only a part");
+            tool_where(t, p), s->maps == 0 ? "nothing" : "only a part");
         return false;
     }
     s->strain = (struct rc_eigenstrain){

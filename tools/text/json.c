@@ -61,9 +61,7 @@ json_text(struct json *j, const char *name, const char *value)
 void
 json_number(struct json *j, const char *name, double value)
 {
-    char text[RC_NUMBER_SIZE];
-
-    json_plain(j, name, isfinite(value) ? rc_number_text(text, value) : NULL);
+    json_plain(j, name, isfinite(value) ? rc_number(value) : NULL);
 }
 
 void

@@ -13,7 +13,7 @@ enum {
 };
 
 const char *
-shown_number(char text[SHOWN_NUMBER], double value, int digits, const char *unit)
+shown_number_to(char text[SHOWN_NUMBER], double value, int digits, const char *unit)
 {
     bool known = (strcmp(unit, "m") == 0 || strcmp(unit, "Pa") == 0 || strcmp(unit, "N") == 0) &&
                  isfinite(value);
@@ -34,11 +34,11 @@ shown_number(char text[SHOWN_NUMBER], double value, int digits, const char *unit
 }
 
 const char *
-shown_in_unit(char text[SHOWN_NUMBER], double value, const char *unit)
+shown_in_unit_to(char text[SHOWN_NUMBER], double value, const char *unit)
 {
     size_t n;
 
-    shown_number(text, value, DIGITS, unit);
+    shown_number_to(text, value, DIGITS, unit);
     n = strlen(text);
     snprintf(text + n, SHOWN_NUMBER - n, "%s", unit);
     return text;
@@ -54,7 +54,7 @@ shown_words(FILE *out, const char *text, size_t n)
 }
 
 const char *
-shown_bytes(char text[SHOWN_NUMBER], double bytes)
+shown_bytes_to(char text[SHOWN_NUMBER], double bytes)
 {
     static const char *const name[] = {"bytes", "KiB", "MiB"};
     size_t k = 0;
@@ -70,7 +70,7 @@ shown_bytes(char text[SHOWN_NUMBER], double bytes)
 }
 
 const char *
-shown_area(char text[SHOWN_NUMBER], double area)
+shown_area_to(char text[SHOWN_NUMBER], double area)
 {
     static const struct {
         const char *name;

@@ -1,8 +1,10 @@
-/* Numbers and words for people to read. */
+/* Numbers and words for people to read. Without _to a text lives until the end of the block. */
 #ifndef RC_SHOWN_NUMBERS_H
 #define RC_SHOWN_NUMBERS_H
 
 #include <stdio.h>
+
+#include "libcontact/owned.h"
 
 enum {
     SHOWN_NUMBER = 48
@@ -10,14 +12,19 @@ enum {
 
 /* "1.29 u" for 1.29e-6 and "m": this many digits, and the prefix of the unit that brings the number to
  * 1..1000. The caller adds the unit. Only m, Pa and N get prefixes. */
-const char *shown_number(char text[SHOWN_NUMBER], double value, int digits, const char *unit);
+const char *shown_number_to(char text[SHOWN_NUMBER], double value, int digits, const char *unit);
+#define shown_number(value, digits, unit)                                                          \
+    shown_number_to((char[SHOWN_NUMBER]){""}, value, digits, unit)
 /* "1.29 um": six digits and the unit. */
-const char *shown_in_unit(char text[SHOWN_NUMBER], double value, const char *unit);
+const char *shown_in_unit_to(char text[SHOWN_NUMBER], double value, const char *unit);
+#define shown_in_unit(value, unit) shown_in_unit_to((char[SHOWN_NUMBER]){""}, value, unit)
 /* Text from a file, up to n bytes, without control characters of a terminal. */
 void shown_words(FILE *out, const char *text, size_t n);
 /* "37 MiB", "7.4 MiB": in the largest unit not above it, with one decimal below 10. */
-const char *shown_bytes(char text[SHOWN_NUMBER], double bytes);
+const char *shown_bytes_to(char text[SHOWN_NUMBER], double bytes);
+#define shown_bytes(bytes) shown_bytes_to((char[SHOWN_NUMBER]){""}, bytes)
 /* "0.163 mm2", for square metres. */
-const char *shown_area(char text[SHOWN_NUMBER], double area);
+const char *shown_area_to(char text[SHOWN_NUMBER], double area);
+#define shown_area(area) shown_area_to((char[SHOWN_NUMBER]){""}, area)
 
 #endif

@@ -84,7 +84,6 @@ step_over(struct rc_bytes *b, size_t end, char type)
 static bool
 next_item(struct rc_bytes *b, size_t end, struct item *item, bool *damaged, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
     size_t start = b->at;
 
     if (start >= end)
@@ -101,7 +100,7 @@ next_item(struct rc_bytes *b, size_t end, struct item *item, bool *damaged, stru
         return true;
     }
     rc_err_set(err, "item '%s' at byte %zu has type '%c' and does not end inside its object",
-               rc_piece_shown(quote, item->name), start,
+               rc_piece_shown(item->name), start,
                item->type >= ' ' && item->type < 127 ? item->type : '?');
     *damaged = true;
     return false;

@@ -52,10 +52,10 @@ remember_other(struct facts *f, const struct rc_matlab_array *a)
                        : a->is_text     ? "text"
                        : a->more > 0    ? "of more than two dimensions"
                                         : "one number, or empty";
-    char quote[RC_SHOWN], text[sizeof f->others];
+    char text[sizeof f->others];
 
     snprintf(text, sizeof text, "%s'%s' is %s", f->others[0] == '\0' ? ": " : ", ",
-             rc_word_shown(quote, a->name), what);
+             rc_word_shown(a->name), what);
     if (strlen(f->others) + strlen(text) < sizeof f->others)
         strcat(f->others, text);
 }

@@ -101,7 +101,7 @@ check_bytes(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_e
     uint64_t columns = v->rank >= 2 ? length(f, v->dimension[1]) : 1;
     uint64_t row, there = v->at > f->b.size ? 0 : f->b.size - v->at;
 
-    rc_piece_shown(quote, v->name);
+    rc_piece_shown_to(quote, v->name);
     if (columns > there / rc_cdf_width[v->type])
         return rc_err_set(err, "variable '%s' promises %llu values a row, the file is too short",
                           quote, (unsigned long long)columns);
@@ -154,7 +154,7 @@ step_of(const struct rc_cdf *f, size_t dimension, double metres, double *step, b
         return RC_OK;
     if (check_bytes(f, v, err) != RC_OK)
         return RC_FAIL;
-    rc_piece_shown(quote, v->name);
+    rc_piece_shown_to(quote, v->name);
     if (isnan(metres))
         metres = rc_piece_metres(v->unit);
     if (isnan(metres))

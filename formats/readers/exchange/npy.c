@@ -46,7 +46,6 @@ read_type(struct rc_piece value, struct rc_map *map, struct rc_err *err)
 {
     const char *end = value.n > 1 ? memchr(value.text + 1, *value.text, value.n - 1) : NULL;
     size_t shown = end != NULL ? (size_t)(end + 1 - value.text) : value.n < 12 ? value.n : 12;
-    char quote[RC_SHOWN];
 
     for (size_t k = 0; k < sizeof types / sizeof *types && value.n >= 5; k++)
         if ((*value.text == '\'' || *value.text == '"') && value.text[4] == *value.text &&
@@ -57,7 +56,7 @@ read_type(struct rc_piece value, struct rc_map *map, struct rc_err *err)
             return RC_OK;
         }
     return rc_err_set(err, "the array is of type %s: real numbers of 1 to 8 bytes are read",
-                      rc_text_shown(quote, value.text, shown));
+                      rc_text_shown(value.text, shown));
 }
 
 /* "(2, 3)" or "(7,)" */
@@ -65,7 +64,6 @@ static enum rc_status
 read_shape(struct rc_piece value, struct rc_map *map, struct rc_err *err)
 {
     double size[3] = {0};
-    char quote[RC_SHOWN];
     size_t n = 0;
     const char *end = value.n == 0 ? NULL : memchr(value.text, ')', value.n);
     struct rc_piece first, rest;
@@ -83,7 +81,7 @@ read_shape(struct rc_piece value, struct rc_map *map, struct rc_err *err)
     }
     if (n == 0 || n > 2)
         return rc_err_set(err, "the shape is %s: a map has two dimensions, a profile one",
-                          rc_text_shown(quote, value.text, (size_t)(end - value.text + 1)));
+                          rc_text_shown(value.text, (size_t)(end - value.text + 1)));
     if (n == 1) {
         size[1] = size[0];
         size[0] = 1;

@@ -128,12 +128,11 @@ pick_axes(const struct nrrd *h, size_t axis[2], double size[2], struct rc_err *e
 {
     double dimension = number_of(h->dimension);
     struct rc_piece rest = h->sizes;
-    char quote[RC_SHOWN];
     size_t found = 0;
 
     if (!(dimension >= 1 && dimension <= AXES_MOST))
         return rc_err_set(err, "the dimension is '%s': maps have two",
-                          rc_piece_shown(quote, h->dimension));
+                          rc_piece_shown(h->dimension));
     size[1] = 1;
     axis[1] = AXES_MOST;
     for (size_t k = 0; k < (size_t)dimension; k++) {
@@ -143,7 +142,7 @@ pick_axes(const struct nrrd *h, size_t axis[2], double size[2], struct rc_err *e
             continue;
         if (found == 2)
             return rc_err_set(err, "the sizes are %s: maps have two axes longer than one value",
-                              rc_piece_shown(quote, h->sizes));
+                              rc_piece_shown(h->sizes));
         axis[found] = k;
         size[found++] = n;
     }
@@ -222,13 +221,12 @@ fill_packed(const struct rc_file *file, const struct rc_map *map, double *v, str
 static enum rc_status
 set_type(const struct nrrd *h, const struct rc_file *file, struct rc_map *map, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
     size_t k = 0;
 
     while (k < sizeof types / sizeof *types && !rc_piece_is(h->type, types[k].names))
         k++;
     if (k == sizeof types / sizeof *types)
-        return rc_err_set(err, "the type '%s' is not supported", rc_piece_shown(quote, h->type));
+        return rc_err_set(err, "the type '%s' is not supported", rc_piece_shown(h->type));
     map->raw = types[k].raw;
     map->at = h->data;
     map->big = rc_piece_is(h->endian, "big");
@@ -245,7 +243,7 @@ set_type(const struct nrrd *h, const struct rc_file *file, struct rc_map *map, s
     if (rc_piece_is(h->encoding, "ascii|text|txt"))
         return rc_map_is_text(map, file, h->data, err);
     return rc_err_set(err, "the encoding is '%s': raw, gzip and ascii are read",
-                      rc_piece_shown(quote, h->encoding));
+                      rc_piece_shown(h->encoding));
 }
 
 static enum rc_status

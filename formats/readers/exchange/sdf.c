@@ -127,7 +127,6 @@ static enum rc_status
 fill_text(const struct rc_file *file, const struct rc_map *map, double *v, struct rc_err *err)
 {
     struct rc_piece text = {(const char *)file->data + map->at, file->size - map->at};
-    char quote[RC_SHOWN];
 
     if (rc_flow_read(&text, v, map->nx * map->ny, err) != RC_OK)
         return RC_FAIL;
@@ -139,7 +138,7 @@ fill_text(const struct rc_file *file, const struct rc_map *map, double *v, struc
     return rc_err_set(err,
                       "'%s' follows the last of the %zu x %zu heights that the header promises: "
                       "there are more of them, or checksums among them",
-                      rc_text_shown(quote, text.text, text.n < 12 ? text.n : 12), map->nx, map->ny);
+                      rc_text_shown(text.text, text.n < 12 ? text.n : 12), map->nx, map->ny);
 }
 
 static enum rc_status

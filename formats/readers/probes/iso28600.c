@@ -76,21 +76,20 @@ number_in(const struct iso *iso, size_t line)
 static enum rc_status
 judge_mode(const struct iso *iso, size_t *channels, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
     double number = number_in(iso, CHANNELS);
 
     *channels = 1;
     if (!rc_piece_is(iso->line[MODE], "MAP_SC") && !rc_piece_is(iso->line[MODE], "MAP_MC"))
         return rc_err_set(err, "the mode is '%s': only maps are read (MAP_SC, MAP_MC)",
-                          rc_piece_shown(quote, iso->line[MODE]));
+                          rc_piece_shown(iso->line[MODE]));
     if (!rc_piece_is(iso->line[MAPPING], "REGULAR MAPPING"))
         return rc_err_set(err, "the mapping is '%s': only regular ones are read",
-                          rc_piece_shown(quote, iso->line[MAPPING]));
+                          rc_piece_shown(iso->line[MAPPING]));
     if (rc_piece_is(iso->line[MODE], "MAP_SC"))
         return RC_OK;
     if (!(number >= 1 && number <= CHANNELS_MOST) || number != floor(number))
         return rc_err_set(err, "the number of channels is '%s': it must be from 1 to %d",
-                          rc_piece_shown(quote, iso->line[CHANNELS]), CHANNELS_MOST);
+                          rc_piece_shown(iso->line[CHANNELS]), CHANNELS_MOST);
     *channels = (size_t)number;
     return RC_OK;
 }
@@ -118,7 +117,7 @@ fill_channel(const struct rc_file *file, const struct rc_map *map, double *v, st
 {
     struct rc_piece rest = {(const char *)file->data + map->at, file->size - map->at};
     size_t channels = map->more / CHANNELS_MOST, channel = map->more % CHANNELS_MOST;
-    char word[WORD], quote[RC_SHOWN];
+    char word[WORD];
     double value;
 
     for (size_t k = 0; k < map->nx * map->ny; k++)
@@ -127,7 +126,7 @@ fill_channel(const struct rc_file *file, const struct rc_map *map, double *v, st
 
             if (end == NULL || *end != '\0')
                 return rc_err_set(err, "point %zu of %zu has '%s' in the place of a number", k + 1,
-                                  map->nx * map->ny, rc_word_shown(quote, word));
+                                  map->nx * map->ny, rc_word_shown(word));
             if (c == channel)
                 v[k] = value;
         }

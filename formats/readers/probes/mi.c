@@ -52,8 +52,6 @@ static enum rc_status
 take_buffer(struct rc_maps *maps, struct rc_map **map, struct rc_piece key, struct rc_piece value,
             struct rc_err *err)
 {
-    char quote[RC_SHOWN];
-
     if (rc_piece_is(key, "bufferLabel"))
         *map = rc_maps_add(maps, value.text, value.n);
     if (*map == NULL)
@@ -61,8 +59,7 @@ take_buffer(struct rc_maps *maps, struct rc_map **map, struct rc_piece key, stru
     if (rc_piece_is(key, "bufferUnit"))
         rc_map_unit(*map, value.text, value.n);
     if (rc_piece_is(key, "bufferRange") && !rc_piece_number(value, &(*map)->scale, NULL))
-        return rc_err_set(err, "bufferRange is '%s': that is no number",
-                          rc_piece_shown(quote, value));
+        return rc_err_set(err, "bufferRange is '%s': that is no number", rc_piece_shown(value));
     return RC_OK;
 }
 
@@ -70,7 +67,6 @@ static enum rc_status
 place_buffers(const struct mi *m, size_t at, struct rc_maps *maps, struct rc_err *err)
 {
     size_t s = 0, nx, ny, bytes;
-    char quote[RC_SHOWN];
 
     if (rc_map_count("columns (xPixels)", m->columns, &nx, err) != RC_OK ||
         rc_map_count("rows (yPixels)", m->rows, &ny, err) != RC_OK)
@@ -79,7 +75,7 @@ place_buffers(const struct mi *m, size_t at, struct rc_maps *maps, struct rc_err
         s++;
     if (s == sizeof storages / sizeof *storages)
         return rc_err_set(err, "the data are stored as '%s': only BINARY and BINARY_32 are read",
-                          rc_piece_shown(quote, m->storage));
+                          rc_piece_shown(m->storage));
     if (rc_size_mul(nx * rc_raw_width(storages[s].raw), ny, &bytes, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < maps->n && k < RC_MAPS_MOST; k++) {
@@ -106,7 +102,6 @@ mi_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct mi m = {.width = NAN, .height = NAN};
     struct rc_map *map = NULL;
     struct rc_piece line;
-    char quote[RC_SHOWN];
 
     if (!has_magic(file))
         return rc_err_set(err, "no MI file: it does not begin with fileType");
@@ -124,7 +119,7 @@ mi_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         rc_maps_keep(maps, keys, sizeof keys / sizeof *keys, key, value);
     }
     if (!rc_piece_is(m.type, "Image"))
-        return rc_err_set(err, "the file is no image but '%s'", rc_piece_shown(quote, m.type));
+        return rc_err_set(err, "the file is no image but '%s'", rc_piece_shown(m.type));
     return place_buffers(&m, (size_t)(lines.at - text), maps, err);
 }
 

@@ -147,12 +147,11 @@ set_scale(struct rc_piece header, const struct image *m, struct rc_map *map, int
     struct rc_piece hard = m->scale, unit, value, per, upper, lower;
     struct rc_map given = {0}, wanted = {0};
     double number, sensitivity;
-    char quote[RC_SHOWN];
 
     skip_parentheses(&hard);
     if (!number_behind_v(rc_piece_trim(hard), &number, &unit))
         return rc_err_set(err, "image '%s': its Z scale is '%s', in which no value is found",
-                          map->name, rc_piece_shown(quote, m->scale));
+                          map->name, rc_piece_shown(m->scale));
     map->scale = ldexp(number, -bits);
     if (!find_sensitivity(header, between(m->scale, '[', ']'), &value) ||
         !number_behind_v(value, &sensitivity, &per) || !rc_piece_part(per, "/", &upper, &lower)) {

@@ -195,12 +195,11 @@ add_all(struct rc_piece header, struct rc_piece table, size_t at, struct rc_maps
         struct rc_piece section;
         struct rc_lines lines;
         struct set s = {0};
-        char quote[RC_SHOWN];
 
         if (!find_section(header, entry[k].section, &section))
             return rc_err_set(
                 err, "channel %lu of group %lu is described in section '%s', which is not there",
-                entry[k].channel, entry[k].group, rc_piece_shown(quote, entry[k].section));
+                entry[k].channel, entry[k].group, rc_piece_shown(entry[k].section));
         lines = rc_piece_lines(section);
         if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, "=", NULL, &s, err) !=
                 RC_OK ||

@@ -46,8 +46,6 @@ static enum rc_status
 take(struct sxm *s, struct rc_piece key, struct rc_piece value, struct rc_maps *maps,
      struct rc_err *err)
 {
-    char quote[RC_SHOWN];
-
     rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, key, value);
     if (rc_piece_is(key, "SCAN_PIXELS"))
         take_pair(value, &s->nx, &s->ny);
@@ -62,7 +60,7 @@ take(struct sxm *s, struct rc_piece key, struct rc_piece value, struct rc_maps *
         s->big = rc_piece_find(value, "MSBFIRST") != NULL;
         if (!s->typed || (!s->big && rc_piece_find(value, "LSBFIRST") == NULL))
             return rc_err_set(err, "SCANIT_TYPE is '%s': it must be FLOAT MSBFIRST or LSBFIRST",
-                              rc_piece_shown(quote, value));
+                              rc_piece_shown(value));
     }
     return RC_OK;
 }
@@ -140,7 +138,6 @@ sxm_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct rc_piece line, cell[4];
     struct rc_lines rows;
     size_t data, nx, ny, index = 0, bytes;
-    char quote[RC_SHOWN];
 
     if (!rc_file_holds(file, 0, magic, strlen(magic)))
         return rc_err_set(err, "no SXM file: it does not begin with %s", magic);
@@ -159,12 +156,12 @@ sxm_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
             continue;
         if (!part_row(line, cell))
             return rc_err_set(err, "DATA_INFO has a row without name, unit and direction: '%s'",
-                              rc_piece_shown(quote, rc_piece_trim(line)));
+                              rc_piece_shown(rc_piece_trim(line)));
         both = rc_piece_is(cell[3], "both");
         if (!both && !rc_piece_is(cell[3], "forward") && !rc_piece_is(cell[3], "backward"))
             return rc_err_set(err,
                               "a direction in DATA_INFO is '%s', not forward, backward or both",
-                              rc_piece_shown(quote, cell[3]));
+                              rc_piece_shown(cell[3]));
         for (int way = 0; way < 1 + both; way++, index++) {
             if (bytes > (file->size - data) / 4 / (index + 1))
                 return rc_err_set(err,

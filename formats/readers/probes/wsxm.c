@@ -57,12 +57,11 @@ static enum rc_status
 set_scale(const struct rc_file *file, const struct wsxm *w, struct rc_map *map, struct rc_err *err)
 {
     double amplitude, low, high;
-    char quote[RC_SHOWN];
     struct rc_piece unit;
 
     if (!rc_piece_number(w->amplitude, &amplitude, &unit))
         return rc_err_set(err, "Z Amplitude is '%s': that is no number",
-                          rc_piece_shown(quote, w->amplitude));
+                          rc_piece_shown(w->amplitude));
     rc_map_unit(map, unit.text, unit.n);
     if (rc_map_range(map, file, &low, &high) && high > low)
         map->scale = amplitude / (high - low);
@@ -77,7 +76,6 @@ wsxm_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         .width = NAN, .height = NAN, .amplitude = {"", 0}, .channel = {"", 0}, .date = {"", 0}};
     struct rc_map *map;
     size_t t = 0;
-    char quote[RC_SHOWN];
 
     if (!has_magic(file))
         return rc_err_set(
@@ -96,7 +94,7 @@ wsxm_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
         t++;
     if (t == sizeof types / sizeof *types)
         return rc_err_set(err, "Image Data Type is '%s': short, float and double are read",
-                          rc_piece_shown(quote, w.type));
+                          rc_piece_shown(w.type));
     map->raw = types[t].raw; /* old files give none: short */
     map->at = (size_t)w.header;
     map->dx = w.width / (double)map->nx;

@@ -79,7 +79,6 @@ frt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct rc_bytes b = rc_file_bytes(file, false);
     struct rc_map *map = rc_maps_add(maps, "", 0);
     struct frt f = {0};
-    char quote[RC_SHOWN];
     double bits;
 
     if (!rc_file_holds(file, 0, magic, MAGIC) || file->size < FIRST)
@@ -87,7 +86,7 @@ frt_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     if (!rc_file_holds(file, MAGIC, "1.00", VERSION) &&
         !rc_file_holds(file, MAGIC, "1.01", VERSION))
         return rc_err_set(err, "the file is of version '%s': 1.00 and 1.01 are read",
-                          rc_text_shown(quote, (const char *)file->data + MAGIC, VERSION));
+                          rc_text_shown((const char *)file->data + MAGIC, VERSION));
     if (read_blocks(file, &f, maps, err) != RC_OK ||
         rc_map_count("columns", rc_bytes_at(&b, f.grid.at, RC_RAW_U32), &map->nx, err) != RC_OK ||
         rc_map_count("rows", rc_bytes_at(&b, f.grid.at + 4, RC_RAW_U32), &map->ny, err) != RC_OK)

@@ -52,7 +52,6 @@ static enum rc_status
 take_element(void *arg, const char *path, const char *text, struct rc_err *err)
 {
     struct lext *l = arg;
-    char quote[RC_SHOWN];
 
     for (size_t k = 0; k < SCALES; k++) {
         const char *end;
@@ -61,7 +60,7 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
         end = rc_number_read(text, false, &l->scale[k]);
         if (end == NULL || *end != '\0')
             return rc_err_set(err, "%s is '%s': that is no number", strrchr(path, '/') + 1,
-                              rc_word_shown(quote, text));
+                              rc_word_shown(text));
     }
     return RC_OK;
 }

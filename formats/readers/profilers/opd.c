@@ -84,7 +84,6 @@ read_directory(const struct rc_file *file, struct opd *o, struct rc_maps *maps, 
     struct rc_bytes bytes = rc_file_bytes(file, false);
     double length = rc_bytes_at(&bytes, START + NAME + 2, RC_RAW_I32);
     size_t entries, at;
-    char quote[RC_SHOWN];
 
     if (!(length >= ENTRY) || length > (double)(file->size - START))
         return rc_err_set(err, "the directory takes %g bytes, the file has %zu", length,
@@ -101,7 +100,7 @@ read_directory(const struct rc_file *file, struct opd *o, struct rc_maps *maps, 
         if (length < 0 || length > (double)(file->size - at))
             return rc_err_set(err,
                               "block '%s' takes %g bytes from byte %zu on, the file has %zu in all",
-                              rc_piece_shown(quote, b.name), length, at, file->size);
+                              rc_piece_shown(b.name), length, at, file->size);
         b.n = (size_t)length;
         at += b.n;
         b.name = rc_piece_trim(b.name);

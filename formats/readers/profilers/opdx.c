@@ -204,8 +204,6 @@ static enum rc_status
 walk(struct opdx *o, struct rc_bytes *b, size_t end, struct rc_piece *path, size_t depth,
      struct rc_err *err)
 {
-    char quote[RC_SHOWN];
-
     while (b->at < end) {
         size_t start = b->at, kind = 0, n = 0, at;
         double number = NAN;
@@ -218,12 +216,12 @@ walk(struct opdx *o, struct rc_bytes *b, size_t end, struct rc_piece *path, size
             kind++;
         if (kind == sizeof types / sizeof *types)
             return rc_err_set(err, "item '%s' at byte %zu is of type %d, which is not known",
-                              rc_piece_shown(quote, path[depth]), start, type);
+                              rc_piece_shown(path[depth]), start, type);
         if (types[kind].how == END)
             break;
         if (!measure(b, end, kind, &n))
             return rc_err_set(err, "item '%s' at byte %zu does not end inside its container",
-                              rc_piece_shown(quote, path[depth]), start);
+                              rc_piece_shown(path[depth]), start);
         at = b->at;
         if (types[kind].how == CONTAINER) {
             if (walk(o, b, at + n, path, depth + 1, err) != RC_OK)

@@ -307,17 +307,14 @@ read_heights(struct matrix *m, double *v, struct rc_err *err)
 static void
 note_skipped(const struct matrix *m, struct rc_notes *notes)
 {
-    char quote[RC_SHOWN];
-
     if (m->is_titled && m->titled.skipped > 0)
         rc_note(notes, "%zu line%s above the numbers %s passed over, the first is '%s'",
                 m->titled.skipped, m->titled.skipped == 1 ? "" : "s",
-                m->titled.skipped == 1 ? "is" : "are",
-                rc_piece_shown(quote, m->titled.first_skipped));
+                m->titled.skipped == 1 ? "is" : "are", rc_piece_shown(m->titled.first_skipped));
     if (m->is_titled && m->titled.titles == m->table.columns &&
         !rc_titled_table_numbered(&m->titled))
         rc_note(notes, "the titles, '%s' and so on, name no axis: the table is read as a matrix",
-                rc_piece_shown(quote, rc_titled_table_name(&m->titled, 0)));
+                rc_piece_shown(rc_titled_table_name(&m->titled, 0)));
     rc_labels_note(&m->labels, notes);
 }
 

@@ -240,7 +240,6 @@ judge_both(struct edges *e, struct rc_labels *l, const struct rc_wish *wish, str
 static enum rc_status
 judge_row_alone(const struct edges *e, struct rc_err *err)
 {
-    char quote[RC_NUMBER_SIZE];
     double step;
 
     if (!e->open || e->columns < 4 || e->rows < 4 || !is_even(e->top + 1, e->columns - 1, &step))
@@ -249,7 +248,7 @@ judge_row_alone(const struct edges *e, struct rc_err *err)
                       "the first row, behind an empty corner, holds positions or labels, the first "
                       "column (%s, ...) neither rises evenly nor counts: --labels keep, row, "
                       "column or both says which are no heights",
-                      rc_number_text(quote, e->left[1]));
+                      rc_number(e->left[1]));
 }
 
 static bool
@@ -327,7 +326,7 @@ rc_labels_spacing(const struct rc_labels *l, const struct rc_wish *wish, double 
                   struct rc_err *err)
 {
     double unit = wish->xy_unit > 0 ? wish->xy_unit : NAN;
-    char x[RC_NUMBER_SIZE], y[RC_NUMBER_SIZE], given[RC_NUMBER_SIZE];
+    char x[RC_NUMBER_SIZE], y[RC_NUMBER_SIZE];
 
     *dx = *dy = NAN;
     if (!l->positions)
@@ -358,8 +357,7 @@ rc_labels_spacing(const struct rc_labels *l, const struct rc_wish *wish, double 
                           "the first row and column are positions, %s and %s apart, with which "
                           "--dx %s m%s do not agree in any unit: --xy-unit UNIT says theirs, "
                           "--labels both drops them, --labels keep takes them for heights",
-                          x, y, rc_number_text(given, wish->dx),
-                          isnan(wish->dy) ? "" : " and --dy");
+                          x, y, rc_number(wish->dx), isnan(wish->dy) ? "" : " and --dy");
     *dx = l->step[0] * unit;
     *dy = l->step[1] * unit;
     return RC_OK;

@@ -132,7 +132,6 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
              struct rc_err *err)
 {
     struct rc_piece unit;
-    char quote[RC_SHOWN];
 
     if (rc_titled_table_open(&p->table, file, 2, wish, NULL) != RC_OK) {
         rc_titled_table_close(&p->table);
@@ -147,7 +146,7 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
     unit = rc_titled_table_unit(&p->table, p->x, 'x');
     if (unit.n > 0 && isnan(rc_piece_metres(unit)))
         return rc_err_set(err, "the positions are in '%s', which is no length",
-                          rc_piece_shown(quote, unit));
+                          rc_piece_shown(unit));
     return judge_direction(p, err);
 }
 

@@ -57,7 +57,7 @@ take_axis(struct smd *s, const struct rc_piece *word, size_t n, struct rc_err *e
     double *points = is_x ? &s->points : &s->heights, scale, step = 1;
     char quote[RC_SHOWN];
 
-    rc_piece_shown(quote, word[0]);
+    rc_piece_shown_to(quote, word[0]);
     if (n < 5 || !rc_piece_number(word[2], points, NULL) || !rc_piece_number(word[4], &scale, NULL))
         return rc_err_set(err, "the axis %s has no number of points, unit and factor", quote);
     if (!rc_piece_is(word[1], is_x ? "I" : "A"))
@@ -76,7 +76,6 @@ take_line(struct smd *s, struct rc_piece line, struct rc_err *err)
 {
     struct rc_piece word[WORDS];
     size_t n = part_words(line, word);
-    char quote[RC_SHOWN];
 
     if (n > 0 && rc_piece_is(word[0], "CX|CZ"))
         return take_axis(s, word, n, err);
@@ -87,7 +86,7 @@ take_line(struct smd *s, struct rc_piece line, struct rc_err *err)
     }
     if (n > 0 && rc_piece_is(word[0], "CY|SUR|PCL"))
         return rc_err_set(err, "the file is not a single profile (%s), and others are not read",
-                          rc_piece_shown(quote, word[0]));
+                          rc_piece_shown(word[0]));
     return RC_OK;
 }
 
@@ -141,7 +140,6 @@ smd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     struct rc_piece rest = rc_file_piece(file), head, other, data, line;
     struct rc_map *map = rc_maps_add(maps, "", 0);
     struct rc_lines lines;
-    char quote[RC_SHOWN];
 
     if (!is_smd(file) || !next_record(&rest, &head) || !next_record(&rest, &other) ||
         !next_record(&rest, &data))
@@ -161,7 +159,7 @@ smd_find(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
                           map->nx, s.heights, data.n);
     if (isnan(metres_of(s.x_unit)) || isnan(metres_of(s.z_unit)))
         return rc_err_set(err, "'%s' is no unit of length",
-                          rc_piece_shown(quote, isnan(metres_of(s.x_unit)) ? s.x_unit : s.z_unit));
+                          rc_piece_shown(isnan(metres_of(s.x_unit)) ? s.x_unit : s.z_unit));
     map->ny = 1;
     map->at = (size_t)(data.text - (const char *)file->data);
     map->more = data.n;

@@ -364,7 +364,7 @@ rc_titled_table_left_out(const struct rc_titled_table *t, struct rc_notes *notes
     for (size_t c = 0; c < t->numbers.columns && c < RC_TITLES_MOST; c++) {
         if (rc_titled_table_role(t, c) != RC_ROLE_INDEX)
             continue;
-        rc_piece_shown(quote, title_of(t, c));
+        rc_piece_shown_to(quote, title_of(t, c));
         if (used + strlen(quote) + 8 < sizeof names)
             used += (size_t)snprintf(names + used, sizeof names - used, "%s'%s'",
                                      n == 0 ? "" : ", ", quote);

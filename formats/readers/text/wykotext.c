@@ -103,7 +103,6 @@ static enum rc_status
 next_point(struct rc_lines *lines, double point[3], struct rc_err *err)
 {
     struct rc_piece line, rest;
-    char quote[RC_SHOWN];
 
     if (!next_line(lines, &line))
         return rc_err_set(err, "the file ends before its last point");
@@ -112,7 +111,7 @@ next_point(struct rc_lines *lines, double point[3], struct rc_err *err)
         (rc_piece_is(rest, "Bad") || (rc_piece_number(rest, &point[2], &rest) && rest.n == 0)))
         return RC_OK;
     return rc_err_set(err, "line %zu is '%s': x, y and a height or 'Bad' are expected",
-                      lines->number, rc_piece_shown(quote, line));
+                      lines->number, rc_piece_shown(line));
 }
 
 static enum rc_status

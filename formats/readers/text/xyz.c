@@ -42,7 +42,6 @@ find_axis(const double *v, size_t points, char name, struct axis *axis, struct r
 {
     RC_OWNED double *sorted = malloc(points * sizeof *sorted);
     double widest = 0, start;
-    char text[RC_NUMBER_SIZE];
 
     if (sorted == NULL)
         return rc_err_set(err, "out of memory for %zu points", points);
@@ -64,7 +63,7 @@ find_axis(const double *v, size_t points, char name, struct axis *axis, struct r
         if (!(fabs(start - round(start)) < 0.1))
             return rc_err_set(
                 err, "the points are on no raster: %zu different %c from %s on, not evenly spaced",
-                axis->n, name, rc_number_text(text, axis->first));
+                axis->n, name, rc_number(axis->first));
     }
     return RC_OK;
 }

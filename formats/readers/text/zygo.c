@@ -104,11 +104,9 @@ read_header(const struct rc_file *file, struct zygo *z, bool *xyz, struct rc_err
 static enum rc_status
 bad_point(const struct rc_lines *lines, struct rc_piece line, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
-
     return rc_err_set(err,
                       "line %zu is '%s': a column, a row and a height or 'No Data' are expected",
-                      lines->number, rc_piece_shown(quote, rc_piece_trim(line)));
+                      lines->number, rc_piece_shown(rc_piece_trim(line)));
 }
 
 static enum rc_status

@@ -67,8 +67,6 @@ whole(const char *name, const char *text, size_t *value, struct rc_err *err)
 static enum rc_status
 real(const char *name, const char *text, double otherwise, double *value, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
-
     *value = otherwise;
     if (text == NULL || *text == '\0')
         return RC_OK;
@@ -76,7 +74,7 @@ real(const char *name, const char *text, double otherwise, double *value, struct
         return RC_FAIL;
     if (!isfinite(*value))
         return rc_err_set(err, "%s is '%s' in main.xml: it must be finite", name,
-                          rc_word_shown(quote, text));
+                          rc_word_shown(text));
     return RC_OK;
 }
 
@@ -112,14 +110,12 @@ is_absolute(const struct rc_x3p *x)
 static enum rc_status
 judge_axis(const char *name, const char *type, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
-
     if (type != NULL && strcmp(type, "I") == 0)
         return RC_OK;
     return rc_err_set(err,
                       "axis %s is of type '%s': only incremental axes (I), a regular grid, are "
                       "read where main.xml lists the heights",
-                      name, type == NULL ? "" : rc_word_shown(quote, type));
+                      name, type == NULL ? "" : rc_word_shown(type));
 }
 
 /* Checks the kind of the data first. */
@@ -127,7 +123,6 @@ static enum rc_status
 judge_feature(struct rc_x3p *x, struct rc_err *err)
 {
     const char *feature = x->text[RC_X3P_FEATURE] == NULL ? "" : x->text[RC_X3P_FEATURE];
-    char quote[RC_SHOWN];
 
     x->profile = strcmp(feature, "PRF") == 0;
     if (strcmp(feature, "PCL") == 0)
@@ -135,7 +130,7 @@ judge_feature(struct rc_x3p *x, struct rc_err *err)
                                "(PRF) on a regular grid are read");
     if (!x->profile && strcmp(feature, "SUR") != 0)
         return rc_err_set(err, "FeatureType is '%s': it must be SUR or PRF",
-                          rc_word_shown(quote, feature));
+                          rc_word_shown(feature));
     x->absolute = is_absolute(x);
     x->binary = x->text[RC_X3P_POINTS] != NULL && *x->text[RC_X3P_POINTS] != '\0';
     if (!x->profile && x->binary) {
@@ -154,7 +149,6 @@ take_point(struct rc_x3p *x, const char *text, struct rc_err *err)
     size_t n = is(x->text[RC_X3P_CY_AXIS], "A") ? 3 : 2, k = 0;
     double value[3] = {NAN, NAN, NAN};
     const char *end = text;
-    char quote[RC_SHOWN];
 
     while (k < n && end != NULL) {
         if (*end != ';' && *end != '\0')
@@ -166,7 +160,7 @@ take_point(struct rc_x3p *x, const char *text, struct rc_err *err)
     }
     if (end == NULL || *end != '\0' || k != n || !isfinite(value[0]))
         return rc_err_set(err, "Datum %zu is '%s': %s are expected", x->listed + 1,
-                          rc_word_shown(quote, text), n == 3 ? "x;y;z" : "x;z");
+                          rc_word_shown(text), n == 3 ? "x;y;z" : "x;z");
     if (grow(x, 2 * x->listed + 2, err) != RC_OK)
         return RC_FAIL;
     x->list[2 * x->listed] = value[0];
@@ -178,7 +172,6 @@ take_point(struct rc_x3p *x, const char *text, struct rc_err *err)
 static enum rc_status
 take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
     double value = NAN; /* an empty one is a missing point */
     const char *end = *text == '\0' ? text : rc_number_read(text, true, &value);
 
@@ -189,10 +182,10 @@ take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
     if (end != NULL && *end == ';')
         return rc_err_set(
             err, "Datum %zu is '%s': lists with coordinates are not read, only matrices of heights",
-            x->listed + 1, rc_word_shown(quote, text));
+            x->listed + 1, rc_word_shown(text));
     if (end == NULL || *end != '\0')
         return rc_err_set(err, "Datum %zu is '%s': that is no number", x->listed + 1,
-                          rc_word_shown(quote, text));
+                          rc_word_shown(text));
     if (grow(x, x->listed + 1, err) != RC_OK)
         return RC_FAIL;
     x->list[x->listed++] = value;
@@ -217,14 +210,13 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
     static const char rotation[] = "Record1/Axes/Rotation/r";
     struct rc_x3p *x = arg;
     size_t root = strcspn(path, "/");
-    char quote[RC_SHOWN];
 
     x->old_root = root == strlen(old_name) && strncmp(path, old_name, root) == 0;
     if (!x->old_root && (root != strlen(root_name) || strncmp(path, root_name, root) != 0)) {
         if (path[root] == '\0')
             return rc_err_set(err,
                               "a ZIP archive, but no X3P: the root of its main.xml is '%s', not %s",
-                              rc_word_shown(quote, path), root_name);
+                              rc_word_shown(path), root_name);
         return RC_OK;
     }
     if (path[root] == '\0')
@@ -308,7 +300,6 @@ judge_type(const char *axis, const char *type, enum rc_raw *raw, struct rc_err *
         const char *letter;
         enum rc_raw raw;
     } types[] = {{"I", RC_RAW_I16}, {"L", RC_RAW_I32}, {"F", RC_RAW_F32}, {"D", RC_RAW_F64}};
-    char quote[RC_SHOWN];
 
     for (size_t k = 0; k < sizeof types / sizeof *types; k++)
         if (is(type, types[k].letter)) {
@@ -316,7 +307,7 @@ judge_type(const char *axis, const char *type, enum rc_raw *raw, struct rc_err *
             return RC_OK;
         }
     return rc_err_set(err, "DataType of %s is '%s': it must be I, L, F or D", axis,
-                      type == NULL ? "" : rc_word_shown(quote, type));
+                      type == NULL ? "" : rc_word_shown(type));
 }
 
 static enum rc_status

@@ -57,11 +57,10 @@ static enum rc_status
 compare_md5(const char *what, const char *given, const char *md5, struct rc_notes *notes,
             struct rc_err *err)
 {
-    char wanted[RC_MD5_TEXT], quote[RC_SHOWN];
+    char wanted[RC_MD5_TEXT];
 
     if (!md5_in(given, wanted)) {
-        rc_note(notes, "'%s' is no MD5 sum: the %s are not checked", rc_word_shown(quote, given),
-                what);
+        rc_note(notes, "'%s' is no MD5 sum: the %s are not checked", rc_word_shown(given), what);
         return RC_OK;
     }
     if (strcmp(wanted, md5) == 0)

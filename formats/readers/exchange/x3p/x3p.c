@@ -56,8 +56,6 @@ x3p_close(struct rc_x3p *x)
 static enum rc_status
 x3p_open(struct rc_x3p *x, const struct rc_file *file, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
-
     *x = (struct rc_x3p){0};
     if ((x->archive = rc_zip_read_new(file, err)) == NULL)
         return RC_FAIL;
@@ -65,7 +63,7 @@ x3p_open(struct rc_x3p *x, const struct rc_file *file, struct rc_err *err)
         return rc_err_set(
             err,
             "a ZIP archive, but no X3P: it has no main.xml (the first of its %zu members is '%s')",
-            rc_zip_read_members(x->archive), rc_word_shown(quote, rc_zip_read_name(x->archive, 0)));
+            rc_zip_read_members(x->archive), rc_word_shown(rc_zip_read_name(x->archive, 0)));
     return rc_x3p_head(x, err);
 }
 

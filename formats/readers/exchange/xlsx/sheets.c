@@ -183,7 +183,6 @@ static enum rc_status
 end_cell(struct reading *r, struct rc_err *err)
 {
     size_t index;
-    char quote[RC_SHOWN];
 
     if (r->formula && !r->valued)
         return rc_err_set(err,
@@ -209,8 +208,7 @@ end_cell(struct reading *r, struct rc_err *err)
 
         if (end == NULL || *end != '\0')
             return rc_err_set(err, "'%s' in sheet '%s', row %u, column %u, is no number",
-                              rc_word_shown(quote, r->value), r->sheet->name, r->cell.row,
-                              r->cell.column);
+                              rc_word_shown(r->value), r->sheet->name, r->cell.row, r->cell.column);
     } else if (strcmp(r->type, "e") != 0 && r->inline_text == 0)
         return RC_OK; /* a date or another type */
     return keep_cell(r, err);
@@ -221,7 +219,6 @@ take_cell(void *arg, const char *path, const char *text, struct rc_err *err)
 {
     static const char row[] = "worksheet/sheetData/row";
     struct reading *r = arg;
-    char quote[RC_SHOWN];
     size_t number;
 
     if (strncmp(path, row, strlen(row)) != 0)
@@ -236,7 +233,7 @@ take_cell(void *arg, const char *path, const char *text, struct rc_err *err)
         r->cell.column = 0;
     } else if (strcmp(path, "/c/@r") == 0) {
         if (!read_place(text, &r->cell))
-            return rc_err_set(err, "'%s' is no place in a sheet", rc_word_shown(quote, text));
+            return rc_err_set(err, "'%s' is no place in a sheet", rc_word_shown(text));
         r->row = r->cell.row - 1;
     } else if (strcmp(path, "/c/@t") == 0 && strlen(text) < sizeof r->type)
         strcpy(r->type, text);

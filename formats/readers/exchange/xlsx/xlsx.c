@@ -240,7 +240,7 @@ put_positions(const struct rc_workbook *w, const struct block *b, struct text *t
 {
     uint32_t row = b->first - 1;
     const char *corner = row > 0 ? rc_workbook_text(w, b->sheet, row, b->left) : NULL;
-    char title[TITLE], number[RC_NUMBER_SIZE];
+    char title[TITLE];
     bool good;
 
     if (corner == NULL || b->right < b->left + 2)
@@ -254,7 +254,7 @@ put_positions(const struct rc_workbook *w, const struct block *b, struct text *t
     title_of(w, b, b->left, title);
     good = put(t, title, '\t');
     for (uint32_t c = b->left + 1; good && c <= b->right; c++)
-        good = put(t, rc_number_text(number, rc_workbook_cell(b->sheet, row, c)->number),
+        good = put(t, rc_number(rc_workbook_cell(b->sheet, row, c)->number),
                    c == b->right ? '\n' : '\t');
     return good;
 }
