@@ -215,6 +215,22 @@ rc_store_take(struct rc_store *s, size_t n, size_t size)
     return NULL;
 }
 
+void *
+rc_store_zeros(struct rc_store *s, size_t n, size_t size)
+{
+    void *at = rc_store_take(s, n, size);
+
+    return at != NULL ? memset(at, 0, n * size) : NULL;
+}
+
+void *
+rc_store_copy(struct rc_store *s, size_t n, size_t size, const void *from)
+{
+    void *at = rc_store_take(s, n, size);
+
+    return at != NULL ? memcpy(at, from, n * size) : NULL;
+}
+
 void
 rc_store_free(struct rc_store *s)
 {

@@ -70,7 +70,7 @@ sum_nodes(const struct rc_discs *d, of_node *of, const void *with, size_t count,
     struct row row = {d, of, with};
     double all[SUMS + MOSTS];
 
-    rc_sums_rows(&d->memory.rows, sum_row, &row, all);
+    rc_sums_rows(&d->rows, sum_row, &row, all);
     memcpy(out, all, count * sizeof *out);
 }
 
@@ -857,14 +857,12 @@ enum {
 static bool
 allocate(struct rc_discs *d)
 {
-    double *map = d->memory.maps = rc_alloc(MAPS * d->n, sizeof *map);
-    float *single = d->memory.single = rc_alloc(SINGLE * d->n, sizeof *single);
+    double *map = rc_store_zeros(&d->own, MAPS * d->n, sizeof *map);
+    float *single = rc_store_take(&d->own, SINGLE * d->n, sizeof *single);
 
-    d->face = rc_alloc(d->n, 1);
-    if (rc_sums_new(&d->memory.rows, d->ny, SUMS, MOSTS, d->threads) != RC_OK || map == NULL ||
-        single == NULL || d->face == NULL)
+    d->face = rc_store_take(&d->own, d->n, 1);
+    if (rc_sums_new(&d->rows, d->ny, SUMS, MOSTS, d->threads) != RC_OK || d->own.failed)
         return false;
-    memset(map, 0, MAPS * d->n * sizeof *map);
     d->g = map;
     d->curve = single;
     for (size_t c = 0; c < 2; c++) {
@@ -880,10 +878,10 @@ allocate(struct rc_discs *d)
 struct rc_discs *
 rc_discs_new(struct rc_tangential *t, struct rc_err *err)
 {
-    struct rc_discs *d = calloc(1, sizeof *d);
+    RC_OWN(rc_discs, d) = calloc(1, sizeof *d);
 
     if (d == NULL)
-        goto short_of_memory;
+        return rc_err_null(err, "out of memory for friction");
     *d = (struct rc_discs){.t = t,
                            .nx = t->shape.nx,
                            .ny = t->shape.ny,
@@ -891,15 +889,9 @@ rc_discs_new(struct rc_tangential *t, struct rc_err *err)
                            .threads = t->threads,
                            .asked.most = 200};
     if (!allocate(d))
-        goto short_of_memory;
-    if ((d->m = rc_extension_new(t, err)) != NULL)
-        return d;
-    rc_discs_free(d);
-    return NULL;
-short_of_memory:
-    rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", t->shape.nx, t->shape.ny);
-    rc_discs_free(d);
-    return NULL;
+        return rc_err_null(err, "out of memory for the friction of %zu x %zu nodes", d->nx, d->ny);
+    d->m = rc_extension_new(t, err);
+    return d->m != NULL ? rc_give(&d) : NULL;
 }
 
 void
@@ -907,10 +899,8 @@ rc_discs_free(struct rc_discs *d)
 {
     if (d == NULL)
         return;
-    free(d->memory.maps);
-    free(d->memory.single);
     rc_extension_free(d->m);
-    free(d->face);
-    free(d->memory.rows.row);
+    free(d->rows.row);
+    rc_store_free(&d->own);
     free(d);
 }

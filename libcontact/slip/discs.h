@@ -54,16 +54,14 @@ struct rc_discs {
         bool sift;   /* nodes whose inward slip would be pushed out again stay on their circles */
     } way;
     struct rc_extension *m;
-    struct { /* memory of the maps and of the sums of rows */
-        double *maps;
-        float *single;
-        struct rc_sums rows;
-    } memory;
+    struct rc_sums rows;
+    struct rc_store own;
 };
 
 /* Allocates the maps; NULL when memory is short. */
 struct rc_discs *rc_discs_new(struct rc_tangential *t, struct rc_err *err);
 void rc_discs_free(struct rc_discs *d); /* NULL is allowed */
+RC_OWNER(rc_discs)
 /* Starts from q: moves it to the discs and to the load, which the discs must be able to carry, and finds
  * u. */
 void rc_discs_begin(struct rc_discs *d);

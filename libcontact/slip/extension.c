@@ -46,42 +46,33 @@ rc_extension_free(struct rc_extension *e)
     if (e == NULL)
         return;
     rc_pyramid_free(e->pyramid);
-    free(e->maps);
-    free(e->row);
+    rc_store_free(&e->own);
     free(e);
 }
 
 struct rc_extension *
 rc_extension_new(struct rc_tangential *t, struct rc_err *err)
 {
-    struct rc_extension *e = calloc(1, sizeof *e);
+    RC_OWN(rc_extension, e) = calloc(1, sizeof *e);
     struct rc_pyramid_base base = base_of(&t->shape, t->boundary, t->threads);
     size_t n = t->shape.nx * t->shape.ny, all = base.shape.nx * base.shape.ny;
-    bool room = e != NULL;
 
-    if (room) {
-        e->maps = rc_alloc(5 * n + 2 * all, sizeof *e->maps);
-        e->row = rc_alloc(3 * (size_t)t->threads * base.shape.nx, sizeof *e->row);
-        room = e->maps != NULL && e->row != NULL;
-    }
-    if (!room) {
-        rc_err_set(err, "out of memory for the friction of %zu nodes", n);
-        rc_extension_free(e);
-        return NULL;
-    }
-    e->known = e->maps;
-    e->tie = e->maps + n;
+    if (e == NULL)
+        return rc_err_null(err, "out of memory for friction");
+    e->known = rc_store_take(&e->own, n, sizeof *e->known);
+    e->tie = rc_store_take(&e->own, n, sizeof *e->tie);
     for (size_t k = 0; k < 3; k++)
-        e->n[k] = e->maps + (2 + k) * n;
+        e->n[k] = rc_store_take(&e->own, n, sizeof *e->n[k]);
     for (size_t c = 0; c < 2; c++)
-        e->v[c] = e->maps + 5 * n + c * all;
+        e->v[c] = rc_store_take(&e->own, all, sizeof *e->v[c]);
+    e->row = rc_store_take(&e->own, 3 * (size_t)t->threads * base.shape.nx, sizeof *e->row);
+    if (e->own.failed)
+        return rc_err_null(err, "out of memory for the friction of %zu nodes", n);
     e->t = t;
     e->grid = base.shape;
     e->self = self_of_wave * rc_tangential_wave(t, around / fmin(t->shape.dx, t->shape.dy));
-    if ((e->pyramid = rc_pyramid_new(&base, power, t, err)) != NULL)
-        return e;
-    rc_extension_free(e);
-    return NULL;
+    e->pyramid = rc_pyramid_new(&base, power, t, err);
+    return e->pyramid != NULL ? rc_give(&e) : NULL;
 }
 
 /* ---- rows for the pyramid ---- */

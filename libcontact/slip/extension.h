@@ -32,6 +32,7 @@
 #ifndef RC_EXTENSION_H
 #define RC_EXTENSION_H
 
+#include "libcontact/memory.h"
 #include "libcontact/solver/solver.h"
 #include "tangential.h"
 
@@ -45,7 +46,6 @@ struct rc_extension {
     struct rc_tangential *t;
     struct rc_pyramid *pyramid;
     struct rc_shape grid;      /* grid of the fields: the map with its padding */
-    float *maps;               /* the block of all maps */
     const unsigned char *face; /* the caller's array, like q */
     double *const *q;
     float
@@ -57,11 +57,13 @@ struct rc_extension {
     double self; /* T0                                    */
     bool level;  /* v has no mean */
     double b[4]; /* B^-1, by rows                         */
+    struct rc_store own;
 };
 
 /* NULL when memory is short. */
 struct rc_extension *rc_extension_new(struct rc_tangential *t, struct rc_err *err);
 void rc_extension_free(struct rc_extension *e); /* NULL is allowed */
+RC_OWNER(rc_extension)
 /* Takes the faces, the tractions (their directions are the normals of the circles), D of slipping nodes,
  * and whether the displacement is given. False: B is singular, for example if all nodes of a periodic map
  * stick; the result is then the inverse for residuals without a mean. */

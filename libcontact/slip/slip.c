@@ -38,7 +38,7 @@ struct rc_slip {
     double *gap, *pushed[2]; /* C p */
     double load, limit, force[2];
     bool has_gap_old, has_gap;
-    double *maps; /* memory of all maps */
+    struct rc_store own;
 };
 
 static double
@@ -422,22 +422,16 @@ rc_slip_check(const struct rc_shape *shape, const struct rc_slip_problem *p, str
     return rc_pair_shear(&p->pair, p->nu, shear, err);
 }
 
-/* All maps of numbers lie in one block. */
 static bool
 allocate(struct rc_slip *s)
 {
     double **maps[] = {&s->origin[0], &s->origin[1], &s->old[0], &s->old[1],    &s->slip[0],
                        &s->slip[1],   &s->gap_old,   &s->gap,    &s->pushed[0], &s->pushed[1]};
-    const size_t count = s->coupled ? 10 : 8;
 
-    s->maps = rc_alloc(count * s->n, sizeof *s->maps);
-    s->touched = calloc(s->n, 1);
-    if (s->maps == NULL || s->touched == NULL)
-        return false;
-    memset(s->maps, 0, count * s->n * sizeof *s->maps);
-    for (size_t k = 0; k < count; k++)
-        *maps[k] = s->maps + k * s->n;
-    return true;
+    for (size_t k = 0; k < (s->coupled ? 10 : 8); k++)
+        *maps[k] = rc_store_zeros(&s->own, s->n, sizeof **maps[k]);
+    s->touched = rc_store_zeros(&s->own, s->n, 1);
+    return !s->own.failed;
 }
 
 struct rc_slip *
@@ -446,15 +440,12 @@ rc_slip_new(const struct rc_shape *shape, const struct rc_slip_problem *p, struc
     static const double usual = 1e-4;
     struct rc_shear shear, inside;
     struct rc_shape unit;
-    struct rc_slip *s;
+    RC_OWN(rc_slip, s) = NULL;
 
     if (rc_slip_check(shape, p, &shear, err) != RC_OK)
         return NULL;
-    s = calloc(1, sizeof *s);
-    if (s == NULL) {
-        rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", shape->nx, shape->ny);
-        return NULL;
-    }
+    if ((s = calloc(1, sizeof *s)) == NULL)
+        return rc_err_null(err, "out of memory for friction");
     *s = (struct rc_slip){.shape = *shape,
                           .n = shape->nx * shape->ny,
                           .threads = rc_useful_threads(shape, p->threads),
@@ -467,23 +458,19 @@ rc_slip_new(const struct rc_shape *shape, const struct rc_slip_problem *p, struc
     s->unit = s->length / shear.estar;
     unit = (struct rc_shape){shape->nx, shape->ny, shape->dx / s->length, shape->dy / s->length};
     inside = (struct rc_shear){1, shear.kap, s->coupled ? shear.beta : 0};
-    if (!allocate(s)) {
-        rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", shape->nx, shape->ny);
-        goto fail;
-    }
+    if (!allocate(s))
+        return rc_err_null(err, "out of memory for the friction of %zu x %zu nodes", shape->nx,
+                           shape->ny);
     s->t = rc_tangential_new(&unit, p->boundary, &inside, p->threads, err);
     if (s->t == NULL || (s->discs = rc_discs_new(s->t, err)) == NULL)
-        goto fail;
+        return NULL;
     s->discs->asked.tol = p->tol > 0 ? p->tol : usual;
     if (p->max_steps > 0)
         s->discs->asked.most = p->max_steps;
     memset(s->discs->g, 0, s->n * sizeof(double));
     memset(s->discs->face, RC_FACE_OFF, s->n);
     s->apart = true;
-    return s;
-fail:
-    rc_slip_free(s);
-    return NULL;
+    return rc_give(&s);
 }
 
 void
@@ -493,7 +480,6 @@ rc_slip_free(struct rc_slip *s)
         return;
     rc_discs_free(s->discs);
     rc_tangential_free(s->t);
-    free(s->maps);
-    free(s->touched);
+    rc_store_free(&s->own);
     free(s);
 }

@@ -45,6 +45,7 @@ void rc_slip_state(const struct rc_slip *slip, double *to);
  * Subtracted from the heights, it gives the contact under these tractions. */
 void rc_slip_normal(struct rc_slip *slip, double *uz);
 void rc_slip_free(struct rc_slip *slip); /* NULL is allowed */
+RC_OWNER(rc_slip)
 /* The next increment starts from these tractions, Pa, instead of the last ones; call it before the force
  * is set. */
 void rc_slip_start(struct rc_slip *slip, const double *const q[2]);

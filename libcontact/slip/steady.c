@@ -572,9 +572,7 @@ rc_steady_free(struct rc_steady *d)
     rc_discs_free(d->discs);
     rc_tangential_free(d->t);
     free(d->rows.row);
-    free(d->maps);
-    free(d->single);
-    free(d->face);
+    rc_store_free(&d->own);
     free(d);
 }
 
@@ -588,20 +586,15 @@ allocate(struct rc_steady *d)
                  grid = path
                             ? 0
                             : (d->shape.nx + 2 * d->t->frame.x) * (d->shape.ny + 2 * d->t->frame.y);
-    float *at;
+    float *at = rc_store_take(&d->own, vectors * d->n + 2 * grid, sizeof *at);
 
-    d->maps = rc_alloc((1 + 2 * count) * d->n, sizeof *d->maps);
-    d->single = rc_alloc(vectors * d->n + 2 * grid, sizeof *d->single);
-    d->face = rc_alloc(2 * d->n, 1);
-    if (rc_sums_new(&d->rows, d->shape.ny, STEPS + 1, 0, d->threads) != RC_OK || d->maps == NULL ||
-        d->single == NULL || d->face == NULL)
+    d->g = rc_store_zeros(&d->own, (1 + 2 * count) * d->n, sizeof *d->g);
+    d->face = rc_store_take(&d->own, 2 * d->n, 1);
+    if (rc_sums_new(&d->rows, d->shape.ny, STEPS + 1, 0, d->threads) != RC_OK || d->own.failed)
         return false;
-    memset(d->maps, 0, (1 + 2 * count) * d->n * sizeof *d->maps);
     memset(d->face, OFF, 2 * d->n);
-    d->g = d->maps;
     for (size_t k = 0; k < 2 * count; k++)
-        pairs[k / 2][k % 2] = d->maps + (1 + k) * d->n;
-    at = d->single;
+        pairs[k / 2][k % 2] = d->g + (1 + k) * d->n;
     d->curve = at;
     d->was = d->face + d->n;
     for (size_t c = 0; c < 2 && !path; c++) {
@@ -619,26 +612,20 @@ struct rc_steady *
 rc_steady_new(const struct rc_shape *shape, enum rc_boundary boundary, const struct rc_shear *shear,
               bool force, bool path, size_t threads, struct rc_err *err)
 {
-    struct rc_steady *d = calloc(1, sizeof *d);
+    RC_OWN(rc_steady, d) = calloc(1, sizeof *d);
 
-    if (d == NULL) {
-        rc_err_set(err, "out of memory for rolling of %zu x %zu nodes", shape->nx, shape->ny);
-        return NULL;
-    }
+    if (d == NULL)
+        return rc_err_null(err, "out of memory for rolling");
     d->shape = *shape;
     d->n = shape->nx * shape->ny;
     d->asked.force = force;
     d->asked.path = path;
-    if ((d->t = rc_tangential_new(shape, boundary, shear, threads, err)) == NULL) {
-        rc_steady_free(d);
+    if ((d->t = rc_tangential_new(shape, boundary, shear, threads, err)) == NULL)
         return NULL;
-    }
     d->threads = d->t->threads;
     d->self = self_of(d->t);
-    if (!allocate(d)) {
-        rc_err_set(err, "out of memory for rolling of %zu x %zu nodes", shape->nx, shape->ny);
-        rc_steady_free(d);
-        return NULL;
-    }
-    return d;
+    if (!allocate(d))
+        return rc_err_null(err, "out of memory for rolling of %zu x %zu nodes", shape->nx,
+                           shape->ny);
+    return rc_give(&d);
 }

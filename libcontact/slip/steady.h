@@ -55,8 +55,7 @@ struct rc_steady {
     } found;
     struct rc_discs *discs; /* for steps in time; NULL: none was necessary */
     struct rc_sums rows;
-    double *maps;
-    float *single;
+    struct rc_store own;
 };
 
 /* T in units of the cell over E*. path: for rc_steady_set_out, else for rc_steady_step. NULL when memory is
@@ -65,6 +64,7 @@ struct rc_steady *rc_steady_new(const struct rc_shape *shape, enum rc_boundary b
                                 const struct rc_shear *shear, bool force, bool path, size_t threads,
                                 struct rc_err *err);
 void rc_steady_free(struct rc_steady *d); /* NULL is allowed */
+RC_OWNER(rc_steady)
 /* A first q: half of what friction can carry, along the motion; 0 where the force is given. */
 void rc_steady_guess(struct rc_steady *d);
 /* Starts from q, which is moved to the discs. */

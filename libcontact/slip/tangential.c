@@ -29,7 +29,7 @@ sample(const struct rc_tangential *t, const struct rc_kernel *kernel, double *to
 static enum rc_status
 set_spectra(struct rc_tangential *t, struct rc_err *err)
 {
-    struct rc_spectrum *passing = NULL;
+    RC_OWN(rc_spectrum, passing) = NULL;
 
     if (t->boundary == RC_FREE && (passing = rc_spectrum_new(t->fft, err)) == NULL)
         return RC_FAIL;
@@ -42,12 +42,9 @@ set_spectra(struct rc_tangential *t, struct rc_err *err)
         if (passing == NULL)
             sample(t, &kernel, t->quarter[k]);
         else if (rc_spectrum_set_by(passing, t->fft, &kernel, rc_keep_column, t->quarter[k], err) !=
-                 RC_OK) {
-            rc_spectrum_free(passing);
+                 RC_OK)
             return RC_FAIL;
-        }
     }
-    rc_spectrum_free(passing);
     return RC_OK;
 }
 
@@ -136,12 +133,7 @@ rc_tangential_free(struct rc_tangential *t)
         return;
     rc_fft_free(t->framed); /* it uses the memory of t->fft */
     rc_fft_free(t->fft);
-    for (int k = 0; k < RC_SHEAR_KERNELS; k++)
-        free(t->quarter[k]);
-    for (int k = 0; k < 3; k++)
-        free(t->single[k]);
-    free(t->waves[0]);
-    free(t->waves[1]);
+    rc_store_free(&t->own);
     free(t->wave);
     free(t->mirror);
     free(t);
@@ -150,18 +142,16 @@ rc_tangential_free(struct rc_tangential *t)
 static bool
 allocate(struct rc_tangential *t)
 {
-    bool room = true;
-
     rc_fft_waves(t->fft, &t->columns, &t->cy);
     t->length = rc_fft_length(t->fft);
-    for (int k = 0; k < RC_SHEAR_KERNELS && room; k++)
+    for (int k = 0; k < RC_SHEAR_KERNELS; k++)
         if (k < RC_SHEAR_XZ || t->shear.beta != 0)
-            room = (t->quarter[k] = rc_alloc(t->columns * t->cy, sizeof(double))) != NULL;
-    for (int k = 0; k < 3 && room; k++)
-        room = (t->single[k] = rc_alloc(t->columns * t->cy, sizeof(float))) != NULL;
-    for (int k = 0; k < 2 && room; k++)
-        room = (t->waves[k] = rc_alloc(2 * t->columns * t->length, sizeof(double))) != NULL;
-    return room && rc_fft_fold(t->fft, &t->wave, &t->mirror);
+            t->quarter[k] = rc_store_take(&t->own, t->columns * t->cy, sizeof(double));
+    for (int k = 0; k < 3; k++)
+        t->single[k] = rc_store_take(&t->own, t->columns * t->cy, sizeof(float));
+    for (int k = 0; k < 2; k++)
+        t->waves[k] = rc_store_take(&t->own, 2 * t->columns * t->length, sizeof(double));
+    return !t->own.failed && rc_fft_fold(t->fft, &t->wave, &t->mirror);
 }
 
 struct rc_frame
@@ -177,37 +167,31 @@ struct rc_tangential *
 rc_tangential_new(const struct rc_shape *shape, enum rc_boundary boundary,
                   const struct rc_shear *shear, size_t threads, struct rc_err *err)
 {
-    struct rc_tangential *t = calloc(1, sizeof *t);
+    RC_OWN(rc_tangential, t) = calloc(1, sizeof *t);
 
-    if (t == NULL) {
-        rc_err_set(err, "out of memory for a plan");
-        return NULL;
-    }
+    if (t == NULL)
+        return rc_err_null(err, "out of memory for a plan");
     t->shape = *shape;
     t->boundary = boundary;
     t->shear = *shear;
     t->threads = rc_useful_threads(shape, threads);
     t->fft = rc_fft_new(NULL, NULL, shape, boundary, RC_DOUBLE, threads, err);
     if (t->fft == NULL)
-        goto fail;
+        return NULL;
     t->frame = rc_tangential_frame(shape, boundary);
     t->framed = boundary == RC_FREE
                     ? rc_fft_new_framed(NULL, t->fft, shape, &t->frame, RC_SINGLE, threads, err)
                     : rc_fft_new(NULL, t->fft, shape, boundary, RC_SINGLE, threads, err);
     if (t->framed == NULL)
-        goto fail;
-    if (!allocate(t)) {
-        rc_err_set(err, "out of memory for the shear of %zu x %zu nodes", shape->nx, shape->ny);
-        goto fail;
-    }
+        return NULL;
+    if (!allocate(t))
+        return rc_err_null(err, "out of memory for the shear of %zu x %zu nodes", shape->nx,
+                           shape->ny);
     if (set_spectra(t, err) != RC_OK)
-        goto fail;
+        return NULL;
     set_inverse(t);
     t->norm = norm_of(t);
-    return t;
-fail:
-    rc_tangential_free(t);
-    return NULL;
+    return rc_give(&t);
 }
 
 /* ---- rows ---- */

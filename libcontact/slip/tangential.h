@@ -10,6 +10,7 @@
 #ifndef RC_TANGENTIAL_H
 #define RC_TANGENTIAL_H
 
+#include "libcontact/memory.h"
 #include "libcontact/operator/operator.h"
 
 struct rc_tangential {
@@ -29,12 +30,14 @@ struct rc_tangential {
     void *waves[2];      /* transforms of both maps */
     size_t *wave;        /* the row in the quarter of place t of a column */
     signed char *mirror; /* -1 where this row is the mirror image, else 1 */
+    struct rc_store own;
 };
 
 struct rc_tangential *rc_tangential_new(const struct rc_shape *shape, enum rc_boundary boundary,
                                         const struct rc_shear *shear, size_t threads,
                                         struct rc_err *err);
 void rc_tangential_free(struct rc_tangential *t); /* NULL is allowed */
+RC_OWNER(rc_tangential)
 
 struct rc_frame rc_tangential_frame(const struct rc_shape *shape, enum rc_boundary boundary);
 /* m/Pa: the factor of T for waves of wave number q, averaged over their directions. */
